@@ -105,7 +105,8 @@ class Text:
 
 
 def number(value: float) -> Text:
-    """A constant; a float is of the type of the loops."""
+    """A constant; a float is of the type of the loops, as is a whole number that no integer of C can hold."""
+    value = float(value) if isinstance(value, int) and abs(value) >= 2**63 else value
     if isinstance(value, bool | int):
         return Text(str(int(value)), "b" if isinstance(value, bool) else "i", UNARY if value < 0 else ATOM)
     text = {"inf": "INFINITY", "-inf": "-INFINITY", "nan": "NAN"}.get(repr(value), repr(value))

@@ -348,6 +348,14 @@ def interface(texts: Texts, kernels: Sequence[Kernel], prefix: str) -> tuple[str
         rows = f", {kernel.shape[0]} rows" if len(kernel.shape) > 1 else ""
         comment = f"/* {kernel.summary} result: {', '.join(kernel.outputs)}{rows}. */"
         declared.append("\n".join(["", *broken(comment), *broken(head + ";"), ""]))
-        call = f"{c_type(texts.of[function].returned)} got = {function.name}({', '.join(given)})"
-        defined.append(block(head, call, "memcpy(result, &got, sizeof got)"))
+        returned = texts.of[function].returned
+        call = f"{c_type(returned)} got = {function.name}({', '.join(given)})"
+        if set(returned) == {"r"}:
+            copied = ["memcpy(result, &got, sizeof got)"]
+        else:  # a result that is a whole number, such as 1, becomes a real one
+            got = Text("got", returned)
+            copied = [
+                f"result[{i}] = {x.text}" for i, x in enumerate(got.parts if isinstance(returned, tuple) else [got])
+            ]
+        defined.append(block(head, call, *copied))
     return "".join(declared), "".join(defined)

@@ -9,6 +9,13 @@ import sympy as sp
 
 from .carriers import Carrier
 
+#: Words of C, and names that generated files have for something else.
+RESERVED = {
+    "auto", "bool", "case", "char", "const", "default", "do", "double", "enum", "extern", "false", "float", "goto",
+    "inline", "int", "long", "register", "restrict", "short", "signed", "sizeof", "static", "struct", "switch",
+    "true", "typedef", "union", "unsigned", "void", "volatile", "real", "memcpy", "R", "INLINE", "got", "result",
+    "TABLE",
+}  # fmt: skip
 Group = tuple[str, tuple[sp.Symbol, ...]]
 Steps = Sequence[tuple[Sequence[sp.Symbol], Sequence[sp.Expr]]]
 
@@ -66,10 +73,14 @@ class Kernel:
 
     def problem(self) -> str | None:
         """Why it cannot be written, in one sentence; None if it can."""
-        names = [symbol.name for symbol in self.inputs]
-        for name in (self.name, *names, *self.outputs):
-            if not name.isidentifier() or not name.isascii() or iskeyword(name):
-                return f"{name!r} cannot be a name in Python and C: take letters, digits and _, and no keyword"
+        names, groups = [symbol.name for symbol in self.inputs], [group for group, _ in self.groups]
+        for name in (self.name, *names, *self.outputs, *groups):
+            if not name.isidentifier() or not name.isascii() or iskeyword(name) or name in RESERVED:
+                return f"{name!r} cannot be a name in Python and C: take letters, digits and _, and no word of these"
+        if twice := sorted({group for group in groups if groups.count(group) > 1}):
+            return f"two groups of arguments have the name {twice[0]}"
+        if self.name.startswith("__"):
+            return f"{self.name!r} cannot be the name of a file of a package"
         if twice := sorted({name for name in names if names.count(name) > 1}):
             return f"two arguments have the name {twice[0]}"
         if len(self.expressions) != len(self.outputs):

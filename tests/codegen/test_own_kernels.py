@@ -1,6 +1,7 @@
 """Kernels of a register that is not of chapsym: a small one, made here, and that of the rolling disc."""
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -99,6 +100,12 @@ def test_the_chain_from_a_claim_to_its_kernels(register):
         ({"groups": '(("place", (x, y)), ("velocity", (v, w)))'}, "have g, which is no argument"),
         ({"groups": '(("place", (x, x)), ("velocity", (v, w)), ("gravity", (g,)))'}, "two arguments have the name x"),
         ({"kernels": KERNELS.replace('Kernel("pull"', 'Kernel("lambda"')}, "'lambda' cannot be a name"),
+        ({"kernels": KERNELS.replace('Kernel("pull"', 'Kernel("__init__"')}, "'__init__' cannot be the name of a file"),
+        ({"groups": GROUPS.replace("gravity", "int")}, "'int' cannot be a name"),
+        ({"groups": GROUPS.replace("gravity", "g now")}, "'g now' cannot be a name"),
+        ({"groups": GROUPS.replace("gravity", "place")}, "two groups of arguments have the name place"),
+        ({"kernels": KERNELS.replace("({carrier},)", "{carrier}")}, "the carriers of pull must be a tuple of carriers"),
+        ({"kernels": KERNELS.replace("lambda: ", "")}, "what builds pull must be a function without arguments"),
         ({"expression": "pull(), 1"}, "1 outputs and 2 expressions"),
         ({"expression": "pull() / 3 + y**2 / 3 - y**2 / 3 - pull() * 2"}, "computes in its result 0 something else"),
         ({"kernels": KERNELS.replace("KERNELS = [", "NONE = [")}, "has no kernels.py with KERNELS"),
@@ -142,3 +149,42 @@ def test_the_kernels_of_the_disc_in_c(tmp_path):
     scope = {}
     exec((place / "accelerations.py").read_text(encoding="utf-8"), scope)
     assert [float.fromhex(x) for x in printed.split()] == list(scope["accelerations"](0.6, 0.8, 1, 2, -1, 0.5, 10))
+
+
+WHOLE = """
+WHOLE = "the same with whole numbers"
+
+
+@claim("{id}-whole", "1")
+def whole(p: Proof) -> None:
+    \"\"\"Constants and large whole numbers.\"\"\"
+    p.printed(equal(WHOLE, [x - x + 1 - (1 - x**2 - y**2), 10**25 * v + w, 7 * w],
+                    [1, v * 10**25 + w * (x**2 + y**2), w * 7 + x**2 + y**2 - 1]))
+    p.control(equal("1 = 2", 1, 2))
+"""
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="no compiler of C is installed")
+def test_c_and_python_have_the_same_constants_and_large_numbers(register, tmp_path):
+    kernels = """from chapsym.codegen import Kernel, right
+
+from .claims import WHOLE, v, w
+
+KERNELS = [
+    Kernel("one", "1", (right("{id}-whole", WHOLE).entries(0),), GROUPS, ("a",), lambda: [1]),
+    Kernel("all", "More", (right("{id}-whole", WHOLE),), GROUPS, ("a", "b", "c"), lambda: [1, 10**25 * v + w, 7 * w]),
+]
+"""
+    folder = register(claims=CLAIMS + WHOLE, kernels="")
+    identity = re.search(r'@claim\("(own-[^"]*)-whole', (folder / "claims.py").read_text("utf-8"))[1]
+    text = kernels.replace("{id}", identity).replace("GROUPS", '(("v", (v,)), ("w", (w,)))')
+    (folder / "kernels.py").write_text(text, encoding="utf-8")
+    answer("codegen", "--register", folder)
+    main = '#include <stdio.h>\n#include "pendulum.h"\nint main(void) { double a[3], b[1];\n'
+    main += 'pendulum_all(3, 5, a); pendulum_one(3, 5, b); printf("%a %a %a %a", a[0], a[1], a[2], b[0]); return 0; }\n'
+    (tmp_path / "main.c").write_text(main, encoding="utf-8")
+    place = folder / "generated"
+    command = ["cc", "-Wall", "-Werror", "-I", place, tmp_path / "main.c", place / "pendulum.c"]
+    subprocess.run([*command, "-o", tmp_path / "main"], check=True)
+    printed = subprocess.run([tmp_path / "main"], check=True, capture_output=True, text=True).stdout
+    assert [float.fromhex(x) for x in printed.split()] == [1.0, 1e25 * 3 + 5, 35.0, 1.0]
