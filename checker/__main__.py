@@ -61,7 +61,8 @@ def main(arguments: list[str] | None = None) -> int:
         if not one["accepted"]:
             print(f"{one['file']}: rejected: {one['reason']}", file=sys.stderr)
         elif not options.json:
-            print(f"{one['file']}: accepted (kernel)\n  Computes: {' / '.join(one['statements'])}")
+            print(f"{one['file']}: accepted (kernel)\n  Takes: {', '.join(one['inputs'])}")
+            print(f"  Computes: {' / '.join(one['statements'])}")
     if options.json:
         utf = (sys.stdout.encoding or "").lower().startswith("utf")  # otherwise with escapes
         result = {"certificates": found} | ({"kernels": bound} if options.kernels else {})

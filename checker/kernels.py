@@ -13,13 +13,15 @@ entries  numbers: which of the entries, in which order
 
 The names of the arguments are those of the variables.  The results equal the entries as rational functions; or, where
 the carrier has cofactors for an entry, [its number, [a tree for each relation of the ring]], the numerator of the
-difference is Σ cofactor · relation: then they are equal wherever the relations hold.
+difference is Σ cofactor · relation: then they are equal wherever the relations hold.  The point of a carrier shows
+that they can: all relations hold there, and neither the entries nor the text divide by 0.
 """
 
 from __future__ import annotations
 
 import ast
 import hashlib
+import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
@@ -31,7 +33,7 @@ from .form import chosen, distinct, many, sized, text
 from .interval import Rejected
 from .matrices import Quotients
 from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
-from .trees import check_tree, names_in, rational, value
+from .trees import bounded, check_tree, names_in, rational, value
 
 MANIFEST = "manifest.json"
 STEPS = ("at", "along", "solved", "entries")
@@ -44,20 +46,24 @@ Certificates = Mapping[str, Mapping[str, Any]]
 def check(row: Any, written: str, certificates: Certificates, where: str) -> list[str]:
     """The statements that carry a function, and what is made of each; raises Rejected unless it computes that.
 
-    row: "carriers", and "text_sha256", the hash of the text; certificates: those that were accepted.
+    row: "inputs", "carriers", and "text_sha256", the hash of the text; certificates: those that were accepted; where:
+    the name of the function.
     """
-    if not isinstance(row, dict) or not {"carriers", "text_sha256"} <= row.keys():
-        raise Rejected(f"{where} has no carriers and no hash of its text")
+    if not isinstance(row, dict) or not {"inputs", "carriers", "text_sha256"} <= row.keys():
+        raise Rejected(f"{where} has no inputs, carriers and hash of its text")
     if hashlib.sha256(written.encode()).hexdigest() != row["text_sha256"]:
         raise Rejected(f"{where} has another text than the hash is of")
-    for i, one in enumerate(differences(row, written, certificates, where)):
-        carrier = row["carriers"][one.carrier]
-        cofactors = dict(map(tuple, carrier.get("cofactors", []))).get(one.entry, [])
-        proved = len(cofactors) == len(one.ring.relations) and one.ring.vanishes(one.value, cofactors, where)
-        if one.value.numerator.terms and not proved:
+    one = carried(row, written, certificates, where)
+    for i, each in enumerate(differences(one, where)):
+        carrier = row["carriers"][each.carrier]
+        cofactors = dict(map(tuple, carrier.get("cofactors", []))).get(each.entry, [])
+        proved = len(cofactors) == len(each.ring.relations) and each.ring.vanishes(each.value, cofactors, where)
+        if each.value.numerator.terms and not proved:
             said = carrier["statement"]
             raise Rejected(f"{where} computes in its result {i} something else than «{said}» says")
-    return [_said(one) for one in row["carriers"]]
+    for i, carrier in enumerate(row["carriers"]):
+        check_point(one, i, carrier.get("point", {}), where)
+    return [_said(carrier) for carrier in row["carriers"]]
 
 
 #: What the steps of a carrier make of a statement.
@@ -73,6 +79,25 @@ def _said(carrier: Mapping[str, Any]) -> str:
     return ": ".join([carrier["statement"], *(SAID[step] for step, _ in carrier["steps"])])
 
 
+def _hides(entry: Path) -> bool:
+    """Whether Python may import it under the name of a module."""
+    return entry.is_dir() or entry.suffix in (".so", ".pyd", ".pyc", ".pyw")
+
+
+class Carried(NamedTuple):
+    """A function, what it computes in a ring, and for each carrier its entries, and the ring with its relations."""
+
+    function: ast.FunctionDef
+    computed: list[Quotient]
+    entries: list[list[Quotient]]
+    rings: list[Quotients]
+
+    @property
+    def inputs(self) -> list[str]:
+        """The names of the arguments."""
+        return [argument.arg for argument in self.function.args.args]
+
+
 class Difference(NamedTuple):
     """What a result is beyond the entry of a carrier, in a ring with the relations that hold there."""
 
@@ -82,25 +107,91 @@ class Difference(NamedTuple):
     entry: int
 
 
-def differences(row: dict[str, Any], written: str, certificates: Certificates, where: str) -> list[Difference]:
-    """Those of all results, in order."""
+def carried(row: dict[str, Any], written: str, certificates: Certificates, where: str) -> Carried:
+    """What a text computes, and what its carriers make; raises Rejected for what has no form."""
     function = straight_line(written, where)
     for one in many(row["carriers"], where):
         check_form(one, where)
     inputs = [argument.arg for argument in function.args.args]
+    if inputs != row["inputs"]:
+        raise Rejected(f"{where} does not have the arguments {row['inputs']!a:.200}")
     names = set(inputs).union(*(_names(one, certificates, where) for one in row["carriers"]))
     ring = Ring(sorted(names), Work())
     computed = _run(function, {name: ring.names()[name] for name in inputs}, ring.number, where)
-    for one in row["carriers"]:
-        _regular(function, inputs, one, certificates, where)
-    found: list[Difference] = []
-    for i, one in enumerate(row["carriers"]):
-        carried, relations = entries(one, certificates, ring, where)
-        known = Quotients(ring, ring.names(), relations)
-        found += [Difference(x, known, i, j) for j, x in enumerate(carried)]
-    if len(computed) != len(found):
-        raise Rejected(f"{where} has {len(computed)} results, and its carriers make {len(found)}")
-    return [one._replace(value=result - one.value) for result, one in zip(computed, found, strict=True)]
+    made = [entries(one, certificates, ring, where) for one in row["carriers"]]
+    if len(computed) != sum(len(found) for found, _ in made):
+        total = sum(len(found) for found, _ in made)
+        raise Rejected(f"{where} has {len(computed)} results, and its carriers make {total}")
+    _check_head(ast.get_docstring(ast.parse(written)) or "", row["carriers"], where)
+    rings = [Quotients(ring, ring.names(), relations) for _, relations in made]
+    return Carried(function, computed, [found for found, _ in made], rings)
+
+
+def differences(one: Carried, where: str) -> list[Difference]:
+    """Those of all results, in order."""
+    places = [(i, j) for i, found in enumerate(one.entries) for j in range(len(found))]
+    return [
+        Difference(result - one.entries[i][j], one.rings[i], i, j)
+        for result, (i, j) in zip(one.computed, places, strict=True)
+    ]
+
+
+def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> None:
+    """Raises Rejected unless the relations of a carrier hold at a point, and nothing divides by 0 there.
+
+    Otherwise what is equal by the relations might be so because nothing obeys them, or because all of it is 0/0.
+    """
+    numbers = {name: rational(x, f"the point of {where}") for name, x in point.items()}
+    if missing := [name for name in one.inputs if name not in numbers]:
+        raise Rejected(f"{where} has no point at which its relations hold: no value for {missing[0]}")
+    for relation in one.rings[i].relations:
+        if _at(relation, numbers, where) != 0:
+            raise Rejected(f"{where} has a point at which a relation fails")
+    for entry in one.entries[i]:
+        _at(entry, numbers, where)
+    try:
+        _run(one.function, {name: numbers[name] for name in one.inputs}, Fraction, where)
+    except ZeroDivisionError:
+        raise Rejected(f"{where} divides by 0 at its point") from None
+
+
+def _at(x: Quotient, point: Mapping[str, Fraction], where: str) -> Fraction:
+    """A rational function at a point; raises Rejected where it has no value, or the point has none for a variable."""
+    ring = x.numerator.ring
+
+    def number(of: Polynomial) -> Fraction:
+        result = Fraction(0)
+        for monomial, c in of.terms.items():
+            term = Fraction(c)
+            for i, name in enumerate(ring.variables):
+                if power := monomial >> FIELD * i & 0xFFFF:
+                    if name not in point:
+                        raise Rejected(f"{where} has no point at which its relations hold: no value for {name}")
+                    term *= point[name] ** power
+            result += bounded(term)
+        return result
+
+    below = Fraction(x.scale)
+    for i, power in x.factors.items():
+        below *= number(ring.factors[i]) ** power
+    if below == 0:
+        raise Rejected(f"{where} divides by 0 at its point")
+    return number(x.numerator) / below
+
+
+def _check_head(head: str, carriers: Sequence[Mapping[str, Any]], where: str) -> None:
+    """Raises Rejected if the head of a text names a certificate that does not carry it."""
+    named = set(re.findall(r"[Cc]ertificate of (\S+): sha256 (\w+)", head))
+    proved = re.search(r"Proved by: (.*?)\.  ", head)
+    carrying = {pair for carrier in carriers for pair in _certificates(carrier)}
+    claims = set(proved[1].split(", ")) if proved else set()
+    if not named <= carrying or not claims <= {claim for claim, _ in carrying}:
+        raise Rejected(f"{where} says that it is proved by what does not carry it")
+
+
+def _certificates(carrier: Mapping[str, Any]) -> list[tuple[str, str]]:
+    found = [(carrier["claim"], carrier["certificate"])]
+    return found + [pair for step, by in carrier["steps"] if step == "solved" for pair in _certificates(by)]
 
 
 def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any]]:
@@ -121,8 +212,11 @@ def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any
         try:
             if not name.isidentifier():
                 raise Rejected(f"{name!a:.40} is no name of a kernel")
+            if hidden := [one.name for one in folder.iterdir() if one.name.split(".")[0] == name and _hides(one)]:
+                raise Rejected(f"{name} has {hidden[0]} beside it, which Python would import in its place")
             written = file.read_bytes()[: MOST_LETTERS + 1].decode()
-            found.append({"file": str(file), "accepted": True, "statements": check(row, written, certificates, name)})
+            said = check(row, written, certificates, name)
+            found.append({"file": str(file), "accepted": True, "inputs": row["inputs"], "statements": said})
         except (OSError, ValueError):
             found.append({"file": str(file), "accepted": False, "reason": f"{file} cannot be read"})
         except Rejected as error:
@@ -130,26 +224,12 @@ def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any
     return found
 
 
-def _regular(
-    function: ast.FunctionDef, inputs: Sequence[str], carrier: Mapping[str, Any], certificates: Certificates, where: str
-) -> None:
-    """Raises Rejected if a text divides by 0 at the point of its statement, where the relations hold."""
-    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
-    point = data["points"][_statement(carrier, certificates, where)["point"]]
-    if all(isinstance(point.get(name), int | str) for name in inputs):
-        try:
-            _run(function, {name: Fraction(point[name]) for name in inputs}, Fraction, where)
-        except ZeroDivisionError:
-            raise Rejected(
-                f"{where} divides by 0 at the point given for «{carrier['statement']}»: "
-                "the claim must assume what makes it defined"
-            ) from None
-
-
 def check_form(carrier: Any, where: str) -> None:
     """Raises Rejected unless a carrier has its form."""
-    more = " cofactors" * (isinstance(carrier, dict) and "cofactors" in carrier)
-    check_names(carrier, "claim certificate statement side steps" + more, f"a carrier of {where}")
+    more = [name for name in ("cofactors", "point") if isinstance(carrier, dict) and name in carrier]
+    check_names(carrier, " ".join(["claim certificate statement side steps", *more]), f"a carrier of {where}")
+    if not isinstance(carrier.get("point", {}), dict):
+        raise Rejected(f"{where} has a point that is none")
     for pair in many(carrier.get("cofactors", []), where):
         sized(pair, 2, where)
         count(pair[0], 0, MOST_LINES, where)
@@ -319,11 +399,17 @@ def straight_line(written: str, where: str) -> ast.FunctionDef:
         body = ast.parse(written).body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise Rejected(f"{where} is not Python") from None
-    if len(body) != 2 or not _is_text(body[0]) or not isinstance(body[1], ast.FunctionDef):
+    # What begins with the docstring has no declaration of another encoding, which Python would read it in.
+    if len(body) != 2 or not _is_text(body[0]) or not isinstance(body[1], ast.FunctionDef) or written[:3] != '"""':
         raise Rejected(f"{where} is not a docstring and one function")
     function, arguments = body[1], body[1].args
-    if function.decorator_list or arguments.defaults or arguments.vararg or arguments.kwonlyargs or arguments.kwarg:
+    more = (arguments.defaults, arguments.vararg, arguments.kwonlyargs, arguments.kwarg, arguments.posonlyargs)
+    if function.decorator_list or any(more):
         raise Rejected(f"{where} has a function with decorators, defaults or arguments beyond a list of names")
+    if function.returns or any(one.annotation for one in arguments.args) or getattr(function, "type_params", []):
+        raise Rejected(f"{where} has a function with annotations, which Python evaluates")
+    if function.name != where:
+        raise Rejected(f"{where} has a function of another name")
     if len(function.body) > MOST_LINES or not arguments.args:
         raise Rejected(f"{where} has a function without arguments, or of more than {MOST_LINES} lines")
     return function
@@ -363,7 +449,7 @@ def _run(function: ast.FunctionDef, known: dict[str, Any], number: Callable[[Fra
                 case _:
                     raise Rejected(f"{where} does something else than assign to a name")
         match body[-1:]:
-            case [ast.Return(value=ast.Tuple(elts=parts))]:
+            case [ast.Return(value=ast.Tuple(elts=parts))] if len(parts) > 1:
                 return [of(part) for part in parts]
             case [ast.Return(value=ast.expr() as part)]:
                 return [of(part)]

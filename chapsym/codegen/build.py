@@ -124,9 +124,10 @@ class Package:
         text = _module(about, [], [code(kernel)])
         row = {"claims": kernel.claims, "operations": operations, "saved_by": passes.saved(kernel)}
         row |= {"expression_sha256": digest, "text_sha256": _hash(text)}
+        row["inputs"] = [symbol.name for symbol in kernel.inputs]
         row["carriers"] = [carrier.data(self._digest) for carrier in kernel.carriers]
         certificates = {f"{id} {self._digest(id)}": one.certificate or {} for id, one in self.judged.items()}
-        row["carriers"] = carriers.with_cofactors(row, text, certificates, kernel.name)
+        row["carriers"] = carriers.completed(row, text, certificates, kernel.name)
         binding.check(row, text, certificates, kernel.name)
         return text, row
 
@@ -225,7 +226,8 @@ class Package:
         found = {p.name: p.read_bytes() for p in there if p.is_file() and p.name != FINGERPRINTS}
         changed = [name for name in sorted(set(fresh) & set(found)) if fresh[name] != found[name]]
         problems = [f"{name} is missing" for name in sorted(set(fresh) - set(found))]
-        problems += [f"{name} is extra" for name in sorted(set(found) - set(fresh))]
+        folders = {p.name for p in (place.iterdir() if place.is_dir() else ()) if p.is_dir()} - {"__pycache__"}
+        problems += [f"{name} is extra" for name in sorted(set(found) - set(fresh) | folders)]
         problems += [f"{name} is changed" for name in changed]
         for name in changed:
             for function, (derived, values) in self.computed.get(name, {}).items():

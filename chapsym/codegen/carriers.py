@@ -5,13 +5,17 @@ compares that with the text of the kernel.
 """
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
 
 from chapsym.checker import kernels as binding
-from chapsym.prove.cofactors import Ideal, ideal, trees
+from chapsym.derive.quotient import Quotient
+from chapsym.prove import Examples
+from chapsym.prove.cofactors import Ideal, expression, ideal, trees
+from chapsym.prove.points import Exact, some
 from chapsym.prove.trees import NotAlgebra, tree
 
 Places = Mapping[sp.Symbol, Any]
@@ -90,21 +94,42 @@ def _trees(by: Any) -> Any:
     return [_trees(one) if isinstance(one, Mapping) else one for one in by]
 
 
-def with_cofactors(
-    row: dict[str, Any], text: str, certificates: binding.Certificates, where: str
-) -> list[dict[str, Any]]:
-    """The carriers of a row, with cofactors for the entries that a text equals by the relations of the ring alone.
+def completed(row: dict[str, Any], text: str, certificates: binding.Certificates, where: str) -> list[dict[str, Any]]:
+    """The carriers of a row, with what the checker needs to know of a text.
 
-    Where there are none, the checker will say so.
+    That is cofactors for the entries that it equals by the relations of the ring alone, and a point at which these hold
+    and nothing divides by 0.  Where there are none, the checker will say so.
     """
-    carriers, ideals = [dict(one) for one in row["carriers"]], dict[int, Ideal]()
-    for one in binding.differences(row, text, certificates, where):
-        if one.value.numerator.terms and one.ring.relations:
-            if one.carrier not in ideals:
-                ideals[one.carrier] = ideal(one.ring)
-            if (found := trees(ideals[one.carrier], one.value)) is not None:
-                carriers[one.carrier].setdefault("cofactors", []).append([one.entry, found])
+    one = binding.carried(row, text, certificates, where)
+    carriers, ideals = [dict(carrier) for carrier in row["carriers"]], dict[int, Ideal]()
+    for each in binding.differences(one, where):
+        if each.value.numerator.terms and each.ring.relations:
+            if each.carrier not in ideals:
+                ideals[each.carrier] = ideal(each.ring)
+            if (found := trees(ideals[each.carrier], each.value)) is not None:
+                carriers[each.carrier].setdefault("cofactors", []).append([each.entry, found])
+    for i, carrier in enumerate(carriers):
+        if (point := _point(one, i, _given(carrier, certificates), where)) is not None:
+            carrier["point"] = point
     return carriers
+
+
+def _given(carrier: Mapping[str, Any], certificates: binding.Certificates) -> Exact:
+    """The numbers at the points of the certificate that carries it."""
+    points = certificates.get(f"{carrier['claim']} {carrier['certificate']}", {}).get("points", [])
+    return {sp.Symbol(x): sp.Rational(v) for point in points for x, v in point.items() if isinstance(v, int | str)}
+
+
+def _point(one: binding.Carried, i: int, given: Exact, where: str) -> dict[str, Any] | None:
+    """A point of a carrier, as the checker takes it; None if none is found."""
+    of = one.rings[i]
+    ring = Quotient([sp.Symbol(name) for name in of.ring.variables], [expression(r) for r in of.relations])
+    for exact in some(ring, Examples(given)):
+        point = {x.name: int(v) if v.is_Integer else str(v) for x, v in exact.items()}
+        with suppress(binding.Rejected):
+            binding.check_point(one, i, point, where)
+            return point
+    return None
 
 
 __all__ = ["Carrier", "NotAlgebra", "left", "right"]

@@ -122,6 +122,17 @@ def terms(of: Quotient) -> Terms:
     return {tuple(m >> s & 0xFFFF for s in shifts): sp.QQ(c) for m, c in of.numerator.terms.items()}
 
 
+def expression(of: Quotient) -> sp.Expr:
+    """The numerator as an expression."""
+    symbols = [sp.Symbol(name) for name in of.numerator.ring.variables]
+    return sp.Add(
+        *(
+            sp.Rational(int(c.numerator), int(c.denominator)) * sp.Mul(*map(sp.Pow, symbols, m))
+            for m, c in terms(of).items()
+        )
+    )
+
+
 def trees(ideal: Ideal, difference: Quotient) -> list[Any] | None:
     """The cofactors of a numerator as the checker reads them; None if it is not in the ideal."""
     cofactors = ideal.cofactors(terms(difference))

@@ -54,12 +54,17 @@ def allowed(
     more = [*relations, *(sp.fraction(sp.together(r.lhs - r.rhs))[0] for r in equations)]
     if equations:
         yield from (x for x in candidates(symbols, more, examples) if witness.allowed(x, assumed))
+    if assumed:
+        yield from (x for x in some(Quotient(symbols, more), examples) if witness.allowed(x, assumed))
+
+
+def some(ring: Quotient, examples: Examples) -> Iterator[Exact]:
+    """Points where the relations of a ring hold: those that are found from examples, and others that are drawn."""
+    yield from candidates(ring.symbols, ring.relations, examples)
     numbers = Random(0)
     with suppress(ArithmeticError):  # where no point is known
-        for i in range(MOST_DRAWN if assumed else 0):
-            exact = drawn(Quotient(symbols, more), partial(small, numbers, 1 + i // 20), examples)
-            if witness.allowed(exact, assumed):
-                yield exact
+        for i in range(MOST_DRAWN):
+            yield drawn(ring, partial(small, numbers, 1 + i // 20), examples)
 
 
 def look(

@@ -5,6 +5,7 @@ import dataclasses
 import hashlib
 import json
 import re
+import shutil
 from pathlib import Path
 
 import pytest
@@ -95,7 +96,7 @@ def test_a_text_that_is_not_that_of_the_manifest_is_refused():
 )
 def test_what_carries_no_kernel_is_refused(carrier, said):
     with pytest.raises(Rejected, match=said):
-        judge("momentum", text_of("momentum"), {"carriers": [carrier.data(digest)]})
+        judge("momentum", text_of("momentum"), {**ROWS["momentum"], "carriers": [carrier.data(digest)]})
 
 
 def digest(id):
@@ -122,16 +123,62 @@ SOLVED = {
 }
 
 
+INPUTS = ["K1", "K2", "g1", "g2"]
+
+
 def test_a_linear_system_is_solved():
     carrier = left("x", "a vector").solved(left("x", "a turn")).data(lambda id: "0")
     right_ = TEXT.format("(g1 * K1 + g2 * K2) / det, (g1 * K2 - g2 * K1) / det")
-    assert judge("solved", right_, {"carriers": [carrier]}, SOLVED) == ["a vector"]
+    row = {"inputs": INPUTS, "carriers": [carrier | {"point": dict.fromkeys(INPUTS, 1)}]}
+    assert judge("solved", right_, row, SOLVED) == ["a vector: the solution of a linear system"]
     wrong = TEXT.format("(g1 * K1 - g2 * K2) / det, (g1 * K2 + g2 * K1) / det")
     with pytest.raises(Rejected, match="computes in its result 0 something else"):
-        judge("solved", wrong, {"carriers": [carrier]}, SOLVED)
-    nowhere = {"x 0": SOLVED["x 0"] | {"points": [dict.fromkeys(("K1", "K2", "g1", "g2"), 0)]}}
-    with pytest.raises(Rejected, match="divides by 0 at the point"):
-        judge("solved", right_, {"carriers": [carrier]}, nowhere)
+        judge("solved", wrong, row, SOLVED)
+    for point, said in (
+        (dict.fromkeys(INPUTS, 0), "divides by 0 at its point"),
+        ({"K1": 1, "K2": 1, "g1": 1}, "no value for g2"),
+        (dict.fromkeys(INPUTS, 1.0), "neither an integer nor a quotient"),
+        ([], "a point that is none"),
+    ):
+        with pytest.raises(Rejected, match=said):
+            judge("solved", right_, {"inputs": INPUTS, "carriers": [carrier | {"point": point}]}, SOLVED)
+    with pytest.raises(Rejected, match="no point at which its relations hold"):
+        judge("solved", right_, {"inputs": INPUTS, "carriers": [carrier]}, SOLVED)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("def compose(a0", "def compose(a0: print(1)", "annotations"),
+        ("b3):", "b3) -> print(1):", "annotations"),
+        ("def compose(a0", "def compose(a0, /", "beyond a list of names"),
+        ("def compose(a0, a1", "def compose(a1, a0", "does not have the arguments"),
+        ("def compose(", "def composed(", "of another name"),
+        ("return o_", "return 0, o_", "has 5 results"),
+        ('"""Written', '# coding: utf-7\n"""Written', "not a docstring and one function"),
+        ("Proved by: ", "Proved by: remark-1, ", "proved by what does not carry it"),
+        ("sha256 ", "sha256 0", "proved by what does not carry it"),
+    ],
+)
+def test_a_text_that_python_reads_otherwise_is_refused(old, new, said):
+    text = text_of("compose")
+    assert old in text
+    with pytest.raises(Rejected, match=said):
+        judge("compose", text.replace(old, new))
+
+
+def test_what_python_imports_in_its_place_is_refused(tmp_path):
+    """A folder of the name of a kernel hides its file."""
+    folder = tmp_path / "generated"
+    shutil.copytree(build.folder(), folder)
+    (folder / "energy").mkdir()
+    (folder / "rotation.cpython-311.so").touch()
+    found = [one for one in binding.check_folder(folder, CERTIFICATES) if not one["accepted"]]
+    assert [one["reason"] for one in found] == [
+        "rotation has rotation.cpython-311.so beside it, which Python would import in its place",
+        "energy has energy beside it, which Python would import in its place",
+    ]
+    assert "energy is extra" in build.ours().check(folder)
 
 
 @pytest.mark.parametrize(
@@ -142,6 +189,7 @@ def test_a_linear_system_is_solved():
         ("def f(a):\n    while a: pass\n    return a", "something else than assign"),
         ("def f(a):\n    return a.real", "neither a known name"),
         ("def f(a):\n    return a * 0.5", "neither a known name"),
+        ("def f(a):\n    return (a,)", "neither a known name"),
         ("def f(a):\n    b = a", "something else than assign|returns nothing"),
         ("def f(a):\n    return a / (a - a)", "divides by 0"),
         ("def f(:", "not Python"),
@@ -150,4 +198,4 @@ def test_a_linear_system_is_solved():
 def test_a_text_that_is_no_straight_line_is_refused(body, said):
     carrier = right("x", "a vector").data(lambda id: "0")
     with pytest.raises(Rejected, match=said):
-        judge("f", f'"""A."""\n\n\n{body}\n', {"carriers": [carrier]}, SOLVED)
+        judge("f", f'"""A."""\n\n\n{body}\n', {"inputs": ["a"], "carriers": [carrier]}, SOLVED)

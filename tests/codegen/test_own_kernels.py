@@ -188,3 +188,39 @@ KERNELS = [
     subprocess.run([*command, "-o", tmp_path / "main"], check=True)
     printed = subprocess.run([tmp_path / "main"], check=True, capture_output=True, text=True).stdout
     assert [float.fromhex(x) for x in printed.split()] == [1.0, 1e25 * 3 + 5, 35.0, 1.0]
+
+
+EMPTY = """
+SQUARE, RELATION, FIVE = "(x + y)² = 1 + 2xy", "the relation", "five times"
+
+
+@claim("{id}-empty", "1")
+def empty(p: Proof) -> None:
+    \"\"\"What is true where x² + y² = 1.\"\"\"
+    p.printed(equal(SQUARE, a * (x + y) ** 2, a * (1 + 2 * x * y)))
+    p.lemma(equal(RELATION, x**2 + y**2 - 1, 0), equal(FIVE, 5 * (x**2 + y**2 - 1), 0))
+    p.control(equal("1 = 2", 1, 2))
+"""
+
+
+@pytest.mark.parametrize(
+    ("carrier", "expression"),
+    [
+        ("right({id}, SQUARE).at({x: 2, y: 0})", "a**3 + 17"),  # the relation becomes 3 = 0
+        ("left({id}, FIVE).solved(left({id}, RELATION))", "5 * x"),  # of the system 0 = 0
+        ("right({id}, SQUARE).at({a: 7 * (x**2 + y**2 - 1) / (1 - x**2 - y**2)})", "8 * x"),  # 0/0
+        ("right({id}, SQUARE).at({x: v, y: w})", "a * (2*v**2 + 2*w**2 - 2 + (v**2 + w**2 - 1)*v)/(v**2 + w**2 - 1)"),
+    ],
+)
+def test_what_is_equal_because_nothing_obeys_the_relations_is_refused(register, carrier, expression):
+    folder = register(claims=CLAIMS + EMPTY, kernels="")
+    identity = re.search(r'@claim\("(own-[^"]*-empty)', (folder / "claims.py").read_text("utf-8"))[1]
+    carrier = carrier.replace("{id}", f"'{identity}'")
+    text = "from chapsym.codegen import Kernel, left, right\n\nfrom .claims import *\n\n"
+    text += "GROUPS = (('place', (x, y)), ('velocity', (v, w)), ('pull', (a,)))\n"
+    text += f"KERNELS = [Kernel('wrong', 'Wrong.', ({carrier},), GROUPS, ('e',), lambda: [{expression}])]\n"
+    (folder / "kernels.py").write_text(text, encoding="utf-8")
+    done = chapsym("codegen", "--register", folder)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert re.search("wrong (has no point at which its relations hold|divides by 0 at its point)", done.stderr)
+    assert not (folder / "generated").exists()
