@@ -19,7 +19,7 @@ Everything is drawn through Hypothesis, so failures shrink and replay.
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
@@ -33,11 +33,6 @@ from hypothesis import strategies as st  # noqa: E402
 from chapsym.dynamics import Ball  # noqa: E402
 from chapsym.dynamics.ball import Floats  # noqa: E402
 from chapsym.dynamics.loops.branch import continued  # noqa: E402
-
-if TYPE_CHECKING:  # SymPy takes a second, which who rolls balls need not wait for
-    from sympy.core.relational import Relational
-
-    from chapsym.derive import Quotient
 
 ROTATIONS = ("generic", "near identity", "near pi")
 BALLS = ("generic", "degenerate")
@@ -147,19 +142,18 @@ def rational_balls(draw: st.DrawFn) -> tuple[tuple[Fraction, ...], Fraction]:
 
 
 @st.composite
-def of_ring(draw: st.DrawFn, ring: "Quotient", *assumed: "Relational") -> dict[str, Fraction]:
+def of_ring(draw: st.DrawFn, ring: Any, *assumed: Any) -> dict[str, Fraction]:
     """Exact values of the symbols of a ring, by their names, at which its relations hold, and what is assumed.
 
+    ring: a `chapsym.derive.Quotient`; assumed: relations of SymPy, such as x > 0, for which positive numbers are drawn.
     Raises ArithmeticError where no rational point of the relations is known.
     """
-    import sympy as sp
-
-    from chapsym.prove.points import drawn
+    from chapsym.prove.points import drawn  # a second, with SymPy, which who rolls balls need not wait for
     from chapsym.prove.search import true
 
     small = st.fractions(-3, 3, max_denominator=6)
-    positive = {one.gts for one in assumed if isinstance(one, sp.Gt | sp.Lt | sp.Ge | sp.Le) and one.lts == 0}
-    found = drawn(ring, lambda x: sp.Rational(draw(small.map(abs) if x in positive else small)))
+    positive = {one.gts for one in assumed if getattr(one, "lts", None) == 0}
+    found = drawn(ring, lambda x: draw(small.map(abs) if x in positive else small))
     if not all(true(one, found) for one in assumed):
         reject()
     return {x.name: Fraction(int(v.p), int(v.q)) for x, v in found.items()}

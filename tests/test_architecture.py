@@ -38,7 +38,7 @@ ROOMS = {
     "proofs": {"certificates", "checker", "codegen", "derive", "dynamics", "prove"},
     "report": {"extras", "files", "renamed"},
     "show": {"dynamics", "extras", "files", "scene"},
-    "testing": {"dynamics", "extras"},
+    "testing": {"dynamics", "extras", "prove"},
 }  # fmt: skip
 SYMPY_ROOMS = {"derive", "prove", "codegen", "proofs"}
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
+from fractions import Fraction
 from functools import partial
 from random import Random
 from typing import Any
@@ -16,7 +17,7 @@ from .witness import Examples
 
 Exact = dict[sp.Symbol, sp.Rational]
 #: A number for a symbol.
-Draw = Callable[[sp.Symbol], sp.Rational]
+Draw = Callable[[sp.Symbol], Fraction]
 #: Directions that may be tried on one relation, and points that are drawn where hypotheses must hold.
 MOST_LINES, MOST_DRAWN = 20, 200
 
@@ -106,9 +107,13 @@ def _roots(relation: sp.Expr, x: sp.Symbol, point: Exact) -> list[sp.Rational]:
     return sorted(sp.Poly(relation.xreplace(others), x).ground_roots())
 
 
-def small(numbers: Random, most: int, symbol: sp.Symbol) -> sp.Rational:
+def small(numbers: Random, most: int, symbol: sp.Symbol) -> Fraction:
     """A fraction of small numbers, for any symbol."""
-    return sp.Rational(numbers.randint(-most - 1, most + 1), numbers.randint(1, most))
+    return Fraction(numbers.randint(-most - 1, most + 1), numbers.randint(1, most))
+
+
+def _number(x: Fraction) -> sp.Rational:
+    return sp.Rational(x.numerator, x.denominator)
 
 
 def drawn(ring: Quotient, draw: Draw, examples: Examples | None = None) -> Exact:
@@ -121,7 +126,7 @@ def drawn(ring: Quotient, draw: Draw, examples: Examples | None = None) -> Exact
     if start is None:
         raise ArithmeticError(f"no rational point is known where {', '.join(f'{r} = 0' for r in ring.relations)}")
     related = set().union(*(relation.free_symbols for relation in ring.relations))
-    found = {x: start[x] if x in related else draw(x) for x in ring.symbols}
+    found = {x: start[x] if x in related else _number(draw(x)) for x in ring.symbols}
     settled: set[sp.Symbol] = set()
     for relation in ring.relations:
         own = [x for x in ring.symbols if x in relation.free_symbols - settled]
@@ -135,13 +140,13 @@ def _on_line(relation: sp.Expr, own: Sequence[sp.Symbol], values: Exact, draw: D
     left = relation.xreplace({x: v for x, v in values.items() if x not in own})
     for x in own:
         if sp.degree(left, x) == 1:
-            chosen = {y: draw(y) for y in own if y != x}
+            chosen = {y: _number(draw(y)) for y in own if y != x}
             one = sp.Poly(left.xreplace(chosen), x)
             if one.degree() == 1:
                 return chosen | {x: -one.nth(0) / one.nth(1)}
     t = sp.Dummy()
     for _ in range(MOST_LINES):
-        along = {x: values[x] + t * draw(x) for x in own}
+        along = {x: values[x] + t * _number(draw(x)) for x in own}
         one = sp.Poly(left.xreplace(along), t)
         if one.nth(0) == 0 and one.degree() == 2:
             return {x: sp.expand(v).subs(t, -one.nth(1) / one.nth(2)) for x, v in along.items()}

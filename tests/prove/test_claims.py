@@ -264,13 +264,13 @@ def test_what_is_false_and_not_refuted_is_said_to_be_so():
 
 def test_a_witness_is_a_point_where_what_is_assumed_holds():
     J1 = sp.Symbol("J1")
-    for relation, witnesses in ((J1 > 0, 2), (J1 < 0, 0)):
+    for relations, witnesses in (((J1 > 0,), 2), ((J1 < 0,), 1), ((J1 > 0, J1 < 0), 0)):
         proof = Proof(examples=EXAMPLES)
-        proof.assume("the sign of J1", relation)
+        proof.assume("the sign of J1", *relations)
         proof.printed(Equation("shown", J1, J1, Quotient((J1,))))
         proof.control(FALSE)
         assert proof.verdict() is (Verdict.HOLDS if witnesses else Verdict.OPEN)
-        assert len(proof.witnesses) == witnesses  # generic, and equal J
+        assert len(proof.witnesses) == witnesses  # generic, and equal J; one that is drawn; none
 
 
 def test_a_relation_that_is_decided_before_its_point_is_refused():
