@@ -145,17 +145,17 @@ def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> N
     if missing := [name for name in one.inputs if name not in numbers]:
         raise Rejected(f"{where} has no point at which its relations hold: no value for {missing[0]}")
     for relation in one.rings[i].relations:
-        if _at(relation, numbers, where) != 0:
+        if number_at(relation, numbers, where) != 0:
             raise Rejected(f"{where} has a point at which a relation fails")
     for entry in one.entries[i]:
-        _at(entry, numbers, where)
+        number_at(entry, numbers, where)
     try:
         _run(one.function, {name: numbers[name] for name in one.inputs}, Fraction, where)
     except ZeroDivisionError:
         raise Rejected(f"{where} divides by 0 at its point") from None
 
 
-def _at(x: Quotient, point: Mapping[str, Fraction], where: str) -> Fraction:
+def number_at(x: Quotient, point: Mapping[str, Fraction], where: str) -> Fraction:
     """A rational function at a point; raises Rejected where it has no value, or the point has none for a variable."""
     ring = x.numerator.ring
 

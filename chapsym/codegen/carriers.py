@@ -4,9 +4,11 @@ The checker judges it (`chapsym.checker.kernels`): it makes the same of the stat
 compares that with the text of the kernel.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import islice
 from typing import Any
 
 import sympy as sp
@@ -19,6 +21,8 @@ from chapsym.prove.points import Exact, some
 from chapsym.prove.trees import NotAlgebra, tree
 
 Places = Mapping[sp.Symbol, Any]
+#: Points at which a text is compared with its carrier before cofactors are looked for.
+MOST_POINTS = 8
 
 
 @dataclass(frozen=True)
@@ -102,15 +106,19 @@ def completed(row: dict[str, Any], text: str, certificates: binding.Certificates
     """
     one = binding.carried(row, text, certificates, where)
     carriers, ideals = [dict(carrier) for carrier in row["carriers"]], dict[int, Ideal]()
+    points = [
+        list(islice(_points(one, i, _given(x, certificates), where), MOST_POINTS)) for i, x in enumerate(carriers)
+    ]
+    for carrier, found in zip(carriers, points, strict=True):
+        carrier |= {"point": found[0]} if found else {}
     for each in binding.differences(one, where):
+        if any(_differs(each, point, where) for point in points[each.carrier]):
+            continue  # it is in no ideal of the relations, which the search below would find out slowly
         if each.value.numerator.terms and each.ring.relations:
             if each.carrier not in ideals:
                 ideals[each.carrier] = ideal(each.ring)
             if (found := trees(ideals[each.carrier], each.value)) is not None:
                 carriers[each.carrier].setdefault("cofactors", []).append([each.entry, found])
-    for i, carrier in enumerate(carriers):
-        if (point := _point(one, i, _given(carrier, certificates), where)) is not None:
-            carrier["point"] = point
     return carriers
 
 
@@ -120,16 +128,22 @@ def _given(carrier: Mapping[str, Any], certificates: binding.Certificates) -> Ex
     return {sp.Symbol(x): sp.Rational(v) for point in points for x, v in point.items() if isinstance(v, int | str)}
 
 
-def _point(one: binding.Carried, i: int, given: Exact, where: str) -> dict[str, Any] | None:
-    """A point of a carrier, as the checker takes it; None if none is found."""
+def _differs(one: binding.Difference, point: Mapping[str, Any], where: str) -> bool:
+    """Whether a result and the entry of its carrier have two values at a point, as far as they have any."""
+    with suppress(binding.Rejected):
+        return binding.number_at(one.value, {x: Fraction(v) for x, v in point.items()}, where) != 0
+    return False
+
+
+def _points(one: binding.Carried, i: int, given: Exact, where: str) -> Iterator[dict[str, Any]]:
+    """Points of a carrier, as the checker takes them."""
     of = one.rings[i]
     ring = Quotient([sp.Symbol(name) for name in of.ring.variables], [expression(r) for r in of.relations])
     for exact in some(ring, Examples(given)):
         point = {x.name: int(v) if v.is_Integer else str(v) for x, v in exact.items()}
         with suppress(binding.Rejected):
             binding.check_point(one, i, point, where)
-            return point
-    return None
+            yield point
 
 
 __all__ = ["Carrier", "NotAlgebra", "left", "right"]

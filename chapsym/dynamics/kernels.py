@@ -74,7 +74,7 @@ def on_arrays(row: Row, alone: Sequence[str] | None = None) -> Callable[..., Flo
             shapes = ", ".join(f"{g} {np.shape(a)}" for a, (g, _) in zip(arrays, groups, strict=True))
             raise BadInput(f"the leading axes of the arguments of {name} do not broadcast: {shapes}") from None
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # as in the compiled loops
-            return _in_blocks(function, columns, leading).reshape(*leading, *shape)
+            return _in_blocks(function, columns, leading).reshape((*leading, *shape))
 
     front.__name__ = name
     front.__doc__ = f"{function.__doc__}\n    On arrays: {', '.join(f'{g} (..., {n})' for g, n in groups)}.\n    "
