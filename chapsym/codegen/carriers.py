@@ -4,11 +4,10 @@ The checker judges it (`chapsym.checker.kernels`): it makes the same of the stat
 compares that with the text of the kernel.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import islice
 from typing import Any
 
 import sympy as sp
@@ -106,11 +105,9 @@ def completed(row: dict[str, Any], text: str, certificates: binding.Certificates
     """
     one = binding.carried(row, text, certificates, where)
     carriers, ideals = [dict(carrier) for carrier in row["carriers"]], dict[int, Ideal]()
-    points = [
-        list(islice(_points(one, i, _given(x, certificates), where), MOST_POINTS)) for i, x in enumerate(carriers)
-    ]
-    for carrier, found in zip(carriers, points, strict=True):
-        carrier |= {"point": found[0]} if found else {}
+    points = [_points(one, i, _given(carrier, certificates), where) for i, carrier in enumerate(carriers)]
+    for carrier, those in zip(carriers, points, strict=True):
+        carrier |= {"point": those[0]} if those else {}
     for each in binding.differences(one, where):
         if any(_differs(each, point, where) for point in points[each.carrier]):
             continue  # it is in no ideal of the relations, which the search below would find out slowly
@@ -135,15 +132,18 @@ def _differs(one: binding.Difference, point: Mapping[str, Any], where: str) -> b
     return False
 
 
-def _points(one: binding.Carried, i: int, given: Exact, where: str) -> Iterator[dict[str, Any]]:
+def _points(one: binding.Carried, i: int, given: Exact, where: str) -> list[dict[str, Any]]:
     """Points of a carrier, as the checker takes them."""
-    of = one.rings[i]
+    of, found = one.rings[i], list[dict[str, Any]]()
     ring = Quotient([sp.Symbol(name) for name in of.ring.variables], [expression(r) for r in of.relations])
     for exact in some(ring, Examples(given)):
         point = {x.name: int(v) if v.is_Integer else str(v) for x, v in exact.items()}
         with suppress(binding.Rejected):
             binding.check_point(one, i, point, where)
-            yield point
+            found.append(point)
+        if len(found) == MOST_POINTS:
+            break
+    return found
 
 
 __all__ = ["Carrier", "NotAlgebra", "left", "right"]
