@@ -10,7 +10,6 @@ import sys
 from types import SimpleNamespace
 
 import numpy as np
-
 import pytest
 from commands import answer, changed, chapsym, child, refused
 from first import FIRST
