@@ -62,7 +62,9 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
             said = carrier["statement"]
             raise Rejected(f"{where} computes in its result {i} something else than «{said}» says")
     for i, carrier in enumerate(row["carriers"]):
-        check_point(one, i, carrier.get("point", {}), where)
+        point = carrier.get("point", {})
+        check_point(one, i, point, where)
+        check_carrier(carrier, certificates, {x: rational(v, where) for x, v in point.items()}, where)
     return [_said(carrier) for carrier in row["carriers"]]
 
 
@@ -294,6 +296,7 @@ def entries(
     statement = _statement(carrier, certificates, where)
     data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
     names = ring.names()
+    _check_moves(carrier, certificates, where)
     steps = list(carrier["steps"])
     if steps and steps[0][0] == "at":  # read at once what would be put in later
         names |= {name: value(tree, ring.names(), ring.number) for name, tree in steps.pop(0)[1]}
@@ -320,6 +323,47 @@ def entries(
                 raise Rejected(f"{where} is differentiated along what leaves a relation of «{statement['text']}»")
             found = [rate(x, move) for x in found for move in moves]
     return found, relations
+
+
+def _check_moves(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> None:
+    """Raises Rejected if what is placed or moved is no variable there: nothing would be done then."""
+    statement = _statement(carrier, certificates, where)
+    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
+    variables = set(data["algebras"][statement["algebra"]]["variables"])
+    for step, by in carrier["steps"]:
+        if step == "solved":
+            variables |= _names(by, certificates, where)
+        for pairs in [by] if step == "at" else by if step == "along" else []:
+            if strange := [name for name, _ in pairs if name not in variables]:
+                raise Rejected(f"{where} moves {strange[0]!a:.40}, which is no variable of «{statement['text']}» there")
+        if step == "at":
+            variables = (variables - {name for name, _ in by}).union(*(names_in(tree) for _, tree in by))
+
+
+def check_carrier(
+    carrier: Mapping[str, Any], certificates: Certificates, point: Mapping[str, Fraction], where: str
+) -> None:
+    """Raises Rejected if the statement of a carrier, or a step from it, divides by 0 at a point of what it makes."""
+    statement = _statement(carrier, certificates, where)
+    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
+    names = dict(point)
+    try:
+        for step, by in reversed(carrier["steps"]):
+            if step == "solved":
+                check_carrier(by, certificates, names, where)
+            elif step != "entries":
+                for pairs in [by] if step == "at" else by:
+                    images = {name: value(tree, names, Fraction) for name, tree in pairs}
+                    names |= images if step == "at" else {}
+        for name, tree in (*derivation.valued(data["derivation"]).items(), *statement.get("definitions", [])):
+            if names_in(tree) <= names.keys():
+                names[name] = value(tree, names, Fraction)
+        for tree in (*statement["left"], *statement["right"]):
+            value(tree, names, Fraction)
+    except ZeroDivisionError:
+        raise Rejected(f"{where} is carried by what divides by 0 at its point") from None
+    except ValueError:  # a name without a value
+        raise Rejected(f"{where} has no point at which its relations hold: a variable has no value") from None
 
 
 def placed(x: Quotient, places: Mapping[str, Quotient]) -> Quotient:
@@ -397,6 +441,7 @@ def straight_line(written: str, where: str) -> ast.FunctionDef:
         raise Rejected(f"{where} has more than {MOST_LETTERS} letters")
     try:
         body = ast.parse(written).body
+        compile(written, where, "exec", dont_inherit=True)  # which sees more than the parser, and runs nothing
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise Rejected(f"{where} is not Python") from None
     # What begins with the docstring has no declaration of another encoding, which Python would read it in.
@@ -422,7 +467,14 @@ def _is_text(node: ast.stmt) -> bool:
 def _run(function: ast.FunctionDef, known: dict[str, Any], number: Callable[[Fraction], Any], where: str) -> list[Any]:
     """What a function returns, of the values of its arguments."""
 
+    whole: set[str] = set()  # names of whole numbers, of which Python makes others in its own way: 1 / 3 is a float
+
+    def is_whole(node: ast.expr) -> bool:
+        return all(one.id in whole for one in ast.walk(node) if isinstance(one, ast.Name))
+
     def of(node: ast.expr) -> Any:
+        if isinstance(node, ast.BinOp) and is_whole(node):
+            raise Rejected(f"{where} computes with whole numbers alone")
         match node:
             case ast.Name(id=name) if name in known:
                 return known[name]
@@ -446,6 +498,7 @@ def _run(function: ast.FunctionDef, known: dict[str, Any], number: Callable[[Fra
             match node:
                 case ast.Assign(targets=[ast.Name(id=name)], value=assigned):
                     known[name] = of(assigned)
+                    whole = whole | {name} if is_whole(assigned) else whole - {name}
                 case _:
                     raise Rejected(f"{where} does something else than assign to a name")
         match body[-1:]:

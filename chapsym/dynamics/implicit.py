@@ -25,8 +25,8 @@ MOST_ROUNDS = 100
 #: Roundings of x that the last correction may be as large as.
 LAST = 4
 #: A correction stays that is not below so much of the one before; after so many rounds it is noise if it is below this
-#: fraction of the largest correction, or below this power of the unit.
-STAYS, ROUNDS, FAR_BELOW, NEARLY = 0.75, 3, 1e-10, 0.6
+#: power of the unit.
+STAYS, ROUNDS, NEARLY = 0.75, 3, 0.6
 #: Digits that the last correction in many digits may lack, of those that Newton's iteration doubles.
 LOST = 4
 
@@ -133,14 +133,14 @@ class _System(NamedTuple):
         """The roots near points x (N, n), each by corrections of its own; raises BadInput where they do not settle.
 
         A correction is measured by what a rounding of x may change it by, `scale`.  It is the last one if it is as
-        small as that for every unknown; or if it does not shrink any more, and is far below the largest there was.
+        small as that for every unknown; or if it does not shrink any more, and is not far above.
         """
         x, left = x.copy(), np.arange(len(x))
         unit = np.finfo(x.dtype).eps
-        before, largest, stays = np.full(x.shape, np.inf), np.zeros(x.shape), np.zeros(x.shape, dtype=int)
+        before, stays = np.full(x.shape, np.inf), np.zeros(x.shape, dtype=int)
         for _ in range(MOST_ROUNDS):
             if not len(left):
-                return x
+                break
             value, slope = self._at(x[left], [array[left] for array in known])
             regular = np.isfinite(slope).all(axis=(1, 2)) & np.isfinite(value).all(axis=1)
             regular[regular] &= np.linalg.slogdet(slope[regular])[0] != 0
@@ -151,11 +151,12 @@ class _System(NamedTuple):
             scale = (np.abs(inverse) @ np.abs(slope) @ np.abs(x[left])[..., None])[..., 0]
             x[left] -= step
             stays[left] = np.where(change >= STAYS * before[left], stays[left] + 1, 0)
-            before[left], largest[left] = change, np.maximum(largest[left], change)
-            near = np.maximum(FAR_BELOW * largest[left], unit**NEARLY * scale)
-            settled = (change <= LAST * unit * scale) | ((stays[left] >= ROUNDS) & (change <= near))
+            before[left] = change
+            settled = (change <= LAST * unit * scale) | ((stays[left] >= ROUNDS) & (change <= unit**NEARLY * scale))
             left = left[~settled.all(axis=1)]
-        raise _unsettled(int(left[0]))
+        if len(left):
+            raise _unsettled(int(left[0]))
+        return x
 
     def at_level(self, start: np.ndarray, known: list[Any], level: Precision, index: int) -> list[Any]:
         """The root near a float64 root, in the numbers of a precision."""

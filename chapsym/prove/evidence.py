@@ -18,6 +18,7 @@ from chapsym.derive.words import unfolded
 
 from . import argument, points, witness
 from .argument import Reading, Step, Theorem
+from .limits import Limit
 from .statements import Comparison, Count, Equation, Point, Rest, Statement
 from .witness import Examples
 
@@ -270,6 +271,11 @@ class Proof:
         if not self._printed and not self.reason and not self.answer:
             self.problems.append("no printed form was judged")
         self.problems += [gap for part in self.stated for gap in self.gaps(part)]
+        limits = [statement for _, statement, _ in self.decided if isinstance(statement, Limit)]
+        self.problems += [
+            f"{of.along} cannot tend to 0 in «{of.text}»: the hypothesis {text} has it"
+            for of in limits for text in of.bound_by(self.assumed)
+        ]  # fmt: skip
         if self.answer and not any(check["holds"] for check in self.checks):
             self.problems.append("the answer has no lemma that is decided")
         if self.problems:

@@ -1,16 +1,33 @@
 """Limits of rational functions, as equations that exact arithmetic decides."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
 
 from chapsym.derive.quotient import Quotient
 
-from .statements import Equation
+from .statements import Comparison, Equation
 
 
-def tends(text: str, expression: Any, along: sp.Symbol, order: int, to: Any, ring: Quotient) -> Equation:
+@dataclass(frozen=True)
+class Limit(Equation):
+    """An equation that says what something tends to as a variable tends to 0, whatever the others are."""
+
+    along: sp.Symbol = sp.S.Zero
+
+    def bound_by(self, assumed: Sequence[Comparison]) -> list[str]:
+        """The hypotheses with which the variable cannot tend to 0: all that have it, but for its sign."""
+        return [
+            h.text
+            for h in assumed
+            for r in h.relations
+            if r.has(self.along) and not (r.free_symbols == {self.along} and 0 in r.args)
+        ]
+
+
+def tends(text: str, expression: Any, along: sp.Symbol, order: int, to: Any, ring: Quotient) -> Limit:
     """That expression / along^order tends to something as along tends to 0.
 
     As an equation: the expression is along^order · (what it tends to) + along^(order + 1) · (a quotient), and the
@@ -67,7 +84,7 @@ def tends(text: str, expression: Any, along: sp.Symbol, order: int, to: Any, rin
             later = sp.cancel((below.as_expr() - start) / along)
             left.append(below.as_expr() / start)
             right.append(1 + along * later / start)
-    return Equation(text, left, right, ring)
+    return Limit(text, left, right, ring, along)
 
 
 def _rest(expression: sp.Expr, along: sp.Symbol, order: int) -> tuple[sp.Expr, sp.Poly]:

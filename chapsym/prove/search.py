@@ -69,6 +69,8 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
 
 def true(relation: Relational, values: Mapping[sp.Symbol, Any]) -> bool:
     """Whether both sides are numbers at a point, and the relation holds there."""
+    if relation.has(sp.Float):
+        raise ValueError(f"{relation} has a float: write exact numbers, such as sp.Rational(1, 2)")
     try:
         return Comparison("", [relation]).true_at(values)
     except ArithmeticError:  # a side is not defined there

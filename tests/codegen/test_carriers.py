@@ -155,6 +155,15 @@ def test_a_linear_system_is_solved():
         ("def compose(a0, a1", "def compose(a1, a0", "does not have the arguments"),
         ("def compose(", "def composed(", "of another name"),
         ("return o_", "return 0, o_", "has 5 results"),
+        ("a1, a2", "a1, a1", "not Python"),
+        ("o_c0 = ", "__debug__ = ", "not Python"),
+        (
+            "return o_c0",
+            "return o_c0 * ((10**25 + 1) / 3 - 10**25 / 3) * 3",
+            "neither a known name|whole numbers alone",
+        ),
+        ("return o_c0", "return o_c0 * (7 / 3) * (3 / 7)", "whole numbers alone"),
+        ("    o_c0 = ", "    t9 = 3\n    t8 = t9 / 3\n    o_c0 = t8 * ", "whole numbers alone"),
         ('"""Written', '# coding: utf-7\n"""Written', "not a docstring and one function"),
         ("Proved by: ", "Proved by: remark-1, ", "proved by what does not carry it"),
         ("sha256 ", "sha256 0", "proved by what does not carry it"),
@@ -165,6 +174,45 @@ def test_a_text_that_python_reads_otherwise_is_refused(old, new, said):
     assert old in text
     with pytest.raises(Rejected, match=said):
         judge("compose", text.replace(old, new))
+
+
+DEFINED = {
+    "x 0": {
+        "algebras": [{"kind": "quotient", "variables": ["w", "x", "y"], "relations": ["x"]}],
+        "derivation": [],
+        "points": [],
+        "statements": [
+            {"text": "defined", "left": [["*", "E", "x"]], "right": [0], "definitions": [["E", ["^", "y", 2]]],
+             "algebra": 0, "point": 0},
+            {"text": "divided", "left": [["*", "y", ["^", "w", -1]]], "right": [0], "algebra": 0, "point": 0},
+        ],
+    }
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("statement", "steps", "returned", "cofactors", "said"),
+    [
+        ("defined", [["along", [[["E", 1]]]]], "0 * x", [], "moves 'E', which is no variable"),
+        ("defined", [["along", [[["typo", 1]]]]], "0 * x", [], "moves 'typo', which is no variable"),
+        ("defined", [["at", [["E", 0]]]], "y * y * x", [], "moves 'E', which is no variable"),
+        ("defined", [["at", [["y", "w"]]], ["at", [["y", 0]]]], "w * w * x", [], "moves 'y', which is no variable"),
+        ("divided", [["at", [["w", ["^", "x", -1]]]]], "0 * x", [[0, [["*", -1, "y"]]]], "divides by 0 at its point"),
+        (
+            "divided",
+            [["entries", [0]], ["at", [["w", ["^", "x", -1]]]]],
+            "0 * x",
+            [[0, [["*", -1, "y"]]]],
+            "divides by 0",
+        ),
+    ],
+)
+def test_steps_that_do_nothing_or_divide_by_0_are_refused(statement, steps, returned, cofactors, said):
+    carrier = left("x", statement).data(lambda id: "0") | {"steps": steps, "cofactors": cofactors}
+    row = {"inputs": ["w", "x", "y"], "carriers": [carrier | {"point": {"w": 1, "x": 0, "y": 2}}]}
+    text = f'"""A."""\n\n\ndef f(w, x, y):\n    return {returned}\n'
+    with pytest.raises(Rejected, match=said):
+        judge("f", text, row, DEFINED)
 
 
 def test_what_python_imports_in_its_place_is_refused(tmp_path):

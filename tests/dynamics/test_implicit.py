@@ -203,3 +203,15 @@ def test_what_follows_is_defined_at_the_root(precision):
     assert (empty.shape, none.shape) == ((0, 1), (0,))
     with pytest.raises(BadInput, match="not defined at a root"):
         step([0.9], [1.0], precision=precision)
+
+
+@pytest.mark.parametrize("precision", ["single", "double", "double-double"])
+def test_a_far_guess_gives_no_root_where_there_is_none(precision):
+    """x² + 1: a large correction at the start must not make a later one small."""
+    groups = (("x", 1), ("a", 1))
+    none = implicit_step((lambda x, a: x * x + a, groups, ()), (lambda x, a: 2 * x, groups, ()))
+    guesses = np.concatenate([[1e-12, 1e12, 38457702956.94342, 71766687001.56982], 10.0 ** np.arange(-15, 16) * 1.37])
+    for guess in guesses:
+        with pytest.raises(BadInput, match="does not settle"):
+            none([guess], [1.0], precision=precision)
+    assert abs(none([1e12], [-4.0])[0] - 2) < 1e-15

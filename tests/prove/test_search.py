@@ -130,3 +130,19 @@ def test_no_limit_is_taken_where_the_relations_forbid_it():
         tends("it", h / (x**2 + y**2 - 1 + h), h, 0, 0, Quotient((x, y, h), [x**2 + y**2 - 1])).holds()
     with pytest.raises(ValueError, match="cannot tend to 0 by itself"):
         tends("it", h * x**2, h, 0, 0, Quotient((x, h), [x * h - 1]))
+
+
+@pytest.mark.parametrize("assumed", [sp.Eq(x, h), x < h, sp.Ne(h, x), h > 1])
+def test_no_limit_is_taken_where_a_hypothesis_forbids_it(assumed):
+    for more in ((), (assumed,)):
+        proof = Proof()
+        proof.assume("some", sp.Ne(x, 0), h > 0, *more)
+        proof.printed(tends("h/x", h / x, h, 0, 0, Quotient((h, x))))
+        proof.control(tends("to 1", h / x, h, 0, 1, Quotient((h, x))))
+        assert (proof.verdict() is Verdict.HOLDS) is (not more)
+    assert "h cannot tend to 0 in «h/x»: the hypothesis some has it" in proof.problems
+
+
+def test_assumptions_are_exact():
+    with pytest.raises(ValueError, match="has a float: write exact numbers"):
+        counterexample(equal("x = 1", x, 1), x > 0.5)
