@@ -215,7 +215,7 @@ def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any
             if not name.isidentifier():
                 raise Rejected(f"{name!a:.40} is no name of a kernel")
             if hidden := [one.name for one in folder.iterdir() if one.name.split(".")[0] == name and _hides(one)]:
-                raise Rejected(f"{name} has {hidden[0]} beside it, which Python would import in its place")
+                raise Rejected(f"{name} lies with {hidden[0]}, which Python would import in its place")
             written = file.read_bytes()[: MOST_LETTERS + 1].decode()
             said = check(row, written, certificates, name)
             found.append({"file": str(file), "accepted": True, "inputs": row["inputs"], "statements": said})

@@ -163,7 +163,7 @@ class Package:
                 files[f"{kernel.name}.py"], rows[kernel.name] = self.source(kernel)
             except Rejected as error:
                 said = str(error)
-                if kernel.name not in said:  # of what its text or its carriers make
+                if not said.startswith(f"{kernel.name} "):  # of what its text or its carriers make
                     said = f"{kernel.name}: {said.replace('the certificate has', 'it makes')}; divide less in it"
                 raise ArithmeticError(said) from None
         table = {"kernels": rows}

@@ -9,12 +9,13 @@ import sympy as sp
 
 from .carriers import Carrier
 
-#: Words of C, and names that generated files have for something else.
+#: Words of C and C++, and names that generated files have for something else.
 RESERVED = {
-    "auto", "bool", "case", "char", "const", "default", "do", "double", "enum", "extern", "false", "float", "goto",
-    "inline", "int", "long", "register", "restrict", "short", "signed", "sizeof", "static", "struct", "switch",
-    "true", "typedef", "union", "unsigned", "void", "volatile", "real", "memcpy", "R", "INLINE", "got", "result",
-    "TABLE",
+    "asm", "auto", "bool", "case", "catch", "char", "const", "default", "delete", "do", "double", "enum",
+    "explicit", "export", "extern", "false", "float", "friend", "goto", "inline", "int", "long", "namespace", "new",
+    "operator", "private", "protected", "public", "register", "restrict", "short", "signed", "sizeof", "static",
+    "struct", "switch", "template", "this", "throw", "true", "typedef", "typename", "union", "unsigned", "using",
+    "virtual", "void", "volatile", "real", "memcpy", "R", "INLINE", "got", "result", "TABLE",
 }  # fmt: skip
 Group = tuple[str, tuple[sp.Symbol, ...]]
 Steps = Sequence[tuple[Sequence[sp.Symbol], Sequence[sp.Expr]]]

@@ -24,8 +24,8 @@ Vector = Sequence[Any]
 MOST_ROUNDS = 100
 #: Roundings of x that the last correction may be as large as.
 LAST = 4
-#: A correction stays that is not below so much of the one before; after so many rounds it is noise if it is below this
-#: power of the unit.
+#: A correction stays if it is at least this fraction of the one before; after this number of rounds it is noise if it
+#: is below this power of the unit.
 STAYS, ROUNDS, NEARLY = 0.75, 3, 0.6
 #: Digits that the last correction in many digits may lack, of those that Newton's iteration doubles.
 LOST = 4
@@ -236,12 +236,16 @@ def _followed(function: Callable[..., Any], arrays: Sequence[np.ndarray], rows: 
     try:
         with np.errstate(all="ignore"):
             found = np.stack(_values(function, arrays), axis=-1)
-        finite = all(x.is_finite() if hasattr(x, "is_finite") else True for x in found.flat)
-        if finite and (found.dtype == object or np.isfinite(found).all()):
+        if all(map(_is_finite, found.flat)) if found.dtype == object else np.isfinite(found).all():
             return found
     except ZeroDivisionError:
         pass
     raise BadInput(f"{function.__name__} is not defined at a root: it divides by 0 there, or is beyond the range")
+
+
+def _is_finite(x: Any) -> bool:
+    """Of what does not divide by 0 with an exception, as Arb's balls do not."""
+    return bool(x.is_finite()) if hasattr(x, "is_finite") else True
 
 
 def _array(value: ArrayLike, name: str, size: int) -> np.ndarray:
@@ -254,12 +258,19 @@ def _array(value: ArrayLike, name: str, size: int) -> np.ndarray:
         if isinstance(one, bool | complex | str) or one is None:
             raise BadInput(f"{name} must have numbers, not {one!r}")
         try:
-            made[where] = Fraction(int(one.numerator), int(one.denominator)) if isinstance(one, Rational) else one
-            if isinstance(one, float | np.floating | Decimal):
-                made[where] = Fraction(one if isinstance(one, Decimal) else float(one))
+            made[where] = _exactly(one)
         except (OverflowError, ValueError):
             raise BadInput(f"{name} must be finite, but it has {one}") from None
     return made
+
+
+def _exactly(one: Any) -> Any:
+    """A rational number as a fraction, and a number of another precision as it is."""
+    if isinstance(one, Rational):
+        return Fraction(int(one.numerator), int(one.denominator))
+    if isinstance(one, float | np.floating):
+        return Fraction(float(one))
+    return Fraction(one) if isinstance(one, Decimal) else one
 
 
 def _floats(array: np.ndarray, dtype: np.dtype, name: str) -> np.ndarray:
@@ -276,7 +287,7 @@ def _exact(array: np.ndarray, level: Precision, name: str) -> np.ndarray:
     made, kind = np.empty(array.shape, dtype=object), type(level.number(Fraction(0)))
     for where, value in np.ndenumerate(array):
         if isinstance(value, float | Fraction):
-            made[where] = level.number(Fraction(value))  # a float has its own value
+            made[where] = level.number(Fraction(value))
         elif isinstance(value, kind):
             made[where] = value
         else:

@@ -85,20 +85,19 @@ def _in_blocks(function: Callable[..., Any], columns: list[np.ndarray], leading:
     """The results of a function (*leading, n) for n of them, a block of the leading axes after the other."""
     size = math.prod(leading)
     if size <= BLOCK or any(column.dtype == object for column in columns):
-        return _together(leading, _parts(function(*columns)))
+        parts = _parts(function(*columns))
+        return _fill(np.empty((*leading, len(parts)), np.result_type(*parts)), parts)
     flat = [c.reshape(-1) if c.size == 1 else np.broadcast_to(c, leading).reshape(-1) for c in columns]
     result = np.empty(0)
     for start in range(0, size, BLOCK):
         block = slice(start, start + BLOCK)
         parts = _parts(function(*(c if c.size == 1 else c[block] for c in flat)))
         result = result if start else np.empty((size, len(parts)), np.result_type(*parts))
-        for i, part in enumerate(parts):
-            result[block, i] = part
+        _fill(result[block], parts)
     return result
 
 
-def _together(leading: tuple[int, ...], parts: list[Any]) -> np.ndarray:
-    result = np.empty((*leading, len(parts)), np.result_type(*parts))
+def _fill(result: np.ndarray, parts: list[Any]) -> np.ndarray:
     for i, part in enumerate(parts):
         result[..., i] = part
     return result

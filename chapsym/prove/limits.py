@@ -23,7 +23,7 @@ class Limit(Equation):
             h.text
             for h in assumed
             for r in h.relations
-            if r.has(self.along) and not (r.free_symbols == {self.along} and 0 in r.args)
+            if r.has(self.along) and (isinstance(r, sp.Eq) or set(r.args) != {self.along, sp.S.Zero})
         ]
 
 
@@ -56,7 +56,7 @@ def tends(text: str, expression: Any, along: sp.Symbol, order: int, to: Any, rin
     ArithmeticError
         Where the expression has a pole at along = 0.
     ValueError
-        If it is not rational, or a relation of the ring has `along`.
+        If it is not rational, or a relation of the ring or what it tends to has `along`.
 
     Examples
     --------
@@ -73,6 +73,8 @@ def tends(text: str, expression: Any, along: sp.Symbol, order: int, to: Any, rin
     """
     if bound := [relation for relation in ring.relations if relation.has(along)]:
         raise ValueError(f"{along} cannot tend to 0 by itself: the relation {bound[0]} has it")
+    if sp.sympify(to, strict=True).has(along):
+        raise ValueError(f"what something tends to cannot have {along}, which tends to 0")
     entries, ends = (list(v) if isinstance(v, sp.MatrixBase | Iterable) else [v] for v in (expression, to))
     left, right = [], []
     for entry, end in zip(entries, ends, strict=True):

@@ -53,8 +53,6 @@ def allowed(
     yield from (x for x in candidates(symbols, relations, examples) if witness.allowed(x, assumed))
     equations = [r for h in assumed for r in h.relations if isinstance(r, sp.Eq) and r.free_symbols <= set(symbols)]
     more = [*relations, *(sp.fraction(sp.together(r.lhs - r.rhs))[0] for r in equations)]
-    if equations:
-        yield from (x for x in candidates(symbols, more, examples) if witness.allowed(x, assumed))
     if assumed:
         yield from (x for x in some(Quotient(symbols, more), examples) if witness.allowed(x, assumed))
 

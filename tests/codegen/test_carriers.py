@@ -223,8 +223,8 @@ def test_what_python_imports_in_its_place_is_refused(tmp_path):
     (folder / "rotation.cpython-311.so").touch()
     found = [one for one in binding.check_folder(folder, CERTIFICATES) if not one["accepted"]]
     assert [one["reason"] for one in found] == [
-        "rotation has rotation.cpython-311.so beside it, which Python would import in its place",
-        "energy has energy beside it, which Python would import in its place",
+        "rotation lies with rotation.cpython-311.so, which Python would import in its place",
+        "energy lies with energy, which Python would import in its place",
     ]
     assert "energy is extra" in build.ours().check(folder)
 

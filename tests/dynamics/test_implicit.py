@@ -153,7 +153,7 @@ def test_kernels_that_do_not_fit_are_refused(table):
     [(1e4, "single", 1e-6), (1e12, "double", 1e-15), (1e16, "double-double", 1e-29), (1e16, Digits(30), 1e-30)],
 )
 def test_each_unknown_is_found_by_its_own_size(large, precision, within):
-    """x is so large that a correction of y is small beside it."""
+    """x is so large that a correction of y is small against it."""
     groups = (("x", 2), ("a", 1))
     root = implicit_step(
         (lambda x, y, a: (x - large * a, y * y * y - a), groups, (2,)),

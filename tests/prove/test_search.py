@@ -128,11 +128,13 @@ def test_a_limit_is_an_equation_with_a_rest_that_is_regular():
 def test_no_limit_is_taken_where_the_relations_forbid_it():
     with pytest.raises(ZeroDivisionError, match="zero under the hypotheses"):
         tends("it", h / (x**2 + y**2 - 1 + h), h, 0, 0, Quotient((x, y, h), [x**2 + y**2 - 1])).holds()
+    with pytest.raises(ValueError, match="cannot have h, which tends to 0"):
+        tends("it", h, h, 0, h, Quotient((h,)))
     with pytest.raises(ValueError, match="cannot tend to 0 by itself"):
         tends("it", h * x**2, h, 0, 0, Quotient((x, h), [x * h - 1]))
 
 
-@pytest.mark.parametrize("assumed", [sp.Eq(x, h), x < h, sp.Ne(h, x), h > 1])
+@pytest.mark.parametrize("assumed", [sp.Eq(x, h), x < h, sp.Ne(h, x), h > 1, h * (h - 1) > 0])
 def test_no_limit_is_taken_where_a_hypothesis_forbids_it(assumed):
     for more in ((), (assumed,)):
         proof = Proof()
