@@ -47,17 +47,19 @@ class Carrier:
 
     def at(self, places: Places) -> "Carrier":
         """With expressions in the place of variables."""
-        return self._then("at", dict(places))
+        return self._then("at", _places(places))
 
     def along(self, *moves: Places) -> "Carrier":
         """The derivatives of each entry in directions, in which the variables have these rates.
 
         The statement's relations must stay true along each direction.
         """
-        return self._then("along", [dict(move) for move in moves])
+        return self._then("along", [_places(move) for move in moves])
 
     def solved(self, matrix: "Carrier") -> "Carrier":
         """The x with matrix · x = these entries; the matrix has its entries row by row."""
+        if not isinstance(matrix, Carrier):
+            raise TypeError(f"the matrix of a linear system is another carrier, not {matrix!r:.40}")
         return self._then("solved", matrix)
 
     def entries(self, *numbers: int) -> "Carrier":
@@ -89,6 +91,12 @@ def left(claim: str, statement: str) -> Carrier:
 def right(claim: str, statement: str) -> Carrier:
     """The right side of a statement that a claim decides."""
     return Carrier(claim, statement, "right")
+
+
+def _places(by: Any) -> Places:
+    if not isinstance(by, Mapping) or not all(isinstance(x, sp.Symbol) for x in by):
+        raise TypeError(f"what is put or moved is given as {{symbol: expression}}, not {by!r:.40}")
+    return dict(by)
 
 
 def _trees(by: Any) -> Any:

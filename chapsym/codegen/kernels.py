@@ -88,6 +88,8 @@ class Kernel:
             return f"it has {len(self.outputs)} outputs and {len(self.expressions)} expressions"
         if self.rows_of_three and len(self.outputs) % 3:
             return f"its {len(self.outputs)} outputs are no rows of three"
+        if strange := [e for e in self.expressions if not isinstance(e, sp.Expr)]:
+            return f"its expression {strange[0]!r:.40} is none of SymPy"
         found = set().union(*(e.free_symbols for e in self.expressions)) - set(self.inputs)
         if found:
             return f"its expressions have {', '.join(sorted(map(str, found)))}, which is no argument"
@@ -96,7 +98,7 @@ class Kernel:
     @cached_property
     def expressions(self) -> tuple[sp.Expr, ...]:
         """What is computed, derived once."""
-        return tuple(sp.sympify(e) for e in self.build())
+        return tuple(sp.sympify(e, strict=True) if e is not None else e for e in self.build())
 
     @cached_property
     def steps(self) -> tuple[Steps, Sequence[sp.Expr]]:

@@ -73,9 +73,9 @@ def tends(text: str, expression: Any, along: sp.Symbol, order: int, to: Any, rin
     """
     if bound := [relation for relation in ring.relations if relation.has(along)]:
         raise ValueError(f"{along} cannot tend to 0 by itself: the relation {bound[0]} has it")
-    if sp.sympify(to, strict=True).has(along):
-        raise ValueError(f"what something tends to cannot have {along}, which tends to 0")
     entries, ends = (list(v) if isinstance(v, sp.MatrixBase | Iterable) else [v] for v in (expression, to))
+    if any(sp.sympify(end, strict=True).has(along) for end in ends):
+        raise ValueError(f"what something tends to cannot have {along}, which tends to 0")
     left, right = [], []
     for entry, end in zip(entries, ends, strict=True):
         rest, below = _rest(sp.sympify(entry, strict=True), along, order)
