@@ -15,6 +15,9 @@ The names of the arguments are those of the variables.  The results equal the en
 the carrier has cofactors for an entry, [its number, [a tree for each relation of the ring]], the numerator of the
 difference is Σ cofactor · relation: then they are equal wherever the relations hold.  The point of a carrier shows
 that they can: all relations hold there, and neither the entries nor the text divide by 0.
+
+A text may have letters, [name, function, tree]: sin, cos or sqrt of a tree, or pi, which it imports.  They are
+variables of the ring, with the relations of `letters`; those of a carrier that have a letter must follow from these.
 """
 
 from __future__ import annotations
@@ -27,18 +30,20 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from . import derivation
+from . import derivation, letters
 from .document import Unreadable, check_names, count, read
 from .form import chosen, distinct, many, sized, text
 from .interval import Rejected
+from .letters import Letter
 from .matrices import Quotients
-from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
-from .trees import bounded, check_tree, names_in, rational, value
+from .polynomial import Quotient, Ring, Work
+from .rational import number_at, placed, rate, solved
+from .trees import check_tree, names_in, rational, value
 
 MANIFEST = "manifest.json"
 STEPS = ("at", "along", "solved", "entries")
-#: Bounds of a text, of its lines, and of the rows of a linear system.
-MOST_LETTERS, MOST_LINES, MOST_ROWS = 200_000, 5_000, 4
+#: Bounds of a text and of its lines.
+MOST_LETTERS, MOST_LINES = 200_000, 5_000
 #: Certificates by their names: the id of the claim, and the digest.
 Certificates = Mapping[str, Mapping[str, Any]]
 
@@ -93,6 +98,7 @@ class Carried(NamedTuple):
     computed: list[Quotient]
     entries: list[list[Quotient]]
     rings: list[Quotients]
+    letters: list[Letter]
 
     @property
     def inputs(self) -> list[str]:
@@ -117,16 +123,29 @@ def carried(row: dict[str, Any], written: str, certificates: Certificates, where
     inputs = [argument.arg for argument in function.args.args]
     if inputs != row["inputs"]:
         raise Rejected(f"{where} does not have the arguments {row['inputs']!a:.200}")
-    names = set(inputs).union(*(_names(one, certificates, where) for one in row["carriers"]))
+    own = letters.check_form(row.get("letters", []), inputs, where)
+    names = {*inputs, *own}.union(*(_names(one, certificates, where) for one in row["carriers"]))
     ring = Ring(sorted(names), Work())
-    computed = _run(function, {name: ring.names()[name] for name in inputs}, ring.number, where)
-    made = [entries(one, certificates, ring, where) for one in row["carriers"]]
+    adjoined = letters.read(row.get("letters", []), ring)
+
+    def letter(name: str, function: str, of: Quotient) -> Quotient:
+        for one in adjoined:
+            if (one.name, one.function) == (name, function) and not (of - one.of).numerator.terms:
+                return ring.names()[name]
+        raise Rejected(f"{where} has no letter {name} that is this {function}")
+
+    computed = _run(function, {name: ring.names()[name] for name in inputs}, ring.number, letter, where)
+    made = [entries(one, certificates, ring, where, adjoined) for one in row["carriers"]]
     if len(computed) != sum(len(found) for found, _ in made):
         total = sum(len(found) for found, _ in made)
         raise Rejected(f"{where} has {len(computed)} results, and its carriers make {total}")
     _check_head(ast.get_docstring(ast.parse(written)) or "", row["carriers"], where)
-    rings = [Quotients(ring, ring.names(), relations) for _, relations in made]
-    return Carried(function, computed, [found for found, _ in made], rings)
+    more = letters.relations(adjoined, ring)
+    for carrier, (_, relations) in zip(row["carriers"], made, strict=True):
+        if not all(letters.follows(relation, adjoined) for relation in relations):
+            raise Rejected(f"{where} has a letter of which a relation of «{carrier['statement']}» does not follow")
+    rings = [Quotients(ring, ring.names(), [*relations, *more]) for _, relations in made]
+    return Carried(function, computed, [found for found, _ in made], rings, adjoined)
 
 
 def differences(one: Carried, where: str) -> list[Difference]:
@@ -144,7 +163,7 @@ def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> N
     Otherwise what is equal by the relations might be so because nothing obeys them, or because all of it is 0/0.
     """
     numbers = {name: rational(x, f"the point of {where}") for name, x in point.items()}
-    if missing := [name for name in one.inputs if name not in numbers]:
+    if missing := [name for name in (*one.inputs, *(x.name for x in one.letters)) if name not in numbers]:
         raise Rejected(f"{where} has no point at which its relations hold: no value for {missing[0]}")
     for relation in one.rings[i].relations:
         if number_at(relation, numbers, where) != 0:
@@ -152,33 +171,10 @@ def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> N
     for entry in one.entries[i]:
         number_at(entry, numbers, where)
     try:
-        _run(one.function, {name: numbers[name] for name in one.inputs}, Fraction, where)
+        known = {name: numbers[name] for name in one.inputs}
+        _run(one.function, known, Fraction, lambda name, _function, _of: numbers[name], where)
     except ZeroDivisionError:
         raise Rejected(f"{where} divides by 0 at its point") from None
-
-
-def number_at(x: Quotient, point: Mapping[str, Fraction], where: str) -> Fraction:
-    """A rational function at a point; raises Rejected where it has no value, or the point has none for a variable."""
-    ring = x.numerator.ring
-
-    def number(of: Polynomial) -> Fraction:
-        result = Fraction(0)
-        for monomial, c in of.terms.items():
-            term = Fraction(c)
-            for i, name in enumerate(ring.variables):
-                if power := monomial >> FIELD * i & 0xFFFF:
-                    if name not in point:
-                        raise Rejected(f"{where} has no point at which its relations hold: no value for {name}")
-                    term *= point[name] ** power
-            result += bounded(term)
-        return result
-
-    below = Fraction(x.scale)
-    for i, power in x.factors.items():
-        below *= number(ring.factors[i]) ** power
-    if below == 0:
-        raise Rejected(f"{where} divides by 0 at its point")
-    return number(x.numerator) / below
 
 
 def _check_head(head: str, carriers: Sequence[Mapping[str, Any]], where: str) -> None:
@@ -290,7 +286,7 @@ def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -
 
 
 def entries(
-    carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, where: str
+    carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, where: str, adjoined: Sequence[Letter] = ()
 ) -> tuple[list[Quotient], list[Quotient]]:
     """What a carrier makes, in the variables of the ring, and the relations that hold there."""
     statement = _statement(carrier, certificates, where)
@@ -311,7 +307,7 @@ def entries(
                 raise Rejected(f"{where} wants an entry that «{statement['text']}» does not have")
             found = [found[i] for i in by]
         elif step == "solved":
-            matrix, others = entries(by, certificates, ring, where)
+            matrix, others = entries(by, certificates, ring, where, adjoined)
             found, relations = solved(matrix, found, where), [*relations, *others]
         else:
             moves = [{name: value(tree, ring.names(), ring.number) for name, tree in pairs}
@@ -321,6 +317,7 @@ def entries(
                 continue
             if any(rate(relation, move).numerator.terms for relation in relations for move in moves):
                 raise Rejected(f"{where} is differentiated along what leaves a relation of «{statement['text']}»")
+            letters.check_moves(adjoined, moves, where)
             found = [rate(x, move) for x in found for move in moves]
     return found, relations
 
@@ -366,75 +363,6 @@ def check_carrier(
         raise Rejected(f"{where} has no point at which its relations hold: a variable has no value") from None
 
 
-def placed(x: Quotient, places: Mapping[str, Quotient]) -> Quotient:
-    """A rational function with others in the place of variables."""
-    ring = x.numerator.ring
-
-    def image(of: Polynomial) -> Quotient:
-        result = ring.number(rational(0, ""))
-        for monomial, c in of.terms.items():
-            term = ring.number(rational(c, "a coefficient"))
-            for i, name in enumerate(ring.variables):
-                if power := monomial >> FIELD * i & 0xFFFF:
-                    base = places[name] if name in places else Quotient(ring.variable(i), 1, {})
-                    term = term * base**power
-            result = result + term
-        return result
-
-    below = ring.number(rational(x.scale, "a denominator"))
-    for i, power in x.factors.items():
-        below = below * image(ring.factors[i]) ** power
-    return image(x.numerator) * below**-1
-
-
-def rate(x: Quotient, move: Mapping[str, Quotient]) -> Quotient:
-    """The derivative of a rational function where variables move at these rates."""
-    ring = x.numerator.ring
-
-    def derivative(of: Polynomial) -> Quotient:
-        result = ring.number(rational(0, ""))
-        for i, name in enumerate(ring.variables):
-            if name in move:
-                one = 1 << FIELD * i
-                terms = {m - one: c * e for m, c in of.terms.items() if (e := m >> FIELD * i & 0xFFFF)}
-                bits = of.bits + FIELD
-                result = result + Quotient(Polynomial(ring, terms, of.degree, bits), 1, {}) * move[name]
-        return result
-
-    result = derivative(x.numerator) * Quotient(ring.constant(1), x.scale, x.factors)
-    for i, power in x.factors.items():
-        factor = Quotient(ring.factors[i], 1, {})
-        result = result - x * ring.number(rational(power, "a power")) * derivative(ring.factors[i]) * factor**-1
-    return result
-
-
-def solved(matrix: Sequence[Quotient], right: Sequence[Quotient], where: str) -> list[Quotient]:
-    """The solution of a linear system, by Cramer's rule."""
-    n = len(right)
-    if not 1 <= n <= MOST_ROWS or len(matrix) != n * n:
-        raise Rejected(f"{where} solves a system that is not of one to {MOST_ROWS} rows, as many as there are columns")
-    rows = [list(matrix[n * i : n * i + n]) for i in range(n)]
-    whole = _determinant(rows)
-    if not whole.numerator.terms:
-        raise Rejected(f"{where} solves a system whose determinant is 0")
-    found = []
-    for j in range(n):
-        with_right = [[*row[:j], b, *row[j + 1 :]] for row, b in zip(rows, right, strict=True)]
-        found.append(_determinant(with_right) * whole**-1)
-    return found
-
-
-def _determinant(rows: Sequence[Sequence[Quotient]]) -> Quotient:
-    """By the first row."""
-    if len(rows) == 1:
-        return rows[0][0]
-    parts = [x * _determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]]) for j, x in enumerate(rows[0])]
-    result = parts[0]
-    for j, part in enumerate(parts[1:], start=1):
-        result = result - part if j % 2 else result + part
-    return result
-
-
 def straight_line(written: str, where: str) -> ast.FunctionDef:
     """The one function of a text, which assigns names and returns; its parts are looked at as they are evaluated."""
     if len(written) > MOST_LETTERS:
@@ -445,6 +373,7 @@ def straight_line(written: str, where: str) -> ast.FunctionDef:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise Rejected(f"{where} is not Python") from None
     # What begins with the docstring has no declaration of another encoding, which Python would read it in.
+    imported = letters.imported(body.pop(1), where) if len(body) == 3 else set()
     if len(body) != 2 or not _is_text(body[0]) or not isinstance(body[1], ast.FunctionDef) or written[:3] != '"""':
         raise Rejected(f"{where} is not a docstring and one function")
     function, arguments = body[1], body[1].args
@@ -455,6 +384,7 @@ def straight_line(written: str, where: str) -> ast.FunctionDef:
         raise Rejected(f"{where} has a function with annotations, which Python evaluates")
     if function.name != where:
         raise Rejected(f"{where} has a function of another name")
+    letters.check_names(function, imported, where)
     if len(function.body) > MOST_LINES or not arguments.args:
         raise Rejected(f"{where} has a function without arguments, or of more than {MOST_LINES} lines")
     return function
@@ -464,8 +394,14 @@ def _is_text(node: ast.stmt) -> bool:
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
 
 
-def _run(function: ast.FunctionDef, known: dict[str, Any], number: Callable[[Fraction], Any], where: str) -> list[Any]:
-    """What a function returns, of the values of its arguments."""
+def _run(
+    function: ast.FunctionDef,
+    known: dict[str, Any],
+    number: Callable[[Fraction], Any],
+    letter: Callable[[str, str, Any], Any],
+    where: str,
+) -> list[Any]:
+    """What a function returns, of the values of its arguments; `letter` has that of a name, a function and a value."""
 
     whole: set[str] = set()  # names of whole numbers, of which Python makes others in its own way: 1 / 3 is a float
 
@@ -492,10 +428,22 @@ def _run(function: ast.FunctionDef, known: dict[str, Any], number: Callable[[Fra
                 return of(left) * of(right) ** -1
         raise Rejected(f"{where} has a part that is neither a known name, an integer, nor + - * /")
 
+    def argument(called: str, given: list[ast.expr]) -> Any:
+        match given:  # of a whole number, in the numbers of a name; pi has that alone
+            case [ast.Constant(value=int() as x), ast.Name(id=name)] if name in known and called != "pi":
+                return number(rational(x, where))
+            case [ast.Name(id=name)] if name in known and called == "pi":
+                return number(Fraction(1))
+            case [one] if called != "pi" and not is_whole(one):
+                return of(one)
+        raise Rejected(f"{where} has a {called} of something that is none")
+
     body = [node for node in function.body if not _is_text(node)]
     try:
         for node in body[:-1]:
             match node:
+                case ast.Assign(targets=[ast.Name(id=name)], value=ast.Call(func=ast.Name(id=called), args=given)):
+                    known[name], whole = letter(name, called, argument(called, given)), whole - {name}
                 case ast.Assign(targets=[ast.Name(id=name)], value=assigned):
                     known[name] = of(assigned)
                     whole = whole | {name} if is_whole(assigned) else whole - {name}

@@ -40,9 +40,9 @@ class Shown:
         self.said, self.paths = [], []
         return found
 
-    def drawn(self):
-        """Waits for two frames of the browser."""
-        self.tab.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    def drawn(self, frame=None):
+        """Waits for two frames of the browser, of a part of the page that draws by itself."""
+        (frame or self.tab).evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
     def ask(self, text, *given):
         """What an expression of the page is."""

@@ -33,7 +33,7 @@ def text(kernel: str, without: str = "") -> Text:
     source = build.code(_KERNELS[kernel], chosen)
     scope: dict[str, Any] = {}
     exec(compile(source, f"{kernel}.py", "exec"), scope)  # our own text, never a user's
-    return Text(kernel, without, source, scope[kernel], passes.operations(passes.lower(_KERNELS[kernel], chosen)))
+    return Text(kernel, without, source, scope[kernel], passes.operations(_KERNELS[kernel], chosen))
 
 
 def texts(kernel: str) -> list[Text]:

@@ -21,6 +21,7 @@ from chapsym.checker import Rejected
 from chapsym.checker import kernels as binding
 from chapsym.prove import PROOFS, Register, Verdict
 from chapsym.prove.claims import Judgement, judgement_of, once
+from chapsym.prove.trees import tree
 
 from . import c_files, carriers, ir, pairs, passes, printer
 from .kernels import Kernel
@@ -113,7 +114,7 @@ class Package:
     def source(self, kernel: Kernel) -> tuple[str, dict[str, Any]]:
         """The module of one kernel and its row of the manifest; raises Rejected unless it is carried."""
         digest = _hash("\n".join(sp.srepr(e) for e in kernel.expressions))
-        operations = passes.operations(passes.lower(kernel))
+        operations = passes.operations(kernel)
         about = [
             EDIT,
             "",
@@ -121,10 +122,14 @@ class Package:
             f"Expression: sha256 {digest}.",
             *(f"Certificate of {id}: sha256 {self._digest(id)}." for id in kernel.claims),
         ]
-        text = _module(about, [], [code(kernel)])
+        functions = ", ".join(sorted({function for _, function, _ in passes.letters(kernel)}))
+        imports = [f"from {printer.FUNCTIONS} import {functions}"] if functions else []
+        text = _module(about, imports, [code(kernel)])
         row = {"claims": kernel.claims, "operations": operations, "saved_by": passes.saved(kernel)}
         row |= {"expression_sha256": digest, "text_sha256": _hash(text)}
         row["inputs"] = [symbol.name for symbol in kernel.inputs]
+        if kernel.letters:
+            row["letters"] = [[x.name, function, tree(of)] for x, function, of in passes.letters(kernel)]
         row["carriers"] = [carrier.data(self._digest) for carrier in kernel.carriers]
         certificates = {f"{id} {self._digest(id)}": one.certificate or {} for id, one in self.judged.items()}
         row["carriers"] = carriers.completed(row, text, certificates, kernel.name)
@@ -287,7 +292,12 @@ def code(kernel: Kernel, chosen: tuple[str, ...] = passes.PASSES) -> str:
     terms, rest = passes.lower(kernel, chosen)
     # Outputs are named o_... so that an output may share its name with an input (K, in `residual`).
     outputs = [f"o_{name}" for name in kernel.outputs]
-    body = ["# intermediate terms"] if terms else []
+    body = ["# letters"] if kernel.letters else []
+    for letter, function, of in passes.letters(kernel):
+        given = [printer.text(of, chosen)] if function != "pi" else []
+        given += [] if of.free_symbols else [kernel.inputs[0].name]  # of whose numbers it is
+        body.append(f"{letter} = {function}({', '.join(given)})")
+    body += ["# intermediate terms"] if terms else []
     body += [f"{symbol} = {printer.text(expr, chosen)}" for symbol, expr in terms]
     body += ["# outputs"]
     body += [f"{name} = {printer.text(expr, chosen)}" for name, expr in zip(outputs, rest, strict=True)]

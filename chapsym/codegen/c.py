@@ -15,6 +15,7 @@ from itertools import groupby
 from textwrap import wrap
 from typing import Any
 
+from .printer import FUNCTIONS
 from .source import Function, NotConstant, Record, Varying, constant, meaning
 
 #: What binds tighter has the larger number, as in C.
@@ -285,6 +286,8 @@ class Printer:
             array, shape = func.value, arguments[0].elts  # type: ignore[attr-defined]
             rows, columns = (self.expression(x).text for x in shape)
             return Text(f"(r2){{{self.expression(array).text}.p, {rows}, {columns}, {columns}}}", Array("r", 2))
+        if isinstance(callee, str) and callee.startswith(f"{FUNCTIONS}."):
+            return self.adjoined(callee.rpartition(".")[2], self.expression(arguments[0]))
         given = list(self.several(arguments))
         if isinstance(callee, Function | Varying):
             return self.called(callee, arguments, given)
@@ -306,6 +309,10 @@ class Printer:
             return Text(f"llabs({of.text})", "i")
         text = f"{LIBRARY[callee]}({of.text})"
         return Text(text, "d") if of.kind == "d" else Text(f"R({text})", "r")
+
+    def adjoined(self, name: str, of: Text) -> Text:
+        """A letter of a kernel, by a function of the mathematics library."""
+        return Text("R(3.141592653589793)" if name == "pi" else f"R({name}({of.text}))", "r")
 
     def called(self, callee: Function | Varying, arguments: Sequence[ast.expr], given: list[Text]) -> Text:
         """A call of a function of the loops, whose parameters have the kinds of the arguments, too."""

@@ -293,8 +293,8 @@ STEP = (
     "double rotation[4], double *reach)"
 )
 #: What kernels alone need, for a register without loops.
-ALONE = "#include <stdint.h>\n#include <string.h>\n\ntypedef double real;\n#define R(x) ((real)(x))\n"
-ALONE += "#define INLINE static inline\n\n"
+ALONE = "#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n"
+ALONE += "typedef double real;\n#define R(x) ((real)(x))\n#define INLINE static inline\n\n"
 
 
 def library(texts: Texts, kernels: Sequence[Kernel]) -> dict[str, str]:

@@ -13,6 +13,7 @@ from typing import Any
 import sympy as sp
 
 from chapsym.checker import kernels as binding
+from chapsym.checker.rational import number_at
 from chapsym.derive.quotient import Quotient
 from chapsym.prove import Examples
 from chapsym.prove.cofactors import Ideal, expression, ideal, trees
@@ -136,7 +137,7 @@ def _given(carrier: Mapping[str, Any], certificates: binding.Certificates) -> Ex
 def _differs(one: binding.Difference, point: Mapping[str, Any], where: str) -> bool:
     """Whether a result and the entry of its carrier have two values at a point, as far as they have any."""
     with suppress(binding.Rejected):
-        return binding.number_at(one.value, {x: Fraction(v) for x, v in point.items()}, where) != 0
+        return number_at(one.value, {x: Fraction(v) for x, v in point.items()}, where) != 0
     return False
 
 

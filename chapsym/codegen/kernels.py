@@ -1,7 +1,7 @@
 """A kernel: a function to be generated, and what carries it; a register has its own in `kernels.py`."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from keyword import iskeyword
 
@@ -16,6 +16,7 @@ RESERVED = {
     "operator", "private", "protected", "public", "register", "restrict", "short", "signed", "sizeof", "static",
     "struct", "switch", "template", "this", "throw", "true", "typedef", "typename", "union", "unsigned", "using",
     "virtual", "void", "volatile", "real", "memcpy", "R", "INLINE", "got", "result", "TABLE",
+    "sin", "cos", "sqrt", "pi",
 }  # fmt: skip
 Group = tuple[str, tuple[sp.Symbol, ...]]
 Steps = Sequence[tuple[Sequence[sp.Symbol], Sequence[sp.Expr]]]
@@ -43,6 +44,10 @@ class Kernel:
         Makes the same values in steps: named intermediate expressions, and the outputs by those names.
     rows_of_three : bool
         Whether the result is a matrix of three columns.
+    letters : mapping of sympy.Symbol to sympy.Expr, optional
+        Letters of the statements that are no arguments: what each stands for, the sine, cosine or square root of an
+        expression in the arguments and the letters before it, or π.  The relations of the statements that have these
+        letters must follow: sin² + cos² = 1 of one expression, √x² = x.
     """
 
     name: str
@@ -53,6 +58,7 @@ class Kernel:
     build: Callable[[], Sequence[sp.Expr]]
     factored: Callable[[], tuple[Steps, Sequence[sp.Expr]]] | None = None
     rows_of_three: bool = False
+    letters: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not isinstance(self.carriers, tuple | list) or not all(isinstance(one, Carrier) for one in self.carriers):
@@ -75,7 +81,7 @@ class Kernel:
     def problem(self) -> str | None:
         """Why it cannot be written, in one sentence; None if it can."""
         names, groups = [symbol.name for symbol in self.inputs], [group for group, _ in self.groups]
-        for name in (self.name, *names, *self.outputs, *groups):
+        for name in (self.name, *names, *self.outputs, *groups, *map(str, self.letters)):
             if not name.isidentifier() or not name.isascii() or iskeyword(name) or name in RESERVED:
                 return f"{name!r} cannot be a name in Python and C: take letters, digits and _, and no word of these"
         if twice := sorted({group for group in groups if groups.count(group) > 1}):
@@ -84,14 +90,24 @@ class Kernel:
             return f"{self.name!r} cannot be the name of a file of a package"
         if twice := sorted({name for name in names if names.count(name) > 1}):
             return f"two arguments have the name {twice[0]}"
+        if not all(isinstance(one, sp.Symbol) for one in self.letters):
+            return "its letters are given as {symbol: expression}"
+        known = set(self.inputs)
+        for letter, stands in self.letters.items():
+            if letter in known:
+                return f"{letter} is an argument or a letter already"
+            if (parts := adjoined(stands)) is None:
+                return f"its letter {letter} is {stands!s:.40}; a letter is sin, cos or sqrt of something, or pi"
+            if more := parts[1].free_symbols - known:
+                return f"its letter {letter} has {', '.join(sorted(map(str, more)))}, which it does not know there"
+            known.add(letter)
         if len(self.expressions) != len(self.outputs):
             return f"it has {len(self.outputs)} outputs and {len(self.expressions)} expressions"
         if self.rows_of_three and len(self.outputs) % 3:
             return f"its {len(self.outputs)} outputs are no rows of three"
         if strange := [e for e in self.expressions if not isinstance(e, sp.Expr)]:
             return f"its expression {strange[0]!r:.40} is none of SymPy"
-        found = set().union(*(e.free_symbols for e in self.expressions)) - set(self.inputs)
-        if found:
+        if found := set().union(*(e.free_symbols for e in self.expressions)) - known:
             return f"its expressions have {', '.join(sorted(map(str, found)))}, which is no argument"
         return None
 
@@ -109,3 +125,14 @@ class Kernel:
     def inputs(self) -> tuple[sp.Symbol, ...]:
         """The flat arguments."""
         return tuple(symbol for _, symbols in self.groups for symbol in symbols)
+
+
+def adjoined(stands: sp.Expr) -> tuple[str, sp.Expr] | None:
+    """What a letter stands for, as the name of a function and its argument, 1 for π; None for anything else."""
+    if stands is sp.pi:
+        return "pi", sp.S.One
+    if isinstance(stands, sp.sin | sp.cos):
+        return type(stands).__name__, stands.args[0]
+    if isinstance(stands, sp.Pow) and stands.exp == sp.S.Half:
+        return "sqrt", stands.base
+    return None

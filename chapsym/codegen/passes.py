@@ -9,7 +9,7 @@ from functools import cache
 import sympy as sp
 from sympy.core.sorting import default_sort_key
 
-from .kernels import Kernel
+from .kernels import Kernel, adjoined
 from .printer import BALANCED, POWERS
 
 Assignments = list[tuple[sp.Symbol, sp.Expr]]
@@ -26,7 +26,7 @@ PASSES = (FACTORED, COMMON, POWERS, BALANCED)
 def lower(kernel: Kernel, passes: tuple[str, ...] = PASSES) -> tuple[Assignments, list[sp.Expr]]:
     """The assignments of a kernel, in order, and its outputs by their names."""
     steps, outputs = kernel.steps if FACTORED in passes else ([], kernel.expressions)
-    taken = {s.name for s in (*kernel.inputs, *(symbol for names, _ in steps for symbol in names))}
+    taken = {s.name for s in (*kernel.inputs, *kernel.letters, *(symbol for names, _ in steps for symbol in names))}
     fresh = (s for s in sp.numbered_symbols("t") if s.name not in taken)
     done: Assignments = []
     for names, values in steps:
@@ -68,10 +68,16 @@ def _name_bases(
     return named, [name(expr) for expr in rest]
 
 
-def operations(lowered: tuple[Assignments, list[sp.Expr]]) -> int:
-    """The number of + - * / that the text has, each power as its products."""
-    terms, rest = lowered
-    return sum(_count(e) for e in (*(e for _, e in terms), *rest))
+def letters(kernel: Kernel) -> list[tuple[sp.Symbol, str, sp.Expr]]:
+    """The letters of a kernel, each with the function and the argument that it stands for."""
+    found = ((letter, adjoined(stands)) for letter, stands in kernel.letters.items())
+    return [(letter, *parts) for letter, parts in found if parts]
+
+
+def operations(kernel: Kernel, chosen: tuple[str, ...] = PASSES) -> int:
+    """The number of + - * / that the text has, each power as its products, and of other functions."""
+    terms, rest = lower(kernel, chosen)
+    return sum(map(_count, (*(e for _, e in terms), *rest))) + sum(1 + _count(x) for _, _, x in letters(kernel))
 
 
 def _count(expr: sp.Expr) -> int:
@@ -81,5 +87,5 @@ def _count(expr: sp.Expr) -> int:
 
 def saved(kernel: Kernel) -> dict[str, int]:
     """Operations without each pass, less those with all: what the pass saves in this kernel."""
-    full = operations(lower(kernel))
-    return {p: operations(lower(kernel, tuple(x for x in PASSES if x != p))) - full for p in PASSES}
+    full = operations(kernel)
+    return {p: operations(kernel, tuple(x for x in PASSES if x != p)) - full for p in PASSES}

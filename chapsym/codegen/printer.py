@@ -15,6 +15,8 @@ class NotStraightLine(ValueError):
     """The expression needs more than + - * / and integers."""
 
 
+#: What has sin, cos, sqrt and pi for numbers of every type.
+FUNCTIONS = "chapsym.numbers.functions"
 #: Print an integer power as a product, and name its base.
 POWERS = "powers"
 #: Print a sum as a balanced tree, so that fewer operations wait for each other.

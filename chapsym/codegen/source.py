@@ -10,8 +10,10 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
+from .printer import FUNCTIONS
+
 #: Packages of which a module imports: what is imported from them is not read.
-OUTSIDE = ("math", "numpy", "typing", "collections.abc")
+OUTSIDE = ("math", "numpy", "typing", "collections.abc", FUNCTIONS)
 
 
 class NotConstant(ValueError):

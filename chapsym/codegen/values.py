@@ -1,15 +1,18 @@
 """The values of kernels and programs at a rational point: they survive another order of the text."""
 
+import ast
 import hashlib
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 from types import ModuleType
+from typing import Any
 
 import sympy as sp
 
 from . import ir
 from .kernels import Kernel
+from .passes import letters
 from .programs import Program
 
 DIGITS = 40
@@ -28,19 +31,31 @@ def decimal(value: Fraction | sp.Rational) -> str:
 
 @cache
 def fingerprint(kernel: Kernel) -> list[str]:
-    """The values of the expressions at the rational point."""
-    point = {symbol: sp.Rational(at(symbol.name)) for symbol in kernel.inputs}
-    return [decimal(e.xreplace(point)) for e in kernel.expressions]
+    """The values of the expressions at the rational point, letters with values of their own, and of what these are."""
+    point = {symbol: sp.Rational(at(symbol.name)) for symbol in (*kernel.inputs, *kernel.letters)}
+    values = [decimal(e.xreplace(point)) for e in kernel.expressions]
+    return values + [f"{function} {decimal(of.xreplace(point))}" for _, function, of in letters(kernel)]
 
 
 def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
     """The same values from the generated text, run on fractions."""
-    result = _function(kernel.name, text)(*(at(symbol.name) for symbol in kernel.inputs))
-    return [decimal(value) for value in (result if isinstance(result, tuple) else (result,))]
+    module, found = ast.parse(text), list[str]()
+    module.body = [node for node in module.body if not isinstance(node, ast.ImportFrom)]
+    for node in ast.walk(module):
+        if isinstance(node, ast.Assign) and isinstance(call := node.value, ast.Call):
+            call.args[:0] = [ast.Constant(ast.unparse(part)) for part in (call.func, *node.targets)]
+            call.func = ast.Name("letter", ast.Load())
+
+    def letter(function: str, name: str, *of: Fraction) -> Fraction:
+        found.append(f"{function} {decimal(Fraction(1) if function == 'pi' else of[0])}")
+        return at(name)
+
+    run = _function(kernel.name, ast.unparse(ast.fix_missing_locations(module)), letter=letter)
+    result = run(*(at(symbol.name) for symbol in kernel.inputs))
+    return [decimal(value) for value in (result if isinstance(result, tuple) else (result,))] + found
 
 
-def _function(name: str, text: str) -> Callable:
-    scope: dict = {}
+def _function(name: str, text: str, **scope: Any) -> Callable:
     exec(compile(text, f"{name}.py", "exec"), scope)  # our own text, never a user's
     return scope[name]
 

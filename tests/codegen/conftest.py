@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from pendulum import CLAIMS, GROUPS, KERNELS, SOLVED
 
 from chapsym import checker
 from chapsym.codegen import build
@@ -36,3 +37,21 @@ def copy(tmp_path):
     place = tmp_path / "generated"
     shutil.copytree(build.folder(), place, ignore=shutil.ignore_patterns("__pycache__"))
     return place
+
+
+@pytest.fixture
+def register(tmp_path, request):
+    """Writes the register of the pendulum; each test has ids of its own, as one process knows an id once."""
+    identity = "own-" + "".join(filter(str.isalnum, request.node.name))[-24:]
+
+    def write(carrier=SOLVED, groups=GROUPS, expression="pull()", claims=CLAIMS, kernels=KERNELS):
+        folder = tmp_path / "pendulum"
+        folder.mkdir(exist_ok=True)
+        (folder / "claims.py").write_text(claims.replace("{id}", identity), encoding="utf-8")
+        carrier = carrier.format(id=identity)
+        (folder / "kernels.py").write_text(
+            kernels.format(carrier=carrier, groups=groups, expression=expression), encoding="utf-8"
+        )
+        return folder
+
+    return write

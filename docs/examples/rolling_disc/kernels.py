@@ -1,12 +1,15 @@
 """What the disc runs on: its accelerations, the rates of its angular velocity, and the velocity of its centre."""
 
+import sympy as sp
+
 from chapsym.codegen import Kernel, left, right
 
 from .disc import LINEAR, a, accelerations, c, d, g, r, s, u
 from .kane import spin_rates
 
-RATES, SPIN = ("rates", d), ("spin", u)
-LEAN = ("lean", (s[1], c[1]))
+q2 = sp.Symbol("q2")
+LEANS = {s[1]: sp.sin(q2), c[1]: sp.cos(q2)}
+LEAN, RATES, SPIN = ("lean", (q2,)), ("rates", d), ("spin", u)
 RADIUS, GRAVITY = ("radius", (r,)), ("gravity", (g,))
 
 
@@ -23,6 +26,7 @@ KERNELS = [
         (LEAN, RATES, RADIUS, GRAVITY),
         ("a1", "a2", "a3"),
         accelerations,
+        letters=LEANS,
     ),
     Kernel(
         "spin_rates",
@@ -35,6 +39,7 @@ KERNELS = [
         (LEAN, SPIN, RADIUS, GRAVITY),
         ("b1", "b2", "b3"),
         spin_rates,
+        letters=LEANS,
     ),
     Kernel(
         "velocity",

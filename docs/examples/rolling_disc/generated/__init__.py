@@ -6,7 +6,7 @@ from .velocity import velocity
 
 # name: (function, (argument group, length) ..., shape of the result)
 TABLE = {
-    "accelerations": (accelerations, (('lean', 2), ('rates', 3), ('radius', 1), ('gravity', 1)), (3,)),
-    "spin_rates": (spin_rates, (('lean', 2), ('spin', 3), ('radius', 1), ('gravity', 1)), (3,)),
+    "accelerations": (accelerations, (('lean', 1), ('rates', 3), ('radius', 1), ('gravity', 1)), (3,)),
+    "spin_rates": (spin_rates, (('lean', 1), ('spin', 3), ('radius', 1), ('gravity', 1)), (3,)),
     "velocity": (velocity, (('spin', 3), ('radius', 1)), (2,)),
 }

@@ -1,20 +1,25 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: I-a1.  Operations: 31.  SymPy 1.14.0.
+Proved by: I-a1.  Operations: 33.  SymPy 1.14.0.
 Expression: sha256 0f159213b1968f9442fbaf2701374fd3b677df3261cbccb88385bf08450800d9.
 Certificate of I-a1: sha256 e55a0633b57f0a4a7463038fb646bd7d29d4f49dfe05facde0daac0aad273730.
 """
 
+from chapsym.numbers.functions import cos, sin
 
-def accelerations(s2, c2, d1, d2, d3, r, g):
+
+def accelerations(q2, d1, d2, d3, r, g):
     """The second derivatives of heading, lean and turn, in the rates of the angles.
 
-    lean: s2, c2
+    lean: q2
     rates: d1, d2, d3
     radius: r
     gravity: g
     Returns a1, a2, a3.
     """
+    # letters
+    s2 = sin(q2)
+    c2 = cos(q2)
     # intermediate terms
     t0 = d2 * d3
     t1 = c2 * r

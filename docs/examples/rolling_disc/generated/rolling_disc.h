@@ -8,12 +8,10 @@ extern "C" {
 #endif
 
 /* The second derivatives of heading, lean and turn, in the rates of the angles. result: a1, a2, a3. */
-void rolling_disc_accelerations(const double lean[2], const double rates[3], double radius, double gravity, double
-    result[3]);
+void rolling_disc_accelerations(double lean, const double rates[3], double radius, double gravity, double result[3]);
 
 /* The derivatives of the angular velocity along L.x, L.y, L.z. result: b1, b2, b3. */
-void rolling_disc_spin_rates(const double lean[2], const double spin[3], double radius, double gravity, double
-    result[3]);
+void rolling_disc_spin_rates(double lean, const double spin[3], double radius, double gravity, double result[3]);
 
 /* The velocity of the centre along L.x and L.y, for which the disc does not slip. result: v1, v2. */
 void rolling_disc_velocity(const double spin[3], double radius, double result[2]);

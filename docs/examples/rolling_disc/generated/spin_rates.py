@@ -1,22 +1,27 @@
 """Written by `chapsym codegen`: do not edit; change the derivation and generate again.
 
-Proved by: K-u1, K-u2, K-u3.  Operations: 40.  SymPy 1.14.0.
+Proved by: K-u1, K-u2, K-u3.  Operations: 42.  SymPy 1.14.0.
 Expression: sha256 56fbc59f37670fe1b48c9c7d42cfe8283aae1f14b7199dc56cb18820b7ab644a.
 Certificate of K-u1: sha256 a9442e43d09ac7362ce106d36c42be4ff12166683d3eade3852869e7abde7edd.
 Certificate of K-u2: sha256 62e9d1d99c940a5cf4916984dd9dd12250e2425ce6279bd05a5ce752302fdbd9.
 Certificate of K-u3: sha256 3bdf586b42b43a6a43d1344803a61ea21c9f232fb57f8ea1a1dd42f6aadaa882.
 """
 
+from chapsym.numbers.functions import cos, sin
 
-def spin_rates(s2, c2, u1, u2, u3, r, g):
+
+def spin_rates(q2, u1, u2, u3, r, g):
     """The derivatives of the angular velocity along L.x, L.y, L.z.
 
-    lean: s2, c2
+    lean: q2
     spin: u1, u2, u3
     radius: r
     gravity: g
     Returns b1, b2, b3.
     """
+    # letters
+    s2 = sin(q2)
+    c2 = cos(q2)
     # intermediate terms
     t0 = 1 / c2
     t1 = r * t0

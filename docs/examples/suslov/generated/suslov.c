@@ -1,5 +1,6 @@
 /* suslov.h: compile it with -ffp-contract=off.
  * Written by `chapsym codegen`: do not edit; change the derivation and generate again. */
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 

@@ -1,0 +1,132 @@
+"""Letters of a kernel: names that it has for the sine, cosine or square root of an expression, or for π.
+
+Of what they are the checker knows the relations sin² + cos² = 1, where both have the same argument, and √x² = x.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from .form import chosen, distinct, many, sized, text
+from .interval import Rejected
+from .polynomial import Quotient, Ring
+from .rational import rate, with_powers
+from .trees import check_tree, names_in, value
+
+FUNCTIONS = ("sin", "cos", "sqrt", "pi")
+#: Where a text imports them from.
+MODULE = "chapsym.numbers.functions"
+
+
+class Letter(NamedTuple):
+    """A letter, the function, and its argument, which is 1 for π."""
+
+    name: str
+    function: str
+    of: Quotient
+
+
+def check_form(rows: Any, inputs: Sequence[str], where: str) -> list[str]:
+    """The names of letters, [name, function, tree]; raises Rejected for what has not that form."""
+    known = list(inputs)
+    for row in many(rows, where):
+        sized(row, 3, f"a letter of {where}")
+        name, function, tree = row
+        text(name, f"a letter of {where}")
+        chosen(function, FUNCTIONS, f"a letter of {where}")
+        check_tree(tree, names_in(tree), where)
+        if strange := names_in(tree) - set(known):
+            raise Rejected(f"{where} has a letter of {min(strange)!a:.40}, which is not known there")
+        known.append(name)
+    distinct(known, where)
+    return known[len(inputs) :]
+
+
+def read(rows: Sequence[Any], ring: Ring) -> list[Letter]:
+    """The letters, in a ring that has them as variables."""
+    return [Letter(name, function, value(tree, ring.names(), ring.number)) for name, function, tree in rows]
+
+
+def relations(letters: Sequence[Letter], ring: Ring) -> list[Quotient]:
+    """What holds for the letters, as polynomials that vanish."""
+    found = []
+    for letter in letters:
+        if (square := _square(letter, letters, ring)) is not None:
+            found.append(Quotient((ring.names()[letter.name] ** 2 - square).numerator, 1, {}))
+    return found
+
+
+def follows(relation: Quotient, letters: Sequence[Letter]) -> bool:
+    """Whether a relation has no letter, or is 0 by those of the letters."""
+    ring = relation.numerator.ring
+    if not any(rate(relation, {x.name: ring.number(Fraction(1))}).numerator.terms for x in letters):
+        return True
+    for letter in reversed(letters):  # whose argument has earlier ones
+        square = _square(letter, letters, ring)
+
+        def power(name: str, n: int, letter: Letter = letter, square: Quotient | None = square) -> Quotient:
+            own = ring.names()[name]
+            return own**n if name != letter.name or square is None else own ** (n % 2) * square ** (n // 2)
+
+        relation = with_powers(relation.numerator, power)
+    return not relation.numerator.terms
+
+
+def check_moves(letters: Sequence[Letter], moves: Sequence[Mapping[str, Quotient]], where: str) -> None:
+    """Raises Rejected if variables move at rates with which a letter is not any more what it stands for."""
+    for move in moves:
+        for letter in letters:
+            ring = letter.of.numerator.ring
+            own, zero = ring.names()[letter.name], ring.number(Fraction(0))
+            inner, found = rate(letter.of, move), move.get(letter.name, zero)
+            if letter.function == "sqrt":
+                wrong = own * found + own * found - inner
+            elif letter.function == "pi" or not inner.numerator.terms:
+                wrong = found
+            elif (other := _other(letter, letters)) is None:
+                raise Rejected(f"{where} moves the letter {letter.name}, whose derivative is no letter")
+            else:
+                slope = ring.names()[other.name] * inner
+                wrong = found - slope if letter.function == "sin" else found + slope
+            if wrong.numerator.terms:
+                raise Rejected(f"{where} moves the letter {letter.name} otherwise than what it stands for")
+
+
+def imported(node: ast.stmt, where: str) -> set[str]:
+    """The functions that a text imports; raises Rejected for any other statement."""
+    names = node.names if isinstance(node, ast.ImportFrom) and (node.module, node.level) == (MODULE, 0) else []
+    if names and all(one.name in FUNCTIONS and one.asname is None for one in names):
+        return {one.name for one in names}
+    raise Rejected(f"{where} has more than a docstring, functions of {MODULE} and one function")
+
+
+def check_names(function: ast.FunctionDef, known: set[str], where: str) -> None:
+    """Raises Rejected if a function calls what is not imported, or has a name of these for something else."""
+    for node in ast.walk(function):
+        if isinstance(node, ast.Call) and not (isinstance(node.func, ast.Name) and node.func.id in known):
+            raise Rejected(f"{where} calls what it does not import")
+        if isinstance(node, ast.Call) and (node.keywords or any(isinstance(x, ast.Starred) for x in node.args)):
+            raise Rejected(f"{where} has a call that is none of numbers")
+        stored = isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load)
+        name = node.arg if isinstance(node, ast.arg) else node.id if isinstance(node, ast.Name) and stored else ""
+        if name in FUNCTIONS:
+            raise Rejected(f"{where} has {name} as a name of something else")
+
+
+def _square(letter: Letter, letters: Sequence[Letter], ring: Ring) -> Quotient | None:
+    """The square of a letter; of a cosine where its sine is a letter, too."""
+    if letter.function == "sqrt":
+        return letter.of
+    if letter.function == "cos" and (other := _other(letter, letters)) is not None:
+        return ring.number(Fraction(1)) - ring.names()[other.name] ** 2
+    return None
+
+
+def _other(letter: Letter, letters: Sequence[Letter]) -> Letter | None:
+    """The sine for a cosine, the cosine for a sine."""
+    function = {"sin": "cos", "cos": "sin"}.get(letter.function)
+    same = (x for x in letters if x.function == function and not (x.of - letter.of).numerator.terms)
+    return next(same, None)
