@@ -1,0 +1,118 @@
+"""chapsym lab: what methods make of mechanical systems, as a table, JSON or a page."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .app import app
+from .options import Json
+from .output import fail, note, print_json
+
+
+@app.command()
+def lab(
+    files: Annotated[list[Path], typer.Argument(help="Files of systems, SYSTEM = System(...), or folders of them.")],
+    method: Annotated[
+        list[str] | None, typer.Option(metavar="NAME", help="A method; may be given more than once; all by default.")
+    ] = None,
+    steps: Annotated[int, typer.Option(min=1, max=100_000_000, help="Steps of each run.")] = 100_000,
+    length: Annotated[float | None, typer.Option(min=0, help="Of a step; that of each system by default.")] = None,
+    flags: Annotated[bool, typer.Option(help="Also say whether the constraints are integrable.")] = True,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="A .json, which is gone on with where it is there; or an .html.")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Measure methods on mechanical systems: energy, constraints, order, cost.
+
+    A file of a system is Python, and is run. Example: chapsym lab docs/examples/systems -o systems.html
+    """
+    from chapsym.mechanics import METHODS, BadSystem, flag, loaded
+
+    if output is not None and output.suffix not in (".json", ".html"):
+        fail(f"{output} must end in .json or .html", 2)
+    methods = method or list(METHODS)
+    if strange := [name for name in methods if name not in METHODS]:
+        fail(f"{strange[0]!r} is no method; those are {', '.join(METHODS)}", 2)
+    done: list[dict[str, Any]] = _there(output)
+    constraints: dict[str, str] = {}
+    try:
+        systems = [loaded(path) for path in _files(files)]
+        for system in systems:
+            if flags:
+                constraints[system.name] = str(flag(system))
+            if not as_json:
+                print(f"{system.name}" + (f": {constraints[system.name]}" if flags else ""))
+                print("  " + "  ".join(f"{name:>{width}}" for name, width in COLUMNS))
+            for name in methods:
+                cell = _cell(system, name, steps, length, done)
+                if not as_json:
+                    print(_row(cell))
+                if output is not None and output.suffix == ".json":
+                    _write(output, json.dumps({"cells": done}, allow_nan=False))
+    except BadSystem as error:
+        fail(str(error), 2)
+    names = {system.name for system in systems}
+    shown = [cell for cell in done if cell["system"] in names and cell["method"] in methods and cell["steps"] == steps]
+    if output is not None and output.suffix == ".html":
+        from chapsym.show.lab import page
+
+        _write(output, page(shown, {name: m.title for name, m in METHODS.items()}, constraints))
+    if as_json:
+        print_json({"constraints": constraints, "cells": shown})
+    elif output is not None:
+        note(f"wrote {output}")
+
+
+COLUMNS = (("method", 9), ("order", 6), ("energy", 11), ("oscillation", 11), ("drift", 10), ("constraint", 10), ("µs/step", 8))
+
+
+def _row(cell: dict[str, Any]) -> str:
+    if cell["failed"]:
+        return f"  {cell['method']:>9}  {cell['failed']}"
+    order = "exact" if cell["order"] is None else f"{cell['order']:.2f}"
+    kept = "proved 0" if cell["kept"] else f"{cell['constraint']:.1e}"
+    return (
+        f"  {cell['method']:>9}  {order:>6}  {cell['energy']:>11.6g}  {cell['oscillation']:>11.1e}  {cell['drift']:>+10.1e}  "
+        f"{kept:>10}  {cell['microseconds']:>8.2f}"
+    )
+
+
+def _cell(system: Any, method: str, steps: int, length: float | None, done: list[dict[str, Any]]) -> dict[str, Any]:
+    """The cell that is there already, of the same system as a file, or one that is measured now."""
+    from chapsym.mechanics import measured
+
+    key = system.digest(length)
+    for cell in done:
+        if (cell["key"], cell["method"], cell["steps"]) == (key, method, steps):
+            return cell
+    cell = {"key": key, **measured(system, method, steps, length).data()}
+    done.append(cell)
+    return cell
+
+
+def _there(output: Path | None) -> list[dict[str, Any]]:
+    if output is None or output.suffix != ".json" or not output.exists():
+        return []
+    try:
+        cells = json.loads(output.read_text(encoding="utf-8"))["cells"]
+        return [cell for cell in cells if cell["key"] and cell["method"] and cell["steps"]]
+    except (OSError, ValueError, KeyError, TypeError):
+        fail(f"{output} is not what chapsym lab has written: name another file", 2)
+
+
+def _files(places: list[Path]) -> list[Path]:
+    found = []
+    for place in places:
+        found += sorted(p for p in place.glob("*.py") if not p.name.startswith("_")) if place.is_dir() else [place]
+    if not found:
+        fail(f"{places[0]} has no file of a system", 2)
+    return found
+
+
+def _write(output: Path, text: str) -> None:
+    from chapsym.files import write_whole
+
+    write_whole(output, lambda stream: stream.write(text.encode()))

@@ -1,0 +1,24 @@
+"""Mechanical systems with constraints on their velocities: a Lagrangian and a constraint, to equations, maps, verdicts.
+
+>>> from sympy import symbols
+>>> from chapsym.mechanics import System, dot, flag
+>>> x, y, z = symbols("x y z")
+>>> particle = System("particle", (x, y, z), sum(dot(q) ** 2 for q in (x, y, z)) / 2, [dot(z) - y * dot(x)])
+>>> flag(particle).growth
+(2, 3)
+"""
+
+from .attitude import Quaternion, Turned
+from .brackets import Flag, flag
+from .lab import Cell, measured
+from .methods import METHODS, Method, Scheme
+from .motion import Motion, NotSolved, Runner, moved
+
+
+
+from .system import BadSystem, System, dot, loaded, rate
+
+__all__ = [
+    "METHODS", "BadSystem", "Cell", "Flag", "Method", "Motion", "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "dot", "flag", "loaded",
+    "measured", "moved", "rate",
+]  # fmt: skip

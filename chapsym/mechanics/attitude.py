@@ -1,0 +1,98 @@
+"""Attitudes: by angles about axes, one after the other, or by a unit quaternion; each with its angular velocity."""
+
+from functools import cached_property
+from typing import Any
+
+import sympy as sp
+
+from .system import dot
+
+
+class Turned:
+    """A body that is turned about its own axes, one after the other.
+
+    Parameters
+    ----------
+    *turns : tuple of (str, sympy.Symbol)
+        An axis "x", "y" or "z" of the body, and the angle, a coordinate; right-handed.
+
+    Attributes
+    ----------
+    rotation : sympy.Matrix
+        From the axes of the body to those of space.
+    spin : sympy.Matrix
+        The angular velocity in the axes of the body.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> heading, lean = symbols("heading lean")
+    >>> Turned(("z", heading), ("x", lean)).spin.T
+    Matrix([[lean_dot, heading_dot*sin(lean), heading_dot*cos(lean)]])
+    """
+
+    def __init__(self, *turns: tuple[str, sp.Symbol]) -> None:
+        self.rotation, self.spin = sp.eye(3), sp.zeros(3, 1)
+        for axis, angle in turns:
+            one = _turn(axis, angle)
+            self.rotation = self.rotation * one
+            self.spin = one.T * self.spin
+            self.spin["xyz".index(axis)] += dot(angle)
+
+
+def _turn(axis: str, angle: Any) -> sp.Matrix:
+    c, s, i = sp.cos(angle), sp.sin(angle), "xyz".index(axis)
+    j, k = (i + 1) % 3, (i + 2) % 3
+    made = sp.eye(3)
+    made[j, j], made[j, k], made[k, j], made[k, k] = c, -s, s, c
+    return made
+
+
+class Quaternion:
+    """A body whose attitude is a unit quaternion, scalar first: four coordinates, of which `norm` - 1 vanishes.
+
+    Parameters
+    ----------
+    name : str
+        The coordinates are called this with 0 to 3 behind it.
+
+    Attributes
+    ----------
+    coordinates : tuple of sympy.Symbol
+    norm, swelling : sympy.Expr
+        |q|², and its rate, halved: 0 in a motion, so that a multiple of its square may stand in a Lagrangian, whose mass
+        matrix would else be singular.
+
+    Examples
+    --------
+    >>> Quaternion("q").spin[2]
+    2*q0*q3_dot - 2*q0_dot*q3 - 2*q1*q2_dot + 2*q1_dot*q2
+    """
+
+    def __init__(self, name: str) -> None:
+        self.coordinates = sp.symbols(f"{name}0:4")
+        self._scalar, self._vector = self.coordinates[0], sp.Matrix(self.coordinates[1:])
+        self._rate, self._rates = dot(self._scalar), sp.Matrix([dot(x) for x in self.coordinates[1:]])
+        self.norm = sum(x**2 for x in self.coordinates)
+        self.swelling = sum(x * dot(x) for x in self.coordinates)
+
+    @cached_property
+    def spin(self) -> sp.Matrix:
+        """The angular velocity in the axes of the body."""
+        return self._doubled(-1)
+
+    @cached_property
+    def spin_in_space(self) -> sp.Matrix:
+        """The angular velocity in the axes of space."""
+        return self._doubled(1)
+
+    def _doubled(self, sign: int) -> sp.Matrix:
+        half = self._scalar * self._rates - self._rate * self._vector + sign * self._vector.cross(self._rates)
+        return (2 * half).applyfunc(sp.expand)
+
+    @cached_property
+    def rotation(self) -> sp.Matrix:
+        """From the axes of the body to those of space."""
+        skew = self._vector.cross(sp.eye(3)[:, 0]).row_join(self._vector.cross(sp.eye(3)[:, 1]))
+        skew = skew.row_join(self._vector.cross(sp.eye(3)[:, 2]))
+        return sp.eye(3) + 2 * (self._scalar * skew + skew * skew)

@@ -1,0 +1,174 @@
+"""Whether constraints are integrable: the flag of brackets of the fields that they allow, with its ranks, exactly.
+
+The fields X with A X = 0 span D₁, and D_{k+1} has the brackets [X, Y] of X in D₁ and Y in D_k, too.  By Frobenius' theorem
+the constraints are those of n - r functions of the coordinates where D₁ = D₂ has the dimension r; by Chow's theorem
+every place is reached from every other if the flag ends with all n dimensions.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import islice, product
+from typing import Any
+
+import sympy as sp
+
+from chapsym.prove import Examples
+from chapsym.prove.points import some
+
+from .algebra import Algebra
+from .system import BadSystem, System
+
+#: Points at which ranks are looked at.
+MOST_POINTS = 12
+
+
+@dataclass(frozen=True)
+class Flag:
+    """What the brackets of a system's constraints span, at almost all places.
+
+    Attributes
+    ----------
+    growth : tuple of int
+        The dimensions of D₁, D₂, ..., until they grow no more: each is proved, by a minor that is not 0 at `point`, and
+        by those that vanish in the ring of the system.
+    fields : tuple of tuple of sympy.Expr
+        Fields that span D₁, in letters.
+    condition : sympy.Expr
+        A factor that is not 0 where the dimensions are these; elsewhere they may be others.
+    point : mapping
+        The exact point.
+    dimension : int
+        That of the places: n, less the holonomic constraints.
+    """
+
+    growth: tuple[int, ...]
+    fields: tuple[tuple[sp.Expr, ...], ...]
+    condition: sp.Expr
+    point: dict[str, str]
+    dimension: int
+
+    @property
+    def integrable(self) -> bool:
+        """Whether the constraints are holonomic in disguise."""
+        return len(self.growth) == 1
+
+    @property
+    def functions(self) -> int:
+        """How many functions of the coordinates stay constant."""
+        return self.dimension - self.growth[-1]
+
+    def __str__(self) -> str:
+        dimensions = ", ".join(map(str, self.growth))
+        if self.integrable:
+            what = "integrable" if self.functions else "no constraint"
+        else:
+            what = "completely nonholonomic" if not self.functions else "nonholonomic"
+        kept = f"; {self.functions} functions of the coordinates are constant" if self.functions else ""
+        return f"{what}: the flag has the dimensions {dimensions} of {self.dimension}{kept}"
+
+
+def flag(system: System) -> Flag:
+    """The flag of brackets of the velocities that the constraints allow.
+
+    Parameters
+    ----------
+    system : System
+        Its coordinates may stand in sin, cos and square roots.
+
+    Returns
+    -------
+    Flag
+        With proved dimensions.
+
+    Raises
+    ------
+    BadSystem
+        If no rational point of its ring is found, or if the constraints are dependent there.
+
+    Examples
+    --------
+    >>> from sympy import cos, sin, symbols
+    >>> from chapsym.mechanics import System, dot
+    >>> x, y, a = symbols("x y a")
+    >>> edge = System("edge", (x, y, a), dot(x)**2 + dot(y)**2 + dot(a)**2, [cos(a) * dot(y) - sin(a) * dot(x)])
+    >>> print(flag(edge))
+    completely nonholonomic: the flag has the dimensions 2, 3 of 3
+    >>> print(flag(System("pulled", (x, y), dot(x)**2 + dot(y)**2, [x * dot(x) + y * dot(y)])))
+    integrable: the flag has the dimensions 1 of 2; 1 functions of the coordinates are constant
+    """
+    algebra = Algebra(system)
+    points = _points(algebra, system)
+    rows, most = algebra.rows, max(algebra.rows.xreplace(p).rank() for p in points)
+    point = next(p for p in points if rows.xreplace(p).rank() == most)
+    rows = rows.extract(_pivots(rows.xreplace(point).T), list(range(rows.cols)))
+    fields = [algebra.normal(field) for field in _kernel(rows, rows.xreplace(point))]
+    span, newest, growth = list(fields), list(fields), [len(fields)]
+    dimension = len(system.coordinates) - len(system.holonomic)
+    while newest and len(span) < dimension:
+        before, newest = newest, []
+        for x, y in product(fields, before):
+            bracket = algebra.normal(_bracket(x, y, algebra))
+            larger = [*span, bracket]
+            better = next((p for p in (point, *points) if _matrix(larger).xreplace(p).rank() == len(larger)), None)
+            if better is not None:
+                span, point, newest = larger, better, [*newest, bracket]
+            elif not _inside(span, bracket, point, algebra):
+                raise BadSystem(f"{system.name}: a bracket is in the span at {len(points)} points, but this is not proved")
+        growth += [len(span)] if newest else []
+    minor = _matrix(span).extract(list(range(len(span))), _pivots(_matrix(span).xreplace(point)))
+    condition = sp.factor(algebra.normal([minor.det(method="berkowitz")])[0])
+    shown = {str(x): str(v) for x, v in point.items()}
+    return Flag(tuple(growth), tuple(map(tuple, fields)), condition, shown, dimension)
+
+
+def _points(algebra: Algebra, system: System) -> list[dict[sp.Symbol, sp.Rational]]:
+    """Exact points of the ring of a system; raises BadSystem where none is found."""
+    found = list(islice(some(algebra.ring, Examples()), MOST_POINTS))
+    if not found:
+        raise BadSystem(f"{system.name}: no rational point is found where the constraints on places hold")
+    return found
+
+
+def _kernel(rows: sp.Matrix, at_point: sp.Matrix) -> list[list[sp.Expr]]:
+    """Fields that span the velocities v with A v = 0, by Cramer's rule, from independent rows A, and these at a point."""
+    columns = _pivots(at_point)
+    square = rows.extract(list(range(rows.rows)), columns)
+    whole, adjugate = square.det(method="berkowitz"), square.adjugate()
+    fields = []
+    for j in (j for j in range(rows.cols) if j not in columns):
+        field = [sp.S.Zero] * rows.cols
+        field[j] = whole
+        for i, value in zip(columns, -adjugate * rows[:, j], strict=True):
+            field[i] = value
+        fields.append(field)
+    return fields
+
+
+def _pivots(matrix: sp.Matrix) -> list[int]:
+    """Columns that are independent, of a matrix of numbers."""
+    return list(matrix.rref()[1])
+
+
+def _matrix(vectors: Sequence[Sequence[sp.Expr]]) -> sp.Matrix:
+    return sp.Matrix([list(v) for v in vectors])
+
+
+def _bracket(x: Sequence[sp.Expr], y: Sequence[sp.Expr], algebra: Algebra) -> list[sp.Expr]:
+    """[X, Y] = (∂Y) X - (∂X) Y."""
+    q = algebra.system.coordinates
+
+    def along(field: Sequence[sp.Expr], of: sp.Expr) -> sp.Expr:
+        return sum((f * algebra.letters.derivative(of, c) for f, c in zip(field, q, strict=True) if f != 0), sp.S.Zero)
+
+    return [along(x, b) - along(y, a) for a, b in zip(x, y, strict=True)]
+
+
+def _inside(span: Sequence[Any], vector: Sequence[sp.Expr], point: dict[sp.Symbol, Any], algebra: Algebra) -> bool:
+    """Whether a vector is in a span wherever the minor that is not 0 at the point is not: by Kronecker's theorem, all
+    minors that border it are 0."""
+    columns, larger = _pivots(_matrix(span).xreplace(point)), _matrix([*span, vector])
+    for j in (j for j in range(larger.cols) if j not in columns):
+        minor = larger.extract(list(range(larger.rows)), [*columns, j]).det(method="berkowitz")
+        if not algebra.ring.is_zero(minor):
+            return False
+    return True

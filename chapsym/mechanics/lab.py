@@ -1,0 +1,150 @@
+"""What a method makes of a system, measured: its energy over many steps, its constraints, its order, its cost."""
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from .methods import Scheme, _Parts
+from .motion import Motion, NotSolved, Runner
+from .system import System
+
+#: Of all steps, the part at each end whose means are compared; and how many points of the energy a cell keeps.
+END, KEPT = 10, 240
+#: Steps on which the order is measured, and differences that are rounding.
+SHORT, ROUNDING = 16, 1e-12
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A method on a system.
+
+    Attributes
+    ----------
+    system, method : str
+    steps : int
+        That were asked for.
+    length : float
+        Of a step.
+    energy : float
+        At the first step; of what the other figures of the energy are.
+    oscillation : float
+        The range of the energy in the first tenth of the steps.
+    drift : float
+        The mean energy of the last tenth less that of the first.
+    constraint : float
+        The largest |A v + b|, where the method looks at a step.
+    kept : bool
+        Whether that is 0 by an equation of the method: proved, the figure is rounding.
+    order : float or None
+        That the error shows when the steps are halved; None where it is rounding.
+    microseconds : float
+        Of processor time, a step.
+    failed : str or None
+        Why there are no figures: the step that has no solution.
+    curve : list of [float, float]
+        Time and energy.
+    """
+
+    system: str
+    method: str
+    steps: int
+    length: float
+    energy: float = math.nan
+    oscillation: float = math.nan
+    drift: float = math.nan
+    constraint: float = math.nan
+    kept: bool = False
+    order: float | None = None
+    microseconds: float = math.nan
+    failed: str | None = None
+    curve: tuple[tuple[float, float], ...] = ()
+
+    def data(self) -> dict[str, Any]:
+        """As JSON, which has no NaN."""
+        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()}
+
+    @classmethod
+    def of(cls, data: dict[str, Any]) -> "Cell":
+        """From that."""
+        curve = tuple((float(t), float(e)) for t, e in data["curve"])
+        figures = ("energy", "oscillation", "drift", "constraint", "microseconds")
+        return cls(**{**data, "curve": curve, **{k: math.nan if data[k] is None else data[k] for k in figures}})
+
+
+def measured(system: System, method: str, steps: int = 100_000, length: float | None = None) -> Cell:
+    """What a method makes of a system.
+
+    Parameters
+    ----------
+    system : System
+    method : str
+        One of METHODS.
+    steps : int
+    length : float, optional
+        Of a step; that of the system by default.
+
+    Returns
+    -------
+    Cell
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> from chapsym.mechanics import System, dot, measured
+    >>> x, y, z = symbols("x y z")
+    >>> free = sum(dot(q) ** 2 for q in (x, y, z)) / 2
+    >>> particle = System("particle", (x, y, z), free, [dot(z) - y * dot(x)], start={dot(x): 1, dot(y): "1/2"})
+    >>> cell = measured(particle, "dla", 1000)
+    >>> cell.kept, round(cell.order, 1)
+    (True, 2.0)
+    """
+    runner = Runner(system, method)
+    h = runner.length if length is None else float(length)
+    first = Cell(system.name, method, steps, h, kept=keeps(system, runner.scheme))
+    try:
+        runner.march(1, h)  # what is compiled once
+        motion = runner.march(steps, h)
+        order = _order(system, runner, h)
+    except NotSolved as error:
+        return Cell(**{**asdict(first), "failed": str(error)})
+    return Cell(**{**asdict(first), **_figures(motion), "order": order, "microseconds": 1e6 * motion.seconds / steps})
+
+
+def keeps(system: System, scheme: Scheme) -> bool:
+    """Whether an equation of the method says that the velocities obey the constraints, at each step or after it."""
+    of = _Parts(system)
+    rows = of.kept(of.q, of.v)[: len(system.constraints)]
+    here = dict(zip((*of.q, *of.v), (*scheme.place, *scheme.velocity), strict=True))
+    after = dict(zip(scheme.state, scheme.after, strict=True)) if not scheme.stages else {}
+    return all(_said(at := row.xreplace(here), scheme) or _said(at.xreplace(after), scheme) for row in rows)
+
+
+def _said(row: sp.Expr, scheme: Scheme) -> bool:
+    """Whether a method sets an expression to 0, as it stands or expanded."""
+    if row == 0 or row in scheme.residual:
+        return True
+    expanded = sp.expand(row)
+    return any(sp.expand(e) == expanded for e in scheme.residual if e.free_symbols == row.free_symbols)
+
+
+def _figures(motion: Motion) -> dict[str, Any]:
+    energy, part = motion.energy, max(1, len(motion.energy) // END)
+    some = np.linspace(0, len(energy) - 1, min(KEPT, len(energy))).astype(int)
+    return {
+        "energy": float(energy[0]),
+        "oscillation": float(np.ptp(energy[:part])),
+        "drift": float(energy[-part:].mean() - energy[:part].mean()),
+        "constraint": float(motion.constraint.max()),
+        "curve": tuple((float(motion.time[i]), float(energy[i])) for i in some),
+    }
+
+
+def _order(system: System, runner: Runner, h: float) -> float | None:
+    """The power of the step with which the place changes, from a step, its half and its quarter."""
+    n = len(system.coordinates)
+    ends = [runner.march(SHORT * k, h / k).final[:n] for k in (1, 2, 4)]
+    first, second = (np.abs(a - b).max() for a, b in zip(ends, ends[1:], strict=False))
+    return None if second < ROUNDING else float(np.log2(first / second))

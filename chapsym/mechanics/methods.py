@@ -1,0 +1,236 @@
+"""Methods for systems with constraints on their velocities, as equations for the unknowns of a step.
+
+A state has the coordinates and velocities, or momenta, that a step starts from.  The unknowns are velocities,
+accelerations and multipliers, so that those of one step are near those of the next.  L is the Lagrangian, p = ∂L/∂v,
+f = ∂L/∂q + F with the forces F, A v + b = 0 the constraints, and h the length of a step.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from .system import System
+
+#: The length of a step.
+STEP = sp.Symbol("step_length")
+
+Vector = sp.Matrix
+
+
+@dataclass(frozen=True, eq=False)
+class Scheme:
+    """A method for a system, in symbols.
+
+    Attributes
+    ----------
+    state : tuple of sympy.Symbol
+        What a step starts from: first the coordinates.
+    unknowns : tuple of sympy.Symbol
+        What the equations are solved for.
+    residual : sequence of sympy.Expr
+        What vanishes at a step, as many as there are unknowns.
+    after : sequence of sympy.Expr
+        The next state, by state and unknowns; for an explicit method the rates of the state, at any state.
+    place, velocity : sequence of sympy.Expr
+        Coordinates and velocities at which the step is looked at: its energy, its constraints.
+    start, guess : sequence of sympy.Expr
+        The first state and the first guess of the unknowns, by coordinates and velocities.
+    stages : sequence of sequence of sympy.Rational
+        Of an explicit Runge-Kutta method, the rows of its tableau, then its weights; none for another.
+    """
+
+    state: Sequence[sp.Symbol]
+    unknowns: Sequence[sp.Symbol]
+    residual: Sequence[sp.Expr]
+    after: Sequence[sp.Expr]
+    place: Sequence[sp.Expr]
+    velocity: Sequence[sp.Expr]
+    start: Sequence[sp.Expr]
+    guess: Sequence[sp.Expr]
+    stages: Sequence[Sequence[sp.Rational]] = ()
+
+
+@dataclass(frozen=True)
+class Method:
+    """A method: its name in tables, what it is, its source, and its equations for a system."""
+
+    name: str
+    title: str
+    source: str
+    scheme: Callable[[System], Scheme]
+
+
+class _Parts:
+    """A system's functions at any place and velocity, and the symbols of a scheme."""
+
+    def __init__(self, system: System) -> None:
+        self.system, self.n, self.m = system, len(system.coordinates), system.rows.rows
+        self.q, self.v = Vector(system.coordinates), Vector(system.velocities)
+        self.p = self.symbols("p", self.n)
+
+    def symbols(self, name: str, count: int) -> Vector:
+        """Symbols of the unknowns or of the state."""
+        return Vector(sp.symbols(f"{name}_1:{count + 1}")) if count else Vector([])
+
+    def at(self, of: Vector, q: Vector, v: Vector | None = None) -> Vector:
+        """A function of coordinates, and of velocities, at others."""
+        places: Mapping[sp.Symbol, sp.Expr] = dict(zip(self.q, q, strict=True))
+        if v is not None:
+            places = {**places, **dict(zip(self.v, v, strict=True))}
+        return of.xreplace(places)
+
+    def momenta(self, q: Vector, v: Vector) -> Vector:
+        return self.at(self.system.momenta, q, v)
+
+    def push(self, q: Vector, v: Vector) -> Vector:
+        return self.at(self.system.push, q, v)
+
+    def held(self, q: Vector, multipliers: Vector) -> Vector:
+        """Aᵀλ."""
+        return self.at(self.system.rows.T, q) * multipliers if self.m else sp.zeros(self.n, 1)
+
+    def kept(self, q: Vector, v: Vector, end: Vector | None = None) -> Vector:
+        """A v + b; of holonomic constraints, their values at `end`, where it is given."""
+        rates = self.at(self.system.rows, q) * v + self.at(self.system.offsets, q) if self.m else Vector([])
+        if end is None or not self.system.holonomic:
+            return Vector(rates)
+        first = self.m - len(self.system.holonomic)
+        return Vector([*rates[:first], *self.at(Vector(list(self.system.holonomic)), end)])
+
+
+def discrete(alpha: sp.Rational) -> Callable[[System], Scheme]:
+    """The discrete Lagrange-d'Alembert principle with h L(q + α h u, u), u = (q' - q)/h, the constraint at that place.
+
+    p + h(1 - α) f - ∂L/∂v + A(q)ᵀλ = 0 and p' = ∂L/∂v + h α f, all at (q + α h u, u).
+    """
+
+    def scheme(system: System) -> Scheme:
+        of = _Parts(system)
+        u, multipliers = of.symbols("u", of.n), of.symbols("lam", of.m)
+        place, end = of.q + alpha * STEP * u, of.q + STEP * u
+        momenta, push = of.momenta(place, u), of.push(place, u)
+        balance = of.p + STEP * (1 - alpha) * push - momenta + of.held(of.q, multipliers)
+        return Scheme(
+            (*of.q, *of.p), (*u, *multipliers), [*balance, *of.kept(place, u, end)],
+            [*end, *(momenta + STEP * alpha * push)], list(place), list(u),
+            [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)],
+        )  # fmt: skip
+
+    return scheme
+
+
+def geometric(system: System) -> Scheme:
+    """The geometric nonholonomic integrator: with p⁻ before and p⁺ = p⁻ + Aᵀλ after the reaction at q, the velocity of
+    (p⁻ + p⁺)/2 obeys the constraint at q; then a free step of h L(q + h u/2, u).
+    """
+    of = _Parts(system)
+    u, w, multipliers = of.symbols("u", of.n), of.symbols("w", of.n), of.symbols("lam", of.m)
+    place, end = of.q + STEP * u / 2, of.q + STEP * u
+    momenta, push = of.momenta(place, u), of.push(place, u)
+    held = of.held(of.q, multipliers)
+    residual = [
+        *(of.p + held + STEP * push / 2 - momenta), *(of.momenta(of.q, w) - of.p - held / 2), *of.kept(of.q, w, end)
+    ]  # fmt: skip
+    return Scheme(
+        (*of.q, *of.p), (*u, *w, *multipliers), residual, [*end, *(momenta + STEP * push / 2)], list(of.q), list(w),
+        [*of.q, *system.momenta], [*of.v, *of.v, *([sp.S.Zero] * of.m)],
+    )  # fmt: skip
+
+
+def leapfrog(system: System) -> Scheme:
+    """The nonholonomic leapfrog: half a step of the place, the kick with the reaction there, half a step of the place.
+
+    p = ∂L/∂v(m, u), p' = ∂L/∂v(m, w) = p + h (f(m, u) + f(m, w))/2 + A(m)ᵀλ, A(m)(u + w)/2 + b(m) = 0, m = q + h u/2,
+    q' = m + h w/2.
+    """
+    of = _Parts(system)
+    u, w, multipliers = of.symbols("u", of.n), of.symbols("w", of.n), of.symbols("lam", of.m)
+    place = of.q + STEP * u / 2
+    end, after = place + STEP * w / 2, of.momenta(place, w)
+    kick = STEP * (of.push(place, u) + of.push(place, w)) / 2 + of.held(place, multipliers)
+    residual = [*(of.momenta(place, u) - of.p), *(after - of.p - kick), *of.kept(place, (u + w) / 2, end)]
+    return Scheme(
+        (*of.q, *of.p), (*u, *w, *multipliers), residual, [*end, *after], list(place), list((u + w) / 2),
+        [*of.q, *system.momenta], [*of.v, *of.v, *([sp.S.Zero] * of.m)],
+    )  # fmt: skip
+
+
+def lobatto(system: System) -> Scheme:
+    """SPARK with the Lobatto pair of two stages: velocities V₁ at q and V₂ at q' = q + h(V₁ + V₂)/2, of one momentum P.
+
+    P = p + h f(q, V₁)/2 + A(q)ᵀλ, p' = P + h f(q', V₂)/2 + A(q')ᵀμ, A V₁ + A V₂ = 0 in the mean, and A v' = 0 at the end.
+    """
+    of = _Parts(system)
+    first, last, end = (of.symbols(x, of.n) for x in ("u", "w", "z"))
+    lam, mu = of.symbols("lam", of.m), of.symbols("mu", of.m)
+    place = of.q + STEP * (first + last) / 2
+    middle = of.momenta(of.q, of.v) + STEP * of.push(of.q, first) / 2 + of.held(of.q, lam)
+    finish = middle + STEP * of.push(place, last) / 2 + of.held(place, mu)
+    mean = (of.kept(of.q, first, place) + of.kept(place, last, place)) / 2
+    residual = [
+        *(of.momenta(of.q, first) - middle), *(of.momenta(place, last) - middle), *mean,
+        *(of.momenta(place, end) - finish), *of.kept(place, end),
+    ]  # fmt: skip
+    return Scheme(
+        (*of.q, *of.v), (*first, *last, *end, *lam, *mu), residual, [*place, *end], list(of.q), list(of.v),
+        [*of.q, *of.v], [*of.v, *of.v, *of.v, *([sp.S.Zero] * (2 * of.m))],
+    )  # fmt: skip
+
+
+def midpoint(system: System) -> Scheme:
+    """The implicit midpoint rule for the equations with the accelerations solved for."""
+    of = _Parts(system)
+    a, multipliers = of.symbols("a", of.n), of.symbols("lam", of.m)
+    velocity = of.v + STEP * a / 2
+    place = of.q + STEP * velocity / 2
+    return Scheme(
+        (*of.q, *of.v), (*a, *multipliers), _accelerated(of, a, multipliers, place, velocity),
+        [*(of.q + STEP * velocity), *(of.v + STEP * a)], list(of.q), list(of.v), [*of.q, *of.v],
+        [sp.S.Zero] * (of.n + of.m),
+    )  # fmt: skip
+
+
+def explicit(*stages: Sequence[str]) -> Callable[[System], Scheme]:
+    """An explicit Runge-Kutta method for the equations with the accelerations solved for."""
+
+    def scheme(system: System) -> Scheme:
+        of = _Parts(system)
+        a, multipliers = of.symbols("a", of.n), of.symbols("lam", of.m)
+        return Scheme(
+            (*of.q, *of.v), (*a, *multipliers), _accelerated(of, a, multipliers, of.q, of.v), [*of.v, *a], list(of.q),
+            list(of.v), [*of.q, *of.v], [sp.S.Zero] * (of.n + of.m),
+            [[sp.Rational(x) for x in row] for row in stages],
+        )  # fmt: skip
+
+    return scheme
+
+
+def _accelerated(of: _Parts, a: Vector, multipliers: Vector, place: Vector, velocity: Vector) -> list[sp.Expr]:
+    matrix, right = of.system.equations
+    solved = of.at(matrix, place) * Vector([*a, *multipliers])
+    return list(solved - of.at(right, place, velocity))
+
+
+METHODS: dict[str, Method] = {
+    one.name: one
+    for one in (
+        Method(
+            "dla", "discrete Lagrange-d'Alembert, middle", "J. Cortés, S. Martínez, Nonlinearity 14 (2001) 1365",
+            discrete(sp.S.Half),
+        ),
+        Method("dla-left", "discrete Lagrange-d'Alembert, left end", "the same", discrete(sp.S.Zero)),
+        Method(
+            "gni", "geometric nonholonomic integrator",
+            "S. Ferraro, D. Iglesias, D. Martín de Diego, Nonlinearity 21 (2008) 1911", geometric,
+        ),
+        Method(
+            "leapfrog", "nonholonomic leapfrog", "R. McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283, (4.18)",
+            leapfrog,
+        ),
+        Method("spark", "SPARK, Lobatto of two stages", "L. O. Jay, BIT 43 (2003) 93", lobatto),
+        Method("midpoint", "implicit midpoint rule", "of the equations of motion", midpoint),
+        Method("rk4", "Runge-Kutta of order 4", "of the equations of motion",
+               explicit(["1/2"], ["0", "1/2"], ["0", "0", "1"], ["1/6", "1/3", "1/3", "1/6"])),
+    )
+}  # fmt: skip

@@ -1,0 +1,318 @@
+"""A method run on a system: its kernels, in C where a compiler is there, in Python otherwise; and what it recorded."""
+
+import ctypes
+import shutil
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from chapsym.codegen import Kernel, build, c_files, passes
+
+from .algebra import Letters
+from .methods import METHODS, STEP, Scheme
+from .slope import Steps, differentiated, shared
+from .system import BadSystem, System, number
+
+#: Newton's iteration: rounds at most; the last correction in units of the unknowns, and one that may stay; and how much
+#: one must be smaller than the one before for the derivatives to serve another round.
+MOST_ROUNDS, LAST, STAYS, SHRINKS = 50, 1e-15, 1e-9, 1e-3
+#: The kernels are in steps already.
+PASSES = (passes.FACTORED, *passes.PASSES[2:])
+ROUTINE = Path(__file__).with_name("march.c").read_text(encoding="utf-8")
+
+
+class NotSolved(ArithmeticError):
+    """A step that was not found; the message says which."""
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Steps of a method.
+
+    Attributes
+    ----------
+    time : numpy.ndarray
+        (steps,), the beginnings of the steps that are recorded.
+    place, velocity : numpy.ndarray
+        (steps, n), where the method looks at the step: at its end, or within it.
+    energy : numpy.ndarray
+        (steps,)
+    constraint : numpy.ndarray
+        (steps,), the largest |A v + b|; with holonomic constraints, those of places, too.
+    final : numpy.ndarray
+        The last state.
+    seconds : float
+        Of processor time, for the steps.
+    """
+
+    time: np.ndarray
+    place: np.ndarray
+    velocity: np.ndarray
+    energy: np.ndarray
+    constraint: np.ndarray
+    final: np.ndarray
+    seconds: float
+
+
+class Runner:
+    """A method made ready for a system: derived, generated, compiled.
+
+    Parameters
+    ----------
+    system : System
+    method : str
+        One of METHODS.
+    compiled : bool, optional
+        Whether C takes the steps; by default where there is a compiler.
+    """
+
+    def __init__(self, system: System, method: str = "dla", compiled: bool | None = None) -> None:
+        if method not in METHODS:
+            raise BadSystem(f"{method!r} is no method; those are {', '.join(METHODS)}")
+        self.system, self.method = system, method
+        self.scheme: Scheme = METHODS[method].scheme(system)
+        self.compiled = shutil.which("cc") is not None if compiled is None else compiled
+
+    @property
+    def length(self) -> float:
+        """The usual length of a step."""
+        return number(self.system.step, f"{self.system.name}: the step")
+
+    @cached_property
+    def kernels(self) -> list[Kernel]:
+        """What vanishes, its derivatives by the unknowns, what comes after, and where the step is looked at."""
+        scheme, known = self.scheme, tuple(self.system.parameters)
+        letters = Letters((*scheme.state, *scheme.unknowns, *known, STEP))
+        residual, after, place, velocity = (
+            list(map(letters.into, part)) for part in (scheme.residual, scheme.after, scheme.place, scheme.velocity)
+        )
+        groups = (("state", tuple(scheme.state)), ("unknowns", tuple(scheme.unknowns)), ("fixed", (*known, STEP)))
+
+        def kernel(name: str, steps: Steps, results: list[sp.Expr]) -> Kernel:
+            needed = _needed([*results, *(e for _, one in steps for e in one)], letters.meanings)
+            outputs = tuple(f"r{i}" for i in range(len(results)))
+            return Kernel(
+                name, f"{name}.", (), groups, outputs, lambda: [0 * STEP] * len(results), lambda: (steps, results),
+                letters=needed,
+            )  # fmt: skip
+
+        def simple(name: str, expressions: Sequence[sp.Expr]) -> Kernel:
+            terms, results = shared(expressions, "s")
+            return kernel(name, [([x], [e]) for x, e in terms.items()], results)
+
+        first, value, second, slope = differentiated(residual, scheme.unknowns, letters)
+        made = [kernel("residual", first, value), kernel("slope", second, slope)]
+        made += [simple("after", after), simple("seen", [*place, *velocity])]
+        for one in made:
+            if problem := one.problem():
+                raise BadSystem(f"{self.system.name}: {problem}")
+        return made
+
+    @cached_property
+    def functions(self) -> dict[str, Callable[..., Any]]:
+        """The kernels in Python."""
+        scope: dict[str, Any] = {}
+        exec(compile(_text(self.kernels), "kernels", "exec"), scope)  # our own text, never a user's
+        return {kernel.name: scope[kernel.name] for kernel in self.kernels}
+
+    def march(self, steps: int, length: float | None = None, every: int = 1) -> Motion:
+        """Takes steps from the start of the system.
+
+        Parameters
+        ----------
+        steps : int
+        length : float, optional
+            Of a step; that of the system by default.
+        every : int
+            Of which one is recorded.
+
+        Raises
+        ------
+        NotSolved
+            If the equations of a step are not solved.
+        """
+        h = self.length if length is None else float(length)
+        fixed = np.array([*self.system.numbers, h])
+        q, v = self.system.beginning
+        state = self._numbers(self.scheme.start, q, v)
+        unknowns = self._numbers(self.scheme.guess, q, v)
+        recorded = np.empty((-(-steps // every), 2 * len(q)))
+        take = _in_c if self.compiled else _in_python
+        begin = time.process_time()
+        done = take(self, steps, every, state, unknowns, fixed, recorded)
+        seconds = time.process_time() - begin
+        if done < steps:
+            raise NotSolved(f"{self.system.name}, {self.method}: step {done} of {steps} has no solution near the last one")
+        place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
+        energy, kept = self.measures
+        rows = [*place.T, *velocity.T]
+        constraint = np.max([np.zeros(len(place)), *(np.abs(x + 0 * place[:, 0]) for x in kept(*rows))], axis=0)
+        return Motion(
+            h * np.arange(0, steps, every), place, velocity, energy(*rows) + 0 * place[:, 0], constraint, state, seconds
+        )
+
+    @cached_property
+    def measures(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
+        """The energy, and what constraints set to 0, of arrays of coordinates and velocities."""
+        system = self.system
+        symbols = (*system.coordinates, *system.velocities)
+        numbers = dict(zip(system.parameters, map(sp.Float, system.numbers), strict=True))
+        kept = list(system.rows * sp.Matrix(system.velocities) + system.offsets) if system.rows.rows else []
+        energy, kept = system.energy.xreplace(numbers), [e.xreplace(numbers) for e in (*kept, *system.holonomic)]
+        return sp.lambdify(symbols, energy, "numpy", cse=True), sp.lambdify(symbols, kept, "numpy", cse=True)
+
+    def _numbers(self, expressions: Sequence[sp.Expr], q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        symbols = (*self.system.coordinates, *self.system.velocities, *self.system.parameters)
+        return np.array(sp.lambdify(symbols, list(expressions), "math")(*q, *v, *self.system.numbers), float)
+
+    @cached_property
+    def library(self) -> Any:
+        """The compiled steps."""
+        scheme = self.scheme
+        files = c_files.kernels_alone(_text(self.kernels), self.kernels, "system")
+        stages = [*scheme.stages, *([[]] if not scheme.stages else [])]
+        tableau = ", ".join(str(float(x)) for row in stages for x in row) or "0"
+        sizes = {
+            "STATE": len(scheme.state), "UNKNOWNS": len(scheme.unknowns), "SEEN": 2 * len(self.system.coordinates),
+            "STAGES": len(scheme.stages), "FIXED_COUNT": len(self.system.parameters) + 1, "MOST_ROUNDS": MOST_ROUNDS, "LAST": LAST, "STAYS": STAYS, "SHRINKS": SHRINKS,
+        }  # fmt: skip
+        head = "".join(f"#define {name} {value}\n" for name, value in sizes.items())
+        given = ["at", *(f"{name}[0]" if size == 1 else name for name, size in (("unknowns", len(scheme.unknowns)),
+                                                                            ("fixed", sizes["FIXED_COUNT"])))]
+        head += f"#define GIVEN(at) {', '.join(given)}\n"
+        head += f"static const double tableau[] = {{{tableau}}};\n"
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder)
+            for name, text in files.items():
+                (place / name).write_text(text, encoding="utf-8")
+            (place / "march.c").write_text(f'#include "system.c"\n{head}{ROUTINE}', encoding="utf-8")
+            command = ["cc", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I", folder, place / "march.c"]
+            subprocess.run([*command, "-lm", "-o", place / "march.so"], check=True, capture_output=True)
+            return ctypes.CDLL(str(place / "march.so"))
+
+
+def moved(
+    system: System, method: str = "dla", steps: int = 1000, length: float | None = None, every: int = 1
+) -> Motion:
+    """The motion of a system from its start, by a method.
+
+    Parameters
+    ----------
+    system : System
+    method : str
+        One of METHODS: "dla" is the discrete Lagrange-d'Alembert principle at the middle.
+    steps : int
+    length : float, optional
+        Of a step; that of the system by default.
+    every : int
+        Of which one step is recorded.
+
+    Returns
+    -------
+    Motion
+
+    Raises
+    ------
+    BadSystem
+        For a method that is none, or a start that breaks a constraint.
+    NotSolved
+        If the equations of a step are not solved.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> from chapsym.mechanics import System, dot, moved
+    >>> x, y, z = symbols("x y z")
+    >>> free = sum(dot(q) ** 2 for q in (x, y, z)) / 2
+    >>> particle = System("particle", (x, y, z), free, [dot(z) - y * dot(x)], start={dot(x): 1, dot(y): "1/2"})
+    >>> motion = moved(particle, steps=100)
+    >>> motion.energy[[0, -1]].round(6).tolist(), bool(motion.constraint.max() < 1e-14)
+    ([0.625312, 0.625157], True)
+    """
+    return Runner(system, method).march(steps, length, every)
+
+
+def _needed(expressions: Sequence[sp.Expr], meanings: dict[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+    """The letters that some expressions have, and those that these need."""
+    wanted = set().union(*(e.free_symbols for e in expressions))
+    for letter in reversed(meanings):
+        if letter in wanted:
+            wanted |= meanings[letter].free_symbols
+    return {letter: stands for letter, stands in meanings.items() if letter in wanted}
+
+
+def _text(kernels: Sequence[Kernel]) -> str:
+    imports = "from chapsym.numbers.functions import cos, pi, sin, sqrt\n\n"
+    return imports + "\n\n".join(build.code(kernel, PASSES) for kernel in kernels)
+
+
+def _in_c(runner: Runner, steps: int, every: int, *arrays: np.ndarray) -> int:
+    pointers = [array.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for array in arrays]
+    run = runner.library.march
+    run.restype = ctypes.c_int64
+    return int(run(ctypes.c_int64(steps), ctypes.c_int64(every), *pointers))
+
+
+def _in_python(
+    runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: np.ndarray, fixed: np.ndarray,
+    recorded: np.ndarray,
+) -> int:  # fmt: skip
+    """The same steps as `march.c` takes, in Python."""
+    functions, stages, size = runner.functions, runner.scheme.stages, len(unknowns)
+
+    def of(name: str, at: np.ndarray) -> np.ndarray:
+        found = functions[name](*map(float, at), *map(float, unknowns), *map(float, fixed))
+        return np.array(found if isinstance(found, tuple) else (found,))
+
+    def solved(at: np.ndarray) -> bool:
+        before, inverse = np.inf, None
+        for i in range(MOST_ROUNDS):
+            if inverse is None:
+                slope = of("slope", at).reshape(size, size)
+                if not np.isfinite(slope).all() or np.linalg.matrix_rank(slope) < size:
+                    return False
+                inverse = np.linalg.inv(slope)
+            change = inverse @ of("residual", at)
+            unknowns[:] -= change
+            largest = float(np.max(np.abs(change) / (1 + np.abs(unknowns))))
+            if not largest < np.inf:
+                return False
+            settled = largest <= LAST or (i > 0 and largest / before * largest <= LAST)
+            if stages or settled or (largest < STAYS and largest >= before / 2):
+                return True
+            inverse = inverse if largest <= SHRINKS * before and i > 0 else None
+            before = largest
+        return False
+
+    last = [unknowns.copy()] * 2
+    for i in range(steps):
+        if not stages and i > 0:  # the parabola through the last three
+            now = unknowns.copy()
+            if i > 2:
+                unknowns[:] = 3 * (now - last[0]) + last[1]
+            last = [now, last[0]]
+        if not solved(state):
+            return i
+        if i % every == 0:
+            recorded[i // every] = of("seen", state)
+        if not stages:
+            state[:] = of("after", state)
+            continue
+        rates = [of("after", state)]
+        for row in stages:
+            at = state + fixed[-1] * sum(float(a) * k for a, k in zip(row, rates, strict=True))
+            if row is stages[-1]:
+                state[:] = at
+            elif solved(at):
+                rates.append(of("after", at))
+            else:
+                return i
+    return steps

@@ -1,0 +1,239 @@
+"""A system: coordinates, a Lagrangian, constraints on the velocities, forces; and the equations of its motion."""
+
+import hashlib
+import importlib.util
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+#: How far the velocities of a start may be from the constraints, in their own units.
+NEAR = 1e-9
+
+
+class BadSystem(ValueError):
+    """A system that is none; the message says what is wrong and what would be right."""
+
+
+def dot(x: sp.Symbol) -> sp.Symbol:
+    """The velocity of a coordinate: the symbol `x_dot` for x."""
+    return sp.Symbol(f"{x.name}_dot")
+
+
+def rate(expr: Any, coordinates: Sequence[sp.Symbol]) -> Any:
+    """d/dt of an expression, or of a matrix of them, in coordinates and constants."""
+    return sum((sp.diff(expr, x) * dot(x) for x in coordinates), 0 * expr)
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """A mechanical system whose velocities are constrained.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    coordinates : sequence of sympy.Symbol
+        Numbers or angles, which may stand in sin and cos.  A unit vector or a quaternion is given by its components, and
+        by what they keep in `holonomic`.
+    lagrangian : sympy.Expr
+        In the coordinates, their velocities `dot(x)` and parameters; of degree two in the velocities.
+    constraints : sequence of sympy.Expr
+        What vanishes, affine in the velocities.
+    holonomic : sequence of sympy.Expr
+        What vanishes, in the coordinates alone.
+    forces : mapping, optional
+        {coordinate: generalized force along it}, in coordinates and velocities, of what the Lagrangian does not have.
+    parameters : mapping
+        {symbol: number}, each an int, a fraction, a float or a string such as "3/2".
+    start : mapping
+        {coordinate or velocity: number}, likewise; coordinates that are not there are 0, and so are velocities, but for
+        those that the constraints determine.
+    step : number
+        A usual length of a step.
+    source : str
+        Where it comes from.
+
+    Raises
+    ------
+    BadSystem
+        If it is none, in one sentence.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> x, y, z = symbols("x y z")
+    >>> particle = System("particle", (x, y, z), sum(dot(q) ** 2 for q in (x, y, z)) / 2, [dot(z) - y * dot(x)])
+    >>> particle.rows, particle.energy
+    (Matrix([[-y, 0, 1]]), x_dot**2/2 + y_dot**2/2 + z_dot**2/2)
+    """
+
+    name: str
+    coordinates: Sequence[sp.Symbol]
+    lagrangian: sp.Expr
+    constraints: Sequence[sp.Expr] = ()
+    holonomic: Sequence[sp.Expr] = ()
+    forces: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    parameters: Mapping[sp.Symbol, Any] = field(default_factory=dict)
+    start: Mapping[sp.Symbol, Any] = field(default_factory=dict)
+    step: Any = "1/10"
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
+            raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
+        if len(set(self.coordinates)) < len(self.coordinates):
+            raise BadSystem(f"{self.name}: a coordinate is there twice")
+        known = {*self.coordinates, *self.velocities, *self.parameters}
+        places = {*self.coordinates, *self.parameters}
+        for what, expressions, allowed in (
+            ("the Lagrangian", [self.lagrangian], known),
+            ("a constraint", self.constraints, known),
+            ("a holonomic constraint", self.holonomic, places),
+            ("a force", self.forces.values(), known),
+        ):
+            for one in expressions:
+                if strange := sp.sympify(one).free_symbols - allowed:
+                    listed = ", ".join(sorted(map(str, strange)))
+                    raise BadSystem(f"{self.name}: {what} has {listed}, which is no coordinate, velocity or parameter")
+        if strange := set(self.forces) - set(self.coordinates):
+            raise BadSystem(f"{self.name}: a force is along {min(map(str, strange))}, which is no coordinate")
+        if strange := set(self.start) - {*self.coordinates, *self.velocities}:
+            raise BadSystem(f"{self.name}: the start has {min(map(str, strange))}, which is no coordinate or velocity")
+        if self.mass.free_symbols & set(self.velocities):
+            raise BadSystem(f"{self.name}: the Lagrangian is not of degree two in the velocities")
+        if self.rows.free_symbols & set(self.velocities):
+            raise BadSystem(f"{self.name}: a constraint is not affine in the velocities")
+
+    def digest(self, *more: Any) -> str:
+        """A hash of all that a run depends on."""
+        parts = (self.coordinates, self.lagrangian, self.constraints, self.holonomic, self.forces, self.parameters)
+        text = repr((self.name, *map(str, parts), str(self.start), str(self.step), more))
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    @property
+    def velocities(self) -> tuple[sp.Symbol, ...]:
+        """Those of the coordinates."""
+        return tuple(dot(x) for x in self.coordinates)
+
+    @cached_property
+    def mass(self) -> sp.Matrix:
+        """The mass matrix ∂²L/∂v²."""
+        return sp.hessian(self.lagrangian, self.velocities)
+
+    @cached_property
+    def momenta(self) -> sp.Matrix:
+        """∂L/∂v."""
+        return sp.Matrix([sp.diff(self.lagrangian, v) for v in self.velocities])
+
+    @cached_property
+    def push(self) -> sp.Matrix:
+        """∂L/∂q and the forces."""
+        return sp.Matrix([sp.diff(self.lagrangian, x) + self.forces.get(x, 0) for x in self.coordinates])
+
+    @cached_property
+    def energy(self) -> sp.Expr:
+        """⟨v, ∂L/∂v⟩ - L: that is ⟨v, M v⟩/2 - L(q, 0)."""
+        v = sp.Matrix(self.velocities)
+        at_rest = self.lagrangian.xreplace(dict.fromkeys(self.velocities, sp.S.Zero))
+        return (v.T * self.mass * v)[0] / 2 - at_rest
+
+    @cached_property
+    def rows(self) -> sp.Matrix:
+        """A of A(q) v + b(q) = 0: a row for each constraint, and for the rate of each holonomic one."""
+        made = [[sp.diff(c, v) for v in self.velocities] for c in self.constraints]
+        made += [[sp.diff(c, x) for x in self.coordinates] for c in self.holonomic]
+        return sp.Matrix(len(made), len(self.coordinates), lambda i, j: sp.expand(made[i][j]))
+
+    @cached_property
+    def offsets(self) -> sp.Matrix:
+        """The b of A(q) v + b(q) = 0."""
+        rest = [c.xreplace(dict.fromkeys(self.velocities, sp.S.Zero)) for c in self.constraints]
+        return sp.Matrix([*rest, *([0] * len(self.holonomic))])
+
+    @cached_property
+    def equations(self) -> tuple[sp.Matrix, sp.Matrix]:
+        """The matrix and the right side of linear equations for the accelerations and the multipliers λ.
+
+        M a - Aᵀλ = ∂L/∂q + F - (∂²L/∂v∂q) v,  A a = -Ȧ v - ḃ (the Lagrange-d'Alembert principle).
+        """
+        count = len(self.rows[:, 0])
+        v = sp.Matrix(self.velocities)
+        inertial = self.momenta.jacobian(self.coordinates) * v
+        matrix = sp.Matrix(sp.BlockMatrix([[self.mass, -self.rows.T], [self.rows, sp.zeros(count, count)]]))
+        turning = rate(self.rows, self.coordinates) * v + rate(self.offsets, self.coordinates)
+        return matrix, sp.Matrix([*(self.push - inertial), *(-turning)])
+
+    def value(self, symbol: sp.Symbol) -> float:
+        """The number of a parameter."""
+        return number(self.parameters[symbol], f"{self.name}: the parameter {symbol}")
+
+    @cached_property
+    def numbers(self) -> np.ndarray:
+        """The numbers of all parameters, in order."""
+        return np.array([self.value(x) for x in self.parameters])
+
+    @cached_property
+    def beginning(self) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates and velocities of the start; raises BadSystem if they break a constraint."""
+        given = {x: number(v, f"{self.name}: the start of {x}") for x, v in self.start.items()}
+        q = np.array([given.get(x, 0.0) for x in self.coordinates])
+        of = sp.lambdify((self.coordinates, tuple(self.parameters)), [self.rows, self.offsets, *self.holonomic], "numpy")
+        rows, offsets, *kept = of(q, self.numbers)
+        if any(abs(x) > NEAR for x in kept):
+            raise BadSystem(f"{self.name}: the start is not on the holonomic constraints: {max(map(abs, kept)):.3g} off")
+        rows, offsets = np.array(rows, float).reshape(len(self.rows[:, 0]), len(q)), np.array(offsets, float).ravel()
+        v = np.array([given.get(x, 0.0) for x in self.velocities])
+        free = [i for i, x in enumerate(self.velocities) if x not in given]
+        if len(rows) and free:
+            v[free] += np.linalg.lstsq(rows[:, free], -(rows @ v + offsets), rcond=None)[0]
+        if len(rows) and (worst := np.abs(rows @ v + offsets).max()) > NEAR:
+            raise BadSystem(
+                f"{self.name}: the velocities of the start are {worst:.3g} off the constraints; leave out those that "
+                "the constraints determine"
+            )
+        return q, v
+
+
+def loaded(path: str | Path) -> System:
+    """The system of a file, which has it as SYSTEM; its docstring's first line is its title.
+
+    The file is code, and is run, as the script of a register is.
+
+    Raises
+    ------
+    BadSystem
+        If there is none.
+    """
+    path = Path(path)
+    spec = importlib.util.spec_from_file_location(f"system_{path.stem}", path) if path.suffix == ".py" else None
+    if spec is None or spec.loader is None or not path.is_file():
+        raise BadSystem(f"{path} is no file of a system: a Python file with SYSTEM = System(...)")
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except BadSystem:
+        raise
+    except Exception as error:
+        raise BadSystem(f"{path} cannot be run: {type(error).__name__}: {error}") from error
+    found = getattr(module, "SYSTEM", None)
+    if not isinstance(found, System):
+        raise BadSystem(f"{path} has no SYSTEM = System(...)")
+    return found
+
+
+def number(value: Any, what: str) -> float:
+    """A number of a system as a float; raises BadSystem with what it is, if it is none."""
+    try:
+        found = float(Fraction(value) if isinstance(value, str) else value)
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        raise BadSystem(f"{what} is {value!r}, which is no number") from None
+    if not math.isfinite(found):
+        raise BadSystem(f"{what} is not finite")
+    return found

@@ -1,0 +1,85 @@
+"""A page of `chapsym lab`: for each system a table of methods, and their energies as curves."""
+
+import io
+import math
+from collections.abc import Mapping, Sequence
+from html import escape
+from typing import Any
+
+from chapsym.extras import need
+
+PAGE = """<!doctype html>
+<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>Methods on mechanical systems</title>
+<style>
+body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #111; }}
+table {{ border-collapse: collapse; display: block; overflow-x: auto; }}
+th, td {{ padding: .2rem .7rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; }}
+th:first-child, td:first-child {{ text-align: left; }}
+svg {{ max-width: 100%; height: auto; }}
+</style>
+<h1>Methods on mechanical systems</h1>
+<p>Oscillation: the range of the energy in the first tenth of the steps. Drift: the mean of the last tenth less that of the
+first. Constraint: the largest |A v + b|; <i>proved 0</i> where an equation of the method says so. Order: of the error of the
+place when the steps are halved. All but what is proved is measured.</p>
+{systems}
+</html>
+"""
+
+
+def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constraints: Mapping[str, str]) -> str:
+    """The page, as text.
+
+    Parameters
+    ----------
+    cells : sequence of mapping
+        As `chapsym.mechanics.Cell.data` gives them.
+    titles : mapping
+        Of the methods.
+    constraints : mapping
+        What is said of the constraints of each system.
+    """
+    names = dict.fromkeys(cell["system"] for cell in cells)
+    parts = []
+    for name in names:
+        own = [cell for cell in cells if cell["system"] == name]
+        rows = "".join(_row(cell, titles[cell["method"]]) for cell in own)
+        said = f"<p>{escape(constraints[name])}.</p>" if name in constraints else ""
+        head = "<tr><th>method<th>order<th>energy<th>oscillation<th>drift<th>constraint<th>µs a step</tr>"
+        parts.append(f"<h2>{escape(name)}</h2>{said}<table>{head}{rows}</table>{_curves(own)}")
+    return PAGE.format(systems="\n".join(parts))
+
+
+def _row(cell: Mapping[str, Any], title: str) -> str:
+    first = f"<tr><td>{escape(title)}"
+    if cell["failed"]:
+        return f"{first}<td colspan=6>{escape(cell['failed'])}</tr>"
+    kept = "<i>proved 0</i>" if cell["kept"] else f"{cell['constraint']:.1e}"
+    order = "exact" if cell["order"] is None else f"{cell['order']:.2f}"
+    figures = f"<td>{cell['energy']:.6g}<td>{cell['oscillation']:.1e}<td>{cell['drift']:+.1e}"
+    return f"{first}<td>{order}{figures}<td>{kept}<td>{cell['microseconds']:.2f}</tr>"
+
+
+def _curves(cells: Sequence[Mapping[str, Any]]) -> str:
+    """The change of the energy over time, on a scale that shows large and small ones."""
+    need("figures")
+    from matplotlib.figure import Figure
+
+    from .drawing.style import COLOURS, styled, write
+
+    drawn = [cell for cell in cells if not cell["failed"]]
+    if not drawn:
+        return ""
+    with styled():
+        figure = Figure(figsize=(9, 3.4), layout="constrained")
+        axes = figure.subplots()
+        for cell, colour in zip(drawn, COLOURS, strict=False):
+            times, energies = zip(*cell["curve"], strict=True)
+            changes = [abs(e - energies[0]) for e in energies]
+            axes.plot(times, [c if c > 0 else math.nan for c in changes], color=colour, label=cell["method"])
+        axes.set(yscale="log", xlabel="time", ylabel="|energy - first|")
+        axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+        stream = io.BytesIO()
+        write(figure, stream, "svg")
+    text = stream.getvalue().decode()
+    return text[text.index("<svg") :]
