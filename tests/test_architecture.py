@@ -26,6 +26,7 @@ ROOMS = {
     "sources": set(),
     "prove": {"checker", "derive", "files", "sources", "workers"},
     "codegen": {"checker", "derive", "generated", "prove"},
+    "mechanics": {"codegen", "derive", "prove"},
     "dynamics": {"generated", "numbers", "rationals"},
     "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},
     "accuracy": {"dynamics", "files", "generated", "numbers", "renamed"},
@@ -40,7 +41,7 @@ ROOMS = {
     "show": {"dynamics", "extras", "files", "scene"},
     "testing": {"dynamics", "extras", "prove"},
 }  # fmt: skip
-SYMPY_ROOMS = {"derive", "prove", "codegen", "proofs"}
+SYMPY_ROOMS = {"derive", "prove", "codegen", "mechanics", "proofs"}
 
 
 KNOWN = modules(ROOT, "chapsym")

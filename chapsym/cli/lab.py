@@ -1,6 +1,7 @@
 """chapsym lab: what methods make of mechanical systems, as a table, JSON or a page."""
 
 import json
+import math
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,15 +14,24 @@ from .output import fail, note, print_json
 
 @app.command()
 def lab(
-    files: Annotated[list[Path], typer.Argument(help="Files of systems, SYSTEM = System(...), or folders of them.")],
+    files: Annotated[
+        list[Path],
+        typer.Argument(metavar="FILE...", help="Files of systems, SYSTEM = System(...), or folders of them."),
+    ],
     method: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="A method; may be given more than once; all by default.")
     ] = None,
-    steps: Annotated[int, typer.Option(min=1, max=100_000_000, help="Steps of each run.")] = 100_000,
-    length: Annotated[float | None, typer.Option(min=0, help="Of a step; that of each system by default.")] = None,
+    steps: Annotated[int, typer.Option(metavar="N", min=1, max=100_000_000, help="Steps of each run.")] = 100_000,
+    length: Annotated[
+        float | None, typer.Option(metavar="TIME", min=0, help="Of a step; that of each system by default.")
+    ] = None,
     flags: Annotated[bool, typer.Option(help="Also say whether the constraints are integrable.")] = True,
+    halve: Annotated[bool, typer.Option(help="Also run with half the step: is a drift of the method?")] = False,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="A .json, which is gone on with where it is there; or an .html.")
+        Path | None,
+        typer.Option(
+            "--output", "-o", metavar="FILE", help="A .json, which is gone on with if it is there; or an .html."
+        ),
     ] = None,
     as_json: Json = False,
 ) -> None:
@@ -41,13 +51,13 @@ def lab(
     try:
         systems = [loaded(path) for path in _files(files)]
         for system in systems:
-            if flags:
-                constraints[system.name] = str(flag(system))
+            energy = "keeps" if system.keeps_energy else "need not keep"
+            constraints[system.name] = f"{flag(system)}; " * flags + f"the exact motion {energy} its energy"
             if not as_json:
-                print(f"{system.name}" + (f": {constraints[system.name]}" if flags else ""))
+                print(f"{system.name}: {constraints[system.name]}")
                 print("  " + "  ".join(f"{name:>{width}}" for name, width in COLUMNS))
             for name in methods:
-                cell = _cell(system, name, steps, length, done)
+                cell = _cell(system, name, steps, length, halve, done)
                 if not as_json:
                     print(_row(cell))
                 if output is not None and output.suffix == ".json":
@@ -66,7 +76,15 @@ def lab(
         note(f"wrote {output}")
 
 
-COLUMNS = (("method", 9), ("order", 6), ("energy", 11), ("oscillation", 11), ("drift", 10), ("constraint", 10), ("µs/step", 8))
+COLUMNS = (
+    ("method", 9),
+    ("order", 6),
+    ("energy", 11),
+    ("oscillation", 11),
+    ("drift", 10),
+    ("constraint", 10),
+    ("µs/step", 8),
+)
 
 
 def _row(cell: dict[str, Any]) -> str:
@@ -74,21 +92,29 @@ def _row(cell: dict[str, Any]) -> str:
         return f"  {cell['method']:>9}  {cell['failed']}"
     order = "exact" if cell["order"] is None else f"{cell['order']:.2f}"
     kept = "proved 0" if cell["kept"] else f"{cell['constraint']:.1e}"
-    return (
-        f"  {cell['method']:>9}  {order:>6}  {cell['energy']:>11.6g}  {cell['oscillation']:>11.1e}  {cell['drift']:>+10.1e}  "
-        f"{kept:>10}  {cell['microseconds']:>8.2f}"
-    )
+    energy = f"{cell['energy']:>11.6g}  {cell['oscillation']:>11.1e}  {cell['drift']:>+10.1e}"
+    return f"  {cell['method']:>9}  {order:>6}  {energy}  {kept:>10}  {cell['microseconds']:>8.2f}{_of_half(cell)}"
 
 
-def _cell(system: Any, method: str, steps: int, length: float | None, done: list[dict[str, Any]]) -> dict[str, Any]:
+def _of_half(cell: dict[str, Any]) -> str:
+    """What the drift says where it was measured with half the step, too."""
+    if cell["halved"] is None:
+        return ""
+    times = abs(cell["drift"] / cell["halved"]) if cell["halved"] else math.inf
+    return f"  with half the step: {cell['halved']:+.1e}, {times:.1f} times less"
+
+
+def _cell(
+    system: Any, method: str, steps: int, length: float | None, halve: bool, done: list[dict[str, Any]]
+) -> dict[str, Any]:
     """The cell that is there already, of the same system as a file, or one that is measured now."""
     from chapsym.mechanics import measured
 
-    key = system.digest(length)
+    key = system.digest(length, halve)
     for cell in done:
         if (cell["key"], cell["method"], cell["steps"]) == (key, method, steps):
             return cell
-    cell = {"key": key, **measured(system, method, steps, length).data()}
+    cell = {"key": key, **measured(system, method, steps, length, halve).data()}
     done.append(cell)
     return cell
 

@@ -10,15 +10,13 @@
 
 from .attitude import Quaternion, Turned
 from .brackets import Flag, flag
+from .equations import Agreement, agree, in_symbols
 from .lab import Cell, measured
 from .methods import METHODS, Method, Scheme
 from .motion import Motion, NotSolved, Runner, moved
-
-
-
 from .system import BadSystem, System, dot, loaded, rate
 
 __all__ = [
-    "METHODS", "BadSystem", "Cell", "Flag", "Method", "Motion", "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "dot", "flag", "loaded",
-    "measured", "moved", "rate",
+    "METHODS", "Agreement", "BadSystem", "Cell", "Flag", "Method", "Motion", "NotSolved", "Quaternion", "Runner",
+    "Scheme", "System", "Turned", "agree", "dot", "flag", "in_symbols", "loaded", "measured", "moved", "rate",
 ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""Expressions of a system in a ring: a letter for each sine, cosine and root, with their relations, and its derivatives."""
+"""Expressions of a system in a ring: letters for sines, cosines and roots, with their relations and derivatives."""
 
 from collections.abc import Iterable, Sequence
 from functools import cached_property
@@ -125,7 +125,6 @@ class Algebra:
         """The normal forms of a vector, times roots that it divides by: the span is the same."""
         found = [sp.sympify(x) for x in vector]
         for letter, stands in self.letters.meanings.items():
-            below = letter if stands.is_Pow else sp.S.One  # of a root's derivative, 1/root
-            while not all(x.is_polynomial(letter) for x in found):
-                found = [sp.expand(x * below) for x in found]
+            while stands.is_Pow and not all(x.is_polynomial(letter) for x in found):
+                found = [sp.expand(x * letter) for x in found]
         return [self.ring.normal(x) for x in found]

@@ -60,8 +60,8 @@ class Quaternion:
     ----------
     coordinates : tuple of sympy.Symbol
     norm, swelling : sympy.Expr
-        |q|², and its rate, halved: 0 in a motion, so that a multiple of its square may stand in a Lagrangian, whose mass
-        matrix would else be singular.
+        |q|², and its rate, halved: that is 0 in a motion, so that a multiple of its square may stand in a Lagrangian,
+        whose mass matrix would be singular without.
 
     Examples
     --------

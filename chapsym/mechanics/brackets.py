@@ -1,8 +1,8 @@
 """Whether constraints are integrable: the flag of brackets of the fields that they allow, with its ranks, exactly.
 
-The fields X with A X = 0 span D₁, and D_{k+1} has the brackets [X, Y] of X in D₁ and Y in D_k, too.  By Frobenius' theorem
-the constraints are those of n - r functions of the coordinates where D₁ = D₂ has the dimension r; by Chow's theorem
-every place is reached from every other if the flag ends with all n dimensions.
+The fields X with A X = 0 span D₁, and D_{k+1} has the brackets [X, Y] of X in D₁ and Y in D_k, too.  By Frobenius'
+theorem the constraints are those of n - r functions of the coordinates where D₁ = D₂ has the dimension r; by Chow's
+theorem every place is reached from every other if the flag ends with all n dimensions.
 """
 
 from collections.abc import Sequence
@@ -63,7 +63,10 @@ class Flag:
             what = "integrable" if self.functions else "no constraint"
         else:
             what = "completely nonholonomic" if not self.functions else "nonholonomic"
-        kept = f"; {self.functions} functions of the coordinates are constant" if self.functions else ""
+        some = "1 function" if self.functions == 1 else f"{self.functions} functions"
+        kept = (
+            f"; {some} of the coordinates stay{'s' if self.functions == 1 else ''} constant" if self.functions else ""
+        )
         return f"{what}: the flag has the dimensions {dimensions} of {self.dimension}{kept}"
 
 
@@ -94,15 +97,20 @@ def flag(system: System) -> Flag:
     >>> print(flag(edge))
     completely nonholonomic: the flag has the dimensions 2, 3 of 3
     >>> print(flag(System("pulled", (x, y), dot(x)**2 + dot(y)**2, [x * dot(x) + y * dot(y)])))
-    integrable: the flag has the dimensions 1 of 2; 1 functions of the coordinates are constant
+    integrable: the flag has the dimensions 1 of 2; 1 function of the coordinates stays constant
     """
     algebra = Algebra(system)
     points = _points(algebra, system)
-    rows, most = algebra.rows, max(algebra.rows.xreplace(p).rank() for p in points)
-    point = next(p for p in points if rows.xreplace(p).rank() == most)
-    rows = rows.extract(_pivots(rows.xreplace(point).T), list(range(rows.cols)))
+    rows = _whole(algebra.rows)
+    point = max(points, key=lambda p: rows.xreplace(p).rank())
+    kept = _pivots(rows.xreplace(point).T)
+    for i in set(range(rows.rows)) - set(kept):
+        if not _inside(rows.extract(kept, list(range(rows.cols))).tolist(), list(rows[i, :]), point, algebra):
+            raise BadSystem(f"{system.name}: constraint {i + 1} depends on the others at {len(points)} points alone")
+    rows = rows.extract(kept, list(range(rows.cols)))
     fields = [algebra.normal(field) for field in _kernel(rows, rows.xreplace(point))]
     span, newest, growth = list(fields), list(fields), [len(fields)]
+    point = max((point, *points), key=lambda p: _matrix(span).xreplace(p).rank() if span else 0)
     dimension = len(system.coordinates) - len(system.holonomic)
     while newest and len(span) < dimension:
         before, newest = newest, []
@@ -113,7 +121,7 @@ def flag(system: System) -> Flag:
             if better is not None:
                 span, point, newest = larger, better, [*newest, bracket]
             elif not _inside(span, bracket, point, algebra):
-                raise BadSystem(f"{system.name}: a bracket is in the span at {len(points)} points, but this is not proved")
+                raise BadSystem(f"{system.name}: a bracket is in the span at {len(points)} points, but not provably")
         growth += [len(span)] if newest else []
     minor = _matrix(span).extract(list(range(len(span))), _pivots(_matrix(span).xreplace(point)))
     condition = sp.factor(algebra.normal([minor.det(method="berkowitz")])[0])
@@ -129,8 +137,17 @@ def _points(algebra: Algebra, system: System) -> list[dict[sp.Symbol, sp.Rationa
     return found
 
 
+def _whole(rows: sp.Matrix) -> sp.Matrix:
+    """Rows times what they divide by."""
+    made = []
+    for i in range(rows.rows):
+        below = sp.lcm_list([sp.fraction(sp.together(e))[1] for e in rows[i, :]] or [sp.S.One])
+        made.append([sp.cancel(sp.together(e) * below) for e in rows[i, :]])
+    return sp.Matrix(rows.rows, rows.cols, [e for row in made for e in row])
+
+
 def _kernel(rows: sp.Matrix, at_point: sp.Matrix) -> list[list[sp.Expr]]:
-    """Fields that span the velocities v with A v = 0, by Cramer's rule, from independent rows A, and these at a point."""
+    """Fields that span the velocities v with A v = 0, by Cramer's rule, of independent rows A."""
     columns = _pivots(at_point)
     square = rows.extract(list(range(rows.rows)), columns)
     whole, adjugate = square.det(method="berkowitz"), square.adjugate()

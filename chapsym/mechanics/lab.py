@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -34,10 +35,13 @@ class Cell:
         The range of the energy in the first tenth of the steps.
     drift : float
         The mean energy of the last tenth less that of the first.
-    constraint : float
-        The largest |A v + b|, where the method looks at a step.
+    constraint, places : float
+        The largest |A v + b|, and value of the holonomic constraints, where the method looks at a step.
     kept : bool
-        Whether that is 0 by an equation of the method: proved, the figure is rounding.
+        Whether |A v + b| is 0 by an equation of the method: proved, the figure is rounding.
+    halved : float or None
+        The drift over the same time in steps of half the length, where it was asked for: an error of the method falls
+        by its order, one of the model does not.
     order : float or None
         That the error shows when the steps are halved; None where it is rounding.
     microseconds : float
@@ -56,7 +60,9 @@ class Cell:
     oscillation: float = math.nan
     drift: float = math.nan
     constraint: float = math.nan
+    places: float = math.nan
     kept: bool = False
+    halved: float | None = None
     order: float | None = None
     microseconds: float = math.nan
     failed: str | None = None
@@ -70,11 +76,13 @@ class Cell:
     def of(cls, data: dict[str, Any]) -> "Cell":
         """From that."""
         curve = tuple((float(t), float(e)) for t, e in data["curve"])
-        figures = ("energy", "oscillation", "drift", "constraint", "microseconds")
+        figures = ("energy", "oscillation", "drift", "constraint", "places", "microseconds")
         return cls(**{**data, "curve": curve, **{k: math.nan if data[k] is None else data[k] for k in figures}})
 
 
-def measured(system: System, method: str, steps: int = 100_000, length: float | None = None) -> Cell:
+def measured(
+    system: System, method: str, steps: int = 100_000, length: float | None = None, halve: bool = False
+) -> Cell:
     """What a method makes of a system.
 
     Parameters
@@ -85,6 +93,8 @@ def measured(system: System, method: str, steps: int = 100_000, length: float | 
     steps : int
     length : float, optional
         Of a step; that of the system by default.
+    halve : bool
+        Whether the drift is measured with steps of half the length, too.
 
     Returns
     -------
@@ -108,9 +118,18 @@ def measured(system: System, method: str, steps: int = 100_000, length: float | 
         runner.march(1, h)  # what is compiled once
         motion = runner.march(steps, h)
         order = _order(system, runner, h)
+        half = _figures(runner.march(2 * steps, h / 2, 2))["drift"] if halve else None
     except NotSolved as error:
         return Cell(**{**asdict(first), "failed": str(error)})
-    return Cell(**{**asdict(first), **_figures(motion), "order": order, "microseconds": 1e6 * motion.seconds / steps})
+    return Cell(
+        **{
+            **asdict(first),
+            **_figures(motion),
+            "order": order,
+            "halved": half,
+            "microseconds": 1e6 * motion.seconds / steps,
+        }
+    )
 
 
 def keeps(system: System, scheme: Scheme) -> bool:
@@ -138,6 +157,7 @@ def _figures(motion: Motion) -> dict[str, Any]:
         "oscillation": float(np.ptp(energy[:part])),
         "drift": float(energy[-part:].mean() - energy[:part].mean()),
         "constraint": float(motion.constraint.max()),
+        "places": float(motion.places.max()),
         "curve": tuple((float(motion.time[i]), float(energy[i])) for i in some),
     }
 
@@ -146,5 +166,5 @@ def _order(system: System, runner: Runner, h: float) -> float | None:
     """The power of the step with which the place changes, from a step, its half and its quarter."""
     n = len(system.coordinates)
     ends = [runner.march(SHORT * k, h / k).final[:n] for k in (1, 2, 4)]
-    first, second = (np.abs(a - b).max() for a, b in zip(ends, ends[1:], strict=False))
+    first, second = (np.abs(a - b).max() for a, b in pairwise(ends))
     return None if second < ROUNDING else float(np.log2(first / second))

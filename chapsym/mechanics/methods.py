@@ -7,6 +7,7 @@ f = ∂L/∂q + F with the forces F, A v + b = 0 the constraints, and h the leng
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import sympy as sp
 
@@ -15,7 +16,10 @@ from .system import System
 #: The length of a step.
 STEP = sp.Symbol("step_length")
 
-Vector = sp.Matrix
+if TYPE_CHECKING:
+    Vector: TypeAlias = Any  # a column; SymPy's matrices have no types
+else:
+    Vector = sp.Matrix
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +163,7 @@ def leapfrog(system: System) -> Scheme:
 def lobatto(system: System) -> Scheme:
     """SPARK with the Lobatto pair of two stages: velocities V₁ at q and V₂ at q' = q + h(V₁ + V₂)/2, of one momentum P.
 
-    P = p + h f(q, V₁)/2 + A(q)ᵀλ, p' = P + h f(q', V₂)/2 + A(q')ᵀμ, A V₁ + A V₂ = 0 in the mean, and A v' = 0 at the end.
+    P = p + h f(q, V₁)/2 + A(q)ᵀλ, p' = P + h f(q', V₂)/2 + A(q')ᵀμ, A V₁ + A V₂ = 0, and A v' = 0 at the end.
     """
     of = _Parts(system)
     first, last, end = (of.symbols(x, of.n) for x in ("u", "w", "z"))

@@ -45,8 +45,8 @@ class Motion:
         (steps, n), where the method looks at the step: at its end, or within it.
     energy : numpy.ndarray
         (steps,)
-    constraint : numpy.ndarray
-        (steps,), the largest |A v + b|; with holonomic constraints, those of places, too.
+    constraint, places : numpy.ndarray
+        (steps,), the largest |A v + b|, and the largest value of the holonomic constraints.
     final : numpy.ndarray
         The last state.
     seconds : float
@@ -58,6 +58,7 @@ class Motion:
     velocity: np.ndarray
     energy: np.ndarray
     constraint: np.ndarray
+    places: np.ndarray
     final: np.ndarray
     seconds: float
 
@@ -150,24 +151,25 @@ class Runner:
         done = take(self, steps, every, state, unknowns, fixed, recorded)
         seconds = time.process_time() - begin
         if done < steps:
-            raise NotSolved(f"{self.system.name}, {self.method}: step {done} of {steps} has no solution near the last one")
+            raise NotSolved(
+                f"{self.system.name}, {self.method}: step {done} of {steps} has no solution near the last one"
+            )
         place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
-        energy, kept = self.measures
-        rows = [*place.T, *velocity.T]
-        constraint = np.max([np.zeros(len(place)), *(np.abs(x + 0 * place[:, 0]) for x in kept(*rows))], axis=0)
-        return Motion(
-            h * np.arange(0, steps, every), place, velocity, energy(*rows) + 0 * place[:, 0], constraint, state, seconds
-        )
+        energy, *kept = ([x + 0 * place[:, 0] for x in of(*place.T, *velocity.T)] for of in self.measures)
+        constraint, places = (np.max([0 * place[:, 0], *map(np.abs, values)], axis=0) for values in kept)
+        times = h * np.arange(0, steps, every)
+        return Motion(times, place, velocity, energy[0], constraint, places, state, seconds)
 
     @cached_property
-    def measures(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
-        """The energy, and what constraints set to 0, of arrays of coordinates and velocities."""
+    def measures(self) -> list[Callable[..., Any]]:
+        """The energy, and what the constraints on velocities and on places set to 0, of arrays of both."""
         system = self.system
         symbols = (*system.coordinates, *system.velocities)
         numbers = dict(zip(system.parameters, map(sp.Float, system.numbers), strict=True))
-        kept = list(system.rows * sp.Matrix(system.velocities) + system.offsets) if system.rows.rows else []
-        energy, kept = system.energy.xreplace(numbers), [e.xreplace(numbers) for e in (*kept, *system.holonomic)]
-        return sp.lambdify(symbols, energy, "numpy", cse=True), sp.lambdify(symbols, kept, "numpy", cse=True)
+        measured = ([system.energy], system.constraints, system.holonomic)
+        return [
+            sp.lambdify(symbols, [sp.sympify(e).xreplace(numbers) for e in one], "numpy", cse=True) for one in measured
+        ]
 
     def _numbers(self, expressions: Sequence[sp.Expr], q: np.ndarray, v: np.ndarray) -> np.ndarray:
         symbols = (*self.system.coordinates, *self.system.velocities, *self.system.parameters)
@@ -182,11 +184,12 @@ class Runner:
         tableau = ", ".join(str(float(x)) for row in stages for x in row) or "0"
         sizes = {
             "STATE": len(scheme.state), "UNKNOWNS": len(scheme.unknowns), "SEEN": 2 * len(self.system.coordinates),
-            "STAGES": len(scheme.stages), "FIXED_COUNT": len(self.system.parameters) + 1, "MOST_ROUNDS": MOST_ROUNDS, "LAST": LAST, "STAYS": STAYS, "SHRINKS": SHRINKS,
+            "STAGES": len(scheme.stages), "FIXED_COUNT": len(self.system.parameters) + 1,
+            "MOST_ROUNDS": MOST_ROUNDS, "LAST": LAST, "STAYS": STAYS, "SHRINKS": SHRINKS,
         }  # fmt: skip
         head = "".join(f"#define {name} {value}\n" for name, value in sizes.items())
-        given = ["at", *(f"{name}[0]" if size == 1 else name for name, size in (("unknowns", len(scheme.unknowns)),
-                                                                            ("fixed", sizes["FIXED_COUNT"])))]
+        counts = {"unknowns": len(scheme.unknowns), "fixed": sizes["FIXED_COUNT"]}
+        given = ["at", *(f"{name}[0]" if count == 1 else name for name, count in counts.items())]
         head += f"#define GIVEN(at) {', '.join(given)}\n"
         head += f"static const double tableau[] = {{{tableau}}};\n"
         with tempfile.TemporaryDirectory() as folder:
@@ -195,7 +198,7 @@ class Runner:
                 (place / name).write_text(text, encoding="utf-8")
             (place / "march.c").write_text(f'#include "system.c"\n{head}{ROUTINE}', encoding="utf-8")
             command = ["cc", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I", folder, place / "march.c"]
-            subprocess.run([*command, "-lm", "-o", place / "march.so"], check=True, capture_output=True)
+            subprocess.run([*map(str, command), "-lm", "-o", place / "march.so"], check=True, capture_output=True)
             return ctypes.CDLL(str(place / "march.so"))
 
 

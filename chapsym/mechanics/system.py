@@ -40,8 +40,8 @@ class System:
     name : str
         What it is called.
     coordinates : sequence of sympy.Symbol
-        Numbers or angles, which may stand in sin and cos.  A unit vector or a quaternion is given by its components, and
-        by what they keep in `holonomic`.
+        Numbers or angles, which may stand in sin and cos.  A unit vector or a quaternion is given by its components,
+        and by what they keep in `holonomic`.
     lagrangian : sympy.Expr
         In the coordinates, their velocities `dot(x)` and parameters; of degree two in the velocities.
     constraints : sequence of sympy.Expr
@@ -86,6 +86,9 @@ class System:
     source: str = ""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "lagrangian", sp.sympify(self.lagrangian))
+        for name in ("constraints", "holonomic"):
+            object.__setattr__(self, name, tuple(map(sp.sympify, getattr(self, name))))
         if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
             raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
         if len(set(self.coordinates)) < len(self.coordinates):
@@ -145,6 +148,19 @@ class System:
         return (v.T * self.mass * v)[0] / 2 - at_rest
 
     @cached_property
+    def power(self) -> sp.Expr:
+        """dE/dt less what the reactions of affine constraints do: the power of the forces ⟨F, v⟩."""
+        return sp.expand(sum((f * dot(x) for x, f in self.forces.items()), sp.S.Zero))
+
+    @property
+    def keeps_energy(self) -> bool:
+        """Whether the motion keeps its energy: the forces do no work, and the constraints are linear in the velocities.
+
+        Then dE/dt = ⟨v, Aᵀλ⟩ + ⟨F, v⟩ = -⟨λ, b⟩ + ⟨F, v⟩ = 0.
+        """
+        return self.power == 0 and all(sp.expand(b) == 0 for b in self.offsets)
+
+    @cached_property
     def rows(self) -> sp.Matrix:
         """A of A(q) v + b(q) = 0: a row for each constraint, and for the rate of each holonomic one."""
         made = [[sp.diff(c, v) for v in self.velocities] for c in self.constraints]
@@ -155,7 +171,7 @@ class System:
     def offsets(self) -> sp.Matrix:
         """The b of A(q) v + b(q) = 0."""
         rest = [c.xreplace(dict.fromkeys(self.velocities, sp.S.Zero)) for c in self.constraints]
-        return sp.Matrix([*rest, *([0] * len(self.holonomic))])
+        return sp.Matrix(self.rows.rows, 1, [*rest, *([0] * len(self.holonomic))])
 
     @cached_property
     def equations(self) -> tuple[sp.Matrix, sp.Matrix]:
@@ -184,10 +200,12 @@ class System:
         """Coordinates and velocities of the start; raises BadSystem if they break a constraint."""
         given = {x: number(v, f"{self.name}: the start of {x}") for x, v in self.start.items()}
         q = np.array([given.get(x, 0.0) for x in self.coordinates])
-        of = sp.lambdify((self.coordinates, tuple(self.parameters)), [self.rows, self.offsets, *self.holonomic], "numpy")
+        of = sp.lambdify(
+            (self.coordinates, tuple(self.parameters)), [self.rows, self.offsets, *self.holonomic], "numpy"
+        )
         rows, offsets, *kept = of(q, self.numbers)
         if any(abs(x) > NEAR for x in kept):
-            raise BadSystem(f"{self.name}: the start is not on the holonomic constraints: {max(map(abs, kept)):.3g} off")
+            raise BadSystem(f"{self.name}: the start is {max(map(abs, kept)):.3g} off the holonomic constraints")
         rows, offsets = np.array(rows, float).reshape(len(self.rows[:, 0]), len(q)), np.array(offsets, float).ravel()
         v = np.array([given.get(x, 0.0) for x in self.velocities])
         free = [i for i, x in enumerate(self.velocities) if x not in given]

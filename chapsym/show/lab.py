@@ -19,9 +19,9 @@ th:first-child, td:first-child {{ text-align: left; }}
 svg {{ max-width: 100%; height: auto; }}
 </style>
 <h1>Methods on mechanical systems</h1>
-<p>Oscillation: the range of the energy in the first tenth of the steps. Drift: the mean of the last tenth less that of the
-first. Constraint: the largest |A v + b|; <i>proved 0</i> where an equation of the method says so. Order: of the error of the
-place when the steps are halved. All but what is proved is measured.</p>
+<p>Oscillation: the range of the energy in the first tenth of the steps. Drift: the mean of the last tenth less that
+of the first. Constraint: the largest |A v + b|; <i>proved 0</i> where an equation of the method says so. Order: of the
+error of the place when the steps are halved. All but what is proved is measured.</p>
 {systems}
 </html>
 """

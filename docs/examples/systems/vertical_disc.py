@@ -11,10 +11,7 @@ vx, vy, turning, rolling = map(dot, (x, y, heading, roll))
 SYSTEM = System(
     "vertical rolling disc",
     coordinates=(x, y, heading, roll),
-    lagrangian=mass * (vx**2 + vy**2) / 2
-    + about_vertical * turning**2 / 2
-    + about_axis * rolling**2 / 2
-    - sin(x) / 2,
+    lagrangian=mass * (vx**2 + vy**2) / 2 + about_vertical * turning**2 / 2 + about_axis * rolling**2 / 2 - sin(x) / 2,
     constraints=[vx - radius * cos(heading) * rolling, vy - radius * sin(heading) * rolling],
     parameters={mass: 1, radius: 1, about_vertical: "1/4", about_axis: "1/2"},
     start={heading: "2/5", turning: "7/10", rolling: "9/10"},

@@ -1,0 +1,96 @@
+"""chapsym lab: the table, JSON that is gone on with, and the page."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from commands import answer, chapsym
+
+SYSTEMS = Path(__file__).parents[2] / "docs/examples/systems"
+FILE = SYSTEMS / "particle.py"
+
+
+def test_a_table_with_verdicts_and_figures():
+    done = chapsym("lab", FILE, "--method", "dla", "--method", "rk4", "--steps", 300)
+    head, columns, first, last = done.stdout.splitlines()
+    assert head == (
+        "nonholonomic particle: completely nonholonomic: the flag has the dimensions 2, 3 of 3; the exact motion keeps "
+        "its energy"
+    )
+    assert columns.split() == ["method", "order", "energy", "oscillation", "drift", "constraint", "µs/step"]
+    assert first.split()[:3] == ["dla", "2.00", "0.690138"]
+    assert "proved 0" in first
+    assert "proved 0" not in last
+    assert last.split()[1].startswith("4.0")
+
+
+def test_json_is_gone_on_with(tmp_path):
+    out = tmp_path / "lab.json"
+    options = ["--steps", 300, "-o", out, "--json", FILE]
+    first = answer("lab", "--method", "dla", *options)
+    assert [cell["method"] for cell in first["cells"]] == ["dla"]
+    data = json.loads(out.read_text(encoding="utf-8"))
+    data["cells"][0]["drift"] = 12.5  # is not measured again
+    out.write_text(json.dumps(data), encoding="utf-8")
+    second = answer("lab", "--method", "dla", "--method", "gni", *options)
+    assert [(cell["method"], cell["drift"] == 12.5) for cell in second["cells"]] == [("dla", True), ("gni", False)]
+    changed = tmp_path / "particle.py"
+    changed.write_text(FILE.read_text(encoding="utf-8").replace("x: 1", "x: 2"), encoding="utf-8")
+    third = answer("lab", "--method", "dla", *options[:-1], changed)
+    assert third["cells"][-1]["drift"] != 12.5
+    assert len(json.loads(out.read_text(encoding="utf-8"))["cells"]) == 3
+    out.write_text("{}", encoding="utf-8")
+    done = chapsym("lab", "--method", "dla", *options)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert "is not what chapsym lab has written" in done.stderr
+
+
+def test_half_the_step_and_a_step_without_a_solution():
+    done = chapsym("lab", FILE, "--method", "rk4", "--steps", 5000, "--halve", "--no-flags")
+    assert "with half the step" in done.stdout
+    done = chapsym("lab", SYSTEMS / "falling_disc.py", "--method", "dla-left", "--steps", 1000, "--no-flags")
+    assert "has no solution near the last one" in done.stdout
+
+
+def test_a_page_with_a_curve_for_each_method(tmp_path):
+    folder = tmp_path / "systems"
+    folder.mkdir()
+    for name in ("particle", "sleigh"):
+        shutil.copy(SYSTEMS / f"{name}.py", folder)
+    out = tmp_path / "lab.html"
+    assert chapsym("lab", folder, "--steps", 200, "-o", out).returncode == 0
+    text = out.read_text(encoding="utf-8")
+    assert text.count("<svg") == 2
+    assert text.count("<tr>") == 2 * 8
+    assert "geometric nonholonomic integrator" in text
+    assert "completely nonholonomic" in text
+    assert "http" not in text.replace("http://www.w3.org", "").replace("http://purl.org", "").replace(
+        "http://creativecommons.org", ""
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "said"),
+    [
+        ("x = 1", [], "has no SYSTEM = System(...)"),
+        ("x = 1/0", [], "cannot be run: ZeroDivisionError: division by zero"),
+        ("from chapsym.mechanics import System\nSYSTEM = System('s', (), 0)", [], "s: coordinates must be symbols"),
+        ("x = 1", ["--method", "euler"], "'euler' is no method; those are dla, dla-left, gni, leapfrog"),
+        ("x = 1", ["-o", "lab.txt"], "lab.txt must end in .json or .html"),
+    ],
+)
+def test_what_is_no_system_is_one_sentence(tmp_path, text, options, said):
+    file = tmp_path / "system.py"
+    file.write_text(text, encoding="utf-8")
+    done = chapsym("lab", file, *options)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert said in done.stderr
+
+
+def test_what_is_no_file_is_one_sentence(tmp_path):
+    for place, said in ((tmp_path, "has no file of a system"), (tmp_path / "none.py", "is no file of a system"),
+                        (tmp_path / "none.txt", "is no file of a system")):  # fmt: skip
+        done = chapsym("lab", place)
+        assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+        assert said in done.stderr

@@ -1,0 +1,359 @@
+"""Systems, their brackets, the methods, and equations that somebody typed."""
+
+import dataclasses
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.integrate import solve_ivp
+from sympy.physics import mechanics as kane
+
+from chapsym.mechanics import (
+    METHODS,
+    BadSystem,
+    NotSolved,
+    Quaternion,
+    Runner,
+    System,
+    Turned,
+    agree,
+    dot,
+    flag,
+    in_symbols,
+    loaded,
+    measured,
+    moved,
+    rate,
+)
+
+SYSTEMS = Path(__file__).parents[2] / "docs/examples/systems"
+x, y, z, a = sp.symbols("x y z a")
+vx, vy, vz, va = map(dot, (x, y, z, a))
+FREE = (vx**2 + vy**2 + vz**2) / 2
+
+
+def particle(**changes):
+    settings = {"constraints": [vz - y * vx], "start": {y: "3/10", vx: 1, vy: "1/2"}}
+    return System("particle", (x, y, z), FREE, **settings | changes)
+
+
+@pytest.mark.parametrize(
+    ("name", "growth", "dimension"),
+    [
+        ("ball", (3, 5), 5), ("contact", (2, 3), 3), ("falling_disc", (3, 4, 5), 5), ("particle", (2, 3), 3),
+        ("rattleback", (3, 5), 5), ("sleigh", (2, 3), 3), ("snakeboard", (3, 4, 5), 5), ("suslov", (2, 3), 3),
+        ("transmission", (2, 3), 3), ("vertical_disc", (2, 3, 4), 4), ("veselova", (2, 3), 3),
+    ],
+)  # fmt: skip
+def test_the_examples_are_short_and_their_flags_are_known(name, growth, dimension):
+    """(2, 3), (3, 5) of a sphere and (2, 3, 4) of a disc are in A. M. Bloch's book; the rest by numbers, below."""
+    file = SYSTEMS / f"{name}.py"
+    assert len(file.read_text(encoding="utf-8").splitlines()) <= 40
+    found = flag(loaded(file))
+    assert (found.growth, found.dimension, found.functions) == (growth, dimension, 0)
+    assert growth == ranks(loaded(file))
+
+
+@mpmath.workdps(40)
+def ranks(system):
+    """The dimensions of the flag at a place in general position, by differences of fields in floats."""
+    q, n, m = list(system.coordinates), len(system.coordinates), system.rows.rows
+    numbers = dict(zip(system.parameters, map(sp.Float, system.numbers), strict=True))
+    entries = sp.lambdify((q,), list(system.rows.xreplace(numbers)), "mpmath")
+    mp = mpmath.mp
+
+    def rows(place):
+        return mp.matrix([entries(list(place))[n * i : n * i + n] for i in range(m)])
+
+    start = mp.matrix([mp.mpf(k) / 7 for k in (3, 2, 4, 1, 5, 2)][:n])
+    if system.holonomic:
+        size = mp.sqrt(sum(start[i] ** 2 for i in range(n - 4, n)))
+        start = mp.matrix([start[i] / size if i >= n - 4 else start[i] for i in range(n)])
+    at_start = rows(start)
+    bound = pivots(at_start, mp)
+    free = [i for i in range(n) if i not in bound]
+
+    def field(j):
+        def value(place):
+            of = rows(place)
+            square, column = mp.matrix(m, m), mp.matrix(m, 1)
+            for r in range(m):
+                column[r] = -of[r, j]
+                for c, i in enumerate(bound):
+                    square[r, c] = of[r, i]
+            found = mp.lu_solve(square, column)
+            result = mp.matrix(n, 1)
+            result[j] = 1
+            for c, i in enumerate(bound):
+                result[i] = found[c]
+            return result
+
+        return value
+
+    def bracket(f, g):
+        def value(place):
+            small = mp.mpf(10) ** -10
+            along = lambda of, by: (of(place + small * by(place)) - of(place - small * by(place))) / (2 * small)  # noqa: E731
+            return along(g, f) - along(f, g)
+
+        return value
+
+    fields = [field(j) for j in free]
+    span, newest, growth = list(fields), list(fields), [len(fields)]
+    while True:
+        newest = [bracket(f, g) for f in fields for g in newest]
+        span += newest
+        table = mp.matrix([list(one(start)) for one in span])
+        rank = sum(s > mp.mpf(10) ** -6 for s in mp.svd_r(table, compute_uv=False))
+        if rank == growth[-1]:
+            return tuple(growth)
+        growth.append(rank)
+
+
+def pivots(matrix, mp):
+    """Columns that are independent, the largest first."""
+    work, chosen = matrix.copy(), []
+    for r in range(matrix.rows):
+        column = max((j for j in range(matrix.cols) if j not in chosen), key=lambda j: abs(work[r, j]))
+        chosen.append(column)
+        for i in range(matrix.rows):
+            if i != r:
+                factor = work[i, column] / work[r, column]
+                for j in range(matrix.cols):
+                    work[i, j] -= factor * work[r, j]
+    return chosen
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "constraints", "growth", "functions"),
+    [
+        ((x, y), [x * vx + y * vy], (1,), 1),
+        ((x, y, z), [y * z * vx + x * z * vy + x * y * vz], (2,), 1),
+        ((x, y, z), [vx + y * vz], (2, 3), 0),
+        ((x, y, z), [vx - vy], (2,), 1),
+        ((x, y, a), [sp.cos(a) * vx + sp.sin(a) * vy], (2, 3), 0),
+        ((x, y, a), [sp.cos(a) * vx - x * sp.sin(a) * va], (2,), 1),  # d(x cos a)
+        ((x, y, z, a), [vx + y * vz, va - z * vz], (2, 3), 1),  # a - z²/2 stays
+        ((x, y, z), [], (3,), 0),
+        ((x, y), [vx / sp.sqrt(1 + x**2) + vy], (1,), 1),
+        ((x, y, z), [vz - sp.sqrt(1 + y**2) * vx], (2, 3), 0),
+    ],
+)
+def test_constraints_are_integrable_or_not(coordinates, constraints, growth, functions):
+    found = flag(System("one", coordinates, 0, constraints))
+    assert (found.growth, found.functions) == (growth, functions)
+    assert found.integrable is (len(growth) == 1)
+    assert str(found).startswith({(3,): "no constraint", (2, 3): "completely" if not functions else "nonholonomic"}.get(
+        growth, "integrable"))  # fmt: skip
+
+
+def test_a_flag_says_where_it_holds():
+    """The Martinet distribution, whose flag is longer where y = 0: nothing is said there."""
+    found = flag(System("Martinet", (x, y, z), 0, [vz - y**2 * vx / 2]))
+    assert found.growth == (2, 3)
+    assert found.condition.has(y)
+    assert sp.sympify(found.point["y"]) != 0
+
+
+@pytest.mark.parametrize("name", ["particle", "contact", "falling_disc", "ball"])
+@pytest.mark.parametrize("method", METHODS)
+def test_the_methods_have_their_orders_and_keep_the_constraints(name, method):
+    system = loaded(SYSTEMS / f"{name}.py")
+    cell = measured(system, method, 40, float(Fraction(system.step)) / (4 if name == "falling_disc" else 1))
+    expected = {"rk4": 4, "dla-left": 2 if name == "ball" else 1}.get(method, 2)
+    assert cell.order == pytest.approx(expected, abs=0.15)
+    assert cell.kept is (method not in ("midpoint", "rk4"))
+    assert cell.constraint < (1e-12 if cell.kept else 1e-3)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_wrong_sign_in_an_equation_is_seen_by_the_order(method, monkeypatch):
+    """Then the method follows another motion, or its steps have no solution."""
+    system = particle(forces={x: -x, y: -y}, start={x: 1, y: "3/10", vx: 1, vy: "1/2"})
+    right = METHODS[method].scheme(system)
+    turned = dataclasses.replace(right, residual=[right.residual[0] + x, *right.residual[1:]])
+    exact = reference(system, 1.0)
+    runner = Runner(system, method)
+    assert np.abs(runner.march(100, 0.01).final[:3] - exact).max() < (2e-2 if method == "dla-left" else 1e-4)
+    runner = Runner(system, method)
+    runner.scheme = turned
+    with pytest.raises((NotSolved, AssertionError)):
+        assert np.abs(runner.march(100, 0.01).final[:3] - exact).max() < 2e-2
+
+
+def reference(system, end):
+    """The place at a time, by SciPy's Runge-Kutta method of order 8 on the equations with the multipliers."""
+    matrix, right = system.equations
+    q, v = list(system.coordinates), list(system.velocities)
+    numbers = dict(zip(system.parameters, map(sp.Float, system.numbers), strict=True))
+    of = sp.lambdify((q, v), [matrix.xreplace(numbers), right.xreplace(numbers)], "numpy")
+
+    def rates(_, state):
+        table, side = of(state[: len(q)], state[len(q) :])
+        solved = np.linalg.solve(np.array(table, float), np.array(side, float).ravel())
+        return np.concatenate([state[len(q) :], solved[: len(q)]])
+
+    done = solve_ivp(rates, (0, end), np.concatenate(system.beginning), method="DOP853", rtol=1e-12, atol=1e-12)
+    return done.y[: len(q), -1]
+
+
+@pytest.mark.parametrize("name", ["sleigh", "snakeboard", "suslov", "transmission", "vertical_disc", "rattleback"])
+def test_runge_kutta_has_the_motion_that_scipy_has(name):
+    system = loaded(SYSTEMS / f"{name}.py")
+    h = float(Fraction(system.step)) / 10
+    assert (
+        np.abs(moved(system, "rk4", 100, h).final[: len(system.coordinates)] - reference(system, 100 * h)).max() < 1e-9
+    )
+
+
+def test_the_particle_takes_the_steps_that_were_derived_by_hand():
+    """docs/tutorials/own-system.md, P-map: the discrete principle of the free particle, solved."""
+    h, vy_, height = 0.1, 0.5, 0.3
+    motion = moved(particle(), "dla", 50, h)
+    for before, after in pairwise(motion.velocity):
+        height += h * vy_
+        slope = h * height * vy_ / 2
+        assert after[0] == pytest.approx(before[0] * (1 + height**2 - slope) / (1 + height**2 + slope), rel=1e-13)
+        assert after[1] == pytest.approx(vy_, rel=1e-13)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_c_and_python_take_the_same_steps(method):
+    system = loaded(SYSTEMS / "contact.py")
+    in_c, in_python = (Runner(system, method, compiled).march(30, every=3) for compiled in (True, False))
+    assert np.abs(in_c.place - in_python.place).max() < 1e-12
+    assert np.abs(in_c.final - in_python.final).max() < 1e-12
+    assert in_c.time.tolist() == pytest.approx(np.arange(0, 3, 0.3))
+
+
+def test_a_system_of_one_coordinate_without_parameters_runs_in_c():
+    pendulum = System("pendulum", (a,), va**2 / 2 + sp.cos(a), start={a: 1})
+    for method in METHODS:
+        assert np.abs(moved(pendulum, method, 100, 0.01).final[:1] - reference(pendulum, 1.0)).max() < 1e-2
+
+
+def test_energy_is_kept_where_forces_do_no_work():
+    assert particle().keeps_energy
+    assert not particle(forces={x: -vx}).keeps_energy
+    assert particle(forces={x: -vy, y: vx}).keeps_energy
+    assert not particle(constraints=[vz - y * vx - 1], start={}).keeps_energy
+    pushed = moved(particle(forces={x: -vx}), "rk4", 100, 0.01)
+    assert pushed.energy[-1] < 0.8 * pushed.energy[0]
+
+
+def test_half_the_step_tells_the_method_from_the_model():
+    system = loaded(SYSTEMS / "particle.py")
+    drift = measured(system, "rk4", 5000, halve=True)
+    assert drift.drift / drift.halved > 20
+    wrong = dataclasses.replace(system, forces={x: vx / 1000})
+    drift = measured(wrong, "rk4", 5000, halve=True)
+    assert drift.drift / drift.halved == pytest.approx(1, abs=0.05)
+
+
+def test_kanes_method_gives_the_accelerations_of_the_principle():
+    """The Chaplygin sleigh in sympy.physics.mechanics."""
+    system = loaded(SYSTEMS / "sleigh.py")
+    q = kane.dynamicsymbols("x y heading")
+    u = kane.dynamicsymbols("u1:4")
+    mass, inertia, ahead = sp.symbols("mass inertia ahead")
+    N, O = kane.ReferenceFrame("N"), kane.Point("O")
+    B = N.orientnew("B", "Axis", (q[2], N.z))
+    B.set_ang_vel(N, u[2] * N.z)
+    O.set_vel(N, 0)
+    centre = O.locatenew("C", q[0] * N.x + q[1] * N.y)
+    centre.set_vel(N, u[0] * N.x + u[1] * N.y)
+    body = kane.RigidBody("body", centre, B, mass, (kane.inertia(B, 0, 0, inertia), centre))
+    slip = [centre.vel(N).dot(B.y) - ahead * u[2]]
+    method = kane.KanesMethod(
+        N, q, u[1:], [a - b.diff() for a, b in zip(u, q, strict=True)], u_dependent=u[:1], velocity_constraints=slip
+    )
+    method.kanes_equations([body], [])
+    solved = in_symbols(
+        method.mass_matrix_full.LUsolve(method.forcing_full).xreplace(dict(zip(u, [c.diff() for c in q], strict=True)))
+    )
+    order = in_symbols(list(method.u))
+    rates = dict(zip(order, solved[3:], strict=True))
+    speeds = dict(zip(in_symbols(u), system.coordinates, strict=True))
+    accelerations = {speeds[one]: value for one, value in rates.items()}
+    assert agree(system, accelerations).equal
+    accelerations[system.coordinates[2]] *= 2
+    assert not agree(system, accelerations).equal
+
+
+def test_equations_that_break_one_thing_are_refuted_at_an_exact_state():
+    system = particle()
+    right = -y * vx * vy / (1 + y**2)
+    assert agree(system, {x: right, y: 0, z: y * right + vx * vy}).equal
+    assert str(agree(system, {x: right, y: 0, z: y * right + vx * vy})).startswith("equal")
+    broken = agree(system, {x: right, y: 0, z: y * right})
+    assert (broken.equal, broken.what) == (False, "constraint 1")
+    state = {sp.Symbol(k): sp.Rational(v) for k, v in broken.point.items()}
+    assert (vz - y * vx).xreplace(state) == 0
+    assert abs((vx * vy).xreplace(state)) == abs(sp.Rational(broken.value)) != 0
+    broken = agree(system, {x: 2 * right, y: 0, z: 2 * y * right + vx * vy})
+    assert broken.what.startswith("the principle")
+    assert "should be 0 at" in str(broken)
+
+
+def test_attitudes_have_their_angular_velocities():
+    """Of skew matrices RᵀR'."""
+    p, q, r = sp.symbols("p q r")
+    turned = Turned(("z", p), ("y", q), ("x", r))
+    skew = turned.rotation.T * rate(turned.rotation, (p, q, r))
+    assert sp.simplify(sp.Matrix([skew[2, 1], skew[0, 2], skew[1, 0]]) - turned.spin) == sp.zeros(3, 1)
+    body = Quaternion("q")
+    skew = body.rotation.T * rate(body.rotation, body.coordinates)
+    found = sp.Matrix([skew[2, 1], skew[0, 2], skew[1, 0]]) - body.spin
+    space = body.rotation * body.spin - body.spin_in_space
+    unit = {dot(body.coordinates[0]): sp.solve(body.swelling, dot(body.coordinates[0]))[0]}
+    at = dict(zip(body.coordinates, map(sp.Rational, ("1/5", "2/5", "2/5", "4/5")), strict=True))
+    assert [sp.expand(e.xreplace(unit).xreplace(at)) for e in (*found, *space)] == [0] * 6
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"coordinates": ()}, "coordinates must be symbols"),
+        ({"coordinates": (x, x, z)}, "a coordinate is there twice"),
+        ({"lagrangian": FREE + a}, "the Lagrangian has a, which is no coordinate, velocity or parameter"),
+        ({"lagrangian": FREE + vx**3}, "is not of degree two in the velocities"),
+        ({"constraints": [vx * vy]}, "a constraint is not affine in the velocities"),
+        ({"constraints": [va]}, "a constraint has a_dot"),
+        ({"holonomic": [vx]}, "a holonomic constraint has x_dot"),
+        ({"forces": {a: 1}}, "a force is along a, which is no coordinate"),
+        ({"start": {a: 1}}, "the start has a, which is no coordinate or velocity"),
+    ],
+)
+def test_what_is_no_system_is_one_sentence(settings, said):
+    full = {"coordinates": (x, y, z), "lagrangian": FREE} | settings
+    with pytest.raises(BadSystem, match=said):
+        System("wrong", **full)
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"start": {y: 1, vx: 1, vz: 2}}, "the velocities of the start are 1 off the constraints; leave out those"),
+        ({"start": {x: "one"}}, "the start of x is 'one', which is no number"),
+        ({"start": {x: float("nan")}}, "the start of x is not finite"),
+        ({"holonomic": [x - 1], "start": {}}, "the start is 1 off the holonomic constraints"),
+        ({"step": "0.1s"}, "the step is '0.1s', which is no number"),
+        ({"lagrangian": FREE + sp.exp(x)}, "is not sin, cos, a square root or"),
+    ],
+)
+def test_a_start_that_cannot_be_is_one_sentence(settings, said):
+    settings = {"lagrangian": FREE, "constraints": [vz - y * vx]} | settings
+    with pytest.raises(BadSystem, match=said):
+        moved(System("wrong", (x, y, z), **settings), steps=1)
+
+
+def test_a_step_without_a_solution_says_which():
+    """The disc falls flat, where its angles end."""
+    with pytest.raises(NotSolved, match=r"dla-left: step \d+ of 1000 has no solution near the last one"):
+        moved(loaded(SYSTEMS / "falling_disc.py"), "dla-left", 1000)
+    with pytest.raises(BadSystem, match="'euler' is no method; those are dla, "):
+        moved(particle(), "euler")
