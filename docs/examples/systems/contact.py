@@ -14,5 +14,5 @@ SYSTEM = System(
     constraints=[vx + y * vz],
     parameters={coupling: "3/10", beyond: 1},
     start={x: "6/5", z: "1/2", vy: 1},
-    source="R. McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283, 5.2; with `beyond`: K. Modin, O. Verdier, 2020",
+    source="R. McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283, 5.2; `beyond`: K. Modin, O. Verdier, 2020",
 )
