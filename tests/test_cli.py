@@ -7,11 +7,11 @@ import re
 import signal
 import subprocess
 import sys
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from commands import answer, changed, chapsym, child, refused
+from committed import committed, judged_as
 from first import FIRST
 from waiting import GUARD, INTERRUPTIBLE
 
@@ -151,16 +151,19 @@ def test_a_derivation_that_cannot_be_loaded_is_one_sentence(tmp_path):
         assert told.startswith("the proof script paper.s4_principle cannot be loaded: KeyError")
 
 
-def test_codegen_check_passes(monkeypatch):
-    monkeypatch.setattr(build, "ours", build.Package)  # one that proves its claims now
+def test_codegen_check_passes(monkeypatch, all_judged):
+    """By the certificates of the claims as they are proved now."""
+    package = build.Package()
+    package.__dict__["judged"] = judged_as(json.loads(text) for _, text in all_judged.records.values())
+    monkeypatch.setattr(build, "ours", lambda: package)
     assert answer("codegen", "--check")["kept"] is True
 
 
 @pytest.mark.parametrize("option", ["--check", "--trust=all"])
 def test_kernels_are_not_generated_from_what_is_not_proved(monkeypatch, option):
-    package = build.ours()
-    open_ = SimpleNamespace(certificate=package.judged["gibbs"].certificate, verdict=Verdict.OPEN)
-    monkeypatch.setitem(package.__dict__, "judged", package.judged | {"gibbs": open_})
+    judged = committed()
+    open_ = judged["gibbs"]._replace(verdict=Verdict.OPEN)
+    monkeypatch.setitem(build.ours().__dict__, "judged", judged | {"gibbs": open_})
     before = {path.name: path.read_bytes() for path in build.folder().iterdir() if path.is_file()}
     done = chapsym("codegen", option)
     assert "gibbs_residual comes from the claim gibbs, which is not proved" in done.stderr

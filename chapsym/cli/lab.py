@@ -55,8 +55,8 @@ def lab(
             constraints[system.name] = f"{flag(system)}; " * flags + f"the exact motion {energy} its energy"
             if not as_json:
                 print(f"{system.name}: {constraints[system.name]}")
-                print("  " + "  ".join(f"{name:>{width}}" for name, width in COLUMNS))
-            for name in methods:
+                print("  " + "  ".join(f"{name:>{width}}" for name, width in COLUMNS.items()))
+            for name in methods if method or system.discrete else [one for one in methods if one != "own"]:
                 cell = _cell(system, name, steps, length, halve, done)
                 if not as_json:
                     print(_row(cell))
@@ -76,15 +76,9 @@ def lab(
         note(f"wrote {output}")
 
 
-COLUMNS = (
-    ("method", 9),
-    ("order", 6),
-    ("energy", 11),
-    ("oscillation", 11),
-    ("drift", 10),
-    ("constraint", 10),
-    ("µs/step", 8),
-)
+COLUMNS = {
+    "method": 9, "order": 6, "energy": 11, "oscillation": 11, "drift": 10, "constraint": 10, "returns": 9, "µs/step": 8,
+}  # fmt: skip
 
 
 def _row(cell: dict[str, Any]) -> str:
@@ -92,8 +86,12 @@ def _row(cell: dict[str, Any]) -> str:
         return f"  {cell['method']:>9}  {cell['failed']}"
     order = "exact" if cell["order"] is None else f"{cell['order']:.2f}"
     kept = "proved 0" if cell["kept"] else f"{cell['constraint']:.1e}"
-    energy = f"{cell['energy']:>11.6g}  {cell['oscillation']:>11.1e}  {cell['drift']:>+10.1e}"
-    return f"  {cell['method']:>9}  {order:>6}  {energy}  {kept:>10}  {cell['microseconds']:>8.2f}{_of_half(cell)}"
+    figures = (
+        cell["method"], order, f"{cell['energy']:.6g}", f"{cell['oscillation']:.1e}", f"{cell['drift']:+.1e}", kept,
+        f"{cell['returns']:.1e}", f"{cell['microseconds']:.2f}",
+    )  # fmt: skip
+    row = "".join(f"  {figure:>{width}}" for figure, width in zip(figures, COLUMNS.values(), strict=True))
+    return row + _of_half(cell)
 
 
 def _of_half(cell: dict[str, Any]) -> str:

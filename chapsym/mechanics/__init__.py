@@ -14,9 +14,10 @@ from .equations import Agreement, agree, in_symbols
 from .lab import Cell, measured
 from .methods import METHODS, Method, Scheme
 from .motion import Motion, NotSolved, Runner, moved
-from .system import BadSystem, System, dot, loaded, rate
+from .system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
 
 __all__ = [
-    "METHODS", "Agreement", "BadSystem", "Cell", "Flag", "Method", "Motion", "NotSolved", "Quaternion", "Runner",
-    "Scheme", "System", "Turned", "agree", "dot", "flag", "in_symbols", "loaded", "measured", "moved", "rate",
+    "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Discrete", "Flag", "Method", "Motion", "NotSolved",
+    "Quaternion", "Runner", "Scheme", "System", "Turned", "after", "agree", "dot", "flag", "in_symbols", "loaded",
+    "measured", "moved", "rate",
 ]  # fmt: skip

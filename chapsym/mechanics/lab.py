@@ -14,8 +14,8 @@ from .system import System
 
 #: Of all steps, the part at each end whose means are compared; and how many points of the energy a cell keeps.
 END, KEPT = 10, 240
-#: Steps on which the order is measured, and differences that are rounding.
-SHORT, ROUNDING = 16, 1e-12
+#: Steps on which the order is measured, and differences that are rounding; steps forth and back.
+SHORT, ROUNDING, BACK = 16, 1e-12, 100
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,9 @@ class Cell:
         by its order, one of the model does not.
     order : float or None
         That the error shows when the steps are halved; None where it is rounding.
+    returns : float
+        How far the place is from its start after some steps, the velocities turned round, and as many steps: 0 but for
+        rounding where the method is reversible by q, v -> q, -v.
     microseconds : float
         Of processor time, a step.
     failed : str or None
@@ -64,6 +67,7 @@ class Cell:
     kept: bool = False
     halved: float | None = None
     order: float | None = None
+    returns: float = math.nan
     microseconds: float = math.nan
     failed: str | None = None
     curve: tuple[tuple[float, float], ...] = ()
@@ -76,7 +80,7 @@ class Cell:
     def of(cls, data: dict[str, Any]) -> "Cell":
         """From that."""
         curve = tuple((float(t), float(e)) for t, e in data["curve"])
-        figures = ("energy", "oscillation", "drift", "constraint", "places", "microseconds")
+        figures = ("energy", "oscillation", "drift", "constraint", "places", "returns", "microseconds")
         return cls(**{**data, "curve": curve, **{k: math.nan if data[k] is None else data[k] for k in figures}})
 
 
@@ -118,6 +122,7 @@ def measured(
         runner.march(1, h)  # what is compiled once
         motion = runner.march(steps, h)
         order = _order(system, runner, h)
+        returns = _returns(runner, h)
         half = _figures(runner.march(2 * steps, h / 2, 2))["drift"] if halve else None
     except NotSolved as error:
         return Cell(**{**asdict(first), "failed": str(error)})
@@ -126,6 +131,7 @@ def measured(
             **asdict(first),
             **_figures(motion),
             "order": order,
+            "returns": returns,
             "halved": half,
             "microseconds": 1e6 * motion.seconds / steps,
         }
@@ -160,6 +166,14 @@ def _figures(motion: Motion) -> dict[str, Any]:
         "places": float(motion.places.max()),
         "curve": tuple((float(motion.time[i]), float(energy[i])) for i in some),
     }
+
+
+def _returns(runner: Runner, h: float) -> float:
+    """How far the place is from its start after steps forth and back."""
+    there = runner.march(BACK, h).final
+    back = runner.march(BACK, h, start=runner.turned(there, h)).final
+    n = len(runner.system.coordinates)
+    return float(np.abs(back[:n] - runner.system.beginning[0]).max())
 
 
 def _order(system: System, runner: Runner, h: float) -> float | None:

@@ -11,10 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import sympy as sp
 
-from .system import System
-
-#: The length of a step.
-STEP = sp.Symbol("step_length")
+from .system import STEP, BadSystem, System, after
 
 if TYPE_CHECKING:
     Vector: TypeAlias = Any  # a column; SymPy's matrices have no types
@@ -40,6 +37,8 @@ class Scheme:
         Coordinates and velocities at which the step is looked at: its energy, its constraints.
     start, guess : sequence of sympy.Expr
         The first state and the first guess of the unknowns, by coordinates and velocities.
+    reflects : bool
+        Whether the momenta of a state are those before a reaction that reflects them, not those of its velocities.
     stages : sequence of sequence of sympy.Rational
         Of an explicit Runge-Kutta method, the rows of its tableau, then its weights; none for another.
     """
@@ -52,6 +51,7 @@ class Scheme:
     velocity: Sequence[sp.Expr]
     start: Sequence[sp.Expr]
     guess: Sequence[sp.Expr]
+    reflects: bool = False
     stages: Sequence[Sequence[sp.Rational]] = ()
 
 
@@ -124,6 +124,30 @@ def discrete(alpha: sp.Rational) -> Callable[[System], Scheme]:
     return scheme
 
 
+def own(system: System) -> Scheme:
+    """The discrete Lagrange-d'Alembert principle with a discrete Lagrangian and constraints of one's own.
+
+    p + D₁L(q, q') + A(q)ᵀλ = 0, the discrete constraints, and p' = D₂L(q, q').
+    """
+    if system.discrete is None:
+        raise BadSystem(f"{system.name} has no discretization of its own: give it discrete=Discrete(...)")
+    of, action = _Parts(system), sp.sympify(system.discrete.lagrangian)
+    u, multipliers = of.symbols("u", of.n), of.symbols("lam", of.m)
+    end = of.q + STEP * u
+    there = {after(x): e for x, e in zip(system.coordinates, end, strict=True)}
+    first, last = (Vector([sp.diff(action, x(c)) for c in system.coordinates]).xreplace(there) for x in (_same, after))
+    kept = [sp.sympify(c).xreplace(there) for c in system.discrete.constraints]
+    held = [of.at(Vector([c]), end)[0] for c in system.holonomic]
+    return Scheme(
+        (*of.q, *of.p), (*u, *multipliers), [*(of.p + first + of.held(of.q, multipliers)), *kept, *held],
+        [*end, *last], list((of.q + end) / 2), list(u), [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)],
+    )  # fmt: skip
+
+
+def _same(x: sp.Symbol) -> sp.Symbol:
+    return x
+
+
 def geometric(system: System) -> Scheme:
     """The geometric nonholonomic integrator: with p⁻ before and p⁺ = p⁻ + Aᵀλ after the reaction at q, the velocity of
     (p⁻ + p⁺)/2 obeys the constraint at q; then a free step of h L(q + h u/2, u).
@@ -138,7 +162,7 @@ def geometric(system: System) -> Scheme:
     ]  # fmt: skip
     return Scheme(
         (*of.q, *of.p), (*u, *w, *multipliers), residual, [*end, *(momenta + STEP * push / 2)], list(of.q), list(w),
-        [*of.q, *system.momenta], [*of.v, *of.v, *([sp.S.Zero] * of.m)],
+        [*of.q, *system.momenta], [*of.v, *of.v, *([sp.S.Zero] * of.m)], reflects=True,
     )  # fmt: skip
 
 
@@ -204,7 +228,7 @@ def explicit(*stages: Sequence[str]) -> Callable[[System], Scheme]:
         return Scheme(
             (*of.q, *of.v), (*a, *multipliers), _accelerated(of, a, multipliers, of.q, of.v), [*of.v, *a], list(of.q),
             list(of.v), [*of.q, *of.v], [sp.S.Zero] * (of.n + of.m),
-            [[sp.Rational(x) for x in row] for row in stages],
+            stages=[[sp.Rational(x) for x in row] for row in stages],
         )  # fmt: skip
 
     return scheme
@@ -223,6 +247,7 @@ METHODS: dict[str, Method] = {
             "dla", "discrete Lagrange-d'Alembert, middle", "J. Cortés, S. Martínez, Nonlinearity 14 (2001) 1365",
             discrete(sp.S.Half),
         ),
+        Method("own", "discrete Lagrange-d'Alembert, of one's own", "the same", own),
         Method("dla-left", "discrete Lagrange-d'Alembert, left end", "the same", discrete(sp.S.Zero)),
         Method(
             "gni", "geometric nonholonomic integrator",

@@ -17,9 +17,9 @@ import sympy as sp
 from chapsym.codegen import Kernel, build, c_files, passes
 
 from .algebra import Letters
-from .methods import METHODS, STEP, Scheme
+from .methods import METHODS, Scheme
 from .slope import Steps, differentiated, shared
-from .system import BadSystem, System, number
+from .system import STEP, BadSystem, System, number
 
 #: Newton's iteration: rounds at most; the last correction in units of the unknowns, and one that may stay; and how much
 #: one must be smaller than the one before for the derivatives to serve another round.
@@ -124,7 +124,7 @@ class Runner:
         exec(compile(_text(self.kernels), "kernels", "exec"), scope)  # our own text, never a user's
         return {kernel.name: scope[kernel.name] for kernel in self.kernels}
 
-    def march(self, steps: int, length: float | None = None, every: int = 1) -> Motion:
+    def march(self, steps: int, length: float | None = None, every: int = 1, start: np.ndarray | None = None) -> Motion:
         """Takes steps from the start of the system.
 
         Parameters
@@ -134,6 +134,8 @@ class Runner:
             Of a step; that of the system by default.
         every : int
             Of which one is recorded.
+        start : numpy.ndarray, optional
+            Another state to start from, as `Motion.final` is one.
 
         Raises
         ------
@@ -143,7 +145,9 @@ class Runner:
         h = self.length if length is None else float(length)
         fixed = np.array([*self.system.numbers, h])
         q, v = self.system.beginning
-        state = self._numbers(self.scheme.start, q, v)
+        if start is not None:
+            q, v = self.velocities(start)
+        state = self._numbers(self.scheme.start, q, v) if start is None else np.array(start, float)
         unknowns = self._numbers(self.scheme.guess, q, v)
         recorded = np.empty((-(-steps // every), 2 * len(q)))
         take = _in_c if self.compiled else _in_python
@@ -170,6 +174,26 @@ class Runner:
         return [
             sp.lambdify(symbols, [sp.sympify(e).xreplace(numbers) for e in one], "numpy", cse=True) for one in measured
         ]
+
+    def velocities(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates and velocities of a state, which may have momenta: p = ∂L/∂v is solved, with least |v|."""
+        n = len(self.system.coordinates)
+        q, rest = state[:n], state[n:]
+        if self.scheme.state[n] == self.system.velocities[0]:
+            return q, rest
+        at_rest = self._numbers(list(self.system.momenta), q, 0 * q)
+        return q, np.linalg.lstsq(self._mass(q), rest - at_rest, rcond=None)[0]
+
+    def turned(self, state: np.ndarray, length: float) -> np.ndarray:
+        """The state with the velocities turned round, for steps of a length."""
+        q, v = self.velocities(state)
+        if not self.scheme.reflects:
+            return self._numbers(self.scheme.start, q, -v)
+        v = self.march(1, length, start=state).velocity[0]
+        return np.concatenate([q, state[len(q) :] - 2 * self._mass(q) @ v])
+
+    def _mass(self, q: np.ndarray) -> np.ndarray:
+        return self._numbers(list(self.system.mass), q, 0 * q).reshape(len(q), len(q))
 
     def _numbers(self, expressions: Sequence[sp.Expr], q: np.ndarray, v: np.ndarray) -> np.ndarray:
         symbols = (*self.system.coordinates, *self.system.velocities, *self.system.parameters)

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+#: The length of a step.
+STEP = sp.Symbol("step_length")
 #: How far the velocities of a start may be from the constraints, in their own units.
 NEAR = 1e-9
 
@@ -29,6 +31,27 @@ def dot(x: sp.Symbol) -> sp.Symbol:
 def rate(expr: Any, coordinates: Sequence[sp.Symbol]) -> Any:
     """d/dt of an expression, or of a matrix of them, in coordinates and constants."""
     return sum((sp.diff(expr, x) * dot(x) for x in coordinates), 0 * expr)
+
+
+def after(x: sp.Symbol) -> sp.Symbol:
+    """A coordinate after a step: the symbol `x_after` for x."""
+    return sp.Symbol(f"{x.name}_after")
+
+
+@dataclass(frozen=True, eq=False)
+class Discrete:
+    """A discretization of one's own, for the discrete Lagrange-d'Alembert principle.
+
+    Parameters
+    ----------
+    lagrangian : sympy.Expr
+        In the coordinates x before and `after(x)` a step, parameters and the length `STEP` of a step: about the action.
+    constraints : sequence of sympy.Expr
+        What vanishes at a step, one for each constraint of the system on velocities.
+    """
+
+    lagrangian: sp.Expr
+    constraints: Sequence[sp.Expr] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +82,8 @@ class System:
         A usual length of a step.
     source : str
         Where it comes from.
+    discrete : Discrete, optional
+        A discretization of one's own: the method "own".
 
     Raises
     ------
@@ -84,6 +109,7 @@ class System:
     start: Mapping[sp.Symbol, Any] = field(default_factory=dict)
     step: Any = "1/10"
     source: str = ""
+    discrete: Discrete | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "lagrangian", sp.sympify(self.lagrangian))
@@ -105,6 +131,8 @@ class System:
                 if strange := sp.sympify(one).free_symbols - allowed:
                     listed = ", ".join(sorted(map(str, strange)))
                     raise BadSystem(f"{self.name}: {what} has {listed}, which is no coordinate, velocity or parameter")
+        if self.discrete is not None:
+            self._check(self.discrete, places | {after(x) for x in self.coordinates} | {STEP})
         if strange := set(self.forces) - set(self.coordinates):
             raise BadSystem(f"{self.name}: a force is along {min(map(str, strange))}, which is no coordinate")
         if strange := set(self.start) - {*self.coordinates, *self.velocities}:
@@ -114,10 +142,22 @@ class System:
         if self.rows.free_symbols & set(self.velocities):
             raise BadSystem(f"{self.name}: a constraint is not affine in the velocities")
 
+    def _check(self, discrete: Discrete, allowed: set[sp.Symbol]) -> None:
+        for one in (discrete.lagrangian, *discrete.constraints):
+            if strange := sp.sympify(one).free_symbols - allowed:
+                listed = ", ".join(sorted(map(str, strange)))
+                raise BadSystem(f"{self.name}: the discretization has {listed}, which is nothing at a step's two ends")
+        if len(discrete.constraints) != len(self.constraints):
+            counts = f"{len(discrete.constraints)} constraints, and the system {len(self.constraints)}"
+            raise BadSystem(f"{self.name}: the discretization has {counts}")
+        if self.forces:
+            raise BadSystem(f"{self.name}: a discretization of one's own has no forces")
+
     def digest(self, *more: Any) -> str:
         """A hash of all that a run depends on."""
         parts = (self.coordinates, self.lagrangian, self.constraints, self.holonomic, self.forces, self.parameters)
-        text = repr((self.name, *map(str, parts), str(self.start), str(self.step), more))
+        own = vars(self.discrete) if self.discrete else None
+        text = repr((self.name, *map(str, (*parts, own, self.start, self.step)), more))
         return hashlib.sha256(text.encode()).hexdigest()
 
     @property

@@ -33,9 +33,11 @@ def test_a_checkout_is_told_from_a_copy(copy):
 
 def test_the_bytes_do_not_depend_on_the_hash_seed():
     """One seed; another, drawn by Python, is that of this process, by the test above."""
-    program = "import json, sys; from conftest import build, committed; build.ours().__dict__['judged'] = committed()\n"
+    program = (
+        "import json, sys; from committed import build, committed; build.ours().__dict__['judged'] = committed()\n"
+    )
     program += "json.dump(build.ours().files, sys.stdout)"
-    here = {"PYTHONHASHSEED": "0", "PYTHONPATH": os.pathsep.join(map(str, Path(__file__).parents[:2]))}
+    here = {"PYTHONHASHSEED": "0", "PYTHONPATH": str(Path(__file__).parents[1])}
     done = subprocess.run([sys.executable, "-c", program], env=os.environ | here, capture_output=True, check=True)
     place = build.folder()
     for name, text in json.loads(done.stdout).items():

@@ -1,23 +1,28 @@
-"""The Chaplygin ball: a balanced ball of three moments of inertia, which rolls on a plane."""
+"""The Chaplygin ball: balanced, of three moments of inertia, it rolls on a plane; and the map of Fedorov's paper."""
 
-from sympy import diag, symbols
+from sympy import Matrix, diag, symbols
 
-from chapsym.mechanics import Quaternion, System, dot
+from chapsym.mechanics import STEP, Discrete, Quaternion, System, after, dot
 
 body = Quaternion("q")
 q0, q1, q2, q3 = body.coordinates
-x, y, mass, radius, I1, I2, I3 = symbols("x y mass radius I1 I2 I3")
+x, y, mass, radius, J1, J2, J3 = symbols("x y mass radius J1 J2 J3")  # J: the second moments of mass
+
+start, end = body.rotation, body.rotation.xreplace({q: after(q) for q in body.coordinates})
+moved, turned = Matrix([after(x) - x, after(y) - y, 0]), end * start.T
+slip = moved + radius / 2 * (turned - turned.T) * Matrix([0, 0, -1])  # (4.9), whose plane is above the ball
 
 SYSTEM = System(
     "Chaplygin ball",
     coordinates=(x, y, *body.coordinates),
     lagrangian=mass * (dot(x) ** 2 + dot(y) ** 2) / 2
-    + body.spin.dot(diag(I1, I2, I3) * body.spin) / 2
-    + 2 * I1 * body.swelling**2,
+    + body.spin.dot(diag(J2 + J3, J1 + J3, J1 + J2) * body.spin) / 2
+    + 2 * J1 * body.swelling**2,
     constraints=[dot(x) - radius * body.spin_in_space[1], dot(y) + radius * body.spin_in_space[0]],
     holonomic=[body.norm - 1],
-    parameters={mass: 1, radius: 1, I1: 1, I2: "3/2", I3: 2},
+    parameters={mass: 1, radius: 1, J1: "5/4", J2: "3/4", J3: "1/4"},
     start={q0: 1, dot(q1): "1/4", dot(q2): "1/8", dot(q3): "1/10"},
     step="1/20",
     source="S. A. Chaplygin, Mat. Sb. 24 (1903) 139; Yu. Fedorov, SIGMA 3 (2007) 044",
+    discrete=Discrete((mass * moved.dot(moved) / 2 - (start * diag(J1, J2, J3) * end.T).trace()) / STEP, slip[:2]),
 )
