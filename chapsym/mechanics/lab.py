@@ -14,6 +14,8 @@ from .system import System
 
 #: Of all steps, the part at each end whose means are compared; and how many points of the energy a cell keeps.
 END, KEPT = 10, 240
+#: Steps that are looked at.
+MOST = 1_000_000
 #: Steps on which the order is measured, and differences that are rounding; steps forth and back.
 SHORT, ROUNDING, BACK = 16, 1e-12, 100
 
@@ -120,10 +122,10 @@ def measured(
     first = Cell(system.name, method, steps, h, kept=keeps(system, runner.scheme))
     try:
         runner.march(1, h)  # what is compiled once
-        motion = runner.march(steps, h)
+        motion = runner.march(steps, h, -(-steps // MOST))
         order = _order(system, runner, h)
         returns = _returns(runner, h)
-        half = _figures(runner.march(2 * steps, h / 2, 2))["drift"] if halve else None
+        half = _figures(runner.march(2 * steps, h / 2, 2 * -(-steps // MOST)))["drift"] if halve else None
     except NotSolved as error:
         return Cell(**{**asdict(first), "failed": str(error)})
     return Cell(

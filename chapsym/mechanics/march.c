@@ -1,8 +1,8 @@
 /* Steps of a method: the unknowns by Newton's iteration, then the next state. The sizes and `tableau` stand before. */
 #include <stdint.h>
 
-static double matrix[UNKNOWNS][UNKNOWNS], right[UNKNOWNS];
-static int order[UNKNOWNS];
+static _Thread_local double matrix[UNKNOWNS][UNKNOWNS], right[UNKNOWNS];
+static _Thread_local int order[UNKNOWNS];
 
 /* Factors the matrix, by elimination with the largest pivots; 0 where one is 0. */
 static int factored(void) {
@@ -65,7 +65,7 @@ static int solved(const double *state, double *unknowns, const double *fixed) {
 
 /* One step of an explicit method, whose first stage has its unknowns; 0 where an acceleration is not found. */
 static int stepped(double *state, double *unknowns, const double *fixed, double step) {
-    static double rates[STAGES + 1][STATE];
+    double rates[STAGES + 1][STATE];
     const double *row = tableau;
     system_after(GIVEN(state), rates[0]);
     for (int stage = 1; stage <= STAGES; row += stage, stage++) {
@@ -85,15 +85,16 @@ static int stepped(double *state, double *unknowns, const double *fixed, double 
     return 1;
 }
 
-/* Takes steps, and records every `every`th; how many were taken. */
-int64_t march(int64_t steps, int64_t every, double *state, double *unknowns, const double *fixed, double *recorded) {
-    double last[2][UNKNOWNS], next[STATE];
-    for (int i = 0; i < UNKNOWNS; i++) last[0][i] = last[1][i] = unknowns[i];
-    for (int64_t n = 0; n < steps; n++) {
+/* Takes steps from one number to another, and records every `every`th; the number of the last one that was not found, or
+   the end. `last` has the unknowns of the two steps before. */
+int64_t march(int64_t first, int64_t end, int64_t every, double *state, double *unknowns, double *last,
+              const double *fixed, double *recorded) {
+    double next[STATE];
+    for (int64_t n = first; n < end; n++) {
         for (int i = 0; i < UNKNOWNS && !STAGES && n > 0; i++) { /* the parabola through the last three */
             double now = unknowns[i];
-            if (n > 2) unknowns[i] = 3 * (now - last[0][i]) + last[1][i];
-            last[1][i] = last[0][i], last[0][i] = now;
+            if (n > 2) unknowns[i] = 3 * (now - last[i]) + last[UNKNOWNS + i];
+            last[UNKNOWNS + i] = last[i], last[i] = now;
         }
         if (!solved(state, unknowns, fixed)) return n;
         if (n % every == 0) system_seen(GIVEN(state), recorded + SEEN * (n / every));
@@ -104,5 +105,5 @@ int64_t march(int64_t steps, int64_t every, double *state, double *unknowns, con
             for (int i = 0; i < STATE; i++) state[i] = next[i];
         }
     }
-    return steps;
+    return end;
 }

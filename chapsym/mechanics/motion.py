@@ -26,6 +26,8 @@ from .system import STEP, BadSystem, System, number
 MOST_ROUNDS, LAST, STAYS, SHRINKS = 50, 1e-15, 1e-9, 1e-3
 #: The kernels are in steps already.
 PASSES = (passes.FACTORED, *passes.PASSES[2:])
+#: Steps between which an interrupt is seen.
+PART = 50_000
 ROUTINE = Path(__file__).with_name("march.c").read_text(encoding="utf-8")
 
 
@@ -281,11 +283,18 @@ def _text(kernels: Sequence[Kernel]) -> str:
     return imports + "\n\n".join(build.code(kernel, PASSES) for kernel in kernels)
 
 
-def _in_c(runner: Runner, steps: int, every: int, *arrays: np.ndarray) -> int:
+def _in_c(runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: np.ndarray, *arrays: np.ndarray) -> int:
+    """A part of the steps after the other, so that they can be interrupted; how many were taken."""
+    arrays = (state, unknowns, np.tile(unknowns, 2), *arrays)
     pointers = [array.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for array in arrays]
-    run = runner.library.march
+    run, done = runner.library.march, 0
     run.restype = ctypes.c_int64
-    return int(run(ctypes.c_int64(steps), ctypes.c_int64(every), *pointers))
+    while done < steps:
+        end = min(steps, done + PART)
+        if (reached := int(run(*map(ctypes.c_int64, (done, end, every)), *pointers))) < end:
+            return reached
+        done = end
+    return steps
 
 
 def _in_python(
