@@ -1,7 +1,6 @@
 """chapsym lab: what methods make of mechanical systems, as a table, JSON or a page."""
 
 import json
-import math
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -39,33 +38,39 @@ def lab(
 
     A file of a system is Python, and is run. Example: chapsym lab docs/examples/systems -o systems.html
     """
-    from chapsym.mechanics import METHODS, BadSystem, flag, loaded
+    from chapsym.mechanics import METHODS, BadSystem, loaded, measured
+    from chapsym.show.lab import COLUMNS
 
     if output is not None and output.suffix not in (".json", ".html"):
         fail(f"{output} must end in .json or .html", 2)
     methods = method or list(METHODS)
     if strange := [name for name in methods if name not in METHODS]:
         fail(f"{strange[0]!r} is no method; those are {', '.join(METHODS)}", 2)
-    done: list[dict[str, Any]] = _there(output)
+    done, keys = _there(output), set[str]()
     constraints: dict[str, str] = {}
     try:
         systems = [loaded(path) for path in _files(files)]
         for system in systems:
+            if system.name in constraints:
+                fail(f"two systems are called {system.name}: give each a name of its own", 2)
             energy = "keeps" if system.keeps_energy else "need not keep"
-            constraints[system.name] = f"{flag(system)}; " * flags + f"the exact motion {energy} its energy"
+            constraints[system.name] = f"{_verdict(system)}; " * flags + f"the exact motion {energy} its energy"
+            keys.add(key := system.digest(length, halve))
             if not as_json:
                 print(f"{system.name}: {constraints[system.name]}")
-                print("  " + "  ".join(f"{name:>{width}}" for name, width in COLUMNS.items()))
+                print("".join(f"  {name:>{width}}" for name, width in COLUMNS.items()))
             for name in methods if method or system.discrete else [one for one in methods if one != "own"]:
-                cell = _cell(system, name, steps, length, halve, done)
+                cell = next((c for c in done if (c["key"], c["method"], c["steps"]) == (key, name, steps)), None)
+                if cell is None:
+                    cell = {"key": key, **measured(system, name, steps, length, halve).data()}
+                    done.append(cell)
                 if not as_json:
                     print(_row(cell))
                 if output is not None and output.suffix == ".json":
                     _write(output, json.dumps({"cells": done}, allow_nan=False))
     except BadSystem as error:
         fail(str(error), 2)
-    names = {system.name for system in systems}
-    shown = [cell for cell in done if cell["system"] in names and cell["method"] in methods and cell["steps"] == steps]
+    shown = [cell for cell in done if cell["key"] in keys and cell["method"] in methods and cell["steps"] == steps]
     if output is not None and output.suffix == ".html":
         from chapsym.show.lab import page
 
@@ -76,53 +81,34 @@ def lab(
         note(f"wrote {output}")
 
 
-COLUMNS = {
-    "method": 9, "order": 6, "energy": 11, "oscillation": 11, "drift": 10, "constraint": 10, "returns": 9, "µs/step": 8,
-}  # fmt: skip
-
-
 def _row(cell: dict[str, Any]) -> str:
+    from chapsym.show.lab import COLUMNS, figures
+
     if cell["failed"]:
         return f"  {cell['method']:>9}  {cell['failed']}"
-    order = "exact" if cell["order"] is None else f"{cell['order']:.2f}"
-    kept = "proved 0" if cell["kept"] else f"{cell['constraint']:.1e}"
-    figures = (
-        cell["method"], order, f"{cell['energy']:.6g}", f"{cell['oscillation']:.1e}", f"{cell['drift']:+.1e}", kept,
-        f"{cell['returns']:.1e}", f"{cell['microseconds']:.2f}",
-    )  # fmt: skip
-    row = "".join(f"  {figure:>{width}}" for figure, width in zip(figures, COLUMNS.values(), strict=True))
-    return row + _of_half(cell)
+    *shown, half = figures(cell)
+    row = "".join(f"  {one:>{width}}" for one, width in zip((cell["method"], *shown), COLUMNS.values(), strict=True))
+    return row + (f"  with half the step: {half}" if half else "")
 
 
-def _of_half(cell: dict[str, Any]) -> str:
-    """What the drift says where it was measured with half the step, too."""
-    if cell["halved"] is None:
-        return ""
-    times = abs(cell["drift"] / cell["halved"]) if cell["halved"] else math.inf
-    return f"  with half the step: {cell['halved']:+.1e}, {times:.1f} times less"
+def _verdict(system: Any) -> str:
+    """What is said of the constraints, or why nothing is."""
+    from chapsym.mechanics import BadSystem, flag
 
-
-def _cell(
-    system: Any, method: str, steps: int, length: float | None, halve: bool, done: list[dict[str, Any]]
-) -> dict[str, Any]:
-    """The cell that is there already, of the same system as a file, or one that is measured now."""
-    from chapsym.mechanics import measured
-
-    key = system.digest(length, halve)
-    for cell in done:
-        if (cell["key"], cell["method"], cell["steps"]) == (key, method, steps):
-            return cell
-    cell = {"key": key, **measured(system, method, steps, length, halve).data()}
-    done.append(cell)
-    return cell
+    try:
+        return str(flag(system))
+    except BadSystem as error:
+        return f"integrability is not decided ({str(error).removeprefix(f'{system.name}: ')})"
 
 
 def _there(output: Path | None) -> list[dict[str, Any]]:
     if output is None or output.suffix != ".json" or not output.exists():
         return []
+    from chapsym.mechanics import Cell
+
     try:
         cells = json.loads(output.read_text(encoding="utf-8"))["cells"]
-        return [cell for cell in cells if cell["key"] and cell["method"] and cell["steps"]]
+        return [{"key": cell.pop("key"), **Cell.of(cell).data()} for cell in cells]
     except (OSError, ValueError, KeyError, TypeError):
         fail(f"{output} is not what chapsym lab has written: name another file", 2)
 

@@ -1,15 +1,25 @@
 """Expressions of a system in a ring: letters for sines, cosines and roots, with their relations and derivatives."""
 
-from collections.abc import Iterable, Sequence
-from functools import cached_property
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property, partial
+from itertools import combinations, count
+from random import Random
 from typing import Any
 
 import sympy as sp
+from sympy.polys.matrices import DomainMatrix
 
 from chapsym.codegen.kernels import adjoined
 from chapsym.derive import Quotient
+from chapsym.prove import Examples
+from chapsym.prove.points import drawn, small, some
 
-from .system import BadSystem, System
+from .system import BadSystem, System, rational
+
+#: Points that are looked at.
+MOST_POINTS = 24
+
+Point = dict[sp.Symbol, Any]
 
 
 class Letters:
@@ -19,10 +29,12 @@ class Letters:
     ----------
     reserved : iterable of sympy.Symbol
         Symbols that the letters must not be called as.
+    plain : bool
+        Whether they are called l0, l1, ..., and not after what they stand for.
     """
 
-    def __init__(self, reserved: Iterable[sp.Symbol] = ()) -> None:
-        self._taken = {x.name for x in reserved}
+    def __init__(self, reserved: Iterable[sp.Symbol] = (), plain: bool = False) -> None:
+        self._taken, self._plain = {x.name for x in reserved}, plain
         self._of: dict[sp.Expr, sp.Symbol] = {}
 
     @property
@@ -33,31 +45,35 @@ class Letters:
     def into(self, expr: Any) -> sp.Expr:
         """An expression with letters in the place of its functions; raises BadSystem for others than these."""
         expr = sp.sympify(expr)
-        if expr.is_Atom:
-            return self._letter(sp.pi) if expr is sp.pi else expr
+        if expr.is_Symbol or expr.is_Rational:
+            return expr
+        if expr is sp.pi:
+            return self._letter(sp.pi)
         if isinstance(expr, sp.tan):
             return self.into(sp.sin(expr.args[0]) / sp.cos(expr.args[0]))
-        parts = [self.into(x) for x in expr.args]
         if isinstance(expr, sp.sin | sp.cos):
-            (of,) = parts
+            (of,) = map(self.into, expr.args)
             for x in (sp.sin(of), sp.cos(of)):
                 self._letter(x)
             return self._letter(expr.func(of))
-        if isinstance(expr, sp.Pow) and not expr.exp.is_Integer:
-            if not (expr.exp.is_Rational and expr.exp.q == 2):
+        if isinstance(expr, sp.Pow) and isinstance(expr.exp, sp.Rational):
+            if expr.exp.q > 2:
                 raise BadSystem(f"{expr} is not sin, cos, a square root or a whole power")
-            return self._letter(sp.sqrt(parts[0])) ** expr.exp.p
-        if not expr.is_Add and not expr.is_Mul and not expr.is_Pow:
-            raise BadSystem(f"{expr} is not sin, cos, a square root or + - * /")
-        return expr.func(*parts)
+            base = self.into(expr.base)
+            return base**expr.exp if expr.exp.q == 1 else self._letter(sp.sqrt(base)) ** expr.exp.p
+        if not isinstance(expr, sp.Add | sp.Mul):
+            raise BadSystem(f"{expr!s:.60} is not sin, cos, a square root or + - * / of numbers and symbols")
+        return expr.func(*map(self.into, expr.args))
 
     def _letter(self, stands: sp.Expr) -> sp.Expr:
         if (parts := adjoined(stands)) is None:
-            return -self._letter(-stands) if adjoined(-stands) else stands  # sin(-x), or a number
+            if stands.is_Atom:
+                return stands
+            return -self._letter(-stands) if adjoined(-stands) else self.into(stands)  # sin(-x); √4 x² is 2 √x²
         if stands not in self._of:
             function, of = parts
-            base = function + "".join(f"_{x}" for x in sorted(map(str, of.free_symbols)))[:24]
-            names = (base if i == 1 else f"{base}_{i}" for i in range(1, 10**6))
+            base = "l" if self._plain else function + "".join(f"_{x}" for x in sorted(map(str, of.free_symbols)))[:24]
+            names = (base if i == 1 and not self._plain else f"{base}{'' if self._plain else '_'}{i}" for i in count(1))
             name = next(n for n in names if n not in self._taken and n not in ("sin", "cos", "sqrt", "pi"))
             self._taken.add(name)
             self._of[stands] = sp.Symbol(name)
@@ -82,49 +98,164 @@ class Letters:
             return inner / (2 * letter)
         return self._of[sp.cos(of)] * inner if function == "sin" else -self._of[sp.sin(of)] * inner
 
+    def arguments(self, *functions: str) -> dict[sp.Symbol, sp.Expr]:
+        """The letters of some functions, with their arguments."""
+        found = {letter: adjoined(stands) or ("", sp.S.Zero) for letter, stands in self.meanings.items()}
+        return {letter: of for letter, (function, of) in found.items() if function in functions}
+
     @property
-    def relations(self) -> list[sp.Expr]:
-        """sin² + cos² - 1 of each argument, and √x² - x: polynomials, where x is one."""
-        found = []
-        for stands, letter in self._of.items():
-            function, of = adjoined(stands) or ("", sp.S.Zero)
-            if function == "sin":
-                found.append(letter**2 + self._of[sp.cos(of)] ** 2 - 1)
-            elif function == "sqrt":
-                found.append(sp.fraction(sp.together(letter**2 - of))[0])
-        return found
+    def circles(self) -> list[sp.Expr]:
+        """sin² + cos² - 1 of each argument."""
+        return [s**2 + self._of[sp.cos(of)] ** 2 - 1 for s, of in self.arguments("sin").items()]
+
+    @property
+    def roots(self) -> list[sp.Expr]:
+        """√x² - x, as polynomials."""
+        return [sp.fraction(sp.together(r**2 - of))[0] for r, of in self.arguments("sqrt").items()]
 
 
 class Algebra:
-    """The ring of a system: coordinates, velocities, parameters and letters.
+    """The ring of a system with its numbers: coordinates, velocities and letters.
 
-    Angles are expanded: sin(a + 2 b) is made of the letters of a and b.
+    Angles are expanded: sin(a + 2 b) is made of the letters of a and b.  What has relations that the ring does not know
+    is refused: sines and cosines are of single coordinates, which no holonomic constraint binds outside of them; no
+    product of roots is rational.
+
+    Parameters
+    ----------
+    system : System
+    *more : sympy.Expr
+        Expressions beyond the constraints.
+
+    Raises
+    ------
+    BadSystem
+        For what it cannot hold.
     """
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: System, *more: Any) -> None:
         self.system = system
-        self.letters = Letters((*system.coordinates, *system.velocities, *system.parameters))
-        self.holonomic = [self.into(one) for one in system.holonomic]
+        self.letters = Letters((*system.coordinates, *system.velocities))
+        self._numbers = {x: rational(v, f"{system.name}: the parameter {x}") for x, v in system.parameters.items()}
+        self.holonomic = [sp.fraction(sp.together(self.into(one)))[0] for one in system.holonomic]
         self.rows: sp.Matrix = self.into(system.rows)
+        self.offsets: sp.Matrix = self.into(system.offsets)
+        self.more = [self.into(one) for one in more]
+        known = {*system.coordinates, *system.velocities, *self.letters.meanings}
+        if strange := set().union(*(e.free_symbols for e in self.more)) - known:
+            listed = ", ".join(sorted(map(str, strange)))
+            raise BadSystem(f"{system.name}: there is {listed}, which is no coordinate, velocity or parameter")
+        self._check()
 
     def into(self, expr: Any) -> Any:
-        """An expression, or a matrix of them, in letters."""
+        """An expression, or a matrix of them, in letters, with the numbers of the parameters."""
         if isinstance(expr, sp.MatrixBase):
             return expr.applyfunc(self.into)
-        return self.letters.into(sp.expand_trig(sp.sympify(expr)))
+        try:
+            of = sp.nsimplify(sp.sympify(expr, strict=True), rational=True).xreplace(self._numbers)
+            found = self.letters.into(sp.expand_trig(of))
+        except (sp.SympifyError, TypeError, AttributeError, ZeroDivisionError):
+            raise BadSystem(f"{self.system.name}: {expr!s:.60} is no expression") from None
+        if found.has(sp.zoo, sp.nan, sp.oo):
+            raise BadSystem(f"{self.system.name}: {expr!s:.60} divides by 0")
+        return found
+
+    def _check(self) -> None:
+        name, angles = self.system.name, self.letters.arguments("sin")
+        for of in angles.values():
+            if of not in self.system.coordinates:
+                raise BadSystem(f"{name}: exact verdicts need sin and cos of coordinates, which {of} is not")
+        if self.letters.arguments("pi"):
+            raise BadSystem(f"{name}: exact verdicts are not for π: turn the angles")
+        bound = set().union(*(e.free_symbols for e in self.holonomic)) & set(angles.values())
+        if bound:
+            raise BadSystem(
+                f"{name}: a holonomic constraint binds the angle {min(map(str, bound))} outside of sin and cos"
+            )
+        roots = self.letters.arguments("sqrt")
+        if any(of.free_symbols & roots.keys() for of in roots.values()):
+            raise BadSystem(f"{name}: exact verdicts are not for roots in roots")
+        places = list(self._drawn(self._ring(self.letters.circles, roots.values())))
+        for size in range(1, len(roots) + 1):
+            for some_ in combinations(roots.values(), size):
+                if not any(_no_square(sp.prod(some_).xreplace(point)) for point in places):
+                    listed = ", ".join(f"sqrt({of})" for of in some_)
+                    raise BadSystem(f"{name}: exact verdicts need roots whose product is not rational: {listed}")
+        for e in (*self.rows, *self.offsets, *self.more):
+            self.is_zero(e)  # which refuses what is defined nowhere
+
+    def _ring(self, relations: Sequence[sp.Expr], more: Iterable[sp.Expr] = ()) -> Quotient:
+        relations = [*relations, *self.holonomic]
+        known = set().union(*(e.free_symbols for e in (*relations, *self.rows, *self.offsets, *self.more, *more)))
+        order = (*self.system.coordinates, *self.system.velocities, *self.letters.meanings)
+        return Quotient([x for x in order if x in known], relations)
 
     @cached_property
     def ring(self) -> Quotient:
-        """The ring of the constraints: of the symbols that they have."""
-        relations = [*self.letters.relations, *self.holonomic]
-        known = set().union(self.rows.free_symbols, *(r.free_symbols for r in relations))
-        order = (*self.system.coordinates, *self.system.parameters, *self.letters.meanings)
-        return Quotient([x for x in order if x in known], relations)
+        """The ring of all that was read."""
+        return self._ring([*self.letters.circles, *self.letters.roots])
+
+    @cached_property
+    def points(self) -> list[Point]:
+        """Exact points of the ring: rational numbers and positive roots of these; raises BadSystem if there is none."""
+        roots, found = self.letters.arguments("sqrt"), list[Point]()
+        for point in self._drawn(self._ring(self.letters.circles, roots.values())):
+            values = {r: of.xreplace(point) for r, of in roots.items()}
+            if all(x.is_Rational and x > 0 for x in values.values()):
+                found.append(point | {r: sp.sqrt(x) for r, x in values.items()})
+        if not found:
+            raise BadSystem(f"{self.system.name}: no exact point is found where its relations hold")
+        return found
+
+    def _drawn(self, ring: Quotient) -> Iterator[Point]:
+        """Points of small primes first, then drawn ones."""
+        primes = map(sp.prime, count(1))
+        numbers = Random(0)
+        try:
+            if not ring.relations:
+                yield {x: sp.Integer(next(primes)) for x in ring.symbols}
+            for one, _ in zip(some(ring, Examples()), range(MOST_POINTS // 2), strict=False):
+                yield one
+            for i in range(MOST_POINTS // 2):
+                yield drawn(ring, partial(small, numbers, 2 + i))
+        except (ArithmeticError, sp.PolynomialError):
+            return
+
+    def is_zero(self, expr: Any) -> bool:
+        """Whether a rational function is 0 in the ring; raises BadSystem if it is defined nowhere."""
+        try:
+            return self.ring.is_zero(expr)
+        except ZeroDivisionError:
+            raise BadSystem(f"{self.system.name}: an expression divides by what is 0") from None
 
     def normal(self, vector: Sequence[sp.Expr]) -> list[sp.Expr]:
         """The normal forms of a vector, times roots that it divides by: the span is the same."""
         found = [sp.sympify(x) for x in vector]
-        for letter, stands in self.letters.meanings.items():
-            while stands.is_Pow and not all(x.is_polynomial(letter) for x in found):
+        for letter in self.letters.arguments("sqrt"):
+            while not all(x.is_polynomial(letter) for x in found):
                 found = [sp.expand(x * letter) for x in found]
         return [self.ring.normal(x) for x in found]
+
+    def shown(self, state: Mapping[sp.Symbol, Any]) -> dict[str, str]:
+        """A point as text: without the angles that stand in sines and cosines alone."""
+        bare = set().union(*(e.free_symbols for e in (*self.rows, *self.offsets, *self.more, *self.holonomic)))
+        hidden = set(self.letters.arguments("sin").values()) - bare
+        return {str(x): str(v) for x, v in state.items() if x not in hidden}
+
+
+def pivots(matrix: sp.Matrix) -> list[int]:
+    """Columns that are independent, of a matrix of rational numbers and roots of these; exactly."""
+    if not matrix.rows or not matrix.cols:
+        return []
+    return list(DomainMatrix.from_Matrix(matrix, extension=True).to_field().rref()[1])
+
+
+def rank(matrix: sp.Matrix, point: Point) -> int:
+    """At a point; 0 where it is not defined there."""
+    of = matrix.xreplace(point)
+    return 0 if of.has(sp.zoo, sp.nan) or of.free_symbols else len(pivots(of))
+
+
+def _no_square(x: sp.Expr) -> bool:
+    """Whether a number is defined, and no square of a rational one."""
+    return bool(x.is_Rational) and not (x >= 0 and sp.sqrt(x).is_Rational)

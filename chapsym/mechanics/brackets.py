@@ -7,38 +7,34 @@ theorem every place is reached from every other if the flag ends with all n dime
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import islice, product
+from itertools import product
 from typing import Any
 
 import sympy as sp
 
-from chapsym.prove import Examples
-from chapsym.prove.points import some
-
-from .algebra import Algebra
+from .algebra import Algebra, pivots, rank
 from .system import BadSystem, System
-
-#: Points at which ranks are looked at.
-MOST_POINTS = 12
 
 
 @dataclass(frozen=True)
 class Flag:
-    """What the brackets of a system's constraints span, at almost all places.
+    """What the brackets of a system's constraints span, with the numbers of its parameters.
 
     Attributes
     ----------
     growth : tuple of int
-        The dimensions of D₁, D₂, ..., until they grow no more: each is proved, by a minor that is not 0 at `point`, and
-        by those that vanish in the ring of the system.
+        The dimensions of D₁, D₂, ..., until they grow no more, near `point` and at almost all places of the component
+        that it is on: proved by a minor that is not 0 there, and by those that vanish in the ring of the system.
     fields : tuple of tuple of sympy.Expr
-        Fields that span D₁, in letters.
+        Fields that span D₁, in letters; with a last component for the time where `with_time`.
     condition : sympy.Expr
-        A factor that is not 0 where the dimensions are these; elsewhere they may be others.
+        It is not 0 where the dimensions are at least these.
     point : mapping
-        The exact point.
+        The exact point, with sines and cosines in the place of angles.
     dimension : int
-        That of the places: n, less the holonomic constraints.
+        That of the places, as the holonomic constraints leave them, and of time.
+    with_time : bool
+        Whether constraints have a part without velocities: then the time is a coordinate of the flag.
     """
 
     growth: tuple[int, ...]
@@ -46,6 +42,7 @@ class Flag:
     condition: sp.Expr
     point: dict[str, str]
     dimension: int
+    with_time: bool = False
 
     @property
     def integrable(self) -> bool:
@@ -54,7 +51,7 @@ class Flag:
 
     @property
     def functions(self) -> int:
-        """How many functions of the coordinates stay constant."""
+        """How many functions of the coordinates, and of time, stay constant."""
         return self.dimension - self.growth[-1]
 
     def __str__(self) -> str:
@@ -63,15 +60,15 @@ class Flag:
             what = "integrable" if self.functions else "no constraint"
         else:
             what = "completely nonholonomic" if not self.functions else "nonholonomic"
-        some = "1 function" if self.functions == 1 else f"{self.functions} functions"
-        kept = (
-            f"; {some} of the coordinates stay{'s' if self.functions == 1 else ''} constant" if self.functions else ""
-        )
-        return f"{what}: the flag has the dimensions {dimensions} of {self.dimension}{kept}"
+        some, stay = ("1 function", "stays") if self.functions == 1 else (f"{self.functions} functions", "stay")
+        of = "coordinates and time" if self.with_time else "coordinates"
+        kept = f"; {some} of the {of} {stay} constant" if self.functions else ""
+        with_time = " with time" if self.with_time else ""
+        return f"{what}: the flag has the dimensions {dimensions} of {self.dimension}{with_time}{kept}"
 
 
 def flag(system: System) -> Flag:
-    """The flag of brackets of the velocities that the constraints allow.
+    """The flag of brackets of the velocities that the constraints of a system allow.
 
     Parameters
     ----------
@@ -86,7 +83,8 @@ def flag(system: System) -> Flag:
     Raises
     ------
     BadSystem
-        If no rational point of its ring is found, or if the constraints are dependent there.
+        If the ring cannot hold the constraints (`Algebra`), if no rational point of it is found, or if the constraints
+        contradict each other.
 
     Examples
     --------
@@ -100,41 +98,41 @@ def flag(system: System) -> Flag:
     integrable: the flag has the dimensions 1 of 2; 1 function of the coordinates stays constant
     """
     algebra = Algebra(system)
-    points = _points(algebra, system)
-    rows = _whole(algebra.rows)
-    point = max(points, key=lambda p: rows.xreplace(p).rank())
-    kept = _pivots(rows.xreplace(point).T)
+    with_time = any(not algebra.is_zero(b) for b in algebra.offsets)
+    whole = algebra.rows.row_join(algebra.offsets) if with_time else algebra.rows
+    rows, places = _whole(whole), rows_of_places(algebra, with_time)
+    point = max(algebra.points, key=lambda p: (rank(places, p), rank(rows, p)))
+    dimension = rows.cols - rank(places, point)
+    kept = pivots(rows.xreplace(point).T)
     for i in set(range(rows.rows)) - set(kept):
         if not _inside(rows.extract(kept, list(range(rows.cols))).tolist(), list(rows[i, :]), point, algebra):
-            raise BadSystem(f"{system.name}: constraint {i + 1} depends on the others at {len(points)} points alone")
+            raise BadSystem(f"{system.name}: it is not decided whether constraint {i + 1} depends on the others")
     rows = rows.extract(kept, list(range(rows.cols)))
     fields = [algebra.normal(field) for field in _kernel(rows, rows.xreplace(point))]
+    if with_time and all(algebra.is_zero(field[-1]) for field in fields):
+        raise BadSystem(f"{system.name}: the constraints contradict each other: no motion obeys them")
     span, newest, growth = list(fields), list(fields), [len(fields)]
-    point = max((point, *points), key=lambda p: _matrix(span).xreplace(p).rank() if span else 0)
-    dimension = len(system.coordinates) - len(system.holonomic)
     while newest and len(span) < dimension:
         before, newest = newest, []
         for x, y in product(fields, before):
             bracket = algebra.normal(_bracket(x, y, algebra))
             larger = [*span, bracket]
-            better = next((p for p in (point, *points) if _matrix(larger).xreplace(p).rank() == len(larger)), None)
+            better = next((p for p in (point, *algebra.points) if rank(_matrix(larger), p) == len(larger)), None)
             if better is not None:
                 span, point, newest = larger, better, [*newest, bracket]
             elif not _inside(span, bracket, point, algebra):
-                raise BadSystem(f"{system.name}: a bracket is in the span at {len(points)} points, but not provably")
+                raise BadSystem(f"{system.name}: it is not decided whether a bracket is in the span of others")
         growth += [len(span)] if newest else []
-    minor = _matrix(span).extract(list(range(len(span))), _pivots(_matrix(span).xreplace(point)))
+    minor = _matrix(span).extract(list(range(len(span))), pivots(_matrix(span).xreplace(point))) if span else sp.eye(0)
     condition = sp.factor(algebra.normal([minor.det(method="berkowitz")])[0])
-    shown = {str(x): str(v) for x, v in point.items()}
-    return Flag(tuple(growth), tuple(map(tuple, fields)), condition, shown, dimension)
+    return Flag(tuple(growth), tuple(map(tuple, fields)), condition, algebra.shown(point), dimension, with_time)
 
 
-def _points(algebra: Algebra, system: System) -> list[dict[sp.Symbol, sp.Rational]]:
-    """Exact points of the ring of a system; raises BadSystem where none is found."""
-    found = list(islice(some(algebra.ring, Examples()), MOST_POINTS))
-    if not found:
-        raise BadSystem(f"{system.name}: no rational point is found where the constraints on places hold")
-    return found
+def rows_of_places(algebra: Algebra, with_time: bool) -> sp.Matrix:
+    """The rows of holonomic constraints, whose rank is how many of them are independent."""
+    count = len(algebra.holonomic)
+    rows = algebra.rows[algebra.rows.rows - count :, :]
+    return rows.row_join(sp.zeros(count, 1)) if with_time else rows
 
 
 def _whole(rows: sp.Matrix) -> sp.Matrix:
@@ -148,7 +146,7 @@ def _whole(rows: sp.Matrix) -> sp.Matrix:
 
 def _kernel(rows: sp.Matrix, at_point: sp.Matrix) -> list[list[sp.Expr]]:
     """Fields that span the velocities v with A v = 0, by Cramer's rule, of independent rows A."""
-    columns = _pivots(at_point)
+    columns = pivots(at_point)
     square = rows.extract(list(range(rows.rows)), columns)
     whole, adjugate = square.det(method="berkowitz"), square.adjugate()
     fields = []
@@ -161,21 +159,16 @@ def _kernel(rows: sp.Matrix, at_point: sp.Matrix) -> list[list[sp.Expr]]:
     return fields
 
 
-def _pivots(matrix: sp.Matrix) -> list[int]:
-    """Columns that are independent, of a matrix of numbers."""
-    return list(matrix.rref()[1])
-
-
 def _matrix(vectors: Sequence[Sequence[sp.Expr]]) -> sp.Matrix:
     return sp.Matrix([list(v) for v in vectors])
 
 
 def _bracket(x: Sequence[sp.Expr], y: Sequence[sp.Expr], algebra: Algebra) -> list[sp.Expr]:
     """[X, Y] = (∂Y) X - (∂X) Y."""
-    q = algebra.system.coordinates
+    q = algebra.system.coordinates  # of time nothing depends
 
     def along(field: Sequence[sp.Expr], of: sp.Expr) -> sp.Expr:
-        return sum((f * algebra.letters.derivative(of, c) for f, c in zip(field, q, strict=True) if f != 0), sp.S.Zero)
+        return sum((f * algebra.letters.derivative(of, c) for f, c in zip(field, q, strict=False) if f != 0), sp.S.Zero)
 
     return [along(x, b) - along(y, a) for a, b in zip(x, y, strict=True)]
 
@@ -183,9 +176,9 @@ def _bracket(x: Sequence[sp.Expr], y: Sequence[sp.Expr], algebra: Algebra) -> li
 def _inside(span: Sequence[Any], vector: Sequence[sp.Expr], point: dict[sp.Symbol, Any], algebra: Algebra) -> bool:
     """Whether a vector is in a span wherever the minor that is not 0 at the point is not: by Kronecker's theorem, all
     minors that border it are 0."""
-    columns, larger = _pivots(_matrix(span).xreplace(point)), _matrix([*span, vector])
+    columns, larger = pivots(_matrix(span).xreplace(point)), _matrix([*span, vector])
     for j in (j for j in range(larger.cols) if j not in columns):
         minor = larger.extract(list(range(larger.rows)), [*columns, j]).det(method="berkowitz")
-        if not algebra.ring.is_zero(minor):
+        if not algebra.is_zero(minor):
             return False
     return True

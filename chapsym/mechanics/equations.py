@@ -1,24 +1,15 @@
 """Equations of motion that somebody typed, or another program derived, decided against those of the principle."""
 
-import random
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
-from functools import partial
 from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from chapsym.derive import Quotient
-from chapsym.prove.points import drawn, small
-
-from .algebra import Algebra
-from .brackets import _kernel, _pivots
+from .algebra import Algebra, pivots, rank
+from .brackets import _kernel
 from .system import BadSystem, System, dot
-
-#: Points at which a difference is looked at.
-MOST_POINTS = 40
 
 
 @dataclass(frozen=True)
@@ -32,7 +23,8 @@ class Agreement:
     what : str
         Which equation they break.
     point : mapping of str to str
-        An exact state at which they do, with sines and cosines in the place of angles; empty where they break none.
+        An exact state at which they do, with sines and cosines in the place of angles (an angle that stands outside of
+        them, too, is free of them there); empty where they break none.
     value : str
         What should be 0 there.
     """
@@ -50,7 +42,7 @@ class Agreement:
 
 
 def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreement:
-    """Whether accelerations solve the equations of a system wherever its constraints hold, decided exactly.
+    """Whether accelerations solve the equations of a system, with its numbers, wherever its constraints hold, exactly.
 
     They do if A a + Ȧ v + ḃ = 0, and if M a - ∂L/∂q + ... is orthogonal to all velocities that the constraints allow.
 
@@ -68,7 +60,8 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     Raises
     ------
     BadSystem
-        If one is missing, or has a symbol or a function that the system does not have.
+        If one is missing, or has a symbol that the system does not have, if the ring cannot hold it (`Algebra`), or if
+        neither is found.
 
     Examples
     --------
@@ -80,81 +73,54 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     >>> agree(particle, {x: right, y: 0, z: y * right + dot(x) * dot(y)}).equal
     True
     >>> print(agree(particle, {x: -right, y: 0, z: -y * right + dot(x) * dot(y)}))
-    not equal: they break the principle along 2 of 2, where -286 should be 0 at x = 2, y = 3, z = 5, y_dot = 11, ...
+    not equal: they break the principle along 2 of 2, where -70 should be 0 at y = 2, y_dot = 5, z_dot = 7, x_dot = 7/2
     """
     if missing := [x for x in system.coordinates if x not in accelerations]:
         raise BadSystem(f"{system.name}: there is no acceleration of {missing[0]}")
-    algebra = Algebra(system)
-    q, v = list(system.coordinates), list(system.velocities)
-    typed = sp.Matrix([algebra.into(accelerations[x]) for x in q])
+    q, v, n = list(system.coordinates), list(system.velocities), len(system.coordinates)
     matrix, right = system.equations
-    count, n = system.rows.rows, len(q)
-    mass, forced, turning = (algebra.into(m) for m in (matrix[:n, :n], right[:n, :], right[n:, :]))
-    rows, offsets = algebra.rows, algebra.into(system.offsets)
-    known = {*q, *v, *system.parameters, *algebra.letters.meanings}
-    if strange := typed.free_symbols - known:
-        listed = ", ".join(sorted(map(str, strange)))
-        raise BadSystem(f"{system.name}: an acceleration has {listed}, which is no coordinate, velocity or parameter")
-    relations = [*algebra.letters.relations, *algebra.holonomic]
-    order = [*q, *v, *system.parameters, *algebra.letters.meanings]
-    ring = Quotient(order, relations)
-    places = list(_places(ring))
-    if not places:
-        raise BadSystem(f"{system.name}: no rational point is found where its relations hold")
-    point = max(places, key=lambda p: rows.xreplace(p).rank()) if count else places[0]
-    rows_at = rows.xreplace(point)
-    kept = _pivots(rows_at.T) if count else []
-    rows_, offsets_ = rows.extract(kept, list(range(n))), offsets.extract(kept, [0])
-    bound = _pivots(rows_.xreplace(point)) if count else []
-    square = rows_.extract(list(range(len(kept))), bound)
+    typed = [accelerations[x] for x in q]
+    algebra = Algebra(system, *typed, *matrix[:n, :n], *right, *v)
+    made, forced = algebra.more[:n], sp.Matrix(algebra.more[n + n * n : -n])
+    mass = sp.Matrix(n, n, algebra.more[n : n + n * n])
+    if any(of.free_symbols & set(v) for of in algebra.letters.arguments("sin", "sqrt").values()):
+        raise BadSystem(f"{system.name}: exact verdicts are not for functions of velocities")
+    point = max(algebra.points, key=lambda p: rank(algebra.rows, p))
+    kept = pivots(algebra.rows.xreplace(point).T) if algebra.rows.rows else []
+    rows, offsets = algebra.rows.extract(kept, list(range(n))), algebra.offsets.extract(kept, [0])
+    bound = pivots(rows.xreplace(point)) if kept else []
+    square = rows.extract(list(range(len(kept))), bound)
     free = {v[i]: sp.S.Zero for i in bound}
-    solved = square.adjugate() * -(rows_ * sp.Matrix(v).xreplace(free) + offsets_) / square.det(method="berkowitz")
+    solved = square.adjugate() * -(rows * sp.Matrix(v).xreplace(free) + offsets) / square.det(method="berkowitz")
     allowed = {v[i]: value for i, value in zip(bound, solved, strict=True)}
-    fields = _kernel(rows_, rows_.xreplace(point)) if count else [list(sp.eye(n)[i, :]) for i in range(n)]
-    angles = set().union(*(x.free_symbols for x in algebra.letters.meanings.values())) & set(q)
-    checks = [(f"constraint {i + 1}", e) for i, e in enumerate(rows * typed - turning)]
-    work = mass * typed - forced
+    for e in algebra.rows * sp.Matrix(v) + algebra.offsets:
+        if not algebra.is_zero(e.xreplace(allowed)):
+            raise BadSystem(f"{system.name}: the constraints contradict each other, or depend on each other in places")
+    fields = _kernel(rows, rows.xreplace(point)) if kept else [list(sp.eye(n)[i, :]) for i in range(n)]
+    checks = [(f"constraint {i + 1}", e) for i, e in enumerate(algebra.rows * sp.Matrix(made) - forced[n:, :])]
+    work = mass * sp.Matrix(made) - forced[:n, :]
     checks += [
         (f"the principle along {i + 1} of {len(fields)}", sum(f * w for f, w in zip(field, work, strict=True)))
         for i, field in enumerate(fields)
     ]
     for what, left in checks:
         on_shell = sp.sympify(left).xreplace(allowed)
-        if not ring.is_zero(on_shell):
-            return Agreement(False, what, *_shown(on_shell, places, allowed, angles))
+        if not algebra.is_zero(on_shell):
+            return Agreement(False, what, *_shown(on_shell, algebra, allowed))
     return Agreement(True)
 
 
-def _places(ring: Quotient) -> Iterator[dict[sp.Symbol, Any]]:
-    """Exact points where the relations of a ring hold."""
-    numbers = random.Random(0)
-    try:
-        for i in range(MOST_POINTS):
-            yield drawn(ring, partial(small, numbers, 1 + i // 8)) if i else _primes(ring)
-    except ArithmeticError:
-        return
-
-
-def _primes(ring: Quotient) -> dict[sp.Symbol, Any]:
-    """A point of small primes, where no relation binds them."""
-    values = iter(range(1, 1 + len(ring.symbols)))
-    return drawn(ring, lambda _: Fraction(int(sp.prime(next(values)))))
-
-
-def _shown(
-    value: sp.Expr,
-    places: list[dict[sp.Symbol, Any]],
-    bound: Mapping[sp.Symbol, sp.Expr],
-    angles: Collection[sp.Symbol],
-) -> tuple[dict[str, str], str]:
+def _shown(value: sp.Expr, algebra: Algebra, bound: Mapping[sp.Symbol, sp.Expr]) -> tuple[dict[str, str], str]:
     """A point at which an expression is not 0, with the velocities that the constraints bind there, and its value."""
-    for point in places:
+    for point in algebra.points:
         found = value.xreplace(point)
         rest = {x: e.xreplace(point) for x, e in bound.items()}
-        if all(x.is_Rational for x in (found, *rest.values())) and found != 0:
+        if not any(x.has(sp.zoo, sp.nan) or x.free_symbols for x in (found, *rest.values())) and pivots(
+            sp.Matrix([found])
+        ):
             state = {x: v for x, v in point.items() if x not in rest} | rest
-            return {str(x): str(v) for x, v in state.items() if x not in angles}, str(found)
-    return {}, str(value)
+            return algebra.shown({x: sp.radsimp(v) for x, v in state.items()}), str(sp.radsimp(found))
+    raise BadSystem(f"{algebra.system.name}: equality is not proved, and no exact state is found that refutes it")
 
 
 def in_symbols(expr: Any) -> Any:

@@ -1,7 +1,8 @@
 """What a method makes of a system, measured: its energy over many steps, its constraints, its order, its cost."""
 
 import math
-from dataclasses import asdict, dataclass
+from contextlib import suppress
+from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 from typing import Any
 
@@ -10,7 +11,7 @@ import sympy as sp
 
 from .methods import Scheme, _Parts
 from .motion import Motion, NotSolved, Runner
-from .system import System
+from .system import System, number
 
 #: Of all steps, the part at each end whose means are compared; and how many points of the energy a cell keeps.
 END, KEPT = 10, 240
@@ -38,15 +39,17 @@ class Cell:
     drift : float
         The mean energy of the last tenth less that of the first.
     constraint, places : float
-        The largest |A v + b|, and value of the holonomic constraints, where the method looks at a step.
+        The largest |A v + b| of the constraints on velocities, and the largest value of the holonomic ones, where the
+        method looks at a step.
     kept : bool
-        Whether |A v + b| is 0 by an equation of the method: proved, the figure is rounding.
+        Whether there are constraints on velocities, and an equation of the method says that they are 0 there: proved,
+        the figure is rounding.
     halved : float or None
         The drift over the same time in steps of half the length, where it was asked for: an error of the method falls
         by its order, one of the model does not.
     order : float or None
-        That the error shows when the steps are halved; None where it is rounding.
-    returns : float
+        That the error shows when the steps are halved; None where rounding hides it.
+    returns : float or None
         How far the place is from its start after some steps, the velocities turned round, and as many steps: 0 but for
         rounding where the method is reversible by q, v -> q, -v.
     microseconds : float
@@ -69,7 +72,7 @@ class Cell:
     kept: bool = False
     halved: float | None = None
     order: float | None = None
-    returns: float = math.nan
+    returns: float | None = None
     microseconds: float = math.nan
     failed: str | None = None
     curve: tuple[tuple[float, float], ...] = ()
@@ -82,7 +85,7 @@ class Cell:
     def of(cls, data: dict[str, Any]) -> "Cell":
         """From that."""
         curve = tuple((float(t), float(e)) for t, e in data["curve"])
-        figures = ("energy", "oscillation", "drift", "constraint", "places", "returns", "microseconds")
+        figures = ("energy", "oscillation", "drift", "constraint", "places", "microseconds")
         return cls(**{**data, "curve": curve, **{k: math.nan if data[k] is None else data[k] for k in figures}})
 
 
@@ -118,35 +121,35 @@ def measured(
     (True, 2.0)
     """
     runner = Runner(system, method)
-    h = runner.length if length is None else float(length)
+    h = runner.length if length is None else number(length, "the length of a step")
     first = Cell(system.name, method, steps, h, kept=keeps(system, runner.scheme))
     try:
         runner.march(1, h)  # what is compiled once
         motion = runner.march(steps, h, -(-steps // MOST))
-        order = _order(system, runner, h)
-        returns = _returns(runner, h)
-        half = _figures(runner.march(2 * steps, h / 2, 2 * -(-steps // MOST)))["drift"] if halve else None
     except NotSolved as error:
-        return Cell(**{**asdict(first), "failed": str(error)})
-    return Cell(
-        **{
-            **asdict(first),
-            **_figures(motion),
-            "order": order,
-            "returns": returns,
-            "halved": half,
-            "microseconds": 1e6 * motion.seconds / steps,
-        }
-    )
+        return replace(first, failed=str(error))
+    half = None
+    if halve:
+        with suppress(NotSolved):
+            half = _figures(runner.march(2 * steps, h / 2, 2 * -(-steps // MOST)))["drift"]
+    order = returns = None
+    with suppress(NotSolved):
+        order = _order(runner, h)
+    with suppress(NotSolved):
+        returns = _returns(runner, h)
+    micro = 1e6 * motion.seconds / steps
+    return replace(first, **_figures(motion), order=order, returns=returns, halved=half, microseconds=micro)
 
 
 def keeps(system: System, scheme: Scheme) -> bool:
     """Whether an equation of the method says that the velocities obey the constraints, at each step or after it."""
     of = _Parts(system)
-    rows = of.kept(of.q, of.v)[: len(system.constraints)]
+    rows = list(of.kept(of.q, of.v))[: len(system.constraints)]
     here = dict(zip((*of.q, *of.v), (*scheme.place, *scheme.velocity), strict=True))
     after = dict(zip(scheme.state, scheme.after, strict=True)) if not scheme.stages else {}
-    return all(_said(at := row.xreplace(here), scheme) or _said(at.xreplace(after), scheme) for row in rows)
+    return bool(rows) and all(
+        _said(at := row.xreplace(here), scheme) or _said(at.xreplace(after), scheme) for row in rows
+    )
 
 
 def _said(row: sp.Expr, scheme: Scheme) -> bool:
@@ -178,9 +181,9 @@ def _returns(runner: Runner, h: float) -> float:
     return float(np.abs(back[:n] - runner.system.beginning[0]).max())
 
 
-def _order(system: System, runner: Runner, h: float) -> float | None:
-    """The power of the step with which the place changes, from a step, its half and its quarter."""
-    n = len(system.coordinates)
+def _order(runner: Runner, h: float) -> float | None:
+    """The power of the step with which the place changes, from a step, its half and its quarter; None by rounding."""
+    n = len(runner.system.coordinates)
     ends = [runner.march(SHORT * k, h / k).final[:n] for k in (1, 2, 4)]
     first, second = (np.abs(a - b).max() for a, b in pairwise(ends))
-    return None if second < ROUNDING else float(np.log2(first / second))
+    return float(np.log2(first / second)) if first > second > ROUNDING * np.abs(ends[-1]).max() else None

@@ -75,7 +75,7 @@ class _Parts:
 
     def symbols(self, name: str, count: int) -> Vector:
         """Symbols of the unknowns or of the state."""
-        return Vector(sp.symbols(f"{name}_1:{count + 1}")) if count else Vector([])
+        return Vector([sp.Symbol(f"{name} {i}") for i in range(count)])  # which no symbol of a system is called
 
     def at(self, of: Vector, q: Vector, v: Vector | None = None) -> Vector:
         """A function of coordinates, and of velocities, at others."""

@@ -91,33 +91,55 @@ class Runner:
 
     @cached_property
     def kernels(self) -> list[Kernel]:
-        """What vanishes, its derivatives by the unknowns, what comes after, and where the step is looked at."""
-        scheme, known = self.scheme, tuple(self.system.parameters)
-        letters = Letters((*scheme.state, *scheme.unknowns, *known, STEP))
-        residual, after, place, velocity = (
-            list(map(letters.into, part)) for part in (scheme.residual, scheme.after, scheme.place, scheme.velocity)
-        )
-        groups = (("state", tuple(scheme.state)), ("unknowns", tuple(scheme.unknowns)), ("fixed", (*known, STEP)))
+        """What vanishes, its derivatives by the unknowns, what comes after, and where the step is looked at.
+
+        Their names are none of the system's: y of the state, z of the unknowns, k of what is fixed, l of letters.
+        """
+        scheme, constants = self.scheme, self._constants
+        known = (*self.system.parameters, *constants.values(), STEP)
+        groups_ = (("y", scheme.state), ("z", scheme.unknowns), ("k", known))
+        named = {x: sp.Symbol(f"{name}{i}") for name, group in groups_ for i, x in enumerate(group)}
+        letters = Letters(plain=True)
+
+        def read(part: Sequence[sp.Expr]) -> list[sp.Expr]:
+            return [letters.into(_lifted(sp.sympify(e), constants).xreplace(named)) for e in part]
+
+        try:
+            residual, after, place, velocity = map(read, (scheme.residual, scheme.after, scheme.place, scheme.velocity))
+        except BadSystem as error:
+            raise BadSystem(f"{self.system.name}: {error}") from None
+        state, unknowns, fixed = ([named[x] for x in group] for group in (scheme.state, scheme.unknowns, known))
+        groups = (("state", tuple(state)), ("unknowns", tuple(unknowns)), ("fixed", tuple(fixed)))
 
         def kernel(name: str, steps: Steps, results: list[sp.Expr]) -> Kernel:
             needed = _needed([*results, *(e for _, one in steps for e in one)], letters.meanings)
             outputs = tuple(f"r{i}" for i in range(len(results)))
             return Kernel(
-                name, f"{name}.", (), groups, outputs, lambda: [0 * STEP] * len(results), lambda: (steps, results),
+                name, f"{name}.", (), groups, outputs, lambda: [0 * fixed[-1]] * len(results), lambda: (steps, results),
                 letters=needed,
             )  # fmt: skip
 
         def simple(name: str, expressions: Sequence[sp.Expr]) -> Kernel:
-            terms, results = shared(expressions, "s")
+            terms, results = shared(expressions)
             return kernel(name, [([x], [e]) for x, e in terms.items()], results)
 
-        first, value, second, slope = differentiated(residual, scheme.unknowns, letters)
+        first, value, second, slope = differentiated(residual, unknowns, letters)
         made = [kernel("residual", first, value), kernel("slope", second, slope)]
-        made += [simple("after", after), simple("seen", [*place, *velocity])]
-        for one in made:
-            if problem := one.problem():
-                raise BadSystem(f"{self.system.name}: {problem}")
-        return made
+        return [*made, simple("after", after), simple("seen", [*place, *velocity])]
+
+    @cached_property
+    def _constants(self) -> dict[sp.Expr, sp.Symbol]:
+        """Symbols for the numbers that are no integers, and for e: a text has integers alone."""
+        found: dict[sp.Expr, sp.Symbol] = {}
+        for part in (self.scheme.residual, self.scheme.after, self.scheme.place, self.scheme.velocity):
+            for e in part:
+                _lifted(sp.sympify(e), found)
+        return found
+
+    @cached_property
+    def fixed(self) -> np.ndarray:
+        """Parameters and constants, in order."""
+        return np.array([*self.system.numbers, *(float(e) for e in self._constants)])
 
     @cached_property
     def functions(self) -> dict[str, Callable[..., Any]]:
@@ -144,8 +166,13 @@ class Runner:
         NotSolved
             If the equations of a step are not solved.
         """
-        h = self.length if length is None else float(length)
-        fixed = np.array([*self.system.numbers, h])
+        h = self.length if length is None else number(length, "the length of a step")
+        for what, given in (("steps", steps), ("every", every)):
+            if isinstance(given, bool) or not isinstance(given, int) or given < 1:
+                raise BadSystem(f"{what} must be a whole number from 1 on, not {given!r}")
+        if not h > 0:
+            raise BadSystem(f"the length of a step must be positive, not {h!r}")
+        fixed = np.array([*self.fixed, h])
         q, v = self.system.beginning
         if start is not None:
             q, v = self.velocities(start)
@@ -154,12 +181,15 @@ class Runner:
         recorded = np.empty((-(-steps // every), 2 * len(q)))
         take = _in_c if self.compiled else _in_python
         begin = time.process_time()
-        done = take(self, steps, every, state, unknowns, fixed, recorded)
+        with np.errstate(all="ignore"):
+            done = take(self, steps, every, state, unknowns, fixed, recorded)
         seconds = time.process_time() - begin
         if done < steps:
             raise NotSolved(
                 f"{self.system.name}, {self.method}: step {done} of {steps} has no solution near the last one"
             )
+        if not (np.isfinite(state).all() and np.isfinite(recorded).all()):
+            raise NotSolved(f"{self.system.name}, {self.method}: a step of {steps} leaves the range of numbers")
         place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
         energy, *kept = ([x + 0 * place[:, 0] for x in of(*place.T, *velocity.T)] for of in self.measures)
         constraint, places = (np.max([0 * place[:, 0], *map(np.abs, values)], axis=0) for values in kept)
@@ -210,7 +240,7 @@ class Runner:
         tableau = ", ".join(str(float(x)) for row in stages for x in row) or "0"
         sizes = {
             "STATE": len(scheme.state), "UNKNOWNS": len(scheme.unknowns), "SEEN": 2 * len(self.system.coordinates),
-            "STAGES": len(scheme.stages), "FIXED_COUNT": len(self.system.parameters) + 1,
+            "STAGES": len(scheme.stages), "FIXED_COUNT": len(self.fixed) + 1,
             "MOST_ROUNDS": MOST_ROUNDS, "LAST": LAST, "STAYS": STAYS, "SHRINKS": SHRINKS,
         }  # fmt: skip
         head = "".join(f"#define {name} {value}\n" for name, value in sizes.items())
@@ -276,6 +306,19 @@ def _needed(expressions: Sequence[sp.Expr], meanings: dict[sp.Symbol, sp.Expr]) 
         if letter in wanted:
             wanted |= meanings[letter].free_symbols
     return {letter: stands for letter, stands in meanings.items() if letter in wanted}
+
+
+def _lifted(expr: sp.Expr, constants: dict[sp.Expr, sp.Symbol]) -> sp.Expr:
+    """An expression with symbols for its numbers that are no integers nor powers, which `constants` takes."""
+    if expr.is_Integer or expr.is_Symbol or expr is sp.pi:
+        return expr
+    if expr.is_Rational or isinstance(expr, sp.Float | sp.NumberSymbol):
+        return constants.setdefault(expr, sp.Symbol(f"constant {len(constants)}"))
+    if isinstance(expr, sp.Pow) and expr.exp.is_Rational:
+        return _lifted(expr.base, constants) ** expr.exp
+    if isinstance(expr, sp.exp) or not expr.args:
+        return expr  # which the letters refuse
+    return expr.func(*(_lifted(x, constants) for x in expr.args))
 
 
 def _text(kernels: Sequence[Kernel]) -> str:

@@ -10,20 +10,17 @@ from .algebra import Letters
 Steps = list[tuple[list[sp.Symbol], list[sp.Expr]]]
 
 
-def shared(expressions: Sequence[sp.Expr], prefix: str) -> tuple[dict[sp.Symbol, sp.Expr], list[sp.Expr]]:
-    """What some expressions have in common, by names that begin with a prefix, and the expressions by these names."""
-    terms, rest = sp.cse(list(expressions), symbols=sp.numbered_symbols(prefix), order="none")
+def shared(expressions: Sequence[sp.Expr]) -> tuple[dict[sp.Symbol, sp.Expr], list[sp.Expr]]:
+    """What some expressions have in common, by the names s0, s1, ..., and the expressions by these names."""
+    terms, rest = sp.cse(list(expressions), symbols=sp.numbered_symbols("s"), order="none")
     return dict(terms), rest
 
 
 def differentiated(
     residual: Sequence[sp.Expr], unknowns: Sequence[sp.Symbol], letters: Letters
 ) -> tuple[Steps, list[sp.Expr], Steps, list[sp.Expr]]:
-    """The steps and the results of equations, and those of their derivatives, row by row.
-
-    Each row is taken times a whole number such that no derivative is a fraction, which would be rounded.
-    """
-    terms, rest = shared(residual, "s")
+    """The steps and the results of equations, and those of their derivatives, row by row; d0, d1, ... are of these."""
+    terms, rest = shared(residual)
     meanings, rates, done = letters.meanings, dict[tuple[sp.Symbol, sp.Symbol], sp.Expr](), dict(terms)
 
     def derivative(expr: sp.Expr, x: sp.Symbol) -> sp.Expr:
@@ -44,11 +41,8 @@ def differentiated(
             rates[name, x] = of
         return rates[name, x]
 
-    slope = [[derivative(e, x) for x in unknowns] for e in rest]
-    times = [sp.ilcm(1, 1, *(e.q for e in row if e.is_Rational)) for row in slope]
-    whole = [n * e for n, row in zip(times, slope, strict=True) for e in row]
-    value = [n * e for n, e in zip(times, rest, strict=True)]
-    return _steps(terms, value), value, _steps(done, whole), whole
+    slope = [derivative(e, x) for e in rest for x in unknowns]
+    return _steps(terms, rest), rest, _steps(done, slope), slope
 
 
 def _steps(terms: dict[sp.Symbol, sp.Expr], results: Sequence[sp.Expr]) -> Steps:

@@ -3,7 +3,7 @@
 import hashlib
 import importlib.util
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -76,8 +76,8 @@ class System:
     parameters : mapping
         {symbol: number}, each an int, a fraction, a float or a string such as "3/2".
     start : mapping
-        {coordinate or velocity: number}, likewise; coordinates that are not there are 0, and so are velocities, but for
-        those that the constraints determine.
+        {coordinate or velocity: number}, likewise; coordinates that are not there are 0, and velocities the
+        smallest that the constraints allow.
     step : number
         A usual length of a step.
     source : str
@@ -112,13 +112,27 @@ class System:
     discrete: Discrete | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "lagrangian", sp.sympify(self.lagrangian))
+        for name in ("coordinates", "constraints", "holonomic"):
+            object.__setattr__(self, name, _several(getattr(self, name), f"{self.name}: {name}"))
+        object.__setattr__(self, "lagrangian", _expression(self.lagrangian, f"{self.name}: the Lagrangian"))
         for name in ("constraints", "holonomic"):
-            object.__setattr__(self, name, tuple(map(sp.sympify, getattr(self, name))))
+            made = tuple(_expression(one, f"{self.name}: one of {name}") for one in getattr(self, name))
+            object.__setattr__(self, name, made)
+        for name in ("forces", "parameters", "start"):
+            if not isinstance(getattr(self, name), Mapping) or not all(
+                isinstance(x, sp.Symbol) for x in getattr(self, name)
+            ):
+                raise BadSystem(f"{self.name}: {name} must be given as {{symbol: value}}")
+        forces = {x: _expression(f, f"{self.name}: the force along {x}") for x, f in self.forces.items()}
+        object.__setattr__(self, "forces", forces)
         if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
             raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
-        if len(set(self.coordinates)) < len(self.coordinates):
-            raise BadSystem(f"{self.name}: a coordinate is there twice")
+        symbols = (*self.coordinates, *self.velocities, *self.parameters, STEP)
+        if len(set(symbols)) < len(symbols):
+            twice = next(x for x in symbols if symbols.count(x) > 1)
+            raise BadSystem(f"{self.name}: {twice} is two of coordinate, velocity, parameter and length of a step")
+        if strange := [x for x in symbols if not (x.name.isidentifier() and x.name.isascii())]:
+            raise BadSystem(f"{self.name}: {strange[0].name!r} cannot be a name: take letters, digits and _")
         known = {*self.coordinates, *self.velocities, *self.parameters}
         places = {*self.coordinates, *self.parameters}
         for what, expressions, allowed in (
@@ -128,15 +142,15 @@ class System:
             ("a force", self.forces.values(), known),
         ):
             for one in expressions:
-                if strange := sp.sympify(one).free_symbols - allowed:
-                    listed = ", ".join(sorted(map(str, strange)))
+                if strange_ := one.free_symbols - allowed:
+                    listed = ", ".join(sorted(map(str, strange_)))
                     raise BadSystem(f"{self.name}: {what} has {listed}, which is no coordinate, velocity or parameter")
         if self.discrete is not None:
             self._check(self.discrete, places | {after(x) for x in self.coordinates} | {STEP})
-        if strange := set(self.forces) - set(self.coordinates):
-            raise BadSystem(f"{self.name}: a force is along {min(map(str, strange))}, which is no coordinate")
-        if strange := set(self.start) - {*self.coordinates, *self.velocities}:
-            raise BadSystem(f"{self.name}: the start has {min(map(str, strange))}, which is no coordinate or velocity")
+        if strange_ := set(self.forces) - set(self.coordinates):
+            raise BadSystem(f"{self.name}: a force is along {min(map(str, strange_))}, which is no coordinate")
+        if strange_ := set(self.start) - {*self.coordinates, *self.velocities}:
+            raise BadSystem(f"{self.name}: the start has {min(map(str, strange_))}, which is no coordinate or velocity")
         if self.mass.free_symbols & set(self.velocities):
             raise BadSystem(f"{self.name}: the Lagrangian is not of degree two in the velocities")
         if self.rows.free_symbols & set(self.velocities):
@@ -244,11 +258,13 @@ class System:
             (self.coordinates, tuple(self.parameters)), [self.rows, self.offsets, *self.holonomic], "numpy"
         )
         rows, offsets, *kept = of(q, self.numbers)
-        if any(abs(x) > NEAR for x in kept):
+        if not all(abs(x) <= NEAR for x in kept):
             raise BadSystem(f"{self.name}: the start is {max(map(abs, kept)):.3g} off the holonomic constraints")
         rows, offsets = np.array(rows, float).reshape(len(self.rows[:, 0]), len(q)), np.array(offsets, float).ravel()
         v = np.array([given.get(x, 0.0) for x in self.velocities])
         free = [i for i, x in enumerate(self.velocities) if x not in given]
+        if not (np.isfinite(rows).all() and np.isfinite(offsets).all()):
+            raise BadSystem(f"{self.name}: a constraint is not defined at the start")
         if len(rows) and free:
             v[free] += np.linalg.lstsq(rows[:, free], -(rows @ v + offsets), rcond=None)[0]
         if len(rows) and (worst := np.abs(rows @ v + offsets).max()) > NEAR:
@@ -278,7 +294,7 @@ def loaded(path: str | Path) -> System:
         spec.loader.exec_module(module)
     except BadSystem:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise BadSystem(f"{path} cannot be run: {type(error).__name__}: {error}") from error
     found = getattr(module, "SYSTEM", None)
     if not isinstance(found, System):
@@ -286,12 +302,37 @@ def loaded(path: str | Path) -> System:
     return found
 
 
-def number(value: Any, what: str) -> float:
-    """A number of a system as a float; raises BadSystem with what it is, if it is none."""
+def rational(value: Any, what: str) -> sp.Rational:
+    """A number of a system, exactly; raises BadSystem with what it is, if it is none."""
     try:
-        found = float(Fraction(value) if isinstance(value, str) else value)
+        found = Fraction(str(value) if isinstance(value, float | sp.Float) else value)
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
         raise BadSystem(f"{what} is {value!r}, which is no number") from None
-    if not math.isfinite(found):
+    return sp.Rational(found.numerator, found.denominator)
+
+
+def number(value: Any, what: str) -> float:
+    """The same as a float."""
+    if isinstance(value, float) and not math.isfinite(value):
         raise BadSystem(f"{what} is not finite")
+    try:
+        return float(Fraction(value) if isinstance(value, str) else value)
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        raise BadSystem(f"{what} is {value!r}, which is no number") from None
+
+
+def _several(value: Any, what: str) -> tuple[Any, ...]:
+    if isinstance(value, str | sp.Basic) or not isinstance(value, Iterable):
+        raise BadSystem(f"{what} must be a sequence, such as a list, not {value!s:.40}")
+    return tuple(value)
+
+
+def _expression(value: Any, what: str) -> sp.Expr:
+    """An expression of numbers and symbols; a text is not evaluated."""
+    try:
+        found = sp.sympify(value, strict=True)
+    except sp.SympifyError:
+        found = None
+    if not isinstance(found, sp.Expr) or found.has(sp.nan, sp.zoo, sp.oo, sp.I):
+        raise BadSystem(f"{what} is {value!s:.40}, which is no real expression of SymPy")
     return found

@@ -8,6 +8,11 @@ from typing import Any
 
 from chapsym.extras import need
 
+#: The columns of a table, with their widths as text.
+COLUMNS = {
+    "method": 9, "order": 6, "energy": 11, "oscillation": 11, "drift": 10, "constraint": 10, "places": 7, "returns": 9,
+    "µs/step": 8,
+}  # fmt: skip
 PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>Methods on mechanical systems</title>
@@ -20,8 +25,9 @@ svg {{ max-width: 100%; height: auto; }}
 </style>
 <h1>Methods on mechanical systems</h1>
 <p>Oscillation: the range of the energy in the first tenth of the steps. Drift: the mean of the last tenth less that
-of the first. Constraint: the largest |A v + b|; <i>proved 0</i> where an equation of the method says so. Order: of the
-error of the place when the steps are halved. Returns: how far the place is from its start after 100 steps, the
+of the first. Constraint: the largest |A v + b| of the constraints on velocities; proved 0 where an equation of the
+method says so. Places: the largest value of the holonomic constraints. Order: of the error of the place when the
+steps are halved; - where rounding hides it. Returns: how far the place is from its start after 100 steps, the
 velocities turned round, and 100 steps. All but what is proved is measured.</p>
 {systems}
 </html>
@@ -46,19 +52,39 @@ def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constrai
         own = [cell for cell in cells if cell["system"] == name]
         rows = "".join(_row(cell, titles[cell["method"]]) for cell in own)
         said = f"<p>{escape(constraints[name])}.</p>" if name in constraints else ""
-        head = "<tr><th>method<th>order<th>energy<th>oscillation<th>drift<th>constraint<th>returns<th>µs a step</tr>"
+        head = f"<tr>{''.join(f'<th>{name}' for name in COLUMNS)}</tr>"
         parts.append(f"<h2>{escape(name)}</h2>{said}<table>{head}{rows}</table>{_curves(own)}")
     return PAGE.format(systems="\n".join(parts))
+
+
+def figures(cell: Mapping[str, Any]) -> list[str]:
+    """The figures of a cell as text, in the order of COLUMNS but for the method, then what half the step says, or "".
+
+    - is for what there is not, or what rounding hides.
+    """
+
+    def of(name: str, form: str) -> str:
+        return "-" if cell[name] is None else format(cell[name], form)
+
+    half = ""
+    if cell["halved"] is not None:
+        times = abs(cell["drift"] / cell["halved"]) if cell["halved"] else math.inf
+        half = f"{cell['halved']:+.1e}, {times:.1f} times less"
+    forms = {"energy": ".6g", "oscillation": ".1e", "drift": "+.1e"}
+    kept = "proved 0" if cell["kept"] else of("constraint", ".1e")
+    places = of("places", ".1e") if cell["places"] else "-"
+    energy = [of(name, form) for name, form in forms.items()]
+    return [of("order", ".2f"), *energy, kept, places, of("returns", ".1e"), of("microseconds", ".2f"), half]
 
 
 def _row(cell: Mapping[str, Any], title: str) -> str:
     first = f"<tr><td>{escape(title)}"
     if cell["failed"]:
-        return f"{first}<td colspan=7>{escape(cell['failed'])}</tr>"
-    kept = "<i>proved 0</i>" if cell["kept"] else f"{cell['constraint']:.1e}"
-    order = "exact" if cell["order"] is None else f"{cell['order']:.2f}"
-    figures = f"<td>{cell['energy']:.6g}<td>{cell['oscillation']:.1e}<td>{cell['drift']:+.1e}"
-    return f"{first}<td>{order}{figures}<td>{kept}<td>{cell['returns']:.1e}<td>{cell['microseconds']:.2f}</tr>"
+        return f"{first}<td colspan={len(COLUMNS) - 1}>{escape(cell['failed'])}</tr>"
+    *shown, half = figures(cell)
+    return (
+        first + "".join(f"<td>{one}" for one in shown) + (f"<td>with half the step: {half}" if half else "") + "</tr>"
+    )
 
 
 def _curves(cells: Sequence[Mapping[str, Any]]) -> str:

@@ -18,7 +18,17 @@ def test_a_table_with_verdicts_and_figures():
         "nonholonomic particle: completely nonholonomic: the flag has the dimensions 2, 3 of 3; the exact motion keeps "
         "its energy"
     )
-    assert columns.split() == ["method", "order", "energy", "oscillation", "drift", "constraint", "returns", "µs/step"]
+    assert columns.split() == [
+        "method",
+        "order",
+        "energy",
+        "oscillation",
+        "drift",
+        "constraint",
+        "places",
+        "returns",
+        "µs/step",
+    ]
     assert first.split()[:3] == ["dla", "2.00", "0.690138"]
     assert "proved 0" in first
     assert "proved 0" not in last
@@ -95,3 +105,37 @@ def test_what_is_no_file_is_one_sentence(tmp_path):
         done = chapsym("lab", place)
         assert (done.returncode, done.stderr.count("\n")) == (2, 1)
         assert said in done.stderr
+
+
+def test_two_systems_of_one_name_and_a_file_that_lacks_something_are_one_sentence(tmp_path):
+    (tmp_path / "other.py").write_text(FILE.read_text(encoding="utf-8"), encoding="utf-8")
+    done = chapsym("lab", FILE, tmp_path / "other.py", "--method", "dla", "--steps", 10)
+    assert (done.returncode, done.stderr) == (
+        2,
+        "chapsym: two systems are called nonholonomic particle: give each a name of its own\n",
+    )
+    out = tmp_path / "lab.json"
+    out.write_text('{"cells": [{"key": "a", "method": "dla", "steps": 10}]}', encoding="utf-8")
+    assert "is not what chapsym lab has written" in chapsym("lab", FILE, "-o", out).stderr
+
+
+def test_other_lengths_of_a_step_are_not_mixed(tmp_path):
+    out = tmp_path / "lab.json"
+    for length in (0.1, 0.05):
+        found = answer("lab", FILE, "--method", "dla", "--steps", 10, "--length", length, "-o", out)
+        assert [cell["length"] for cell in found["cells"]] == [length]
+    assert len(json.loads(out.read_text(encoding="utf-8"))["cells"]) == 2
+
+
+def test_what_is_not_decided_is_said_and_the_rest_measured(tmp_path):
+    text = (
+        FILE.read_text(encoding="utf-8")
+        .replace("vz - y * vx", "vz - y * vx * cos(1)")
+        .replace("import sym", "import cos, sym")
+    )
+    (tmp_path / "odd.py").write_text(text, encoding="utf-8")
+    done = chapsym("lab", tmp_path / "odd.py", "--method", "dla", "--steps", 10)
+    assert (
+        "integrability is not decided (exact verdicts need sin and cos of coordinates, which 1 is not)" in done.stdout
+    )
+    assert "proved 0" in done.stdout

@@ -36,7 +36,7 @@ from chapsym.mechanics import (
 
 SYSTEMS = Path(__file__).parents[2] / "docs/examples/systems"
 ANYWHERE = [name for name in METHODS if name != "own"]
-x, y, z, a = sp.symbols("x y z a")
+x, y, z, a, k = sp.symbols("x y z a k")
 vx, vy, vz, va = map(dot, (x, y, z, a))
 FREE = (vx**2 + vy**2 + vz**2) / 2
 
@@ -155,6 +155,135 @@ def test_constraints_are_integrable_or_not(coordinates, constraints, growth, fun
     assert found.integrable is (len(growth) == 1)
     assert str(found).startswith({(3,): "no constraint", (2, 3): "completely" if not functions else "nonholonomic"}.get(
         growth, "integrable"))  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"constraints": [sp.sin(a) * vx - 2 * sp.sin(a / 2) * sp.cos(a / 2) * vy]}, "sin and cos of coordinates"),
+        ({"constraints": [vz - (sp.sin(2) - 2 * sp.sin(1) * sp.cos(1)) * y * vx]}, "sin and cos of coordinates"),
+        (
+            {"constraints": [vz - (sp.sqrt(x * y) - sp.sqrt(x) * sp.sqrt(y)) * y * vx]},
+            "roots whose product is not rational",
+        ),
+        ({"constraints": [vz - sp.sqrt((1 + x**2) ** 2) * vx]}, "product is not rational: sqrt"),
+        ({"constraints": [vz - sp.sqrt(1 + sp.sqrt(2 + x**2)) * vx]}, "roots in roots"),
+        ({"constraints": [vz - sp.pi * y * vx]}, "are not for π"),
+        ({"constraints": [vz - sp.sin(a) * vx], "holonomic": [a - y]}, "binds the angle a outside of sin and cos"),
+        ({"constraints": [vx - 1, vx - 2]}, "the constraints contradict each other: no motion obeys them"),
+        ({"constraints": [x**2 + y**2 - 1]}, "the constraints contradict each other"),
+        ({"constraints": [vx / (sp.sin(a) ** 2 + sp.cos(a) ** 2 - 1)]}, "divides by"),
+        ({"constraints": [vz - sp.exp(x) * vx]}, "is not sin, cos, a square root or"),
+    ],
+)
+def test_what_the_algebra_does_not_know_is_refused_and_not_judged(settings, said):
+    with pytest.raises(BadSystem, match=said):
+        flag(System("unknown", (x, y, z, a), 0, **settings))
+
+
+@pytest.mark.parametrize(
+    ("settings", "growth", "functions"),
+    [
+        ({"constraints": [vx - y]}, (3, 4), 0),  # of x, y, z and time
+        ({"constraints": [vx - 1]}, (3,), 1),
+        ({"constraints": [vz - k * y * vx], "parameters": {k: 0}}, (2,), 1),
+        ({"constraints": [vz - k * y * vx], "parameters": {k: "1e-30"}}, (2, 3), 0),
+        ({"constraints": [vz - y * vx, 3 * vz - 3 * y * vx]}, (2, 3), 0),
+        ({"constraints": [vz - sp.sqrt(2) * y * vx]}, (2, 3), 0),
+        ({"constraints": [vz - 0.5 * y * vx]}, (2, 3), 0),
+        ({"holonomic": [x**2 + y**2 - 1, 2 * x**2 + 2 * y**2 - 2]}, (2,), 0),
+        ({"constraints": [vz - sp.tan(y) * vx]}, (2, 3), 0),
+        ({"constraints": [vz - sp.sin(2 * y) * vx + 2 * sp.sin(y) * sp.cos(y) * vx]}, (2,), 1),
+    ],
+)
+def test_flags_are_of_the_system_with_its_numbers(settings, growth, functions):
+    found = flag(System("one", (x, y, z), 0, **settings))
+    assert (found.growth, found.functions) == (growth, functions)
+
+
+@pytest.mark.parametrize(
+    ("lagrangian", "typed", "equal"),
+    [
+        (va**2 / 2 + sp.cos(a), -sp.sin(a), True),
+        (va**2 / 2 + sp.cos(a) - a**2 / 2, -sp.sin(a) - a, True),
+        (va**2 / 2 + sp.cos(a) - a**2 / 2, -sp.sin(a) + a, False),
+        (va**2 / 2 - sp.sqrt(1 + a**2), -a / sp.sqrt(1 + a**2), True),
+        (va**2 / 2 - sp.sqrt(1 + a**2), a / sp.sqrt(1 + a**2), False),
+        (va**2 / 2 - 1.57 * a**2, -3.14 * a, True),
+        (k * va**2 / 2 - a**2 / 2, -a / 2, True),  # k is 2
+    ],
+)
+def test_equations_are_compared_for_the_system_with_its_numbers(lagrangian, typed, equal):
+    found = agree(System("one", (a,), lagrangian, parameters={k: 2}), {a: typed})
+    assert found.equal is equal
+    if not equal:
+        assert all(sp.sympify(value).is_real for value in (*found.point.values(), found.value))
+        assert found.point["a"] != "0"  # an angle that stands bare is shown, too
+
+
+@pytest.mark.parametrize(
+    ("typed", "said"),
+    [
+        ({a: -2 * sp.sin(a / 2) * sp.cos(a / 2)}, "sin and cos of coordinates, which a/2 is not"),
+        ({a: None}, "None is no expression"),
+        ({a: sp.Symbol("w")}, "there is w, which is no coordinate, velocity or parameter"),
+        ({a: sp.sin(va)}, "which a_dot is not"),
+        ({}, "there is no acceleration of a"),
+    ],
+)
+def test_accelerations_that_cannot_be_judged_are_one_sentence(typed, said):
+    with pytest.raises(BadSystem, match=said):
+        agree(System("one", (a,), va**2 / 2 + sp.cos(a)), typed)
+
+
+@pytest.mark.parametrize("method", ANYWHERE)
+def test_numbers_that_are_no_integers_and_any_names_are_taken(method):
+    """Halves, floats, and symbols that are called as those of the generated text, or as words of C."""
+    d0, u_1, s0, real = sp.symbols("d0 u_1 s0 real")
+    for x_, y_, k_, m_ in ((x, y, k, z), (d0, u_1, s0, real)):
+        energy = (
+            m_ * (dot(x_) ** 2 + dot(y_) ** 2) / 2 - (x_ - sp.Rational(1, 2)) ** 2 / 2 - 0.25 * sp.cos(y_ / 3 + 0.5)
+        )
+        system = System(
+            "named", (x_, y_), energy, [dot(y_) - x_ * dot(x_) / 3 - sp.Rational(1, 5) * k_],
+            parameters={k_: 1, m_: "3/2"}, start={x_: "1/2", dot(x_): 1},
+        )  # fmt: skip
+        found = moved(system, method, 20, 0.05).final[:2]
+        assert np.abs(found - reference(system, 1.0)).max() < (0.05 if method == "dla-left" else 2e-3)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"every": -7}, "every must be a whole number from 1 on, not -7"),
+        ({"every": 0}, "every must be"),
+        ({"steps": 0}, "steps must be a whole number from 1 on, not 0"),
+        ({"steps": 2.5}, "steps must be"),
+        ({"length": 0.0}, "the length of a step must be positive"),
+        ({"length": "long"}, "the length of a step is 'long', which is no number"),
+        ({"length": float("inf")}, "the length of a step is not finite"),
+    ],
+)
+def test_steps_that_cannot_be_are_one_sentence(options, said):
+    with pytest.raises(BadSystem, match=said):
+        moved(particle(), "dla", **{"steps": 5} | options)
+
+
+def test_a_motion_that_leaves_the_numbers_is_said():
+    with pytest.raises(NotSolved, match=r"leaves the range of numbers|has no solution"):
+        moved(System("up", (x,), vx**2 / 2 + x**4, start={x: 1e3}), "rk4", 100, 1e3)
+
+
+def test_only_constraints_that_are_there_are_proved():
+    sphere = System(
+        "sphere", (x, y, z), FREE - z, holonomic=[x**2 + y**2 + z**2 - 1], start={x: "3/5", z: "-4/5", vy: 1}
+    )
+    cell = measured(sphere, "rk4", 200)
+    assert not cell.kept
+    assert cell.places > 1e-6
+    assert measured(sphere, "dla", 200).places < 1e-2
+    still = System("still", (x, y), (vx**2 + vy**2) / 2, start={x: "1e-9"})
+    assert measured(still, "dla", 10).order is None
 
 
 def test_a_flag_says_where_it_holds():
@@ -380,7 +509,7 @@ def test_attitudes_have_their_angular_velocities():
     ("settings", "said"),
     [
         ({"coordinates": ()}, "coordinates must be symbols"),
-        ({"coordinates": (x, x, z)}, "a coordinate is there twice"),
+        ({"coordinates": (x, x, z)}, "x is two of coordinate, velocity, parameter and length of a step"),
         ({"lagrangian": FREE + a}, "the Lagrangian has a, which is no coordinate, velocity or parameter"),
         ({"lagrangian": FREE + vx**3}, "is not of degree two in the velocities"),
         ({"constraints": [vx * vy]}, "a constraint is not affine in the velocities"),
