@@ -256,6 +256,16 @@ def rank(matrix: sp.Matrix, point: Point) -> int:
     return 0 if of.has(sp.zoo, sp.nan) or of.free_symbols else len(pivots(of))
 
 
+def generic(matrix: sp.Matrix, points: Sequence[Point]) -> tuple[Point, Sequence[Point]]:
+    """A point at which the rank is largest, the first where it is that of all rows; and the points with that rank."""
+    for point in points:
+        if rank(matrix, point) == matrix.rows:
+            return point, points
+    ranks = [rank(matrix, point) for point in points]
+    best = [point for point, r in zip(points, ranks, strict=True) if r == max(ranks)]
+    return best[0], best
+
+
 def _no_square(x: sp.Expr) -> bool:
     """Whether a number is defined, and no square of a rational one."""
     return bool(x.is_Rational) and not (x >= 0 and sp.sqrt(x).is_Rational)

@@ -12,7 +12,7 @@ from typing import Any
 
 import sympy as sp
 
-from .algebra import Algebra, pivots, rank
+from .algebra import Algebra, generic, pivots, rank
 from .system import BadSystem, System
 
 
@@ -101,7 +101,7 @@ def flag(system: System) -> Flag:
     with_time = any(not algebra.is_zero(b) for b in algebra.offsets)
     whole = algebra.rows.row_join(algebra.offsets) if with_time else algebra.rows
     rows, places = _whole(whole), rows_of_places(algebra, with_time)
-    point = max(algebra.points, key=lambda p: (rank(places, p), rank(rows, p)))
+    point = generic(rows, generic(places, algebra.points)[1])[0]
     dimension = rows.cols - rank(places, point)
     kept = pivots(rows.xreplace(point).T)
     for i in set(range(rows.rows)) - set(kept):
@@ -117,11 +117,13 @@ def flag(system: System) -> Flag:
         for x, y in product(fields, before):
             bracket = algebra.normal(_bracket(x, y, algebra))
             larger = [*span, bracket]
-            better = next((p for p in (point, *algebra.points) if rank(_matrix(larger), p) == len(larger)), None)
-            if better is not None:
-                span, point, newest = larger, better, [*newest, bracket]
-            elif not _inside(span, bracket, point, algebra):
-                raise BadSystem(f"{system.name}: it is not decided whether a bracket is in the span of others")
+            if rank(_matrix(larger), point) < len(larger):
+                if _inside(span, bracket, point, algebra):
+                    continue
+                point = next((p for p in algebra.points if rank(_matrix(larger), p) == len(larger)), {})
+                if not point:
+                    raise BadSystem(f"{system.name}: it is not decided whether a bracket is in the span of others")
+            span, newest = larger, [*newest, bracket]
         growth += [len(span)] if newest else []
     minor = _matrix(span).extract(list(range(len(span))), pivots(_matrix(span).xreplace(point))) if span else sp.eye(0)
     condition = sp.factor(algebra.normal([minor.det(method="berkowitz")])[0])

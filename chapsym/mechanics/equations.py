@@ -7,7 +7,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .algebra import Algebra, pivots, rank
+from .algebra import Algebra, generic, pivots
 from .brackets import _kernel
 from .system import BadSystem, System, dot
 
@@ -85,7 +85,7 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     mass = sp.Matrix(n, n, algebra.more[n : n + n * n])
     if any(of.free_symbols & set(v) for of in algebra.letters.arguments("sin", "sqrt").values()):
         raise BadSystem(f"{system.name}: exact verdicts are not for functions of velocities")
-    point = max(algebra.points, key=lambda p: rank(algebra.rows, p))
+    point = generic(algebra.rows, algebra.points)[0]
     kept = pivots(algebra.rows.xreplace(point).T) if algebra.rows.rows else []
     rows, offsets = algebra.rows.extract(kept, list(range(n))), algebra.offsets.extract(kept, [0])
     bound = pivots(rows.xreplace(point)) if kept else []
