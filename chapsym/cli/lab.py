@@ -48,11 +48,13 @@ def lab(
         fail(f"{strange[0]!r} is no method; those are {', '.join(METHODS)}", 2)
     done, keys = _there(output), set[str]()
     constraints: dict[str, str] = {}
-    try:
-        systems = [loaded(path) for path in _files(files)]
-        for system in systems:
+    wrong: list[str] = []
+    for path in _files(files):
+        try:
+            system = loaded(path)
             if system.name in constraints:
-                fail(f"two systems are called {system.name}: give each a name of its own", 2)
+                raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
+            system.beginning  # noqa: B018, which refuses a start that breaks a constraint
             energy = "keeps" if system.keeps_energy else "need not keep"
             constraints[system.name] = f"{_verdict(system)}; " * flags + f"the exact motion {energy} its energy"
             keys.add(key := system.digest(length, halve))
@@ -68,17 +70,21 @@ def lab(
                     print(_row(cell))
                 if output is not None and output.suffix == ".json":
                     _write(output, json.dumps({"cells": done}, allow_nan=False))
-    except BadSystem as error:
-        fail(str(error), 2)
+        except BadSystem as error:
+            wrong.append(str(error))
     shown = [cell for cell in done if cell["key"] in keys and cell["method"] in methods and cell["steps"] == steps]
-    if output is not None and output.suffix == ".html":
+    if output is not None and output.suffix == ".html" and shown:
         from chapsym.show.lab import page
 
         _write(output, page(shown, {name: m.title for name, m in METHODS.items()}, constraints))
-    if as_json:
+    if as_json and shown:
         print_json({"constraints": constraints, "cells": shown})
-    elif output is not None:
+    elif output is not None and shown:
         note(f"wrote {output}")
+    for sentence in wrong[:-1]:
+        note(sentence)
+    if wrong:
+        fail(wrong[-1], 2)
 
 
 def _row(cell: dict[str, Any]) -> str:

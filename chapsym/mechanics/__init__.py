@@ -10,7 +10,7 @@
 
 from .attitude import Quaternion, Turned
 from .brackets import Flag, flag
-from .equations import Agreement, agree, in_symbols
+from .equations import Agreement, agree, in_symbols, of_kane
 from .lab import Cell, measured
 from .methods import METHODS, Method, Scheme
 from .motion import Motion, NotSolved, Runner, moved
@@ -19,5 +19,5 @@ from .system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
 __all__ = [
     "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Discrete", "Flag", "Method", "Motion", "NotSolved",
     "Quaternion", "Runner", "Scheme", "System", "Turned", "after", "agree", "dot", "flag", "in_symbols", "loaded",
-    "measured", "moved", "rate",
+    "measured", "moved", "of_kane", "rate",
 ]  # fmt: skip

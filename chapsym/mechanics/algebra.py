@@ -152,8 +152,9 @@ class Algebra:
         if isinstance(expr, sp.MatrixBase):
             return expr.applyfunc(self.into)
         try:
-            of = sp.nsimplify(sp.sympify(expr, strict=True), rational=True).xreplace(self._numbers)
-            found = self.letters.into(sp.expand_trig(of))
+            of = sp.sympify(expr, strict=True).xreplace(self._numbers)
+            floats = {x: rational(float(x), "a number") for x in of.atoms(sp.Float)}  # as they are written
+            found = self.letters.into(sp.expand_trig(of.xreplace(floats)))
         except (sp.SympifyError, TypeError, AttributeError, ZeroDivisionError):
             raise BadSystem(f"{self.system.name}: {expr!s:.60} is no expression") from None
         if found.has(sp.zoo, sp.nan, sp.oo):
@@ -164,9 +165,11 @@ class Algebra:
         name, angles = self.system.name, self.letters.arguments("sin")
         for of in angles.values():
             if of not in self.system.coordinates:
-                raise BadSystem(f"{name}: exact verdicts need sin and cos of coordinates, which {of} is not")
+                raise BadSystem(
+                    f"{name}: exact verdicts need sin and cos of coordinates, which {of} is not: make it one"
+                )
         if self.letters.arguments("pi"):
-            raise BadSystem(f"{name}: exact verdicts are not for π: turn the angles")
+            raise BadSystem(f"{name}: exact verdicts are not for π: take a rational number, or turn the angles")
         bound = set().union(*(e.free_symbols for e in self.holonomic)) & set(angles.values())
         if bound:
             raise BadSystem(

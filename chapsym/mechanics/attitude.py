@@ -20,8 +20,8 @@ class Turned:
     ----------
     rotation : sympy.Matrix
         From the axes of the body to those of space.
-    spin : sympy.Matrix
-        The angular velocity in the axes of the body.
+    spin, spin_in_space : sympy.Matrix
+        The angular velocity in the axes of the body, and in those of space.
 
     Examples
     --------
@@ -38,6 +38,11 @@ class Turned:
             self.rotation = self.rotation * one
             self.spin = one.T * self.spin
             self.spin["xyz".index(axis)] += dot(angle)
+
+    @property
+    def spin_in_space(self) -> sp.Matrix:
+        """The angular velocity in the axes of space."""
+        return self.rotation * self.spin
 
 
 def _turn(axis: str, angle: Any) -> sp.Matrix:
@@ -59,6 +64,10 @@ class Quaternion:
     Attributes
     ----------
     coordinates : tuple of sympy.Symbol
+    rotation : sympy.Matrix
+        From the axes of the body to those of space.
+    spin, spin_in_space : sympy.Matrix
+        The angular velocity in the axes of the body, and in those of space.
     norm, swelling : sympy.Expr
         |q|², and its rate, halved: that is 0 in a motion, so that a multiple of its square may stand in a Lagrangian,
         whose mass matrix would be singular without.

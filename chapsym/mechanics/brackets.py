@@ -28,7 +28,7 @@ class Flag:
     fields : tuple of tuple of sympy.Expr
         Fields that span D₁, in letters; with a last component for the time where `with_time`.
     condition : sympy.Expr
-        It is not 0 where the dimensions are at least these.
+        Where it is not 0, the dimensions are at least these; where it is, they may be.
     point : mapping
         The exact point, with sines and cosines in the place of angles.
     dimension : int

@@ -6,6 +6,7 @@ from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.physics.vector import dynamicsymbols
 
 from .algebra import Algebra, generic, pivots
 from .brackets import _kernel
@@ -137,6 +138,33 @@ def in_symbols(expr: Any) -> Any:
         made = [in_symbols(e) for e in expr]
         return sp.Matrix(expr.rows, expr.cols, made) if isinstance(expr, sp.MatrixBase) else type(expr)(made)
     expr = sp.sympify(expr)
+    if any(d.derivative_count > 1 for d in expr.atoms(sp.Derivative)):
+        raise BadSystem(f"{expr!s:.60} has a second derivative, which has no symbol: put in what it is")
     rates = {d: d for d in expr.atoms(sp.Derivative) if d.derivative_count == 1 and isinstance(d.expr, AppliedUndef)}
     expr = expr.xreplace({d: dot(sp.Symbol(d.expr.func.__name__)) for d in rates})
     return expr.xreplace({f: sp.Symbol(f.func.__name__) for f in expr.atoms(AppliedUndef)})
+
+
+def of_kane(method: Any) -> dict[sp.Symbol, sp.Expr]:
+    """The accelerations of the coordinates by Kane's method, for `agree`.
+
+    Parameters
+    ----------
+    method : sympy.physics.mechanics.KanesMethod
+        After `kanes_equations`.  Its speeds, which are linear in the rates of the coordinates, are replaced by these.
+
+    Returns
+    -------
+    dict
+        {coordinate: its second derivative}, in symbols.
+    """
+    q, u = list(method.q), list(method.u)
+    rates = dict(method.kindiffdict())
+    forced = method.mass_matrix_full.LUsolve(method.forcing_full)
+    pushed = dict(zip([x.diff() for x in u], forced[len(q) :], strict=True))
+    (speeds,) = sp.solve([x.diff() - rates[x.diff()] for x in q], u, dict=True)
+    found = {}
+    for x in q:
+        second = rates[x.diff()].diff(dynamicsymbols._t).xreplace(pushed).xreplace(rates)
+        found[in_symbols(x)] = in_symbols(second.subs(speeds))
+    return found

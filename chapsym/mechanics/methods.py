@@ -35,6 +35,8 @@ class Scheme:
         The next state, by state and unknowns; for an explicit method the rates of the state, at any state.
     place, velocity : sequence of sympy.Expr
         Coordinates and velocities at which the step is looked at: its energy, its constraints.
+    when : sympy.Rational
+        The part of the step after which they are.
     start, guess : sequence of sympy.Expr
         The first state and the first guess of the unknowns, by coordinates and velocities.
     reflects : bool
@@ -51,6 +53,7 @@ class Scheme:
     velocity: Sequence[sp.Expr]
     start: Sequence[sp.Expr]
     guess: Sequence[sp.Expr]
+    when: sp.Rational = sp.S.Zero
     reflects: bool = False
     stages: Sequence[Sequence[sp.Rational]] = ()
 
@@ -118,9 +121,10 @@ def discrete(alpha: sp.Rational) -> Callable[[System], Scheme]:
         return Scheme(
             (*of.q, *of.p), (*u, *multipliers), [*balance, *of.kept(place, u, end)],
             [*end, *(momenta + STEP * alpha * push)], list(place), list(u),
-            [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)],
+            [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)], alpha,
         )  # fmt: skip
 
+    scheme.__doc__ = discrete.__doc__
     return scheme
 
 
@@ -141,6 +145,7 @@ def own(system: System) -> Scheme:
     return Scheme(
         (*of.q, *of.p), (*u, *multipliers), [*(of.p + first + of.held(of.q, multipliers)), *kept, *held],
         [*end, *last], list((of.q + end) / 2), list(u), [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)],
+        sp.S.Half,
     )  # fmt: skip
 
 
@@ -180,7 +185,7 @@ def leapfrog(system: System) -> Scheme:
     residual = [*(of.momenta(place, u) - of.p), *(after - of.p - kick), *of.kept(place, (u + w) / 2, end)]
     return Scheme(
         (*of.q, *of.p), (*u, *w, *multipliers), residual, [*end, *after], list(place), list((u + w) / 2),
-        [*of.q, *system.momenta], [*of.v, *of.v, *([sp.S.Zero] * of.m)],
+        [*of.q, *system.momenta], [*of.v, *of.v, *([sp.S.Zero] * of.m)], sp.S.Half,
     )  # fmt: skip
 
 

@@ -42,9 +42,9 @@ class Motion:
     Attributes
     ----------
     time : numpy.ndarray
-        (steps,), the beginnings of the steps that are recorded.
+        (steps,), when the place is as recorded: at the beginning of a step, or in its middle.
     place, velocity : numpy.ndarray
-        (steps, n), where the method looks at the step: at its end, or within it.
+        (steps, n), where the method looks at the step.
     energy : numpy.ndarray
         (steps,)
     constraint, places : numpy.ndarray
@@ -185,16 +185,24 @@ class Runner:
             done = take(self, steps, every, state, unknowns, fixed, recorded)
         seconds = time.process_time() - begin
         if done < steps:
-            raise NotSolved(
-                f"{self.system.name}, {self.method}: step {done} of {steps} has no solution near the last one"
-            )
+            which = f"{self.system.name}, {self.method}: step {done} of {steps}"
+            if done == 0 and self._is_singular(q, v, fixed):
+                why = "constraints depend on each other, or the mass matrix is singular (see Quaternion.swelling)"
+                raise NotSolved(f"{which} has no solution, as its equations are singular: {why}")
+            raise NotSolved(f"{which} has no solution near the last one")
         if not (np.isfinite(state).all() and np.isfinite(recorded).all()):
             raise NotSolved(f"{self.system.name}, {self.method}: a step of {steps} leaves the range of numbers")
         place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
         energy, *kept = ([x + 0 * place[:, 0] for x in of(*place.T, *velocity.T)] for of in self.measures)
         constraint, places = (np.max([0 * place[:, 0], *map(np.abs, values)], axis=0) for values in kept)
-        times = h * np.arange(0, steps, every)
+        times = h * (np.arange(0, steps, every) + float(self.scheme.when))
         return Motion(times, place, velocity, energy[0], constraint, places, state, seconds)
+
+    def _is_singular(self, q: np.ndarray, v: np.ndarray, fixed: np.ndarray) -> bool:
+        """Whether the derivatives of the first step's equations are singular at its guess."""
+        state, unknowns = (self._numbers(part, q, v) for part in (self.scheme.start, self.scheme.guess))
+        slope = np.array(self.functions["slope"](*map(float, (*state, *unknowns, *fixed)))).reshape(len(unknowns), -1)
+        return bool(np.isfinite(slope).all() and np.linalg.matrix_rank(slope) < len(unknowns))
 
     @cached_property
     def measures(self) -> list[Callable[..., Any]]:

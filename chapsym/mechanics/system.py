@@ -305,9 +305,9 @@ def loaded(path: str | Path) -> System:
 def rational(value: Any, what: str) -> sp.Rational:
     """A number of a system, exactly; raises BadSystem with what it is, if it is none."""
     try:
-        found = Fraction(str(value) if isinstance(value, float | sp.Float) else value)
+        found = Fraction(repr(float(value)) if isinstance(value, float | sp.Float) else value)
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
-        raise BadSystem(f"{what} is {value!r}, which is no number") from None
+        raise BadSystem(f"{what} is {value!r}, which is no rational number") from None
     return sp.Rational(found.numerator, found.denominator)
 
 

@@ -108,7 +108,14 @@ def test_what_is_no_file_is_one_sentence(tmp_path):
 
 
 def test_two_systems_of_one_name_and_a_file_that_lacks_something_are_one_sentence(tmp_path):
-    (tmp_path / "other.py").write_text(FILE.read_text(encoding="utf-8"), encoding="utf-8")
+    text = FILE.read_text(encoding="utf-8")
+    (tmp_path / "other.py").write_text(text, encoding="utf-8")
+    (tmp_path / "off.py").write_text(
+        text.replace("vy:", "vz: 3, vy:").replace("holonomic par", "par"), encoding="utf-8"
+    )
+    done = chapsym("lab", tmp_path / "off.py", FILE, "--method", "dla", "--steps", 10, "--no-flags")
+    assert "off the constraints; leave out those" in done.stderr
+    assert (done.returncode, done.stderr.count("\n"), done.stdout.count("\n")) == (2, 1, 3)  # the other is measured
     done = chapsym("lab", FILE, tmp_path / "other.py", "--method", "dla", "--steps", 10)
     assert (done.returncode, done.stderr) == (
         2,
@@ -135,7 +142,5 @@ def test_what_is_not_decided_is_said_and_the_rest_measured(tmp_path):
     )
     (tmp_path / "odd.py").write_text(text, encoding="utf-8")
     done = chapsym("lab", tmp_path / "odd.py", "--method", "dla", "--steps", 10)
-    assert (
-        "integrability is not decided (exact verdicts need sin and cos of coordinates, which 1 is not)" in done.stdout
-    )
+    assert "not decided (exact verdicts need sin and cos of coordinates, which 1 is not: make it one)" in done.stdout
     assert "proved 0" in done.stdout
