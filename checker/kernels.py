@@ -62,6 +62,8 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
     for i, each in enumerate(differences(one, where)):
         carrier = row["carriers"][each.carrier]
         cofactors = dict(map(tuple, carrier.get("cofactors", []))).get(each.entry, [])
+        for tree in cofactors:
+            check_tree(tree, each.ring.names.keys(), where)
         proved = len(cofactors) == len(each.ring.relations) and each.ring.vanishes(each.value, cofactors, where)
         if each.value.numerator.terms and not proved:
             said = carrier["statement"]
@@ -126,7 +128,7 @@ def carried(row: dict[str, Any], written: str, certificates: Certificates, where
     own = letters.check_form(row.get("letters", []), inputs, where)
     names = {*inputs, *own}.union(*(_names(one, certificates, where) for one in row["carriers"]))
     ring = Ring(sorted(names), Work())
-    adjoined = letters.read(row.get("letters", []), ring)
+    adjoined = letters.read(row.get("letters", []), ring, where)
 
     def letter(name: str, function: str, of: Quotient) -> Quotient:
         for one in adjoined:
@@ -165,6 +167,7 @@ def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> N
     numbers = {name: rational(x, f"the point of {where}") for name, x in point.items()}
     if missing := [name for name in (*one.inputs, *(x.name for x in one.letters)) if name not in numbers]:
         raise Rejected(f"{where} has no point at which its relations hold: no value for {missing[0]}")
+    letters.check_point(one.letters, numbers, where)
     for relation in one.rings[i].relations:
         if number_at(relation, numbers, where) != 0:
             raise Rejected(f"{where} has a point at which a relation fails")
@@ -291,14 +294,20 @@ def entries(
     """What a carrier makes, in the variables of the ring, and the relations that hold there."""
     statement = _statement(carrier, certificates, where)
     data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
-    names = ring.names()
+    # A name of an argument or of a letter that the certificate derives, or does not know, is none of the statement's.
+    names = {name: ring.names()[name] for name in data["algebras"][statement["algebra"]]["variables"]}
     _check_moves(carrier, certificates, where)
     steps = list(carrier["steps"])
+    kinds = [step for step, _ in steps]
+    if adjoined and "along" in kinds and "at" in kinds[kinds.index("along") :]:
+        raise Rejected(f"{where} puts in expressions after derivatives, which would rename what its letters stand for")
     if steps and steps[0][0] == "at":  # read at once what would be put in later
         names |= {name: value(tree, ring.names(), ring.number) for name, tree in steps.pop(0)[1]}
     for name, tree in (*derivation.valued(data["derivation"]).items(), *statement.get("definitions", [])):
         if names_in(tree) <= names.keys():
             names[name] = value(tree, names, ring.number)
+    if strange := set().union(*map(names_in, statement[carrier["side"]])) - names.keys():
+        raise Rejected(f"{where} is carried by «{statement['text']}», which has {min(strange)!a:.40} without a value")
     found = [value(tree, names, ring.number) for tree in statement[carrier["side"]]]
     relations = [value(r, names, ring.number) for r in data["algebras"][statement["algebra"]]["relations"]]
     for step, by in steps:
@@ -403,6 +412,7 @@ def _run(
 ) -> list[Any]:
     """What a function returns, of the values of its arguments; `letter` has that of a name, a function and a value."""
 
+    inputs = {one.arg for one in function.args.args}
     whole: set[str] = set()  # names of whole numbers, of which Python makes others in its own way: 1 / 3 is a float
 
     def is_whole(node: ast.expr) -> bool:
@@ -429,13 +439,16 @@ def _run(
         raise Rejected(f"{where} has a part that is neither a known name, an integer, nor + - * /")
 
     def argument(called: str, given: list[ast.expr]) -> Any:
-        match given:  # of a whole number, in the numbers of a name; pi has that alone
-            case [ast.Constant(value=int() as x), ast.Name(id=name)] if name in known and called != "pi":
-                return number(rational(x, where))
-            case [ast.Name(id=name)] if name in known and called == "pi":
-                return number(Fraction(1))
-            case [one] if called != "pi" and not is_whole(one):
-                return of(one)
+        first = () if called == "pi" else given[:1]
+        likes = [x.id for x in given[len(first) :] if isinstance(x, ast.Name) and x.id in inputs]
+        if len(likes) + len(first) == len(given):  # the arguments say in whose numbers it is
+            match first:
+                case () if likes:
+                    return number(Fraction(1))
+                case [ast.Constant(value=int() as x)] if likes and not isinstance(x, bool):
+                    return number(rational(x, where))
+                case [one] if not is_whole(one):
+                    return of(one)
         raise Rejected(f"{where} has a {called} of something that is none")
 
     body = [node for node in function.body if not _is_text(node)]

@@ -14,7 +14,7 @@ from .form import chosen, distinct, many, sized, text
 from .interval import Rejected
 from .polynomial import Quotient, Ring
 from .rational import rate, with_powers
-from .trees import check_tree, names_in, value
+from .trees import check_tree, value
 
 FUNCTIONS = ("sin", "cos", "sqrt", "pi")
 #: Where a text imports them from.
@@ -37,17 +37,24 @@ def check_form(rows: Any, inputs: Sequence[str], where: str) -> list[str]:
         name, function, tree = row
         text(name, f"a letter of {where}")
         chosen(function, FUNCTIONS, f"a letter of {where}")
-        check_tree(tree, names_in(tree), where)
-        if strange := names_in(tree) - set(known):
-            raise Rejected(f"{where} has a letter of {min(strange)!a:.40}, which is not known there")
+        try:
+            check_tree(tree, set(known), where)
+        except Rejected:
+            raise Rejected(f"{where} has a letter {name!a:.40} of what is not made of names known there") from None
         known.append(name)
     distinct(known, where)
     return known[len(inputs) :]
 
 
-def read(rows: Sequence[Any], ring: Ring) -> list[Letter]:
-    """The letters, in a ring that has them as variables."""
-    return [Letter(name, function, value(tree, ring.names(), ring.number)) for name, function, tree in rows]
+def read(rows: Sequence[Any], ring: Ring, where: str) -> list[Letter]:
+    """The letters, in a ring that has them as variables; raises Rejected if two are one."""
+    found = list[Letter]()
+    for name, function, tree in rows:
+        one = Letter(name, function, value(tree, ring.names(), ring.number))
+        if twin := [x for x in found if x.function == function and not (x.of - one.of).numerator.terms]:
+            raise Rejected(f"{where} has the letters {twin[0].name} and {name} for one thing")
+        found.append(one)
+    return found
 
 
 def relations(letters: Sequence[Letter], ring: Ring) -> list[Quotient]:
@@ -73,6 +80,12 @@ def follows(relation: Quotient, letters: Sequence[Letter]) -> bool:
 
         relation = with_powers(relation.numerator, power)
     return not relation.numerator.terms
+
+
+def check_point(letters: Sequence[Letter], point: Mapping[str, Fraction], where: str) -> None:
+    """Raises Rejected if a square root is negative at a point."""
+    if negative := [x.name for x in letters if x.function == "sqrt" and point[x.name] < 0]:
+        raise Rejected(f"{where} has a point at which the root {negative[0]} is negative")
 
 
 def check_moves(letters: Sequence[Letter], moves: Sequence[Mapping[str, Quotient]], where: str) -> None:
@@ -105,6 +118,8 @@ def imported(node: ast.stmt, where: str) -> set[str]:
 
 def check_names(function: ast.FunctionDef, known: set[str], where: str) -> None:
     """Raises Rejected if a function calls what is not imported, or has a name of these for something else."""
+    if function.name in FUNCTIONS:
+        raise Rejected(f"{where} has {function.name} as a name of something else")
     for node in ast.walk(function):
         if isinstance(node, ast.Call) and not (isinstance(node.func, ast.Name) and node.func.id in known):
             raise Rejected(f"{where} calls what it does not import")

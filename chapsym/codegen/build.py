@@ -295,7 +295,7 @@ def code(kernel: Kernel, chosen: tuple[str, ...] = passes.PASSES) -> str:
     body = ["# letters"] if kernel.letters else []
     for letter, function, of in passes.letters(kernel):
         given = [printer.text(of, chosen)] if function != "pi" else []
-        given += [] if of.free_symbols else [kernel.inputs[0].name]  # of whose numbers it is
+        given += [x.name for x in kernel.inputs if x.name not in given]  # of whose numbers it is
         body.append(f"{letter} = {function}({', '.join(given)})")
     body += ["# intermediate terms"] if terms else []
     body += [f"{symbol} = {printer.text(expr, chosen)}" for symbol, expr in terms]

@@ -287,7 +287,7 @@ class Printer:
             rows, columns = (self.expression(x).text for x in shape)
             return Text(f"(r2){{{self.expression(array).text}.p, {rows}, {columns}, {columns}}}", Array("r", 2))
         if isinstance(callee, str) and callee.startswith(f"{FUNCTIONS}."):
-            return self.adjoined(callee.rpartition(".")[2], self.expression(arguments[0]))
+            return self.adjoined(callee.rpartition(".")[2], self.expression(arguments[0]))  # the others are for Python
         given = list(self.several(arguments))
         if isinstance(callee, Function | Varying):
             return self.called(callee, arguments, given)

@@ -8,6 +8,7 @@ from keyword import iskeyword
 import sympy as sp
 
 from .carriers import Carrier
+from .printer import NotStraightLine, text
 
 #: Words of C and C++, and names that generated files have for something else.
 RESERVED = {
@@ -16,7 +17,7 @@ RESERVED = {
     "operator", "private", "protected", "public", "register", "restrict", "short", "signed", "sizeof", "static",
     "struct", "switch", "template", "this", "throw", "true", "typedef", "typename", "union", "unsigned", "using",
     "virtual", "void", "volatile", "real", "memcpy", "R", "INLINE", "got", "result", "TABLE",
-    "sin", "cos", "sqrt", "pi",
+    "sin", "cos", "sqrt", "pi", "_", "unix", "linux", "NULL", "NAN", "INFINITY", "HUGE_VAL",
 }  # fmt: skip
 Group = tuple[str, tuple[sp.Symbol, ...]]
 Steps = Sequence[tuple[Sequence[sp.Symbol], Sequence[sp.Expr]]]
@@ -63,6 +64,8 @@ class Kernel:
     def __post_init__(self) -> None:
         if not isinstance(self.carriers, tuple | list) or not all(isinstance(one, Carrier) for one in self.carriers):
             raise TypeError(f"the carriers of {self.name} must be a tuple of carriers, which left and right make")
+        if not isinstance(self.letters, Mapping):
+            raise TypeError(f"the letters of {self.name} must be given as {{symbol: expression}}")
         if not callable(self.build):
             raise TypeError(f"what builds {self.name} must be a function without arguments, such as lambda: [x + y]")
 
@@ -82,15 +85,14 @@ class Kernel:
         """Why it cannot be written, in one sentence; None if it can."""
         names, groups = [symbol.name for symbol in self.inputs], [group for group, _ in self.groups]
         for name in (self.name, *names, *self.outputs, *groups, *map(str, self.letters)):
-            if not name.isidentifier() or not name.isascii() or iskeyword(name) or name in RESERVED:
+            is_name = name.isidentifier() and name.isascii() and not name.startswith(("__", "M_"))
+            if not is_name or iskeyword(name) or name in RESERVED:
                 return f"{name!r} cannot be a name in Python and C: take letters, digits and _, and no word of these"
         if twice := sorted({group for group in groups if groups.count(group) > 1}):
             return f"two groups of arguments have the name {twice[0]}"
-        if self.name.startswith("__"):
-            return f"{self.name!r} cannot be the name of a file of a package"
         if twice := sorted({name for name in names if names.count(name) > 1}):
             return f"two arguments have the name {twice[0]}"
-        if not all(isinstance(one, sp.Symbol) for one in self.letters):
+        if not all(isinstance(one, sp.Symbol) for one in self.letters):  # each has a name
             return "its letters are given as {symbol: expression}"
         known = set(self.inputs)
         for letter, stands in self.letters.items():
@@ -98,6 +100,12 @@ class Kernel:
                 return f"{letter} is an argument or a letter already"
             if (parts := adjoined(stands)) is None:
                 return f"its letter {letter} is {stands!s:.40}; a letter is sin, cos or sqrt of something, or pi"
+            try:
+                written = text(parts[1])
+            except (NotStraightLine, TypeError) as error:
+                return f"its letter {letter} is of {parts[1]!s:.40}, which is no straight line: {error}"
+            if parts[0] != "pi" and not parts[1].free_symbols and not written.isdigit():
+                return f"its letter {letter} is of {parts[1]!s:.40}: a number there is whole"
             if more := parts[1].free_symbols - known:
                 return f"its letter {letter} has {', '.join(sorted(map(str, more)))}, which it does not know there"
             known.add(letter)

@@ -16,6 +16,8 @@ from .passes import letters
 from .programs import Program
 
 DIGITS = 40
+#: What a text calls in the place of its functions: no kernel may have a name that begins so.
+LETTER = "__letter"
 
 
 def at(name: str) -> Fraction:
@@ -44,13 +46,13 @@ def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
     for node in ast.walk(module):
         if isinstance(node, ast.Assign) and isinstance(call := node.value, ast.Call):
             call.args[:0] = [ast.Constant(ast.unparse(part)) for part in (call.func, *node.targets)]
-            call.func = ast.Name("letter", ast.Load())
+            call.func = ast.Name(LETTER, ast.Load())
 
     def letter(function: str, name: str, *of: Fraction) -> Fraction:
         found.append(f"{function} {decimal(Fraction(1) if function == 'pi' else of[0])}")
         return at(name)
 
-    run = _function(kernel.name, ast.unparse(ast.fix_missing_locations(module)), letter=letter)
+    run = _function(kernel.name, ast.unparse(ast.fix_missing_locations(module)), **{LETTER: letter})
     result = run(*(at(symbol.name) for symbol in kernel.inputs))
     return [decimal(value) for value in (result if isinstance(result, tuple) else (result,))] + found
 

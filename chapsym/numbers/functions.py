@@ -12,11 +12,15 @@ mpmath's, of d digits         1              1                      1
 Arb's balls                   they contain it, for every number in the argument
 ============================  =============  =====================  ======
 
+A generated text gives a function all arguments of its kernel, so that a whole number among enclosures is one of them.
+The square root of a pair is so from 1e-285 on.
+
 On arrays NumPy has sines and cosines of its own, whose last bits may differ from those of numbers; the text in C calls
 those of its mathematics library.
 """
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -29,8 +33,8 @@ from .precisions import Digits
 PAIR_DIGITS = 40
 
 
-def sin(x: Any, like: Any = None) -> Any:
-    """The sine of x; with `like`, of a whole number, in the numbers of that.
+def sin(x: Any, *like: Any) -> Any:
+    """The sine of x, in the widest of the types of x and `like`: float64, Pair, mpmath's numbers, Arb's balls.
 
     Raises
     ------
@@ -44,44 +48,72 @@ def sin(x: Any, like: Any = None) -> Any:
     >>> sin(0.5), str(sin(1, Digits(20).number(0)))[:12]
     (0.479425538604203, '0.8414709848')
     """
-    return _applied("sin", x, like)
+    return _applied("sin", _widened(x, like))
 
 
-def cos(x: Any, like: Any = None) -> Any:
+def cos(x: Any, *like: Any) -> Any:
     """The cosine of x, as `sin`."""
-    return _applied("cos", x, like)
+    return _applied("cos", _widened(x, like))
 
 
-def sqrt(x: Any, like: Any = None) -> Any:
-    """The square root of x, as `sin`; raises ValueError for a number below 0, and is NaN in an array."""
-    return _applied("sqrt", x, like)
+def sqrt(x: Any, *like: Any) -> Any:
+    """The square root of x, as `sin`; below 0 as the type has it: ValueError, NaN, or mpmath's complex number."""
+    return _applied("sqrt", _widened(x, like))
 
 
-def pi(like: Any) -> Any:
-    """π in the numbers of `like`."""
-    if isinstance(like, np.ndarray | np.generic):
-        return _each(pi, like) if like.dtype == object else np.result_type(like, np.float32).type(np.pi)
-    if isinstance(like, Pair):
+def pi(*like: Any) -> Any:
+    """π in the widest of the types of `like`."""
+    one = _widened(1, like)
+    if isinstance(one, np.ndarray | np.generic):
+        return _each(pi, one) if one.dtype == object else one.dtype.type(np.pi)
+    if isinstance(one, Pair):
         return _pair(+Digits(PAIR_DIGITS).context.pi)
-    if hasattr(like, "context"):
-        return +like.context.pi
-    return type(like).pi() if hasattr(type(like), "pi") else math.pi if _is_float(like, "pi") else None
+    if hasattr(one, "context"):
+        return +one.context.pi
+    return type(one).pi() if hasattr(type(one), "pi") else math.pi
 
 
-def _applied(name: str, x: Any, like: Any) -> Any:
-    if like is not None:
-        x = x + 0 * like
+def _widened(x: Any, like: Sequence[Any]) -> Any:
+    """x in the widest of the types: of arrays their common one, with whole numbers as float64."""
+    arrays = [y for y in (x, *like) if isinstance(y, np.ndarray | np.generic)]
+    if arrays and not any(y.dtype == object for y in arrays):
+        others = [y for y in like if not isinstance(y, np.ndarray | np.generic)]
+        if all(isinstance(y, float | int) for y in others):
+            floats = [np.dtype(float) if y.dtype.kind in "biu" else y.dtype for y in arrays]
+            return np.asarray(x, np.result_type(*floats))[()]
+    widest = max((x, *like), key=_width)
+    if _width(widest) <= _width(x):
+        return x
+    if isinstance(x, np.ndarray) or isinstance(widest, np.ndarray):
+        return np.frompyfunc(lambda one, other: _widened(one, [other]), 2, 1)(x, widest)
+    if isinstance(widest, Pair):
+        return Pair(x) if not isinstance(x, int) else Pair.of(x)
+    return widest.context.mpf(x) if hasattr(widest, "context") else type(widest)(x)
+
+
+def _width(x: Any) -> int:
+    if isinstance(x, np.ndarray):
+        return 4 if x.dtype == object else 0
+    if isinstance(x, int | float | np.generic):
+        return 0
+    if isinstance(x, Pair) or hasattr(x, "context") or hasattr(x, "rad"):
+        return 1 if isinstance(x, Pair) else 2 if hasattr(x, "context") else 3
+    raise TypeError(f"a {type(x).__name__} has no sines and roots among its kind: give floats or a precision's")
+
+
+def _applied(name: str, x: Any) -> Any:
     if isinstance(x, np.ndarray | np.generic):
-        return _each(lambda one: _applied(name, one, None), x) if x.dtype == object else getattr(np, name)(x)
+        return _each(lambda one: _applied(name, one), x) if x.dtype == object else getattr(np, name)(x)
     if isinstance(x, Pair):
-        return x.sqrt() if name == "sqrt" else _pair(getattr(context := Digits(PAIR_DIGITS).context, name)(
-            context.mpf(x.high) + context.mpf(x.low)
-        ))  # fmt: skip
+        if name == "sqrt" or not math.isfinite(x.high):
+            return x.sqrt() if name == "sqrt" else Pair(math.nan)
+        context = Digits(PAIR_DIGITS).context
+        return _pair(getattr(context, name)(context.mpf(x.high) + context.mpf(x.low)))
     if hasattr(x, "context"):  # mpmath's
         return getattr(x.context, name)(x)
     if hasattr(x, name):  # Arb's
         return getattr(x, name)()
-    return getattr(math, name)(x) if _is_float(x, name) else None
+    return getattr(math, name)(x)
 
 
 def _each(function: Any, array: Any) -> Any:
@@ -94,10 +126,3 @@ def _pair(x: Any) -> Pair:
     from mpmath.libmp import to_rational  # 15 ms, which who has no pairs need not wait for
 
     return Pair.of(Fraction(*to_rational(x._mpf_)))
-
-
-def _is_float(x: Any, name: str) -> bool:
-    """Whether it is a float or a whole number; raises TypeError otherwise."""
-    if isinstance(x, float | int):
-        return True
-    raise TypeError(f"{name} of a {type(x).__name__} is none: give floats, arrays, or numbers of a precision")

@@ -75,8 +75,13 @@ def test_a_letter_is_a_function_of_what_is_given(register, letters, place, at, y
     ("letters", "said"),
     [
         ("x: sp.sin(q), y: sp.cos(2 * q)", "a letter of which a relation of «a at which that is 0» does not follow"),
-        ("x: sp.sin(q), y: sp.sin(q)", "of which a relation of"),
-        ("x: sp.sqrt(q), y: sp.sqrt(q)", "of which a relation of"),
+        ("x: sp.sin(q), y: sp.sin(2 * q)", "of which a relation of"),
+        ("x: sp.sin(q), y: sp.sin(q)", "has the letters x and y for one thing"),
+        ("x: sp.sqrt(q), y: sp.sqrt(2 + q)", "of which a relation of"),
+        ("x: sp.sin(sp.pi * q), y: sp.cos(sp.pi * q)", "its letter x is of pi*q, which is no straight line: pi"),
+        ("x: sp.sin(q + sp.Rational(1, 2)), y: sp.cos(q)", "is no straight line: the number 1/2 would be rounded"),
+        ("x: sp.sin(q**v), y: sp.cos(q**v)", "is no straight line"),
+        ("x: sp.sin(sp.Rational(1, 3)), y: sp.cos(q)", "is no straight line"),
         ("y: sp.cos(q)", "of which a relation of"),
         ("y: sp.tan(q)", "its letter y is tan(q); a letter is sin, cos or sqrt of something, or pi"),
         ("y: q**2", "its letter y is q**2; a letter is"),
@@ -95,6 +100,9 @@ def test_a_letter_that_is_none_is_refused_in_one_sentence(register, letters, sai
 
 HEAD = '"""A letter."""\n\nfrom chapsym.numbers.functions import cos, sin\n\n\ndef turned(q, x):\n    """x."""\n'
 TEXT = HEAD + "    s = sin(q)\n    c = cos(q)\n    return s * x, c * x\n"
+DEEP = "q"
+for _ in range(900):
+    DEEP = ["+", DEEP, 1]
 LETTERS = [["s", "sin", "q"], ["c", "cos", "q"]]
 RING = {"kind": "quotient", "variables": ["s", "c", "x", "q"], "relations": [["+", ["^", "s", 2], ["^", "c", 2], -1]]}
 STATEMENT = {"text": "x", "left": [["*", "s", "x"], ["*", "c", "x"]], "right": [0, 0], "algebra": 0, "point": 0}
@@ -120,7 +128,9 @@ def test_the_checker_accepts_letters():
         ("sin(q)", "sin(2 * q)", "has no letter s that is this sin"),
         ("s = sin(q)", "t = sin(q)", "has no letter t that is this sin"),
         ("s = sin(q)", "s = sin(1)", "has a sin of something that is none"),
-        ("s = sin(q)", "s = sin(q, q)", "has a sin of something that is none"),
+        ("s = sin(q)", "s = sin(q, x + x)", "has a sin of something that is none"),
+        ("s = sin(q)", "n = 1\n    s = sin(q, n)", "has a sin of something that is none"),
+        ("def turned", "def sin", "a function of another name|has sin as a name"),
         ("s = sin(q)", "s = sin(q, like=q)", "a call that is none of numbers"),
         ("s = sin(q)", "s = sin(*q)", "a call that is none of numbers"),
         ("s = sin(q)", "s = tan(q)", "calls what it does not import"),
@@ -146,8 +156,10 @@ def test_a_text_with_other_letters_is_refused(old, new, said):
         ([["s", "sin", "q"], ["c", "cos", ["*", 2, "q"]]], "has no letter c|does not follow"),
         ([["s", "sin", "q"]], "has no letter c"),
         ([["s", "tan", "q"], ["c", "cos", "q"]], "a letter of turned"),
-        ([["s", "sin", "c"], ["c", "cos", "q"]], "has a letter of 'c', which is not known there"),
+        ([["s", "sin", "c"], ["c", "cos", "q"]], "a letter 's' of what is not made of names known there"),
         ([["x", "sin", "q"], ["c", "cos", "q"]], "turned has a name twice"),
+        ([["s", "sin", "q"], ["c", "cos", "q"], ["d", "cos", "q"]], "has the letters c and d for one thing"),
+        ([["s", "sin", DEEP], ["c", "cos", "q"]], "of what is not made of names known there"),
         ([["s", "sin"], ["c", "cos", "q"]], "a letter of turned"),
         ("s", "turned"),
     ],
@@ -162,6 +174,45 @@ def test_the_point_of_a_kernel_has_its_letters():
         judged(point=POINT | {"s": 1})
     with pytest.raises(Rejected, match="no value for c"):
         judged(point={x: v for x, v in POINT.items() if x != "c"})
+
+
+def test_a_name_that_the_certificate_derives_is_no_argument_or_letter():
+    """Or an entry that is derived would be whatever the text computes for its name."""
+    statement = STATEMENT | {"left": [["*", "s", "x"], "w"]}
+    certificates = {"x 0": CERTIFICATES["x 0"] | {"statements": [statement]}}
+    text = TEXT.replace("def turned(q, x)", "def turned(q, x, w)").replace("c * x\n", "w\n")
+    row = {"inputs": ["q", "x", "w"], "letters": LETTERS[:], "text_sha256": hashlib.sha256(text.encode()).hexdigest()}
+    row["carriers"] = [left("x", "x").data(lambda _: "0") | {"point": POINT | {"w": 1}}]
+    with pytest.raises(Rejected, match="which has 'w' without a value"):
+        binding.check(row, text, certificates, "turned")
+
+
+def test_the_point_of_roots_is_positive_and_cofactors_are_of_known_names():
+    text = TEXT.replace("cos, sin", "sqrt").replace("    s = sin(q)\n    c = cos(q)\n", "    s = sqrt(q)\n")
+    text = text.replace("return s * x, c * x", "return s * x, s * x")
+    certificates = {"x 0": CERTIFICATES["x 0"] | {"statements": [STATEMENT | {"left": [["*", "s", "x"]] * 2}]}}
+    certificates["x 0"]["algebras"] = [RING | {"relations": []}]
+    carrier = left("x", "x").data(lambda _: "0")
+    row = {"inputs": ["q", "x"], "letters": [["s", "sqrt", "q"]]}
+    row["text_sha256"] = hashlib.sha256(text.encode()).hexdigest()
+    for point, cofactors, said in (
+        ({"s": 2, "q": 4, "x": 1}, [], None),
+        ({"s": -2, "q": 4, "x": 1}, [], "a point at which the root s is negative"),
+        ({"s": 2, "q": 4, "x": 1}, [[0, ["foo"]]], "has the name 'foo', which is not among its variables"),
+    ):
+        row["carriers"] = [carrier | {"point": point | {"c": 1}, "cofactors": cofactors}]
+        if said is None:
+            assert binding.check(row, text, certificates, "turned") == ["x"]
+        else:
+            with pytest.raises(Rejected, match=said):
+                binding.check(row, text, certificates, "turned")
+
+
+def test_nothing_is_put_in_after_derivatives_of_letters():
+    angle, sine, cosine = sp.symbols("q s c")
+    carrier = left("x", "x").along({angle: 1, sine: cosine, cosine: -sine}).at({sine: cosine, cosine: sine})
+    with pytest.raises(Rejected, match="puts in expressions after derivatives"):
+        judged(TEXT.replace("s * x, c * x", "s * x, -c * x"), carrier=carrier)
 
 
 ONE = ["s", "sqrt", ["+", 1, ["*", -1, "q", "q"]]]
@@ -188,10 +239,10 @@ def test_letters_move_as_what_they_stand_for(rows, move, said):
     ring = Ring(["c", "q", "s", "x"], Work())
     given = {name: value(tree, ring.names(), ring.number) for name, tree in move.items()}
     if said is None:
-        check_moves(read(rows, ring), [given], "turned")
+        check_moves(read(rows, ring, "turned"), [given], "turned")
     else:
         with pytest.raises(Rejected, match=said):
-            check_moves(read(rows, ring), [given], "turned")
+            check_moves(read(rows, ring, "turned"), [given], "turned")
 
 
 def test_a_carrier_is_differentiated_with_its_letters():

@@ -48,7 +48,7 @@ def test_the_chain_from_a_claim_to_its_kernels(register):
         ({"groups": '(("place", (x, y)), ("velocity", (v, w)))'}, "have g, which is no argument"),
         ({"groups": '(("place", (x, x)), ("velocity", (v, w)), ("gravity", (g,)))'}, "two arguments have the name x"),
         ({"kernels": KERNELS.replace('Kernel("pull"', 'Kernel("lambda"')}, "'lambda' cannot be a name"),
-        ({"kernels": KERNELS.replace('Kernel("pull"', 'Kernel("__init__"')}, "'__init__' cannot be the name of a file"),
+        ({"kernels": KERNELS.replace('Kernel("pull"', 'Kernel("__init__"')}, "'__init__' cannot be a name"),
         ({"groups": GROUPS.replace("gravity", "int")}, "'int' cannot be a name"),
         ({"groups": GROUPS.replace("gravity", "g now")}, "'g now' cannot be a name"),
         ({"groups": GROUPS.replace("gravity", "place")}, "two groups of arguments have the name place"),

@@ -77,11 +77,32 @@ def test_pi_and_functions_of_whole_numbers_are_in_the_numbers_of_another():
     assert of.pi(np.float32(1)).dtype == of.sin(np.float32(1)).dtype == np.float32
 
 
+def test_a_whole_number_among_others_is_one_of_these():
+    digits, balls, pair = Digits(40), Enclosure(100), PAIRS.number(Fraction(1, 3))
+    many = digits.number(Fraction(1, 3))
+    assert type(of.sin(1, 2, pair)) is type(of.pi(0.5, pair)) is Pair
+    assert abs(exact(of.sin(1, 0.25, many)) - EXACT.sin(1)) < EXACT.mpf(10) ** -50
+    with balls.working():
+        ball = balls.number(Fraction(1))
+        for found, true in (
+            (of.sin(1, 0.5, ball), EXACT.sin(1)),
+            (of.pi(0.5, ball), EXACT.pi),
+            (of.cos(2.0, ball), EXACT.cos(2)),
+        ):
+            assert abs(EXACT.mpf(found.str(40, radius=False)) - true) < 1e-28
+    assert of.sin(np.array([3], np.int8)).dtype == of.pi(np.array([3], np.int8)).dtype == np.float64
+    assert of.sin(np.float32(1), np.array([1.0])).dtype == np.float64
+    assert of.sin(3, np.inf) == np.sin(3.0)
+    assert np.isnan(of.sin(Pair(np.nan)).high)
+    objects = of.sin(np.array([1, 2]), np.array([pair, pair], dtype=object))
+    assert [type(x) for x in objects] == [Pair, Pair]
+
+
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_what_has_no_such_function_is_one_sentence(name):
-    with pytest.raises(TypeError, match=f"{name} of a Fraction is none: give floats, arrays, or numbers"):
+    with pytest.raises(TypeError, match="a Fraction has no sines and roots among its kind: give floats"):
         getattr(of, name)(Fraction(1, 2))
-    with pytest.raises(TypeError, match="pi of a Fraction"):
+    with pytest.raises(TypeError, match="a Fraction has no"):
         of.pi(Fraction(1, 2))
 
 

@@ -18,8 +18,8 @@ def accelerations(q2, d1, d2, d3, r, g):
     Returns a1, a2, a3.
     """
     # letters
-    s2 = sin(q2)
-    c2 = cos(q2)
+    s2 = sin(q2, d1, d2, d3, r, g)
+    c2 = cos(q2, d1, d2, d3, r, g)
     # intermediate terms
     t0 = d2 * d3
     t1 = c2 * r

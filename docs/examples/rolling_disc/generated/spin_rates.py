@@ -20,8 +20,8 @@ def spin_rates(q2, u1, u2, u3, r, g):
     Returns b1, b2, b3.
     """
     # letters
-    s2 = sin(q2)
-    c2 = cos(q2)
+    s2 = sin(q2, u1, u2, u3, r, g)
+    c2 = cos(q2, u1, u2, u3, r, g)
     # intermediate terms
     t0 = 1 / c2
     t1 = r * t0
