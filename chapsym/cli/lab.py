@@ -56,7 +56,8 @@ def lab(
                 raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
             system.beginning  # noqa: B018, which refuses a start that breaks a constraint
             energy = "keeps" if system.keeps_energy else "need not keep"
-            constraints[system.name] = f"{_verdict(system)}; " * flags + f"the exact motion {energy} its energy"
+            said = f"{_verdict(system)}; " * flags + f"the exact motion {energy} its energy"
+            constraints[system.name] = "; ".join([said, *_integrals(system, flags)])
             keys.add(key := system.digest(length, halve))
             if not as_json:
                 print(f"{system.name}: {constraints[system.name]}")
@@ -92,9 +93,9 @@ def _row(cell: dict[str, Any]) -> str:
 
     if cell["failed"]:
         return f"  {cell['method']:>9}  {cell['failed']}"
-    *shown, half = figures(cell)
+    *shown, rest = figures(cell)
     row = "".join(f"  {one:>{width}}" for one, width in zip((cell["method"], *shown), COLUMNS.values(), strict=True))
-    return row + (f"  with half the step: {half}" if half else "")
+    return row + (f"  {rest}" if rest else "")
 
 
 def _verdict(system: Any) -> str:
@@ -105,6 +106,19 @@ def _verdict(system: Any) -> str:
         return str(flag(system))
     except BadSystem as error:
         return f"integrability is not decided ({str(error).removeprefix(f'{system.name}: ')})"
+
+
+def _integrals(system: Any, decide: bool) -> list[str]:
+    """What is said of the quantities that a system names."""
+    from chapsym.mechanics import BadSystem, conserved
+
+    found = []
+    for name, quantity in system.integrals.items() if decide else ():
+        try:
+            found.append(f"{name} is {str(conserved(system, quantity)).partition(':')[0]}")
+        except BadSystem as error:
+            found.append(f"{name} is not decided ({str(error).removeprefix(f'{system.name}: ')})")
+    return found
 
 
 def _there(output: Path | None) -> list[dict[str, Any]]:

@@ -10,14 +10,14 @@
 
 from .attitude import Quaternion, Turned
 from .brackets import Flag, flag
-from .equations import Agreement, agree, in_symbols, of_kane
+from .equations import Agreement, Conservation, agree, conserved, in_symbols, of_kane
 from .lab import Cell, measured
 from .methods import METHODS, Method, Scheme
 from .motion import Motion, NotSolved, Runner, moved
 from .system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
 
 __all__ = [
-    "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Discrete", "Flag", "Method", "Motion", "NotSolved",
-    "Quaternion", "Runner", "Scheme", "System", "Turned", "after", "agree", "dot", "flag", "in_symbols", "loaded",
-    "measured", "moved", "of_kane", "rate",
+    "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Conservation", "Discrete", "Flag", "Method", "Motion",
+    "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "after", "agree", "conserved", "dot", "flag",
+    "in_symbols", "loaded", "measured", "moved", "of_kane", "rate",
 ]  # fmt: skip

@@ -10,7 +10,7 @@ from sympy.physics.vector import dynamicsymbols
 
 from .algebra import Algebra, generic, pivots
 from .brackets import _kernel
-from .system import BadSystem, System, dot
+from .system import BadSystem, System, dot, rate
 
 
 @dataclass(frozen=True)
@@ -78,37 +78,122 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     """
     if missing := [x for x in system.coordinates if x not in accelerations]:
         raise BadSystem(f"{system.name}: there is no acceleration of {missing[0]}")
-    q, v, n = list(system.coordinates), list(system.velocities), len(system.coordinates)
-    matrix, right = system.equations
-    typed = [accelerations[x] for x in q]
-    algebra = Algebra(system, *typed, *matrix[:n, :n], *right, *v)
-    made, forced = algebra.more[:n], sp.Matrix(algebra.more[n + n * n : -n])
-    mass = sp.Matrix(n, n, algebra.more[n : n + n * n])
-    if any(of.free_symbols & set(v) for of in algebra.letters.arguments("sin", "sqrt").values()):
-        raise BadSystem(f"{system.name}: exact verdicts are not for functions of velocities")
-    point = generic(algebra.rows, algebra.points)[0]
-    kept = pivots(algebra.rows.xreplace(point).T) if algebra.rows.rows else []
-    rows, offsets = algebra.rows.extract(kept, list(range(n))), algebra.offsets.extract(kept, [0])
-    bound = pivots(rows.xreplace(point)) if kept else []
-    square = rows.extract(list(range(len(kept))), bound)
-    free = {v[i]: sp.S.Zero for i in bound}
-    solved = square.adjugate() * -(rows * sp.Matrix(v).xreplace(free) + offsets) / square.det(method="berkowitz")
-    allowed = {v[i]: value for i, value in zip(bound, solved, strict=True)}
-    for e in algebra.rows * sp.Matrix(v) + algebra.offsets:
-        if not algebra.is_zero(e.xreplace(allowed)):
-            raise BadSystem(f"{system.name}: the constraints contradict each other, or depend on each other in places")
-    fields = _kernel(rows, rows.xreplace(point)) if kept else [list(sp.eye(n)[i, :]) for i in range(n)]
-    checks = [(f"constraint {i + 1}", e) for i, e in enumerate(algebra.rows * sp.Matrix(made) - forced[n:, :])]
-    work = mass * sp.Matrix(made) - forced[:n, :]
+    n = len(system.coordinates)
+    of = _OnShell(system, *(accelerations[x] for x in system.coordinates))
+    made = sp.Matrix(of.more)
+    checks = [(f"constraint {i + 1}", e) for i, e in enumerate(of.algebra.rows * made - of.turning)]
+    work = of.mass * made - of.forced
     checks += [
-        (f"the principle along {i + 1} of {len(fields)}", sum(f * w for f, w in zip(field, work, strict=True)))
-        for i, field in enumerate(fields)
+        (f"the principle along {i + 1} of {len(of.fields)}", sum(field[k] * work[k] for k in range(n)))
+        for i, field in enumerate(of.fields)
     ]
     for what, left in checks:
-        on_shell = sp.sympify(left).xreplace(allowed)
-        if not algebra.is_zero(on_shell):
-            return Agreement(False, what, *_shown(on_shell, algebra, allowed))
+        on_shell = sp.sympify(left).xreplace(of.allowed)
+        if not of.algebra.is_zero(on_shell):
+            return Agreement(False, what, *_shown(on_shell, of.algebra, of.allowed))
     return Agreement(True)
+
+
+@dataclass(frozen=True)
+class Conservation:
+    """Whether the exact motion keeps a quantity.
+
+    Attributes
+    ----------
+    kept : bool
+        True is proved, for all states that obey the constraints; False is shown by the point.
+    point : mapping of str to str
+        An exact state at which it changes, as that of `Agreement`.
+    rate : str
+        How fast it changes there.
+    """
+
+    kept: bool
+    point: Mapping[str, str] = field(default_factory=dict)
+    rate: str = "0"
+
+    def __str__(self) -> str:
+        at = ", ".join(f"{name} = {value}" for name, value in self.point.items())
+        return "kept by the exact motion" if self.kept else f"not kept: its rate is {self.rate} at {at}"
+
+
+def conserved(system: System, quantity: sp.Expr) -> Conservation:
+    """Whether the exact motion of a system, with its numbers, keeps a quantity, decided exactly.
+
+    Of a quaternion's quantities that are not kept this may take minutes.
+
+    Parameters
+    ----------
+    system : System
+    quantity : sympy.Expr
+        In coordinates, velocities and parameters.
+
+    Raises
+    ------
+    BadSystem
+        As `agree` does.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> from chapsym.mechanics import System, conserved, dot
+    >>> x, y, z = symbols("x y z")
+    >>> particle = System("particle", (x, y, z), sum(dot(q) ** 2 for q in (x, y, z)) / 2, [dot(z) - y * dot(x)])
+    >>> print(conserved(particle, (1 + y**2) * dot(x) ** 2))
+    kept by the exact motion
+    >>> print(conserved(particle, dot(x)))
+    not kept: its rate is -7 at y = 2, y_dot = 5, z_dot = 7, x_dot = 7/2
+    """
+    quantity = sp.sympify(quantity)
+    slope = [sp.diff(quantity, v) for v in system.velocities]
+    of = _OnShell(system, rate(quantity, system.coordinates), *slope)
+    alone, slope = of.more[0], sp.Matrix([of.more[1:]])
+    x = sp.Matrix(of.fields).T if of.fields else sp.zeros(slope.cols, 0)
+    first = sp.zeros(slope.cols, 1)  # accelerations that the constraints bind, where the others are 0
+    for i, value in zip(of.bound, of.square.adjugate() * of.turning.extract(of.kept, [0]), strict=True):
+        first[i] = value / of.square.det(method="berkowitz")
+    inner, pushed = x.T * of.mass * x, x.T * (of.forced - of.mass * first)
+    whole = (alone + (slope * first)[0]) * sp.eye(1)
+    bordered = sp.Matrix(sp.BlockMatrix([[inner, pushed], [slope * x, -whole]])) if of.fields else -whole
+    below, above = (m.xreplace(of.allowed).det(method="berkowitz") for m in (inner, bordered))
+    if of.algebra.is_zero(below):
+        raise BadSystem(f"{system.name}: the mass matrix is singular, so that the motion is not determined")
+    if of.algebra.is_zero(above):
+        return Conservation(True)
+    return Conservation(False, *_shown(-above / below, of.algebra, of.allowed))
+
+
+class _OnShell:
+    """A system's equations in letters, with the velocities that its constraints bind, and more expressions.
+
+    (A a = turning, and M a - forced orthogonal to the fields that span the allowed velocities.)
+    """
+
+    def __init__(self, system: System, *more: Any) -> None:
+        v, n = list(system.velocities), len(system.coordinates)
+        matrix, right = system.equations
+        self.algebra = algebra = Algebra(system, *more, *matrix[:n, :n], *right, *v)
+        self.more = algebra.more[: len(more)]
+        rest = algebra.more[len(more) : -n]
+        self.mass, forces = sp.Matrix(n, n, rest[: n * n]), sp.Matrix(rest[n * n :])
+        self.forced, self.turning = forces[:n, :], forces[n:, :]
+        if any(of.free_symbols & set(v) for of in algebra.letters.arguments("sin", "sqrt").values()):
+            raise BadSystem(f"{system.name}: exact verdicts are not for functions of velocities")
+        point = generic(algebra.rows, algebra.points)[0]
+        self.kept = pivots(algebra.rows.xreplace(point).T) if algebra.rows.rows else []
+        rows, offsets = algebra.rows.extract(self.kept, list(range(n))), algebra.offsets.extract(self.kept, [0])
+        self.bound = pivots(rows.xreplace(point)) if self.kept else []
+        self.square = rows.extract(list(range(len(self.kept))), self.bound)
+        free = {v[i]: sp.S.Zero for i in self.bound}
+        solved = self.square.adjugate() * -(rows * sp.Matrix(v).xreplace(free) + offsets)
+        below = self.square.det(method="berkowitz")
+        self.allowed = {v[i]: value / below for i, value in zip(self.bound, solved, strict=True)}
+        for e in algebra.rows * sp.Matrix(v) + algebra.offsets:
+            if not algebra.is_zero(e.xreplace(self.allowed)):
+                raise BadSystem(
+                    f"{system.name}: the constraints contradict each other, or depend on each other in places"
+                )
+        self.fields = _kernel(rows, rows.xreplace(point)) if self.kept else sp.eye(n).tolist()
 
 
 def _shown(value: sp.Expr, algebra: Algebra, bound: Mapping[sp.Symbol, sp.Expr]) -> tuple[dict[str, str], str]:

@@ -2,7 +2,7 @@
 
 import math
 from contextlib import suppress
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from itertools import pairwise
 from typing import Any
 
@@ -52,6 +52,8 @@ class Cell:
     returns : float or None
         How far the place is from its start after some steps, the velocities turned round, and as many steps: 0 but for
         rounding where the method is reversible by q, v -> q, -v.
+    integrals : dict of str to float
+        The range of each quantity that the system names, over all steps.
     microseconds : float
         Of processor time, a step.
     failed : str or None
@@ -73,6 +75,7 @@ class Cell:
     halved: float | None = None
     order: float | None = None
     returns: float | None = None
+    integrals: dict[str, float] = field(default_factory=dict)
     microseconds: float = math.nan
     failed: str | None = None
     curve: tuple[tuple[float, float], ...] = ()
@@ -169,6 +172,7 @@ def _figures(motion: Motion) -> dict[str, Any]:
         "drift": float(energy[-part:].mean() - energy[:part].mean()),
         "constraint": float(motion.constraint.max()),
         "places": float(motion.places.max()),
+        "integrals": {name: float(np.ptp(values)) for name, values in motion.integrals.items()},
         "curve": tuple((float(motion.time[i]), float(energy[i])) for i in some),
     }
 

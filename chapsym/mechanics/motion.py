@@ -49,6 +49,8 @@ class Motion:
         (steps,)
     constraint, places : numpy.ndarray
         (steps,), the largest |A v + b|, and the largest value of the holonomic constraints.
+    integrals : dict of str to numpy.ndarray
+        (steps,), the quantities that the system names.
     final : numpy.ndarray
         The last state.
     seconds : float
@@ -61,6 +63,7 @@ class Motion:
     energy: np.ndarray
     constraint: np.ndarray
     places: np.ndarray
+    integrals: dict[str, np.ndarray]
     final: np.ndarray
     seconds: float
 
@@ -193,10 +196,11 @@ class Runner:
         if not (np.isfinite(state).all() and np.isfinite(recorded).all()):
             raise NotSolved(f"{self.system.name}, {self.method}: a step of {steps} leaves the range of numbers")
         place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
-        energy, *kept = ([x + 0 * place[:, 0] for x in of(*place.T, *velocity.T)] for of in self.measures)
+        energy, *kept, integrals = ([x + 0 * place[:, 0] for x in of(*place.T, *velocity.T)] for of in self.measures)
         constraint, places = (np.max([0 * place[:, 0], *map(np.abs, values)], axis=0) for values in kept)
         times = h * (np.arange(0, steps, every) + float(self.scheme.when))
-        return Motion(times, place, velocity, energy[0], constraint, places, state, seconds)
+        named = dict(zip(self.system.integrals, integrals, strict=True))
+        return Motion(times, place, velocity, energy[0], constraint, places, named, state, seconds)
 
     def _is_singular(self, q: np.ndarray, v: np.ndarray, fixed: np.ndarray) -> bool:
         """Whether the derivatives of the first step's equations are singular at its guess."""
@@ -206,11 +210,11 @@ class Runner:
 
     @cached_property
     def measures(self) -> list[Callable[..., Any]]:
-        """The energy, and what the constraints on velocities and on places set to 0, of arrays of both."""
+        """The energy, what the constraints on velocities and on places set to 0, and the integrals, on arrays."""
         system = self.system
         symbols = (*system.coordinates, *system.velocities)
         numbers = dict(zip(system.parameters, map(sp.Float, system.numbers), strict=True))
-        measured = ([system.energy], system.constraints, system.holonomic)
+        measured = ([system.energy], system.constraints, system.holonomic, list(system.integrals.values()))
         return [
             sp.lambdify(symbols, [sp.sympify(e).xreplace(numbers) for e in one], "numpy", cse=True) for one in measured
         ]

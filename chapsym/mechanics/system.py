@@ -84,6 +84,8 @@ class System:
         Where it comes from.
     discrete : Discrete, optional
         A discretization of one's own: the method "own".
+    integrals : mapping, optional
+        {name: quantity in coordinates, velocities and parameters} to look at, beside the energy.
 
     Raises
     ------
@@ -110,6 +112,7 @@ class System:
     step: Any = "1/10"
     source: str = ""
     discrete: Discrete | None = None
+    integrals: Mapping[str, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for name in ("coordinates", "constraints", "holonomic"):
@@ -125,6 +128,10 @@ class System:
                 raise BadSystem(f"{self.name}: {name} must be given as {{symbol: value}}")
         forces = {x: _expression(f, f"{self.name}: the force along {x}") for x, f in self.forces.items()}
         object.__setattr__(self, "forces", forces)
+        if not isinstance(self.integrals, Mapping) or not all(isinstance(name, str) for name in self.integrals):
+            raise BadSystem(f"{self.name}: integrals must be given as {{name: quantity}}")
+        made_ = {name: _expression(e, f"{self.name}: the integral {name}") for name, e in self.integrals.items()}
+        object.__setattr__(self, "integrals", made_)
         if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
             raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
         symbols = (*self.coordinates, *self.velocities, *self.parameters, STEP)
@@ -140,6 +147,7 @@ class System:
             ("a constraint", self.constraints, known),
             ("a holonomic constraint", self.holonomic, places),
             ("a force", self.forces.values(), known),
+            ("an integral", self.integrals.values(), known),
         ):
             for one in expressions:
                 if strange_ := one.free_symbols - allowed:
@@ -170,7 +178,7 @@ class System:
     def digest(self, *more: Any) -> str:
         """A hash of all that a run depends on."""
         parts = (self.coordinates, self.lagrangian, self.constraints, self.holonomic, self.forces, self.parameters)
-        own = vars(self.discrete) if self.discrete else None
+        own = vars(self.discrete) if self.discrete else None, self.integrals
         text = repr((self.name, *map(str, (*parts, own, self.start, self.step)), more))
         return hashlib.sha256(text.encode()).hexdigest()
 

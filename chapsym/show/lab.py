@@ -58,7 +58,7 @@ def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constrai
 
 
 def figures(cell: Mapping[str, Any]) -> list[str]:
-    """The figures of a cell as text, in the order of COLUMNS but for the method, then what half the step says, or "".
+    """The figures of a cell as text, in the order of COLUMNS but for the method, then what else there is, or "".
 
     - is for what there is not, or what rounding hides.
     """
@@ -69,22 +69,30 @@ def figures(cell: Mapping[str, Any]) -> list[str]:
     half = ""
     if cell["halved"] is not None:
         times = abs(cell["drift"] / cell["halved"]) if cell["halved"] else math.inf
-        half = f"{cell['halved']:+.1e}, {times:.1f} times less"
+        half = f"with half the step: {cell['halved']:+.1e}, {times:.1f} times less"
     forms = {"energy": ".6g", "oscillation": ".1e", "drift": "+.1e"}
     kept = "proved 0" if cell["kept"] else of("constraint", ".1e")
     places = of("places", ".1e") if cell["places"] else "-"
     energy = [of(name, form) for name, form in forms.items()]
-    return [of("order", ".2f"), *energy, kept, places, of("returns", ".1e"), of("microseconds", ".2f"), half]
+    ranges = [f"{name}: {value:.1e}" for name, value in cell["integrals"].items()]
+    return [
+        of("order", ".2f"),
+        *energy,
+        kept,
+        places,
+        of("returns", ".1e"),
+        of("microseconds", ".2f"),
+        "; ".join(ranges + ([half] if half else [])),
+    ]
 
 
 def _row(cell: Mapping[str, Any], title: str) -> str:
     first = f"<tr><td>{escape(title)}"
     if cell["failed"]:
         return f"{first}<td colspan={len(COLUMNS) - 1}>{escape(cell['failed'])}</tr>"
-    *shown, half = figures(cell)
-    return (
-        first + "".join(f"<td>{one}" for one in shown) + (f"<td>with half the step: {half}" if half else "") + "</tr>"
-    )
+    *shown, rest = figures(cell)
+    more = f"<td>{escape(rest)}" if rest else ""
+    return first + "".join(f"<td>{one}" for one in shown) + f"{more}</tr>"
 
 
 def _curves(cells: Sequence[Mapping[str, Any]]) -> str:

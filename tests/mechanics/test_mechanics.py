@@ -25,6 +25,7 @@ from chapsym.mechanics import (
     Turned,
     after,
     agree,
+    conserved,
     dot,
     flag,
     loaded,
@@ -394,6 +395,43 @@ def test_energy_is_kept_where_forces_do_no_work():
     assert not particle(constraints=[vz - y * vx - 1], start={}).keeps_energy
     pushed = moved(particle(forces={x: -vx}), "rk4", 100, 0.01)
     assert pushed.energy[-1] < 0.8 * pushed.energy[0]
+
+
+@pytest.mark.parametrize("name", ["particle", "sleigh", "contact", "transmission", "vertical_disc", "snakeboard"])
+def test_the_energy_is_decided_to_be_kept(name):
+    system = loaded(SYSTEMS / f"{name}.py")
+    assert system.keeps_energy
+    assert conserved(system, system.energy).kept
+    changed = conserved(system, system.energy + system.velocities[0])
+    assert not changed.kept
+    assert sp.sympify(changed.rate) != 0
+
+
+def test_quantities_are_kept_or_not_at_an_exact_state():
+    """(1 + y²) x'² of the free particle; the energy in a turning frame; what is affine, and what is pushed."""
+    assert conserved(particle(), (1 + y**2) * vx**2).kept
+    assert conserved(particle(), vy).kept
+    pushed = conserved(particle(forces={y: -vy}), vy)
+    state = {sp.Symbol(name): sp.Rational(value) for name, value in pushed.point.items()}
+    assert sp.Rational(pushed.rate) == -vy.xreplace(state) != 0
+    assert "not kept: its rate is" in str(pushed)
+    turning = System("turntable", (x, y), (vx**2 + vy**2) / 2, [vx + y])  # x' = -y: y is free
+    assert conserved(turning, vy).kept
+    assert not conserved(turning, (vx**2 + vy**2) / 2).kept
+    assert conserved(System("free", (x, y), (vx**2 + vy**2) / 2), x * vy - y * vx).kept
+    with pytest.raises(BadSystem, match="the mass matrix is singular, so that the motion is not determined"):
+        conserved(System("light", (x, y), vx**2 / 2), vx)
+    with pytest.raises(BadSystem, match="there is w, which is no coordinate"):
+        conserved(particle(), sp.Symbol("w"))
+
+
+def test_the_ball_keeps_the_vertical_momentum_and_methods_show_their_range():
+    system = loaded(SYSTEMS / "ball.py")
+    assert conserved(system, system.integrals["⟨K,γ⟩"]).kept
+    ranges = {method: measured(system, method, 200).integrals for method in ("gni", "spark", "rk4")}
+    assert max(ranges["gni"].values()) < 1e-12
+    assert max(ranges["spark"].values()) < 1e-12
+    assert min(ranges["rk4"].values()) > 1e-10
 
 
 def test_half_the_step_tells_the_method_from_the_model():
