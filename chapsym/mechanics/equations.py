@@ -145,6 +145,9 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
     not kept: its rate is -7 at y = 2, y_dot = 5, z_dot = 7, x_dot = 7/2
     """
     quantity = sp.sympify(quantity)
+    if strange := quantity.free_symbols - {*system.coordinates, *system.velocities, *system.parameters}:
+        listed = ", ".join(sorted(map(str, strange)))
+        raise BadSystem(f"{system.name}: there is {listed}, which is no coordinate, velocity or parameter")
     slope = [sp.diff(quantity, v) for v in system.velocities]
     of = _OnShell(system, rate(quantity, system.coordinates), *slope)
     alone, slope = of.more[0], sp.Matrix([of.more[1:]])
