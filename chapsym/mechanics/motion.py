@@ -1,13 +1,14 @@
 """A method run on a system: its kernels, in C where a compiler is there, in Python otherwise; and what it recorded."""
 
 import ctypes
+import logging
 import shutil
 import subprocess
 import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -85,7 +86,7 @@ class Runner:
             raise BadSystem(f"{method!r} is no method; those are {', '.join(METHODS)}")
         self.system, self.method = system, method
         self.scheme: Scheme = METHODS[method].scheme(system)
-        self.compiled = shutil.which("cc") is not None if compiled is None else compiled
+        self.compiled = _has_compiler() if compiled is None else compiled
 
     @property
     def length(self) -> float:
@@ -268,6 +269,17 @@ class Runner:
             command = ["cc", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I", folder, place / "march.c"]
             subprocess.run([*map(str, command), "-lm", "-o", place / "march.so"], check=True, capture_output=True)
             return ctypes.CDLL(str(place / "march.so"))
+
+
+@cache
+def _has_compiler() -> bool:
+    """Whether there is a compiler of C; says once what that costs if there is none."""
+    if shutil.which("cc") is not None:
+        return True
+    logging.getLogger("chapsym").warning(
+        "plain Python takes the steps, some hundred times slower: install a C compiler"
+    )
+    return False
 
 
 def moved(

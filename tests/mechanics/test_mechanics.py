@@ -30,6 +30,7 @@ from chapsym.mechanics import (
     flag,
     loaded,
     measured,
+    motion,
     moved,
     of_kane,
     rate,
@@ -380,6 +381,14 @@ def test_c_and_python_take_the_same_steps(method):
     assert np.abs(in_c.place - in_python.place).max() < 1e-12
     assert np.abs(in_c.final - in_python.final).max() < 1e-12
     assert np.diff(in_c.time) == pytest.approx(0.3)
+
+
+def test_without_a_compiler_python_takes_the_steps_and_says_so(monkeypatch, caplog):
+    motion._has_compiler.cache_clear()
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    assert np.abs(moved(particle(), steps=5).final[1] - 0.3 - 0.25) < 1e-12
+    assert "plain Python takes the steps" in caplog.text
+    motion._has_compiler.cache_clear()
 
 
 def test_a_system_of_one_coordinate_without_parameters_runs_in_c():
