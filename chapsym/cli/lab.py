@@ -24,7 +24,7 @@ def lab(
     length: Annotated[
         float | None, typer.Option(metavar="TIME", min=0, help="Of a step; that of each system by default.")
     ] = None,
-    flags: Annotated[bool, typer.Option(help="Also say whether the constraints are integrable.")] = True,
+    flags: Annotated[bool, typer.Option(help="Also decide if constraints are integrable, integrals kept.")] = True,
     halve: Annotated[bool, typer.Option(help="Also run with half the step: is a drift of the method?")] = False,
     output: Annotated[
         Path | None,

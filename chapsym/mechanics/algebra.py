@@ -7,6 +7,7 @@ from random import Random
 from typing import Any
 
 import sympy as sp
+from sympy.matrices import dotprodsimp
 from sympy.polys.matrices import DomainMatrix
 
 from chapsym.codegen.kernels import adjoined
@@ -44,7 +45,7 @@ class Letters:
 
     def into(self, expr: Any) -> sp.Expr:
         """An expression with letters in the place of its functions; raises BadSystem for others than these."""
-        expr = sp.sympify(expr)
+        expr = sp.sympify(expr, strict=True)  # a text is not evaluated
         if expr.is_Symbol or expr.is_Rational:
             return expr
         if expr is sp.pi:
@@ -233,14 +234,14 @@ class Algebra:
 
     def normal(self, vector: Sequence[sp.Expr]) -> list[sp.Expr]:
         """The normal forms of a vector, times roots that it divides by: the span is the same."""
-        found = [sp.sympify(x) for x in vector]
+        found = list(vector)
         for letter in self.letters.arguments("sqrt"):
             while not all(x.is_polynomial(letter) for x in found):
                 found = [sp.expand(x * letter) for x in found]
         return [self.ring.normal(x) for x in found]
 
     def shown(self, state: Mapping[sp.Symbol, Any]) -> dict[str, str]:
-        """A point as text: without the angles that stand in sines and cosines alone."""
+        """A point as text: without the angles of which only sines and cosines are there."""
         bare = set().union(*(e.free_symbols for e in (*self.rows, *self.offsets, *self.more, *self.holonomic)))
         hidden = set(self.letters.arguments("sin").values()) - bare
         return {str(x): str(v) for x, v in state.items() if x not in hidden}
@@ -253,20 +254,28 @@ def pivots(matrix: sp.Matrix) -> list[int]:
     return list(DomainMatrix.from_Matrix(matrix, extension=True).to_field().rref()[1])
 
 
+def determinant(matrix: sp.Matrix) -> sp.Expr:
+    """The determinant, not expanded: the ring decides what it is."""
+    with dotprodsimp(False):
+        return matrix.det(method="laplace")
+
+
+def adjugate(matrix: sp.Matrix) -> sp.Matrix:
+    """The adjugate, likewise."""
+    with dotprodsimp(False):
+        return matrix.adjugate(method="laplace")
+
+
 def rank(matrix: sp.Matrix, point: Point) -> int:
     """At a point; 0 where it is not defined there."""
     of = matrix.xreplace(point)
     return 0 if of.has(sp.zoo, sp.nan) or of.free_symbols else len(pivots(of))
 
 
-def generic(matrix: sp.Matrix, points: Sequence[Point]) -> tuple[Point, Sequence[Point]]:
-    """A point at which the rank is largest, the first where it is that of all rows; and the points with that rank."""
-    for point in points:
-        if rank(matrix, point) == matrix.rows:
-            return point, points
-    ranks = [rank(matrix, point) for point in points]
-    best = [point for point, r in zip(points, ranks, strict=True) if r == max(ranks)]
-    return best[0], best
+def generic(matrix: sp.Matrix, points: Sequence[Point]) -> Point:
+    """A point at which the rank is largest: the first where it is that of all rows."""
+    full = (point for point in points if rank(matrix, point) == matrix.rows)
+    return next(full, None) or max(points, key=lambda point: rank(matrix, point))
 
 
 def _no_square(x: sp.Expr) -> bool:

@@ -69,7 +69,7 @@ class Quaternion:
     spin, spin_in_space : sympy.Matrix
         The angular velocity in the axes of the body, and in those of space.
     norm, swelling : sympy.Expr
-        |q|², and its rate, halved: that is 0 in a motion, so that a multiple of its square may stand in a Lagrangian,
+        |q|², and its rate, halved: that is 0 in a motion, so that a Lagrangian may have a multiple of its square,
         whose mass matrix would be singular without.
 
     Examples

@@ -12,7 +12,7 @@ from typing import Any
 
 import sympy as sp
 
-from .algebra import Algebra, generic, pivots, rank
+from .algebra import Algebra, adjugate, determinant, generic, pivots, rank
 from .system import BadSystem, System
 
 
@@ -73,7 +73,7 @@ def flag(system: System) -> Flag:
     Parameters
     ----------
     system : System
-        Its coordinates may stand in sin, cos and square roots.
+        With sines, cosines and square roots of its coordinates.
 
     Returns
     -------
@@ -100,9 +100,10 @@ def flag(system: System) -> Flag:
     algebra = Algebra(system)
     with_time = any(not algebra.is_zero(b) for b in algebra.offsets)
     whole = algebra.rows.row_join(algebra.offsets) if with_time else algebra.rows
-    rows, places = _whole(whole), rows_of_places(algebra, with_time)
-    point = generic(rows, generic(places, algebra.points)[1])[0]
-    dimension = rows.cols - rank(places, point)
+    rows, places = _whole(whole), _rows_of_places(algebra, with_time)
+    bound = max(rank(places, point) for point in algebra.points)
+    point = generic(rows, [point for point in algebra.points if rank(places, point) == bound])
+    dimension = rows.cols - bound
     kept = pivots(rows.xreplace(point).T)
     for i in set(range(rows.rows)) - set(kept):
         if not _inside(rows.extract(kept, list(range(rows.cols))).tolist(), list(rows[i, :]), point, algebra):
@@ -126,11 +127,11 @@ def flag(system: System) -> Flag:
             span, newest = larger, [*newest, bracket]
         growth += [len(span)] if newest else []
     minor = _matrix(span).extract(list(range(len(span))), pivots(_matrix(span).xreplace(point))) if span else sp.eye(0)
-    condition = sp.factor(algebra.normal([minor.det(method="berkowitz")])[0])
+    condition = sp.factor(algebra.normal([determinant(minor)])[0])
     return Flag(tuple(growth), tuple(map(tuple, fields)), condition, algebra.shown(point), dimension, with_time)
 
 
-def rows_of_places(algebra: Algebra, with_time: bool) -> sp.Matrix:
+def _rows_of_places(algebra: Algebra, with_time: bool) -> sp.Matrix:
     """The rows of holonomic constraints, whose rank is how many of them are independent."""
     count = len(algebra.holonomic)
     rows = algebra.rows[algebra.rows.rows - count :, :]
@@ -150,12 +151,12 @@ def _kernel(rows: sp.Matrix, at_point: sp.Matrix) -> list[list[sp.Expr]]:
     """Fields that span the velocities v with A v = 0, by Cramer's rule, of independent rows A."""
     columns = pivots(at_point)
     square = rows.extract(list(range(rows.rows)), columns)
-    whole, adjugate = square.det(method="berkowitz"), square.adjugate()
+    whole, inverse = determinant(square), adjugate(square)
     fields = []
     for j in (j for j in range(rows.cols) if j not in columns):
         field = [sp.S.Zero] * rows.cols
         field[j] = whole
-        for i, value in zip(columns, -adjugate * rows[:, j], strict=True):
+        for i, value in zip(columns, -inverse * rows[:, j], strict=True):
             field[i] = value
         fields.append(field)
     return fields
@@ -180,7 +181,6 @@ def _inside(span: Sequence[Any], vector: Sequence[sp.Expr], point: dict[sp.Symbo
     minors that border it are 0."""
     columns, larger = pivots(_matrix(span).xreplace(point)), _matrix([*span, vector])
     for j in (j for j in range(larger.cols) if j not in columns):
-        minor = larger.extract(list(range(larger.rows)), [*columns, j]).det(method="berkowitz")
-        if not algebra.is_zero(minor):
+        if not algebra.is_zero(determinant(larger.extract(list(range(larger.rows)), [*columns, j]))):
             return False
     return True

@@ -8,9 +8,9 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.physics.vector import dynamicsymbols
 
-from .algebra import Algebra, generic, pivots
+from .algebra import Algebra, adjugate, determinant, generic, pivots
 from .brackets import _kernel
-from .system import BadSystem, System, dot, rate
+from .system import BadSystem, System, dot, expression, rate
 
 
 @dataclass(frozen=True)
@@ -84,11 +84,11 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     checks = [(f"constraint {i + 1}", e) for i, e in enumerate(of.algebra.rows * made - of.turning)]
     work = of.mass * made - of.forced
     checks += [
-        (f"the principle along {i + 1} of {len(of.fields)}", sum(field[k] * work[k] for k in range(n)))
+        (f"the principle along {i + 1} of {len(of.fields)}", sum((field[k] * work[k] for k in range(n)), sp.S.Zero))
         for i, field in enumerate(of.fields)
     ]
     for what, left in checks:
-        on_shell = sp.sympify(left).xreplace(of.allowed)
+        on_shell = left.xreplace(of.allowed)
         if not of.algebra.is_zero(on_shell):
             return Agreement(False, what, *_shown(on_shell, of.algebra, of.allowed))
     return Agreement(True)
@@ -120,8 +120,6 @@ class Conservation:
 def conserved(system: System, quantity: sp.Expr) -> Conservation:
     """Whether the exact motion of a system, with its numbers, keeps a quantity, decided exactly.
 
-    Of a quaternion's quantities that are not kept this may take minutes.
-
     Parameters
     ----------
     system : System
@@ -144,7 +142,7 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
     >>> print(conserved(particle, dot(x)))
     not kept: its rate is -7 at y = 2, y_dot = 5, z_dot = 7, x_dot = 7/2
     """
-    quantity = sp.sympify(quantity)
+    quantity = expression(quantity, f"{system.name}: the quantity")
     if strange := quantity.free_symbols - {*system.coordinates, *system.velocities, *system.parameters}:
         listed = ", ".join(sorted(map(str, strange)))
         raise BadSystem(f"{system.name}: there is {listed}, which is no coordinate, velocity or parameter")
@@ -153,12 +151,12 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
     alone, slope = of.more[0], sp.Matrix([of.more[1:]])
     x = sp.Matrix(of.fields).T if of.fields else sp.zeros(slope.cols, 0)
     first = sp.zeros(slope.cols, 1)  # accelerations that the constraints bind, where the others are 0
-    for i, value in zip(of.bound, of.square.adjugate() * of.turning.extract(of.kept, [0]), strict=True):
-        first[i] = value / of.square.det(method="berkowitz")
+    for i, value in zip(of.bound, adjugate(of.square) * of.turning.extract(of.kept, [0]), strict=True):
+        first[i] = value / determinant(of.square)
     inner, pushed = x.T * of.mass * x, x.T * (of.forced - of.mass * first)
     whole = (alone + (slope * first)[0]) * sp.eye(1)
     bordered = sp.Matrix(sp.BlockMatrix([[inner, pushed], [slope * x, -whole]])) if of.fields else -whole
-    below, above = (m.xreplace(of.allowed).det(method="berkowitz") for m in (inner, bordered))
+    below, above = (determinant(m.xreplace(of.allowed)) for m in (inner, bordered))
     if of.algebra.is_zero(below):
         raise BadSystem(f"{system.name}: the mass matrix is singular, so that the motion is not determined")
     if of.algebra.is_zero(above):
@@ -182,14 +180,14 @@ class _OnShell:
         self.forced, self.turning = forces[:n, :], forces[n:, :]
         if any(of.free_symbols & set(v) for of in algebra.letters.arguments("sin", "sqrt").values()):
             raise BadSystem(f"{system.name}: exact verdicts are not for functions of velocities")
-        point = generic(algebra.rows, algebra.points)[0]
+        point = generic(algebra.rows, algebra.points)
         self.kept = pivots(algebra.rows.xreplace(point).T) if algebra.rows.rows else []
         rows, offsets = algebra.rows.extract(self.kept, list(range(n))), algebra.offsets.extract(self.kept, [0])
         self.bound = pivots(rows.xreplace(point)) if self.kept else []
         self.square = rows.extract(list(range(len(self.kept))), self.bound)
         free = {v[i]: sp.S.Zero for i in self.bound}
-        solved = self.square.adjugate() * -(rows * sp.Matrix(v).xreplace(free) + offsets)
-        below = self.square.det(method="berkowitz")
+        solved = adjugate(self.square) * -(rows * sp.Matrix(v).xreplace(free) + offsets)
+        below = determinant(self.square)
         self.allowed = {v[i]: value / below for i, value in zip(self.bound, solved, strict=True)}
         for e in algebra.rows * sp.Matrix(v) + algebra.offsets:
             if not algebra.is_zero(e.xreplace(self.allowed)):
@@ -225,10 +223,10 @@ def in_symbols(expr: Any) -> Any:
     if isinstance(expr, sp.MatrixBase | list | tuple):
         made = [in_symbols(e) for e in expr]
         return sp.Matrix(expr.rows, expr.cols, made) if isinstance(expr, sp.MatrixBase) else type(expr)(made)
-    expr = sp.sympify(expr)
+    expr = expression(expr, "what is to be in symbols")
     if any(d.derivative_count > 1 for d in expr.atoms(sp.Derivative)):
         raise BadSystem(f"{expr!s:.60} has a second derivative, which has no symbol: put in what it is")
-    rates = {d: d for d in expr.atoms(sp.Derivative) if d.derivative_count == 1 and isinstance(d.expr, AppliedUndef)}
+    rates = [d for d in expr.atoms(sp.Derivative) if isinstance(d.expr, AppliedUndef)]
     expr = expr.xreplace({d: dot(sp.Symbol(d.expr.func.__name__)) for d in rates})
     return expr.xreplace({f: sp.Symbol(f.func.__name__) for f in expr.atoms(AppliedUndef)})
 
@@ -245,12 +243,21 @@ def of_kane(method: Any) -> dict[sp.Symbol, sp.Expr]:
     -------
     dict
         {coordinate: its second derivative}, in symbols.
+
+    Raises
+    ------
+    BadSystem
+        If the method has no equations yet, or its speeds do not follow from the rates of the coordinates.
     """
-    q, u = list(method.q), list(method.u)
-    rates = dict(method.kindiffdict())
-    forced = method.mass_matrix_full.LUsolve(method.forcing_full)
+    try:
+        q, u, rates = list(method.q), list(method.u), dict(method.kindiffdict())
+        forced = method.mass_matrix_full.LUsolve(method.forcing_full)
+    except (AttributeError, TypeError, ValueError):
+        raise BadSystem("this is no KanesMethod whose kanes_equations have been formed") from None
     pushed = dict(zip([x.diff() for x in u], forced[len(q) :], strict=True))
-    (speeds,) = sp.solve([x.diff() - rates[x.diff()] for x in q], u, dict=True)
+    speeds: dict[Any, Any] = next(iter(sp.solve([x.diff() - rates[x.diff()] for x in q], u, dict=True)), {})
+    if not set(u) <= speeds.keys():
+        raise BadSystem("the speeds of this KanesMethod do not follow from the rates of its coordinates")
     found = {}
     for x in q:
         second = rates[x.diff()].diff(dynamicsymbols._t).xreplace(pushed).xreplace(rates)

@@ -150,8 +150,10 @@ def keeps(system: System, scheme: Scheme) -> bool:
     rows = list(of.kept(of.q, of.v))[: len(system.constraints)]
     here = dict(zip((*of.q, *of.v), (*scheme.place, *scheme.velocity), strict=True))
     after = dict(zip(scheme.state, scheme.after, strict=True)) if not scheme.stages else {}
-    return bool(rows) and all(
-        _said(at := row.xreplace(here), scheme) or _said(at.xreplace(after), scheme) for row in rows
+    found = [row.xreplace(here) for row in rows]  # of the state alone it may be said of the next state
+    return bool(found) and all(
+        _said(row, scheme) or (not row.free_symbols & set(scheme.unknowns) and _said(row.xreplace(after), scheme))
+        for row in found
     )
 
 

@@ -135,12 +135,12 @@ def own(system: System) -> Scheme:
     """
     if system.discrete is None:
         raise BadSystem(f"{system.name} has no discretization of its own: give it discrete=Discrete(...)")
-    of, action = _Parts(system), sp.sympify(system.discrete.lagrangian)
+    of, action = _Parts(system), system.discrete.lagrangian
     u, multipliers = of.symbols("u", of.n), of.symbols("lam", of.m)
     end = of.q + STEP * u
     there = {after(x): e for x, e in zip(system.coordinates, end, strict=True)}
     first, last = (Vector([sp.diff(action, x(c)) for c in system.coordinates]).xreplace(there) for x in (_same, after))
-    kept = [sp.sympify(c).xreplace(there) for c in system.discrete.constraints]
+    kept = [c.xreplace(there) for c in system.discrete.constraints]
     held = [of.at(Vector([c]), end)[0] for c in system.holonomic]
     return Scheme(
         (*of.q, *of.p), (*u, *multipliers), [*(of.p + first + of.held(of.q, multipliers)), *kept, *held],

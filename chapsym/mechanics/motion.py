@@ -106,7 +106,7 @@ class Runner:
         letters = Letters(plain=True)
 
         def read(part: Sequence[sp.Expr]) -> list[sp.Expr]:
-            return [letters.into(_lifted(sp.sympify(e), constants).xreplace(named)) for e in part]
+            return [letters.into(_lifted(e, constants).xreplace(named)) for e in part]
 
         try:
             residual, after, place, velocity = map(read, (scheme.residual, scheme.after, scheme.place, scheme.velocity))
@@ -137,7 +137,7 @@ class Runner:
         found: dict[sp.Expr, sp.Symbol] = {}
         for part in (self.scheme.residual, self.scheme.after, self.scheme.place, self.scheme.velocity):
             for e in part:
-                _lifted(sp.sympify(e), found)
+                _lifted(e, found)
         return found
 
     @cached_property
@@ -183,7 +183,7 @@ class Runner:
         state = self._numbers(self.scheme.start, q, v) if start is None else np.array(start, float)
         unknowns = self._numbers(self.scheme.guess, q, v)
         recorded = np.empty((-(-steps // every), 2 * len(q)))
-        take = _in_c if self.compiled else _in_python
+        take = _in_c if self.compiled and self.library else _in_python
         begin = time.process_time()
         with np.errstate(all="ignore"):
             done = take(self, steps, every, state, unknowns, fixed, recorded)
@@ -216,9 +216,7 @@ class Runner:
         symbols = (*system.coordinates, *system.velocities)
         numbers = dict(zip(system.parameters, map(sp.Float, system.numbers), strict=True))
         measured = ([system.energy], system.constraints, system.holonomic, list(system.integrals.values()))
-        return [
-            sp.lambdify(symbols, [sp.sympify(e).xreplace(numbers) for e in one], "numpy", cse=True) for one in measured
-        ]
+        return [sp.lambdify(symbols, [e.xreplace(numbers) for e in one], "numpy", cse=True) for one in measured]
 
     def velocities(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities of a state, which may have momenta: p = ∂L/∂v is solved, with least |v|."""
@@ -246,7 +244,7 @@ class Runner:
 
     @cached_property
     def library(self) -> Any:
-        """The compiled steps."""
+        """The compiled steps; None where they cannot be compiled, which is said."""
         scheme = self.scheme
         files = c_files.kernels_alone(_text(self.kernels), self.kernels, "system")
         stages = [*scheme.stages, *([[]] if not scheme.stages else [])]
@@ -267,8 +265,12 @@ class Runner:
                 (place / name).write_text(text, encoding="utf-8")
             (place / "march.c").write_text(f'#include "system.c"\n{head}{ROUTINE}', encoding="utf-8")
             command = ["cc", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I", folder, place / "march.c"]
-            subprocess.run([*map(str, command), "-lm", "-o", place / "march.so"], check=True, capture_output=True)
-            return ctypes.CDLL(str(place / "march.so"))
+            try:
+                subprocess.run([*map(str, command), "-lm", "-o", place / "march.so"], check=True, capture_output=True)
+                return ctypes.CDLL(str(place / "march.so"))
+            except (OSError, subprocess.CalledProcessError) as error:
+                logging.getLogger("chapsym").warning("plain Python takes the steps, as cc failed: %s", error)
+                return None
 
 
 @cache

@@ -63,7 +63,7 @@ class System:
     name : str
         What it is called.
     coordinates : sequence of sympy.Symbol
-        Numbers or angles, which may stand in sin and cos.  A unit vector or a quaternion is given by its components,
+        Numbers or angles, with sines and cosines.  A unit vector or a quaternion is given by its components,
         and by what they keep in `holonomic`.
     lagrangian : sympy.Expr
         In the coordinates, their velocities `dot(x)` and parameters; of degree two in the velocities.
@@ -85,7 +85,7 @@ class System:
     discrete : Discrete, optional
         A discretization of one's own: the method "own".
     integrals : mapping, optional
-        {name: quantity in coordinates, velocities and parameters} to look at, beside the energy.
+        {name: quantity in coordinates, velocities and parameters} to look at, besides the energy.
 
     Raises
     ------
@@ -117,20 +117,20 @@ class System:
     def __post_init__(self) -> None:
         for name in ("coordinates", "constraints", "holonomic"):
             object.__setattr__(self, name, _several(getattr(self, name), f"{self.name}: {name}"))
-        object.__setattr__(self, "lagrangian", _expression(self.lagrangian, f"{self.name}: the Lagrangian"))
+        object.__setattr__(self, "lagrangian", expression(self.lagrangian, f"{self.name}: the Lagrangian"))
         for name in ("constraints", "holonomic"):
-            made = tuple(_expression(one, f"{self.name}: one of {name}") for one in getattr(self, name))
+            made = tuple(expression(one, f"{self.name}: one of {name}") for one in getattr(self, name))
             object.__setattr__(self, name, made)
         for name in ("forces", "parameters", "start"):
             if not isinstance(getattr(self, name), Mapping) or not all(
                 isinstance(x, sp.Symbol) for x in getattr(self, name)
             ):
                 raise BadSystem(f"{self.name}: {name} must be given as {{symbol: value}}")
-        forces = {x: _expression(f, f"{self.name}: the force along {x}") for x, f in self.forces.items()}
+        forces = {x: expression(f, f"{self.name}: the force along {x}") for x, f in self.forces.items()}
         object.__setattr__(self, "forces", forces)
         if not isinstance(self.integrals, Mapping) or not all(isinstance(name, str) for name in self.integrals):
             raise BadSystem(f"{self.name}: integrals must be given as {{name: quantity}}")
-        made_ = {name: _expression(e, f"{self.name}: the integral {name}") for name, e in self.integrals.items()}
+        made_ = {name: expression(e, f"{self.name}: the integral {name}") for name, e in self.integrals.items()}
         object.__setattr__(self, "integrals", made_)
         if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
             raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
@@ -154,6 +154,8 @@ class System:
                     listed = ", ".join(sorted(map(str, strange_)))
                     raise BadSystem(f"{self.name}: {what} has {listed}, which is no coordinate, velocity or parameter")
         if self.discrete is not None:
+            own = [expression(e, f"{self.name}: the discretization") for e in self._own(self.discrete)]
+            object.__setattr__(self, "discrete", Discrete(own[0], tuple(own[1:])))
             self._check(self.discrete, places | {after(x) for x in self.coordinates} | {STEP})
         if strange_ := set(self.forces) - set(self.coordinates):
             raise BadSystem(f"{self.name}: a force is along {min(map(str, strange_))}, which is no coordinate")
@@ -164,9 +166,14 @@ class System:
         if self.rows.free_symbols & set(self.velocities):
             raise BadSystem(f"{self.name}: a constraint is not affine in the velocities")
 
+    def _own(self, discrete: Discrete) -> tuple[Any, ...]:
+        if not isinstance(discrete, Discrete):
+            raise BadSystem(f"{self.name}: discrete must be Discrete(lagrangian, constraints)")
+        return discrete.lagrangian, *_several(discrete.constraints, f"{self.name}: the constraints of discrete")
+
     def _check(self, discrete: Discrete, allowed: set[sp.Symbol]) -> None:
         for one in (discrete.lagrangian, *discrete.constraints):
-            if strange := sp.sympify(one).free_symbols - allowed:
+            if strange := one.free_symbols - allowed:
                 listed = ", ".join(sorted(map(str, strange)))
                 raise BadSystem(f"{self.name}: the discretization has {listed}, which is nothing at a step's two ends")
         if len(discrete.constraints) != len(self.constraints):
@@ -335,7 +342,7 @@ def _several(value: Any, what: str) -> tuple[Any, ...]:
     return tuple(value)
 
 
-def _expression(value: Any, what: str) -> sp.Expr:
+def expression(value: Any, what: str) -> sp.Expr:
     """An expression of numbers and symbols; a text is not evaluated."""
     try:
         found = sp.sympify(value, strict=True)

@@ -28,6 +28,7 @@ from chapsym.mechanics import (
     conserved,
     dot,
     flag,
+    in_symbols,
     loaded,
     measured,
     motion,
@@ -391,6 +392,15 @@ def test_without_a_compiler_python_takes_the_steps_and_says_so(monkeypatch, capl
     motion._has_compiler.cache_clear()
 
 
+def test_where_the_compiler_fails_python_takes_the_steps_and_says_so(monkeypatch, caplog, tmp_path):
+    (tmp_path / "cc").write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
+    (tmp_path / "cc").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
+    found = Runner(particle(), "dla", compiled=True).march(5)
+    assert np.abs(found.final[1] - 0.3 - 0.25) < 1e-12
+    assert "as cc failed" in caplog.text
+
+
 def test_a_system_of_one_coordinate_without_parameters_runs_in_c():
     pendulum = System("pendulum", (a,), va**2 / 2 + sp.cos(a), start={a: 1})
     for method in ANYWHERE:
@@ -406,7 +416,7 @@ def test_energy_is_kept_where_forces_do_no_work():
     assert pushed.energy[-1] < 0.8 * pushed.energy[0]
 
 
-@pytest.mark.parametrize("name", ["particle", "sleigh", "contact", "transmission", "vertical_disc", "snakeboard"])
+@pytest.mark.parametrize("name", ["particle", "sleigh", "contact", "transmission", "vertical_disc", "suslov"])
 def test_the_energy_is_decided_to_be_kept(name):
     system = loaded(SYSTEMS / f"{name}.py")
     assert system.keeps_energy
@@ -441,6 +451,23 @@ def test_the_ball_keeps_the_vertical_momentum_and_methods_show_their_range():
     assert max(ranges["gni"].values()) < 1e-12
     assert max(ranges["spark"].values()) < 1e-12
     assert min(ranges["rk4"].values()) > 1e-10
+
+
+def test_no_text_is_evaluated():
+    text = "__import__('os').system('exit 3')"
+    for made in (
+        lambda: System("one", (x,), text), lambda: System("one", (x,), vx**2, [text]), lambda: conserved(particle(), text),
+        lambda: particle(discrete=Discrete(text, [x])), lambda: particle(discrete=Discrete(x, [text])),
+        lambda: particle(forces={x: text}), lambda: particle(integrals={"one": text}), lambda: in_symbols(text),
+        lambda: agree(particle(), {x: text, y: 0, z: 0}),
+    ):  # fmt: skip
+        with pytest.raises(BadSystem, match="no real expression of SymPy|is no expression"):
+            made()
+
+
+def test_what_is_no_kanes_method_is_one_sentence():
+    with pytest.raises(BadSystem, match="this is no KanesMethod whose kanes_equations have been formed"):
+        of_kane(None)
 
 
 def test_half_the_step_tells_the_method_from_the_model():
