@@ -150,6 +150,18 @@ def test_a_text_with_other_letters_is_refused(old, new, said):
         judged(TEXT.replace(old, new))
 
 
+def test_a_function_is_not_called_as_what_it_calls():
+    text = TEXT.replace("def turned", "def sin")
+    row = {
+        "inputs": ["q", "x"],
+        "letters": LETTERS,
+        "carriers": [left("x", "x").data(lambda _: "0") | {"point": POINT}],
+    }
+    row["text_sha256"] = hashlib.sha256(text.encode()).hexdigest()
+    with pytest.raises(Rejected, match="has sin as a name of something else"):
+        binding.check(row, text, CERTIFICATES, "sin")
+
+
 @pytest.mark.parametrize(
     ("letters", "said"),
     [

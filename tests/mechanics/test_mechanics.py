@@ -36,6 +36,8 @@ from chapsym.mechanics import (
     of_kane,
     rate,
 )
+from chapsym.mechanics.algebra import Letters
+from chapsym.mechanics.lab import keeps
 
 SYSTEMS = Path(__file__).parents[2] / "docs/examples/systems"
 ANYWHERE = [name for name in METHODS if name != "own"]
@@ -224,7 +226,8 @@ def test_equations_are_compared_for_the_system_with_its_numbers(lagrangian, type
     assert found.equal is equal
     if not equal:
         assert all(sp.sympify(value).is_real for value in (*found.point.values(), found.value))
-        assert found.point["a"] != "0"  # an angle that stands bare is shown, too
+        assert found.point["a"] != "0"  # an angle that is there bare is shown, too
+        assert all(sp.sympify(value) > 0 for name, value in found.point.items() if name.startswith("sqrt"))
 
 
 @pytest.mark.parametrize(
@@ -503,6 +506,47 @@ def test_kanes_method_gives_the_accelerations_of_the_principle():
     assert agree(system, accelerations).equal
     accelerations[system.coordinates[2]] *= 2
     assert not agree(system, accelerations).equal
+
+
+def test_kanes_speeds_may_be_others_than_the_rates_of_the_coordinates():
+    """A skate's forward speed and its turning: they and what turns them depend on the heading."""
+    heading = sp.Symbol("heading")
+    energy = (vx**2 + vy**2 + dot(heading) ** 2) / 2 + x / 2
+    skate = System("skate", (x, y, heading), energy, [vx * sp.sin(heading) - vy * sp.cos(heading)])
+    q, u = kane.dynamicsymbols("x y heading"), kane.dynamicsymbols("forward aside turning")
+    N, O = kane.ReferenceFrame("N"), kane.Point("O")
+    O.set_vel(N, 0)
+    B = N.orientnew("B", "Axis", (q[2], N.z))
+    B.set_ang_vel(N, u[2] * N.z)
+    centre = O.locatenew("C", q[0] * N.x + q[1] * N.y)
+    centre.set_vel(N, u[0] * B.x + u[1] * B.y)
+    rates = [centre.pos_from(O).dt(N).dot(B.x) - u[0], centre.pos_from(O).dt(N).dot(B.y) - u[1], q[2].diff() - u[2]]
+    body = kane.RigidBody("body", centre, B, 1, (kane.inertia(B, 0, 0, 1), centre))
+    method = kane.KanesMethod(N, q, [u[0], u[2]], rates, u_dependent=[u[1]], velocity_constraints=[u[1]])
+    method.kanes_equations([body], [(centre, N.x / 2)])
+    assert agree(skate, of_kane(method)).equal
+
+
+def test_roots_are_differentiated():
+    letters = Letters()
+    made = letters.into(sp.sqrt(1 + x**2) * sp.sin(2 * y + x))
+    slope = letters.derivative(made, x)
+    for _ in range(3):  # back from letters to what they are
+        slope = slope.xreplace(letters.meanings)
+    at = {x: 0.7, y: 0.3}
+    assert abs(slope.xreplace(at) - sp.diff(sp.sqrt(1 + x**2) * sp.sin(2 * y + x), x).xreplace(at)) < 1e-14
+
+
+def test_what_is_said_of_the_next_state_is_not_said_of_unknowns():
+    """An equation for the unknowns of one step says nothing of those of the next."""
+    system = particle()
+    scheme = METHODS["spark"].scheme(system)
+    assert keeps(system, scheme)
+    unknown = scheme.unknowns[0]
+    row = (vz - y * vx).xreplace(dict(zip((x, y, z, vx, vy, vz), (*scheme.place, *scheme.velocity), strict=True)))
+    moved_on = [row.xreplace({vx: unknown}).xreplace(dict(zip(scheme.state, scheme.after, strict=True)))]
+    other = dataclasses.replace(scheme, velocity=[unknown, *scheme.velocity[1:]], residual=moved_on)
+    assert not keeps(system, other)
 
 
 def test_equations_that_break_one_thing_are_refuted_at_an_exact_state():
