@@ -260,6 +260,6 @@ def of_kane(method: Any) -> dict[sp.Symbol, sp.Expr]:
         raise BadSystem("the speeds of this KanesMethod do not follow from the rates of its coordinates")
     found = {}
     for x in q:
-        second = rates[x.diff()].diff(dynamicsymbols._t).xreplace(pushed).xreplace(rates)
+        second = rates[x.diff()].diff(dynamicsymbols._t).xreplace(pushed)
         found[in_symbols(x)] = in_symbols(second.subs(speeds))
     return found
