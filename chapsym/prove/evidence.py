@@ -28,6 +28,10 @@ NUMBER = re.compile(r"-?\d+(/\d+)?")
 SAID = {"==": "", "!=": "not ", "<": "less than ", "<=": "at most ", ">": "more than ", ">=": "at least "}
 
 
+#: What may be wrong with a statement that is not true as printed, by what it does to a reader.
+SLIPS = ("serious", "typo", "convention", "reading")
+
+
 class Verdict(StrEnum):
     """What is said of a printed claim."""
 
@@ -67,6 +71,7 @@ class Proof:
     reason: str | None = None
     corrected_text: str | None = None
     condition: str | None = None
+    slip: dict[str, Any] | None = None
     said: list[str] = field(default_factory=list)
     decided: list[tuple[str, Statement, bool]] = field(default_factory=list)
     points: list[Point] = field(default_factory=list)
@@ -131,6 +136,19 @@ class Proof:
         """What is printed under a hypothesis that the paper leaves out."""
         self.condition = str(condition)
         self._corrected += [(s, self._decide(s, "under", f"under {condition}: ")) for s in statements]
+
+    def slips(self, kind: str, *follows: str) -> None:
+        """What kind of error this is, by our judgement; and the errors from which it follows, of claims that it uses.
+
+        kind: `serious`, it misleads who computes with it; `typo`, a misprint that the text around it mends;
+        `convention`, a sign or an order that the paper takes otherwise elsewhere; `reading`, true or false as one
+        reads it, or under what is left out.  Whether it is an error the proof decides, not this.
+        """
+        if kind not in SLIPS:
+            raise ValueError(f"a slip is one of {', '.join(SLIPS)}, not {kind!r}")
+        if strange := [id for id in follows if id not in self.uses]:
+            raise ValueError(f"an error follows from one of a claim that is used; {strange[0]} is not in uses=[...]")
+        self.slip = {"kind": kind, "follows": list(follows)}
 
     def counterexample(self, point: Point) -> None:
         """Evaluates every printed and corrected formula that was stated so far at an exact point.
@@ -285,6 +303,9 @@ class Proof:
         if self.reason:
             return Verdict.DEFINITION
         if all(holds for _, holds in self._printed):
+            if self.slip:
+                self.problems.append("it is called an error, and all that is printed holds")
+                return Verdict.OPEN
             return Verdict.HOLDS
         if not self._corrected:
             return Verdict.REFUTED

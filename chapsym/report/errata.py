@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from . import notation
-from .records import Record, errors, label, truth
+from .records import Record, errors, kinds, label, slip_of, truth
 from .source import FEDOROV, Source
 
 
@@ -15,24 +15,34 @@ def markdown(records: Sequence[Record], version: str, source: Source = FEDOROV) 
 
 def _introduction(records: Sequence[Record], version: str, source: Source, written: Callable[[str], str]) -> list[str]:
     """What stands above the entries, a blank line after each paragraph."""
+    by_kind = kinds(records)
     return [
         f"To {written(source.paper)}.",
         "",
         f"{len(errors(records))} of {len(records)} judged claims are not true as printed. {written(source.note)}",
         "",
+        *([f"By kind, in our judgement: {by_kind}.", ""] if by_kind else []),
         f"Cite as: {written(source.cite(version))}. Each entry names the command that proves it again.",
         "",
     ]
 
 
+def kind(record: Record) -> str:
+    """What kind of error it is, and from which it follows; empty where no kind is given."""
+    name, follows = slip_of(record)
+    return f"{name}{', follows from ' if follows else ''}{' and '.join(map(label, follows))}"
+
+
 def _markdown_entry(record: Record, source: Source) -> list[str]:
     formula, prose = truth(record)
     lines = [f"## {label(record['id'])}", "", record["evidence"]["title"], ""]
+    lines += [f"- Kind: {said}"] if (said := kind(record)) else []
     lines.append(f"- Printed: ${record['printed']}$")
     if formula:
         lines.append(f"- True: ${formula}$")
     if prose:
         lines.append(f"- {'Condition' if record['verdict'] == 'conditional' else 'True'}: {prose}")
+    lines += [f"- Hypothesis: {text}" for text in record["evidence"].get("hypotheses", [])]
     for example in record["evidence"].get("counterexamples", []):
         named = notation.point(example["point"], not source.register)
         point = ", ".join(f"{symbol} = {notation.plain(value)}" for symbol, value in named)
@@ -64,12 +74,15 @@ def _latex_entry(record: Record, source: Source) -> list[str]:
     title = notation.latex(record["evidence"]["title"])
     name = notation.typed_latex(record["id"]) if source.register else notation.latex(label(record["id"]))
     lines = [r"\medskip", rf"\textbf{{{name}}}. {title}", ""]
+    lines += [rf"\textit{{Kind:}} {notation.latex(said)}", ""] if (said := kind(record)) else []
     lines += _row("Printed", record["printed"])
     if formula:
         lines += _row("True", formula)
     if prose:
         name = "Condition" if record["verdict"] == "conditional" else "True"
         lines += [rf"\textit{{{name}:}} {notation.latex(prose)}", ""]
+    for text in record["evidence"].get("hypotheses", []):
+        lines += [rf"\textit{{Hypothesis:}} {notation.latex(text)}", ""]
     for example in record["evidence"].get("counterexamples", []):
         point = ", ".join(
             f"${notation.symbol_latex(symbol)} = {notation.value_latex(value)}$"

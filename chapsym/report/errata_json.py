@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import notation
-from .records import Record, errors, label, section, truth
+from .records import Record, errors, label, section, slip_of, slips, truth
 from .source import FEDOROV, Source
 
 FORMAT = "chapsym errata 1"
@@ -33,6 +33,10 @@ def text(records: Sequence[Record], version: str, earlier: Mapping[str, Entry], 
         "cite": source.cite(version),
         "chapsym": version,
         "claims": len(records),
+        "kinds": {
+            kind: {"entries": number, "independent": independent}
+            for kind, (number, independent) in slips(records).items()
+        },
         "errata": current,
         "withdrawn": _withdrawn(earlier, {entry["id"] for entry in current}, version),
     }
@@ -60,16 +64,20 @@ def _entry(record: Record, source: Source) -> Entry:
     formula, prose = truth(record)
     number, title = section(record) or (None, None)
     conditional = record["verdict"] == "conditional"
+    kind, follows = slip_of(record)
     return {
         "id": record["id"],
         "label": label(record["id"]),
         "section": number,
         "section_title": title,
         "title": record["evidence"]["title"],
+        "kind": kind or None,
+        "follows": follows,
         "printed": record["printed"],
         "true": formula or None,
         "condition": prose or None if conditional else None,
         "true_in_words": None if conditional else prose or None,
+        "hypotheses": record["evidence"].get("hypotheses", []),
         "counterexamples": [_example(example, source) for example in record["evidence"].get("counterexamples", [])],
         "downstream": record["evidence"].get("downstream", []),
         "proof": source.reproduce(record["id"]),

@@ -13,7 +13,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from . import formulas, graph, notation, symbols
+from . import errata, formulas, graph, notation, symbols
 from . import records as reading
 from .records import Record
 from .source import FEDOROV, Source
@@ -61,7 +61,8 @@ class _Page:
             "VERDICTS": reading.VERDICTS, "MANY": _MANY, "source": source, "ours": source == FEDOROV,
             "point": lambda values: notation.point(values, not source.register),
             "sides": notation.sides, "differing": notation.differing, "reproduce": source.reproduce,
-            "truth": reading.truth, "by_method": by_method, "value": notation.value,
+            "truth": reading.truth, "kind": errata.kind, "kinds": reading.kinds, "by_method": by_method,
+            "value": notation.value,
         }  # fmt: skip
         self._templates.filters |= {
             "formula": formulas.html,

@@ -23,6 +23,22 @@ VERDICTS = {
 }
 ERRORS = ("corrected", "conditional", "refuted")
 
+#: Kinds of errors, by our judgement: one and many of them, and what they do to a reader.
+SLIPS = {
+    "serious": ("serious error", "serious errors", "who computes with it is misled"),
+    "typo": ("typo", "typos", "a misprint that the text around it mends"),
+    "convention": (
+        "slip of convention",
+        "slips of convention",
+        "a sign or an order that the paper takes otherwise elsewhere",
+    ),
+    "reading": (
+        "that depends on the reading",
+        "that depend on the reading",
+        "true or false as one reads it, or under what is left out",
+    ),
+}
+
 SECTIONS = {
     1: "Introduction",
     2: "The Chaplygin sphere and its multidimensional generalization",
@@ -119,6 +135,35 @@ def truth(record: Record) -> tuple[str, str]:
     """What is true in the place of a printed error, as LaTeX, and in prose the condition or the whole truth."""
     name = "true_statement" if record["verdict"] == "refuted" else "condition"
     return record.get("corrected") or "", record["evidence"].get(name) or ""
+
+
+def slip_of(record: Record) -> tuple[str, list[str]]:
+    """The kind of a record's error, and the claims from whose errors it follows; an empty kind where none is given."""
+    found = record["evidence"].get("slip") or {"kind": "", "follows": []}
+    return found["kind"], found["follows"]
+
+
+def slips(records: Iterable[Record]) -> dict[str, tuple[int, int]]:
+    """How many errors there are of each kind, and how many of these follow from no other."""
+    found = [slip_of(record) for record in errors(records)]
+    count = {kind: [not follows for each, follows in found if each == kind] for kind in SLIPS}
+    return {kind: (len(those), sum(those)) for kind, those in count.items() if those}
+
+
+def kinds(records: Iterable[Record]) -> str:
+    """The errors by kind, in words; empty where no kind is given.
+
+    Examples
+    --------
+    >>> kinds([{"id": "2.1", "verdict": "corrected", "evidence": {"slip": {"kind": "typo", "follows": []}}}])
+    '1 typo'
+    """
+    parts = []
+    for kind, (number, independent) in slips(records).items():
+        one, many, _ = SLIPS[kind]
+        rest = "" if independent == number else f" (from {independent} independent slips)"
+        parts.append(f"{number} {one if number == 1 else many}{rest}")
+    return ", ".join(parts)
 
 
 def unproved(records: Iterable[Record]) -> list[str]:

@@ -149,7 +149,7 @@ def fixed_step(p: Proof) -> None:
     files=(*FILES, *ORBITS),
 )
 def energy_question(p: Proof) -> None:
-    """For three different moments and D > 0 no C¹ integrals of the steps tend to the energy in C¹; in C⁰ that is open."""
+    """For three different moments and D > 0 no C¹ integrals of the steps tend to the energy in C¹ near certain orbits; in C⁰ that is open."""
     p.ask(*readings.QUESTIONS["6-open"])
     p.assume("the small branch; K = 𝒦/ε and γ near the orbit, ε small: then small-branch holds")
     flat, vertical = "D = 0", "𝒦 is parallel to γ"

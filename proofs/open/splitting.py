@@ -95,6 +95,8 @@ MEASURED = (
     "The same ball, D = 1/10: after 300 steps of the map on the level with 2 log(4/k') - 300c = Δ(0), k'² = 1.46e-29, the displacement "
     "of u = 0 is 9e-30, that of c/2 is 1.47790438e-21; (Δ(c/2) - Δ(0))/h₊'(-c/2) is 1.47790437e-21.",
     "The same ball: E changes its sign at D = 2.3953174412988807611; there Δ(c/4) - Δ(0) = 4.06745e-54, so Δ is not constant.",
+    "The same ball: of the intervals between multiples of 1/4 up to D = 10 two more have ends at which E has different signs; the "
+    "changes are at D = 4.69325146647 and 8.01975228582.",
 )
 
 if __name__ == "__main__":

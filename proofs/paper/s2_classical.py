@@ -130,6 +130,7 @@ def four_integrals(p: Proof) -> None:
 @claim("2.4-kinetic", r"\langle K,\omega\rangle \text{ is the kinetic energy}", ["2.4"])
 def kinetic_energy(p: Proof) -> None:
     """⟨K,ω⟩ is twice the kinetic energy."""
+    p.slips("typo")
     kinetic = continuous.lagrangian_energy()
     left = momentum().dot(omega)
     p.printed(equation("⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", left, kinetic))
@@ -206,6 +207,7 @@ def euler_top(p: Proof) -> None:
 )
 def top_integrals(p: Proof) -> None:
     """The two integrals of the top are constant, but the first is not the l of (2.4)."""
+    p.slips("reading")
     height, power = vertical_values()
     p.assume("h ≠ 0", sp.Ne(height, 0))
     spin, body = at_vertical(omega), s * gamma

@@ -22,9 +22,10 @@ def unit_vertical() -> Equation:
     return equation("|γ|² = 1", gamma.dot(gamma), 1)
 
 
-@claim("2.1", r"v + \rho\,\omega\times\gamma = 0 \text{ with the vertical unit vector directed upwards}")
+@claim("2.1", r"v + \rho\,\omega\times\gamma = 0,\ \gamma \text{ the vertical unit vector}")
 def rolling_condition(p: Proof) -> None:
-    """With γ upwards, from the plane to the centre, the sign of the rolling condition is wrong."""
+    """The sign is wrong if γ is directed upwards, as it is before (2.9); at (2.1) no direction is printed."""
+    p.slips("convention")
     v = sp.Matrix(sp.symbols("v1:4"))
     rho = sp.Symbol("rho")
     ring = Quotient((*v, rho, *omega, *gamma))
@@ -72,6 +73,7 @@ def on_motion(expr: sp.Expr) -> sp.Expr:
 )
 def inverse_momentum(p: Proof) -> None:
     """The inverse of K(ω, γ): the sign is misprinted."""
+    p.slips("serious")
     p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
     p.show("K(ω, γ)", sp.Matrix(continuous.momentum()))
     lift = D / continuous.rolling_factor() * gamma.dot(inverse_inertia() * K) * gamma
@@ -102,6 +104,7 @@ def inverse_momentum(p: Proof) -> None:
 )
 def energy_integral(p: Proof) -> None:
     """The energy integral as a function of K, γ: the sign is misprinted with that of the inverse."""
+    p.slips("serious", "2.5-inverse")
     p.assume("J_i + J_j > 0, D ≥ 0, so that F > 0 (2.13)", *three.MOMENTS)
     p.say("ω(K, γ) is the inverse of K(ω, γ) that 2.5-inverse proves.")
     quadratic = K.dot(inverse_inertia() * K)

@@ -37,6 +37,7 @@ def motion_point() -> Point:
 )
 def rolling_condition(p: Proof) -> None:
     """With γ upwards the n-dimensional rolling condition has the wrong sign, as (2.1) has."""
+    p.slips("convention", "2.1")
     p.say("The point of contact is P = C - ργ, and the material point there has the velocity v + ω(P - C).")
     slip = motion.v + omega * (-rho * gamma)
     p.printed(equation("v + ρωγ = the velocity of P", motion.v + rho * omega * gamma, slip))
@@ -91,6 +92,7 @@ def equations_of_motion(p: Proof) -> None:
 @claim("2.11-force", r"F = m\rho\,\dot\omega\gamma", ["2.11"])
 def reaction_force(p: Proof) -> None:
     """The reaction force: its sign is misprinted."""
+    p.slips("serious")
     p.assume(DOWNWARDS)
     p.say("v = -ρωγ and γ̇ = -ωγ give v̇ + ωv = -ρω̇γ.")
     force = motion.on_rolling("force_rolling", motion.inertial_force())
@@ -108,6 +110,7 @@ def reaction_force(p: Proof) -> None:
 )
 def eliminated_force(p: Proof) -> None:
     """After F is eliminated the right side has the sign of F, which is misprinted."""
+    p.slips("serious", "2.11-force")
     p.assume(DOWNWARDS)
     momentum = J * omega + omega * J
     balance = rate(momentum) + commutator(omega, momentum)

@@ -44,6 +44,7 @@ def pairing(x: sp.Expr, y: sp.Expr) -> sp.Expr:
 )
 def inertia_operator(p: Proof) -> None:
     """The momentum about the contact point; its operator is nondegenerate when any two J_i have a positive sum."""
+    p.slips("reading")
     p.say("K is the momentum about the point of contact P: M about the centre C, and mv ∧ (C - P) with C - P = -ργ and")
     p.say("v = -ρωγ; it is in so*(n), not so*(m).")
     p.printed(equation("K = Jω + ωJ + D(Γω + ωΓ)", applied(omega), motion.contact_momentum()))
@@ -179,6 +180,7 @@ def exact_divergence(n: int, rates: int = 1) -> list[Identity]:
 )
 def isomorphism(p: Proof) -> None:
     """The identification of so(3) with R³ has the wrong sign, and the energy becomes l/2."""
+    p.slips("convention")
     p.assume("n = 3: the J of (2.1) to (2.6) is tr J - J for the J of (2.10), so that Λ = diag(J2+J3+D, ...)")
     ring = Quotient((*three.K, *spin, *three.gamma, three.J1, three.J2, three.J3, three.D), [three.UNIT_VERTICAL])
     vertical = three.gamma * three.gamma.T

@@ -110,6 +110,7 @@ def discrete_sum(first: int) -> sp.Expr:
 )
 def discrete_principle(p: Proof) -> None:
     """The discrete principle: its sum must begin at k = 1, with the ends fixed."""
+    p.slips("typo")
     p.assume("the path is q_0, ..., q_N, with N steps, as in the source that the paper quotes; it prints no path")
     p.say("The variation of Σ_{k=0}^{N-1} 𝕃(q_k, q_{k+1}); N = 3 and one coordinate show which terms there are.")
     p.say("The term k = 0 as printed has q_{-1}, which the path q_0, ..., q_N does not have.")
@@ -228,6 +229,7 @@ def blocks() -> list[Equation]:
 )
 def consistency(p: Proof) -> None:
     """A discrete constraint of an integrable distribution: not one product N×N but the union over all leaves."""
+    p.slips("reading")
     size, count = sp.symbols("n s")
     p.say("D_d must have the dimension of D as a bundle over Q, n + (n - s), and contain (q, q) for every q in Q.")
     ring = Quotient((size, count))

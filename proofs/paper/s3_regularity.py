@@ -64,6 +64,7 @@ def determinant(factor: sp.Expr, rotation: sp.Matrix) -> sp.Expr:
 )
 def regularity(p: Proof) -> None:
     """The regularity matrix says that a successor is unique nearby, not that there is one; the ball is regular at rest."""
+    p.slips("reading")
     p.assume("L_d is 𝕃")
     p.assume("for the ball J_i + J_j > 0, D ≥ 0 (2.13)", *three.MOMENTS)
     p.say("The equations D1𝕃 + D2𝕃 - Σ λ_j A^j = 0, F_j = 0 have the derivative (D1D2𝕃, -A; D2F, 0) in (q_{k+1}, λ):")

@@ -94,6 +94,7 @@ def naive_constraint(p: Proof) -> None:
 @claim("4.9-limit", r"\bar\Omega_k \mapsto \mathbf I + \omega", uses=["4.9"])
 def rotation_limit(p: Proof) -> None:
     """The continuous limit of the rotation: ε is missing."""
+    p.slips("typo")
     algebra, spin = ALGEBRA, limits.omega_space
     turn = written("turn", "Ω̄ = R_{k+1} R_kᵀ = exp(ε ω̄)", R1 * RT, ALGEBRA)
     zeroth, first, *_ = limits.coefficients(turn, limits.SPACE_STEP)
@@ -134,6 +135,7 @@ def spatial_reaction(p: Proof) -> None:
 )
 def body_reaction(p: Proof) -> None:
     """The reaction in the body: the sign of its second term is misprinted."""
+    p.slips("typo")
     force = RT * principle.rolling_reaction()
     after = m * rho / 2 * (NOW - NOW_T) * RT * gamma
     before = m * rho / 2 * (BEFORE - BEFORE_T) * RT * gamma

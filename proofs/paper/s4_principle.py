@@ -42,6 +42,7 @@ def skew_part_of_4_3() -> sp.Expr:
 )
 def discrete_lagrangian(p: Proof) -> None:
     """The printed discrete Lagrangian does not produce the printed equations: sign and factor."""
+    p.slips("serious")
     p.say("The principle: δ(𝕃(k-1,k) + 𝕃(k,k+1)) = 0 for dR = ξR_k and dr = -ρ ξ γ, every skew ξ.")
     p.say("With 𝕃 = c·Tr(R_k J R_{k+1}ᵀ) + (m/2)|Δr_k|² it says that the skew matrix S(c) vanishes:")
     p.show("S(c)", principle.momentum_balance(principle.c))
@@ -220,6 +221,7 @@ def rolling_in_space(p: Proof) -> None:
 )
 def body_momentum(p: Proof) -> None:
     """The momentum in the body: the right side is right, but it is Ad of the inverse."""
+    p.slips("convention")
     p.assume("Ad_R X = R X R⁻¹, the adjoint action")
     spatial = principle.spatial_momentum(R, R1)
     body = RT * R1 * J - J * R1T * R
@@ -241,6 +243,7 @@ def body_momentum(p: Proof) -> None:
 )
 def balance_in_body(p: Proof) -> None:
     """The balance carried to the body: γ_k stands where the spatial γ must."""
+    p.slips("typo")
     p.assume("γ without an index is the vertical in space; γ_k = R_kᵀγ is the one in the body (4.8)")
     now = RT * principle.spatial_momentum(R, R1) * R
     step, before = R0T * R, R0T * principle.spatial_momentum(R0, R) * R0

@@ -40,6 +40,7 @@ def printed_squares(sign: int = 1) -> list[sp.Expr]:
 )
 def amplitudes(p: Proof) -> None:
     """The amplitudes: the sign under the root of C3 is misprinted."""
+    p.slips("typo")
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3, so that Λ1 l > 1 and the printed C3 is imaginary", *elliptic.ORDER)
     p.say("|γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l for γ = (C1 cn, C2 sn, C3 dn) and every u determine the squares:")
     derived = elliptic.squared_amplitudes()
@@ -106,6 +107,7 @@ def pair() -> tuple[list[sp.Expr], list[sp.Expr]]:
 )
 def sums_and_differences(p: Proof) -> None:
     """Sums and differences by the addition formulas: the sign of the first difference is misprinted."""
+    p.slips("typo")
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
     now, after = pair()

@@ -104,6 +104,7 @@ def second_form(p: Proof) -> None:
 )
 def g_function(p: Proof) -> None:
     """G: k² is missing under its second term."""
+    p.slips("typo")
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     p.say("G is what Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn² makes of it, an identity in sn²ū:")
     a, b, c = quotients()
@@ -151,6 +152,7 @@ def coefficient(expr: sp.Expr, power: int) -> sp.Expr:
 )
 def alpha(p: Proof) -> None:
     """α: l is missing beside 2Λ1Λ3 in the numerator."""
+    p.slips("typo")
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     p.lemma(curve_equation("the constant term of G/V² is 1", coefficient(true_g(), 0), sp.S.One))
     derived = coefficient(true_g(), 1)
@@ -258,6 +260,7 @@ def no_constant(relation: sp.Expr) -> list[Comparison]:
 )
 def before_squaring(p: Proof) -> None:
     """The relation before squaring: d stands for D (h = 1), its factor ½ must be 1, and σ² is missing under the root."""
+    p.slips("serious", "prop-4")
     p.assume("sn δu, 𝒟 and 1 - DΠ1 do not vanish", *(sp.Ne(x, 0) for x in (y, SCALE, INVERSE)))
     p.assume("h = 1 (5.12-scaling); d is D, the only thing (5.11) can make it")
     half = 1 - D / 2 * level / SCALE
@@ -291,6 +294,7 @@ def before_squaring(p: Proof) -> None:
 )
 def relation_for_the_increment(p: Proof) -> None:
     """The relation for the increment is linear in 𝒟, for both signs of the root, with no extraneous solution."""
+    p.slips("serious", "5.14")
     p.assume("sn δu, 𝒟 and σ are finite and not 0", *(sp.Ne(x, 0) for x in (y, SCALE, INVERSE)))
     p.assume("h = 1; w = sn cn dn of δu; G as corrected; d is D")
     p.say("From prop-4 as corrected: (2σ/ϰ - 1)² = 1 - σ²Π2, 2σ/ϰ = σW/𝒟. The V² terms cancel, and one factor σ:")
@@ -349,6 +353,7 @@ def euler_increment(p: Proof) -> None:
 )
 def denominator_of_u(p: Proof) -> None:
     """𝒟 as a function of u and δu: the sign of the whole and three coefficients are wrong."""
+    p.slips("serious")
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("sn ū = sn(u + δu) by the addition formula, into 𝒟 = 1 - k² sn²ū sn²δu.")
     ring = elliptic.ring(U, HALF)
@@ -399,6 +404,7 @@ def weierstrass_form(p: Proof) -> None:
 @claim("5.16-weierstrass-w", r"w(\delta u) = \tfrac12\tfrac q{(p-e_3)^3}", uses=["5.16-weierstrass-e"])
 def weierstrass_w(p: Proof) -> None:
     """w = sn cn dn: the power and the sign are wrong."""
+    p.slips("typo")
     p.say("w = ½ d(sn²)/du = ½ (d sn²/dp) q, with sn² = 1/(p - e3) and q = dp/du:")
     derived = sp.diff(1 / (P - E3), P) * Q / 2
     p.printed(equation("w = ½q/(p-e3)³", Q / (2 * (P - E3) ** 3), derived))
@@ -422,6 +428,7 @@ def weierstrass_w(p: Proof) -> None:
 )
 def increment_integral(p: Proof) -> None:
     """The increment as an integral on the curve, from p = ∞, where δu = 0; with the positive root it is -δu."""
+    p.slips("convention")
     p.assume("δu up to periods, as for every integral on the curve")
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("p = e3 + 1/sn²δu; p' = dp/dδu from sn' = cn dn:")

@@ -265,6 +265,7 @@ def invariant_density(p: Proof) -> None:
 )
 def circle(p: Proof) -> None:
     """A diffeomorphism of the circle when |h| is small; for large |h| there may be no real step at all."""
+    p.slips("reading")
     p.assume("Λ1, Λ2, Λ3 different, l regular: each real component of the curve is a circle, u mod its real period")
     p.assume("J_i + J_j > 0, D ≥ 0 (2.13), so that F > 0", *three.MOMENTS)
     p.say(

@@ -33,6 +33,7 @@ def printed_rotation() -> sp.Matrix:
 )
 def rotation_matrix(p: Proof) -> None:
     """The rotation matrix, entry by entry: the entry (3,2) is misprinted."""
+    p.slips("typo")
     p.say("x ↦ q x q̄ with Hamilton's product, read off on the basis:")
     rotation = sp.Matrix(three.rotation())
     for row in range(3):
@@ -75,6 +76,7 @@ def rotation_matrix(p: Proof) -> None:
 )
 def axis_and_angle(p: Proof) -> None:
     """Axis and angle are right; q₀ > 0 leaves out the rotations by π."""
+    p.slips("reading")
     p.assume("Ω with the correction of (5.1); the axis is undefined at q = 0, where Ω = 1")
     p.say("Rodrigues: Ωx = cosθ x + sinθ n×x + (1-cosθ)⟨n,x⟩n.  With q₀ = cos(θ/2), q = sin(θ/2) n these are")
     p.say("cosθ = q₀² - |q|², sinθ n = 2q₀q, (1-cosθ) nnᵀ = 2qqᵀ:")

@@ -83,7 +83,8 @@ def isotropic_points() -> tuple[Quotient, list[sp.Expr]]:
     uses=["5.2"],
 )
 def upper_bound(p: Proof) -> None:
-    """At most 8 real solutions, and 8 occur; at most 4 when D = 0."""
+    """At most 8 real solutions if they are finitely many and the J differ, and 8 occur; then at most 4 when D = 0."""
+    p.slips("serious")
     p.assume(SIGN)
     p.assume(FINITE)
     p.assume("J1, J2, J3 differ", *UNEQUAL)
@@ -100,13 +101,20 @@ def upper_bound(p: Proof) -> None:
     p.say("At D = 0 four of the 8 points are on q₀² + |q|² = 0 whatever 𝒦 is, hence not real:")
     p.say("q_i² = Λ_jΛ_k(Λ_k - Λ_j), q₀ = -q₁q₂q₃/(Λ₁Λ₂Λ₃); different Λ's give four of them up to sign.")
     p.corrected(
-        r"\text{at most 8 real solutions, and at most 4 if } D = 0",
+        r"\text{if } J_1, J_2, J_3 \text{ differ and the solutions are finitely many, complex ones with them: "
+        r"at most 8 real solutions, and at most 4 if } D = 0",
         Equation("the three equations are homogeneous of degree 2", grown, [scale**2 * e for e in quadrics], ring),
         Equation("D = 0: 2(q₀Λq + q×Λq) = 0 at those points", flat, [sp.S.Zero] * 3, points),
         Equation("and q₀² + |q|² = 0", isotropic[0] ** 2 + spin.dot(spin), 0, points),
         example(STRONG, 8),
         example(0, 4),
     )
+    p.say("Where J1 = J2 there is no bound: at 𝒦 = 0 every rotation by π about an axis across the third is a solution.")
+    across, nothing = [q0, q[2]], [sp.S.Zero] * 3
+    alike = Quotient(RING.symbols, [*across, three.J1 - three.J2])
+    p.lemma(Equation("J1 = J2, q₀ = q3 = 0: 𝒦(q, γ) = 0 whatever γ and D", list(three.momentum()), nothing, alike))
+    different = Quotient(RING.symbols, across)
+    p.control(Equation("the same for different J", list(three.momentum()), nothing, different))
     p.say("Every number from 0 to 4 occurs without rolling, and with it 0, 2, 3, 4, 5, 6, 8, all for one ball and γ.")
     p.say("No solution of the even examples is a rotation by π: all of them have q₀ > 0.")
     p.lemma(*(example(0, number) for number in (0, 1, 2, 3)))
@@ -128,6 +136,7 @@ def upper_bound(p: Proof) -> None:
 )
 def lower_bound(p: Proof) -> None:
     """There may be none, even on an orbit; when there is one, there are two, with multiplicity."""
+    p.slips("serious")
     p.assume(SIGN)
     p.assume(FINITE)
     p.assume("J1, J2, J3 differ", *UNEQUAL)

@@ -59,6 +59,7 @@ def printed_vector(sign: int) -> sp.Matrix:
 )
 def vertical_relation(p: Proof) -> None:
     """The relation between γ and q when the momentum is vertical: a factor 2 is missing."""
+    p.slips("serious")
     p.assume("|γ| = 1, |q|² + q₀² = 1", *three.UNITS)
     p.assume("the equations are judged modulo 𝒦 - hγ = 0")
     ring = Quotient((h, *three.RING.symbols), three.RING.relations)
@@ -93,6 +94,7 @@ def vertical_relation(p: Proof) -> None:
 @claim("5.6-sigma", r"\sigma_k = h + D\langle\gamma_k, q_0\mathbf q\rangle", uses=["5.4"])
 def sigma_definition(p: Proof) -> None:
     """σ inherits the missing factor 2 of (5.4)."""
+    p.slips("serious", "5.4")
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     p.say("σ is the factor for which the left side of (5.4) is σγ; h and γ are written in q, σ.")
     now, height = vertical.gamma_now(), vertical.height()
@@ -114,6 +116,7 @@ def sigma_definition(p: Proof) -> None:
 )
 def consecutive_verticals(p: Proof) -> None:
     """γ_k and γ_(k+1) in Euler parameters: the vectors are right, the sign of Ωᵀ is not."""
+    p.slips("typo")
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     now = vertical.gamma_now()
     turned = sp.Matrix(three.rotation()).T * now

@@ -375,3 +375,17 @@ def test_the_quotient_knows_its_hypotheses():
     assert Quotient((x, y), [*CIRCLE.relations, x - y]).is_zero(2 * x**2 - 1)
     with pytest.raises(ZeroDivisionError, match="zero under the hypotheses"):
         CIRCLE.is_zero(1 / (x**2 + y**2 - 1))
+
+
+def test_an_error_is_classed_by_its_proof_and_only_where_there_is_one():
+    with pytest.raises(ValueError, match="a slip is one of serious, typo"):
+        Proof().slips("big")
+    with pytest.raises(ValueError, match=r"9\.9 is not in uses"):
+        Proof(uses=("2.1",)).slips("typo", "9.9")
+    proof = Proof(uses=("2.1",))
+    proof.slips("typo", "2.1")
+    assert proof.slip == {"kind": "typo", "follows": ["2.1"]}
+    proof.printed(Fact("true", True))
+    proof.control(Fact("false", False))
+    assert proof.verdict() is Verdict.OPEN
+    assert "it is called an error, and all that is printed holds" in proof.problems

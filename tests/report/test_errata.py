@@ -39,6 +39,28 @@ def test_every_kind_of_error_says_what_is_true(handmade):
     assert r"\textit{True:} a is at most $b$" in text
 
 
+def test_every_hypothesis_of_an_error_is_printed_beside_what_is_true(found):
+    for record in records.errors(found):
+        one = errata.markdown([record], "1")
+        assert re.findall(r"^- Hypothesis: (.*)$", one, re.MULTILINE) == (record["evidence"].get("hypotheses") or [])
+        assert errata.latex([record], "1").count(r"\textit{Hypothesis:}") == one.count("- Hypothesis: ")
+
+
+def test_each_error_of_the_paper_has_a_kind_and_follows_from_errors(register):
+    wrong = {record["id"] for record in records.errors(register)}
+    assert {
+        id: kind
+        for record in records.errors(register)
+        if not (kind := records.slip_of(record)[0])
+        for id in [record["id"]]
+    } == {}
+    assert {id for record in records.errors(register) for id in records.slip_of(record)[1]} <= wrong
+    assert records.slips(register) == {"serious": (16, 8), "typo": (12, 12), "convention": (5, 4), "reading": (6, 6)}
+    said = records.kinds(register)
+    assert said in errata.markdown(register, "1")
+    assert said in " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+
+
 def test_latex_is_ascii_and_balanced(found):
     text = errata.latex(found, "1.2.3")
     assert text.isascii()

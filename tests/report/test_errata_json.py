@@ -47,7 +47,15 @@ def test_it_says_what_the_markdown_says(which, request):
     assert document["cite"] in text
     assert document["claims"] == len(found)
     for one in document["errata"]:
-        for said in (one["title"], one["printed"], one["true"], one["condition"], one["true_in_words"]):
+        for said in (
+            *one["hypotheses"],
+            one["kind"],
+            one["title"],
+            one["printed"],
+            one["true"],
+            one["condition"],
+            one["true_in_words"],
+        ):
             assert said is None or said in text
         for example in one["counterexamples"]:
             assert ", ".join(f"{symbol} = {value}" for symbol, value in example["point"].items()) in text
