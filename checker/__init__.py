@@ -11,12 +11,12 @@ file).  For the statements of the register: trees.py, polynomial.py, words.py, a
 """
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from . import drift, heteroclinic, measure, motion, orbit, register
-from .document import FORMAT, Unreadable, digest, read
+from .document import FORMAT, Unreadable, digest, file_name, read
 from .interval import Rejected
 
 __all__ = [
@@ -27,6 +27,9 @@ __all__ = [
     "check",
     "claimed_twice",
     "digest",
+    "file_name",
+    "id_of",
+    "lacks",
     "read",
     "standing",
     "statement",
@@ -47,6 +50,7 @@ class Verdict:
     """An accepted certificate: its kind, the theorem that it proves in one sentence, and numbers that were proved.
 
     name: its digest, after the id if it is that of a claim.  rests: the names of those that must be accepted, too.
+    uses: the ids of claims whose certificates must be.
     """
 
     kind: str
@@ -54,6 +58,7 @@ class Verdict:
     numbers: dict[str, str]
     name: str
     rests: tuple[str, ...] = ()
+    uses: tuple[str, ...] = ()
 
 
 def statement(data: dict[str, Any]) -> str:
@@ -79,23 +84,33 @@ def check(data: dict[str, Any]) -> Verdict:
         raise Rejected("the digest is not that of the file: something in it was changed")
     numbers = KINDS[kind].check(data)
     if kind == "register-claim":
-        return Verdict(
-            kind, sentence, numbers, f"{data['claim']} {seal}", tuple(one["certificate"] for one in data["rests"])
-        )
+        rests = tuple(one["certificate"] for one in data["rests"])
+        return Verdict(kind, sentence, numbers, f"{data['claim']} {seal}", rests, tuple(data["uses"]))
     return Verdict(kind, sentence, numbers, seal)
+
+
+def id_of(name: str) -> str:
+    """The id in the name of a verdict on a claim, else the name."""
+    return name.partition(" ")[0]
 
 
 def claimed_twice(verdicts: Sequence[Verdict]) -> set[str]:
     """The names of certificates of one claim that differ: the one may say less than the other."""
     names = {one.name for one in verdicts if one.kind == "register-claim"}
-    claims = Counter(name.split()[0] for name in names)
-    return {name for name in names if claims[name.split()[0]] > 1}
+    claims = Counter(map(id_of, names))
+    return {name for name in names if claims[id_of(name)] > 1}
+
+
+def lacks(verdict: Verdict, accepted: Collection[str]) -> list[str]:
+    """What a verdict rests on, and claims that it uses, that are not among the names of accepted ones."""
+    ids = set(map(id_of, accepted))
+    return sorted({*verdict.rests} - {*accepted} | {one for one in verdict.uses if one not in ids})
 
 
 def standing(verdicts: Sequence[Verdict]) -> set[str]:
     """The names of those, of claims that no other is of, that rest on nothing but others that stand."""
     found: set[str] = set()
     alone = [one for one in verdicts if one.name not in claimed_twice(verdicts)]
-    while new := {one.name for one in alone if found.issuperset(one.rests)} - found:
+    while new := {one.name for one in alone if not lacks(one, found)} - found:
         found |= new
     return found

@@ -12,10 +12,13 @@ from typing import Any
 
 def main(arguments: list[str] | None = None) -> int:
     """Judges files: 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
-    from . import Rejected, Unreadable, check, claimed_twice, kernels, read, shown, standing
+    from . import Rejected, Unreadable, claimed_twice, id_of, kernels, lacks, manifest, read, shown, standing
 
     parser = argparse.ArgumentParser(prog="checker", description="Checks certificates, with the standard library only.")
-    parser.add_argument("files", nargs="+", metavar="FILE")
+    parser.add_argument("files", nargs="*", metavar="FILE")
+    parser.add_argument(
+        "--manifest", metavar="FILE", help="all certificates that a manifest lists; none may be missing"
+    )
     parser.add_argument("--show", action="store_true", help="the formulas that were judged, of a claim of the register")
     parser.add_argument(
         "--kernels", metavar="FOLDER", action="append", default=[],
@@ -23,23 +26,29 @@ def main(arguments: list[str] | None = None) -> int:
     )  # fmt: skip
     parser.add_argument("--json", action="store_true", help="one JSON object on standard output")
     options = parser.parse_args(arguments)
-    judged: list[tuple[Any, Any]] = []
-    whole: dict[str, Any] = {}
-    for file in options.files:
+    expected: dict[str, str] = {}
+    if options.manifest:
         try:
-            data = read(file)
-            judged.append((check(data), data if options.show else {}))
-            whole[judged[-1][0].name] = data
+            listed = manifest.listed(read(options.manifest), Path(options.manifest).parent)
         except (Rejected, Unreadable) as error:
-            judged.append((error, {}))
-    right = [verdict for verdict, _ in judged if not isinstance(verdict, Exception)]
+            print(f"{options.manifest}: rejected: {error}", file=sys.stderr)
+            return 1 if isinstance(error, Rejected) else 2
+        expected = {str(path): name for path, name in listed.items()}
+    files = [*options.files, *expected]
+    if not files:
+        parser.error("name a FILE, or a --manifest")
+    judged, whole = _judged(files)
+    right = [verdict for verdict in judged.values() if not isinstance(verdict, Exception)]
     stand, twice = standing(right), claimed_twice(right)
     found, worst = [], 0
-    for file, (verdict, data) in zip(options.files, judged, strict=True):
+    for file in files:
+        verdict: Any = judged[file]
         if not isinstance(verdict, Exception) and verdict.name in twice:
-            one = verdict.name.split()[0]
-            verdict = Rejected(f"another of these files is a certificate of claim {one}, too, and says something else")
-        if not isinstance(verdict, Exception) and (missing := sorted(set(verdict.rests) - stand)):
+            claim = id_of(verdict.name)
+            verdict = Rejected(f"another of these files is of claim {claim}, too, and says something else")
+        if not isinstance(verdict, Exception) and verdict.name != expected.get(file, verdict.name):
+            verdict = Rejected("it is another certificate than the one that the manifest lists")
+        if not isinstance(verdict, Exception) and (missing := lacks(verdict, stand)):
             verdict = Rejected(f"it rests on {missing[0]}, which is not accepted among these files")
         if isinstance(verdict, Exception):
             worst = max(worst, 1 if isinstance(verdict, Rejected) else 2)
@@ -53,7 +62,7 @@ def main(arguments: list[str] | None = None) -> int:
             print(f"{file}: accepted ({verdict.kind})\n  Proved: {verdict.statement}")
             print(*(f"  {name}: {value}" for name, value in verdict.numbers.items()), sep="\n")
             if options.show and verdict.kind == "register-claim":
-                print(*(f"  {line}" for line in shown.lines(data)), sep="\n")
+                print(*(f"  {line}" for line in shown.lines(whole[verdict.name])), sep="\n")
     accepted = {name: data for name, data in whole.items() if name in stand}
     bound = [one for folder in options.kernels for one in kernels.check_folder(Path(folder), accepted)]
     for one in bound:
@@ -68,6 +77,32 @@ def main(arguments: list[str] | None = None) -> int:
         result = {"certificates": found} | ({"kernels": bound} if options.kernels else {})
         print(json.dumps(result, ensure_ascii=not utf, indent=1))
     return worst
+
+
+def _judged(files: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The verdict on each file, or why it has none, and the accepted certificates by name.
+
+    The certificates of claims that are used are looked for beside the files, and judged, too.
+    """
+    from . import Rejected, Unreadable, check, file_name, read
+
+    judged: dict[str, Any] = {}
+    whole: dict[str, Any] = {}
+    pending = list(files)
+    for file in pending:  # grows while it is read
+        if file in judged:
+            continue
+        try:
+            data = read(file)
+            judged[file] = verdict = check(data)
+        except (Rejected, Unreadable) as error:
+            judged[file] = error
+            continue
+        whole[verdict.name] = data
+        beside = {one: Path(file).with_name(file_name(one)) for one in verdict.uses}
+        known = {Path(one).name for one in pending}
+        pending += [str(path) for path in beside.values() if path.name not in known and path.is_file()]
+    return judged, whole
 
 
 if __name__ == "__main__":

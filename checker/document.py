@@ -21,6 +21,11 @@ _EXACT = re.compile(r"-?\d+(/\d+|(\.\d+)?(e-?\d{1,3})?)", re.ASCII)
 _DECIMAL = re.compile(r"-?(0|[1-9]\d*)\.\d+", re.ASCII)
 
 
+def file_name(claim: str) -> str:
+    """The file of a claim: a _ behind each capital, and for each _ two, so that no two names differ in case alone."""
+    return re.sub("([A-Z_])", r"\1_", claim) + ".json"
+
+
 class Unreadable(Exception):
     """There is no JSON object to judge; the message says why in one sentence."""
 
@@ -57,8 +62,12 @@ def digest(data: dict[str, Any]) -> str:
 
 def check_names(data: Any, names: str, where: str) -> None:
     """Raises Rejected unless `data` is an object with these names and no others."""
-    if not isinstance(data, dict) or set(data) != set(names.split()):
-        raise Rejected(f"{where} must have exactly the names {', '.join(names.split())}")
+    if not isinstance(data, dict):
+        raise Rejected(f"{where} must be an object with the names {', '.join(names.split())}")
+    if other := sorted(set(data) ^ set(names.split())):
+        raise Rejected(
+            f"{where} {'has' if other[0] in data else 'lacks'} {other[0]!a:.60}, not exactly the names of its form"
+        )
 
 
 def listed(data: Any, length: int, where: str) -> list[Any]:

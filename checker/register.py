@@ -25,8 +25,10 @@ A zero is a solution of equations, one and no other within a distance of a point
 
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
 statements it refutes fail, and the corrected ones with which it agrees hold; if it has a value for one name of a
-hypothesis, it has one for each.  It rests on other certificates, by their digests, that of a
-claim after its id: they must be accepted, too.  The sentences are not judged: they are what the claim says beside this.
+hypothesis, it has one for each.  It rests on other certificates, by their digests, that of a claim after its id, and
+on those of the claims that it uses: they must be accepted, too.  The verdict must be what is decided: `holds`, if no
+printed statement fails; `corrected` or `conditional`, if one does, and a corrected one holds, or one under a condition;
+else `refuted`.  The sentences are not judged: they are what the claim says beside this.
 """
 
 import json
@@ -47,10 +49,11 @@ from .polynomial import Ring, Work
 from .trees import check_name, check_tree, names_in, rational, size, value
 from .words import Matrix, same, trace
 
-NAMES = "format kind statement claim printed corrected hypotheses algebras derivation points statements comparisons "
-NAMES += "counts zeros counterexamples rests sentences digest"
+NAMES = "format kind statement claim verdict printed corrected uses hypotheses algebras derivation "
+NAMES += "points statements comparisons counts zeros counterexamples rests sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 _CERTIFICATE = re.compile(r"([\w.-]{1,40} )?[0-9a-f]{64}", re.ASCII)
+VERDICTS = ("holds", "corrected", "conditional", "refuted", "settled", "definition", "open")
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
 SENTENCES = (*ROLES, "hypothesis", "said")
 #: Rows and columns of a matrix; letters of the whole, five times those of the largest of the register.
@@ -64,29 +67,43 @@ def statement(data: dict[str, Any]) -> str:
     """What was checked, counted, and what was not."""
     proved = [one for one in data["statements"] if "refuted" not in one]
     words = sum(data["algebras"][one["algebra"]]["kind"] != "quotient" for one in proved)
-    names = {one["name"] for one in data["derivation"]}
+    failing = sum("refuted" in one or one.get("holds") is False for one in said(data))
     about = [[*one["left"], *one["right"]] for one in proved] + [one["equations"] for one in data["counts"]]
-    derived = sum(not names_in([0, *trees]).isdisjoint(names) for trees in about)
-    premises = sum(derivation.is_premise(one, names) for one in data["derivation"])
-    refuted = len(data["statements"]) - len(proved)
-    true = sum(one["holds"] for one in data["counts"])
-    failing = sum("refuted" in one for one in data["comparisons"])
-    equal = sum(one["left"] == one["right"] for one in proved)
-    return (
-        f"Claim {data['claim']}: {len(proved) - words} statements hold wherever their relations hold and their "
-        f"denominators do not vanish, which happens at a point given for each; {words} statements about words hold for "
-        f"all matrices that satisfy their rules, as those given do, of whatever sizes make both sides matrices of one "
-        f"size, where no number that they divide by is 0; {true} statements about how many solutions equations "
-        f"have, at a point given for each, hold, and {len(data['counts']) - true} printed ones fail; {derived} of "
-        f"these are about what {len(names)} definitions make, of which {premises} name no other; {equal} of these have "
-        f"one expression on both sides, and say nothing of how it was derived; {refuted} printed statements fail at "
-        f"{len(data['counterexamples'])} points given; {len(data['comparisons']) - failing} comparisons hold at "
-        f"theirs, and {failing} printed ones fail.  "
-        f"{len(data['zeros'])} systems of equations have one solution within a distance of a point, and no other.  "
-        f"{len(data['hypotheses'])} hypotheses hold at every point that has values for them.  "
-        f"It rests on {len(data['rests'])} other certificates, which must be accepted.  "
-        f"{len(data['sentences'])} sentences are listed and not checked."
-    )
+    names = {one["name"] for one in data["derivation"]}
+    parts = {
+        "identities of numbers": len(proved) - words,
+        "identities of matrices": words,
+        "of these with one expression on both sides": sum(one["left"] == one["right"] for one in proved),
+        "about what derivations make": sum(not names_in([0, *trees]).isdisjoint(names) for trees in about),
+        "comparisons at points": sum("refuted" not in one for one in data["comparisons"]),
+        "numbers of solutions": sum(one["holds"] for one in data["counts"]),
+        "solutions near points": len(data["zeros"]),
+        "hypotheses true at every point": len(data["hypotheses"]),
+        "printed statements that fail, each at a point": failing,
+        "other claims and certificates that it rests on": len(data["uses"]) + len(data["rests"]),
+        "sentences not checked": len(data["sentences"]),
+    }
+    counted = "; ".join(f"{what}: {number}" for what, number in parts.items() if number)
+    return f"Claim {data['claim']} ({data['verdict']}).  {counted or 'nothing'}."
+
+
+def said(data: dict[str, Any]) -> list[dict[str, Any]]:
+    """All that is decided."""
+    return [one for name in ("statements", "comparisons", "counts", "zeros") for one in data[name]]
+
+
+def check_verdict(data: dict[str, Any]) -> None:
+    """Raises Rejected unless what is decided gives the verdict, in so far as it is no sentence."""
+    decided = [*said(data), *data["rests"], *data["sentences"]]
+    roles = {one["role"] for one in decided}
+    false = any(one.get("refuted") is not None or one.get("holds") is False for one in said(data))
+    false |= any(one["role"] == "printed" and one["text"].startswith("false: ") for one in data["sentences"])
+    kind = "conditional" if "under" in roles else "corrected" if "corrected" in roles else "refuted"
+    given = kind if false else "holds" if roles & {"printed"} else "definition"
+    if data["verdict"] not in ("open", given) and not (data["verdict"] == "settled" and not false):
+        raise Rejected(f"the verdict is {data['verdict']!r}, and what is decided gives {given!r}")
+    if (data["corrected"] is not None) != (given == "corrected") and data["verdict"] != "open":
+        raise Rejected("a correction is given where none is decided, or none where one is")
 
 
 def check_form(data: dict[str, Any]) -> None:
@@ -100,6 +117,12 @@ def check_form(data: dict[str, Any]) -> None:
         many(data[name], name)
     if not isinstance(data["claim"], str) or not _CLAIM.fullmatch(data["claim"]):
         raise Rejected("claim must be the id of a claim, such as prop-4")
+    chosen(data["verdict"], VERDICTS, "the verdict")
+    for one in many(data["uses"], "uses"):
+        if not isinstance(one, str) or not _CLAIM.fullmatch(one) or one == data["claim"]:
+            raise Rejected("uses must be ids of other claims")
+    if len(set(data["uses"])) < len(data["uses"]):
+        raise Rejected("uses has a claim twice")
     text(data["printed"], "printed")
     if data["corrected"] is not None:
         text(data["corrected"], "corrected")
@@ -281,6 +304,7 @@ def check_statement(
 
 def check(data: dict[str, Any]) -> dict[str, str]:
     """Raises Rejected unless every statement is proved and every counterexample is one; returns the counts."""
+    check_verdict(data)
     work = Work()
     work.spend(evaluations(data))
     algebras = [
@@ -328,19 +352,10 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     for i in refuted:
         if i not in data["counterexamples"][data["statements"][i]["refuted"]]["refutes"]:
             raise Rejected(f"statement {i} is not refuted by its counterexample")
-    said = [one for name in ("statements", "comparisons", "counts", "zeros") for one in data[name]]
-    roles = [one["role"] for one in said]
-    return {
-        **{role: str(roles.count(role)) for role in ROLES if role in roles},
-        "refuted": str(sum("refuted" in one or one.get("holds") is False for one in said)),
-        "definitions": str(len(data["derivation"])),
-        "comparisons": str(len(data["comparisons"])),
-        "counts": str(len(data["counts"])),
-        "zeros": str(len(data["zeros"])),
-        "one expression on both sides": str(sum(one["left"] == one["right"] for one in data["statements"])),
-        "rests on": str(len(data["rests"])),
-        "sentences not checked": str(len(data["sentences"])),
-    }
+    roles = [one["role"] for one in said(data)]
+    failing = sum("refuted" in one or one.get("holds") is False for one in said(data))
+    counted = {role: roles.count(role) for role in ROLES} | {"refuted": failing}
+    return {name: str(number) for name, number in counted.items() if number}
 
 
 def evaluations(data: dict[str, Any]) -> int:

@@ -2,7 +2,7 @@
 
 Proved by: 5.2-limit.  Operations: 30.  SymPy 1.14.0.
 Expression: sha256 8364d39ba783995bbec5d72ea1b61a921649cb00dcfb7b206e3b346ce4bdfbd6.
-Certificate of 5.2-limit: sha256 6bc71a38cb166b5ffe167aa0850c93e66a021baf67a72509a6499497f0ed82fb.
+Certificate of 5.2-limit: sha256 ab8714188b3c7bfdf4325ab9cae03541fc3259281be6a9185e1c83e429688efa.
 """
 
 

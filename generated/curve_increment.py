@@ -2,9 +2,9 @@
 
 Proved by: 5.8-modulus, 5.14-G, 5.14-Pi1.  Operations: 22.  SymPy 1.14.0.
 Expression: sha256 f3b586d0fbf43c8ac702af5e26e704893ffb62928eda76c1c83ebf8e5dca4f1c.
-Certificate of 5.8-modulus: sha256 0f929d4d4b6a9ca27743f80a6be950ee4a61b44be252ceebc93de5012c8b8d59.
-Certificate of 5.14-G: sha256 74d4f86c9b09da2d1649df6f48e5bae94f58da3d64029743f08ae05f458e1ef2.
-Certificate of 5.14-Pi1: sha256 7ef4c69de08e5d48306396f9bb4c5e01fd8d379dcd30473dd273cbdc75d29a35.
+Certificate of 5.8-modulus: sha256 5da249b33448bc19069e93c770200bdef0426927e8ff4fcd437b401b2fa8b0fd.
+Certificate of 5.14-G: sha256 12bd14d8e1d9ee592ce949d5d1023a5afd66c136aea5fc3def34a25da78db725.
+Certificate of 5.14-Pi1: sha256 3d5eff7dcfd19e42f241819d2f2d80627c1a4f044f8ca5ef546c0817863cd3bb.
 """
 
 

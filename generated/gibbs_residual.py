@@ -2,7 +2,7 @@
 
 Proved by: gibbs.  Operations: 51.  SymPy 1.14.0.
 Expression: sha256 3d412801f7d385f80f70d5c53092c9cbb357c2660d733bc5c933bb793e2a9695.
-Certificate of gibbs: sha256 5c5edb8586cc98b864feb9738f1142e41537056a860ebd25281d71e0313e2d85.
+Certificate of gibbs: sha256 e374ff0ed17db97edbfd7dc9f4513cb697760b8eacf9e26470d5cab5674d6f1b.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: straight-path.  Operations: 80.  SymPy 1.14.0.
 Expression: sha256 b603b93937e923f16641664eec350b6c5dc201755fe3ec8ea2c90fc8f7f882b2.
-Certificate of straight-path: sha256 7fca2352e67f6ea78566796d8ace4069a01efcdff5090c3e0514a23598bdf78a.
+Certificate of straight-path: sha256 2b4f21c453d04a2323ccd58153d8340d4c614f7790ff6ea142e82fae3ed7db2b.
 """
 
 

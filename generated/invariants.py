@@ -2,7 +2,7 @@
 
 Proved by: 5.3-integrals.  Operations: 15.  SymPy 1.14.0.
 Expression: sha256 501e078b24c674f9edbb37ed6e8457d6b5da2c6ecd1fe28cfbe3588c521326bf.
-Certificate of 5.3-integrals: sha256 4667908e0af20bcb4b820ca6b8d40bdf3ea6215e6dfd2e9ebe982b7f151d2135.
+Certificate of 5.3-integrals: sha256 1e740820b1260c995e02e41c1663191c2b9c4cbf15559ee3dea7d53d6093ee86.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: isotropic-spin.  Operations: 24.  SymPy 1.14.0.
 Expression: sha256 dca5ee5fa586d5431e4f75db2c142fff21679e5cefc16f8b58c3ca65552173b7.
-Certificate of isotropic-spin: sha256 d078d204fa2e6c5b522dd0b606e78e5cb4d0bb0bb4adc0f60eb194acc787f8c5.
+Certificate of isotropic-spin: sha256 e8a9c94ef162935937cd49b2923fc7ef11a9584c9153703a48e313a07231310b.
 """
 
 

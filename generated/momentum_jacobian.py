@@ -2,7 +2,7 @@
 
 Proved by: 5.2.  Operations: 95.  SymPy 1.14.0.
 Expression: sha256 1a94b029e62f39c9583843a13d0847a3dfee7deb89e19d06fa6b1a5a3682ebc6.
-Certificate of 5.2: sha256 aa1c5c8514b48821c58b3d0746360f391bb0ee0eabc723a0f41772a59571a03d.
+Certificate of 5.2: sha256 50423ac3e1a9919b2ee4ddd7ca4e5dc06f3e508996e15c8fd72e9b8ca9903c05.
 """
 
 

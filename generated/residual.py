@@ -2,7 +2,7 @@
 
 Proved by: stable-momentum.  Operations: 53.  SymPy 1.14.0.
 Expression: sha256 a1532f21963741f580e54a3338de6b26e964faa6ae1cd81f1e4ad4d88ca41462.
-Certificate of stable-momentum: sha256 f61f141b57b73ba6fc9853079e34670d68e32acaa6b2e960c6a26f09c3592687.
+Certificate of stable-momentum: sha256 99cb5b69751dc6d1d49dfa13d396362372c025adefa1a0bf7d7eabbb10ed99e5.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: 5.3.  Operations: 41.  SymPy 1.14.0.
 Expression: sha256 4c01ea3acc25f4ff4d7fadcfcf30a55dd1a118996a04b256c11bba362fbc2a02.
-Certificate of 5.3: sha256 64770286ae84bf0d7df70ae74cf9fb9db35ebabbee40a8ba1013b0f888048fbf.
+Certificate of 5.3: sha256 5cb417f45d49e914613bf23339d4a7ddd87eb32b9b070c5a3d905f6a6f4c7eea.
 """
 
 

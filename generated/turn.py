@@ -2,7 +2,7 @@
 
 Proved by: gibbs-rotation.  Operations: 35.  SymPy 1.14.0.
 Expression: sha256 bc9d20e59b3d43e39595ba171f2ae3ba5c60b1c965bb7056067bd6058318b293.
-Certificate of gibbs-rotation: sha256 81ea728dea079e916526d9b6c84df722e949fe3ebbbdf28593648cb55dbcf5f6.
+Certificate of gibbs-rotation: sha256 0ba0a7a2faf200610373b02d090ca2d81c8c3209327e78a44417f2ef9d5b798d.
 """
 
 

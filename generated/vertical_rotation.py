@@ -2,7 +2,7 @@
 
 Proved by: vertical-rotation.  Operations: 44.  SymPy 1.14.0.
 Expression: sha256 1b59598563aad694dcc4d8cd7fa37a2401a7bd0e565d4b8f5fed87ca5262396f.
-Certificate of vertical-rotation: sha256 47763fd9331380226343878615ccb8b182c7e94a3ba6da538f0e7dbcca3d9c6f.
+Certificate of vertical-rotation: sha256 ccb2a7c6d565249e23cb6905fe2827d9025642941e6720de58a75936bb5f4262.
 """
 
 

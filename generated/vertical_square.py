@@ -2,7 +2,7 @@
 
 Proved by: prop-3.  Operations: 11.  SymPy 1.14.0.
 Expression: sha256 85f54a4c249d7c5794e172ecaaefd732ed5e0522c8b8f15505d392911fc800e4.
-Certificate of prop-3: sha256 07c4a9a397b3d169c356298f53342a66bc927c0f416ff4ae705106ebdad72736.
+Certificate of prop-3: sha256 5262c080432fe6e9638b1fe8abf5dbb41cac5125df8b6a8b7104e4ff3b42c1f9.
 """
 
 

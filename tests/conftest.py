@@ -122,7 +122,7 @@ def all_judged(tmp_path_factory):
             patch.setattr(checker, "check", checked)
             for id in load(lemmas=True):
                 record = prove_one(id, folder)
-                found.records[id] = record, (folder / f"{id}.json").read_text("utf-8")
+                found.records[id] = record, (folder / checker.file_name(id)).read_text("utf-8")
             found.rests = {id: claims.judged(id) for id in {**measure.LEMMAS, **energy.LEMMAS}}
         return found
 

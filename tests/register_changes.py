@@ -252,9 +252,10 @@ def zeros():
 def by_hand(statements, points=(), algebras=(), counterexamples=(), hypotheses=(), comparisons=(), counts=()):
     """A certificate with few parts."""
     return resealed({
-        "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "printed": "x", "corrected": None,
-        "hypotheses": [*hypotheses], "algebras": [*algebras], "derivation": [], "points": [*points],
-        "statements": [*statements], "comparisons": [*comparisons], "counts": [*counts], "zeros": [],
+        "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "verdict": "open",
+        "printed": "x", "corrected": None, "uses": [], "hypotheses": [*hypotheses], "algebras": [*algebras],
+        "derivation": [], "points": [*points], "statements": [*statements],
+        "comparisons": [*comparisons], "counts": [*counts], "zeros": [],
         "counterexamples": [*counterexamples], "rests": [], "sentences": [], "statement": "",
     })  # fmt: skip
 

@@ -1,5 +1,6 @@
 """chapsym certify: certificates of what the paper left open, found, written and checked."""
 
+import json
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -224,7 +225,10 @@ def _describe_drift(found: dict[str, Any]) -> None:
 
 @certify.command()
 def check(
-    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Certificates.")],
+    files: Annotated[list[Path] | None, typer.Argument(metavar="FILE...", help="Certificates.")] = None,
+    manifest: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Check all that a manifest lists; none may be missing.")
+    ] = None,
 ) -> None:
     """Check certificates: exit status 0 accepted, 1 rejected, 2 unreadable.
 
@@ -233,8 +237,35 @@ def check(
     import subprocess
 
     # A process of its own, so that nothing loaded here has a part in it.
-    command = [sys.executable, "-m", "chapsym.checker", *map(str, files)]
+    command = [sys.executable, "-m", "chapsym.checker", *map(str, files or [])]
+    command += ["--manifest", str(manifest)] if manifest else []
     raise typer.Exit(subprocess.run(command, check=False).returncode)
+
+
+@certify.command("manifest")
+def manifest_of(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Certificates, in this folder and those below.")],
+) -> None:
+    """Write DIR/manifest.json, which lists all certificates of a folder: one that is missing later is seen.
+
+    Example: chapsym certify manifest proofs
+    """
+    from chapsym import checker, files
+    from chapsym.checker import manifest
+
+    path, names = folder / "manifest.json", {}
+    try:
+        for file in sorted(folder.rglob("*.json")):
+            if file != path:
+                data = checker.read(file)
+                names[file.relative_to(folder).as_posix()] = checker.check(data).name
+    except (checker.Rejected, checker.Unreadable) as error:
+        fail(f"{file}: {error}", 1)
+    if not names:
+        fail(f"{folder} has no certificates", 2)
+    text = json.dumps(manifest.made(names), indent=1) + "\n"
+    files.write_whole(path, lambda stream: stream.write(text.encode()))
+    print(f"wrote {path}: {len(names)} certificates")
 
 
 def _deliver(

@@ -45,6 +45,7 @@ def prove(
 
     Example: chapsym prove prop-4 5.11 --explain
     """
+    from chapsym.checker import file_name
     from chapsym.prove import unproved
     from chapsym.prove.runner import explain as argument
 
@@ -64,7 +65,7 @@ def prove(
         folder = certificates or (Path(spare) if rocq else None)
         records = judge_and_keep(list(dict.fromkeys(ids or everything)), jobs, kept_in, folder, register)
         if rocq and folder:
-            _write_rocq([folder / f"{record['id']}.json" for record in records], rocq)
+            _write_rocq([folder / file_name(record["id"]) for record in records], rocq)
     # The whole register is as it should be with the paper's open questions open; a claim that is named must be proved.
     failed = [record["id"] for record in records if record["verdict"] == "open"] if ids else unproved(records)
     if as_json:

@@ -32,7 +32,7 @@ from .trees import NotAlgebra, nested, number, shared, tree
 LONGEST = 400
 
 
-def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
+def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> dict[str, Any]:
     """The certificate of a claim whose proof has run; raises checker.Rejected if the checker does not accept it."""
     made = _Maker(proof)
     for point in proof.points:
@@ -50,9 +50,9 @@ def certificate(id: str, printed: str, proof: Proof) -> dict[str, Any]:
         if c["accepted"]
     ]
     data = {
-        "format": checker.FORMAT, "kind": "register-claim", "claim": id, "printed": printed,
-        "corrected": proof.corrected_text, "hypotheses": hypotheses, "algebras": made.algebras,
-        "derivation": made.derivation, "points": made.points, "statements": made.statements,
+        "format": checker.FORMAT, "kind": "register-claim", "claim": id, "verdict": verdict, "printed": printed,
+        "corrected": proof.corrected_text, "uses": sorted(proof.uses), "hypotheses": hypotheses,
+        "algebras": made.algebras, "derivation": made.derivation, "points": made.points, "statements": made.statements,
         "comparisons": made.comparisons, "counts": made.counts, "zeros": made.zeros,
         "counterexamples": made.counterexamples,
         "rests": made.rests, "sentences": made.sentences,
@@ -100,7 +100,7 @@ def _cut(line: str) -> str:
 
 
 def write(data: dict[str, Any], folder: Path) -> None:
-    """The certificate as ID.json, a part a line; raises CannotWrite if it cannot be."""
+    """The certificate in the file of its claim, a part a line; raises CannotWrite if it cannot be."""
     lines = []
     for name, part in data.items():
         if isinstance(part, list) and part:
@@ -109,7 +109,7 @@ def write(data: dict[str, Any], folder: Path) -> None:
         else:
             lines.append(f"{json.dumps(name)}: {json.dumps(part, ensure_ascii=False)}")
     text = "{\n" + ",\n".join(lines) + "\n}\n"
-    files.write_whole(folder / f"{data['claim']}.json", lambda stream: stream.write(text.encode()))
+    files.write_whole(folder / checker.file_name(data["claim"]), lambda stream: stream.write(text.encode()))
 
 
 class _Maker:

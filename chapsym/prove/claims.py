@@ -23,8 +23,8 @@ from .witness import Examples
 #: What a record says beside the verdict, in this order: what a `Proof` collects, and what is known of its claim.
 EVIDENCE = (
     "title", "slip", "hypotheses", "condition", "reason", "open_in_paper", "tried", "question", "answer", "readings",
-    "settled", "theorems", "certificates", "measured", "conjectures", "derivation", "checks", "controls", "routes", "witnesses",
-    "counterexamples", "uses", "downstream", "problems", "carried",
+    "settled", "theorems", "certificates", "measured", "conjectures", "derivation", "checks", "controls", "routes",
+    "witnesses", "counterexamples", "uses", "downstream", "problems", "carried",
 )  # fmt: skip
 
 
@@ -94,7 +94,10 @@ class Judgement:
     def certified(self) -> "Judgement":
         """With what was decided as data that the checker accepted; where it does not, the claim is open."""
         try:
-            return replace(self, certificate=certificates.certificate(self.claim.id, self.claim.printed, self.proof))
+            return replace(
+                self,
+                certificate=certificates.certificate(self.claim.id, self.claim.printed, self.proof, str(self.verdict)),
+            )
         except Rejected as error:
             self.proof.problems.append(f"the checker does not accept its certificate: {error}")
             return replace(self, verdict=Verdict.OPEN)

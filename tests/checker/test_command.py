@@ -77,7 +77,7 @@ def test_two_files_that_differ_are_no_certificate_of_one_claim(tmp_path, capsys)
     first, same, other = (str(tmp_path / name) for name in "123")
     assert main([first, same]) == 0
     assert main([first, other]) == 1
-    assert capsys.readouterr().err.count("is a certificate of claim c, too") == 2
+    assert capsys.readouterr().err.count("is of claim c, too") == 2
     on_it = tmp_path / "4"
     on_it.write_text(json.dumps(resting(f"c {resting(claim='c')['digest']}", claim="d")))
     assert main([first, same, str(on_it)]) == 0

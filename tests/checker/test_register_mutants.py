@@ -87,7 +87,7 @@ MUTANTS = [(name, i) for name in FILES for i, _ in enumerate(places(ast.parse((C
 @pytest.fixture(scope="module")
 def battery(tmp_path_factory):
     """Certificates that are right, and certificates that are not, as a file."""
-    samples = {id: checker.read(FOLDER / f"{id}.json") for id in SAMPLES}
+    samples = {id: checker.read(FOLDER / checker.file_name(id)) for id in SAMPLES}
     rng = random.Random(7)
     wrong = [changed(samples[id], change) for id, change in CHANGES.values()]
     wrong += [slip(samples[rng.choice(SAMPLES)], rng)[0] for _ in range(40)]

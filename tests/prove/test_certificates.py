@@ -1,6 +1,10 @@
 """Certificates of the register: what is written is what is decided, and what is committed is what is written now."""
 
 import json
+import shutil
+import subprocess
+import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -8,6 +12,7 @@ import sympy as sp
 from commands import chapsym, refused
 
 from chapsym import checker, proofs
+from chapsym.checker import manifest
 from chapsym.checker.trees import names_in
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.words import WordAlgebra, matrix_symbols
@@ -26,8 +31,8 @@ CIRCLE = Quotient((x, y), [x**2 + y**2 - 1])
 
 def test_what_is_committed_is_what_is_written_now(judged):
     """Mend it by: chapsym prove --certificates proofs/certificates/register."""
-    assert {path.stem for path in FOLDER.iterdir()} == judged.keys()
-    assert [id for id, (_, text) in judged.items() if text != (FOLDER / f"{id}.json").read_text("utf-8")] == []
+    assert {path.name for path in FOLDER.iterdir()} == set(map(checker.file_name, judged))
+    assert [id for id, (_, text) in judged.items() if text != (FOLDER / checker.file_name(id)).read_text("utf-8")] == []
 
 
 def test_the_command_writes_what_is_committed(tmp_path):
@@ -47,7 +52,7 @@ def test_a_letter_is_defined_once_in_the_register():
 def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
     """Every check of the record is a statement or a sentence of the file, under its role and its text, and once."""
     for id, record in verdicts.items():
-        data = checker.read(FOLDER / f"{id}.json")
+        data = checker.read(FOLDER / checker.file_name(id))
         assert (data["claim"], data["printed"], data["corrected"]) == (id, record["printed"], record["corrected"])
         kept = [one["text"] for name in ("statements", "comparisons", "counts", "zeros") for one in data[name]]
         kept += [one["text"] for one in data["rests"] if " " in one["certificate"]]
@@ -93,7 +98,7 @@ def test_the_share_of_the_register_that_is_checked():
     files = [checker.read(path) for path in FOLDER.iterdir()]
     decided = sum(one["role"] in checker.register.ROLES for data in files for one in data["sentences"])
     prose = sum(len(data["sentences"]) for data in files) - decided
-    assert (len(files), sum(len(data["statements"]) for data in files), decided, prose) == (159, 728, 0, 801)
+    assert (len(files), sum(len(data["statements"]) for data in files), decided, prose) == (159, 729, 0, 802)
     parts = {part: sum(len(data[part]) for data in files) for part in ("comparisons", "counts", "zeros", "hypotheses")}
     assert parts == {"comparisons": 58, "counts": 24, "zeros": 2, "hypotheses": 53}
     assert {one["role"] for data in files for one in data["sentences"]} == {"hypothesis", "said"}
@@ -305,3 +310,43 @@ def test_a_folder_that_cannot_be_is_refused_in_one_sentence(tmp_path):
     (tmp_path / "file").write_text("")
     said = refused("prove", "5.11", "--certificates", tmp_path / "file", "--records", tmp_path / "v.jsonl")
     assert "file cannot be written" in said
+
+
+def test_the_manifest_lists_the_certificates():
+    """Mend it by: chapsym certify manifest proofs."""
+    folder = Path(proofs.__file__).parent
+    names = {path: checker.read(path) for path in folder.rglob("*.json") if path.name != "manifest.json"}
+    listed = manifest.listed(checker.read(folder / "manifest.json"), folder)
+    claims = {path: f"{data['claim']} " if "claim" in data else "" for path, data in names.items()}
+    assert listed == {path: f"{claims[path]}{data['digest']}" for path, data in names.items()}
+
+
+def test_no_two_files_have_names_that_differ_in_case_alone():
+    names = [
+        checker.file_name(id) for id in ("a", "A", "aB", "Ab", "AB", "a_", "A_", "_a", "_A", "a__", "4.9-f", "4.9-F")
+    ]
+    assert len({name.casefold() for name in names}) == len(names)
+    assert checker.file_name("5.3-at-most-4") == "5.3-at-most-4.json"
+
+
+def test_a_certificate_that_is_missing_is_seen(tmp_path):
+    """Of a folder with a manifest, and of what a claim uses."""
+    for id in ("4.9-f", "4.9-F"):
+        shutil.copy(FOLDER / checker.file_name(id), tmp_path)
+    command = [sys.executable, "-S", "-I", str(Path(checker.__file__).parent)]
+    run = partial(subprocess.run, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert run([*command, "4.9-F_.json"]).returncode == 1  # 4.9-f uses others, which are not there
+    data = checker.read(FOLDER / "4.9-f.json")
+    alone = data | {"uses": []}
+    alone["statement"] = checker.statement(alone)
+    alone["digest"] = checker.digest(alone)
+    (tmp_path / "4.9-f.json").write_text(json.dumps(alone))
+    assert run([*command, "4.9-F_.json"]).returncode == 0  # found beside it
+    chapsym("certify", "manifest", tmp_path)
+    assert run([*command, "--manifest", "manifest.json"]).returncode == 0
+    (tmp_path / "4.9-f.json").rename(tmp_path / "other.json")
+    assert "4.9-f.json is missing" in run([*command, "--manifest", "manifest.json"]).stderr
+    (tmp_path / "other.json").unlink()
+    assert "rests on 4.9-f" in run([*command, "4.9-F_.json"]).stderr
+    shutil.copy(FOLDER / "4.9-f.json", tmp_path)
+    assert "another certificate than the one" in run([*command, "--manifest", "manifest.json"]).stderr

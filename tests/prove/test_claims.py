@@ -387,5 +387,6 @@ def test_an_error_is_classed_by_its_proof_and_only_where_there_is_one():
     assert proof.slip == {"kind": "typo", "follows": ["2.1"]}
     proof.printed(Fact("true", True))
     proof.control(Fact("false", False))
+    proof.witness("any", {"x": "1"})
     assert proof.verdict() is Verdict.OPEN
     assert "it is called an error, and all that is printed holds" in proof.problems

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import matrices, quotients, traces, words
-from .names import comment, identifier
+from .names import apart, comment
 from .quotients import Fact
 
 #: Why a statement has no theorem.
@@ -16,7 +16,7 @@ class Claim:
     """Its text and its theorems, by the library that they need; how many of each sort, and what is left out."""
 
     def __init__(self, data: dict[str, Any]):
-        self.data, self.name = data, f"claim_{identifier(data['claim'])}"
+        self.data, self.name = data, f"claim_{apart(data['claim'])}"
         self.parts: dict[str, list[str]] = {}
         self.names: dict[str, list[str]] = {}
         self.theorems: Counter[str] = Counter()

@@ -1,5 +1,7 @@
 """Names, comments and numbers as Rocq writes them."""
 
+import re
+
 #: What a letter that no identifier may have is written as; each begins with an underscore, and none with another.
 ESCAPES = {"-": "__", ".": "_d", "_": "_u", "+": "_p", "^": "_h", "'": "_q"}
 #: Words of Rocq, and names that the generated files use.
@@ -18,6 +20,11 @@ def identifier(name: str) -> str:
     """A name as an identifier, another one for each name."""
     plain = "".join(c if c.isascii() and c.isalnum() else ESCAPES.get(c, f"_x{ord(c):x}_") for c in name)
     return f"{plain}_r" if plain in RESERVED else plain
+
+
+def apart(claim: str) -> str:
+    """The id of a claim as a part of file names, of which no two differ in case alone: a mark behind each capital."""
+    return identifier(re.sub("([A-Z_])", r"\1_", claim))
 
 
 def comment(text: str) -> str:

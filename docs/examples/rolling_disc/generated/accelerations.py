@@ -2,7 +2,7 @@
 
 Proved by: I-a1.  Operations: 33.  SymPy 1.14.0.
 Expression: sha256 0f159213b1968f9442fbaf2701374fd3b677df3261cbccb88385bf08450800d9.
-Certificate of I-a1: sha256 e55a0633b57f0a4a7463038fb646bd7d29d4f49dfe05facde0daac0aad273730.
+Certificate of I-a1: sha256 314d1eb5bf6b2968330b8c8f638af0b6a88647bfbf80bd5a9c6784aecf76d6d5.
 """
 
 from chapsym.numbers.functions import cos, sin

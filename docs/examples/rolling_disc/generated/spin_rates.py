@@ -2,9 +2,9 @@
 
 Proved by: K-u1, K-u2, K-u3.  Operations: 42.  SymPy 1.14.0.
 Expression: sha256 56fbc59f37670fe1b48c9c7d42cfe8283aae1f14b7199dc56cb18820b7ab644a.
-Certificate of K-u1: sha256 a9442e43d09ac7362ce106d36c42be4ff12166683d3eade3852869e7abde7edd.
-Certificate of K-u2: sha256 62e9d1d99c940a5cf4916984dd9dd12250e2425ce6279bd05a5ce752302fdbd9.
-Certificate of K-u3: sha256 3bdf586b42b43a6a43d1344803a61ea21c9f232fb57f8ea1a1dd42f6aadaa882.
+Certificate of K-u1: sha256 8f15f69b27c1e803820885d8c78f46e8640dd80e82c24ba81a464885499cd3e5.
+Certificate of K-u2: sha256 02834739b4d3f9d6672177e9818556918d88b2d508ac311cd51e0fada3a186b3.
+Certificate of K-u3: sha256 d12fadbed51e11aa2212b9cb28e3ad3c0ab71c46e7e6063cc980d3112ed93a52.
 """
 
 from chapsym.numbers.functions import cos, sin

@@ -2,7 +2,7 @@
 
 Proved by: S-energy.  Operations: 7.  SymPy 1.14.0.
 Expression: sha256 898461e49c46a2816e77c741d4acc0be16f890857565be90e168da1cb8b9a965.
-Certificate of S-energy: sha256 31e002cfd8dbacdc4446d6867f4a5b0ed9b72e7d6ea370bc565db85c6d4b0738.
+Certificate of S-energy: sha256 6e9fc000edac304d3208158cff48c91d0621bd66759c855146b7567fb102ab3e.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: S-gibbs.  Operations: 27.  SymPy 1.14.0.
 Expression: sha256 32f66c790c70a310d362de169d21bff863f9e97d952000980a532bde1c0d9307.
-Certificate of S-gibbs: sha256 58ddc753148e66e77cf7be50ce8d665ee0efcb610c27b45e38e23488447a4e62.
+Certificate of S-gibbs: sha256 bcfc19c4a051ac252aeb7a517b0601699d0f85c263c0e495b77cfa748ed02a95.
 """
 
 

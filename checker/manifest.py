@@ -1,0 +1,37 @@
+"""A manifest: which certificates a folder must have, by their names, so that a missing one is seen.
+
+{"format": ..., "kind": "manifest", "files": {"register/2.5.json": "2.5 <digest>", ...}, "digest": ...}; the paths are
+from the folder of the manifest.  It lists all JSON files there but itself.
+"""
+
+from pathlib import Path
+from typing import Any
+
+from .document import FORMAT, check_names, digest
+from .interval import Rejected
+
+KIND = "manifest"
+
+
+def made(names: dict[str, str]) -> dict[str, Any]:
+    """The manifest of certificates with these names, by their paths."""
+    data = {"format": FORMAT, "kind": KIND, "files": dict(sorted(names.items()))}
+    return data | {"digest": digest(data)}
+
+
+def listed(data: Any, folder: Path) -> dict[Path, str]:
+    """The files of a manifest, each with the name of its certificate; raises Rejected where the folder has others."""
+    check_names(data, "format kind files digest", "the manifest")
+    names = data["files"]
+    if data["format"] != FORMAT or data["kind"] != KIND or not isinstance(names, dict) or not names:
+        raise Rejected(f"not a manifest of format {FORMAT}")
+    if not all(isinstance(name, str) for name in names.values()) or data["digest"] != digest(data):
+        raise Rejected("the digest is not that of the manifest: something in it was changed")
+    if len({path.casefold() for path in names}) < len(names):
+        raise Rejected("two files of the manifest have names that differ in case alone")
+    there = {path.relative_to(folder).as_posix() for path in folder.rglob("*.json")} - {f"{KIND}.json"}
+    if missing := sorted(names.keys() - there):
+        raise Rejected(f"{missing[0]} is missing, which the manifest lists")
+    if more := sorted(there - names.keys()):
+        raise Rejected(f"{more[0]} is there, and the manifest does not list it")
+    return {folder / path: name for path, name in names.items()}
