@@ -26,7 +26,8 @@ A zero is a solution of equations, one and no other within a distance of a point
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
 statements it refutes fail, and the corrected ones with which it agrees hold; if it has a value for one name of a
 hypothesis, it has one for each.  It rests on other certificates, by their digests, that of a claim after its id, and
-on those of the claims that it uses: they must be accepted, too.  The verdict must be what is decided: `holds`, if no
+on those of the claims that it uses: they must be accepted, too.  By its glossary (formulas.py) what is printed and
+what is corrected are read: each equation that is not in words must be a statement of that role.  The verdict must be what is decided: `holds`, if no
 printed statement fails; `corrected` or `conditional`, if one does, and a corrected one holds, or one under a condition;
 else `refuted`.  The sentences are not judged: they are what the claim says beside this.
 """
@@ -38,7 +39,7 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
-from . import derivation, roots, zeros
+from . import derivation, formulas, roots, zeros
 from .algebra import Algebra, all_or_none
 from .derivation import Made
 from .document import check_names, count
@@ -49,7 +50,7 @@ from .polynomial import Ring, Work
 from .trees import check_name, check_tree, names_in, rational, size, value
 from .words import Matrix, same, trace
 
-NAMES = "format kind statement claim verdict printed corrected uses hypotheses algebras derivation "
+NAMES = "format kind statement claim verdict printed corrected glossary uses hypotheses algebras derivation "
 NAMES += "points statements comparisons counts zeros counterexamples rests sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 _CERTIFICATE = re.compile(r"([\w.-]{1,40} )?[0-9a-f]{64}", re.ASCII)
@@ -70,7 +71,10 @@ def statement(data: dict[str, Any]) -> str:
     failing = sum("refuted" in one or one.get("holds") is False for one in said(data))
     about = [[*one["left"], *one["right"]] for one in proved] + [one["equations"] for one in data["counts"]]
     names = {one["name"] for one in data["derivation"]}
+    read, words = formulas.read(data)
     parts = {
+        "parts of its formulas that are read": read,
+        "parts in words": words,
         "identities of numbers": len(proved) - words,
         "identities of matrices": words,
         "of these with one expression on both sides": sum(one["left"] == one["right"] for one in proved),
@@ -129,6 +133,7 @@ def check_form(data: dict[str, Any]) -> None:
     algebras = [check_algebra(one, f"algebra {i}") for i, one in enumerate(many(data["algebras"], "algebras"))]
     defined = derivation.check_form(data["derivation"], data["algebras"], algebras)
     made = {one["name"] for one in data["derivation"]}
+    formulas.check_form(data["glossary"], made.union(*algebras))
     for i, one in enumerate(data["points"]):
         check_point(one, made, f"point {i}")
     for i, one in enumerate(data["counterexamples"]):
@@ -312,6 +317,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         for one in data["algebras"]
     ]
     defined = derivation.values(data["derivation"], algebras)
+    formulas.check(data, algebras, defined)
     points = [entries(one) for one in data["points"]]
     for i, one in enumerate(data["algebras"]):
         if one["kind"] != "quotient":

@@ -36,7 +36,7 @@ def made(steps, left, right, kind="words", at=0, more=(), **changes):
     one |= {"left": [left], "right": [right], "point": at} | changes
     return resealed({
         "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "verdict": "open",
-        "printed": "x", "corrected": None, "uses": [],
+        "printed": "x", "corrected": None, "glossary": [], "uses": [],
         "hypotheses": [], "comparisons": [], "counts": [], "derivation": [*steps],
         "algebras": [LETTERS, LETTERS | {"kind": "traces"}, *more],
         "points": [POINT, UNIT, {"m": 1, "U": [[0, 1], [-1, 0]]}, POINT | {"P": [[0, 0], [0, 0]]}],

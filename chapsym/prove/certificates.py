@@ -12,7 +12,7 @@ from typing import Any
 import sympy as sp
 
 from chapsym import checker, files
-from chapsym.checker import derivation, register, shown
+from chapsym.checker import derivation, formulas, register, shown
 from chapsym.checker.algebra import Algebra
 from chapsym.checker.matrices import Quotients, quotients
 from chapsym.checker.polynomial import Ring, Work
@@ -51,7 +51,7 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
     ]
     data = {
         "format": checker.FORMAT, "kind": "register-claim", "claim": id, "verdict": verdict, "printed": printed,
-        "corrected": proof.corrected_text, "uses": sorted(proof.uses), "hypotheses": hypotheses,
+        "corrected": proof.corrected_text, "glossary": _glossary(printed, proof), "uses": sorted(proof.uses), "hypotheses": hypotheses,
         "algebras": made.algebras, "derivation": made.derivation, "points": made.points, "statements": made.statements,
         "comparisons": made.comparisons, "counts": made.counts, "zeros": made.zeros,
         "counterexamples": made.counterexamples,
@@ -61,6 +61,24 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
     data["digest"] = checker.digest(data)
     checker.check(data)
     return data
+
+
+def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
+    """The symbols of what is printed and corrected that have a value, as data."""
+    written = ["", *formulas.tokens(f"{printed} {proof.corrected_text or ''}"), ""]
+    found = []
+    for symbol, (value, meaning) in proof.glossary.items():
+        text = " ".join(["", *formulas.tokens(symbol), ""])
+        if text in " ".join(written):
+            found.append([symbol, meaning, _value(value)])
+    return found
+
+
+def _value(of: Any) -> Any:
+    """A number, a column or a matrix as trees."""
+    if not isinstance(of, sp.MatrixBase):
+        return tree(sp.sympify(of))
+    return [tree(x) for x in of] if of.cols == 1 else [[tree(x) for x in row] for row in of.tolist()]
 
 
 def carried(data: dict[str, Any]) -> dict[str, Any]:

@@ -72,6 +72,7 @@ class Proof:
     corrected_text: str | None = None
     condition: str | None = None
     slip: dict[str, Any] | None = None
+    glossary: dict[str, tuple[Any, str]] = field(default_factory=dict)
     said: list[str] = field(default_factory=list)
     decided: list[tuple[str, Statement, bool]] = field(default_factory=list)
     points: list[Point] = field(default_factory=list)
@@ -101,6 +102,13 @@ class Proof:
         self.hypotheses.append(str(text))
         if relations:
             self.assumed.append(Comparison(text, relations))
+
+    def reads(self, symbols: Mapping[str, tuple[Any, str]]) -> None:
+        """What the symbols of the formulas stand for, so that the checker reads these and compares what was decided.
+
+        symbols: {TeX: (an expression, a column or a matrix in the letters of the statements, what it is)}.
+        """
+        self.glossary |= {str(symbol): (value, str(meaning)) for symbol, (value, meaning) in symbols.items()}
 
     def lemma(self, *statements: Statement) -> None:
         """What must hold for the proof to stand."""
