@@ -25,9 +25,11 @@ A zero is a solution of equations, one and no other within a distance of a point
 
 A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
 statements it refutes fail, and the corrected ones with which it agrees hold; if it has a value for one name of a
-hypothesis, it has one for each.  It rests on other certificates, by their digests, that of a claim after its id, and
-on those of the claims that it uses: they must be accepted, too.  By its glossary (formulas.py) what is printed and
-what is corrected are read: each equation that is not in words must be a statement of that role.  The verdict must be what is decided: `holds`, if no
+hypothesis, it has one for each.
+
+It rests on other certificates, by their digests, that of a claim after its id, and on those of the claims that it uses:
+they must be accepted, too.  By its glossary (formulas.py) what is printed and what is corrected are read: each equation
+that is not in words must be a statement of that role (meaning.py).  The verdict must be what is decided: `holds`, if no
 printed statement fails; `corrected` or `conditional`, if one does, and a corrected one holds, or one under a condition;
 else `refuted`.  The sentences are not judged: they are what the claim says beside this.
 """
@@ -39,7 +41,7 @@ from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
-from . import derivation, formulas, roots, zeros
+from . import derivation, meaning, roots, zeros
 from .algebra import Algebra, all_or_none
 from .derivation import Made
 from .document import check_names, count
@@ -71,7 +73,7 @@ def statement(data: dict[str, Any]) -> str:
     failing = sum("refuted" in one or one.get("holds") is False for one in said(data))
     about = [[*one["left"], *one["right"]] for one in proved] + [one["equations"] for one in data["counts"]]
     names = {one["name"] for one in data["derivation"]}
-    read, words = formulas.read(data)
+    read, words = meaning.read(data)
     parts = {
         "parts of its formulas that are read": read,
         "parts in words": words,
@@ -133,7 +135,7 @@ def check_form(data: dict[str, Any]) -> None:
     algebras = [check_algebra(one, f"algebra {i}") for i, one in enumerate(many(data["algebras"], "algebras"))]
     defined = derivation.check_form(data["derivation"], data["algebras"], algebras)
     made = {one["name"] for one in data["derivation"]}
-    formulas.check_form(data["glossary"], made.union(*algebras))
+    meaning.check_form(data["glossary"], made.union(*algebras))
     for i, one in enumerate(data["points"]):
         check_point(one, made, f"point {i}")
     for i, one in enumerate(data["counterexamples"]):
@@ -317,7 +319,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         for one in data["algebras"]
     ]
     defined = derivation.values(data["derivation"], algebras)
-    formulas.check(data, algebras, defined)
+    alone = meaning.check(data, algebras, defined)
     points = [entries(one) for one in data["points"]]
     for i, one in enumerate(data["algebras"]):
         if one["kind"] != "quotient":
@@ -361,6 +363,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     roles = [one["role"] for one in said(data)]
     failing = sum("refuted" in one or one.get("holds") is False for one in said(data))
     counted = {role: roles.count(role) for role in ROLES} | {"refuted": failing}
+    counted["true by the glossary alone"] = alone
     return {name: str(number) for name, number in counted.items() if number}
 
 

@@ -2,7 +2,7 @@
 
 Proved by: stable-inverse.  Operations: 39.  SymPy 1.14.0.
 Expression: sha256 6ded677a84093b061a97f89aafc747634aa5807172e160ea9656bfd65bb9d7cf.
-Certificate of stable-inverse: sha256 4463ed6adc1cc9dbebf0c3ccd0a9b177cfaed3632637d2102cd1af87c6784273.
+Certificate of stable-inverse: sha256 5db020d5d32aa64d3f60ea9a20bbe1d8c232f9965594c3c29928f58603dd4c28.
 """
 
 

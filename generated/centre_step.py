@@ -2,7 +2,7 @@
 
 Proved by: 4.9.  Operations: 14.  SymPy 1.14.0.
 Expression: sha256 b2ddfda83f23efc81a6081421999a6692502be23b8b84c91933ae8d83e98dd7d.
-Certificate of 4.9: sha256 1333249c05457e951b6c75d12c13a9653bb07049f29cbbff058a4d24a5574f91.
+Certificate of 4.9: sha256 58b877ea0b362d03e735f3cbfe6a9e5f59512f62de93fdbb825d2bde5eddc9b8.
 """
 
 

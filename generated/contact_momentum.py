@@ -2,7 +2,7 @@
 
 Proved by: 5.2-limit.  Operations: 30.  SymPy 1.14.0.
 Expression: sha256 8364d39ba783995bbec5d72ea1b61a921649cb00dcfb7b206e3b346ce4bdfbd6.
-Certificate of 5.2-limit: sha256 ab8714188b3c7bfdf4325ab9cae03541fc3259281be6a9185e1c83e429688efa.
+Certificate of 5.2-limit: sha256 b0da3be735c5e42f6118224fb6ef97190186e04fd7b9e3f746d8bf380739ceb2.
 """
 
 

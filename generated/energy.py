@@ -2,7 +2,7 @@
 
 Proved by: stable-inverse.  Operations: 46.  SymPy 1.14.0.
 Expression: sha256 bf001ea627c2a020209b8f7cd96e7b036037dbd39581337739aa4e562cb3b0c8.
-Certificate of stable-inverse: sha256 4463ed6adc1cc9dbebf0c3ccd0a9b177cfaed3632637d2102cd1af87c6784273.
+Certificate of stable-inverse: sha256 5db020d5d32aa64d3f60ea9a20bbe1d8c232f9965594c3c29928f58603dd4c28.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: modified-energy.  Operations: 21.  SymPy 1.14.0.
 Expression: sha256 2873e2fb63e73f3c1972decf787535812ef0e179767324d1da173af17a093e59.
-Certificate of modified-energy: sha256 4e63800ba4b9d726332e342bc813a179b5b6ec1b2160320819ef0fe3b3c7c7fe.
+Certificate of modified-energy: sha256 4e3c43a416488e439f0f2fb35177e03d217bb06c110d5c7a7f751b70d6def97e.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: gibbs-newton.  Operations: 164.  SymPy 1.14.0.
 Expression: sha256 13c5855efdcc3908807d2d024f47cd62af450fc3f819c0ecc29195f82d86fa62.
-Certificate of gibbs-newton: sha256 aa6c653a18b5c054c7da32d1707b1fa49d50f4f878e356fe5bb0523796e9c297.
+Certificate of gibbs-newton: sha256 a1b79c19d4fe6372a54a836208a76eadc15c7402e947fe7bf300fd4b0b12ed38.
 """
 
 

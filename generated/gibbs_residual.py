@@ -2,7 +2,7 @@
 
 Proved by: gibbs.  Operations: 51.  SymPy 1.14.0.
 Expression: sha256 3d412801f7d385f80f70d5c53092c9cbb357c2660d733bc5c933bb793e2a9695.
-Certificate of gibbs: sha256 e374ff0ed17db97edbfd7dc9f4513cb697760b8eacf9e26470d5cab5674d6f1b.
+Certificate of gibbs: sha256 c3afc5e6c7d82e40fcfa3271af0508870c2b4c61cd736c8cb3238957ed2cf795.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: straight-path.  Operations: 80.  SymPy 1.14.0.
 Expression: sha256 b603b93937e923f16641664eec350b6c5dc201755fe3ec8ea2c90fc8f7f882b2.
-Certificate of straight-path: sha256 2b4f21c453d04a2323ccd58153d8340d4c614f7790ff6ea142e82fae3ed7db2b.
+Certificate of straight-path: sha256 dd44f67826d5387bbbb40bbf43188bb94f7668c7a9d7673df8c477d11f607515.
 """
 
 

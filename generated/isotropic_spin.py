@@ -2,7 +2,7 @@
 
 Proved by: isotropic-spin.  Operations: 24.  SymPy 1.14.0.
 Expression: sha256 dca5ee5fa586d5431e4f75db2c142fff21679e5cefc16f8b58c3ca65552173b7.
-Certificate of isotropic-spin: sha256 e8a9c94ef162935937cd49b2923fc7ef11a9584c9153703a48e313a07231310b.
+Certificate of isotropic-spin: sha256 cbe7a8f044ad5467f35b4523ba37acf26753c04142ae6dc2926e41a05abc7b96.
 """
 
 

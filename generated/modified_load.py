@@ -2,7 +2,7 @@
 
 Proved by: modified-field.  Operations: 65.  SymPy 1.14.0.
 Expression: sha256 10c875e3b2338a8697cc9e70572243414d8567461435ae4b669db7026925b6f7.
-Certificate of modified-field: sha256 32433084b985a4d861e40f58f79020e88764a19aa4709f947e05bcc2fbdf86af.
+Certificate of modified-field: sha256 42d5db5763fbdd55fdde6089975273932648591e41d01f38566e83f3f3741d79.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: modified-field.  Operations: 26.  SymPy 1.14.0.
 Expression: sha256 bc3215308c7917b39d2edd4c01f169c9d5a2eab74172a82477d46f5134259a2f.
-Certificate of modified-field: sha256 32433084b985a4d861e40f58f79020e88764a19aa4709f947e05bcc2fbdf86af.
+Certificate of modified-field: sha256 42d5db5763fbdd55fdde6089975273932648591e41d01f38566e83f3f3741d79.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: 5.2.  Operations: 49.  SymPy 1.14.0.
 Expression: sha256 75ad331ebfa1ee3e05b747c58813463b4dadd96671fbc4df84126dfbd9b29c3d.
-Certificate of 5.2: sha256 50423ac3e1a9919b2ee4ddd7ca4e5dc06f3e508996e15c8fd72e9b8ca9903c05.
+Certificate of 5.2: sha256 36e60697b1b35dffdeea1fa2c80f51aa7e4f706d13f9400d30895270b04b38cb.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: top-precession.  Operations: 15.  SymPy 1.14.0.
 Expression: sha256 0c9795cc937a6b0efc114d9aa8a9c59e1ff2ba12bf43265696618ff430e1bbde.
-Certificate of top-precession: sha256 52239dcafcf453059fd86dd2ed0023c3c89d1441151102780baf9a789bc39aa8.
+Certificate of top-precession: sha256 99321ef024351bf090c4242707573deae05f9fed41d7c21e3bad9c15a8072561.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: stable-momentum.  Operations: 53.  SymPy 1.14.0.
 Expression: sha256 a1532f21963741f580e54a3338de6b26e964faa6ae1cd81f1e4ad4d88ca41462.
-Certificate of stable-momentum: sha256 99cb5b69751dc6d1d49dfa13d396362372c025adefa1a0bf7d7eabbb10ed99e5.
+Certificate of stable-momentum: sha256 5d517e9a0dc98362d5d0de996a9a6a105aabe6676b1bbcaf61c5bb8bd0d7d172.
 """
 
 

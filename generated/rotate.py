@@ -2,7 +2,7 @@
 
 Proved by: 5.1.  Operations: 41.  SymPy 1.14.0.
 Expression: sha256 25fea96bcda3521ef3d0bfb4373a3c5516aff7bd7b987d46f7e2eb684af25c1f.
-Certificate of 5.1: sha256 219e6057f60bdc64870a29d944e7dc8e5b8fb6bb8fb3ae268dc133deb3cdbdf4.
+Certificate of 5.1: sha256 9e42a21ac5440a52ef74eeb1227eb8a77eb88e49f25718c7a79c8ce06074ee22.
 """
 
 

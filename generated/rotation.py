@@ -2,7 +2,7 @@
 
 Proved by: 5.1.  Operations: 35.  SymPy 1.14.0.
 Expression: sha256 ca0961cd87d6a1f3573cea2f4b644f0ac063985ce1349f384d79a2091784e601.
-Certificate of 5.1: sha256 219e6057f60bdc64870a29d944e7dc8e5b8fb6bb8fb3ae268dc133deb3cdbdf4.
+Certificate of 5.1: sha256 9e42a21ac5440a52ef74eeb1227eb8a77eb88e49f25718c7a79c8ce06074ee22.
 """
 
 

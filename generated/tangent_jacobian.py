@@ -2,7 +2,7 @@
 
 Proved by: 5.2.  Operations: 137.  SymPy 1.14.0.
 Expression: sha256 70929b34a14edeab42d2458890bb8cc2e49395acc5fec6b7fac464a6359defb2.
-Certificate of 5.2: sha256 50423ac3e1a9919b2ee4ddd7ca4e5dc06f3e508996e15c8fd72e9b8ca9903c05.
+Certificate of 5.2: sha256 36e60697b1b35dffdeea1fa2c80f51aa7e4f706d13f9400d30895270b04b38cb.
 """
 
 

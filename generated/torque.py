@@ -2,7 +2,7 @@
 
 Proved by: modified-field.  Operations: 17.  SymPy 1.14.0.
 Expression: sha256 6e1ceb494c0645abfc62a87e1f6c6a1e1c7d981fd23374dc3ec444ab208fc323.
-Certificate of modified-field: sha256 32433084b985a4d861e40f58f79020e88764a19aa4709f947e05bcc2fbdf86af.
+Certificate of modified-field: sha256 42d5db5763fbdd55fdde6089975273932648591e41d01f38566e83f3f3741d79.
 """
 
 

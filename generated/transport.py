@@ -2,7 +2,7 @@
 
 Proved by: 5.3.  Operations: 41.  SymPy 1.14.0.
 Expression: sha256 4c01ea3acc25f4ff4d7fadcfcf30a55dd1a118996a04b256c11bba362fbc2a02.
-Certificate of 5.3: sha256 5cb417f45d49e914613bf23339d4a7ddd87eb32b9b070c5a3d905f6a6f4c7eea.
+Certificate of 5.3: sha256 c02a5f3bcf4c4019dd29f158b2e74a9fe072dd329eb12ad33af7f20d3e4282c2.
 """
 
 

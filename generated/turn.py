@@ -2,7 +2,7 @@
 
 Proved by: gibbs-rotation.  Operations: 35.  SymPy 1.14.0.
 Expression: sha256 bc9d20e59b3d43e39595ba171f2ae3ba5c60b1c965bb7056067bd6058318b293.
-Certificate of gibbs-rotation: sha256 0ba0a7a2faf200610373b02d090ca2d81c8c3209327e78a44417f2ef9d5b798d.
+Certificate of gibbs-rotation: sha256 612d55e348c6f845cf43df49fadc522f395f205c2dd379cbf1336457975be449.
 """
 
 

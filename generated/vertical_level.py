@@ -2,7 +2,7 @@
 
 Proved by: vertical-level.  Operations: 24.  SymPy 1.14.0.
 Expression: sha256 d2d44f25ebe452046d79b757ca5071721c6327c5dc20e44c057b2445cdecd42c.
-Certificate of vertical-level: sha256 ddecb02a9e0eae099731007f5c1e7c1d5d6b33f4499bfe7d07839dc516bae750.
+Certificate of vertical-level: sha256 9d0845ee05d5519d4c3aaa1c8fbe19ca2e96e370067188e1abf17bd324b1bf12.
 """
 
 

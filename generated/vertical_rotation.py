@@ -2,7 +2,7 @@
 
 Proved by: vertical-rotation.  Operations: 44.  SymPy 1.14.0.
 Expression: sha256 1b59598563aad694dcc4d8cd7fa37a2401a7bd0e565d4b8f5fed87ca5262396f.
-Certificate of vertical-rotation: sha256 ccb2a7c6d565249e23cb6905fe2827d9025642941e6720de58a75936bb5f4262.
+Certificate of vertical-rotation: sha256 0e4be450855e6b23231ae72b0a483e041d565dd51622b0b6db48a196ddeea891.
 """
 
 

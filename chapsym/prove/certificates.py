@@ -6,6 +6,7 @@ What is no equation of an algebra, or could not be exported, is listed as a sent
 import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from chapsym.checker import derivation, formulas, register, shown
 from chapsym.checker.algebra import Algebra
 from chapsym.checker.matrices import Quotients, quotients
 from chapsym.checker.polynomial import Ring, Work
+from chapsym.checker.trees import names_in
 from chapsym.derive.derivation import STEPS, Step, needed
 from chapsym.derive.quotient import Quotient as QuotientRing
 from chapsym.derive.words import Traces, WordAlgebra, evaluate, unfolded
@@ -51,7 +53,8 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
     ]
     data = {
         "format": checker.FORMAT, "kind": "register-claim", "claim": id, "verdict": verdict, "printed": printed,
-        "corrected": proof.corrected_text, "glossary": _glossary(printed, proof), "uses": sorted(proof.uses), "hypotheses": hypotheses,
+        "corrected": proof.corrected_text, "glossary": _glossary(printed, proof), "uses": sorted(proof.uses),
+        "hypotheses": hypotheses,
         "algebras": made.algebras, "derivation": made.derivation, "points": made.points, "statements": made.statements,
         "comparisons": made.comparisons, "counts": made.counts, "zeros": made.zeros,
         "counterexamples": made.counterexamples,
@@ -64,14 +67,16 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
 
 
 def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
-    """The symbols of what is printed and corrected that have a value, as data."""
-    written = ["", *formulas.tokens(f"{printed} {proof.corrected_text or ''}"), ""]
-    found = []
-    for symbol, (value, meaning) in proof.glossary.items():
-        text = " ".join(["", *formulas.tokens(symbol), ""])
-        if text in " ".join(written):
-            found.append([symbol, meaning, _value(value)])
-    return found
+    """The symbols that the formulas have, and what vanishes, as data."""
+    whole = [[symbol, meaning, _value(value)] for symbol, (value, meaning) in proof.glossary.items()]
+    names = names_in(
+        [0, *(tree for _, _, value in whole for tree in formulas.entries((formulas.rank_of(value), value)))]
+    )
+    reader = formulas.Reader(whole, {name: name for name in names})  # only which symbols are read is asked
+    for part in formulas.parts(f"{printed}, {proof.corrected_text or ''}"):
+        with suppress(formulas.NotRead):
+            formulas.equations(part, reader)
+    return [one for one in whole if one[0] == "0" or tuple(formulas.tokens(one[0])) in reader.used]
 
 
 def _value(of: Any) -> Any:

@@ -183,8 +183,8 @@ def vertical_momentum(p: Proof) -> None:
     height, power = vertical_values()
     p.assume("h ≠ 0", sp.Ne(height, 0))
     p.assume("l = ⟨K,ω⟩ as in (2.4)")
-    p.lemma(equation("Λω = sγ makes K = hγ", at_vertical(momentum()), height * gamma, VERTICAL))
     p.printed(
+        equation("Λω = sγ makes K = hγ", at_vertical(momentum()), height * gamma, VERTICAL),
         equation("⟨ω,γ⟩ = l/h", at_vertical(omega).dot(gamma), power / height, VERTICAL),
         equation("Λω = ((h²+Dl)/h)γ", s * gamma, (height**2 + D * power) / height * gamma, VERTICAL),
     )

@@ -7,6 +7,8 @@ from chapsym.derive.continuous import RING, inverse_inertia
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma
+from chapsym.proofs.glossary import BALL as STATE
+from chapsym.proofs.glossary import CLASSICAL
 from chapsym.prove import Equation, Proof, claim, equations, main, rational_point
 
 equation = equations(RING)
@@ -22,20 +24,32 @@ def unit_vertical() -> Equation:
     return equation("|γ|² = 1", gamma.dot(gamma), 1)
 
 
+#: The velocity of the centre, the radius, and the velocity of the point of the ball at P = C - ργ.
+VELOCITY, RADIUS = sp.Matrix(sp.symbols("v1:4")), sp.Symbol("rho")
+SLIP = VELOCITY + omega.cross(-RADIUS * gamma)
+
+
 @claim("2.1", r"v + \rho\,\omega\times\gamma = 0,\ \gamma \text{ the vertical unit vector}")
 def rolling_condition(p: Proof) -> None:
     """The sign is wrong if γ is directed upwards, as it is before (2.9); at (2.1) no direction is printed."""
     p.slips("convention")
-    v = sp.Matrix(sp.symbols("v1:4"))
-    rho = sp.Symbol("rho")
+    p.reads(
+        STATE
+        | {
+            "v": (VELOCITY, "the velocity of the centre (2.1)"),
+            r"\rho": (RADIUS, "the radius (2.1)"),
+            "0": (SLIP, "the velocity of the point of the ball at P = C - ργ, which vanishes"),
+        }
+    )
+    v, rho = VELOCITY, RADIUS
     ring = Quotient((*v, rho, *omega, *gamma))
     p.assume("γ is directed upwards, from the plane to the centre C (Section 2, before 2.9): P = C - ργ")
     p.say("The velocity of the material point at P is v + ω × (P - C), and rolling says that it vanishes.")
-    slip = v + omega.cross(-rho * gamma)
+    slip = SLIP
     p.show("velocity of P", slip.T.tolist()[0])
     p.printed(Equation("v + ρ ω×γ = the velocity of P", v + rho * omega.cross(gamma), slip, ring))
     p.corrected(
-        r"v - \rho\,\omega\times\gamma = 0 \text{ (or } \gamma \text{ directed downwards, from } C \text{ to } P)",
+        r"v - \rho\,\omega\times\gamma = 0,\ \text{(or } \gamma \text{ directed downwards, from } C \text{ to } P)",
         Equation("v - ρ ω×γ = the velocity of P", v - rho * omega.cross(gamma), slip, ring),
     )
     down = v + rho * omega.cross(gamma) - (v + omega.cross(rho * gamma))
@@ -50,6 +64,7 @@ def rolling_condition(p: Proof) -> None:
 @claim("2.2-F", r"F = \langle J\gamma,\Lambda^{-1}\gamma\rangle \equiv 1 - D\langle\gamma,\Lambda^{-1}\gamma\rangle")
 def rolling_factor(p: Proof) -> None:
     """The two forms of F agree on the unit sphere; J is here the inertia tensor, Λ - D."""
+    p.reads(CLASSICAL)
     p.assume("J of Section 2 is the inertia tensor I = diag(J₂+J₃, ...), not the mass tensor of Section 5")
     inverse = inverse_inertia()
     printed = (three.lam() - D * sp.eye(3)) * gamma
@@ -74,6 +89,10 @@ def on_motion(expr: sp.Expr) -> sp.Expr:
 def inverse_momentum(p: Proof) -> None:
     """The inverse of K(ω, γ): the sign is misprinted."""
     p.slips("serious")
+    p.reads(
+        CLASSICAL
+        | {"K": (sp.Matrix(continuous.momentum()), "Λω - D⟨ω,γ⟩γ, the momentum about the point of contact (2.3)")}
+    )
     p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
     p.show("K(ω, γ)", sp.Matrix(continuous.momentum()))
     lift = D / continuous.rolling_factor() * gamma.dot(inverse_inertia() * K) * gamma
@@ -105,6 +124,13 @@ def inverse_momentum(p: Proof) -> None:
 def energy_integral(p: Proof) -> None:
     """The energy integral as a function of K, γ: the sign is misprinted with that of the inverse."""
     p.slips("serious", "2.5-inverse")
+    p.reads(
+        CLASSICAL
+        | {
+            "K": (K, "the momentum about the point of contact (2.3)"),
+            r"\omega": (sp.Matrix(continuous.angular_velocity()), "Λ⁻¹(K + (D/F)⟨γ,Λ⁻¹K⟩γ) (2.5-inverse as corrected)"),
+        }
+    )
     p.assume("J_i + J_j > 0, D ≥ 0, so that F > 0 (2.13)", *three.MOMENTS)
     p.say("ω(K, γ) is the inverse of K(ω, γ) that 2.5-inverse proves.")
     quadratic = K.dot(inverse_inertia() * K)

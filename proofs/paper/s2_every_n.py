@@ -8,12 +8,14 @@ from chapsym.derive import derivation, motion
 from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, gamma, m, omega, rate, rho
 from chapsym.derive.three import hat
 from chapsym.derive.words import Traces
+from chapsym.proofs.glossary import MOTION
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 DOWNWARDS = "γ is directed from the centre to the plane (2.9 as corrected)"
 
 
 equation = equations(ALGEBRA)
+VANISHES = "d'Alembert's principle, which vanishes in a motion"
 TRACES = Traces(ALGEBRA)
 
 
@@ -32,9 +34,7 @@ def motion_point() -> Point:
     return Point(shown, values, [equation("the principle", motion.eliminated(), 0)])
 
 
-@claim(
-    "2.9", r"v_C + \rho\,\omega\gamma = 0 \text{ with } \gamma \text{ directed upwards, from } H \text{ to } C", ["2.1"]
-)
+@claim("2.9", r"v_C + \rho\,\omega\gamma = 0,\ \gamma \text{ directed upwards, from } H \text{ to } C", ["2.1"])
 def rolling_condition(p: Proof) -> None:
     """With γ upwards the n-dimensional rolling condition has the wrong sign, as (2.1) has."""
     p.slips("convention", "2.1")
@@ -42,7 +42,7 @@ def rolling_condition(p: Proof) -> None:
     slip = motion.v + omega * (-rho * gamma)
     p.printed(equation("v + ρωγ = the velocity of P", motion.v + rho * omega * gamma, slip))
     p.corrected(
-        r"v_C + \rho\,\omega\gamma = 0 \text{ with } \gamma \text{ directed downwards, from } C \text{ to } H",
+        r"v_C + \rho\,\omega\gamma = 0,\ \gamma \text{ directed downwards, from } C \text{ to } H",
         equation(
             "v + ρωγ = v + ω(P - C) for P = C + ργ", motion.v + rho * omega * gamma, motion.v + omega * rho * gamma
         ),
@@ -58,6 +58,7 @@ def rolling_condition(p: Proof) -> None:
 @claim("2.10", r"M = J\omega + \omega J")
 def centre_momentum(p: Proof) -> None:
     """The angular momentum about the centre, from the kinetic energy ½ tr(Ṙ J Ṙᵀ)."""
+    p.reads(MOTION | {"M": (motion.centre_momentum(), "from the kinetic energy ½ tr(ṘJṘᵀ), by the derivation")})
     derived = motion.centre_momentum()
     p.show("M", derived)
     p.printed(equation("M = Jω + ωJ", J * omega + omega * J, derived))
@@ -73,6 +74,13 @@ def centre_momentum(p: Proof) -> None:
 )
 def equations_of_motion(p: Proof) -> None:
     """The equations of motion are d'Alembert's principle in the frame of the body."""
+    p.reads(
+        MOTION
+        | {
+            "F": (motion.m * (motion.a + omega * motion.v), "m(v̇ + ωv), the force of inertia"),
+            "0": (motion.dalembert(), VANISHES),
+        }
+    )
     p.assume(DOWNWARDS)
     p.say("tr(R̈ J δRᵀ) + ⟨m r̈, δr⟩ = 0 for δR = Rη, δr = -ρRηγ, every skew η; R̈ = R(ω̇+ω²), r̈ = R(v̇+ωv).")
     principle = motion.dalembert()
@@ -93,6 +101,15 @@ def equations_of_motion(p: Proof) -> None:
 def reaction_force(p: Proof) -> None:
     """The reaction force: its sign is misprinted."""
     p.slips("serious")
+    p.reads(
+        MOTION
+        | {
+            "F": (
+                motion.on_rolling("force_rolling", motion.inertial_force()),
+                "m(v̇ + ωv) where v = -ρωγ, by the derivation",
+            )
+        }
+    )
     p.assume(DOWNWARDS)
     p.say("v = -ρωγ and γ̇ = -ωγ give v̇ + ωv = -ρω̇γ.")
     force = motion.on_rolling("force_rolling", motion.inertial_force())
@@ -111,6 +128,7 @@ def reaction_force(p: Proof) -> None:
 def eliminated_force(p: Proof) -> None:
     """After F is eliminated the right side has the sign of F, which is misprinted."""
     p.slips("serious", "2.11-force")
+    p.reads(MOTION | {"0": (motion.eliminated(), VANISHES)})
     p.assume(DOWNWARDS)
     momentum = J * omega + omega * J
     balance = rate(momentum) + commutator(omega, momentum)
@@ -128,6 +146,14 @@ def eliminated_force(p: Proof) -> None:
 @claim("2.12", r"\dot{\mathbf K} + [\omega, \mathbf K] = 0,\ \dot\Gamma + [\omega, \Gamma] = 0", ["2.11-eliminated"])
 def conservation(p: Proof) -> None:
     """The momentum about the contact point is fixed in space, for every n."""
+    p.reads(
+        MOTION
+        | {
+            r"\mathbf K": (motion.contact_momentum(), "Jω + ωJ + D(Γω + ωΓ) (2.13)"),
+            r"\dot{\mathbf K}": (moving("K_here", motion.contact_momentum()), "its rate"),
+            "0": (motion.eliminated(), VANISHES),
+        }
+    )
     momentum = motion.contact_momentum()
     p.show("K", momentum)
     p.printed(

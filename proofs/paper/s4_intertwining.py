@@ -6,6 +6,7 @@ from chapsym.derive import ball, three
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, Omega, OmegaT
 from chapsym.derive.words import evaluate
 from chapsym.proofs import second_routes
+from chapsym.proofs.glossary import STEP
 from chapsym.prove import Equation, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)
@@ -37,6 +38,13 @@ def intertwining(p: Proof) -> None:
     p.say("𝒦_{k-1} in Ω = Ω_{k-1}, Γ = Γ_{k-1}; Γ_k = ΩᵀΓΩ; ΩΩᵀ = ΩᵀΩ = 1:")
     p.show("𝒦_{k-1}", momentum)
     p.show("𝒦_k = Ωᵀ𝒦_{k-1}Ω", ball.carried(momentum))
+    p.reads(
+        STEP
+        | {
+            r"\mathcal K_{k-1}": (momentum, "𝒦 of the step (4.13), by the derivation"),
+            r"\mathcal K_k": (ball.carried(momentum), "Ωᵀ𝒦_(k-1)Ω (4.12)"),
+        }
+    )
     before, after = printed_relations()
     p.show("right side for 𝒦_{k-1}", ALGEBRA.normal(before))
     p.show("right side for 𝒦_k", ALGEBRA.normal(after))

@@ -7,6 +7,7 @@ from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
 from chapsym.derive.derivation import replaced
 from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols, unfolded
 from chapsym.proofs import second_routes
+from chapsym.proofs.glossary import STEPS
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)
@@ -22,6 +23,12 @@ def printed_forms() -> tuple[sp.Expr, sp.Expr]:
     return first, second
 
 
+def in_attitudes(form: sp.Expr) -> sp.Expr:
+    """Words in Ω_k and Γ_k by Ω_k = R_kᵀR_{k+1} and γ_k = R_kᵀγ⃗."""
+    R, RT, R1, R1T = principle.R, principle.RT, principle.R1, principle.R1T
+    return form.xreplace({Omega: RT * R1, OmegaT: R1T * R, Gamma: RT * principle.gamma * principle.gammaT * R})
+
+
 @claim(
     "prop-1",
     r"\mathcal K_k = \Omega_{k-1}^T\mathcal K_{k-1}\Omega_{k-1},\ \Gamma_k = \Omega_{k-1}^T\Gamma_{k-1}\Omega_{k-1},"
@@ -34,6 +41,14 @@ def compact_form(p: Proof) -> None:
     """The closed equation is the conservation of one momentum, for every n."""
     p.assume("𝕃 with the correction of (4.1)")
     p.assume("Γ is even in γ: (4.12) fixes γ_k up to a common sign, and (4.11) fixes the sign")
+    p.reads(
+        STEPS
+        | {
+            r"\mathcal K_k": (ball.momentum_in_space(now=True), "𝒦 of the step k, by the derivation"),
+            r"\mathcal K_{k-1}": (ball.momentum_in_space(now=False), "that of the step k-1"),
+            "0": (ball.body_balance(), "the principle in the body, on the discrete constraint, by the derivation"),
+        }
+    )
     p.say("The balance splits into a part with R_{k+1} and a part with R_{k-1}. In the symbols of their own steps:")
     now, before = ball.split_balance()
     p.show("part of the step k", now)
@@ -48,7 +63,11 @@ def compact_form(p: Proof) -> None:
     step = principle.R0T * principle.R
     carried = principle.RT * principle.R0 * ball.momentum_in_space(now=False) * step
     conserved = ball.momentum_in_space(now=True) - carried
-    p.printed(Equation("𝒦_k - Ωᵀ𝒦_{k-1}Ω = the balance in the body", conserved, ball.body_balance(), ball.BOTH))
+    p.printed(
+        Equation("𝒦_k - Ωᵀ𝒦_{k-1}Ω = the balance in the body", conserved, ball.body_balance(), ball.BOTH),
+        *(Equation(f"(4.13), {name} form, in the attitudes", in_attitudes(form), ball.momentum_in_space(now=True), ball.BOTH)
+          for name, form in (("first", first), ("second", second))),
+    )  # fmt: skip
     turned = step * ball.momentum_in_space(now=False) * principle.RT * principle.R0
     p.control(
         Equation(

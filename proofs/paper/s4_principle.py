@@ -6,6 +6,7 @@ from chapsym.derive import principle
 from chapsym.derive.derivation import replaced
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, J, Lam, R, f, fT, gamma, gammaT, m, rho
 from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols
+from chapsym.proofs.glossary import STEPS
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 CORRECTED = principle.kinetic_factor()
@@ -105,6 +106,13 @@ def rotation_equation(p: Proof) -> None:
     p.show("0", in_R)
     p.say("Λ is any symmetric matrix, so -Λ may be called Λ; the sign of the whole is free.")
     derived = -replaced("equation_R_other", "with -Λ for Λ", in_R, {Lam: -Lam}, ALGEBRA)
+    p.reads(
+        STEPS
+        | {
+            r"\vec f^k": (f, "the multiplier of the rolling constraint (4.3)"),
+            "0": (derived, "the equation of the principle in R_k, by the derivation"),
+        }
+    )
     printed = (R1 + R0) * J - Lam * R - rho * f * gammaT * R
     p.printed(equation("(4.3) left - right = minus the equation of the principle with -Λ for Λ", printed, derived))
     p.control(equation("(4.3) with -ρ f γᵀR", (R1 + R0) * J - Lam * R + rho * f * gammaT * R, derived))
@@ -117,6 +125,13 @@ def centre_equation(p: Proof) -> None:
     p.say("The multiplier of the rolling constraint is named so that (4.4) holds; (4.3) then has it as printed.")
     _, in_r = principle.multiplier_equations(CORRECTED)
     p.show("0", in_r)
+    p.reads(
+        STEPS
+        | {
+            r"\vec f^k": (f, "the multiplier of the rolling constraint (4.3)"),
+            "0": (in_r, "the equation of the principle in r_k, by the derivation"),
+        }
+    )
     printed = principle.reaction() - f
     p.printed(equation("(4.4) left - right = - the equation of the principle", printed, -in_r))
     p.control(equation("(4.4) with -f", principle.reaction() + f, -in_r))
@@ -133,6 +148,14 @@ def transposed_forms(p: Proof) -> None:
     at_4_3 = (R1 + R0) * J - Lam * R - rho * f * gammaT * R
     first = R1 * J * RT + R0 * J * RT - Lam - rho * f * gammaT
     second = R * J * R1T + R * J * R0T - ALGEBRA.transpose(Lam) - rho * gamma * fT
+    p.reads(
+        STEPS
+        | {
+            r"\vec f^k": (f, "the multiplier of the rolling constraint (4.3)"),
+            r"\vec f^T_k": (fT, "its transpose"),
+            "0": (at_4_3 * RT, "(4.3) times R_kᵀ, which vanishes"),
+        }
+    )
     p.printed(
         equation("first form = (4.3)·R_kᵀ", first, at_4_3 * RT),
         equation("second form = its transpose", second, ALGEBRA.transpose(at_4_3 * RT)),
@@ -154,6 +177,14 @@ def spatial_balance(p: Proof) -> None:
     p.show("S", balance)
     now, before = principle.spatial_momentum(R, R1), principle.spatial_momentum(R0, R)
     force = ALGEBRA.wedge(principle.reaction(), gamma)
+    p.reads(
+        STEPS
+        | {
+            r"\vec f^k": (principle.reaction(), "m(Δr_k - Δr_(k-1)) (4.4)"),
+            r"\vec{f^k}^T": (ALGEBRA.transpose(principle.reaction()), "its transpose"),
+            "0": (balance, "the principle, the multipliers eliminated, by the derivation"),
+        }
+    )
     p.printed(equation("m_k - m_{k-1} - ρ(fγᵀ - γfᵀ) = S", now - before - rho * force, balance))
     first = R1 * J * RT + R0 * J * RT - Lam - rho * f * gammaT
     p.lemma(
@@ -185,6 +216,14 @@ def euler_poincare(p: Proof) -> None:
     force = ALGEBRA.wedge(RT * principle.reaction(), RT * gamma)
     balance = RT * principle.momentum_balance(CORRECTED) * R
     moved = ALGEBRA.transpose(step) * before * step
+    p.reads(
+        STEPS
+        | {
+            r"\vec F^k": (RT * principle.reaction(), "R_kᵀf^k (4.8)"),
+            r"\vec f^k": (principle.reaction(), "m(Δr_k - Δr_(k-1)) (4.4)"),
+            "0": (balance, "the principle in the body, by the derivation"),
+        }
+    )
     p.printed(equation("M_k - Ωᵀ M_{k-1} Ω - ρ F∧γ = R_kᵀ S R_k", now - moved - rho * force, balance))
     turned = step * before * ALGEBRA.transpose(step)
     p.control(equation("the same with Ω M_{k-1} Ωᵀ", now - turned - rho * force, balance))
@@ -209,6 +248,15 @@ def rolling_in_space(p: Proof) -> None:
     algebra = WordAlgebra({**ALGEBRA.transposes, spin: -spin}, ALGEBRA.rules)
     fixed = principle.rolling_constraint(R * velocity, R * spin).subs(gamma, R * vertical)
     body = velocity + rho * spin * vertical
+    p.reads(
+        STEPS
+        | {
+            r"\dot r": (R * velocity, "Rv, the velocity of the centre"),
+            r"\dot R R^T": (R * spin * RT, "RωRᵀ, the angular velocity in space"),
+            r"\vec\gamma": (R * vertical, "Rγ, the vertical in space"),
+            "0": (R * body, "R(v + ρωγ), which vanishes (2.9)"),
+        }
+    )
     p.printed(Equation("ṙ + ρṘRᵀγ⃗ = R(v + ρωγ)", fixed, R * body, algebra))
     wrong = velocity - rho * spin * vertical
     p.control(Equation("ṙ + ρṘRᵀγ⃗ = R(v - ρωγ)", fixed, R * wrong, algebra))
@@ -225,6 +273,14 @@ def body_momentum(p: Proof) -> None:
     p.assume("Ad_R X = R X R⁻¹, the adjoint action")
     spatial = principle.spatial_momentum(R, R1)
     body = RT * R1 * J - J * R1T * R
+    p.reads(
+        STEPS
+        | {
+            r"\mathrm{Ad}_{R_k} m_k": (R * spatial * RT, "R_km_kR_kᵀ"),
+            r"\mathrm{Ad}_{R_k^{-1}} m_k": (RT * spatial * R, "R_k⁻¹m_kR_k"),
+            "M_k": (body, "Ω_kJ - JΩ_kᵀ, as (4.7) needs it"),
+        }
+    )
     p.printed(equation("R_k m_k R_kᵀ = Ω_k J - J Ω_kᵀ", R * spatial * RT, body))
     p.corrected(
         r"M_k = \mathrm{Ad}_{R_k^{-1}} m_k = R_k^T m_k R_k",
@@ -250,6 +306,15 @@ def balance_in_body(p: Proof) -> None:
     moved = ALGEBRA.transpose(step) * before * step
     force = principle.reaction()
     balance = RT * principle.momentum_balance(CORRECTED) * R
+    p.reads(
+        STEPS
+        | {
+            r"\vec f^k": (force, "m(Δr_k - Δr_(k-1)) (4.4)"),
+            r"\vec f^T": (ALGEBRA.transpose(force), "its transpose"),
+            r"\gamma^T": (gammaT, "that of the vertical in space"),
+            "0": (balance, "the principle in the body, by the derivation"),
+        }
+    )
 
     def carried(text: str, vertical: sp.Expr) -> Equation:
         torque = RT * force * gammaT * R - RT * vertical * ALGEBRA.transpose(force) * R
@@ -257,7 +322,8 @@ def balance_in_body(p: Proof) -> None:
 
     p.printed(carried("with R_kᵀγ_k fᵀR_k", RT * gamma))
     p.corrected(
-        r"\rho(R_k^T\vec f^k\vec\gamma^T R_k - R_k^T\vec\gamma\vec f^T R_k)", carried("with R_kᵀγ fᵀR_k", gamma)
+        r"M_k = \Omega_{k-1}^T M_{k-1}\Omega_{k-1} + \rho(R_k^T\vec f^k\vec\gamma^T R_k - R_k^T\vec\gamma\vec f^T R_k)",
+        carried("with R_kᵀγ fᵀR_k", gamma),
     )
     turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
     values = {R0: turn, R: turn, R1: turn * turn, J: sp.diag(1, 2, 3), gamma: sp.Matrix([0, 0, 1])}
@@ -270,6 +336,7 @@ def balance_in_body(p: Proof) -> None:
 @claim("4.11", r"\gamma_k = \Omega_{k-1}^T \gamma_{k-1}")
 def vertical_transport(p: Proof) -> None:
     """The vertical, fixed in space, seen from the body."""
+    p.reads(STEPS)
     p.printed(equation("R_kᵀγ = Ω_{k-1}ᵀ R_{k-1}ᵀγ", RT * gamma, RT * R0 * R0T * gamma))
     p.control(equation("R_kᵀγ = Ω_{k-1} R_{k-1}ᵀγ", RT * gamma, R0T * R * R0T * gamma))
 

@@ -4,6 +4,7 @@ import sympy as sp
 
 from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
+from chapsym.proofs.glossary import CURVE
 from chapsym.prove import Equation, Proof, claim, equations, main, rational_point
 
 C1, C2, C3, V = sp.symbols("C1 C2 C3 V")
@@ -63,6 +64,13 @@ def amplitudes(p: Proof) -> None:
 )
 def modulus(p: Proof) -> None:
     """The modulus."""
+    p.reads(
+        CURVE
+        | {
+            "l": (l, "the level ⟨γ, Λ⁻¹γ⟩ (5.5)"),
+            "k^2": (elliptic.squared_modulus(), "the square of the modulus: |γ|² = 1 for every u (5.7)"),
+        }
+    )
     printed = (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1))
     p.printed(equation("k² as printed", printed, elliptic.squared_modulus()))
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
@@ -108,12 +116,20 @@ def pair() -> tuple[list[sp.Expr], list[sp.Expr]]:
 def sums_and_differences(p: Proof) -> None:
     """Sums and differences by the addition formulas: the sign of the first difference is misprinted."""
     p.slips("typo")
+    p.reads(
+        CURVE
+        | {
+            "C_1": (C1, "the first amplitude (5.8)"),
+            r"\gamma_1": (pair()[0][0], "C1 cn(ū - δu) (5.7)"),
+            r"\tilde\gamma_1": (pair()[1][0], "C1 cn(ū + δu) (5.7)"),
+        }
+    )
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
     now, after = pair()
     product = MEAN.sn * MEAN.dn * HALF.sn * HALF.dn
     size = 2 * C1 / elliptic.denominator()
-    p.lemma(Equation("γ~1 + γ1 = (2C1/𝒟) cn ū cn δu", after[0] + now[0], size * MEAN.cn * HALF.cn, TWO))
+    p.printed(Equation("γ~1 + γ1 = (2C1/𝒟) cn ū cn δu", after[0] + now[0], size * MEAN.cn * HALF.cn, TWO))
     p.say("The similar expressions for the other components, which the paper does not print:")
     for i, name, sum_of, difference_of in (
         (1, "2", MEAN.sn * HALF.cn * HALF.dn, MEAN.cn * MEAN.dn * HALF.sn),

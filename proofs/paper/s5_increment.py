@@ -8,6 +8,7 @@ from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs import second_routes
+from chapsym.proofs.glossary import CURVE, LEVEL
 from chapsym.proofs.paper.s5_elliptic import ARGUMENT, BALL, SQUARE, TWO, V, on_ball, printed_squares
 from chapsym.prove import Comparison, Equation, Point, Proof, claim, equations, main, rational_point
 
@@ -54,6 +55,12 @@ def true_g() -> sp.Expr:
     return a / k2 * HALF.cn**2 - b / k2 * HALF.cn**2 * HALF.dn**2 + c * HALF.dn**2
 
 
+def written_out() -> sp.Expr:
+    """What the paper prints of Π2𝒟² and leaves out here."""
+    a, b, c = quotients()
+    return a * MEAN.cn**2 * HALF.cn**2 + b * MEAN.sn**2 * HALF.cn**2 * HALF.dn**2 + c * MEAN.dn**2 * HALF.dn**2
+
+
 @claim(
     "5.14-Pi1",
     r"\Pi_1 = \tfrac1{\mathcal D}(\tfrac{C_1^2}{\Lambda_1}+\tfrac{C_3^2}{\Lambda_3}"
@@ -63,6 +70,13 @@ def true_g() -> sp.Expr:
 )
 def first_form(p: Proof) -> None:
     """Π1 in Jacobi's functions."""
+    p.reads(
+        LEVEL
+        | {
+            r"\Pi_1": (on_curve(elliptic.quarter_form(1)), "¼⟨γ~+γ, Λ⁻¹(γ~+γ)⟩ (5.11)"),
+            r"\mu": (on_curve(MU), "(1 - Λ3 l)/(Λ2 - Λ3) (5.14)"),
+        }
+    )
     p.assume("C3 with the correction of (5.8)")
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     a, b, c = (square / lam for square, lam in zip(elliptic.squared_amplitudes(), LAMBDA, strict=True))
@@ -82,10 +96,18 @@ def first_form(p: Proof) -> None:
 )
 def second_form(p: Proof) -> None:
     """Π2 in terms of G."""
+    p.reads(
+        LEVEL
+        | {
+            r"\Pi_2": (on_curve(elliptic.quarter_form(2)), "¼⟨γ~+γ, Λ⁻²(γ~+γ)⟩ (5.14)"),
+            "G": (on_curve(true_g()), "the function G of δu (5.14-G as corrected)"),
+            "V^2": (on_curve(V_SQUARED), "(Λ2 - Λ3)(Λ1 l - 1)/(Λ1Λ2Λ3) (5.13)"),
+            r"\dots": (on_curve(written_out()), "C1²/Λ1² cn²ū cn²δu + C2²/Λ2² sn²ū cn²δu dn²δu + C3²/Λ3² dn²ū dn²δu"),
+        }
+    )
     p.assume("G with the correction of (5.14-G)")
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
-    a, b, c = quotients()
-    middle = a * MEAN.cn**2 * HALF.cn**2 + b * MEAN.sn**2 * HALF.cn**2 * HALF.dn**2 + c * MEAN.dn**2 * HALF.dn**2
+    middle = written_out()
     square = elliptic.denominator() ** 2
     right = true_g() / Y * elliptic.denominator() - V_SQUARED * RATIO**2
     p.printed(
@@ -94,6 +116,11 @@ def second_form(p: Proof) -> None:
     )
     wrong = true_g() / Y * elliptic.denominator() + V_SQUARED * RATIO**2
     p.control(curve_equation("Π2 𝒟² = G𝒟/sn² + V² cn² dn²/sn²", elliptic.quarter_form(2) * square, wrong))
+
+
+def derived_g() -> sp.Expr:
+    """What Π2 makes of G."""
+    return (elliptic.quarter_form(2) * elliptic.denominator() ** 2 + V_SQUARED * RATIO**2) * Y / elliptic.denominator()
 
 
 @claim(
@@ -105,12 +132,11 @@ def second_form(p: Proof) -> None:
 def g_function(p: Proof) -> None:
     """G: k² is missing under its second term."""
     p.slips("typo")
+    p.reads(LEVEL | {"G": (on_curve(derived_g()), "what Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn² makes of it (5.14)")})
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     p.say("G is what Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn² makes of it, an identity in sn²ū:")
     a, b, c = quotients()
-    derived = (
-        (elliptic.quarter_form(2) * elliptic.denominator() ** 2 + V_SQUARED * RATIO**2) * Y / elliptic.denominator()
-    )
+    derived = derived_g()
 
     def printed(under: sp.Expr) -> sp.Expr:
         return a / k2 * HALF.cn**2 - b / under * HALF.cn**2 * HALF.dn**2 + c * HALF.dn**2
@@ -153,11 +179,24 @@ def coefficient(expr: sp.Expr, power: int) -> sp.Expr:
 def alpha(p: Proof) -> None:
     """α: l is missing beside 2Λ1Λ3 in the numerator."""
     p.slips("typo")
+    p.reads(
+        LEVEL
+        | {
+            r"\alpha": (on_curve(coefficient(true_g(), 1)), "the coefficient of sn² in G/V² (5.14)"),
+            r"\beta": (on_curve(-coefficient(true_g(), 2)), "that of sn⁴, less its sign (5.14)"),
+            "G": (on_curve(true_g()), "the function G of δu (5.14-G as corrected)"),
+            "V^2": (on_curve(V_SQUARED), "(Λ2 - Λ3)(Λ1 l - 1)/(Λ1Λ2Λ3) (5.13)"),
+            r"\mathrm{sn}^2": (Y, "sn² of δu"),
+            r"\mathrm{sn}^4": (Y**2, "sn⁴ of δu"),
+        }
+    )
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     p.lemma(curve_equation("the constant term of G/V² is 1", coefficient(true_g(), 0), sp.S.One))
     derived = coefficient(true_g(), 1)
     p.show("α", sp.factor(on_curve(derived)))
     below = (L2 - L3) * (L1 * l - 1)
+    whole = V_SQUARED * (1 + derived * Y + coefficient(true_g(), 2) * Y**2)
+    p.printed(curve_equation("G = V²(1 + α sn² - β sn⁴)", true_g(), whole))
     p.printed(curve_equation("α as printed", (2 * L1 * L3 - (L1 + L3 - L2)) / below, derived))
     p.corrected(
         r"\alpha = \frac{2\Lambda_1\Lambda_3l-(\Lambda_1+\Lambda_3-\Lambda_2)}{(\Lambda_2-\Lambda_3)(\Lambda_1l-1)}",
@@ -174,6 +213,10 @@ def alpha(p: Proof) -> None:
 )
 def beta(p: Proof) -> None:
     """β, for the G that is right."""
+    p.reads(
+        LEVEL
+        | {r"\beta": (on_curve(-coefficient(true_g(), 2)), "the coefficient of sn⁴ in G/V², less its sign (5.14)")}
+    )
     p.assume("G with the correction of (5.14-G)")
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     printed = L1 * L3 / (L2 - L3) ** 2 * (1 - L3 * l) / (L1 * l - 1)
@@ -354,6 +397,10 @@ def euler_increment(p: Proof) -> None:
 def denominator_of_u(p: Proof) -> None:
     """𝒟 as a function of u and δu: the sign of the whole and three coefficients are wrong."""
     p.slips("serious")
+    p.reads(
+        CURVE
+        | {r"\mathcal D": (1 - k2 * elliptic.added(U, HALF, 1).sn ** 2 * HALF.sn**2, "1 - k² sn²(u+δu) sn²δu (5.13)")}
+    )
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("sn ū = sn(u + δu) by the addition formula, into 𝒟 = 1 - k² sn²ū sn²δu.")
     ring = elliptic.ring(U, HALF)

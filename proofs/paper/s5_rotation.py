@@ -7,6 +7,7 @@ from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, placed, q, q0, q1, q2, q3
 from chapsym.proofs import second_routes
+from chapsym.proofs.glossary import BALL as STATE
 from chapsym.proofs.paper.s4_limits import exact_order
 from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main, rational_point
 
@@ -143,6 +144,21 @@ def second_derivatives() -> list[sp.Expr]:
 )
 def vector_momentum(p: Proof) -> None:
     """The vector momentum, by substituting the rotation into (4.13)."""
+    p.reads(
+        STATE
+        | {f"J_{i}": (J, f"entry {i} of the mass tensor (5.2)") for i, J in enumerate((J1, J2, J3), 1)}
+        | {f"q_{i}": (x, f"entry {i} of q (5.1)") for i, x in enumerate(q, 1)}
+        | {
+            r"\vec M": (
+                sp.Matrix(three.turned_entries("M", ball.centre_momentum())),
+                "the vector of M_k (4.6), by the derivation",
+            ),
+            r"\vec{\mathcal K}": (
+                sp.Matrix(three.turned_entries("K", ball.momentum())),
+                "that of 𝒦_k (4.13), by the derivation",
+            ),
+        }
+    )
     p.assume("|γ| = 1 and |q|² + q₀² = 1; Ω with the correction of (5.1)")
     centre, derived = three.turned_entries("M", ball.centre_momentum()), three.turned_entries("K", ball.momentum())
     p.say(
@@ -257,6 +273,19 @@ def vector_limit(p: Proof) -> None:
 )
 def vector_form(p: Proof) -> None:
     """The vector form of the map, and its continuum limit."""
+    p.reads(
+        STATE
+        | {
+            r"\vec{\mathcal K}_k": (
+                axial(sp.Matrix(three.rotation()).T * hat(K) * sp.Matrix(three.rotation())),
+                "the vector of ΩᵀKΩ (4.12)",
+            ),
+            r"\vec{\mathcal K}_{k-1}": (K, "that of 𝒦 (4.12)"),
+            r"\Omega_{k-1}": (sp.Matrix(three.rotation()), "the rotation by the Euler parameters (5.1 as corrected)"),
+            r"\gamma_k": (sp.Matrix(three.rotation()).T * gamma, "Ωᵀγ (4.11)"),
+            r"\gamma_{k-1}": (gamma, "the vertical before the step (4.11)"),
+        }
+    )
     ring = Quotient((*K, *RING.symbols), RING.relations)
     rotation = sp.Matrix(three.rotation())
     p.say("The axial vector of Ωᵀ𝒦Ω, for a skew 𝒦 with the free vector (K₁,K₂,K₃):")

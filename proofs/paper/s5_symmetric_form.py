@@ -191,7 +191,7 @@ def symmetric_form(p: Proof) -> None:
         r"\varkappa = \frac{2\sigma}{1\pm\sqrt{1-\frac{\sigma^2}4\langle\tilde\gamma+\gamma,"
         r"\Lambda^{-2}(\tilde\gamma+\gamma)\rangle}},\ "
         r"\sigma = \frac h{1-\frac D4\langle\tilde\gamma+\gamma,\Lambda^{-1}(\tilde\gamma+\gamma)\rangle},"
-        r"\ \pm = \mathrm{sign}\cos\theta",
+        r"\ \text{with the sign of }\cos\theta",
         square_of_root("ϰ: (2q₀²-1)² = 1 - (σ²/4)⟨s, Λ⁻²s⟩", sigma**2 / 4),
         closed_sigma("σ: σ(1 - (D/4)⟨s, Λ⁻¹s⟩) = h", D / 4),
     )

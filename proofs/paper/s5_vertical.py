@@ -9,6 +9,8 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0, q1, q2, q3
 from chapsym.derive.vertical import RING, h, sigma
 from chapsym.proofs import second_routes
+from chapsym.proofs.glossary import BALL as STATE
+from chapsym.proofs.glossary import VERTICAL
 from chapsym.prove import Equation, Point, Proof, claim, equations, main, rational_point
 
 equation = equations(RING)
@@ -53,13 +55,24 @@ def printed_vector(sign: int) -> sp.Matrix:
 
 @claim(
     "5.4",
-    r"\vec{\mathcal K} = h\gamma:\quad 2(\dots)^T = [h + D q_0\langle\gamma,\mathbf q\rangle]\gamma,"
+    r"\text{for }\vec{\mathcal K} = h\gamma:\quad 2(\dots)^T = [h + D q_0\langle\gamma,\mathbf q\rangle]\gamma,"
     r"\ \widehat J = J + \tfrac D2 I",
     uses=["5.2"],
 )
 def vertical_relation(p: Proof) -> None:
     """The relation between γ and q when the momentum is vertical: a factor 2 is missing."""
     p.slips("serious")
+    p.reads(
+        STATE
+        | {
+            "h": (h, "of 𝒦 = hγ (5.4)"),
+            r"2(\dots)^T": (2 * printed_vector(+1), "the vector that is printed"),
+            r"\widehat J": (sp.diag(J1, J2, J3) + D / 2 * sp.eye(3), "J + (D/2) I (5.4)"),
+            "J": (sp.diag(J1, J2, J3), "the mass tensor (5.2)"),
+            "I": (sp.eye(3), "the unit matrix"),
+            "0": (sp.Matrix(three.momentum()) - h * gamma, "𝒦 - hγ, which vanishes"),
+        }
+    )
     p.assume("|γ| = 1, |q|² + q₀² = 1", *three.UNITS)
     p.assume("the equations are judged modulo 𝒦 - hγ = 0")
     ring = Quotient((h, *three.RING.symbols), three.RING.relations)
@@ -95,12 +108,13 @@ def vertical_relation(p: Proof) -> None:
 def sigma_definition(p: Proof) -> None:
     """σ inherits the missing factor 2 of (5.4)."""
     p.slips("serious", "5.4")
+    p.reads(VERTICAL | {r"\sigma_k": VERTICAL[r"\sigma"], r"\gamma_k": VERTICAL[r"\gamma"]})
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     p.say("σ is the factor for which the left side of (5.4) is σγ; h and γ are written in q, σ.")
     now, height = vertical.gamma_now(), vertical.height()
 
     def formula(text: str, factor: int) -> Equation:
-        return equation(text, sigma, height + factor * D * q0 * now.dot(q))
+        return equation(text, sigma - height, factor * D * q0 * now.dot(q))
 
     p.printed(formula("σ = h + D⟨γ, q₀q⟩", 1))
     p.corrected(r"\sigma_k = h + 2D\langle\gamma_k, q_0\mathbf q\rangle", formula("σ = h + 2D⟨γ, q₀q⟩", 2))
@@ -117,15 +131,30 @@ def sigma_definition(p: Proof) -> None:
 def consecutive_verticals(p: Proof) -> None:
     """γ_k and γ_(k+1) in Euler parameters: the vectors are right, the sign of Ωᵀ is not."""
     p.slips("typo")
+    p.reads(
+        VERTICAL
+        | {
+            r"\sigma_k": VERTICAL[r"\sigma"],
+            r"\gamma_k": VERTICAL[r"\gamma"],
+            r"\gamma_{k+1}": VERTICAL[r"\tilde\gamma"],
+            r"\Omega_k": (sp.Matrix(three.rotation()), "the rotation by the Euler parameters (5.1 as corrected)"),
+            r"(\dots+\dots)^T": (printed_vector(+1), "the vector that is printed for γ_k"),
+            r"(\dots-\dots)^T": (printed_vector(-1), "the vector that is printed for γ_(k+1)"),
+        }
+    )
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     now = vertical.gamma_now()
     turned = sp.Matrix(three.rotation()).T * now
-    p.lemma(equation("γ_k as printed", 2 / sigma * printed_vector(+1), now))
+    p.printed(equation("γ_k as printed", 2 / sigma * printed_vector(+1), now))
     second = list(2 / sigma * printed_vector(-1))
     p.lemma(equation("the vector for γ_{k+1} is the derived Ωᵀγ_k", second, vertical.gamma_next()))
-    p.printed(equation("-Ωᵀγ_k = (2/σ)(... - ...)", -turned, second))
+    p.printed(
+        equation("γ_{k+1} = -Ωᵀγ_k", vertical.gamma_next(), -turned),
+        equation("-Ωᵀγ_k = (2/σ)(... - ...)", -turned, second),
+    )
     p.corrected(
         r"\gamma_{k+1} = \Omega_k^T\gamma_k \equiv \tfrac2{\sigma_k}(\dots-\dots)^T",
+        equation("γ_{k+1} = Ωᵀγ_k", vertical.gamma_next(), turned),
         equation("Ωᵀγ_k = (2/σ)(... - ...)", turned, second),
     )
     p.counterexample(vertical_point(SMALL))

@@ -2,9 +2,9 @@
 
 Proved by: K-u1, K-u2, K-u3.  Operations: 42.  SymPy 1.14.0.
 Expression: sha256 56fbc59f37670fe1b48c9c7d42cfe8283aae1f14b7199dc56cb18820b7ab644a.
-Certificate of K-u1: sha256 8f15f69b27c1e803820885d8c78f46e8640dd80e82c24ba81a464885499cd3e5.
-Certificate of K-u2: sha256 02834739b4d3f9d6672177e9818556918d88b2d508ac311cd51e0fada3a186b3.
-Certificate of K-u3: sha256 d12fadbed51e11aa2212b9cb28e3ad3c0ab71c46e7e6063cc980d3112ed93a52.
+Certificate of K-u1: sha256 7fdde0caa7143b72736d6ec02c96199def8bc1d4beaf7e75f95ce76ff0ceb8fa.
+Certificate of K-u2: sha256 f587411fa55142f142ba2c331eb5e0c26e7b59db73268b66a75663006beb3673.
+Certificate of K-u3: sha256 c94cb28fd58151189f25274f47275b65634d1c10623205d9f7ec819005365d79.
 """
 
 from chapsym.numbers.functions import cos, sin

@@ -2,7 +2,7 @@
 
 Proved by: K-velocity.  Operations: 3.  SymPy 1.14.0.
 Expression: sha256 cb1e4af1d00e41ee05df92fd03fddca0f4ebffd9f95e59201e3cb38bd26bfdcf.
-Certificate of K-velocity: sha256 f1c49bc6c4454d0d58bc9eeb528d92c2ef72285c0f5696e573f922d273081ec2.
+Certificate of K-velocity: sha256 8aacdaa7496007ab66318611058b717fce4b4c90776578ce7a5e5d3cd10f31d6.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: S-energy.  Operations: 7.  SymPy 1.14.0.
 Expression: sha256 898461e49c46a2816e77c741d4acc0be16f890857565be90e168da1cb8b9a965.
-Certificate of S-energy: sha256 6e9fc000edac304d3208158cff48c91d0621bd66759c855146b7567fb102ab3e.
+Certificate of S-energy: sha256 9d5ffbe240b2de0d673b42636233bc2e16606260410ffdaf55ad82b2776465bb.
 """
 
 

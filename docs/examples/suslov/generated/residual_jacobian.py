@@ -2,7 +2,7 @@
 
 Proved by: S-gibbs.  Operations: 30.  SymPy 1.14.0.
 Expression: sha256 b3245bbba8391333d7208c5a4616984e9cdc539ff71d4082e898b8e7c5158495.
-Certificate of S-gibbs: sha256 bcfc19c4a051ac252aeb7a517b0601699d0f85c263c0e495b77cfa748ed02a95.
+Certificate of S-gibbs: sha256 4bf3002a3b7a8f634b7fc9c9a665682c3b0b35187010128e81ea1ece2cc5bf51.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: S-gibbs.  Operations: 19.  SymPy 1.14.0.
 Expression: sha256 8101e48378602aed52e50176ca985a1d178b1a44fee87ac2f72c95468bb0e59a.
-Certificate of S-gibbs: sha256 bcfc19c4a051ac252aeb7a517b0601699d0f85c263c0e495b77cfa748ed02a95.
+Certificate of S-gibbs: sha256 4bf3002a3b7a8f634b7fc9c9a665682c3b0b35187010128e81ea1ece2cc5bf51.
 """
 
 
