@@ -187,7 +187,7 @@ class _InRing:
         if self.reader.root is not None and not self.reader.both and "refuted" not in one:
             return False  # the square of an equation is true where its negative is
         decided = self.differences(list(zip(one["left"], one["right"], strict=True)), one.get("definitions", []))
-        return all(_proportional(_rest(a), _rest(b)) for a, b in zip(said, decided, strict=True))
+        return all(proportional(_rest(a), _rest(b)) for a, b in zip(said, decided, strict=True))
 
 
 def _with_root(ring: Quotients) -> Quotients:
@@ -245,7 +245,7 @@ def _divided(a: Polynomial, b: Polynomial) -> Polynomial | None:
     return quotient
 
 
-def _proportional(a: Polynomial, b: Polynomial) -> bool:
+def proportional(a: Polynomial, b: Polynomial) -> bool:
     """Whether two polynomials are multiples of each other by numbers other than 0."""
     if a.terms.keys() != b.terms.keys():
         return False

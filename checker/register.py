@@ -58,6 +58,7 @@ _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 _CERTIFICATE = re.compile(r"([\w.-]{1,40} )?[0-9a-f]{64}", re.ASCII)
 VERDICTS = ("holds", "corrected", "conditional", "refuted", "settled", "definition", "open")
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
+STATED = ("printed", "corrected", "under")
 SENTENCES = (*ROLES, "hypothesis", "said")
 #: Rows and columns of a matrix; letters of the whole, five times those of the largest of the register.
 MOST_ROWS, MOST_OF_ALL = 4, 1_000_000
@@ -93,9 +94,10 @@ def statement(data: dict[str, Any]) -> str:
     return f"Claim {data['claim']} ({data['verdict']}).  {counted or 'nothing'}."
 
 
-def said(data: dict[str, Any]) -> list[dict[str, Any]]:
-    """All that is decided."""
-    return [one for name in ("statements", "comparisons", "counts", "zeros") for one in data[name]]
+def said(data: dict[str, Any], *without: str) -> list[dict[str, Any]]:
+    """All that is decided, but for some parts."""
+    parts = ("statements", "comparisons", "counts", "zeros")
+    return [one for name in parts if name not in without for one in data[name]]
 
 
 def check_verdict(data: dict[str, Any]) -> None:
@@ -108,6 +110,10 @@ def check_verdict(data: dict[str, Any]) -> None:
     given = kind if false else "holds" if roles & {"printed"} else "definition"
     if data["verdict"] not in ("open", given) and not (data["verdict"] == "settled" and not false):
         raise Rejected(f"the verdict is {data['verdict']!r}, and what is decided gives {given!r}")
+    for role in STATED:
+        stated = [one for one in decided if one["role"] == role]
+        if stated and all("left" in one and one["left"] == one["right"] for one in stated):
+            raise Rejected(f"what is {role} has one expression on both sides, so that nothing is decided")
     if (data["corrected"] is not None) != (given == "corrected") and data["verdict"] != "open":
         raise Rejected("a correction is given where none is decided, or none where one is")
 
@@ -324,18 +330,24 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     for i, one in enumerate(data["algebras"]):
         if one["kind"] != "quotient":
             check_satisfiable(one, points, f"algebra {i}")
+    supposed: set[int] = set()
     for i, one in enumerate(data["statements"]):
         if "refuted" in one:
             continue
         algebra, point, where = data["algebras"][one["algebra"]], points[one["point"]], f"statement {i}"
         decided_in = algebras[one["algebra"]]
         if isinstance(decided_in, Quotients):
-            check_identity(one, decided_in, defined, where)
+            if check_identity(one, decided_in, defined, where):
+                supposed.add(i)
         else:
             check_words(one, decided_in, algebra["kind"] == "traces", defined, where)
         check_hypotheses(algebra, point, where, whole=True)
         if not holds(one, algebra, point, defined, where):
             raise Rejected(f"{where} fails at its point")
+    for role in STATED:
+        numbers = {i for i, one in enumerate(data["statements"]) if one["role"] == role and "refuted" not in one}
+        if numbers and numbers <= supposed and not any(one["role"] == role for one in said(data, "statements")):
+            raise Rejected(f"all that is {role} is among the relations that it supposes")
     for i, one in enumerate(data["comparisons"]):
         if compared(one, points[one["point"]], f"comparison {i}") is ("refuted" in one):
             raise Rejected(f"comparison {i} says something else than the numbers at its point")
@@ -379,16 +391,20 @@ def evaluations(data: dict[str, Any]) -> int:
     return total
 
 
-def check_identity(one: dict[str, Any], ring: Quotients, defined: Mapping[str, Made], where: str) -> None:
-    """The numerator of left - right is Σ cofactor · relation."""
+def check_identity(one: dict[str, Any], ring: Quotients, defined: Mapping[str, Made], where: str) -> bool:
+    """The numerator of left - right is Σ cofactor · relation; returns whether each is but one of the relations."""
+    supposed = []
     names = derivation.entries(
         [*one["left"], *one["right"], *(tree for _, tree in one.get("definitions", []))], defined
     )
     for name, tree in one.get("definitions", []):
         names[name] = ring.read(tree, names)
     for left, right, cofactors in zip(one["left"], one["right"], one["cofactors"], strict=True):
-        if not ring.vanishes(ring.read(left, names) - ring.read(right, names), cofactors, where):
+        difference = ring.read(left, names) - ring.read(right, names)
+        if not ring.vanishes(difference, cofactors, where):
             raise Rejected(f"{where} is not proved: its cofactors do not make left - right from the relations")
+        supposed.append(any(meaning.proportional(difference.numerator, x.numerator) for x in ring.relations))
+    return all(supposed)
 
 
 def check_words(one: dict[str, Any], algebra: Algebra, traces: bool, defined: Mapping[str, Made], where: str) -> None:

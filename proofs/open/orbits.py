@@ -297,18 +297,21 @@ def periodic_orbits(p: Proof) -> None:
         "A reversor ϱ_R(𝒦, γ) = -R(𝒦, γ), R = 1 or the rotation by π about a principal axis, keeps M.  If it maps the orbit",
         "to itself, W is similar to W⁻¹: det W = 1 (it is positive), and, as M has an odd dimension, 1 is an eigenvalue:",
     )
-    a, b = sp.symbols("a1 a2")
-    ring = Quotient((a, b), [])
+    entries = sp.symbols("W1:4(1:4)")
+    map_of_three = sp.Matrix(3, 3, entries)
+    whole, inverse = map_of_three.det(), map_of_three.adjugate().trace()  # W⁻¹ is adj W where det W = 1
 
-    def unit(text: str, second: sp.Expr) -> Equation:
-        return Equation(text, 1 - a + second - 1, 0, ring)
+    def unit(text: str, *relations: sp.Expr) -> Equation:
+        return Equation(text, (sp.eye(3) - map_of_three).det(), 0, Quotient(entries, [whole - 1, *relations]))
 
-    p.printed(unit("χ(1) = 1 - tr W + tr W⁻¹ - 1 = 0 where tr W⁻¹ = tr W", a))
+    p.printed(
+        unit("χ(1) = det(1 - W) = 0 where det W = 1 and tr W⁻¹ = tr W", sp.expand(inverse - map_of_three.trace()))
+    )
     p.say(
         "So only orbits that no reversor keeps say something; on M they are the generic ones, and they come in pairs with"
     )
     p.say("reciprocal determinants.  `chapsym certify periodic-orbit` finds and encloses them.")
-    p.control(unit("the same with another trace of W⁻¹", b))
+    p.control(unit("the same with another trace of W⁻¹"))
 
 
 if __name__ == "__main__":

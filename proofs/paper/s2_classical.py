@@ -6,10 +6,12 @@ import sympy as sp
 
 from chapsym.derive import continuous, motion, three
 from chapsym.derive.continuous import RING, inverse_inertia, rolling_factor
+from chapsym.derive.derivation import coordinates, entry, written
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, hat
 from chapsym.derive.words import evaluate
+from chapsym.proofs.glossary import CLASSICAL
 from chapsym.proofs.paper.s2_continuous import BALL, SPIN, UNIT, unit_vertical
 from chapsym.prove import Comparison, Equation, Proof, claim, main, rational_point
 
@@ -41,15 +43,42 @@ def solved_acceleration() -> sp.Matrix:
     return inverse_inertia() * (gyration + lift)
 
 
+def carried_rates() -> tuple[sp.Matrix, sp.Matrix]:
+    """The vector of -[ω, K], and -ωγ, of the words at matrices: letters of a derivation."""
+    words = motion.ALGEBRA
+    turning = written("K_rate_words", "-[ω, K] (2.12)", -motion.commutator(motion.omega, motion.K), words)
+    falling = written("gamma_rate_words", "-ωγ", -motion.omega * motion.gamma, words)
+    ring, unit, text = Quotient(RING.symbols), RING, "n = 3: ω and K as vectors"
+    skew = coordinates("K_rate_matrix", text, turning, {motion.omega: hat(omega), motion.K: hat(K)}, ring)
+    column = coordinates(
+        "gamma_rate_column",
+        "n = 3",
+        falling,
+        {motion.omega: hat(omega), motion.gamma: gamma, motion.gammaT: gamma.T, motion.Gamma: gamma * gamma.T},
+        unit,
+    )
+    entries = [entry(f"gamma_rate_{i + 1}", f"entry {i + 1}", column, i, 0) for i in range(3)]
+    return sp.Matrix(three.axial_entries("K_rate", skew)), sp.Matrix(entries)
+
+
 @claim("2.3", r"\dot K = K\times\omega,\ \dot\gamma = \gamma\times\omega", ["2.12"])
 def vector_equations(p: Proof) -> None:
     """The conservation of the momentum about the contact point, as vectors: (2.12) for n = 3."""
     p.assume("the vector of a skew matrix A is (A₃₂, A₁₃, A₂₁), as in Section 5: ωx = ω×x")
     spin, tensor = hat(omega), hat(K)
     ring = Quotient(RING.symbols)
+    turning, falling = carried_rates()
+    p.reads(
+        CLASSICAL
+        | {
+            "K": (K, "the vector of K (2.13), (A₃₂, A₁₃, A₂₁) of a skew A"),
+            r"\dot K": (turning, "that of -[ω, K] (2.12), by the derivation"),
+            r"\dot\gamma": (falling, "-ωγ, as γ is fixed in space, by the derivation"),
+        }
+    )
     p.printed(
-        equation("the vector of -[ω,K] is K×ω", -three.axial(spin * tensor - tensor * spin), K.cross(omega), ring),
-        equation("-ωγ = γ×ω", -spin * gamma, gamma.cross(omega), ring),
+        equation("the vector of -[ω,K] is K×ω", turning, K.cross(omega), ring),
+        equation("-ωγ = γ×ω", falling, gamma.cross(omega)),
     )
     words = motion.contact_momentum()
     values = {motion.omega: spin, motion.J: three.J, motion.Gamma: gamma * gamma.T, motion.D: D}

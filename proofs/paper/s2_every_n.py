@@ -7,7 +7,7 @@ import sympy as sp
 from chapsym.derive import derivation, motion
 from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, gamma, m, omega, rate, rho
 from chapsym.derive.three import hat
-from chapsym.derive.words import Traces
+from chapsym.derive.words import Traces, WordAlgebra
 from chapsym.proofs.glossary import MOTION
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
@@ -34,18 +34,27 @@ def motion_point() -> Point:
     return Point(shown, values, [equation("the principle", motion.eliminated(), 0)])
 
 
+def touching(name: str, where: sp.Expr) -> sp.Symbol:
+    """The velocity of the point of the ball at C + `where`, v + ω(P - C): a step of the certificate."""
+    of = derivation.written("point_velocity", "v + ω(P - C), P - C as r", motion.v + omega * LEVER, FREE)
+    return derivation.replaced(name, "at the point of contact", of, {LEVER: where}, FREE)
+
+
+#: A point of the ball, seen from its centre.
+LEVER = sp.Symbol("lever", commutative=False)
+FREE = WordAlgebra({omega: -omega})
+
+
 @claim("2.9", r"v_C + \rho\,\omega\gamma = 0,\ \gamma \text{ directed upwards, from } H \text{ to } C", ["2.1"])
 def rolling_condition(p: Proof) -> None:
     """With γ upwards the n-dimensional rolling condition has the wrong sign, as (2.1) has."""
     p.slips("convention", "2.1")
     p.say("The point of contact is P = C - ργ, and the material point there has the velocity v + ω(P - C).")
-    slip = motion.v + omega * (-rho * gamma)
+    slip, below = (touching(name, where) for name, where in (("slip", -rho * gamma), ("slip_below", rho * gamma)))
     p.printed(equation("v + ρωγ = the velocity of P", motion.v + rho * omega * gamma, slip))
     p.corrected(
         r"v_C + \rho\,\omega\gamma = 0,\ \gamma \text{ directed downwards, from } C \text{ to } H",
-        equation(
-            "v + ρωγ = v + ω(P - C) for P = C + ργ", motion.v + rho * omega * gamma, motion.v + omega * rho * gamma
-        ),
+        equation("v + ρωγ = v + ω(P - C) for P = C + ργ", motion.v + rho * omega * gamma, below),
     )
     p.say("Everything after (2.9) uses the sign as printed, hence γ downwards; D and Γ do not see the difference.")
     up, turn = sp.Matrix([0, 0, 1]), sp.Matrix([[0, 0, 1], [0, 0, 0], [-1, 0, 0]])

@@ -454,15 +454,19 @@ def weierstrass_w(p: Proof) -> None:
     p.slips("typo")
     p.say("w = ½ d(sn²)/du = ½ (d sn²/dp) q, with sn² = 1/(p - e3) and q = dp/du:")
     derived = sp.diff(1 / (P - E3), P) * Q / 2
+    p.say("Or, with y = sn²: y(p - e3) = 1, and its derivative y'(p - e3) + yq = 0; then w = y'/2:")
+    square, slope = sp.symbols("y y1")
+    by_rates = Quotient((square, slope, P, Q, k2), [square * (P - E3) - 1, slope * (P - E3) + square * Q])
     p.printed(equation("w = ½q/(p-e3)³", Q / (2 * (P - E3) ** 3), derived))
     p.corrected(
         r"w(\delta u) = -\tfrac12\tfrac q{(p-e_3)^2}",
-        equation("w = -½q/(p-e3)²", -Q / (2 * (P - E3) ** 2), derived),
+        Equation("w = -½q/(p-e3)²", slope / 2, -Q / (2 * (P - E3) ** 2), by_rates),
     )
     p.lemma(equation("w² = sn² cn² dn²", derived**2, (P - E1) * (P - E2) / (P - E3) ** 3))
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("k² = 9/16, sn = 4/5, cn = 3/5, dn = 4/5: p = e3 + 25/16, q = -2 cn dn/sn³, w = 48/125.")
     values = {k2: "9/16", P: sp.Rational(25, 16) - sp.Rational(25, 48), Q: sp.Rational(-2 * 12 * 125, 25 * 64)}
+    values |= {square: "16/25", slope: "96/125"}
     curve = equation("q² = 4(p-e1)(p-e2)(p-e3)", Q**2, 4 * (P - E1) * (P - E2) * (P - E3))
     p.counterexample(rational_point(values, [curve]))
     p.control(equation("w = ½q/(p-e3)²", Q / (2 * (P - E3) ** 2), derived))

@@ -54,14 +54,23 @@ def rotation_matrix(p: Proof) -> None:
     once, twice, both = (three.rotation().subs(placed(((q0, *q), z)), simultaneous=True) for z in (a, b, product))
     p.lemma(Equation("Ω(ab) = Ω(a)Ω(b)", both, once * twice, pairs))
     printed = printed_rotation()
+    turned = three.quaternion_product(
+        three.quaternion_product(sp.Matrix([q0, *q]), sp.Matrix([0, *x])), sp.Matrix([q0, *(-q)])
+    )
+
+    def turns(text: str, matrix: sp.Matrix) -> Equation:
+        return Equation(text, [sp.S.Zero, *(matrix * x)], list(turned), Quotient((*x, *RING.symbols)))
+
     p.printed(equation("(5.1), nine entries", printed, rotation))
     corrected = printed.copy()
     corrected[2, 1] = 2 * (q2 * q3 + q0 * q1)
     p.corrected(
         r"\Omega_{32} = 2(q_2q_3 + q_0q_1)",
-        equation("(5.1) with the entry (3,2) mended, nine entries", corrected, rotation),
+        turns("(5.1) with the entry (3,2) mended: Ωx = q x q̄ for every x", corrected),
     )
-    p.counterexample(rational_point(UNIT, [equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1)]))
+    p.counterexample(
+        rational_point(UNIT | dict(zip(x, (1, 2, 3), strict=True)), [equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1)])
+    )
     p.control(equation("the printed matrix is orthogonal", printed.T * printed, sp.eye(3)))
     p.control(equation("the mended matrix is that of -q", corrected.T, rotation))
     mutated = corrected.copy()

@@ -108,13 +108,20 @@ def vertical_relation(p: Proof) -> None:
 def sigma_definition(p: Proof) -> None:
     """σ inherits the missing factor 2 of (5.4)."""
     p.slips("serious", "5.4")
-    p.reads(VERTICAL | {r"\sigma_k": VERTICAL[r"\sigma"], r"\gamma_k": VERTICAL[r"\gamma"]})
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     p.say("σ is the factor for which the left side of (5.4) is σγ; h and γ are written in q, σ.")
-    now, height = vertical.gamma_now(), vertical.height()
+    now = vertical.gamma_now()
+    momentum = sp.Matrix(three.momentum()).subs(dict(zip(gamma, now, strict=True)), simultaneous=True)
+    height, square = momentum.dot(now), vertical.left_side().dot(vertical.left_side())
+    unit = Quotient(RING.symbols, [*RING.relations, sp.expand(square - sigma**2)])
+    p.reads(
+        VERTICAL
+        | {"h": (height, "⟨𝒦,γ⟩, as 𝒦 = hγ (5.4)"), r"\sigma_k": VERTICAL[r"\sigma"], r"\gamma_k": VERTICAL[r"\gamma"]}
+    )
+    p.say("h is ⟨𝒦(q,γ),γ⟩, as 𝒦 = hγ and |γ| = 1:")
 
     def formula(text: str, factor: int) -> Equation:
-        return equation(text, sigma - height, factor * D * q0 * now.dot(q))
+        return Equation(text, sigma, height + factor * D * q0 * now.dot(q), unit)
 
     p.printed(formula("σ = h + D⟨γ, q₀q⟩", 1))
     p.corrected(r"\sigma_k = h + 2D\langle\gamma_k, q_0\mathbf q\rangle", formula("σ = h + 2D⟨γ, q₀q⟩", 2))
