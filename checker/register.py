@@ -31,7 +31,8 @@ It rests on other certificates, by their digests, that of a claim after its id, 
 they must be accepted, too.  By its glossary (formulas.py) what is printed and what is corrected are read: each equation
 that is not in words must be a statement of that role (meaning.py).  The verdict must be what is decided: `holds`, if no
 printed statement fails; `corrected` or `conditional`, if one does, and a corrected one holds, or one under a condition;
-else `refuted`.  The sentences are not judged: they are what the claim says beside this.
+else `refuted`.  It must be `open` where all that is printed, or corrected, has one expression on both sides or is a
+relation that it supposes.  The sentences are not judged: they are what the claim says beside this.
 """
 
 import json
@@ -74,10 +75,10 @@ def statement(data: dict[str, Any]) -> str:
     failing = sum("refuted" in one or one.get("holds") is False for one in said(data))
     about = [[*one["left"], *one["right"]] for one in proved] + [one["equations"] for one in data["counts"]]
     names = {one["name"] for one in data["derivation"]}
-    read, words = meaning.read(data)
+    read, unread = meaning.read(data)
     parts = {
         "parts of its formulas that are read": read,
-        "parts in words": words,
+        "parts in words": unread,
         "identities of numbers": len(proved) - words,
         "identities of matrices": words,
         "of these with one expression on both sides": sum(one["left"] == one["right"] for one in proved),
@@ -92,6 +93,10 @@ def statement(data: dict[str, Any]) -> str:
     }
     counted = "; ".join(f"{what}: {number}" for what, number in parts.items() if number)
     return f"Claim {data['claim']} ({data['verdict']}).  {counted or 'nothing'}."
+
+
+class Undecided(Rejected):
+    """What is stated decides nothing, so that it gives no verdict but `open`."""
 
 
 def said(data: dict[str, Any], *without: str) -> list[dict[str, Any]]:
@@ -110,11 +115,13 @@ def check_verdict(data: dict[str, Any]) -> None:
     given = kind if false else "holds" if roles & {"printed"} else "definition"
     if data["verdict"] not in ("open", given) and not (data["verdict"] == "settled" and not false):
         raise Rejected(f"the verdict is {data['verdict']!r}, and what is decided gives {given!r}")
+    if data["verdict"] == "open":
+        return
     for role in STATED:
         stated = [one for one in decided if one["role"] == role]
         if stated and all("left" in one and one["left"] == one["right"] for one in stated):
-            raise Rejected(f"what is {role} has one expression on both sides, so that nothing is decided")
-    if (data["corrected"] is not None) != (given == "corrected") and data["verdict"] != "open":
+            raise Undecided(f"what is {role} has one expression on both sides, so that nothing is decided")
+    if (data["corrected"] is not None) != (given == "corrected"):
         raise Rejected("a correction is given where none is decided, or none where one is")
 
 
@@ -344,10 +351,10 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         check_hypotheses(algebra, point, where, whole=True)
         if not holds(one, algebra, point, defined, where):
             raise Rejected(f"{where} fails at its point")
-    for role in STATED:
-        numbers = {i for i, one in enumerate(data["statements"]) if one["role"] == role and "refuted" not in one}
-        if numbers and numbers <= supposed and not any(one["role"] == role for one in said(data, "statements")):
-            raise Rejected(f"all that is {role} is among the relations that it supposes")
+    for role in STATED if data["verdict"] != "open" else ():
+        proved = {i for i, one in enumerate(data["statements"]) if one["role"] == role and "refuted" not in one}
+        if proved and proved <= supposed and not any(one["role"] == role for one in said(data, "statements")):
+            raise Undecided(f"all that is {role} is among the relations that it supposes")
     for i, one in enumerate(data["comparisons"]):
         if compared(one, points[one["point"]], f"comparison {i}") is ("refuted" in one):
             raise Rejected(f"comparison {i} says something else than the numbers at its point")

@@ -2,7 +2,7 @@
 
 Proved by: 5.3.  Operations: 41.  SymPy 1.14.0.
 Expression: sha256 4c01ea3acc25f4ff4d7fadcfcf30a55dd1a118996a04b256c11bba362fbc2a02.
-Certificate of 5.3: sha256 c02a5f3bcf4c4019dd29f158b2e74a9fe072dd329eb12ad33af7f20d3e4282c2.
+Certificate of 5.3: sha256 44588c50de9a6e278ddd2b523b96b2c49fcdc93f03c6f758b6a23a3a07783dd5.
 """
 
 

@@ -253,8 +253,8 @@ def by_hand(statements, points=(), algebras=(), counterexamples=(), hypotheses=(
     """A certificate with few parts."""
     return resealed({
         "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "verdict": "open",
-        "printed": "x", "corrected": None, "glossary": [], "uses": [], "hypotheses": [*hypotheses], "algebras": [*algebras],
-        "derivation": [], "points": [*points], "statements": [*statements],
+        "printed": "x", "corrected": None, "glossary": [], "uses": [], "hypotheses": [*hypotheses],
+        "algebras": [*algebras], "derivation": [], "points": [*points], "statements": [*statements],
         "comparisons": [*comparisons], "counts": [*counts], "zeros": [],
         "counterexamples": [*counterexamples], "rests": [], "sentences": [], "statement": "",
     })  # fmt: skip

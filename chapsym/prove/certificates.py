@@ -60,10 +60,18 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
         "counterexamples": made.counterexamples,
         "rests": made.rests, "sentences": made.sentences,
     }  # fmt: skip
-    data["statement"] = checker.statement(data)
-    data["digest"] = checker.digest(data)
-    checker.check(data)
-    return data
+    try:
+        checker.check(_sealed(data))
+    except register.Undecided:  # SymPy decided it, and the data do not show how
+        checker.check(_sealed(data | {"verdict": "open"}))
+        data["verdict"] = "open"
+    return _sealed(data)
+
+
+def _sealed(data: dict[str, Any]) -> dict[str, Any]:
+    """With its statement and its digest."""
+    data = data | {"statement": checker.statement(data)}
+    return data | {"digest": checker.digest(data)}
 
 
 def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
@@ -100,6 +108,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
     more += f"; rests on other certificates: {len(data['rests'])}" if data["rests"] else ""
     steps = f"; steps from the premises: {len(data['derivation'])}" if data["derivation"] else ""
     listed = ", ".join(f"{n} {role}" for role, n in sentences.items()) or "none"
+    nothing = "; they decide nothing: a derivation is missing" if data["verdict"] == "open" else ""
     return {
         "statements": len(data["statements"]),
         "identical": identical,
@@ -112,7 +121,7 @@ def carried(data: dict[str, Any]) -> dict[str, Any]:
         "rests": len(data["rests"]),
         "sentences": dict(sentences),
         "text": f"statements that the checker accepted: {len(data['statements'])}{same}{steps}{more}; "
-        f"counterexamples: {len(data['counterexamples'])}; sentences: {listed}",
+        f"counterexamples: {len(data['counterexamples'])}; sentences: {listed}{nothing}",
         "judged": [_cut(line) for line in shown.lines(data, parts=False)],
     }
 

@@ -8,7 +8,7 @@ from chapsym.derive import derivation, motion
 from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, gamma, m, omega, rate, rho
 from chapsym.derive.three import hat
 from chapsym.derive.words import Traces, WordAlgebra
-from chapsym.proofs.glossary import MOTION
+from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 DOWNWARDS = "γ is directed from the centre to the plane (2.9 as corrected)"
@@ -17,6 +17,25 @@ DOWNWARDS = "γ is directed from the centre to the plane (2.9 as corrected)"
 equation = equations(ALGEBRA)
 VANISHES = "d'Alembert's principle, which vanishes in a motion"
 TRACES = Traces(ALGEBRA)
+
+
+#: The continuous ball, for every n (Section 2).
+MOTION: Symbols = {
+    "J": (motion.J, "the mass tensor, symmetric (2.10)"),
+    "D": (motion.D, "mρ² (2.11)"),
+    "m": (motion.m, "the mass (2.11)"),
+    r"\rho": (motion.rho, "the radius (2.9)"),
+    r"\omega": (motion.omega, "the angular velocity in the body, skew (2.8)"),
+    r"\dot\omega": (motion.alpha, "its rate"),
+    r"\gamma": (motion.gamma, "the unit vector from the centre to the plane (2.9 as corrected)"),
+    r"\dot\gamma": (motion.rate(motion.gamma), "its rate, as it is fixed in space"),
+    r"\Gamma": (motion.Gamma, "γγᵀ (2.12)"),
+    r"\dot\Gamma": (motion.rate(motion.Gamma), "its rate, as γ is fixed in space"),
+    "v_C": (motion.v, "the velocity of the centre, in the body (2.8)"),
+    r"\dot v_C": (motion.a, "its rate"),
+    "M": (motion.J * motion.omega + motion.omega * motion.J, "Jω + ωJ (2.10)"),
+    r"\dot M": (motion.rate(motion.J * motion.omega + motion.omega * motion.J), "its rate"),
+}
 
 
 def moving(name: str, expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr] = motion.RATES) -> sp.Symbol:

@@ -6,9 +6,8 @@ from chapsym.derive import ball, limits, motion, principle, three
 from chapsym.derive.derivation import written
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
 from chapsym.derive.words import Traces, matrix_symbols, unfolded
-from chapsym.proofs.glossary import STEPS
 from chapsym.proofs.paper.s4_limits import exact_order
-from chapsym.proofs.paper.s4_principle import equation, path_point
+from chapsym.proofs.paper.s4_principle import STEPS, equation, path_point
 from chapsym.prove import Comparison, Equation, Point, Proof, claim, main
 
 # Body rotations and the vertical tensor, as words in the attitudes.

@@ -6,10 +6,20 @@ from chapsym.derive import ball, three
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, Omega, OmegaT
 from chapsym.derive.words import evaluate
 from chapsym.proofs import second_routes
-from chapsym.proofs.glossary import STEP
+from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Equation, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)
+
+
+#: One step of it, in its rotation and its vertical (Remark 3).
+STEP: Symbols = {
+    "J": (ball.J, "the mass tensor, diagonal (4.1)"),
+    "D": (ball.D, "mρ² (4.13)"),
+    r"\Omega_{k-1}": (ball.Omega, "the rotation of the step, in the body (4.6)"),
+    r"\Gamma_{k-1}": (ball.Gamma, "γγᵀ before the step (4.9)"),
+    r"\Gamma_k": (ball.carried(ball.Gamma), "ΩᵀΓΩ: γγᵀ after the step (4.11)"),
+}
 
 
 def printed_relations(sign: int = 1) -> tuple[sp.Expr, sp.Expr]:

@@ -7,7 +7,7 @@ from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
 from chapsym.derive.derivation import replaced
 from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols, unfolded
 from chapsym.proofs import second_routes
-from chapsym.proofs.glossary import STEPS
+from chapsym.proofs.paper.s4_principle import STEPS
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)

@@ -6,7 +6,7 @@ from chapsym.derive import principle
 from chapsym.derive.derivation import replaced
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, J, Lam, R, f, fT, gamma, gammaT, m, rho
 from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols
-from chapsym.proofs.glossary import STEPS
+from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
 
 CORRECTED = principle.kinetic_factor()
@@ -14,6 +14,48 @@ PRINTED = sp.Rational(1, 2)
 
 
 equation = equations(ALGEBRA)
+
+
+def _rotation(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """The rotation from an attitude to the next, in the body."""
+    return principle.ALGEBRA.transpose(a) * b
+
+
+def _in_body(a: sp.Expr, b: sp.Expr) -> sp.Expr:
+    """The momentum about the centre, in the body."""
+    return principle.ALGEBRA.transpose(a) * principle.spatial_momentum(a, b) * a
+
+
+#: The discrete ball, for every n, in its attitudes and centres (Section 4).
+STEPS: Symbols = {
+    "J": (principle.J, "the mass tensor, diagonal (4.1)"),
+    "m": (principle.m, "the mass (4.1)"),
+    r"\rho": (principle.rho, "the radius (4.2)"),
+    r"m\rho^2": (principle.D, "D (4.13)"),
+    "D": (principle.D, "mρ² (4.13)"),
+    "R_k": (principle.R, "the attitude at the time k (4.1)"),
+    "R_{k+1}": (principle.R1, "that at the time k+1"),
+    "R_{k-1}": (principle.R0, "that at the time k-1"),
+    "r_k": (principle.r, "the centre at the time k (4.1)"),
+    "r_{k+1}": (principle.r1, "that at the time k+1"),
+    "r_{k-1}": (principle.r0, "that at the time k-1"),
+    r"\Delta r_k": (principle.r1 - principle.r, "r_(k+1) - r_k"),
+    r"\Delta r_{k-1}": (principle.r - principle.r0, "r_k - r_(k-1)"),
+    r"\vec\gamma": (principle.gamma, "the vertical unit vector in space (4.2)"),
+    r"\gamma_k": (principle.RT * principle.gamma, "that in the body at the time k (4.8)"),
+    r"\gamma_{k-1}": (principle.R0T * principle.gamma, "that at the time k-1"),
+    r"\Gamma_k": (principle.RT * principle.gamma * principle.gammaT * principle.R, "γ_kγ_kᵀ (4.9)"),
+    r"\Gamma_{k-1}": (principle.R0T * principle.gamma * principle.gammaT * principle.R0, "γ_(k-1)γ_(k-1)ᵀ"),
+    r"\Lambda_k": (principle.Lam, "the symmetric multiplier of R Rᵀ = 1 (4.3)"),
+    r"\bar\Omega_k": (principle.R1 * principle.RT, "R_(k+1)R_kᵀ, in space (4.9)"),
+    r"\bar\Omega_{k-1}": (principle.R * principle.R0T, "R_kR_(k-1)ᵀ, in space (4.9)"),
+    r"\Omega_k": (_rotation(principle.R, principle.R1), "R_kᵀR_(k+1), in the body (4.6)"),
+    r"\Omega_{k-1}": (_rotation(principle.R0, principle.R), "R_(k-1)ᵀR_k, in the body"),
+    "m_k": (principle.spatial_momentum(principle.R, principle.R1), "R_(k+1)JR_kᵀ - R_kJR_(k+1)ᵀ (4.6)"),
+    "m_{k-1}": (principle.spatial_momentum(principle.R0, principle.R), "that a step before"),
+    "M_k": (_in_body(principle.R, principle.R1), "R_kᵀm_kR_k (4.6 as corrected)"),
+    "M_{k-1}": (_in_body(principle.R0, principle.R), "that a step before"),
+}
 
 
 def path_point(values: dict, *hypotheses: Equation) -> Point:

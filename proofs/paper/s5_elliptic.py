@@ -3,8 +3,8 @@
 import sympy as sp
 
 from chapsym.derive import elliptic
-from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
-from chapsym.proofs.glossary import CURVE
+from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, Jacobi, U, k2, l
+from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Equation, Proof, claim, equations, main, rational_point
 
 C1, C2, C3, V = sp.symbols("C1 C2 C3 V")
@@ -16,6 +16,38 @@ TWO = elliptic.ring(MEAN, HALF, amplitudes=(C1, C2, C3, V))
 BALL = {L1: 8, L2: 7, L3: 6, l: "25/168"}
 SQUARE = {k2: "9/16"}
 ARGUMENT = ("4/5", "3/5", "4/5")
+
+
+def functions(values: Jacobi, argument: str) -> Symbols:
+    """Jacobi's functions of an argument, and their powers as they are printed."""
+    found: Symbols = {}
+    for name, value in values._asdict().items():
+        for power in (1, 2, 4):
+            exponent = "" if power == 1 else f"^{power}"
+            found[rf"\mathrm{{{name}}}{exponent}{argument}"] = value**power, f"{name}{exponent} of the argument (5.7)"
+    return found
+
+
+#: The curve (Section 5): Λ, its modulus and level, and Jacobi's functions of u, ū and δu.
+CURVE: Symbols = {
+    r"\Lambda_1": (L1, "the first entry of Λ (5.2)"),
+    r"\Lambda_2": (L2, "the second entry of Λ (5.2)"),
+    r"\Lambda_3": (L3, "the third entry of Λ (5.2)"),
+    "k^2": (k2, "the square of the modulus (5.8)"),
+    **functions(HALF, r"\delta u"),
+    **functions(MEAN, r"\bar u"),
+    **functions(U, "u"),
+    r"w(\delta u)": (HALF.sn * HALF.cn * HALF.dn, "sn cn dn of δu (5.15)"),
+    "W(u)": (U.sn * U.cn * U.dn, "sn cn dn of u (5.16)"),
+    r"\mathcal D": (elliptic.denominator(), "1 - k² sn²ū sn²δu (5.13)"),
+}
+
+#: The same with the level l as what k² and Λ make of it.
+LEVEL: Symbols = CURVE | {
+    "l": (elliptic.level(), "the level ⟨γ, Λ⁻¹γ⟩, by k² and Λ (5.8)"),
+    **{f"C_{i + 1}^2": (c.subs(elliptic.l, elliptic.level()), f"the square of C_{i + 1} (5.8 as corrected)")
+       for i, c in enumerate(elliptic.squared_amplitudes())},
+}  # fmt: skip
 
 
 def on_ball() -> Equation:

@@ -8,8 +8,7 @@ from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs import second_routes
-from chapsym.proofs.glossary import CURVE, LEVEL
-from chapsym.proofs.paper.s5_elliptic import ARGUMENT, BALL, SQUARE, TWO, V, on_ball, printed_squares
+from chapsym.proofs.paper.s5_elliptic import ARGUMENT, BALL, CURVE, LEVEL, SQUARE, TWO, V, on_ball, printed_squares
 from chapsym.prove import Comparison, Equation, Point, Proof, claim, equations, main, rational_point
 
 

@@ -9,8 +9,7 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, q, q0
 from chapsym.derive.vertical import RING, sigma
 from chapsym.proofs import second_routes
-from chapsym.proofs.glossary import VERTICAL
-from chapsym.proofs.paper.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_point
+from chapsym.proofs.paper.s5_vertical import LARGE, NOT_ZERO, SMALL, VERTICAL, vertical_point
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
 
 equation = equations(RING)

@@ -10,7 +10,7 @@ from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0, q1, q2, q3
 from chapsym.derive.vertical import RING, h, sigma
 from chapsym.proofs import second_routes
 from chapsym.proofs.glossary import BALL as STATE
-from chapsym.proofs.glossary import VERTICAL
+from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Equation, Point, Proof, claim, equations, main, rational_point
 
 equation = equations(RING)
@@ -31,6 +31,16 @@ def vertical_state() -> list[Equation]:
         equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1),
         equation("|γ| = 1", vertical.gamma_now().dot(vertical.gamma_now()), 1),
     ]
+
+
+#: Vertical momentum (Section 5): γ and γ~ in q and σ.
+VERTICAL: Symbols = {
+    **{name: STATE[name] for name in (r"\Lambda", "D", r"\mathbf q", "q_0")},
+    r"\sigma": (sigma, "h + 2D⟨γ, q₀q⟩ (5.6 as corrected)"),
+    r"\gamma": (sp.Matrix(vertical.gamma_now()), "(2/σ)(q₀Λq + q×Λq), the vertical in the body (5.6)"),
+    r"\tilde\gamma": (sp.Matrix(vertical.gamma_next()), "(2/σ)(q₀Λq - q×Λq), the next vertical (5.6)"),
+    "h": (vertical.height(), "of 𝒦 = hγ: here σ - 2D⟨γ, q₀q⟩ (5.4)"),
+}
 
 
 def vertical_point(state: dict) -> Point:

@@ -2,7 +2,7 @@
 
 Proved by: I-a1.  Operations: 33.  SymPy 1.14.0.
 Expression: sha256 0f159213b1968f9442fbaf2701374fd3b677df3261cbccb88385bf08450800d9.
-Certificate of I-a1: sha256 2ee4c155e790bd62f7897453df2e59ae1234412255a0f8d1edcb4b7a1e878ff8.
+Certificate of I-a1: sha256 cb4fabaf3e9c06232eddc2141de185bd2a0e3f913e7b6a7bd263aa6ee4399eeb.
 """
 
 from chapsym.numbers.functions import cos, sin
