@@ -29,7 +29,10 @@ def main(arguments: list[str] | None = None) -> int:
     expected: dict[str, str] = {}
     if options.manifest:
         try:
-            listed = manifest.listed(read(options.manifest), Path(options.manifest).parent)
+            data = read(options.manifest)
+            listed = manifest.listed(data, Path(options.manifest).parent)
+            if not options.json:
+                print(f"{options.manifest}: {len(listed)} certificates, digest {data['digest']}")
         except (Rejected, Unreadable) as error:
             print(f"{options.manifest}: rejected: {error}", file=sys.stderr)
             return 1 if isinstance(error, Rejected) else 2

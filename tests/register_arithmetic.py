@@ -18,6 +18,7 @@ def arithmetic(package):
     polynomials(import_module(f"{package}.polynomial"), refused)
     evaluations(import_module(f"{package}.register"))
     words(import_module(f"{package}.words"), import_module(f"{package}.polynomial").Work, refused)
+    reading(import_module(f"{package}.formulas"))
     roots(import_module(f"{package}.roots"), import_module(f"{package}.polynomial").Work)
 
 
@@ -130,3 +131,103 @@ def words(module, Work, refused):
     assert refused(lambda: word("a") ** -1)
     assert refused(lambda: (word("", exponents=(1, 0)) + word("", exponents=(0, 1))) ** -1)
     assert (word("", exponents=(1, -2)) ** -2).terms == {((-2, 4), ()): 1}
+
+
+NUMBERS = {"a": 2, "b": 3, "c": 5, "x1": 1, "x2": -2, "x3": 4, "y1": 3, "y2": 1, "y3": -1, "s": 7}
+GLOSSARY = [
+    *([name, name, name] for name in "abcs"),
+    ["x", "a vector", ["x1", "x2", "x3"]],
+    [r"\tilde x", "another", ["y1", "y2", "y3"]],
+    [r"\Lambda", "diagonal", [["a", 0, 0], [0, "b", 0], [0, 0, "c"]]],
+    ["A", "a matrix", [["a", "b", 1], [0, "c", 2], [1, 1, "s"]]],
+    [r"f(\delta u)", "a function", "s"],
+    ["a_{k+1}", "the next a", ["*", 10, "a"]],
+]
+
+
+def numbers(of, value):
+    rank, tree = of
+    if rank:
+        return [numbers((rank - 1, part), value) for part in tree]
+    return value(tree, {name: Fraction(x) for name, x in NUMBERS.items()}, Fraction)
+
+
+READ = {
+    "1 + 2a - bc": 1 + 4 - 15,
+    r"\frac ab": Fraction(2, 3),
+    r"\tfrac12 a": 1,
+    r"\frac{a+b}2c": Fraction(25, 2),
+    "-a^2": -4,
+    "a^{-1}b^2": Fraction(9, 2),
+    "12a": 24,
+    "a_{k+1} - a": 18,
+    r"f(\delta u)\,a": 14,
+    r"\langle x, \tilde x\rangle": 3 - 2 - 4,
+    r"x\times\tilde x": [-2, 13, 7],
+    r"a\,x\times\tilde x": [-4, 26, 14],
+    r"\Lambda x": [2, -6, 20],
+    r"\Lambda^{-2}x": [Fraction(1, 4), Fraction(-2, 9), Fraction(4, 25)],
+    r"\Lambda x\times x": [-6 * 4 + 2 * 20, 20 - 8, -4 + 6],
+    r"\langle x,\Lambda^{-1}\tilde x\rangle": Fraction(3, 2) - Fraction(2, 3) - Fraction(4, 5),
+    "A x": [2 - 6 + 4, -10 + 8, 1 - 2 + 28],
+    r"A^T x": [2 + 4, 3 - 10 + 4, 1 - 4 + 28],
+    r"[A, \Lambda]": [[0, 3 * 3 - 2 * 3, 5 - 2], [0, 0, 4], [2 - 5, 3 - 5, 0]],
+    r"\mathrm{diag}(a, b, c)x": [2, -6, 20],
+    "2(a + b, bc, -s)^T": [10, 30, -14],
+    r"[a + b]\,\bigl(a - b\bigr)": -5,
+    r"\langle x,\tilde x\rangle^2 x": [9, -18, 36],
+}  # fmt: skip
+
+
+#: What is not read.
+UNREAD = [
+    "z = a",
+    "a",
+    r"\frac a = b",
+    "(a = b",
+    r"\langle a, b\rangle = c",
+    "x x = a",
+    "x + a = b",
+    "a^b = c",
+    "A^{-1} = A",
+    r"\sqrt a + \sqrt b = c",
+    r"a \times b = c",
+    "{a = b",
+    r"\langle x, x, x\rangle = a",
+    "= a",
+    "a = ",
+    r"\oint a = b",
+    r"(a, x, b)^T = x",
+]
+
+
+def reading(module):
+    """Formulas are read as they are meant, or not at all."""
+    value = import_module(f"{module.__package__}.trees").value
+    for formula, meant in READ.items():
+        [part] = module.parts(f"{formula} = s")
+        [(left, right)] = module.equations(part, module.Reader(GLOSSARY))
+        assert (numbers(left, value), numbers(right, value)) == (meant, 7), formula
+    for formula in UNREAD:
+        [part] = module.parts(formula)
+        said = ""
+        try:
+            module.equations(part, module.Reader(GLOSSARY))
+        except module.NotRead as error:
+            said = str(error)
+        assert 5 < len(said) < 100, formula
+    formula = r"a = b \equiv c,\ \langle x, x\rangle = s;\quad \text{for all } a: a = b"
+    assert len(module.parts(formula)) == 4
+    assert len(module.equations(module.parts(formula)[0], module.Reader(GLOSSARY))) == 2
+    glossary = [["A", "", "A"], ["B", "", ["*", "A", "B"]], ["v", "", "v"], ["w", "", "w"], ["m", "", "m"]]
+    transposes = {"A": "A^T", "A^T": "A", "B": ["*", -1, "B"], "v": "v^T", "v^T": "v", "w": "w^T", "w^T": "w", "m": "m"}
+    wedge = ["+", ["*", "v", "w^T"], ["*", -1, ["*", "w", "v^T"]]]
+    for formula, tree in {
+        "B^T": ["*", ["*", -1, "B"], "A^T"],
+        "(mA)^T": ["*", "A^T", "m"],
+        r"v\wedge w": wedge,
+        r"v\wedge w^T": wedge,
+    }.items():
+        [part] = module.parts(f"{formula} = A")
+        [(left, _)] = module.equations(part, module.Reader(glossary, transposes))
+        assert left == (0, tree), formula

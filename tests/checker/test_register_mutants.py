@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 from count_changes import counts
 from derivation_changes import derivations
+from meaning_changes import FORGED
+from meaning_changes import changed as forged
 from register_changes import CHANGES, SAMPLES, changed, slip, small
 
 import chapsym.proofs
@@ -23,7 +25,9 @@ FILES = (
     "algebra.py",
     "derivation.py",
     "form.py",
+    "formulas.py",
     "matrices.py",
+    "meaning.py",
     "polynomial.py",
     "register.py",
     "roots.py",
@@ -87,9 +91,10 @@ MUTANTS = [(name, i) for name in FILES for i, _ in enumerate(places(ast.parse((C
 @pytest.fixture(scope="module")
 def battery(tmp_path_factory):
     """Certificates that are right, and certificates that are not, as a file."""
-    samples = {id: checker.read(FOLDER / checker.file_name(id)) for id in SAMPLES}
+    samples = {id: checker.read(FOLDER / checker.file_name(id)) for id in (*SAMPLES, "2.1", "4.10", "remark-3", "5.11")}
     rng = random.Random(7)
     wrong = [changed(samples[id], change) for id, change in CHANGES.values()]
+    wrong += [forged(id, change) for id, change in FORGED.values()]
     wrong += [slip(samples[rng.choice(SAMPLES)], rng)[0] for _ in range(40)]
     right, more = (a | b | c for a, b, c in zip(small(), derivations(), counts(), strict=True))
     right = [[data, checker.check(data).numbers] for data in (*samples.values(), *right.values())]
