@@ -4,6 +4,7 @@ Each table gives symbols their values, in the letters of the statements, and the
 paper.  A claim reads with a table and with what it defines itself.
 """
 
+from functools import cache
 from typing import Any
 
 import sympy as sp
@@ -13,18 +14,24 @@ from chapsym.derive.limits import omega
 
 Symbols = dict[str, tuple[Any, str]]
 
-#: n = 3 (Sections 2 and 5): the ball and its state.
-BALL: Symbols = {
-    r"\Lambda": (three.lam(), "diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D), J the mass tensor (2.2, 5.2)"),
-    "D": (three.D, "mρ² (2.2)"),
-    r"\gamma": (three.gamma, "the vertical unit vector in the body (2.1)"),
-    r"\omega": (omega, "the angular velocity in the body (2.1)"),
-    r"\mathbf q": (three.q, "the vector part of the Euler parameters (5.1)"),
-    "q_0": (three.q0, "their scalar part (5.1)"),
-}
 
-#: The tensor of inertia and F of Section 2.
-CLASSICAL: Symbols = BALL | {
-    "J": (three.lam() - three.D * sp.eye(3), "the tensor of inertia, Λ - D, in Section 2 (2.1)"),
-    "F": (continuous.rolling_factor(), "⟨Jγ, Λ⁻¹γ⟩ (2.2)"),
-}
+@cache
+def ball() -> Symbols:
+    """n = 3 (Sections 2 and 5): the ball and its state."""
+    return {
+        r"\Lambda": (three.lam(), "diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D), J the mass tensor (2.2, 5.2)"),
+        "D": (three.D, "mρ² (2.2)"),
+        r"\gamma": (three.gamma, "the vertical unit vector in the body (2.1)"),
+        r"\omega": (omega, "the angular velocity in the body (2.1)"),
+        r"\mathbf q": (three.q, "the vector part of the Euler parameters (5.1)"),
+        "q_0": (three.q0, "their scalar part (5.1)"),
+    }
+
+
+@cache
+def classical() -> Symbols:
+    """The tensor of inertia and F of Section 2."""
+    return ball() | {
+        "J": (three.lam() - three.D * sp.eye(3), "the tensor of inertia, Λ - D, in Section 2 (2.1)"),
+        "F": (continuous.rolling_factor(), "⟨Jγ, Λ⁻¹γ⟩ (2.2)"),
+    }

@@ -197,6 +197,10 @@ UNREAD = [
     "= a",
     "a = ",
     r"\oint a = b",
+    r"\mathrm{det}a = b",
+    r"x\wedge x = a",
+    r"(a, b)^T\times x = x",
+    r"a\times x = x",
     r"(a, x, b)^T = x",
 ]
 

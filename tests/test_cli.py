@@ -111,7 +111,15 @@ def test_help_shows_an_example_of_each_command():
         assert f"Example: chapsym {command}" in text, command
         assert not re.search("<[a-z]", text), f"chapsym {command} -h shows a type of Python's"
     kinds = re.findall(r"^  ([\w-]+)  ", chapsym("certify", "-h").stdout, re.MULTILINE)
-    assert kinds == ["no-invariant-measure", "heteroclinic", "periodic-orbit", "energy-drift", "check", "motion"]
+    assert kinds == [
+        "no-invariant-measure",
+        "heteroclinic",
+        "periodic-orbit",
+        "energy-drift",
+        "check",
+        "manifest",
+        "motion",
+    ]
     assert not [kind for kind in kinds if re.search("<[a-z]", chapsym("certify", kind, "-h").stdout)]
 
 

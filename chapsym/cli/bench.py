@@ -46,7 +46,7 @@ def bench(
 
     Example: chapsym bench trajectory --quick
     """
-    from chapsym.studies.harness import benchmark
+    from chapsym.studies.harness import in_checkout
 
     told = (mass_tensor, inertia, contact, mass, radius)
     own = None
@@ -54,4 +54,4 @@ def bench(
         if momentum is None:
             fail("--momentum K1,K2,K3 goes with a ball of your own", 2)
         own = *ball_from(*told), rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
-    benchmark("command").measure(sections or [], quick, output, as_json, own)
+    in_checkout("benchmarks", "command").measure(sections or [], quick, output, as_json, own)

@@ -119,14 +119,13 @@ def _behind(questions: list[str], claims: dict[str, Any]) -> list[str]:
 
 def _evidence(name: str, folder: Path) -> Any:
     """What a study left in the folder; None if it left nothing."""
-    from importlib import import_module
-
     from chapsym.report.questions import Evidence
+    from chapsym.studies.harness import in_checkout
 
     data = folder / f"{name}.json"
     if not data.is_file():
         return None
-    module = import_module(f"chapsym.studies.{name}")
+    module = in_checkout("research", name)
     try:
         found = json.loads(data.read_text(encoding="utf-8"))
         drawn = [(caption, folder / file) for file, caption in module.CAPTIONS.items() if (folder / file).is_file()]

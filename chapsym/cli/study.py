@@ -10,7 +10,7 @@ from .app import app
 from .options import Json
 from .output import fail, print_json, progress_bar
 
-#: The packages of chapsym.studies that offer study(quick, path, scheduler, report), sentences(found) and
+#: The packages of research, in a checkout, that offer study(quick, path, scheduler, report), sentences(found) and
 #: save_figures(found, folder).
 STUDIES = ("rotation", "energy", "chaos")
 
@@ -36,16 +36,15 @@ def study(
 
     Example: chapsym study rotation --quick -o open
     """
-    from importlib import import_module
-
     from chapsym import extras
     from chapsym.studies import units
+    from chapsym.studies.harness import in_checkout
 
     if name not in STUDIES:
         fail(f"there is no study {name!r}; there are {', '.join(STUDIES)}", 2)
     if output is not None:
         extras.need("figures")
-    module = import_module(f"chapsym.studies.{name}")
+    module = in_checkout("research", name)
     folder = None if output is None else units.folder(output)
     kept = None if folder is None else folder / f"{name}.jsonl"
     with progress_bar(name, 0) as shown:

@@ -131,11 +131,11 @@ def installed(package: str) -> str | None:
     return None if find_spec(package) else f"{package} is not installed (pip install 'chapsym[bench]')"
 
 
-def benchmark(module: str) -> Any:
-    """A module of the benchmarks; raises BadInput where they are not, and MissingExtra."""
-    if not (BENCHMARKS / "command.py").is_file():
-        raise BadInput("the benchmarks are not in the wheel; run them from a checkout")
-    return import_module(f"benchmarks.{module}")
+def in_checkout(package: str, module: str) -> Any:
+    """A module of `benchmarks` or `research`; raises BadInput where these are not, and MissingExtra."""
+    if not (BENCHMARKS.parent / package / "__init__.py").is_file():
+        raise BadInput(f"{package}/ is not in the wheel; run this from a checkout")
+    return import_module(f"{package}.{module}")
 
 
 def compiler() -> str | None:

@@ -11,7 +11,7 @@ from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, hat
 from chapsym.derive.words import evaluate
-from chapsym.proofs.glossary import CLASSICAL
+from chapsym.proofs import glossary
 from chapsym.proofs.paper.s2_continuous import BALL, SPIN, UNIT, unit_vertical
 from chapsym.prove import Comparison, Equation, Proof, claim, main, rational_point
 
@@ -69,7 +69,7 @@ def vector_equations(p: Proof) -> None:
     ring = Quotient(RING.symbols)
     turning, falling = carried_rates()
     p.reads(
-        CLASSICAL
+        glossary.classical()
         | {
             "K": (K, "the vector of K (2.13), (A₃₂, A₁₃, A₂₁) of a skew A"),
             r"\dot K": (turning, "that of -[ω, K] (2.12), by the derivation"),

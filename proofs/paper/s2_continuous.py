@@ -7,8 +7,7 @@ from chapsym.derive.continuous import RING, inverse_inertia
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma
-from chapsym.proofs.glossary import BALL as STATE
-from chapsym.proofs.glossary import CLASSICAL
+from chapsym.proofs import glossary
 from chapsym.prove import Equation, Proof, claim, equations, main, rational_point
 
 equation = equations(RING)
@@ -34,7 +33,7 @@ def rolling_condition(p: Proof) -> None:
     """The sign is wrong if γ is directed upwards, as it is before (2.9); at (2.1) no direction is printed."""
     p.slips("convention")
     p.reads(
-        STATE
+        glossary.ball()
         | {
             "v": (VELOCITY, "the velocity of the centre (2.1)"),
             r"\rho": (RADIUS, "the radius (2.1)"),
@@ -64,7 +63,7 @@ def rolling_condition(p: Proof) -> None:
 @claim("2.2-F", r"F = \langle J\gamma,\Lambda^{-1}\gamma\rangle \equiv 1 - D\langle\gamma,\Lambda^{-1}\gamma\rangle")
 def rolling_factor(p: Proof) -> None:
     """The two forms of F agree on the unit sphere; J is here the inertia tensor, Λ - D."""
-    p.reads(CLASSICAL)
+    p.reads(glossary.classical())
     p.assume("J of Section 2 is the inertia tensor I = diag(J₂+J₃, ...), not the mass tensor of Section 5")
     inverse = inverse_inertia()
     printed = (three.lam() - D * sp.eye(3)) * gamma
@@ -90,7 +89,7 @@ def inverse_momentum(p: Proof) -> None:
     """The inverse of K(ω, γ): the sign is misprinted."""
     p.slips("serious")
     p.reads(
-        CLASSICAL
+        glossary.classical()
         | {"K": (sp.Matrix(continuous.momentum()), "Λω - D⟨ω,γ⟩γ, the momentum about the point of contact (2.3)")}
     )
     p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
@@ -125,7 +124,7 @@ def energy_integral(p: Proof) -> None:
     """The energy integral as a function of K, γ: the sign is misprinted with that of the inverse."""
     p.slips("serious", "2.5-inverse")
     p.reads(
-        CLASSICAL
+        glossary.classical()
         | {
             "K": (K, "the momentum about the point of contact (2.3)"),
             r"\omega": (sp.Matrix(continuous.angular_velocity()), "Λ⁻¹(K + (D/F)⟨γ,Λ⁻¹K⟩γ) (2.5-inverse as corrected)"),

@@ -1,6 +1,7 @@
 """Section 2: the continuous ball for every n, from d'Alembert's principle, with words in noncommuting symbols."""
 
 from collections.abc import Mapping
+from functools import cache
 
 import sympy as sp
 
@@ -19,23 +20,25 @@ VANISHES = "d'Alembert's principle, which vanishes in a motion"
 TRACES = Traces(ALGEBRA)
 
 
-#: The continuous ball, for every n (Section 2).
-MOTION: Symbols = {
-    "J": (motion.J, "the mass tensor, symmetric (2.10)"),
-    "D": (motion.D, "mρ² (2.11)"),
-    "m": (motion.m, "the mass (2.11)"),
-    r"\rho": (motion.rho, "the radius (2.9)"),
-    r"\omega": (motion.omega, "the angular velocity in the body, skew (2.8)"),
-    r"\dot\omega": (motion.alpha, "its rate"),
-    r"\gamma": (motion.gamma, "the unit vector from the centre to the plane (2.9 as corrected)"),
-    r"\dot\gamma": (motion.rate(motion.gamma), "its rate, as it is fixed in space"),
-    r"\Gamma": (motion.Gamma, "γγᵀ (2.12)"),
-    r"\dot\Gamma": (motion.rate(motion.Gamma), "its rate, as γ is fixed in space"),
-    "v_C": (motion.v, "the velocity of the centre, in the body (2.8)"),
-    r"\dot v_C": (motion.a, "its rate"),
-    "M": (motion.J * motion.omega + motion.omega * motion.J, "Jω + ωJ (2.10)"),
-    r"\dot M": (motion.rate(motion.J * motion.omega + motion.omega * motion.J), "its rate"),
-}
+@cache
+def motion_symbols() -> Symbols:
+    """The continuous ball, for every n (Section 2)."""
+    return {
+        "J": (motion.J, "the mass tensor, symmetric (2.10)"),
+        "D": (motion.D, "mρ² (2.11)"),
+        "m": (motion.m, "the mass (2.11)"),
+        r"\rho": (motion.rho, "the radius (2.9)"),
+        r"\omega": (motion.omega, "the angular velocity in the body, skew (2.8)"),
+        r"\dot\omega": (motion.alpha, "its rate"),
+        r"\gamma": (motion.gamma, "the unit vector from the centre to the plane (2.9 as corrected)"),
+        r"\dot\gamma": (motion.rate(motion.gamma), "its rate, as it is fixed in space"),
+        r"\Gamma": (motion.Gamma, "γγᵀ (2.12)"),
+        r"\dot\Gamma": (motion.rate(motion.Gamma), "its rate, as γ is fixed in space"),
+        "v_C": (motion.v, "the velocity of the centre, in the body (2.8)"),
+        r"\dot v_C": (motion.a, "its rate"),
+        "M": (motion.J * motion.omega + motion.omega * motion.J, "Jω + ωJ (2.10)"),
+        r"\dot M": (motion.rate(motion.J * motion.omega + motion.omega * motion.J), "its rate"),
+    }
 
 
 def moving(name: str, expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr] = motion.RATES) -> sp.Symbol:
@@ -86,7 +89,9 @@ def rolling_condition(p: Proof) -> None:
 @claim("2.10", r"M = J\omega + \omega J")
 def centre_momentum(p: Proof) -> None:
     """The angular momentum about the centre, from the kinetic energy ½ tr(Ṙ J Ṙᵀ)."""
-    p.reads(MOTION | {"M": (motion.centre_momentum(), "from the kinetic energy ½ tr(ṘJṘᵀ), by the derivation")})
+    p.reads(
+        motion_symbols() | {"M": (motion.centre_momentum(), "from the kinetic energy ½ tr(ṘJṘᵀ), by the derivation")}
+    )
     derived = motion.centre_momentum()
     p.show("M", derived)
     p.printed(equation("M = Jω + ωJ", J * omega + omega * J, derived))
@@ -103,7 +108,7 @@ def centre_momentum(p: Proof) -> None:
 def equations_of_motion(p: Proof) -> None:
     """The equations of motion are d'Alembert's principle in the frame of the body."""
     p.reads(
-        MOTION
+        motion_symbols()
         | {
             "F": (motion.m * (motion.a + omega * motion.v), "m(v̇ + ωv), the force of inertia"),
             "0": (motion.dalembert(), VANISHES),
@@ -130,7 +135,7 @@ def reaction_force(p: Proof) -> None:
     """The reaction force: its sign is misprinted."""
     p.slips("serious")
     p.reads(
-        MOTION
+        motion_symbols()
         | {
             "F": (
                 motion.on_rolling("force_rolling", motion.inertial_force()),
@@ -156,7 +161,7 @@ def reaction_force(p: Proof) -> None:
 def eliminated_force(p: Proof) -> None:
     """After F is eliminated the right side has the sign of F, which is misprinted."""
     p.slips("serious", "2.11-force")
-    p.reads(MOTION | {"0": (motion.eliminated(), VANISHES)})
+    p.reads(motion_symbols() | {"0": (motion.eliminated(), VANISHES)})
     p.assume(DOWNWARDS)
     momentum = J * omega + omega * J
     balance = rate(momentum) + commutator(omega, momentum)
@@ -175,7 +180,7 @@ def eliminated_force(p: Proof) -> None:
 def conservation(p: Proof) -> None:
     """The momentum about the contact point is fixed in space, for every n."""
     p.reads(
-        MOTION
+        motion_symbols()
         | {
             r"\mathbf K": (motion.contact_momentum(), "Jω + ωJ + D(Γω + ωΓ) (2.13)"),
             r"\dot{\mathbf K}": (moving("K_here", motion.contact_momentum()), "its rate"),

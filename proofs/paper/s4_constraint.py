@@ -7,7 +7,7 @@ from chapsym.derive.derivation import written
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
 from chapsym.derive.words import Traces, matrix_symbols, unfolded
 from chapsym.proofs.paper.s4_limits import exact_order
-from chapsym.proofs.paper.s4_principle import STEPS, equation, path_point
+from chapsym.proofs.paper.s4_principle import equation, path_point, step_symbols
 from chapsym.prove import Comparison, Equation, Point, Proof, claim, main
 
 # Body rotations and the vertical tensor, as words in the attitudes.
@@ -124,7 +124,7 @@ def spatial_reaction(p: Proof) -> None:
     force = principle.rolling_reaction()
     p.show("f", force)
     after, before = (m * rho / 2 * spatial_rotation(*pair) * gamma for pair in [(R, R1), (R0, R)])
-    p.reads(STEPS | {r"\vec f^k": (force, "m(Δr_k - Δr_(k-1)) where (4.9) holds, by the derivation")})
+    p.reads(step_symbols() | {r"\vec f^k": (force, "m(Δr_k - Δr_(k-1)) where (4.9) holds, by the derivation")})
     p.printed(equation("f as printed = m(Δr_k - Δr_{k-1}) on (4.9)", -after + before, force))
     p.control(equation("f with its second sign flipped", -after - before, force))
 
@@ -140,7 +140,7 @@ def body_reaction(p: Proof) -> None:
     force = RT * principle.rolling_reaction()
     after = m * rho / 2 * (NOW - NOW_T) * RT * gamma
     before = m * rho / 2 * (BEFORE - BEFORE_T) * RT * gamma
-    p.reads(STEPS | {r"\vec F^k": (force, "R_kᵀf^k (4.8), f^k as it is derived (4.9-f)")})
+    p.reads(step_symbols() | {r"\vec F^k": (force, "R_kᵀf^k (4.8), f^k as it is derived (4.9-f)")})
     p.printed(equation("F as printed = R_kᵀ f", -after - before, force))
     p.corrected(
         r"\vec F^k = -\frac{m\rho}2(\Omega_k-\Omega_k^T)\gamma_k + \frac{m\rho}2(\Omega_{k-1}-\Omega_{k-1}^T)\gamma_k",
@@ -173,7 +173,8 @@ def torque(p: Proof) -> None:
     force = RT * principle.rolling_reaction()
     derived = ALGEBRA.wedge(force, RT * gamma)
     p.reads(
-        STEPS | {r"\vec F^k": (m * rho / 2 * (BEFORE - BEFORE_T - NOW + NOW_T) * RT * gamma, "as corrected (4.9-F)")}
+        step_symbols()
+        | {r"\vec F^k": (m * rho / 2 * (BEFORE - BEFORE_T - NOW + NOW_T) * RT * gamma, "as corrected (4.9-F)")}
     )
     p.printed(equation("the printed torque = Fγᵀ - γFᵀ", printed, derived))
     wrong = -m * rho / 2 * ((NOW - NOW_T) + (BEFORE - BEFORE_T)) * RT * gamma
@@ -206,7 +207,9 @@ def closed_equation(p: Proof) -> None:
     balance = ball.body_balance()
     p.show("R_kᵀ S R_k", balance)
     left, right = closed_sides()
-    p.reads(STEPS | {"0": (balance, "the principle in the body, on the discrete constraint, by the derivation")})
+    p.reads(
+        step_symbols() | {"0": (balance, "the principle in the body, on the discrete constraint, by the derivation")}
+    )
     p.printed(equation("(4.10) left - right = R_kᵀ S R_k", left - right, balance))
     left, right = closed_sides(sign=-1)
     p.control(equation("(4.10) with one sign flipped", left - right, balance))

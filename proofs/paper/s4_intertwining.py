@@ -1,5 +1,7 @@
 """Section 4: the intertwining relations of Remark 3."""
 
+from functools import cache
+
 import sympy as sp
 
 from chapsym.derive import ball, three
@@ -12,14 +14,16 @@ from chapsym.prove import Equation, Proof, claim, equations, main
 equation = equations(ALGEBRA)
 
 
-#: One step of it, in its rotation and its vertical (Remark 3).
-STEP: Symbols = {
-    "J": (ball.J, "the mass tensor, diagonal (4.1)"),
-    "D": (ball.D, "mρ² (4.13)"),
-    r"\Omega_{k-1}": (ball.Omega, "the rotation of the step, in the body (4.6)"),
-    r"\Gamma_{k-1}": (ball.Gamma, "γγᵀ before the step (4.9)"),
-    r"\Gamma_k": (ball.carried(ball.Gamma), "ΩᵀΓΩ: γγᵀ after the step (4.11)"),
-}
+@cache
+def one_step_symbols() -> Symbols:
+    """One step of it, in its rotation and its vertical (Remark 3)."""
+    return {
+        "J": (ball.J, "the mass tensor, diagonal (4.1)"),
+        "D": (ball.D, "mρ² (4.13)"),
+        r"\Omega_{k-1}": (ball.Omega, "the rotation of the step, in the body (4.6)"),
+        r"\Gamma_{k-1}": (ball.Gamma, "γγᵀ before the step (4.9)"),
+        r"\Gamma_k": (ball.carried(ball.Gamma), "ΩᵀΓΩ: γγᵀ after the step (4.11)"),
+    }
 
 
 def printed_relations(sign: int = 1) -> tuple[sp.Expr, sp.Expr]:
@@ -49,7 +53,7 @@ def intertwining(p: Proof) -> None:
     p.show("𝒦_{k-1}", momentum)
     p.show("𝒦_k = Ωᵀ𝒦_{k-1}Ω", ball.carried(momentum))
     p.reads(
-        STEP
+        one_step_symbols()
         | {
             r"\mathcal K_{k-1}": (momentum, "𝒦 of the step (4.13), by the derivation"),
             r"\mathcal K_k": (ball.carried(momentum), "Ωᵀ𝒦_(k-1)Ω (4.12)"),

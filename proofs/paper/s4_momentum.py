@@ -7,7 +7,7 @@ from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, Omega, OmegaT
 from chapsym.derive.derivation import replaced
 from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols, unfolded
 from chapsym.proofs import second_routes
-from chapsym.proofs.paper.s4_principle import STEPS
+from chapsym.proofs.paper.s4_principle import step_symbols
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)
@@ -42,7 +42,7 @@ def compact_form(p: Proof) -> None:
     p.assume("𝕃 with the correction of (4.1)")
     p.assume("Γ is even in γ: (4.12) fixes γ_k up to a common sign, and (4.11) fixes the sign")
     p.reads(
-        STEPS
+        step_symbols()
         | {
             r"\mathcal K_k": (ball.momentum_in_space(now=True), "𝒦 of the step k, by the derivation"),
             r"\mathcal K_{k-1}": (ball.momentum_in_space(now=False), "that of the step k-1"),

@@ -1,5 +1,7 @@
 """Section 4: from the discrete Lagrange-d'Alembert principle to the discrete Euler-Poincaré form."""
 
+from functools import cache
+
 import sympy as sp
 
 from chapsym.derive import principle
@@ -26,36 +28,38 @@ def _in_body(a: sp.Expr, b: sp.Expr) -> sp.Expr:
     return principle.ALGEBRA.transpose(a) * principle.spatial_momentum(a, b) * a
 
 
-#: The discrete ball, for every n, in its attitudes and centres (Section 4).
-STEPS: Symbols = {
-    "J": (principle.J, "the mass tensor, diagonal (4.1)"),
-    "m": (principle.m, "the mass (4.1)"),
-    r"\rho": (principle.rho, "the radius (4.2)"),
-    r"m\rho^2": (principle.D, "D (4.13)"),
-    "D": (principle.D, "mρ² (4.13)"),
-    "R_k": (principle.R, "the attitude at the time k (4.1)"),
-    "R_{k+1}": (principle.R1, "that at the time k+1"),
-    "R_{k-1}": (principle.R0, "that at the time k-1"),
-    "r_k": (principle.r, "the centre at the time k (4.1)"),
-    "r_{k+1}": (principle.r1, "that at the time k+1"),
-    "r_{k-1}": (principle.r0, "that at the time k-1"),
-    r"\Delta r_k": (principle.r1 - principle.r, "r_(k+1) - r_k"),
-    r"\Delta r_{k-1}": (principle.r - principle.r0, "r_k - r_(k-1)"),
-    r"\vec\gamma": (principle.gamma, "the vertical unit vector in space (4.2)"),
-    r"\gamma_k": (principle.RT * principle.gamma, "that in the body at the time k (4.8)"),
-    r"\gamma_{k-1}": (principle.R0T * principle.gamma, "that at the time k-1"),
-    r"\Gamma_k": (principle.RT * principle.gamma * principle.gammaT * principle.R, "γ_kγ_kᵀ (4.9)"),
-    r"\Gamma_{k-1}": (principle.R0T * principle.gamma * principle.gammaT * principle.R0, "γ_(k-1)γ_(k-1)ᵀ"),
-    r"\Lambda_k": (principle.Lam, "the symmetric multiplier of R Rᵀ = 1 (4.3)"),
-    r"\bar\Omega_k": (principle.R1 * principle.RT, "R_(k+1)R_kᵀ, in space (4.9)"),
-    r"\bar\Omega_{k-1}": (principle.R * principle.R0T, "R_kR_(k-1)ᵀ, in space (4.9)"),
-    r"\Omega_k": (_rotation(principle.R, principle.R1), "R_kᵀR_(k+1), in the body (4.6)"),
-    r"\Omega_{k-1}": (_rotation(principle.R0, principle.R), "R_(k-1)ᵀR_k, in the body"),
-    "m_k": (principle.spatial_momentum(principle.R, principle.R1), "R_(k+1)JR_kᵀ - R_kJR_(k+1)ᵀ (4.6)"),
-    "m_{k-1}": (principle.spatial_momentum(principle.R0, principle.R), "that a step before"),
-    "M_k": (_in_body(principle.R, principle.R1), "R_kᵀm_kR_k (4.6 as corrected)"),
-    "M_{k-1}": (_in_body(principle.R0, principle.R), "that a step before"),
-}
+@cache
+def step_symbols() -> Symbols:
+    """The discrete ball, for every n, in its attitudes and centres (Section 4)."""
+    return {
+        "J": (principle.J, "the mass tensor, diagonal (4.1)"),
+        "m": (principle.m, "the mass (4.1)"),
+        r"\rho": (principle.rho, "the radius (4.2)"),
+        r"m\rho^2": (principle.D, "D (4.13)"),
+        "D": (principle.D, "mρ² (4.13)"),
+        "R_k": (principle.R, "the attitude at the time k (4.1)"),
+        "R_{k+1}": (principle.R1, "that at the time k+1"),
+        "R_{k-1}": (principle.R0, "that at the time k-1"),
+        "r_k": (principle.r, "the centre at the time k (4.1)"),
+        "r_{k+1}": (principle.r1, "that at the time k+1"),
+        "r_{k-1}": (principle.r0, "that at the time k-1"),
+        r"\Delta r_k": (principle.r1 - principle.r, "r_(k+1) - r_k"),
+        r"\Delta r_{k-1}": (principle.r - principle.r0, "r_k - r_(k-1)"),
+        r"\vec\gamma": (principle.gamma, "the vertical unit vector in space (4.2)"),
+        r"\gamma_k": (principle.RT * principle.gamma, "that in the body at the time k (4.8)"),
+        r"\gamma_{k-1}": (principle.R0T * principle.gamma, "that at the time k-1"),
+        r"\Gamma_k": (principle.RT * principle.gamma * principle.gammaT * principle.R, "γ_kγ_kᵀ (4.9)"),
+        r"\Gamma_{k-1}": (principle.R0T * principle.gamma * principle.gammaT * principle.R0, "γ_(k-1)γ_(k-1)ᵀ"),
+        r"\Lambda_k": (principle.Lam, "the symmetric multiplier of R Rᵀ = 1 (4.3)"),
+        r"\bar\Omega_k": (principle.R1 * principle.RT, "R_(k+1)R_kᵀ, in space (4.9)"),
+        r"\bar\Omega_{k-1}": (principle.R * principle.R0T, "R_kR_(k-1)ᵀ, in space (4.9)"),
+        r"\Omega_k": (_rotation(principle.R, principle.R1), "R_kᵀR_(k+1), in the body (4.6)"),
+        r"\Omega_{k-1}": (_rotation(principle.R0, principle.R), "R_(k-1)ᵀR_k, in the body"),
+        "m_k": (principle.spatial_momentum(principle.R, principle.R1), "R_(k+1)JR_kᵀ - R_kJR_(k+1)ᵀ (4.6)"),
+        "m_{k-1}": (principle.spatial_momentum(principle.R0, principle.R), "that a step before"),
+        "M_k": (_in_body(principle.R, principle.R1), "R_kᵀm_kR_k (4.6 as corrected)"),
+        "M_{k-1}": (_in_body(principle.R0, principle.R), "that a step before"),
+    }
 
 
 def path_point(values: dict, *hypotheses: Equation) -> Point:
@@ -149,7 +153,7 @@ def rotation_equation(p: Proof) -> None:
     p.say("Λ is any symmetric matrix, so -Λ may be called Λ; the sign of the whole is free.")
     derived = -replaced("equation_R_other", "with -Λ for Λ", in_R, {Lam: -Lam}, ALGEBRA)
     p.reads(
-        STEPS
+        step_symbols()
         | {
             r"\vec f^k": (f, "the multiplier of the rolling constraint (4.3)"),
             "0": (derived, "the equation of the principle in R_k, by the derivation"),
@@ -168,7 +172,7 @@ def centre_equation(p: Proof) -> None:
     _, in_r = principle.multiplier_equations(CORRECTED)
     p.show("0", in_r)
     p.reads(
-        STEPS
+        step_symbols()
         | {
             r"\vec f^k": (f, "the multiplier of the rolling constraint (4.3)"),
             "0": (in_r, "the equation of the principle in r_k, by the derivation"),
@@ -191,7 +195,7 @@ def transposed_forms(p: Proof) -> None:
     first = R1 * J * RT + R0 * J * RT - Lam - rho * f * gammaT
     second = R * J * R1T + R * J * R0T - ALGEBRA.transpose(Lam) - rho * gamma * fT
     p.reads(
-        STEPS
+        step_symbols()
         | {
             r"\vec f^k": (f, "the multiplier of the rolling constraint (4.3)"),
             r"\vec f^T_k": (fT, "its transpose"),
@@ -220,7 +224,7 @@ def spatial_balance(p: Proof) -> None:
     now, before = principle.spatial_momentum(R, R1), principle.spatial_momentum(R0, R)
     force = ALGEBRA.wedge(principle.reaction(), gamma)
     p.reads(
-        STEPS
+        step_symbols()
         | {
             r"\vec f^k": (principle.reaction(), "m(Δr_k - Δr_(k-1)) (4.4)"),
             r"\vec{f^k}^T": (ALGEBRA.transpose(principle.reaction()), "its transpose"),
@@ -259,7 +263,7 @@ def euler_poincare(p: Proof) -> None:
     balance = RT * principle.momentum_balance(CORRECTED) * R
     moved = ALGEBRA.transpose(step) * before * step
     p.reads(
-        STEPS
+        step_symbols()
         | {
             r"\vec F^k": (RT * principle.reaction(), "R_kᵀf^k (4.8)"),
             r"\vec f^k": (principle.reaction(), "m(Δr_k - Δr_(k-1)) (4.4)"),
@@ -291,7 +295,7 @@ def rolling_in_space(p: Proof) -> None:
     fixed = principle.rolling_constraint(R * velocity, R * spin).subs(gamma, R * vertical)
     body = velocity + rho * spin * vertical
     p.reads(
-        STEPS
+        step_symbols()
         | {
             r"\dot r": (R * velocity, "Rv, the velocity of the centre"),
             r"\dot R R^T": (R * spin * RT, "RωRᵀ, the angular velocity in space"),
@@ -316,7 +320,7 @@ def body_momentum(p: Proof) -> None:
     spatial = principle.spatial_momentum(R, R1)
     body = RT * R1 * J - J * R1T * R
     p.reads(
-        STEPS
+        step_symbols()
         | {
             r"\mathrm{Ad}_{R_k} m_k": (R * spatial * RT, "R_km_kR_kᵀ"),
             r"\mathrm{Ad}_{R_k^{-1}} m_k": (RT * spatial * R, "R_k⁻¹m_kR_k"),
@@ -349,7 +353,7 @@ def balance_in_body(p: Proof) -> None:
     force = principle.reaction()
     balance = RT * principle.momentum_balance(CORRECTED) * R
     p.reads(
-        STEPS
+        step_symbols()
         | {
             r"\vec f^k": (force, "m(Δr_k - Δr_(k-1)) (4.4)"),
             r"\vec f^T": (ALGEBRA.transpose(force), "its transpose"),
@@ -378,7 +382,7 @@ def balance_in_body(p: Proof) -> None:
 @claim("4.11", r"\gamma_k = \Omega_{k-1}^T \gamma_{k-1}")
 def vertical_transport(p: Proof) -> None:
     """The vertical, fixed in space, seen from the body."""
-    p.reads(STEPS)
+    p.reads(step_symbols())
     p.printed(equation("R_kᵀγ = Ω_{k-1}ᵀ R_{k-1}ᵀγ", RT * gamma, RT * R0 * R0T * gamma))
     p.control(equation("R_kᵀγ = Ω_{k-1} R_{k-1}ᵀγ", RT * gamma, R0T * R * R0T * gamma))
 

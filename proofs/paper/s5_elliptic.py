@@ -1,5 +1,7 @@
 """Section 5: the invariant curve in Jacobi's functions, and the symmetric form on it (5.7 to 5.13)."""
 
+from functools import cache
+
 import sympy as sp
 
 from chapsym.derive import elliptic
@@ -28,26 +30,31 @@ def functions(values: Jacobi, argument: str) -> Symbols:
     return found
 
 
-#: The curve (Section 5): Λ, its modulus and level, and Jacobi's functions of u, ū and δu.
-CURVE: Symbols = {
-    r"\Lambda_1": (L1, "the first entry of Λ (5.2)"),
-    r"\Lambda_2": (L2, "the second entry of Λ (5.2)"),
-    r"\Lambda_3": (L3, "the third entry of Λ (5.2)"),
-    "k^2": (k2, "the square of the modulus (5.8)"),
-    **functions(HALF, r"\delta u"),
-    **functions(MEAN, r"\bar u"),
-    **functions(U, "u"),
-    r"w(\delta u)": (HALF.sn * HALF.cn * HALF.dn, "sn cn dn of δu (5.15)"),
-    "W(u)": (U.sn * U.cn * U.dn, "sn cn dn of u (5.16)"),
-    r"\mathcal D": (elliptic.denominator(), "1 - k² sn²ū sn²δu (5.13)"),
-}
+@cache
+def curve_symbols() -> Symbols:
+    """The curve (Section 5): Λ, its modulus and level, and Jacobi's functions of u, ū and δu."""
+    return {
+        r"\Lambda_1": (L1, "the first entry of Λ (5.2)"),
+        r"\Lambda_2": (L2, "the second entry of Λ (5.2)"),
+        r"\Lambda_3": (L3, "the third entry of Λ (5.2)"),
+        "k^2": (k2, "the square of the modulus (5.8)"),
+        **functions(HALF, r"\delta u"),
+        **functions(MEAN, r"\bar u"),
+        **functions(U, "u"),
+        r"w(\delta u)": (HALF.sn * HALF.cn * HALF.dn, "sn cn dn of δu (5.15)"),
+        "W(u)": (U.sn * U.cn * U.dn, "sn cn dn of u (5.16)"),
+        r"\mathcal D": (elliptic.denominator(), "1 - k² sn²ū sn²δu (5.13)"),
+    }
 
-#: The same with the level l as what k² and Λ make of it.
-LEVEL: Symbols = CURVE | {
-    "l": (elliptic.level(), "the level ⟨γ, Λ⁻¹γ⟩, by k² and Λ (5.8)"),
-    **{f"C_{i + 1}^2": (c.subs(elliptic.l, elliptic.level()), f"the square of C_{i + 1} (5.8 as corrected)")
-       for i, c in enumerate(elliptic.squared_amplitudes())},
-}  # fmt: skip
+
+@cache
+def level_symbols() -> Symbols:
+    """The same with the level l as what k² and Λ make of it."""
+    return curve_symbols() | {
+        "l": (elliptic.level(), "the level ⟨γ, Λ⁻¹γ⟩, by k² and Λ (5.8)"),
+        **{f"C_{i + 1}^2": (c.subs(elliptic.l, elliptic.level()), f"the square of C_{i + 1} (5.8 as corrected)")
+           for i, c in enumerate(elliptic.squared_amplitudes())},
+    }  # fmt: skip
 
 
 def on_ball() -> Equation:
@@ -97,7 +104,7 @@ def amplitudes(p: Proof) -> None:
 def modulus(p: Proof) -> None:
     """The modulus."""
     p.reads(
-        CURVE
+        curve_symbols()
         | {
             "l": (l, "the level ⟨γ, Λ⁻¹γ⟩ (5.5)"),
             "k^2": (elliptic.squared_modulus(), "the square of the modulus: |γ|² = 1 for every u (5.7)"),
@@ -149,7 +156,7 @@ def sums_and_differences(p: Proof) -> None:
     """Sums and differences by the addition formulas: the sign of the first difference is misprinted."""
     p.slips("typo")
     p.reads(
-        CURVE
+        curve_symbols()
         | {
             "C_1": (C1, "the first amplitude (5.8)"),
             r"\gamma_1": (pair()[0][0], "C1 cn(ū - δu) (5.7)"),

@@ -8,7 +8,17 @@ from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs import second_routes
-from chapsym.proofs.paper.s5_elliptic import ARGUMENT, BALL, CURVE, LEVEL, SQUARE, TWO, V, on_ball, printed_squares
+from chapsym.proofs.paper.s5_elliptic import (
+    ARGUMENT,
+    BALL,
+    SQUARE,
+    TWO,
+    V,
+    curve_symbols,
+    level_symbols,
+    on_ball,
+    printed_squares,
+)
 from chapsym.prove import Comparison, Equation, Point, Proof, claim, equations, main, rational_point
 
 
@@ -70,7 +80,7 @@ def written_out() -> sp.Expr:
 def first_form(p: Proof) -> None:
     """Π1 in Jacobi's functions."""
     p.reads(
-        LEVEL
+        level_symbols()
         | {
             r"\Pi_1": (on_curve(elliptic.quarter_form(1)), "¼⟨γ~+γ, Λ⁻¹(γ~+γ)⟩ (5.11)"),
             r"\mu": (on_curve(MU), "(1 - Λ3 l)/(Λ2 - Λ3) (5.14)"),
@@ -96,7 +106,7 @@ def first_form(p: Proof) -> None:
 def second_form(p: Proof) -> None:
     """Π2 in terms of G."""
     p.reads(
-        LEVEL
+        level_symbols()
         | {
             r"\Pi_2": (on_curve(elliptic.quarter_form(2)), "¼⟨γ~+γ, Λ⁻²(γ~+γ)⟩ (5.14)"),
             "G": (on_curve(true_g()), "the function G of δu (5.14-G as corrected)"),
@@ -131,7 +141,7 @@ def derived_g() -> sp.Expr:
 def g_function(p: Proof) -> None:
     """G: k² is missing under its second term."""
     p.slips("typo")
-    p.reads(LEVEL | {"G": (on_curve(derived_g()), "what Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn² makes of it (5.14)")})
+    p.reads(level_symbols() | {"G": (on_curve(derived_g()), "what Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn² makes of it (5.14)")})
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     p.say("G is what Π2 𝒟² = G𝒟/sn² - V² cn² dn²/sn² makes of it, an identity in sn²ū:")
     a, b, c = quotients()
@@ -179,7 +189,7 @@ def alpha(p: Proof) -> None:
     """α: l is missing beside 2Λ1Λ3 in the numerator."""
     p.slips("typo")
     p.reads(
-        LEVEL
+        level_symbols()
         | {
             r"\alpha": (on_curve(coefficient(true_g(), 1)), "the coefficient of sn² in G/V² (5.14)"),
             r"\beta": (on_curve(-coefficient(true_g(), 2)), "that of sn⁴, less its sign (5.14)"),
@@ -213,7 +223,7 @@ def alpha(p: Proof) -> None:
 def beta(p: Proof) -> None:
     """β, for the G that is right."""
     p.reads(
-        LEVEL
+        level_symbols()
         | {r"\beta": (on_curve(-coefficient(true_g(), 2)), "the coefficient of sn⁴ in G/V², less its sign (5.14)")}
     )
     p.assume("G with the correction of (5.14-G)")
@@ -397,7 +407,7 @@ def denominator_of_u(p: Proof) -> None:
     """𝒟 as a function of u and δu: the sign of the whole and three coefficients are wrong."""
     p.slips("serious")
     p.reads(
-        CURVE
+        curve_symbols()
         | {r"\mathcal D": (1 - k2 * elliptic.added(U, HALF, 1).sn ** 2 * HALF.sn**2, "1 - k² sn²(u+δu) sn²δu (5.13)")}
     )
     p.assume("0 < k² < 1", *elliptic.MODULUS)

@@ -6,8 +6,7 @@ from chapsym.derive import ball, continuous, limits, quaternions, three
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, placed, q, q0, q1, q2, q3
-from chapsym.proofs import second_routes
-from chapsym.proofs.glossary import BALL as STATE
+from chapsym.proofs import glossary, second_routes
 from chapsym.proofs.paper.s4_limits import exact_order
 from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main, rational_point
 
@@ -154,7 +153,7 @@ def second_derivatives() -> list[sp.Expr]:
 def vector_momentum(p: Proof) -> None:
     """The vector momentum, by substituting the rotation into (4.13)."""
     p.reads(
-        STATE
+        glossary.ball()
         | {f"J_{i}": (J, f"entry {i} of the mass tensor (5.2)") for i, J in enumerate((J1, J2, J3), 1)}
         | {f"q_{i}": (x, f"entry {i} of q (5.1)") for i, x in enumerate(q, 1)}
         | {
@@ -283,7 +282,7 @@ def vector_limit(p: Proof) -> None:
 def vector_form(p: Proof) -> None:
     """The vector form of the map, and its continuum limit."""
     p.reads(
-        STATE
+        glossary.ball()
         | {
             r"\vec{\mathcal K}_k": (
                 axial(sp.Matrix(three.rotation()).T * hat(K) * sp.Matrix(three.rotation())),

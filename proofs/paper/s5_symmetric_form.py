@@ -9,7 +9,7 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, q, q0
 from chapsym.derive.vertical import RING, sigma
 from chapsym.proofs import second_routes
-from chapsym.proofs.paper.s5_vertical import LARGE, NOT_ZERO, SMALL, VERTICAL, vertical_point
+from chapsym.proofs.paper.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_point, vertical_symbols
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
 
 equation = equations(RING)
@@ -63,7 +63,7 @@ def symmetric(text: str, factor: sp.Expr) -> Equation:
 )
 def sum_and_difference(p: Proof) -> None:
     """Sum and difference of consecutive verticals."""
-    p.reads(VERTICAL)
+    p.reads(vertical_symbols())
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     p.printed(
         equation("γ~ + γ = (4q₀/σ)Λq", total(), 4 * q0 / sigma * vertical.lam() * q),
@@ -79,7 +79,7 @@ def sum_and_difference(p: Proof) -> None:
 )
 def kappa_in_q0(p: Proof) -> None:
     """The symmetric form with ϰ = σ/q₀²."""
-    p.reads(VERTICAL)
+    p.reads(vertical_symbols())
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     p.assume("q₀ ≠ 0: at a rotation by π the sum γ~ + γ vanishes", sp.Ne(q0, 0))
     p.printed(symmetric("γ~ - γ = σ/(4q₀²)·(γ~+γ)×Λ⁻¹(γ~+γ)", sigma / (4 * q0**2)))
@@ -95,7 +95,7 @@ def kappa_in_q0(p: Proof) -> None:
 def q0_from_sum(p: Proof) -> None:
     """q₀ as a function of the sum: σ² is missing under the root, and the root has two signs."""
     p.slips("serious")
-    p.reads(VERTICAL)
+    p.reads(vertical_symbols())
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     p.assume("q₀ ≠ 0: at a rotation by π the sum γ~ + γ vanishes", sp.Ne(q0, 0))
     p.say("By (5.12) |q|² = (σ²/16q₀²)⟨γ~+γ, Λ⁻²(γ~+γ)⟩, and |q|² = 1 - q₀²: a quadratic equation for q₀².")
@@ -132,7 +132,7 @@ def _signs() -> tuple[Comparison, Comparison]:
 def sigma_equation(p: Proof) -> None:
     """The equation that σ solves has the missing factor 2; the relation that closes it holds."""
     p.slips("serious", "5.6-sigma")
-    p.reads(VERTICAL)
+    p.reads(vertical_symbols())
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     lifted = D * sigma / 4 * vertical.gamma_now().dot(inverse() * total())
     p.printed(equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", vertical.gamma_now().dot(inverse() * total()), first_form() / 2))
@@ -153,7 +153,7 @@ def sigma_equation(p: Proof) -> None:
 def sigma_of_sum(p: Proof) -> None:
     """σ as a function of the sum: D/8 must be D/4."""
     p.slips("serious", "5.12-sigma")
-    p.reads(VERTICAL)
+    p.reads(vertical_symbols())
     p.assume("h ≠ 0; then σ ≠ 0 and the denominator is h/σ, which does not vanish", sp.Ne(vertical.height(), 0))
     p.printed(closed_sigma("σ(1 - (D/8)⟨s, Λ⁻¹s⟩) = h, s = γ~ + γ", D / 8))
     p.corrected(
@@ -176,7 +176,7 @@ def sigma_of_sum(p: Proof) -> None:
 def symmetric_form(p: Proof) -> None:
     """The symmetric form holds with other ϰ and σ, and with both signs of the root."""
     p.slips("serious", "5.11", "5.12-q0")
-    p.reads(VERTICAL | {r"\varkappa": (sigma / q0**2, "σ/q₀² (5.12-kappa)")})
+    p.reads(vertical_symbols() | {r"\varkappa": (sigma / q0**2, "σ/q₀² (5.12-kappa)")})
     p.assume("h ≠ 0 and q₀ ≠ 0 (no rotation by π)", sp.Ne(vertical.height(), 0), sp.Ne(q0, 0))
     p.assume("Λ is positive, as for every ball", *(x > 0 for x in vertical.lam().diagonal()))
     p.printed(symmetric("5.10 with ϰ = σ/q₀²", sigma / (4 * q0**2)))

@@ -1,6 +1,7 @@
 """Section 5: vertical momentum, the reduced map G_h and its integral (Proposition 3)."""
 
 from dataclasses import replace
+from functools import cache
 
 import sympy as sp
 
@@ -8,8 +9,7 @@ from chapsym.derive import three, vertical
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0, q1, q2, q3
 from chapsym.derive.vertical import RING, h, sigma
-from chapsym.proofs import second_routes
-from chapsym.proofs.glossary import BALL as STATE
+from chapsym.proofs import glossary, second_routes
 from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Equation, Point, Proof, claim, equations, main, rational_point
 
@@ -33,14 +33,16 @@ def vertical_state() -> list[Equation]:
     ]
 
 
-#: Vertical momentum (Section 5): γ and γ~ in q and σ.
-VERTICAL: Symbols = {
-    **{name: STATE[name] for name in (r"\Lambda", "D", r"\mathbf q", "q_0")},
-    r"\sigma": (sigma, "h + 2D⟨γ, q₀q⟩ (5.6 as corrected)"),
-    r"\gamma": (sp.Matrix(vertical.gamma_now()), "(2/σ)(q₀Λq + q×Λq), the vertical in the body (5.6)"),
-    r"\tilde\gamma": (sp.Matrix(vertical.gamma_next()), "(2/σ)(q₀Λq - q×Λq), the next vertical (5.6)"),
-    "h": (vertical.height(), "of 𝒦 = hγ: here σ - 2D⟨γ, q₀q⟩ (5.4)"),
-}
+@cache
+def vertical_symbols() -> Symbols:
+    """Vertical momentum (Section 5): γ and γ~ in q and σ."""
+    return {
+        **{name: glossary.ball()[name] for name in (r"\Lambda", "D", r"\mathbf q", "q_0")},
+        r"\sigma": (sigma, "h + 2D⟨γ, q₀q⟩ (5.6 as corrected)"),
+        r"\gamma": (sp.Matrix(vertical.gamma_now()), "(2/σ)(q₀Λq + q×Λq), the vertical in the body (5.6)"),
+        r"\tilde\gamma": (sp.Matrix(vertical.gamma_next()), "(2/σ)(q₀Λq - q×Λq), the next vertical (5.6)"),
+        "h": (vertical.height(), "of 𝒦 = hγ: here σ - 2D⟨γ, q₀q⟩ (5.4)"),
+    }
 
 
 def vertical_point(state: dict) -> Point:
@@ -73,7 +75,7 @@ def vertical_relation(p: Proof) -> None:
     """The relation between γ and q when the momentum is vertical: a factor 2 is missing."""
     p.slips("serious")
     p.reads(
-        STATE
+        glossary.ball()
         | {
             "h": (h, "of 𝒦 = hγ (5.4)"),
             r"2(\dots)^T": (2 * printed_vector(+1), "the vector that is printed"),
@@ -125,8 +127,12 @@ def sigma_definition(p: Proof) -> None:
     height, square = momentum.dot(now), vertical.left_side().dot(vertical.left_side())
     unit = Quotient(RING.symbols, [*RING.relations, sp.expand(square - sigma**2)])
     p.reads(
-        VERTICAL
-        | {"h": (height, "⟨𝒦,γ⟩, as 𝒦 = hγ (5.4)"), r"\sigma_k": VERTICAL[r"\sigma"], r"\gamma_k": VERTICAL[r"\gamma"]}
+        vertical_symbols()
+        | {
+            "h": (height, "⟨𝒦,γ⟩, as 𝒦 = hγ (5.4)"),
+            r"\sigma_k": vertical_symbols()[r"\sigma"],
+            r"\gamma_k": vertical_symbols()[r"\gamma"],
+        }
     )
     p.say("h is ⟨𝒦(q,γ),γ⟩, as 𝒦 = hγ and |γ| = 1:")
 
@@ -149,11 +155,11 @@ def consecutive_verticals(p: Proof) -> None:
     """γ_k and γ_(k+1) in Euler parameters: the vectors are right, the sign of Ωᵀ is not."""
     p.slips("typo")
     p.reads(
-        VERTICAL
+        vertical_symbols()
         | {
-            r"\sigma_k": VERTICAL[r"\sigma"],
-            r"\gamma_k": VERTICAL[r"\gamma"],
-            r"\gamma_{k+1}": VERTICAL[r"\tilde\gamma"],
+            r"\sigma_k": vertical_symbols()[r"\sigma"],
+            r"\gamma_k": vertical_symbols()[r"\gamma"],
+            r"\gamma_{k+1}": vertical_symbols()[r"\tilde\gamma"],
             r"\Omega_k": (sp.Matrix(three.rotation()), "the rotation by the Euler parameters (5.1 as corrected)"),
             r"(\dots+\dots)^T": (printed_vector(+1), "the vector that is printed for γ_k"),
             r"(\dots-\dots)^T": (printed_vector(-1), "the vector that is printed for γ_(k+1)"),

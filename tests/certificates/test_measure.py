@@ -18,8 +18,8 @@ from chapsym.checker.measure import tangent
 from chapsym.cli import certify
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.start import fraction
-from chapsym.studies.rotation.circle import Level
-from chapsym.studies.rotation.relation import Relation
+from research.rotation.circle import Level
+from research.rotation.relation import Relation
 
 SIMPLEST = {"J": "1,2,4", "D": "1", "height": "12/5"}
 LEVEL = Fraction("0.24300095290638263550532672206")

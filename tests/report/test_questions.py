@@ -76,7 +76,7 @@ def test_what_a_full_study_left_is_read(name):
     folder = Path(__file__).parents[2] / "docs" / "open"
     found = command._evidence(name, folder)
     assert found.sentences
-    assert len(found.figures) == len(import_module(f"chapsym.studies.{name}").CAPTIONS) > 0
+    assert len(found.figures) == len(import_module(f"research.{name}").CAPTIONS) > 0
     assert all(caption and svg.lstrip().startswith("<?xml") for caption, svg in found.figures)
 
 

@@ -332,7 +332,7 @@ def test_a_wheel_has_no_benchmarks_and_says_so(monkeypatch, tmp_path):
     (tmp_path / "benchmarks").mkdir()
     monkeypatch.setattr(harness, "BENCHMARKS", tmp_path / "benchmarks")
     for command in (["bench", "trajectory"], ["trade", "kernels", "--quick"]):
-        assert refused(*command) == "the benchmarks are not in the wheel; run them from a checkout"
+        assert refused(*command) == "benchmarks/ is not in the wheel; run this from a checkout"
 
 
 def test_the_command_prints_json_or_a_table(monkeypatch):

@@ -7,11 +7,11 @@ import pytest
 
 import chapsym
 from chapsym.dynamics.loops import loop, tangent
-from chapsym.studies import chaos
-from chapsym.studies.chaos.orbits import LIMIT, picture, sample, slab, starts
-from chapsym.studies.chaos.tangent import follow_orbits
-from chapsym.studies.energy.continuous import Level
-from chapsym.studies.energy.section import state
+from research import chaos
+from research.chaos.orbits import LIMIT, picture, sample, slab, starts
+from research.chaos.tangent import follow_orbits
+from research.energy.continuous import Level
+from research.energy.section import state
 
 BALL = chapsym.Ball((1, 2, 4), 1.0)
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import chapsym
-from chapsym.studies import energy
-from chapsym.studies.energy.amplitude import amplitude, drift, loop_change
-from chapsym.studies.energy.continuous import Level
-from chapsym.studies.energy.resonance import closed_orbits, loop_drift, on_level, profile
-from chapsym.studies.energy.section import coordinates, crossings, rising, state
+from research import energy
+from research.energy.amplitude import amplitude, drift, loop_change
+from research.energy.continuous import Level
+from research.energy.resonance import closed_orbits, loop_drift, on_level, profile
+from research.energy.section import coordinates, crossings, rising, state
 
 BALL = [[1.0, 2.0, 4.0], 1.0, 0.617126]
 LEVEL = Level((1.0, 2.0, 4.0), 1.0, 0.617126)

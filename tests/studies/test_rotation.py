@@ -12,11 +12,11 @@ import chapsym
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.closed.elliptic import Curve, increment
 from chapsym.dynamics.closed.vertical import step_vertical
-from chapsym.studies import rotation
-from chapsym.studies.rotation import average, digits, displacement, plateau, staircase
-from chapsym.studies.rotation.circle import Level, number
-from chapsym.studies.rotation.plan import units
-from chapsym.studies.rotation.relation import Relation
+from research import rotation
+from research.rotation import average, digits, displacement, plateau, staircase
+from research.rotation.circle import Level, number
+from research.rotation.plan import units
+from research.rotation.relation import Relation
 
 BALL = ((1, 2, 4), 1, "12/5")
 LAMINA = ((0, 1, 3), "1/2", "7/10")

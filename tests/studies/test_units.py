@@ -56,7 +56,7 @@ def test_what_another_code_computed_is_computed_again(tmp_path, monkeypatch, cha
 
 
 def test_what_shows_a_result_is_no_part_of_it():
-    reached = sources.closure("chapsym.studies.rotation.circle")
+    reached = sources.closure("research.rotation.circle")
     assert {"chapsym.dynamics.levels.double", "chapsym.generated.gibbs_newton"} <= reached
     assert not {name.split(".")[1] for name in reached} & {"show", "cli", "report", "proofs", "prove"}
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any, Protocol
 
-from ..harness import NotComparable, benchmark, machine
+from ..harness import NotComparable, in_checkout, machine
 from .frontier import Frontier, Point
 
 __all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "Section", "as_json", "measure", "missed"]
@@ -40,7 +40,7 @@ def measure(section: str, quick: bool, say: Callable[[str], None] = lambda text:
     The kernels are measured by the benchmarks: BadInput where these are not.
     """
     name = SECTIONS[section]
-    module = benchmark("kernels.section") if name == "kernels" else import_module(f".{name}", __name__)
+    module = in_checkout("benchmarks", "kernels.section") if name == "kernels" else import_module(f".{name}", __name__)
     more: dict[str, Any] = {"of": section} if name == "balls" else {}
     if section == "n4-batch":
         more = {"balls": module.BATCH}

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from math import gcd
 from typing import Any
 
-from ..units import Unit
+from chapsym.studies.units import Unit
 
-HERE = "chapsym.studies.rotation"
+HERE = "research.rotation"
 
 #: The ball whose small branch is certified at this height (lemma `small-branch`), the same with a contact as heavy as a
 #: solid ball's, and one whose steps are long enough for q = 3, beyond the lemma's bound.

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ..units import Report, Unit, run_units
+from chapsym.studies.units import Report, Unit, run_units
+
 from .continuous import Level
 from .section import packed
 
@@ -24,7 +25,7 @@ CAPTIONS = {
     "the widest resonance of three balls (orange: starts inside the predicted separatrix).",
 }
 
-HERE = "chapsym.studies.energy.amplitude:"
+HERE = "research.energy.amplitude:"
 SEED = 44
 #: J and D; real balls have D ≥ J1 + J2 + J3.
 BALLS = (((1, 2, 4), 1.0), ((1, 2, 4), 7.0), ((0, 1, 3), 1.0), ((0, 1, 3), 4.0))
@@ -181,7 +182,8 @@ def sentences(found: dict[str, Any]) -> list[str]:
 
 def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
     """energy.svg and islands.svg."""
-    from .. import figures
+    from chapsym.studies import figures
+
     from .figure import draw_amplitudes, draw_islands
 
     return figures.save_figures({"energy.svg": draw_amplitudes, "islands.svg": draw_islands}, found, folder)

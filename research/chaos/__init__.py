@@ -7,8 +7,9 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from chapsym.studies.units import Report, Unit, run_units
+
 from ..energy.section import packed
-from ..units import Report, Unit, run_units
 from .orbits import share
 
 TITLE = "How much of the map is chaotic"
@@ -20,7 +21,7 @@ CAPTIONS = {
     "islands, at ε = 2 a chaotic layer (red) between them.",
 }
 
-HERE = "chapsym.studies.chaos.orbits:"
+HERE = "research.chaos.orbits:"
 SEED = 7
 #: J and D; D = 0 is the control, D = J1 + J2 + J3 the least of a real ball.
 BALLS = (((0, 1, 3), 0.0), ((0, 1, 3), 1.0), ((0, 1, 3), 4.0), ((1, 2, 4), 1.0), ((1, 2, 4), 7.0))
@@ -106,7 +107,8 @@ def sentences(found: dict[str, Any]) -> list[str]:
 
 def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
     """chaos.svg, the shares, and section.svg, the pictures."""
-    from .. import figures
+    from chapsym.studies import figures
+
     from .figure import draw_section, draw_shares
 
     return figures.save_figures({"chaos.svg": draw_shares, "section.svg": draw_section}, found, folder)

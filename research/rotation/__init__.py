@@ -6,8 +6,9 @@ All in half turns of a circle (π in the amplitude, 2K in u), with which the map
 from pathlib import Path
 from typing import Any
 
-from ..harness import machine
-from ..units import Report, run_units
+from chapsym.studies.harness import machine
+from chapsym.studies.units import Report, run_units
+
 from .plan import units
 from .words import sentences
 
@@ -43,7 +44,8 @@ def study(
 
 def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
     """Those of `CAPTIONS`."""
-    from .. import figures
+    from chapsym.studies import figures
+
     from .drawn_circle import displacement, numbers
     from .drawn_plateaus import digits, staircase, widths
 
