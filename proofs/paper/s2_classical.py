@@ -162,6 +162,13 @@ def kinetic_energy(p: Proof) -> None:
     p.slips("typo")
     kinetic = continuous.lagrangian_energy()
     left = momentum().dot(omega)
+    p.reads(
+        glossary.classical()
+        | {
+            "K": (momentum(), "Λω - D⟨ω,γ⟩γ, the momentum about the point of contact (2.3)"),
+            "T": (kinetic, "the kinetic energy, ½m|v|² + ½⟨Iω,ω⟩ on the rolling ball"),
+        }
+    )
     p.printed(equation("⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", left, kinetic))
     p.corrected(r"\langle K,\omega\rangle = 2T", equation("⟨K,ω⟩ = m|v|² + ⟨Iω,ω⟩", left, 2 * kinetic))
     p.counterexample(rational_point({**BALL, **UNIT, **SPIN}, [unit_vertical()]))

@@ -466,7 +466,15 @@ def weierstrass_w(p: Proof) -> None:
     p.say("Or, with y = sn²: y(p - e3) = 1, and its derivative y'(p - e3) + yq = 0; then w = y'/2:")
     square, slope = sp.symbols("y y1")
     by_rates = Quotient((square, slope, P, Q, k2), [square * (P - E3) - 1, slope * (P - E3) + square * Q])
-    p.printed(equation("w = ½q/(p-e3)³", Q / (2 * (P - E3) ** 3), derived))
+    p.reads(
+        {
+            r"w(\delta u)": (slope / 2, "½ d(sn²)/du, y' being the rate of y = sn²"),
+            "p": (P, "Weierstrass' function of δu"),
+            "q": (Q, "its derivative"),
+            "e_3": (E3, "-(1 + k²)/3"),
+        }
+    )
+    p.printed(Equation("w = ½q/(p-e3)³", Q / (2 * (P - E3) ** 3), slope / 2, by_rates))
     p.corrected(
         r"w(\delta u) = -\tfrac12\tfrac q{(p-e_3)^2}",
         Equation("w = -½q/(p-e3)²", slope / 2, -Q / (2 * (P - E3) ** 2), by_rates),
