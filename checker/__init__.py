@@ -50,7 +50,7 @@ class Verdict:
     """An accepted certificate: its kind, the theorem that it proves in one sentence, and numbers that were proved.
 
     name: its digest, after the id if it is that of a claim.  rests: the names of those that must be accepted, too.
-    uses: the ids of claims whose certificates must be.
+    uses: the ids of claims whose certificates must be.  refuted: no other may use it.
     """
 
     kind: str
@@ -59,6 +59,7 @@ class Verdict:
     name: str
     rests: tuple[str, ...] = ()
     uses: tuple[str, ...] = ()
+    refuted: bool = False
 
 
 def statement(data: dict[str, Any]) -> str:
@@ -73,19 +74,20 @@ def check(data: dict[str, Any]) -> Verdict:
         raise Rejected(f"not a certificate of format {FORMAT}")
     if kind not in KINDS:
         raise Rejected(f"this checker judges certificates of kind {' and '.join(KINDS)}, and none of kind {kind!a:.60}")
-    KINDS[kind].check_form(data)
     try:
+        KINDS[kind].check_form(data)
         sentence, seal = statement(data), digest(data)
+        if data["statement"] != sentence:
+            raise Rejected("the statement is not the one that the numbers make")
+        if data["digest"] != seal:
+            raise Rejected("the digest is not that of the file: something in it was changed")
+        numbers = KINDS[kind].check(data)
     except RecursionError:
         raise Rejected("lists in lists too deep to be a certificate") from None
-    if data["statement"] != sentence:
-        raise Rejected("the statement is not the one that the numbers make")
-    if data["digest"] != seal:
-        raise Rejected("the digest is not that of the file: something in it was changed")
-    numbers = KINDS[kind].check(data)
     if kind == "register-claim":
         rests = tuple(one["certificate"] for one in data["rests"])
-        return Verdict(kind, sentence, numbers, f"{data['claim']} {seal}", rests, tuple(data["uses"]))
+        name = f"{data['claim']} {seal}"
+        return Verdict(kind, sentence, numbers, name, rests, tuple(data["uses"]), data["verdict"] == "refuted")
     return Verdict(kind, sentence, numbers, seal)
 
 
@@ -101,9 +103,9 @@ def claimed_twice(verdicts: Sequence[Verdict]) -> set[str]:
     return {name for name in names if claims[id_of(name)] > 1}
 
 
-def lacks(verdict: Verdict, accepted: Collection[str]) -> list[str]:
-    """What a verdict rests on, and claims that it uses, that are not among the names of accepted ones."""
-    ids = set(map(id_of, accepted))
+def lacks(verdict: Verdict, accepted: Collection[str], refuted: Collection[str] = ()) -> list[str]:
+    """What a verdict rests on, and claims that it uses, that are not among accepted ones, or are refuted; by name."""
+    ids = set(map(id_of, accepted)) - set(map(id_of, refuted))
     return sorted({*verdict.rests} - {*accepted} | {one for one in verdict.uses if one not in ids})
 
 
@@ -111,6 +113,7 @@ def standing(verdicts: Sequence[Verdict]) -> set[str]:
     """The names of those, of claims that no other is of, that rest on nothing but others that stand."""
     found: set[str] = set()
     alone = [one for one in verdicts if one.name not in claimed_twice(verdicts)]
-    while new := {one.name for one in alone if not lacks(one, found)} - found:
+    refuted = {one.name for one in verdicts if one.refuted}
+    while new := {one.name for one in alone if not lacks(one, found, refuted)} - found:
         found |= new
     return found

@@ -12,7 +12,7 @@ from typing import Any
 
 def main(arguments: list[str] | None = None) -> int:
     """Judges files: 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
-    from . import Rejected, Unreadable, claimed_twice, id_of, kernels, lacks, manifest, read, shown, standing
+    from . import Rejected, Unreadable, claimed_twice, file_name, id_of, kernels, lacks, manifest, read, shown, standing
 
     parser = argparse.ArgumentParser(prog="checker", description="Checks certificates, with the standard library only.")
     parser.add_argument("files", nargs="*", metavar="FILE")
@@ -43,6 +43,7 @@ def main(arguments: list[str] | None = None) -> int:
     judged, whole = _judged(files)
     right = [verdict for verdict in judged.values() if not isinstance(verdict, Exception)]
     stand, twice = standing(right), claimed_twice(right)
+    refuted = {verdict.name for verdict in right if verdict.refuted}
     found, worst = [], 0
     for file in files:
         verdict: Any = judged[file]
@@ -51,7 +52,10 @@ def main(arguments: list[str] | None = None) -> int:
             verdict = Rejected(f"another of these files is of claim {claim}, too, and says something else")
         if not isinstance(verdict, Exception) and verdict.name != expected.get(file, verdict.name):
             verdict = Rejected("it is another certificate than the one that the manifest lists")
-        if not isinstance(verdict, Exception) and (missing := lacks(verdict, stand)):
+        of = id_of(getattr(verdict, "name", "")) if getattr(verdict, "kind", "") == "register-claim" else ""
+        if of and file in expected and Path(file).name != file_name(of):
+            verdict = Rejected(f"it is of claim {of}, and has not its name")
+        if not isinstance(verdict, Exception) and (missing := lacks(verdict, stand, refuted)):
             verdict = Rejected(f"it rests on {missing[0]}, which is not accepted among these files")
         if isinstance(verdict, Exception):
             worst = max(worst, 1 if isinstance(verdict, Rejected) else 2)

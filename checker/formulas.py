@@ -21,11 +21,15 @@ from typing import Any
 Tree = Any
 #: A tree, a vector or a matrix of trees, and which of these it is: 0, 1 or 2.
 Value = tuple[int, Any]
-#: The name of a root.
-ROOT = "_root"
-#: The token of words.
-WORDS = "\\words"
-_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d|[^\s\d\\]")
+#: The name of a root, and the token of words: no certificate can have these.
+ROOT, WORDS = "\x00root", "\x00"
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[^\s\\]|\\$", re.ASCII)
+#: What may be a symbol: a letter or a command first, or brackets around what is left out.
+_SYMBOL = re.compile(r"\\?[A-Za-z][^=,;:]*|\([^=,;:]*\\dots[^=,;:]*\).*|0|\\dots", re.ASCII)
+#: Commands that stand with what they are applied to.
+_ACCENTS = {"\\mathcal", "\\mathbf", "\\mathrm", "\\mathbb", "\\vec", "\\tilde", "\\bar", "\\dot", "\\widehat"}
+#: Of what is read for one equation: the parts of trees that are made, and brackets in brackets.
+MOST_PARTS, MOST_BRACKETS = 200_000, 30
 #: What says nothing: spaces, and sizes of brackets.
 _SILENT = {"\\,", "\\;", "\\!", "\\ ", "\\quad", "\\qquad", "\\bigl", "\\bigr", "\\left", "\\right", "~"}
 _CLOSES = {"(": ")", "[": "]", "{": "}", "\\langle": "\\rangle"}
@@ -37,7 +41,7 @@ class NotRead(Exception):
 
 def tokens(formula: str) -> list[str]:
     """The commands, letters, digits and signs of a formula; words in one."""
-    formula = re.sub(r"\\text\{[^{}]*\}", lambda found: f"{WORDS} ", formula)
+    formula = re.sub(r"\\text\{[^{}]*[^\W\d_][^{}]*\}", lambda found: f"{WORDS} ", formula)
     return [token for token in _TOKEN.findall(formula) if token not in _SILENT]
 
 
@@ -71,6 +75,16 @@ def equations(part: Sequence[str], reader: "Reader") -> list[tuple[Value, Value]
     return list(pairwise(values))
 
 
+def is_symbol(symbol: str) -> bool:
+    """Whether this may stand in a glossary: a letter with what is at it, without a sign that joins expressions."""
+    plain = re.sub(r"\{[^{}]*\}|\([^()]*\\dots[^()]*\)", "", symbol)
+    level, least = 0, 0
+    for c in symbol:
+        level += {"{": 1, "}": -1}.get(c, 0)
+        least = min(least, level)
+    return bool(_SYMBOL.fullmatch(symbol)) and not level and not least and not re.search(r"[+\-]|\\n", plain)
+
+
 class Reader:
     """Reads expressions in the values of a glossary."""
 
@@ -78,11 +92,15 @@ class Reader:
         values = {tuple(tokens(symbol)): (rank_of(value), value) for symbol, _, value in glossary}
         _, self.zero = values.pop(("0",), (0, 0))  # what vanishes, beside 0
         self.values = dict(sorted(values.items(), key=lambda item: -len(item[0])))
+        self._symbols: dict[str, list[tuple[str, ...]]] = {}
+        for symbol in self.values:
+            self._symbols.setdefault(symbol[0], []).append(symbol)
         self.transposes = transposes
         self.root: Tree | None = None  # what stands under the root
         self.used: set[tuple[str, ...]] = set()
         self.both = False  # whether it has both signs
         self._left: list[str] = []
+        self._spent, self._depth = 0, 0
 
     def read(self, side: Sequence[str]) -> Value:
         """The value of an expression; raises NotRead."""
@@ -104,35 +122,50 @@ class Reader:
         total: Value | None = None
         while total is None or self._next() in ("+", "-", "\\pm"):
             sign = self._left.pop(0) if self._next() in ("+", "-", "\\pm") else "+"
+            before = self.root
             term = self._product()
             if sign == "-":
                 term = _each(term, lambda tree: times(-1, tree))
-            self.both |= sign == "\\pm"
+            if sign == "\\pm":
+                if self.root is before:
+                    raise NotRead("± stands before no root")
+                self.both = True
             total = term if total is None else _sum(total, term)
-        return total
+        return self._counted(total)
+
+    def _counted(self, of: Value) -> Value:
+        """The same; raises NotRead where what was read has too many parts."""
+        pending = [of[1]]
+        while pending:
+            tree = pending.pop()
+            self._spent += 1
+            if self._spent > MOST_PARTS:
+                raise NotRead("it is too long")
+            if isinstance(tree, list):
+                pending += tree
+        return of
 
     def _product(self) -> Value:
         """Factors side by side, and products of vectors, which bind less."""
         found = self._juxtaposed()
         while self._next() in ("\\times", "\\wedge"):
-            sign, left = self._left[0], self._left[1:]
-            self._left = left
-            other = self._juxtaposed()
-            if sign == "\\wedge" and left[: len(left) - len(self._left)][-2:] == ["^", "T"]:
-                other = self._transposed(other)  # a column that is printed as a row
-            found = _cross(found, other) if sign == "\\times" else self._wedge(found, other)
+            sign = self._left.pop(0)
+            left = self._left
+            other = self._power() if sign == "\\wedge" else self._juxtaposed()
+            turned = left[: len(left) - len(self._left)][-2:] == ["^", "T"]  # a column that is printed as a row
+            found = self._counted(_cross(found, other) if sign == "\\times" else self._wedge(found, other, turned))
         return found
 
     def _juxtaposed(self) -> Value:
         found = self._power()
         while self._next() not in ("", "+", "-", "\\pm", "\\times", "\\wedge", ",", *_CLOSES.values()):
-            found = self._times(found, self._power())
+            found = self._counted(self._times(found, self._power()))
         return found
 
     def _power(self) -> Value:
         found = self._atom()
-        while self._next() == "^":
-            self._left.pop(0)
+        if self._next() == "^":
+            self._left = self._left[1:]
             exponent = "".join(self._argument())
             if exponent == "T":
                 found = self._transposed(found)
@@ -140,6 +173,8 @@ class Reader:
                 found = _power(found, int(exponent))
             else:
                 raise NotRead(f"the power {exponent} is not read")
+            if self._next() == "^":
+                raise NotRead("two exponents stand at one place")
         return found
 
     def _argument(self) -> list[str]:
@@ -147,11 +182,12 @@ class Reader:
         if self._next() != "{":
             if not self._left:
                 raise NotRead("something is missing at the end")
-            for symbol in self.values:
-                if symbol[0].startswith("\\") and tuple(self._left[: len(symbol)]) == symbol:
-                    taken, self._left = self._left[: len(symbol)], self._left[len(symbol) :]
-                    return taken
-            return [self._left.pop(0)]
+            token, self._left = self._left[0], self._left[1:]
+            if token not in _ACCENTS:
+                return [token]
+            braced = self._next() == "{"
+            inside = self._argument()
+            return [token, "{", *inside, "}"] if braced else [token, *inside]
         depth, taken = 0, []
         while self._left:
             token = self._left.pop(0)
@@ -163,21 +199,25 @@ class Reader:
 
     def _inside(self, argument: list[str]) -> Value:
         outside, self._left = self._left, argument
+        self._depth += 1
+        if self._depth > MOST_BRACKETS:
+            raise NotRead("it has too many brackets in brackets")
         found = self._sum()
+        self._depth -= 1
         if self._left:
             raise NotRead(f"{self._left[0]} is not read")
         self._left = outside
         return found
 
     def _atom(self) -> Value:
-        for symbol in self.values:
+        for symbol in self._symbols.get(self._next(), []):
             if tuple(self._left[: len(symbol)]) == symbol:
                 self._left = self._left[len(symbol) :]
                 self.used.add(symbol)
                 return self.values[symbol]
         token = self._left.pop(0) if self._left else ""
-        if token.isdigit():
-            while self._next().isdigit():
+        if re.fullmatch("[0-9]", token):
+            while re.fullmatch("[0-9]", self._next()):
                 token += self._left.pop(0)
             return 0, int(token)
         if token in ("\\frac", "\\tfrac"):
@@ -185,9 +225,9 @@ class Reader:
             return self._times(above, _power(self._inside(self._argument()), -1))
         if token == "\\sqrt":
             _, under = _number(self._inside(self._argument()))
-            if self.root not in (None, under):
+            if self.root is not None:
                 raise NotRead("it has two roots")
-            self.root = under
+            self.root = under if isinstance(under, list) else ["+", under, 0]
             return 0, ROOT
         if token == "\\mathrm" and self._left[:6] == [*"{diag}"]:
             self._left = self._left[6:]
@@ -201,13 +241,15 @@ class Reader:
     def _bracket(self, token: str) -> Value:
         inside = self._list(token)
         if token == "\\langle":
-            if len(inside) != 2 or {rank for rank, _ in inside} != {1}:
-                raise NotRead("a product of vectors has not two vectors")
+            if [rank for rank, _ in inside] != [1, 1] or len(inside[0][1]) != len(inside[1][1]):
+                raise NotRead("a product of vectors has not two vectors of one length")
             return 0, plus(*(times(x, y) for x, y in zip(inside[0][1], inside[1][1], strict=True)))
         if token == "[" and len(inside) == 2:
             a, b = inside
             return _sum(self._times(a, b), _each(self._times(b, a), lambda tree: times(-1, tree)))
         if token == "(" and len(inside) > 1:
+            if self._left[:2] == ["^", "T"]:
+                self._left = self._left[2:]
             return 1, [_number(entry)[1] for entry in inside]
         if len(inside) != 1:
             raise NotRead("a list is not read")
@@ -215,11 +257,15 @@ class Reader:
 
     def _list(self, token: str) -> list[Value]:
         self._take(token)
+        self._depth += 1
+        if self._depth > MOST_BRACKETS:
+            raise NotRead("it has too many brackets in brackets")
         found = [self._sum()]
         while self._next() == ",":
             self._left.pop(0)
             found.append(self._sum())
         self._take(_CLOSES[token])
+        self._depth -= 1
         return found
 
     def _times(self, a: Value, b: Value) -> Value:
@@ -237,18 +283,23 @@ class Reader:
 
     def _transposed(self, a: Value) -> Value:
         if a[0] == 1:
-            return a  # a column that is printed as a row
+            raise NotRead("a vector is transposed")
         if a[0] == 2:
             return 2, [list(row) for row in zip(*a[1], strict=True)]
         if self.transposes is None:
             raise NotRead("a number is transposed")
-        return 0, transposed(a[1], self.transposes)
+        return self._counted((0, transposed(a[1], self.transposes)))
 
-    def _wedge(self, a: Value, b: Value) -> Value:
+    def _wedge(self, a: Value, b: Value, turned: bool) -> Value:
         if a[0] or b[0]:
             raise NotRead("a wedge is of words")
-        turned = self._times(b, self._transposed(a))
-        return _sum(self._times(a, self._transposed(b)), _each(turned, lambda tree: times(-1, tree)))
+        other = self._transposed(b)
+        if turned:
+            b, other = other, b
+            if b[1] in (other[1], times(-1, other[1])) or other[1] == times(-1, b[1]):
+                raise NotRead("a wedge is with what is no row")
+        minus = self._times(b, self._transposed(a))
+        return _sum(self._times(a, other), _each(minus, lambda tree: times(-1, tree)))
 
 
 def plus(*trees: Tree) -> Tree:
@@ -269,7 +320,7 @@ def rank_of(value: Any) -> int:
     """0 of a tree, 1 of a vector, 2 of a matrix."""
     if not isinstance(value, list) or value[:1] in (["+"], ["*"], ["^"]):
         return 0
-    return 1 + max(map(rank_of, value), default=0)
+    return 2 if any(isinstance(x, list) and x[:1] not in (["+"], ["*"], ["^"]) for x in value) else 1
 
 
 def _number(a: Value) -> Value:
@@ -290,10 +341,14 @@ def _sum(a: Value, b: Value) -> Value:
         raise NotRead("a number is added to a vector")
     if not a[0]:
         return 0, plus(a[1], b[1])
+    if len(a[1]) != len(b[1]):
+        raise NotRead("vectors of different lengths are added")
     return a[0], [_sum((a[0] - 1, x), (a[0] - 1, y))[1] for x, y in zip(a[1], b[1], strict=True)]
 
 
 def _dot(row: Sequence[Tree], column: Sequence[Tree]) -> Tree:
+    if len(row) != len(column):
+        raise NotRead("a matrix and a vector have different sizes")
     return plus(*(times(x, y) for x, y in zip(row, column, strict=True)))
 
 

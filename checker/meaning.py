@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
+from fractions import Fraction
 from typing import Any
 
 from . import derivation
@@ -17,6 +18,7 @@ from .formulas import (
     Value,
     entries,
     equations,
+    is_symbol,
     parts,
     plus,
     rank_of,
@@ -27,8 +29,11 @@ from .formulas import (
 from .interval import Rejected
 from .matrices import Quotients, quotients
 from .polynomial import FIELD, Polynomial, Quotient, Ring
-from .trees import check_tree, names_in
+from .trees import check_tree, names_in, value
 from .words import Words
+
+#: Symbols of a glossary, and letters of each.
+MOST_SYMBOLS, MOST_LETTERS = 100, 80
 
 
 def check_form(data: Any, names: Collection[str]) -> None:
@@ -38,13 +43,20 @@ def check_form(data: Any, names: Collection[str]) -> None:
         sized(one, 3, "the glossary")
         for said in one[:2]:
             text(said, "the glossary")
+        if len(one[0]) > MOST_LETTERS or not is_symbol(one[0]):
+            raise Rejected(f"the glossary has {one[0]!a:.60}, which is no symbol")
         seen.add(tuple(tokens(one[0])))
-        value = one[2]
-        trees = [value] if not rank_of(value) else value if rank_of(value) == 1 else [x for row in value for x in row]
-        for tree in trees:
+        rows = one[2] if rank_of(one[2]) == 2 else [one[2]] if rank_of(one[2]) == 1 else [[one[2]]]
+        if not all(isinstance(row, list) and row and len(row) == len(rows[0]) for row in rows) or not rows:
+            raise Rejected(f"the glossary has for {one[0]} rows of different lengths")
+        for tree in (tree for row in rows for tree in row):
             check_tree(tree, names, f"the glossary, in {one[0]},")
-    if len(seen) < len(data) or () in seen:
-        raise Rejected("the glossary has a symbol twice")
+    plain = {tuple(token for token in symbol if token not in ("{", "}")) for symbol in seen}
+    if len(plain) < len(data) or () in plain or len(data) > MOST_SYMBOLS:
+        raise Rejected(f"the glossary has a symbol twice, or more than {MOST_SYMBOLS}")
+    powers = [symbol for symbol in seen if symbol[-2:-1] == ("^",) and symbol[:-2] in seen]
+    if powers:
+        raise Rejected(f"the glossary has {''.join(min(powers))}, the power of another symbol")
 
 
 def read(data: Mapping[str, Any]) -> tuple[int, int]:
@@ -64,37 +76,73 @@ def printed_parts(data: Mapping[str, Any]) -> list[tuple[str, list[str]]]:
 def check(data: Mapping[str, Any], algebras: Sequence[Algebra | Quotients], defined: Mapping[str, Made]) -> int:
     """Raises Rejected unless each equation of a part that is not in words is a statement of that role, or an identity.
 
-    Where no part is in words, each printed statement that is refuted must be one of these equations.  Returns how many
-    parts hold by the glossary alone.
+    Where no part is in words, what is printed is false only by statements that it has, and each of these that is
+    refuted is one of its equations.  Of each role one statement at least is an equation of its formula.  Returns how
+    many parts hold by the glossary alone.
     """
     alone = 0
-    found: set[int] = set()
-    wordless = {"printed", "corrected"}
-    for role, part in printed_parts(data):
+    found: dict[str, set[int]] = {"printed": set(), "corrected": set()}
+    all_parts = printed_parts(data)
+    for role, part in all_parts:
         if WORDS in part:
-            wordless.discard(role)
+            if "=" in part or "\\equiv" in part:
+                raise Rejected(f"the {role} formula has an equation and words in one part")
             continue
-        why, read, matched = "nothing of that role is decided", False, False
+        why, read = "nothing of that role is decided", None
         stated = {i: one for i, one in enumerate(data["statements"]) if one["role"] == role}
         for kind in dict.fromkeys(one["algebra"] for one in stated.values()):
-            algebra, among = data["algebras"][kind], {i: one for i, one in stated.items() if one["algebra"] == kind}
-            reader = Reader(data["glossary"], _transposes(algebra))
+            among = {i: one for i, one in stated.items() if one["algebra"] == kind}
             try:
-                sides = equations(part, reader)
-                each = [_statements(pair, among, algebras[kind], defined, reader) for pair in sides]
-            except NotRead as error:
-                why = str(error)
-                continue
-            why = "it is not what was decided"
-            if None not in each:
-                read, found, matched = True, found.union(*filter(None, each)), matched or any(each)
-        alone += not matched
-        if not read:
+                each = _read(part, among, data, kind, algebras[kind], defined)
+                read = set().union(*each)
+                break
+            except (NotRead, RecursionError) as error:
+                why = "it is too deep" if isinstance(error, RecursionError) else str(error)
+        if read is None:
             raise Rejected(f"the {role} formula {''.join(part):.80} is not read: {why}")
+        alone += not read
+        found[role] |= read
+    if not data["glossary"]:
+        return alone
+    words = any(WORDS in part for role, part in all_parts if role == "printed")
     refuted = {i for i, one in enumerate(data["statements"]) if "refuted" in one}
-    if data["glossary"] and "printed" in wordless and not refuted <= found:
-        raise Rejected("a printed statement is refuted that the printed formula does not have")
+    others = [one for one in (*data["comparisons"], *data["counts"]) if "refuted" in one or one.get("holds") is False]
+    others += [one for one in data["sentences"] if one["role"] == "printed" and one["text"].startswith("false: ")]
+    if not words and (others or not refuted <= found["printed"]):
+        raise Rejected("something printed is false that the printed formula does not have")
+    for role, formula in (("printed", data["printed"]), ("corrected", data["corrected"])):
+        if formula is not None and not any(one == role for one, _ in all_parts):
+            raise Rejected(f"the {role} formula has no part")
+        if not found[role] and any(one == role and WORDS not in part for one, part in all_parts):
+            raise Rejected(f"no part of the {role} formula is a statement that is decided")
+    if (
+        refuted
+        and not refuted & found["printed"]
+        and any(WORDS not in part for role, part in all_parts if role == "printed")
+    ):
+        raise Rejected("no part of the printed formula is a statement that is refuted")
     return alone
+
+
+def _read(
+    part: Sequence[str],
+    among: Mapping[int, Any],
+    data: Mapping[str, Any],
+    kind: int,
+    algebra: Algebra | Quotients,
+    made: Mapping[str, Made],
+) -> list[set[int]]:
+    """The statements that the equations of a part are, in one algebra; raises NotRead if one is none of them."""
+    if data["algebras"][kind]["kind"] == "traces":
+        raise NotRead("it is decided of traces")
+    if isinstance(algebra, Quotients):  # only entries of this ring
+        own = {one["name"] for one in data["derivation"] if one["algebra"] == kind and one["operation"] == "entry"}
+        made = {name: of for name, of in made.items() if name in own}
+    reader = Reader(data["glossary"], _transposes(data["algebras"][kind]))
+    sides = equations(part, reader)
+    if all(a == b for a, b in sides) and len(printed_parts(data)) == 1:
+        raise NotRead("it has one expression on both sides")
+    return [_statements(pair, among, algebra, made, reader, data["counterexamples"]) for pair in sides]
 
 
 def _transposes(algebra: Mapping[str, Any]) -> dict[str, Tree] | None:
@@ -110,41 +158,68 @@ def _statements(
     algebra: Algebra | Quotients,
     made: Mapping[str, Made],
     reader: Reader,
-) -> set[int] | None:
-    """Which statements an equation is, entry by entry; none if it is an identity; None if it is neither.
+    examples: Sequence[Mapping[str, Any]],
+) -> set[int]:
+    """Which statements an equation is, entry by entry; raises NotRead if it is none, and no identity.
 
-    In a quotient the numerators of the differences must be multiples of each other by numbers, but for factors by which
-    something is divided: then both equations say the same where no denominator vanishes.
+    In a quotient the numerators of the differences, each without what its own equation divides by, must be multiples of
+    each other by numbers: then both say the same where no denominator vanishes.  An identity is a statement that is one
+    and has a side of it.  Where what vanishes is used, it must be a side of the statement.
     """
     lefts, rights = map(entries, pair)
+    if pair[0][0] != pair[1][0] and (0, 0) not in pair:
+        raise NotRead("a number is equal to a vector")
     most = max(len(lefts), len(rights))
     lefts, rights = (side * most if side == [0] else side for side in (lefts, rights))
     zeros = entries((rank_of(reader.zero), reader.zero))
     zeros = zeros if len(zeros) == most else [0] * most
     if len(lefts) != len(rights):
-        return None
-    if names_in([0, *lefts, *rights, *zeros]) - algebra.names.keys() - made.keys() - {ROOT}:
+        raise NotRead("its sides have different sizes")
+    names = names_in([0, *lefts, *rights, *zeros, reader.root or 0])
+    if names - algebra.names.keys() - made.keys() or (reader.root is not None and names & made.keys()):
         raise NotRead("the glossary gives a symbol a value of another algebra")
-    vanishing = [zeros] if any(zeros) else []
-    with suppress(NotRead):
-        vanishing += [[transposed(z, reader.transposes) for z in one] for one in vanishing if reader.transposes]
-    readings = [list(zip(lefts, rights, strict=True))]
-    for more in vanishing:
-        readings += [
-            [(plus(a, times(sign, z)), b) for a, b, z in zip(lefts, rights, more, strict=True)] for sign in (1, -1)
-        ]
+    if isinstance(algebra, Algebra) and reader.root is not None:
+        raise NotRead("a root is of no words")
     of: Any = _InWords(algebra, made) if isinstance(algebra, Algebra) else _InRing(algebra, made, reader)
-    found: set[int] = set()
-    identity = False
-    for sides in readings:
-        said = of.differences(sides)
-        identity |= not any(x.terms for x in said)
-        found |= {
-            i
-            for i, one in among.items()
-            if len(one["left"]) == most and one["left"] != one["right"] and of.is_said(said, one)
-        }
-    return found if identity or found else None
+    among = {i: one for i, one in among.items() if len(one["left"]) == most and one["left"] != one["right"]}
+    sides = list(zip(lefts, rights, strict=True))
+    said = of.differences(sides)
+    if reader.root is None and not any(map(of.is_something, said)):
+        left = of.differences([(a, 0) for a in lefts])
+        return {i for i, one in among.items() if of.is_said(said, one) and of.is_side(left, one)}
+    found = {i for i, one in among.items() if of.is_said(said, one)}
+    for more in _vanishing(zeros, reader):
+        nothing = of.differences([(z, 0) for z in more])
+        for sign in (1, -1):
+            said = of.differences([(plus(a, times(sign, z)), b) for (a, b), z in zip(sides, more, strict=True)])
+            used = [i for i, one in among.items() if of.is_said(said, one) and of.is_side(nothing, one)]
+            found |= {i for i in used if _is_nothing(more, among[i], examples)}
+    if not found:
+        raise NotRead("it is not what was decided")
+    return found
+
+
+def _vanishing(zeros: list[Tree], reader: Reader) -> list[list[Tree]]:
+    """What vanishes, and its transpose."""
+    found = [zeros] if any(zeros) else []
+    with suppress(NotRead):
+        found += [[transposed(z, reader.transposes) for z in one] for one in found if reader.transposes]
+    return found
+
+
+def _is_nothing(zeros: list[Tree], one: Mapping[str, Any], examples: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether what vanishes does so at the counterexample of a statement, where numbers stand for all of it."""
+    if "refuted" not in one:
+        return True
+    point = {name: x for name, x in examples[one["refuted"]]["point"].items() if not isinstance(x, list)}
+    trees = [z for z in zeros if isinstance(z, list)]
+    if not names_in([0, *trees]) <= point.keys():
+        return True
+    numbers = {name: Fraction(x) for name, x in point.items()}
+    try:
+        return all(value(tree, numbers, Fraction) == 0 for tree in trees)
+    except ZeroDivisionError:
+        return False
 
 
 class _InWords:
@@ -158,36 +233,71 @@ class _InWords:
         of = derivation.named([tree for pair in sides for tree in pair], self.algebra, self.made, "a formula")
         return [self.algebra.total([self.algebra.read(a, of) - self.algebra.read(b, of)]) for a, b in sides]
 
+    def is_something(self, x: Words) -> bool:
+        """Whether a difference is not 0."""
+        return bool(x.terms)
+
     def is_said(self, said: list[Words], one: Mapping[str, Any]) -> bool:
         """Whether differences are those of a statement, or their negatives."""
-        decided = self.differences(list(zip(one["left"], one["right"], strict=True)))
-        pairs = list(zip(said, decided, strict=True))
-        return all(x.terms == y.terms for x, y in pairs) or all(not (x + y).terms for x, y in pairs)
+        return _alike(said, self.differences(list(zip(one["left"], one["right"], strict=True))))
+
+    def is_side(self, said: list[Words], one: Mapping[str, Any]) -> bool:
+        """Whether this is a side of a statement, or its negative."""
+        return any(_alike(said, self.differences([(x, 0) for x in one[side]])) for side in ("left", "right"))
+
+
+def _alike(said: list[Words], decided: list[Words]) -> bool:
+    pairs = list(zip(said, decided, strict=True))
+    return all(x.terms == y.terms for x, y in pairs) or all(not (x + y).terms for x, y in pairs)
 
 
 class _InRing:
-    """Compares numerators of differences; those of equations with a root after squaring."""
+    """Compares numerators of differences; those of equations with a root after squaring.
+
+    Of each numerator what its own equation divides by may be left out, and of a statement what the formula divides by:
+    the formula is said where that is not 0.
+    """
 
     def __init__(self, ring: Quotients, made: Mapping[str, Made], reader: Reader):
         self.ring = ring if reader.root is None else _with_root(ring)
         self.made, self.reader = made, reader
+        self.divisors: list[Polynomial] = []  # by which what was read last divides
 
     def differences(self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any] = ()) -> list[Polynomial]:
         """The numerators of left - right; `local`: names for parts, with their trees."""
         trees = [*(tree for pair in sides for tree in pair), *(tree for _, tree in local)]
+        ring = self.ring.ring
+        ring.used.clear()
         names = dict(derivation.entries(trees, self.made))
         for name, tree in local:
             names[name] = self.ring.read(tree, names)
-        return [
-            _squared(self.ring.read(a, names) - self.ring.read(b, names), self.ring, self.reader.root) for a, b in sides
-        ]
+        found = [self.ring.read(a, names) - self.ring.read(b, names) for a, b in sides]
+        numerators = [_squared(x, self.ring, self.reader.root) for x in found]
+        self.divisors = [ring.factors[i] for i in sorted(ring.used)]
+        return numerators
+
+    def is_something(self, x: Polynomial) -> bool:
+        """Whether a difference is not 0."""
+        return bool(x.terms)
 
     def is_said(self, said: list[Polynomial], one: Mapping[str, Any]) -> bool:
         """Whether numerators are multiples of those of a statement."""
         if self.reader.root is not None and not self.reader.both and "refuted" not in one:
             return False  # the square of an equation is true where its negative is
-        decided = self.differences(list(zip(one["left"], one["right"], strict=True)), one.get("definitions", []))
-        return all(proportional(_rest(a), _rest(b)) for a, b in zip(said, decided, strict=True))
+        return self._alike(said, list(zip(one["left"], one["right"], strict=True)), one)
+
+    def is_side(self, said: list[Polynomial], one: Mapping[str, Any]) -> bool:
+        """Whether this is a side of a statement, or a multiple of it."""
+        return any(self._alike(said, [(x, 0) for x in one[side]], one) for side in ("left", "right"))
+
+    def _alike(self, said: list[Polynomial], sides: Sequence[tuple[Tree, Tree]], one: Mapping[str, Any]) -> bool:
+        divisors = self.divisors
+        decided = self.differences(sides, one.get("definitions", []))
+        more, self.divisors = [*self.divisors, *divisors], divisors
+        if all(map(proportional, said, decided)):
+            return True
+        mine, theirs = _parts(divisors), _parts(more)
+        return all(proportional(_without(a, mine), _without(b, theirs)) for a, b in zip(said, decided, strict=True))
 
 
 def _with_root(ring: Quotients) -> Quotients:
@@ -207,22 +317,23 @@ def _squared(of: Quotient, ring: Quotients, under: Tree | None) -> Polynomial:
         halves[monomial >> shift][monomial & (1 << shift) - 1] = c
     if not halves[1]:
         return of.numerator
-    p, q = (Quotient(Polynomial(ring.ring, half, of.numerator.degree, of.numerator.bits), 1, {}) for half in halves)
+    degree, bits = of.numerator.degree, of.numerator.bits
+    p, q = (Quotient(Polynomial(ring.ring, half, degree, bits), 1, {}) for half in halves)
     return (p * p - q * q * ring.read(under)).numerator
 
 
-def _rest(of: Polynomial) -> Polynomial:
-    """Without the factors by which something is divided."""
-    for factor in _parts(of.ring):
-        while of.terms and (smaller := _divided(of, factor)) is not None:
+def _without(of: Polynomial, divisors: Sequence[Polynomial]) -> Polynomial:
+    """Without what the equation divides by: it says the same where that is not 0."""
+    for divisor in divisors:
+        while of.terms and (smaller := _divided(of, divisor)) is not None:
             of = smaller
     return of
 
 
-def _parts(ring: Ring) -> list[Polynomial]:
-    """The factors of all denominators, each without those before it that divide it, the shortest first."""
+def _parts(factors: Sequence[Polynomial]) -> list[Polynomial]:
+    """Each factor without those before it that divide it, the shortest first."""
     found: list[Polynomial] = []
-    for factor in sorted(ring.factors, key=lambda p: len(p.terms)):
+    for factor in sorted(factors, key=lambda p: len(p.terms)):
         for known in found:
             while (smaller := _divided(factor, known)) is not None:
                 factor = smaller

@@ -39,6 +39,7 @@ class Ring:
         self.variables, self.work = tuple(variables), work
         self.factors: list[Polynomial] = []
         self._numbers: dict[frozenset[tuple[int, int]], int] = {}
+        self.used: set[int] = set()  # the numbers of those by which something was divided since this was emptied
 
     def constant(self, n: int) -> Polynomial:
         """The polynomial n."""
@@ -54,6 +55,7 @@ class Ring:
         if key not in self._numbers:
             self._numbers[key] = len(self.factors)
             self.factors.append(polynomial)
+        self.used.add(self._numbers[key])
         return self._numbers[key]
 
     def names(self) -> dict[str, Quotient]:

@@ -115,6 +115,8 @@ def check_verdict(data: dict[str, Any]) -> None:
     given = kind if false else "holds" if roles & {"printed"} else "definition"
     if data["verdict"] not in ("open", given) and not (data["verdict"] == "settled" and not false):
         raise Rejected(f"the verdict is {data['verdict']!r}, and what is decided gives {given!r}")
+    if data["verdict"] == "settled" and not (data["uses"] or data["rests"]):
+        raise Rejected("a question is settled by nothing that it uses")
     if data["verdict"] == "open":
         return
     for role in STATED:

@@ -51,6 +51,11 @@ def closed_sigma(text: str, factor: sp.Expr) -> Equation:
     return equation(text, sigma * (1 - factor * first_form()), vertical.height())
 
 
+def solved_sigma(text: str, factor: sp.Expr) -> Equation:
+    """The same as it is printed, solved for σ."""
+    return equation(text, sigma, vertical.height() / (1 - factor * first_form()))
+
+
 def symmetric(text: str, factor: sp.Expr) -> Equation:
     """γ~ - γ = factor·(γ+γ~) × Λ⁻¹(γ+γ~)."""
     return equation(text, difference(), factor * total().cross(inverse() * total()))
@@ -158,7 +163,7 @@ def sigma_of_sum(p: Proof) -> None:
     p.printed(closed_sigma("σ(1 - (D/8)⟨s, Λ⁻¹s⟩) = h, s = γ~ + γ", D / 8))
     p.corrected(
         r"\sigma = \frac h{1-\frac D4\langle\tilde\gamma+\gamma,\Lambda^{-1}(\tilde\gamma+\gamma)\rangle}",
-        closed_sigma("σ(1 - (D/4)⟨s, Λ⁻¹s⟩) = h", D / 4),
+        solved_sigma("σ = h/(1 - (D/4)⟨s, Λ⁻¹s⟩)", D / 4),
     )
     p.counterexample(vertical_point(SMALL))
     p.counterexample(vertical_point(LARGE))
@@ -192,7 +197,7 @@ def symmetric_form(p: Proof) -> None:
         r"\sigma = \frac h{1-\frac D4\langle\tilde\gamma+\gamma,\Lambda^{-1}(\tilde\gamma+\gamma)\rangle},"
         r"\ \text{with the sign of }\cos\theta",
         square_of_root("ϰ: (2q₀²-1)² = 1 - (σ²/4)⟨s, Λ⁻²s⟩", sigma**2 / 4),
-        closed_sigma("σ: σ(1 - (D/4)⟨s, Λ⁻¹s⟩) = h", D / 4),
+        solved_sigma("σ: σ = h/(1 - (D/4)⟨s, Λ⁻¹s⟩)", D / 4),
     )
     for name, state in [("below", SMALL), ("above", LARGE)]:
         p.say(f"A state with the rotation angle {name} 90°: the sign of the root is that of 2q₀² - 1 = cos θ.")

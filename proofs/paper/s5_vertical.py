@@ -67,7 +67,7 @@ def printed_vector(sign: int) -> sp.Matrix:
 
 @claim(
     "5.4",
-    r"\text{for }\vec{\mathcal K} = h\gamma:\quad 2(\dots)^T = [h + D q_0\langle\gamma,\mathbf q\rangle]\gamma,"
+    r"\text{for } \vec{\mathcal K} \parallel \gamma:\quad 2(\dots)^T = [h + D q_0\langle\gamma,\mathbf q\rangle]\gamma,"
     r"\ \widehat J = J + \tfrac D2 I",
     uses=["5.2"],
 )
@@ -78,7 +78,7 @@ def vertical_relation(p: Proof) -> None:
         glossary.ball()
         | {
             "h": (h, "of 𝒦 = hγ (5.4)"),
-            r"2(\dots)^T": (2 * printed_vector(+1), "the vector that is printed"),
+            r"(\dots)^T": (printed_vector(+1), "the vector that is printed"),
             r"\widehat J": (sp.diag(J1, J2, J3) + D / 2 * sp.eye(3), "J + (D/2) I (5.4)"),
             "J": (sp.diag(J1, J2, J3), "the mass tensor (5.2)"),
             "I": (sp.eye(3), "the unit matrix"),
@@ -94,7 +94,7 @@ def vertical_relation(p: Proof) -> None:
     balance = sp.Matrix(three.momentum()) - h * gamma
 
     def relation(text: str, factor: int) -> Equation:
-        return Equation(text, left, (h + factor * D * q0 * gamma.dot(q)) * gamma + balance, ring)
+        return Equation(text, left - (h + factor * D * q0 * gamma.dot(q)) * gamma, balance, ring)
 
     p.printed(relation("left side = [h + D q₀⟨γ,q⟩]γ", 1))
     p.corrected(

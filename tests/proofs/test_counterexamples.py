@@ -101,7 +101,7 @@ def test_5_1_the_entry_32(records):
     printed = truth.copy()
     printed[2, 1] = -2 * (q2 * q3 - q0 * q1)
     assert printed[2, 1] == F(12, 25)
-    agree(records, "5.1", [(printed.ravel(), truth.ravel()), (printed[2, 1], truth[2, 1])])
+    agree(records, "5.1", (printed.ravel(), truth.ravel()))
 
 
 def test_5_4_5_6_and_5_12_the_missing_factor_and_the_sign_of_the_rotation(records):
