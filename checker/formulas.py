@@ -18,6 +18,8 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
+from .trees import names_in
+
 Tree = Any
 #: A tree, a vector or a matrix of trees, and which of these it is: 0, 1 or 2.
 Value = tuple[int, Any]
@@ -296,7 +298,7 @@ class Reader:
         other = self._transposed(b)
         if turned:
             b, other = other, b
-            if b[1] in (other[1], times(-1, other[1])) or other[1] == times(-1, b[1]):
+            if names_in(b[1]) & names_in(other[1]):  # a symmetric or skew letter is its own transpose
                 raise NotRead("a wedge is with what is no row")
         minus = self._times(b, self._transposed(a))
         return _sum(self._times(a, other), _each(minus, lambda tree: times(-1, tree)))

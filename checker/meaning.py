@@ -182,6 +182,11 @@ def _statements(
         raise NotRead("a root is of no words")
     of: Any = _InWords(algebra, made) if isinstance(algebra, Algebra) else _InRing(algebra, made, reader)
     among = {i: one for i, one in among.items() if len(one["left"]) == most and one["left"] != one["right"]}
+    if reader.root is not None:  # whose ring has no entries of derivations
+        among = {
+            i: one for i, one in among.items() if made.keys().isdisjoint(names_in([0, *one["left"], *one["right"]]))
+        }
+    among = {i: one for i, one in among.items() if _is_nothing(zeros, one, examples)}
     sides = list(zip(lefts, rights, strict=True))
     said = of.differences(sides)
     if reader.root is None and not any(map(of.is_something, said)):
@@ -192,8 +197,7 @@ def _statements(
         nothing = of.differences([(z, 0) for z in more])
         for sign in (1, -1):
             said = of.differences([(plus(a, times(sign, z)), b) for (a, b), z in zip(sides, more, strict=True)])
-            used = [i for i, one in among.items() if of.is_said(said, one) and of.is_side(nothing, one)]
-            found |= {i for i in used if _is_nothing(more, among[i], examples)}
+            found |= {i for i, one in among.items() if of.is_said(said, one) and of.is_side(nothing, one)}
     if not found:
         raise NotRead("it is not what was decided")
     return found
@@ -212,7 +216,7 @@ def _is_nothing(zeros: list[Tree], one: Mapping[str, Any], examples: Sequence[Ma
     if "refuted" not in one:
         return True
     point = {name: x for name, x in examples[one["refuted"]]["point"].items() if not isinstance(x, list)}
-    trees = [z for z in zeros if isinstance(z, list)]
+    trees = [z for z in zeros if z != 0]
     if not names_in([0, *trees]) <= point.keys():
         return True
     numbers = {name: Fraction(x) for name, x in point.items()}

@@ -55,6 +55,43 @@ def supposed(data):
     one["point"] = 0
 
 
+def traced(data):
+    """A statement about traces as one about matrices."""
+    kind = next(i for i, one in enumerate(data["algebras"]) if one["kind"] == "traces")
+    one = next(one for one in data["statements"] if one["algebra"] == kind)
+    data["statements"] = [one | {"role": "printed", "left": [["*", "J", "omega"]], "right": [["*", "omega", "J"]]}]
+    data["printed"] = r"J\omega = \omega J"
+
+
+def beside(formula):
+    """One more part of what is printed."""
+    return lambda data: data.update(printed=f"{data['printed']},\\ {formula}")
+
+
+def with_symbol(symbol, value):
+    return lambda data: data["glossary"].append([symbol, "x", value])
+
+
+def vanishing(data):
+    """The formula itself vanishes by the glossary."""
+    with_symbol("0", ["+", ["*", 7, "D"], -1])(data)
+    data["printed"] = "7D = 1"
+
+
+def false_sentence(data):
+    data["sentences"].append({"role": "printed", "text": "false: x"})
+    data["verdict"] = "refuted"
+
+
+#: What is false, or no formula, and may not stand beside a right one.
+BESIDE = [
+    r"\sqrt{D^2} = -D", "D² = D", "D^2^2 = D^4", r"\frac12 = \frac1\Lambda", r"(D, D)^T + \gamma = 0",
+    r"\Lambda(D, D)^T = 0", "1 = \\", r"\gamma^T = \gamma", r"\text{} D = 1", r"\words D = 1",
+    "(" * 200 + "D" + ")" * 200 + " = D", "{" * 3000, "+".join("D" * 1500) + " = 1500D + 1",
+    r"\gamma" + r"\times\gamma" * 60 + " = 0", "[" * 60 + "D" + ",J]" * 60 + " = 0",
+]  # fmt: skip
+SYMBOLS = ["2", "=", "+", "(", r"\neg D", "D^2", "К", "{F}", r"D \not", "D,", "", "x" * 100]
+
 FORGED = {
     "the printed sign is turned": ("2.5", lambda d: d.update(printed=d["printed"].replace("- ", "+ "))),
     "the corrected sign is turned": ("2.5-inverse", lambda d: d.update(corrected=d["corrected"].replace("+ ", "- "))),
@@ -84,4 +121,22 @@ FORGED = {
     "a value in no letters": ("2.5", lambda d: d["glossary"][0].__setitem__(2, "z9")),
     "a row too long": ("2.5", lambda d: d["glossary"][0].__setitem__(2, [["D"], ["D", "D"]])),
     "the claim uses itself": ("2.5", lambda d: d.update(uses=["2.5"])),
+    **{f"{formula:.60} beside": ("2.2-F", beside(formula)) for formula in BESIDE},
+    **{f"the symbol {symbol:.20}": ("2.2-F", with_symbol(symbol, 1)) for symbol in SYMBOLS},
+    "± before no root": ("2.5", lambda d: d.update(corrected=d["corrected"].replace("+", r"\pm"))),
+    "± before 0": ("5.12-q0", lambda d: d.update(corrected=d["corrected"].replace("= 1\\pm", "\\pm 0 = 1+"))),
+    "a root with the other sign": ("prop-4", lambda d: d.update(corrected=d["corrected"].replace(r"1\pm", "1-"))),
+    "nothing is printed": ("2.2-F", lambda d: d.update(printed=",")),
+    "nothing is corrected": ("2.5", lambda d: d.update(corrected="\\")),
+    "K = K is corrected": ("2.5", lambda d: d.update(corrected="K = K")),
+    "F = F is printed": ("2.2-F", lambda d: d.update(printed=r"F = F \equiv F")),
+    "an equation in words": ("2.5", lambda d: d.update(corrected=d["corrected"] + r",\ K = 3\omega\text{ then}")),
+    "what is printed is right, with a word": ("2.5", lambda d: d.update(printed=d["corrected"] + r",\ \text{so}")),
+    "what vanishes is the formula": ("2.2-F", vanishing),
+    "false by a sentence": ("2.2-F", false_sentence),
+    "settled by nothing": ("2.2-F", lambda d: d.update(verdict="settled", uses=[], rests=[])),
+    "a wedge with a matrix": ("2.12", beside(r"\Gamma\wedge\omega^T = -(\Gamma\omega+\omega\Gamma)")),
+    "a root of words": ("2.12", beside(r"\sqrt{2} = 2")),
+    "traces for matrices": ("2.10", traced),
+    "the velocity at the contact is not 0": ("2.1", lambda d: d["counterexamples"][0]["point"].update(v1=2)),
 }  # fmt: skip

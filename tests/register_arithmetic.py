@@ -231,6 +231,7 @@ def reading(module):
         "(mA)^T": ["*", "A^T", "m"],
         r"v\wedge w": wedge,
         r"v\wedge w^T": wedge,
+        r"v\wedge w + A^T": ["+", wedge, "A^T"],
     }.items():
         [part] = module.parts(f"{formula} = A")
         [(left, _)] = module.equations(part, module.Reader(glossary, transposes))

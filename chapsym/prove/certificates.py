@@ -80,7 +80,8 @@ def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
     names = names_in(
         [0, *(tree for _, _, value in whole for tree in formulas.entries((formulas.rank_of(value), value)))]
     )
-    reader = formulas.Reader(whole, {name: name for name in names})  # only which symbols are read is asked
+    turned = {name: f"{name}^T" for name in names}  # only which symbols are read is asked
+    reader = formulas.Reader(whole, turned | {image: name for name, image in turned.items()})
     for part in formulas.parts(f"{printed}, {proof.corrected_text or ''}"):
         with suppress(formulas.NotRead):
             formulas.equations(part, reader)
