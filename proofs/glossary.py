@@ -4,7 +4,6 @@ Each table gives symbols their values, in the letters of the statements, and the
 paper.  A claim reads with a table and with what it defines itself.
 """
 
-from functools import cache
 from typing import Any
 
 import sympy as sp
@@ -15,7 +14,6 @@ from chapsym.derive.limits import omega
 Symbols = dict[str, tuple[Any, str]]
 
 
-@cache
 def ball() -> Symbols:
     """n = 3 (Sections 2 and 5): the ball and its state."""
     return {
@@ -28,7 +26,6 @@ def ball() -> Symbols:
     }
 
 
-@cache
 def classical() -> Symbols:
     """The tensor of inertia and F of Section 2."""
     return ball() | {

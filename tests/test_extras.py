@@ -51,7 +51,7 @@ def third_party(folder):
     known = modules(folder, folder.name)
     for link in filter(Path.is_symlink, folder.iterdir()):
         known |= modules(link, f"{folder.name}.{link.name}")
-    inside = {"chapsym", "benchmarks", *(path.stem for path in folder.glob("*.py"))}
+    inside = {"chapsym", "benchmarks", "research", *(path.stem for path in folder.glob("*.py"))}
     tops = {other.split(".")[0] for name, path in known.items() for other in imported(name, path, known)}
     owners = packages_distributions()
     return {normal(owner) for top in tops - set(sys.stdlib_module_names) - inside for owner in owners.get(top, [top])}
@@ -68,7 +68,12 @@ def offered(distributions):
 
 @pytest.mark.parametrize(
     ("folder", "extras"),
-    [("chapsym", RUNTIME), ("benchmarks", (*RUNTIME, "bench", "engines")), ("tests", (*RUNTIME, "test"))],
+    [
+        ("chapsym", RUNTIME),
+        ("benchmarks", (*RUNTIME, "bench", "engines")),
+        ("research", RUNTIME),
+        ("tests", (*RUNTIME, "test")),
+    ],
 )
 def test_what_is_imported_is_declared(folder, extras):
     allowed = offered(declared(*extras)) | HOSTS | RENAMED | named(EXTRAS["test"][1])

@@ -1,7 +1,6 @@
 """Section 2: the continuous ball for every n, from d'Alembert's principle, with words in noncommuting symbols."""
 
 from collections.abc import Mapping
-from functools import cache
 
 import sympy as sp
 
@@ -20,7 +19,6 @@ VANISHES = "d'Alembert's principle, which vanishes in a motion"
 TRACES = Traces(ALGEBRA)
 
 
-@cache
 def motion_symbols() -> Symbols:
     """The continuous ball, for every n (Section 2)."""
     return {

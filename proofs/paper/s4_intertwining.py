@@ -1,7 +1,5 @@
 """Section 4: the intertwining relations of Remark 3."""
 
-from functools import cache
-
 import sympy as sp
 
 from chapsym.derive import ball, three
@@ -14,7 +12,6 @@ from chapsym.prove import Equation, Proof, claim, equations, main
 equation = equations(ALGEBRA)
 
 
-@cache
 def one_step_symbols() -> Symbols:
     """One step of it, in its rotation and its vertical (Remark 3)."""
     return {

@@ -1,7 +1,5 @@
 """Section 4: from the discrete Lagrange-d'Alembert principle to the discrete Euler-Poincaré form."""
 
-from functools import cache
-
 import sympy as sp
 
 from chapsym.derive import principle
@@ -28,7 +26,6 @@ def _in_body(a: sp.Expr, b: sp.Expr) -> sp.Expr:
     return principle.ALGEBRA.transpose(a) * principle.spatial_momentum(a, b) * a
 
 
-@cache
 def step_symbols() -> Symbols:
     """The discrete ball, for every n, in its attitudes and centres (Section 4)."""
     return {

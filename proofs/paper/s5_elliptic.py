@@ -1,7 +1,5 @@
 """Section 5: the invariant curve in Jacobi's functions, and the symmetric form on it (5.7 to 5.13)."""
 
-from functools import cache
-
 import sympy as sp
 
 from chapsym.derive import elliptic
@@ -30,7 +28,6 @@ def functions(values: Jacobi, argument: str) -> Symbols:
     return found
 
 
-@cache
 def curve_symbols() -> Symbols:
     """The curve (Section 5): Λ, its modulus and level, and Jacobi's functions of u, ū and δu."""
     return {
@@ -47,7 +44,6 @@ def curve_symbols() -> Symbols:
     }
 
 
-@cache
 def level_symbols() -> Symbols:
     """The same with the level l as what k² and Λ make of it."""
     return curve_symbols() | {

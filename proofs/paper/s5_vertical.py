@@ -1,7 +1,6 @@
 """Section 5: vertical momentum, the reduced map G_h and its integral (Proposition 3)."""
 
 from dataclasses import replace
-from functools import cache
 
 import sympy as sp
 
@@ -33,7 +32,6 @@ def vertical_state() -> list[Equation]:
     ]
 
 
-@cache
 def vertical_symbols() -> Symbols:
     """Vertical momentum (Section 5): γ and γ~ in q and σ."""
     return {
