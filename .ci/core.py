@@ -21,7 +21,6 @@ ABSENT = {
     "scenes": ["scene", "new", "ball.toml"],
     "figures": ["show", "ball.toml"],
     "report": ["report"],
-    "cluster": ["study", "rotation", "--quick", "--scheduler", "tcp://127.0.0.1:9"],
 }
 
 
@@ -62,6 +61,11 @@ for extra, arguments in ABSENT.items():
     assert (done.returncode, done.stdout) == (2, ""), (arguments, done.stdout)
     assert done.stderr.endswith(f"not installed: pip install 'chapsym[{extra}]'\n"), done.stderr
     print(done.stderr, end="")
+
+for name in ("study", "bench"):  # a checkout has what they measure
+    done = run(name, *(["rotation"] if name == "study" else []))
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.endswith("is not in the wheel; run this from a checkout\n"), done.stderr
 
 assert native.is_compiled(), "the wheel has no compiled loops"
 ball = chapsym.Ball(mass_tensor=(1, 2, 4), D=3, radius=0.1)
