@@ -12,7 +12,7 @@ from typing import Any
 
 def main(arguments: list[str] | None = None) -> int:
     """Judges files: 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
-    from . import Rejected, Unreadable, claimed_twice, file_name, id_of, kernels, lacks, manifest, read, shown, standing
+    from . import Rejected, Unreadable, claimed_twice, id_of, kernels, lacks, manifest, read, shown, standing
 
     parser = argparse.ArgumentParser(prog="checker", description="Checks certificates, with the standard library only.")
     parser.add_argument("files", nargs="*", metavar="FILE")
@@ -52,9 +52,6 @@ def main(arguments: list[str] | None = None) -> int:
             verdict = Rejected(f"another of these files is of claim {claim}, too, and says something else")
         if not isinstance(verdict, Exception) and verdict.name != expected.get(file, verdict.name):
             verdict = Rejected("it is another certificate than the one that the manifest lists")
-        of = id_of(getattr(verdict, "name", "")) if getattr(verdict, "kind", "") == "register-claim" else ""
-        if of and file in expected and Path(file).name != file_name(of):
-            verdict = Rejected(f"it is of claim {of}, and has not its name")
         if not isinstance(verdict, Exception) and (missing := lacks(verdict, stand, refuted)):
             verdict = Rejected(f"it rests on {missing[0]}, which is not accepted among these files")
         if isinstance(verdict, Exception):
@@ -89,7 +86,7 @@ def main(arguments: list[str] | None = None) -> int:
 def _judged(files: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
     """The verdict on each file, or why it has none, and the accepted certificates by name.
 
-    The certificates of claims that are used are looked for beside the files, and judged, too.
+    The certificates of claims that are used are looked for in the folders of the files, and judged, too.
     """
     from . import Rejected, Unreadable, check, file_name, read
 
@@ -106,9 +103,9 @@ def _judged(files: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
             judged[file] = error
             continue
         whole[verdict.name] = data
-        beside = {one: Path(file).with_name(file_name(one)) for one in verdict.uses}
         known = {Path(one).name for one in pending}
-        pending += [str(path) for path in beside.values() if path.name not in known and path.is_file()]
+        used = [Path(file).with_name(file_name(one)) for one in verdict.uses]
+        pending += [str(path) for path in used if path.name not in known and path.is_file()]
     return judged, whole
 
 

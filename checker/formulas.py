@@ -3,7 +3,7 @@ r"""Formulas in TeX, read by a glossary: so that what is printed is what was dec
 A glossary is a list of [symbol, meaning, value].  A symbol is any piece of TeX, such as K, \tilde\gamma or R_{k+1}; the
 longest that fits is taken.  A value is a tree, or a list of trees (a vector), or of such lists (a matrix), in the names
 of an algebra.  A formula is parts between commas, semicolons and colons; a part is expressions with = or \equiv between
-them.  A part with words, or with a symbol that the glossary does not have, is not read.  An expression has
+them.  A part with words is not read; one with a symbol that has no value raises NotRead.  An expression has
 
     a + b   a - b   \pm a   a b   \frac ab   a^n   a^T   ( )   [a, b] = ab - ba   \langle a, b \rangle
     a \times b   a \wedge b = a b^T - b a^T   \sqrt a   \mathrm{diag}(a, b, c)   (a, b, c)^T
@@ -48,7 +48,7 @@ def tokens(formula: str) -> list[str]:
 
 
 def parts(formula: str) -> list[list[str]]:
-    """The parts between commas, semicolons and colons that stand in no bracket; without a full stop."""
+    """The parts between commas, semicolons and colons outside of brackets."""
     found: list[list[str]] = [[]]
     inside: list[str] = []
     for token in tokens(formula):
@@ -78,7 +78,7 @@ def equations(part: Sequence[str], reader: "Reader") -> list[tuple[Value, Value]
 
 
 def is_symbol(symbol: str) -> bool:
-    """Whether this may stand in a glossary: a letter with what is at it, without a sign that joins expressions."""
+    """Whether a glossary may have this: a letter with what is at it, without a sign that joins expressions."""
     plain = re.sub(r"\{[^{}]*\}|\([^()]*\\dots[^()]*\)", "", symbol)
     level, least = 0, 0
     for c in symbol:
@@ -92,7 +92,7 @@ class Reader:
 
     def __init__(self, glossary: Sequence[Sequence[Any]], transposes: Mapping[str, Tree] | None = None):
         values = {tuple(tokens(symbol)): (rank_of(value), value) for symbol, _, value in glossary}
-        _, self.zero = values.pop(("0",), (0, 0))  # what vanishes, beside 0
+        _, self.zero = values.pop(("0",), (0, 0))  # what vanishes by a premise
         self.values = dict(sorted(values.items(), key=lambda item: -len(item[0])))
         self._symbols: dict[str, list[tuple[str, ...]]] = {}
         for symbol in self.values:
@@ -180,7 +180,7 @@ class Reader:
         return found
 
     def _argument(self) -> list[str]:
-        """What stands in braces, or one token with what it is applied to."""
+        """The inside of braces, or one token with what it is applied to."""
         if self._next() != "{":
             if not self._left:
                 raise NotRead("something is missing at the end")

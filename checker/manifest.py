@@ -7,7 +7,7 @@ from the folder of the manifest.  It lists all JSON files there but itself.
 from pathlib import Path
 from typing import Any
 
-from .document import FORMAT, check_names, digest
+from .document import FORMAT, check_names, digest, file_name
 from .interval import Rejected
 
 KIND = "manifest"
@@ -34,4 +34,7 @@ def listed(data: Any, folder: Path) -> dict[Path, str]:
         raise Rejected(f"{missing[0]} is missing, which the manifest lists")
     if more := sorted(there - names.keys()):
         raise Rejected(f"{more[0]} is there, and the manifest does not list it")
+    for path, name in names.items():
+        if " " in name and Path(path).name != file_name(name.partition(" ")[0]):
+            raise Rejected(f"{path} has not the name of its claim, {name.partition(' ')[0]}")
     return {folder / path: name for path, name in names.items()}

@@ -37,7 +37,7 @@ MOST_SYMBOLS, MOST_LETTERS = 100, 80
 
 
 def check_form(data: Any, names: Collection[str]) -> None:
-    """Raises Rejected unless each symbol stands in the glossary once, with a meaning, and a value in these names."""
+    """Raises Rejected unless the glossary has each symbol once, with a meaning, and a value in these names."""
     seen = set()
     for one in many(data, "the glossary"):
         sized(one, 3, "the glossary")
@@ -140,8 +140,6 @@ def _read(
         made = {name: of for name, of in made.items() if name in own}
     reader = Reader(data["glossary"], _transposes(data["algebras"][kind]))
     sides = equations(part, reader)
-    if all(a == b for a, b in sides) and len(printed_parts(data)) == 1:
-        raise NotRead("it has one expression on both sides")
     return [_statements(pair, among, algebra, made, reader, data["counterexamples"]) for pair in sides]
 
 
@@ -175,6 +173,8 @@ def _statements(
     zeros = zeros if len(zeros) == most else [0] * most
     if len(lefts) != len(rights):
         raise NotRead("its sides have different sizes")
+    if lefts == rights:
+        return set()
     names = names_in([0, *lefts, *rights, *zeros, reader.root or 0])
     if names - algebra.names.keys() - made.keys() or (reader.root is not None and names & made.keys()):
         raise NotRead("the glossary gives a symbol a value of another algebra")
@@ -189,7 +189,7 @@ def _statements(
     among = {i: one for i, one in among.items() if _is_nothing(zeros, one, examples)}
     sides = list(zip(lefts, rights, strict=True))
     said = of.differences(sides)
-    if reader.root is None and not any(map(of.is_something, said)):
+    if reader.root is None and not any(x.terms for x in said):
         left = of.differences([(a, 0) for a in lefts])
         return {i for i, one in among.items() if of.is_said(said, one) and of.is_side(left, one)}
     found = {i for i, one in among.items() if of.is_said(said, one)}
@@ -237,10 +237,6 @@ class _InWords:
         of = derivation.named([tree for pair in sides for tree in pair], self.algebra, self.made, "a formula")
         return [self.algebra.total([self.algebra.read(a, of) - self.algebra.read(b, of)]) for a, b in sides]
 
-    def is_something(self, x: Words) -> bool:
-        """Whether a difference is not 0."""
-        return bool(x.terms)
-
     def is_said(self, said: list[Words], one: Mapping[str, Any]) -> bool:
         """Whether differences are those of a statement, or their negatives."""
         return _alike(said, self.differences(list(zip(one["left"], one["right"], strict=True))))
@@ -279,10 +275,6 @@ class _InRing:
         numerators = [_squared(x, self.ring, self.reader.root) for x in found]
         self.divisors = [ring.factors[i] for i in sorted(ring.used)]
         return numerators
-
-    def is_something(self, x: Polynomial) -> bool:
-        """Whether a difference is not 0."""
-        return bool(x.terms)
 
     def is_said(self, said: list[Polynomial], one: Mapping[str, Any]) -> bool:
         """Whether numerators are multiples of those of a statement."""

@@ -32,7 +32,7 @@ they must be accepted, too.  By its glossary (formulas.py) what is printed and w
 that is not in words must be a statement of that role (meaning.py).  The verdict must be what is decided: `holds`, if no
 printed statement fails; `corrected` or `conditional`, if one does, and a corrected one holds, or one under a condition;
 else `refuted`.  It must be `open` where all that is printed, or corrected, has one expression on both sides or is a
-relation that it supposes.  The sentences are not judged: they are what the claim says beside this.
+relation that it supposes.  The sentences are not judged: they are what else the claim says.
 """
 
 import json
@@ -113,7 +113,7 @@ def check_verdict(data: dict[str, Any]) -> None:
     false |= any(one["role"] == "printed" and one["text"].startswith("false: ") for one in data["sentences"])
     kind = "conditional" if "under" in roles else "corrected" if "corrected" in roles else "refuted"
     given = kind if false else "holds" if roles & {"printed"} else "definition"
-    if data["verdict"] not in ("open", given) and not (data["verdict"] == "settled" and not false):
+    if data["verdict"] not in ("open", given) and (false or data["verdict"] not in ("settled", "definition")):
         raise Rejected(f"the verdict is {data['verdict']!r}, and what is decided gives {given!r}")
     if data["verdict"] == "settled" and not (data["uses"] or data["rests"]):
         raise Rejected("a question is settled by nothing that it uses")
@@ -123,7 +123,7 @@ def check_verdict(data: dict[str, Any]) -> None:
         stated = [one for one in decided if one["role"] == role]
         if stated and all("left" in one and one["left"] == one["right"] for one in stated):
             raise Undecided(f"what is {role} has one expression on both sides, so that nothing is decided")
-    if (data["corrected"] is not None) != (given == "corrected"):
+    if (data["corrected"] is not None) != ("corrected" in roles):
         raise Rejected("a correction is given where none is decided, or none where one is")
 
 

@@ -63,7 +63,7 @@ def traced(data):
     data["printed"] = r"J\omega = \omega J"
 
 
-def beside(formula):
+def with_part(formula):
     """One more part of what is printed."""
     return lambda data: data.update(printed=f"{data['printed']},\\ {formula}")
 
@@ -83,8 +83,8 @@ def false_sentence(data):
     data["verdict"] = "refuted"
 
 
-#: What is false, or no formula, and may not stand beside a right one.
-BESIDE = [
+#: What is false, or no formula, and may not be printed with what is right.
+PARTS = [
     r"\sqrt{D^2} = -D", "D² = D", "D^2^2 = D^4", r"\frac12 = \frac1\Lambda", r"(D, D)^T + \gamma = 0",
     r"\Lambda(D, D)^T = 0", "1 = \\", r"\gamma^T = \gamma", r"\text{} D = 1", r"\words D = 1",
     "(" * 200 + "D" + ")" * 200 + " = D", "{" * 3000, "+".join("D" * 1500) + " = 1500D + 1",
@@ -121,7 +121,7 @@ FORGED = {
     "a value in no letters": ("2.5", lambda d: d["glossary"][0].__setitem__(2, "z9")),
     "a row too long": ("2.5", lambda d: d["glossary"][0].__setitem__(2, [["D"], ["D", "D"]])),
     "the claim uses itself": ("2.5", lambda d: d.update(uses=["2.5"])),
-    **{f"{formula:.60} beside": ("2.2-F", beside(formula)) for formula in BESIDE},
+    **{f"the part {formula:.60}": ("2.2-F", with_part(formula)) for formula in PARTS},
     **{f"the symbol {symbol:.20}": ("2.2-F", with_symbol(symbol, 1)) for symbol in SYMBOLS},
     "± before no root": ("2.5", lambda d: d.update(corrected=d["corrected"].replace("+", r"\pm"))),
     "± before 0": ("5.12-q0", lambda d: d.update(corrected=d["corrected"].replace("= 1\\pm", "\\pm 0 = 1+"))),
@@ -135,8 +135,8 @@ FORGED = {
     "what vanishes is the formula": ("2.2-F", vanishing),
     "false by a sentence": ("2.2-F", false_sentence),
     "settled by nothing": ("2.2-F", lambda d: d.update(verdict="settled", uses=[], rests=[])),
-    "a wedge with a matrix": ("2.12", beside(r"\Gamma\wedge\omega^T = -(\Gamma\omega+\omega\Gamma)")),
-    "a root of words": ("2.12", beside(r"\sqrt{2} = 2")),
+    "a wedge with a matrix": ("2.12", with_part(r"\Gamma\wedge\omega^T = -(\Gamma\omega+\omega\Gamma)")),
+    "a root of words": ("2.12", with_part(r"\sqrt{2} = 2")),
     "traces for matrices": ("2.10", traced),
     "the velocity at the contact is not 0": ("2.1", lambda d: d["counterexamples"][0]["point"].update(v1=2)),
 }  # fmt: skip

@@ -53,7 +53,7 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
     ]
     data = {
         "format": checker.FORMAT, "kind": "register-claim", "claim": id, "verdict": verdict, "printed": printed,
-        "corrected": proof.corrected_text, "glossary": _glossary(printed, proof), "uses": sorted(proof.uses),
+        "corrected": proof.corrected_text, "glossary": _glossary(printed, proof), "uses": sorted(set(proof.uses)),
         "hypotheses": hypotheses,
         "algebras": made.algebras, "derivation": made.derivation, "points": made.points, "statements": made.statements,
         "comparisons": made.comparisons, "counts": made.counts, "zeros": made.zeros,
@@ -76,7 +76,12 @@ def _sealed(data: dict[str, Any]) -> dict[str, Any]:
 
 def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
     """The symbols that the formulas have, and what vanishes, as data."""
-    whole = [[symbol, meaning, _value(value)] for symbol, (value, meaning) in proof.glossary.items()]
+    whole = []
+    for symbol, (value, meaning) in proof.glossary.items():
+        try:
+            whole.append([symbol, meaning, _value(value)])
+        except NotAlgebra as error:
+            raise checker.Rejected(f"the value of {symbol} cannot be given to the checker: {error}") from None
     names = names_in(
         [0, *(tree for _, _, value in whole for tree in formulas.entries((formulas.rank_of(value), value)))]
     )
@@ -91,7 +96,7 @@ def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
 def _value(of: Any) -> Any:
     """A number, a column or a matrix as trees."""
     if not isinstance(of, sp.MatrixBase):
-        return tree(sp.sympify(of))
+        return tree(of)
     return [tree(x) for x in of] if of.cols == 1 else [[tree(x) for x in row] for row in of.tolist()]
 
 
@@ -231,7 +236,8 @@ class _Maker:
             }
             one |= self._proof(statement, one) if holds else {"refuted": None}
         except (NotAlgebra, NotFound) as error:
-            self.sentences.append({"role": role, "text": f"{statement.text} (not exported: {error})"})
+            truth = "" if holds else "false: "
+            self.sentences.append({"role": role, "text": f"{truth}{statement.text} (not exported: {error})"})
             return
         for example in self.counterexamples:
             self._compare(example, one, len(self.statements))

@@ -108,7 +108,14 @@ class Proof:
 
         symbols: {TeX: (an expression, a column or a matrix in the letters of the statements, what it is)}.
         """
-        self.glossary |= {str(symbol): (value, str(meaning)) for symbol, (value, meaning) in symbols.items()}
+        for symbol, one in symbols.items():
+            value, meaning = one if isinstance(one, tuple) and len(one) == 2 else (None, None)
+            value = sp.Integer(value) if type(value) is int else value
+            if not isinstance(value, sp.Expr | sp.MatrixBase) or not isinstance(meaning, str):
+                raise TypeError(
+                    f"p.reads takes for {symbol} its value, an expression or a matrix of SymPy, and its meaning"
+                )
+            self.glossary[str(symbol)] = value, meaning
 
     def lemma(self, *statements: Statement) -> None:
         """What must hold for the proof to stand."""

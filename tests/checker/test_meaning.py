@@ -1,5 +1,7 @@
 """What is printed must be what was decided: the formulas of certificates are read, and forged meanings refused."""
 
+import random
+import re
 from pathlib import Path
 
 import pytest
@@ -21,6 +23,8 @@ def test_the_formulas_of_most_equations_are_read():
     """A change here is progress, or a loss, and must be looked at."""
     files = [read(path) for path in Path(FOLDER).iterdir()]
     assert sum(bool(data["glossary"]) for data in files) == 46
+    page = Path(__file__).parents[2] / "docs" / "explanation" / "verdicts.md"
+    assert "46 claims are read so" in page.read_text(encoding="utf-8")
     assert [data["claim"] for data in files if data["verdict"] == "open"] == []
 
 
@@ -28,3 +32,29 @@ def test_the_transpose_of_what_has_none_is_not_read():
     [part] = formulas.parts("F^T = A")
     with pytest.raises(formulas.NotRead, match="the transpose of F is not known"):
         formulas.equations(part, formulas.Reader([["F", "", "F"], ["A", "", "A"]], {"A": "A"}))
+
+
+def test_no_sign_of_what_is_proved_can_be_turned(thorough):
+    """In a formula that is refuted another sign may be as false, and is then as refuted."""
+    turned = list(signs())
+    for id, role, formula in turned if thorough else random.Random(37).sample(turned, 50):
+        data = changed(id, lambda d, role=role, formula=formula: d.update({role: formula}))
+        try:
+            check(data)
+        except Rejected:
+            continue
+        assert role == "printed"
+        assert data["verdict"] == "corrected", formula
+    assert len(turned) > 150
+
+
+def signs():
+    """The formulas that are read, each with one of its signs turned, but for those in words and in indices."""
+    for path in sorted(Path(FOLDER).iterdir()):
+        data = read(path)
+        for role in ("printed", "corrected") if data["glossary"] else ():
+            formula = data[role] or ""
+            plain = re.sub(r"[_^]\{[^{}]*\}|[^,]*\\text\{[^{}]*\}[^,]*", lambda found: " " * len(found[0]), formula)
+            for found in re.finditer("[+-]", plain):
+                other = {"+": "-", "-": "+"}[found[0]]
+                yield data["claim"], role, formula[: found.start()] + other + formula[found.end() :]

@@ -343,7 +343,7 @@ def test_a_certificate_that_is_missing_is_seen(tmp_path):
     alone["statement"] = checker.statement(alone)
     alone["digest"] = checker.digest(alone)
     (tmp_path / "4.9-f.json").write_text(json.dumps(alone))
-    assert run([*command, "4.9-F_.json"]).returncode == 0  # found beside it
+    assert run([*command, "4.9-F_.json"]).returncode == 0  # found in its folder
     chapsym("certify", "manifest", tmp_path)
     assert run([*command, "--manifest", "manifest.json"]).returncode == 0
     (tmp_path / "4.9-f.json").rename(tmp_path / "other.json")
@@ -352,3 +352,45 @@ def test_a_certificate_that_is_missing_is_seen(tmp_path):
     assert "rests on 4.9-f" in run([*command, "4.9-F_.json"]).stderr
     shutil.copy(FOLDER / "4.9-f.json", tmp_path)
     assert "another certificate than the one" in run([*command, "--manifest", "manifest.json"]).stderr
+
+
+def test_a_file_too_many_and_one_with_another_name_are_seen(tmp_path):
+    shutil.copy(FOLDER / "2.1.json", tmp_path)
+    chapsym("certify", "manifest", tmp_path)
+    data = checker.read(tmp_path / "manifest.json")
+    assert list(manifest.listed(data, tmp_path)) == [tmp_path / "2.1.json"]
+    shutil.copy(FOLDER / "2.3.json", tmp_path)
+    with pytest.raises(checker.Rejected, match=r"2\.3\.json is there, and the manifest does not list it"):
+        manifest.listed(data, tmp_path)
+    (tmp_path / "2.3.json").rename(tmp_path / "2.4.json")
+    named = {f"{name}.json": f"{claim} {'0' * 64}" for name, claim in (("2.1", "2.1"), ("2.4", "2.3"))}
+    with pytest.raises(checker.Rejected, match=r"2\.4\.json has not the name of its claim, 2\.3"):
+        manifest.listed(manifest.made(named), tmp_path)
+
+
+def test_every_verdict_of_a_proof_has_a_certificate():
+    """Also where a definition prints something, a condition has a correction."""
+    true, false = Equation("true", x**2, 1 - y**2, CIRCLE), Equation("false", x, y, CIRCLE)
+    point = rational_point({x: "3/5", y: "4/5"})
+
+    def defined(p):
+        p.define("a name")
+        p.printed(true)
+
+    def both(p):
+        p.printed(false)
+        p.corrected("x = x", Equation("right", x**2 + y**2, 1, CIRCLE))
+        p.under("y = x", Equation("right, too", y**2, 1 - x**2, CIRCLE))
+        p.counterexample(point)
+
+    for prove, verdict in ((defined, "definition"), (both, "conditional")):
+        made = Proof(uses=("2.1", "2.1"))
+        prove(made)
+        assert certificate("0", "x", made, verdict)["uses"] == ["2.1"]
+    made = Proof()
+    made.reads({"s": (sp.sin(x), "no algebra")})
+    with pytest.raises(checker.Rejected, match="the value of s cannot be given to the checker"):
+        certificate("0", "s = 1", made)
+    for value in ("x", None, (x, y), 1.5, (x, "x", "y"), ("x + y", "a text is not evaluated")):
+        with pytest.raises(TypeError, match=r"p\.reads takes for D its value"):
+            made.reads({"D": value})
