@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 SHELL := bash
 .SHELLFLAGS := -e -o pipefail -c
 
-.PHONY: verify test thorough lint docs note pictures rocq rocq-register rocq-intervals release-check clean
+.PHONY: verify test thorough lint docs note pictures rocq rocq-register rocq-intervals rocq-measure release-check clean
 
 verify: $(VENV)/.installed
 	@mkdir -p out
@@ -62,7 +62,7 @@ rocq:
 	@command -v coqc > /dev/null || { echo "Rocq is not installed, so nothing was judged; on Debian: apt install coq libcoq-mathcomp-algebra"; exit 1; }
 	cd chapsym/prove && $(PYTHON) -m rocq ../../proofs/certificates/register ../../out/rocq
 	$(PYTHON) -m chapsym.certificates.rocq proofs/certificates/measure-large.json out/rocq-intervals
-	@$(MAKE) -s -j $$(getconf _NPROCESSORS_ONLN) -O rocq-register rocq-intervals
+	@$(MAKE) -s -j $$(getconf _NPROCESSORS_ONLN) -O rocq-register rocq-intervals rocq-measure
 
 rocq-register:
 	@$(MAKE) -s -C out/rocq
@@ -70,6 +70,12 @@ rocq-register:
 rocq-intervals:
 	@if [ -d "$$(coqc -where)/user-contrib/Interval" ]; then $(MAKE) -s -C out/rocq-intervals; \
 	else echo "coq-interval is not installed, so no interval certificate was judged; on Debian: apt install libcoq-interval"; fi
+
+rocq-measure:
+	@if [ -d "$$(coqc -where)/user-contrib/mathcomp/analysis" ] && [ -d "$$(coqc -where)/user-contrib/Coquelicot" ]; then \
+	  rm -rf out/rocq-measure; mkdir -p out; cp -r proofs/rocq out/rocq-measure; $(MAKE) -s -C out/rocq-measure; \
+	else echo "mathcomp-analysis or Coquelicot is not installed, so measure-iff as a whole was not judged;" \
+	  "on Debian: apt install libcoq-mathcomp-analysis libcoq-coquelicot"; fi
 
 # A clean tree, one version and date, fresh errata, packages that install; stops at the first thing that is missing.
 release-check: $(VENV)/.installed

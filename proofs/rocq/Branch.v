@@ -71,16 +71,23 @@ Record within b r s m M : Prop := {
   positive : 0 < m <= M; rolling : 0 < D b; radius : 0 < s < 1; momentum : 0 < r;
   inward : r * (1 + s * s) < 2 * s * m; slope : s * ((M - m) / 2 + r) < m }.
 
+Lemma extremes b : rolls b -> exists m M, moment b m /\ moment b M /\ 0 < m <= M /\ forall i, moment b i -> m <= i <= M.
+Proof.
+intros [A [B [C _]]]; set (m := Rmin (I1 b) (Rmin (I2 b) (I3 b))); set (M := Rmax (I1 b) (Rmax (I2 b) (I3 b))).
+assert (In : forall i, moment b i -> m <= i <= M).
+{ intros i I; unfold moment, m, M, Rmin, Rmax in *; repeat destruct (Rle_dec _ _); destruct I as [-> | [-> | ->]]; lra. }
+assert (Hm : moment b m) by (unfold moment, m, Rmin; repeat destruct (Rle_dec _ _); tauto).
+assert (HM : moment b M) by (unfold moment, M, Rmax; repeat destruct (Rle_dec _ _); tauto).
+exists m, M; split; [assumption | split; [assumption | split; [|assumption]]].
+split; [repeat apply Rmin_pos; assumption | apply (In M HM)].
+Qed.
+
 Lemma bound_within b r : rolls b -> bound b r -> exists s m M, within b r s m M.
 Proof.
-intros [A [B [C E]]] [F [s [G H]]].
-set (m := Rmin (I1 b) (Rmin (I2 b) (I3 b))); set (M := Rmax (I1 b) (Rmax (I2 b) (I3 b))).
-assert (Hm : moment b m /\ m <= I1 b /\ m <= I2 b /\ m <= I3 b).
-{ unfold moment, m, Rmin; repeat destruct (Rle_dec _ _); repeat split; try tauto; lra. }
-assert (HM : moment b M /\ I1 b <= M /\ I2 b <= M /\ I3 b <= M).
-{ unfold moment, M, Rmax; repeat destruct (Rle_dec _ _); repeat split; try tauto; lra. }
-assert (m0 : 0 < m) by (destruct Hm as [[-> | [-> | ->]] _]; assumption).
-clearbody m M; destruct Hm as [Hm [m1 [m2 m3]]], HM as [HM [M1 [M2 M3]]].
+intros B [F [s [G H]]]; destruct (extremes b B) as [m [M [Hm [HM [m0 In]]]]]; destruct B as [_ [_ [_ E]]].
+destruct (In (I1 b)) as [m1 M1]; [unfold moment; tauto |].
+destruct (In (I2 b)) as [m2 M2]; [unfold moment; tauto |].
+destruct (In (I3 b)) as [m3 M3]; [unfold moment; tauto |].
 destruct (H m M Hm HM); exists s, m, M; split; try assumption; try lra.
 - intros v; coordinates; nra.
 - intros v w; apply norm_le; [apply Rmult_le_pos; [lra | apply norm_pos] |].
@@ -91,6 +98,40 @@ destruct (H m M Hm HM); exists s, m, M; split; try assumption; try lra.
   assert (P : forall p q t, p <= q -> p * (t * t) <= q * (t * t)) by (intros; apply Rmult_le_compat_r; [nra | assumption]).
   unfold w; clear - Q1 Q2 Q3 P; destruct v as [x y z]; coordinates.
   generalize (P _ _ x Q1), (P _ _ y Q2), (P _ _ z Q3); lra.
+Qed.
+
+(* Below the bound of the claim `small-branch`, `bound` holds: s is a little more than rho. *)
+Lemma small_branch b r : rolls b -> 0 < r ->
+  (forall i j, moment b i -> moment b j ->
+    let x := r / i in let rho := x / (1 + sqrt (1 - x * x)) in r < i /\ rho * ((j - i) / 2 + r) < i) -> bound b r.
+Proof.
+intros B r0 H; destruct (extremes b B) as [m [M [Hm [HM [m0 In]]]]]; destruct (H m M Hm HM) as [rm L]; clear H.
+set (x := r / m) in *; assert (x0 : 0 < x < 1).
+{ split; [apply Rdiv_lt_0_compat; lra |]; apply Rmult_lt_reg_r with m; [lra |]; unfold x, Rdiv; rewrite Rmult_assoc, Rinv_l; lra. }
+assert (w0 : 0 < sqrt (1 - x * x)) by (apply sqrt_lt_R0; nra).
+assert (w2 : sqrt (1 - x * x) * sqrt (1 - x * x) = 1 - x * x) by (apply sqrt_sqrt; nra).
+set (w := sqrt (1 - x * x)) in *; set (rho := x / (1 + w)) in *.
+assert (R1 : rho * (1 + w) = x) by (unfold rho; field; lra).
+assert (p0 : 0 < rho) by (apply Rdiv_lt_0_compat; lra).
+assert (p1 : rho < 1) by nra.
+assert (E : r * (1 + rho * rho) = 2 * rho * m).
+{ assert (xm : r = x * m) by (unfold x; field; lra); rewrite xm, <- R1.
+  replace (1 - x * x) with (1 - rho * (1 + w) * (rho * (1 + w))) in w2 by (rewrite R1; reflexivity).
+  assert (rho * rho * (1 + w) = 1 - w) by (apply Rmult_eq_reg_r with (1 + w); lra).
+  replace (rho * (1 + w) * m * (1 + rho * rho)) with (rho * m * (1 + w + rho * rho * (1 + w))) by ring; rewrite H; ring. }
+clearbody rho w; set (c := (M - m) / 2 + r) in *; assert (c0 : 0 < c) by (unfold c; lra).
+set (e := Rmin ((1 - rho) / 2) ((m - rho * c) / (2 * c))).
+assert (e0 : 0 < e) by (apply Rmin_pos; [lra | apply Rdiv_lt_0_compat; lra]).
+assert (e1 : e <= (1 - rho) / 2) by apply Rmin_l.
+assert (e2 : e * c <= (m - rho * c) / 2).
+{ apply Rle_trans with ((m - rho * c) / (2 * c) * c); [apply Rmult_le_compat_r; [lra | apply Rmin_r] | right; field; lra]. }
+clearbody e; split; [assumption |]; exists (rho + e); split; [lra |].
+intros i j I J; destruct (In i I), (In j J).
+assert (r * (2 * rho + e) < 2 * m) by nra.
+assert (0 < e * (2 * m - r * (2 * rho + e))) by (apply Rmult_lt_0_compat; lra).
+assert ((rho + e) * m <= (rho + e) * i) by (apply Rmult_le_compat_l; lra).
+assert ((rho + e) * ((j - i) / 2 + r) <= (rho + e) * c) by (apply Rmult_le_compat_l; unfold c; lra).
+split; nra.
 Qed.
 
 Section Monotone.

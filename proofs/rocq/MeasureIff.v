@@ -237,17 +237,26 @@ apply Rmult_eq_reg_l with (rho (circle (psi O))); [exact E | generalize (proj1 (
 Qed.
 End Converse.
 
-Theorem proof : measure_iff.
+(* What Statement.v says of gamma of any length: the equation does not see it, and a step keeps it. *)
+Lemma any_length b K g u t : t <> 0 -> g <> V 0 0 0 -> residual b (K, scale t g) u = residual b (K, g) u.
+Proof.
+intros T G; assert (Q := square_nonzero _ G); unfold residual.
+replace (dot (scale t g) u) with (t * dot g u) by (unfold dot, scale; cbn [c1 c2 c3]; ring).
+replace (dot (scale t g) (scale t g)) with (t * t * dot g g) by (unfold dot, scale; cbn [c1 c2 c3]; ring).
+f_equal; f_equal; apply vec_eq; unfold scale; cbn [c1 c2 c3]; field; split; assumption.
+Qed.
+Lemma length_kept u v : dot (turned u v) (turned u v) = dot v v.
+Proof. apply turned_dot. Qed.
+Lemma turned_scale u t v : turned u (scale t v) = scale t (turned u v).
+Proof. assert (P := one_plus u); apply vec_eq; unfold turned, add, scale, cross, dot in *; cbn [c1 c2 c3]; field; lra. Qed.
+
+Theorem measure_iff_holds : measure_iff.
 Proof.
 intros b B; assert (Q := B); destruct Q as [p1 [p2 [p3 d0]]]; split.
-- (* s = 1 / (1 + M / m), r = s m / 2 *)
-  set (m := Rmin (I1 b) (Rmin (I2 b) (I3 b))); set (M := Rmax (I1 b) (Rmax (I2 b) (I3 b))).
-  assert (m0 : 0 < m) by (repeat apply Rmin_pos; assumption).
-  assert (In : forall i, moment b i -> m <= i <= M).
-  { intros i I; unfold moment, m, M, Rmin, Rmax in *; repeat destruct (Rle_dec _ _); destruct I as [-> | [-> | ->]]; lra. }
-  assert (mM : m <= M) by (generalize (In (I1 b) (or_introl eq_refl)); lra).
+- (* s = m / (M + m), r = s m / 2 *)
+  destruct (extremes b B) as [m [M [_ [_ [[m0 mM] In]]]]].
   set (s := m / (M + m)); assert (s0 : 0 < s) by (apply Rdiv_lt_0_compat; lra).
-  assert (sM : s * (M + m) = m) by (unfold s; field; lra); clearbody s m M.
+  assert (sM : s * (M + m) = m) by (unfold s; field; lra); clearbody s.
   assert (sm : 0 < s * m) by (apply Rmult_lt_0_compat; assumption).
   assert (s1 : s < 1) by nra; assert (ss : 0 < s * s < 1) by nra.
   exists (s * m / 2); split; [lra |]; exists s; split; [lra |].
@@ -292,4 +301,4 @@ intros b B; assert (Q := B); destruct Q as [p1 [p2 [p3 d0]]]; split.
     apply Rmult_eq_reg_r with (1 + dot u u); [|generalize (one_plus u); lra].
     unfold opposite; simpl in *; rewrite F; exact F'.
 Qed.
-Print Assumptions proof.
+Print Assumptions measure_iff_holds.
