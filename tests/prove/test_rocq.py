@@ -202,4 +202,4 @@ def test_rocq_rejects_false_words_and_a_false_counterexample(folder):
     data["counterexamples"][0]["point"]["rho"] = 0
     write([data], folder)
     found = rocq(folder, "-k")
-    assert {"claim_4_d9__F_words.v", "claim_4_d9__F_matrices.v"} <= set(re.findall(r"claim_\w+\.v", found.stderr))
+    assert {"claim_4_d9__F_u_words.v", "claim_4_d9__F_u_matrices.v"} <= set(re.findall(r"claim_\w+\.v", found.stderr))

@@ -23,6 +23,8 @@ needs_libraries = pytest.mark.skipif(
     not (has("mathcomp/analysis") and has("Coquelicot")), reason="mathcomp-analysis or Coquelicot is not here"
 )
 
+#: Words with which a proof in Rocq leaves something out.
+GAPS = r"\b(Admitted|admit|Axioms?|Parameters?|Conjecture|Unset|bypass_check)\b"
 #: One place of the page each: what it says is another theorem, which the proof does not prove.
 CHANGES = {
     "the inverse rotation": ("(scale (-2) (cross u v))", "(scale 2 (cross u v))"),
@@ -43,7 +45,7 @@ def test_the_statement_fits_on_a_page():
 def test_the_proof_has_no_gap():
     for path in FOLDER.glob("*.v"):
         text = re.sub(r"\(\*.*?\*\)", "", path.read_text(encoding="utf-8"), flags=re.S)
-        assert not re.search(r"\b(Admitted|admit|Axioms?|Parameters?|Conjecture|Unset Guard Checking|bypass_check)\b", text), path
+        assert not re.search(GAPS, text), path
 
 
 @needs_libraries
@@ -57,13 +59,15 @@ def test_rocq_accepts_the_theorem(tmp_path):
 @pytest.mark.parametrize("change", CHANGES)
 def test_rocq_rejects_another_statement(tmp_path, change):
     found = judged(tmp_path, "Statement.v", *CHANGES[change])
-    assert found.returncode != 0 and re.search(r'File "\./\w+\.v", line', found.stderr), found.stdout
+    assert found.returncode != 0, found.stdout
+    assert re.search(r'File "\./\w+\.v", line', found.stderr)
 
 
 @needs_libraries
 def test_rocq_rejects_a_gap(tmp_path):
     found = judged(tmp_path, "Circle.v", "rewrite cos_neg, cos_PI, !sq; intros F; apply N; lra.\nQed.", "Admitted.")
-    assert found.returncode != 0 and "uses other axioms" in found.stdout
+    assert found.returncode != 0
+    assert "uses other axioms" in found.stdout
 
 
 def judged(folder, name=None, old="", new=""):
