@@ -250,6 +250,54 @@ Proof. apply turned_dot. Qed.
 Lemma turned_scale u t v : turned u (scale t v) = scale t (turned u v).
 Proof. assert (P := one_plus u); apply vec_eq; unfold turned, add, scale, cross, dot in *; cbn [c1 c2 c3]; field; lra. Qed.
 
+(* The map backwards: by the root of (-K~, gamma~). *)
+Lemma turned_back u v : turned (opposite u) (turned u v) = v.
+Proof.
+assert (P := one_plus u); unfold opposite, turned, add, scale, cross, dot in *; apply vec_eq; cbn [c1 c2 c3] in *; field; nra.
+Qed.
+Lemma opposite_twice u : scale (-1) (scale (-1) u) = u.
+Proof. apply vec_eq; unfold scale; cbn [c1 c2 c3]; ring. Qed.
+
+Section Bijection.
+Variables (b : ball) (r s m M : R) (H : within b r s m M) (Phi : state -> state).
+Hypothesis Steps : forall x, near r x -> steps b x (Phi x).
+
+Lemma back_in y : unit_states r y -> unit_states r (back y).
+Proof.
+intros [[K G] U]; split; [split |]; trivial; simpl.
+replace (dot (scale (-1) (fst y)) (scale (-1) (fst y))) with (dot (fst y) (fst y)) by (unfold dot, scale; cbn [c1 c2 c3]; ring).
+exact K.
+Qed.
+Lemma image_in x : unit_states r x -> unit_states r (Phi x).
+Proof.
+intros [N U]; destruct (Steps x N) as [u [_ ->]]; destruct N as [K G]; split; [split |]; simpl; rewrite ?turned_dot; trivial.
+apply turned_nonzero, G.
+Qed.
+Lemma back_root x u : near r x -> root b x u -> root b (back (turned u (fst x), turned u (snd x))) (opposite u).
+Proof.
+intros N [E L]; destruct x as [K g]; split; [exact (backwards b K g u E) |].
+replace (dot (opposite u) (opposite u)) with (dot u u) by (unfold opposite, dot, scale; cbn [c1 c2 c3]; ring); exact L.
+Qed.
+Lemma bijective y : unit_states r y -> exists! x, unit_states r x /\ Phi x = y.
+Proof.
+intros Y; assert (B := back_in y Y); set (v := gibbs b (back y)).
+assert (V := gibbs_root b r s m M H _ (proj1 B)); fold v in V.
+set (x := back (turned v (fst (back y)), turned v (snd (back y)))).
+assert (X : unit_states r x).
+{ apply back_in; destruct B as [[K G] U]; split; [split |]; simpl; rewrite ?turned_dot; trivial; apply turned_nonzero, G. }
+assert (Z := back_root _ _ (proj1 B) V); fold x in Z.
+exists x; split; [split; [exact X |] |].
+- destruct (Steps x (proj1 X)) as [u [U ->]].
+  rewrite (root_unique b r s m M H x u (opposite v) (proj1 X) U Z); destruct y as [K g]; unfold x, back; simpl.
+  rewrite !turned_scale, opposite_twice, !turned_back; reflexivity.
+- intros w [W E]; destruct (Steps w (proj1 W)) as [u [U F]]; rewrite E in F.
+  assert (T := back_root w u (proj1 W) U); rewrite <- F in T.
+  assert (R1 := root_unique b r s m M H (back y) v (opposite u) (proj1 B) V T).
+  unfold x; rewrite R1; destruct w as [K g]; simpl in F; rewrite F; unfold back; simpl.
+  rewrite !turned_scale, opposite_twice, !turned_back; reflexivity.
+Qed.
+End Bijection.
+
 Theorem measure_iff_holds : measure_iff.
 Proof.
 intros b B; assert (Q := B); destruct Q as [p1 [p2 [p3 d0]]]; split.
@@ -268,7 +316,9 @@ intros b B; assert (Q := B); destruct Q as [p1 [p2 [p3 d0]]]; split.
 - intros r Br; destruct (bound_within b r B Br) as [s [m [M H]]]; split.
   { intros x N; destruct (root_exists b r s m M H x N) as [u U]; exists u; split; [assumption |].
     intros v W; exact (root_unique b r s m M H x u v N U W). }
-  intros Phi Steps; split.
+  intros Phi Steps; split; [|split; [exact (image_in b r Phi Steps) | split; [exact (bijective b r s m M H Phi Steps) |]]].
+  { intros x N; destruct (map_derivative b r s m M H Phi Steps x N) as [L [A _]]; exists L; exact A. }
+  split.
   + intros [rho Rho].
     assert (C : forall a b', axes a b b' -> rolls b' -> I1 b' = I2 b').
     { intros a b' A B'; destruct (Req_dec (I1 b') (I2 b')) as [|N]; [assumption | exfalso].
@@ -301,4 +351,3 @@ intros b B; assert (Q := B); destruct Q as [p1 [p2 [p3 d0]]]; split.
     apply Rmult_eq_reg_r with (1 + dot u u); [|generalize (one_plus u); lra].
     unfold opposite; simpl in *; rewrite F; exact F'.
 Qed.
-Print Assumptions measure_iff_holds.

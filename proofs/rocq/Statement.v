@@ -1,7 +1,5 @@
-(* The claim `measure-iff`, from the equation of a step.  Only this page has to be read: the theorem at its end is proved in MeasureIff.v. *)
-Require Import Reals.
-From mathcomp Require Import all_ssreflect all_algebra.
-From mathcomp.analysis Require Import Rstruct.
+(* The claim `measure-iff`, from the equation of a step.  Only this page has to be read: Judged.v has the proof of what stands at its end. *)
+Require Import Reals. From mathcomp Require Import all_ssreflect all_algebra. From mathcomp.analysis Require Import Rstruct.
 Open Scope R_scope.
 
 Record vec := V { c1 : R; c2 : R; c3 : R }.
@@ -9,14 +7,13 @@ Definition add v w := V (c1 v + c1 w) (c2 v + c2 w) (c3 v + c3 w).
 Definition scale t v := V (t * c1 v) (t * c2 v) (t * c3 v).
 Definition dot v w := c1 v * c1 w + c2 v * c2 w + c3 v * c3 w.
 Definition cross v w := V (c2 v * c3 w - c3 v * c2 w) (c3 v * c1 w - c1 v * c3 w) (c1 v * c2 w - c2 v * c1 w).
-
 (* The principal moments of inertia I1, I2, I3 and D = mass * radius^2. *)
 Record ball := Ball { I1 : R; I2 : R; I3 : R; D : R }.
 Definition rolls b := 0 < I1 b /\ 0 < I2 b /\ 0 < I3 b /\ 0 < D b.
 Definition inertia b v := V (I1 b * c1 v) (I2 b * c2 v) (I3 b * c3 v).
 
-(* The momentum K and the vertical gamma.  The map is defined for gamma of any length and keeps it; only its direction matters.
-   So the determinant of the derivative on the six numbers is that for d^3 K and the area of the sphere |gamma| = 1. *)
+(* Momentum K and vertical gamma.  The map is defined for gamma of any length, and keeps it; the direction alone matters.  So the
+   determinant of the derivative on the six numbers is that for d^3 K and the area of the sphere |gamma| = 1. *)
 Definition state := (vec * vec)%type.
 
 (* The Gibbs vector u of a step: Lambda u - D <gamma, u> gamma + u x I u = (1 + |u|^2) K / 2, |u| < 1, Lambda = I + D. *)
@@ -53,8 +50,11 @@ Definition density Phi r (rho : state -> R) := forall x, unit_states r x ->
   (forall e, 0 < e -> exists d, 0 < d /\ forall y, unit_states r y -> distance y x < d -> Rabs (rho y - rho x) < e) /\
   exists L, derivative Phi x L /\ rho (Phi x) * Rabs (\det L)%R = rho x.
 
-(* There are such r; each state has one step; and the map has a density exactly if the three moments are equal. *)
+(* There are such r; each state has one step; the map is a differentiable bijection; and it has a density exactly if the moments are equal. *)
 Definition measure_iff := forall b, rolls b -> (exists r, bound b r) /\ forall r, bound b r ->
   (forall x, near r x -> exists! u, root b x u) /\
   forall Phi, (forall x, near r x -> steps b x (Phi x)) ->
+  (forall x, near r x -> exists L, derivative Phi x L) /\
+  (forall x, unit_states r x -> unit_states r (Phi x)) /\
+  (forall y, unit_states r y -> exists! x, unit_states r x /\ Phi x = y) /\
   ((exists rho, density Phi r rho) <-> I1 b = I2 b /\ I2 b = I3 b).

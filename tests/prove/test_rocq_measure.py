@@ -67,12 +67,26 @@ def test_rocq_rejects_another_statement(tmp_path, change):
 def test_rocq_rejects_a_gap(tmp_path):
     found = judged(tmp_path, "Circle.v", "rewrite cos_neg, cos_PI, !sq; intros F; apply N; lra.\nQed.", "Admitted.")
     assert found.returncode != 0
-    assert "uses other axioms" in found.stdout
+    assert "rests on other axioms" in found.stdout
 
 
-def judged(folder, name=None, old="", new=""):
-    """What Rocq says of a copy of the proof, after one change."""
+@needs_libraries
+def test_rocq_rejects_a_statement_that_is_not_the_pages(tmp_path):
+    page = (FOLDER / "Statement.v").read_text(encoding="utf-8")
+    own = page[page.index("Definition measure_iff") :]
+    found = judged(tmp_path, "Statement.v", *CHANGES["two equal moments are enough"], {"MeasureIff.v": own})
+    assert found.returncode != 0
+    assert 'File "./Judged.v", line' in found.stderr
+
+
+def judged(folder, name=None, old="", new="", before=()):
+    """What Rocq says of a copy of the proof, after one change, with more text before the theorem of a file."""
     copy = shutil.copytree(FOLDER, folder / "rocq")
+    for other in before:
+        path = copy / other
+        path.write_text(
+            path.read_text(encoding="utf-8").replace("Theorem ", before[other] + "Theorem "), encoding="utf-8"
+        )
     if name:
         path = copy / name
         text = path.read_text(encoding="utf-8")
