@@ -60,7 +60,7 @@ _CERTIFICATE = re.compile(r"([\w.-]{1,40} )?[0-9a-f]{64}", re.ASCII)
 VERDICTS = ("holds", "corrected", "conditional", "refuted", "settled", "definition", "open")
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
 STATED = ("printed", "corrected", "under")
-SENTENCES = (*ROLES, "hypothesis", "said")
+SENTENCES = (*ROLES, "hypothesis", "said", "inference")
 #: Rows and columns of a matrix; letters of the whole, five times those of the largest of the register.
 MOST_ROWS, MOST_OF_ALL = 4, 1_000_000
 Value = Fraction | Matrix
@@ -90,6 +90,7 @@ def statement(data: dict[str, Any]) -> str:
         "printed statements that fail, each at a point": failing,
         "other claims and certificates that it rests on": len(data["uses"]) + len(data["rests"]),
         "sentences not checked": len(data["sentences"]),
+        "of these from what is decided to the formula": sum(one["role"] == "inference" for one in data["sentences"]),
     }
     counted = "; ".join(f"{what}: {number}" for what, number in parts.items() if number)
     return f"Claim {data['claim']} ({data['verdict']}).  {counted or 'nothing'}."

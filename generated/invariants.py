@@ -2,7 +2,7 @@
 
 Proved by: 5.3-integrals.  Operations: 15.  SymPy 1.14.0.
 Expression: sha256 501e078b24c674f9edbb37ed6e8457d6b5da2c6ecd1fe28cfbe3588c521326bf.
-Certificate of 5.3-integrals: sha256 864a4e091fdf5b08d1e708c2f3985e82e967ed3948773d3ab68ea40ad935d623.
+Certificate of 5.3-integrals: sha256 f948e387b9753adfef2a9b33c465168a19c00dcfeb8cfe45d8fda8912cb349e3.
 """
 
 

@@ -46,6 +46,7 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
     decidable = {h.text for h in proof.assumed}
     made.sentences += [{"role": "hypothesis", "text": text} for text in proof.hypotheses if text not in decidable]
     made.sentences += [{"role": "said", "text": text} for text in proof.said]
+    made.sentences += [{"role": "inference", "text": text} for text in proof.inferences]
     made.rests += [
         {"role": "lemma", "text": f"{c['file']}: {c['statement']}", "certificate": c["digest"]}
         for c in proof.certificates

@@ -22,9 +22,9 @@ from .witness import Examples
 
 #: What a record says beside the verdict, in this order: what a `Proof` collects, and what is known of its claim.
 EVIDENCE = (
-    "title", "slip", "hypotheses", "condition", "reason", "open_in_paper", "tried", "question", "answer", "readings",
-    "settled", "theorems", "certificates", "measured", "conjectures", "derivation", "checks", "controls", "routes",
-    "witnesses", "counterexamples", "uses", "downstream", "problems", "carried",
+    "title", "slip", "hypotheses", "inferences", "condition", "reason", "open_in_paper", "tried", "question", "answer",
+    "readings", "settled", "theorems", "certificates", "measured", "conjectures", "derivation", "checks", "controls",
+    "routes", "witnesses", "counterexamples", "uses", "downstream", "problems", "carried",
 )  # fmt: skip
 
 

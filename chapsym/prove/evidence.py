@@ -74,6 +74,7 @@ class Proof:
     slip: dict[str, Any] | None = None
     glossary: dict[str, tuple[Any, str]] = field(default_factory=dict)
     said: list[str] = field(default_factory=list)
+    inferences: list[str] = field(default_factory=list)
     decided: list[tuple[str, Statement, bool]] = field(default_factory=list)
     points: list[Point] = field(default_factory=list)
     _printed: list[tuple[Statement, bool]] = field(default_factory=list)
@@ -84,6 +85,10 @@ class Proof:
         """Lines of the derivation."""
         self.said += map(str, texts)
         self.lines += map(str, texts)
+
+    def infers(self, *texts: str) -> None:
+        """What leads in words from what is decided to the formula as printed or corrected; no machine judges it."""
+        self.inferences += map(str, texts)
 
     def show(self, name: str, value: Any) -> None:
         """A line of the derivation that shows an expression that was just derived."""

@@ -134,6 +134,7 @@ def explain(record: dict[str, Any]) -> str:
         lines += [f"  true at an exact point: {at}" + (f"; and for {cases}" if cases else "")]
     if evidence["carried"]:
         lines += [f"  carried by: {evidence['carried']['text']}"]
+    lines += [f"  inferred in words: {text}" for text in evidence["inferences"]]
     lines += [f"  nothing to decide: {evidence['reason']}"] if evidence["reason"] else []
     lines += [f"  tried: {text}" for text in evidence["tried"]]
     for row in evidence["readings"]:

@@ -101,6 +101,7 @@ def vector_equations(p: Proof) -> None:
 )
 def closed_system(p: Proof) -> None:
     """The equations for ω, γ follow from (2.3) and K = Λω - D⟨ω,γ⟩γ."""
+    p.infers("B(γ) = ∂K/∂ω is regular, so (2.2) is the only ω̇ with which K̇ = K×ω.")
     p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
     p.say(
         "Put ω̇ from (2.2) into K̇ = ∂K/∂ω ω̇ + ∂K/∂γ (γ×ω); it must be K×ω. B(γ) = ∂K/∂ω is invertible, so ω̇ is unique."
@@ -122,6 +123,9 @@ def closed_system(p: Proof) -> None:
 )
 def four_integrals(p: Proof) -> None:
     """The four integrals, and that they are independent."""
+    p.infers(
+        "Independent: the gradients have rank 4 at one point, hence on an open dense set, as minors are polynomials."
+    )
     p.assume("J of Section 2 is the inertia tensor, Λ - D")
     central = three.lam() - D * sp.eye(3)
     k = momentum()
@@ -180,6 +184,7 @@ def kinetic_energy(p: Proof) -> None:
 )
 def invariant_measure(p: Proof) -> None:
     """The invariant measure, by the exact divergence."""
+    p.infers("Ḟ + 2F div X = 0 says that √F is the density of an invariant measure (Liouville).")
     p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
     p.assume("|γ| = 1: F is taken as ⟨Iγ, Λ⁻¹γ⟩ near the sphere, and the field is tangent to it")
     p.say("div(√F X) = 0 is, times 2√F: Ḟ + 2F div X = 0, with X = (ω̇, γ×ω) of (2.2) in R⁶.")
@@ -230,6 +235,7 @@ def vertical_momentum(p: Proof) -> None:
 @claim("2.7", r"\Lambda\dot\omega = \Lambda\omega\times\omega", ["2.2", "2.7-vertical"])
 def euler_top(p: Proof) -> None:
     """For vertical momentum the equations are those of the Euler top."""
+    p.infers("K = hγ stays, as K and γ have one equation and its solutions are unique.")
     lifted = (inverse_inertia() * gamma).dot((three.lam() * omega).cross(omega))
     p.printed(equation("⟨Λ⁻¹γ, Λω×ω⟩ = 0, so that (2.2) is (2.7)", at_vertical(lifted), 0, VERTICAL))
     p.say("K = hγ stays: K and γ have the same equation (2.3).")

@@ -201,6 +201,7 @@ def conservation(p: Proof) -> None:
 @claim("2.14", r"\mathrm{tr}\,\mathbf K^s,\ \mathrm{tr}(\mathbf K^s\Gamma^l),\ \mathrm{tr}\,\Gamma = 1", ["2.12"])
 def trace_integrals(p: Proof) -> None:
     """The trace integrals of the continuous ball, for every n, s and l."""
+    p.infers("The derivation rule, which is decided for the exponents shown, gives every s and l.")
     rates = {**motion.RATES, K: -commutator(omega, K)}
     X, Y = sp.symbols("X Y", commutative=False)
     algebra = type(ALGEBRA)({**ALGEBRA.transposes, X: X, Y: Y}, ALGEBRA.rules)

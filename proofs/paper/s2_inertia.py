@@ -44,6 +44,9 @@ def pairing(x: sp.Expr, y: sp.Expr) -> sp.Expr:
 )
 def inertia_operator(p: Proof) -> None:
     """The momentum about the contact point; its operator is nondegenerate when any two J_i have a positive sum."""
+    p.infers(
+        "A form that is positive for each ω ≠ 0 has an operator without a kernel; the sum for n = 5 is that for every n."
+    )
     p.slips("reading")
     p.say("K is the momentum about the point of contact P: M about the centre C, and mv ∧ (C - P) with C - P = -ργ and")
     p.say("v = -ρωγ; it is in so*(n), not so*(m).")
@@ -81,6 +84,9 @@ def inertia_operator(p: Proof) -> None:
        ["2.12", "2.13"])  # fmt: skip
 def invariant_measure(p: Proof) -> None:
     """√(det 𝒜) is the density of an invariant measure, for every n."""
+    p.infers(
+        "Jacobi's formula for the derivative of a determinant, and Liouville's theorem: a density ν with ν̇ + ν div = 0 is invariant."
+    )
     p.assume("𝒜 is nondegenerate (2.13)")
     p.say("In the variables (K, γ) the density is ν = (det 𝒜)^(-1/2), as dK = det 𝒜 dω at fixed γ; γ̇ = -ωγ, K̇ = [K,ω].")
     p.say("ν is invariant when div = ½ tr(𝒜⁻¹𝒜̇), by Jacobi's formula for the derivative of a determinant.")
@@ -180,6 +186,7 @@ def exact_divergence(n: int, rates: int = 1) -> list[Identity]:
 )
 def isomorphism(p: Proof) -> None:
     """The identification of so(3) with R³ has the wrong sign, and the energy becomes l/2."""
+    p.infers("The integrals and the measure of (2.14) and (2.15) are even in the sign of the identification.")
     p.slips("convention")
     p.assume("n = 3: the J of (2.1) to (2.6) is tr J - J for the J of (2.10), so that Λ = diag(J2+J3+D, ...)")
     ring = Quotient((*three.K, *spin, *three.gamma, three.J1, three.J2, three.J3, three.D), [three.UNIT_VERTICAL])

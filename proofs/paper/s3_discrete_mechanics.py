@@ -17,6 +17,7 @@ from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, m
 )
 def energy(p: Proof) -> None:
     """The energy is an integral of the Lagrange equations with multipliers, on the constraint."""
+    p.infers("Every number of coordinates, from 4: each sum is coordinate by coordinate.")
     p.assume("L and the forms A^j do not depend on time, and q̇ is in the distribution, as (3.2) says")
     size, count = 4, 2
     position, velocity = sp.symbols(f"x1:{size + 1}"), sp.symbols(f"v1:{size + 1}")
@@ -110,6 +111,7 @@ def discrete_sum(first: int) -> sp.Expr:
 )
 def discrete_principle(p: Proof) -> None:
     """The discrete principle: its sum must begin at k = 1, with the ends fixed."""
+    p.infers("Every N and every number of coordinates, by induction on the steps, from N = 3 and one coordinate.")
     p.slips("typo")
     p.assume("the path is q_0, ..., q_N, with N steps, as in the source that the paper quotes; it prints no path")
     p.say("The variation of Σ_{k=0}^{N-1} 𝕃(q_k, q_{k+1}); N = 3 and one coordinate show which terms there are.")
@@ -171,6 +173,9 @@ def one_step_more() -> Equation:
 )
 def discrete_equations(p: Proof) -> None:
     """The discrete equations with multipliers: what vanishes on the distribution is a combination of its forms."""
+    p.infers(
+        "Forms that are independent have coordinates, near each point, in which s of the differentials are solved for; every n and s, from n = 5, s = 2."
+    )
     p.assume("the s forms are independent; the principle with the range of 3.4 as corrected")
     p.say(
         "Coordinates in which the forms are the rows (1 | B): δq = (-Bt, t), t free, is the distribution (n = 5, s = 2):"
@@ -229,6 +234,9 @@ def blocks() -> list[Equation]:
 )
 def consistency(p: Proof) -> None:
     """A discrete constraint of an integrable distribution: not one product N×N but the union over all leaves."""
+    p.infers(
+        "A dimension that is too small, and a pair that is missing, refute the printed set; leaves are straightened locally by Frobenius' theorem."
+    )
     p.slips("reading")
     size, count = sp.symbols("n s")
     p.say("D_d must have the dimension of D as a bundle over Q, n + (n - s), and contain (q, q) for every q in Q.")

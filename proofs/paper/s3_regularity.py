@@ -64,6 +64,7 @@ def determinant(factor: sp.Expr, rotation: sp.Matrix) -> sp.Expr:
 )
 def regularity(p: Proof) -> None:
     """The regularity matrix says that a successor is unique nearby, not that there is one; the ball is regular at rest."""
+    p.infers("The theorem on implicit functions gives one successor near one that exists.")
     p.slips("reading")
     p.assume("L_d is 𝕃")
     p.assume("for the ball J_i + J_j > 0, D ≥ 0 (2.13)", *three.MOMENTS)

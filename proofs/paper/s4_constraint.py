@@ -62,6 +62,9 @@ def chosen_constraint(p: Proof) -> None:
 )
 def naive_constraint(p: Proof) -> None:
     """It has the form of (2.9) and not its limit; it allows displacements that are not horizontal, even at rest."""
+    p.infers(
+        "That the formula imitates (2.9) is seen from the two; that it allows what is not horizontal, from one example."
+    )
     p.say("Its form is that of (2.9), v + ρωγ = 0: Δr stands for v and Ω̄ = R_{k+1}R_kᵀ for ω.")
     dr = matrix_symbols("dr")[0]
     rolling = motion.v - motion.rolling_velocity()

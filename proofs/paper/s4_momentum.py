@@ -140,6 +140,7 @@ def discrete_euler_top(p: Proof) -> None:
 @claim("4.13-multivalued", r"\text{(4.13), in general, has several solutions } \Omega_k", uses=["prop-1"])
 def several_solutions(p: Proof) -> None:
     """Two rational rotations with the same momentum at the same vertical, for a ball with D > 0."""
+    p.infers("In general: shown by one example, and so for all that are near it.")
     p.say("n = 3: turns about e₁ with cos θ = ±7/25, sin θ = 24/25, at γ = e₂, J = (1,2,4), D = 8, by Euler parameters")
     first, second = (three.q0, *three.q), sp.symbols("p0:4")
     values = three.placed(
@@ -171,6 +172,9 @@ def several_solutions(p: Proof) -> None:
 )
 def trace_integrals(p: Proof) -> None:
     """The trace integrals, for every n, every s and l, and whatever the branch."""
+    p.infers(
+        "By induction on the exponents, for every s and l; decided for those shown. Odd powers of a skew matrix have the trace 0."
+    )
     X, XT, Y, YT = matrix_symbols("X X^T Y Y^T")
     algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X, Y: YT, YT: Y}, ALGEBRA.rules)
 

@@ -76,6 +76,9 @@ def printed_squares(sign: int = 1) -> list[sp.Expr]:
 )
 def amplitudes(p: Proof) -> None:
     """The amplitudes: the sign under the root of C3 is misprinted."""
+    p.infers(
+        "Both equations for every u are linear in C₁², C₂², C₃² and fix them; the roots are taken with the positive sign."
+    )
     p.slips("typo")
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3, so that Λ1 l > 1 and the printed C3 is imaginary", *elliptic.ORDER)
     p.say("|γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l for γ = (C1 cn, C2 sn, C3 dn) and every u determine the squares:")
@@ -122,6 +125,9 @@ def modulus(p: Proof) -> None:
 )
 def parameterisation(p: Proof) -> None:
     """The Jacobi parameterisation runs on the invariant curve."""
+    p.infers(
+        "Both equations hold for every u, so the printed γ is on the curve; that it goes through a whole component is not decided."
+    )
     p.assume("C3 with the correction of (5.8)")
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
     modulus = elliptic.squared_modulus()

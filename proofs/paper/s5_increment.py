@@ -312,6 +312,7 @@ def no_constant(relation: sp.Expr) -> list[Comparison]:
 )
 def before_squaring(p: Proof) -> None:
     """The relation before squaring: d stands for D (h = 1), its factor ½ must be 1, and σ² is missing under the root."""
+    p.infers("The corrected equation, with one of the two signs, is equivalent to T = 0, and by prop-4 to the map.")
     p.slips("serious", "prop-4")
     p.assume("sn δu, 𝒟 and 1 - DΠ1 do not vanish", *(sp.Ne(x, 0) for x in (y, SCALE, INVERSE)))
     p.assume("h = 1 (5.12-scaling); d is D, the only thing (5.11) can make it")
@@ -346,6 +347,7 @@ def before_squaring(p: Proof) -> None:
 )
 def relation_for_the_increment(p: Proof) -> None:
     """The relation for the increment is linear in 𝒟, for both signs of the root, with no extraneous solution."""
+    p.infers("T = 0 is equivalent to the map, by prop-4 and (5.14), for both signs of the root.")
     p.slips("serious", "5.14")
     p.assume("sn δu, 𝒟 and σ are finite and not 0", *(sp.Ne(x, 0) for x in (y, SCALE, INVERSE)))
     p.assume("h = 1; w = sn cn dn of δu; G as corrected; d is D")
@@ -389,6 +391,7 @@ def relation_for_the_increment(p: Proof) -> None:
 @claim("5.15-euler", r"d = 0:\ \text{the increment does not depend on } u", uses=["5.15"])
 def euler_increment(p: Proof) -> None:
     """Without rolling the increment is constant."""
+    p.infers("𝒟 is not 0, so the increment solves G = 2Vw, in which ū does not occur.")
     p.assume("𝒟 ≠ 0", sp.Ne(SCALE, 0))
     p.assume("(5.15) as corrected")
     factored = SCALE * (G - 2 * V * w)
@@ -496,6 +499,7 @@ def weierstrass_w(p: Proof) -> None:
 )
 def increment_integral(p: Proof) -> None:
     """The increment as an integral on the curve, from p = ∞, where δu = 0; with the positive root it is -δu."""
+    p.infers("A function with dp/dδu = q and a pole at 0 is the inverse of the integral from infinity.")
     p.slips("convention")
     p.assume("δu up to periods, as for every integral on the curve")
     p.assume("0 < k² < 1", *elliptic.MODULUS)

@@ -40,6 +40,9 @@ REGULAR = "Λ1, Λ2, Λ3 are different, and l is none of 1/Λ1, 1/Λ2, 1/Λ3"
 )
 def invariant_curve(p: Proof) -> None:
     """The invariant curve covers the quartic by z and w = const·γ₁γ₂γ₃(z-l)²: four sign changes, none with a fixed point."""
+    p.infers(
+        "Each fibre has four points, at infinity and at the roots, too, by counting signs and zeros: so nothing is ramified."
+    )
     roots = [1 / lam for lam in LAMBDA]
     gaps = (L1 - L2, L2 - L3, L3 - L1)
     p.assume(REGULAR, *(sp.Ne(x, 0) for x in (*gaps, *(l - root for root in roots))))
@@ -111,6 +114,9 @@ def relation_at(x: sp.Expr) -> sp.Expr:
 )
 def one_dimensional_map(p: Proof) -> None:
     """The reduced map on a curve is u + Δu(u, l); for D ≠ 0 an increment serves one value of sn²ū only."""
+    p.infers(
+        "If Δu did not depend on u, T = 0 at two points with different sn²ū would make D = 0, by the two identities."
+    )
     p.assume("(5.15) as corrected, T = G𝒟 - 2Vw(𝒟 - Dλ) = 0 with λ = l - μ sn²δu; a branch is chosen")
     p.assume(
         "V, y = sn²δu, 𝒟 and λ = Π1𝒟 = ¼⟨s,Λ⁻¹s⟩𝒟, s = γ + γ~, are not 0: s ≠ 0 and δu is no half period of sn",
@@ -163,6 +169,9 @@ def at_height() -> list[sp.Expr]:
 )
 def structure(p: Proof) -> None:
     """Without rolling the increment is constant; with it σ changes along orbits, on every branch."""
+    p.infers(
+        "Constant for D = 0, as T = 0 does not have ū; not constant: at one state no real next step has the σ of the step before."
+    )
     p.assume("(5.6) with σ as corrected; the branch of the next step is any, real or complex")
     p.printed(
         part("D = 0: T = 𝒟(G - 2Vw), without ū but for 𝒟", true_relation(contact=sp.S.Zero), SCALE * (G - 2 * V * w))
@@ -206,6 +215,7 @@ def structure(p: Proof) -> None:
 )
 def invariant_density(p: Proof) -> None:
     """A constant increment in some parameter, an invariant density on the curves, and one on the sphere are the same."""
+    p.infers("The chain rule, the substitution s = ∫μ du, and the area in the coordinates (l, u).")
     p.assume(
         "regular levels l, where u is a coordinate; a branch of the map that is a diffeomorphism of each; densities positive and smooth"
     )
@@ -265,6 +275,9 @@ def invariant_density(p: Proof) -> None:
 )
 def circle(p: Proof) -> None:
     """A diffeomorphism of the circle when |h| is small; for large |h| there may be no real step at all."""
+    p.infers(
+        "The theorem on implicit functions along a compact curve; a map C¹-close to the identity that keeps a circle is a diffeomorphism of it."
+    )
     p.slips("reading")
     p.assume("Λ1, Λ2, Λ3 different, l regular: each real component of the curve is a circle, u mod its real period")
     p.assume("J_i + J_j > 0, D ≥ 0 (2.13), so that F > 0", *three.MOMENTS)

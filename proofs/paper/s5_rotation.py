@@ -85,6 +85,7 @@ def rotation_matrix(p: Proof) -> None:
 )
 def axis_and_angle(p: Proof) -> None:
     """Axis and angle are right; q₀ > 0 leaves out the rotations by π."""
+    p.infers("Rodrigues' formula is taken for the rotation by θ about n.")
     p.slips("reading")
     p.assume("Ω with the correction of (5.1); the axis is undefined at q = 0, where Ω = 1")
     p.say("Rodrigues: Ωx = cosθ x + sinθ n×x + (1-cosθ)⟨n,x⟩n.  With q₀ = cos(θ/2), q = sin(θ/2) n these are")
@@ -320,6 +321,7 @@ def vector_form(p: Proof) -> None:
 )
 def vector_integrals(p: Proof) -> None:
     """The two momentum integrals of the vector map, whatever the branch."""
+    p.infers("Independent: a minor of the gradients is not 0 at one point, hence on an open dense set.")
     ring = Quotient((*K, *RING.symbols), RING.relations)
     rotation = sp.Matrix(three.rotation())
     moved, vertical = rotation.T * K, rotation.T * gamma
@@ -348,6 +350,7 @@ def vector_integrals(p: Proof) -> None:
 @claim("5.3-energy", r"\text{the energy integral (2.5) is not preserved}", uses=["5.3", "2.5"])
 def energy_changes(p: Proof) -> None:
     """One exact step that changes the energy, (2.5) as corrected; as printed it changes, too."""
+    p.infers("Not preserved: one step at which it changes is enough.")
     p.assume("the energy is (2.5) as corrected, in 𝒦")
     momentum, turn = sp.Matrix(three.momentum()), sp.Matrix(three.rotation()).T
     inverse, factor = three.lam().inv(), continuous.rolling_factor()

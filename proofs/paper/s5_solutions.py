@@ -84,6 +84,9 @@ def isotropic_points() -> tuple[Quotient, list[sp.Expr]]:
 )
 def upper_bound(p: Proof) -> None:
     """At most 8 real solutions if they are finitely many and the J differ, and 8 occur; then at most 4 when D = 0."""
+    p.infers(
+        "Bézout: three quadrics have at most 8 common points, if finitely many; at D = 0 four of them are not real."
+    )
     p.slips("serious")
     p.assume(SIGN)
     p.assume(FINITE)
@@ -136,6 +139,9 @@ def upper_bound(p: Proof) -> None:
 )
 def lower_bound(p: Proof) -> None:
     """There may be none, even on an orbit; when there is one, there are two, with multiplicity."""
+    p.infers(
+        "Bézout: three quadrics have 8 common points with multiplicity, if finitely many; those that are not real come in pairs."
+    )
     p.slips("serious")
     p.assume(SIGN)
     p.assume(FINITE)
@@ -196,6 +202,7 @@ def lower_bound(p: Proof) -> None:
 @claim("5.3-small", r"\text{only one of the real solutions } \mathbf q \text{ is small}", uses=["5.2"])
 def small_solution(p: Proof) -> None:
     """One solution is small, tan(θ/2) ≤ r = 2Imin/(9Λmax), when |𝒦| ≤ Imin²/(4Λmax); never more than one."""
+    p.infers("Estimates of norms, which use the three identities, and the theorem on contractions (Banach).")
     p.assume(
         "small means |u| ≤ r = 2Imin/(9Λmax), u = q/q₀, |u| = tan(θ/2); Imin > 0 is the least of J2+J3, J1+J3, J1+J2"
     )

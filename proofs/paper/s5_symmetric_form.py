@@ -232,6 +232,7 @@ def symmetric_form(p: Proof) -> None:
 @claim("5.12-scaling", r"h = 1 \text{ by rescaling of } \Lambda \text{ and } D", uses=["prop-4"])
 def rescaling(p: Proof) -> None:
     """The map depends on Λ/h and D/h only."""
+    p.infers("The step of the ball scaled by s, at h/s, is that of the ball at h: s = h gives 1.")
     p.assume("h > 0 (for h < 0 turn γ round: (-h, -γ) is the same momentum)", vertical.height() > 0)
     p.assume("prop-4 as corrected")
     scale = sp.Symbol("s")

@@ -189,6 +189,7 @@ def consecutive_verticals(p: Proof) -> None:
 )
 def quadratic_integral(p: Proof) -> None:
     """The quadratic integral of the reduced map, for every branch and every h."""
+    p.infers("Where σ ≠ 0, from the identity; where σ = 0, from ⟨q, left⟩ = 0, in words.")
     p.assume("Λ = diag(J₂+J₃+D, ...) is positive, as for every ball", *(x > 0 for x in vertical.lam().diagonal()))
     p.assume("q is real; (5.4) and (5.6) as corrected")
     inverse = vertical.lam().inv()

@@ -18,6 +18,7 @@ from chapsym.prove import Equation, Proof, claim, main
 )
 def vertical_energy(p: Proof) -> None:
     """For vertical momentum the energy is a function of the integral l and of h."""
+    p.infers("For 𝒦 = hγ the energy is a function of h and l, and both are kept by every branch.")
     p.assume("the energy is (2.5), as corrected or as printed; prop-3 needs σ ≠ 0, as there")
     form = three.gamma.dot(continuous.inverse_inertia() * three.gamma)
     on_vertical = dict(zip(K, h * three.gamma, strict=True))
@@ -48,6 +49,7 @@ def vertical_energy(p: Proof) -> None:
 )
 def left_right(p: Proof) -> None:
     """The discrete Lagrangian is left-invariant, the discrete constraint right-invariant, for every n."""
+    p.infers("That such a Lagrangian with such a constraint is called a discrete LR system is a definition.")
     p.assume(
         "the group is the direct product SO(n) × Rⁿ: (S, a) acts by (SR, a + r) from the left, (RS, r + a) from the right"
     )
