@@ -62,9 +62,10 @@ def signs():
 
 
 #: Formulas that are statements of the certificate, part by part, and that the checker does not read.
-COMPARED_BY_EYE = set(
-    ["2.7-vertical", "2.7-integrals", "2.9", "2.15", "4.1", "4.6-limit", "4.9", "4.9-limit", "prop-1-proof", "4.13-limit", "4.14", "5.1", "5.2-expansion", "5.2-limit", "5.13-V", "5.16-weierstrass-e"]
-)
+COMPARED_BY_EYE = {
+    *("2.7-vertical", "2.7-integrals", "2.9", "2.15", "4.1", "4.6-limit", "4.9", "4.9-limit", "4.13-limit", "4.14"),
+    *("5.1", "5.2-expansion", "5.2-limit", "5.13-V", "5.16-weierstrass-e", "prop-1-proof"),
+}
 
 
 def test_each_claim_is_read_or_says_what_leads_to_its_formula():
