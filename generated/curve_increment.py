@@ -2,7 +2,7 @@
 
 Proved by: 5.8-modulus, 5.14-G, 5.14-Pi1.  Operations: 22.  SymPy 1.14.0.
 Expression: sha256 f3b586d0fbf43c8ac702af5e26e704893ffb62928eda76c1c83ebf8e5dca4f1c.
-Certificate of 5.8-modulus: sha256 76d183b5fdba70c9ef38686a338f3a0548241c9f429b7a06e59fb12d4ac41fc8.
+Certificate of 5.8-modulus: sha256 c67c96f3fd821463ecb5f1742b20c27d050ba51c7b25bddeab3ef70b32c43161.
 Certificate of 5.14-G: sha256 1d285e3130446acab46dab32e0c116687d9df67d4566c1b9ae01e8529f734f3e.
 Certificate of 5.14-Pi1: sha256 a1af7a7ecf552ea863347187af4b704c0e6cefff08acb3405960ca011521aef1.
 """

@@ -67,6 +67,13 @@ def printed_squares(sign: int = 1) -> list[sp.Expr]:
     ]
 
 
+def on_level(text: str, squares: list[sp.Expr]) -> Equation:
+    """|γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l at sn = 0, and the second by the first at sn² = 1."""
+    first, second, third = squares
+    left = [first + third, first / L1 + third / L3, second / L2 + (1 - second) / L3]
+    return equation(text, left, [1, l, l])
+
+
 @claim(
     "5.8",
     r"C_1 = \sqrt{\tfrac{\Lambda_1(1-\Lambda_3l)}{\Lambda_1-\Lambda_3}},\ "
@@ -81,18 +88,20 @@ def amplitudes(p: Proof) -> None:
     )
     p.slips("typo")
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3, so that Λ1 l > 1 and the printed C3 is imaginary", *elliptic.ORDER)
-    p.say("|γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l for γ = (C1 cn, C2 sn, C3 dn) and every u determine the squares:")
-    derived = elliptic.squared_amplitudes()
-    for name, square in zip(("C1²", "C2²", "C3²"), derived, strict=True):
+    p.say(
+        "|γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l for γ = (C1 cn, C2 sn, C3 dn) and every u determine the squares.  sn = 0 gives two",
+        "equations for C1² and C3²; sn² = 1, where C3² dn² = 1 - C2² by the first, gives one for C2²:",
+    )
+    for name, square in zip(("C1²", "C2²", "C3²"), elliptic.squared_amplitudes(), strict=True):
         p.show(name, square)
-    p.printed(equation("the printed squares", printed_squares(), derived))
+    p.printed(on_level("the printed squares solve them", printed_squares()))
     p.corrected(
         r"C_3 = \sqrt{\tfrac{\Lambda_3(\Lambda_1l-1)}{\Lambda_1-\Lambda_3}}",
-        equation("the squares with Λ1 l - 1 in C3", printed_squares(-1), derived),
+        on_level("the squares with Λ1 l - 1 in C3 solve them", printed_squares(-1)),
+        equation("they are those that solve for them", printed_squares(-1), elliptic.squared_amplitudes()),
     )
     p.counterexample(rational_point(BALL))
-    swapped = [printed_squares(-1)[i] for i in (1, 0, 2)]
-    p.control(equation("the squares with C1, C2 exchanged", swapped, derived))
+    p.control(on_level("the squares with C1, C2 exchanged", [printed_squares(-1)[i] for i in (1, 0, 2)]))
 
 
 @claim(
@@ -102,20 +111,23 @@ def amplitudes(p: Proof) -> None:
 )
 def modulus(p: Proof) -> None:
     """The modulus."""
+    first, second, third = printed_squares(-1)
+    made = (second - first) / third
     p.reads(
         curve_symbols()
         | {
             "l": (l, "the level ⟨γ, Λ⁻¹γ⟩ (5.5)"),
-            "k^2": (elliptic.squared_modulus(), "the square of the modulus: |γ|² = 1 for every u (5.7)"),
+            "k^2": (made, "the square of the modulus: (C2² - C1²)/C3², so that |γ|² = 1 for every u (5.7, 5.8)"),
         }
     )
     printed = (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1))
-    p.printed(equation("k² as printed", printed, elliptic.squared_modulus()))
+    p.say("The coefficient of sn² in |γ|² is C2² - C1² - k²C3²; it is 0.")
+    p.printed(equation("k² as printed", printed, made))
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
     p.say("0 < k² < 1 where the paper works: 1 - k² has the sign of Λ2 l - 1.")
     complement = (L1 - L3) * (L2 * l - 1) / ((L2 - L3) * (L1 * l - 1))
     p.lemma(equation("1 - k² = (Λ1-Λ3)(Λ2 l-1)/((Λ2-Λ3)(Λ1 l-1))", 1 - printed, complement))
-    p.control(equation("1/k² in its place", 1 / printed, elliptic.squared_modulus()))
+    p.control(equation("1/k² in its place", 1 / printed, made))
 
 
 @claim(
@@ -167,6 +179,7 @@ def sums_and_differences(p: Proof) -> None:
     )
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
+    _addition(p)
     now, after = pair()
     product = MEAN.sn * MEAN.dn * HALF.sn * HALF.dn
     size = 2 * C1 / elliptic.denominator()
@@ -198,6 +211,23 @@ def sums_and_differences(p: Proof) -> None:
     values = {**BALL, **SQUARE, **dict(zip((*MEAN, *HALF), ARGUMENT * 2, strict=True))}
     p.counterexample(rational_point({**values, C1: 1}, [*relations, on_ball()]))
     p.control(difference("γ~1 - γ1 = -(4C1/𝒟) sn ū dn ū sn δu dn δu", -2))
+    wrong = elliptic.added(MEAN, HALF, 1).sn * elliptic.denominator()
+    p.control(Equation("sn(x + y) without 𝒟", *(elliptic.derivative(wrong, one) for one in (MEAN, HALF)), TWO))
+
+
+def _addition(p: Proof) -> None:
+    """The addition formulas, from the derivatives of sn, cn, dn and their values at 0."""
+    p.say("The addition formulas, for x = ū and y = δu: their right sides have equal derivatives by x and by y,")
+    for name, whole, own in zip(Jacobi._fields, elliptic.added(MEAN, HALF, 1), MEAN, strict=True):
+        by_x, by_y = (elliptic.derivative(whole, argument) for argument in (MEAN, HALF))
+        p.lemma(Equation(f"that of {name}(x + y)", by_x, by_y, TWO))
+        at_zero = whole.subs(dict(zip(HALF, (0, 1, 1), strict=True)))
+        if at_zero != own:
+            raise ArithmeticError(f"the right side for {name}(x + y) is not {name}(x) at y = 0")
+    p.say("and at y = 0, where sn = 0 and cn = dn = 1, they are sn x, cn x and dn x.")
+    p.infers(
+        "A function of x and y with equal derivatives by both is one of x + y, which y = 0 gives: the addition formulas."
+    )
 
 
 @claim(
