@@ -1,1 +1,1 @@
-"""Studies for the note on the two open questions: rotation numbers, the energy, chaos.  They are not in the wheel."""
+"""What is not in the wheel: studies for the note on the two open questions, and Chaplygin's theta functions."""

@@ -126,10 +126,10 @@ def certified_motion(
     It and γ may differ by rounding, 1e-5 at most: then the attitude is taken.
     rotor: a in kg m²/s, the constant angular momentum of a rotor inside, in the axes of the body (lemmas
     `gyrostat-rotor`, `gyrostat-motion`); then K = B(γ)ω + a, and K ≠ a.
-    by: "taylor", or "theta": the solution in theta functions, which shares no step with it.  They are of genus two
-    (lemmas `chaplygin-reduction`, `chaplygin-separation`, `chaplygin-theta`), and of genus one where D = 0 or K is
-    vertical (`euler-top`); of a ball with three different moments, without a rotor, in a motion that is neither steady
-    nor on the separatrix.
+    by: "taylor", or "theta": the solution in theta functions, which shares no step with it; only in a checkout, whose
+    `research/theta` has it.  The functions are of genus two (lemmas `chaplygin-reduction`, `chaplygin-separation`,
+    `chaplygin-theta`), and of genus one where D = 0 or K is vertical (`euler-top`); of a ball with three different
+    moments, without a rotor, in a motion that is neither steady nor on the separatrix.
     limit: seconds for all attempts.  progress: called with sentences.
 
     Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
@@ -235,6 +235,18 @@ def follow(
     return search.found(why)
 
 
+def _in_theta_functions(start: Any) -> Any:
+    """The class that solves a motion in theta functions; raises BadInput where it is not."""
+    try:
+        from research.theta.motion import General
+        from research.theta.top import Top
+    except ModuleNotFoundError:
+        raise BadInput(
+            "theta functions are in research/, which is not in the wheel; run this from a checkout"
+        ) from None
+    return Top if start.vertical or not start.D else General
+
+
 class _TimeUp(Exception):
     """The limit is reached."""
 
@@ -247,11 +259,8 @@ class _Search:
         progress: Callable[[str], None],
     ) -> None:  # fmt: skip
         from .flow.path import Path
-        from .theta.motion import General
-        from .theta.top import Top
 
-        solved = Top if start.vertical or not start.D else General
-        self.by: Any = solved if by == THETA else Path
+        self.by: Any = _in_theta_functions(start) if by == THETA else Path
         self.start, self.times, self.digits, self.deadline, self.progress = start, times, digits, deadline, progress
         self.frames: list[dict[str, tuple[Any, ...]]] = []
         self.kept = self.bits = self.steps = 0

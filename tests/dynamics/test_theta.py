@@ -3,6 +3,7 @@
 import json
 import random
 import re
+import sys
 from fractions import Fraction as F
 from itertools import product
 from pathlib import Path
@@ -18,10 +19,10 @@ from chapsym import BadInput, ExactBall, certified_motion
 from chapsym.derive import chaplygin
 from chapsym.dynamics.enclosed_motion import PARTS, follow
 from chapsym.dynamics.levels.proved_root import TooWide
-from chapsym.dynamics.theta import curve, reduction
-from chapsym.dynamics.theta.functions import Characteristic, Thetas
-from chapsym.dynamics.theta.motion import General
-from chapsym.dynamics.theta.top import Top
+from research.theta import curve, reduction
+from research.theta.functions import Characteristic, Thetas
+from research.theta.motion import General
+from research.theta.top import Top
 
 Y = ((1.3, 0.4), (0.4, 0.9))
 EVERY = [Characteristic(a, b) for a in product((0, 1), repeat=2) for b in product((0, 1), repeat=2)]
@@ -209,6 +210,12 @@ def test_routes_and_rotors_that_are_not_there_are_refused():
         certified_motion(ball, (1, 2, 3), (0, 0, 1), [1], by="euler")
     with pytest.raises(BadInput, match="without a rotor"):
         certified_motion(ball, (1, 2, 3), (0, 0, 1), [1], rotor=(0, 0, 1), by="theta")
+
+
+def test_without_a_checkout_they_are_refused_in_one_sentence(monkeypatch):
+    monkeypatch.setitem(sys.modules, "research.theta.motion", None)
+    with pytest.raises(BadInput, match="research/, which is not in the wheel"):
+        certified_motion(ExactBall((1, 2, 4), 3), (1, 2, 3), (0, 0, 1), [1], by="theta")
 
 
 def test_many_turns_and_many_digits():

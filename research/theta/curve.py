@@ -13,8 +13,9 @@ from typing import Any
 
 from flint import acb, arb, arb_mat
 
-from ..levels.proved_root import TooWide
-from ..levels.start import fraction
+from chapsym.dynamics.levels.proved_root import TooWide
+from chapsym.dynamics.levels.start import fraction
+
 from .functions import Characteristic
 from .reduction import Reduced, Vector
 

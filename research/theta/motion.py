@@ -16,12 +16,12 @@ import numpy as np
 from flint import acb, arb, ctx
 
 from chapsym import generated
+from chapsym.dynamics.flow.series import cross, dot
+from chapsym.dynamics.levels.balls import exact, unit
+from chapsym.dynamics.levels.proved_root import TooWide
+from chapsym.dynamics.levels.start import fraction
+from chapsym.dynamics.principal_axes import quaternions
 
-from ..flow.series import cross, dot
-from ..levels.balls import exact, unit
-from ..levels.proved_root import TooWide
-from ..levels.start import fraction
-from ..principal_axes import quaternions
 from .curve import curve
 from .functions import Thetas
 from .reduction import Reduced, Vector, reduced, times

@@ -22,11 +22,11 @@ from typing import Any
 from flint import acb, arb
 
 from chapsym import generated
+from chapsym.dynamics.flow.series import cross, dot
+from chapsym.dynamics.levels.balls import exact, unit
+from chapsym.dynamics.levels.proved_root import TooWide
+from chapsym.dynamics.levels.start import fraction
 
-from ..flow.series import cross, dot
-from ..levels.balls import exact, unit
-from ..levels.proved_root import TooWide
-from ..levels.start import fraction
 from .motion import Motion
 from .reduction import Vector, times
 

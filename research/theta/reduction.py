@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from chapsym import generated
-
-from ..flow.series import cross, dot
-from ..levels.proved_root import TooWide
+from chapsym.dynamics.flow.series import cross, dot
+from chapsym.dynamics.levels.proved_root import TooWide
 
 Vector = tuple[Any, ...]
 

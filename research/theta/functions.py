@@ -2,8 +2,9 @@
 
 θ[a,b](x) = Σ exp(-π nᵀYn + 2πi⟨n,x⟩ + πi⟨n,b⟩) over n in Z² + a/2.
 
-Not by `acb_mat.theta`: in a ball as wide as a rigorous quadrature needs, its bounds are larger than the functions
-(±3 for radius 0.1), and a point takes about four times as long.  Tests compare the two.
+Not by `acb_mat.theta` of python-flint 0.9: it has all sixteen functions at any vector, while a line needs one sum for
+each term.  With it 12 digits of a motion of two seconds took 2.3 s of the processor, not 0.16 s, 40 digits 4.9 s, not
+0.26 s, and the tests, 15 s with these sums, had not ended after nine minutes.  Tests compare the two.
 """
 
 import itertools
@@ -13,7 +14,7 @@ from typing import Any, NamedTuple
 
 from flint import acb, acb_mat, arb, ctx
 
-from ..levels.proved_root import TooWide
+from chapsym.dynamics.levels.proved_root import TooWide
 
 #: The most terms that may be looked at for one sum.
 MOST_TERMS = 40_000
