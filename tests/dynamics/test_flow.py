@@ -1,4 +1,4 @@
-"""What the enclosure of a motion rests on: the equations, the models, and the lemma of the deviation."""
+"""What the enclosure of a motion rests on: the equations, polynomials in balls, and the lemma of the deviation."""
 
 import random
 from fractions import Fraction as F
@@ -13,7 +13,7 @@ from chapsym import generated
 from chapsym.derive import continuous, three
 from chapsym.derive.gyrostat import rotor
 from chapsym.derive.limits import RING, omega
-from chapsym.dynamics.flow import deviation, models, newton, series
+from chapsym.dynamics.flow import deviation, newton, series
 from chapsym.dynamics.flow import path as paths
 from chapsym.dynamics.flow.path import Path
 from chapsym.dynamics.levels.proved_root import TooWide, upper
@@ -64,18 +64,16 @@ def test_the_linear_equation_is_the_derivative_of_the_motion(sign):
 RING_XI = type(RING)((*omega, *three.gamma, *XI, *rotor, *three.MASSES, three.D), [three.UNIT_VERTICAL])
 
 
-def test_a_product_that_is_cut_contains_the_whole():
+def test_a_polynomial_that_is_cut_contains_the_whole():
     rng = random.Random(1)
     for _ in range(20):
-        x, y = ([F(rng.randint(-9, 9), rng.randint(1, 9)) for _ in range(8)] for _ in range(2))
-        a, b = (models.Model(arb_poly([number(c) for c in v]), 8) for v in (x, y))
-        low = models.Model((a * b).poly, 4)
-        low.poly = models.cut(low.poly, 4)
-        assert low.poly.length() <= 5
+        x = [F(rng.randint(-9, 9), rng.randint(1, 9)) for _ in range(15)]
+        (low,) = deviation.cut([arb_poly([number(c) for c in x])], 4)
+        assert low.length() <= 5
         for time in (F(0), F(1, 3), F(1)):
-            value = sum(c * time**i for i, c in enumerate(x)) * sum(c * time**i for i, c in enumerate(y))
-            assert low.at(number(time)).contains(number(value))
-            assert abs(low.at(number(time)) - number(value)).abs_lower() == 0
+            value = sum(c * time**i for i, c in enumerate(x))
+            assert low(number(time)).contains(number(value))
+            assert abs(low(number(time)) - number(value)).abs_lower() == 0
 
 
 def polynomials(path, length=F(1, 2), corrected=True, spoilt=0.0):
@@ -87,9 +85,9 @@ def polynomials(path, length=F(1, 2), corrected=True, spoilt=0.0):
         if corrected:
             p, w, found = path._mended(floats, k, body)
         else:
-            p = [models.exact(x) for x in poly(floats.a)]
-            w = [models.exact(x) for x in poly(floats.w)]
-            p = [models.exact(x - x(0) + y) for x, y in zip(p, path.p, strict=True)]
+            p = [deviation.exact(x) for x in poly(floats.a)]
+            w = [deviation.exact(x) for x in poly(floats.w)]
+            p = [deviation.exact(x - x(0) + y) for x, y in zip(p, path.p, strict=True)]
             p[1] = p[1] + arb_poly([0, 0, spoilt])
             w[2] = w[2] + arb_poly([0, 10 * spoilt])
             found = deviation.defects(p, w, k, body, 90)
@@ -215,7 +213,7 @@ def steady(path, length=F(1, 100)):
         rows = [list(path.p)]
         for n in range(1, 16):
             rows.append([x / (2 * n) for x in generated.compose(*rows[-1], 0, *w)])
-        p, w = [models.exact(arb_poly(list(x))) for x in zip(*rows, strict=True)], [arb_poly([x]) for x in w]
+        p, w = [deviation.exact(arb_poly(list(x))) for x in zip(*rows, strict=True)], [arb_poly([x]) for x in w]
         floats = series.motion(*long_start(path, k))
         return floats, p, w, deviation.defects(p, w, k, path.body, 90), k, length
 
@@ -229,7 +227,7 @@ def long_start(path, k):
 def test_what_is_left_of_the_momentum_counts(left_out):
     path = begun()
     floats, p, w, found, k, length = steady(path)
-    assert models.bound(found.e) < 1e-30 < 1e-6 < models.bound(found.kappa)
+    assert deviation.bound(found.e) < 1e-30 < 1e-6 < deviation.bound(found.kappa)
     if left_out:
         found = found._replace(kappa=NONE)
     off, step, _, _ = off_by((0.0, 0.0, 0.0), floats, p, w, found, k, path, length)
@@ -244,7 +242,7 @@ def test_what_is_left_of_the_turning_counts(left_out):
     with ctx.workprec(BITS):
         p = [arb_poly([x[0]]) for x in p]
         found = deviation.defects(p, w, k, path.body, 90)
-    assert models.bound(found.kappa) < 1e-30 < 1e-3 < models.bound(found.e)
+    assert deviation.bound(found.kappa) < 1e-30 < 1e-3 < deviation.bound(found.e)
     if left_out:
         found = found._replace(e=NONE)
     off, step, _, _ = off_by((0.0, 0.0, 0.0), floats, p, w, found, k, path, length)
@@ -285,7 +283,7 @@ def test_the_bound_of_a_rotor_is_that_of_the_lemma():
         body = path.body.during(number(length))
         step = deviation.deviation(floats, w, upper(k), found, body, arb(1e-3))
         degree = floats.a.shape[1] - 1
-        omega, gamma = (models.models(x, degree) for x in (w, [x.poly * found.unit for x in found.R[6:]]))
+        omega, gamma = (deviation.cut(x, degree) for x in (w, [x * found.unit for x in found.R[6:]]))
         beta, _, alpha, W = deviation._sizes(omega, gamma, body, deviation._weights(floats))
         X, size, I = step.within, upper(body.rotor), sorted(map(float, body.inertia))
         sigma = arb((I[2] - I[0]) / 2)
@@ -295,7 +293,7 @@ def test_the_bound_of_a_rotor_is_that_of_the_lemma():
         assert step.slip > (2 * alpha * X + theta) * arb(1 - 1e-9)
 
 
-NONE = [models.Model(arb_poly([0]), 3)] * 3
+NONE = [arb_poly([0])] * 3
 
 
 def test_what_is_far_off_is_refused():
@@ -337,11 +335,11 @@ def test_the_solutions_of_neighbours_have_twice_as_many_bits_once_they_are_mende
         assert left[2] < arb(2) ** -186
         # Φ' = AΦ, as BΦ' = CΦ.
         unit = 1 / sum((x * x for x in p), arb_poly([0]))(arb(0))
-        gamma = models.models([x * unit for x in generated.rotation(*p)[6:]], 400)
-        assert deviation._slip(one.phi, models.models(w, 400), gamma, path.body, 400) < arb(2) ** -300
+        gamma = [x * unit for x in generated.rotation(*p)[6:]]
+        assert deviation._slip(one.phi, w, gamma, path.body) < arb(2) ** -300
 
 
 def unlike_inverse(one):
     """How far ΦΨ is from 1 on [0, 1]."""
     rows = newton._product(one.phi, one.psi)
-    return upper([(x - (i == j))(models.UNIT) for i, row in enumerate(rows) for j, x in enumerate(row)])
+    return upper([(x - (i == j))(deviation.UNIT) for i, row in enumerate(rows) for j, x in enumerate(row)])

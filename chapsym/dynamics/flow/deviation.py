@@ -21,26 +21,49 @@ Cξ = (Iw + a) × ξ - I(w × ξ), X ≥ |ξ|, X ≤ ¼, β ≥ ‖B⁻¹‖, s 
 If |SAS⁻¹| ≤ L with S diagonal, its entries from s to 1, and M is a matrix of polynomials with M(0) = 1 and
 |M' - AM| ≤ η, then from |ξ(0)| ≤ r (Gronwall, for Sξ)
     |ξ| ≤ (r + q)exp(L)/s ≤ X, which proves that X was enough, and |ξ(1) - M(1)ξ(0)| ≤ (q + ηr)exp(L)/s.
+
+A function of τ in [0, 1] is contained in a polynomial in Arb's balls, on which the kernels run as they are.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import arb, arb_poly
+from flint import arb, arb_mat, arb_poly
 
 from chapsym import generated
 
 from ..levels.proved_root import TooWide, highest, lowest, upper
-from .models import UNIT, Model, bound, models
-from .series import Series, bend, cross
+from .series import Series, bend, cross, dot
 
+#: All τ that there are.
+UNIT = arb(0.5, 0.5)
 #: Pieces of a step on which the size of A is bounded apart.
 PIECES = 8
 #: What is too small beside 1 to count in the choice of S.
 FLAT = 1e-9
 #: What stands beside 1 in the bound of |ξ| that is tried first.
 ROOM = 1.5
+
+
+def cut(polynomials: Iterable[Any], degree: int) -> list[Any]:
+    """Polynomials of a degree that contain these on [0, 1]: their constants are wide enough for what is beyond."""
+    found = []
+    for poly in polynomials:
+        coefficients = poly.coeffs()  # by the list: python-flint 0.7 has no `truncate`
+        beyond = arb_poly(coefficients[degree + 1 :])(UNIT).abs_upper()
+        found.append(arb_poly(coefficients[: degree + 1]) + arb(0, beyond))
+    return found
+
+
+def bound(vector: Iterable[Any]) -> Any:
+    """An upper bound of the length of a vector of polynomials on [0, 1]."""
+    return upper([x(UNIT) for x in vector])
+
+
+def exact(poly: Any) -> Any:
+    """The middles."""
+    return arb_poly([x.mid() for x in poly.coeffs()])
 
 
 class Body(NamedTuple):
@@ -66,31 +89,30 @@ class Body(NamedTuple):
 
 
 class Defects(NamedTuple):
-    """What polynomials leave: e, κ with |p|²R in the place of R, and |p|² - 1, models.
+    """What polynomials leave: e, κ with |p|²R in the place of R, and |p|² - 1, polynomials.
 
     R: |p|²R row by row; unit: contains 1/|p|².
     """
 
-    e: Sequence[Model]
-    kappa: Sequence[Model]
-    off: Model
+    e: Sequence[Any]
+    kappa: Sequence[Any]
+    off: Any
     unit: Any
-    R: Sequence[Model]
+    R: Sequence[Any]
 
 
 def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, degree: int) -> Defects:
-    """Those of exact polynomials p and w; raises TooWide where |p| may be far from 1."""
-    a, omega = models(p, degree), models(w, degree)
-    off = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + a[3] * a[3] - 1
+    """Those of exact polynomials p and w, R cut to a degree; raises TooWide where |p| may be far from 1."""
+    off = dot(p, p) - 1
     most = bound([off])
     if not most < 0.5:
         raise TooWide
     unit = 1 / (1 + arb(0, most))
-    turned = generated.compose(*(*a, 0, *omega))
-    e = [Model(x.derivative(), degree) - y * arb(0.5) for x, y in zip(p, turned, strict=True)]
-    R = generated.rotation(*a)
+    turned = generated.compose(*(*p, 0, *w))
+    e = [x.derivative() - y * arb(0.5) for x, y in zip(p, turned, strict=True)]
+    R = cut(generated.rotation(*p), degree)
     K = [R[i] * k[0] + R[i + 3] * k[1] + R[i + 6] * k[2] for i in range(3)]
-    carried = generated.contact_momentum(*(*omega, *R[6:], *body.J, body.D))
+    carried = generated.contact_momentum(*(*w, *R[6:], *body.J, body.D))
     kappa = [x + s - y for x, s, y in zip(carried, body.rotor, K, strict=True)]
     return Defects(e, kappa, off, unit, R)
 
@@ -113,13 +135,13 @@ def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body:
     series: gives M, floats that need not be right.  w: the exact polynomials.  size: a bound of |k|.
     """
     degree = series.a.shape[1] - 1
-    omega, gamma = models(w, degree), models([x.poly * found.unit for x in found.R[6:]], degree)
+    omega, gamma = cut(w, degree), cut([x * found.unit for x in found.R[6:]], degree)
     e, off = bound(found.e), bound([found.off])
     epsilon = (2 * e * found.unit.sqrt()).abs_upper()
     weights = _weights(series)
     inverse, growth, largest, W = _sizes(omega, gamma, body, weights)
     M = [[arb_poly(series.Phi[:, i, j].tolist()) for j in range(3)] for i in range(3)]
-    eta = (inverse * _slip(M, omega, gamma, body, degree)).abs_upper()
+    eta = (inverse * _slip(M, omega, gamma, body)).abs_upper()
     # With |p|² = 1 + η what is computed has (2η + η²)Dγ × (w × γ) - ηK too much.
     kappa = bound(found.kappa) + (2 * off + off * off) * body.D * W + off * size
     I = body.inertia
@@ -137,7 +159,7 @@ def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body:
     if not (start + q) * stretch <= X:
         raise TooWide
     ends = [sum((c for c in x.coeffs()), arb(0)) for row in M for x in row]
-    return Step(_matrix(ends), ((q + eta * start) * stretch).abs_upper(), X, slip)
+    return Step(arb_mat(3, 3, ends), ((q + eta * start) * stretch).abs_upper(), X, slip)
 
 
 def _weights(series: Series) -> list[float]:
@@ -150,12 +172,12 @@ def _weights(series: Series) -> list[float]:
     return [float(x) for x in 2.0 ** (found - found.max())]
 
 
-def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body, S: Sequence[float]) -> tuple[Any, Any, Any, Any]:
+def _sizes(w: Sequence[Any], gamma: Sequence[Any], body: Body, S: Sequence[float]) -> tuple[Any, Any, Any, Any]:
     """Bounds of ‖B⁻¹‖, of the integral of |SAS⁻¹|, of |A| and of |w| on [0, 1]."""
     inverse, growth, largest, W = arb(0), arb(0), arb(0), arb(0)
     for i in range(PIECES):
         time = (arb(i) + UNIT) / PIECES
-        v, g = [x.at(time) for x in w], [x.at(time) for x in gamma]
+        v, g = [x(time) for x in w], [x(time) for x in gamma]
         columns = [generated.angular_velocity(*(*x, *g, *body.J, body.D)) for x in _UNITS]
         inverse = inverse.max(upper([x for column in columns for x in column]))
         A = [generated.angular_velocity(*(*body.bent(v, x), *g, *body.J, body.D)) for x in _UNITS]
@@ -168,21 +190,15 @@ def _sizes(w: Sequence[Model], gamma: Sequence[Model], body: Body, S: Sequence[f
     return inverse.abs_upper(), growth.abs_upper(), largest.abs_upper(), W.abs_upper()
 
 
-def _slip(M: Sequence[Any], w: Sequence[Model], gamma: Sequence[Model], body: Body, degree: int) -> Any:
+def _slip(M: Sequence[Any], w: Sequence[Any], gamma: Sequence[Any], body: Body) -> Any:
     """A bound of BM' - CM."""
     left = []
     for j in range(3):
-        x = models([M[i][j] for i in range(3)], degree)
-        rate = models([M[i][j].derivative() for i in range(3)], degree)
+        x = [M[i][j] for i in range(3)]
+        rate = [y.derivative() for y in x]
         carried = generated.contact_momentum(*(*rate, *gamma, *body.J, body.D))
         left += [y - z for y, z in zip(carried, body.bent(w, x), strict=True)]
     return bound(left)
-
-
-def _matrix(entries: Sequence[Any]) -> Any:
-    from flint import arb_mat
-
-    return arb_mat(3, 3, entries)
 
 
 _UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))

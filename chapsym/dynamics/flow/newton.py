@@ -14,8 +14,7 @@ from flint import arb, arb_poly, arb_series, ctx
 
 from chapsym import generated
 
-from .deviation import Body, Defects
-from .models import exact
+from .deviation import Body, Defects, exact
 from .series import Floats, Series, cross, linear
 
 Row = Sequence[Any]
@@ -48,7 +47,7 @@ class Neighbours:
         """What takes away the defects of p and w to the first order, if it is added."""
         with capped(terms):
             a, omega = _series(p), _series(w)
-            e, kappa, (off,) = (_series(x.poly for x in v) for v in (found.e, found.kappa, [found.off]))
+            e, kappa, (off,) = map(_series, (found.e, found.kappa, [found.off]))
             gamma = generated.rotation(*a)[6:]
             # κ is that of |p|²R in place of R; what this is off by is taken away with the rest.
             central = generated.contact_momentum(*(*omega, *gamma, *self.body.J, -self.body.D))

@@ -18,10 +18,9 @@ from ..levels.balls import point, unit
 from ..levels.proved_root import MATRIX_BITS, TooWide, highest, upper
 from ..levels.spread import Spread
 from ..levels.start import exponent_of
-from .deviation import Body, Defects, defects, deviation
-from .models import Model, bound, exact
+from .deviation import Body, Defects, bound, defects, deviation, exact
 from .newton import Neighbours
-from .series import LONG, TERMS, Floats, Series, long_float, motion
+from .series import LONG, TERMS, Floats, Series, dot, long_float, motion
 
 Numbers = tuple[Any, ...]
 
@@ -138,8 +137,7 @@ class Path:
             self.tick()
             bits = min(bits + BEYOND, self.precision)
             with ctx.workprec(bits):
-                n = self._terms(degree, bits) - 1
-                found = defects(p, w, k, body, n)
+                found = defects(p, w, k, body, self._terms(degree, bits) - 1)
                 before, size = size, _log(bound([*found.e, *found.kappa]))
             if bits == self.precision:
                 stuck += size > before - 2
@@ -164,9 +162,7 @@ class Path:
 
     def _rolled(self, w: Sequence[Any], found: Defects, slip: Any) -> Numbers:
         """Polynomials of the way of the contact point: ρ(y₂, -y₁), y the turn in space, ϖ within `slip` of w."""
-        R, off = [x * found.unit for x in found.R[:6]], arb(0, slip)
-        omega = [Model(x, R[0].degree) for x in w]
-        x, y = ((R[i] * omega[0] + R[i + 1] * omega[1] + R[i + 2] * omega[2]).poly + off for i in (3, 0))
+        x, y = (dot(found.R[i : i + 3], w) * found.unit + arb(0, slip) for i in (3, 0))
         return (self.radius * x.integral(), -self.radius * y.integral())
 
     def frame(self, time: Fraction) -> dict[str, Numbers]:
