@@ -14,8 +14,7 @@ from .extrapolation import Extrapolated, extrapolate
 from .implicit import implicit_step
 from .map import compose_step, step
 from .n.ball_n import BallN, axial, skew
-from .n.stepper_n import StepperN
-from .n.trajectory_n import StepN, TrajectoryN, invariants_n, reverse_n, step_n, trajectory_n
+from .n.trajectory_n import StepN, StepperN, TrajectoryN, invariants_n, reverse_n, step_n, trajectory_n
 from .results import Step, Trajectory
 from .reversal import NotRetraced, retrace_error, reverse
 from .solutions.continuation import Fold, Followed, fold, follow, margin

@@ -10,7 +10,7 @@ from motion_n import continuous
 
 import chapsym
 from chapsym import Ball, BallN, Status, StepNotTaken, axial, skew, step_n, substeps, trajectory_n
-from chapsym.dynamics.n import warm_n
+from chapsym.dynamics.n import run_n
 from chapsym.dynamics.n.near_n import limits
 
 ORDERS = (4, 6, 8)
@@ -129,8 +129,8 @@ def test_each_stage_has_the_bound_of_its_own_momentum():
 
 def test_threads_share_a_batch_and_its_bits_stay(monkeypatch):
     ball, K, gamma = batch(4, 6, 0.2)
-    seen, honest = set(), warm_n.advance
-    monkeypatch.setattr(warm_n, "advance", lambda *a: seen.add(threading.get_ident()) or honest(*a))
+    seen, honest = set(), run_n.advance
+    monkeypatch.setattr(run_n, "advance", lambda *a: seen.add(threading.get_ident()) or honest(*a))
     runs = [trajectory_n(ball, K, gamma, 700, order=4, every=50, contact=True, threads=threads) for threads in (1, 3)]
     assert len(seen) > 1
     assert all((getattr(runs[0], name) == getattr(runs[1], name)).all() for name in NAMES)

@@ -85,10 +85,10 @@ def test_a_step_that_is_not_taken_leaves_the_state_before_it():
 @pytest.mark.parametrize("order", [2, 4])
 def test_nor_does_one_that_the_safe_way_refuses_below_the_bound(order, monkeypatch):
     """What is refused here is not known to be met: the corrections are never small enough, the third call fails."""
-    from chapsym.dynamics.n import stepper_n, warm_n
+    from chapsym.dynamics.n import run_n, trajectory_n
 
-    start, honest, calls, taken = alone(), stepper_n.limits, [], warm_n.small_rotation
-    monkeypatch.setattr(stepper_n, "limits", lambda *at: (honest(*at)[0], 0 * honest(*at)[1]))
+    start, honest, calls, taken = alone(), trajectory_n.limits, [], run_n.small_rotation
+    monkeypatch.setattr(trajectory_n, "limits", lambda *at: (honest(*at)[0], 0 * honest(*at)[1]))
     stepper, steps = StepperN(*start, order=order), StepperN(*start, order=order)
     fails = 3 if order == 2 else 3 * 5 - 2
 
@@ -98,7 +98,7 @@ def test_nor_does_one_that_the_safe_way_refuses_below_the_bound(order, monkeypat
         return (E, np.array([Status.FOLDED]), np.array([0.5])) if len(calls) == fails else (E, status, reach)
 
     steps.step(2)
-    monkeypatch.setattr(warm_n, "small_rotation", refusing)
+    monkeypatch.setattr(run_n, "small_rotation", refusing)
     with pytest.raises(StepNotTaken) as caught:
         stepper.step(9)
     assert (caught.value.index, caught.value.reach, stepper.taken) == (2, 0.5, 2)

@@ -6,7 +6,7 @@ from balls_n import SIZES, UNIT_ROUNDOFF, batch
 from plain import in_plain_python
 
 from chapsym import BallN, Status, StepNotTaken, step_n, substeps, trajectory_n
-from chapsym.dynamics.n import run_n, so_n, warm_n
+from chapsym.dynamics.n import run_n, so_n
 from chapsym.dynamics.n.branch_n import small_rotation
 from chapsym.dynamics.n.near_n import limits
 from chapsym.studies.extremes import n_dim
@@ -45,8 +45,8 @@ def test_compiled_and_in_python_one_ball_and_a_batch_have_the_same_bits(n, order
         asking(monkeypatch, STUBBORN[n], 0, 1, 1, 1)
     stages = substeps(order)
     assert (limits(K, ball.mass_tensor, ball.D, stages)[0] > 0).all()
-    safe, taken = [], warm_n._safely
-    monkeypatch.setattr(warm_n, "_safely", lambda *at: safe.append(1) or taken(*at))
+    safe, taken = [], run_n._safely
+    monkeypatch.setattr(run_n, "_safely", lambda *at: safe.append(1) or taken(*at))
     steps = 60 if not stubborn else 30 if order == 2 else 15
     work = steps * len(stages)
     with in_plain_python():
@@ -66,8 +66,8 @@ def test_the_safe_way_takes_the_same_stages(order, monkeypatch):
     ball, K, gamma = batch(4, 1, 0.1)
     whole = trajectory_n(ball, K, gamma, 5, order=order, contact=True)
     asking(monkeypatch, 0)
-    calls, taken = [], warm_n._safely
-    monkeypatch.setattr(warm_n, "_safely", lambda *at: calls.append(1) or taken(*at))
+    calls, taken = [], run_n._safely
+    monkeypatch.setattr(run_n, "_safely", lambda *at: calls.append(1) or taken(*at))
     safe = trajectory_n(ball, K, gamma, 5, order=order, contact=True)
     assert len(calls) == 5 * len(substeps(order))
     allowed = 16 * UNIT_ROUNDOFF * len(calls)
@@ -77,7 +77,7 @@ def test_the_safe_way_takes_the_same_stages(order, monkeypatch):
 def test_how_a_run_is_cut_and_what_is_kept_does_not_matter(monkeypatch):
     ball, K, gamma = batch(4, 3, 0.1)
     whole = trajectory_n(ball, K, gamma, 300, contact=True)
-    monkeypatch.setattr(warm_n, "CHUNK", 7)
+    monkeypatch.setattr(run_n, "CHUNK", 7)
     assert same(whole, trajectory_n(ball, K, gamma, 300, contact=True))
     few = trajectory_n(ball, K, gamma, 300, every=150)
     assert (few.momentum == whole.momentum[:, ::150]).all()
@@ -135,14 +135,14 @@ def test_a_ball_that_stops_stops_alone(monkeypatch):
     ball, K, gamma = batch(4, 3, 0.1)
     whole = trajectory_n(ball, K, gamma, 40, contact=True)
     asking(monkeypatch, 0, 1, 1)
-    calls, taken = [], warm_n.small_rotation
+    calls, taken = [], run_n.small_rotation
 
     def refusing(*ball):
         calls.append(1)
         E, status, reach = taken(*ball)
         return (E, np.array([Status.FOLDED]), np.array([0.5])) if len(calls) == 20 else (E, status, reach)
 
-    monkeypatch.setattr(warm_n, "small_rotation", refusing)
+    monkeypatch.setattr(run_n, "small_rotation", refusing)
     run = trajectory_n(ball, K, gamma, 40, contact=True)
     assert run.status.tolist() == [Status.FOLDED, Status.TAKEN, Status.TAKEN]
     assert run.taken.tolist() == [19, 40, 40]

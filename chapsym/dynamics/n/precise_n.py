@@ -1,4 +1,4 @@
-"""Runs in n dimensions at N digits: `steps_n.continued` on the midpoints of Arb's numbers, with guard bits.
+"""Runs at N digits: `run_n.continued` on the midpoints of Arb's numbers, with guard bits.
 
 A stage starts from the float64 rotation of the continuation, which says which branch it is; Newton's iteration gives it
 its digits.
@@ -20,7 +20,7 @@ from ..errors import Status
 from ..levels.balls import GUARD, exact, in_context
 from . import so_n
 from .branch_n import small_rotation
-from .steps_n import continued
+from .run_n import continued
 
 #: Corrections of Newton from a float64 rotation: each doubles the digits.
 MOST_ROUNDS = 100

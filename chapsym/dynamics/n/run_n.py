@@ -1,26 +1,71 @@
 """Runs in n dimensions: below the bound of `near_n` from guesses by the last rotations, else by the continuation."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+import chapsym.dynamics.native as native
 from chapsym.numbers import Digits, Double, Precision
 
 from ..ball import Floats, common_shape, is_followed, unit_vertical
 from ..coefficients import COMPOSITIONS, substeps
-from ..errors import BadInput
-from ..levels.dispatch import precision_of
+from ..errors import BadInput, Status
+from ..levels.dispatch import no_room, precision_of
+from ..levels.frames import Count, cores, share
+from ..loops import loop_n, rotation_n
 from ..trajectories import rolling_radius
-from . import warm_n
+from . import so_n
 from .ball_n import BallN, initial_attitudes, skew_matrices
+from .branch_n import small_rotation, top
 from .near_n import limits
-from .steps_n import continued, some_balls
 
 #: The Jacobians of the balls that are solved together take about this many numbers: what a cache holds.
 BLOCK = 2**15
+#: Stages of a ball between two moments at which the run can be interrupted.
+CHUNK = 10_000
 #: What moves, of which frames may be kept.
 MOVING = ("momentum", "gamma", "attitude", "contact")
+
+
+@dataclass(frozen=True, eq=False)
+class Under:
+    """Balls under way: what moves and what does not, each array with the balls along its first axis.
+
+    Moments are divided by `scale`, so that the largest is about 1; 𝒦 = scale·k.
+    stages, near, enough, past, use: cᵢ of each stage of a step and what it has of its own, (b, s, ...);
+    `near_n.limits`, `rotation_n.remember`.
+    """
+
+    k: Floats
+    g: Floats
+    J: Floats
+    D: Floats
+    stages: Floats
+    near: Floats
+    enough: Floats
+    past: Floats
+    use: Floats
+    scale: Floats
+    R: Floats
+    spot: Floats
+    rho: Floats
+
+    def ball(self, i: int) -> Self:
+        """One of the balls, in the same memory."""
+        return type(self)(*(x[i] for x in vars(self).values()))
+
+    def copy(self) -> Self:
+        """The same in other memory."""
+        return type(self)(*(x.copy() for x in vars(self).values()))
+
+    def keep(self, frames: dict[str, Floats], frame: int) -> None:
+        """Writes the state of one ball into its frames."""
+        now = {"momentum": self.scale * self.k, "gamma": self.g, "attitude": self.R, "contact": self.spot}
+        for name, array in frames.items():
+            array[frame] = now[name]
 
 
 def start(
@@ -47,17 +92,6 @@ def start(
     return shape, state
 
 
-def rows(state: dict[str, Floats], count: int, dtype: np.dtype) -> dict[str, Floats]:
-    """Room for so many frames of what moves of each ball, (b, count, ...); raises BadInput if there is not so much."""
-    try:
-        return {
-            name: np.full((len(x), count, *x.shape[1:]), np.nan, dtype) for name, x in state.items() if name in MOVING
-        }
-    except (MemoryError, ValueError):
-        balls = len(state["gamma"])
-        raise BadInput(f"{count} frames of {balls} balls do not fit into memory; keep fewer with every=") from None
-
-
 def stepped(
     precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1
 ) -> tuple[dict[str, Floats], np.ndarray, np.ndarray, Floats]:
@@ -65,10 +99,14 @@ def stepped(
 
     Raises BadInput for a precision that is neither "double" nor Digits, and for frames that do not fit into memory.
     """
-    chosen, stages = precision_of(precision), substeps(order)
+    chosen, stages, count = precision_of(precision), substeps(order), steps // every + 1
     if not isinstance(chosen, Double | Digits):
         raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {precision!r}')
-    frames = rows(state, steps // every + 1, chosen.dtype)
+    moving = {name: state[name] for name in MOVING if name in state}
+    try:
+        frames = {name: np.full((len(x), count, *x.shape[1:]), np.nan, chosen.dtype) for name, x in moving.items()}
+    except (MemoryError, ValueError):
+        raise no_room(count, len(state["gamma"])) from None
     if isinstance(chosen, Double):
         return frames, *run(state, frames, stages, steps, every, threads)
     from . import precise_n  # mpmath takes 40 ms
@@ -92,16 +130,128 @@ def run(
     taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
     near, enough = limits(state["momentum"], state["mass_tensor"], state["D"], stages)
     below = (near > 0).all(axis=-1)
-    known, other = np.flatnonzero(below), np.flatnonzero(~below)
-    for at in blocks(known, n):
-        bounds = near[at], enough[at]
-        warm_n.march(some_balls(state, at), frames, bounds, stages, steps, every, taken, status, reach, at, threads)
-    for at in blocks(other, n):
+    for at in blocks(np.flatnonzero(below), n):
+        under = begun(some_balls(state, at), (near[at], enough[at]), stages)
+        march(under, frames, at, steps, every, (taken, status, reach), threads)
+    for at in blocks(np.flatnonzero(~below), n):
         continued(some_balls(state, at), frames, stages, steps, every, taken, status, reach, at)
     return taken, status, reach
+
+
+def march(
+    under: Under, frames: dict[str, Floats], at: np.ndarray, steps: int, every: int,
+    outcome: tuple[np.ndarray, np.ndarray, Floats], threads: int,
+) -> None:  # fmt: skip
+    """Steps balls below the bound, and writes the rows `at` of the frames and of (taken, status, reach)."""
+    count = Count(lambda done: None)
+
+    def task(i: int) -> None:
+        own = {name: array[at[i]] for name, array in frames.items()}
+        for kept, found in zip(outcome, advance(under.ball(i), own, steps, every, count), strict=True):
+            kept[at[i]] = found
+
+    share(task, range(len(at)), min(threads or cores(), len(at)), count)
 
 
 def blocks(balls: np.ndarray, n: int) -> Iterator[np.ndarray]:
     """The numbers of the balls of a batch, of those together that are solved together."""
     size = max(1, BLOCK // (n * n * n * (n - 1) // 2))
     return (balls[first : first + size] for first in range(0, len(balls), size))
+
+
+def some_balls(state: dict[str, Floats], at: np.ndarray) -> dict[str, Floats]:
+    """The state of some of the balls."""
+    return {name: array[at] for name, array in state.items()}
+
+
+def continued(
+    state: dict[str, Floats], frames: dict[str, Floats], stages: Iterable[Any], steps: int, every: int,
+    taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
+    rotations: Callable[..., tuple[Floats, np.ndarray, Floats]] = small_rotation,
+) -> dict[str, Floats]:  # fmt: skip
+    """Steps some balls together, the rows `at` of what else is given, and writes these in place.
+
+    rotations: what finds the rotations of a stage, as `small_rotation` in float64.
+    Returns the state of the balls that took all steps.
+    """
+    for step in range(1, steps + 1):
+        for c in stages:
+            K, rest = c * state["momentum"], (state[x] for x in ("gamma", "mass_tensor", "D"))
+            E, status[at], reach[at] = rotations(K, *rest)
+            went = status[at] == Status.TAKEN
+            if not went.all():
+                at, E, state = at[went], E[went], some_balls(state, went)
+                if not at.size:
+                    return state
+            state = _moved(state, E)
+        taken[at] += 1
+        if step % every == 0:
+            for name in frames:
+                frames[name][at, step // every] = state[name]
+    return state
+
+
+def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:
+    """The state after the rotation 1 + E: 𝒦 and γ, and those of attitude and contact that there are."""
+    K, g = state["momentum"], state["gamma"]
+    after = {**state, "momentum": so_n.carried(K, E), "gamma": so_n.transported(g, E)}
+    if "contact" in state:
+        stride = (state["attitude"] @ so_n.twist(E, g)[..., np.newaxis])[..., :-1, 0]
+        after["contact"] = state["contact"] + state["radius"][:, np.newaxis] / 2 * stride
+    if "attitude" in state:
+        after["attitude"] = so_n.polar(state["attitude"] + state["attitude"] @ E)
+    return after
+
+
+def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Floats) -> Under:
+    """Balls at their start, from the state that `run_n.run` takes, in memory of their own."""
+    K, g, J, D = (state[x] for x in ("momentum", "gamma", "mass_tensor", "D"))
+    b, n, s = *g.shape, len(stages)
+    exponent = np.frexp(top(J, D))[1]
+    past, use = np.zeros((b, s, rotation_n.ORDER, n, n)), np.zeros((b, s, rotation_n.ORDER))
+    return Under(
+        np.ldexp(K, -exponent[:, np.newaxis, np.newaxis]), g.copy(), np.ldexp(J, -exponent[:, np.newaxis]),
+        np.ldexp(D, -exponent), np.tile(stages, (b, 1)), *limits, past, use, np.ldexp(1.0, exponent),
+        state.get("attitude", np.zeros((b, n, n))).copy(), state.get("contact", np.zeros((b, n - 1))).copy(),
+        state.get("radius", np.zeros(b)),
+    )  # fmt: skip
+
+
+def advance(one: Under, frames: dict[str, Floats], steps: int, every: int, count: Count) -> tuple[int, int, float]:
+    """Takes steps of one ball into its own frames; returns (taken, status, reach)."""
+    momenta, verticals, with_body = frames["momentum"], frames["gamma"], "attitude" in frames
+    attitudes = frames["attitude"] if with_body else momenta[:0]
+    traces = frames["contact"] if "contact" in frames else np.empty((len(attitudes), len(one.spot)))
+    s, done, take = len(one.stages), 0, native.loop(loop_n.march)
+    room = np.empty((len(one.g) * (len(one.g) - 1) // 2,) * 2)
+    while done < steps * s and not count.stopped:
+        now = min(CHUNK, steps * s - done)
+        went = take(
+            one.k, one.g, one.J, float(one.D), one.stages, one.near, one.enough, one.past, one.use,
+            done, now, every, float(one.scale), momenta, verticals,
+            with_body, one.R, one.spot, float(one.rho), attitudes, traces, room,
+        )  # fmt: skip
+        done += went
+        if went < now:
+            status, reach = _safely(one, done % s, with_body)
+            if status != Status.TAKEN:
+                return done // s, status, reach
+            done += 1
+            if done % (s * every) == 0:
+                one.keep(frames, done // (s * every))
+    return done // s, Status.TAKEN, 1.0
+
+
+def _safely(one: Under, s: int, with_body: bool) -> tuple[int, float]:
+    """A stage of a ball that Newton did not find, by the continuation from the identity; returns (status, reach)."""
+    E, status, reach = small_rotation(
+        *(np.asarray(x)[np.newaxis] for x in (one.stages[s] * one.k, one.g, one.J, one.D))
+    )
+    if status[0] == Status.TAKEN:
+        n = len(one.g)
+        W, c = np.empty((n, n)), np.empty(n)
+        rotation_n.remember(E[0], one.past[s], one.use[s])
+        if with_body:
+            rotation_n.roll(E[0], one.g, one.R, one.spot, float(one.rho), c, W)
+        rotation_n.move(E[0], one.k, one.g, W, c)
+    return int(status[0]), float(reach[0])
