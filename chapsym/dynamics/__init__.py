@@ -3,9 +3,8 @@
 from .ball import Ball
 from .certified import Certificate, certify
 from .closed.elliptic import Curve, increment
-from .closed.exact_top import ExactTop, exact_top
 from .closed.steady import is_steady, steady_frames
-from .closed.top import TopMotion, is_top, top_frames
+from .closed.top import ExactTop, TopMotion, exact_top, is_top, top_frames
 from .closed.vertical import VerticalTrajectory, rotation_number, step_vertical, trajectory_vertical
 from .coefficients import substeps
 from .enclosed_motion import CertifiedMotion, ExactBall, certified_motion

@@ -7,7 +7,7 @@ from hypothesis import assume, given
 
 from chapsym import testing
 from chapsym.dynamics import BadInput, Ball, Status, branches, fold, follow, kernels, margin, step
-from chapsym.dynamics.solutions import marching
+from chapsym.dynamics.solutions import continuation
 
 GAMMA = np.array([2.0, 3.0, 6.0]) / 7
 BALL = Ball((1, 2, 4), 3)
@@ -172,7 +172,7 @@ def test_what_cannot_be_followed_is_told():
 
 
 def test_a_fold_that_newton_does_not_find_is_not_settled(monkeypatch):
-    monkeypatch.setattr(marching, "MOST_EXTENDED", 0)
+    monkeypatch.setattr(continuation, "MOST_EXTENDED", 0)
     K = (1, -0.5, 0.75)
     found = fold(BALL, K, GAMMA)
     assert not found.settled

@@ -1,6 +1,10 @@
-"""Branches followed along a path of momenta, their folds, and how far a state is from one.
+"""Branches followed along a path of momenta, their folds, and how far a state is from one, for whole batches.
 
-Everything is done for all balls of a batch at once (`marching`).
+The balls of a batch are marched together along a segment of momenta, each up to its end or to a fold.
+The chart and the step length are those of `branch`: around a root p on the segment 𝒦(t) = A + tE write q ∝ p ∘ (1, w);
+F(w) = 𝒦(p ∘ (1, w), γ) - 𝒦(t)(1 + |w|²) is quadratic, and a step is as long as the Newton-Kantorovich test allows.
+Near a fold the steps shrink with the distance; from there Newton's iteration on the extended system F = 0, det F' = 0
+in (w, t) finds the fold: the system is regular where the fold is simple.
 """
 
 from __future__ import annotations
@@ -10,9 +14,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Ball, Floats, batch, numbers, unit_vertical
+from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobian
+
+from ..ball import UNIT_TOLERANCE, Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status
-from .marching import Marchers, largest_moment
+from ..loops.branch import CONTRACTION, ROUNDINGS, SETTLED, SINGULAR, SMALLEST, UNIT_ROUNDOFF
+
+#: The march towards a fold ends where a step is below this fraction of the way: Newton does the rest.
+NEAR_FOLD = 1e-6
+#: Newton must find the fold within this fraction of the way from where the march ended, which is some steps ahead.
+AHEAD = 1e-2
+MOST_STEPS = 5000
+MOST_CORRECTIONS = 12
+#: Newton's iterations on the extended system, and the correction that is the last one.
+MOST_EXTENDED = 12
+CLOSE = 1e-8
+#: How far a given rotation may be from a root.
+AT_THE_ROOT = 1e-6
+#: The places of the second derivatives 11, 22, 33, 23, 13, 12 in a symmetric matrix.
+PAIR = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,3 +144,167 @@ def margin(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLik
 
 def _upright(q: Floats) -> Floats:
     return np.where(q[..., :1] < 0, -q, q)
+
+
+@dataclass
+class Marchers:
+    """Balls, flat, each with the rotation where it is; scaled so that Λmax is about 1."""
+
+    q: Floats
+    g: Floats
+    J: Floats
+    D: Floats
+    exponent: np.ndarray
+
+    @classmethod
+    def at(cls, rotation: ArrayLike, shape: tuple, K: Floats, g: Floats, J: Floats, D: Floats) -> Marchers:
+        """Balls at a rotation that must have the momentum K, polished; raises BadInput if it does not."""
+        given = numbers(rotation, "rotation", 4)
+        try:
+            q = np.broadcast_to(given, (*shape, 4)).reshape(-1, 4).copy()
+        except ValueError:
+            raise BadInput(f"rotation has the leading axes {given.shape[:-1]}, the states have {shape}") from None
+        if (np.abs((q * q).sum(axis=1) - 1) > UNIT_TOLERANCE).any():
+            raise BadInput("rotation must be unit Euler parameters (scalar first); divide by the length")
+        exponent = np.frexp(largest_moment(J, D))[1]
+        scaled = cls(q, g, np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent), exponent)
+        regular = scaled.regular()
+        settled = scaled.correct(scaled._scaled(K))
+        if (regular & ~(settled & (np.abs(scaled.q - q).max(axis=1) < AT_THE_ROOT))).any():
+            raise BadInput("rotation does not have the momentum where the path begins")
+        scaled.q[~regular] = q[~regular]
+        return scaled
+
+    def only(self, which: np.ndarray) -> Marchers:
+        """Some of the balls."""
+        return Marchers(self.q[which], self.g[which], self.J[which], self.D[which], self.exponent[which])
+
+    def regular(self) -> np.ndarray:
+        """Whether the tangent Jacobian is regular."""
+        return np.abs(np.linalg.det(self.tangent())) > SINGULAR
+
+    def march(self, A: Floats, B: Floats) -> tuple[Floats, np.ndarray]:
+        """From A to B; returns the fraction t of the way and a status for each."""
+        A, E = self._scaled(A), self._scaled(B) - self._scaled(A)
+        n = len(self.D)
+        t, status = np.zeros(n), np.full(n, Status.NOT_CONVERGED, dtype=np.int64)
+        side = np.sign(np.linalg.det(self.tangent())) if n else t
+        on = np.arange(n)
+        for _ in range(MOST_STEPS):
+            if not len(on):
+                break
+            ball, now = self.only(on), t[on]
+            step, det = ball._longest(A[on] + now[:, np.newaxis] * E[on], E[on])
+            step = np.minimum(step, 1 - now)
+            ahead = np.where(step == 1 - now, 1.0, now + step)
+            before = ball.q.copy()
+            settled = ball.correct(A[on] + ahead[:, np.newaxis] * E[on])
+            folded = (det * side[on] <= 0) | ((step < NEAR_FOLD * now) & (ahead < 1))
+            moved = settled & ~folded
+            ball.q[~moved] = before[~moved]
+            self.q[on], t[on] = ball.q, np.where(moved, ahead, now)
+            status[on[moved & (ahead == 1)]] = Status.TAKEN
+            status[on[folded]] = Status.FOLDED
+            on = on[moved & (ahead < 1)]
+        return t, status
+
+    def _longest(self, K: Floats, E: Floats) -> tuple[Floats, Floats]:
+        """The longest step s with s|d|·|F''| ≤ CONTRACTION, d = F'⁻¹E, F'' = H - 2(𝒦 + sE)⊗1; and det T.
+
+        The test holds in every norm: with T = U S Vᵀ this is that of z in w = V S^(-1/2) z, in which a singular
+        direction does not carry its small divisor over to the others.
+        """
+        T = self.tangent()
+        U, S, V = np.linalg.svd(nonsingular(T))
+        root = np.sqrt(S)[:, :, np.newaxis]
+        left, right = np.swapaxes(U, 1, 2) / root, V / root  # z to T⁻¹ and w, in rows
+        speed = np.linalg.norm(left @ E[..., np.newaxis], axis=(1, 2))
+        along = np.linalg.norm(left @ K[..., np.newaxis], axis=(1, 2))
+        metric = np.linalg.norm(right @ np.swapaxes(right, 1, 2), axis=(1, 2))
+        bent = np.einsum("nai,nijk,nbj,nck->nabc", left, self._hessian()[:, :, PAIR], right, right, optimize=True)
+        slope = np.linalg.norm(bent.reshape(-1, 27), axis=1) + 2 * along * metric
+        length = 2 * CONTRACTION / (slope + np.sqrt(slope * slope + 8 * CONTRACTION * metric))
+        with np.errstate(divide="ignore"):
+            return length / speed, np.linalg.det(T)
+
+    def correct(self, K: Floats) -> np.ndarray:
+        """Newton's iteration at the (scaled) momentum K, in place; returns which balls settled."""
+        settled = np.zeros(len(self.D), dtype=bool)
+        for _ in range(MOST_CORRECTIONS):
+            inverse = np.linalg.inv(nonsingular(self.tangent()))
+            w = -np.einsum("nij,nj->ni", inverse, self.gap(K))
+            w[settled] = 0.0
+            self.turn(w)
+            extent = np.abs(self.q[:, 1:]).max(axis=1)
+            # Without momentum the small rotation is none: no digits of a rounding are asked for.
+            still = ~K.any(axis=1) & (extent < AT_THE_ROOT)
+            self.q[still, 1:], settled[still] = 0.0, True
+            # What a rounding of the residual moves the rotation by, for Λmax of about 1.
+            size = np.abs(K).max(axis=1) + 2 * extent
+            noise = ROUNDINGS * UNIT_ROUNDOFF * np.abs(inverse).max(axis=(1, 2)) * size
+            settled |= np.abs(w).max(axis=1) <= np.maximum(np.maximum(SETTLED * extent, noise), SMALLEST)
+            if settled.all():
+                break
+        return settled
+
+    def fold(self, A: Floats, B: Floats, t: Floats) -> tuple[Floats, Floats, np.ndarray]:
+        """Newton on F = 0, det F' = 0 from near a fold: (t, q, whether it settled, near where it began)."""
+        A, E = self._scaled(A), self._scaled(B) - self._scaled(A)
+        start, first, settled = t.copy(), self.q.copy(), np.zeros(len(t), dtype=bool)
+        for _ in range(MOST_EXTENDED):
+            matrix, value = self._extended(A + t[:, np.newaxis] * E, E)
+            move = -np.linalg.solve(nonsingular(matrix), value[..., np.newaxis])[..., 0]
+            move[settled] = 0.0
+            self.turn(move[:, :3])
+            t = t + move[:, 3]
+            settled |= (np.abs(move[:, :3]).max(axis=1) < CLOSE) & (np.abs(move[:, 3]) <= CLOSE * np.abs(t))
+            if settled.all():
+                break
+        settled &= (t >= start) & (t - start <= AHEAD * start)
+        return np.where(settled, t, start), np.where(settled[:, np.newaxis], self.q, first), settled
+
+    def _extended(self, K: Floats, E: Floats) -> tuple[Floats, Floats]:
+        """The derivative of (F, det F') in (w, t) at w = 0, (n, 4, 4), and its value, (n, 4)."""
+        T = self.tangent()
+        cofactors = np.cross(T[:, [1, 2, 0]], T[:, [2, 0, 1]])
+        det = (cofactors[:, 0] * T[:, 0]).sum(axis=1)
+        # F'(w) = T + H w - 2𝒦wᵀ, and the derivative of det F' is ⟨cofactors, F''⟩.
+        bent = np.einsum("nij,nijk->nk", cofactors, self._hessian()[:, :, PAIR])
+        matrix = np.zeros((len(K), 4, 4))
+        matrix[:, :3, :3], matrix[:, :3, 3] = T, -E
+        matrix[:, 3, :3] = bent - 2 * np.einsum("nik,ni->nk", cofactors, K)
+        return matrix, np.concatenate([self.gap(K), det[:, np.newaxis]], axis=1)
+
+    def _scaled(self, K: Floats) -> Floats:
+        return np.ldexp(K, -self.exponent[:, np.newaxis])
+
+    def tangent(self) -> Floats:
+        """T, (n, 3, 3)."""
+        parts = tangent_jacobian(*(*self.q.T, *self.g.T, *self.J.T, self.D))
+        return np.stack(np.broadcast_arrays(*parts), axis=-1).reshape(-1, 3, 3)
+
+    def _hessian(self) -> Floats:
+        """The second derivatives of each component, (n, 3, 6)."""
+        parts = tangent_hessian(*(*self.q.T, *self.g.T, *self.J.T, self.D))
+        return np.swapaxes(np.stack(np.broadcast_arrays(*parts), axis=-1).reshape(-1, 6, 3), 1, 2)
+
+    def gap(self, K: Floats) -> Floats:
+        """𝒦(q, γ) - 𝒦, (n, 3)."""
+        return np.stack(residual(*(*self.q.T, *K.T, *self.g.T, *self.J.T, self.D)), axis=-1)
+
+    def turn(self, w: np.ndarray) -> None:
+        """q ∘ (1, w), divided by its length."""
+        self.q = np.stack(compose(*(*self.q.T, 1.0, *w.T)), axis=-1)
+        self.q /= np.linalg.norm(self.q, axis=1, keepdims=True)
+
+
+def largest_moment(J: Floats, D: Floats) -> Floats:
+    """Λmax, (n,): float64 holds it where J₁ + J₂ + J₃ is beyond its range."""
+    ascending = np.sort(J, axis=1)
+    return np.asarray(ascending[:, 1] + ascending[:, 2] + D)
+
+
+def nonsingular(matrices: Floats) -> Floats:
+    """The same matrices, with the identity for one that is singular."""
+    singular = ~(np.abs(np.linalg.det(matrices)) > 0)
+    return np.where(singular[:, np.newaxis, np.newaxis], np.eye(matrices.shape[-1]), matrices)

@@ -19,7 +19,7 @@ from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import Status
 from ..map import step
 from .candidates import Candidates, candidates
-from .marching import Marchers, largest_moment, nonsingular
+from .continuation import Marchers, largest_moment, nonsingular
 from .quadrics import quadrics
 
 #: Most rotations that can have one momentum: the Bézout number of three quadrics.
