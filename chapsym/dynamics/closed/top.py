@@ -36,13 +36,12 @@ from ..results import Trajectory, finished
 from ..trajectories import step_numbers
 from . import turns
 from .elliptic import Curve, across, height_of, increment
-from .jacobi import jacobi
 from .vertical import step_vertical
 
-#: Bits in which the increment is found: moments may be equal to 1e-15, and Λl - 1 as small as SMALLEST_TURN².
+#: Bits in which a step is found: moments may be equal to 1e-15, and Λl - 1 as small as SMALLEST_TURN².
 BITS = 512
 MOST_CORRECTIONS = 12
-#: The increment is found when a correction is below this, relatively.
+#: The Gibbs vector of a step is found when a correction is below this, relatively.
 SETTLED = 2.0**-130
 #: A direction of 𝒦 that moves less than this while the body turns by 1 is left to `trajectory`.
 SMALLEST_TURN = 1e-40
@@ -66,7 +65,7 @@ class TopMotion:
     curve: the curve of 𝒦/|𝒦| (of γ where 𝒦 = hγ); size: what makes 𝒦 of its points, in kg m².
     start: u at the step 0; direction: the point there, as it was given.
     turns: the increment of u over the period 4K(k), with its sign, as a pair: `rotation_number` and what it lacks.
-    exact: the same motion in Arb's numbers; first: the rotation of the first step.
+    exact: the same motion in Arb's numbers.
     """
 
     curve: Curve
@@ -75,7 +74,6 @@ class TopMotion:
     direction: Floats
     turns: tuple[float, float]
     exact: ExactCurve
-    first: Floats
 
     @classmethod
     def free(cls, ball: Ball, momentum: ArrayLike) -> Self:
@@ -126,10 +124,10 @@ class TopMotion:
         if np.abs(curve.point(start + 2.0 * half) - step.gamma).max() > AGREEMENT:
             raise BadInput("the step of the map is not on the branch of the increment; take a shorter time step")
         with Enclosure(BITS).working():
-            exact = ExactCurve.of(curve, axis, scaled, size, half)
-            found = as_pair(exact.half / (2 * exact.quarter))
+            exact = ExactCurve.of(curve, axis, scaled, size, 2.0 * half, step.rotation)
+            found = as_pair(exact.increment / (4 * exact.quarter))
             curve = exact.nearest()
-        return cls(curve, size, float(exact.start.mid()), axis, found, exact, step.rotation)
+        return cls(curve, size, float(exact.start.mid()), axis, found, exact)
 
     @property
     def rotation_number(self) -> float:
@@ -175,26 +173,28 @@ def _one(ball: Ball, vector: Floats) -> None:
 class ExactCurve:
     """What a motion is in Arb's numbers, with 𝒦 and the mass tensor taken as exact.
 
-    moments: Λ in the order of the curve; direction: of 𝒦, unit, (3,); height: 𝒦 = height·direction, in kg m².
-    level: l; rate: V with its sign; k2: k²; start: u at the direction; half: δu, with its sign; quarter: K(k).
+    moments: Λ in the order of the curve; direction: of 𝒦, unit, (3,); gibbs: the Gibbs vector of the first step;
+    after: the direction after it.  level: l; rate: V with its sign; k2: k²; quarter: K(k).
+    start: u at the direction; increment: that of u, with its sign.
     """
 
     curve: Curve
-    tensor: list[Any]
-    contact: Any
     moments: list[Any]
     direction: list[Any]
-    height: Any
+    gibbs: list[Any]
+    after: list[Any]
     level: Any
     rate: Any
     k2: Any
-    start: Any
-    half: Any
     quarter: Any
+    start: Any
+    increment: Any
 
     @classmethod
-    def of(cls, curve: Curve, axis: Floats, scaled: tuple[Floats, int] | None, size: float, half: float) -> Self:
-        """s = sn δu from (5.15) as corrected at 𝒟 = 1, by Newton from float64; δu = s R_F(cn², dn², 1)."""
+    def of(
+        cls, curve: Curve, axis: Floats, scaled: tuple[Floats, int] | None, size: float, near: float, rotation: Floats
+    ) -> Self:
+        """From the increment and the rotation of the first step in float64: the Gibbs vector by Newton, then u."""
         from flint import acb, arb
 
         tensor, contact = [arb(float(x)) for x in curve.ball.mass_tensor], arb(float(curve.ball.D))
@@ -205,20 +205,19 @@ class ExactCurve:
         height = arb(size) if scaled is None else length * arb(2) ** scaled[1]
         squares = (direction[i] ** 2 / m for i, m in zip(curve.axes, moments, strict=True))
         level = sum(squares, arb(0))
-        k2, *G, mu = curve_increment(*(*moments, level))
+        k2, square, *_ = curve_increment(*(*moments, level))
         k2 = k2 if curve.modulus > 0.0 else arb(0)
-        first = float(jacobi(np.asarray(abs(half)), curve.modulus, curve.complement)[0])
-        s = _sine(k2, G, (1 - contact * level, contact * mu), abs(height), arb(first))
-        found = s * acb.elliptic_rf(acb(1 - s * s), acb(1 - k2 * s * s), acb(1)).real
-        rate = G[0].sqrt() * (1 if curve.rate > 0.0 else -1)
-        found *= 1 if size * curve.rate > 0.0 else -1
         if not k2 < 1:
             raise BadInput("the motion is on the other side of the separatrix by a rounding; run `trajectory`")
-        start = acb.elliptic_f(acb(amplitude(curve, moments, direction)), acb(k2)).real
+        gibbs = _gibbs_vector(rotation, [height * x / 2 for x in direction], direction, tensor, contact)
+        after = [x + y for x, y in zip(direction, turn(arb(1), *gibbs, *direction), strict=True)]
+        quarter = acb(k2).elliptic_k().real
+        start, end = (acb.elliptic_f(acb(amplitude(curve, moments, v)), acb(k2)).real for v in (direction, after))
+        whole = round((near - float(end - start)) / float(4 * quarter))
+        rate = square.sqrt() * (1 if curve.rate > 0.0 else -1)
         return cls(
-            curve, tensor, contact, moments, direction, height, level, rate, k2, start, found,
-            acb(k2).elliptic_k().real,
-        )  # fmt: skip
+            curve, moments, direction, gibbs, after, level, rate, k2, quarter, start, end - start + 4 * quarter * whole
+        )
 
     def nearest(self) -> Curve:
         """The curve with numbers rounded from these: next to the separatrix roundings of a direction are of its k'."""
@@ -251,22 +250,6 @@ def as_pair(value: Any) -> tuple[float, float]:
     return high, float((value.mid() - arb(high)).mid())
 
 
-def _sine(k2: Any, G: list[Any], rolled: tuple[Any, Any], h: Any, s: Any) -> Any:
-    """The s with 2V s cn dn (F + Dμ s²) = h(G₀ + G₁s² + G₂s⁴), by Newton's iteration from a float64."""
-    V, (slack, slope) = G[0].sqrt(), rolled
-    for _ in range(MOST_CORRECTIONS):
-        y = s * s
-        c, d = (1 - y).sqrt(), (1 - k2 * y).sqrt()
-        w, rate = s * c * d, c * d - y * d / c - k2 * y * c / d
-        value = 2 * V * w * (slack + slope * y) - h * (G[0] + y * (G[1] + y * G[2]))
-        change = 2 * V * (rate * (slack + slope * y) + w * 2 * slope * s) - 2 * h * s * (G[1] + 2 * y * G[2])
-        correction = (value / change).mid()
-        s = (s - correction).mid()
-        if abs(float(correction)) <= SETTLED * float(s):
-            return s
-    raise BadInput("the increment is at the fold of its branch; take a shorter time step")
-
-
 @dataclass(frozen=True, eq=False)
 class Precession:
     """The rotations from the first attitude of a top to the later ones.
@@ -283,7 +266,7 @@ class Precession:
         """Of a motion; raises BadInput so near to the separatrix that the series has too many terms."""
         exact = motion.exact
         with Enclosure(BITS).working():
-            mean = _mean(exact, motion.first)
+            mean = _mean(exact)
         return cls(motion, mean, _series(motion))
 
     def rotations(self, index: np.ndarray) -> Floats:
@@ -346,16 +329,14 @@ def _series(motion: TopMotion) -> Floats:
     raise BadInput("the motion is too near to the separatrix for its attitude at once; run `trajectory`")
 
 
-def _mean(exact: ExactCurve, rotation: Floats) -> tuple[float, float]:
+def _mean(exact: ExactCurve) -> tuple[float, float]:
     """Ψ/(2π): the angle of the first step, less P(u₁) - P(u₀) by Legendre's integrals of the third kind."""
     from flint import acb, arb
 
-    u = _gibbs_vector(exact, [arb(float(x)) / arb(float(rotation[0])) for x in rotation[1:]])
-    d = exact.direction
+    d, after = exact.direction, exact.after
     moments = dict(zip(exact.curve.axes, exact.moments, strict=True))
-    after = [x + y for x, y in zip(d, turn(arb(1), *u, *d), strict=True)]
     before, moved = ([*cross(v, [x / moments[i] for i, x in enumerate(v)])] for v in (d, after))
-    there = [x + y for x, y in zip(moved, turn(arb(-1), *u, *moved), strict=True)]  # the inverse rotation
+    there = [x + y for x, y in zip(moved, turn(arb(-1), *exact.gibbs, *moved), strict=True)]  # the inverse rotation
     angle = arb.atan2(dot(d, cross(before, there)), dot(before, there))
     if exact.curve.modulus > 0.0:
         p0, p1, n0, n1 = precession_parts(*(*exact.moments, exact.level))
@@ -365,17 +346,19 @@ def _mean(exact: ExactCurve, rotation: Floats) -> tuple[float, float]:
         turned -= 2 * arb.pi() * round(float(turned / (2 * arb.pi())))
         third = [acb.elliptic_pi_inc(acb(n), acb(x), acb(exact.k2)).real for x in (ends[0], ends[0] + turned)]
         whole = acb.elliptic_pi(acb(n), acb(exact.k2)).real
-        angle -= factor * (third[1] - third[0] - 2 * exact.half * whole / exact.quarter)
+        angle -= factor * (third[1] - third[0] - exact.increment * whole / exact.quarter)
     high, low = as_pair(angle / (2 * arb.pi()))
     return high - round(high), low
 
 
-def _gibbs_vector(exact: ExactCurve, u: list[Any]) -> list[Any]:
-    """The Gibbs vector of the first step by Newton's iteration from float64."""
-    inertia = [exact.tensor[(i + 1) % 3] + exact.tensor[(i + 2) % 3] for i in range(3)]
-    half = [exact.height * x / 2 for x in exact.direction]
+def _gibbs_vector(rotation: Floats, half: list[Any], direction: list[Any], J: list[Any], D: Any) -> list[Any]:
+    """The Gibbs vector of a step from 𝒦/2 and γ along it, by Newton's iteration from its rotation in float64."""
+    from flint import arb
+
+    u = [arb(float(x)) / arb(float(rotation[0])) for x in rotation[1:]]
+    inertia = [J[(i + 1) % 3] + J[(i + 2) % 3] for i in range(3)]
     for _ in range(MOST_CORRECTIONS):
-        p0, p1, p2, p3, *_ = gibbs_newton(*(*u, *half, *exact.direction, *inertia, exact.contact))
+        p0, p1, p2, p3, *_ = gibbs_newton(*(*u, *half, *direction, *inertia, D))
         found = [(x / p0).mid() for x in (p1, p2, p3)]
         moved = max(abs(float(x - y)) for x, y in zip(found, u, strict=True))
         u = found
