@@ -1,4 +1,7 @@
-"""The eight complex common points of three quadrics in P³, in float64, for many balls at once.
+"""(5.2) as three quadrics in P³, 𝒦(q, γ) - 𝒦(q0² + |q|²), and their eight complex common points in float64.
+
+A rotation is a real point (q0, q1, q2, q3) up to a factor.  The coefficients are read off the momentum kernel, in the
+numbers that it is given: fmpq, arrays.  The points are found for many balls at once.
 
 Macaulay's matrix of degree 4 has an 8-dimensional kernel, on which a linear form over another acts as multiplication:
 its eigenvectors are the points (as in `intersection`).  They are then polished by Newton's iteration in C⁴, where the
@@ -6,11 +9,15 @@ Newton-Kantorovich test says what each is: an isolated root, or not proved to be
 """
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
+
+from chapsym.generated import momentum
 
 from ..ball import Floats
 
@@ -19,6 +26,10 @@ EPSILON = 2.0**-52
 POLISHINGS = 3
 #: Roundings of a residual, in units of EPSILON and of the norm of the forms.
 ROUNDINGS = 16.0
+#: A quadratic form: the coefficient of x_a x_b under (a, b), a ≤ b.
+Quadric = dict[tuple[int, int], Any]
+
+PAIRS = tuple(itertools.combinations_with_replacement(range(4), 2))
 
 
 @dataclass(frozen=True)
@@ -35,6 +46,32 @@ class Candidates:
     error: Floats
     bend: Floats
     sound: np.ndarray
+
+
+def momentum_forms(gamma: Sequence[Any], mass_tensor: Sequence[Any], D: Any) -> list[Quadric]:
+    """𝒦₁, 𝒦₂, 𝒦₃ as quadratic forms in (q0, q1, q2, q3), by polarisation."""
+
+    def value(*indices: int) -> tuple[Any, ...]:
+        return momentum(*(*(int(v in indices) for v in range(4)), *gamma, *mass_tensor, D))
+
+    single = [value(a) for a in range(4)]
+    forms: list[Quadric] = [{}, {}, {}]
+    for a, b in PAIRS:
+        both = value(a, b)
+        for i, form in enumerate(forms):
+            form[a, b] = single[a][i] if a == b else both[i] - single[a][i] - single[b][i]
+    return forms
+
+
+def quadrics(
+    momentum: Sequence[Any], gamma: Sequence[Any], mass_tensor: Sequence[Any], D: Any
+) -> tuple[Quadric, Quadric, Quadric]:
+    """𝒦(q, γ) - 𝒦(q0² + |q|²), whose real zeros are the rotations with the momentum 𝒦."""
+    first, second, third = (
+        {(a, b): c - k if a == b else c for (a, b), c in form.items()}
+        for form, k in zip(momentum_forms(gamma, mass_tensor, D), momentum, strict=True)
+    )
+    return first, second, third
 
 
 def candidates(forms: Floats) -> Candidates:

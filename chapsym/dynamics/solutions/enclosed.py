@@ -24,8 +24,8 @@ from ..levels.balls import exact
 from ..levels.newton import enclosed
 from ..levels.start import fraction
 from ..map import in_float64, step, unit_exactly
+from .candidates import Quadric, momentum_forms, quadrics
 from .intersection import Form, NotFinite, Points, common_points
-from .quadrics import Quadric, momentum_forms, quadrics
 
 #: Working precisions are doubled at most so often.
 MOST_PRECISIONS = 14

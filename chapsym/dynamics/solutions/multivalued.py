@@ -18,9 +18,8 @@ from numpy.typing import ArrayLike
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import Status
 from ..map import step
-from .candidates import Candidates, candidates
+from .candidates import Candidates, candidates, quadrics
 from .continuation import Marchers, largest_moment, nonsingular
-from .quadrics import quadrics
 
 #: Most rotations that can have one momentum: the Bézout number of three quadrics.
 MOST = 8
