@@ -1,7 +1,8 @@
 """The invariant curve of the reduced map in Jacobi's functions (Section 5, 5.6 to 5.13).
 
 sn, cn, dn of one or two arguments are symbols modulo their relations; their derivatives and their values at 0 are
-the only transcendental input (5.13 has the addition formulas from these).  Λ1 > Λ2 > Λ3 and 1/Λ2 < l < 1/Λ3, as the paper assumes.
+the only transcendental input (5.13 has the addition formulas from these).  Λ1 > Λ2 > Λ3 and 1/Λ2 < l < 1/Λ3, as the
+paper assumes.
 """
 
 from functools import cache
