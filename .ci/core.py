@@ -62,8 +62,8 @@ for extra, arguments in ABSENT.items():
     assert done.stderr.endswith(f"not installed: pip install 'chapsym[{extra}]'\n"), done.stderr
     print(done.stderr, end="")
 
-for name in ("study", "bench"):  # a checkout has what they measure
-    done = run(name, *(["rotation"] if name == "study" else []))
+for work in (["study", "rotation"], ["bench"], ["extremes"], ["trade", "rounding"]):  # a checkout has what they measure
+    done = run(*work)
     assert done.returncode == 2, done.stderr
     assert done.stderr.endswith("is not in the wheel; run this from a checkout\n"), done.stderr
 

@@ -37,7 +37,7 @@ ROOMS = {
         "sources", "workers",
     },
     "proofs": {"certificates", "checker", "codegen", "derive", "dynamics", "prove"},
-    "report": {"extras", "files", "renamed"},
+    "report": {"extras", "files"},
     "show": {"dynamics", "extras", "files", "scene"},
     "testing": {"dynamics", "extras", "prove"},
 }  # fmt: skip

@@ -5,8 +5,6 @@ from typing import Annotated, Any
 
 import typer
 
-from chapsym.renamed import in_words
-
 from . import measured
 from .app import app
 from .options import Json
@@ -34,7 +32,9 @@ def extremes(
     Example: chapsym extremes --quick -o extremes.html
     """
     from chapsym import extras, files
-    from chapsym.studies import extremes as study
+    from chapsym.studies.harness import in_checkout
+
+    study = in_checkout("research", "extremes")
 
     wanted = list(dict.fromkeys(groups or study.GROUPS))
     for name in wanted:
@@ -64,17 +64,25 @@ def extremes(
         fail(f"{failed} of {len(cells)} cells failed", 1)
 
 
+def _reader() -> Any:
+    """What shows the matrix to a reader."""
+    from chapsym.studies.harness import in_checkout
+
+    return in_checkout("research", "extremes.page")
+
+
 def _page(matrix: dict[str, Any]) -> str:
-    from chapsym.report import extremes as page
     from chapsym.studies import harness
 
     machine = harness.machine()
-    return page.html(matrix, machine["versions"], f"{machine['cpu']}, {machine['cores']} cores, {machine['python']}")
+    return _reader().html(
+        matrix, machine["versions"], f"{machine['cpu']}, {machine['cores']} cores, {machine['python']}"
+    )
 
 
 def _about(counts: dict[str, int]) -> str:
     """What the cells of the tables say."""
-    from chapsym.report import extremes as page
+    page = _reader()
 
     signs = "; ".join(f"{sign} {verdict}: {meaning}" for verdict, (sign, meaning) in page.VERDICTS.items())
     told = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
@@ -86,7 +94,7 @@ def _about(counts: dict[str, int]) -> str:
 
 def _tables(matrix: dict[str, Any]) -> list[measured.Table]:
     """A table for each group of conditions, with the sentences of what was refused."""
-    from chapsym.report import extremes as page
+    page = _reader()
 
     return [
         measured.Table(
@@ -113,14 +121,14 @@ def _print_matrix(matrix: dict[str, Any]) -> None:
     from rich.table import Table
     from rich.text import Text
 
-    from chapsym.report import extremes as page
+    page = _reader()
 
     console = console_for(120)
     for group in page.groups(matrix):
         table = Table(title=f"{group['name']}: {group['title']}", title_justify="left")
         table.add_column("condition", min_width=46)
         for precision in group["precisions"]:
-            table.add_column(in_words(precision), justify="right", min_width=10)
+            table.add_column(precision, justify="right", min_width=10)
         for condition, cells in group["rows"]:
             shown = [
                 Text(page.shown(cells[precision]), COLOURS[cells[precision]["verdict"]])
@@ -132,7 +140,7 @@ def _print_matrix(matrix: dict[str, Any]) -> None:
         console.print(table)
         for one in group["reasons"]:
             sign = page.VERDICTS[one["verdict"]][0]
-            about = "; ".join(f"{condition} ({in_words(precisions)})" for condition, precisions in one["about"])
+            about = "; ".join(f"{condition} ({precisions})" for condition, precisions in one["about"])
             console.print(Text(f"  {sign} {about}:", COLOURS[one["verdict"]]), one["reason"])
         console.print()
     for verdict, (sign, meaning) in page.VERDICTS.items():

@@ -41,10 +41,10 @@ def html(
     )
 
 
-def templates() -> Environment:
-    """The templates of the room."""
+def templates(*folders: Path) -> Environment:
+    """The templates of the room, and of more folders."""
     return Environment(
-        loader=FileSystemLoader(FOLDER), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+        loader=FileSystemLoader([*folders, FOLDER]), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,
     )  # fmt: skip
 

@@ -9,8 +9,9 @@ from chapsym import BallN, Status, StepNotTaken, step_n, substeps, trajectory_n
 from chapsym.dynamics.n import run_n, so_n
 from chapsym.dynamics.n.branch_n import small_rotation
 from chapsym.dynamics.n.near_n import limits
-from chapsym.studies.extremes import n_dim
-from chapsym.studies.extremes.cells import BUDGET
+from research.extremes.judging import BUDGET
+from research.extremes.states import FOUR
+from research.extremes.truth import State, truth_n
 
 NAMES = ("momentum", "gamma", "attitude", "contact")
 ONE = np.ones(1)
@@ -84,17 +85,18 @@ def test_how_a_run_is_cut_and_what_is_kept_does_not_matter(monkeypatch):
     assert (few.gamma == whole.gamma[:, ::150]).all()
 
 
-@pytest.mark.parametrize("condition", n_dim.CONDITIONS)
+@pytest.mark.parametrize("condition", FOUR)
 def test_each_step_is_as_accurate_as_one_of_its_own(condition):
     """𝒦 and γ within the budget of a step in the study of the extremes, beside mpmath; γ of the frame is not unit."""
     served = 0
-    for x, gamma, J, D in n_dim.CONDITIONS[condition]:
-        K = 0.3 * so_n.from_coordinates(np.array(x), 4)
+    for start in FOUR[condition]:
+        J, D, gamma = start.J, start.D, start.g
+        K = 0.3 * so_n.from_coordinates(np.array(start.K), 4)
         served += (limits(K[None], np.array([J]), np.array([D]), ONE)[0] > 0).sum()
         run = trajectory_n(BallN(J, D), K, gamma, 13)
         for k in (0, 1, 12):
-            state = tuple(so_n.coordinates(run.momentum[k])), tuple(run.gamma[k])
-            E, after, vertical, kappa = n_dim.truth(*state, J, D)
+            state = State(J, D, tuple(so_n.coordinates(run.momentum[k])), tuple(run.gamma[k]))
+            E, after, vertical, kappa = truth_n(state)
             budget = BUDGET * UNIT_ROUNDOFF * (1 + float(max(map(abs, E))) * kappa)
             off = max(abs(float(a - b)) for a, b in zip(after, run.momentum[k + 1].flat, strict=True))
             assert off <= budget * np.abs(K).max()

@@ -3,7 +3,7 @@
 import pytest
 import shown
 
-from chapsym.report import extremes
+from research.extremes import page as extremes
 
 PRECISIONS = ["single", "double", "quad", "Digits(50)", "Ball(200)"]
 SIZES = {"desk": shown.DESK, "phone": shown.PHONE}

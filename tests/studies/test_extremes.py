@@ -14,57 +14,67 @@ from commands import chapsym, refused
 from chapsym.dynamics import BadInput, Status, StepNotTaken, kernels
 from chapsym.dynamics.oracle import Oracle, OracleFailed
 from chapsym.studies import check
-from chapsym.studies import extremes as study
-from chapsym.studies.extremes import arrays, cells, derived, elliptic, matrix, n_dim, reduced, states, steps
-from chapsym.studies.extremes.folds import fold_at
-from chapsym.studies.extremes.levels import LEVELS, NAMES, level, mp, number
-from chapsym.studies.extremes.truth import State, truth
+from research import extremes as study
+from research.extremes import arrays, formulas, judging, states, steps
+from research.extremes.judging import DOUBLE, ENCLOSURE, LEVELS, SINGLE, mp, number
+from research.extremes.truth import State, fold_at, truth, truth_n
 
 PINS = json.loads((Path(__file__).parent / "extremes.json").read_text(encoding="utf-8"))
 #: How verdicts are pinned, a letter for each precision.
 LETTERS = {"within": "w", "refused": "r", "failed": "f"}
 #: Of these one row in three, but for thorough runs; the rows of each group, by their numbers.
 SLOW = {"runs", "fold search", "elliptic", "inertia", "fold", "order", "extrapolate", "rotation"}
-NUMBERS = {group: [i for i, c in enumerate(matrix.CONDITIONS) if c.group == group] for group in matrix.GROUPS}
-TOGETHER = [group for group in matrix.GROUPS if group not in matrix.SHARED]
+TOGETHER = [group for group in study.GROUPS if group not in study.SHARED]
 GENERIC = State(states.J, states.D, states.K, states.G)
-DOUBLE, HEAVIEST = level("double"), "D = 1e15, momentum horizontal"
+HEAVIEST = "D = 1e15, momentum horizontal"
 
 
 def verdicts(found):
     """One letter for each precision, a dot where there is no cell."""
-    by_precision = {cell.rung: LETTERS[cell.verdict] for cell in found}
-    return "".join(by_precision.get(name, ".") for name in NAMES)
+    by_precision = {cell["rung"]: LETTERS[cell["verdict"]] for cell in found}
+    return "".join(by_precision.get(level.key, ".") for level in LEVELS)
 
 
 def test_every_row_is_pinned():
-    rows = {group: [c.name for c in matrix.CONDITIONS if c.group == group] for group in matrix.GROUPS}
+    rows = {name: list(group.rows) for name, group in study.GROUPS.items()}
     assert {group: list(named) for group, named in PINS.items()} == rows
-    assert len({(c.group, c.name) for c in matrix.CONDITIONS}) == len(matrix.CONDITIONS)
+    assert study.rows() == sum(map(len, PINS.values()))
 
 
-@pytest.mark.parametrize("groups", [*([group] for group in TOGETHER), [*matrix.SHARED]], ids="+".join)
+def test_long_runs_and_huge_batches_have_their_sizes_at_each_precision():
+    assert [level.long[1] for level in LEVELS] == [100_000_000, 100_000_000, 10_000_000, 10_000, 1000]
+    assert [level.huge[1] for level in LEVELS] == [4_000_000, 4_000_000, 400_000, 200, 200]
+
+
+@pytest.mark.parametrize("groups", [*([group] for group in TOGETHER), [*study.SHARED]], ids="+".join)
 def test_the_verdicts_are_those_that_are_pinned(groups, thorough):
     wrong, slow = [], not SLOW.isdisjoint(groups)
-    for index, condition in enumerate(matrix.CONDITIONS):
-        if condition.group in groups and (thorough or not slow or NUMBERS[condition.group].index(index) % 3 == 0):
-            found = matrix.row(index, NAMES, quick=not thorough)
-            if verdicts(found) != PINS[condition.group][condition.name]:
-                wrong += [(condition.group, condition.name, verdicts(found), [c.reason for c in found])]
+    for group in groups:
+        for i, condition in enumerate(study.GROUPS[group].rows):
+            if slow and not thorough and i % 3:
+                continue
+            found = study.row(group, condition, quick=not thorough)
+            if verdicts(found) != PINS[group][condition]:
+                wrong += [(group, condition, verdicts(found), [cell["reason"] for cell in found])]
             for cell in found:
-                assert cell.verdict == "within" or len(cell.reason.split()) >= 4, cell
+                assert cell["verdict"] == "within" or len(cell["reason"].split()) >= 4, cell
     assert wrong == []
 
 
 def judged(function):
     """The cell of a condition that is judged so."""
-    return cells.cell(cells.Condition("name", "group", lambda level, quick: function(), NAMES), DOUBLE, True)
+    return study.cell("group", "name", [lambda level, quick: function()], DOUBLE, True)
+
+
+def verdict_of(state):
+    """What is judged of a step in float64."""
+    return steps.judge(state, DOUBLE, True).verdict
 
 
 @pytest.mark.parametrize("part", [0, 1, 2])
 def test_a_step_that_is_a_little_wrong_fails(monkeypatch, part):
     honest = steps.taken
-    assert steps.judge(DOUBLE, GENERIC).verdict == "within"
+    assert verdict_of(GENERIC) == "within"
 
     def wrong(level, state):
         found = list(honest(level, state))
@@ -72,20 +82,20 @@ def test_a_step_that_is_a_little_wrong_fails(monkeypatch, part):
         return found
 
     monkeypatch.setattr(steps, "taken", wrong)
-    assert steps.judge(DOUBLE, GENERIC).verdict == "failed"
+    assert verdict_of(GENERIC) == "failed"
 
 
 def test_a_ball_that_excludes_the_truth_fails_though_it_is_near(monkeypatch):
-    honest, precision = steps.taken, level("Ball(200)")
-    assert steps.judge(precision, GENERIC).verdict == "within"
+    honest = steps.taken
+    assert steps.judge(GENERIC, ENCLOSURE, True).verdict == "within"
 
     def wrong(level, state):
         q, momentum, gamma = honest(level, state)
-        with precision.precision.working():
+        with ENCLOSURE.precision.working():
             return q, [x + flint.arb(2) ** -190 for x in momentum], gamma
 
     monkeypatch.setattr(steps, "taken", wrong)
-    found = steps.judge(precision, GENERIC)
+    found = steps.judge(GENERIC, ENCLOSURE, True)
     assert found.verdict == "failed"
     assert "excludes the truth" in found.reason
 
@@ -95,7 +105,7 @@ def test_a_ball_that_excludes_the_truth_fails_though_it_is_near(monkeypatch):
     [
         *((status, 0.5, lambda: GENERIC, "failed") for status in (Status.FOLDED, Status.UNREACHABLE)),
         *((status, 0.5, lambda: GENERIC, "failed") for status in (Status.NO_INERTIA, Status.NOT_CONVERGED)),
-        (Status.NOT_CONVERGED, 1.0, lambda: states.CONDITIONS["D"][HEAVIEST](DOUBLE)[0], "refused"),
+        (Status.NOT_CONVERGED, 1.0, lambda: states.CONDITIONS["D"][HEAVIEST][0], "refused"),
         (Status.UNREACHABLE, 0.5, lambda: states.beside_fold(-1e-8), "failed"),
     ],
 )
@@ -106,49 +116,49 @@ def test_a_refusal_that_is_not_true_fails(monkeypatch, status, reach, state, ver
         raise StepNotTaken(status, reach)
 
     monkeypatch.setattr(steps, "taken", refuses)
-    assert steps.judge(DOUBLE, state()).verdict == verdict
+    assert verdict_of(state()) == verdict
 
 
 def test_a_rotation_beyond_the_fold_fails(monkeypatch):
     before, beyond = states.beside_fold(1e-8), states.beside_fold(-1e-8)
-    assert steps.judge(DOUBLE, beyond).verdict == "refused"
+    assert verdict_of(beyond) == "refused"
     found = steps.taken(DOUBLE, before)
     monkeypatch.setattr(steps, "taken", lambda level, state: found)
-    assert steps.judge(DOUBLE, before).verdict == "within"
-    assert steps.judge(DOUBLE, beyond).verdict == "failed"
+    assert verdict_of(before) == "within"
+    assert verdict_of(beyond) == "failed"
 
 
 def test_a_refusal_without_a_sentence_an_error_a_warning_and_a_nan_fail():
-    assert judged(lambda: steps.refused("no", None)).verdict == "failed"
-    assert judged(lambda: 1 / 0).reason == "ZeroDivisionError: division by zero"
+    assert judged(lambda: judging.refused("no"))["verdict"] == "failed"
+    assert judged(lambda: 1 / 0)["reason"] == "ZeroDivisionError: division by zero"
 
     def warns():
         warnings.warn("overflow", stacklevel=1)
-        return cells.Judged("within")
+        return judging.Judged("within")
 
-    assert judged(warns).reason == "it warns: overflow"
+    assert judged(warns)["reason"] == "it warns: overflow"
     exact = [mp.mpf(1), mp.mpf(2)]
-    nothing = cells.compared(DOUBLE, [cells.Compared("x", [1.0, float("nan")], exact, 4)])
+    nothing = judging.compared(DOUBLE, None, judging.Compared("x", [1.0, float("nan")], exact, 4))
     assert "not finite" in nothing.reason
-    assert judged(lambda: nothing).verdict == "failed"
+    assert judged(lambda: nothing)["verdict"] == "failed"
 
 
 def test_the_worst_counts():
-    good, near, bad = cells.Judged("within", 1, 4), cells.Judged("within", 3, 4), cells.Judged("refused")
-    assert cells.worst([good, near]) is near
-    assert cells.worst([near, bad, good]) is bad
+    good, near, bad = judging.Judged("within", 1, 4), judging.Judged("within", 3, 4), judging.Judged("refused")
+    assert judging.worst([good, near]) is near
+    assert judging.worst([near, bad, good]) is bad
 
 
 def test_ulps_are_those_of_the_precision_and_a_promise_of_no_digit_is_none():
     one = [mp.mpf(1)]
     for precision, step in zip(LEVELS[:3], (2.0**-23, 2.0**-52, 2.0**-104), strict=True):
-        found = cells.compared(precision, [cells.Compared("x", [one[0] + 3 * mp.mpf(step)], one, 4)])
+        found = judging.compared(precision, None, judging.Compared("x", [one[0] + 3 * mp.mpf(step)], one, 4))
         assert found.ulps == 3
         assert found.verdict == "within"
-    tiny = cells.compared(DOUBLE, [cells.Compared("x", [1e-320], [mp.mpf(float("1e-320")) * 1.0001], 4)])
+    tiny = judging.compared(DOUBLE, None, judging.Compared("x", [1e-320], [mp.mpf(float("1e-320")) * 1.0001], 4))
     assert tiny.ulps < 1  # below the normal numbers an ulp is the least number
     for x, verdict in ((1.5, "failed"), (1.05, "within")):
-        assert cells.compared(DOUBLE, [cells.Compared("x", [x], [mp.mpf(1)], 1e20)]).verdict == verdict
+        assert judging.compared(DOUBLE, None, judging.Compared("x", [x], [mp.mpf(1)], 1e20)).verdict == verdict
 
 
 def test_kappa_is_that_of_check():
@@ -168,17 +178,18 @@ def test_the_fold_is_where_the_oracle_stops():
 @pytest.mark.parametrize("side", [-1, 1])
 def test_next_to_the_fold_is_one_number_away(side):
     at = number(0.0) + fold_at(states.J, states.D, states.DYADIC, states.AXIS)
-    for precision, spacing in (("single", 2.0**-21), ("double", 2.0**-50)):  # the fold is at 6.88
-        gap = (number(states.next_to_fold(level(precision), side).K[0]) - at) * side
+    for precision, spacing in ((SINGLE, 2.0**-21), (DOUBLE, 2.0**-50)):  # the fold is at 6.88
+        gap = (number(states.next_to_fold(side, precision).K[0]) - at) * side
         assert 0 < gap <= spacing
 
 
 def test_the_oracle_in_four_dimensions_solves_its_equation():
-    E, after, gamma, _ = n_dim.truth(n_dim.K, n_dim.G, n_dim.J, n_dim.D)
-    R, J = mp.eye(4) + mp.matrix([E[4 * i : 4 * i + 4] for i in range(4)]), mp.diag([*n_dim.J])
-    Gamma = mp.matrix(n_dim.G) * mp.matrix(n_dim.G).T
-    K = mp.matrix(Oracle(n_dim.J, n_dim.D, n_dim.G).skew(n_dim.K).tolist())
-    found = R * J - J * R.T + n_dim.D / 2 * (R * Gamma - Gamma * R.T + Gamma * R - R.T * Gamma)
+    state = states.FOUR["generic"][0]
+    E, after, gamma, _ = truth_n(state)
+    R, J = mp.eye(4) + mp.matrix([E[4 * i : 4 * i + 4] for i in range(4)]), mp.diag([*state.J])
+    Gamma = mp.matrix(state.g) * mp.matrix(state.g).T
+    K = mp.matrix(Oracle(state.J, state.D, state.g).skew(state.K).tolist())
+    found = R * J - J * R.T + state.D / 2 * (R * Gamma - Gamma * R.T + Gamma * R - R.T * Gamma)
     assert mp.norm(found - K) < mp.mpf(10) ** -38
     assert mp.norm(R.T * R - mp.eye(4)) < mp.mpf(10) ** -38
     assert mp.norm(mp.matrix(after) - mp.matrix(list(R.T * K * R))) < mp.mpf(10) ** -38
@@ -194,9 +205,12 @@ def unstable_velocity(K, g, J, D):
 
 def test_the_printed_form_of_the_velocity_fails_where_it_cancels(monkeypatch):
     monkeypatch.setattr(kernels, "angular_velocity", unstable_velocity)
-    assert derived.of("ω", "D = 3", DOUBLE, True).verdict == "within"
-    for condition in ("D = 1e6", "D = 1e12"):
-        assert derived.of("ω", condition, DOUBLE, True).verdict == "failed"
+    verdicts = {
+        condition: {formulas.derived(("ω", state), DOUBLE, True).verdict for state in formulas.DERIVED[condition]}
+        for condition in ("D = 3", "D = 1e6", "D = 1e12")
+    }
+    assert verdicts["D = 3"] == {"within"}
+    assert "failed" in verdicts["D = 1e6"] & verdicts["D = 1e12"]
 
 
 def test_a_step_by_the_printed_form_fails_where_it_cancels(monkeypatch):
@@ -211,14 +225,14 @@ def test_a_step_by_the_printed_form_fails_where_it_cancels(monkeypatch):
         return q * (np.array(state.K) @ g) / (back @ g), momentum, gamma  # the scale of q from the vertical part
 
     monkeypatch.setattr(steps, "taken", printed)
-    heavy = states.CONDITIONS["D"]["D = 1e12"](DOUBLE)[0]
-    assert steps.judge(DOUBLE, heavy).verdict == "failed"
+    heavy = states.CONDITIONS["D"]["D = 1e12"][0]
+    assert verdict_of(heavy) == "failed"
 
 
 def test_an_amplitude_by_a_difference_that_cancels_fails(monkeypatch):
-    state = elliptic.CONDITIONS["l at its upper end, 1e-8"][0]
-    assert elliptic.the_curve(DOUBLE, state).verdict == "within"
-    honest = elliptic.Curve.through
+    state = formulas.CURVES["l at its upper end, 1e-8"][0]
+    assert formulas.the_curve(state, DOUBLE).verdict == "within"
+    honest = formulas.Curve.through
 
     def naive(ball, gamma):
         curve = honest(ball, gamma)
@@ -227,24 +241,23 @@ def test_an_amplitude_by_a_difference_that_cancels_fails(monkeypatch):
         object.__setattr__(curve, "amplitudes", (curve.amplitudes[0], float(amplitude), curve.amplitudes[2]))
         return curve
 
-    monkeypatch.setattr(elliptic.Curve, "through", naive)
-    assert elliptic.the_curve(DOUBLE, state).verdict == "failed"
+    monkeypatch.setattr(formulas.Curve, "through", naive)
+    assert formulas.the_curve(state, DOUBLE).verdict == "failed"
 
 
 def test_a_fold_that_is_a_little_off_fails(monkeypatch):
-    honest = reduced.fold
-    monkeypatch.setattr(reduced, "fold", lambda *given: replace((f := honest(*given)), reach=f.reach * (1 + 1e-13)))
-    assert reduced.fold_search("generic", DOUBLE, True).verdict == "failed"
+    honest = steps.fold
+    monkeypatch.setattr(steps, "fold", lambda *given: replace((f := honest(*given)), reach=f.reach * (1 + 1e-13)))
+    assert steps.fold_search(states.FOLDS["generic"][0], DOUBLE, True).verdict == "failed"
 
 
 def test_a_refused_input_that_is_taken_fails():
-    assert arrays.refusals([lambda level: None], DOUBLE, True).verdict == "failed"
+    assert arrays.refusal(lambda level: None, DOUBLE, True).verdict == "failed"
 
     def refuses(level):
         raise BadInput("momentum must be finite, but it is nan")
 
-    assert arrays.refusals([refuses], DOUBLE, True).verdict == "refused"
-    assert arrays.refusals([refuses, lambda level: None], DOUBLE, True).verdict == "failed"
+    assert arrays.refusal(refuses, DOUBLE, True).verdict == "refused"
 
 
 def test_other_bits_and_a_changed_array_fail():
@@ -253,10 +266,10 @@ def test_other_bits_and_a_changed_array_fail():
 
 
 def test_json_says_what_the_cells_say():
-    found = matrix.row(0, NAMES, quick=True)
-    written = matrix.as_json(found, True)
-    assert written["rungs"] == list(NAMES)
-    assert written["counts"] == {"within": len(NAMES), "refused": 0, "failed": 0}
+    found = study.row("momentum", "generic", quick=True)
+    written = study.as_json(found, True)
+    assert written["rungs"] == ["single", "double", "quad", "Digits(50)", "Ball(200)"]
+    assert written["counts"] == {"within": 5, "refused": 0, "failed": 0}
     first = written["cells"][0]
     assert set(first) >= {"condition", "rung", "verdict", "ulps", "digits", "condition_number", "reason"}
     json.dumps(written, allow_nan=False)
@@ -285,7 +298,9 @@ def test_what_is_wrong_is_said_before_anything_is_computed(arguments, sentence):
 
 @pytest.mark.parametrize(("verdict", "told"), [("within", "✓ 15.0"), ("failed", "✗ a condition (double)")])
 def test_the_exit_status_is_1_if_a_cell_failed(monkeypatch, verdict, told):
-    cell = study.Cell("a condition", "fold", "double", verdict, 3.0, 4.0, 15.0, 1.0, "off" * (verdict == "failed"))
+    reason = "off" * (verdict == "failed")
+    judge = [lambda level, quick: judging.Judged(verdict, 3.0, 4.0, 15.0, 1.0, reason)]
+    cell = study.cell("fold", "a condition", judge, DOUBLE, True)
     monkeypatch.setattr(study, "extremes", lambda *_, **__: [cell])
     done = chapsym("extremes", "--quick")
     assert bool(done.returncode) == (verdict == "failed")

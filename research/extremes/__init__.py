@@ -1,0 +1,164 @@
+"""Where each precision breaks: a matrix of conditions and precisions, every cell computed and judged.
+
+A cell is `within` (its error is within the promise), `refused` (with a sentence), or `failed`.  Errors are in ulps of
+the precision, against the oracle's matrix equation in mpmath or another reference that shares no formula with it.
+The promise of a step is that of `check`, 4κ ulps, with κ the condition number of the state; those with guard digits
+promise as if κ were 1.
+"""
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, replace
+from functools import partial
+from math import isfinite
+from typing import Any, NamedTuple
+
+from chapsym import jobs
+from chapsym.dynamics.levels.frames import cores
+
+from . import arrays, formulas, runs, states, steps
+from .judging import BUDGET, DOUBLE, FAILED, LEVELS, ORDER, Judge, Judged, Level, worst
+
+#: A condition at a precision, as JSON has it, but that numbers may be infinite.
+Cell = dict[str, Any]
+
+
+class Group(NamedTuple):
+    """Rows of the matrix: what is judged under each condition, and the columns that have this path."""
+
+    title: str
+    rows: Mapping[str, Sequence[Judge]]
+    levels: Sequence[Level] = LEVELS
+
+
+def _each(judge: Callable[..., Judged], items: Mapping[str, Sequence[Any]]) -> dict[str, list[Judge]]:
+    return {name: [partial(judge, item) for item in those] for name, those in items.items()}
+
+
+def _of_each(judge: Callable[..., Judged], names: Sequence[str], items: Mapping[str, Any]) -> dict[str, list[Judge]]:
+    """A row for each quantity and condition."""
+    return _each(judge, {
+        f"{quantity}: {name}": [(quantity, state) for state in those]
+        for quantity in names
+        for name, those in items.items()
+        if quantity == "increment" or name != "increments 1e-12"
+    })  # fmt: skip
+
+
+_STARTS = {name: [state] for name, state in states.STARTS.items()}
+_STEPS = {name: _each(steps.judge, items) for name, items in states.CONDITIONS.items()}
+_UNBLURRED = tuple(level for level in LEVELS if not level.guarded)
+_DOUBLE = (DOUBLE,)
+
+#: The groups, in the order of the table.
+GROUPS = {
+    "momentum": Group("One step: the size of the momentum", _STEPS["momentum"]),
+    "rotation": Group("One step: large rotations", _STEPS["rotation"]),
+    "fold": Group("One step: beside the fold of the branch", _STEPS["fold"]),
+    "D": Group("One step: D beside the inertia", _STEPS["D"]),
+    "inertia": Group("One step: the shape of the body", _STEPS["inertia"]),
+    "directions": Group("One step: directions of γ and of the momentum", _STEPS["directions"]),
+    "runs": Group("Ten steps of a trajectory, beside ten of the oracle", _each(runs.ten_steps, _STARTS)),
+    "batch": Group(
+        "The same in a batch of 4096", _each(partial(runs.ten_steps, balls=runs.BATCH), _STARTS), _UNBLURRED
+    ),
+    "order": Group(
+        "One step of the composition of order 8 (of order 4 when quick)",
+        _each(runs.composed, _STARTS | {"at 0.8 of the fold": [runs.near_its_fold]}),
+    ),
+    "reverse": Group("Ten steps, and back", _each(runs.way_back, _STARTS), _DOUBLE),
+    "long": Group(
+        "Drift of ⟨𝒦,γ⟩, |𝒦|² and |γ|² in a long run",
+        _each(runs.long_run, {f"ε = {size:g}": [size] for size in (1e-3, 0.05, 0.4)}),
+    ),
+    "extrapolate": Group("One long step, extrapolated", _each(runs.extrapolated, runs.LONG), _DOUBLE),
+    "derived": Group(
+        "ω, the energy, and 𝒦 of ω", _of_each(formulas.derived, [*formulas.QUANTITIES], formulas.DERIVED), _DOUBLE
+    ),
+    "fold search": Group("Where the branch folds", _each(steps.fold_search, states.FOLDS), _DOUBLE),
+    "vertical": Group("One step of the reduced map G_h", _each(steps.vertical, states.VERTICAL), _DOUBLE),
+    "elliptic": Group(
+        "The curve in Jacobi's functions, and the exact top",
+        _of_each(formulas.elliptic, [*formulas.ELLIPTIC], formulas.CURVES), _DOUBLE,
+    ),
+    "n = 4": Group("One step in four dimensions", _each(steps.four, states.FOUR), _DOUBLE),
+    "arrays": Group(
+        "What is given: made otherwise, the same bits",
+        {
+            **_each(arrays.same, {name: [make] for name, make in arrays.MAKES.items()}),
+            **{name: [judge] for name, judge in arrays.WHOLE.items()},
+        },
+    ),
+    "input": Group("What is given: no numbers, no states", _each(arrays.refusal, arrays.INPUT)),
+}  # fmt: skip
+#: Groups whose rows of one name are about the same run.
+SHARED = ("runs", "batch", "reverse")
+
+
+def cell(group: str, condition: str, judges: Sequence[Judge], level: Level, quick: bool) -> Cell:
+    """The worst that is judged; an exception that is no refusal is a failure, whatever it is, and so is a warning."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        try:
+            found = worst([judge(level, quick) for judge in judges])
+        except Exception as error:
+            found = Judged(FAILED, reason=f"{type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}")
+    if said and found.verdict != FAILED:
+        found = replace(found, verdict=FAILED, reason=f"it warns: {said[0].message}")
+    return {"condition": condition, "group": group, "rung": level.key, **asdict(found)}
+
+
+def row(group: str, condition: str, quick: bool) -> list[Cell]:
+    """The cells of one condition, at the precisions that have its path."""
+    _, rows, levels = GROUPS[group]
+    return [cell(group, condition, rows[condition], level, quick) for level in levels]
+
+
+def extremes(
+    quick: bool = False, groups: Sequence[str] | None = None, on_row: Callable[[int], None] = lambda done: None
+) -> list[Cell]:
+    """All cells, row by row, computed side by side on the cores; `on_row` is told how many rows are done.
+
+    quick: shorter runs and smaller batches; groups: which rows, all by default.
+    """
+    wanted = _named(groups)
+    tasks: dict[Any, list[tuple[str, str]]] = {}  # rows with the same reference together: it is computed once
+    for group, condition in wanted:
+        tasks.setdefault(condition if group in SHARED else (group, condition), []).append((group, condition))
+    found: dict[tuple[str, str], list[Cell]] = {}
+
+    def chain(those: list[tuple[str, str]]) -> jobs.Chain:
+        found.update((yield jobs.Call(_some, (those, quick))))
+        on_row(len(found))
+
+    with jobs.processes(cores()) as crew:
+        jobs.run(map(chain, tasks.values()), crew)
+    return [one for name in wanted for one in found[name]]
+
+
+def _some(those: Sequence[tuple[str, str]], quick: bool) -> dict[tuple[str, str], list[Cell]]:
+    return {name: row(*name, quick) for name in those}
+
+
+def _named(groups: Sequence[str] | None) -> list[tuple[str, str]]:
+    """The rows of some groups, all by default, in the order of the table."""
+    return [(name, one) for name, group in GROUPS.items() if groups is None or name in groups for one in group.rows]
+
+
+def rows(groups: Sequence[str] | None = None) -> int:
+    """How many rows there are in some groups, in all by default."""
+    return len(_named(groups))
+
+
+def as_json(cells: Sequence[Cell], quick: bool) -> dict[str, Any]:
+    """The matrix for --json, where no number is NaN or infinite."""
+    return {
+        "quick": quick,
+        "budget_ulps": BUDGET,
+        "rungs": [level.key for level in LEVELS if any(one["rung"] == level.key for one in cells)],
+        "groups": {name: group.title for name, group in GROUPS.items() if any(one["group"] == name for one in cells)},
+        "counts": {verdict: sum(one["verdict"] == verdict for one in cells) for verdict in ORDER},
+        "cells": [
+            {name: None if isinstance(x, float) and not isfinite(x) else x for name, x in one.items()} for one in cells
+        ],
+    }

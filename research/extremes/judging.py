@@ -1,0 +1,189 @@
+"""The precisions as columns of the matrix, and one comparison: an error, in ulps of the precision, and its promise."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import flint
+import mpmath
+
+from chapsym.dynamics import BadInput, StepNotTaken
+from chapsym.numbers import Digits, Double, DoubleDouble, Enclosure, Pair, Precision, Single
+
+#: Everything is compared with so many digits.
+mp = mpmath.MPContext()
+mp.dps = 140
+#: The truth is known to this, relatively, and better.
+KNOWN = mp.mpf(10) ** -80
+WITHIN, REFUSED, FAILED = "within", "refused", "failed"
+#: From bad to worse.
+ORDER = (WITHIN, REFUSED, FAILED)
+#: Ulps that are promised, times what the condition asks for; as in `check`: 8 roundings of half an ulp.
+BUDGET = 4.0
+#: An error above this, relatively, leaves no digit: then a refusal would be right.
+NO_DIGIT = 0.1
+
+
+@dataclass(frozen=True)
+class Level:
+    """A precision, one column.
+
+    key: its name in JSON.  unit: an ulp relative to the size of a vector; least: the smallest number, below which
+    nothing is resolved; digits: the decimal digits that its numbers have.
+    long, huge: steps of a long run and balls of a huge batch, quick and full.
+    guarded: whether guard digits absorb the condition number, so that the promise does not know it.
+    compensated: whether the sums of a run are, so that only the roundings of increments add up.
+    """
+
+    name: str
+    key: str
+    precision: Precision
+    unit: Fraction
+    least: Fraction
+    digits: float
+    long: tuple[int, int]
+    huge: tuple[int, int]
+    guarded: bool = False
+    compensated: bool = False
+
+    def spacing(self, size: Any) -> Any:
+        """An ulp of numbers of this size, as an mpf."""
+        return max(number(self.unit) * abs(size), number(self.least))
+
+
+SINGLE = Level(
+    "single", "single", Single(), Fraction(1, 2**23), Fraction(1, 2**149), 7.2,
+    long=(100_000, 100_000_000), huge=(100_000, 4_000_000), compensated=True,
+)  # fmt: skip
+DOUBLE = Level(
+    "double", "double", Double(), Fraction(1, 2**52), Fraction(1, 2**1074), 16.0,
+    long=(100_000, 100_000_000), huge=(100_000, 4_000_000), compensated=True,
+)  # fmt: skip
+DOUBLE_DOUBLE = Level(
+    "double-double", "quad", DoubleDouble(), Fraction(1, 2**104), Fraction(1, 2**1074), 31.3,
+    long=(10_000, 10_000_000), huge=(5000, 400_000),
+)  # fmt: skip
+DIGITS = Level(
+    "Digits(50)", "Digits(50)", Digits(50), Fraction(1, 10**49), Fraction(0), 50.0,
+    long=(100, 10_000), huge=(20, 200), guarded=True,
+)  # fmt: skip
+ENCLOSURE = Level(
+    "Enclosure(200)", "Ball(200)", Enclosure(200), Fraction(1, 2**199), Fraction(0), 60.2,
+    long=(100, 1000), huge=(20, 200), guarded=True,
+)  # fmt: skip
+LEVELS = (SINGLE, DOUBLE, DOUBLE_DOUBLE, DIGITS, ENCLOSURE)
+
+
+def number(value: Any) -> Any:
+    """The exact value of a number of any precision, as an mpf; of an enclosure its centre."""
+    if isinstance(value, Fraction):
+        return mp.mpf(value.numerator) / value.denominator
+    if isinstance(value, flint.arb):
+        mantissa, exponent = value.mid().man_exp()
+        return mp.ldexp(mp.mpf(int(mantissa)), int(exponent))
+    if isinstance(value, Pair):
+        return mp.mpf(value.high) + value.low
+    return mp.make_mpf(value._mpf_) if hasattr(value, "_mpf_") else mp.mpf(float(value))
+
+
+def radius(value: Any) -> Any:
+    """How far the number may be from the truth, by its own account: 0 unless it is an enclosure."""
+    return number(value.rad()) if isinstance(value, flint.arb) else mp.zero
+
+
+def finite(values: Iterable[Any]) -> bool:
+    """Whether all are numbers: no NaN, no infinity, no enclosure without bounds."""
+    return all(x.is_finite() if isinstance(x, flint.arb) else bool(mp.isfinite(number(x))) for x in values)
+
+
+def whole(found: Any, name: str) -> Any:
+    """An array of a step or a run; with both halves of each number of double-double."""
+    high = getattr(found, name)
+    if found.low is None:
+        return high
+    pairs = [Pair(float(a), float(b)) for a, b in zip(high.flat, getattr(found.low, name).flat, strict=True)]
+    whole = high.astype(object)
+    whole.flat = pairs
+    return whole
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One comparison, or the worst of several; but for the condition, its fields are those of a cell in JSON.
+
+    ulps: the error in ulps of the precision; promised: how many were; digits: correct decimal digits, relative.
+    condition_number: κ of the state, or of what was computed from it.  reason: one line, for all but `within`.
+    """
+
+    verdict: str
+    ulps: float | None = None
+    promised: float | None = None
+    digits: float | None = None
+    condition_number: float | None = None
+    reason: str = ""
+
+
+#: Judges one thing at a precision, quickly or in full.
+Judge = Callable[[Level, bool], Judged]
+
+
+def worst(found: Sequence[Judged]) -> Judged:
+    """The worst verdict, and of the same the one that comes nearest to its promise."""
+
+    def badness(one: Judged) -> tuple[int, float]:
+        share = one.ulps / one.promised if one.ulps is not None and one.promised else 0.0
+        return ORDER.index(one.verdict), share
+
+    return max(found, key=badness)
+
+
+def refused(sentence: str, kappa: float | None = None) -> Judged:
+    """A refusal; one without a sentence is a failure."""
+    verdict = REFUSED if len(sentence.split()) >= 4 else FAILED
+    return Judged(verdict, condition_number=kappa, reason=sentence or "refused without a reason")
+
+
+def unless_refused(kappa: float | None, judge: Callable[[], Judged]) -> Judged:
+    """What `judge` finds, or the refusal that it meets."""
+    try:
+        return judge()
+    except (BadInput, StepNotTaken) as refusal:
+        return refused(str(refusal), kappa)
+
+
+class Compared(NamedTuple):
+    """A vector beside the truth, with the error that is promised in ulps of its size: its largest component."""
+
+    name: str
+    found: Iterable[Any]
+    truth: Sequence[Any]
+    promised: float
+    size: Any = None  # unless it is said
+
+
+def compared(level: Level, kappa: float | None, *vectors: Compared) -> Judged:
+    """Every vector beside its truth: an enclosure must contain it, and its radius is its error."""
+    return worst([_one(level, kappa, *vector) for vector in vectors])
+
+
+def _one(
+    level: Level, kappa: float | None, name: str, found: Iterable[Any], truth: Sequence[Any], promised: float, size: Any
+) -> Judged:
+    found = [*found]
+    if not finite(found):
+        return Judged(FAILED, reason=f"{name} is not finite, and no reason is given")
+    size = max((abs(x) for x in truth), default=mp.zero) if size is None else size
+    away = [abs(number(x) - t) for x, t in zip(found, truth, strict=True)]
+    radii = [radius(x) for x in found]
+    error, spacing = max([*away, *radii]), level.spacing(size)
+    ulps = float(error / spacing) if spacing else 0.0 if error == 0 else float("inf")
+    digits = float(-mp.log10(error / size)) if error and size else None
+    reason = ""
+    if any(r and a > r + KNOWN * size for a, r in zip(away, radii, strict=True)):
+        reason = f"the ball of {name} excludes the truth"
+    elif ulps > promised:
+        reason = f"{name} is wrong by {ulps:.3g} ulps; {promised:.3g} are promised"
+    elif error > number(NO_DIGIT) * size and error > spacing:
+        reason = f"no digit of {name} is right, as {promised:.3g} ulps are all that is promised"
+    return Judged(FAILED if reason else WITHIN, ulps, promised, digits, kappa, reason)
