@@ -55,14 +55,20 @@ def drawn(count: int, seed: int, end: float | None = None) -> list[Problem]:
     draw = np.random.default_rng(seed)
     found = []
     for _ in range(count):
-        J = 10.0 ** draw.uniform(-3, -1.5, 3)
-        mass, radius = draw.uniform(0.2, 8), draw.uniform(0.03, 0.2)
-        gamma, direction = (x / np.linalg.norm(x) for x in draw.normal(size=(2, 3)))
-        omega, time_span = direction * 10.0 ** draw.uniform(-0.5, 0.8), float(10.0 ** draw.uniform(0, 2.5))
+        ball, omega, gamma = rolling(draw)
+        time_span = float(10.0 ** draw.uniform(0, 2.5))
         frames = int(draw.choice([1, 10, 100, 1000]))
-        ball = chapsym.Ball.from_mass_tensor(J, mass=mass, radius=radius)
         found.append(Problem(ball, omega, gamma, end or time_span, frames if end is None else 1))
     return found
+
+
+def rolling(draw: np.random.Generator) -> tuple[chapsym.Ball, np.ndarray, np.ndarray]:
+    """A ball, its ω and its γ."""
+    J = 10.0 ** draw.uniform(-3, -1.5, 3)
+    mass, radius = draw.uniform(0.2, 8), draw.uniform(0.03, 0.2)
+    gamma, direction = (x / np.linalg.norm(x) for x in draw.normal(size=(2, 3)))
+    ball = chapsym.Ball.from_mass_tensor(J, mass=mass, radius=radius)
+    return ball, direction * 10.0 ** draw.uniform(-0.5, 0.8), gamma
 
 
 def rolled(p: Problem, accuracy: float) -> States:
@@ -99,14 +105,14 @@ def own_methods(p: Problem, truth: States, accuracy: float, contact: bool = True
     sides: dict[str, tuple[int, Callable[..., States]]] = {"extrapolate": (12, extrapolated)}
     for name, (order, side) in (sides | {f"order {o}": (o, partial(composed, order=o)) for o in ORDERS}).items():
         run = partial(side, p, contact=contact)
-        steps, took = _fewest(lambda n, run=run: p.error(run(n), truth), accuracy, order, first, 2 * dearest)  # type: ignore[misc]
+        steps, took = fewest(lambda n, run=run: p.error(run(n), truth), accuracy, order, first, 2 * dearest)  # type: ignore[misc]
         if steps:
             dearest = min(dearest, took)
             found[name] = partial(run, steps)
     return found
 
 
-def _fewest(error: Callable[[int], float], accuracy: float, order: int, first: int, limit: float) -> tuple[int, float]:
+def fewest(error: Callable[[int], float], accuracy: float, order: int, first: int, limit: float) -> tuple[int, float]:
     """The fewest steps of a method that meet an accuracy, up to a tenth, and the seconds; 0 where they take longer."""
 
     def tried(steps: int) -> tuple[float, float]:

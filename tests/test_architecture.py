@@ -32,10 +32,7 @@ ROOMS = {
     "accuracy": {"dynamics", "files", "generated", "numbers", "renamed"},
     "jobs": {"dynamics", "extras", "workers"},
     "scene": {"accuracy", "dynamics", "rationals", "extras", "files", "generated", "jobs", "numbers"},
-    "studies": {
-        "accuracy", "dynamics", "extras", "files", "generated", "jobs", "numbers", "renamed", "scene", "show",
-        "sources", "workers",
-    },
+    "studies": {"dynamics", "files", "generated", "jobs", "show", "sources"},
     "proofs": {"certificates", "checker", "codegen", "derive", "dynamics", "prove"},
     "report": {"extras", "files"},
     "show": {"dynamics", "extras", "files", "scene"},

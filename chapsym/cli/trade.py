@@ -225,9 +225,9 @@ def _to_estimate(name: str, values: list[Any], of: str, estimate: float) -> str:
 
 
 def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -> None:
-    from chapsym.studies import trade as study
-    from chapsym.studies.harness import NotComparable
+    from chapsym.studies.harness import NotComparable, in_checkout
 
+    study = in_checkout("benchmarks", "trade")
     sections = list(dict.fromkeys(wanted or study.DRAWN))
     for name in sections:
         if name not in study.SECTIONS:
@@ -250,8 +250,8 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
         measured.write(output, "Speed against accuracy", ABOUT, tables, _shown)
     elif output is not None:
         from chapsym.studies.figures import save_figure
-        from chapsym.studies.trade.figure import draw
 
+        draw = in_checkout("benchmarks", "trade.figure").draw
         save_figure(draw, {name: found[name] for name in study.DRAWN if name in found}, output)
     if as_json:
         print_json(study.as_json(found, quick))

@@ -10,6 +10,7 @@ import pytest
 
 import chapsym
 import chapsym.numbers
+from benchmarks.trade.reference import continuous, true_error, truth
 from chapsym.accuracy import Method, Request, accurate, answer, distance, take
 from chapsym.accuracy.request import exact_values
 from chapsym.dynamics import BadInput, kernels
@@ -17,8 +18,6 @@ from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS
 from chapsym.numbers import NAMED
-from chapsym.studies.trade.reference import continuous
-from chapsym.studies.trade.requests import true_error, truth
 
 BALL = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
 GAMMA = np.array([2.0, 3.0, 6.0]) / 7

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import chapsym
+from benchmarks.trade.reference import continuous
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.derive.composition import defects, product, step_series, words
 from chapsym.dynamics import kernels
@@ -15,7 +16,6 @@ from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import double_double_loop, gibbs, loop
 from chapsym.dynamics.loops.guess import stage_weights
-from chapsym.studies.trade.reference import continuous
 
 BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 GAMMA = np.array([2, 3, 6]) / 7

@@ -8,11 +8,11 @@ import pytest
 from plain import in_plain_python
 
 import chapsym
+from benchmarks.trade.reference import continuous
 from chapsym.dynamics import extrapolation, kernels
 from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.loops import lanes, long_run
 from chapsym.dynamics.loops.fitted import fitted, half_angle, turn_square
-from chapsym.studies.trade.reference import continuous
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
 K = np.array([1, -0.5, 0.75]) / np.sqrt(1 + 0.25 + 0.5625)

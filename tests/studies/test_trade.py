@@ -14,17 +14,17 @@ from commands import chapsym as command
 from first import BALL, FIRST
 from reference import cross
 
+from benchmarks import trade
+from benchmarks.trade import reference
+from benchmarks.trade.figure import draw
+from benchmarks.trade.frontier import Frontier, Point, digits_of
+from benchmarks.trade.frontiers import name_of, reference_n
+from benchmarks.trade.reference import continuous, sample, true_error, truth
+from benchmarks.trade.requests import Outcomes, measure
 from chapsym.accuracy import Method, methods, take
 from chapsym.cli.trade import print_answer
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.numbers import NAMED
-from chapsym.studies import trade
-from chapsym.studies.trade import four, reference
-from chapsym.studies.trade.balls import name_of
-from chapsym.studies.trade.figure import draw
-from chapsym.studies.trade.frontier import Frontier, Point, digits_of
-from chapsym.studies.trade.reference import continuous, sample
-from chapsym.studies.trade.requests import Outcomes, measure, true_error, truth
 
 #: An accuracy and a time; of an option that is given twice the last counts.
 ASKED = ["--accuracy", "1e-6", "--time", "3"]
@@ -37,7 +37,7 @@ POINTS = [
 
 
 def test_the_frontier_and_what_is_dominated_and_equal_points_are_not():
-    found = Frontier("t", "q", POINTS)
+    found = Frontier("t", "q", POINTS, [])
     assert [(p.name, p.digits) for p in found.best] == [("a, order 2", 3.0), ("b, order 4", 8.0)]
     assert found.dominated == {"c, order 6": "b, order 4"}
     assert found.cheapest(3.5) == POINTS[2]
@@ -47,7 +47,7 @@ def test_the_frontier_and_what_is_dominated_and_equal_points_are_not():
     assert [p["frontier"] for p in plain["points"]] == [True, False, True, False]
     json.dumps(plain, allow_nan=False)
     twins = [Point("a, order 2", 0.1, 1.0, 1.0, 3.0), Point("b, order 4", 0.1, 1.0, 1.0, 3.0)]
-    assert Frontier("t", "q", twins).dominated == {}
+    assert Frontier("t", "q", twins, []).dominated == {}
     assert [digits_of(x, 30) for x in (1e-5, 0.0, 2.0)] == pytest.approx([5, 30, 0])
 
 
@@ -113,11 +113,11 @@ def test_a_reference_without_its_digits_is_told(monkeypatch):
 
 def test_the_reference_of_n_4_is_checked(monkeypatch):
     with pytest.raises(trade.NotComparable, match="does not settle"):
-        four._reference((4, 5))
+        reference_n((4, 5))
 
 
 def test_a_figure_is_drawn(tmp_path):
-    drawn = draw({"contact": Frontier("t", "q of 𝒦", POINTS), "n4": Frontier("u", "q", POINTS[:2])})
+    drawn = draw({"contact": Frontier("t", "q of 𝒦", POINTS, []), "n4": Frontier("u", "q", POINTS[:2], [])})
     drawn.savefig(tmp_path / "figure.svg")
     text = (tmp_path / "figure.svg").read_text()
     assert text.startswith("<?xml")
@@ -127,7 +127,7 @@ def test_a_figure_is_drawn(tmp_path):
 
 def test_every_way_that_is_measured_has_a_colour():
     ways = [name_of(method) for precision in NAMED.values() for method in methods(sample("contact", 1.0), precision)]
-    draw({"contact": Frontier("t", "q", [Point(way, 0.1, 1.0, 10.0, 3.0) for way in ways])})
+    draw({"contact": Frontier("t", "q", [Point(way, 0.1, 1.0, 10.0, 3.0) for way in ways], [])})
     assert any("order 24" in way for way in ways)
 
 

@@ -1,19 +1,23 @@
 """The continuous ball (2.3) with its contact point, to proved digits: it shares no formula of motion with the map."""
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
 
 from chapsym.accuracy import Request
-from chapsym.dynamics import Ball, certified_motion
+from chapsym.accuracy.methods import CHECKS
+from chapsym.accuracy.request import exact_values, lengths
+from chapsym.dynamics import Ball, Trajectory, certified_motion
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.levels.start import fraction
-
-from ..harness import NotComparable
+from chapsym.studies.harness import NotComparable
 
 #: Seconds after which there is no reference.
 LONGEST = 3600.0
+#: The reference has so many digits beyond the accuracy, and those that the flow may cost.
+BEYOND = 3
 
 
 def sample(of: str, time: float) -> Request:
@@ -38,3 +42,21 @@ def continuous(
     contact = found.contact if found.contact is not None else np.zeros((len(times), 2), int)
     rows = np.hstack([found.angular_momentum, found.gamma, contact])
     return np.vectorize(lambda x: fraction(x) if x else Fraction(0), otypes=[object])(rows)
+
+
+def truth(request: Request, digits: int = 0) -> np.ndarray:
+    """K, γ and the contact point at the times of comparison, (checks + 1, 8) Fractions."""
+    wanted = digits or math.ceil(-math.log10(request.accuracy) + math.log10(1 + request.angle)) + BEYOND
+    times = [Fraction(request.time) * k / CHECKS for k in range(CHECKS + 1)]
+    attitude = None if isinstance(request.attitude, bool | np.bool_) else request.attitude
+    return continuous(request.ball, request.angular_momentum, request.gamma, attitude, times, wanted)
+
+
+def true_error(request: Request, run: Trajectory, exact: np.ndarray) -> float:
+    """The error of a run in the request's norm, at the worst time of comparison that is a frame of the run."""
+    exact = exact[:: CHECKS // (len(run.index) - 1)]
+    if request.of == "contact":
+        return float(lengths(exact_values(request, run, "contact") - exact[:, 6:]).max())
+    size = float(lengths(request.angular_momentum))
+    momentum = lengths(exact_values(request, run, "momentum") - exact[:, :3]) / size
+    return float(max(momentum.max(), lengths(exact_values(request, run, "gamma") - exact[:, 3:6]).max()))

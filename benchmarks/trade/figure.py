@@ -26,47 +26,40 @@ def draw(found: dict[str, Frontier]) -> Picture:
     columns = min(2, len(found))
     rows = -(-len(found) // columns)
     figure, axes = style.new("", rows, columns, height=PANEL[1] + 0.9 / rows, width=PANEL[0] * columns)
-    precisions = list(dict.fromkeys(_precision(p) for one in found.values() for p in one.points))
-    markers = {precision: MARKERS.get(precision, "h") for precision in precisions}
     for axis, one in zip(axes, found.values(), strict=False):
-        _panel(axis, one, markers)
+        _panel(axis, one)
     for axis in axes[len(found) :]:
         axis.set_visible(False)
-    figure.legend(handles=_legend(found, markers), loc="outside lower center", ncols=6)
+    ways = [_way(point) for one in found.values() for point in one.points]
+    handles = [
+        *(_sign(f"order {order}", COLOURS[order], "o") for order in sorted({order for _, order in ways}, key=int)),
+        *(_sign(in_words(name), "0.3", MARKERS.get(name, "h")) for name in dict.fromkeys(name for name, _ in ways)),
+        Line2D([], [], color="0.35", linewidth=1, label="frontier"),
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=6)
     return figure
 
 
-def _panel(axis: Any, one: Frontier, markers: dict[str, str]) -> None:
+def _panel(axis: Any, one: Frontier) -> None:
     best = one.best
     for point in one.points:
-        on = point in best
+        on, (precision, order) = point in best, _way(point)
         axis.plot(
-            point.digits, point.per_time * 1e6, marker=markers[_precision(point)], color=COLOURS[_order(point)],
+            point.digits, point.per_time * 1e6, marker=MARKERS.get(precision, "h"), color=COLOURS[order],
             markersize=7 if on else 5, alpha=1.0 if on else 0.55, linestyle="none",
             markeredgecolor="black" if on else "none", markeredgewidth=0.8, zorder=3 if on else 2,
         )  # fmt: skip
     axis.step([p.digits for p in best], [p.per_time * 1e6 for p in best], where="pre", color="0.35", linewidth=1)
-    axis.set(yscale="log", title=one.title, xlabel=_wrapped(one.question), ylabel="µs a unit of simulated time")
+    question = textwrap.fill(one.question.replace("𝒦", "K"), 56)
+    axis.set(yscale="log", title=one.title, xlabel=question, ylabel="µs a unit of simulated time")
     axis.yaxis.set_minor_formatter(NullFormatter())
 
 
-def _legend(found: dict[str, Frontier], markers: dict[str, str]) -> list[Any]:
-    orders = sorted({_order(p) for one in found.values() for p in one.points}, key=int)
-    shown = [Line2D([], [], color=COLOURS[o], marker="o", linestyle="none", label=f"order {o}") for o in orders]
-    shown += [
-        Line2D([], [], color="0.3", marker=m, linestyle="none", label=in_words(precision))
-        for precision, m in markers.items()
-    ]
-    return [*shown, Line2D([], [], color="0.35", linewidth=1, label="frontier")]
+def _sign(label: str, colour: str, marker: str) -> Line2D:
+    return Line2D([], [], color=colour, marker=marker, linestyle="none", label=label)
 
 
-def _precision(point: Point) -> str:
-    return point.name.partition(",")[0]
-
-
-def _order(point: Point) -> str:
-    return point.name.split("order ")[1].split(",")[0]
-
-
-def _wrapped(text: str) -> str:
-    return "\n".join(textwrap.wrap(text.replace("𝒦", "K"), 56))
+def _way(point: Point) -> tuple[str, str]:
+    """The precision and the order."""
+    precision, _, order = point.name.partition(", order ")
+    return precision, order
