@@ -48,7 +48,7 @@ class WithLinks(sdist):
 
     def make_release_tree(self, base_dir: str, files: list[str]) -> None:
         super().make_release_tree(base_dir, files)
-        for link in filter(Path.is_symlink, Path("chapsym").rglob("*")):
+        for link in filter(Path.is_dir, filter(Path.is_symlink, Path("chapsym").rglob("*"))):
             copy = Path(base_dir, link)
             shutil.rmtree(copy)
             copy.symlink_to(link.readlink())

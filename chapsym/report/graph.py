@@ -31,6 +31,11 @@ def svg(records: Sequence[Record]) -> Markup:
     )
 
 
+def titles(records: Sequence[Record]) -> dict[str, str]:
+    """The title of each claim, which the script of the page shows."""
+    return {record["id"]: record["evidence"]["title"] for record in records}
+
+
 def _rows(records: Sequence[Record]) -> tuple[dict[str, int], list[tuple[int, str]], int]:
     """The height of each claim and of each heading, and the whole height."""
     rows: dict[str, int] = {}

@@ -4,8 +4,8 @@ A section that cannot be rendered shows its own error in its place, and the rest
 """
 
 import re
-from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Mapping, Sequence
+from functools import cache
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -23,142 +23,73 @@ FOLDER = Path(__file__).parent / "templates"
 #: How many links a list shows before it folds.
 _MANY = 8
 
+#: The sections of the page: anchor, title, and template.
+SECTIONS = {
+    "errata": ("Errata", "errata.html"),
+    "open": ("Open questions", "open.html"),
+    "graph": ("What uses what", "graph.html"),
+    "claims": ("Claims", "claims.html"),
+    "symbols": ("Symbols", "symbols.html"),
+}
+
 
 def html(
     records: Sequence[Record], versions: Mapping[str, str], date: str | None = None, source: Source = FEDOROV
 ) -> str:
     """The whole page; the same records and versions give the same bytes."""
-    page = _Page(records, versions, source)
-    sections = {name: both for name, both in SECTIONS.items() if name != "symbols" or source == FEDOROV}
+    page = Page(records, versions, source)
+    shown = {name: both for name, both in SECTIONS.items() if name != "symbols" or source == FEDOROV}
     return page.render(
-        "page.html",
-        style=Markup((FOLDER / "style.css").read_text(encoding="utf-8")),
-        script=Markup((FOLDER / "script.js").read_text(encoding="utf-8")),
-        body=[(name, title, page.section(name, title, write)) for name, (title, write) in sections.items()],
-        summary=page.section("summary", "Summary", summary),
-        versions=versions,
-        date=date,
-    )
+        "page.html", style=style(), script=Markup((FOLDER / "script.js").read_text(encoding="utf-8")), date=date,
+        body=[(name, title, page.section(name, title, template)) for name, (title, template) in shown.items()],
+        summary=page.section("summary", "Summary", "summary.html"),
+    )  # fmt: skip
 
 
 def templates(*folders: Path) -> Environment:
     """The templates of the room, and of more folders."""
-    return Environment(
+    found = Environment(
         loader=FileSystemLoader([*folders, FOLDER]), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,
     )  # fmt: skip
+    found.filters["prose"] = prose
+    return found
 
 
-class _Page:
+def style(*more: Path) -> Markup:
+    """The style of the pages, and more."""
+    return Markup("".join(path.read_text(encoding="utf-8") for path in (FOLDER / "style.css", *more)))
+
+
+class Page:
     """The records, and the templates with what they need to show them."""
 
     def __init__(self, records: Sequence[Record], versions: Mapping[str, str], source: Source = FEDOROV) -> None:
-        self.records = records
-        self.versions = versions
-        self.source = source
         self._templates = templates()
         self._templates.globals |= {
-            "VERDICTS": reading.VERDICTS, "MANY": _MANY, "source": source, "ours": source == FEDOROV,
-            "point": lambda values: notation.point(values, not source.register),
-            "sides": notation.sides, "differing": notation.differing, "reproduce": source.reproduce,
-            "truth": reading.truth, "kind": errata.kind, "kinds": reading.kinds, "by_method": by_method,
-            "value": notation.value,
+            "records": records, "versions": versions, "source": source, "ours": source == FEDOROV, "MANY": _MANY,
+            "uses": cache(lambda: reading.uses(records)), "users": cache(lambda: reading.users(records)),
+            "claim": self.claim, "reading": reading,
+            "graph": graph, "table": symbols, "notation": notation, "errata": errata, "by_method": by_method,
         }  # fmt: skip
         self._templates.filters |= {
-            "formula": formulas.html,
-            "value": value,
-            "label": reading.label,
-            "code": code,
-            "prose": prose,
-            "symbols": symbols_html,
-            "plain": notation.plain,
-        }
-
-    @cached_property
-    def uses(self) -> dict[str, list[str]]:
-        """What each claim uses."""
-        return reading.uses(self.records)
-
-    @cached_property
-    def users(self) -> dict[str, list[str]]:
-        """What uses each claim."""
-        return reading.users(self.records)
+            "formula": formulas.html, "value": value, "label": reading.label, "code": code, "symbols": symbols_html,
+        }  # fmt: skip
 
     def render(self, template: str, **context: Any) -> Markup:
         """A template of the room's folder, filled in."""
         return Markup(self._templates.get_template(template).render(**context))
 
-    def section(self, name: str, title: str, write: "Callable[[_Page], Markup]") -> Markup:
-        """What `write` gives, or a box that says why there is nothing."""
+    def section(self, name: str, title: str, template: str, **context: Any) -> Markup:
+        """What the template gives, or a box that says why there is nothing."""
         try:
-            return write(self)
+            return self.render(template, **context)
         except Exception as error:  # whatever a record or a template does, the rest of the page stays
             return self.render("failure.html", name=name, title=title, error=f"{type(error).__name__}: {error}")
 
-
-def summary(page: _Page) -> Markup:
-    """The counts by verdict."""
-    return page.render(
-        "summary.html", counts=reading.counts(page.records), total=len(page.records),
-        unproved=reading.unproved(page.records), carried=reading.carried(page.records),
-    )  # fmt: skip
-
-
-def errata_table(page: _Page) -> Markup:
-    """Every claim that is not true as printed, with what is true."""
-    return page.render(
-        "errata.html", errors=reading.errors(page.records), cite=page.source.cite(page.versions["chapsym"])
-    )
-
-
-def open_questions(page: _Page) -> Markup:
-    """The claims that are open, with what was tried, and those that were open in the paper and are settled."""
-    ordered = reading.in_paper_order(page.records)
-    return page.render(
-        "open.html",
-        open=[r for r in ordered if r["verdict"] == "open"],
-        settled=[r for r in ordered if r["verdict"] == "settled"],
-    )
-
-
-def dependencies(page: _Page) -> Markup:
-    """The graph of what uses what."""
-    titles = {record["id"]: record["evidence"]["title"] for record in page.records}
-    return page.render("graph.html", graph=graph.svg(page.records), titles=titles)
-
-
-def claims(page: _Page) -> Markup:
-    """Every claim with all its evidence, by section of the paper."""
-    found = [(section, [claim(page, one) for one in section.records]) for section in reading.sections(page.records)]
-    return page.render("claims.html", sections=found, counts=reading.counts(page.records), total=len(page.records))
-
-
-def claim(page: _Page, record: Record) -> Markup:
-    """A claim with all its evidence; links only to what is on the page."""
-    id = record["id"]
-    return page.section(
-        f"claim-{id}", f"Claim {id}",
-        lambda page: page.render(
-            "claim.html", record=record, evidence=record["evidence"], uses=page.uses[id], users=page.users[id]
-        ),
-    )  # fmt: skip
-
-
-def symbol_table(page: _Page) -> Markup:
-    """The table of symbols, the meaning beside the symbol."""
-    order = ("paper", "meaning", "where", "chapsym", "unit")
-    rows = [symbol._asdict() for symbol in symbols.SYMBOLS]
-    return page.render("symbols.html", order=order, rows=rows, text=symbols)
-
-
-#: The sections of the page: anchor, title, and what writes it.
-SECTIONS: dict[str, tuple[str, Callable[[_Page], Markup]]] = {
-    "errata": ("Errata", errata_table),
-    "open": ("Open questions", open_questions),
-    "graph": ("What uses what", dependencies),
-    "claims": ("Claims", claims),
-    "symbols": ("Symbols", symbol_table),
-}
+    def claim(self, record: Record) -> Markup:
+        """A claim with all its evidence; links only to what is on the page."""
+        return self.section(f"claim-{record['id']}", f"Claim {record['id']}", "claim.html", record=record)
 
 
 def by_method(checks: Sequence[Mapping[str, Any]]) -> list[tuple[str, list[Mapping[str, Any]]]]:

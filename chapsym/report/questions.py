@@ -5,10 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from markupsafe import Markup
-
-from . import page
-from .page import FOLDER
+from .page import FOLDER, Page, style
 from .records import Record
 
 #: claim: what it asks, in words.
@@ -40,6 +37,12 @@ class Checked:
     proved: Mapping[str, str]
     rejected: str = ""
 
+    def rows(self) -> list[tuple[str, str]]:
+        """What it says about itself, and what is proved: names and values."""
+        given = {name: self.data[name] for name in GIVEN if name in self.data}
+        said = {**self.data.get("ball", {}), **given, **self.proved}
+        return [(name.replace("_", " "), ", ".join(v) if isinstance(v, list) else v) for name, v in said.items()]
+
 
 def html(
     records: Sequence[Record],
@@ -51,36 +54,13 @@ def html(
 
     records: of the two questions and of the lemmas that they use, as `chapsym prove --json` writes them.
     """
-    found = page._Page(records, versions)
-    style = "".join((FOLDER / name).read_text(encoding="utf-8") for name in ("style.css", "questions.css"))
-    return found.render(
-        "questions.html", style=Markup(style), questions=_questions(found),
-        certificates=list(map(_shown, certificates)),
-        evidence=[{"title": e.title, "name": e.name, "sentences": e.sentences, "figures": list(map(_figure, e.figures))}
-                  for e in evidence],
-        lemmas=[page.claim(found, record) for record in records if record["id"] not in QUESTIONS], versions=versions,
+    by_id = {record["id"]: record for record in records}
+    return Page(records, versions).render(
+        "questions.html", style=style(FOLDER / "questions.css"), date=None, certificates=certificates,
+        questions=[(id, question, by_id[id]) for id, question in QUESTIONS.items() if id in by_id],
+        evidence=evidence, lemmas=[record for record in records if record["id"] not in QUESTIONS], source_of=_source_of,
     )  # fmt: skip
 
 
-def _questions(found: Any) -> list[dict[str, Any]]:
-    by_id = {record["id"]: record for record in found.records}
-    return [
-        {"id": id, "question": question, "record": by_id[id], "shown": page.claim(found, by_id[id])}
-        for id, question in QUESTIONS.items()
-        if id in by_id
-    ]
-
-
-def _shown(checked: Checked) -> dict[str, Any]:
-    """A certificate as rows of names and values."""
-    data = checked.data
-    given = {**data.get("ball", {}), **{name: data[name] for name in GIVEN if name in data}, **checked.proved}
-    rows = [(name.replace("_", " "), ", ".join(v) if isinstance(v, list) else v) for name, v in given.items()]
-    return {
-        "name": checked.name, "statement": data.get("statement", ""), "rows": rows, "rejected": checked.rejected,
-    }  # fmt: skip
-
-
-def _figure(figure: tuple[str, str]) -> dict[str, str]:
-    caption, svg = figure
-    return {"caption": caption, "source": "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()}
+def _source_of(svg: str) -> str:
+    return "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()

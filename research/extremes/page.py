@@ -5,9 +5,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from markupsafe import Markup
-
-from chapsym.report.page import FOLDER, prose, templates
+from chapsym.report.page import style, templates
 
 from .judging import LEVELS
 
@@ -25,11 +23,8 @@ def html(matrix: Mapping[str, Any], versions: Mapping[str, str], machine: str, d
     """The whole page of the JSON object of `chapsym extremes`; the same input gives the same bytes."""
     found = templates(HERE)
     found.globals |= {"VERDICTS": VERDICTS, "shown": shown, "told": told, "heat": heat}
-    found.filters["prose"] = prose
-    style = "".join(path.read_text(encoding="utf-8") for path in (FOLDER / "style.css", HERE / "page.css"))
-    return found.get_template("page.html").render(
-        style=Markup(style), matrix=matrix, groups=groups(matrix), versions=versions, machine=machine, date=date
-    )
+    said = {"matrix": matrix, "groups": groups(matrix), "versions": versions, "machine": machine, "date": date}
+    return found.get_template("page.html").render(style=style(HERE / "page.css"), **said)
 
 
 def groups(matrix: Mapping[str, Any]) -> list[dict[str, Any]]:

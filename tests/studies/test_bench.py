@@ -327,12 +327,17 @@ def test_what_cannot_be_measured_is_said_before_measuring(arguments, sentence, t
     assert sentence in refused("bench", *arguments, cwd=tmp_path)
 
 
-def test_a_wheel_has_no_benchmarks_and_says_so(monkeypatch, tmp_path):
+def test_a_wheel_has_no_benchmarks_and_no_research_and_says_so(monkeypatch, tmp_path):
     """As seen by the commands that run them; a folder beside the wheel that has the name is not taken for ours."""
     (tmp_path / "benchmarks").mkdir()
     monkeypatch.setattr(harness, "BENCHMARKS", tmp_path / "benchmarks")
-    for command in (["bench", "trajectory"], ["trade", "kernels", "--quick"]):
-        assert refused(*command) == "benchmarks/ is not in the wheel; run this from a checkout"
+    for folder, command in (
+        ("benchmarks", ["bench", "trajectory"]),
+        ("benchmarks", ["trade", "contact", "--quick"]),
+        ("research", ["extremes", "--quick"]),
+        ("research", ["study", "chaos", "--quick"]),
+    ):
+        assert refused(*command) == f"{folder}/ is not in the wheel; run this from a checkout"
 
 
 def test_the_command_prints_json_or_a_table(monkeypatch):
