@@ -25,7 +25,7 @@ PRECISIONS: tuple[Precision, ...] = (
     *NAMED.values(), Digits(30), Digits(50), Digits(100), Enclosure(100), Enclosure(300),
 )  # fmt: skip
 #: How many steps of the cheap precisions make up a run that is timed: enough for a millisecond.
-TIMED = {"single": 20_000, "double": 20_000, "quad": 4_000}
+TIMED = {NAMED["single"]: 20_000, NAMED["double"]: 20_000, NAMED["double-double"]: 4_000}
 #: Seconds of simulated time of one ball, and of a batch.
 END = 10.0
 #: Lengths of steps, |ω|ε in radians: quick and full.
@@ -58,7 +58,7 @@ def rounding(quick: bool, say: Say) -> Frontier:
 
     def choice(precision: Precision) -> Choice:
         name = f"ball{precision.bits}" if isinstance(precision, Enclosure) else label_of(precision)
-        timed = TIMED.get(name, steps)
+        timed = TIMED.get(precision, steps)
 
         def error() -> float:
             apart = abs(ends(run(steps, every=steps, precision=precision)) - exact).astype(float)

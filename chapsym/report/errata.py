@@ -1,6 +1,7 @@
 """The list of errata, short enough to cite: Markdown, and LaTeX that compiles by itself."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 from . import notation
 from .records import Record, errors, kinds, label, slip_of, truth
@@ -9,8 +10,16 @@ from .source import FEDOROV, Source
 
 def markdown(records: Sequence[Record], version: str, source: Source = FEDOROV) -> str:
     """The errata as Markdown, with formulas in dollars."""
-    entries = [line for record in errors(records) for line in _markdown_entry(record, source)]
-    return "\n".join(["# Errata", "", *_introduction(records, version, source, str), *entries])
+    lines = ["# Errata", "", *_introduction(records, version, source, str)]
+    for record in errors(records):
+        lines += [f"## {label(record['id'])}", "", record["evidence"]["title"], ""]
+        lines += [f"- {name}: {f'${text}$' if typed else text}" for name, text, typed in _said(record)]
+        for named, statement, left, right in _examples(record, source):
+            point = ", ".join(f"{symbol} = {notation.plain(value)}" for symbol, value in named)
+            both = " ≠ ".join(", ".join(map(notation.in_line, side)) for side in (left, right))
+            lines.append(f"- At `{point}`: `{statement}`; but `{both}`")
+        lines += [f"- Proof: `{source.reproduce(record['id'])}`", ""]
+    return "\n".join(lines)
 
 
 def _introduction(records: Sequence[Record], version: str, source: Source, written: Callable[[str], str]) -> list[str]:
@@ -33,23 +42,23 @@ def kind(record: Record) -> str:
     return f"{name}{', follows from ' if follows else ''}{' and '.join(map(label, follows))}"
 
 
-def _markdown_entry(record: Record, source: Source) -> list[str]:
-    formula, prose = truth(record)
-    lines = [f"## {label(record['id'])}", "", record["evidence"]["title"], ""]
-    lines += [f"- Kind: {said}"] if (said := kind(record)) else []
-    lines.append(f"- Printed: ${record['printed']}$")
-    if formula:
-        lines.append(f"- True: ${formula}$")
-    if prose:
-        lines.append(f"- {'Condition' if record['verdict'] == 'conditional' else 'True'}: {prose}")
-    lines += [f"- Hypothesis: {text}" for text in record["evidence"].get("hypotheses", [])]
+def _said(record: Record) -> Iterator[tuple[str, str, bool]]:
+    """What an entry says, each with its name, and whether it is a formula."""
+    formula, words = truth(record)
+    condition = "Condition" if record["verdict"] == "conditional" else "True"
+    said = [
+        ("Kind", kind(record), False), ("Printed", record["printed"], True), ("True", formula, True),
+        (condition, words, False), *(("Hypothesis", text, False) for text in record["evidence"].get("hypotheses", [])),
+    ]  # fmt: skip
+    return filter(lambda one: one[1], said)
+
+
+def _examples(record: Record, source: Source) -> Iterator[tuple[list[tuple[str, str]], str, Any, Any]]:
+    """For each statement that fails at a point: the point, the statement, and what differs of its two sides."""
     for example in record["evidence"].get("counterexamples", []):
-        named = notation.point(example["point"], not source.register)
-        point = ", ".join(f"{symbol} = {notation.plain(value)}" for symbol, value in named)
-        for sides in example["printed"]:
-            left, right = (", ".join(map(notation.in_line, x)) for x in notation.sides(sides, compact=True))
-            lines.append(f"- At `{point}`: `{sides['statement']}`; but `{left} ≠ {right}`")
-    return [*lines, f"- Proof: `{source.reproduce(record['id'])}`", ""]
+        for printed in example["printed"]:
+            point = notation.point(example["point"], not source.register)
+            yield point, printed["statement"], *notation.sides(printed, compact=True)
 
 
 _PREAMBLE = r"""\documentclass[11pt]{article}
@@ -64,37 +73,16 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 
 def latex(records: Sequence[Record], version: str, source: Source = FEDOROV) -> str:
     """The errata as one LaTeX document in ASCII, for any engine, with amsmath and amssymb."""
-    head = [r"\section*{Errata}", *_introduction(records, version, source, notation.latex)]
-    entries = [line for record in errors(records) for line in _latex_entry(record, source)]
-    return _PREAMBLE + "\n".join([*head, *entries, r"\end{document}", ""])
-
-
-def _latex_entry(record: Record, source: Source) -> list[str]:
-    formula, prose = truth(record)
-    title = notation.latex(record["evidence"]["title"])
-    name = notation.typed_latex(record["id"]) if source.register else notation.latex(label(record["id"]))
-    lines = [r"\medskip", rf"\textbf{{{name}}}. {title}", ""]
-    lines += [rf"\textit{{Kind:}} {notation.latex(said)}", ""] if (said := kind(record)) else []
-    lines += _row("Printed", record["printed"])
-    if formula:
-        lines += _row("True", formula)
-    if prose:
-        name = "Condition" if record["verdict"] == "conditional" else "True"
-        lines += [rf"\textit{{{name}:}} {notation.latex(prose)}", ""]
-    for text in record["evidence"].get("hypotheses", []):
-        lines += [rf"\textit{{Hypothesis:}} {notation.latex(text)}", ""]
-    for example in record["evidence"].get("counterexamples", []):
-        point = ", ".join(
-            f"${notation.symbol_latex(symbol)} = {notation.value_latex(value)}$"
-            for symbol, value in notation.point(example["point"], not source.register)
-        )
-        for sides in example["printed"]:
-            both = notation.sides(sides, compact=True)
-            left, right = (r",\allowbreak ".join(map(notation.shown_latex, x)) for x in both)
-            statement = notation.latex(sides["statement"])
-            lines += [rf"\textit{{At}} {point}: {statement}; but ${left}\neq {right}$", ""]
-    return [*lines, rf"\textit{{Proof:}} \texttt{{{notation.typed_latex(source.reproduce(record['id']))}}}", ""]
-
-
-def _row(name: str, formula: str) -> list[str]:
-    return [rf"\textit{{{name}:}} $\displaystyle {formula}$", ""]
+    lines = [r"\section*{Errata}", *_introduction(records, version, source, notation.latex)]
+    for record in errors(records):
+        name = notation.typed_latex(record["id"]) if source.register else notation.latex(label(record["id"]))
+        lines += [r"\medskip", rf"\textbf{{{name}}}. {notation.latex(record['evidence']['title'])}", ""]
+        for name, text, typed in _said(record):
+            written = rf"$\displaystyle {text}$" if typed else notation.latex(text)
+            lines += [rf"\textit{{{name}:}} {written}", ""]
+        for named, statement, left, right in _examples(record, source):
+            point = ", ".join(f"${notation.symbol_latex(x)} = {notation.value_latex(value)}$" for x, value in named)
+            both = r"\neq ".join(r",\allowbreak ".join(map(notation.shown_latex, side)) for side in (left, right))
+            lines += [rf"\textit{{At}} {point}: {notation.latex(statement)}; but ${both}$", ""]
+        lines += [rf"\textit{{Proof:}} \texttt{{{notation.typed_latex(source.reproduce(record['id']))}}}", ""]
+    return _PREAMBLE + "\n".join([*lines, r"\end{document}", ""])

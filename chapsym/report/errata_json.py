@@ -87,13 +87,11 @@ def _entry(record: Record, source: Source) -> Entry:
 def _example(example: Mapping[str, Any], source: Source) -> dict[str, Any]:
     """An exact point, and the two sides of what is printed there."""
     named = notation.point(example["point"], not source.register)
-    point = {symbol: notation.plain(value) for symbol, value in named}
-    return {"point": point, "printed": [_sides(printed) for printed in example["printed"]]}
-
-
-def _sides(printed: Mapping[str, Any]) -> dict[str, Any]:
-    left, right = ([notation.in_line(value) for value in side] for side in notation.sides(dict(printed)))
-    return {"statement": printed["statement"], "left": left, "right": right}
+    printed = []
+    for one in example["printed"]:
+        left, right = ([notation.in_line(value) for value in side] for side in notation.sides(one))
+        printed.append({"statement": one["statement"], "left": left, "right": right})
+    return {"point": {symbol: notation.plain(value) for symbol, value in named}, "printed": printed}
 
 
 def _with_states(entry: Entry, verdict: str, earlier: Mapping[str, Entry], version: str) -> Entry:

@@ -136,38 +136,23 @@ def _mend(tree: ET.Element) -> None:
         elif variant == "normal" and len(element.text or "") == 1:
             element.set("mathvariant", "normal")
         if not any(child.tag == "mtable" for child in element):
-            _flatten(element)
+            for child in element:  # brackets keep their size, as TeX's do without \left and \right
+                if child.tag == "mo" and child.text in _BRACKETS and "fence" not in child.attrib:
+                    child.set("stretchy", "false")
         if element.tag == "mi" and len(element.text or "") == 1 and "Α" <= (element.text or "") <= "Ω":
             element.set("mathvariant", "normal")  # TeX's Greek capitals are upright
         if element.tag == "msup" and element[0].text in _SLANTED:
-            _move_away(element)
+            row = ET.Element("mrow")  # browsers let the superscript of a slanted capital run into it
+            row.extend([ET.Element("mspace", width="0.15em"), element[1]])
+            element[1] = row
         if element.tag == "mover" and (element[1].text or " ") in _ACCENTS:
-            _fit_accent(element)
+            element.set("accent", "true")
+            element[1].set("stretchy", "false")
+            if element[1].text == "→":
+                element[1].set("mathsize", "50%")
     for element in list(tree.iter()):
         _space_after_names(element)
         _bind_signs(element)
-
-
-def _move_away(element: ET.Element) -> None:
-    """Browsers let the superscript of a slanted capital run into it."""
-    row = ET.Element("mrow")
-    row.extend([ET.Element("mspace", width="0.15em"), element[1]])
-    element[1] = row
-
-
-def _fit_accent(element: ET.Element) -> None:
-    mark = element[1]
-    element.set("accent", "true")
-    mark.set("stretchy", "false")
-    if mark.text == "→":
-        mark.set("mathsize", "50%")
-
-
-def _flatten(row: ET.Element) -> None:
-    """Brackets keep their size, as TeX's do without \\left and \\right, unless they hold a matrix."""
-    for child in row:
-        if child.tag == "mo" and child.text in _BRACKETS and "fence" not in child.attrib:
-            child.set("stretchy", "false")
 
 
 def _join_names(element: ET.Element) -> None:

@@ -144,7 +144,7 @@ def latex(text: str) -> str:
     def close() -> None:
         if formula:
             text = " ".join(formula)
-            out.append(text if re.fullmatch(r"[\d.,() ]+", text) else f"${_formula(text)}$")
+            out.append(text if re.fullmatch(r"[\d.,() ]+", text) else f"${symbol_latex(text)}$")
             formula.clear()
 
     for word in text.split():
@@ -179,8 +179,8 @@ def _prose(word: str) -> str:
     return "".join(_PROSE.get(x, x if x.isascii() else _unknown(x)) for x in word)
 
 
-def _formula(text: str) -> str:
-    """One formula; combining accents, super- and subscripts and fractions become commands."""
+def symbol_latex(text: str) -> str:
+    """A symbol or a formula, without dollars; accents, super- and subscripts and fractions become commands."""
     text = "".join(unicodedata.normalize("NFD", x) if x.isalpha() else x for x in text).replace("...", "…")
     out, index = "", 0
     while index < len(text):
@@ -207,7 +207,7 @@ def _token(text: str, start: int) -> tuple[int, str]:
     if index:
         inner = next(x for x in index.groups()[1:] if x is not None)
         several = re.fullmatch(r"[a-z]{2,3}", inner)  # i, j, k and no word
-        return index.end(), f"{index.group(1)}{{{inner if several else _formula(inner)}}}"
+        return index.end(), f"{index.group(1)}{{{inner if several else symbol_latex(inner)}}}"
     base, taken = _character(here[0]), 1
     if here[0].isalpha() and here[1:2] in _ACCENTS:
         base, taken = f"\\{_ACCENTS[here[1]]}{{{base}}}", 2
@@ -245,11 +245,6 @@ def typed_latex(text: str) -> str:
     return _prose(text).replace("--", "-{}-")
 
 
-def symbol_latex(symbol: str) -> str:
-    """A symbol of a point as a formula, without dollars."""
-    return _formula(symbol)
-
-
 def value_latex(text: str) -> str:
     """A value of a point as a formula, without dollars."""
     return shown_latex(value(text))
@@ -258,6 +253,6 @@ def value_latex(text: str) -> str:
 def shown_latex(shown: str | Matrix) -> str:
     """What `value` gives as a formula: a matrix in small type, a rational as it is, a break after each comma."""
     if isinstance(shown, str):
-        return _formula(shown).replace(", ", r",\allowbreak\ ")
-    rows = r"\\".join("&".join(_formula(x) for x in row) for row in shown)
+        return symbol_latex(shown).replace(", ", r",\allowbreak\ ")
+    rows = r"\\".join("&".join(symbol_latex(x) for x in row) for row in shown)
     return rf"\left(\begin{{smallmatrix}}{rows}\end{{smallmatrix}}\right)"

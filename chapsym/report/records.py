@@ -23,20 +23,12 @@ VERDICTS = {
 }
 ERRORS = ("corrected", "conditional", "refuted")
 
-#: Kinds of errors, by our judgement: one and many of them, and what they do to a reader.
+#: Kinds of errors, by our judgement: what one is called, and many.
 SLIPS = {
-    "serious": ("serious error", "serious errors", "who computes with it is misled"),
-    "typo": ("typo", "typos", "a misprint that the text around it mends"),
-    "convention": (
-        "slip of convention",
-        "slips of convention",
-        "a sign or an order that the paper takes otherwise elsewhere",
-    ),
-    "reading": (
-        "that depends on the reading",
-        "that depend on the reading",
-        "true or false as one reads it, or under what is left out",
-    ),
+    "serious": ("serious error", "serious errors"),
+    "typo": ("typo", "typos"),
+    "convention": ("slip of convention", "slips of convention"),
+    "reading": ("that depends on the reading", "that depend on the reading"),
 }
 
 SECTIONS = {
@@ -160,7 +152,7 @@ def kinds(records: Iterable[Record]) -> str:
     """
     parts = []
     for kind, (number, independent) in slips(records).items():
-        one, many, _ = SLIPS[kind]
+        one, many = SLIPS[kind]
         rest = "" if independent == number else f" (from {independent} independent slips)"
         parts.append(f"{number} {one if number == 1 else many}{rest}")
     return ", ".join(parts)

@@ -47,7 +47,7 @@ def _of_each(judge: Callable[..., Judged], names: Sequence[str], items: Mapping[
 
 _STARTS = {name: [state] for name, state in states.STARTS.items()}
 _STEPS = {name: _each(steps.judge, items) for name, items in states.CONDITIONS.items()}
-_UNBLURRED = tuple(level for level in LEVELS if not level.guarded)
+_BATCHED = tuple(level for level in LEVELS if not level.guarded)
 _DOUBLE = (DOUBLE,)
 
 #: The groups, in the order of the table.
@@ -60,7 +60,7 @@ GROUPS = {
     "directions": Group("One step: directions of γ and of the momentum", _STEPS["directions"]),
     "runs": Group("Ten steps of a trajectory, beside ten of the oracle", _each(runs.ten_steps, _STARTS)),
     "batch": Group(
-        "The same in a batch of 4096", _each(partial(runs.ten_steps, balls=runs.BATCH), _STARTS), _UNBLURRED
+        "The same in a batch of 4096", _each(partial(runs.ten_steps, balls=runs.BATCH), _STARTS), _BATCHED
     ),
     "order": Group(
         "One step of the composition of order 8 (of order 4 when quick)",
