@@ -258,9 +258,14 @@ def test_5_8_amplitudes(records):
         L1 * (1 - L3 * level) / (L1 - L3), L2 * (1 - L3 * level) / (L2 - L3), L3 * (1 - L1 * level) / (L1 - L3)
     )
     truth = printed * [1, 1, -1]
-    assert truth[0] + truth[2] == 1 != printed[0] + printed[2]
-    assert truth[0] / L1 + truth[2] / L3 == level
-    agree(records, "5.8", (printed, truth))
+
+    def on_level(squares):
+        """|γ|² and ⟨γ,Λ⁻¹γ⟩ at sn = 0, and the second at sn² = 1, where C3² dn² = 1 - C2²."""
+        first, second, third = squares
+        return vector(first + third, first / L1 + third / L3, second / L2 + (1 - second) / L3)
+
+    assert list(on_level(truth)) == [1, level, level]
+    agree(records, "5.8", (on_level(printed), vector(1, level, level)))
 
 
 def test_5_13_from_zero_to_twice_an_argument(records):
