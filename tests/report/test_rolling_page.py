@@ -237,6 +237,38 @@ def test_the_camera_follows_the_ball_or_stays(rolling):
     assert np.abs(corners).max() < 1
 
 
+def test_a_mouse_turns_the_view_moves_it_along_the_plane_and_a_wheel_brings_it_nearer(rolling):
+    """What is grabbed on the plane stays under the hand; from the top nothing turns; the eye stays above the plane."""
+    page = rolling()
+    mouse = page.tab.mouse
+    look = "(({ azimuth, polar, distance, anchor }) => [azimuth, polar, distance, ...anchor])(chapsym.stage.eye)"
+    height = page.ask("document.querySelector('canvas').clientHeight")
+
+    def drag(x, y, **options):
+        before = np.array(page.ask(look))
+        mouse.move(300, 250)
+        mouse.down(**options)
+        mouse.move(300 + x / 2, 250 + y / 2)
+        mouse.move(300 + x, 250 + y)
+        mouse.up(**options)
+        page.drawn()
+        return np.array(page.ask(look)) - before
+
+    assert drag(50, -20) == pytest.approx(np.array([-100, 40, 0, 0, 0]) * np.pi / height)
+    assert drag(0, -2000)[1] > 0
+    assert page.ask("chapsym.stage.camera.position.z") > 0
+    page.tab.keyboard.press("t")
+    page.drawn()
+    seen = 2 * page.ask("chapsym.stage.eye.distance") * np.tan(np.deg2rad(19)) / height
+    moved = [0, 0, 0, -40 * seen, 30 * seen]
+    assert drag(40, 30) == pytest.approx(moved, abs=1e-6)
+    assert drag(40, 30, button="right") == pytest.approx(moved, abs=1e-6)
+    near = page.ask("chapsym.stage.eye.distance")
+    mouse.wheel(0, -300)
+    page.until(f"chapsym.stage.eye.distance < {near}")
+    assert page.ask("chapsym.stage.eye.distance") == pytest.approx(near * 0.95**3)
+
+
 def test_arrows_are_shown_when_asked_for(rolling):
     page = rolling()
     page.ask("chapsym.seek(200)")
@@ -370,7 +402,7 @@ def test_a_phone(rolling, name):
     page.drawn()
     after = page.ask(eye)
     assert np.linalg.norm(np.subtract(after, before)) > 0.05
-    distance = "chapsym.stage.controls.getDistance()"
+    distance = "chapsym.stage.eye.distance"
     near = page.ask(distance)
     for kind, gap in [("touchStart", 30), ("touchMove", 50), ("touchMove", 100)]:
         points = [{"x": 195 - gap, "y": 250, "id": 0}, {"x": 195 + gap, "y": 250, "id": 1}]

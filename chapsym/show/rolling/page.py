@@ -23,7 +23,7 @@ FOLDER = Path(__file__).parent
 MODULES = {
     "three": "three/three.module.min.js",
     "three-core": "three/three.core.min.js",
-    "orbit-controls": "three/OrbitControls.js",
+    "eye": "eye.js",
     "motion": "motion.js",
     "ball": "ball.js",
     "floor": "floor.js",

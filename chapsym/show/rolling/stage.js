@@ -1,12 +1,12 @@
-// The scene and the camera.  Everything is drawn relative to `anchor`, the point of the plane that the camera looks at, in
-// doubles: so nothing jitters, however far the balls have rolled.
+// The scene.  Everything is drawn relative to the anchor of the eye, a point of the plane, in doubles: so nothing jitters,
+// however far the balls have rolled.
 
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, MOUSE, PerspectiveCamera, Points,
-  PointsMaterial, Scene, TOUCH, Vector3, Vector4, WebGLRenderer,
+  AmbientLight, BufferAttribute, BufferGeometry, CanvasTexture, Color, DirectionalLight, PerspectiveCamera, Points,
+  PointsMaterial, Scene, Vector3, Vector4, WebGLRenderer,
 } from 'three';
-import { OrbitControls } from 'orbit-controls';
 import { pattern, RollingBall, sphereFor } from 'ball';
+import { Eye } from 'eye';
 import { Floor, Trace } from 'floor';
 
 const OKABE_ITO = ['#1f83c6', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
@@ -22,9 +22,7 @@ export class Stage {
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(VIEW, 1, 0.1, 100);
     this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    Object.assign(this.controls, { enableDamping: !calm, screenSpacePanning: false, maxPolarAngle: 1.52 });
-    this.controls.touches = { ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_PAN };
+    this.eye = new Eye(this.camera, canvas, calm, () => { this.stale = true; });
     this.sun = new DirectionalLight('#fff', 2.4);
     this.sun.position.set(0.45, -0.35, 1);
     this.sky = new AmbientLight('#fff');
@@ -39,41 +37,32 @@ export class Stage {
     this.scene.add(this.dots);
     this.followed = 0;
     this.frame = 0;
-    this.anchor = motion.balls[0].position(0);
     this.extent = extent(motion.balls);
-    this.stale = true;
-    this.controls.addEventListener('change', () => { this.stale = true; });
     this.look('follow');
   }
 
-  get radius() { return this.motion.balls[this.followed].radius; }
+  get anchor() { return this.eye.anchor; }
 
   // Follow a ball, orbit freely, or see all of it from above.
   look(mode, keep = false) {
     this.mode = mode;
-    const free = mode !== 'top';
-    this.controls.enableRotate = free;
-    this.controls.mouseButtons.LEFT = free ? MOUSE.ROTATE : MOUSE.PAN;
-    this.controls.touches.ONE = free ? TOUCH.ROTATE : TOUCH.PAN;
+    this.eye.fixed = mode === 'top';
     if (!keep) this.reset();
-    this.stale = true;
   }
 
   reset() {
-    const ball = this.motion.balls[this.followed];
-    const { low, high, size } = this.extent;
-    const aspect = this.camera.aspect;
-    // What must be seen, in metres, at the narrower side of the window.
-    const wide = this.mode === 'top' ? Math.max(size[1], size[0] / aspect, 6 * this.radius) * 1.15 : 6.5 * this.radius;
-    const distance = wide / 2 / Math.tan(VIEW * Math.PI / 360) / (this.mode === 'top' ? 1 : Math.min(1, aspect));
-    this.anchor = this.mode === 'top' ? [0, 1].map((k) => (low[k] + high[k]) / 2) : ball.position(this.frame);
-    this.controls.target.set(0, 0, this.mode === 'top' ? 0 : this.radius);
-    const direction = this.mode === 'top' ? new Vector3(0, -1e-4, 1) : new Vector3(-0.55, -1, 0.62);
-    this.camera.position.copy(direction.normalize().multiplyScalar(distance)).add(this.controls.target);
-    this.controls.minDistance = 1.3 * this.radius;
-    this.controls.maxDistance = 4 * Math.max(size[0], size[1]) + 60 * this.radius;
-    this.controls.update();
-    this.stale = true;
+    const { radius } = this.motion.balls[this.followed], { aspect } = this.camera;
+    const { middle, size } = this.extent, far = 4 * Math.max(...size) + 60 * radius;
+    // What must be seen, in metres, at the narrower side of the window, and how far away that is.
+    const away = (wide) => wide / 2 / Math.tan(VIEW * Math.PI / 360);
+    if (this.mode === 'top') {
+      this.eye.anchor = middle;
+      const wide = 1.15 * Math.max(size[1], size[0] / aspect, 6 * radius);
+      this.eye.look(0, new Vector3(0, -1e-4, 1), away(wide), [1.3 * radius, far]);
+    } else {
+      this.eye.anchor = this.motion.balls[this.followed].position(this.frame);
+      this.eye.look(radius, new Vector3(-0.55, -1, 0.62), away(6.5 * radius) / Math.min(1, aspect), [1.3 * radius, far]);
+    }
   }
 
   follow(i) {
@@ -88,8 +77,7 @@ export class Stage {
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.perPixel = 2 * Math.tan(VIEW * Math.PI / 360) / height;
-    if (!this.sized || before !== this.camera.aspect && !this.touched) this.reset();
-    this.sized = true;
+    if (before !== this.camera.aspect) this.reset();
     this.restyle();
   }
 
@@ -111,7 +99,7 @@ export class Stage {
     if (this.mode === 'follow') {
       const ball = this.motion.balls[this.followed];
       const from = ball.position(this.frame), to = ball.position(frame);
-      this.anchor = this.anchor.map((x, k) => x + to[k] - from[k]);
+      this.eye.anchor = this.anchor.map((x, k) => x + to[k] - from[k]);
     }
     this.frame = frame;
     this.stale = true;
@@ -139,11 +127,10 @@ export class Stage {
 
   // Draws if anything has changed; returns the spacing of the grid in metres.
   draw() {
-    this.controls.update();
+    this.eye.glide();
     if (!this.stale) return this.cell;
     this.stale = false;
-    this.settle();
-    const distance = this.camera.position.distanceTo(this.controls.target);
+    const { distance } = this.eye;
     this.camera.near = distance / 200;
     this.camera.far = distance * 60;
     this.camera.updateProjectionMatrix();
@@ -163,19 +150,9 @@ export class Stage {
     this.renderer.render(this.scene, this.camera);
     return this.cell;
   }
-
-  // Moves the anchor to where the camera looks after panning.
-  settle() {
-    const { target } = this.controls;
-    if (!target.x && !target.y) return;
-    this.anchor = [this.anchor[0] + target.x, this.anchor[1] + target.y];
-    this.camera.position.x -= target.x;
-    this.camera.position.y -= target.y;
-    target.x = target.y = 0;
-    this.camera.updateMatrixWorld();
-  }
 }
 
+// The rectangle of the plane in which all balls roll.
 function extent(balls) {
   const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
   for (const { contact, radius } of balls) {
@@ -184,7 +161,7 @@ function extent(balls) {
       high[i & 1] = Math.max(high[i & 1], x + radius);
     });
   }
-  return { low, high, size: [high[0] - low[0], high[1] - low[1]] };
+  return { middle: low.map((x, k) => (x + high[k]) / 2), size: low.map((x, k) => high[k] - x) };
 }
 
 // A dot for each ball, of the same size at any distance: a small ball far away can still be found.  Drawn before the balls.
