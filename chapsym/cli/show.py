@@ -106,7 +106,7 @@ def _opened(result: Path, folder: Path) -> "Dataset":
     from chapsym import files
     from chapsym.scene import load
     from chapsym.scene.result import formats
-    from chapsym.show import opening
+    from chapsym.show.result import run_scene
 
     if result.suffix != ".toml":
         return formats.load(result)
@@ -114,7 +114,7 @@ def _opened(result: Path, folder: Path) -> "Dataset":
     if folder.exists():
         files.check_destination(folder / "page.html")
     with progress_bar("rolling", 1000) as shown:
-        return opening.run(scene, lambda progress: shown(round(1000 * progress.steps / max(progress.of, 1))))
+        return run_scene(scene, lambda now: shown(round(1000 * now.steps / max(now.of, 1)))).dataset
 
 
 def _motion(dataset: "Dataset", path: Path) -> Path:

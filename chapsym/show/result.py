@@ -2,6 +2,7 @@
 
 import sys
 import tempfile
+import warnings
 import webbrowser
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -12,12 +13,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from chapsym.dynamics import BadInput, kernels
+from chapsym.scene import Scene, SceneError, checked, load
 from chapsym.scene.result import formats
 from chapsym.scene.result.far import sentence
 from chapsym.scene.result.grid import grid
 from chapsym.scene.result.interpolation import interpolated
+from chapsym.scene.running.source import plan_of
+from chapsym.scene.running.sweep import run_in_memory
 
-from . import figures, opening
+from . import figures
 from .drawing import reading
 
 if TYPE_CHECKING:
@@ -45,7 +49,9 @@ class Result:
 
     def figure(self, name: str | None = None, ball: str | int | None = None) -> "Picture":
         """A figure of all balls or of one (name or index), by default the most telling; raises BadInput."""
-        return figures.draw(self.dataset, name or self._telling(), ball)
+        reasons = self.figures()
+        telling = next((one for one, reason in reasons.items() if reason is None), next(iter(reasons)))
+        return figures.draw(self.dataset, name or telling, ball)
 
     def show(self, ball: str | int | None = None) -> None:
         """Displays all figures that can be drawn below a notebook's cell; elsewhere opens a folder with them.
@@ -75,7 +81,10 @@ class Result:
 
     def save(self, path: str | Path) -> None:
         """Writes the result to .zarr, .nc, .csv, .parquet or .npz, whole; raises SceneError if the disk refuses."""
-        opening.save(self.dataset, Path(path))
+        if Path(path).suffix == ".zarr":
+            _save_zarr(self.dataset, Path(path))
+        else:
+            formats.save(self.dataset, Path(path))
 
     def page(self, path: str | Path, ball: str | int | None = None) -> None:
         """Writes the page on which the ball rolls, one HTML file that needs no network; it needs the attitude."""
@@ -100,19 +109,14 @@ class Result:
         """The short table: what was rolled, for how long, what was stored, and how far the integrals drifted."""
         return [row for row in _rows(reading.with_balls(self.dataset)) if row[1]]
 
-    def _telling(self) -> str:
-        """The name of the most telling figure; raises BadInput where there is none."""
-        reasons = self.figures()
-        return next((name for name, reason in reasons.items() if reason is None), next(iter(reasons)))
-
     def __repr__(self) -> str:
         rows = self.rows()
         width = max(len(key) for key, _ in rows)
-        title = str(self.dataset.attrs.get("title") or "a result of chapsym")
+        title = reading.title(self.dataset) or "a result of chapsym"
         return "\n".join([title, *(f"  {key:{width}}  {text}" for key, text in rows)])
 
     def _repr_html_(self) -> str:
-        title = escape(str(self.dataset.attrs.get("title") or ""))
+        title = escape(reading.title(self.dataset))
         cell = 'style="text-align: left; padding: 0.1em 1em 0.1em 0"'
         rows = "".join(f"<tr><th {cell}>{escape(k)}</th><td {cell}>{escape(v)}</td></tr>" for k, v in self.rows())
         begun = (reading.last_frames(reading.with_balls(self.dataset)) >= 0).any()
@@ -131,13 +135,18 @@ class Result:
             return ""
 
 
-def run_scene(scene: "str | Path | Mapping[str, Any]", progress: Callable[[Any], None] | None = None) -> Result:
+def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callable[[Any], None] | None = None) -> Result:
     """Runs a scene, a .toml file or the same as a dictionary, in memory on all cores.
 
-    Raises SceneError for a scene that cannot be run as it is written.  A ball that meets a fold stops there: `status`
-    and `taken` in the result say so.
+    Raises SceneError for a scene that cannot be run as it is written, and BadInput as its plan does.  A ball that meets
+    a fold stops there: `status` and `taken` in the result say so.
     """
-    return Result(opening.run(scene, progress))
+    if isinstance(scene, Mapping):
+        scene = checked(dict(scene))
+    elif not isinstance(scene, Scene):
+        scene = load(Path(scene))
+    plan = plan_of(scene)
+    return Result(run_in_memory(plan) if progress is None else run_in_memory(plan, progress))
 
 
 def open_result(path: str | Path) -> Result:
@@ -154,6 +163,28 @@ def in_notebook() -> bool:
         return False
     shell = sys.modules["IPython"].get_ipython()
     return shell is not None and hasattr(shell, "kernel")
+
+
+def _save_zarr(dataset: "Dataset", path: Path) -> None:
+    """Writes a new .zarr, whole; raises SceneError if the disk refuses."""
+    if path.exists():
+        raise SceneError(f"{path} is there already; remove it, or choose another name")
+    try:
+        with (
+            tempfile.TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.", ignore_cleanup_errors=True) as folder,
+            warnings.catch_warnings(),
+        ):
+            # As the store of a run: other readers may not know its one file of metadata.
+            warnings.filterwarnings("ignore", message="Consolidated metadata")
+            whole = Path(folder) / "whole"
+            # Of a part of another .zarr the chunks do not fit those of its files.
+            dataset = dataset.drop_encoding().unify_chunks()
+            if dataset.chunks:
+                dataset = dataset.chunk({dim: max(lengths) for dim, lengths in dataset.chunks.items()})
+            dataset.assign_attrs({"complete": True} | dataset.attrs).to_zarr(whole, consolidated=True, zarr_format=3)
+            whole.rename(path)
+    except OSError as error:
+        raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None
 
 
 def _rows(dataset: "Dataset") -> list[tuple[str, str]]:
@@ -192,21 +223,17 @@ def _frames(dataset: "Dataset") -> str:
 
 def _drift(dataset: "Dataset") -> str:
     """The largest relative change of the momentum integrals, from what is stored."""
-    from .figures import integrals
-    from .figures.change import relative
+    from .figures import over_time
 
     if not reading.reached(dataset).any():
         return ""
-    if integrals.missing(dataset) is None and dataset.sizes["ball"] * dataset.sizes["frame"] < MOST:
-        found, names = integrals.stored(dataset)
+    if over_time.no_integrals(dataset) is None and dataset.sizes["ball"] * dataset.sizes["frame"] < MOST:
+        found, names = over_time.stored(dataset)
     elif {"momentum", "gamma"} <= set(dataset.data_vars) and "row" not in dataset.dims and dataset["gamma"].size < MOST:
-        momentum, gamma = reading.values(dataset, "momentum"), reading.values(dataset, "gamma")
-        there = np.isfinite(gamma).all(axis=-1, keepdims=True)
         with np.errstate(over="ignore", invalid="ignore"):
-            found = kernels.invariants(np.where(there, momentum, 0.0), np.where(there, gamma, 0.0))
-        found, names = np.where(there, found, np.nan), ["K.gamma", "K.K", "gamma.gamma"]
+            found = kernels.invariants(reading.values(dataset, "momentum"), reading.values(dataset, "gamma"))
+        names = ["K.gamma", "K.K", "gamma.gamma"]
     else:
         return ""
-    changes = [relative(found[..., i], size) for i, size in enumerate(integrals.sizes(found[:, 0], names))]
-    largest = max(float(np.nanmax(np.abs(change), initial=0.0)) for change in changes)
+    largest = max(float(np.nanmax(np.abs(change), initial=0.0)) for change in over_time.drifts(found, names))
     return f"{largest:.1e} at most, of the momentum integrals, relatively"

@@ -15,7 +15,7 @@ from chapsym import files
 from chapsym.dynamics import BadInput
 from chapsym.show import figures
 from chapsym.show.drawing import reading, series
-from chapsym.show.figures import change, integrals, phase
+from chapsym.show.figures import over_time, phase
 from chapsym.show.result import Result
 
 GAMMA = (0.48, 0.6, 0.64)
@@ -145,7 +145,7 @@ def test_a_change_at_roundoff_is_drawn_in_a_range_of_twenty_ulps_and_a_real_drif
     assert figure.axes[0].get_ylim()[1] > 100
     assert [text[-6:] for text in texts(figure)[1:]] == ["1.0e-7", "1.0e-7"]
     x = np.array([[2.0, 2.5], [0.0, 0.25]])
-    assert (change.relative(x, np.array([2.0, 0.0])) == [[0.0, 0.25], [0.0, 0.25]]).all()
+    assert (over_time.relative(x, np.array([2.0, 0.0])) == [[0.0, 0.25], [0.0, 0.25]]).all()
 
 
 def test_the_energy_is_drawn_as_its_relative_change():
@@ -301,7 +301,7 @@ def test_integrals_that_are_variables_of_their_own_are_drawn_as_those_in_one():
     dataset = results.uneven(200)
     apart = dataset.drop_vars("integrals")
     assert 'add "vertical_momentum" and "momentum_squared"' in figures.available(apart)["integrals"]
-    for i, name in enumerate(integrals.OF_ONE):
+    for i, name in enumerate(over_time.OF_ONE):
         apart[name] = dataset["integrals"][..., i].drop_vars("integral")
     one, same = (figures.draw(data, "integrals").axes[0] for data in (apart, dataset))
     for here, there in zip(one.lines, same.lines, strict=True):

@@ -16,8 +16,8 @@ from chapsym.scene import SceneError, load
 from chapsym.scene.result import formats, summary
 from chapsym.scene.running import sweep
 from chapsym.scene.running.source import plan_from, plan_of
-from chapsym.show import opening
 from chapsym.show.drawing import reading
+from chapsym.show.result import Result
 
 FILES = [".nc", ".csv", ".parquet", ".npz"]
 
@@ -194,7 +194,7 @@ def test_a_frame_is_found_by_its_time_in_memory_and_from_every_format(tmp_path, 
     assert found.sel(time=1.04, method="nearest").step == 100
     part = found.sel(time=slice(0.95, 1.95))
     assert part.step.values.tolist() == list(range(100, 200, 10))
-    opening.save(part, tmp_path / f"part{suffix or '.nc'}")
+    Result(part).save(tmp_path / f"part{suffix or '.nc'}")
     equal_to_the_bit(formats.load(tmp_path / f"part{suffix or '.nc'}").load(), part.load())
 
 

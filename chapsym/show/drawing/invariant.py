@@ -1,6 +1,6 @@
 """Where a ball may be on the spheres of γ and 𝒦/|𝒦|: its invariant curve, or the region that the integrals leave it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from xarray import Dataset
@@ -22,32 +22,27 @@ ANGLES = 48
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """J (3,), D, and the unit quaternion that turns principal axes to those of the result (or None)."""
+    """J (3,), D, and the unit quaternion that turns principal axes to those of the result."""
 
     mass_tensor: Floats
     D: float
-    axes: Floats | None = None
+    axes: Floats = field(default_factory=lambda: np.array([1.0, 0.0, 0.0, 0.0]))
 
     def principal(self, vectors: Floats) -> Floats:
         """Vectors (..., 3) in principal axes, from those of the result."""
-        if self.axes is None:
-            return vectors
         return to_principal(self.axes, vectors)
 
     def given(self, vectors: Floats) -> Floats:
         """Vectors (..., 3) in the axes of the result, from principal ones."""
-        if self.axes is None:
-            return vectors
         return from_principal(self.axes, vectors)
 
 
 def bodies_of(dataset: Dataset) -> list[Body]:
     """The body of each ball of a result; none where the result does not know J and D."""
-    J, D = reading.per_ball(dataset, "mass_tensor"), reading.per_ball(dataset, "D")
+    J, D, axes = (reading.per_ball(dataset, name) for name in ("mass_tensor", "D", "axes"))
     if J is None or D is None:
         return []
-    axes = reading.per_ball(dataset, "axes")
-    return [Body(J[i], float(D[i]), None if axes is None else axes[i]) for i in range(len(J))]
+    return [Body(J[i], float(D[i]), *([] if axes is None else [axes[i]])) for i in range(len(J))]
 
 
 def unit(vectors: Floats) -> Floats:
@@ -90,12 +85,9 @@ def energy_range(body: Body, directions: Floats, cosine: float, of_gamma: bool) 
     first = unit(np.cross(directions, first))
     second = np.cross(directions, first)
     turn = np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)
-    ring = (
-        np.cos(turn)[:, np.newaxis] * first[..., np.newaxis, :]
-        + np.sin(turn)[:, np.newaxis] * second[..., np.newaxis, :]
-    )
-    others = cosine * directions[..., np.newaxis, :] + np.sqrt(max(1.0 - cosine**2, 0.0)) * ring
-    here = np.broadcast_to(directions[..., np.newaxis, :], others.shape)
+    ring = np.multiply.outer(first, np.cos(turn)) + np.multiply.outer(second, np.sin(turn))
+    here = np.broadcast_to(directions[..., np.newaxis, :], (*directions.shape[:-1], ANGLES, 3))
+    others = cosine * here + np.sqrt(max(1.0 - cosine**2, 0.0)) * np.moveaxis(ring, -1, -2)
     m, gamma = (others, here) if of_gamma else (here, others)
     energy = kernels.energy(m, gamma, body.mass_tensor, np.float64(body.D))
     return -_largest(-energy), _largest(energy)

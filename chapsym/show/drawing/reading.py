@@ -1,5 +1,6 @@
 """What a figure reads from a result: checked arrays, (balls, frames, ...), the clock, and names for its labels."""
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +12,9 @@ from chapsym.scene.result.dataset import NOT_RUN
 if TYPE_CHECKING:
     from xarray import Dataset
 
+#: Digits and signs as exponents.
+RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
 
 def with_balls(dataset: "Dataset", ball: str | int | None = None) -> "Dataset":
     """The result with its dimension `ball` (restored where it was dropped), or the one ball that is named.
@@ -21,13 +25,16 @@ def with_balls(dataset: "Dataset", ball: str | int | None = None) -> "Dataset":
         raise BadInput('this is no result of chapsym: it has no dimension "frame"')
     if "ball" not in dataset.dims:
         dataset = dataset.expand_dims("ball")
-    if ball is None:
-        return dataset
+    return dataset if ball is None else dataset.isel(ball=[index_of(dataset, ball)])
+
+
+def index_of(dataset: "Dataset", ball: str | int) -> int:
+    """The index of a ball, of its name or an index (from the end if negative); raises BadInput if it is not there."""
     names = ball_names(dataset)
     if isinstance(ball, str) and ball in names:
-        return dataset.isel(ball=[names.index(ball)])
-    if isinstance(ball, int) and -len(names) <= ball < len(names):
-        return dataset.isel(ball=[ball])
+        return names.index(ball)
+    if isinstance(ball, int | np.integer) and not isinstance(ball, bool) and -len(names) <= ball < len(names):
+        return int(ball) % len(names)
     listed = ", ".join(names[:5]) + (f", ... ({len(names)} in all)" if len(names) > 5 else "")
     raise BadInput(f"the result has no ball {ball!r}; it has {listed}")
 
@@ -49,6 +56,11 @@ def unfinished(dataset: "Dataset") -> str | None:
     share = int(100 * np.where(ended[:, np.newaxis], True, there).mean())
     balls = f", {ended.sum()} of {len(ended)} balls to their ends" if len(ended) > 1 else ""
     return None if ended.all() else f"{share} % of the run{balls}"
+
+
+def title(dataset: "Dataset") -> str:
+    """The title of the scene, or nothing."""
+    return str(dataset.attrs.get("title") or "")
 
 
 def literal(text: str) -> str:
@@ -129,10 +141,8 @@ def per_ball(dataset: "Dataset", name: str) -> Floats | None:
     """A variable with one row a ball, (balls, ...), as float64; None if the result has none."""
     if name not in dataset:
         return None
-    array = dataset[name]
-    dims = [d for d in array.dims if d != "ball"]
-    return np.asarray((array if "ball" in array.dims else array.expand_dims("ball")).transpose("ball", *dims).values,
-                      dtype=np.float64)  # fmt: skip
+    array = dataset[name] if "ball" in dataset[name].dims else dataset[name].expand_dims("ball")
+    return np.asarray(array.transpose("ball", ...).values, dtype=np.float64)
 
 
 def stopped(dataset: "Dataset") -> np.ndarray:
@@ -156,6 +166,13 @@ def parameters(dataset: "Dataset") -> dict[str, tuple[Floats, str]]:
     return found
 
 
+def first_parameter(dataset: "Dataset") -> tuple[str, Floats, str]:
+    """The name, values (balls,) and unit of the first that a sweep varied; of none, the number of each ball."""
+    for name, (data, units) in parameters(dataset).items():
+        return name, data, units
+    return "ball", np.arange(dataset.sizes["ball"], dtype=np.float64), ""
+
+
 def labelled(name: str, units: Any) -> str:
     """A name with its unit, as an axis is labelled."""
     shown = readable(str(units or ""))
@@ -164,9 +181,6 @@ def labelled(name: str, units: Any) -> str:
 
 def readable(units: str) -> str:
     """ "kg m2 s-1" as kg m² s⁻¹; a pure number has no unit."""
-    raised = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
     if units.strip() in ("1", "dimensionless"):
         return ""
-    return " ".join(
-        part.rstrip("-0123456789") + part[len(part.rstrip("-0123456789")) :].translate(raised) for part in units.split()
-    )
+    return re.sub(r"-?\d+", lambda found: found[0].translate(RAISED), units)

@@ -1,9 +1,14 @@
 """Values over time: lines for a few balls, bands of percentiles for many; nothing is lost by thinning out."""
 
+import warnings
+from collections.abc import Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 
 from chapsym.dynamics.ball import Floats
+
+from .style import COLOURS, FEW
 
 #: A line has at most so many vertices; of more frames the range in each of as many intervals is drawn.
 MOST = 1500
@@ -13,6 +18,8 @@ SWINGS = 100
 SOME = 20
 #: Percentiles are taken at so many frames at most.
 INSTANTS = 600
+#: Bands around a median: from and to which percentile, how opaque, and the name in the legend.
+BANDS = ((0, 100, 0.13, None), (5, 95, 0.2, None), (25, 75, 0.3, None))
 
 
 def swings(y: Floats) -> int:
@@ -36,56 +43,58 @@ def line(
 
     points: whether the frames are so far apart that a line between them would mean nothing.
     """
+    many = swings(y)
     if points:
         size = 4.0 if len(t) < 200 else 2.0
         axis.plot(t, y, "o", color=colour, markersize=size, markeredgewidth=0, rasterized=len(t) > MOST)
         axis.plot([], [], "o", color=colour, markersize=5, markeredgewidth=0, label=label)
-        return
-    many = swings(y)
-    if many > SWINGS:
-        _band(axis, t, y, colour, label, min(MOST, many // 3), alpha=0.55)
-        return
-    if len(t) <= 2 * MOST:
+    elif many > SWINGS:
+        _range(axis, t, y, min(MOST, many // 3), color=colour, label=label, alpha=0.55)
+    elif len(t) > 2 * MOST:
+        _range(axis, t, y, MOST, color=colour, label=label)
+    else:
         alone = {"marker": "o", "markersize": 5} if np.count_nonzero(np.isfinite(y)) == 1 else {}
         axis.plot(t, y, color=colour, label=label, **(alone | options))  # type: ignore[arg-type]
-        return
-    _band(axis, t, y, colour, label, MOST)
 
 
-def _band(
-    axis: Axes, t: Floats, y: Floats, colour: str, label: str | None, intervals: int, alpha: float | None = None
-) -> None:
+def _range(axis: Axes, t: Floats, y: Floats, intervals: int, **options: object) -> None:
     """The range of a series in so many intervals."""
     edges = np.linspace(0, len(t), intervals + 1).astype(int)[:-1]
     low, high = np.fmin.reduceat(y, edges), np.fmax.reduceat(y, edges)
     # Next intervals share an end, so that a slow series is a line without gaps.
     low[1:], high[1:] = np.fmin(low[1:], y[edges[1:] - 1]), np.fmax(high[1:], y[edges[1:] - 1])
     ends = np.append(t[edges], t[-1])
-    axis.fill_between(
-        ends, np.append(low, low[-1]), np.append(high, high[-1]), color=colour, linewidth=0.8, label=label, alpha=alpha
-    )
+    axis.fill_between(ends, np.append(low, low[-1]), np.append(high, high[-1]), linewidth=0.8, **options)  # type: ignore[arg-type]
 
 
-def instants(frames: int) -> np.ndarray:
-    """The frames at which percentiles are taken, with the first and the last."""
-    return np.unique(np.linspace(0, frames - 1, min(frames, INSTANTS)).round().astype(int))
+def instants(frames: int, most: int = INSTANTS) -> np.ndarray:
+    """At most so many of the frames, evenly, with the first and the last."""
+    return np.unique(np.linspace(0, frames - 1, min(frames, most)).round().astype(int))
 
 
-def percentiles(y: Floats, wanted: tuple[float, ...]) -> Floats:
+def percentiles(y: Floats, wanted: Sequence[float]) -> Floats:
     """Percentiles over the balls at each frame, (len(wanted), frames), of y (balls, frames); NaN where none is left."""
-    found = np.full((len(wanted), y.shape[1]), np.nan)
-    for frame in range(y.shape[1]):
-        there = y[:, frame][np.isfinite(y[:, frame])]
-        if there.size:
-            found[:, frame] = np.percentile(there, wanted)
-    return found
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "All-NaN slice")
+        return np.asarray(np.nanpercentile(y, wanted, axis=0))
 
 
-def fan(axis: Axes, t: Floats, y: Floats, colour: str, label: str | None = None) -> None:
-    """Many balls, y (balls, frames): the median, and bands that hold 50 and 90 % and all of them."""
+def fan(
+    axis: Axes, t: Floats, y: Floats, colour: str, label: str | None = None,
+    bands: Sequence[tuple[float, float, float, str | None]] = BANDS,
+) -> None:  # fmt: skip
+    """Many balls, y (balls, frames): the median, and bands that hold some of them."""
     some = instants(len(t))
-    low, five, quarter, half, three, most, high = percentiles(y[:, some], (0, 5, 25, 50, 75, 95, 100))
-    axis.fill_between(t[some], low, high, color=colour, alpha=0.13, linewidth=0)
-    axis.fill_between(t[some], five, most, color=colour, alpha=0.2, linewidth=0)
-    axis.fill_between(t[some], quarter, three, color=colour, alpha=0.3, linewidth=0)
-    axis.plot(t[some], half, color=colour, label=label)
+    t, y = t[some], y[:, some]
+    for low, high, alpha, name in bands:
+        axis.fill_between(t, *percentiles(y, (low, high)), color=colour, alpha=alpha, linewidth=0, label=name)
+    axis.plot(t, percentiles(y, (50,))[0], color=colour, label=label)
+
+
+def balls(axis: Axes, t: Floats, y: Floats, colour: str, names: Sequence[str | None], *, points: bool = False) -> None:
+    """A line in its colour for each of a few balls, y (balls, frames), or bands in one colour for more."""
+    if len(y) > FEW:
+        fan(axis, t, y, colour)
+        return
+    for own, one, name in zip(COLOURS, y, names, strict=False):
+        line(axis, t, one, own, name, points=points)

@@ -1,7 +1,7 @@
 """A unit sphere on paper: seen from far away, what is behind it drawn fainter."""
 
 from dataclasses import dataclass
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -69,54 +69,44 @@ def draw_globe(axis: Axes, view: View, names: tuple[str, str, str]) -> None:
     axis.set_axis_off()
     axis.set(xlim=(-1.22, 1.22), ylim=(-1.22, 1.22))
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
-    axis.fill(np.cos(turn), np.sin(turn), facecolor="#f6f8fa", edgecolor="0.45", linewidth=0.9, zorder=0)
-    for circle in _graticule(turn):
-        _halves(axis, view, circle, "0.78", 0.6, zorder=0.5)
-    for i, name in enumerate(names):
-        for sign in (1.0, -1.0):
-            end = sign * np.eye(3)[i]
-            x, y, depth = view.project(end)
-            front = depth >= -1e-9
-            axis.plot(x, y, ".", color="0.35", markersize=5, alpha=1.0 if front else BEHIND, zorder=1)
-            if sign > 0:
-                away = 1.13 if x * x + y * y > 0.36 else 1.0
-                offset = (0, 0) if away > 1.0 else (7, 7)
-                axis.annotate(
-                    name, (x * away, y * away), xytext=offset, textcoords="offset points", ha="center", va="center",
-                    fontsize=10, color="0.25", alpha=1.0 if front else 0.55, zorder=6,
-                    path_effects=[withStroke(linewidth=2.5, foreground="white", alpha=0.8)],
-                )  # fmt: skip
+    cosine, sine = np.cos(turn), np.sin(turn)
+    axis.fill(cosine, sine, facecolor="#f6f8fa", edgecolor="0.45", linewidth=0.9, zorder=0)
+    parallels = [
+        np.stack([cosine * np.cos(a), sine * np.cos(a), 0.0 * turn + np.sin(a)], -1)
+        for a in np.deg2rad([-60, -30, 0, 30, 60])
+    ]
+    meridians = [
+        np.stack([cosine * np.cos(a), cosine * np.sin(a), sine], -1) for a in np.deg2rad([0, 30, 60, 90, 120, 150])
+    ]
+    for circle in (*parallels, *meridians):
+        _draw(axis, view, circle, color="0.78", linewidth=0.6, zorder=0.5)
+    for end, name in zip(np.concatenate([np.eye(3), -np.eye(3)]), (*names, "", "", ""), strict=True):
+        x, y, depth = view.project(end)
+        front = depth >= -1e-9
+        axis.plot(x, y, ".", color="0.35", markersize=5, alpha=1.0 if front else BEHIND, zorder=1)
+        rim = x * x + y * y > 0.36  # beyond which a name stands outside, else to the right of its point
+        axis.annotate(
+            name, (1.13 * x, 1.13 * y) if rim else (x, y), xytext=(0, 0) if rim else (7, 7),
+            textcoords="offset points", ha="center", va="center", fontsize=10, color="0.25",
+            alpha=1.0 if front else 0.55, zorder=6,
+            path_effects=[withStroke(linewidth=2.5, foreground="white", alpha=0.8)],
+        )  # fmt: skip
 
 
-def _graticule(turn: Floats) -> list[Floats]:
-    """Circles of latitude and meridians of the third axis, every 30°, each (m, 3)."""
-    zero = np.zeros_like(turn)
-    found = []
-    for angle in np.deg2rad([-60, -30, 0, 30, 60]):
-        found.append(np.stack([np.cos(turn), np.sin(turn), zero + np.tan(angle)], -1) * np.cos(angle))
-    for angle in np.deg2rad([0, 30, 60, 90, 120, 150]):
-        found.append(np.stack([np.cos(angle) * np.cos(turn), np.sin(angle) * np.cos(turn), np.sin(turn)], -1))
-    return found
-
-
-def _halves(
-    axis: Axes, view: View, points: Floats, colour: str, width: float, *, zorder: float, **options: object
-) -> None:
-    """A curve, (m, 3): in front of the sphere, and fainter behind it."""
+def _draw(axis: Axes, view: View, points: Floats, *, zorder: float, **options: Any) -> None:
+    """Points or a line, (m, 3): in front of the sphere, and fainter behind it."""
     x, y, depth = view.project(points)
     for front in (False, True):
-        seen = depth >= 0.0 if front else depth <= 0.0
-        if seen.any():
-            axis.plot(
-                np.where(seen, x, np.nan), np.where(seen, y, np.nan), color=colour, linewidth=width,
-                alpha=1.0 if front else BEHIND, zorder=zorder + (0.3 if front else 0.0),
-                **(options if front else {}),  # type: ignore[arg-type]
-            )  # fmt: skip
+        there = (depth >= 0.0) == front
+        axis.plot(
+            np.where(there, x, np.nan), np.where(there, y, np.nan), alpha=1.0 if front else BEHIND,
+            zorder=zorder + 0.3 * front, **options,
+        )  # fmt: skip
 
 
 def draw_curve(axis: Axes, view: View, points: Floats, label: str) -> None:
     """A curve on which an orbit runs, (m, 3): broad, so that it is seen below the orbit."""
-    _halves(axis, view, points, CURVE, 4.5, zorder=2)
+    _draw(axis, view, points, color=CURVE, linewidth=4.5, zorder=2)
     axis.plot([], [], color=CURVE, linewidth=4.5, label=label)
 
 
@@ -128,49 +118,22 @@ def draw_orbit(
     A line that would be longer than `longest` is drawn to there, and the rest as faint points.  Returns how many frames
     the line, or the points, are.
     """
-    part = as_long(points, longest)
-    _draw_path(axis, view, points[:part], colour, most)
-    if part < len(points):
-        rest = points[part :: max(1, (len(points) - part) // REST)]
-        x, y, depth = view.project(rest)
+    apart = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=-1))
+    near = len(points) > 2 and apart.max() < NEAR
+    part = 1 + int(np.searchsorted(np.cumsum(apart), longest, side="right")) if near else len(points)
+    shown, rest = points[:part], points[part :: max(1, (len(points) - part) // REST)]
+    if len(shown) > 20 * most:
+        shown, near = shown[np.linspace(0, part - 1, 20 * most).astype(int)], False
+    form: dict[str, Any] = {"linewidth": 1.2} if near else {
+        "marker": "o", "linestyle": "", "markersize": 3.2 if len(shown) < 400 else 1.6, "markeredgewidth": 0,
+    }  # fmt: skip
+    _draw(axis, view, shown, color=colour, zorder=3, rasterized=len(shown) > most, **form)
+    if len(rest):
+        x, y, depth = view.project(rest[rest @ view.towards >= 0.0])
+        axis.plot(x, y, ".", color=colour, markersize=1.5, alpha=0.35, zorder=2.5, rasterized=True)
+    for end, marker, face in ((points[0], "o", "white"), (points[-1], "s", colour)):
+        x, y, depth = view.project(end)
         axis.plot(
-            x[depth >= 0], y[depth >= 0], ".", color=colour, markersize=1.5, alpha=0.35, zorder=2.5, rasterized=True
+            x, y, marker, markersize=6, color=colour, markerfacecolor=face, zorder=5, alpha=1.0 if depth >= 0 else 0.5
         )
-    x, y, depth = view.project(points[[0, -1]])
-    for end, marker, face in ((0, "o", "white"), (1, "s", colour)):
-        axis.plot(
-            x[end], y[end], marker, markersize=6, color=colour, markerfacecolor=face, zorder=5,
-            alpha=1.0 if depth[end] >= 0 else 0.5,
-        )  # fmt: skip
     return part
-
-
-def as_long(points: Floats, longest: float) -> int:
-    """How many points of an orbit (frames, 3) make a line so long; all of them, if it is shorter or no line."""
-    apart = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=-1))
-    if not len(apart) or apart.max() >= NEAR:
-        return len(points)
-    return 1 + int(np.searchsorted(np.cumsum(apart), longest, side="right"))
-
-
-def _draw_path(axis: Axes, view: View, points: Floats, colour: str, most: int) -> None:
-    """A line where neighbours are near, else points."""
-    chosen = points if len(points) <= 20 * most else points[np.linspace(0, len(points) - 1, 20 * most).astype(int)]
-    dense = len(chosen) > most
-    apart = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=-1))
-    as_line = len(points) > 2 and apart.max() < NEAR and len(chosen) == len(points)
-    x, y, depth = view.project(chosen)
-    for front in (False, True):
-        seen = depth >= 0.0 if front else depth < 0.0
-        alpha = 1.0 if front else BEHIND
-        if as_line:
-            axis.plot(
-                np.where(seen, x, np.nan), np.where(seen, y, np.nan), color=colour, linewidth=1.2, alpha=alpha,
-                zorder=3 + front, rasterized=dense,
-            )  # fmt: skip
-        else:
-            size = 3.2 if len(chosen) < 400 else 1.6
-            axis.plot(
-                x[seen], y[seen], "o", color=colour, markersize=size, alpha=alpha, zorder=3 + front,
-                markeredgewidth=0, rasterized=dense,
-            )  # fmt: skip

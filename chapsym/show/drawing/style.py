@@ -16,7 +16,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from .reading import literal
+from .reading import RAISED, literal
 
 #: Okabe and Ito's colours.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
@@ -32,17 +32,14 @@ MAP = "viridis"
 #: So many letters fit below a figure.
 LETTERS = 66
 
+#: What differs from the defaults of matplotlib.
 STYLE = {
     "font.family": ["DejaVu Sans"], "font.size": 11, "axes.titlesize": 11, "axes.labelsize": 11, "figure.titlesize": 12,
     "xtick.labelsize": 10, "ytick.labelsize": 10, "legend.fontsize": 10, "legend.frameon": False,
     "legend.handlelength": 1.4, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
     "grid.color": "0.9", "grid.linewidth": 0.8, "axes.axisbelow": True, "axes.formatter.useoffset": False,
-    "lines.linewidth": 1.4, "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
-    "mathtext.fontset": "dejavusans", "axes.xmargin": 0.02, "text.color": "black", "axes.labelcolor": "black",
-    "xtick.color": "black", "ytick.color": "black", "axes.edgecolor": "0.3", "svg.fonttype": "path",
-    "svg.hashsalt": "chapsym", "axes.prop_cycle": cycler(color=COLOURS), "savefig.dpi": 160, "figure.dpi": 100,
-    "path.simplify": True, "text.usetex": False,
-    "axes.unicode_minus": True, "figure.autolayout": False,
+    "lines.linewidth": 1.4, "axes.xmargin": 0.02, "axes.edgecolor": "0.3", "svg.hashsalt": "chapsym",
+    "axes.prop_cycle": cycler(color=COLOURS), "savefig.dpi": 160,
 }  # fmt: skip
 
 
@@ -94,7 +91,8 @@ def new(
 def entitle(figure: Figure, title: str) -> None:
     """The title of a scene above a figure: as it is written, in two lines at most."""
     if title:
-        figure.suptitle(_wrapped(title), parse_math=False)
+        lines = textwrap.wrap(" ".join(title.split()), 56, max_lines=2, placeholder=" ...")
+        figure.suptitle("\n".join(lines), parse_math=False)
     figure.get_layout_engine().set(w_pad=0.06, h_pad=0.07)  # type: ignore[union-attr, call-arg]
 
 
@@ -120,17 +118,12 @@ def legend(figure: Figure, axes: Sequence[Axes]) -> None:
     )
 
 
-def _wrapped(text: str) -> str:
-    lines = textwrap.wrap(" ".join(text.split()), 56)
-    return "\n".join(lines if len(lines) < 3 else [lines[0], lines[1][:53] + " ..."])
-
-
 def power(size: float) -> tuple[float, str]:
     """What to divide values of this size by so that ticks are short, and how to say so: (1e-6, "10⁻⁶")."""
     if not np.isfinite(size) or size == 0.0 or 1e-2 <= size < 1e5:
         return 1.0, ""
     exponent = 3 * int(np.floor(np.log10(size) / 3))
-    return 10.0**exponent, "10" + str(exponent).translate(str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"))
+    return 10.0**exponent, "10" + str(exponent).translate(RAISED)
 
 
 def in_power(name: str, units: str, factor: str) -> str:
@@ -147,12 +140,17 @@ def at_least(axis: Axes, span: float) -> None:
         axis.set_ylim(middle - span / 2, middle + span / 2)
 
 
-def scale(axis: Axes, data: np.ndarray, label: str) -> Any:
-    """A colour bar for values of the balls; returns what turns a value into its colour."""
+def colour_bar(mapped: ScalarMappable, axes: Sequence[Axes], label: str) -> None:
+    """What the colours below some axes mean."""
+    bar = axes[0].figure.colorbar(mapped, ax=axes, location="bottom", aspect=40, pad=0.02, fraction=0.06)
+    bar.set_label(label, parse_math=False)
+    bar.outline.set_visible(False)
+
+
+def scale(axes: Sequence[Axes], data: np.ndarray, label: str) -> Any:
+    """A colour bar for some values; returns what turns a value into its colour."""
     finite = data[np.isfinite(data)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     mapped = ScalarMappable(Normalize(low, high if high > low else low + 1.0), MAP)
-    bar = axis.figure.colorbar(mapped, ax=axis, location="bottom", aspect=40, pad=0.02, fraction=0.06)
-    bar.set_label(label, parse_math=False)
-    bar.outline.set_visible(False)
+    colour_bar(mapped, axes, label)
     return mapped.to_rgba

@@ -1,34 +1,68 @@
-"""Pictures of a result: one module for each kind of figure, each drawn only where its variables are there."""
+"""Pictures of a result, each drawn only where its variables are there."""
 
-from collections.abc import Sequence
-from importlib import import_module
+from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
 from chapsym import files
 from chapsym.dynamics import BadInput
 
-from ..drawing import reading
+from ..drawing import curves, reading
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
     from ..drawing.style import Picture
 
-__all__ = ["FIGURES", "FORMATS", "available", "draw", "save", "save_all"]
+__all__ = ["FORMATS", "available", "draw", "save", "save_all"]
 
-#: The modules, which are the names of the figures, the most telling first.
-FIGURES = ("contact", "spheres", "spread", "rotation", "phase", "omega", "attitude", "energy", "integrals")
 FORMATS = ("svg", "png", "pdf")
-#: Those that are curves between the frames; and those that say so where frames are too far apart for that.
-CURVES = ("contact", "spheres", "omega", "attitude")
-TELLING = (*CURVES, "energy")
+
+
+class Kind(NamedTuple):
+    """A kind of figure: what draws it, and why it cannot be drawn of a result, in a sentence; None if it can.
+
+    curve: whether it is a curve between the frames.  warns: whether it says so where they are too far apart for that.
+    """
+
+    draw: "Callable[[Dataset], Picture]"
+    missing: "Callable[[Dataset], str | None]"
+    curve: bool = False
+    warns: bool = False
+
+
+def _without(name: str, sentence: str) -> "Callable[[Dataset], str | None]":
+    """Of a figure that needs one variable: why it cannot be drawn."""
+    return lambda dataset: None if name in dataset else sentence
+
+
+@cache
+def kinds() -> dict[str, Kind]:
+    """The kinds of figures by name, the most telling first; what draws them, matplotlib too, is imported here."""
+    from . import contact, over_time, phase, spheres
+
+    timed = "(and give run.time_step)"
+    no_contact = _without("contact", 'no contact: add "contact" to run.outputs')
+    no_omega = _without("omega", f'no ω: add "omega" to run.outputs {timed}')
+    no_energy = _without("energy", f'no energy: add "energy" to run.outputs {timed}')
+    return {
+        "contact": Kind(contact.draw, no_contact, curve=True, warns=True),
+        "spheres": Kind(spheres.draw, spheres.missing, curve=True, warns=True),
+        "spread": Kind(over_time.draw_spread, over_time.no_spread),
+        "rotation": Kind(phase.draw_rotation, phase.no_rotation),
+        "phase": Kind(phase.draw_phase, phase.no_phase),
+        "omega": Kind(over_time.draw_omega, no_omega, curve=True, warns=True),
+        "attitude": Kind(over_time.draw_attitude, over_time.no_attitude, curve=True, warns=True),
+        "energy": Kind(over_time.draw_energy, no_energy, warns=True),
+        "integrals": Kind(over_time.draw_integrals, over_time.no_integrals),
+    }
 
 
 def available(dataset: "Dataset") -> dict[str, str | None]:
     """Every figure by name: None where it can be drawn, else why not, in a sentence."""
     whole = reading.with_balls(dataset)
-    return {name: _missing(whole, name) for name in FIGURES}
+    return {name: kind.missing(whole) for name, kind in kinds().items()}
 
 
 def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Picture":
@@ -37,22 +71,21 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     Raises BadInput for a figure or ball that is not there, for one whose variables are missing, and where a frame that
     was reached is not finite.  The figure is a matplotlib Figure that notebooks show as it is; pyplot is not touched.
     """
-    from ..drawing import curves
     from ..drawing.style import add_note, styled
 
-    if name not in FIGURES:
-        raise BadInput(f"there is no figure {name!r}; choose of {', '.join(FIGURES)}")
-    chosen = reading.with_balls(dataset, ball)
+    if name not in kinds():
+        raise BadInput(f"there is no figure {name!r}; choose of {', '.join(kinds())}")
+    kind, chosen = kinds()[name], reading.with_balls(dataset, ball)
     so_far = reading.unfinished(chosen)
     if so_far is not None:
-        chosen = chosen.assign_attrs(title=f"{so_far}: {chosen.attrs.get('title') or 'a result'}")
-    reason = _missing(chosen, name)
+        chosen = chosen.assign_attrs(title=f"{so_far}: {reading.title(chosen) or 'a result'}")
+    reason = kind.missing(chosen)
     if reason is not None:
         raise BadInput(f"{name}: {reason}")
     begun = reading.begun(chosen)
     with styled():
-        figure: Picture = _module(name).draw(curves.finer(begun) if name in CURVES else begun)
-        if name in TELLING:
+        figure = kind.draw(curves.finer(begun) if kind.curve else begun)
+        if kind.warns:
             add_note(figure, curves.note(begun))
     return figure
 
@@ -89,16 +122,3 @@ def save_all(
             written.append(folder / f"{name}.{form}")
             save(figure, written[-1])
     return written
-
-
-def _missing(dataset: "Dataset", name: str) -> str | None:
-    """Why a figure cannot be drawn: as its module says, or as the variable of this name is not there."""
-    module = _module(name)
-    if hasattr(module, "missing"):
-        reason: str | None = module.missing(dataset)
-        return reason
-    return None if name in dataset else str(module.ABSENT)
-
-
-def _module(name: str) -> Any:
-    return import_module(f".{name}", __name__)

@@ -1,17 +1,20 @@
 """The trace of the contact point on the plane: of one ball, of several in colours, of thousands as a density."""
 
+from itertools import combinations
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from xarray import Dataset
 
 from chapsym.dynamics.ball import Floats
 
-from ..drawing import curves, reading, series, traces
-from ..drawing.style import COLOURS, FEW, VERTICES, WIDTH, Picture, in_power, legend, new, power
-from .four import draw_pairs
+from ..drawing import curves, reading, series
+from ..drawing.style import COLOURS, FEW, VERTICES, WIDTH, Picture, colour_bar, in_power, legend, new, power, scale
+from .over_time import mean
 
-ABSENT = 'no contact: add "contact" to run.outputs'
 #: Inches of the trace's panel, from flat to tall.
 LOW, HIGH = 2.2, 5.6
 #: Cells of the density along each side; and when ellipses around the balls are drawn, as parts of the run.
@@ -25,26 +28,38 @@ STRAIGHT = 0.08
 def draw(dataset: Dataset) -> Picture:
     """The traces, in metres, with equal axes; in n dimensions a panel for each pair of coordinates."""
     trace = reading.values(dataset, "contact")
-    if trace.shape[-1] > 2:
-        return draw_pairs(dataset, trace)
     factor, text = power(float(np.nanmax(np.abs(trace), initial=0.0)))
     trace = trace / factor
+    if trace.shape[-1] > 2:
+        return _pairs(dataset.isel(ball=slice(0, FEW)), trace[:FEW], text)
     aside = [] if len(trace) > FEW else sideways(trace, reading.last_frames(dataset))
     heights = [panel_height(trace), *([2.1] if aside else [])]
     figure, (axis, *below) = new(
-        str(dataset.attrs.get("title", "")), len(heights), height=sum(heights) / len(heights), height_ratios=heights
+        reading.title(dataset), len(heights), height=sum(heights) / len(heights), height_ratios=heights
     )
     axis.set_aspect("equal", adjustable="datalim")
     if len(trace) <= curves.LINES:
-        traces.lines(axis, dataset, trace)
+        _lines(axis, dataset, trace)
     else:
-        _density(axis, dataset, trace)
+        _density(axis, trace)
     axis.set(xlabel=in_power("x", "m", text), ylabel=in_power("y", "m", text))
     axis.margins(0.06)
     for panel in below:
         label = in_power("along the way, from start to end", "m", text)
         _aside(panel, aside, label, factor, curves.too_far(dataset))
     legend(figure, [axis])
+    return figure
+
+
+def _pairs(dataset: Dataset, trace: Floats, text: str) -> Picture:
+    """The contact point in a hyperplane, (balls, frames, n - 1): a panel for each pair of the first three axes."""
+    figure, (first, *more, last) = new(reading.title(dataset), 2, 2, height=2.9)
+    for axis, (a, b) in zip((first, *more), combinations(range(3), 2), strict=True):
+        _lines(axis, dataset, trace[..., [a, b]], legend=axis is first)
+        axis.set_aspect("equal", adjustable="datalim")
+        axis.set(xlabel=in_power(f"$x_{a + 1}$", "m", text), ylabel=in_power(f"$x_{b + 1}$", "m", text))
+    last.set_axis_off()
+    last.legend(*first.get_legend_handles_labels(), loc="center")
     return figure
 
 
@@ -89,39 +104,72 @@ def panel_height(trace: Floats) -> float:
     return float(np.clip(inside * up / across if across > 0.0 else HIGH, LOW, HIGH)) + 0.9
 
 
-def _density(axis: Axes, dataset: Dataset, trace: Floats) -> None:
+def _lines(axis: Axes, dataset: Dataset, trace: Floats, legend: bool = True) -> None:
+    """A line for each ball, with its start, its end, and arrows along it."""
+    last, names, stopped = reading.last_frames(dataset), reading.labels(dataset), reading.stopped(dataset)
+    few = len(trace) <= FEW
+    colours: Any = COLOURS
+    if not few:
+        name, data, units = reading.first_parameter(dataset)
+        colours = scale([axis], data, reading.labelled(name, units))(data)
+    dense = trace.shape[0] * trace.shape[1] > VERTICES
+    for i, path in enumerate(trace):
+        path = path[: last[i] + 1]
+        label = names[i] if few and len(trace) > 1 and legend else None
+        axis.plot(*path.T, color=colours[i], linewidth=1.3 if few else 0.8, rasterized=dense, label=label, zorder=2)
+        if few:
+            _arrows(axis, path, colours[i], 4 if len(trace) == 1 else 2)
+        end = ("stopped", "X") if stopped[i] else ("end", "s")
+        ends: tuple[tuple[int, str, str, Any], ...] = ((0, "start", "o", "white"), (-1, *end, colours[i]))
+        for at, name, marker, face in ends:
+            axis.plot(
+                *path[at], marker, color=colours[i], markerfacecolor=face, markersize=7 if few else 3.5, zorder=4,
+                label=name if len(trace) == 1 and legend else None,
+            )  # fmt: skip
+    if len(trace) > 1 and legend and stopped.any():
+        axis.plot([], [], "X", color="0.3", markersize=7 if few else 4, label="stopped early")
+
+
+def _arrows(axis: Axes, path: Floats, colour: str, count: int) -> None:
+    """Heads of arrows at equal parts of the length of a path."""
+    along = np.concatenate([[0.0], np.cumsum(np.sqrt((np.diff(path, axis=0) ** 2).sum(axis=-1)))])
+    if along[-1] == 0.0:
+        return
+    for part in (np.arange(count) + 0.5) / count:
+        k = int(np.clip(np.searchsorted(along, part * along[-1]), 1, len(path) - 1))
+        axis.annotate(
+            "", xy=tuple(path[k]), xytext=tuple(path[k - 1]), zorder=3,
+            arrowprops={"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "color": colour, "linewidth": 0,
+                        "shrinkA": 0, "shrinkB": 0},
+        )  # fmt: skip
+
+
+def _density(axis: Axes, trace: Floats) -> None:
     """How often each place was visited, the mean path, and ellipses that hold 50 and 90 % of the balls."""
-    count, edges = _visits(trace)
-    shown = axis.imshow(
-        np.ma.masked_equal(count.T, 0), extent=(*edges[0], *edges[1]), origin="lower", cmap="viridis_r",
-        norm=LogNorm(1, max(2.0, float(count.max()))), interpolation="nearest", aspect="equal", zorder=1,
+    flat = trace[np.isfinite(trace).all(axis=-1)]
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    size = float((high - low).max()) / CELLS or 1.0
+    cells = np.maximum(np.ceil((high - low) / size).astype(int), 1)  # square ones
+    sides = np.stack([low, low + cells * size], axis=-1)
+    count, _, _ = np.histogram2d(*flat.T, bins=cells, range=sides)
+    norm = LogNorm(1, max(2.0, float(count.max())))
+    axis.imshow(
+        np.ma.masked_equal(count.T, 0), extent=tuple(sides.flat), origin="lower", cmap="viridis_r", norm=norm,
+        interpolation="nearest", zorder=1,
     )  # fmt: skip
     axis.set_aspect("equal", adjustable="datalim")
-    axis.figure.colorbar(shown, ax=axis, location="bottom", aspect=40, pad=0.02, fraction=0.06,
-                         label=f"frames of {len(trace)} balls in a cell")  # fmt: skip
-    going = np.asarray(np.isfinite(trace).all(axis=-1))
+    colour_bar(ScalarMappable(norm, "viridis_r"), [axis], f"frames of {len(trace)} balls in a cell")
+    going = np.isfinite(trace).all(axis=-1)
     frames = np.flatnonzero(going.sum(axis=0) > going[:, 0].sum() // 2)  # of those whose turn has come
-    mean = np.array([trace[going[:, k], k].mean(axis=0) for k in frames])
+    path = mean(trace[:, frames])
     axis.plot(
-        *mean.T, color="black", linewidth=1.0, label="mean of the balls", zorder=3, rasterized=len(mean) > VERTICES
+        *path.T, color="black", linewidth=1.0, label="mean of the balls", zorder=3, rasterized=len(path) > VERTICES
     )
     for part in MOMENTS:
         k = int(frames[round(part * (len(frames) - 1))])
         for share in SHARES:
             told = f"{SHARES[0]} and {SHARES[1]} % of them" if part == MOMENTS[0] and share == SHARES[0] else None
             axis.plot(*ellipse(trace[going[:, k], k], share).T, color=COLOURS[1], linewidth=1.3, label=told, zorder=4)
-
-
-def _visits(trace: Floats) -> tuple[np.ndarray, list[tuple[float, float]]]:
-    """Counts in square cells, (nx, ny), and the range of each side."""
-    flat = trace.reshape(-1, 2)
-    flat = flat[np.isfinite(flat).all(axis=-1)]
-    low, high = flat.min(axis=0), flat.max(axis=0)
-    size = float((high - low).max()) / CELLS or 1.0
-    cells = np.maximum(np.ceil((high - low) / size).astype(int), 1)
-    at = np.minimum(((flat - low) / size).astype(int), cells - 1)
-    count = np.bincount(at[:, 0] * cells[1] + at[:, 1], minlength=cells.prod()).reshape(cells)
-    return count, [(float(a), float(a + n * size)) for a, n in zip(low, cells, strict=True)]
 
 
 def ellipse(points: Floats, share: float) -> Floats:

@@ -1,4 +1,4 @@
-"""The elliptic phase u of a ball with vertical momentum, and its increments."""
+"""The elliptic phase u of a ball with vertical momentum and its increments, and the rotation number over a sweep."""
 
 from contextlib import suppress
 
@@ -10,18 +10,18 @@ from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading, series
 from ..drawing.invariant import bodies_of
-from ..drawing.style import COLOURS, FEW, Picture, at_least, in_power, legend, new, power
-from . import change
+from ..drawing.style import COLOURS, VERTICES, Picture, at_least, in_power, legend, new, power, scale
+from .over_time import ULP, ULPS
 
 
-def missing(dataset: Dataset) -> str | None:
-    """Why this figure cannot be drawn, in a sentence; None if it can."""
+def no_phase(dataset: Dataset) -> str | None:
+    """Why the phase cannot be drawn, in a sentence; None if it can."""
     if "phase" not in dataset:
         return 'no phase: add "phase" to run.outputs (for vertical momentum)'
     return "an increment needs two frames" if dataset.sizes["frame"] < 2 else None
 
 
-def draw(dataset: Dataset) -> Picture:
+def draw_phase(dataset: Dataset) -> Picture:
     """u(t) above, without its jumps by a period; below its increment a step, constant for D = 0, else a function of u.
 
     Where the steps between two frames do not tell how often u went round, it is drawn with its jumps, and below is what
@@ -30,22 +30,23 @@ def draw(dataset: Dataset) -> Picture:
     t, label = reading.clock(dataset)
     stored, apart = reading.values(dataset, "phase"), np.diff(reading.steps(dataset))
     gained, known = gains(stored, apart, periods(dataset), reading.per_ball(dataset, "rotation_number"))
-    each = gained / apart if known else gained
-    u = np.concatenate([stored[:, :1], stored[:, :1] + np.cumsum(gained, axis=1)], axis=1) if known else stored
-    below_label = "increment a step" if known else "gain a frame"
-    figure, (above, below) = new(str(dataset.attrs.get("title", "")), 2, height=2.4, sharex=True)
-    for axis, array, when in ((above, _broken(u, gained), t), (below, each, t[:-1])):
+    u, each = stored.copy(), gained
+    if known:
+        u[:, 1:] = stored[:, :1] + np.cumsum(gained, axis=1)
+        each = gained / apart
+    u[:, :-1][np.isnan(gained)] = np.nan  # a gap where it jumps by a period
+    figure, axes = new(reading.title(dataset), 2, height=2.4, sharex=True)
+    names = reading.labels(dataset) if len(u) > 1 else [None] * len(u)
+    told = ("phase u", names), ("increment a step" if known else "gain a frame", [None] * len(u))
+    for axis, array, (name, balls) in zip(axes, (u, each), told, strict=True):
         factor, text = power(float(np.nanmax(np.abs(array), initial=0.0)))
-        if len(u) <= FEW:
-            for i, one in enumerate(array):
-                name = reading.labels(dataset)[i] if len(u) > 1 and axis is above else None
-                series.line(axis, when, one / factor, COLOURS[i], name)
-        else:
-            series.fan(axis, when, array / factor, COLOURS[0])
-        axis.set_ylabel(in_power("phase u" if axis is above else below_label, "", text))
-    at_least(below, _flat(u, each))
-    below.set_xlabel(label)
-    legend(figure, [above])
+        series.balls(axis, t[: array.shape[1]], array / factor, COLOURS[0], balls)
+        axis.set_ylabel(in_power(name, "", text))
+    # Roundoff of u in an increment is flat, and so is a thousandth of the increment.
+    largest, whole = (float(np.nanmax(np.abs(array), initial=0.0)) for array in (each, u))
+    at_least(axes[1], max(ULPS * ULP * whole, 1e-3 * largest) / power(largest)[0])
+    axes[1].set_xlabel(label)
+    legend(figure, axes[:1])
     return figure
 
 
@@ -74,25 +75,39 @@ def gains(u: Floats, apart: np.ndarray, period: Floats | None, turns: Floats | N
         whole = period[:, np.newaxis]
         expected = 0.0 if turns is None else turns[:, np.newaxis] * whole * apart
         return gained - whole * np.round((gained - expected) / whole), True
-    if np.isnan(u).all():
-        return gained, False
     span = np.fmax.reduce(u, axis=1, keepdims=True) - np.fmin.reduce(u, axis=1, keepdims=True)
-    monotone = (np.nan_to_num(gained) >= 0).all(axis=1, keepdims=True) | (np.nan_to_num(gained) <= 0).all(
-        axis=1, keepdims=True
-    )
-    jumps = ~monotone & (np.abs(gained) > span / 2)
-    return np.where(jumps, np.nan, gained), False
+    ways = np.sign(np.nan_to_num(gained))
+    monotone = ways.min(axis=1, keepdims=True) * ways.max(axis=1, keepdims=True) >= 0
+    return np.where(~monotone & (np.abs(gained) > span / 2), np.nan, gained), False
 
 
-def _broken(u: Floats, gained: Floats) -> Floats:
-    """u with a gap where it jumps by a period."""
-    found = u.copy()
-    found[:, :-1][np.isnan(gained)] = np.nan
-    return found
+def no_rotation(dataset: Dataset) -> str | None:
+    """Why the rotation number cannot be drawn, in a sentence; None if it can."""
+    if "rotation_number" not in dataset:
+        return 'no rotation number: add "rotation_number" to run.outputs'
+    return "one ball has one rotation number: sweep a parameter to see it change" if dataset.sizes["ball"] < 2 else None
 
 
-def _flat(u: Floats, each: Floats) -> float:
-    """Roundoff of u in an increment is flat: 20 ulps of u, and a thousandth of the increment, in the panel's unit."""
-    largest = float(np.nanmax(np.abs(each), initial=0.0))
-    factor, _ = power(largest)
-    return max(change.ULPS * change.ULP * float(np.nanmax(np.abs(u), initial=0.0)), 1e-3 * largest) / factor
+def draw_rotation(dataset: Dataset) -> Picture:
+    """Points over the first parameter; a second one is the colour.  Without parameters, over the number of the ball."""
+    found = reading.per_ball(dataset, "rotation_number")
+    assert found is not None
+    name, data, units = reading.first_parameter(dataset)
+    more = list(reading.parameters(dataset).items())[1:]
+    figure, (axis,) = new(reading.title(dataset), height=4.0 if more else 3.4)
+    factor, text = power(float(np.nanmax(np.abs(data), initial=0.0)))
+    dense = len(found) > VERTICES // 8
+    if more:
+        other, (values, other_units) = more[0]
+        colours = scale([axis], values, reading.labelled(other, other_units))(values)
+        axis.scatter(data / factor, found, c=colours, s=10, linewidths=0, rasterized=dense)
+    else:
+        order = np.argsort(data, kind="stable")
+        style = "-" if len(found) > 40 else "o-"
+        axis.plot(data[order] / factor, found[order], style, color=COLOURS[0], markersize=4, rasterized=dense)
+    axis.set_xlabel(in_power(reading.literal(name), reading.readable(units), text))
+    axis.set_ylabel("rotation number, turns a step")
+    lost = int((~np.isfinite(found)).sum())
+    if lost:
+        axis.set_title(f"{lost} of {len(found)} balls have none (not on a closed curve)")
+    return figure

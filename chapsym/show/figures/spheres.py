@@ -1,21 +1,18 @@
-"""γ and 𝒦/|𝒦| on their spheres, with the invariant curve, or what the integrals forbid."""
+"""γ and 𝒦/|𝒦| on their spheres, with the invariant curve, or what the integrals forbid; in four dimensions 𝒦±."""
 
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
 from xarray import Dataset
 
 from chapsym.dynamics import kernels
 from chapsym.dynamics.ball import Floats
 
-from ..drawing import reading
+from ..drawing import reading, series
 from ..drawing.invariant import Body, bodies_of, curve_through, energy_range, is_vertical, unit
 from ..drawing.sphere import LONGEST, View, draw_curve, draw_globe, draw_orbit
-from ..drawing.style import COLOURS, FEW, MAP, VERTICES, Picture, legend, new
-from . import four
+from ..drawing.style import COLOURS, FEW, VERTICES, Picture, empty, entitle, legend, new, scale
 
 NEEDS = ("gamma", "momentum")
 TITLES = {"gamma": r"$\gamma$", "momentum": r"$\mathcal{K}/|\mathcal{K}|$"}
@@ -40,31 +37,28 @@ def missing(dataset: Dataset) -> str | None:
 def draw(dataset: Dataset) -> Picture:
     """One sphere for each of γ and 𝒦/|𝒦|; one alone where 𝒦 is vertical, and they are the same."""
     if "row" in dataset.dims or dataset.sizes.get("axis") == 4:
-        return four.draw(dataset)
+        return _in_four_dimensions(dataset)
     found = {name: reading.values(dataset, name) for name in NEEDS if name in dataset}
-    t, _ = reading.clock(dataset)
-    if len(next(iter(found.values()))) > FEW:
-        balls, frames = _chosen(*next(iter(found.values())).shape[:2])
-        found, t = {name: array[np.ix_(balls, frames)] for name, array in found.items()}, t[frames]
-    title = str(dataset.attrs.get("title", ""))
-    still = "momentum" in found and not np.nan_to_num(found["momentum"]).any()
-    if still and "gamma" in found:
+    t, label = reading.clock(dataset)
+    many = dataset.sizes["ball"] > FEW
+    if many:
+        instants = series.instants(len(t), MOMENTS)
+        some = series.instants(dataset.sizes["ball"], max(2, CLOUD // len(instants)))
+        found, t = {name: array[np.ix_(some, instants)] for name, array in found.items()}, t[instants]
+    if "gamma" in found and "momentum" in found and not np.nan_to_num(found["momentum"]).any():
         del found["momentum"]
     vertical = len(found) == 2 and _all_vertical(found)
     shown = ["gamma"] if vertical else list(found)
-    figure, axes = new(title, 1, len(shown), height=5.2 if len(shown) == 1 else 3.3)
+    figure, axes = new(reading.title(dataset), 1, len(shown), height=5.2 if len(shown) == 1 else 3.3)
+    colours = scale(axes, t, label)(t) if many else None
     for axis, name in zip(axes, shown, strict=True):
-        points = unit(found[name]) if name == "momentum" else found[name]
-        if len(points) > FEW:
-            _cloud(axis, t, points)
-            part = len(t)
+        points, part = unit(found[name]) if name == "momentum" else found[name], len(reading.steps(dataset))
+        if many:
+            _cloud(axis, colours, points)
         else:
-            longest = LONGEST / len(points) * (1.0 if len(shown) == 1 else NARROW)
-            part = _panel(axis, dataset, name, points, found, vertical, longest)
+            part = _panel(axis, dataset, name, points, found, vertical, 1.0 if len(shown) == 1 else NARROW)
         title = r"$\gamma$, and $\mathcal{K} = h\gamma$" if vertical else TITLES[name]
         axis.set_title("\n".join(filter(None, (title, reading.of_span(dataset, part)))))
-    if len(found[shown[0]]) > FEW:
-        _times(figure, axes, dataset)
     legend(figure, axes)
     return figure
 
@@ -75,15 +69,18 @@ def _all_vertical(found: dict[str, Floats]) -> bool:
 
 
 def _panel(
-    axis: Axes, dataset: Dataset, name: str, points: Floats, found: dict[str, Floats], vertical: bool, longest: float
+    axis: Axes, dataset: Dataset, name: str, points: Floats, found: dict[str, Floats], vertical: bool, share: float
 ) -> int:
-    """The orbits of a few balls; how many frames the shortest of their lines shows, all of them if each is whole."""
-    flat = points[np.isfinite(points).all(axis=-1)]
-    view = View.of(flat)
+    """The orbits of a few balls, of which so large a share is a line; how many frames the shortest of the lines shows.
+
+    That is all of them if each line is whole.
+    """
+    view = View.of(points[np.isfinite(points).all(axis=-1)])
     draw_globe(axis, view, ("1", "2", "3"))
     last, names = reading.last_frames(dataset), reading.labels(dataset)
     bodies = bodies_of(dataset)
-    if len(points) == 1 and bodies and len(found) == 2 and not vertical and bodies[0].D > 0.0:
+    alone = len(points) == 1
+    if alone and bodies and len(found) == 2 and not vertical and bodies[0].D > 0.0:
         _forbidden(axis, view, bodies[0], found, name == "gamma")
     shortest = points.shape[1]
     for i, one in enumerate(points):
@@ -92,11 +89,12 @@ def _panel(
             curve = curve_through(bodies[i], orbit, bodies[i].D if vertical else 0.0)
             if curve is not None:
                 draw_curve(axis, view, curve, "invariant curve")
-        part = draw_orbit(axis, view, orbit, colour, most=VERTICES // len(points), longest=longest)
+        most, longest = VERTICES // len(points), LONGEST * share / len(points)
+        part = draw_orbit(axis, view, orbit, colour, most=most, longest=longest)
         shortest = min(shortest, part if part < len(orbit) else shortest)
-        if len(points) > 1:
+        if not alone:
             axis.plot([], [], "o", color=colour, markersize=5, label=names[i])
-    if len(points) == 1:
+    if alone:
         axis.plot([], [], "o", color=COLOURS[0], markerfacecolor="white", label="start")
         axis.plot([], [], "s", color=COLOURS[0], label="end")
     return shortest
@@ -126,29 +124,61 @@ def _forbidden(axis: Axes, view: View, body: Body, found: dict[str, Floats], of_
         axis.fill([], [], color="0.35", alpha=0.3, linewidth=0, label="not with these integrals")
 
 
-def _chosen(balls: int, frames: int) -> tuple[np.ndarray, np.ndarray]:
-    """Which balls and frames a cloud of points shows: evenly, the first and the last among them."""
-    instants = np.unique(np.linspace(0, frames - 1, min(frames, MOMENTS)).round().astype(int))
-    some = np.unique(np.linspace(0, balls - 1, min(balls, max(2, CLOUD // len(instants)))).round().astype(int))
-    return some, instants
-
-
-def _cloud(axis: Axes, t: Floats, points: Floats) -> None:
-    """Many balls: points in the colour of their time, rasterised."""
-    when = np.broadcast_to(t, points.shape[:2])
+def _cloud(axis: Axes, colours: Floats, points: Floats) -> None:
+    """Many balls, (balls, frames, 3): points in the colour of their time, (frames, 4), rasterised."""
     there = np.isfinite(points).all(axis=-1)
-    view = View.of(points[there])
+    colours, points = np.broadcast_to(colours, (*there.shape, 4))[there], points[there]
+    view = View.of(points)
     draw_globe(axis, view, ("1", "2", "3"))
-    x, y, depth = view.project(points[there])
-    for front_side in (False, True):
-        seen = depth >= 0.0 if front_side else depth < 0.0
+    x, y, depth = view.project(points)
+    for front in (False, True):
+        seen = (depth >= 0.0) == front
         axis.scatter(
-            x[seen], y[seen], c=when[there][seen], cmap=MAP, vmin=t[0], vmax=t[-1], s=1.5 if len(x) > 5000 else 4,
-            linewidths=0, alpha=0.8 if front_side else 0.2, zorder=3 + front_side, rasterized=True,
+            x[seen], y[seen], c=colours[seen], s=1.5 if len(x) > 5000 else 4, linewidths=0,
+            alpha=0.8 if front else 0.2, zorder=3 + front, rasterized=True,
         )  # fmt: skip
 
 
-def _times(figure: Picture, axes: list[Axes], dataset: Dataset) -> None:
-    t, label = reading.clock(dataset)
-    mapped = ScalarMappable(Normalize(t[0], t[-1] if t[-1] > t[0] else t[0] + 1.0), MAP)
-    figure.colorbar(mapped, ax=axes, location="bottom", aspect=40, pad=0.02, fraction=0.06, label=label)
+def halves(momentum: Floats) -> tuple[Floats, Floats]:
+    """The self-dual and the anti-self-dual part of skew matrices (..., 4, 4), (..., 3) each: so(4) = so(3) + so(3).
+
+    The map turns 𝒦 into Ωᵀ𝒦Ω, which turns each part by a rotation of its own: it keeps |𝒦₊| and |𝒦₋|.
+    """
+    first = np.stack([momentum[..., 2, 1], momentum[..., 0, 2], momentum[..., 1, 0]], axis=-1)
+    last = np.stack([momentum[..., 3, 0], momentum[..., 3, 1], momentum[..., 3, 2]], axis=-1)
+    return first + last, first - last
+
+
+def _in_four_dimensions(dataset: Dataset) -> Picture:
+    """𝒦₊/|𝒦₊| and 𝒦₋/|𝒦₋| on their spheres, and γ, which is on S³, in two planes; of the first balls."""
+    ends = reading.last_frames(dataset) + 1
+    shown: list[tuple[str, Floats]] = []
+    if "momentum" in dataset:
+        for sign, part in zip("+-", halves(reading.values(dataset, "momentum")), strict=True):
+            if np.nan_to_num(part).any():
+                shown.append((rf"$\mathcal{{K}}_{sign}/|\mathcal{{K}}_{sign}|$", unit(part)))
+    planes = [(0, 1), (2, 3)] if "gamma" in dataset else []
+    rows = -(-(len(shown) + len(planes)) // 2)
+    figure = empty(2.9 * rows + 0.35)
+    entitle(figure, reading.title(dataset))
+    # A row of its own each: the labels of the planes would make the spheres different in size.
+    axes = [axis for row in figure.subfigures(rows, 1, squeeze=False).flat for axis in row.subplots(1, 2)]
+    for axis, (name, points) in zip(axes, shown, strict=False):
+        view = View.of(points[np.isfinite(points).all(axis=-1)])
+        draw_globe(axis, view, ("1", "2", "3"))
+        for orbit, end, colour in zip(points[:FEW], ends, COLOURS, strict=False):
+            draw_orbit(axis, view, orbit[:end], colour, most=VERTICES // min(len(points), FEW))
+        axis.set_title(name)
+    for axis, (a, b) in zip(axes[len(shown) :], planes, strict=False):
+        turn = np.linspace(0.0, 2.0 * np.pi, 181)
+        axis.plot(np.cos(turn), np.sin(turn), color="0.6", linewidth=0.9)
+        for orbit, end, colour in zip(reading.values(dataset, "gamma")[:FEW], ends, COLOURS, strict=False):
+            x, y = orbit[:end, [a, b]].T
+            axis.plot(x, y, ".", markersize=2, color=colour, rasterized=end > VERTICES // FEW)
+            axis.plot(x[0], y[0], "o", color=colour, markerfacecolor="white", markersize=6)
+            axis.plot(x[-1], y[-1], "s", color=colour, markersize=6)
+        axis.set_aspect("equal")
+        axis.set(xlim=(-1.1, 1.1), ylim=(-1.1, 1.1), xlabel=rf"$\gamma_{a + 1}$", ylabel=rf"$\gamma_{b + 1}$")
+    for axis in axes[len(shown) + len(planes) :]:
+        axis.set_visible(False)
+    return figure
