@@ -201,8 +201,8 @@ def test_balls_are_chosen_by_name_and_index():
     dataset = rolled(5, omega=np.full((25, 3), 2.0))
     assert [ball.name for ball in motion(dataset).balls] == [f"ball {i}" for i in range(1, 21)]
     assert motion(dataset).notes == ["the first 20 of 25 balls are shown"]
-    assert [ball.name for ball in motion(dataset, ["ball 25", 0]).balls] == ["ball 25", "ball 1"]
-    for wrong in (["nobody"], [25], [-1], [True], [0, 0], [], range(21)):
+    assert [ball.name for ball in motion(dataset, ["ball 25", 0, -2]).balls] == ["ball 25", "ball 1", "ball 24"]
+    for wrong in (["nobody"], [25], [-26], [True], [0, 0], [], range(21)):
         with pytest.raises(BadInput):
             motion(dataset, wrong)
 

@@ -346,7 +346,7 @@ def test_in_a_notebook_the_page_stands_below_the_table_and_the_ball_rolls_there(
 
 
 def test_a_page_too_large_for_a_notebook_is_left_out_and_says_where_to_write_it(results, monkeypatch):
-    monkeypatch.setattr("chapsym.show.rolling.notebook.MOST", 1000)
+    monkeypatch.setattr("chapsym.show.rolling.page.MOST", 1000)
     shown = Result(results["one"][1])._repr_html_()
     assert "<iframe" not in shown
     assert "too large to stand here: write it with <code>page(path)</code>" in shown

@@ -1,9 +1,11 @@
-"""The page itself: data, style, scripts and three.js in one file."""
+"""The page itself: data, style, scripts and three.js in one file, or packed in one element of another page."""
 
 import base64
+import gzip
 import json
 import re
 from collections.abc import Sequence
+from html import escape
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -14,41 +16,63 @@ from markupsafe import Markup
 from xarray import Dataset
 
 from chapsym import files
+from chapsym.dynamics import BadInput
 from chapsym.scene.result.far import sentence
 
-from .motion import Motion, ReportError, Rolling, motion
+from ..drawing import reading
+from .motion import Motion, Rolling, motion
 
 FOLDER = Path(__file__).parent
 #: What a script imports: its file.  three.js imports its core by a relative path, which no data: URL has.
-MODULES = {
-    "three": "three/three.module.min.js",
-    "three-core": "three/three.core.min.js",
-    "eye": "eye.js",
-    "motion": "motion.js",
-    "ball": "ball.js",
-    "floor": "floor.js",
-    "stage": "stage.js",
-}
+MODULES = {"three": "three/three.module.min.js", "three-core": "three/three.core.min.js"}
+MODULES |= {name: f"{name}.js" for name in ("eye", "motion", "ball", "floor", "stage")}
 CORE = '"./three.core.min.js"'
+#: A notebook keeps what it shows: a page of more bytes than this, packed, is left out of it.
+MOST = 2_000_000
+#: Unpacks the page in its own frame, which no script of the notebook can reach, nor it them.
+LOADER = (
+    "<!doctype html><meta charset=utf-8><script>(async () => {"
+    'const bytes = Uint8Array.from(atob("PAGE"), (letter) => letter.charCodeAt(0));'
+    'const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));'
+    "const text = await new Response(stream).text();"
+    "document.open(); document.write(text); document.close();"
+    "})();</script>"
+)
 
 
 def write_page(dataset: Dataset, path: str | Path, *, balls: Sequence[str | int] | None = None) -> None:
     """Writes a result as an interactive page: the balls rolling in 3D, in one HTML file that needs no network.
 
     dataset: with attitude, radius and, to see them roll, contact.  balls: names or indices, at most 20; the first by
-    default.  Raises ReportError if the result lacks what is needed, or the file cannot be written.
+    default.  Raises BadInput if the result lacks what is needed, or the file cannot be written.
     """
     text = html(dataset, balls=balls)
     try:
         files.write_whole(Path(path), lambda stream: stream.write(text.encode()))
     except files.CannotWrite as error:
-        raise ReportError(str(error)) from None
+        raise BadInput(str(error)) from None
+
+
+def inline(dataset: Dataset) -> str:
+    """The page of a result as one HTML element, an iframe that needs no network and no file.
+
+    Raises BadInput as `html` does.  A result whose page is too large has a sentence in its place.
+    """
+    packed = gzip.compress(html(dataset).encode(), mtime=0)
+    if len(packed) > MOST:
+        return "<p>The page of this result is too large to stand here: write it with <code>page(path)</code>.</p>"
+    source = escape(LOADER.replace("PAGE", base64.b64encode(packed).decode("ascii")))
+    return (
+        f'<iframe title="{escape(_title(dataset))}" sandbox="allow-scripts" loading="lazy" srcdoc="{source}" '
+        'style="width: 100%; height: 40rem; border: 1px solid #888; border-radius: 6px"></iframe>'
+    )
 
 
 def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
-    """The text of the page; the same result gives the same bytes.  Raises ReportError as `write_page` does."""
+    """The text of the page; the same result gives the same bytes.  Raises BadInput as `write_page` does."""
     found = motion(dataset, balls)
     data = {"clock": _base64(found.clock, "<f8"), "unit": found.unit, "balls": list(map(_ball, found.balls))}
+    modules = {"imports": {name: _module(file) for name, file in MODULES.items()}}
     templates = Environment(
         loader=FileSystemLoader(FOLDER),
         autoescape=True,
@@ -57,7 +81,7 @@ def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
         lstrip_blocks=True,
     )
     return templates.get_template("page.html").render(
-        title=str(dataset.attrs.get("title") or "A rolling ball"),
+        title=_title(dataset),
         plan=_plan_line(dataset, found),
         notes=_notes(found),
         far=sentence(dataset),
@@ -68,10 +92,14 @@ def html(dataset: Dataset, *, balls: Sequence[str | int] | None = None) -> str:
         ellipsoid=any(ball.inertia is not None for ball in found.balls),
         style=Markup(_text("page.css")),
         script=Markup(_text("page.js")),
-        modules=Markup(_json({"imports": {name: _module(file) for name, file in MODULES.items()}})),
+        modules=Markup(_json(modules)),
         data=Markup(_json(data)),
         licence=Markup(_text("three/LICENSE").replace("--", "—")),
     )
+
+
+def _title(dataset: Dataset) -> str:
+    return reading.title(dataset) or "A rolling ball"
 
 
 def _plan_line(dataset: Dataset, found: Motion) -> str:
@@ -97,14 +125,13 @@ def _notes(found: Motion) -> list[str]:
 
 def _ball(ball: Rolling) -> dict[str, Any]:
     """Rotations and vectors in float32; contact points in float64: the ball may be far away."""
-    vectors = {name: _base64(array, "<f4") for name, array in ball.vectors.items()}
     return {
         "name": ball.name,
         "radius": ball.radius,
         "attitude": _base64(ball.attitude, "<f4"),
         "turn": None if ball.turn is None else _base64(ball.turn, "<f4"),
         "contact": _base64(ball.contact, "<f8"),
-        "vectors": vectors,
+        "vectors": {name: _base64(array, "<f4") for name, array in ball.vectors.items()},
         "inertia": None if ball.inertia is None else ball.inertia.tolist(),
         "axes": None if ball.axes is None else ball.axes.tolist(),
         "stops": any(note.startswith("it stops") for note in ball.notes),
@@ -116,9 +143,7 @@ def _base64(array: np.ndarray, kind: str) -> str:
 
 
 def _module(file: str) -> str:
-    text = _text(file)
-    if file == MODULES["three"]:
-        text = text.replace(CORE, '"three-core"')
+    text = _text(file).replace(CORE, '"three-core"')
     # Not in base64, which is longer, and cannot be packed as well: only what a URL would lose or read otherwise.
     return "data:text/javascript;charset=utf-8," + re.sub(r"[%#\t\r\n]", lambda found: quote(found[0]), text)
 
