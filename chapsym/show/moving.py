@@ -2,10 +2,9 @@
 
 import subprocess
 import tempfile
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib import animation
@@ -15,7 +14,7 @@ from chapsym.dynamics import BadInput, kernels
 from chapsym.dynamics.ball import Floats
 
 from .drawing import curves, reading
-from .drawing.sphere import View
+from .drawing.sphere import EYE, View
 from .drawing.style import COLOURS, Picture, in_power, power, styled
 
 if TYPE_CHECKING:
@@ -28,10 +27,9 @@ RATE, MOST = 20, 200
 TURN = 0.6
 #: Pixels across the ball, and dots an inch.
 ACROSS, DPI = 220, 80
-#: From where the ball is seen, as in the figure of its attitude.
-EYE = np.array([0.8, -0.5, 0.5])
 #: Half the width of the lines between the octants of the ball, in radii.
 LINE = 0.022
+BLUE = np.array([0.25, 0.62, 0.92])
 
 
 def missing(dataset: "Dataset") -> str | None:
@@ -77,112 +75,75 @@ def save_motion(
 
 
 def _film(one: "Dataset", path: Path, form: str, progress: Callable[[int, int], None]) -> None:
-    shown = _shown(one)
-    scene = _Scene(one, shown)
+    scene = _Scene(one)
     writer = (animation.PillowWriter if form == "gif" else animation.FFMpegWriter)(fps=RATE)
     try:
         with writer.saving(scene.figure, path, DPI):
-            for i in scene.pictures():
+            for i in range(len(scene.t)):
+                scene.show(i)
                 writer.grab_frame()
-                progress(i + 1, len(shown.t))
+                progress(i + 1, len(scene.t))
     except (subprocess.CalledProcessError, BrokenPipeError) as error:
         raise BadInput(f"ffmpeg could not write the motion ({error}); a .gif needs none") from None
 
 
-@dataclass(frozen=True, eq=False)
-class _Shown:
-    """At each picture the clock, (pictures,), the attitude and, if known, the contact point; and what to say of it."""
-
-    t: Floats
-    attitude: Floats
-    contact: Floats | None
-    told: str
-
-
-def _shown(one: "Dataset") -> _Shown:
-    """The times of the pictures: evenly over the run, or over the part whose turning can be followed."""
-    fine = curves.finer(one)
-    last = int(reading.last_frames(fine)[0])
-    t, label = reading.clock(fine)
-    q = reading.values(fine, "attitude")[0, : last + 1]
-    angle = 2.0 * np.arccos(np.minimum(np.abs((q[1:] * q[:-1]).sum(axis=-1)), 1.0))
-    turned = np.concatenate([[0.0], np.cumsum(angle)])
-    # Frames that are too far apart to follow are the pictures themselves.
-    by_frame = angle.max(initial=0.0) > TURN
-    end = MOST - 1 if by_frame else int(np.searchsorted(turned, TURN * MOST, side="right")) - 1
-    end = max(1, min(end, last))
-    if by_frame:
-        chosen = np.arange(end + 1)
-    else:
-        count = min(MOST, max(2, RATE * 2, int(np.ceil(turned[end] / TURN * 2))))
-        chosen = np.unique(np.searchsorted(t[: end + 1], np.linspace(t[0], t[end], count)).clip(0, end))
-    told = (
-        "" if end == last else f"the first {reading.span(t[: end + 1], label)} of {reading.span(t[: last + 1], label)}"
-    )
-    contact = reading.values(fine, "contact")[0] if "contact" in fine else None
-    return _Shown(t[chosen], q[chosen], None if contact is None else contact[chosen], told)
-
-
 class _Scene:
-    """The figure, and what changes in it from picture to picture."""
+    """The figure, and at each picture the clock `t`, the attitude and, if known, the contact point.
 
-    def __init__(self, one: "Dataset", shown: _Shown) -> None:
-        self.shown = shown
-        rolls = shown.contact is not None
+    The pictures are evenly over the run, or over the part whose turning can be followed: `told` says which.
+    """
+
+    def __init__(self, one: "Dataset") -> None:
+        fine = curves.finer(one)
+        end = int(reading.last_frames(fine)[0]) + 1
+        t, label = reading.clock(fine)
+        q = reading.values(fine, "attitude")[0, :end]
+        chosen = _pictures(t[:end], q)
+        part = chosen[-1] + 1
+        self.told = (
+            "" if part == end else f"the first {reading.span(t[:part], label)} of {reading.span(t[:end], label)}"
+        )
+        self.t, self.attitude, self.contact = t[chosen], q[chosen], None
+        self.form = "{:.2f} s" if label == "time, s" else "step {:.0f}"
+        rolls = "contact" in fine
         self.figure = Picture(figsize=(4.0, 6.0 if rolls else 4.2))
         above = self.figure.add_axes((0.15, 0.42, 0.7, 0.47) if rolls else (0.1, 0.03, 0.8, 0.77))
         above.set(xlim=(-1.08, 1.08), ylim=(-1.08, 1.08), aspect="equal")
         above.set_axis_off()
-        title = str(one.attrs.get("title", ""))
-        self.figure.text(0.5, 0.97, title[:44], ha="center", va="top", parse_math=False, fontsize=11)
+        self.figure.text(0.5, 0.97, reading.title(one)[:44], ha="center", va="top", parse_math=False, fontsize=11)
         self.clock = self.figure.text(0.5, 0.925, "", ha="center", va="top", fontsize=10, color="0.35")
-        self.unit = "s" if reading.clock(one)[1] == "time, s" else "steps"
-        side = np.linspace(-1.0, 1.0, ACROSS)
-        x, y = np.meshgrid(side, side)
-        self.inside = x * x + y * y <= 1.0
-        view = View.towards_eye(EYE)
-        depth = np.sqrt(np.maximum(1.0 - x * x - y * y, 0.0))
-        points = x[..., np.newaxis] * view.right + y[..., np.newaxis] * view.up + depth[..., np.newaxis] * view.towards
-        self.points, self.view = points[self.inside], view
+        self.view = View.towards_eye(EYE)
+        self.inside, self.points = self.view.disc(ACROSS)
         turn = np.linspace(0.0, 2.0 * np.pi, 181)
         above.plot(np.cos(turn), np.sin(turn), color="0.15", linewidth=1.0)
-        self.image = above.imshow(self._ball(shown.attitude[0]), extent=(-1, 1, -1, 1), origin="lower")
+        self.image = above.imshow(self._ball(q[0]), extent=(-1, 1, -1, 1), origin="lower")
         self.marks = [
             above.text(0, 0, str(i + 1), ha="center", va="center", fontsize=13, weight="bold") for i in range(3)
         ]
         if rolls:
-            self._plane(one)
+            whole = reading.values(fine, "contact")[0]
+            self.factor, text = power(float(np.nanmax(np.abs(whole), initial=0.0)))
+            self.contact = whole[chosen] / self.factor
+            below = self.figure.add_axes((0.17, 0.09, 0.76, 0.29))
+            below.plot(*(whole[:end] / self.factor).T, color="0.75", linewidth=1.0)  # faint: all of its way
+            (self.way,) = below.plot([], [], color=COLOURS[0], linewidth=1.6)
+            (self.dot,) = below.plot([], [], "o", color=COLOURS[1], markersize=6)
+            below.set_aspect("equal", adjustable="datalim")
+            below.set_xlabel(in_power("x and y", "m", text), labelpad=2)
+            below.tick_params(labelsize=9)
 
-    def _plane(self, one: "Dataset") -> None:
-        """The whole way, faint, and what of it has been rolled."""
-        whole = reading.values(curves.finer(one), "contact")[0]
-        whole = whole[np.isfinite(whole).all(axis=-1)]
-        self.factor, text = power(float(np.abs(whole).max(initial=0.0)))
-        axis = self.figure.add_axes((0.17, 0.09, 0.76, 0.29))
-        axis.plot(*(whole / self.factor).T, color="0.75", linewidth=1.0)
-        (self.way,) = axis.plot([], [], color=COLOURS[0], linewidth=1.6)
-        (self.dot,) = axis.plot([], [], "o", color=COLOURS[1], markersize=6)
-        axis.set_aspect("equal", adjustable="datalim")
-        axis.set_xlabel(in_power("x and y", "m", text), labelpad=2)
-        axis.tick_params(labelsize=9)
+    def show(self, i: int) -> None:
+        """Changes the figure to a picture."""
+        self.clock.set_text(" · ".join(filter(None, (self.form.format(self.t[i]), self.told))))
+        self.image.set_data(self._ball(self.attitude[i]))
+        for axis, mark in zip(kernels.rotate(self.attitude[i], np.eye(3)), self.marks, strict=True):
+            x, y, depth = self.view.project(axis)
+            mark.set(position=(0.93 * x, 0.93 * y), visible=bool(depth > 0.25))
+        if self.contact is not None:
+            self.way.set_data(*self.contact[: i + 1].T)
+            self.dot.set_data(*self.contact[i : i + 1].T)
 
-    def pictures(self) -> Iterator[int]:
-        """Changes the figure to each picture in turn."""
-        shown = self.shown
-        for i, t in enumerate(shown.t):
-            self.clock.set_text(
-                " · ".join(filter(None, (f"{t:.2f} s" if self.unit == "s" else f"step {t:.0f}", shown.told)))
-            )
-            self.image.set_data(self._ball(shown.attitude[i]))
-            for axis, mark in zip(kernels.rotate(shown.attitude[i], np.eye(3)), self.marks, strict=True):
-                x, y, depth = self.view.project(axis)
-                mark.set(position=(0.93 * x, 0.93 * y), visible=bool(depth > 0.25))
-            if shown.contact is not None:
-                self.way.set_data(*(shown.contact[: i + 1] / self.factor).T)
-                self.dot.set_data(*(shown.contact[i : i + 1] / self.factor).T)
-            yield i
-
-    def _ball(self, attitude: Floats) -> Any:
+    def _ball(self, attitude: Floats) -> Floats:
         """The ball in octants of its body axes, as pixels (across, across, 4)."""
         body = self.points @ kernels.rotate(attitude, np.eye(3)).T
         light = 0.72 + 0.28 * (self.points @ self.view.towards)
@@ -190,7 +151,18 @@ class _Scene:
         shade = np.where(np.abs(body).min(axis=-1) < LINE, 0.15, shade) * light
         ends = np.where((body > 0.975).any(axis=-1), 1.0, 0.0)
         found = np.zeros((ACROSS, ACROSS, 4))
-        blue = np.array([0.25, 0.62, 0.92])
-        found[self.inside, :3] = np.maximum(shade[:, np.newaxis] * blue, ends[:, np.newaxis])
+        found[self.inside, :3] = np.maximum(shade[:, np.newaxis] * BLUE, ends[:, np.newaxis])
         found[self.inside, 3] = 1.0
         return found
+
+
+def _pictures(t: Floats, attitude: Floats) -> np.ndarray:
+    """Which frames are pictures, of the times (frames,) and attitudes (frames, 4) of a ball."""
+    angle = 2.0 * np.arccos(np.minimum(np.abs((attitude[1:] * attitude[:-1]).sum(axis=-1)), 1.0))
+    turned = np.concatenate([[0.0], np.cumsum(angle)])
+    last = len(t) - 1
+    if angle.max(initial=0.0) > TURN:  # too far apart to follow: the frames themselves
+        return np.arange(max(1, min(MOST - 1, last)) + 1)
+    end = max(1, min(int(np.searchsorted(turned, TURN * MOST, side="right")) - 1, last))
+    count = min(MOST, max(2, RATE * 2, int(np.ceil(turned[end] / TURN * 2))))
+    return np.unique(np.searchsorted(t[: end + 1], np.linspace(t[0], t[end], count)).clip(0, end))

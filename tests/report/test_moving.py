@@ -36,20 +36,20 @@ def fake_ffmpeg(tmp_path, monkeypatch):
 
 
 def scene(dataset):
-    shown = moving._shown(dataset)
     with moving.styled():
-        return moving._Scene(dataset, shown), shown
+        return moving._Scene(dataset)
 
 
 def test_each_picture_shows_the_ball_and_its_place_at_its_time():
     dataset = results.bowling(200)
-    drawn, shown = scene(dataset)
-    true = chapsym.interpolated(dataset, shown.t)
-    assert shown.attitude == pytest.approx(true["attitude"].values[0], abs=1e-14)
-    for i in drawn.pictures():
+    drawn = scene(dataset)
+    true = chapsym.interpolated(dataset, drawn.t)
+    assert drawn.attitude == pytest.approx(true["attitude"].values[0], abs=1e-14)
+    for i in range(len(drawn.t)):
+        drawn.show(i)
         assert drawn.dot.get_xydata()[0] * drawn.factor == pytest.approx(true["contact"].values[0, i], abs=1e-14)
         assert len(drawn.way.get_xdata()) == i + 1
-    last = shown.attitude[-1]
+    last = drawn.attitude[-1]
     # The sign of xyz in body axes tells the octant of each pixel, light or dark.
     picture = drawn.image.get_array()
     side = np.linspace(-1.0, 1.0, ACROSS)
@@ -61,12 +61,12 @@ def test_each_picture_shows_the_ball_and_its_place_at_its_time():
         if np.abs(body).min() > 0.05 and np.abs(body).max() < 0.9:
             light = picture[row, column, 2] / (0.92 * (0.72 + 0.28 * depth))
             assert (light > 0.8) == (body.prod() > 0)
-    assert drawn.clock.get_text() == f"{shown.t[-1]:.2f} s"
+    assert drawn.clock.get_text() == f"{drawn.t[-1]:.2f} s"
 
 
 def test_what_turns_too_fast_for_all_pictures_is_a_part_and_says_so():
     whole, part, far = (
-        moving._shown(data)
+        scene(data)
         for data in (results.bowling(500), results.bowling(8000, every=5), results.bowling(40_000, every=100))
     )
     assert (whole.told, whole.t[-1]) == ("", 0.5)
@@ -110,13 +110,11 @@ def test_the_files_are_whole_and_what_cannot_be_written_is_a_sentence(tmp_path, 
 def test_a_ball_that_stops_and_one_without_contact_move_until_their_last_frame(monkeypatch):
     dataset = results.folded()
     dataset["attitude"] = ("ball", "frame", "quaternion"), np.tile([1.0, 0.0, 0.0, 0.0], (2, 301, 1))
-    shown = moving._shown(dataset.isel(ball=[1]).drop_vars("contact"))
-    assert shown.t[-1] == int(dataset["taken"][1])
-    assert shown.contact is None
-    drawn, _ = scene(dataset.isel(ball=[1]).drop_vars("contact"))
+    drawn = scene(dataset.isel(ball=[1]).drop_vars("contact"))
+    assert drawn.t[-1] == int(dataset["taken"][1])
+    assert drawn.contact is None
     assert len(drawn.figure.axes) == 1
-    for _ in drawn.pictures():
-        pass
+    drawn.show(len(drawn.t) - 1)
     assert drawn.clock.get_text() == f"step {int(dataset['taken'][1])}"
 
 

@@ -168,7 +168,7 @@ def test_the_body_axes_in_space_are_those_of_the_attitude():
     drawn = [line.get_ydata() for line in below.lines]
     assert all((line == quaternions[:, i]).all() for i, line in enumerate(drawn))
     ends = kernels.rotate(quaternions[-1], np.eye(3)[2])
-    x, y, _ = sphere.View.towards_eye(over_time.EYE).project(ends)
+    x, y, _ = sphere.View.towards_eye(sphere.EYE).project(ends)
     assert any(line.get_marker() == "s" and line.get_xydata()[0] == pytest.approx([x, y]) for line in globe.lines)
 
 

@@ -20,6 +20,8 @@ NEAR = 0.12
 LONGEST = 200.0
 #: Points that show where the rest of it is.
 REST = 3000
+#: From where the sphere of space is seen.
+EYE = np.array([0.8, -0.5, 0.5])
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +63,14 @@ class View:
     def project(self, points: Floats) -> tuple[Floats, Floats, Floats]:
         """x, y on paper and the depth towards the eye, (...), of points (..., 3)."""
         return points @ self.right, points @ self.up, points @ self.towards
+
+    def disc(self, pixels: int) -> tuple[np.ndarray, Floats]:
+        """Which pixels of a square from -1 to 1 show the sphere, and its points there, (n, 3)."""
+        side = np.linspace(-1.0, 1.0, pixels)
+        x, y = np.meshgrid(side, side)
+        inside = x * x + y * y < 1.0
+        x, y = x[inside, np.newaxis], y[inside, np.newaxis]
+        return inside, x * self.right + y * self.up + np.sqrt(1.0 - x * x - y * y) * self.towards
 
 
 def draw_globe(axis: Axes, view: View, names: tuple[str, str, str]) -> None:

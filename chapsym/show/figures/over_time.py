@@ -11,13 +11,11 @@ from chapsym.dynamics.ball import Floats
 
 from ..drawing import curves, reading, series
 from ..drawing.invariant import unit
-from ..drawing.sphere import LONGEST, View, draw_globe, draw_orbit
+from ..drawing.sphere import EYE, LONGEST, View, draw_globe, draw_orbit
 from ..drawing.style import COLOURS, FEW, VERTICES, Picture, add_note, at_least, in_power, legend, new, power
 
 #: A change below this part of the largest component is drawn flat.
 FLAT = 1e-3
-#: From where the sphere of space is seen.
-EYE = np.array([0.8, -0.5, 0.5])
 #: Four lines that swing more often than this in one panel cannot be told apart.
 SWINGS = 40
 #: The least range of an axis for what should stay, in ulps of the value: a wobble of the last digit looks like one.

@@ -106,12 +106,8 @@ def _forbidden(axis: Axes, view: View, body: Body, found: dict[str, Floats], of_
     m, gamma = unit(body.principal(found["momentum"][there])), body.principal(found["gamma"][there])
     energies = kernels.energy(m, gamma, body.mass_tensor, np.float64(body.D))
     low, high = float(energies.min()), float(energies.max())
-    side = np.linspace(-1.0, 1.0, PIXELS)
-    x, y = np.meshgrid(side, side)
-    inside = x * x + y * y < 1.0
-    depth = np.sqrt(np.maximum(1.0 - x * x - y * y, 0.0))
-    seen = x[..., np.newaxis] * view.right + y[..., np.newaxis] * view.up + depth[..., np.newaxis] * view.towards
-    least, largest = energy_range(body, body.principal(seen[inside]), float(np.median((m * gamma).sum(-1))), of_gamma)
+    inside, seen = view.disc(PIXELS)
+    least, largest = energy_range(body, body.principal(seen), float(np.median((m * gamma).sum(-1))), of_gamma)
     image: Any = np.zeros((PIXELS, PIXELS, 4))
     # The least and largest energies have the error of a parabola through samples: 1.6e-4 of the range was measured.
     slack = 1e-3 * (float(np.max(largest)) - float(np.min(least)))
