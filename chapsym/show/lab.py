@@ -1,6 +1,5 @@
 """A page of `chapsym lab`: for each system a table of methods, and their energies as curves."""
 
-import io
 import math
 from collections.abc import Mapping, Sequence
 from html import escape
@@ -66,23 +65,20 @@ def figures(cell: Mapping[str, Any]) -> list[str]:
     def of(name: str, form: str) -> str:
         return "-" if cell[name] is None else format(cell[name], form)
 
-    half = ""
+    more = [f"{name}: {value:.1e}" for name, value in cell["integrals"].items()]
     if cell["halved"] is not None:
         times = abs(cell["drift"] / cell["halved"]) if cell["halved"] else math.inf
-        half = f"with half the step: {cell['halved']:+.1e}, {times:.1f} times less"
-    forms = {"energy": ".6g", "oscillation": ".1e", "drift": "+.1e"}
-    kept = "proved 0" if cell["kept"] else of("constraint", ".1e")
-    places = of("places", ".1e") if cell["places"] else "-"
-    energy = [of(name, form) for name, form in forms.items()]
-    ranges = [f"{name}: {value:.1e}" for name, value in cell["integrals"].items()]
+        more.append(f"with half the step: {cell['halved']:+.1e}, {times:.1f} times less")
     return [
         of("order", ".2f"),
-        *energy,
-        kept,
-        places,
+        of("energy", ".6g"),
+        of("oscillation", ".1e"),
+        of("drift", "+.1e"),
+        "proved 0" if cell["kept"] else of("constraint", ".1e"),
+        of("places", ".1e") if cell["places"] else "-",
         of("returns", ".1e"),
         of("microseconds", ".2f"),
-        "; ".join(ranges + ([half] if half else [])),
+        "; ".join(more),
     ]
 
 
@@ -98,23 +94,17 @@ def _row(cell: Mapping[str, Any], title: str) -> str:
 def _curves(cells: Sequence[Mapping[str, Any]]) -> str:
     """The change of the energy over time, on a scale that shows large and small ones."""
     need("figures")
-    from matplotlib.figure import Figure
-
-    from .drawing.style import COLOURS, styled, write
+    from .drawing.style import COLOURS, new, styled
 
     drawn = [cell for cell in cells if not cell["failed"]]
     if not drawn:
         return ""
     with styled():
-        figure = Figure(figsize=(9, 3.4), layout="constrained")
-        axes = figure.subplots()
+        figure, (axes,) = new("", height=3.4, width=9)
         for cell, colour in zip(drawn, COLOURS, strict=False):
             times, energies = zip(*cell["curve"], strict=True)
             changes = [abs(e - energies[0]) for e in energies]
             axes.plot(times, [c if c > 0 else math.nan for c in changes], color=colour, label=cell["method"])
         axes.set(yscale="log", xlabel="time", ylabel="|energy - first|")
         axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
-        stream = io.BytesIO()
-        write(figure, stream, "svg")
-    text = stream.getvalue().decode()
-    return text[text.index("<svg") :]
+    return figure.svg()

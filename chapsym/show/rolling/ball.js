@@ -93,8 +93,7 @@ export class RollingBall {
       this.arrows[name].position.z = ball.radius;
       this.group.add(this.arrows[name]);
     }
-    if (ball.inertia) this.ellipsoid = inertiaEllipsoid(ball.inertia, ball.axes);
-    if (this.ellipsoid) this.body.add(this.ellipsoid);
+    if (ball.inertia) this.body.add(this.ellipsoid = inertiaEllipsoid(ball.inertia, ball.axes));
   }
 
   show(frame, anchor) {

@@ -118,7 +118,8 @@ export class Trace {
   constructor(ball) {
     this.ball = ball;
     this.materials = [paint('#888', 2), paint('#888', 4)];
-    this.group = new Group();
+    this.ghosts = new Group();
+    this.group = new Group().add(this.ghosts);
     this.pieces = [];
     for (let first = 0; first < ball.frames - 1; first += PIECE) this.add(first);
     this.tip = line(segments(new Float32Array(4)), this.materials[1], -1);
@@ -136,7 +137,8 @@ export class Trace {
     const whole = segments(ends), rolled = segments(ends);
     whole.instanceCount = count;
     const ghost = line(whole, this.materials[0], -2), solid = line(rolled, this.materials[1], -1);
-    this.group.add(ghost, solid);
+    this.ghosts.add(ghost);
+    this.group.add(solid);
     this.pieces.push({ first, count, origin, ghost, solid });
   }
 
@@ -155,10 +157,6 @@ export class Trace {
     this.tip.geometry.instanceCount = 1;
     this.tip.visible = s > 0;
     this.tip.position.set(from[0] - anchor[0], from[1] - anchor[1], 0);
-  }
-
-  showGhost(on) {
-    for (const { ghost } of this.pieces) ghost.visible = on;
   }
 
   style(colour, paper, perPixel) {

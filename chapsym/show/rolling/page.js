@@ -104,6 +104,7 @@ function toggle(button, act) {
     const on = button.getAttribute('aria-pressed') !== 'true';
     button.setAttribute('aria-pressed', on);
     act(on);
+    stage.stale = true;
   });
 }
 
@@ -151,7 +152,10 @@ function connect() {
   every('#ghost', (button) => toggle(button, (on) => stage.showGhost(on)));
   every('#ellipsoid', (button) => toggle(button, (on) => stage.showEllipsoid(on)));
   every('[name=followed]', (input) => input.addEventListener('change', () => { stage.follow(Number(input.value)); tell(); }));
-  every('.seen input', (input) => input.addEventListener('change', () => stage.showBall(Number(input.value), input.checked)));
+  every('.seen input', (input) => input.addEventListener('change', () => {
+    stage.showBall(Number(input.value), input.checked);
+    stage.stale = true;
+  }));
   document.addEventListener('keydown', onKey);
 }
 

@@ -65,10 +65,7 @@ export class Stage {
     }
   }
 
-  follow(i) {
-    this.followed = i;
-    this.reset();
-  }
+  follow(i) { this.followed = i; this.reset(); }
 
   resize(width, height, ratio) {
     const before = this.camera.aspect;
@@ -105,25 +102,13 @@ export class Stage {
     this.stale = true;
   }
 
-  showArrow(name, on) {
-    for (const { arrows } of this.balls) if (arrows[name]) arrows[name].visible = on;
-    this.stale = true;
-  }
+  showArrow(name, on) { for (const { arrows } of this.balls) if (arrows[name]) arrows[name].visible = on; }
 
-  showGhost(on) {
-    for (const trace of this.traces) trace.showGhost(on);
-    this.stale = true;
-  }
+  showGhost(on) { for (const { ghosts } of this.traces) ghosts.visible = on; }
 
-  showEllipsoid(on) {
-    for (const ball of this.balls) ball.showEllipsoid(on);
-    this.stale = true;
-  }
+  showEllipsoid(on) { for (const ball of this.balls) ball.showEllipsoid(on); }
 
-  showBall(i, on) {
-    this.balls[i].group.visible = this.traces[i].group.visible = on;
-    this.stale = true;
-  }
+  showBall(i, on) { this.balls[i].group.visible = this.traces[i].group.visible = on; }
 
   // Draws if anything has changed; returns the spacing of the grid in metres.
   draw() {

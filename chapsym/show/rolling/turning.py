@@ -5,6 +5,8 @@ import numpy as np
 from chapsym.dynamics import kernels
 from chapsym.dynamics.ball import Floats
 
+from ..drawing.invariant import unit
+
 #: Without ω, frames with a larger turn than this between them may hide whole turns.
 QUARTER = np.pi / 2
 
@@ -13,7 +15,7 @@ def least(attitude: Floats) -> Floats:
     """Rotation vectors in space, (frames - 1, 3), of at most π, from each attitude (frames, 4) to the next."""
     p = kernels.compose(attitude[1:], attitude[:-1] * [1.0, -1.0, -1.0, -1.0])
     p = np.where(p[:, :1] < 0, -p, p)
-    sine = np.sqrt((p[:, 1:] ** 2).sum(axis=1))
+    sine = _length(p[:, 1:])
     angle = 2 * np.arctan2(sine, p[:, 0])
     # sin(φ/2) and φ vanish together; the limit of φ/sin(φ/2) is 2.
     scale = np.divide(angle, sine, out=np.full_like(angle, 2.0), where=sine > 1e-12)
@@ -25,10 +27,10 @@ def nearest(turns: Floats, expected: Floats) -> tuple[Floats, np.ndarray]:
 
     A rotation vector may be longer by whole turns about its own axis; near is within a quarter turn.
     """
-    angle, length = _length(turns), _length(expected)
+    angle = _length(turns)
     # Where nothing seems to turn, any axis will do for whole turns: take the one that is expected.
     still = angle < 1e-9
-    axis = _divided(np.where(still[:, np.newaxis], expected, turns), np.where(still, length, angle))
+    axis = unit(np.where(still[:, np.newaxis], expected, turns))
     whole = np.round(((expected * axis).sum(axis=1) - angle) / (2 * np.pi))
     found = turns + 2 * np.pi * whole[:, np.newaxis] * axis
     return found, _length(found - expected) <= QUARTER
@@ -71,7 +73,3 @@ def thinned(attitude: Floats, turns: Floats, known: np.ndarray, kept: np.ndarray
 
 def _length(vectors: Floats) -> Floats:
     return np.sqrt((vectors**2).sum(axis=1))
-
-
-def _divided(vectors: Floats, lengths: Floats) -> Floats:
-    return np.divide(vectors, lengths[:, np.newaxis], out=np.zeros_like(vectors), where=lengths[:, np.newaxis] > 0)
