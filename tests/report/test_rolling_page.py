@@ -269,6 +269,24 @@ def test_a_mouse_turns_the_view_moves_it_along_the_plane_and_a_wheel_brings_it_n
     assert page.ask("chapsym.stage.eye.distance") == pytest.approx(near * 0.95**3)
 
 
+def test_a_turn_of_the_view_comes_to_rest_softly_unless_motion_is_unwelcome(rolling):
+    page = rolling(reduced_motion="no-preference")
+    look = "(({ azimuth, turn, share }) => [azimuth, turn.x, share])(chapsym.stage.eye)"
+    start, _, _ = page.ask(look)
+    page.tab.mouse.move(300, 250)
+    page.tab.mouse.down()
+    page.tab.mouse.move(400, 250)
+    page.tab.mouse.up()
+    page.until("chapsym.stage.eye.turn.x > 0")
+    (first, left, share), _, (later, less, _) = page.ask(look), page.drawn(), page.ask(look)
+    assert share == 0.05
+    assert later < first <= start
+    assert 0 < less < left
+    whole = 200 * np.pi / page.ask("document.querySelector('canvas').clientHeight")
+    assert start - later + less == pytest.approx(whole)
+    assert rolling().ask("chapsym.stage.eye.share") == 1
+
+
 def test_arrows_are_shown_when_asked_for(rolling):
     page = rolling()
     page.ask("chapsym.seek(200)")

@@ -69,16 +69,14 @@ def sideways(trace: Floats, last: np.ndarray) -> list[tuple[Floats, Floats]]:
     Nothing where the traces are not so straight that a picture with equal axes hides how they bend.
     """
     found = []
-    for path, end in zip(trace, last, strict=True):
-        way = path[end] - path[0] if end > 0 else np.zeros(2)
-        length = float(np.sqrt(way @ way))
-        if length == 0.0:
-            continue
+    for path, end in zip(trace @ [1.0, 1.0j], last, strict=True):
         away = path[: end + 1] - path[0]
-        along, off = away @ way / length, (away[:, 1] * way[0] - away[:, 0] * way[1]) / length
-        found.append((along, off))
-        if np.abs(off).max() > STRAIGHT * length:
-            return []
+        length = float(np.abs(away[-1]))
+        if length > 0.0:
+            turned = away * np.conj(away[-1]) / length
+            found.append((turned.real, turned.imag))
+            if np.abs(turned.imag).max() > STRAIGHT * length:
+                return []
     return found if any(np.abs(off).max() > 1e-12 * np.abs(along).max() for along, off in found) else []
 
 
