@@ -122,7 +122,7 @@ class _Scene:
         ]
         if rolls:
             whole = reading.values(fine, "contact")[0]
-            self.factor, text = power(float(np.nanmax(np.abs(whole), initial=0.0)))
+            self.factor, text = power(reading.size_of(whole))
             self.contact = whole[chosen] / self.factor
             below = self.figure.add_axes((0.17, 0.09, 0.76, 0.29))
             below.plot(*(whole[:end] / self.factor).T, color="0.75", linewidth=1.0)  # faint: all of its way

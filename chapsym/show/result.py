@@ -235,5 +235,5 @@ def _drift(dataset: "Dataset") -> str:
         names = ["K.gamma", "K.K", "gamma.gamma"]
     else:
         return ""
-    largest = max(float(np.nanmax(np.abs(change), initial=0.0)) for change in over_time.drifts(found, names))
+    largest = max(reading.size_of(change) for change in over_time.drifts(found, names))
     return f"{largest:.1e} at most, of the momentum integrals, relatively"

@@ -137,6 +137,11 @@ def values(dataset: "Dataset", name: str) -> Floats:
     return array
 
 
+def size_of(array: np.ndarray) -> float:
+    """The largest size of the numbers in an array that are there; 0 where there are none."""
+    return float(np.nanmax(np.abs(array), initial=0.0))
+
+
 def per_ball(dataset: "Dataset", name: str) -> Floats | None:
     """A variable with one row a ball, (balls, ...), as float64; None if the result has none."""
     if name not in dataset:

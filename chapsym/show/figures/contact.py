@@ -28,7 +28,7 @@ STRAIGHT = 0.08
 def draw(dataset: Dataset) -> Picture:
     """The traces, in metres, with equal axes; in n dimensions a panel for each pair of coordinates."""
     trace = reading.values(dataset, "contact")
-    factor, text = power(float(np.nanmax(np.abs(trace), initial=0.0)))
+    factor, text = power(reading.size_of(trace))
     trace = trace / factor
     if trace.shape[-1] > 2:
         return _pairs(dataset.isel(ball=slice(0, FEW)), trace[:FEW], text)

@@ -52,7 +52,7 @@ def _components(dataset: Dataset, array: Floats, names: list[str], symbol: str, 
     Where one ball's swing so often that they would be striped blocks, their ranges, and a panel with the first swings.
     """
     t, label = reading.clock(dataset)
-    factor, text = power(float(np.nanmax(np.abs(array), initial=0.0)))
+    factor, text = power(reading.size_of(array))
     array, points, few = array / factor, curves.too_far(dataset), len(array) <= FEW
     if len(array) == 1:
         crowded = not points and any(series.swings(y) > series.SWINGS for y in array[0].T)
@@ -202,7 +202,7 @@ def _changes(dataset: Dataset, changes: dict[str, Floats], title: str, height: f
     figure, (axis,) = new(reading.title(dataset), height=height)
     t, label = reading.clock(dataset)
     points = curves.too_far(dataset)
-    sizes = [float(np.nanmax(np.abs(change), initial=0.0)) for change in changes.values()]
+    sizes = [reading.size_of(change) for change in changes.values()]
     largest, least = max(sizes, default=0.0), ULPS * ULP / 2
     factor, text = power(max(largest, least))
     for colour, (name, change), size in zip(COLOURS, changes.items(), sizes, strict=False):

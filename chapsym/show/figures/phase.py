@@ -39,11 +39,11 @@ def draw_phase(dataset: Dataset) -> Picture:
     names = reading.labels(dataset) if len(u) > 1 else [None] * len(u)
     told = ("phase u", names), ("increment a step" if known else "gain a frame", [None] * len(u))
     for axis, array, (name, balls) in zip(axes, (u, each), told, strict=True):
-        factor, text = power(float(np.nanmax(np.abs(array), initial=0.0)))
+        factor, text = power(reading.size_of(array))
         series.balls(axis, t[: array.shape[1]], array / factor, COLOURS[0], balls)
         axis.set_ylabel(in_power(name, "", text))
     # Roundoff of u in an increment is flat, and so is a thousandth of the increment.
-    largest, whole = (float(np.nanmax(np.abs(array), initial=0.0)) for array in (each, u))
+    largest, whole = (reading.size_of(array) for array in (each, u))
     at_least(axes[1], max(ULPS * ULP * whole, 1e-3 * largest) / power(largest)[0])
     axes[1].set_xlabel(label)
     legend(figure, axes[:1])
@@ -95,7 +95,7 @@ def draw_rotation(dataset: Dataset) -> Picture:
     name, data, units = reading.first_parameter(dataset)
     more = list(reading.parameters(dataset).items())[1:]
     figure, (axis,) = new(reading.title(dataset), height=4.0 if more else 3.4)
-    factor, text = power(float(np.nanmax(np.abs(data), initial=0.0)))
+    factor, text = power(reading.size_of(data))
     dense = len(found) > VERTICES // 8
     if more:
         other, (values, other_units) = more[0]

@@ -58,15 +58,13 @@ def between(
 
 
 def thinned(attitude: Floats, turns: Floats, known: np.ndarray, kept: np.ndarray) -> tuple[Floats, bool]:
-    """The turns between the frames that are kept, (len(kept) - 1, 3), and whether all of them are known.
+    """The turns between the frames that are kept, (len(kept) - 1, 3), the last among them, and whether all are known.
 
     The turns on the way, added up, tell the whole turns.
     """
     if len(kept) < 2:
         return np.zeros((0, 3)), True
     expected = np.add.reduceat(turns, kept[:-1], axis=0)
-    if kept[-1] < len(turns):
-        raise ValueError("the last frame must be kept")
     found, near = nearest(least(attitude[kept]), expected)
     return found, bool(near.all() and known.all())
 
