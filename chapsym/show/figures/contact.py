@@ -144,20 +144,20 @@ def _arrows(axis: Axes, path: Floats, colour: str, count: int) -> None:
 
 def _density(axis: Axes, trace: Floats) -> None:
     """How often each place was visited, the mean path, and ellipses that hold 50 and 90 % of the balls."""
-    flat = trace[np.isfinite(trace).all(axis=-1)]
+    going = np.asarray(np.isfinite(trace).all(axis=-1))
+    flat = trace[going]
     low, high = flat.min(axis=0), flat.max(axis=0)
     size = float((high - low).max()) / CELLS or 1.0
     cells = np.maximum(np.ceil((high - low) / size).astype(int), 1)  # square ones
     sides = np.stack([low, low + cells * size], axis=-1)
-    count, _, _ = np.histogram2d(*flat.T, bins=cells, range=sides)
+    count, _, _ = np.histogram2d(flat[:, 0], flat[:, 1], bins=cells.tolist(), range=sides)
     norm = LogNorm(1, max(2.0, float(count.max())))
     axis.imshow(
-        np.ma.masked_equal(count.T, 0), extent=tuple(sides.flat), origin="lower", cmap="viridis_r", norm=norm,
+        np.ma.masked_equal(count.T, 0), extent=(*sides[0], *sides[1]), origin="lower", cmap="viridis_r", norm=norm,
         interpolation="nearest", zorder=1,
     )  # fmt: skip
     axis.set_aspect("equal", adjustable="datalim")
     colour_bar(ScalarMappable(norm, "viridis_r"), [axis], f"frames of {len(trace)} balls in a cell")
-    going = np.isfinite(trace).all(axis=-1)
     frames = np.flatnonzero(going.sum(axis=0) > going[:, 0].sum() // 2)  # of those whose turn has come
     path = mean(trace[:, frames])
     axis.plot(

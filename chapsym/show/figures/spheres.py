@@ -50,7 +50,7 @@ def draw(dataset: Dataset) -> Picture:
     vertical = len(found) == 2 and _all_vertical(found)
     shown = ["gamma"] if vertical else list(found)
     figure, axes = new(reading.title(dataset), 1, len(shown), height=5.2 if len(shown) == 1 else 3.3)
-    colours = scale(axes, t, label)(t) if many else None
+    colours: Any = scale(axes, t, label)(t) if many else None
     for axis, name in zip(axes, shown, strict=True):
         points, part = unit(found[name]) if name == "momentum" else found[name], len(reading.steps(dataset))
         if many:
