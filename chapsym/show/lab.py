@@ -20,7 +20,6 @@ body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem aut
 table {{ border-collapse: collapse; display: block; overflow-x: auto; }}
 th, td {{ padding: .2rem .7rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; }}
 th:first-child, td:first-child {{ text-align: left; }}
-svg {{ max-width: 100%; height: auto; }}
 </style>
 <h1>Methods on mechanical systems</h1>
 <p>Oscillation: the range of the energy in the first tenth of the steps. Drift: the mean of the last tenth less that
