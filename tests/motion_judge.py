@@ -18,9 +18,9 @@ import random_scenes
 
 import chapsym
 from chapsym.scene.members.expand import expand
+from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.read.scene import checked
-from chapsym.scene.running.segments import computed
-from chapsym.scene.running.source import plan_of
+from chapsym.scene.running.sweep import computed
 
 #: Those with a motion in time; four.toml and vertical.toml begin with a momentum of one step of the map, and have none.
 SHIPPED = ("bowling", "robot", "spread")

@@ -5,7 +5,7 @@ import time
 
 from chapsym.scene.plan import plan
 from chapsym.scene.plan.models import Rolling
-from chapsym.scene.running import segments
+from chapsym.scene.running import sweep
 
 plan.CHUNK = 4
 Rolling.unit_steps = 4 * 100  # ten frames
@@ -19,8 +19,8 @@ def _slower(real):
     return slow
 
 
-if segments.advance.__name__ != "slow":  # Dask loads it twice
-    segments.advance = _slower(segments.advance)
+if sweep.advance.__name__ != "slow":  # Dask loads it twice
+    sweep.advance = _slower(sweep.advance)
 if "CHAPSYM_TEST_VERSION" in os.environ:
     import chapsym
 

@@ -15,7 +15,7 @@ from chapsym.scene.members.members import Members, Parameter
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.plan import planned
 from chapsym.scene.read.task import Task
-from chapsym.scene.running import segments, sweep
+from chapsym.scene.running import sweep
 
 BALLS, STEPS, EVERY = 20, 330, 10
 UNITS = 20
@@ -59,7 +59,7 @@ def plan(outputs=OUTPUTS, scene="", steps=STEPS, seed=7, n=BALLS):
 def interrupted(path, monkeypatch, after, wanted=None):
     """A store of which `after` units are written."""
     done = iter(range(after))
-    real = segments.advance
+    real = sweep.advance
 
     def advance(*args):
         if next(done, None) is None:
@@ -67,7 +67,7 @@ def interrupted(path, monkeypatch, after, wanted=None):
         return real(*args)
 
     with monkeypatch.context() as patched:
-        patched.setattr(segments, "advance", advance)
+        patched.setattr(sweep, "advance", advance)
         with suppress(KeyboardInterrupt):
             sweep.run_to_store(wanted or plan(), path)
 
@@ -89,7 +89,7 @@ def equal_to_the_bit(one, other):
 
 if __name__ == "__main__":
     calls, most = 0, int(sys.argv[3]) if len(sys.argv) > 3 else UNITS
-    real = segments.advance
+    real = sweep.advance
 
     def advance(*args, **kwargs):
         """The real one, slower, and counted; after MOST units none is begun."""
@@ -98,12 +98,12 @@ if __name__ == "__main__":
         time.sleep(float(sys.argv[2]) if calls <= most else GUARD)
         return real(*args, **kwargs)
 
-    segments.advance = advance
+    sweep.advance = advance
     wanted = plan()
     import xarray  # noqa: F401
     import zarr  # noqa: F401
 
-    real(wanted, wanted.chunks[0], segments.begin(wanted, wanted.chunks[0]), wanted.segments[0])
+    real(wanted, wanted.chunks[0], sweep.begin(wanted, wanted.chunks[0]), wanted.segments[0])
     print("ready", flush=True)
     outcome = sweep.run_to_store(wanted, Path(sys.argv[1]))
     print(calls, outcome.failed, flush=True)

@@ -40,10 +40,10 @@ def run(
     Example: chapsym run docs/first.toml -o first.npz
     """
     from chapsym.scene import load
+    from chapsym.scene.plan.plan import plan_of
     from chapsym.scene.result import formats
     from chapsym.scene.result.proved import with_proof
     from chapsym.scene.running import sweep
-    from chapsym.scene.running.source import plan_of
 
     from .certify import telling
     from .following import following

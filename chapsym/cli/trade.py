@@ -88,9 +88,9 @@ def _answer(
     """Chooses, runs, verifies, and says what was chosen."""
     from chapsym import scene as scenes
     from chapsym.dynamics import BadInput
+    from chapsym.scene.plan.plan import plan_of
     from chapsym.scene.result import formats
     from chapsym.scene.running import sweep
-    from chapsym.scene.running.source import plan_of
 
     for name, value in (("--accuracy", accuracy), ("--time", time), ("--limit", limit)):
         if value is not None and not 0 < value < math.inf:

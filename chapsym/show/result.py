@@ -14,11 +14,11 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, kernels
 from chapsym.scene import Scene, SceneError, checked, load
+from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result import formats
 from chapsym.scene.result.far import sentence
 from chapsym.scene.result.grid import grid
 from chapsym.scene.result.interpolation import interpolated
-from chapsym.scene.running.source import plan_of
 from chapsym.scene.running.sweep import run_in_memory
 
 from . import figures

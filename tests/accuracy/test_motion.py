@@ -16,8 +16,8 @@ from chapsym.dynamics import BadInput, Ball, Status, kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.scene import checked
 from chapsym.scene.plan.models.moving import _parts
+from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result.far import far, sentence
-from chapsym.scene.running.source import plan_of
 from chapsym.scene.running.sweep import run_in_memory
 
 INERTIA = np.array([0.006, 0.0071, 0.0089])

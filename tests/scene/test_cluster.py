@@ -25,9 +25,9 @@ from chapsym.jobs import cluster
 from chapsym.scene import SceneError
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.models import Rolling
+from chapsym.scene.plan.plan import plan_from
 from chapsym.scene.result import formats
-from chapsym.scene.running import remote, sweep
-from chapsym.scene.running.source import plan_from
+from chapsym.scene.running import sweep
 
 PRELOAD = str(Path(__file__).parents[1] / "slow_small_units.py")
 SCENE = f"""{BALL.replace("[3.0,", "[{ linspace = [3.0, 200.0, 25] },")}time_step = 0.01
@@ -101,7 +101,7 @@ def test_a_run_goes_on_from_a_cluster_to_one_machine(local, two, path):
 
 
 def test_balls_without_an_answer_are_listed_and_the_others_go_on(local, two, path, monkeypatch):
-    real = remote.computed
+    real = sweep.computed
 
     def computed(plan, chunk, *rest):
         if chunk == 3:
@@ -109,7 +109,7 @@ def test_balls_without_an_answer_are_listed_and_the_others_go_on(local, two, pat
         return real(plan, chunk, *rest)
 
     with monkeypatch.context() as patched:
-        patched.setattr(remote, "computed", computed)
+        patched.setattr(sweep, "computed", computed)
         outcome = sweep.run_to_store(plan_from(SCENE), path, two)
     assert outcome.lost == {(12, 16): "RuntimeError on a worker: nobody foresaw this"}
     assert not outcome.complete
@@ -118,8 +118,11 @@ def test_balls_without_an_answer_are_listed_and_the_others_go_on(local, two, pat
 
 
 def test_workers_with_another_chapsym_are_one_sentence(two, path, monkeypatch):
-    real = remote.provenance
-    monkeypatch.setattr(remote, "provenance", lambda plan: real(plan) | {"chapsym_version": "0.0.9"})
+    def provenance(plan, real=sweep.provenance):
+        here = threading.current_thread() is threading.main_thread()
+        return real(plan) | ({} if here else {"chapsym_version": "0.0.9"})
+
+    monkeypatch.setattr(sweep, "provenance", provenance)
     with pytest.raises(SceneError, match="is of another version of chapsym") as told:
         sweep.run_to_store(plan_from(SCENE), path, two)
     assert "\n" not in str(told.value)
@@ -181,9 +184,9 @@ def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, mon
     for name in ("distributed", "distributed.client"):
         monkeypatch.setattr(logging.getLogger(name), "handlers", [caplog.handler])
     (tmp_path / "deadly.py").write_text(
-        "import os, runpy\nfrom pathlib import Path\nfrom chapsym.scene.running import segments\n"
+        "import os, runpy\nfrom pathlib import Path\nfrom chapsym.scene.running import sweep\n"
         f"runpy.run_path({PRELOAD!r})\n"
-        "def advance(plan, chunk, *rest, real=segments.advance):\n"
+        "def advance(plan, chunk, *rest, real=sweep.advance):\n"
         f"    died = Path({str(tmp_path / 'died')!r})\n"
         "    if chunk.start == 12 or (chunk.start == 24 and not died.exists()):\n"
         "        died.touch() if chunk.start == 24 else None\n"

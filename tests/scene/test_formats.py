@@ -13,9 +13,9 @@ from small_units import equal_to_the_bit, plan
 
 from chapsym.dynamics import BadInput
 from chapsym.scene import SceneError, load
+from chapsym.scene.plan.plan import plan_from, plan_of
 from chapsym.scene.result import formats, summary
 from chapsym.scene.running import sweep
-from chapsym.scene.running.source import plan_from, plan_of
 from chapsym.show.drawing import reading
 from chapsym.show.result import Result
 
@@ -100,7 +100,7 @@ def test_what_is_too_large_is_told_before_it_is_run(tmp_path, monkeypatch):
             formats.check_size(wanted, tmp_path / f"run{suffix}")
     formats.check_size(wanted, tmp_path / "run.zarr")
     monkeypatch.setattr(formats, "MOST_ROWS", 100)
-    with pytest.raises(SceneError, match="a CSV of more than 100 rows"):
+    with pytest.raises(SceneError, match="680 rows, and a CSV of more than 100 is of no use"):
         formats.save(sweep.run_in_memory(wanted), tmp_path / "run.csv")
 
 
@@ -246,5 +246,5 @@ def test_numbers_that_look_like_others_keep_their_type_in_batches_too(result, tm
     data["energy"][:] = -0.0
     data["omega"][:] = 7.0
     check_formats(data, tmp_path)
-    monkeypatch.setattr("chapsym.scene.result.flat.ROWS", 100)
+    monkeypatch.setattr("chapsym.scene.result.formats.ROWS", 100)
     check_formats(data, tmp_path, (".csv", ".parquet"))

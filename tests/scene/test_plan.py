@@ -16,7 +16,7 @@ from chapsym.scene.plan.models import MODELS, Chosen, Rolling
 from chapsym.scene.plan.plan import planned
 from chapsym.scene.read.outputs import OUTPUTS, K, Output, columns_for, timed
 from chapsym.scene.read.task import Task
-from chapsym.scene.running import segments, sweep
+from chapsym.scene.running import sweep
 
 STATE = ("momentum", "gamma", "attitude", "contact", "omega", "energy", "integrals")
 #: e1 -> e2 -> e3 -> e1, of three balls.
@@ -52,7 +52,7 @@ def test_only_what_is_asked_for_is_followed_and_kept(members):
     assert plan.needed == {"momentum", "gamma"}
     assert plan.numbers == 1
     assert set(rolled(plan)[0]) == {"energy"}
-    state = segments.begin(plan, slice(0, 3))
+    state = sweep.begin(plan, slice(0, 3))
     assert not {"attitude", "contact"} & set(state)
     assert columns_for(("omega",), top=True) == {"momentum"}
     assert columns_for(("omega", "integrals"), top=True) == {"momentum", "gamma"}
@@ -196,7 +196,7 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
     plan = replace(planned(some, task), model=Chosen())
     for chunk in plan.chunks:
         (segment,) = plan.segments
-        columns, state = segments.advance(plan, chunk, segments.begin(plan, chunk), segment)
+        columns, state = sweep.advance(plan, chunk, sweep.begin(plan, chunk), segment)
         assert columns["contact"].shape == (1, 5, 2)
         assert state["error"][0] <= 1e-7
         one, place = some.of(chunk), np.zeros((1, 2))

@@ -6,7 +6,7 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,12 +20,13 @@ from waiting import GUARD, until
 from chapsym.dynamics import BadInput, Status
 from chapsym.scene import SceneError
 from chapsym.scene.plan import plan as plans
+from chapsym.scene.plan.plan import plan_from
 from chapsym.scene.result import dataset
 from chapsym.scene.result.far import far
-from chapsym.scene.result.group import is_store
-from chapsym.scene.running import segments, sweep
-from chapsym.scene.running.source import plan_from
-from chapsym.scene.running.store import Store, creation, marks, write_region
+from chapsym.scene.result.formats import check_ours
+from chapsym.scene.running import store as stores
+from chapsym.scene.running import sweep
+from chapsym.scene.running.store import Store, write_region
 from chapsym.scene.running.tally import Stopped
 
 CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
@@ -38,7 +39,14 @@ def opened(path):
 
 def marked(path):
     """The marks of a store, and when they were written."""
-    return {mark.name: mark.stat().st_mtime_ns for mark in marks.folder(path).glob("chunk-*.npz")}
+    return {mark.name: mark.stat().st_mtime_ns for mark in stores.folder_of(path).glob("chunk-*.npz")}
+
+
+def is_store(path):
+    with suppress(SceneError):
+        check_ours(path)
+        return True
+    return False
 
 
 @contextmanager
@@ -83,9 +91,9 @@ def test_a_store_has_the_bits_of_the_run_in_memory_and_is_left_alone(whole, tmp_
     equal_to_the_bit(found, whole)
     assert found.attrs["complete"] is True
     assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
-    assert not marks.folder(path).exists()
+    assert not stores.folder_of(path).exists()
     before = {p: p.stat().st_mtime_ns for p in path.rglob("*")}
-    monkeypatch.setattr(segments, "advance", None)
+    monkeypatch.setattr(sweep, "advance", None)
     again = sweep.run_to_store(plan(), path)
     assert again.nothing_to_do
     assert again.failed == outcome.failed
@@ -122,23 +130,23 @@ def test_a_run_that_is_killed_goes_on_and_has_the_same_bits(whole, tmp_path, see
 
 
 def test_every_moment_of_the_creation_may_be_the_last(whole, tmp_path, monkeypatch, path):
-    """Each file operation of the creation, in turn, is the last thing that the process does."""
+    """Each file operation of the stores, in turn, is the last thing that the process does."""
     operations = iter(range(100))
 
     class Killed(BaseException):
         pass
 
     for name in ("_fill", "_add_arrays", "_consolidate"):
-        real = getattr(creation, name)
+        real = getattr(stores, name)
 
         def killed(*args, real=real):
             real(*args)
             raise Killed
 
         with monkeypatch.context() as patched:
-            patched.setattr(creation, name, killed)
-            patched.setattr(creation.shutil, "rmtree", lambda *a, **k: None)  # a killed process tidies nothing
-            patched.setattr(creation.os, "getpid", lambda: 2**22 + next(operations))  # of a process that is gone
+            patched.setattr(stores, name, killed)
+            patched.setattr(stores.shutil, "rmtree", lambda *a, **k: None)  # a killed process tidies nothing
+            patched.setattr(stores.os, "getpid", lambda: 2**22 + next(operations))  # of a process that is gone
             with pytest.raises(Killed):
                 sweep.run_to_store(plan(), path)
         assert not path.exists()
@@ -214,7 +222,7 @@ def test_fresh_replaces_a_result_of_chapsym_only(whole, tmp_path, monkeypatch, p
 
 
 def test_the_second_writer_is_told_who_writes(whole, path):
-    lock = marks.folder(path) / "lock"
+    lock = stores.folder_of(path) / "lock"
     with child(path, 0, most=0) as running:
         until(lambda: is_store(path) and lock.exists() and lock.read_text(), running)
         for fresh in (False, True):
@@ -228,7 +236,7 @@ def test_the_second_writer_is_told_who_writes(whole, path):
 @pytest.mark.parametrize("damage", [lambda b: b[: len(b) // 2], lambda b: b"", lambda b: b[:200] + b"XXXX" + b[204:]])
 def test_a_damaged_mark_is_named_and_costs_its_balls_only(whole, path, monkeypatch, damage):
     interrupted(path, monkeypatch, 7)
-    mark = min(marks.folder(path).glob("chunk-*.npz"))
+    mark = min(stores.folder_of(path).glob("chunk-*.npz"))
     mark.write_bytes(damage(mark.read_bytes()))
     with pytest.raises(SceneError, match=f"{mark.name} is damaged; delete it") as caught:
         sweep.run_to_store(plan(), path)
@@ -239,7 +247,7 @@ def test_a_damaged_mark_is_named_and_costs_its_balls_only(whole, path, monkeypat
 
 
 def test_a_store_that_is_deleted_meanwhile_leaves_no_debris(tmp_path, monkeypatch, path):
-    real = segments.advance
+    real = sweep.advance
     calls = iter(range(100))
 
     def advance(*args):
@@ -247,7 +255,7 @@ def test_a_store_that_is_deleted_meanwhile_leaves_no_debris(tmp_path, monkeypatc
             path.rename(tmp_path / "gone")
         return real(*args)
 
-    monkeypatch.setattr(segments, "advance", advance)
+    monkeypatch.setattr(sweep, "advance", advance)
     with pytest.raises(SceneError, match="was deleted or moved while it was written"):
         sweep.run_to_store(plan(), path)
     assert not path.exists()
@@ -259,7 +267,7 @@ def test_a_store_that_is_deleted_under_a_unit_leaves_no_debris(tmp_path, path, m
     wanted = plan()
     with Store.of(path, wanted):
         chunk = wanted.chunks[0]
-        columns, _ = segments.advance(wanted, chunk, segments.begin(wanted, chunk), wanted.segments[0])
+        columns, _ = sweep.advance(wanted, chunk, sweep.begin(wanted, chunk), wanted.segments[0])
         real = zarr.Array.__setitem__
 
         def late(array, where, values):  # the store goes after the check, before the write
@@ -289,7 +297,7 @@ def test_units_that_run_stop_when_another_ends_the_run(path, monkeypatch):
             stopped.append(chunk)
             raise
 
-    monkeypatch.setattr(segments, "advance", advance)
+    monkeypatch.setattr(sweep, "advance", advance)
     monkeypatch.setattr(sweep, "cores", lambda: 4)
     with pytest.raises(KeyboardInterrupt):
         sweep.run_to_store(plan(), path)
@@ -297,7 +305,7 @@ def test_units_that_run_stop_when_another_ends_the_run(path, monkeypatch):
 
 
 def test_balls_without_an_answer_are_listed_and_the_others_go_on(whole, path, monkeypatch):
-    real = segments.advance
+    real = sweep.advance
 
     def advance(wanted, chunk, *rest):
         if chunk.start == 8:
@@ -305,7 +313,7 @@ def test_balls_without_an_answer_are_listed_and_the_others_go_on(whole, path, mo
         return real(wanted, chunk, *rest)
 
     with monkeypatch.context() as patched:
-        patched.setattr(segments, "advance", advance)
+        patched.setattr(sweep, "advance", advance)
         outcome = sweep.run_to_store(plan(), path)
         with pytest.raises(BadInput, match="no answer here"):
             sweep.run_in_memory(plan())
@@ -325,8 +333,8 @@ def test_balls_without_an_answer_are_listed_and_the_others_go_on(whole, path, mo
 def test_a_worker_that_is_late_changes_nothing(whole, path):
     """It writes its region again, when a later segment of its balls is done already."""
     wanted = plan()
-    state = segments.begin(wanted, wanted.chunks[1])
-    columns, _ = segments.advance(wanted, wanted.chunks[1], state, wanted.segments[0])
+    state = sweep.begin(wanted, wanted.chunks[1])
+    columns, _ = sweep.advance(wanted, wanted.chunks[1], state, wanted.segments[0])
     assert sweep.run_to_store(wanted, path).complete
     write_region(path, wanted, 1, 0, columns)
     equal_to_the_bit(opened(path), whole)

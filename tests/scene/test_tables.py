@@ -13,9 +13,9 @@ from chapsym import scene
 from chapsym.dynamics.certified import exactly
 from chapsym.scene import SceneError, checked
 from chapsym.scene.members.expand import expand
+from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
-from chapsym.scene.running.source import plan_of
 
 DATA = {
     "ball": {"inertia": [0.006, 0.007, 0.009], "mass": 2.0, "radius": 0.1},

@@ -1,12 +1,14 @@
 """The least model that yields what a scene asks for, and how its run is cut into units of work."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from chapsym.dynamics import BadInput, Ball
 
+from ..members.expand import expand
 from ..members.members import Members
 from ..read.outputs import OUTPUTS, columns_for, kernels_for, timed
+from ..read.scene import Scene, from_source
 from ..read.task import Task
 from .models import MODELS, Chosen, Model
 
@@ -98,6 +100,18 @@ class Plan:
             "units": len(self.chunks) * len(self.segments),
             "refused": self.refused,
         }
+
+
+def plan_of(scene: Scene) -> Plan:
+    """The plan of a scene, with its text and title; raises BadInput where no model yields what it asks for."""
+    plan = planned(expand(scene), scene.task())
+    drawn = scene.sweep.samples is not None
+    return replace(plan, scene=scene.source, title=scene.title, seed=scene.sweep.seed if drawn else None)
+
+
+def plan_from(text: str) -> Plan:
+    """The plan of a scene from its text, `Plan.scene`: TOML, or JSON of a dict; a worker of a cluster is sent that."""
+    return replace(plan_of(from_source(text)), scene=text)
 
 
 def planned(members: Members, task: Task) -> Plan:

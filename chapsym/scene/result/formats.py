@@ -1,10 +1,15 @@
-"""Results in files: NetCDF, and for the small CSV, Parquet and NumPy, each written whole; how all are read back."""
+"""Results in files: NetCDF, and for the small CSV, Parquet and NumPy, each written whole; how all are read back.
+
+CSV and Parquet are one table, a row for each ball and frame; `structure` is what the rows do not tell.
+"""
 
 import json
+import re
 import warnings
 import zipfile
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from itertools import product
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
@@ -14,11 +19,9 @@ from chapsym import files
 
 from ..plan.plan import Plan
 from ..read.errors import SceneError
-from . import old
+from ..read.outputs import OUTPUTS, labels
 from .arrays import Arrays
 from .dataset import with_clock
-from .flat import arrays_of, assembled, batches, from_arrays, plain, structure
-from .group import check_ours
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -34,6 +37,8 @@ MOST_ROWS = 10**7
 SHARE = 0.25
 #: What may follow the dot of a result.
 SUFFIXES = (".zarr", ".nc", ".csv", ".parquet", ".npz")
+#: Rows of one batch, whose memory is bounded.
+ROWS = 2**17
 
 
 def check_destination(path: Path) -> None:
@@ -49,13 +54,16 @@ def check_destination(path: Path) -> None:
 
 def check_size(plan: Plan, path: Path) -> None:
     """Raises SceneError, before anything is computed, if the result is too large for a file of this kind."""
-    rows = len(plan.members) * plan.frames
-    if path.suffix == ".csv" and rows > MOST_ROWS:
-        told = f"{rows} rows, and a CSV of more than {MOST_ROWS} is of no use; write to .parquet or .zarr"
-        raise SceneError(f"{path}: the result has {told}, or keep fewer frames with run.every")
+    _check_rows(path, len(plan.members) * plan.frames)
     if path.suffix != ".zarr" and plan.bytes > SHARE * _memory():
         told = "which is too much to be written at once on this machine; write to .zarr"
         raise SceneError(f"{path}: the result has {plan.bytes / 1e9:.3g} GB, {told}")
+
+
+def _check_rows(path: Path, rows: int) -> None:
+    if path.suffix == ".csv" and rows > MOST_ROWS:
+        told = f"{rows} rows, and a CSV of more than {MOST_ROWS} is of no use; write to .parquet or .zarr"
+        raise SceneError(f"{path}: the result has {told}, or keep fewer frames with run.every")
 
 
 def save(data: "Dataset | Arrays", path: Path) -> None:
@@ -68,8 +76,7 @@ def save(data: "Dataset | Arrays", path: Path) -> None:
     write = _WRITERS.get(path.suffix)
     if write is None:
         raise SceneError(f"{str(path)!r}: a result is written to {', '.join(_WRITERS)}")
-    if path.suffix == ".csv" and data.sizes["ball"] * data.sizes["frame"] > MOST_ROWS:
-        raise SceneError(f"{path}: a CSV of more than {MOST_ROWS} rows is of no use; write to .parquet or .nc")
+    _check_rows(path, data.sizes["ball"] * data.sizes["frame"])
     try:
         files.write_whole(path, lambda stream: write(stream, data))
     except files.CannotWrite as error:
@@ -105,6 +112,27 @@ def load(path: Path) -> "Dataset":
     return data.assign_attrs(plain(data.attrs))
 
 
+def attributes(path: Path) -> dict[str, Any]:
+    """The attributes of a Zarr group; raises SceneError if there are none to be read."""
+    try:
+        found = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        raise SceneError(f"{path} is there, but it is no result of chapsym; choose another name") from None
+    return found if isinstance(found, dict) else {}
+
+
+def check_ours(path: Path) -> None:
+    """Raises SceneError if `path` is anything but a result of chapsym, which nobody may overwrite."""
+    if "chapsym_version" not in attributes(path):
+        raise SceneError(f"{path} is there, but it is no result of chapsym; choose another name")
+
+
+def plain(attrs: Mapping[Any, Any]) -> dict[str, Any]:
+    """Attributes as JSON has them."""
+    arrays = (np.ndarray, np.generic)
+    return {str(key): value.tolist() if isinstance(value, arrays) else value for key, value in attrs.items()}
+
+
 def _memory() -> float:
     """Bytes of memory that this machine has."""
     import os
@@ -127,7 +155,7 @@ def _write_rows(data: "Dataset | Arrays", told: dict[str, Any], begin: Callable[
     import pyarrow
 
     writer = None
-    for columns in batches(data, told):
+    for columns in _batches(data, told):
         texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
         table = pyarrow.table({**columns, **texts}).replace_schema_metadata(about)
         writer = writer or begin(table.schema)
@@ -139,7 +167,7 @@ def _write_rows(data: "Dataset | Arrays", told: dict[str, Any], begin: Callable[
 def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     from pyarrow import parquet
 
-    told = structure(data)
+    told = _structure(data)
     about = {"chapsym": json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)}
     _write_rows(data, told, lambda schema: parquet.ParquetWriter(stream, schema, compression="zstd"), about)
 
@@ -147,7 +175,7 @@ def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
 def _write_csv(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     from pyarrow import csv
 
-    told = structure(data)
+    told = _structure(data)
     for key, value in (plain(data.attrs) | {"structure": told}).items():
         stream.write(f"# {key}: {json.dumps(value, ensure_ascii=False)}\n".encode())
     options = csv.WriteOptions(quoting_style="needed")
@@ -180,7 +208,7 @@ def _read_parquet(path: Path) -> "Dataset":
 
     table = parquet.ParquetFile(path).read()
     about = json.loads((table.schema.metadata or {})[b"chapsym"])
-    return assembled(_columns(table), about["structure"], about["attrs"])
+    return _assembled(_columns(table), about["structure"], about["attrs"])
 
 
 def _read_csv(path: Path) -> "Dataset":
@@ -191,7 +219,7 @@ def _read_csv(path: Path) -> "Dataset":
     lines = 0
     with path.open(encoding="utf-8", newline="") as stream:
         if not stream.readline().startswith("# "):
-            return old.dataset(old.joined(_columns(csv.read_csv(path))))
+            return _old(_columns(csv.read_csv(path)))
         stream.seek(0)
         while (line := stream.readline()).startswith("# "):
             key, _, value = line[2:].partition(": ")
@@ -204,26 +232,154 @@ def _read_csv(path: Path) -> "Dataset":
         path, csv.ReadOptions(skip_rows=lines), csv.ParseOptions(newlines_in_values=True),
         csv.ConvertOptions(column_types=types),
     )  # fmt: skip
-    return assembled(_columns(table), told, attrs)
+    return _assembled(_columns(table), told, attrs)
 
 
 def _write_npz(stream: IO[bytes], data: "Dataset | Arrays") -> None:
-    told = structure(data)
+    told = _structure(data)
     about = json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)
-    np.savez(stream, **{"chapsym": np.array(about)} | arrays_of(data, told))  # type: ignore[arg-type]
+    np.savez(stream, **{"chapsym": np.array(about)} | _arrays_of(data, told))  # type: ignore[arg-type]
 
 
 def _read_npz(path: Path) -> "Dataset":
     with np.load(path, allow_pickle=False) as data:
         arrays = {name: data[name] for name in data.files}
     if "chapsym" not in arrays:
-        return old.dataset(arrays)
+        return _old(arrays)
     about = json.loads(str(arrays["chapsym"]))
-    return from_arrays(arrays, about["structure"], about["attrs"])
+    return _from_arrays(arrays, about["structure"], about["attrs"])
 
 
 def _columns(table: Any) -> dict[str, np.ndarray]:
     return {name: table[name].to_numpy() for name in table.column_names}
+
+
+def _structure(data: "Dataset | Arrays") -> dict[str, Any]:
+    """What the rows do not tell, as plain data: labels of components; the columns and attributes of each variable."""
+    dims = [str(dim) for dim in data.dims if dim not in ("ball", "frame") and dim in data]
+    labels = {dim: data[dim].values.tolist() for dim in dims}
+    variables = {
+        str(name): {
+            "dims": list(one.dims),
+            "columns": [f"{name}{suffix}" for suffix in _suffixes(one.dims, labels)],
+            "coordinate": name in data.coords,
+            "type": {"f": "double", "i": "int64"}.get(one.dtype.kind, "string"),
+            "attrs": plain(one.attrs),
+        }
+        for name, one in data.variables.items()
+        if name not in labels
+    }
+    return {
+        "balls": data.sizes["ball"], "frames": data.sizes["frame"], "labels": labels, "variables": _ordered(variables),
+    }  # fmt: skip
+
+
+def _batches(data: "Dataset | Arrays", told: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
+    """The columns of some balls after the others, each (rows,); what a ball has once stands in each of its rows."""
+    frames = data.sizes["frame"]
+    several = max(1, ROWS // frames)
+    for first in range(0, data.sizes["ball"], several):
+        part = data.isel(ball=slice(first, first + several))
+        balls = part.sizes["ball"]
+        columns: dict[str, np.ndarray] = {}
+        for name, one in told["variables"].items():
+            values = part[name].values
+            if "frame" not in one["dims"]:
+                values = np.broadcast_to(values[:, np.newaxis], (balls, frames, *values.shape[1:]))
+            elif "ball" not in one["dims"]:
+                values = np.broadcast_to(values, (balls, frames))
+            flat = values.reshape(balls * frames, -1)
+            columns |= {column: flat[:, i] for i, column in enumerate(one["columns"])}
+        yield columns
+
+
+def _assembled(columns: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+    """The Dataset of a table; raises KeyError, ValueError or TypeError if the table is not whole."""
+    arrays = {}
+    for name, one in told["variables"].items():
+        inner = [len(told["labels"][dim]) for dim in one["dims"] if dim in told["labels"]]
+        values = np.stack([columns[column] for column in one["columns"]], axis=-1)
+        values = values.reshape(told["balls"], told["frames"], *inner)
+        arrays[name] = values[:, 0] if "frame" not in one["dims"] else values if "ball" in one["dims"] else values[0]
+    return _dataset(arrays, told, attrs)
+
+
+def _arrays_of(data: "Dataset | Arrays", told: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """The arrays of all variables; of one ball without the axis of the balls."""
+    whole = data.isel(ball=0) if told["balls"] == 1 else data
+    found = {name: whole[name].values for name in told["variables"]}
+    return {name: np.array(a.tolist(), dtype=str) if a.dtype.kind in "OT" else a for name, a in found.items()}
+
+
+def _from_arrays(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+    """The Dataset of `_arrays_of`; raises KeyError, ValueError or TypeError if one is missing."""
+    found = {}
+    for name, one in told["variables"].items():
+        values = arrays[name].astype(object) if arrays[name].dtype.kind == "U" else arrays[name]
+        found[name] = np.expand_dims(values, 0) if told["balls"] == 1 and "ball" in one["dims"] else values
+    return _dataset(found, told, attrs)
+
+
+def _dataset(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+    """The Dataset of these arrays and what `_structure` tells."""
+    import xarray
+
+    coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in told["labels"].items()}
+    variables: dict[Any, Any] = {}
+    for name, one in told["variables"].items():
+        (coords if one["coordinate"] else variables)[name] = (one["dims"], arrays[name], one["attrs"])
+    return xarray.Dataset(variables, coords, dict(attrs))
+
+
+def _suffixes(dims: tuple[Any, ...], labels: Mapping[str, list[str]]) -> list[str]:
+    """The ends of the columns' names: _1, _2, ... of a vector; _1_1, _1_2, ... of a matrix; of a number none."""
+    inner = [labels[dim] for dim in dims if dim in labels]
+    return ["".join(f"_{label}" for label in chosen) for chosen in product(*inner)]
+
+
+def _ordered(variables: dict[str, Any]) -> dict[str, Any]:
+    """Ball and frame first, then what has a value in every frame, then what a ball has once."""
+
+    def rank(name: str) -> tuple[int, bool]:
+        leading = {"ball": 0, "step": 1, "time": 2}
+        return leading.get(name, 3 if variables[name]["coordinate"] else 4), "frame" not in variables[name]["dims"]
+
+    return {name: variables[name] for name in sorted(variables, key=rank)}
+
+
+#: What names of old files are now.
+_OLD = {"contact_m": "contact", "time_s": "time"}
+
+
+def _old(columns: Mapping[str, np.ndarray]) -> "Dataset":
+    """A file of one ball as chapsym 0.1.0 first wrote it: a .npz without the key "chapsym", a .csv without `# ` lines.
+
+    In the CSV vectors count from 0, `momentum_0`.  Raises KeyError or ValueError for columns of no result.
+    """
+    import xarray
+
+    parts: dict[str, list[np.ndarray]] = {}
+    for column, values in columns.items():
+        name = re.sub(r"_\d$", "", column)
+        for was, now in _OLD.items():
+            name = name.replace(was, now)
+        parts.setdefault(name, []).append(values)
+    found = {name: some[0] if len(some) == 1 else np.stack(some, axis=-1) for name, some in parts.items()}
+    step = found["step"]
+    coords: dict[Any, Any] = {"ball": np.array(["1"], dtype=object), "step": ("frame", step, {"units": "1"})}
+    if "time" in found:
+        coords["time"] = ("frame", found["time"], {"units": "s"})
+    variables: dict[Any, Any] = {}
+    for name, values in found.items():
+        of = OUTPUTS.get(name.removesuffix("_low"))
+        if of is not None:
+            (dim,) = of.dims
+            coords[dim] = np.array(labels(3)[dim], dtype=object)
+            floats = values if values.dtype.kind in "OUS" else values.astype(np.float64)
+            variables[name] = (("ball", "frame", dim), floats[np.newaxis], of.attrs(3, chosen=False))
+    variables["taken"] = ("ball", step[-1:], {"units": "1", "long_name": "steps taken"})
+    variables["status"] = ("ball", np.zeros(1, dtype=np.int64), {"long_name": "why the ball stopped (not known)"})
+    return xarray.Dataset(variables, coords, {"title": "A ball, from a file that does not say where it comes from"})
 
 
 _WRITERS: dict[str, Callable[[IO[bytes], Any], None]] = {

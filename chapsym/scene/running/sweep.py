@@ -1,34 +1,43 @@
-"""Runs a plan unit by unit: into memory, or into a store that can be gone on with; on all cores or on a cluster."""
+"""Runs a plan unit by unit: into memory, or into a store that can be gone on with; on all cores or on a cluster.
+
+A unit is some balls × some frames, from the state that the one before it left.  A worker of a cluster is sent the text
+of the scene and the numbers of a unit, makes the plan of it again, and computes and writes the unit; the process that
+began keeps the marks.
+"""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+import chapsym
 from chapsym import jobs
 from chapsym.accuracy import Accurate
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.frames import cores
 
+from ..plan.columns import asked_for
 from ..plan.models import Chosen, State
-from ..plan.plan import Plan
+from ..plan.plan import Plan, plan_from
 from ..read.errors import SceneError
 from ..read.task import Columns
 from ..result.arrays import Arrays
 from ..result.dataset import OUTCOME, arrays, layout, provenance, sizes, with_clock
-from .remote import unit
-from .segments import NoAnswer, computed
-from .source import plan_from
-from .store import Store
-from .tally import Report, Tally, silent
+from .store import Store, check_same, difference, write_region
+from .tally import Report, Stopped, Tally, silent
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
 #: Chunks of balls that run side by side at most, one a core: while one is written, another is computed.
 ABREAST = 8
+
+
+class NoAnswer(Exception):
+    """A unit whose balls cannot be run; the others can."""
 
 
 @dataclass(frozen=True)
@@ -119,6 +128,71 @@ def telling(plan: Plan, progress: Callable[[str], None]) -> tuple[Plan, list[Acc
     return (replace(plan, model=Chosen(answers.append, progress)) if isinstance(plan.model, Chosen) else plan), answers
 
 
+def begin(plan: Plan, chunk: slice) -> State:
+    """The state of some balls at the start: arrays by name, of which `taken` and `status` are always there."""
+    return plan.model.begin(plan.members.of(chunk), plan.task, plan.needed)
+
+
+def advance(
+    plan: Plan, chunk: slice, state: State, segment: slice, progress: Callable[[int], None] = lambda steps: None
+) -> tuple[Columns, State]:
+    """The outputs of some balls in some frames, (balls, frames, ...), in the axes given, and the state after them.
+
+    progress: called with the steps done so far in this unit, of all its balls together.
+    Frames that a ball did not reach are NaN; the state's `taken` and `status` say so.
+    """
+    members = plan.members.of(chunk)
+    columns, after = plan.model.advance(members, plan.task, plan.needed, state, segment, progress)
+    return asked_for(members, plan.task, columns), after
+
+
+def computed(
+    plan: Plan, chunk: int, segment: int, state: State | None, progress: Callable[[int], None] = lambda steps: None
+) -> tuple[Columns, State]:
+    """The values of a unit and the state after it, from the one before (None: the start).
+
+    Raises NoAnswer where its balls have none.
+    """
+    try:
+        state = begin(plan, plan.chunks[chunk]) if state is None else state
+        columns, after = advance(plan, plan.chunks[chunk], state, plan.segments[segment], progress)
+    except Stopped:
+        raise
+    except (BadInput, ArithmeticError, MemoryError) as error:
+        raise NoAnswer(str(error) or type(error).__name__) from error
+    missing = set(layout(plan)) - set(columns) - set(after)
+    assert not missing, f"{plan.model.name} left out {missing}"
+    return columns, after
+
+
+def unit(text: str, about: dict[str, Any], path: str, chunk: int, segment: int, state: State | None) -> State:
+    """Computes and writes one unit on a worker; the state after it.
+
+    text, about: the scene and the provenance of its plan, which the worker's must equal.
+    Raises NoAnswer, which is of these balls only; or SceneError, of the disk, the store or the worker.
+    """
+    try:
+        plan = _plan(text)
+        told = difference(provenance(plan), about)
+        if told is not None:
+            version = f"chapsym {chapsym.__version__}, and {about['chapsym_version']} here"
+            raise SceneError(
+                f"what a worker of the cluster would compute {told} ({version}): give all the same chapsym"
+            )
+        columns, after = computed(plan, chunk, segment, state)
+        check_same(Path(path), plan)  # this worker may be late, and the store by now another's
+        write_region(Path(path), plan, chunk, segment, columns)
+        return after
+    except (NoAnswer, SceneError) as error:
+        raise type(error)(str(error)) from None
+    except Exception as error:  # of any kind: not all can be sent
+        raise NoAnswer(f"{type(error).__name__} on a worker: {error}") from None
+
+
+#: The plans of a worker.
+_plan = lru_cache(maxsize=4)(plan_from)
+
+
 #: A unit as a call: its chunk, its segment, and the state that the segment before it left.
 Unit = Callable[[int, int, State | None], jobs.Call]
 
@@ -147,7 +221,7 @@ def _on_cluster(plan: Plan, store: Store, tally: Tally, address: str) -> dict[in
 
     Raises SceneError for a plan that has no scene, if a worker has another chapsym, or if the disk refuses.
     """
-    plan_from(plan.scene)
+    _plan(plan.scene)
     sent = plan.scene, provenance(plan), str(store.path)
     lost: dict[int, str] = {}
     with jobs.workers(address) as crew:

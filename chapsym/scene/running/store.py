@@ -1,0 +1,327 @@
+"""A result in Zarr that is written unit by unit: created whole, resumable, never mixed with another run.
+
+Beside the arrays the folder `.chapsym` has the lock and the marks: for each chunk how many segments are written, with
+the state for the next, in one file.
+"""
+
+import errno
+import json
+import os
+import shutil
+import time
+import tomllib
+import warnings
+import zipfile
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from chapsym import files, jobs
+
+from ..plan.models import State
+from ..plan.plan import Plan
+from ..read.errors import SceneError
+from ..read.task import Columns
+from ..result.dataset import OUTCOME, build, layout, provenance, sizes
+from ..result.formats import attributes, check_ours, plain
+
+ELSE = "choose another name, or replace it with --fresh"
+#: The name of the count in a mark; the rest is the state.
+DONE = "segments_done"
+
+
+class Store:
+    """A Zarr group with the Dataset of a plan, and the marks of its units in a folder inside.
+
+    `Store.of` makes it or goes on with it; `start` says where a chunk goes on, `write` writes a unit, `mark` says so,
+    `finish` that all is there.  Every error of the disk is a SceneError, and loses nothing that was written.
+    """
+
+    def __init__(self, path: Path, plan: Plan) -> None:
+        self.path, self.plan = path, plan
+
+    @classmethod
+    @contextmanager
+    def of(cls, path: Path, plan: Plan, fresh: bool = False) -> Iterator[Self]:
+        """The store of a plan, new or as it was left, locked unless it is complete; `fresh` discards what was there.
+
+        Raises BadInput if there is something else, or if another process is writing it.
+        """
+        path = Path(os.path.realpath(path))
+        _check_place(path)
+        store = cls(path, plan)
+        if path.exists() and not fresh:
+            check_same(path, plan)
+            if store.complete:
+                yield store
+                return
+        elif path.exists():
+            with _locked(path):
+                _discard(path)
+        if not path.exists():
+            _create(path, plan)
+        with _locked(path):
+            for left in path.rglob("*.partial"):  # chunks that a killed process has left half written
+                left.unlink(missing_ok=True)
+            yield store
+
+    @property
+    def complete(self) -> bool:
+        """Whether every unit is there."""
+        return bool(attributes(self.path).get("complete"))
+
+    def start(self, chunk: int) -> tuple[int, State | None]:
+        """How many segments of a chunk are done, and the state after them; 0 and None if none is."""
+        path, balls = mark_of(self.path, chunk), self.plan.chunks[chunk].stop - self.plan.chunks[chunk].start
+        try:
+            with np.load(path, allow_pickle=False) as data:
+                state = {name: data[name] for name in data.files}
+            done = int(state.pop(DONE))
+            if not 0 < done <= len(self.plan.segments) or any(array.shape[:1] != (balls,) for array in state.values()):
+                raise ValueError
+        except FileNotFoundError:
+            return 0, None
+        # Of NumPy and of zip, by what is cut.
+        except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
+            mended = "delete it, and the same command computes its balls anew and keeps the others"
+            raise SceneError(f"{path} is damaged; {mended}") from None
+        return done, state
+
+    def write(self, chunk: int, segment: int, columns: Columns) -> None:
+        """Writes the values of a unit."""
+        write_region(self.path, self.plan, chunk, segment, columns)
+
+    def mark(self, chunk: int, segment: int, state: State) -> None:
+        """The mark of a unit whose region is written, after how its balls fared.
+
+        That changes from segment to segment, so only the process that holds the lock writes it: a worker may be late.
+        """
+        write_region(self.path, self.plan, chunk, segment, {name: state[name] for name in OUTCOME if name in state})
+        data: dict[str, Any] = {DONE: np.array(segment + 1), **state}
+        with _refusals(self.path, layout(self.plan)):
+            files.write_whole(mark_of(self.path, chunk), lambda stream: np.savez(stream, **data))
+
+    def finish(self) -> None:
+        """Says that all is there; the marks go."""
+        with _refusals(self.path):
+            document = json.loads((self.path / "zarr.json").read_text(encoding="utf-8"))
+            document["attributes"]["complete"] = True
+            text = json.dumps(document, indent=2).encode()
+            files.write_whole(self.path / "zarr.json", lambda stream: stream.write(text))
+            shutil.rmtree(folder_of(self.path), ignore_errors=True)
+
+
+def folder_of(store: Path) -> Path:
+    """The folder of the marks and the lock, inside the store."""
+    return store / ".chapsym"
+
+
+def mark_of(store: Path, chunk: int) -> Path:
+    """The mark of a chunk."""
+    return folder_of(store) / f"chunk-{chunk:06d}.npz"
+
+
+def write_region(path: Path, plan: Plan, chunk: int, segment: int, values: Columns) -> None:
+    """Writes variables of one unit, which share no Zarr chunk with those of another; raises SceneError."""
+    import zarr
+
+    variables = {name: one for name, one in layout(plan).items() if name in values}
+    where = {"ball": plan.chunks[chunk], "frame": plan.segments[segment]}
+    with _refusals(path, variables):
+        (path / "zarr.json").stat()
+        try:
+            group = zarr.open_group(path, mode="r+", use_consolidated=False)
+            arrays: dict[str, Any] = {name: group[name] for name in variables}
+        except (KeyError, ValueError, TypeError):
+            (path / "zarr.json").stat()
+            raise SceneError(f"{path} is damaged, or is being deleted; replace it with --fresh") from None
+        for name, one in variables.items():
+            arrays[name][tuple(where.get(dim, slice(None)) for dim in one.dims)] = np.asarray(values[name], one.dtype)
+        (path / "zarr.json").stat()  # of a store that was deleted since, Zarr has made these folders anew
+
+
+# Whose result a store holds.
+
+
+def check_same(path: Path, plan: Plan) -> None:
+    """Raises SceneError with what differs unless the store holds the run of this plan, of these versions."""
+    found, wanted = attributes(path), provenance(plan)
+    key = _first_difference(_data(found.get("scene")), _data(wanted["scene"]))
+    if key is not None:
+        raise SceneError(f"{path} holds another scene ({key} differs); {ELSE}")
+    told = difference(found, wanted)
+    if told is not None:
+        raise SceneError(f"{path} {told}; {ELSE}")
+
+
+def difference(found: dict[str, Any], wanted: dict[str, Any]) -> str | None:
+    """What differs of two runs apart from the text of the scene, as a verb and its object; None if nothing does."""
+    for name, told in (
+        ("chapsym_version", "is of another version of chapsym"),
+        ("plan", "is of another plan"),
+        ("kernels", "is of other kernels"),
+        ("inputs_sha256", "is of other balls or starts"),
+    ):
+        if found.get(name) != wanted.get(name):
+            return told
+    return None
+
+
+def _first_difference(one: Any, other: Any, key: str = "") -> str | None:
+    """The dotted key of the first difference of two nested tables; None if there is none."""
+    if not (isinstance(one, dict) and isinstance(other, dict)):
+        return None if one == other else key or "the text"
+    for name in sorted({*one, *other}):
+        inside = f"{key}.{name}" if key else str(name)
+        if inside == "run.output":  # where to write is no part of what is written
+            continue
+        if (name in one) != (name in other):
+            return inside
+        if found := _first_difference(one[name], other[name], inside):
+            return found
+    return None
+
+
+def _data(text: Any) -> Any:
+    """What a scene says, apart from its comments; as it is, where it is neither TOML nor JSON."""
+    for read in (tomllib.loads, json.loads):
+        with suppress(ValueError, TypeError, AttributeError, RecursionError):
+            return read(text)
+    return text
+
+
+# A new store is made beside its place with all its metadata, then renamed, so that it is there whole or not at all.
+
+
+def _check_place(path: Path) -> None:
+    """Raises SceneError, before anything is computed, if `path` cannot be a store."""
+    if not path.parent.is_dir():
+        raise SceneError(f"{path}: the folder {path.parent} does not exist")
+    if path.exists():
+        check_ours(path)
+    elif os.path.lexists(path) or not os.access(path.parent, os.W_OK):
+        raise SceneError(f"{path} cannot be written: choose a name in a folder that is writable")
+
+
+def _create(path: Path, plan: Plan) -> None:
+    """Puts a store without values at `path`, unless another process has; raises SceneError if the disk refuses."""
+    for left in path.parent.glob(f".{path.name}.new-*"):  # of creations that were killed
+        pid = left.name.rpartition("-")[2]
+        if pid.isdigit() and not _alive(int(pid)):
+            shutil.rmtree(left, ignore_errors=True)
+    beside = _beside(path)
+    try:
+        with _refusals(path, creating=True):
+            beside.mkdir()
+            _fill(beside / path.name, plan)
+            try:
+                os.rename(beside / path.name, path)
+            except OSError:
+                if not path.exists():
+                    raise
+    finally:
+        for _ in range(20):  # after an error Zarr may still be writing into it
+            shutil.rmtree(beside, ignore_errors=True)
+            if not beside.exists():
+                break
+            time.sleep(0.05)
+
+
+def _discard(path: Path) -> None:
+    """Removes a store: renamed first, so that no half of it stays under its name."""
+    beside = _beside(path)
+    with _refusals(path):
+        beside.mkdir()
+        os.rename(path, beside / path.name)
+        shutil.rmtree(beside, ignore_errors=True)
+
+
+def _beside(path: Path) -> Path:
+    """A folder of this process, on the same disk."""
+    return path.with_name(f".{path.name}.new-{os.getpid()}")
+
+
+def _alive(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):  # of another user
+        return True
+    return True
+
+
+def _fill(path: Path, plan: Plan) -> None:
+    """The group with all metadata and coordinates; of the values only that there are none yet."""
+    variables, length = layout(plan), sizes(plan)
+    none: Columns = {
+        name: np.broadcast_to(np.array(one.missing, one.dtype), [length[dim] for dim in one.dims])
+        for name, one in variables.items()
+    }
+    whole = build(plan, none, none).assign_attrs(complete=False)
+    whole.drop_vars(variables).to_zarr(path, zarr_format=3, consolidated=False)
+    _add_arrays(path, plan)
+    _consolidate(path)
+    folder_of(path).mkdir()
+
+
+def _add_arrays(path: Path, plan: Plan) -> None:
+    """The variables, without values, each unit a chunk; Zarr's chunks are regular, and only the last is shorter."""
+    import zarr
+
+    length, units = sizes(plan), {"ball": plan.chunks[0].stop, "frame": plan.segments[0].stop}
+    group = zarr.open_group(path, mode="r+", use_consolidated=False)
+    for name, one in layout(plan).items():
+        shape = tuple(length[dim] for dim in one.dims)
+        chunks = tuple(units.get(dim, length[dim]) for dim in one.dims)
+        group.create_array(
+            name, shape=shape, chunks=chunks, dtype=one.dtype, fill_value=one.missing, dimension_names=one.dims,
+            attributes=plain(one.attrs),
+        )  # fmt: skip
+
+
+def _consolidate(path: Path) -> None:
+    """One file of all metadata."""
+    import zarr
+
+    with warnings.catch_warnings():
+        # Zarr says that other readers may not know it; they read those of each array.
+        warnings.filterwarnings("ignore", message="Consolidated metadata")
+        zarr.consolidate_metadata(path, zarr_format=3)
+
+
+@contextmanager
+def _locked(path: Path) -> Iterator[None]:
+    with _refusals(path):
+        folder_of(path).mkdir(exist_ok=True)
+    with jobs.held(folder_of(path) / "lock", str(path)):
+        yield
+
+
+@contextmanager
+def _refusals(path: Path, names: Iterable[str] = (), creating: bool = False) -> Iterator[None]:
+    """Turns what the disk refuses inside into a SceneError of one sentence.
+
+    names: of the arrays that are being written: where the store was deleted meanwhile, Zarr makes their folders anew,
+    and they are removed again.  creating: it is not expected to be there yet.
+    """
+    try:
+        yield
+    except (OSError, files.CannotWrite) as error:
+        reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
+        causes = (error, error.__cause__, error.__context__)  # of a CannotWrite the error inside tells
+        full = any(isinstance(e, OSError) and e.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) for e in causes)
+        if not creating and not (path / "zarr.json").exists():
+            for name in names:
+                shutil.rmtree(path / name, ignore_errors=True)
+            with suppress(OSError):  # not empty, or not there: not ours
+                path.rmdir()
+            told = f"{path} was deleted or moved while it was written; the same command begins anew"
+        elif full:
+            told = f"{path}: {reason}; what was written stays: make room, and the same command goes on from there"
+        else:
+            told = f"{path} cannot be written: {reason}; what was written stays"
+        raise SceneError(told) from None
