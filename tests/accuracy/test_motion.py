@@ -15,7 +15,7 @@ from chapsym.accuracy.problem import EXTRAPOLATED, Problem, Run, Stepping, apart
 from chapsym.dynamics import BadInput, Ball, Status, kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.scene import checked
-from chapsym.scene.plan.models.moving import _parts
+from chapsym.scene.plan.models import accurate_parts
 from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result.far import far, sentence
 from chapsym.scene.running.sweep import run_in_memory
@@ -314,8 +314,8 @@ SCENE = {
 
 def test_energy_alone_is_verified_by_the_state_and_metres_by_the_contact_point():
     """A difference of energies is 0 by chance where a run is not right."""
-    assert _parts(("energy",)) == _parts(("integrals", "gamma")) == {"momentum", "gamma"}
-    assert _parts(("contact", "attitude")) == {"contact", "attitude"}
+    assert accurate_parts(("energy",)) == accurate_parts(("integrals", "gamma")) == {"momentum", "gamma"}
+    assert accurate_parts(("contact", "attitude")) == {"contact", "attitude"}
     asked = {"time_step": 0.01, "steps": 50, "accuracy": "1 um", "of": "contact", "outputs": ["gamma"]}
     plan = plan_of(checked(SCENE | {"run": asked}))
     kept = plan_of(checked(SCENE | {"run": asked | {"outputs": ["gamma", "contact"]}}))

@@ -54,6 +54,6 @@ def test_the_line_on_which_a_key_begins(path, line, end):
 def test_a_text_that_is_not_toml_or_long_has_no_lines():
     assert line_of("[ball", ("ball",)) is None
     assert line_of("\n" * MOST_LINES + "a = 1", ("a",)) is None
-    assert line_of("a = [\n" + "[1],\n" * MOST_ENDS + "]\nb = 1", ("b",)) is None
+    assert line_of("a = [\n" + "[1],\n" * 3 * MOST_ENDS + "]\nb = 1", ("b",)) is None
     assert line_of("a = [\n" + "1,\n" * 3_000 + "]\nb = 1", ("b",)) == 3_003
     assert line_of("\n" * (MOST_LINES - 1) + "a = 1", ("a",)) == MOST_LINES

@@ -11,8 +11,8 @@ import chapsym
 from chapsym.dynamics import Status, kernels
 from chapsym.dynamics.closed import top
 from chapsym.scene.members.members import Members
+from chapsym.scene.plan import models
 from chapsym.scene.plan.models import Rolling, Steady, Top, Vertical
-from chapsym.scene.plan.models import vertical as models_vertical
 from chapsym.scene.plan.plan import planned
 from chapsym.scene.read.task import Task
 
@@ -136,7 +136,7 @@ def test_the_cheaper_of_two_models_is_taken_and_the_balls_of_a_dearer_one_are_no
     assert few.model.name == Rolling.name
     assert few.refused[Top.name].startswith("it would cost ")
     assert planned(tops, Task(("momentum",), 10**7, 10**5)).model.name == Top.name
-    monkeypatch.setattr("chapsym.scene.plan.models.top.motion_of", None)
+    monkeypatch.setattr("chapsym.scene.plan.models.motion_of", None)
     plan = planned(tops, Task(("momentum",), 10))
     assert plan.model.name == Rolling.name
     assert "times as much" in plan.refused[Top.name]
@@ -262,7 +262,7 @@ def test_31_digits_of_attitude_and_contact():
 def test_a_rotation_number_is_computed_once_for_all_segments(vertical, monkeypatch):
     asked = []
     real = chapsym.rotation_number
-    monkeypatch.setattr(models_vertical, "rotation_number", lambda *of: asked.append(of) or real(*of))
+    monkeypatch.setattr(models, "rotation_number", lambda *of: asked.append(of) or real(*of))
     columns, _ = rolled(planned(vertical, Task(("rotation_number", "gamma"), 30)), [slice(0, 9), slice(9, 31)])
     assert len(asked) == 3
     assert np.isfinite(columns["rotation_number"]).all()

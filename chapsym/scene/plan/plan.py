@@ -124,21 +124,17 @@ def planned(members: Members, task: Task) -> Plan:
     refused: dict[str, str] = {}
     prices: dict[str, float] = {}
     for model in MODELS:
-        missing = sorted(needed - model.columns)
         reason = model.refuses(members, task, needed)
-        if reason is None and missing:
-            reason = f"it does not follow {', '.join(missing)}"
-        if reason is not None:
-            refused[model.name] = reason
-        else:
-            prices[model.name] = model.price(members, task, needed)
-    for model in sorted((model for model in MODELS if model.name in prices), key=lambda model: prices[model.name]):
-        reason = model.unfit(members, task, needed)
         if reason is None:
-            chosen = model
+            prices[model.name] = model.price(members, task, needed)
+        else:
+            refused[model.name] = reason
+    for chosen in sorted((model for model in MODELS if model.name in prices), key=lambda model: prices[model.name]):
+        reason = chosen.unfit(members, task, needed)
+        if reason is None:
             break
-        refused[model.name] = reason
-        del prices[model.name]
+        refused[chosen.name] = reason
+        del prices[chosen.name]
     else:
         able = [model.name for model in MODELS if needed <= model.columns] or list(refused)
         told = "; ".join(f"{name}: {refused[name]}" for name in able)

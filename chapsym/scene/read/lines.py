@@ -1,16 +1,14 @@
-"""On which line of a TOML text a key stands: TOML's own parser says, given the text up to each statement."""
+"""On which line of a TOML text a key stands: TOML's own parser says, given the first lines of it."""
 
 import re
 import tomllib
 from collections.abc import Sequence
-from functools import lru_cache
-from itertools import islice
 from typing import Any
 
 #: Longer files, and statements that could end on more lines than this, get their errors without a line.
 MOST_LINES, MOST_ENDS = 5_000, 300
-#: What a statement of several lines ends with.
-_END = re.compile(r"[]}]|\"\"\"|'''")
+#: What the last line of a statement has; or it is blank, or a comment.
+_END = re.compile(r"[]}=]|\"\"\"|'''|^\s*(#|$)")
 
 
 def line_of(text: str, path: Sequence[str | int]) -> int | None:
@@ -18,45 +16,27 @@ def line_of(text: str, path: Sequence[str | int]) -> int | None:
 
     Keys never vanish as more statements are read, so the first after which the key is there is found by bisection.
     """
-    lines = _lines(text)
-    if len(lines) > MOST_LINES or not _has(_said(text), path):
+    lines = text.replace("\r\n", "\n").split("\n")
+    if len(lines) > MOST_LINES or not _has(_said(lines), path):
         return None
-    starts = _statements(text)
-    low, high = 0, len(starts)  # the key is not there after `low` statements, and is after `high`
+    low, high = 0, len(lines)  # of whole statements: the key is not there after `low` lines, and is after `high`
     while high - low > 1:
         middle = (low + high) // 2
-        if _has(_said("\n".join(lines[: starts[middle]])), path):
-            high = middle
-        else:
-            low = middle
-    return starts[low] + 1 if starts else None
-
-
-def _lines(text: str) -> list[str]:
-    return text.replace("\r\n", "\n").split("\n")
-
-
-@lru_cache(maxsize=1)
-def _statements(text: str) -> list[int]:
-    """The index of the line on which each statement begins; none where one of them has no end that can be found."""
-    lines = _lines(text)
-    found: list[int] = []
-    start = 0
-    while start < len(lines):
-        ends = (i for i in range(start, len(lines)) if i == start or _END.search(lines[i]))
-        whole = (i for i in islice(ends, MOST_ENDS) if _said("\n".join(lines[start : i + 1])) is not None)
-        end = next(whole, None)
+        ends = [n for n in (*range(middle, high), *range(middle - 1, low, -1)) if _END.search(lines[n - 1])]
+        end = next((n for n in ends[:MOST_ENDS] if _said(lines[:n]) is not None), None)
         if end is None:
-            return []
-        found.append(start)
-        start = end + 1
-    return found
+            return low + 1 if len(ends) <= MOST_ENDS else None
+        if _has(_said(lines[:end]), path):
+            high = end
+        else:
+            low = end
+    return low + 1
 
 
-def _said(text: str) -> Any:
+def _said(lines: Sequence[str]) -> Any:
     """The text as data; None if it is not TOML, such as a statement that is cut."""
     try:
-        return tomllib.loads(text)
+        return tomllib.loads("\n".join(lines))
     except (ValueError, RecursionError):
         return None
 
