@@ -4,7 +4,6 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from decimal import Decimal
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -83,20 +82,7 @@ def no_invariant_measure(
         measure.no_invariant_measure, Top((J[0], J[1], J[2]), D, h), steps=steps, half_turns=turns, level=at,
         digits=digits, radius=within,
     )  # fmt: skip
-    _deliver(find, _describe_measure, output, as_json)
-
-
-def _describe_measure(found: dict[str, Any]) -> None:
-    ball, axes = found["ball"], found["axes"]
-    print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, h = {ball['height']}, level {ball['level']}")
-    print(f"and all within {found['radius']} of each of these: around axis {axes[2]} in {found['steps']} steps")
-    for orbit in found["orbits"]:
-        start = orbit["start"]
-        at = f"gamma{axes['ab'.index(start)]} = 0" if start in ("a", "b") else f"tan(phi/2) = {start}"
-        moved = f"{Decimal(orbit['displacement']):.2e}"
-        print(f"  half turns: {found['half_turns']}, then {moved} (a sine times two lengths), from {at}")
-    if "branch" in found:
-        print(f"beyond the bound of small-branch: one root at each point, proved over {found['branch']['arcs']} arcs")
+    _deliver(find, output, as_json)
 
 
 @certify.command("heteroclinic")
@@ -131,16 +117,7 @@ def heteroclinic(
         given = rationals(starts, "--starts", 2)
         two = given[0], given[1]
     find = partial(search.heteroclinic, Top((J[0], J[1], J[2]), D, h), starts=two, digits=digits, radius=within)
-    _deliver(find, _describe_ends, output, as_json)
-
-
-def _describe_ends(found: dict[str, Any]) -> None:
-    ball, (first, other) = found["ball"], found["orbits"]
-    print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, h = {ball['height']}")
-    print(f"and all within {found['radius']} of each of these: on the level 1/Lambda2")
-    for one in (first, other):
-        print(f"  from x = {one['start']}: exp(Delta) is {one['end']}, in {one['steps']} steps")
-    print(f"  they differ by {Decimal(other['end']) - Decimal(first['end']):.2e}")
+    _deliver(find, output, as_json)
 
 
 @certify.command("periodic-orbit")
@@ -171,19 +148,7 @@ def periodic_orbit(
     from chapsym.certificates import orbit
 
     find = partial(orbit.periodic_orbit, (J[0], J[1], J[2]), D, KK, steps, Kg, digits, attracting, within)
-    _deliver(find, _describe_orbit, output, as_json)
-
-
-def _describe_orbit(found: dict[str, Any]) -> None:
-    ball, integrals = found["ball"], found["integrals"]
-    print(f"J = ({', '.join(ball['J'])}), D = {ball['D']}, <K, K> = {integrals['momentum.momentum']}, ", end="")
-    print(f"<K, gamma> = {integrals['momentum.gamma']}: back after {found['steps']} steps")
-    if "radius" in found:
-        print(f"and all within {found['radius']} of each of these")
-    contraction, unit = Decimal(found["determinant"]) - 1, Decimal(found["unit_eigenvalue"])
-    print(f"  det DG^q - 1 = {contraction:.3e}, det(1 - DG^q) = {unit:.3e} on the level")
-    if "trace" in found:
-        print("  all eigenvalues are inside the unit circle: the orbit attracts")
+    _deliver(find, output, as_json)
 
 
 @certify.command("energy-drift")
@@ -214,13 +179,7 @@ def energy_drift(
     from chapsym.certificates.drift_search import energy_drift as search
 
     find = partial(search, J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits)
-    _deliver(find, _describe_drift, output, as_json)
-
-
-def _describe_drift(found: dict[str, Any]) -> None:
-    print(found["statement"])
-    for name, what in (("energy", "X3(H)"), ("density", "div X3")):
-        print(f"  integral of {what:7} {float(found[name][0]):.9e}, up to {float(found[name][1]):.0e}")
+    _deliver(find, output, as_json)
 
 
 @certify.command()
@@ -268,11 +227,9 @@ def manifest_of(
     print(f"wrote {path}: {len(names)} certificates")
 
 
-def _deliver(
-    find: Callable[..., dict[str, Any]], describe: Callable[[dict[str, Any]], None], output: Path | None, as_json: bool
-) -> None:
-    """Finds a certificate with its progress on standard error, writes it, and says what it is."""
-    from chapsym import files
+def _deliver(find: Callable[..., dict[str, Any]], output: Path | None, as_json: bool) -> None:
+    """Finds a certificate with its progress on standard error, writes it, and prints what the checker says of it."""
+    from chapsym import checker, files
     from chapsym.certificates.document import write
 
     if output is not None:
@@ -286,7 +243,9 @@ def _deliver(
         return
     if output is not None:
         print(f"wrote {output}; check it by chapsym certify check {output}")
-    describe(found)
+    verdict = checker.check(found)
+    print(f"Proved: {verdict.statement}")
+    print(*(f"  {name}: {value}" for name, value in verdict.numbers.items()), sep="\n")
 
 
 @contextmanager
