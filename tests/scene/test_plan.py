@@ -10,7 +10,7 @@ import chapsym
 from chapsym.dynamics import Status, kernels
 from chapsym.generated import TABLE
 from chapsym.scene.members.members import Members
-from chapsym.scene.plan import cost
+from chapsym.scene.plan import explain
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.models import MODELS, Chosen, Rolling
 from chapsym.scene.plan.plan import planned
@@ -155,7 +155,7 @@ def test_an_output_is_added_by_one_record(members, monkeypatch):
     assert data.spin.dims == ("ball", "frame")
     assert data.spin.attrs == {"units": "rad s-1", "long_name": "spin ⟨ω,γ⟩"}
     assert (data.spin.values == (data.omega.values * data.gamma.values).sum(axis=-1)).all()
-    assert "spin" in cost.full(plan).task.outputs
+    assert "spin" in explain.full(plan).task.outputs
     turned = members(axes=TURN)
     also = sweep.run_in_memory(planned(turned, Task(("spin",), 20, 1, 0.01)))
     assert (also.spin.values == data.spin.values).all()
@@ -210,13 +210,19 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
         assert np.abs(columns["momentum"] - fine.momentum / 2e-4).max() < 1e-7
 
 
-def test_a_cost_is_that_of_the_compiled_loops_without_what_a_run_takes_at_once(members, monkeypatch):
-    monkeypatch.setattr(cost, "ENOUGH", 0.002)
-    plan = planned(members(1), Task(("contact",), 10**6, 10**5))
-    assert cost.predicted(plan).seconds < 2.0  # plain Python takes ten
-    monkeypatch.setattr(cost, "_pilot", lambda plan, chunk, part: 0.025 + 25e-9 * part + 0.002 * (part == 64))
-    plan = planned(members(1), Task(("momentum",), 1_000_000))
-    assert 0.04 < cost.predicted(plan).seconds < 0.06
+def test_a_cost_is_nominal_and_grows_with_steps_digits_and_dimensions(members):
+    def seconds(some, *task, **also):
+        return explain.predicted(planned(some, Task(("momentum",), *task, **also)))
+
+    few, many = (seconds(members(1), steps) for steps in (10**5, 10**7))
+    assert 0.1 < many < 1.0
+    assert 90 < many / few < 100
+    assert seconds(members(1), 10**5, precision="double-double") > 3 * few
+    assert seconds(members(1), 10**5, order=4) > 2.5 * few
+    for n, step in ((4, 2.6e-6), (8, 1e-5)):  # as measured, of one ball
+        ball = chapsym.BallN(np.arange(1.0, n + 1)[np.newaxis], np.array([3.0]))
+        high = Members(("1",), ball, np.zeros((1, n, n)), np.eye(n)[-1:])
+        assert seconds(high, 10) / 10 == pytest.approx(step, rel=0.5)
 
 
 def test_the_angular_velocity_and_the_energy_are_those_of_the_momentum(members):

@@ -1,7 +1,7 @@
 """From a scene to its balls: every range spelled out, in principal axes, checked."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -106,38 +106,27 @@ class Body:
             return members_of(self.ball, self.start, given, self.scene.scale, names[chosen])
 
         try:
-            found = made(slice(0, count))
-        except BadInput:
-            first, error = _first_refused(made, count)
+            return replace(made(slice(0, count)), parameters=parameters)
+        except BadInput as error:
+            first, why = _first_refused(made, 0, count) or (0, error)
             told = ", ".join(f"{key} = {array[first]:.6g}" for key, array in list(values.items())[:4])
-            raise SceneError(f"{self._place()}{names[first]}{f' ({told})' if told else ''}: {error}") from None
-        return Members(**{**vars(found), "parameters": parameters})
+            raise SceneError(f"{self._place()}{names[first]}{f' ({told})' if told else ''}: {why}") from None
 
     def _place(self) -> str:
         where = place(self.scene.name, self.scene.toml, ("ball", self.index))
         return f"{where}: " if where else ""
 
 
-def _first_refused(made: Callable[[slice], Any], count: int) -> tuple[int, BadInput]:
-    """The first ball that is refused, and why: a batch that is refused is halved."""
-    low, high = 0, count
-    while high - low > 1:
-        middle = (low + high) // 2
-        if _refusal(made, slice(low, middle)) is None:
-            low = middle
-        else:
-            high = middle
-    error = _refusal(made, slice(low, high))
-    assert error is not None
-    return low, error
-
-
-def _refusal(made: Callable[[slice], Any], chosen: slice) -> BadInput | None:
+def _first_refused(made: Callable[[slice], Any], low: int, high: int) -> tuple[int, BadInput] | None:
+    """The first ball of a batch that is refused, and why, if one is: a batch that is refused is halved."""
     try:
-        made(chosen)
+        made(slice(low, high))
+        return None
     except BadInput as error:
-        return error
-    return None
+        if high - low == 1:
+            return low, error
+    middle = (low + high) // 2
+    return _first_refused(made, low, middle) or _first_refused(made, middle, high)
 
 
 def _joined(parts: list[Members]) -> Members:

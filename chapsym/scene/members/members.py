@@ -62,10 +62,11 @@ class Members:
 
 def one_ball(members: Members, i: int) -> Ball:
     """One ball of a batch in three dimensions, by itself."""
-    ball = members.ball
-    return Ball(ball.mass_tensor[i], ball.D[i], None if ball.radius is None else ball.radius[i])
+    ball = _some(members.ball, i)
+    assert isinstance(ball, Ball)
+    return ball
 
 
-def _some(ball: Ball | BallN, chosen: slice | np.ndarray) -> Ball | BallN:
-    """Some balls of a batch."""
+def _some(ball: Ball | BallN, chosen: int | slice | np.ndarray) -> Ball | BallN:
+    """Some balls of a batch, or one."""
     return type(ball)(ball.mass_tensor[chosen], ball.D[chosen], None if ball.radius is None else ball.radius[chosen])

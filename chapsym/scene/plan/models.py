@@ -113,12 +113,12 @@ class Model(ABC):
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """What it costs in nanoseconds of one core: nominal, so that a plan does not depend on the machine.
 
-        The prices are those of `chapsym bench plans`; the default is of models that serve where no other does.
+        The prices are those of `chapsym bench plans`; the default is of models that tell `seconds`.
         """
         return 1.0
 
     def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float | None:
-        """What a run is expected to take, where the model knows it without a pilot run."""
+        """What a run is expected to take, where that is more than its price."""
         return None
 
     @abstractmethod
@@ -201,6 +201,7 @@ class Rolling(Stepwise):
         """Vector lanes for batches."""
         alone, in_lanes = (40.0, 14.0) if needed & {"attitude", "contact"} else (27.0, 8.0)
         step = in_lanes if len(members) >= BATCH and task.order == 2 else alone
+        step *= 4 if task.precision == "double-double" else 1
         return 3e4 + len(members) * (task.steps * len(substeps(task.order)) * step + task.frames * 10.0)
 
     def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Any:
@@ -226,6 +227,11 @@ class General(Stepwise):
     def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """What `trajectory_n` does not have."""
         return None if task.precision == "double" else "more than three dimensions have float64 only"
+
+    def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
+        """Skew matrices of n(n-1)/2 components, in systems of that many equations."""
+        step = 2e3 + 2.0 * members.dimension**4
+        return len(members) * task.steps * len(substeps(task.order)) * step
 
     def attitude(self, members: Members) -> np.ndarray:
         """The least rotation with R γ = eₙ."""
