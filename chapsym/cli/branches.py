@@ -7,14 +7,14 @@ import typer
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, precision_from
+from .options import Bits, Contact, Gamma, Inertia, Json, Mass, MassTensor, Momentum, Radius, ball_from, precision_from
 from .output import print_json
 
 
 @app.command()
 def branches(
-    momentum: Annotated[str, typer.Option(metavar="K1,K2,K3", help="The discrete momentum.")],
-    gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")],
+    momentum: Momentum,
+    gamma: Gamma,
     mass_tensor: MassTensor = None,
     inertia: Inertia = None,
     contact: Contact = None,
@@ -22,9 +22,7 @@ def branches(
     radius: Radius = None,
     digits: Annotated[int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits.")] = None,
     precision: Annotated[str | None, typer.Option(metavar="NAME", help="double: IEEE float64, the default.")] = None,
-    ball: Annotated[
-        int | None, typer.Option(metavar="BITS", min=2, max=1_000_000, help="Bits of an Arb enclosure.")
-    ] = None,
+    ball: Bits = None,
     as_json: Json = False,
 ) -> None:
     """Find every rotation with the given momentum: all branches of the map, by angle, counted exactly.

@@ -8,7 +8,7 @@ import typer
 from . import measured
 from .app import app
 from .options import Json
-from .output import console_for, fail, print_json, progress_bar
+from .output import console_for, fail, print_json, print_table, progress_bar
 
 TITLE = "float64 against mpmath: worst error in ulps"
 ABOUT = (
@@ -45,25 +45,24 @@ def check(
         rows = study.check(states, seed, on_row=arrived)
     moved = study.drift(steps)
     result = study.as_json(rows, moved)
+    table, sentences = _table(rows, moved, study.BUDGET)
     if output is not None:
-        measured.write(
-            output, "float64 against mpmath", ABOUT, [measured.Table(TITLE, *_table(rows, moved, study.BUDGET))]
-        )
+        measured.write(output, "float64 against mpmath", ABOUT, [measured.Table(TITLE, table, sentences)], _shown)
     if as_json:
         print_json(result)
     else:
-        _print_check(*_table(rows, moved, study.BUDGET))
+        print_table(console_for(120), TITLE, table, _shown)
+        print("\n".join(sentences))
     if not result["kept"]:
         fail("the float64 map is outside its budget", 1)
 
 
-def _table(rows: list[Any], moved: Any, budget: float) -> tuple[list[dict[str, str]], list[str]]:
+def _table(rows: list[Any], moved: Any, budget: float) -> tuple[list[dict[str, Any]], list[str]]:
     """The rows of the table, and the sentences under it."""
     table = [
         {
-            "stratum": row.stratum, "states": str(row.states), "q": f"{row.rotation_ulps:.3g}",
-            "K": f"{row.momentum_ulps:.3g}", "gamma": f"{row.gamma_ulps:.3g}", "condition": f"{row.condition:.3g}",
-            f"share of {budget:g}·condition": f"{row.of_budget:.2f}",
+            "stratum": row.stratum, "states": row.states, "q": row.rotation_ulps, "K": row.momentum_ulps,
+            "gamma": row.gamma_ulps, "condition": row.condition, f"share of {budget:g}·condition": row.of_budget,
         }
         for row in rows
     ]  # fmt: skip
@@ -75,13 +74,5 @@ def _table(rows: list[Any], moved: Any, budget: float) -> tuple[list[dict[str, s
     ]
 
 
-def _print_check(rows: list[dict[str, str]], sentences: list[str]) -> None:
-    from rich.table import Table
-
-    table = Table(title=TITLE)
-    for name in rows[0]:
-        table.add_column(name, justify="left" if name == "stratum" else "right")
-    for row in rows:
-        table.add_row(*row.values())
-    console_for(120).print(table)
-    print("\n".join(sentences))
+def _shown(value: Any) -> str:
+    return f"{value:.3g}" if isinstance(value, float) else str(value)

@@ -60,6 +60,15 @@ Mass = Annotated[str | None, typer.Option(metavar="M", help="Mass, with --radius
 Radius = Annotated[str | None, typer.Option(metavar="RHO", help="Radius.")]
 
 
+Momentum = Annotated[str, typer.Option(metavar="K1,K2,K3", help="The discrete momentum.")]
+
+
+Gamma = Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")]
+
+
+Bits = Annotated[int | None, typer.Option(metavar="BITS", min=2, max=1_000_000, help="Bits of an Arb enclosure.")]
+
+
 def ball_from(
     mass_tensor: str | None, inertia: str | None, contact: str | None, mass: str | None, radius: str | None
 ) -> tuple[tuple[Fraction, ...], Fraction]:

@@ -91,17 +91,48 @@ def terminal() -> Any:
 
 @contextmanager
 def progress_bar(label: str, total: int) -> Iterator[Callable[..., None]]:
-    """A bar on standard error, when that is a terminal; yields a function of what is done, and of a new total."""
+    """A bar on standard error, when that is a terminal; yields a function of what is done, a new total, and a word."""
     console = terminal()
     if console is None:
-        yield lambda done, of=None: None
+        yield lambda done, of=None, told="": None
         return
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
+    told = TextColumn("{task.fields[told]}")
+    columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), told, TimeRemainingColumn()
     with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task(label, total=total)
-        yield lambda done, of=None: bar.update(task, completed=done, total=of)
+        task = bar.add_task(label, total=total, told="")
+        yield lambda done, of=None, told="": bar.update(task, completed=done, total=of, told=told)
+
+
+@contextmanager
+def following(as_json: bool) -> Iterator[Callable[[Any], None]]:
+    """Yields a function of the `Progress` of a run: a bar on a terminal, elsewhere a line every few seconds."""
+    if not as_json and terminal() is not None:
+        with progress_bar("rolling", 0) as shown:
+            yield lambda at: shown(at.steps, at.of, _balls(at))
+        return
+    tell, first = now_and_then(), None
+
+    def report(at: Any) -> None:
+        nonlocal first
+        now = time.monotonic()
+        first = first or (now, at.steps)  # of a run that goes on, some are done already
+        started, before = first
+        speed = (at.steps - before) / (now - started) if now > started else 0.0
+        left = f", about {_seconds((at.of - at.steps) / speed)} left" if speed > 0 else ""
+        tell(f"{at.steps / max(at.of, 1):.0%}, {_balls(at)}{left}")
+
+    yield report
+
+
+def _balls(at: Any) -> str:
+    return f"{at.balls} balls done" + (f", {at.failed} stopped early" if at.failed else "")
+
+
+def _seconds(seconds: float) -> str:
+    unit, length = ("s", 1) if seconds < 100 else ("min", 60) if seconds < 6000 else ("h", 3600)
+    return f"{seconds / length:.{1 if unit == 'h' else 0}f} {unit}"
 
 
 def console_for(width: int) -> Any:

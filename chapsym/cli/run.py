@@ -9,7 +9,7 @@ import typer
 
 from .app import INTERRUPTED, app
 from .options import Json
-from .output import fail, note, print_json
+from .output import counted, fail, note, print_json
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -46,8 +46,7 @@ def run(
     from chapsym.scene.running import sweep
 
     from .certify import telling
-    from .following import following
-    from .output import quiet, say
+    from .output import following, quiet, say
 
     saved = False
     try:
@@ -123,23 +122,21 @@ def _tell(
     balls, failed = len(plan.members), outcome.failed
     bounds = json.loads(data.attrs.get(PROVED, "{}"))
     one = last_state(data) if balls == 1 and not outcome.lost else {}
+    answer = answers[0] if balls == len(answers) == 1 else None
     if as_json:
-        lost = [{"balls": list(which), "reason": why} for which, why in outcome.lost.items()]
-        run = {"balls": balls, "frames": plan.frames, "steps": plan.task.steps, "model": plan.model.name}
-        found = {"output": str(destination), **run, "failed": failed, "complete": outcome.complete, "lost": lost}
-        print_json(
-            found
-            | one
-            | far(data)
-            | (described(answers[0], plan.members) if balls == len(answers) == 1 else {})
-            | ({PROVED: bounds} if PROVED in data.attrs else {})
-        )
+        found = {
+            "output": str(destination), "balls": balls, "frames": plan.frames, "steps": plan.task.steps,
+            "model": plan.model.name, "failed": failed, "complete": outcome.complete,
+            "lost": [{"balls": list(which), "reason": why} for which, why in outcome.lost.items()],
+        }  # fmt: skip
+        found |= one | far(data) | ({} if answer is None else described(answer, plan.members))
+        print_json(found | ({PROVED: bounds} if PROVED in data.attrs else {}))
     else:
         _print(plan, destination, outcome, one)
-        if (away := sentence(data)) is not None and not (balls == len(answers) == 1):
+        if answer is not None:
+            print_answer(answer, plan.members)
+        elif (away := sentence(data)) is not None:
             print(": ".join(away))
-        if balls == len(answers) == 1:
-            print_answer(answers[0], plan.members)
         for name, error in bounds.items():
             print(f"{name} {within(error, UNITS[name])}")
     if failed == balls == 1:
@@ -150,25 +147,22 @@ def _tell(
         note(f"stopped early: {stopped(data)}")
     if outcome.lost:
         (first, last), why = next(iter(outcome.lost.items()))
-        more = f", and {len(outcome.lost) - 1} other units" if len(outcome.lost) > 1 else ""
         if last - first == balls:
             fail(why, 2)
+        more = f", and {len(outcome.lost) - 1} other units" if len(outcome.lost) > 1 else ""
         told = f"balls {first + 1} to {last} could not be run{more} ({why})"
         fail(f"{told}; the others are in {destination}, and the same command tries these again", 2)
 
 
 def _print(plan: "Plan", destination: Path, outcome: Any, one: dict[str, Any]) -> None:
     """A line of what was run; of one ball how far the integrals drifted, too."""
-    about = (
-        f"{len(plan.members)} ball{'s' if len(plan.members) > 1 else ''}, {plan.frames} frames, {plan.model.in_words()}"
-    )
-    comma = ","
     if one:
         steps = "" if plan.task.accuracy is not None else f"{one['steps']} steps, "
-        about, comma = f"{steps}{plan.frames} frames", ""
+        about, where = f"{steps}{plan.frames} frames", f" in {destination}"
+    else:
+        about = f"{counted(len(plan.members), 'ball')}, {plan.frames} frames, {plan.model.in_words()}"
+        where = f", in {destination}"
     about += f"; {outcome.failed} stopped early" if outcome.failed else ""
-    print(
-        f"{about}; {destination} was complete already" if outcome.nothing_to_do else f"{about}{comma} in {destination}"
-    )
+    print(about + (f"; {destination} was complete already" if outcome.nothing_to_do else where))
     if "drift" in one and plan.task.accuracy is None:
         print("relative drift of <K,gamma>, <K,K>, <gamma,gamma>: " + ", ".join(f"{x:.1e}" for x in one["drift"]))

@@ -8,11 +8,14 @@ from chapsym.rationals import rationals
 
 from .app import app
 from .options import (
+    Bits,
     Contact,
+    Gamma,
     Inertia,
     Json,
     Mass,
     MassTensor,
+    Momentum,
     Radius,
     ball_from,
     contact_from,
@@ -24,8 +27,8 @@ from .output import print_json
 
 @app.command()
 def step(
-    momentum: Annotated[str, typer.Option(metavar="K1,K2,K3", help="The discrete momentum.")],
-    gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")],
+    momentum: Momentum,
+    gamma: Gamma,
     mass_tensor: MassTensor = None,
     inertia: Inertia = None,
     contact: Contact = None,
@@ -38,9 +41,7 @@ def step(
         str | None,
         typer.Option(metavar="NAME", help="single, double (the default) or double-double: 7, 16, 31 digits."),
     ] = None,
-    ball: Annotated[
-        int | None, typer.Option(metavar="BITS", min=2, max=1_000_000, help="Bits of an Arb enclosure.")
-    ] = None,
+    ball: Bits = None,
     as_json: Json = False,
 ) -> None:
     """Take one step of the map, on the small-rotation branch.

@@ -133,7 +133,7 @@ INTERRUPTED = f"""{INTERRUPTIBLE}
 import sys, threading
 from contextlib import contextmanager
 from pathlib import Path
-from chapsym.cli import following, main
+from chapsym.cli import main, output
 
 once = iter([signal.SIGINT])
 
@@ -146,7 +146,7 @@ def report(progress):
 def reporting(as_json):
     yield report
 
-following.following = reporting
+output.following = reporting
 main()
 """
 
