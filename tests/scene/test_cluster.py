@@ -191,7 +191,7 @@ def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, mon
         "    if chunk.start == 12 or (chunk.start == 24 and not died.exists()):\n"
         "        died.touch() if chunk.start == 24 else None\n"
         "        os._exit(1)\n"
-        "    return real(plan, chunk, *rest)\nsegments.advance = advance\n"
+        "    return real(plan, chunk, *rest)\nsweep.advance = advance\n"
     )
     file = tmp_path / "scheduler.json"
     begin = ["distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard"]

@@ -27,16 +27,9 @@ from chapsym.rationals import mass_tensor_from
 from ..read.bodies import PRESETS
 from ..read.errors import SceneError
 from ..read.scene import Scene
-from ..read.units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, TURNING, Dimension, exact_number
+from ..read.tables import DIMENSIONS
+from ..read.units import MOMENT, RATE, Dimension, exact_number
 from .expand import expand
-
-#: The dimension of each key that is read.
-DIMENSIONS = {
-    "mass_tensor": MOMENT, "inertia": MOMENT, "mass": MASS, "radius": LENGTH, "D": MOMENT, "thickness": LENGTH,
-    "block_mass": MASS, "block_size": LENGTH, "block_offset": LENGTH, "point_mass": MASS, "separation": LENGTH,
-    "omega": RATE, "velocity": SPEED, "spin": RATE, "gamma": PURE, "attitude": PURE, "quaternion_xyzw": PURE,
-    "rpy": ANGLE, "position": LENGTH, "time": TIME, "time_step": TIME, "rotor": TURNING,
-}  # fmt: skip
 
 
 def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:

@@ -80,7 +80,8 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
 
 def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
     """The balls, and what turns their principal axes to those of the table, if these are others."""
-    told, axes = _sizes(table, given), None
+    told, contact = _sizes(table, given)
+    axes = None
     if table.mass_tensor is not None:
         tensor = given.array(table.mass_tensor, "ball.mass_tensor")
     elif table.preset is not None:
@@ -90,21 +91,16 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
         tensor = mass_tensor_of(inertia) if inertia.ndim == 2 else from_inertia_tensor(inertia)
     if tensor.ndim == 3:
         tensor, axes = principal(numbers(tensor, "inertia"))
-    return Ball(tensor, _contact(told, tensor), told.get("radius")), axes
-
-
-def _sizes(table: BallTable, given: Given) -> dict[str, Floats]:
-    """The masses and lengths of a table that are given, as arrays."""
-    keys = ("mass", "radius", "D", *(key for preset in PRESETS.values() for key in preset.keys))
-    return {key: given.array(value, f"ball.{key}") for key in keys if (value := getattr(table, key)) is not None}
-
-
-def _contact(told: Mapping[str, Floats], tensor: Floats) -> Floats:
-    """D; raises BadInput where mass is outside of the ball."""
-    contact = np.asarray(contact_term(told.get("mass"), told.get("radius"), told.get("D")))
     if "mass" in told:
         check_inside(tensor, told["mass"], told["radius"])
-    return contact
+    return Ball(tensor, contact, told.get("radius")), axes
+
+
+def _sizes(table: BallTable, given: Given) -> tuple[dict[str, Floats], Floats]:
+    """The masses and lengths of a table that are given, as arrays, and D."""
+    keys = ("mass", "radius", "D", *(key for preset in PRESETS.values() for key in preset.keys))
+    told = {key: given.array(value, f"ball.{key}") for key in keys if (value := getattr(table, key)) is not None}
+    return told, np.asarray(contact_term(told.get("mass"), told.get("radius"), told.get("D")))
 
 
 def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats | None, Floats, bool]:
@@ -180,8 +176,10 @@ def _members_n(ball: BallTable, start: StartTable, given: Given, scale: float, n
             raise BadInput(f"start.{key} is for three dimensions; give omega or momentum, a skew matrix, and gamma")
     if start.axes == "space":
         raise BadInput('axes = "space" is for three dimensions')
-    told, tensor = _sizes(ball, given), given.array(ball.mass_tensor, "ball.mass_tensor")
-    body = BallN(tensor, _contact(told, tensor), told.get("radius"))
+    tensor, (told, contact) = given.array(ball.mass_tensor, "ball.mass_tensor"), _sizes(ball, given)
+    if "mass" in told:
+        check_inside(tensor, told["mass"], told["radius"])
+    body = BallN(tensor, contact, told.get("radius"))
     gamma = unit_vertical(given.unit(start.gamma or (*[0.0] * (n - 1), 1.0), "start.gamma"), n)
     key = "omega" if start.momentum is None else "momentum"
     motion = skew_matrices(given.array(getattr(start, key), f"start.{key}"), n, f"start.{key}")

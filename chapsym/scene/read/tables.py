@@ -31,6 +31,7 @@ from .quantities import (
     Speeds2,
     Turnings3,
 )  # fmt: skip
+from .units import Dimension
 
 Count = Annotated[int, Field(strict=True, ge=0)]
 Whole = Annotated[int, Field(strict=True, ge=1)]
@@ -298,15 +299,21 @@ KEYS: dict[str, Any] = {
 }
 
 
+def _dimension(annotation: Any) -> Dimension | None:
+    """What the first quantity in a type measures."""
+    own = (part.dimension for part in getattr(annotation, "__metadata__", ()) if isinstance(part, Quantity))
+    return next(own, None) or next(filter(None, map(_dimension, get_args(annotation))), None)
+
+
+#: What each key of a ball, a start and a run measures.
+DIMENSIONS: dict[str, Dimension] = {
+    name: measured
+    for table in (BallTable, StartTable, RunTable)
+    for name, field in table.model_fields.items()
+    if (measured := _dimension(field.annotation)) is not None
+}
+
+
 def units_of(key: str) -> str:
     """The SI unit of a dotted key such as "start.omega.1"."""
-    table, name = key.split(".")[:2]
-    owner: type[Table] = BallTable if table == "ball" else StartTable
-    return _units(owner.model_fields[name].annotation)
-
-
-def _units(annotation: Any) -> str:
-    """The unit of the first quantity in a type."""
-    own = [part.dimension.units for part in getattr(annotation, "__metadata__", ()) if isinstance(part, Quantity)]
-    found = own + [units for part in get_args(annotation) if (units := _units(part))]
-    return found[0] if found else ""
+    return DIMENSIONS[key.split(".")[1]].units

@@ -5,7 +5,8 @@ of the scene and the numbers of a unit, makes the plan of it again, and computes
 began keeps the marks.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -97,7 +98,7 @@ def run(plan: Plan, report: Report = silent) -> Arrays:
     Balls that stopped early are NaN from there on, with their `status`.  Raises BadInput where a unit has no answer.
     """
     memory = Memory(plan)
-    for why in _locally(plan, memory, Tally(plan, report)).values():
+    for why in _missing(plan, memory, Tally(plan, report)).values():
         raise BadInput(why)
     return arrays(plan, memory.columns, memory.columns)
 
@@ -116,7 +117,7 @@ def run_to_store(
         tally = Tally(plan, report)
         if store.complete:
             return Outcome(_failed(store.path), nothing_to_do=True)
-        lost = _locally(plan, store, tally) if scheduler is None else _on_cluster(plan, store, tally, scheduler)
+        lost = _missing(plan, store, tally, scheduler)
         if not lost:
             store.finish()
         return Outcome(tally.progress.failed, {(plan.chunks[i].start, plan.chunks[i].stop): lost[i] for i in lost})
@@ -193,57 +194,26 @@ def unit(text: str, about: dict[str, Any], path: str, chunk: int, segment: int, 
 _plan = lru_cache(maxsize=4)(plan_from)
 
 
-#: A unit as a call: its chunk, its segment, and the state that the segment before it left.
-Unit = Callable[[int, int, State | None], jobs.Call]
+def _missing(plan: Plan, sink: "Memory | Store", tally: Tally, scheduler: str | None = None) -> dict[int, str]:
+    """Runs what is missing, some chunks abreast on all cores or on the workers of a scheduler; why chunks were lost.
 
-
-def _locally(plan: Plan, sink: Memory | Store, tally: Tally) -> dict[int, str]:
-    """Runs what is missing on all cores, some chunks abreast; returns why chunks have no answer."""
+    Raises SceneError for workers where the plan has no scene, one has another chapsym, or the disk refuses.
+    """
 
     def here(chunk: int, segment: int, state: State | None) -> State:
         columns, after = computed(plan, chunk, segment, state, tally.within(chunk, segment))
         sink.write(chunk, segment, columns)
         return after
 
-    lost: dict[int, str] = {}
-    # The higher precisions set the precision of a whole process.
-    with jobs.threads(1 if isinstance(plan.model, Chosen) else min(ABREAST, cores())) as crew:
-        try:
-            jobs.run(_chains(plan, sink, tally, lambda *which: jobs.Call(here, which), lost), crew)
-        except BaseException:
-            tally.stopped = True
-            raise
-    return dict(sorted(lost.items()))
-
-
-def _on_cluster(plan: Plan, store: Store, tally: Tally, address: str) -> dict[int, str]:
-    """Runs what is missing on the workers of a scheduler; returns why chunks could not be run.
-
-    Raises SceneError for a plan that has no scene, if a worker has another chapsym, or if the disk refuses.
-    """
-    _plan(plan.scene)
-    sent = plan.scene, provenance(plan), str(store.path)
-    lost: dict[int, str] = {}
-    with jobs.workers(address) as crew:
-        try:
-            jobs.run(_chains(plan, store, tally, lambda *which: jobs.Call(unit, (*sent, *which)), lost), crew)
-        except BadInput:
-            raise
-        except Exception as error:
-            raise SceneError(f"a worker of the cluster has not this chapsym: {type(error).__name__}: {error}") from None
-    return dict(sorted(lost.items()))
-
-
-def _chains(plan: Plan, sink: Memory | Store, tally: Tally, unit: Unit, lost: dict[int, str]) -> Iterator[jobs.Chain]:
-    """For each chunk the segments that are missing, one after the other; `lost` gets why it could not be run."""
-
     def chain(chunk: int) -> jobs.Chain:
+        """The segments of a chunk that are missing, one after the other; `lost` gets why one could not be run."""
         done, state = sink.start(chunk)
         if state is not None:
             tally.kept(chunk, done, state)
         for segment in range(done, len(plan.segments)):
+            which = chunk, segment, state
             try:
-                state = yield unit(chunk, segment, state)
+                state = yield jobs.Call(here, which) if sent is None else jobs.Call(unit, (*sent, *which))
             except (NoAnswer, jobs.Lost) as error:
                 lost[chunk] = str(error)
                 return
@@ -251,7 +221,24 @@ def _chains(plan: Plan, sink: Memory | Store, tally: Tally, unit: Unit, lost: di
             sink.mark(chunk, segment, state)
             tally.kept(chunk, segment + 1, state)
 
-    return (chain(chunk) for chunk in range(len(plan.chunks)))
+    lost: dict[int, str] = {}
+    sent: tuple[Any, ...] | None = None
+    team: AbstractContextManager[jobs.Crew]
+    if scheduler is None:  # the higher precisions set the precision of a whole process
+        team = jobs.threads(1 if isinstance(plan.model, Chosen) else min(ABREAST, cores()))
+    else:
+        assert isinstance(sink, Store)
+        _plan(plan.scene)
+        sent, team = (plan.scene, provenance(plan), str(sink.path)), jobs.workers(scheduler)
+    with team as crew:
+        try:
+            jobs.run((chain(chunk) for chunk in range(len(plan.chunks))), crew)
+        except BaseException as error:
+            tally.stopped = True
+            if scheduler is None or isinstance(error, BadInput) or not isinstance(error, Exception):
+                raise
+            raise SceneError(f"a worker of the cluster has not this chapsym: {type(error).__name__}: {error}") from None
+    return dict(sorted(lost.items()))
 
 
 def _failed(path: Path) -> int:
