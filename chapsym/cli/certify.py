@@ -2,8 +2,7 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
@@ -15,7 +14,7 @@ from chapsym.rationals import rational, rationals
 
 from .app import app
 from .options import Contact, Inertia, Json, MassTensor, ball_from
-from .output import fail, now_and_then, print_json, terminal
+from .output import fail, print_json, telling
 
 certify = typer.Typer(
     help="""Find and check certificates of what the paper left open.
@@ -246,14 +245,3 @@ def _deliver(find: Callable[..., dict[str, Any]], output: Path | None, as_json: 
     verdict = checker.check(found)
     print(f"Proved: {verdict.statement}")
     print(*(f"  {name}: {value}" for name, value in verdict.numbers.items()), sep="\n")
-
-
-@contextmanager
-def telling() -> Iterator[Callable[[str], None]]:
-    """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
-    console = terminal()
-    if console is None:
-        yield now_and_then()
-        return
-    with console.status("") as status:
-        yield status.update

@@ -7,9 +7,9 @@ from typing import Annotated, Any
 
 import typer
 
-from .certify import Output, certify, telling
+from .certify import Output, certify
 from .options import Json
-from .output import counted, fail, print_json
+from .output import counted, fail, print_json, telling
 
 
 @certify.command()

@@ -135,6 +135,17 @@ def _seconds(seconds: float) -> str:
     return f"{seconds / length:.{1 if unit == 'h' else 0}f} {unit}"
 
 
+@contextmanager
+def telling() -> Iterator[Callable[[str], None]]:
+    """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
+    console = terminal()
+    if console is None:
+        yield now_and_then()
+        return
+    with console.status("") as status:
+        yield status.update
+
+
 def console_for(width: int) -> Any:
     """Where tables go: as wide as the terminal, or elsewhere so wide."""
     from rich.console import Console

@@ -45,8 +45,7 @@ def run(
     from chapsym.scene.result.proved import with_proof
     from chapsym.scene.running import sweep
 
-    from .certify import telling
-    from .output import following, quiet, say
+    from .output import following, quiet, say, telling
 
     saved = False
     try:
@@ -56,7 +55,7 @@ def run(
             fail(f"{destination}: --scheduler needs a .zarr, of which each worker writes its part", 2)
         formats.check_destination(destination)
         exact = _exact(wanted, destination) if wanted.run.proved else None
-        plan, answers = sweep.telling(plan_of(wanted), say)
+        plan, answers = sweep.answering(plan_of(wanted), say)
         formats.check_size(plan, destination)
         data: Dataset | Arrays
         with following(as_json) as report:

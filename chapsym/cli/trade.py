@@ -105,7 +105,7 @@ def _answer(
         if changed.get("of") == "state":  # what is kept beside it is followed, and not to an accuracy of its own
             kept = [name for name in wanted.run.names() if name != "contact"]
             changed |= {"contact": None, "attitude": None, "outputs": kept or ["momentum", "gamma"]}
-        plan, answers = sweep.telling(plan_of(wanted.with_run(**changed)), say)
+        plan, answers = sweep.answering(plan_of(wanted.with_run(**changed)), say)
         if len(plan.members) > 1:
             fail(f"{scene} has {len(plan.members)} balls: chapsym run takes them, with accuracy under [run]", 2)
         if output is not None and output.suffix == ".zarr":

@@ -316,7 +316,7 @@ ASKED = f"{BALL}accuracy = 1e-7\ntime = 4.0\nframes = 2\ncontact = true\n"
 
 def test_a_scene_may_ask_for_an_accuracy(write, tmp_path):
     wanted = scene.load(write(ASKED))
-    plan, answers = sweep.telling(plan_of(wanted), lambda text: None)
+    plan, answers = sweep.answering(plan_of(wanted), lambda text: None)
     data = sweep.run_in_memory(plan)
     (answer,) = answers
     assert answer.request.of == "contact"
@@ -337,7 +337,7 @@ def test_an_accuracy_of_the_contact_point_may_have_a_unit(write, given):
 
 def test_more_digits_than_float64_has_are_written(write, tmp_path):
     text = ASKED.replace("1e-7", "1e-19").replace("[run]", "position = [0.1, 0.2]\n[run]")
-    plan, answers = sweep.telling(plan_of(scene.load(write(text))), lambda text: None)
+    plan, answers = sweep.answering(plan_of(scene.load(write(text))), lambda text: None)
     formats.save(sweep.run_in_memory(plan), tmp_path / "run.npz")
     data, exact = np.load(tmp_path / "run.npz"), exactly(answers[0].trajectory, "contact")
     assert abs(data["contact_low"][-1]).max() > 0

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 OUTCOME = ("taken", "status", "error", "order", "substeps")
 #: `taken` and `status` of balls whose turn has not come.
 NOT_RUN = -1
+#: The attributes of the times of frames.
+TIME = {"units": "s", "long_name": "time"}
 
 
 @dataclass(frozen=True)
@@ -57,20 +59,20 @@ def layout(plan: Plan) -> dict[str, Variable]:
         "flag_values": [NOT_RUN, *map(int, Status)],
         "flag_meanings": " ".join(["not_run", *(status.name.lower() for status in Status)]),
     }
-    found["taken"] = Variable(("ball",), {"units": "1", "long_name": "steps taken"}, np.int64)
+    found["taken"] = Variable(("ball",), _about("steps taken"), np.int64)
     found["status"] = Variable(("ball",), {"long_name": "why the ball stopped", **flags}, np.int64)
     if plan.task.accuracy is not None:
-        error = {
-            "units": "m" if plan.task.of == "contact" else "1",
-            "long_name": "estimate of the error, by comparison",
-        }
-        found["error"] = Variable(("ball",), error)
+        unit = "m" if plan.task.of == "contact" else "1"
+        found["error"] = Variable(("ball",), _about("estimate of the error, by comparison", unit))
         if isinstance(plan.model, Moving):
-            order = {"units": "1", "long_name": "order of the composition"}
-            found["order"] = Variable(("ball",), order, np.int64)
-            steps = {"units": "1", "long_name": "its steps between two frames"}
-            found["substeps"] = Variable(("ball",), steps, np.int64)
+            found["order"] = Variable(("ball",), _about("order of the composition"), np.int64)
+            found["substeps"] = Variable(("ball",), _about("its steps between two frames"), np.int64)
     return found
+
+
+def _about(long_name: str, units: str = "1") -> dict[str, Any]:
+    """The attributes of a variable."""
+    return {"units": units, "long_name": long_name}
 
 
 def sizes(plan: Plan) -> dict[str, int]:
@@ -103,7 +105,7 @@ def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> 
             coords[dim] = _texts(names, dim)
     coords |= _moments(plan)
     for key, parameter in plan.members.parameters.items():
-        coords[key] = Labelled(("ball",), np.asarray(parameter.values), {"units": parameter.units, "long_name": key})
+        coords[key] = Labelled(("ball",), np.asarray(parameter.values), _about(key, parameter.units))
     return Arrays(variables | coords, coords, provenance(plan) | attributes(plan))
 
 
@@ -122,34 +124,27 @@ def with_clock(data: "Dataset") -> "Dataset":
 
 def _moments(plan: Plan) -> dict[str, Labelled]:
     """`step` and, where it is known, `time` of each frame."""
-    task = plan.task
-    step = np.arange(plan.frames, dtype=np.int64) * task.every
-    found = {"step": Labelled(("frame",), step, {"units": "1", "long_name": "step of the map"})}
-    seconds = {"units": "s", "long_name": "time"}
+    task, frame = plan.task, ("frame",)
     if task.chosen and task.time is not None:
-        del found["step"]
-        time = np.arange(plan.frames) * task.time / max(plan.frames - 1, 1)
-        found["time"] = Labelled(("frame",), time, seconds)
-    elif task.time_step is not None:
-        found["time"] = Labelled(("frame",), step * task.time_step, seconds)
-    return found
+        return {"time": Labelled(frame, np.arange(plan.frames) * task.time / max(plan.frames - 1, 1), TIME)}
+    step = np.arange(plan.frames, dtype=np.int64) * task.every
+    found = {"step": Labelled(frame, step, _about("step of the map"))}
+    return found if task.time_step is None else found | {"time": Labelled(frame, step * task.time_step, TIME)}
 
 
 def _bodies(plan: Plan) -> dict[str, Labelled]:
     """The parameters of the balls, for pictures."""
-    members = plan.members
-    about = "kg m2"
-    tensor = {"units": about, "long_name": "principal mass tensor J, principal axes"}
+    ball, axes = plan.members.ball, plan.members.axes
+    tensor = np.asarray(ball.mass_tensor), _about("principal mass tensor J, principal axes", "kg m2")
     found = {
-        "mass_tensor": Labelled(("ball", "axis"), np.asarray(members.ball.mass_tensor), tensor),
-        "D": Labelled(("ball",), np.asarray(members.ball.D), {"units": about, "long_name": "D = m ρ²"}),
+        "mass_tensor": Labelled(("ball", "axis"), *tensor),
+        "D": Labelled(("ball",), np.asarray(ball.D), _about("D = m ρ²", "kg m2")),
     }
-    if members.ball.radius is not None:
-        radius = {"units": "m", "long_name": "radius ρ"}
-        found["radius"] = Labelled(("ball",), np.asarray(members.ball.radius), radius)
-    if members.axes is not None:
-        turn = {"units": "1", "long_name": "principal axes to body axes, unit quaternion"}
-        found["axes"] = Labelled(("ball", "quaternion"), np.asarray(members.axes), turn)
+    if ball.radius is not None:
+        found["radius"] = Labelled(("ball",), np.asarray(ball.radius), _about("radius ρ", "m"))
+    if axes is not None:
+        turn = _about("principal axes to body axes, unit quaternion")
+        found["axes"] = Labelled(("ball", "quaternion"), np.asarray(axes), turn)
     return found
 
 

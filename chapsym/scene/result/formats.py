@@ -35,16 +35,15 @@ DAMAGED = (
 MOST_ROWS = 10**7
 #: The share of this machine's memory that a result may take before it goes to Zarr.
 SHARE = 0.25
-#: What may follow the dot of a result.
-SUFFIXES = (".zarr", ".nc", ".csv", ".parquet", ".npz")
 #: Rows of one batch, whose memory is bounded.
 ROWS = 2**17
 
 
 def check_destination(path: Path) -> None:
     """Raises SceneError, before anything is computed, if a result cannot be written as `path` is named."""
-    if path.suffix not in SUFFIXES:
-        raise SceneError(f"{str(path)!r}: the output must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}")
+    *some, last = _READERS
+    if path.suffix not in _READERS:
+        raise SceneError(f"{str(path)!r}: the output must end in {', '.join(some)} or {last}")
     if path.suffix != ".zarr":
         try:
             files.check_destination(path)
@@ -236,9 +235,13 @@ def _read_csv(path: Path) -> "Dataset":
 
 
 def _write_npz(stream: IO[bytes], data: "Dataset | Arrays") -> None:
+    """The arrays of all variables; of one ball without the axis of the balls."""
     told = _structure(data)
+    whole = data.isel(ball=0) if told["balls"] == 1 else data
+    arrays: dict[str, Any] = {name: whole[name].values for name in told["variables"]}
+    arrays = {name: np.array(a.tolist(), dtype=str) if a.dtype.kind in "OT" else a for name, a in arrays.items()}
     about = json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)
-    np.savez(stream, **{"chapsym": np.array(about)} | _arrays_of(data, told))  # type: ignore[arg-type]
+    np.savez(stream, chapsym=np.array(about), **arrays)
 
 
 def _read_npz(path: Path) -> "Dataset":
@@ -247,7 +250,11 @@ def _read_npz(path: Path) -> "Dataset":
     if "chapsym" not in arrays:
         return _old(arrays)
     about = json.loads(str(arrays["chapsym"]))
-    return _from_arrays(arrays, about["structure"], about["attrs"])
+    told = about["structure"]
+    for name, one in told["variables"].items():
+        values = arrays[name].astype(object) if arrays[name].dtype.kind == "U" else arrays[name]
+        arrays[name] = np.expand_dims(values, 0) if told["balls"] == 1 and "ball" in one["dims"] else values
+    return _dataset(arrays, told, about["attrs"])
 
 
 def _columns(table: Any) -> dict[str, np.ndarray]:
@@ -302,22 +309,6 @@ def _assembled(columns: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs
         values = values.reshape(told["balls"], told["frames"], *inner)
         arrays[name] = values[:, 0] if "frame" not in one["dims"] else values if "ball" in one["dims"] else values[0]
     return _dataset(arrays, told, attrs)
-
-
-def _arrays_of(data: "Dataset | Arrays", told: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """The arrays of all variables; of one ball without the axis of the balls."""
-    whole = data.isel(ball=0) if told["balls"] == 1 else data
-    found = {name: whole[name].values for name in told["variables"]}
-    return {name: np.array(a.tolist(), dtype=str) if a.dtype.kind in "OT" else a for name, a in found.items()}
-
-
-def _from_arrays(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
-    """The Dataset of `_arrays_of`; raises KeyError, ValueError or TypeError if one is missing."""
-    found = {}
-    for name, one in told["variables"].items():
-        values = arrays[name].astype(object) if arrays[name].dtype.kind == "U" else arrays[name]
-        found[name] = np.expand_dims(values, 0) if told["balls"] == 1 and "ball" in one["dims"] else values
-    return _dataset(found, told, attrs)
 
 
 def _dataset(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":

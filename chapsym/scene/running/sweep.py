@@ -123,7 +123,7 @@ def run_to_store(
         return Outcome(tally.progress.failed, {(plan.chunks[i].start, plan.chunks[i].stop): lost[i] for i in lost})
 
 
-def telling(plan: Plan, progress: Callable[[str], None]) -> tuple[Plan, list[Accurate]]:
+def answering(plan: Plan, progress: Callable[[str], None]) -> tuple[Plan, list[Accurate]]:
     """The same plan, and where its run here puts what was chosen for each ball, if it asks for an accuracy."""
     answers: list[Accurate] = []
     return (replace(plan, model=Chosen(answers.append, progress)) if isinstance(plan.model, Chosen) else plan), answers
