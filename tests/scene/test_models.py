@@ -66,6 +66,28 @@ def test_a_steady_ball_beyond_its_fold_stops_at_once(homogeneous):
     assert not np.isnan(columns["gamma"][:, 0]).any()
 
 
+@pytest.mark.parametrize("changed", [{"order": 4}, {"precision": "single"}])
+def test_a_reduction_is_of_the_map_of_order_2_in_float64(homogeneous, changed):
+    task = Task(("gamma",), 10**6, 10**5)
+    assert planned(homogeneous, task).model.name == Steady.name
+    plan = planned(homogeneous, replace(task, **changed))
+    assert plan.model.name == Rolling.name
+    assert plan.refused[Steady.name] == "it has order 2 and float64 only"
+
+
+def test_what_a_reduction_does_not_follow_is_told(vertical):
+    plan = planned(vertical, Task(("gamma", "attitude"), 10))
+    assert plan.model.name == Rolling.name
+    assert plan.refused[Vertical.name] == "it does not follow attitude"
+
+
+@pytest.mark.parametrize(("every", "last"), [(10, 40), (9, 41)])
+def test_frames_at_once_count_their_steps(homogeneous, every, last):
+    plan, counted = planned(homogeneous, Task(("gamma",), last, every)), []
+    plan.model.advance(homogeneous, plan.task, plan.needed, {}, slice(0, plan.frames), counted.append)
+    assert counted == [len(homogeneous) * last]
+
+
 def test_unequal_moments_are_not_steady(homogeneous):
     tensor = homogeneous.ball.mass_tensor.copy()
     tensor[3, 0] = np.nextafter(tensor[3, 0], 9)
