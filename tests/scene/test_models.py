@@ -83,8 +83,8 @@ def test_what_a_reduction_does_not_follow_is_told(vertical):
 
 @pytest.mark.parametrize(("every", "last"), [(10, 40), (9, 41)])
 def test_frames_at_once_count_their_steps(homogeneous, every, last):
-    plan, counted = planned(homogeneous, Task(("gamma",), last, every)), []
-    plan.model.advance(homogeneous, plan.task, plan.needed, {}, slice(0, plan.frames), counted.append)
+    task, counted = Task(("gamma",), last, every), []
+    Steady().advance(homogeneous, task, frozenset({"gamma"}), {}, slice(0, task.frames), counted.append)
     assert counted == [len(homogeneous) * last]
 
 

@@ -246,6 +246,17 @@ def test_a_damaged_mark_is_named_and_costs_its_balls_only(whole, path, monkeypat
     equal_to_the_bit(opened(path), whole)
 
 
+@pytest.mark.parametrize("changed", [{"segments_done": 99}, {"gamma": np.zeros((1, 3))}])
+def test_a_mark_that_does_not_fit_is_damaged(path, monkeypatch, changed):
+    interrupted(path, monkeypatch, 7)
+    mark = min(stores.folder_of(path).glob("chunk-*.npz"))
+    with np.load(mark) as data:
+        found = dict(data)
+    np.savez(mark, **(found | changed))
+    with pytest.raises(SceneError, match=f"{mark.name} is damaged; delete it"):
+        sweep.run_to_store(plan(), path)
+
+
 def test_a_store_that_is_deleted_meanwhile_leaves_no_debris(tmp_path, monkeypatch, path):
     real = sweep.advance
     calls = iter(range(100))
