@@ -57,9 +57,7 @@ def test_rocq_accepts_the_theorem(tmp_path):
 
 @needs_libraries
 def test_rocq_rejects_another_statement(tmp_path, thorough):
-    for change in (
-        CHANGES if thorough else ("two equal moments are enough", "the inverse rotation")
-    ):
+    for change in CHANGES if thorough else ("two equal moments are enough", "the inverse rotation"):
         found = judged(tmp_path / change.replace(" ", "-"), "Statement.v", *CHANGES[change])
         assert found.returncode != 0, found.stdout
         assert re.search(r'File "\./\w+\.v", line', found.stderr)
