@@ -146,6 +146,9 @@ def explain(record: dict[str, Any]) -> str:
     lines += [f"  conjecture: {text}" for text in evidence["conjectures"]]
     if record["corrected"]:
         lines += [f"  corrected: {record['corrected']}"]
+    if evidence["slip"]:
+        follows = ", follows from " + ", ".join(evidence["slip"]["follows"]) if evidence["slip"]["follows"] else ""
+        lines += [f"  kind of error, by our judgement: {evidence['slip']['kind']}{follows}"]
     if evidence["downstream"]:
         lines += [f"  used by: {', '.join(evidence['downstream'])}"]
     lines += [f"  PROBLEM: {problem}" for problem in evidence["problems"]]

@@ -390,3 +390,10 @@ def test_an_error_is_classed_by_its_proof_and_only_where_there_is_one():
     proof.witness("any", {"x": "1"})
     assert proof.verdict() is Verdict.OPEN
     assert "it is called an error, and all that is printed holds" in proof.problems
+
+
+def test_what_is_inferred_and_the_kind_of_an_error_are_explained(all_judged):
+    record, _ = all_judged.records["5.15"]
+    lines = explain(record).splitlines()
+    assert "  kind of error, by our judgement: serious, follows from 5.14" in lines
+    assert [line for line in lines if line.startswith("  inferred in words: T = 0 is equivalent to the map")]
