@@ -1,6 +1,7 @@
 """The motion of the continuous ball with proved digits: from exact data, at the times that are asked for."""
 
 import math
+import pathlib
 import time as clock
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
@@ -28,6 +29,9 @@ TAYLOR, THETA, SOLVED = "taylor", "theta", 400
 ROUNDED = 0.25
 #: Bits beyond those that were missing, for the next attempt.
 MARGIN = 6
+
+#: Of a checkout: what is not in the wheel.
+RESEARCH = pathlib.Path(__file__).parents[2] / "research"
 
 
 @dataclass(frozen=True)
@@ -237,13 +241,11 @@ def follow(
 
 def _in_theta_functions(start: Any) -> Any:
     """The class that solves a motion in theta functions; raises BadInput where it is not."""
-    try:
-        from research.theta.motion import General
-        from research.theta.top import Top
-    except ModuleNotFoundError:
-        raise BadInput(
-            "theta functions are in research/, which is not in the wheel; run this from a checkout"
-        ) from None
+    if not RESEARCH.is_dir():
+        raise BadInput("theta functions are in research/, which is not in the wheel; run this from a checkout")
+    from research.theta.motion import General
+    from research.theta.top import Top
+
     return Top if start.vertical or not start.D else General
 
 

@@ -3,7 +3,6 @@
 import json
 import random
 import re
-import sys
 from fractions import Fraction as F
 from itertools import product
 from pathlib import Path
@@ -213,7 +212,7 @@ def test_routes_and_rotors_that_are_not_there_are_refused():
 
 
 def test_without_a_checkout_they_are_refused_in_one_sentence(monkeypatch):
-    monkeypatch.setitem(sys.modules, "research.theta.motion", None)
+    monkeypatch.setattr("chapsym.dynamics.enclosed_motion.RESEARCH", Path("nowhere"))
     with pytest.raises(BadInput, match="research/, which is not in the wheel"):
         certified_motion(ExactBall((1, 2, 4), 3), (1, 2, 3), (0, 0, 1), [1], by="theta")
 

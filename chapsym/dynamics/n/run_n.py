@@ -8,12 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import chapsym.dynamics.native as native
-from chapsym.numbers import Digits, Double, Precision
 
 from ..ball import Floats, common_shape, is_followed, unit_vertical
-from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status
-from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count, cores, share
 from ..loops import loop_n, rotation_n
 from ..trajectories import rolling_radius
@@ -90,28 +87,6 @@ def start(
     if contact:
         state["contact"] = np.zeros((count, ball.n - 1))
     return shape, state
-
-
-def stepped(
-    precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1
-) -> tuple[dict[str, Floats], np.ndarray, np.ndarray, Floats]:
-    """The frames of a run from its start on, (b, frames, ...), and (taken, status, reach), (b,).
-
-    Raises BadInput for a precision that is neither "double" nor Digits, and for frames that do not fit into memory.
-    """
-    chosen, stages, count = precision_of(precision), substeps(order), steps // every + 1
-    if not isinstance(chosen, Double | Digits):
-        raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {precision!r}')
-    moving = {name: state[name] for name in MOVING if name in state}
-    try:
-        frames = {name: np.full((len(x), count, *x.shape[1:]), np.nan, chosen.dtype) for name, x in moving.items()}
-    except (MemoryError, ValueError):
-        raise no_room(count, len(state["gamma"])) from None
-    if isinstance(chosen, Double):
-        return frames, *run(state, frames, stages, steps, every, threads)
-    from . import precise_n  # mpmath takes 40 ms
-
-    return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every)
 
 
 def run(

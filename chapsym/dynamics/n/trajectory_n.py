@@ -13,11 +13,12 @@ from typing import Self, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import Precision
+from chapsym.numbers import Digits, Double, Precision
 
 from ..ball import Asked, Floats, is_followed, numbers
-from ..coefficients import substeps
+from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status, StepNotTaken
+from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count
 from ..results import finished
 from ..reversal import way_back
@@ -25,10 +26,32 @@ from ..stepper import UnderWay
 from ..trajectories import whole_number
 from .ball_n import BallN, skew_matrices
 from .near_n import limits
-from .run_n import MOVING, advance, begun, continued, start, stepped
+from .run_n import MOVING, advance, begun, continued, run, start
 
 #: Nobody counts the steps of a call.
 UNCOUNTED = Count(lambda done: None)
+
+
+def _stepped(
+    precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1
+) -> tuple[dict[str, Floats], np.ndarray, np.ndarray, Floats]:
+    """The frames of a run from its start on, (b, frames, ...), and (taken, status, reach), (b,).
+
+    Raises BadInput for a precision that is neither "double" nor Digits, and for frames that do not fit into memory.
+    """
+    chosen, stages, count = precision_of(precision), substeps(order), steps // every + 1
+    if not isinstance(chosen, Double | Digits):
+        raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {precision!r}')
+    moving = {name: state[name] for name in MOVING if name in state}
+    try:
+        frames = {name: np.full((len(x), count, *x.shape[1:]), np.nan, chosen.dtype) for name, x in moving.items()}
+    except (MemoryError, ValueError):
+        raise no_room(count, len(state["gamma"])) from None
+    if isinstance(chosen, Double):
+        return frames, *run(state, frames, stages, steps, every, threads)
+    from . import precise_n  # mpmath takes 40 ms
+
+    return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +83,7 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str
     """
     shape, state = start(ball, momentum, gamma)
     state["attitude"] = np.broadcast_to(np.eye(ball.n), state["momentum"].shape)
-    frames, _, status, reach = stepped(precision, state, 2, 1, 1)
+    frames, _, status, reach = _stepped(precision, state, 2, 1, 1)
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
     momentum, gamma, rotation = (x[:, 1].reshape(*shape, *x.shape[2:]) for x in frames.values())
@@ -131,7 +154,7 @@ def trajectory_n(
     threads = whole_number(threads, "threads", 0)
     every = min(every, steps + 1)
     shape, state = start(ball, momentum, gamma, attitude, contact)
-    frames, taken, status, reach = stepped(precision, state, order, steps, every, threads)
+    frames, taken, status, reach = _stepped(precision, state, order, steps, every, threads)
     shaped = {name: array.reshape(*shape, *array.shape[1:]) for name, array in frames.items()}
     result = TrajectoryN(
         ball, np.arange(0, steps + 1, every), shaped["momentum"], shaped["gamma"], shaped.get("attitude"),
