@@ -31,8 +31,9 @@ def test_a_checkout_is_told_from_a_copy(copy):
     assert not build.is_checkout(copy)
 
 
+@pytest.mark.thorough
 def test_the_bytes_do_not_depend_on_the_hash_seed():
-    """One seed; another, drawn by Python, is that of this process, by the test above."""
+    """One seed; another, drawn by Python for each run, is that of this process, by the test above."""
     program = (
         "import json, sys; from committed import build, committed; build.ours().__dict__['judged'] = committed()\n"
     )
