@@ -30,18 +30,21 @@ OLD_SCENE = (
     "line",
     [
         'chapsym.step(BALL, (1, -0.5, 0.75), (0, 0, 1), precision="quad")',
+        'chapsym.trajectory(BALL, (1, -0.5, 0.75), (0, 0, 1), 3, precision="quad")',
         'chapsym.roll(BALL, (1, 2, 3), 0.01, 3, precision="quad")',
         'chapsym.run_scene("old.toml")',
         "from chapsym.numbers import Ball",
+        "chapsym.numbers.Ball",
     ],
 )
-def test_an_old_name_is_told_in_a_script(line, tmp_path):
+def test_an_old_name_is_told_at_the_line_that_uses_it(line, tmp_path):
     (tmp_path / "old.toml").write_text(OLD_SCENE)
     script = tmp_path / "script.py"
     script.write_text(f"import chapsym, chapsym.numbers\nBALL = chapsym.Ball((1, 2, 4), 3)\n{line}\n")
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, cwd=tmp_path, check=True)
-    assert "Renamed: " in done.stderr
-    assert done.stderr.splitlines()[0].endswith("the old name works until the next release")
+    told = done.stderr.splitlines()[0]
+    assert told.startswith(f"{script}:3: Renamed: ")
+    assert told.endswith("the old name works until the next release")
 
 
 def test_old_options_are_told_in_a_line_and_answer_the_same():

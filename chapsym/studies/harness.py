@@ -6,6 +6,7 @@ import platform
 import re
 import shutil
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -133,9 +134,14 @@ def installed(package: str) -> str | None:
 
 def in_checkout(package: str, module: str) -> Any:
     """A module of `benchmarks` or `research`; raises BadInput where these are not, and MissingExtra."""
-    if not (BENCHMARKS.parent / package / "__init__.py").is_file():
+    root = BENCHMARKS.parent
+    if not (root / package / "__init__.py").is_file():
         raise BadInput(f"{package}/ is not in the wheel; run this from a checkout")
-    return import_module(f"{package}.{module}")
+    sys.path.insert(0, str(root))  # some wheels have a `benchmarks` of their own, pyarrow's among them
+    try:
+        return import_module(f"{package}.{module}")
+    finally:
+        sys.path.remove(str(root))
 
 
 def compiler() -> str | None:

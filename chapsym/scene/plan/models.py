@@ -285,7 +285,7 @@ class Vertical(Stepwise):
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """The steps of each ball, its phases, and the steps of its rotation number."""
         frame = 1300.0 if "phase" in needed else 10.0
-        turns = 5e7 if "rotation_number" in needed else 0.0
+        turns = 4e6 if "rotation_number" in needed else 0.0
         return len(members) * (task.steps * 25.0 + task.frames * frame + turns)
 
     def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
