@@ -287,7 +287,7 @@ def test_a_figure_and_a_ball_are_chosen_by_name_or_index():
     dataset = results.folded()
     with pytest.raises(BadInput, match="no figure 'trace'; choose of contact, spheres"):
         figures.draw(dataset, "trace")
-    with pytest.raises(BadInput, match="no ball 'third'; it has slow, fast"):
+    with pytest.raises(BadInput, match="no ball 'third'; its balls: slow, fast"):
         figures.draw(dataset, "contact", "third")
     with pytest.raises(BadInput, match="no result"):
         figures.available(dataset[["D"]])

@@ -172,7 +172,7 @@ def test_the_command_draws_what_is_named(tmp_path, show):
         (["a.nc", "--figures", "trace"], "--figures trace: choose of contact, spheres"),
         (["a.nc", "--figures", "energy"], 'energy: no energy: add "energy"'),
         (["a.nc", "--format", "tiff"], "--format tiff: give svg, png, pdf, both, gif or mp4"),
-        (["a.nc", "--ball", "third"], "no ball 'third'; it has slow, fast"),
+        (["a.nc", "--ball", "third"], "no ball 'third'; its balls: slow, fast"),
         (["a.nc", "--page"], "attitude"),
         (["b.nc"], "b.nc"),
         (["a.txt"], "a.txt"),

@@ -36,7 +36,7 @@ def index_of(dataset: "Dataset", ball: str | int) -> int:
     if isinstance(ball, int | np.integer) and not isinstance(ball, bool) and -len(names) <= ball < len(names):
         return int(ball) % len(names)
     listed = ", ".join(names[:5]) + (f", ... ({len(names)} in all)" if len(names) > 5 else "")
-    raise BadInput(f"the result has no ball {ball!r}; it has {listed}")
+    raise BadInput(f"the result has no ball {ball!r}; its balls: {listed}")
 
 
 def begun(dataset: "Dataset") -> "Dataset":
