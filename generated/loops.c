@@ -75,40 +75,50 @@ INLINE void r2_fill(r2 a, real x) { for (int64_t i = 0; i < a.n0; i++) r1_fill(r
 typedef struct { real a0; int64_t a1; } t_ri;
 INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_ri){m, e}; }
 
-typedef struct { real p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33; }
-    Round;
-typedef struct { int a0; real a1; } t_br;
-typedef struct { int64_t a0, a1; } t_i2;
-typedef struct { int64_t a0; real a1; } t_ir;
-typedef struct { real a0, a1; } t_r2;
-typedef struct { int64_t a0, a1; real a2; } t_i2r;
-typedef struct { real a0, a1, a2; } t_r3;
-typedef struct { int64_t a0, a1; real a2, a3; } t_i2r2;
 typedef struct { real a0, a1, a2, a3; } t_r4;
-typedef struct { int a0; real a1, a2, a3, a4; } t_br4;
-typedef struct { real a0, a1, a2, a3, a4; } t_r5;
-typedef struct { int64_t a0; double a1, a2, a3, a4, a5; } t_id5;
-typedef struct { int64_t a0; real a1, a2, a3, a4, a5; } t_ir5;
-typedef struct { real a0, a1, a2, a3, a4, a5; } t_r6;
-typedef struct { int a0; real a1, a2, a3, a4, a5, a6; } t_br6;
-typedef struct { real a0, a1, a2, a3, a4, a5, a6; } t_r7;
-typedef struct { int a0; real a1, a2, a3, a4, a5, a6, a7; } t_br7;
-typedef struct { int64_t a0; real a1, a2, a3, a4, a5, a6, a7; } t_ir7;
-typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7; } t_r8;
-typedef struct { int64_t a0; real a1, a2, a3, a4, a5, a6, a7, a8; } t_ir8;
+typedef struct { real a0, a1, a2; } t_r3;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8; } t_r9;
-typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7; int a8, a9; } t_r8b2;
-typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9; } t_r10;
-typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11; } t_r12;
+typedef struct { t_r4 p; t_r3 w; real first; t_r3 d; t_r9 cofactors; } Round;
+typedef struct { real a0, a1; } t_r2;
+typedef struct { t_r2 a0, a1, a2, a3; } t_p4;
+typedef struct { t_p4 a0; t_r2 a1, a2; } t__p4_p2;
+typedef struct { t_r3 a0, a1; } t__r3_2;
+typedef struct { t_r3 a0, a1; t_r4 a2; real a3, a4; } t__r3_2_r4_r2;
+typedef struct { t_r3 a0, a1, a2; } t__r3_3;
+typedef struct { t_r3 a0, a1, a2; real a3; } t__r3_3r;
+typedef struct { t_r4 a0; t_r3 a1; real a2; } t__r4__r3_r;
+typedef struct { t_r4 a0; t_r3 a1; real a2; int a3, a4; } t__r4__r3_rb2;
+typedef struct { t_r4 a0; real a1, a2; } t__r4_r2;
+typedef struct { t_r2 a0, a1, a2; } t_p3;
+typedef struct { int a0; t_p3 a1; } t_b_p3_;
+typedef struct { int a0; t_r4 a1; } t_b_r4_;
+typedef struct { int a0; t_r4 a1; t_r3 a2; } t_b_r4__r3_;
+typedef struct { int a0; real a1; } t_br;
+typedef struct { real a0, a1, a2; } t_e3;
+typedef struct { int64_t a0, a1; } t_i2;
+typedef struct { int64_t a0, a1; real a2; } t_i2r;
+typedef struct { int64_t a0, a1; real a2, a3; } t_i2r2;
+typedef struct { int64_t a0; double a1, a2, a3, a4, a5; } t_id5;
+typedef struct { int64_t a0; real a1; } t_ir;
+typedef struct { int64_t a0; real a1, a2, a3, a4, a5; } t_ir5;
+typedef struct { int64_t a0; real a1; t_p3 a2; } t_ir_p3_;
+typedef struct { int64_t a0; real a1; t_p4 a2; t_r2 a3, a4; } t_ir_p4_p2;
+typedef struct { int64_t a0; real a1; t_r4 a2; } t_ir_r4_;
+typedef struct { int64_t a0; real a1; t_r4 a2; t_r3 a3; } t_ir_r4__r3_;
+typedef struct { t_r2 a0, a1, a2; } t_q3;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12; } t_r13;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17; } t_r18;
+typedef struct { real a0, a1, a2; t_r3 a3; } t_r3_r3_;
+typedef struct { real a0, a1, a2, a3, a4; } t_r5;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7; } t_r8;
+typedef struct { real a0; t_r9 a1; } t_r_r9_;
 
 #ifdef SINGLE
+#define pairs_SPLITTER R(4097.0)
 #define gibbs_LEFT R(5.960464477539063e-08)
 #define gibbs_SMALLEST R(3.552713678800501e-15)
 #define gibbs_LIGHTEST R(3.552713678800501e-15)
 #define gibbs_LEAST_ENOUGH R(2.168404344971009e-19)
-#define pairs_SPLITTER R(4097.0)
 #define integrals_VERTICAL R(0.0001)
 #define loop_small_rotation single_loop_widened
 #define loop_follow_body single_loop_follow_body
@@ -116,11 +126,11 @@ typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13
 #define block_REGISTER 16
 t_id5 branch_small_rotation_double(double, double, double, double, double, double, double, double, double, double);
 #else
+#define pairs_SPLITTER R(134217729.0)
 #define gibbs_LEFT R(1.1102230246251565e-16)
 #define gibbs_SMALLEST R(7.52316384526264e-37)
 #define gibbs_LIGHTEST R(4.909093465297727e-91)
 #define gibbs_LEAST_ENOUGH R(0.0)
-#define pairs_SPLITTER R(134217729.0)
 #define integrals_VERTICAL R(1e-06)
 #define loop_small_rotation branch_small_rotation
 #define block_LANES 40
@@ -135,19 +145,20 @@ INLINE real loop_times(real x, real power, int64_t exponent) {
     return power != R(0.0) ? x * power : R(ldexp(x, (int)exponent));
 }
 
-INLINE t_r3 loop_three(r1 array, int64_t at) { return (t_r3){array.p[at], array.p[at + 1], array.p[at + 2]}; }
-INLINE int gibbs_is_heavy(real I1, real I2, real I3, real D) { return R(32.0) * min_r(min_r(I1, I2), I3) < D; }
-INLINE t_r2 gibbs_bound(real k1, real k2, real k3, real I1, real I2, real I3, real D) {
-    int moving;
-    real half = R(sqrt(k1 * k1 + k2 * k2 + k3 * k3)), size = R(2.0) * half, least = min_r(min_r(I1, I2), I3);
-    real most = max_r(max_r(I1, I2), I3), spread = R(0.5) * (most - least);
+INLINE t_r3 vectors_three(r1 array, int64_t at) { return (t_r3){array.p[at], array.p[at + 1], array.p[at + 2]}; }
+INLINE int gibbs_is_heavy(t_r3 I, real D) { return R(32.0) * min_r(min_r(I.a0, I.a1), I.a2) < D; }
+INLINE real vectors_dot(t_r3 a, t_r3 b) { return a.a0 * b.a0 + a.a1 * b.a1 + a.a2 * b.a2; }
+INLINE real vectors_length(t_r3 v) { return R(sqrt(vectors_dot(v, v))); }
+INLINE t_r2 gibbs_bound(t_r3 k, t_r3 I, real D) {
+    int moving; real half = vectors_length(k), size = R(2.0) * half, least = min_r(min_r(I.a0, I.a1), I.a2);
+    real most = max_r(max_r(I.a0, I.a1), I.a2), spread = R(0.5) * (most - least);
     if (!(size < least)) { return (t_r2){R(-2.0), R(0.0)}; }
     real inner = size / (least + R(sqrt((least - size) * (least + size)))), slope = spread + size;
     if (!(inner * slope < R(0.95) * least)) { return (t_r2){R(-2.0), R(0.0)}; }
     real limit = slope > R(0.0) ? min_r(R(1.0), least / slope) : R(1.0);
     real radius = min_r(R(1.25) * inner, R(0.5) * (inner + limit));
     if (half == R(0.0)) {
-        moving = k1 != R(0.0) || k2 != R(0.0) || k3 != R(0.0);
+        moving = k.a0 != R(0.0) || k.a1 != R(0.0) || k.a2 != R(0.0);
         if (moving && gibbs_LEAST_ENOUGH > R(0.0)) { return (t_r2){R(-1.0), R(0.0)}; }
         else { return (t_r2){R(0.0), R(0.0)}; }
     }
@@ -157,12 +168,12 @@ INLINE t_r2 gibbs_bound(real k1, real k2, real k3, real I1, real I2, real I3, re
     else { return (t_r2){radius * radius, enough}; }
 }
 
-INLINE t_r2 gibbs_certificate(real k1, real k2, real k3, real I1, real I2, real I3, real D) {
-    if (gibbs_is_heavy(I1, I2, I3, D)) { return (t_r2){R(-1.0), R(0.0)}; }
-    return gibbs_bound(k1, k2, k3, I1, I2, I3, D);
+INLINE t_r2 gibbs_certificate(t_r3 k, t_r3 I, real D) {
+    if (gibbs_is_heavy(I, D)) { return (t_r2){R(-1.0), R(0.0)}; }
+    return gibbs_bound(k, I, D);
 }
 
-OUT_OF_LINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
+OUT_OF_LINE real loop_entered(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
     t_ri t_1 = real_frexp(max_r(max_r(tensor.p[1] + tensor.p[2], tensor.p[0] + tensor.p[2]), tensor.p[0] +
         tensor.p[1]) + contact);
     int64_t exponent = t_1.a1;
@@ -177,10 +188,10 @@ OUT_OF_LINE real loop_scaled(r1 momentum, r1 g, r1 tensor, real contact, r1 stat
     }
     real t_2 = state.p[19] + state.p[20], t_3 = state.p[18] + state.p[20], t_4 = state.p[18] + state.p[19];
     state.p[21] = t_2; state.p[22] = t_3; state.p[23] = t_4; state.p[24] = loop_times(contact, power, -exponent);
-    t_r3 k1 = loop_three(state, 0), I1 = loop_three(state, 21);
-    t_r2 t_5 = gibbs_certificate(k1.a0, k1.a1, k1.a2, I1.a0, I1.a1, I1.a2, state.p[24]); state.p[25] = t_5.a0;
+    t_r3 inertia = vectors_three(state, 21);
+    t_r2 t_5 = gibbs_certificate(vectors_three(state, 0), inertia, state.p[24]); state.p[25] = t_5.a0;
     state.p[26] = t_5.a1;
-    if (tiny || min_r(min_r(I1.a0, I1.a1), I1.a2) < gibbs_SMALLEST) { state.p[25] = R(-1.0); }
+    if (tiny || min_r(min_r(inertia.a0, inertia.a1), inertia.a2) < gibbs_SMALLEST) { state.p[25] = R(-1.0); }
     return R(ldexp(R(1.0), (int)(exponent + 1)));
 }
 
@@ -213,25 +224,27 @@ OUT_OF_LINE real loop_prepare(r1 momentum, r1 g, r1 tensor, real contact, r1 c, 
     for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
         if (c.p[i] != R(1.0)) {
             for (int64_t j = 0; j < 3; j++) { part.p[j] = c.p[i] * momentum.p[j]; }
-            loop_scaled(part, g, tensor, contact, state); radius.p[i] = state.p[25]; enough.p[i] = state.p[26];
+            loop_entered(part, g, tensor, contact, state); radius.p[i] = state.p[25]; enough.p[i] = state.p[26];
         }
     }
-    real scale = loop_scaled(momentum, g, tensor, contact, state); integrals_remember(state);
+    real scale = loop_entered(momentum, g, tensor, contact, state); integrals_remember(state);
     for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
         if (c.p[i] == R(1.0)) { radius.p[i] = state.p[25]; enough.p[i] = state.p[26]; }
     }
     return scale;
 }
 
+INLINE t_r3 vectors_scaled(real s, t_r3 v) { return (t_r3){s * v.a0, s * v.a1, s * v.a2}; }
+INLINE t_r3 vectors_plus(t_r3 a, t_r3 b) { return (t_r3){a.a0 + b.a0, a.a1 + b.a1, a.a2 + b.a2}; }
 INLINE t_r3 loop_guessed(r2 past, int64_t at, r1 weights) {
-    real u1 = R(0.0), u2 = R(0.0), u3 = R(0.0);
+    t_r3 u = (t_r3){R(0.0), R(0.0), R(0.0)};
     for (int64_t j = 0, end_j = weights.n0; j < end_j; j++) {
-        u1 = u1 + weights.p[j] * AT2(past, at + j, 0); u2 = u2 + weights.p[j] * AT2(past, at + j, 1);
-        u3 = u3 + weights.p[j] * AT2(past, at + j, 2);
+        u = vectors_plus(u, vectors_scaled(weights.p[j], vectors_three(r2_row(past, at + j), 0)));
     }
-    return (t_r3){u1, u2, u3};
+    return u;
 }
 
+INLINE real vectors_square(t_r3 v) { return v.a0 * v.a0 + (v.a1 * v.a1 + v.a2 * v.a2); }
 INLINE t_r13 kernel_gibbs_newton_heavy(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real
     g3, real I1, real I2, real I3, real D) {
     real w1 = D * g1, w2 = D * g2, w3 = D * g3, e11 = g1 * w1, e12 = g1 * w2, e13 = g1 * w3, e22 = g2 * w2;
@@ -255,6 +268,13 @@ INLINE t_r13 kernel_gibbs_newton_heavy(real u1, real u2, real u3, real k1, real 
     return (t_r13){o_det, o_N1, o_N2, o_N3, o_C11, o_C12, o_C13, o_C21, o_C22, o_C23, o_C31, o_C32, o_C33};
 }
 
+INLINE t_r3 vectors_minus(t_r3 a, t_r3 b) { return (t_r3){a.a0 - b.a0, a.a1 - b.a1, a.a2 - b.a2}; }
+INLINE Round gibbs_round_from(t_r3 u, t_r13 found) {
+    t_r3 w = vectors_scaled(R(1.0) / found.a0, (t_r3){found.a1, found.a2, found.a3}), d = vectors_minus(w, u);
+    return (Round){(t_r4){found.a0, found.a1, found.a2, found.a3}, w, vectors_square(d), d, (t_r9){found.a4, found.a5,
+        found.a6, found.a7, found.a8, found.a9, found.a10, found.a11, found.a12}};
+}
+
 INLINE t_r13 kernel_gibbs_newton(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
     I1, real I2, real I3, real D) {
     real w1 = D * g1, w2 = D * g2, w3 = D * g3, e11 = g1 * w1, e12 = g1 * w2, e13 = g1 * w3, e22 = g2 * w2;
@@ -275,22 +295,13 @@ INLINE t_r13 kernel_gibbs_newton(real u1, real u2, real u3, real k1, real k2, re
     return (t_r13){o_det, o_N1, o_N2, o_N3, o_C11, o_C12, o_C13, o_C21, o_C22, o_C23, o_C31, o_C32, o_C33};
 }
 
-INLINE Round gibbs_newton_round(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
-    I1, real I2, real I3, real D, int heavy) {
-    real p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33;
+INLINE Round gibbs_newton_round(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, int heavy) {
     if (heavy) {
-        t_r13 t_1 = kernel_gibbs_newton_heavy(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); p0 = t_1.a0;
-        p1 = t_1.a1; p2 = t_1.a2; p3 = t_1.a3; c11 = t_1.a4; c12 = t_1.a5; c13 = t_1.a6; c21 = t_1.a7; c22 = t_1.a8;
-        c23 = t_1.a9; c31 = t_1.a10; c32 = t_1.a11; c33 = t_1.a12;
+        return gibbs_round_from(u, kernel_gibbs_newton_heavy(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2,
+            I.a0, I.a1, I.a2, D));
     }
-    else {
-        t_r13 t_2 = kernel_gibbs_newton(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); p0 = t_2.a0; p1 = t_2.a1;
-        p2 = t_2.a2; p3 = t_2.a3; c11 = t_2.a4; c12 = t_2.a5; c13 = t_2.a6; c21 = t_2.a7; c22 = t_2.a8; c23 = t_2.a9;
-        c31 = t_2.a10; c32 = t_2.a11; c33 = t_2.a12;
-    }
-    real scale = R(1.0) / p0, w1 = p1 * scale, w2 = p2 * scale, w3 = p3 * scale, d1 = w1 - u1, d2 = w2 - u2;
-    real d3 = w3 - u3, first = d1 * d1 + (d2 * d2 + d3 * d3);
-    return (Round){p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33};
+    return gibbs_round_from(u, kernel_gibbs_newton(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, I.a0, I.a1,
+        I.a2, D));
 }
 
 INLINE t_r3 kernel_gibbs_second(real d1, real d2, real d3, real k1, real k2, real k3, real c11, real c12, real c13,
@@ -301,40 +312,36 @@ INLINE t_r3 kernel_gibbs_second(real d1, real d2, real d3, real k1, real k2, rea
     real o_e3 = c13 * r1 + c23 * r2 + c33 * r3; return (t_r3){o_e1, o_e2, o_e3};
 }
 
-INLINE t_r7 gibbs_second_round(Round r, real k1, real k2, real k3, real I1, real I2, real I3) {
-    t_r3 e1 = kernel_gibbs_second(r.d1, r.d2, r.d3, k1, k2, k3, r.c11, r.c12, r.c13, r.c21, r.c22, r.c23, r.c31,
-        r.c32, r.c33, I1, I2, I3);
-    real scale = R(1.0) / r.p0, p1 = r.p1 - e1.a0, p2 = r.p2 - e1.a1, p3 = r.p3 - e1.a2;
-    real second = (e1.a0 * e1.a0 + (e1.a1 * e1.a1 + e1.a2 * e1.a2)) * (scale * scale);
-    return (t_r7){p1, p2, p3, p1 * scale, p2 * scale, p3 * scale, second};
+INLINE t__r4__r3_r gibbs_second_round(Round r, t_r3 k, t_r3 I) {
+    t_r3 e = kernel_gibbs_second(r.d.a0, r.d.a1, r.d.a2, k.a0, k.a1, k.a2, r.cofactors.a0, r.cofactors.a1,
+        r.cofactors.a2, r.cofactors.a3, r.cofactors.a4, r.cofactors.a5, r.cofactors.a6, r.cofactors.a7,
+        r.cofactors.a8, I.a0, I.a1, I.a2);
+    real scale = R(1.0) / r.p.a0; t_r3 v = vectors_minus((t_r3){r.p.a1, r.p.a2, r.p.a3}, e);
+    return (t__r4__r3_r){(t_r4){r.p.a0, v.a0, v.a1, v.a2}, vectors_scaled(scale, v), vectors_square(e) * (scale *
+        scale)};
 }
 
-INLINE t_br7 gibbs_settle(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real I1,
-    real I2, real I3, real D, real radius, real enough, int heavy) {
-    if (!(u1 * u1 + (u2 * u2 + u3 * u3) <= radius)) { return (t_br7){0, R(1.0), R(0.0), R(0.0), R(0.0), u1, u2, u3}; }
-    Round r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy);
-    if (r.first <= enough) { return (t_br7){1, r.p0, r.p1, r.p2, r.p3, r.w1, r.w2, r.w3}; }
-    t_r7 p1 = gibbs_second_round(r, k1, k2, k3, I1, I2, I3);
-    int settled = R(9.0) * max_r(r.first, p1.a6) * p1.a6 <= enough * enough && p1.a3 * p1.a3 + (p1.a4 * p1.a4 + p1.a5
-        * p1.a5) <= radius;
-    return (t_br7){settled, r.p0, p1.a0, p1.a1, p1.a2, p1.a3, p1.a4, p1.a5};
+INLINE t_b_r4__r3_ gibbs_settle(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real radius, real enough, int heavy) {
+    if (!(vectors_square(u) <= radius)) { return (t_b_r4__r3_){0, (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)}, u}; }
+    Round r = gibbs_newton_round(u, k, g, I, D, heavy);
+    if (r.first <= enough) { return (t_b_r4__r3_){1, r.p, r.w}; }
+    t__r4__r3_r p = gibbs_second_round(r, k, I);
+    return (t_b_r4__r3_){R(9.0) * max_r(r.first, p.a2) * p.a2 <= enough * enough && vectors_square(p.a1) <= radius,
+        p.a0, p.a1};
 }
 
-INLINE void loop_put(r1 array, int64_t at, real x, real y, real z) {
-    array.p[at] = x; array.p[at + 1] = y; array.p[at + 2] = z;
+INLINE void vectors_put(r1 array, int64_t at, t_r3 v) {
+    array.p[at] = v.a0; array.p[at + 1] = v.a1; array.p[at + 2] = v.a2;
 }
 
-INLINE t_r8b2 path_improved(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real I1,
-    real I2, real I3, real D) {
-    Round r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0);
-    t_r7 p1 = gibbs_second_round(r, k1, k2, k3, I1, I2, I3);
-    real square = p1.a3 * p1.a3 + (p1.a4 * p1.a4 + p1.a5 * p1.a5);
-    real curved = R(6.0) * (R(0.5) * (max_r(max_r(I1, I2), I3) - min_r(min_r(I1, I2), I3)) + R(sqrt(k1 * k1 + (k2 * k2
-        + k3 * k3))));
-    real left = curved * curved * (max_r(r.first, p1.a6) * p1.a6);
-    real allowed = gibbs_LEFT * (R(0.0625) * (max_r(max_r(I1, I2), I3) + D));
-    return (t_r8b2){r.p0, p1.a0, p1.a1, p1.a2, p1.a3, p1.a4, p1.a5, left, left <= allowed * allowed * square, p1.a6 <=
-        R(1e-26) * square};
+INLINE t__r4__r3_rb2 path_improved(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
+    Round r = gibbs_newton_round(u, k, g, I, D, 0); t__r4__r3_r p = gibbs_second_round(r, k, I);
+    real size = vectors_square(p.a1);
+    real curved = R(6.0) * (R(0.5) * (max_r(max_r(I.a0, I.a1), I.a2) - min_r(min_r(I.a0, I.a1), I.a2)) +
+        R(sqrt(vectors_square(k))));
+    real left = curved * curved * (max_r(r.first, p.a2) * p.a2);
+    real allowed = gibbs_LEFT * (R(0.0625) * (max_r(max_r(I.a0, I.a1), I.a2) + D));
+    return (t__r4__r3_rb2){p.a0, p.a1, left, left <= allowed * allowed * size, p.a2 <= R(1e-26) * size};
 }
 
 INLINE t_r3 kernel_gibbs_symmetric(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3,
@@ -359,97 +366,91 @@ INLINE real path_lowest(real trace, real minors, real det) {
     return x;
 }
 
-INLINE int path_small_between(real a, real b, real most, real square, real c, real along, real across, real half, real
+INLINE int path_small_between(real a, real b, real most, real size, real c, real along, real across, real half, real
     slope, real sag, real first, real last) {
-    real start = square * (R(1.0) + a) - c * (R(1.0) + a * a * square) - along;
-    real end = square * (R(1.0) + b) - c * (R(1.0) + b * b * square) - along;
-    real r = max_r(R(fabs(start)), R(fabs(end))) + R(0.25) * (b - a) * (b - a) * c * square;
+    real start = size * (R(1.0) + a) - c * (R(1.0) + a * a * size) - along;
+    real end = size * (R(1.0) + b) - c * (R(1.0) + b * b * size) - along;
+    real r = max_r(R(fabs(start)), R(fabs(end))) + R(0.25) * (b - a) * (b - a) * c * size;
     real m = min_r((R(1.0) - a) * first + a * last, (R(1.0) - b) * first + b * last) - most * sag;
     real left = R(4.0) * slope * most;
     return (m > R(0.0)) & (left * left * (half * half * (r * r) + across) < R(0.98) * (m * m) * (m * m));
 }
 
-INLINE t_br path_joined(real u1, real u2, real u3, real square, real k1, real k2, real k3, real half, real g1, real
-    g2, real g3, real I1, real I2, real I3, real D, real spread) {
-    real none = R(0.0) * u1;
-    t_r3 t_1 = kernel_gibbs_symmetric(none, none, none, k1, k2, k3, g1, g2, g3, I1, I2, I3, D);
+INLINE t_br path_joined(t_r3 u, real size, t_r3 k, real half, t_r3 g, t_r3 I, real D, real spread) {
+    real none = R(0.0) * u.a0;
+    t_r3 t_1 = kernel_gibbs_symmetric(none, none, none, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D);
     real first = path_lowest(t_1.a0, t_1.a1, t_1.a2);
-    t_r3 t_2 = kernel_gibbs_symmetric(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D);
-    real last = path_lowest(t_2.a0, t_2.a1, t_2.a2), x1 = I3 * u2 * u3 - I2 * u2 * u3;
-    real x2 = I1 * u1 * u3 - I3 * u1 * u3, x3 = I2 * u1 * u2 - I1 * u1 * u2;
-    real along = (x1 * k1 + (x2 * k2 + x3 * k3)) / (half * half);
-    real across = max_r(x1 * x1 + (x2 * x2 + x3 * x3) - along * along * (half * half), R(0.0));
-    real c = max_r(R(0.0), min_r(R(1.0), (square * R(1.75) - along) / (R(1.0) + R(0.5625) * square)));
-    real sag = half * R(sqrt(square)) - (k1 * u1 + (k2 * u2 + k3 * u3)), slope = spread + R(2.0) * half;
+    t_r3 t_2 = kernel_gibbs_symmetric(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D);
+    real last = path_lowest(t_2.a0, t_2.a1, t_2.a2); t_r3 u1 = u, I1 = I;
+    t_r3 x = (t_r3){I1.a2 * u1.a1 * u1.a2 - I1.a1 * u1.a1 * u1.a2, I1.a0 * u1.a0 * u1.a2 - I1.a2 * u1.a0 * u1.a2,
+        I1.a1 * u1.a0 * u1.a1 - I1.a0 * u1.a0 * u1.a1};
+    real along = (x.a0 * k.a0 + (x.a1 * k.a1 + x.a2 * k.a2)) / (half * half);
+    real across = max_r(vectors_square(x) - along * along * (half * half), R(0.0));
+    real c = max_r(R(0.0), min_r(R(1.0), (size * R(1.75) - along) / (R(1.0) + R(0.5625) * size)));
+    real sag = half * R(sqrt(size)) - (k.a0 * u1.a0 + (k.a1 * u1.a1 + k.a2 * u1.a2)), slope = spread + R(2.0) * half;
     int proved = (first > R(0.0)) & (last > R(0.0));
-    proved = proved & path_small_between(R(0.0), R(0.4), R(0.24), square, c, along, across, half, slope, sag, first,
+    proved = proved & path_small_between(R(0.0), R(0.4), R(0.24), size, c, along, across, half, slope, sag, first,
         last);
-    proved = proved & path_small_between(R(0.4), R(0.65), R(0.25), square, c, along, across, half, slope, sag, first,
+    proved = proved & path_small_between(R(0.4), R(0.65), R(0.25), size, c, along, across, half, slope, sag, first,
         last);
-    proved = proved & path_small_between(R(0.65), R(0.85), R(0.2275), square, c, along, across, half, slope, sag,
-        first, last);
-    proved = proved & path_small_between(R(0.85), R(1.0), R(0.1275), square, c, along, across, half, slope, sag,
-        first, last);
+    proved = proved & path_small_between(R(0.65), R(0.85), R(0.2275), size, c, along, across, half, slope, sag, first,
+        last);
+    proved = proved & path_small_between(R(0.85), R(1.0), R(0.1275), size, c, along, across, half, slope, sag, first,
+        last);
     return (t_br){proved, last};
 }
 
-INLINE int path_proved(real u1, real u2, real u3, real left, real k1, real k2, real k3, real g1, real g2, real g3,
-    real I1, real I2, real I3, real D) {
-    real half = R(sqrt(k1 * k1 + (k2 * k2 + k3 * k3)));
-    real spread = R(0.5) * (max_r(max_r(I1, I2), I3) - min_r(min_r(I1, I2), I3));
-    real square = u1 * u1 + (u2 * u2 + u3 * u3);
-    t_br reached = path_joined(u1, u2, u3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread);
-    real allowed = gibbs_LEFT * reached.a1; return reached.a0 & (left <= allowed * allowed * square);
+INLINE int path_proved(t_r3 u, real left, t_r3 k, t_r3 g, t_r3 I, real D) {
+    real half = R(sqrt(vectors_square(k)));
+    real spread = R(0.5) * (max_r(max_r(I.a0, I.a1), I.a2) - min_r(min_r(I.a0, I.a1), I.a2));
+    real size = vectors_square(u); t_br reached = path_joined(u, size, k, half, g, I, D, spread);
+    real allowed = gibbs_LEFT * reached.a1; return reached.a0 & (left <= allowed * allowed * size);
 }
 
-INLINE t_br7 path_search_on_path(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
-    I1, real I2, real I3, real D) {
-    real p0, p1, p2, p3, left; int near, found;
-    Round r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0); u1 = r.w1; u2 = r.w2;
-    u3 = r.w3;
+INLINE t_b_r4__r3_ path_search_on_path(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
+    t_r4 p; real left; int near, found; Round r = gibbs_newton_round(u, k, g, I, D, 0); u = r.w;
     for (int64_t i_0 = 0; i_0 < 6; i_0++) {
-        t_r8b2 t_1 = path_improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); p0 = t_1.a0; p1 = t_1.a1;
-        p2 = t_1.a2; p3 = t_1.a3; u1 = t_1.a4; u2 = t_1.a5; u3 = t_1.a6; left = t_1.a7; near = t_1.a8; found = t_1.a9;
-        if ((near || found) && path_proved(u1, u2, u3, left, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)) {
-            return (t_br7){1, p0, p1, p2, p3, u1, u2, u3};
-        }
+        t__r4__r3_rb2 t_1 = path_improved(u, k, g, I, D); p = t_1.a0; u = t_1.a1; left = t_1.a2; near = t_1.a3;
+        found = t_1.a4;
+        if ((near || found) && path_proved(u, left, k, g, I, D)) { return (t_b_r4__r3_){1, p, u}; }
         if (found) { break; }
     }
-    return (t_br7){0, R(1.0), R(0.0), R(0.0), R(0.0), u1, u2, u3};
+    return (t_b_r4__r3_){0, (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)}, u};
 }
 
-INLINE t_br7 gibbs_search(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real I1,
-    real I2, real I3, real D, real radius, real enough, int heavy) {
-    int settled; real p0, p1, p2, p3;
+INLINE real vectors_largest(t_r3 v) { return max_r(max_r(R(fabs(v.a0)), R(fabs(v.a1))), R(fabs(v.a2))); }
+INLINE t_r3 vectors_shifted(t_r3 v, int64_t exponent) {
+    return (t_r3){R(ldexp(v.a0, (int)exponent)), R(ldexp(v.a1, (int)exponent)), R(ldexp(v.a2, (int)exponent))};
+}
+
+INLINE t_b_r4__r3_ gibbs_search(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real radius, real enough, int heavy) {
+    int settled; t_r4 p;
     for (int64_t guess = 0; guess < 2; guess++) {
-        if (guess == 1) { u1 = R(0.0); u2 = R(0.0); u3 = R(0.0); }
+        if (guess == 1) { u = (t_r3){R(0.0), R(0.0), R(0.0)}; }
         for (int64_t i_1 = 0; i_1 < 12; i_1++) {
-            t_br7 t_1 = gibbs_settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy);
-            settled = t_1.a0; p0 = t_1.a1; p1 = t_1.a2; p2 = t_1.a3; p3 = t_1.a4; u1 = t_1.a5; u2 = t_1.a6;
-            u3 = t_1.a7;
-            if (settled) { return (t_br7){1, p0, p1, p2, p3, u1, u2, u3}; }
+            t_b_r4__r3_ t_1 = gibbs_settle(u, k, g, I, D, radius, enough, heavy); settled = t_1.a0; p = t_1.a1;
+            u = t_1.a2;
+            if (settled) { return (t_b_r4__r3_){1, p, u}; }
         }
     }
-    return (t_br7){0, R(1.0), R(0.0), R(0.0), R(0.0), u1, u2, u3};
+    return (t_b_r4__r3_){0, (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)}, u};
 }
 
-INLINE t_br7 gibbs_search_safely(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real g3, real
-    I1, real I2, real I3, real D, real radius, real enough) {
-    t_ri size; int heavy = gibbs_is_heavy(I1, I2, I3, D);
-    if (heavy && max_r(max_r(R(fabs(k1)), R(fabs(k2))), R(fabs(k3))) < min_r(min_r(I1, I2), I3)) {
-        size = real_frexp(max_r(max_r(I1, I2), I3) + D); I1 = R(ldexp(I1, (int)-size.a1));
-        I2 = R(ldexp(I2, (int)-size.a1)); I3 = R(ldexp(I3, (int)-size.a1)); D = R(ldexp(D, (int)-size.a1));
-        k1 = R(ldexp(k1, (int)-size.a1)); k2 = R(ldexp(k2, (int)-size.a1)); k3 = R(ldexp(k3, (int)-size.a1));
-        if (min_r(min_r(I1, I2), I3) >= gibbs_LIGHTEST && max_r(max_r(R(fabs(k1)), R(fabs(k2))), R(fabs(k3))) >=
-            gibbs_LIGHTEST) {
-            t_r2 t_1 = gibbs_bound(k1, k2, k3, I1, I2, I3, D); radius = t_1.a0; enough = t_1.a1;
+INLINE t_b_r4__r3_ gibbs_search_safely(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real radius, real enough) {
+    t_ri size; int heavy = gibbs_is_heavy(I, D);
+    if (heavy && vectors_largest(k) < min_r(min_r(I.a0, I.a1), I.a2)) {
+        size = real_frexp(max_r(max_r(I.a0, I.a1), I.a2) + D); I = vectors_shifted(I, -size.a1);
+        D = R(ldexp(D, (int)-size.a1)); k = vectors_shifted(k, -size.a1);
+        if (min_r(min_r(I.a0, I.a1), I.a2) >= gibbs_LIGHTEST && vectors_largest(k) >= gibbs_LIGHTEST) {
+            t_r2 t_1 = gibbs_bound(k, I, D); radius = t_1.a0; enough = t_1.a1;
         }
     }
-    if (!(radius >= R(0.0))) { return (t_br7){0, R(1.0), R(0.0), R(0.0), R(0.0), u1, u2, u3}; }
-    return gibbs_search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy);
+    if (!(radius >= R(0.0))) { return (t_b_r4__r3_){0, (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)}, u}; }
+    return gibbs_search(u, k, g, I, D, radius, enough, heavy);
 }
 
 #ifndef SINGLE
+INLINE t_r3 branch_moments(t_r3 J) { return (t_r3){J.a1 + J.a2, J.a0 + J.a2, J.a0 + J.a1}; }
 INLINE t_r9 kernel_tangent_jacobian(real q0, real q1, real q2, real q3, real g1, real g2, real g3, real J1, real J2,
     real J3, real D) {
     real t0 = q0 * q0, t1 = g2 * g2, t2 = g3 * g3, t3 = J2 + J3 + D * (t1 + t2), t4 = 2 * t3, t5 = 2 * D * g1;
@@ -467,39 +468,39 @@ INLINE t_r9 kernel_tangent_jacobian(real q0, real q1, real q2, real q3, real g1,
     return (t_r9){o_dK11, o_dK12, o_dK13, o_dK21, o_dK22, o_dK23, o_dK31, o_dK32, o_dK33};
 }
 
-INLINE t_r10 branch_inverse_of(real a11, real a12, real a13, real a21, real a22, real a23, real a31, real a32, real
-    a33) {
-    real c11 = a22 * a33 - a23 * a32, c12 = a23 * a31 - a21 * a33, c13 = a21 * a32 - a22 * a31;
-    real c21 = a13 * a32 - a12 * a33, c22 = a11 * a33 - a13 * a31, c23 = a12 * a31 - a11 * a32;
-    real c31 = a12 * a23 - a13 * a22, c32 = a13 * a21 - a11 * a23, c33 = a11 * a22 - a12 * a21;
-    real det = a11 * c11 + a12 * c12 + a13 * c13;
+INLINE t_r_r9_ branch_inverse_of(t_r9 a) {
+    t_r9 a11 = a; real c11 = a11.a4 * a11.a8 - a11.a5 * a11.a7, c12 = a11.a5 * a11.a6 - a11.a3 * a11.a8;
+    real c13 = a11.a3 * a11.a7 - a11.a4 * a11.a6, c21 = a11.a2 * a11.a7 - a11.a1 * a11.a8;
+    real c22 = a11.a0 * a11.a8 - a11.a2 * a11.a6, c23 = a11.a1 * a11.a6 - a11.a0 * a11.a7;
+    real c31 = a11.a1 * a11.a5 - a11.a2 * a11.a4, c32 = a11.a2 * a11.a3 - a11.a0 * a11.a5;
+    real c33 = a11.a0 * a11.a4 - a11.a1 * a11.a3, det = a11.a0 * c11 + a11.a1 * c12 + a11.a2 * c13;
     if (det == R(0.0)) {
-        return (t_r10){R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)};
+        return (t_r_r9_){R(0.0), (t_r9){R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)}};
     }
     real s = R(1.0) / det;
-    return (t_r10){det, c11 * s, c21 * s, c31 * s, c12 * s, c22 * s, c32 * s, c13 * s, c23 * s, c33 * s};
+    return (t_r_r9_){det, (t_r9){c11 * s, c21 * s, c31 * s, c12 * s, c22 * s, c32 * s, c13 * s, c23 * s, c33 * s}};
 }
 
-INLINE t_r10 branch_inverse(real q0, real q1, real q2, real q3, real g1, real g2, real g3, real J1, real J2, real J3,
-    real D) {
-    t_r9 t_1 = kernel_tangent_jacobian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D);
-    real a11 = t_1.a0, a12 = t_1.a1, a13 = t_1.a2, a21 = t_1.a3, a22 = t_1.a4, a23 = t_1.a5, a31 = t_1.a6;
-    real a32 = t_1.a7, a33 = t_1.a8; t_r10 det = branch_inverse_of(a11, a12, a13, a21, a22, a23, a31, a32, a33);
-    if (det.a0 == R(0.0) || !gibbs_is_heavy(J2 + J3, J1 + J3, J1 + J2, D)) {
-        return (t_r10){det.a0, det.a1, det.a2, det.a3, det.a4, det.a5, det.a6, det.a7, det.a8, det.a9};
-    }
-    t_r9 t_2 = kernel_tangent_jacobian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, R(0.0) * D); a11 = t_2.a0;
-    a12 = t_2.a1; a13 = t_2.a2; a21 = t_2.a3; a22 = t_2.a4; a23 = t_2.a5; a31 = t_2.a6; a32 = t_2.a7; a33 = t_2.a8;
-    real y1 = g1 * a11 + g2 * a21 + g3 * a31, y2 = g1 * a12 + g2 * a22 + g3 * a32;
-    real y3 = g1 * a13 + g2 * a23 + g3 * a33, z1 = det.a1 * g1 + det.a2 * g2 + det.a3 * g3;
-    real z2 = det.a4 * g1 + det.a5 * g2 + det.a6 * g3, z3 = det.a7 * g1 + det.a8 * g2 + det.a9 * g3;
-    real true = (y1 * z1 + y2 * z2 + y3 * z3) / (g1 * g1 + g2 * g2 + g3 * g3);
+INLINE t_r3 branch_product(t_r9 n, t_r3 v) {
+    return (t_r3){vectors_dot((t_r3){n.a0, n.a1, n.a2}, v), vectors_dot((t_r3){n.a3, n.a4, n.a5}, v),
+        vectors_dot((t_r3){n.a6, n.a7, n.a8}, v)};
+}
+
+INLINE t_r_r9_ branch_inverse(t_r4 q, t_r3 g, t_r3 J, real D) {
+    t_r_r9_ det = branch_inverse_of(kernel_tangent_jacobian(q.a0, q.a1, q.a2, q.a3, g.a0, g.a1, g.a2, J.a0, J.a1,
+        J.a2, D));
+    if (det.a0 == R(0.0) || !gibbs_is_heavy(branch_moments(J), D)) { return (t_r_r9_){det.a0, det.a1}; }
+    t_r9 a = kernel_tangent_jacobian(q.a0, q.a1, q.a2, q.a3, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, R(0.0) * D);
+    t_r3 y = (t_r3){vectors_dot(g, (t_r3){a.a0, a.a3, a.a6}), vectors_dot(g, (t_r3){a.a1, a.a4, a.a7}), vectors_dot(g,
+        (t_r3){a.a2, a.a5, a.a8})};
+    real true = vectors_dot(y, branch_product(det.a1, g)) / vectors_dot(g, g);
     if (true == R(0.0)) {
-        return (t_r10){R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)};
+        return (t_r_r9_){R(0.0), (t_r9){R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)}};
     }
-    real s = R(1.0) / true;
-    return (t_r10){det.a0 * true, s * det.a1, s * det.a2, s * det.a3, s * det.a4, s * det.a5, s * det.a6, s * det.a7,
-        s * det.a8, s * det.a9};
+    real s = R(1.0) / true; t_r3 t_1 = vectors_scaled(s, (t_r3){det.a1.a0, det.a1.a1, det.a1.a2});
+    t_r3 t_2 = vectors_scaled(s, (t_r3){det.a1.a3, det.a1.a4, det.a1.a5});
+    t_r3 t_3 = vectors_scaled(s, (t_r3){det.a1.a6, det.a1.a7, det.a1.a8});
+    return (t_r_r9_){det.a0 * true, (t_r9){t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2}};
 }
 
 INLINE t_r18 kernel_tangent_hessian(real q0, real q1, real q2, real q3, real g1, real g2, real g3, real J1, real J2,
@@ -547,21 +548,17 @@ INLINE t_r18 kernel_tangent_hessian(real q0, real q1, real q2, real q3, real g1,
         o_ddK23_1, o_ddK23_2, o_ddK23_3, o_ddK13_1, o_ddK13_2, o_ddK13_3, o_ddK12_1, o_ddK12_2, o_ddK12_3};
 }
 
-INLINE t_r6 branch_tangent(real q0, real q1, real q2, real q3, real K1, real K2, real K3, real g1, real g2, real g3,
-    real J1, real J2, real J3, real D) {
-    real x, y, z, a, b, c, weight; t_r10 det = branch_inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D);
-    t_r18 t_1 = kernel_tangent_hessian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D);
+INLINE t_r3_r3_ branch_tangent(t_r4 q, t_r3 K, t_r3 g, t_r3 J, real D) {
+    t_r3 w; real weight; t_r_r9_ det = branch_inverse(q, g, J, D);
+    t_r18 t_1 = kernel_tangent_hessian(q.a0, q.a1, q.a2, q.a3, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, D);
     real h_[] = {t_1.a0, t_1.a1, t_1.a2, t_1.a3, t_1.a4, t_1.a5, t_1.a6, t_1.a7, t_1.a8, t_1.a9, t_1.a10, t_1.a11,
         t_1.a12, t_1.a13, t_1.a14, t_1.a15, t_1.a16, t_1.a17};
     r1 h = {h_, 18}; real bend = R(0.0);
     for (int64_t pair = 0; pair < 6; pair++) {
-        x = h.p[3 * pair]; y = h.p[3 * pair + 1]; z = h.p[3 * pair + 2]; a = det.a1 * x + det.a2 * y + det.a3 * z;
-        b = det.a4 * x + det.a5 * y + det.a6 * z; c = det.a7 * x + det.a8 * y + det.a9 * z;
-        weight = pair < 3 ? R(1.0) : R(2.0); bend = bend + weight * (a * a + b * b + c * c);
+        w = branch_product(det.a1, (t_r3){h.p[3 * pair], h.p[3 * pair + 1], h.p[3 * pair + 2]});
+        weight = pair < 3 ? R(1.0) : R(2.0); bend = bend + weight * vectors_dot(w, w);
     }
-    real d1 = det.a1 * K1 + det.a2 * K2 + det.a3 * K3, d2 = det.a4 * K1 + det.a5 * K2 + det.a6 * K3;
-    real d3 = det.a7 * K1 + det.a8 * K2 + det.a9 * K3;
-    return (t_r6){det.a0, R(sqrt(d1 * d1 + d2 * d2 + d3 * d3)), R(sqrt(bend)), d1, d2, d3};
+    t_r3 d = branch_product(det.a1, K); return (t_r3_r3_){det.a0, R(sqrt(vectors_dot(d, d))), R(sqrt(bend)), d};
 }
 
 #endif
@@ -572,10 +569,10 @@ INLINE t_r4 kernel_compose(real a0, real a1, real a2, real a3, real b0, real b1,
 }
 
 #ifndef SINGLE
-INLINE t_r4 branch_turned(real q0, real q1, real q2, real q3, real w1, real w2, real w3) {
-    t_r4 p0 = kernel_compose(q0, q1, q2, q3, R(1.0), w1, w2, w3);
-    real length = R(sqrt(p0.a0 * p0.a0 + p0.a1 * p0.a1 + p0.a2 * p0.a2 + p0.a3 * p0.a3));
-    return (t_r4){p0.a0 / length, p0.a1 / length, p0.a2 / length, p0.a3 / length};
+INLINE t_r4 branch_turned(t_r4 q, t_r3 w) {
+    t_r4 p = kernel_compose(q.a0, q.a1, q.a2, q.a3, R(1.0), w.a0, w.a1, w.a2);
+    real length = R(sqrt(p.a0 * p.a0 + p.a1 * p.a1 + p.a2 * p.a2 + p.a3 * p.a3));
+    return (t_r4){p.a0 / length, p.a1 / length, p.a2 / length, p.a3 / length};
 }
 
 INLINE t_r3 kernel_residual(real q0, real q1, real q2, real q3, real K1, real K2, real K3, real g1, real g2, real g3,
@@ -588,74 +585,61 @@ INLINE t_r3 kernel_residual(real q0, real q1, real q2, real q3, real K1, real K2
     return (t_r3){o_r1, o_r2, o_r3};
 }
 
-INLINE t_br4 branch_corrected(real q0, real q1, real q2, real q3, real K1, real K2, real K3, real g1, real g2, real
-    g3, real J1, real J2, real J3, real D) {
-    t_r3 r1; t_r10 det; real w1, w2, w3, change, extent, largest, noise;
-    real size = max_r(max_r(R(fabs(K1)), R(fabs(K2))), R(fabs(K3)));
-    real top = max_r(max_r(J2 + J3, J1 + J3), J1 + J2) + D, before = R(2.0);
+INLINE t_b_r4_ branch_corrected(t_r4 q, t_r3 K, t_r3 g, t_r3 J, real D) {
+    t_r3 r, w; t_r_r9_ det; real change, extent, most, noise; real size = vectors_largest(K);
+    t_r3 t_1 = branch_moments(J); real top = max_r(max_r(t_1.a0, t_1.a1), t_1.a2) + D, before = R(2.0);
     for (int64_t i_0 = 0; i_0 < 20; i_0++) {
-        r1 = kernel_residual(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D);
-        det = branch_inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D);
-        if (det.a0 == R(0.0)) { return (t_br4){0, q0, q1, q2, q3}; }
-        w1 = -(det.a1 * r1.a0 + det.a2 * r1.a1 + det.a3 * r1.a2);
-        w2 = -(det.a4 * r1.a0 + det.a5 * r1.a1 + det.a6 * r1.a2);
-        w3 = -(det.a7 * r1.a0 + det.a8 * r1.a1 + det.a9 * r1.a2);
-        t_r4 t_1 = branch_turned(q0, q1, q2, q3, w1, w2, w3); q0 = t_1.a0; q1 = t_1.a1; q2 = t_1.a2; q3 = t_1.a3;
-        change = max_r(max_r(R(fabs(w1)), R(fabs(w2))), R(fabs(w3)));
-        extent = max_r(max_r(R(fabs(q1)), R(fabs(q2))), R(fabs(q3)));
-        largest = max_r(max_r(max_r(max_r(max_r(max_r(max_r(max_r(R(fabs(det.a1)), R(fabs(det.a2))), R(fabs(det.a3))),
-            R(fabs(det.a4))), R(fabs(det.a5))), R(fabs(det.a6))), R(fabs(det.a7))), R(fabs(det.a8))),
-            R(fabs(det.a9)));
-        noise = R(1.7763568394002505e-15) * largest * (size + R(2.0) * top * extent);
-        if (change <= max_r(R(1e-09) * extent, R(8e-323))) { return (t_br4){1, q0, q1, q2, q3}; }
-        if (change <= noise && change >= R(0.25) * before) { return (t_br4){1, q0, q1, q2, q3}; }
+        r = kernel_residual(q.a0, q.a1, q.a2, q.a3, K.a0, K.a1, K.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, D);
+        det = branch_inverse(q, g, J, D);
+        if (det.a0 == R(0.0)) { return (t_b_r4_){0, q}; }
+        w = branch_product(det.a1, r); q = branch_turned(q, (t_r3){-w.a0, -w.a1, -w.a2}); change = vectors_largest(w);
+        extent = vectors_largest((t_r3){q.a1, q.a2, q.a3});
+        most = max_r(max_r(vectors_largest((t_r3){det.a1.a0, det.a1.a1, det.a1.a2}), vectors_largest((t_r3){det.a1.a3,
+            det.a1.a4, det.a1.a5})), vectors_largest((t_r3){det.a1.a6, det.a1.a7, det.a1.a8}));
+        noise = R(1.7763568394002505e-15) * most * (size + R(2.0) * top * extent);
+        if (change <= max_r(R(1e-09) * extent, R(8e-323))) { return (t_b_r4_){1, q}; }
+        if (change <= noise && change >= R(0.25) * before) { return (t_b_r4_){1, q}; }
         before = change;
     }
-    return (t_br4){0, q0, q1, q2, q3};
+    return (t_b_r4_){0, q};
 }
 
-INLINE t_ir5 branch_continued(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3, real D,
-    real shortest) {
-    t_r6 det; real slope, length, remaining, step, ahead, p0, p1, p2, p3; int settled;
-    if (K1 != K1 || K2 != K2 || K3 != K3) { return (t_ir5){2, R(0.0), R(1.0), R(0.0), R(0.0), R(0.0)}; }
-    t_ri exponent = real_frexp(max_r(max_r(J2 + J3, J1 + J3), J1 + J2) + D); J1 = R(ldexp(J1, (int)-exponent.a1));
-    J2 = R(ldexp(J2, (int)-exponent.a1)); J3 = R(ldexp(J3, (int)-exponent.a1)); D = R(ldexp(D, (int)-exponent.a1));
-    real largest = max_r(max_r(R(fabs(K1)), R(fabs(K2))), R(fabs(K3))); t_ri size = real_frexp(largest);
-    int64_t shift = largest > R(0.0) ? min_i(-exponent.a1, 3 - size.a1) : -exponent.a1;
-    int64_t beyond = largest > R(0.0) ? max_i(0, -200 - (size.a1 + shift)) : 0;
-    K1 = R(ldexp(K1, (int)(shift + beyond))); K2 = R(ldexp(K2, (int)(shift + beyond)));
-    K3 = R(ldexp(K3, (int)(shift + beyond)));
-    real end = R(ldexp(R(1.0), (int)(shift + exponent.a1))), t = R(0.0), q0 = R(1.0), q1 = R(0.0), q2 = R(0.0);
-    real q3 = R(0.0);
+INLINE t_ir_r4_ branch_continued(t_r3 K, t_r3 g, t_r3 J, real D, real shortest) {
+    t_r3_r3_ det; real slope, length, remaining, step, ahead; t_b_r4_ settled;
+    t_r4 q = (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)};
+    if (K.a0 != K.a0 || K.a1 != K.a1 || K.a2 != K.a2) { return (t_ir_r4_){2, R(0.0), q}; }
+    t_r3 t_1 = branch_moments(J); t_ri exponent = real_frexp(max_r(max_r(t_1.a0, t_1.a1), t_1.a2) + D);
+    J = vectors_shifted(J, -exponent.a1); D = R(ldexp(D, (int)-exponent.a1)); real most = vectors_largest(K);
+    t_ri size = real_frexp(most); int64_t shift = most > R(0.0) ? min_i(-exponent.a1, 3 - size.a1) : -exponent.a1;
+    int64_t beyond = most > R(0.0) ? max_i(0, -200 - (size.a1 + shift)) : 0; K = vectors_shifted(K, shift + beyond);
+    real end = R(ldexp(R(1.0), (int)(shift + exponent.a1))), t = R(0.0);
     for (int64_t i_0 = 0; i_0 < 20000; i_0++) {
-        det = branch_tangent(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D);
-        if (t == R(0.0) && !(det.a0 > R(8.881784197001252e-16))) { return (t_ir5){4, R(0.0), q0, q1, q2, q3}; }
-        if (!(det.a0 > R(0.0))) { return (t_ir5){1, t * end, q0, q1, q2, q3}; }
+        det = branch_tangent(q, K, g, J, D);
+        if (t == R(0.0) && !(det.a0 > R(8.881784197001252e-16))) { return (t_ir_r4_){4, R(0.0), q}; }
+        if (!(det.a0 > R(0.0))) { return (t_ir_r4_){1, t * end, q}; }
         slope = det.a2 + R(2.0) * t * det.a1; length = R(0.5) / (slope + R(sqrt(slope * slope + R(2.0))));
         remaining = R(1.0) - t; step = det.a1 * remaining <= length ? remaining : length / det.a1;
         if (step < remaining && step < max_r(shortest * t, R(1e-19) * min_r(t, remaining))) {
-            return (t_ir5){1, t * end, q0, q1, q2, q3};
+            return (t_ir_r4_){1, t * end, q};
         }
         ahead = step == remaining ? R(1.0) : t + step;
-        t_r4 t_1 = branch_turned(q0, q1, q2, q3, step * det.a3, step * det.a4, step * det.a5); p0 = t_1.a0;
-        p1 = t_1.a1; p2 = t_1.a2; p3 = t_1.a3;
-        t_br4 t_2 = branch_corrected(p0, p1, p2, p3, ahead * K1, ahead * K2, ahead * K3, g1, g2, g3, J1, J2, J3, D);
-        settled = t_2.a0; p0 = t_2.a1; p1 = t_2.a2; p2 = t_2.a3; p3 = t_2.a4;
-        if (!settled) { return (t_ir5){2, t * end, q0, q1, q2, q3}; }
-        t = ahead; q0 = p0; q1 = p1; q2 = p2; q3 = p3;
-        if (t == R(1.0) && end < R(1.0)) { return (t_ir5){2, end, q0, q1, q2, q3}; }
+        settled = branch_corrected(branch_turned(q, vectors_scaled(step, det.a3)), vectors_scaled(ahead, K), g, J, D);
+        if (!settled.a0) { return (t_ir_r4_){2, t * end, q}; }
+        t = ahead; q = settled.a1;
+        if (t == R(1.0) && end < R(1.0)) { return (t_ir_r4_){2, end, q}; }
         if (t == R(1.0)) {
-            if (q0 < R(0.0)) { q0 = -q0; q1 = -q1; q2 = -q2; q3 = -q3; }
-            return (t_ir5){0, R(1.0), q0, R(ldexp(q1, (int)-beyond)), R(ldexp(q2, (int)-beyond)), R(ldexp(q3,
-                (int)-beyond))};
+            if (q.a0 < R(0.0)) { q = (t_r4){-q.a0, -q.a1, -q.a2, -q.a3}; }
+            t_r3 t_2 = vectors_shifted((t_r3){q.a1, q.a2, q.a3}, -beyond);
+            return (t_ir_r4_){0, R(1.0), (t_r4){q.a0, t_2.a0, t_2.a1, t_2.a2}};
         }
     }
-    return (t_ir5){2, t * end, q0, q1, q2, q3};
+    return (t_ir_r4_){2, t * end, q};
 }
 
 INLINE t_ir5 branch_small_rotation(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3,
     real D) {
-    return branch_continued(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, R(4e-16));
+    t_ir_r4_ status = branch_continued((t_r3){K1, K2, K3}, (t_r3){g1, g2, g3}, (t_r3){J1, J2, J3}, D, R(4e-16));
+    return (t_ir5){status.a0, status.a1, status.a2.a0, status.a2.a1, status.a2.a2, status.a2.a3};
 }
 
 t_ir5 branch_small_rotation_double(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3,
@@ -674,27 +658,29 @@ INLINE t_ir5 single_loop_widened(real K1, real K2, real K3, real g1, real g2, re
 }
 
 #endif
-OUT_OF_LINE t_ir8 loop_safe_rotation(real u1, real u2, real u3, r1 state) {
-    int settled; real p0, p1, p2, p3, w1, w2, w3;
-    t_r3 k1 = loop_three(state, 0), g1 = loop_three(state, 3), I1 = loop_three(state, 21);
+OUT_OF_LINE t_ir_r4__r3_ loop_safe_rotation(t_r3 u, r1 state) {
+    int settled; t_r4 p; t_r3 w;
+    t_r3 k = vectors_three(state, 0), g = vectors_three(state, 3), inertia = vectors_three(state, 21);
+    real contact = state.p[24];
     if (state.p[25] == R(-2.0)) {
-        t_br7 t_1 = path_search_on_path(u1, u2, u3, k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2,
-            state.p[24]);
-        settled = t_1.a0; p0 = t_1.a1; p1 = t_1.a2; p2 = t_1.a3; p3 = t_1.a4; w1 = t_1.a5; w2 = t_1.a6; w3 = t_1.a7;
+        t_b_r4__r3_ t_1 = path_search_on_path(u, k, g, inertia, contact); settled = t_1.a0; p = t_1.a1; w = t_1.a2;
     }
     else {
-        t_br7 t_2 = gibbs_search_safely(u1, u2, u3, k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2,
-            state.p[24], state.p[25], state.p[26]);
-        settled = t_2.a0; p0 = t_2.a1; p1 = t_2.a2; p2 = t_2.a3; p3 = t_2.a4; w1 = t_2.a5; w2 = t_2.a6; w3 = t_2.a7;
+        t_b_r4__r3_ t_2 = gibbs_search_safely(u, k, g, inertia, contact, state.p[25], state.p[26]); settled = t_2.a0;
+        p = t_2.a1; w = t_2.a2;
     }
-    if (settled) { return (t_ir8){0, R(1.0), p0, p1, p2, p3, w1, w2, w3}; }
-    t_ir5 t_3 = loop_small_rotation(R(2.0) * k1.a0, R(2.0) * k1.a1, R(2.0) * k1.a2, g1.a0, g1.a1, g1.a2, state.p[18],
-        state.p[19], state.p[20], state.p[24]);
-    int64_t status = t_3.a0; real reach = t_3.a1; p0 = t_3.a2; p1 = t_3.a3; p2 = t_3.a4; p3 = t_3.a5;
-    if (p0 == R(0.0)) { return (t_ir8){status, reach, p0, p1, p2, p3, R(0.0), R(0.0), R(0.0)}; }
-    return (t_ir8){status, reach, p0, p1, p2, p3, p1 / p0, p2 / p0, p3 / p0};
+    if (settled) { return (t_ir_r4__r3_){0, R(1.0), p, w}; }
+    t_r3 t_3 = vectors_scaled(R(2.0), k), t_4 = vectors_three(state, 18);
+    t_ir5 status = loop_small_rotation(t_3.a0, t_3.a1, t_3.a2, g.a0, g.a1, g.a2, t_4.a0, t_4.a1, t_4.a2, contact);
+    if (status.a2 == R(0.0)) {
+        return (t_ir_r4__r3_){status.a0, status.a1, (t_r4){status.a2, status.a3, status.a4, status.a5}, (t_r3){R(0.0),
+            R(0.0), R(0.0)}};
+    }
+    return (t_ir_r4__r3_){status.a0, status.a1, (t_r4){status.a2, status.a3, status.a4, status.a5}, (t_r3){status.a3 /
+        status.a2, status.a4 / status.a2, status.a5 / status.a2}};
 }
 
+INLINE real vectors_square_of_four(t_r4 q) { return q.a0 * q.a0 + q.a1 * q.a1 + (q.a2 * q.a2 + q.a3 * q.a3); }
 INLINE t_r3 kernel_centre_step(real q0, real q1, real q2, real q3, real g1, real g2, real g3) {
     real t0 = 2 * q0, o_s1 = t0 * (g3 * q2 - g2 * q3), o_s2 = -t0 * (g3 * q1 - g1 * q3);
     real o_s3 = t0 * (g2 * q1 - g1 * q2); return (t_r3){o_s1, o_s2, o_s3};
@@ -708,23 +694,23 @@ INLINE t_r3 kernel_rotate(real q0, real q1, real q2, real q3, real v1, real v2, 
     real o_x3 = v3 + 2 * v2 * (t10 + t9) - (t11 * (t0 + t8) + t2 * (t3 - t4)); return (t_r3){o_x1, o_x2, o_x3};
 }
 
-INLINE t_r6 loop_followed(real p0, real p1, real p2, real p3, real g1, real g2, real g3, real a0, real a1, real a2,
-    real a3, real x, real y, real radius) {
-    real length = R(sqrt(p0 * p0 + p1 * p1 + (p2 * p2 + p3 * p3))), q0 = p0 / length, q1 = p1 / length;
-    real q2 = p2 / length, q3 = p3 / length; t_r3 s1 = kernel_centre_step(q0, q1, q2, q3, g1, g2, g3);
-    t_r3 d1 = kernel_rotate(a0, a1, a2, a3, s1.a0, s1.a1, s1.a2);
-    t_r4 t_1 = kernel_compose(a0, a1, a2, a3, q0, q1, q2, q3); a0 = t_1.a0; a1 = t_1.a1; a2 = t_1.a2; a3 = t_1.a3;
-    real scale = R(1.5) - R(0.5) * (a0 * a0 + a1 * a1 + a2 * a2 + a3 * a3);
-    return (t_r6){a0 * scale, a1 * scale, a2 * scale, a3 * scale, x + radius * d1.a0, y + radius * d1.a1};
+INLINE t_r4 vectors_scaled_four(real s, t_r4 q) { return (t_r4){s * q.a0, s * q.a1, s * q.a2, s * q.a3}; }
+INLINE t__r4_r2 loop_followed(t_r4 p, t_r3 g, t_r4 a, real x, real y, real radius) {
+    real length = R(sqrt(vectors_square_of_four(p)));
+    t_r4 q = (t_r4){p.a0 / length, p.a1 / length, p.a2 / length, p.a3 / length};
+    t_r3 t_1 = kernel_centre_step(q.a0, q.a1, q.a2, q.a3, g.a0, g.a1, g.a2);
+    t_r3 d1 = kernel_rotate(a.a0, a.a1, a.a2, a.a3, t_1.a0, t_1.a1, t_1.a2);
+    t_r4 b = kernel_compose(a.a0, a.a1, a.a2, a.a3, q.a0, q.a1, q.a2, q.a3);
+    real scale = R(1.5) - R(0.5) * (b.a0 * b.a0 + b.a1 * b.a1 + b.a2 * b.a2 + b.a3 * b.a3);
+    return (t__r4_r2){vectors_scaled_four(scale, b), x + radius * d1.a0, y + radius * d1.a1};
 }
 
 #ifndef SINGLE
-INLINE void loop_follow_body(real p0, real p1, real p2, real p3, real g1, real g2, real g3, r1 attitude, r1 contact,
-    real radius) {
-    real a0 = attitude.p[0], a1 = attitude.p[1], a2 = attitude.p[2], a3 = attitude.p[3];
-    t_r6 t_1 = loop_followed(p0, p1, p2, p3, g1, g2, g3, a0, a1, a2, a3, contact.p[0], contact.p[1], radius);
-    attitude.p[0] = t_1.a0; attitude.p[1] = t_1.a1; attitude.p[2] = t_1.a2; attitude.p[3] = t_1.a3;
-    contact.p[0] = t_1.a4; contact.p[1] = t_1.a5;
+INLINE void loop_follow_body(t_r4 p, t_r3 g, r1 attitude, r1 contact, real radius) {
+    t_r4 a = (t_r4){attitude.p[0], attitude.p[1], attitude.p[2], attitude.p[3]};
+    t__r4_r2 t_1 = loop_followed(p, g, a, contact.p[0], contact.p[1], radius); a = t_1.a0; contact.p[0] = t_1.a1;
+    contact.p[1] = t_1.a2; t_r4 t_2 = a; attitude.p[0] = t_2.a0; attitude.p[1] = t_2.a1; attitude.p[2] = t_2.a2;
+    attitude.p[3] = t_2.a3;
 }
 
 #endif
@@ -738,10 +724,10 @@ INLINE t_r2 sums_added(real total, real rest, real more) {
     more = more - rest; real there = total + more; return (t_r2){there, there - total - more};
 }
 
-INLINE t_r6 sums_turned(real p0, real p1, real p2, real p3, real v1, real v2, real v3, real x1, real x2, real x3) {
-    t_r3 z1 = kernel_turn(p0, p1, p2, p3, v1, v2, v3); t_r2 t_1 = sums_added(v1, x1, z1.a0); v1 = t_1.a0; x1 = t_1.a1;
-    t_r2 t_2 = sums_added(v2, x2, z1.a1); v2 = t_2.a0; x2 = t_2.a1; t_r2 t_3 = sums_added(v3, x3, z1.a2); v3 = t_3.a0;
-    x3 = t_3.a1; return (t_r6){v1, v2, v3, x1, x2, x3};
+INLINE t__r3_2 sums_turned(t_r4 p, t_r3 v, t_r3 x) {
+    t_r3 z = kernel_turn(p.a0, p.a1, p.a2, p.a3, v.a0, v.a1, v.a2);
+    t_r2 v1 = sums_added(v.a0, x.a0, z.a0), v2 = sums_added(v.a1, x.a1, z.a1), v3 = sums_added(v.a2, x.a2, z.a2);
+    return (t__r3_2){(t_r3){v1.a0, v2.a0, v3.a0}, (t_r3){v1.a1, v2.a1, v3.a1}};
 }
 
 INLINE t_r3 integrals_missing(r1 state) {
@@ -785,29 +771,27 @@ INLINE void single_loop_add(r1 array, int64_t at, int64_t rest, real z) {
     t_r2 t_1 = sums_added(array.p[at], array.p[rest], z); array.p[at] = t_1.a0; array.p[rest] = t_1.a1;
 }
 
-INLINE void single_loop_follow_body(real p0, real p1, real p2, real p3, real g1, real g2, real g3, r1 attitude, r1
-    contact, real radius) {
-    real squared = p1 * p1 + (p2 * p2 + p3 * p3), length = R(sqrt(p0 * p0 + squared)), q0 = p0 / length;
-    real q1 = p1 / length, q2 = p2 / length, q3 = p3 / length;
-    t_r3 s1 = kernel_centre_step(q0, q1, q2, q3, g1, g2, g3);
-    real a0 = attitude.p[0], a1 = attitude.p[1], a2 = attitude.p[2], a3 = attitude.p[3];
-    t_r3 x = kernel_rotate(a0, a1, a2, a3, s1.a0, s1.a1, s1.a2); single_loop_add(contact, 0, 2, radius * x.a0);
-    single_loop_add(contact, 1, 3, radius * x.a1);
-    t_r4 z0 = kernel_compose(a0, a1, a2, a3, -squared / (length * (length + p0)), q1, q2, q3);
-    real stretch = R(0.5) - R(0.5) * (a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3));
-    single_loop_add(attitude, 0, 4, z0.a0 + stretch * a0); single_loop_add(attitude, 1, 5, z0.a1 + stretch * a1);
-    single_loop_add(attitude, 2, 6, z0.a2 + stretch * a2); single_loop_add(attitude, 3, 7, z0.a3 + stretch * a3);
+INLINE void single_loop_follow_body(t_r4 p, t_r3 g, r1 attitude, r1 contact, real radius) {
+    real squared = vectors_square((t_r3){p.a1, p.a2, p.a3}), length = R(sqrt(p.a0 * p.a0 + squared));
+    t_r4 q = (t_r4){p.a0 / length, p.a1 / length, p.a2 / length, p.a3 / length};
+    t_r4 a = (t_r4){attitude.p[0], attitude.p[1], attitude.p[2], attitude.p[3]};
+    t_r3 t_1 = kernel_centre_step(q.a0, q.a1, q.a2, q.a3, g.a0, g.a1, g.a2);
+    t_r3 x = kernel_rotate(a.a0, a.a1, a.a2, a.a3, t_1.a0, t_1.a1, t_1.a2);
+    single_loop_add(contact, 0, 2, radius * x.a0); single_loop_add(contact, 1, 3, radius * x.a1);
+    t_r3 t_2 = (t_r3){q.a1, q.a2, q.a3};
+    t_r4 z = kernel_compose(a.a0, a.a1, a.a2, a.a3, -squared / (length * (length + p.a0)), t_2.a0, t_2.a1, t_2.a2);
+    real stretch = R(0.5) - R(0.5) * vectors_square_of_four(a);
+    single_loop_add(attitude, 0, 4, z.a0 + stretch * a.a0); single_loop_add(attitude, 1, 5, z.a1 + stretch * a.a1);
+    single_loop_add(attitude, 2, 6, z.a2 + stretch * a.a2); single_loop_add(attitude, 3, 7, z.a3 + stretch * a.a3);
 }
 
 #endif
 INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 past, int64_t begun, int64_t first,
     int64_t count, int64_t every, real scale, r2 momenta, r2 verticals, int with_body, r1 attitude, r1 contact, real
     rho, r2 attitudes, r2 traces) {
-    int64_t stop, at, later, frame; real m1, m2, m3, p0, p1, p2, p3, w1, w2, w3; t_r3 u1; int settled;
-    t_r3 t_1 = loop_three(state, 0); real k1 = t_1.a0, k2 = t_1.a1, k3 = t_1.a2; t_r3 t_2 = loop_three(state, 3);
-    real g1 = t_2.a0, g2 = t_2.a1, g3 = t_2.a2; t_r3 t_3 = loop_three(state, 6);
-    real x1 = t_3.a0, x2 = t_3.a1, x3 = t_3.a2; t_r3 t_4 = loop_three(state, 9);
-    real y1 = t_4.a0, y2 = t_4.a1, y3 = t_4.a2; t_r3 I1 = loop_three(state, 21);
+    int64_t stop, at, later, frame; t_r3 m, u; int settled; t_r4 p;
+    t_r3 k = vectors_three(state, 0), g = vectors_three(state, 3), x = vectors_three(state, 6);
+    t_r3 y = vectors_three(state, 9), inertia = vectors_three(state, 21);
     int64_t stages = c.n0, places = weights.n1, period = max_i(1, div_i(1024, stages)), step = first, status = 0;
     real reach = R(1.0); int64_t last = first + count;
     while (step < last && status == 0) {
@@ -815,37 +799,31 @@ INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 pas
         while (step < stop) {
             at = mod_i((begun + step) * stages, places); later = (begun + step) * stages >= places ? 1 : 0;
             for (int64_t i = 0, end_i = stages; i < end_i; i++) {
-                m1 = c.p[i] * k1; m2 = c.p[i] * k2; m3 = c.p[i] * k3;
-                u1 = loop_guessed(past, at + i, r2_row(r3_row(weights, later), at + i));
-                t_br7 t_5 = gibbs_settle(u1.a0, u1.a1, u1.a2, m1, m2, m3, g1, g2, g3, I1.a0, I1.a1, I1.a2,
-                    state.p[24], radius.p[i], enough.p[i], 0);
-                settled = t_5.a0; p0 = t_5.a1; p1 = t_5.a2; p2 = t_5.a3; p3 = t_5.a4; w1 = t_5.a5; w2 = t_5.a6;
-                w3 = t_5.a7;
+                m = vectors_scaled(c.p[i], k); u = loop_guessed(past, at + i, r2_row(r3_row(weights, later), at + i));
+                t_b_r4__r3_ t_1 = gibbs_settle(u, m, g, inertia, state.p[24], radius.p[i], enough.p[i], 0);
+                settled = t_1.a0; p = t_1.a1; u = t_1.a2;
                 if (!settled) {
-                    loop_put(state, 0, m1, m2, m3); loop_put(state, 3, g1, g2, g3); state.p[25] = radius.p[i];
-                    state.p[26] = enough.p[i]; t_ir8 t_6 = loop_safe_rotation(w1, w2, w3, state); status = t_6.a0;
-                    reach = t_6.a1; p0 = t_6.a2; p1 = t_6.a3; p2 = t_6.a4; p3 = t_6.a5; w1 = t_6.a6; w2 = t_6.a7;
-                    w3 = t_6.a8;
+                    vectors_put(state, 0, m); vectors_put(state, 3, g); state.p[25] = radius.p[i];
+                    state.p[26] = enough.p[i]; t_ir_r4__r3_ t_2 = loop_safe_rotation(u, state); status = t_2.a0;
+                    reach = t_2.a1; p = t_2.a2; u = t_2.a3;
                     if (status != 0) { break; }
                 }
-                loop_put(r2_row(past, at + i), 0, w1, w2, w3); loop_put(r2_row(past, places + at + i), 0, w1, w2, w3);
-                if (with_body) { loop_follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho); }
-                t_r6 t_7 = sums_turned(p0, p1, p2, p3, k1, k2, k3, x1, x2, x3); k1 = t_7.a0; k2 = t_7.a1; k3 = t_7.a2;
-                x1 = t_7.a3; x2 = t_7.a4; x3 = t_7.a5; t_r6 t_8 = sums_turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3);
-                g1 = t_8.a0; g2 = t_8.a1; g3 = t_8.a2; y1 = t_8.a3; y2 = t_8.a4; y3 = t_8.a5;
+                vectors_put(r2_row(past, at + i), 0, u); vectors_put(r2_row(past, places + at + i), 0, u);
+                if (with_body) { loop_follow_body(p, g, attitude, contact, rho); }
+                t__r3_2 t_3 = sums_turned(p, k, x); k = t_3.a0; x = t_3.a1; t__r3_2 t_4 = sums_turned(p, g, y);
+                g = t_4.a0; y = t_4.a1;
             }
             if (status != 0) { break; }
             step = step + 1;
         }
-        if (status == 0) { loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3); }
-        loop_put(state, 6, x1, x2, x3); loop_put(state, 9, y1, y2, y3);
+        if (status == 0) { vectors_put(state, 0, k); vectors_put(state, 3, g); }
+        vectors_put(state, 6, x); vectors_put(state, 9, y);
         if (status == 0 && mod_i(begun + step, period) == 0) {
-            integrals_restore(state); t_r3 t_9 = loop_three(state, 6); x1 = t_9.a0; x2 = t_9.a1; x3 = t_9.a2;
-            t_r3 t_10 = loop_three(state, 9); y1 = t_10.a0; y2 = t_10.a1; y3 = t_10.a2;
+            integrals_restore(state); x = vectors_three(state, 6); y = vectors_three(state, 9);
         }
         if (status == 0 && mod_i(step, every) == 0) {
-            frame = div_i(step, every); loop_put(r2_row(momenta, frame), 0, scale * k1, scale * k2, scale * k3);
-            loop_put(r2_row(verticals, frame), 0, g1, g2, g3);
+            frame = div_i(step, every); vectors_put(r2_row(momenta, frame), 0, vectors_scaled(scale, k));
+            vectors_put(r2_row(verticals, frame), 0, g);
             if (with_body) {
                 for (int64_t i = 0; i < 4; i++) { AT2(attitudes, frame, i) = attitude.p[i]; }
                 AT2(traces, frame, 0) = contact.p[0]; AT2(traces, frame, 1) = contact.p[1];
@@ -888,32 +866,46 @@ INLINE t_i2 block_uncertified(r1 radius, w1 ok) {
 }
 
 INLINE int64_t block_whole(w1 ok) { return div_i(ok.n0, block_REGISTER) * block_REGISTER; }
+INLINE t_r3 vectors_three_in(r2 S, int64_t at, int64_t i) {
+    return (t_r3){AT2(S, at, i), AT2(S, at + 1, i), AT2(S, at + 2, i)};
+}
+
+INLINE void vectors_put_in(r2 S, int64_t at, int64_t i, t_r3 v) {
+    AT2(S, at, i) = v.a0; AT2(S, at + 1, i) = v.a1; AT2(S, at + 2, i) = v.a2;
+}
+
 INLINE void block_begin_stage(r2 S, r2 T, real s, r1 radius, r1 enough, w1 ok) {
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-        AT2(T, 0, i) = s * AT2(S, 0, i); AT2(T, 1, i) = s * AT2(S, 1, i); AT2(T, 2, i) = s * AT2(S, 2, i);
-        AT2(T, 3, i) = AT2(S, 3, i); AT2(T, 4, i) = AT2(S, 4, i); AT2(T, 5, i) = AT2(S, 5, i);
-        AT2(T, 25, i) = radius.p[i]; AT2(T, 26, i) = enough.p[i];
+        vectors_put_in(T, 0, i, vectors_scaled(s, vectors_three_in(S, 0, i)));
+        vectors_put_in(T, 3, i, vectors_three_in(S, 3, i)); AT2(T, 25, i) = radius.p[i]; AT2(T, 26, i) = enough.p[i];
     }
 }
 
 INLINE void block_guessed(r2 P, r2 past, int64_t at, int64_t places, r1 weights, w1 ok) {
-    real a, b, c, d, u1, u2, u3; int64_t w, x, y, z;
+    real a, b, c, d; int64_t w, x, y, z; t_r3 u;
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-        AT2(P, 9, i) = R(0.0); AT2(P, 10, i) = R(0.0); AT2(P, 11, i) = R(0.0);
+        vectors_put_in(P, 9, i, (t_r3){R(0.0), R(0.0), R(0.0)});
     }
     for (int64_t j = 0, end_j = weights.n0; j < end_j; j += 4) {
         a = weights.p[j]; b = weights.p[j + 1]; c = weights.p[j + 2]; d = weights.p[j + 3];
         w = 3 * mod_i(at + j, places); x = 3 * mod_i(at + j + 1, places); y = 3 * mod_i(at + j + 2, places);
         z = 3 * mod_i(at + j + 3, places);
         INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-            u1 = AT2(P, 9, i) + a * AT2(past, w, i); u2 = AT2(P, 10, i) + a * AT2(past, w + 1, i);
-            u3 = AT2(P, 11, i) + a * AT2(past, w + 2, i); u1 = u1 + b * AT2(past, x, i);
-            u2 = u2 + b * AT2(past, x + 1, i); u3 = u3 + b * AT2(past, x + 2, i); u1 = u1 + c * AT2(past, y, i);
-            u2 = u2 + c * AT2(past, y + 1, i); u3 = u3 + c * AT2(past, y + 2, i); u1 = u1 + d * AT2(past, z, i);
-            u2 = u2 + d * AT2(past, z + 1, i); u3 = u3 + d * AT2(past, z + 2, i); AT2(P, 9, i) = u1;
-            AT2(P, 10, i) = u2; AT2(P, 11, i) = u3;
+            u = vectors_plus(vectors_three_in(P, 9, i), vectors_scaled(a, vectors_three_in(past, w, i)));
+            u = vectors_plus(u, vectors_scaled(b, vectors_three_in(past, x, i)));
+            u = vectors_plus(u, vectors_scaled(c, vectors_three_in(past, y, i)));
+            vectors_put_in(P, 9, i, vectors_plus(u, vectors_scaled(d, vectors_three_in(past, z, i))));
         }
     }
+}
+
+INLINE t__r3_3r block_body_in(r2 S, int64_t i) {
+    return (t__r3_3r){vectors_three_in(S, 0, i), vectors_three_in(S, 3, i), vectors_three_in(S, 21, i), AT2(S, 24,
+        i)};
+}
+
+INLINE void vectors_put_four_in(r2 S, int64_t at, int64_t i, t_r4 q) {
+    AT2(S, at, i) = q.a0; AT2(S, at + 1, i) = q.a1; AT2(S, at + 2, i) = q.a2; AT2(S, at + 3, i) = q.a3;
 }
 
 INLINE int64_t block_unsettled(w1 ok) {
@@ -923,44 +915,43 @@ INLINE int64_t block_unsettled(w1 ok) {
 }
 
 INLINE int64_t block_predicted(r2 S, r2 P, w1 ok) {
-    real u1, u2, u3; Round r; int settled;
+    t_r3 u; Round r;
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-        u1 = AT2(P, 9, i); u2 = AT2(P, 10, i); u3 = AT2(P, 11, i);
-        r = gibbs_newton_round(u1, u2, u3, AT2(S, 0, i), AT2(S, 1, i), AT2(S, 2, i), AT2(S, 3, i), AT2(S, 4, i),
-            AT2(S, 5, i), AT2(S, 21, i), AT2(S, 22, i), AT2(S, 23, i), AT2(S, 24, i), 0);
-        AT2(P, 0, i) = r.p0; AT2(P, 1, i) = r.p1; AT2(P, 2, i) = r.p2; AT2(P, 3, i) = r.p3; AT2(P, 4, i) = r.w1;
-        AT2(P, 5, i) = r.w2; AT2(P, 6, i) = r.w3;
-        settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= AT2(S, 25, i)) & (r.first <= AT2(S, 26, i));
-        ok.p[i] = settled ? 1 : 0;
+        u = vectors_three_in(P, 9, i); t__r3_3r t_1 = block_body_in(S, i);
+        r = gibbs_newton_round(u, t_1.a0, t_1.a1, t_1.a2, t_1.a3, 0); vectors_put_four_in(P, 0, i, r.p);
+        vectors_put_in(P, 4, i, r.w);
+        ok.p[i] = ((vectors_square(u) <= AT2(S, 25, i)) & (r.first <= AT2(S, 26, i))) ? 1 : 0;
     }
     return block_unsettled(ok);
 }
 
+INLINE t_r4 vectors_four_in(r2 S, int64_t at, int64_t i) {
+    return (t_r4){AT2(S, at, i), AT2(S, at + 1, i), AT2(S, at + 2, i), AT2(S, at + 3, i)};
+}
+
 INLINE int64_t block_corrected(r2 S, r2 P, w1 ok, int again) {
-    real radius, enough, u1, u2, u3, k1, k2, k3, I1, I2, I3, p0, first, p1, p2, p3, w1, w2, w3;
-    int near, once, twice, done; Round r; t_r7 r1;
+    real radius, enough, second; t_r3 u, v, w; int near, once, twice, done; t__r3_3r k; Round r; t_r4 p;
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
         radius = AT2(S, 25, i); enough = AT2(S, 26, i);
-        if (again) { u1 = AT2(P, 4, i); u2 = AT2(P, 5, i); u3 = AT2(P, 6, i); }
-        else { u1 = AT2(P, 9, i); u2 = AT2(P, 10, i); u3 = AT2(P, 11, i); }
-        near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius;
+        t_r3 t_1 = vectors_three_in(P, 4, i), t_2 = vectors_three_in(P, 9, i);
+        u = (t_r3){again ? t_1.a0 : t_2.a0, again ? t_1.a1 : t_2.a1, again ? t_1.a2 : t_2.a2};
+        near = vectors_square(u) <= radius;
         if (again) {
-            u1 = near ? u1 : R(0.0); u2 = near ? u2 : R(0.0); u3 = near ? u3 : R(0.0); near = radius >= R(0.0);
+            t_r3 t_3 = (t_r3){R(0.0), R(0.0), R(0.0)};
+            u = (t_r3){near ? u.a0 : t_3.a0, near ? u.a1 : t_3.a1, near ? u.a2 : t_3.a2}; near = radius >= R(0.0);
         }
-        k1 = AT2(S, 0, i); k2 = AT2(S, 1, i); k3 = AT2(S, 2, i); I1 = AT2(S, 21, i); I2 = AT2(S, 22, i);
-        I3 = AT2(S, 23, i);
-        r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, AT2(S, 3, i), AT2(S, 4, i), AT2(S, 5, i), I1, I2, I3, AT2(S,
-            24, i), 0);
-        r1 = gibbs_second_round(r, k1, k2, k3, I1, I2, I3); p0 = r.p0; first = r.first;
-        once = near & (first <= enough); twice = near & (r1.a3 * r1.a3 + (r1.a4 * r1.a4 + r1.a5 * r1.a5) <= radius);
-        twice = twice & (R(9.0) * max_r(first, r1.a6) * r1.a6 <= enough * enough); done = again & (ok.p[i] == 1);
-        p1 = once ? r.p1 : r1.a0; p2 = once ? r.p2 : r1.a1; p3 = once ? r.p3 : r1.a2; w1 = once ? r.w1 : r1.a3;
-        w2 = once ? r.w2 : r1.a4; w3 = once ? r.w3 : r1.a5; w1 = near ? w1 : u1; w2 = near ? w2 : u2;
-        w3 = near ? w3 : u3; real t_1 = done ? AT2(P, 0, i) : p0, t_2 = done ? AT2(P, 1, i) : p1; AT2(P, 0, i) = t_1;
-        AT2(P, 1, i) = t_2; real t_3 = done ? AT2(P, 2, i) : p2, t_4 = done ? AT2(P, 3, i) : p3; AT2(P, 2, i) = t_3;
-        AT2(P, 3, i) = t_4;
-        real t_5 = done ? AT2(P, 4, i) : w1, t_6 = done ? AT2(P, 5, i) : w2, t_7 = done ? AT2(P, 6, i) : w3;
-        AT2(P, 4, i) = t_5; AT2(P, 5, i) = t_6; AT2(P, 6, i) = t_7; ok.p[i] = ((done | once) | twice) ? 1 : 0;
+        k = block_body_in(S, i); r = gibbs_newton_round(u, k.a0, k.a1, k.a2, k.a3, 0);
+        t__r4__r3_r t_4 = gibbs_second_round(r, k.a0, k.a2); p = t_4.a0; v = t_4.a1; second = t_4.a2;
+        once = near & (r.first <= enough); twice = near & (vectors_square(v) <= radius);
+        twice = twice & (R(9.0) * max_r(r.first, second) * second <= enough * enough); done = again & (ok.p[i] == 1);
+        p = (t_r4){once ? r.p.a0 : p.a0, once ? r.p.a1 : p.a1, once ? r.p.a2 : p.a2, once ? r.p.a3 : p.a3};
+        w = (t_r3){once ? r.w.a0 : v.a0, once ? r.w.a1 : v.a1, once ? r.w.a2 : v.a2};
+        w = (t_r3){near ? w.a0 : u.a0, near ? w.a1 : u.a1, near ? w.a2 : u.a2}; t_r4 t_5 = vectors_four_in(P, 0, i);
+        vectors_put_four_in(P, 0, i, (t_r4){done ? t_5.a0 : p.a0, done ? t_5.a1 : p.a1, done ? t_5.a2 : p.a2, done ?
+            t_5.a3 : p.a3});
+        t_r3 t_6 = vectors_three_in(P, 4, i);
+        vectors_put_in(P, 4, i, (t_r3){done ? t_6.a0 : w.a0, done ? t_6.a1 : w.a1, done ? t_6.a2 : w.a2});
+        ok.p[i] = ((done | once) | twice) ? 1 : 0;
     }
     return block_unsettled(ok);
 }
@@ -968,29 +959,26 @@ INLINE int64_t block_corrected(r2 S, r2 P, w1 ok, int again) {
 INLINE void block_approached(r2 S, r2 P, w1 ok) {
     int beyond; Round r;
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-        beyond = AT2(S, 25, i) == R(-2.0);
-        r = gibbs_newton_round(AT2(P, 9, i), AT2(P, 10, i), AT2(P, 11, i), AT2(S, 0, i), AT2(S, 1, i), AT2(S, 2, i),
-            AT2(S, 3, i), AT2(S, 4, i), AT2(S, 5, i), AT2(S, 21, i), AT2(S, 22, i), AT2(S, 23, i), AT2(S, 24, i), 0);
-        real t_1 = beyond ? r.w1 : AT2(P, 4, i), t_2 = beyond ? r.w2 : AT2(P, 5, i); AT2(P, 4, i) = t_1;
-        AT2(P, 5, i) = t_2; AT2(P, 6, i) = beyond ? r.w3 : AT2(P, 6, i); AT2(P, 7, i) = beyond ? R(1.0) : R(0.0);
-        ok.p[i] = beyond ? 0 : ok.p[i];
+        beyond = AT2(S, 25, i) == R(-2.0); t__r3_3r t_1 = block_body_in(S, i);
+        r = gibbs_newton_round(vectors_three_in(P, 9, i), t_1.a0, t_1.a1, t_1.a2, t_1.a3, 0);
+        t_r3 t_2 = vectors_three_in(P, 4, i);
+        vectors_put_in(P, 4, i, (t_r3){beyond ? r.w.a0 : t_2.a0, beyond ? r.w.a1 : t_2.a1, beyond ? r.w.a2 : t_2.a2});
+        AT2(P, 7, i) = beyond ? R(1.0) : R(0.0); ok.p[i] = beyond ? 0 : ok.p[i];
     }
 }
 
 INLINE real block_nearer(r2 S, r2 P, w1 ok) {
-    int going, near, found; real p0, p1, p2, p3, w1, w2, w3, left;
+    int going, near, found; t_r4 p; t_r3 w; real left;
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-        going = AT2(P, 7, i) == R(1.0);
-        t_r8b2 t_1 = path_improved(AT2(P, 4, i), AT2(P, 5, i), AT2(P, 6, i), AT2(S, 0, i), AT2(S, 1, i), AT2(S, 2, i),
-            AT2(S, 3, i), AT2(S, 4, i), AT2(S, 5, i), AT2(S, 21, i), AT2(S, 22, i), AT2(S, 23, i), AT2(S, 24, i));
-        p0 = t_1.a0; p1 = t_1.a1; p2 = t_1.a2; p3 = t_1.a3; w1 = t_1.a4; w2 = t_1.a5; w3 = t_1.a6; left = t_1.a7;
-        near = t_1.a8; found = t_1.a9; real t_2 = going ? p0 : AT2(P, 0, i), t_3 = going ? p1 : AT2(P, 1, i);
-        AT2(P, 0, i) = t_2; AT2(P, 1, i) = t_3; real t_4 = going ? p2 : AT2(P, 2, i), t_5 = going ? p3 : AT2(P, 3, i);
-        AT2(P, 2, i) = t_4; AT2(P, 3, i) = t_5;
-        real t_6 = going ? w1 : AT2(P, 4, i), t_7 = going ? w2 : AT2(P, 5, i), t_8 = going ? w3 : AT2(P, 6, i);
-        AT2(P, 4, i) = t_6; AT2(P, 5, i) = t_7; AT2(P, 6, i) = t_8;
-        real t_9 = (near | found) ? R(0.0) : AT2(P, 7, i), t_10 = going ? left : AT2(P, 8, i); AT2(P, 7, i) = t_9;
-        AT2(P, 8, i) = t_10;
+        going = AT2(P, 7, i) == R(1.0); t__r3_3r t_1 = block_body_in(S, i);
+        t__r4__r3_rb2 t_2 = path_improved(vectors_three_in(P, 4, i), t_1.a0, t_1.a1, t_1.a2, t_1.a3); p = t_2.a0;
+        w = t_2.a1; left = t_2.a2; near = t_2.a3; found = t_2.a4; t_r4 t_3 = vectors_four_in(P, 0, i);
+        vectors_put_four_in(P, 0, i, (t_r4){going ? p.a0 : t_3.a0, going ? p.a1 : t_3.a1, going ? p.a2 : t_3.a2, going
+            ? p.a3 : t_3.a3});
+        t_r3 t_4 = vectors_three_in(P, 4, i);
+        vectors_put_in(P, 4, i, (t_r3){going ? w.a0 : t_4.a0, going ? w.a1 : t_4.a1, going ? w.a2 : t_4.a2});
+        real t_5 = (near | found) ? R(0.0) : AT2(P, 7, i), t_6 = going ? left : AT2(P, 8, i); AT2(P, 7, i) = t_5;
+        AT2(P, 8, i) = t_6;
     }
     left = R(0.0);
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) { left = left + AT2(P, 7, i); }
@@ -1000,9 +988,9 @@ INLINE real block_nearer(r2 S, r2 P, w1 ok) {
 INLINE int64_t block_on_path(r2 S, r2 P, w1 ok) {
     int settled;
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-        settled = (AT2(S, 25, i) == R(-2.0)) & path_proved(AT2(P, 4, i), AT2(P, 5, i), AT2(P, 6, i), AT2(P, 8, i),
-            AT2(S, 0, i), AT2(S, 1, i), AT2(S, 2, i), AT2(S, 3, i), AT2(S, 4, i), AT2(S, 5, i), AT2(S, 21, i), AT2(S,
-            22, i), AT2(S, 23, i), AT2(S, 24, i));
+        t__r3_3r t_1 = block_body_in(S, i);
+        settled = (AT2(S, 25, i) == R(-2.0)) & path_proved(vectors_three_in(P, 4, i), AT2(P, 8, i), t_1.a0, t_1.a1,
+            t_1.a2, t_1.a3);
         ok.p[i] = settled ? 1 : ok.p[i];
     }
     return block_unsettled(ok);
@@ -1024,25 +1012,21 @@ INLINE t_i2 block_solved(r2 S, r2 P, w1 ok, int64_t hopeless, int64_t beyond, in
 }
 
 OUT_OF_LINE void block_mend(r2 S, r2 P, w1 ok, int64_t step, i1 taken, i1 status, d1 reach, int64_t balls) {
-    t_br7 u1; real p0, p1, p2, p3, w1, w2, w3;
+    t_r3 k, g, inertia, w; t_b_r4__r3_ u; t_r4 p;
     for (int64_t i = 0, end_i = ok.n0; i < end_i; i++) {
         if (ok.p[i] == 1) { continue; }
         if (i < balls && status.p[i] == 0) {
             real one_[S.n0]; r1 one = {one_, S.n0};
             for (int64_t i_ = 0; i_ < S.n0; i_++) { one_[i_] = AT2(S, i_, i); }
-            t_r3 t_1 = loop_three(one, 0), t_2 = loop_three(one, 3), t_3 = loop_three(one, 21);
-            u1 = gibbs_settle(AT2(P, 9, i), AT2(P, 10, i), AT2(P, 11, i), t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1,
-                t_2.a2, t_3.a0, t_3.a1, t_3.a2, one.p[24], one.p[25], one.p[26], 0);
-            t_ir8 t_4 = loop_safe_rotation(u1.a5, u1.a6, u1.a7, one); status.p[i] = t_4.a0; reach.p[i] = t_4.a1;
-            p0 = t_4.a2; p1 = t_4.a3; p2 = t_4.a4; p3 = t_4.a5; w1 = t_4.a6; w2 = t_4.a7; w3 = t_4.a8;
-            if (status.p[i] == 0) {
-                AT2(P, 0, i) = p0; AT2(P, 1, i) = p1; AT2(P, 2, i) = p2; AT2(P, 3, i) = p3; AT2(P, 4, i) = w1;
-                AT2(P, 5, i) = w2; AT2(P, 6, i) = w3; continue;
-            }
+            k = vectors_three(one, 0); g = vectors_three(one, 3); inertia = vectors_three(one, 21);
+            u = gibbs_settle(vectors_three_in(P, 9, i), k, g, inertia, one.p[24], one.p[25], one.p[26], 0);
+            t_ir_r4__r3_ t_1 = loop_safe_rotation(u.a2, one); status.p[i] = t_1.a0; reach.p[i] = t_1.a1; p = t_1.a2;
+            w = t_1.a3;
+            if (status.p[i] == 0) { vectors_put_four_in(P, 0, i, p); vectors_put_in(P, 4, i, w); continue; }
             taken.p[i] = step;
         }
-        AT2(S, 25, i) = R(-1.0); AT2(P, 0, i) = R(1.0); AT2(P, 1, i) = R(0.0); AT2(P, 2, i) = R(0.0);
-        AT2(P, 3, i) = R(0.0); AT2(P, 4, i) = R(0.0); AT2(P, 5, i) = R(0.0); AT2(P, 6, i) = R(0.0);
+        AT2(S, 25, i) = R(-1.0); vectors_put_four_in(P, 0, i, (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)});
+        vectors_put_in(P, 4, i, (t_r3){R(0.0), R(0.0), R(0.0)});
     }
 }
 
@@ -1058,28 +1042,24 @@ INLINE void block_stop(r2 S, r2 T, r2 radius, i1 status, w1 ok) {
 }
 
 INLINE void block_rolled(r2 S, r2 P, r2 B, w1 ok) {
+    t__r4_r2 a;
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-        t_r6 t_1 = loop_followed(AT2(P, 0, i), AT2(P, 1, i), AT2(P, 2, i), AT2(P, 3, i), AT2(S, 3, i), AT2(S, 4, i),
-            AT2(S, 5, i), AT2(B, 0, i), AT2(B, 1, i), AT2(B, 2, i), AT2(B, 3, i), AT2(B, 4, i), AT2(B, 5, i), AT2(B,
-            6, i));
-        AT2(B, 0, i) = t_1.a0; AT2(B, 1, i) = t_1.a1; AT2(B, 2, i) = t_1.a2; AT2(B, 3, i) = t_1.a3;
-        AT2(B, 4, i) = t_1.a4; AT2(B, 5, i) = t_1.a5;
+        a = loop_followed(vectors_four_in(P, 0, i), vectors_three_in(S, 3, i), vectors_four_in(B, 0, i), AT2(B, 4, i),
+            AT2(B, 5, i), AT2(B, 6, i));
+        vectors_put_four_in(B, 0, i, a.a0); AT2(B, 4, i) = a.a1; AT2(B, 5, i) = a.a2;
     }
 }
 
-INLINE void block_turn_at(real p0, real p1, real p2, real p3, r2 S, int64_t at, int64_t rest, int64_t i) {
-    t_r6 v1 = sums_turned(p0, p1, p2, p3, AT2(S, at, i), AT2(S, at + 1, i), AT2(S, at + 2, i), AT2(S, rest, i), AT2(S,
-        rest + 1, i), AT2(S, rest + 2, i));
-    AT2(S, at, i) = v1.a0; AT2(S, at + 1, i) = v1.a1; AT2(S, at + 2, i) = v1.a2; AT2(S, rest, i) = v1.a3;
-    AT2(S, rest + 1, i) = v1.a4; AT2(S, rest + 2, i) = v1.a5;
+INLINE void block_turn_in(t_r4 p, r2 S, int64_t at, int64_t rest, int64_t i) {
+    t__r3_2 v = sums_turned(p, vectors_three_in(S, at, i), vectors_three_in(S, rest, i));
+    vectors_put_in(S, at, i, v.a0); vectors_put_in(S, rest, i, v.a1);
 }
 
 INLINE void block_end_stage(r2 S, r2 P, r2 past, int64_t row, w1 ok) {
-    real p0, p1, p2, p3;
+    t_r4 p;
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
-        p0 = AT2(P, 0, i); p1 = AT2(P, 1, i); p2 = AT2(P, 2, i); p3 = AT2(P, 3, i);
-        block_turn_at(p0, p1, p2, p3, S, 0, 6, i); block_turn_at(p0, p1, p2, p3, S, 3, 9, i);
-        AT2(past, row, i) = AT2(P, 4, i); AT2(past, row + 1, i) = AT2(P, 5, i); AT2(past, row + 2, i) = AT2(P, 6, i);
+        p = vectors_four_in(P, 0, i); block_turn_in(p, S, 0, 6, i); block_turn_in(p, S, 3, 9, i);
+        vectors_put_in(past, row, i, vectors_three_in(P, 4, i));
     }
 }
 
@@ -1114,15 +1094,15 @@ INLINE void block_march_block(r2 state, r1 c, r3 weights, r2 radius, r2 enough, 
     int64_t every, r1 scale, r3 momenta, r3 verticals, i1 taken, i1 status, d1 reach, int with_body, r2 body, r3
     attitudes, r3 traces) {
     int64_t at, later, bad; ALIGNED real S_[27 * block_LANES]; r2 S = {S_, 27, block_LANES, block_LANES};
-    ALIGNED real W_[27 * block_LANES]; r2 W = {W_, 27, block_LANES, block_LANES}; ALIGNED real P_[12 * block_LANES];
-    r2 P = {P_, 12, block_LANES, block_LANES}; ALIGNED real B_[7 * block_LANES];
+    ALIGNED real other_[27 * block_LANES]; r2 other = {other_, 27, block_LANES, block_LANES};
+    ALIGNED real P_[12 * block_LANES]; r2 P = {P_, 12, block_LANES, block_LANES}; ALIGNED real B_[7 * block_LANES];
     r2 B = {B_, 7, block_LANES, block_LANES}; ALIGNED real H_[past.n0 * block_LANES];
     r2 H = {H_, past.n0, block_LANES, block_LANES};
     int64_t width = state.n1, stages = c.n0, places = weights.n1, balls = status.n0; ALIGNED int32_t ok_[width];
     w1 ok = {ok_, width}; int64_t period = max_i(1, div_i(1024, stages)); ALIGNED int64_t hopeless_[stages];
     i1 hopeless = {hopeless_, stages}; ALIGNED int64_t beyond_[stages]; i1 beyond = {beyond_, stages};
-    block_carry(state, S, width); block_carry(state, W, width); block_carry(body, B, width);
-    block_carry(past, H, width); r2 T = stages == 1 ? S : W; int64_t last = first + count, patience = 0;
+    block_carry(state, S, width); block_carry(state, other, width); block_carry(body, B, width);
+    block_carry(past, H, width); r2 T = stages == 1 ? S : other; int64_t last = first + count, patience = 0;
     for (int64_t s = 0, end_s = stages; s < end_s; s++) {
         t_i2 t_1 = block_uncertified(r2_row(radius, s), ok); hopeless.p[s] = t_1.a0; beyond.p[s] = t_1.a1;
     }
@@ -1134,9 +1114,8 @@ INLINE void block_march_block(r2 state, r1 c, r3 weights, r2 radius, r2 enough, 
             t_i2 t_2 = block_solved(T, P, ok, hopeless.p[s], beyond.p[s], patience); patience = t_2.a0; bad = t_2.a1;
             if (bad != 0) {
                 block_mend(T, P, ok, step, taken, status, reach, balls); block_stop(S, T, radius, status, ok);
-                for (int64_t other = 0, end_other = stages; other < end_other; other++) {
-                    t_i2 t_3 = block_uncertified(r2_row(radius, other), ok); hopeless.p[other] = t_3.a0;
-                    beyond.p[other] = t_3.a1;
+                for (int64_t n = 0, end_n = stages; n < end_n; n++) {
+                    t_i2 t_3 = block_uncertified(r2_row(radius, n), ok); hopeless.p[n] = t_3.a0; beyond.p[n] = t_3.a1;
                 }
             }
             if (with_body) { block_rolled(T, P, B, ok); }
@@ -1186,23 +1165,21 @@ INLINE void block_march_blocks(r2 state, r1 c, r3 weights, r2 radius, r2 enough,
 }
 
 INLINE t_ir single_step_advance(r1 momentum, r1 g, r1 tensor, real contact, r1 state, r1 q) {
-    int64_t status; real scale = loop_scaled(momentum, g, tensor, contact, state);
-    t_r3 k1 = loop_three(state, 0), g1 = loop_three(state, 3), I1 = loop_three(state, 21); real reach = R(1.0);
-    t_br7 t_1 = gibbs_settle(R(0.0), R(0.0), R(0.0), k1.a0, k1.a1, k1.a2, g1.a0, g1.a1, g1.a2, I1.a0, I1.a1, I1.a2,
-        state.p[24], state.p[25], state.p[26], 0);
-    int settled = t_1.a0;
-    real p0 = t_1.a1, p1 = t_1.a2, p2 = t_1.a3, p3 = t_1.a4, w1 = t_1.a5, w2 = t_1.a6, w3 = t_1.a7;
+    int64_t status; real scale = loop_entered(momentum, g, tensor, contact, state);
+    t_r3 k = vectors_three(state, 0), v = vectors_three(state, 3); real reach = R(1.0);
+    t_b_r4__r3_ t_1 = gibbs_settle((t_r3){R(0.0), R(0.0), R(0.0)}, k, v, vectors_three(state, 21), state.p[24],
+        state.p[25], state.p[26], 0);
+    int settled = t_1.a0; t_r4 p = t_1.a1; t_r3 u = t_1.a2;
     if (!settled) {
-        t_ir8 t_2 = loop_safe_rotation(w1, w2, w3, state); status = t_2.a0; reach = t_2.a1; p0 = t_2.a2; p1 = t_2.a3;
-        p2 = t_2.a4; p3 = t_2.a5; w1 = t_2.a6; w2 = t_2.a7; w3 = t_2.a8;
+        t_ir_r4__r3_ t_2 = loop_safe_rotation(u, state); status = t_2.a0; reach = t_2.a1; p = t_2.a2; u = t_2.a3;
         if (status != 0) { return (t_ir){status, reach}; }
     }
-    real length = R(sqrt(p0 * p0 + p1 * p1 + (p2 * p2 + p3 * p3))); q.p[0] = p0 / length; q.p[1] = p1 / length;
-    q.p[2] = p2 / length; q.p[3] = p3 / length; t_r3 t_3 = kernel_turn(p0, p1, p2, p3, k1.a0, k1.a1, k1.a2);
-    real z1 = t_3.a0, z2 = t_3.a1, z3 = t_3.a2;
-    loop_put(momentum, 0, scale * (k1.a0 + z1), scale * (k1.a1 + z2), scale * (k1.a2 + z3));
-    t_r3 t_4 = kernel_turn(p0, p1, p2, p3, g1.a0, g1.a1, g1.a2); z1 = t_4.a0; z2 = t_4.a1; z3 = t_4.a2;
-    loop_put(g, 0, g1.a0 + z1, g1.a1 + z2, g1.a2 + z3); return (t_ir){0, reach};
+    real length = R(sqrt(vectors_square_of_four(p))); q.p[0] = p.a0 / length; q.p[1] = p.a1 / length;
+    q.p[2] = p.a2 / length; q.p[3] = p.a3 / length;
+    vectors_put(momentum, 0, vectors_scaled(scale, vectors_plus(k, kernel_turn(p.a0, p.a1, p.a2, p.a3, k.a0, k.a1,
+        k.a2))));
+    vectors_put(g, 0, vectors_plus(v, kernel_turn(p.a0, p.a1, p.a2, p.a3, v.a0, v.a1, v.a2)));
+    return (t_ir){0, reach};
 }
 
 INLINE void single_step_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, i1 status, d1 reach) {
@@ -1215,37 +1192,42 @@ INLINE void single_step_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 con
 }
 
 #ifndef SINGLE
+INLINE t_r4 vectors_four(r1 array, int64_t at) {
+    return (t_r4){array.p[at], array.p[at + 1], array.p[at + 2], array.p[at + 3]};
+}
+
+INLINE void vectors_put_four(r1 array, int64_t at, t_r4 q) {
+    array.p[at] = q.a0; array.p[at + 1] = q.a1; array.p[at + 2] = q.a2; array.p[at + 3] = q.a3;
+}
+
 INLINE void long_run_placed(r1 body, int64_t i, r3 momenta, r3 verticals, r3 attitudes, r3 traces, int follows, int
     traced) {
-    r1_fill(body, R(0.0));
-    for (int64_t c = 0; c < 3; c++) { body.p[c] = AT3(momenta, i, 0, c); body.p[3 + c] = AT3(verticals, i, 0, c); }
-    body.p[6] = R(1.0);
-    if (follows) {
-        for (int64_t c = 0; c < 4; c++) { body.p[6 + c] = AT3(attitudes, i, 0, c); }
-    }
+    r1_fill(body, R(0.0)); vectors_put(body, 0, vectors_three(r2_row(r3_row(momenta, i), 0), 0));
+    vectors_put(body, 3, vectors_three(r2_row(r3_row(verticals, i), 0), 0)); body.p[6] = R(1.0);
+    if (follows) { vectors_put_four(body, 6, vectors_four(r2_row(r3_row(attitudes, i), 0), 0)); }
     if (traced) { body.p[10] = AT3(traces, i, 0, 0); body.p[11] = AT3(traces, i, 0, 1); }
 }
 
 INLINE t_ri long_step_begun(r1 body, r1 J0, real D0, real h, r1 state) {
     ALIGNED real none_[3]; memset(none_, 0, sizeof none_); r1 none = {none_, 3};
-    t_ri size = real_frexp(loop_scaled(none, none, J0, D0, state));
-    t_ri exponent = real_frexp(max_r(max_r(R(fabs(body.p[0])), R(fabs(body.p[1]))), R(fabs(body.p[2]))));
-    for (int64_t c = 0; c < 3; c++) { body.p[c] = R(ldexp(body.p[c], (int)-exponent.a1)); }
+    t_ri size = real_frexp(loop_entered(none, none, J0, D0, state));
+    t_ri exponent = real_frexp(vectors_largest(vectors_three(body, 0)));
+    vectors_put(body, 0, vectors_shifted(vectors_three(body, 0), -exponent.a1));
     t_ri mantissa = real_frexp(R(0.5) * h);
     return (t_ri){R(ldexp(mantissa.a0, (int)min_i(mantissa.a1 + exponent.a1 - (size.a1 - 2), 100))), exponent.a1};
 }
 
 INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, int64_t n, r1 state) {
-    real part = half / n; t_r3 I1 = loop_three(state, 21);
-    real spread = R(0.5) * (max_r(max_r(I1.a0, I1.a1), I1.a2) - min_r(min_r(I1.a0, I1.a1), I1.a2));
-    real k1 = part * body.p[0], k2 = part * body.p[1], k3 = part * body.p[2];
-    real size = R(sqrt(k1 * k1 + k2 * k2 + k3 * k3));
-    t_r2 within = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[24]);
-    real least = gibbs_LEFT * size / (max_r(max_r(I1.a0, I1.a1), I1.a2) + state.p[24] + spread);
-    real anywhere = gibbs_is_heavy(I1.a0, I1.a1, I1.a2, state.p[24]) ? R(-1.0) : R(1.0715086071862673e+301);
-    AT2(S, at, i) = part; AT2(S, at + 1, i) = part != R(0.0) ? R(1.0) / part : R(0.0); AT2(S, at + 2, i) = size;
-    AT2(S, 82, i) = spread; AT2(S, at + 3, i) = within.a0 >= R(0.0) ? within.a0 : anywhere;
-    AT2(S, at + 4, i) = least * least / R(18.2); AT2(S, at + 5, i) = R(1.0) / (n * n);
+    real part = half / n; t_r3 inertia = vectors_three(state, 21); real contact = state.p[24];
+    real spread = R(0.5) * (max_r(max_r(inertia.a0, inertia.a1), inertia.a2) - min_r(min_r(inertia.a0, inertia.a1),
+        inertia.a2));
+    t_r3 k = vectors_scaled(part, vectors_three(body, 0)); real size = vectors_length(k);
+    t_r2 within = gibbs_certificate(k, inertia, contact);
+    real least = gibbs_LEFT * size / (max_r(max_r(inertia.a0, inertia.a1), inertia.a2) + contact + spread);
+    real anywhere = gibbs_is_heavy(inertia, contact) ? R(-1.0) : R(1.0715086071862673e+301); AT2(S, at, i) = part;
+    AT2(S, at + 1, i) = part != R(0.0) ? R(1.0) / part : R(0.0); AT2(S, at + 2, i) = size; AT2(S, 82, i) = spread;
+    AT2(S, at + 3, i) = within.a0 >= R(0.0) ? within.a0 : anywhere; AT2(S, at + 4, i) = least * least / R(18.2);
+    AT2(S, at + 5, i) = R(1.0) / (n * n);
 }
 
 INLINE void long_run_resized(r2 S, int64_t B, int64_t b, int64_t columns, real half, r1 body, r1 state) {
@@ -1261,11 +1243,9 @@ OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, 
     int64_t i, first; int one, two; t_ri half = long_step_begun(body, J0, D0, h, state);
     for (int64_t c = 0; c < 24; c++) { AT2(S, 105 + c, b) = body.p[c]; }
     AT2(S, 129, b) = half.a0; AT2(S, 130, b) = radius; AT2(S, 134, b) = state.p[24]; AT2(S, 135, b) = R(0.0);
-    for (int64_t c = 0; c < 3; c++) { AT2(S, 131 + c, b) = state.p[18 + c]; }
-    int64_t least = 8 - columns;
+    vectors_put_in(S, 131, b, vectors_three(state, 18)); int64_t least = 8 - columns;
     for (int64_t lane = 0; lane < 4; lane++) {
-        i = lane * B + b; first = max_i(7 - lane, least);
-        for (int64_t c = 0; c < 3; c++) { AT2(S, 27 + c, i) = state.p[21 + c]; }
+        i = lane * B + b; first = max_i(7 - lane, least); vectors_put_in(S, 27, i, vectors_three(state, 21));
         AT2(S, 30, i) = state.p[24]; one = 7 - lane >= least; two = lane >= least;
         for (int64_t c = 0; c < 3; c++) { AT2(S, 79 + c, i) = AT2(beginning, first, c); }
         for (int64_t c = 0; c < 4; c++) {
@@ -1285,37 +1265,34 @@ INLINE t_r3 kernel_angular_velocity(real K1, real K2, real K3, real g1, real g2,
     return (t_r3){o_w1, o_w2, o_w3};
 }
 
-INLINE real fitted_turn_square(real h, int64_t first, real w1, real w2, real w3) {
-    real square = h * h * (w1 * w1 + (w2 * w2 + w3 * w3));
-    return square <= R(2.25) * (first * first) ? square : R(0.0);
+INLINE t_r3 vectors_cross(t_r3 a, t_r3 b) {
+    return (t_r3){a.a1 * b.a2 - a.a2 * b.a1, a.a2 * b.a0 - a.a0 * b.a2, a.a0 * b.a1 - a.a1 * b.a0};
+}
+
+INLINE real fitted_turn_square(real h, int64_t first, t_r3 w) {
+    real turned = h * h * vectors_square(w); return turned <= R(2.25) * (first * first) ? turned : R(0.0);
 }
 
 INLINE void lanes_rates(r2 S, int64_t B, int64_t first) {
-    real K1, K2, K3, g1, g2, g3, J1, J2, J3, contact, height, m1, m2, m3, x1, x2, x3, d1, d2, d3, along, across, n1,
-        n2, n3, whole, square, one;
-    t_r3 w1, a1;
+    t_r3 K, g, J, w, m, a, d, n, x; real contact, whole, one;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        K1 = AT2(S, 105, b); K2 = AT2(S, 106, b); K3 = AT2(S, 107, b); g1 = AT2(S, 108, b); g2 = AT2(S, 109, b);
-        g3 = AT2(S, 110, b); J1 = AT2(S, 131, b); J2 = AT2(S, 132, b); J3 = AT2(S, 133, b); contact = AT2(S, 134, b);
-        w1 = kernel_angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, contact);
-        height = contact * (g1 * w1.a0 + g2 * w1.a1 + g3 * w1.a2); m1 = K1 + height * g1; m2 = K2 + height * g2;
-        m3 = K3 + height * g3; x1 = m2 * w1.a2 - m3 * w1.a1; x2 = m3 * w1.a0 - m1 * w1.a2;
-        x3 = m1 * w1.a1 - m2 * w1.a0; a1 = kernel_angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact);
-        d1 = g2 * w1.a2 - g3 * w1.a1; d2 = g3 * w1.a0 - g1 * w1.a2; d3 = g1 * w1.a1 - g2 * w1.a0;
-        along = contact * (d1 * a1.a0 + d2 * a1.a1 + d3 * a1.a2);
-        across = contact * (g1 * a1.a0 + g2 * a1.a1 + g3 * a1.a2); n1 = (AT2(S, 27, b) + contact) * a1.a0;
-        n2 = (AT2(S, 28, b) + contact) * a1.a1; n3 = (AT2(S, 29, b) + contact) * a1.a2;
-        x1 = n2 * w1.a2 - n3 * w1.a1 + (m2 * a1.a2 - m3 * a1.a1) + (along * g1 + across * d1);
-        x2 = n3 * w1.a0 - n1 * w1.a2 + (m3 * a1.a0 - m1 * a1.a2) + (along * g2 + across * d2);
-        x3 = n1 * w1.a1 - n2 * w1.a0 + (m1 * a1.a1 - m2 * a1.a0) + (along * g3 + across * d3);
-        t_r3 t_1 = kernel_angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact); x1 = t_1.a0; x2 = t_1.a1;
-        x3 = t_1.a2; whole = R(2.0) * AT2(S, 129, b); square = whole * whole; AT2(S, 31, b) = K1; AT2(S, 32, b) = K2;
-        AT2(S, 33, b) = K3; AT2(S, 34, b) = g1; AT2(S, 35, b) = g2; AT2(S, 36, b) = g3; AT2(S, 37, b) = w1.a0;
-        AT2(S, 38, b) = w1.a1; AT2(S, 39, b) = w1.a2; AT2(S, 40, b) = whole * a1.a0; AT2(S, 41, b) = whole * a1.a1;
-        AT2(S, 42, b) = whole * a1.a2; AT2(S, 43, b) = square * x1; AT2(S, 44, b) = square * x2;
-        AT2(S, 45, b) = square * x3; AT2(S, 46, b) = fitted_turn_square(whole, first, w1.a0, w1.a1, w1.a2);
-        real t_2 = R(0.0), t_3 = R(0.0), t_4 = R(0.0), t_5 = AT2(S, 135, b); AT2(S, 136, b) = t_2;
-        AT2(S, 137, b) = t_3; AT2(S, 138, b) = t_4; AT2(S, 58, b) = t_5;
+        K = vectors_three_in(S, 105, b); g = vectors_three_in(S, 108, b); J = vectors_three_in(S, 131, b);
+        contact = AT2(S, 134, b);
+        w = kernel_angular_velocity(K.a0, K.a1, K.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
+        m = vectors_plus(K, vectors_scaled(contact * vectors_dot(g, w), g)); t_r3 t_1 = vectors_cross(m, w);
+        a = kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
+        d = vectors_cross(g, w);
+        n = (t_r3){(AT2(S, 27, b) + contact) * a.a0, (AT2(S, 28, b) + contact) * a.a1, (AT2(S, 29, b) + contact) *
+            a.a2};
+        x = vectors_plus(vectors_scaled(contact * vectors_dot(d, a), g), vectors_scaled(contact * vectors_dot(g, a),
+            d));
+        t_r3 t_2 = vectors_plus(vectors_plus(vectors_cross(n, w), vectors_cross(m, a)), x);
+        x = kernel_angular_velocity(t_2.a0, t_2.a1, t_2.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
+        whole = R(2.0) * AT2(S, 129, b); vectors_put_in(S, 31, b, K); vectors_put_in(S, 34, b, g);
+        vectors_put_in(S, 37, b, w); vectors_put_in(S, 40, b, vectors_scaled(whole, a));
+        vectors_put_in(S, 43, b, vectors_scaled(whole * whole, x));
+        AT2(S, 46, b) = fitted_turn_square(whole, first, w);
+        vectors_put_in(S, 136, b, (t_r3){R(0.0), R(0.0), R(0.0)}); AT2(S, 58, b) = AT2(S, 135, b);
     }
     for (int64_t row = 31; row < 47; row++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
@@ -1348,75 +1325,69 @@ INLINE void lanes_start(r2 S, int64_t i, int64_t at) {
     real t_1 = half, t_2 = AT2(S, at + 1, i) * bend / scale, t_3 = slope * slope; AT2(S, 22, i) = t_1;
     AT2(S, 23, i) = t_2; AT2(S, 24, i) = t_3; real t_4 = AT2(S, at + 3, i), t_5 = AT2(S, at + 4, i) * (scale * scale);
     AT2(S, 25, i) = t_4; AT2(S, 26, i) = t_5;
-    real t_6 = half * AT2(S, 31, i), t_7 = half * AT2(S, 32, i), t_8 = half * AT2(S, 33, i); AT2(S, 0, i) = t_6;
-    AT2(S, 1, i) = t_7; AT2(S, 2, i) = t_8; real t_9 = AT2(S, 34, i), t_10 = AT2(S, 35, i), t_11 = AT2(S, 36, i);
-    AT2(S, 3, i) = t_9; AT2(S, 4, i) = t_10; AT2(S, 5, i) = t_11; AT2(S, 9, i) = R(0.0); AT2(S, 10, i) = R(0.0);
-    AT2(S, 11, i) = R(0.0); AT2(S, 12, i) = R(0.0); AT2(S, 13, i) = R(0.0); AT2(S, 14, i) = R(0.0);
-    AT2(S, 15, i) = R(1.0); AT2(S, 16, i) = R(0.0); AT2(S, 17, i) = R(0.0); AT2(S, 18, i) = R(0.0);
-    AT2(S, 19, i) = R(0.0); AT2(S, 20, i) = R(0.0); AT2(S, 21, i) = R(0.0);
+    vectors_put_in(S, 0, i, vectors_scaled(half, vectors_three_in(S, 31, i)));
+    vectors_put_in(S, 3, i, vectors_three_in(S, 34, i)); vectors_put_in(S, 9, i, (t_r3){R(0.0), R(0.0), R(0.0)});
+    vectors_put_in(S, 12, i, (t_r3){R(0.0), R(0.0), R(0.0)});
+    vectors_put_four_in(S, 15, i, (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)});
+    vectors_put_in(S, 19, i, (t_r3){R(0.0), R(0.0), R(0.0)});
+}
+
+INLINE t_r3 lanes_expanded(r2 S, int64_t i, real a, real b, real c) {
+    return vectors_plus(vectors_plus(vectors_scaled(a, vectors_three_in(S, 37, i)), vectors_scaled(b,
+        vectors_three_in(S, 40, i))), vectors_scaled(c, vectors_three_in(S, 43, i)));
 }
 
 INLINE void lanes_begin(r2 S, int64_t B) {
-    real tangent, a, b, c;
     INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
-        lanes_start(S, i, 59); tangent = AT2(S, 83, i); a = AT2(S, 79, i); b = AT2(S, 80, i); c = AT2(S, 81, i);
-        AT2(S, 6, i) = tangent * (a * AT2(S, 37, i) + b * AT2(S, 40, i) + c * AT2(S, 43, i));
-        AT2(S, 7, i) = tangent * (a * AT2(S, 38, i) + b * AT2(S, 41, i) + c * AT2(S, 44, i));
-        AT2(S, 8, i) = tangent * (a * AT2(S, 39, i) + b * AT2(S, 42, i) + c * AT2(S, 45, i));
+        lanes_start(S, i, 59); t_r3 t_1 = vectors_three_in(S, 79, i);
+        vectors_put_in(S, 6, i, vectors_scaled(AT2(S, 83, i), lanes_expanded(S, i, t_1.a0, t_1.a1, t_1.a2)));
     }
 }
 
 INLINE void lanes_finish(r2 S, int64_t i) {
-    real t_1 = AT2(S, 15, i), t_2 = AT2(S, 16, i), t_3 = AT2(S, 17, i), t_4 = AT2(S, 18, i); AT2(S, 87, i) = t_1;
-    AT2(S, 88, i) = t_2; AT2(S, 89, i) = t_3; AT2(S, 90, i) = t_4;
-    real t_5 = AT2(S, 19, i), t_6 = AT2(S, 20, i), t_7 = AT2(S, 21, i); AT2(S, 91, i) = t_5; AT2(S, 92, i) = t_6;
-    AT2(S, 93, i) = t_7;
+    vectors_put_four_in(S, 87, i, vectors_four_in(S, 15, i)); vectors_put_in(S, 91, i, vectors_three_in(S, 19, i));
 }
 
 INLINE void lanes_begin_second(r2 S, int64_t B, int64_t lane, r2 weights) {
-    int64_t i, j, k, m; real tangent, x1, x2, x3;
+    t_r3 omega, rate, curve, first, second, later, third, fourth, x, y;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) { lanes_start(S, lane * B + b, 65); }
     real w0 = AT2(weights, lane, 0), w1 = AT2(weights, lane, 1), w2 = AT2(weights, lane, 2);
     real w3 = AT2(weights, lane, 3), w4 = AT2(weights, lane, 4), w5 = AT2(weights, lane, 5);
     real w6 = AT2(weights, lane, 6), w7 = AT2(weights, lane, 7);
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        i = b; j = B + b; k = 2 * B + b; m = 3 * B + b; tangent = AT2(S, 83, lane * B + b);
-        x1 = w0 * AT2(S, 37, i) + w1 * AT2(S, 40, i) + (w2 * AT2(S, 43, i) + w3 * AT2(S, 84, i));
-        x2 = w0 * AT2(S, 38, i) + w1 * AT2(S, 41, i) + (w2 * AT2(S, 44, i) + w3 * AT2(S, 85, i));
-        x3 = w0 * AT2(S, 39, i) + w1 * AT2(S, 42, i) + (w2 * AT2(S, 45, i) + w3 * AT2(S, 86, i));
-        x1 = x1 + (w4 * AT2(S, 84, j) + w5 * AT2(S, 84, k) + (w6 * AT2(S, 84, m) + w7 * AT2(S, 136, i)));
-        x2 = x2 + (w4 * AT2(S, 85, j) + w5 * AT2(S, 85, k) + (w6 * AT2(S, 85, m) + w7 * AT2(S, 137, i)));
-        x3 = x3 + (w4 * AT2(S, 86, j) + w5 * AT2(S, 86, k) + (w6 * AT2(S, 86, m) + w7 * AT2(S, 138, i)));
-        AT2(S, 6, lane * B + b) = tangent * x1; AT2(S, 7, lane * B + b) = tangent * x2;
-        AT2(S, 8, lane * B + b) = tangent * x3;
+        omega = vectors_three_in(S, 37, b); rate = vectors_three_in(S, 40, b); curve = vectors_three_in(S, 43, b);
+        first = vectors_three_in(S, 84, b); second = vectors_three_in(S, 84, B + b);
+        later = vectors_three_in(S, 136, b); third = vectors_three_in(S, 84, 2 * B + b);
+        fourth = vectors_three_in(S, 84, 3 * B + b);
+        x = vectors_plus(vectors_plus(vectors_scaled(w0, omega), vectors_scaled(w1, rate)),
+            vectors_plus(vectors_scaled(w2, curve), vectors_scaled(w3, first)));
+        y = vectors_plus(vectors_plus(vectors_scaled(w4, second), vectors_scaled(w5, third)),
+            vectors_plus(vectors_scaled(w6, fourth), vectors_scaled(w7, later)));
+        vectors_put_in(S, 6, lane * B + b, vectors_scaled(AT2(S, 83, lane * B + b), vectors_plus(x, y)));
     }
 }
 
 INLINE int64_t lanes_checked(r2 S, int64_t B, int again) {
-    real k1, k2, k3, g1, g2, g3, u1, u2, u3, I1, I2, I3, contact, squares, p0, first, bent; Round r; t_r7 p1;
+    t_r3 u, k, g, inertia; real contact, squares, p0, first, bent; Round r; t__r4__r3_r p; t_r9 c;
     int settled, closed;
     INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
-        k1 = AT2(S, 0, i); k2 = AT2(S, 1, i); k3 = AT2(S, 2, i); g1 = AT2(S, 3, i); g2 = AT2(S, 4, i);
-        g3 = AT2(S, 5, i); u1 = AT2(S, 6, i); u2 = AT2(S, 7, i); u3 = AT2(S, 8, i); I1 = AT2(S, 27, i);
-        I2 = AT2(S, 28, i); I3 = AT2(S, 29, i); contact = AT2(S, 30, i);
-        if (!again) {
-            r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, 0); u1 = r.w1; u2 = r.w2;
-            u3 = r.w3;
-        }
-        r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact, 0);
-        p1 = gibbs_second_round(r, k1, k2, k3, I1, I2, I3);
-        squares = r.c11 * r.c11 + r.c12 * r.c12 + r.c13 * r.c13 + (r.c21 * r.c21 + r.c22 * r.c22 + r.c23 * r.c23);
-        p0 = r.p0; first = r.first;
-        bent = AT2(S, 24, i) * (squares + (r.c31 * r.c31 + r.c32 * r.c32 + r.c33 * r.c33));
-        settled = (p0 > R(0.0)) & (p1.a3 * p1.a3 + (p1.a4 * p1.a4 + p1.a5 * p1.a5) <= AT2(S, 25, i));
+        u = vectors_three_in(S, 6, i); k = vectors_three_in(S, 0, i); g = vectors_three_in(S, 3, i);
+        inertia = vectors_three_in(S, 27, i); contact = AT2(S, 30, i);
+        if (!again) { r = gibbs_newton_round(u, k, g, inertia, contact, 0); u = r.w; }
+        r = gibbs_newton_round(u, k, g, inertia, contact, 0); p = gibbs_second_round(r, k, inertia); c = r.cofactors;
+        squares = vectors_dot((t_r3){c.a0, c.a1, c.a2}, (t_r3){c.a0, c.a1, c.a2}) + vectors_dot((t_r3){c.a3, c.a4,
+            c.a5}, (t_r3){c.a3, c.a4, c.a5});
+        p0 = p.a0.a0; first = r.first;
+        bent = AT2(S, 24, i) * (squares + vectors_dot((t_r3){c.a6, c.a7, c.a8}, (t_r3){c.a6, c.a7, c.a8}));
+        settled = (p0 > R(0.0)) & (vectors_square(p.a1) <= AT2(S, 25, i));
         settled = settled & (bent * first <= R(0.015625) * (p0 * p0));
-        settled = settled & (bent * (max_r(first, p1.a6) * p1.a6) <= AT2(S, 26, i) * (p0 * p0));
-        closed = again & (AT2(S, 57, i) == R(0.0));
-        real t_1 = closed ? AT2(S, 53, i) : p0, t_2 = closed ? AT2(S, 54, i) : p1.a0; AT2(S, 53, i) = t_1;
-        AT2(S, 54, i) = t_2; real t_3 = closed ? AT2(S, 55, i) : p1.a1, t_4 = closed ? AT2(S, 56, i) : p1.a2;
-        AT2(S, 55, i) = t_3; AT2(S, 56, i) = t_4;
-        real t_5 = closed ? AT2(S, 6, i) : p1.a3, t_6 = closed ? AT2(S, 7, i) : p1.a4; AT2(S, 6, i) = t_5;
-        AT2(S, 7, i) = t_6; AT2(S, 8, i) = closed ? AT2(S, 8, i) : p1.a5;
+        settled = settled & (bent * (max_r(first, p.a2) * p.a2) <= AT2(S, 26, i) * (p0 * p0));
+        closed = again & (AT2(S, 57, i) == R(0.0)); t_r4 t_1 = vectors_four_in(S, 53, i);
+        vectors_put_four_in(S, 53, i, (t_r4){closed ? t_1.a0 : p.a0.a0, closed ? t_1.a1 : p.a0.a1, closed ? t_1.a2 :
+            p.a0.a2, closed ? t_1.a3 : p.a0.a3});
+        t_r3 t_2 = vectors_three_in(S, 6, i);
+        vectors_put_in(S, 6, i, (t_r3){closed ? t_2.a0 : p.a1.a0, closed ? t_2.a1 : p.a1.a1, closed ? t_2.a2 :
+            p.a1.a2});
         AT2(S, 57, i) = ((closed | settled) | (AT2(S, 58, i) != R(0.0))) ? R(0.0) : R(1.0);
     }
     int64_t left = 0;
@@ -1436,67 +1407,51 @@ INLINE void lanes_lose(r2 S, int64_t B) {
     }
 }
 
+INLINE t_r4 vectors_conjugate(t_r4 q) { return (t_r4){q.a0, -q.a1, -q.a2, -q.a3}; }
 INLINE void lanes_moved(r2 S, int64_t B, int traced) {
-    real p0, p1, p2, p3, w1, w2, w3, scale, s1, s2, s3, x1, x2, x3, v1, v2, v3, d, e, f, a, b, c, tangent, y1, y2, y3;
+    t_r4 p, q; t_r3 w, k, g, s, v, x, d, a, y;
     INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
-        p0 = AT2(S, 53, i); p1 = AT2(S, 54, i); p2 = AT2(S, 55, i); p3 = AT2(S, 56, i); w1 = AT2(S, 6, i);
-        w2 = AT2(S, 7, i); w3 = AT2(S, 8, i);
+        p = vectors_four_in(S, 53, i); q = vectors_four_in(S, 15, i); w = vectors_three_in(S, 6, i);
+        k = vectors_three_in(S, 0, i); g = vectors_three_in(S, 3, i);
         if (traced) {
-            scale = R(1.0) / (R(1.0) + (w1 * w1 + (w2 * w2 + w3 * w3)));
-            t_r3 t_1 = kernel_centre_step(R(1.0), w1, w2, w3, AT2(S, 3, i), AT2(S, 4, i), AT2(S, 5, i)); s1 = t_1.a0;
-            s2 = t_1.a1; s3 = t_1.a2; s1 = scale * s1; s2 = scale * s2; s3 = scale * s3;
-            t_r3 t_2 = kernel_turn(AT2(S, 15, i), -AT2(S, 16, i), -AT2(S, 17, i), -AT2(S, 18, i), s1, s2, s3);
-            x1 = t_2.a0; x2 = t_2.a1; x3 = t_2.a2; AT2(S, 19, i) = AT2(S, 19, i) + (s1 + x1);
-            AT2(S, 20, i) = AT2(S, 20, i) + (s2 + x2); AT2(S, 21, i) = AT2(S, 21, i) + (s3 + x3);
+            s = vectors_scaled(R(1.0) / (R(1.0) + vectors_square(w)), kernel_centre_step(R(1.0), w.a0, w.a1, w.a2,
+                g.a0, g.a1, g.a2));
+            t_r4 t_1 = vectors_conjugate(q);
+            vectors_put_in(S, 19, i, vectors_plus(vectors_three_in(S, 19, i), vectors_plus(s, kernel_turn(t_1.a0,
+                t_1.a1, t_1.a2, t_1.a3, s.a0, s.a1, s.a2))));
         }
-        t_r3 t_3 = kernel_turn(p0, p1, p2, p3, AT2(S, 0, i), AT2(S, 1, i), AT2(S, 2, i)); x1 = t_3.a0; x2 = t_3.a1;
-        x3 = t_3.a2; AT2(S, 0, i) = AT2(S, 0, i) + x1; AT2(S, 1, i) = AT2(S, 1, i) + x2;
-        AT2(S, 2, i) = AT2(S, 2, i) + x3;
-        t_r3 t_4 = kernel_turn(p0, p1, p2, p3, AT2(S, 3, i), AT2(S, 4, i), AT2(S, 5, i)); x1 = t_4.a0; x2 = t_4.a1;
-        x3 = t_4.a2; AT2(S, 3, i) = AT2(S, 3, i) + x1; AT2(S, 4, i) = AT2(S, 4, i) + x2;
-        AT2(S, 5, i) = AT2(S, 5, i) + x3;
-        t_r4 t_5 = kernel_compose(AT2(S, 15, i), AT2(S, 16, i), AT2(S, 17, i), AT2(S, 18, i), R(1.0), w1, w2, w3);
-        AT2(S, 15, i) = t_5.a0; AT2(S, 16, i) = t_5.a1; AT2(S, 17, i) = t_5.a2; AT2(S, 18, i) = t_5.a3;
-        v1 = AT2(S, 9, i); v2 = AT2(S, 10, i); v3 = AT2(S, 11, i); x1 = AT2(S, 12, i); x2 = AT2(S, 13, i);
-        x3 = AT2(S, 14, i); AT2(S, 9, i) = w1; AT2(S, 10, i) = w2; AT2(S, 11, i) = w3; AT2(S, 12, i) = v1;
-        AT2(S, 13, i) = v2; AT2(S, 14, i) = v3; d = AT2(S, 47, i); e = AT2(S, 48, i); f = AT2(S, 49, i);
-        a = AT2(S, 50, i); b = AT2(S, 51, i); c = AT2(S, 52, i); tangent = AT2(S, 83, i);
-        y1 = d * AT2(S, 37, i) + e * AT2(S, 40, i) + f * AT2(S, 43, i);
-        y2 = d * AT2(S, 38, i) + e * AT2(S, 41, i) + f * AT2(S, 44, i);
-        y3 = d * AT2(S, 39, i) + e * AT2(S, 42, i) + f * AT2(S, 45, i);
-        AT2(S, 6, i) = a * w1 + b * v1 + (c * x1 + tangent * y1);
-        AT2(S, 7, i) = a * w2 + b * v2 + (c * x2 + tangent * y2);
-        AT2(S, 8, i) = a * w3 + b * v3 + (c * x3 + tangent * y3);
+        vectors_put_in(S, 0, i, vectors_plus(k, kernel_turn(p.a0, p.a1, p.a2, p.a3, k.a0, k.a1, k.a2)));
+        vectors_put_in(S, 3, i, vectors_plus(g, kernel_turn(p.a0, p.a1, p.a2, p.a3, g.a0, g.a1, g.a2)));
+        vectors_put_four_in(S, 15, i, kernel_compose(q.a0, q.a1, q.a2, q.a3, R(1.0), w.a0, w.a1, w.a2));
+        v = vectors_three_in(S, 9, i); x = vectors_three_in(S, 12, i); vectors_put_in(S, 9, i, w);
+        vectors_put_in(S, 12, i, v); d = vectors_three_in(S, 47, i); a = vectors_three_in(S, 50, i);
+        y = vectors_scaled(AT2(S, 83, i), lanes_expanded(S, i, d.a0, d.a1, d.a2));
+        vectors_put_in(S, 6, i, vectors_plus(vectors_plus(vectors_scaled(a.a0, w), vectors_scaled(a.a1, v)),
+            vectors_plus(vectors_scaled(a.a2, x), y)));
     }
 }
 
-INLINE t_r12 long_step_moved_body(real k1, real k2, real k3, real g1, real g2, real g3, real a0, real a1, real a2,
-    real a3, real x, real y, real q0, real q1, real q2, real q3, real y1, real y2, real y3, real radius) {
-    t_r3 t_1 = kernel_turn(q0, q1, q2, q3, k1, k2, k3); real d1 = t_1.a0, d2 = t_1.a1, d3 = t_1.a2; k1 = k1 + d1;
-    k2 = k2 + d2; k3 = k3 + d3; t_r3 t_2 = kernel_turn(q0, q1, q2, q3, g1, g2, g3); d1 = t_2.a0; d2 = t_2.a1;
-    d3 = t_2.a2; g1 = g1 + d1; g2 = g2 + d2; g3 = g3 + d3; t_r3 t_3 = kernel_rotate(a0, a1, a2, a3, y1, y2, y3);
-    d1 = t_3.a0; d2 = t_3.a1; x = x + radius * d1; y = y + radius * d2;
-    t_r4 t_4 = kernel_compose(a0, a1, a2, a3, q0, q1, q2, q3); a0 = t_4.a0; a1 = t_4.a1; a2 = t_4.a2; a3 = t_4.a3;
-    real scale = R(1.0) / R(sqrt(a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3)));
-    return (t_r12){k1, k2, k3, g1, g2, g3, a0 * scale, a1 * scale, a2 * scale, a3 * scale, x, y};
+INLINE t_r4 vectors_plus_four(t_r4 a, t_r4 b) { return (t_r4){a.a0 + b.a0, a.a1 + b.a1, a.a2 + b.a2, a.a3 + b.a3}; }
+INLINE t__r3_2_r4_r2 long_step_moved_body(t_r3 k, t_r3 g, t_r4 a, real x, real y, t_r4 q, t_r3 s, real radius) {
+    t_r3 d1 = kernel_rotate(a.a0, a.a1, a.a2, a.a3, s.a0, s.a1, s.a2);
+    t_r4 b = kernel_compose(a.a0, a.a1, a.a2, a.a3, q.a0, q.a1, q.a2, q.a3);
+    b = vectors_scaled_four(R(1.0) / R(sqrt(vectors_square_of_four(b))), b);
+    return (t__r3_2_r4_r2){vectors_plus(k, kernel_turn(q.a0, q.a1, q.a2, q.a3, k.a0, k.a1, k.a2)), vectors_plus(g,
+        kernel_turn(q.a0, q.a1, q.a2, q.a3, g.a0, g.a1, g.a2)), b, x + radius * d1.a0, y + radius * d1.a1};
 }
 
 INLINE void lanes_gather(r2 S, int64_t B) {
-    real a0, a1, a2, a3, b0, b1, b2, b3, one, two, w, v, k1, k2, k3, g1, g2, g3, x, y, d0, d1, d2, d3, more, l1, l2,
-        l3, h1, h2, h3;
-    int rests;
+    t_r4 a, b, c; real one, two, w, v, x, y, more; int rests; t_r3 k, g, l, h;
     INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
-        a0 = AT2(S, 87, i); a1 = AT2(S, 88, i); a2 = AT2(S, 89, i); a3 = AT2(S, 90, i); b0 = AT2(S, 15, i);
-        b1 = AT2(S, 16, i); b2 = AT2(S, 17, i); b3 = AT2(S, 18, i);
-        one = R(1.0) / R(sqrt(a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3)));
-        two = R(1.0) / R(sqrt(b0 * b0 + b1 * b1 + (b2 * b2 + b3 * b3))); w = AT2(S, 71, i) * one;
-        v = AT2(S, 72, i) * two; AT2(S, 94, i) = w * a0 + v * b0; AT2(S, 95, i) = w * a1 + v * b1;
-        AT2(S, 96, i) = w * a2 + v * b2; AT2(S, 97, i) = w * a3 + v * b3; w = AT2(S, 73, i) * one;
-        v = AT2(S, 74, i) * two; AT2(S, 98, i) = w * a0 + v * b0; AT2(S, 99, i) = w * a1 + v * b1;
-        AT2(S, 100, i) = w * a2 + v * b2; AT2(S, 101, i) = w * a3 + v * b3; w = AT2(S, 71, i); v = AT2(S, 72, i);
-        AT2(S, 102, i) = w * AT2(S, 91, i) + v * AT2(S, 19, i);
-        AT2(S, 103, i) = w * AT2(S, 92, i) + v * AT2(S, 20, i);
-        AT2(S, 104, i) = w * AT2(S, 93, i) + v * AT2(S, 21, i);
+        a = vectors_four_in(S, 87, i); b = vectors_four_in(S, 15, i);
+        one = R(1.0) / R(sqrt(vectors_square_of_four(a))); two = R(1.0) / R(sqrt(vectors_square_of_four(b)));
+        w = AT2(S, 71, i); v = AT2(S, 72, i);
+        vectors_put_four_in(S, 94, i, vectors_plus_four(vectors_scaled_four(w * one, a), vectors_scaled_four(v * two,
+            b)));
+        vectors_put_four_in(S, 98, i, vectors_plus_four(vectors_scaled_four(AT2(S, 73, i) * one, a),
+            vectors_scaled_four(AT2(S, 74, i) * two, b)));
+        vectors_put_in(S, 102, i, vectors_plus(vectors_scaled(w, vectors_three_in(S, 91, i)), vectors_scaled(v,
+            vectors_three_in(S, 19, i))));
     }
     for (int64_t c = 0; c < 11; c++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
@@ -1505,18 +1460,16 @@ INLINE void lanes_gather(r2 S, int64_t B) {
         }
     }
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        rests = AT2(S, 58, b) != R(0.0); k1 = AT2(S, 105, b); k2 = AT2(S, 106, b); k3 = AT2(S, 107, b);
-        g1 = AT2(S, 108, b); g2 = AT2(S, 109, b); g3 = AT2(S, 110, b); a0 = AT2(S, 111, b); a1 = AT2(S, 112, b);
-        a2 = AT2(S, 113, b); a3 = AT2(S, 114, b); x = AT2(S, 115, b); y = AT2(S, 116, b); d0 = AT2(S, 98, b);
-        d1 = AT2(S, 99, b); d2 = AT2(S, 100, b); d3 = AT2(S, 101, b);
-        more = R(2.0) * R(sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3)));
-        t_r12 t_1 = long_step_moved_body(k1, k2, k3, g1, g2, g3, a0, a1, a2, a3, x, y, AT2(S, 94, b), AT2(S, 95, b),
-            AT2(S, 96, b), AT2(S, 97, b), AT2(S, 102, b), AT2(S, 103, b), AT2(S, 104, b), AT2(S, 130, b));
-        l1 = t_1.a0; l2 = t_1.a1; l3 = t_1.a2; h1 = t_1.a3; h2 = t_1.a4; h3 = t_1.a5; b0 = t_1.a6; b1 = t_1.a7;
-        b2 = t_1.a8; b3 = t_1.a9; v = t_1.a10; w = t_1.a11; AT2(S, 105, b) = rests ? k1 : l1;
-        AT2(S, 106, b) = rests ? k2 : l2; AT2(S, 107, b) = rests ? k3 : l3; AT2(S, 108, b) = rests ? g1 : h1;
-        AT2(S, 109, b) = rests ? g2 : h2; AT2(S, 110, b) = rests ? g3 : h3; AT2(S, 111, b) = rests ? a0 : b0;
-        AT2(S, 112, b) = rests ? a1 : b1; AT2(S, 113, b) = rests ? a2 : b2; AT2(S, 114, b) = rests ? a3 : b3;
+        rests = AT2(S, 58, b) != R(0.0); k = vectors_three_in(S, 105, b); g = vectors_three_in(S, 108, b);
+        a = vectors_four_in(S, 111, b); x = AT2(S, 115, b); y = AT2(S, 116, b);
+        more = R(2.0) * R(sqrt(vectors_square_of_four(vectors_four_in(S, 98, b))));
+        t__r3_2_r4_r2 t_1 = long_step_moved_body(k, g, a, x, y, vectors_four_in(S, 94, b), vectors_three_in(S, 102,
+            b), AT2(S, 130, b));
+        l = t_1.a0; h = t_1.a1; c = t_1.a2; v = t_1.a3; w = t_1.a4;
+        vectors_put_in(S, 105, b, (t_r3){rests ? k.a0 : l.a0, rests ? k.a1 : l.a1, rests ? k.a2 : l.a2});
+        vectors_put_in(S, 108, b, (t_r3){rests ? g.a0 : h.a0, rests ? g.a1 : h.a1, rests ? g.a2 : h.a2});
+        vectors_put_four_in(S, 111, b, (t_r4){rests ? a.a0 : c.a0, rests ? a.a1 : c.a1, rests ? a.a2 : c.a2, rests ?
+            a.a3 : c.a3});
         AT2(S, 115, b) = rests ? x : v; AT2(S, 116, b) = rests ? y : w;
         AT2(S, 117, b) = AT2(S, 117, b) + (rests ? R(0.0) : more);
     }
@@ -1550,15 +1503,14 @@ INLINE int lanes_side_by_side(r2 S, int64_t B, int64_t columns, int traced, r3 f
         else { lanes_moved(S, B, 0); }
         if (slot == 0) {
             INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
-                real t_1 = AT2(S, 9, i) * AT2(S, 23, i), t_2 = AT2(S, 10, i) * AT2(S, 23, i); AT2(S, 84, i) = t_1;
-                AT2(S, 85, i) = t_2; AT2(S, 86, i) = AT2(S, 11, i) * AT2(S, 23, i);
+                vectors_put_in(S, 84, i, vectors_scaled(AT2(S, 23, i), vectors_three_in(S, 9, i)));
             }
         }
         else {
             if (lane == second && lane < 4) {
                 INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-                    i = lane * B + b; real t_3 = AT2(S, 9, i) * AT2(S, 23, i), t_4 = AT2(S, 10, i) * AT2(S, 23, i);
-                    AT2(S, 136, b) = t_3; AT2(S, 137, b) = t_4; AT2(S, 138, b) = AT2(S, 11, i) * AT2(S, 23, i);
+                    i = lane * B + b;
+                    vectors_put_in(S, 136, b, vectors_scaled(AT2(S, 23, i), vectors_three_in(S, 9, i)));
                 }
             }
         }
@@ -1567,79 +1519,69 @@ INLINE int lanes_side_by_side(r2 S, int64_t B, int64_t columns, int traced, r3 f
     lanes_gather(S, B); return lost;
 }
 
-INLINE t_ir8 long_step_column(r1 body, real half, int64_t n, real square, r1 state) {
-    int settled; real p0, p1, p2, p3, w1, w2, w3, reach, scale, s1, s2, s3, d1, d2, d3; int64_t status;
-    real part = half / n * fitted_fitted(square * (R(1.0) / (n * n))), k1 = part * body.p[0], k2 = part * body.p[1];
-    real k3 = part * body.p[2]; t_r3 t_1 = loop_three(body, 3); real g1 = t_1.a0, g2 = t_1.a1, g3 = t_1.a2;
-    t_r3 I1 = loop_three(state, 21); t_r2 t_2 = gibbs_certificate(k1, k2, k3, I1.a0, I1.a1, I1.a2, state.p[24]);
-    state.p[25] = t_2.a0; state.p[26] = t_2.a1;
-    t_r3 t_3 = kernel_angular_velocity(k1, k2, k3, g1, g2, g3, state.p[18], state.p[19], state.p[20], state.p[24]);
-    real u1 = t_3.a0, u2 = t_3.a1, u3 = t_3.a2, v1 = u1, v2 = u2, v3 = u3, q0 = R(1.0), q1 = R(0.0), q2 = R(0.0);
-    real q3 = R(0.0), y1 = R(0.0), y2 = R(0.0), y3 = R(0.0);
+INLINE t_ir_r4__r3_ long_step_column(r1 body, real half, int64_t n, real square, r1 state) {
+    int settled; t_r4 p, unit; t_r3 w; int64_t status; real reach, size;
+    t_r3 k = vectors_scaled(half / n * fitted_fitted(square * (R(1.0) / (n * n))), vectors_three(body, 0));
+    t_r3 g = vectors_three(body, 3), inertia = vectors_three(state, 21); real contact = state.p[24];
+    t_r2 t_1 = gibbs_certificate(k, inertia, contact); state.p[25] = t_1.a0; state.p[26] = t_1.a1;
+    t_r3 t_2 = vectors_three(state, 18);
+    t_r3 u = kernel_angular_velocity(k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, t_2.a0, t_2.a1, t_2.a2, contact), v = u;
+    t_r4 q = (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)}; t_r3 y = (t_r3){R(0.0), R(0.0), R(0.0)};
     for (int64_t i_0 = 0, end_i_0 = n; i_0 < end_i_0; i_0++) {
-        t_br7 t_4 = gibbs_settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1.a0, I1.a1, I1.a2, state.p[24], state.p[25],
-            state.p[26], 0);
-        settled = t_4.a0; p0 = t_4.a1; p1 = t_4.a2; p2 = t_4.a3; p3 = t_4.a4; w1 = t_4.a5; w2 = t_4.a6; w3 = t_4.a7;
+        t_b_r4__r3_ t_3 = gibbs_settle(u, k, g, inertia, contact, state.p[25], state.p[26], 0); settled = t_3.a0;
+        p = t_3.a1; w = t_3.a2;
         if (!settled) {
-            loop_put(state, 0, k1, k2, k3); loop_put(state, 3, g1, g2, g3);
-            t_ir8 t_5 = loop_safe_rotation(w1, w2, w3, state); status = t_5.a0; reach = t_5.a1; p0 = t_5.a2;
-            p1 = t_5.a3; p2 = t_5.a4; p3 = t_5.a5; w1 = t_5.a6; w2 = t_5.a7; w3 = t_5.a8;
-            if (status != 0) { return (t_ir8){status, reach, q0, q1, q2, q3, y1, y2, y3}; }
+            vectors_put(state, 0, k); vectors_put(state, 3, g); t_ir_r4__r3_ t_4 = loop_safe_rotation(w, state);
+            status = t_4.a0; reach = t_4.a1; p = t_4.a2; w = t_4.a3;
+            if (status != 0) { return (t_ir_r4__r3_){status, reach, q, y}; }
         }
-        square = p0 * p0 + p1 * p1 + (p2 * p2 + p3 * p3);
-        if (!(square > R(0.0))) { return (t_ir8){2, R(0.0), q0, q1, q2, q3, y1, y2, y3}; }
-        scale = R(1.0) / R(sqrt(square));
-        t_r3 t_6 = kernel_centre_step(p0 * scale, p1 * scale, p2 * scale, p3 * scale, g1, g2, g3); s1 = t_6.a0;
-        s2 = t_6.a1; s3 = t_6.a2; t_r3 t_7 = kernel_rotate(q0, q1, q2, q3, s1, s2, s3); s1 = t_7.a0; s2 = t_7.a1;
-        s3 = t_7.a2; y1 = y1 + s1; y2 = y2 + s2; y3 = y3 + s3; t_r3 t_8 = kernel_turn(p0, p1, p2, p3, k1, k2, k3);
-        d1 = t_8.a0; d2 = t_8.a1; d3 = t_8.a2; k1 = k1 + d1; k2 = k2 + d2; k3 = k3 + d3;
-        t_r3 t_9 = kernel_turn(p0, p1, p2, p3, g1, g2, g3); d1 = t_9.a0; d2 = t_9.a1; d3 = t_9.a2; g1 = g1 + d1;
-        g2 = g2 + d2; g3 = g3 + d3;
-        t_r4 t_10 = kernel_compose(q0, q1, q2, q3, p0 * scale, p1 * scale, p2 * scale, p3 * scale); q0 = t_10.a0;
-        q1 = t_10.a1; q2 = t_10.a2; q3 = t_10.a3; u1 = R(2.0) * w1 - v1; u2 = R(2.0) * w2 - v2; u3 = R(2.0) * w3 - v3;
-        v1 = w1; v2 = w2; v3 = w3;
+        size = vectors_square_of_four(p);
+        if (!(size > R(0.0))) { return (t_ir_r4__r3_){2, R(0.0), q, y}; }
+        unit = vectors_scaled_four(R(1.0) / R(sqrt(size)), p);
+        t_r3 t_5 = kernel_centre_step(unit.a0, unit.a1, unit.a2, unit.a3, g.a0, g.a1, g.a2);
+        y = vectors_plus(y, kernel_rotate(q.a0, q.a1, q.a2, q.a3, t_5.a0, t_5.a1, t_5.a2));
+        k = vectors_plus(k, kernel_turn(p.a0, p.a1, p.a2, p.a3, k.a0, k.a1, k.a2));
+        g = vectors_plus(g, kernel_turn(p.a0, p.a1, p.a2, p.a3, g.a0, g.a1, g.a2));
+        q = kernel_compose(q.a0, q.a1, q.a2, q.a3, unit.a0, unit.a1, unit.a2, unit.a3);
+        u = vectors_minus(vectors_scaled(R(2.0), w), v); v = w;
     }
-    return (t_ir8){0, R(1.0), q0, q1, q2, q3, y1, y2, y3};
+    return (t_ir_r4__r3_){0, R(1.0), q, y};
 }
 
-INLINE t_r3 long_step_twist(real q0, real q1, real q2, real q3, real d0, real d1, real d2, real d3) {
-    t_r4 x = kernel_compose(q0, -q1, -q2, -q3, d0, d1, d2, d3);
-    return (t_r3){R(2.0) * x.a1, R(2.0) * x.a2, R(2.0) * x.a3};
+INLINE t_r3 long_step_twist(t_r4 q, t_r4 d) {
+    t_r4 t_1 = vectors_conjugate(q), t_2 = kernel_compose(t_1.a0, t_1.a1, t_1.a2, t_1.a3, d.a0, d.a1, d.a2, d.a3);
+    return vectors_scaled(R(2.0), (t_r3){t_2.a1, t_2.a2, t_2.a3});
 }
 
 INLINE t_ir long_step_long_step(r1 body, real half, real radius, r2 sums, r1 state) {
-    t_ir8 status; real w, v, d0, d1, d2, d3; int64_t at; real q0 = R(0.0), q1 = R(0.0), q2 = R(0.0), q3 = R(0.0);
-    ALIGNED real changes_[3 * 4]; memset(changes_, 0, sizeof changes_); r2 changes = {changes_, 3, 4, 4};
-    real y1 = R(0.0), y2 = R(0.0), y3 = R(0.0), z1 = R(0.0), z2 = R(0.0), z3 = R(0.0);
-    t_r3 w1 = kernel_angular_velocity(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], state.p[18],
-        state.p[19], state.p[20], state.p[24]);
-    int64_t first = 8 - sums.n1; real square = fitted_turn_square(R(2.0) * half, first, w1.a0, w1.a1, w1.a2);
+    t_ir_r4__r3_ status; t_r4 d; t_r4 q = (t_r4){R(0.0), R(0.0), R(0.0), R(0.0)};
+    t_r3 y = (t_r3){R(0.0), R(0.0), R(0.0)}, z = (t_r3){R(0.0), R(0.0), R(0.0)}; ALIGNED real changes_[3 * 4];
+    memset(changes_, 0, sizeof changes_); r2 changes = {changes_, 3, 4, 4};
+    t_r3 t_1 = vectors_three(body, 0), t_2 = vectors_three(body, 3), t_3 = vectors_three(state, 18);
+    t_r3 w = kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2,
+        state.p[24]);
+    int64_t first = 8 - sums.n1; real square = fitted_turn_square(R(2.0) * half, first, w);
     for (int64_t i = 0, end_i = sums.n1; i < end_i; i++) {
         status = long_step_column(body, half, first + i, square, state);
         if (status.a0 != 0) { return (t_ir){status.a0, status.a1}; }
-        w = AT2(sums, 0, i); v = AT2(sums, 1, i); q0 = q0 + w * status.a2; q1 = q1 + w * status.a3;
-        q2 = q2 + w * status.a4; q3 = q3 + w * status.a5; y1 = y1 + w * status.a6; y2 = y2 + w * status.a7;
-        y3 = y3 + w * status.a8; z1 = z1 + v * status.a6; z2 = z2 + v * status.a7; z3 = z3 + v * status.a8;
+        q = vectors_plus_four(q, vectors_scaled_four(AT2(sums, 0, i), status.a2));
+        y = vectors_plus(y, vectors_scaled(AT2(sums, 0, i), status.a3));
+        z = vectors_plus(z, vectors_scaled(AT2(sums, 1, i), status.a3));
         for (int64_t c = 0; c < 3; c++) {
-            w = AT2(sums, 1 + c, i);
-            real t_1 = AT2(changes, c, 0) + w * status.a2, t_2 = AT2(changes, c, 1) + w * status.a3;
-            AT2(changes, c, 0) = t_1; AT2(changes, c, 1) = t_2;
-            real t_3 = AT2(changes, c, 2) + w * status.a4, t_4 = AT2(changes, c, 3) + w * status.a5;
-            AT2(changes, c, 2) = t_3; AT2(changes, c, 3) = t_4;
+            vectors_put_four(r2_row(changes, c), 0, vectors_plus_four(vectors_four(r2_row(changes, c), 0),
+                vectors_scaled_four(AT2(sums, 1 + c, i), status.a2)));
         }
     }
-    t_r3 t_5 = kernel_rotate(body.p[6], body.p[7], body.p[8], body.p[9], z1, z2, z3); body.p[22] = t_5.a0;
-    body.p[23] = t_5.a1;
-    t_r12 t_6 = long_step_moved_body(body.p[0], body.p[1], body.p[2], body.p[3], body.p[4], body.p[5], body.p[6],
-        body.p[7], body.p[8], body.p[9], body.p[10], body.p[11], q0, q1, q2, q3, y1, y2, y3, radius);
-    body.p[0] = t_6.a0; body.p[1] = t_6.a1; body.p[2] = t_6.a2; body.p[3] = t_6.a3; body.p[4] = t_6.a4;
-    body.p[5] = t_6.a5; body.p[6] = t_6.a6; body.p[7] = t_6.a7; body.p[8] = t_6.a8; body.p[9] = t_6.a9;
-    body.p[10] = t_6.a10; body.p[11] = t_6.a11;
+    t_r4 t_4 = vectors_four(body, 6); t_r3 t_5 = kernel_rotate(t_4.a0, t_4.a1, t_4.a2, t_4.a3, z.a0, z.a1, z.a2);
+    body.p[22] = t_5.a0; body.p[23] = t_5.a1;
+    t__r3_2_r4_r2 t_6 = long_step_moved_body(vectors_three(body, 0), vectors_three(body, 3), vectors_four(body, 6),
+        body.p[10], body.p[11], q, y, radius);
+    t_r3 k = t_6.a0, g = t_6.a1; t_r4 a = t_6.a2; body.p[10] = t_6.a3; body.p[11] = t_6.a4; vectors_put(body, 0, k);
+    vectors_put(body, 3, g); vectors_put_four(body, 6, a);
     for (int64_t c = 0; c < 3; c++) {
-        d0 = AT2(changes, c, 0); d1 = AT2(changes, c, 1); d2 = AT2(changes, c, 2); d3 = AT2(changes, c, 3);
-        if (c == 0) { body.p[12] = body.p[12] + R(2.0) * R(sqrt(d0 * d0 + d1 * d1 + (d2 * d2 + d3 * d3))); }
-        at = 13 + 3 * c; t_r3 t_7 = long_step_twist(q0, q1, q2, q3, d0, d1, d2, d3); body.p[at] = t_7.a0;
-        body.p[at + 1] = t_7.a1; body.p[at + 2] = t_7.a2;
+        d = vectors_four(r2_row(changes, c), 0);
+        if (c == 0) { body.p[12] = body.p[12] + R(2.0) * R(sqrt(vectors_square_of_four(d))); }
+        vectors_put(body, 13 + 3 * c, long_step_twist(q, d));
     }
     return (t_ir){0, R(1.0)};
 }
@@ -1975,10 +1917,11 @@ INLINE t_r2 kernel_vertical_level(real t, real v, real level, real L1, real L2, 
     real o_fv = t1 - b * m; return (t_r2){o_f, o_fv};
 }
 
-INLINE t_br vertical_loop_level_root(real level, real t, real v, real I1, real I2, real I3) {
+INLINE t_br vertical_loop_level_root(real level, real t, real v, t_r3 inertia) {
     t_r2 f; real correction;
     for (int64_t i_0 = 0; i_0 < 30; i_0++) {
-        f = kernel_vertical_level(t, v, level, I1, I2, I3); correction = f.a0 / f.a1; v = v - correction;
+        f = kernel_vertical_level(t, v, level, inertia.a0, inertia.a1, inertia.a2); correction = f.a0 / f.a1;
+        v = v - correction;
         if (R(fabs(correction)) <= R(1.7763568394002505e-15) * v) { return (t_br){1, v}; }
     }
     return (t_br){0, v};
@@ -1992,44 +1935,48 @@ INLINE t_r4 kernel_vertical_rotation(real t, real e, real g1, real g2, real g3, 
 }
 
 INLINE int vertical_loop_march(r1 g, r1 I, real k, int64_t count, int64_t every, r2 verticals, r1 q) {
-    t_r2 f; real correction; int64_t frame;
-    real I1 = I.p[0], I2 = I.p[1], I3 = I.p[2], g1 = g.p[0], g2 = g.p[1], g3 = g.p[2], y1 = R(0.0), y2 = R(0.0);
-    real y3 = R(0.0), level = kernel_vertical_square(g1, g2, g3, I1, I2, I3);
-    t_br t_1 = vertical_loop_level_root(level, k, level / (I1 * I2 * I3), I1, I2, I3); int settled = t_1.a0;
-    real v = t_1.a1;
+    t_r2 f; real correction;
+    t_r3 inertia = vectors_three(I, 0), v = vectors_three(g, 0), y = (t_r3){R(0.0), R(0.0), R(0.0)};
+    real level = kernel_vertical_square(v.a0, v.a1, v.a2, inertia.a0, inertia.a1, inertia.a2);
+    t_br t_1 = vertical_loop_level_root(level, k, level / (I.p[0] * I.p[1] * I.p[2]), inertia); int settled = t_1.a0;
+    real root = t_1.a1;
     if (!settled) { return 0; }
-    real p0 = R(1.0), p1 = R(0.0), p2 = R(0.0), p3 = R(0.0);
+    t_r4 p = (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)};
     for (int64_t step = 1, end_step = count + 1; step < end_step; step++) {
-        t_r4 t_2 = kernel_vertical_rotation(k, v * k * k, g1, g2, g3, I1, I2, I3); p0 = t_2.a0; p1 = t_2.a1;
-        p2 = t_2.a2; p3 = t_2.a3;
-        f = kernel_vertical_level(k, v, kernel_vertical_square(g1, g2, g3, I1, I2, I3), I1, I2, I3);
+        p = kernel_vertical_rotation(k, root * k * k, v.a0, v.a1, v.a2, inertia.a0, inertia.a1, inertia.a2);
+        f = kernel_vertical_level(k, root, kernel_vertical_square(v.a0, v.a1, v.a2, inertia.a0, inertia.a1,
+            inertia.a2), inertia.a0, inertia.a1, inertia.a2);
         correction = f.a0 / f.a1;
-        if (!(p1 * p1 + p2 * p2 + p3 * p3 < p0 * p0 && R(fabs(correction)) <= R(1.7763568394002505e-15) * v)) {
+        if (!(vectors_dot((t_r3){p.a1, p.a2, p.a3}, (t_r3){p.a1, p.a2, p.a3}) < p.a0 * p.a0 && R(fabs(correction)) <=
+            R(1.7763568394002505e-15) * root)) {
             return 0;
         }
-        v = v - correction; t_r6 t_3 = sums_turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3); g1 = t_3.a0; g2 = t_3.a1;
-        g3 = t_3.a2; y1 = t_3.a3; y2 = t_3.a4; y3 = t_3.a5;
-        if (mod_i(step, every) == 0) {
-            frame = div_i(step, every); AT2(verticals, frame, 0) = g1; AT2(verticals, frame, 1) = g2;
-            AT2(verticals, frame, 2) = g3;
-        }
+        root = root - correction; t__r3_2 t_2 = sums_turned(p, v, y); v = t_2.a0; y = t_2.a1;
+        if (mod_i(step, every) == 0) { vectors_put(r2_row(verticals, div_i(step, every)), 0, v); }
     }
-    q.p[0] = p0; q.p[1] = p1; q.p[2] = p2; q.p[3] = p3; return 1;
+    vectors_put_four(q, 0, p); return 1;
 }
 
 INLINE t_i2 double_double_step_scales(r1 momentum, r1 tensor, real contact) {
     t_ri t_1 = real_frexp(max_r(max_r(tensor.p[1] + tensor.p[2], tensor.p[0] + tensor.p[2]), tensor.p[0] +
         tensor.p[1]) + contact);
     int64_t exponent = t_1.a1;
-    real largest = max_r(max_r(R(fabs(momentum.p[0])), R(fabs(momentum.p[1]))), R(fabs(momentum.p[2])));
-    t_ri size = real_frexp(largest); exponent = max_i(exponent, size.a1 - 1021);
-    int64_t beyond = largest > R(0.0) ? max_i(0, -200 - (size.a1 - exponent)) : 0;
+    real most = max_r(max_r(R(fabs(momentum.p[0])), R(fabs(momentum.p[1]))), R(fabs(momentum.p[2])));
+    t_ri size = real_frexp(most); exponent = max_i(exponent, size.a1 - 1021);
+    int64_t beyond = most > R(0.0) ? max_i(0, -200 - (size.a1 - exponent)) : 0;
     return (t_i2){beyond - exponent - 1, beyond};
 }
 
+INLINE t_e3 vectors_exact(t_r3 v) { return (t_e3){v.a0, v.a1, v.a2}; }
 INLINE t_r2 pairs_two_product(real a, real b) { real p = a * b; return (t_r2){p, fma(a, b, -p)}; }
 INLINE t_r2 pairs_loose_add(real a, real a_, real b, real b_) {
     t_r2 s = pairs_two_sum(a, b); return (t_r2){s.a0, s.a1 + (a_ + b_)};
+}
+
+INLINE t_r2 vectors_dot__e3_2(t_e3 a, t_e3 b) {
+    t_r2 t_1 = pairs_two_product(a.a0, b.a0), t_2 = pairs_two_product(a.a1, b.a1);
+    t_r2 t_3 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1), t_4 = pairs_two_product(a.a2, b.a2);
+    return pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
 }
 
 INLINE t_r2 pairs_quick_two_sum(real a, real b) { real total = a + b; return (t_r2){total, b - (total - a)}; }
@@ -2049,72 +1996,88 @@ INLINE t_r2 pairs_divide(real a, real a_, real b, real b_) {
     return pairs_quick_two_sum(high, (a - r.a0 + (a_ - r.a1)) / b);
 }
 
-INLINE t_r6 double_double_step_unit(real a, real b, real c) {
-    t_r2 t_1 = pairs_two_product(a, a), t_2 = pairs_two_product(b, b);
-    t_r2 t_3 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1); real n = t_3.a0, n_ = t_3.a1;
-    t_r2 t_4 = pairs_two_product(c, c), t_5 = pairs_loose_add(n, n_, t_4.a0, t_4.a1); n = t_5.a0; n_ = t_5.a1;
-    t_r2 t_6 = pairs_two_sum(n, n_), t_7 = pairs_root(t_6.a0, t_6.a1); n = t_7.a0; n_ = t_7.a1;
-    t_r2 x = pairs_divide(a, R(0.0), n, n_), y = pairs_divide(b, R(0.0), n, n_), z = pairs_divide(c, R(0.0), n, n_);
-    return (t_r6){x.a0, x.a1, y.a0, y.a1, z.a0, z.a1};
+INLINE t_p3 double_double_step_unit(t_r3 v) {
+    t_e3 x = vectors_exact(v);
+    t_r2 t_1 = vectors_dot__e3_2(x, x), t_2 = pairs_two_sum(t_1.a0, t_1.a1), length = pairs_root(t_2.a0, t_2.a1);
+    t_r2 t_3 = pairs_two_sum(length.a0, length.a1), t_4 = pairs_two_sum(length.a0, length.a1);
+    t_r2 t_5 = pairs_two_sum(length.a0, length.a1);
+    return (t_p3){pairs_divide(x.a0, 0, t_3.a0, t_3.a1), pairs_divide(x.a1, 0, t_4.a0, t_4.a1), pairs_divide(x.a2, 0,
+        t_5.a0, t_5.a1)};
+}
+
+INLINE void vectors_put_pair_r1ip(r1 array, int64_t at, t_r2 x) { array.p[at] = x.a0; array.p[at + 1] = x.a1; }
+INLINE void vectors_put_pairs_r1i_p3_(r1 array, int64_t at, t_p3 v) {
+    vectors_put_pair_r1ip(array, at, v.a0); vectors_put_pair_r1ip(array, at + 2, v.a1);
+    vectors_put_pair_r1ip(array, at + 4, v.a2);
+}
+
+INLINE t_r2 vectors_pair(r1 array, int64_t at) { return (t_r2){array.p[at], array.p[at + 1]}; }
+INLINE t_p3 vectors_three_pairs(r1 array, int64_t at) {
+    return (t_p3){vectors_pair(array, at), vectors_pair(array, at + 2), vectors_pair(array, at + 4)};
 }
 
 INLINE t_r2 pairs_loose_multiply(real a, real a_, real b, real b_) {
     t_r2 p = pairs_two_product(a, b); return (t_r2){p.a0, p.a1 + (a * b_ + a_ * b)};
 }
 
-INLINE t_r2 double_double_loop_inner(r1 a, r1 b) {
-    t_r2 t_1 = pairs_loose_multiply(a.p[0], a.p[1], b.p[0], b.p[1]); real x = t_1.a0, x_ = t_1.a1;
-    t_r2 y = pairs_loose_multiply(a.p[2], a.p[3], b.p[2], b.p[3]);
-    t_r2 z = pairs_loose_multiply(a.p[4], a.p[5], b.p[4], b.p[5]), t_2 = pairs_loose_add(x, x_, y.a0, y.a1);
-    x = t_2.a0; x_ = t_2.a1; t_r2 t_3 = pairs_loose_add(x, x_, z.a0, z.a1); x = t_3.a0; x_ = t_3.a1;
-    return pairs_two_sum(x, x_);
+INLINE t_r2 vectors_dot__p3_2(t_p3 a, t_p3 b) {
+    t_r2 t_1 = pairs_loose_multiply(a.a0.a0, a.a0.a1, b.a0.a0, b.a0.a1);
+    t_r2 t_2 = pairs_loose_multiply(a.a1.a0, a.a1.a1, b.a1.a0, b.a1.a1);
+    t_r2 t_3 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
+    t_r2 t_4 = pairs_loose_multiply(a.a2.a0, a.a2.a1, b.a2.a0, b.a2.a1);
+    return pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+}
+
+INLINE t_p3 vectors_normalised__p3_(t_p3 v) {
+    return (t_p3){pairs_two_sum(v.a0.a0, v.a0.a1), pairs_two_sum(v.a1.a0, v.a1.a1), pairs_two_sum(v.a2.a0, v.a2.a1)};
 }
 
 INLINE void double_double_loop_remember_pairs(r1 state) {
-    r1 k = r1_part(state, 0, 6), g = r1_part(state, 6, 12); t_r2 t_1 = double_double_loop_inner(g, g);
-    state.p[22] = t_1.a0; state.p[23] = t_1.a1; t_r2 t_2 = double_double_loop_inner(k, g); state.p[24] = t_2.a0;
-    state.p[25] = t_2.a1; t_r2 t_3 = double_double_loop_inner(k, k); state.p[26] = t_3.a0; state.p[27] = t_3.a1;
+    t_p3 k = vectors_three_pairs(state, 0), g = vectors_three_pairs(state, 6);
+    vectors_put_pairs_r1i_p3_(state, 22, vectors_normalised__p3_((t_p3){vectors_dot__p3_2(g, g), vectors_dot__p3_2(k,
+        g), vectors_dot__p3_2(k, k)}));
 }
 
-INLINE t_r2 double_double_step_bounds(real k1, real k2, real k3, real I1, real I2, real I3, real D) {
-    if (min_r(min_r(I1, I2), I3) < R(7.52316384526264e-37)) { return (t_r2){R(-1.0), R(0.0)}; }
-    return gibbs_certificate(k1, k2, k3, I1, I2, I3, D);
+INLINE t_r3 vectors_highs__p3_(t_p3 v) { return (t_r3){v.a0.a0, v.a1.a0, v.a2.a0}; }
+INLINE t_r2 double_double_step_bounds(t_r3 k, t_r3 I, real D) {
+    if (min_r(min_r(I.a0, I.a1), I.a2) < R(7.52316384526264e-37)) { return (t_r2){R(-1.0), R(0.0)}; }
+    return gibbs_certificate(k, I, D);
 }
 
 OUT_OF_LINE t_i2 double_double_loop_prepare_pairs(r1 momentum, r1 g, r1 tensor, real contact, r2 c, r1 state, r1
     radius, r1 enough) {
-    real s; t_i2 shift = double_double_step_scales(momentum, tensor, contact); int64_t size = shift.a1 - shift.a0 - 1;
+    t_r3 k, inertia; t_i2 shift = double_double_step_scales(momentum, tensor, contact);
+    int64_t size = shift.a1 - shift.a0 - 1;
     for (int64_t i = 0; i < 3; i++) {
         state.p[0 + 2 * i] = R(ldexp(momentum.p[i], (int)shift.a0)); state.p[0 + 2 * i + 1] = R(0.0);
         state.p[18 + i] = R(ldexp(tensor.p[i], (int)-size));
     }
-    state.p[21] = R(ldexp(contact, (int)-size)); t_r6 t_1 = double_double_step_unit(g.p[0], g.p[1], g.p[2]);
-    state.p[6] = t_1.a0; state.p[7] = t_1.a1; state.p[8] = t_1.a2; state.p[9] = t_1.a3; state.p[10] = t_1.a4;
-    state.p[11] = t_1.a5; t_r2 t_2 = pairs_two_sum(state.p[19], state.p[20]); state.p[12] = t_2.a0;
-    state.p[13] = t_2.a1; t_r2 t_3 = pairs_two_sum(state.p[18], state.p[20]); state.p[14] = t_3.a0;
-    state.p[15] = t_3.a1; t_r2 t_4 = pairs_two_sum(state.p[18], state.p[19]); state.p[16] = t_4.a0;
-    state.p[17] = t_4.a1; double_double_loop_remember_pairs(state);
+    state.p[21] = R(ldexp(contact, (int)-size));
+    vectors_put_pairs_r1i_p3_(state, 6, double_double_step_unit(vectors_three(g, 0)));
+    t_r2 t_1 = pairs_two_sum(state.p[19], state.p[20]); state.p[12] = t_1.a0; state.p[13] = t_1.a1;
+    t_r2 t_2 = pairs_two_sum(state.p[18], state.p[20]); state.p[14] = t_2.a0; state.p[15] = t_2.a1;
+    t_r2 t_3 = pairs_two_sum(state.p[18], state.p[19]); state.p[16] = t_3.a0; state.p[17] = t_3.a1;
+    double_double_loop_remember_pairs(state);
     for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
-        s = AT2(c, i, 0);
-        t_r2 t_5 = double_double_step_bounds(s * state.p[0], s * state.p[2], s * state.p[4], state.p[12], state.p[14],
-            state.p[16], state.p[21]);
-        radius.p[i] = t_5.a0; enough.p[i] = t_5.a1;
+        k = vectors_scaled(AT2(c, i, 0), vectors_highs__p3_(vectors_three_pairs(state, 0)));
+        inertia = vectors_highs__p3_(vectors_three_pairs(state, 12));
+        t_r2 t_4 = double_double_step_bounds(k, inertia, state.p[21]); radius.p[i] = t_4.a0; enough.p[i] = t_4.a1;
     }
     return (t_i2){shift.a0, shift.a1};
 }
 
-INLINE t_r2 pairs_multiply(real a, real a_, real b, real b_) {
-    t_r2 p = pairs_two_product(a, b); return pairs_quick_two_sum(p.a0, p.a1 + (a * b_ + a_ * b));
+INLINE t_p3 vectors_scaled_p_p3_(t_r2 s, t_p3 v) {
+    return (t_p3){pairs_loose_multiply(s.a0, s.a1, v.a0.a0, v.a0.a1), pairs_loose_multiply(s.a0, s.a1, v.a1.a0,
+        v.a1.a1), pairs_loose_multiply(s.a0, s.a1, v.a2.a0, v.a2.a1)};
 }
 
-INLINE Round double_double_step_approach(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real
-    g3, real I1, real I2, real I3, real D, real radius, real enough) {
-    real w1, w2, w3; Round r = gibbs_newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0);
+INLINE Round double_double_step_approach(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real radius, real enough) {
+    Round r = gibbs_newton_round(u, k, g, I, D, 0);
     for (int64_t i_0 = 0; i_0 < 11; i_0++) {
         if (r.first <= enough || radius < R(0.0)) { break; }
-        w1 = r.w1; w2 = r.w2; w3 = r.w3;
-        if (!(w1 * w1 + (w2 * w2 + w3 * w3) <= radius)) { w1 = R(0.0); w2 = R(0.0); w3 = R(0.0); }
-        r = gibbs_newton_round(w1, w2, w3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, 0);
+        int t_1 = vectors_square(r.w) <= radius; t_r3 t_2 = (t_r3){R(0.0), R(0.0), R(0.0)};
+        r = gibbs_newton_round((t_r3){t_1 ? r.w.a0 : t_2.a0, t_1 ? r.w.a1 : t_2.a1, t_1 ? r.w.a2 : t_2.a2}, k, g, I,
+            D, 0);
     }
     return r;
 }
@@ -2131,42 +2094,46 @@ INLINE t_r2 pairs_loose_add_float(real a, real a_, real b) {
     t_r2 s = pairs_two_sum(a, b); return (t_r2){s.a0, s.a1 + a_};
 }
 
-INLINE t_r6 double_double_gibbs_residual_pairs(real u1, real u2, real u3, real k1, real k1_, real k2, real k2_, real
-    k3, real k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_, real I1, real I1_, real I2, real I2_, real
-    I3, real I3_, real D) {
-    t_r2 t0 = pairs_loose_multiply_float(g3, g3_, u2), t1 = pairs_loose_multiply_float(g2, g2_, u3);
-    t_r2 t2 = pairs_loose_subtract(t0.a0, t0.a1, t1.a0, t1.a1), t3 = pairs_loose_multiply_float(g1, g1_, u3);
-    t_r2 t4 = pairs_loose_multiply_float(g3, g3_, u1), t5 = pairs_loose_subtract(t3.a0, t3.a1, t4.a0, t4.a1);
-    t_r2 t6 = pairs_loose_multiply_float(g2, g2_, u1), t7 = pairs_loose_multiply_float(g1, g1_, u2);
-    t_r2 t8 = pairs_loose_subtract(t6.a0, t6.a1, t7.a0, t7.a1), t9 = pairs_loose_multiply_float(I1, I1_, u1);
-    t_r2 t10 = pairs_loose_multiply_float(I2, I2_, u2), t11 = pairs_loose_multiply_float(I3, I3_, u3);
-    t_r2 t12 = pairs_two_product(u1, u1), t13 = pairs_loose_add_float(t12.a0, t12.a1, 1);
-    t_r2 t14 = pairs_two_product(u2, u2), t15 = pairs_two_product(u3, u3);
-    t_r2 t16 = pairs_loose_add(t14.a0, t14.a1, t15.a0, t15.a1);
-    t_r2 t17 = pairs_loose_add(t13.a0, t13.a1, t16.a0, t16.a1), t18 = pairs_loose_multiply(g2, g2_, t8.a0, t8.a1);
-    t_r2 t19 = pairs_loose_multiply(g3, g3_, t5.a0, t5.a1);
-    t_r2 t20 = pairs_loose_subtract(t18.a0, t18.a1, t19.a0, t19.a1);
-    t_r2 t21 = pairs_loose_multiply_float(t20.a0, t20.a1, D), t22 = pairs_loose_add(t9.a0, t9.a1, t21.a0, t21.a1);
-    t_r2 t23 = pairs_loose_multiply_float(t11.a0, t11.a1, u2), t24 = pairs_loose_add(t22.a0, t22.a1, t23.a0, t23.a1);
-    t_r2 t25 = pairs_loose_multiply(k1, k1_, t17.a0, t17.a1), t26 = pairs_loose_multiply_float(t10.a0, t10.a1, u3);
-    t_r2 t27 = pairs_loose_add(t25.a0, t25.a1, t26.a0, t26.a1);
-    t_r2 t28 = pairs_loose_subtract(t24.a0, t24.a1, t27.a0, t27.a1);
-    t_r2 t29 = pairs_loose_multiply(g3, g3_, t2.a0, t2.a1), t30 = pairs_loose_multiply(g1, g1_, t8.a0, t8.a1);
-    t_r2 t31 = pairs_loose_subtract(t29.a0, t29.a1, t30.a0, t30.a1);
-    t_r2 t32 = pairs_loose_multiply_float(t31.a0, t31.a1, D), t33 = pairs_loose_add(t10.a0, t10.a1, t32.a0, t32.a1);
-    t_r2 t34 = pairs_loose_multiply_float(t9.a0, t9.a1, u3), t35 = pairs_loose_add(t33.a0, t33.a1, t34.a0, t34.a1);
-    t_r2 t36 = pairs_loose_multiply(k2, k2_, t17.a0, t17.a1), t37 = pairs_loose_multiply_float(t11.a0, t11.a1, u1);
-    t_r2 t38 = pairs_loose_add(t36.a0, t36.a1, t37.a0, t37.a1);
-    t_r2 t39 = pairs_loose_subtract(t35.a0, t35.a1, t38.a0, t38.a1);
-    t_r2 t40 = pairs_loose_multiply(g1, g1_, t5.a0, t5.a1), t41 = pairs_loose_multiply(g2, g2_, t2.a0, t2.a1);
-    t_r2 t42 = pairs_loose_subtract(t40.a0, t40.a1, t41.a0, t41.a1);
-    t_r2 t43 = pairs_loose_multiply_float(t42.a0, t42.a1, D), t44 = pairs_loose_add(t11.a0, t11.a1, t43.a0, t43.a1);
-    t_r2 t45 = pairs_loose_multiply_float(t10.a0, t10.a1, u1), t46 = pairs_loose_add(t44.a0, t44.a1, t45.a0, t45.a1);
-    t_r2 t47 = pairs_loose_multiply(k3, k3_, t17.a0, t17.a1), t48 = pairs_loose_multiply_float(t9.a0, t9.a1, u2);
-    t_r2 t49 = pairs_loose_add(t47.a0, t47.a1, t48.a0, t48.a1);
-    t_r2 t50 = pairs_loose_subtract(t46.a0, t46.a1, t49.a0, t49.a1), o_r1 = pairs_two_sum(t28.a0, t28.a1);
-    t_r2 o_r2 = pairs_two_sum(t39.a0, t39.a1), o_r3 = pairs_two_sum(t50.a0, t50.a1);
-    return (t_r6){o_r1.a0, o_r1.a1, o_r2.a0, o_r2.a1, o_r3.a0, o_r3.a1};
+INLINE t_p3 kernel_gibbs_residual_e3p9e(real u1, real u2, real u3, t_r2 k1, t_r2 k2, t_r2 k3, t_r2 g1, t_r2 g2, t_r2
+    g3, t_r2 I1, t_r2 I2, t_r2 I3, real D) {
+    t_r2 t_1 = pairs_loose_multiply_float(g3.a0, g3.a1, u2), t_2 = pairs_loose_multiply_float(g2.a0, g2.a1, u3);
+    t_r2 x1 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
+    t_r2 t_3 = pairs_loose_multiply_float(g1.a0, g1.a1, u3), t_4 = pairs_loose_multiply_float(g3.a0, g3.a1, u1);
+    t_r2 x2 = pairs_loose_subtract(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+    t_r2 t_5 = pairs_loose_multiply_float(g2.a0, g2.a1, u1), t_6 = pairs_loose_multiply_float(g1.a0, g1.a1, u2);
+    t_r2 x3 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
+    t_r2 y1 = pairs_loose_multiply_float(I1.a0, I1.a1, u1), y2 = pairs_loose_multiply_float(I2.a0, I2.a1, u2);
+    t_r2 y3 = pairs_loose_multiply_float(I3.a0, I3.a1, u3), t_7 = pairs_two_product(u1, u1);
+    t_r2 t_8 = pairs_two_product(u2, u2), t_9 = pairs_two_product(u3, u3);
+    t_r2 t_10 = pairs_loose_add_float(t_7.a0, t_7.a1, 1), t_11 = pairs_loose_add(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
+    t_r2 s = pairs_loose_add(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
+    t_r2 t_12 = pairs_loose_multiply(g2.a0, g2.a1, x3.a0, x3.a1);
+    t_r2 t_13 = pairs_loose_multiply(g3.a0, g3.a1, x2.a0, x2.a1);
+    t_r2 t_14 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
+    t_r2 t_15 = pairs_loose_multiply_float(t_14.a0, t_14.a1, D);
+    t_r2 t_16 = pairs_loose_add(y1.a0, y1.a1, t_15.a0, t_15.a1), t_17 = pairs_loose_multiply_float(y3.a0, y3.a1, u2);
+    t_r2 t_18 = pairs_loose_multiply(k1.a0, k1.a1, s.a0, s.a1), t_19 = pairs_loose_multiply_float(y2.a0, y2.a1, u3);
+    t_r2 t_20 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
+    t_r2 t_21 = pairs_loose_add(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
+    t_r2 o_r1 = pairs_loose_subtract(t_20.a0, t_20.a1, t_21.a0, t_21.a1);
+    t_r2 t_22 = pairs_loose_multiply(g3.a0, g3.a1, x1.a0, x1.a1);
+    t_r2 t_23 = pairs_loose_multiply(g1.a0, g1.a1, x3.a0, x3.a1);
+    t_r2 t_24 = pairs_loose_subtract(t_22.a0, t_22.a1, t_23.a0, t_23.a1);
+    t_r2 t_25 = pairs_loose_multiply_float(t_24.a0, t_24.a1, D);
+    t_r2 t_26 = pairs_loose_add(y2.a0, y2.a1, t_25.a0, t_25.a1), t_27 = pairs_loose_multiply_float(y1.a0, y1.a1, u3);
+    t_r2 t_28 = pairs_loose_multiply(k2.a0, k2.a1, s.a0, s.a1), t_29 = pairs_loose_multiply_float(y3.a0, y3.a1, u1);
+    t_r2 t_30 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1);
+    t_r2 t_31 = pairs_loose_add(t_28.a0, t_28.a1, t_29.a0, t_29.a1);
+    t_r2 o_r2 = pairs_loose_subtract(t_30.a0, t_30.a1, t_31.a0, t_31.a1);
+    t_r2 t_32 = pairs_loose_multiply(g1.a0, g1.a1, x2.a0, x2.a1);
+    t_r2 t_33 = pairs_loose_multiply(g2.a0, g2.a1, x1.a0, x1.a1);
+    t_r2 t_34 = pairs_loose_subtract(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
+    t_r2 t_35 = pairs_loose_multiply_float(t_34.a0, t_34.a1, D);
+    t_r2 t_36 = pairs_loose_add(y3.a0, y3.a1, t_35.a0, t_35.a1), t_37 = pairs_loose_multiply_float(y2.a0, y2.a1, u1);
+    t_r2 t_38 = pairs_loose_multiply(k3.a0, k3.a1, s.a0, s.a1), t_39 = pairs_loose_multiply_float(y1.a0, y1.a1, u2);
+    t_r2 t_40 = pairs_loose_add(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
+    t_r2 t_41 = pairs_loose_add(t_38.a0, t_38.a1, t_39.a0, t_39.a1);
+    t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
 }
 
 INLINE t_r3 kernel_gibbs_mixed(real d1, real d2, real d3, real e1, real e2, real e3, real k1, real k2, real k3, real
@@ -2179,172 +2146,199 @@ INLINE t_r3 kernel_gibbs_mixed(real d1, real d2, real d3, real e1, real e2, real
     real o_x3 = c13 * r1 + c23 * r2 + c33 * r3; return (t_r3){o_x1, o_x2, o_x3};
 }
 
-INLINE t_r3 double_double_step_correction(Round r, real r1, real r2, real r3, real k1, real k2, real k3, real I1, real
-    I2, real I3) {
-    real s = R(-1.0) / r.p0, e1 = s * (r.c11 * r1 + r.c21 * r2 + r.c31 * r3);
-    real e2 = s * (r.c12 * r1 + r.c22 * r2 + r.c32 * r3), e3 = s * (r.c13 * r1 + r.c23 * r2 + r.c33 * r3);
-    t_r3 x1 = kernel_gibbs_mixed(r.d1 + R(0.5) * e1, r.d2 + R(0.5) * e2, r.d3 + R(0.5) * e3, e1, e2, e3, k1, k2, k3,
-        r.c11, r.c12, r.c13, r.c21, r.c22, r.c23, r.c31, r.c32, r.c33, I1, I2, I3);
-    return (t_r3){e1 + s * x1.a0, e2 + s * x1.a1, e3 + s * x1.a2};
+INLINE t_r3 double_double_step_correction(real det, t_r3 d, t_r9 cofactors, t_r3 r, t_r3 k, t_r3 I) {
+    t_r9 c = cofactors; real s = R(-1.0) / det, e1 = s * (c.a0 * r.a0 + c.a3 * r.a1 + c.a6 * r.a2);
+    real e2 = s * (c.a1 * r.a0 + c.a4 * r.a1 + c.a7 * r.a2), e3 = s * (c.a2 * r.a0 + c.a5 * r.a1 + c.a8 * r.a2);
+    t_r3 e = (t_r3){e1, e2, e3}, t_1 = vectors_plus(d, vectors_scaled(R(0.5), e));
+    return vectors_plus(e, vectors_scaled(s, kernel_gibbs_mixed(t_1.a0, t_1.a1, t_1.a2, e.a0, e.a1, e.a2, k.a0, k.a1,
+        k.a2, c.a0, c.a1, c.a2, c.a3, c.a4, c.a5, c.a6, c.a7, c.a8, I.a0, I.a1, I.a2)));
 }
 
-INLINE int double_double_step_small(real w1, real w2, real w3, real e1, real e2, real e3) {
-    return e1 * e1 + (e2 * e2 + e3 * e3) <= R(7.888609052210118e-31) * (w1 * w1 + (w2 * w2 + w3 * w3));
+INLINE int double_double_step_small(t_r3 w, t_r3 e) {
+    return vectors_square(e) <= R(7.888609052210118e-31) * vectors_square(w);
 }
 
-INLINE t_r6 double_double_residual_pairs(real q0, real q0_, real q1, real q1_, real q2, real q2_, real q3, real q3_,
-    real K1, real K1_, real K2, real K2_, real K3, real K3_, real g1, real g1_, real g2, real g2_, real g3, real g3_,
-    real J1, real J2, real J3, real D) {
-    t_r2 t0 = pairs_loose_multiply(q2, q2_, g3, g3_), t1 = pairs_loose_multiply(q3, q3_, g2, g2_);
-    t_r2 t_1 = pairs_loose_subtract(t0.a0, t0.a1, t1.a0, t1.a1); real t2 = t_1.a0, t2_ = t_1.a1;
-    t_r2 t_2 = pairs_two_sum(t2, t2_); t2 = t_2.a0; t2_ = t_2.a1;
-    t_r2 t3 = pairs_loose_multiply(q3, q3_, g1, g1_), t4 = pairs_loose_multiply(q1, q1_, g3, g3_);
-    t_r2 t_3 = pairs_loose_subtract(t3.a0, t3.a1, t4.a0, t4.a1); real t5 = t_3.a0, t5_ = t_3.a1;
-    t_r2 t_4 = pairs_two_sum(t5, t5_); t5 = t_4.a0; t5_ = t_4.a1;
-    t_r2 t6 = pairs_loose_multiply(q1, q1_, g2, g2_), t7 = pairs_loose_multiply(q2, q2_, g1, g1_);
-    t_r2 t_5 = pairs_loose_subtract(t6.a0, t6.a1, t7.a0, t7.a1); real t8 = t_5.a0, t8_ = t_5.a1;
-    t_r2 t_6 = pairs_two_sum(t8, t8_); t8 = t_6.a0; t8_ = t_6.a1;
-    t_r2 t9 = pairs_loose_multiply_float(t2, t2_, D), t10 = pairs_loose_multiply_float(t5, t5_, D);
-    t_r2 t11 = pairs_loose_multiply_float(t8, t8_, D);
-    real t12 = -J3, t13 = 2 * q3, t13_ = 2 * q3_, t14 = 2 * q0, t14_ = 2 * q0_;
-    t_r2 t15 = pairs_loose_multiply(g2, g2_, t11.a0, t11.a1), t16 = pairs_two_sum(J2, J3);
-    t_r2 t17 = pairs_loose_multiply(q1, q1_, t16.a0, t16.a1), t_7 = pairs_loose_add(t15.a0, t15.a1, t17.a0, t17.a1);
-    real t18 = t_7.a0, t18_ = t_7.a1; t_r2 t_8 = pairs_two_sum(t18, t18_); t18 = t_8.a0; t18_ = t_8.a1;
-    t_r2 t19 = pairs_loose_multiply(g3, g3_, t10.a0, t10.a1), t_9 = pairs_loose_subtract(t18, t18_, t19.a0, t19.a1);
-    real t20 = t_9.a0, t20_ = t_9.a1; t_r2 t_10 = pairs_two_sum(t20, t20_); t20 = t_10.a0; t20_ = t_10.a1;
-    t_r2 t21 = pairs_loose_multiply(t14, t14_, t20, t20_), t22 = pairs_loose_multiply(q2, q2_, t13, t13_);
-    t_r2 t23 = pairs_two_sum(J2, t12), t24 = pairs_loose_multiply(t22.a0, t22.a1, t23.a0, t23.a1);
-    t_r2 t_11 = pairs_loose_add(t21.a0, t21.a1, t24.a0, t24.a1); real t25 = t_11.a0, t25_ = t_11.a1;
-    t_r2 t_12 = pairs_two_sum(t25, t25_); t25 = t_12.a0; t25_ = t_12.a1;
-    t_r2 t_13 = pairs_loose_subtract(t25, t25_, K1, K1_); real t26 = t_13.a0, t26_ = t_13.a1;
-    t_r2 t_14 = pairs_two_sum(t26, t26_); t26 = t_14.a0; t26_ = t_14.a1;
-    t_r2 t27 = pairs_loose_multiply(g3, g3_, t9.a0, t9.a1), t28 = pairs_two_sum(J1, J3);
-    t_r2 t29 = pairs_loose_multiply(q2, q2_, t28.a0, t28.a1), t_15 = pairs_loose_add(t27.a0, t27.a1, t29.a0, t29.a1);
-    real t30 = t_15.a0, t30_ = t_15.a1; t_r2 t_16 = pairs_two_sum(t30, t30_); t30 = t_16.a0; t30_ = t_16.a1;
-    t_r2 t31 = pairs_loose_multiply(g1, g1_, t11.a0, t11.a1), t_17 = pairs_loose_subtract(t30, t30_, t31.a0, t31.a1);
-    real t32 = t_17.a0, t32_ = t_17.a1; t_r2 t_18 = pairs_two_sum(t32, t32_); t32 = t_18.a0; t32_ = t_18.a1;
-    t_r2 t33 = pairs_loose_multiply(t14, t14_, t32, t32_), t_19 = pairs_loose_subtract(t33.a0, t33.a1, K2, K2_);
-    real t34 = t_19.a0, t34_ = t_19.a1; t_r2 t_20 = pairs_two_sum(t34, t34_); t34 = t_20.a0; t34_ = t_20.a1;
-    t_r2 t35 = pairs_loose_multiply(q1, q1_, t13, t13_), t36 = pairs_two_sum(J1, t12);
-    t_r2 t37 = pairs_loose_multiply(t35.a0, t35.a1, t36.a0, t36.a1);
-    t_r2 t_21 = pairs_loose_subtract(t34, t34_, t37.a0, t37.a1); real t38 = t_21.a0, t38_ = t_21.a1;
-    t_r2 t_22 = pairs_two_sum(t38, t38_); t38 = t_22.a0; t38_ = t_22.a1;
-    t_r2 t39 = pairs_loose_multiply(g1, g1_, t10.a0, t10.a1), t40 = pairs_two_sum(J1, J2);
-    t_r2 t41 = pairs_loose_multiply(q3, q3_, t40.a0, t40.a1), t_23 = pairs_loose_add(t39.a0, t39.a1, t41.a0, t41.a1);
-    real t42 = t_23.a0, t42_ = t_23.a1; t_r2 t_24 = pairs_two_sum(t42, t42_); t42 = t_24.a0; t42_ = t_24.a1;
-    t_r2 t43 = pairs_loose_multiply(g2, g2_, t9.a0, t9.a1), t_25 = pairs_loose_subtract(t42, t42_, t43.a0, t43.a1);
-    real t44 = t_25.a0, t44_ = t_25.a1; t_r2 t_26 = pairs_two_sum(t44, t44_); t44 = t_26.a0; t44_ = t_26.a1;
-    t_r2 t45 = pairs_loose_multiply(t14, t14_, t44, t44_); real t46 = 2 * q1, t46_ = 2 * q1_;
-    t_r2 t47 = pairs_loose_multiply(q2, q2_, t46, t46_), t48 = pairs_two_sum(J1, -J2);
-    t_r2 t49 = pairs_loose_multiply(t47.a0, t47.a1, t48.a0, t48.a1);
-    t_r2 t_27 = pairs_loose_add(t45.a0, t45.a1, t49.a0, t49.a1); real t50 = t_27.a0, t50_ = t_27.a1;
-    t_r2 t_28 = pairs_two_sum(t50, t50_); t50 = t_28.a0; t50_ = t_28.a1;
-    t_r2 t_29 = pairs_loose_subtract(t50, t50_, K3, K3_); real t51 = t_29.a0, t51_ = t_29.a1;
-    t_r2 t_30 = pairs_two_sum(t51, t51_); t51 = t_30.a0; t51_ = t_30.a1;
-    t_r2 o_r1 = pairs_two_sum(t26, t26_), o_r2 = pairs_two_sum(t38, t38_), o_r3 = pairs_two_sum(t51, t51_);
-    return (t_r6){o_r1.a0, o_r1.a1, o_r2.a0, o_r2.a1, o_r3.a0, o_r3.a1};
+INLINE t_p3 vectors_summed(t_r3 v, t_r3 w) {
+    t_r2 t_1 = pairs_two_sum(v.a0, w.a0), t_2 = pairs_two_sum(v.a1, w.a1), t_3 = pairs_two_sum(v.a2, w.a2);
+    return (t_p3){(t_r2){t_1.a0, t_1.a1}, (t_r2){t_2.a0, t_2.a1}, (t_r2){t_3.a0, t_3.a1}};
 }
 
-INLINE t_r8 double_double_moved_pairs(real q0, real q0_, real q1, real q1_, real q2, real q2_, real q3, real q3_, real
-    w1, real w2, real w3) {
-    t_r2 t0 = pairs_loose_multiply_float(q1, q1_, w1), t1 = pairs_loose_subtract(q0, q0_, t0.a0, t0.a1);
-    t_r2 t2 = pairs_loose_multiply_float(q2, q2_, w2), t3 = pairs_loose_multiply_float(q3, q3_, w3);
-    t_r2 t4 = pairs_loose_add(t2.a0, t2.a1, t3.a0, t3.a1), t5 = pairs_loose_subtract(t1.a0, t1.a1, t4.a0, t4.a1);
-    t_r2 t6 = pairs_loose_multiply_float(q0, q0_, w1), t7 = pairs_loose_add(q1, q1_, t6.a0, t6.a1);
-    t_r2 t8 = pairs_loose_multiply_float(q2, q2_, w3), t9 = pairs_loose_multiply_float(q3, q3_, w2);
-    t_r2 t10 = pairs_loose_subtract(t8.a0, t8.a1, t9.a0, t9.a1), t11 = pairs_loose_add(t7.a0, t7.a1, t10.a0, t10.a1);
-    t_r2 t12 = pairs_loose_multiply_float(q0, q0_, w2), t13 = pairs_loose_add(q2, q2_, t12.a0, t12.a1);
-    t_r2 t14 = pairs_loose_multiply_float(q3, q3_, w1), t15 = pairs_loose_multiply_float(q1, q1_, w3);
-    t_r2 t16 = pairs_loose_subtract(t14.a0, t14.a1, t15.a0, t15.a1);
-    t_r2 t17 = pairs_loose_add(t13.a0, t13.a1, t16.a0, t16.a1), t18 = pairs_loose_multiply_float(q0, q0_, w3);
-    t_r2 t19 = pairs_loose_multiply_float(q1, q1_, w2), t20 = pairs_loose_add(t18.a0, t18.a1, t19.a0, t19.a1);
-    t_r2 t21 = pairs_loose_multiply_float(q2, q2_, w1), t22 = pairs_loose_subtract(q3, q3_, t21.a0, t21.a1);
-    t_r2 t23 = pairs_loose_add(t20.a0, t20.a1, t22.a0, t22.a1);
-    t_r2 t24 = pairs_loose_multiply(t5.a0, t5.a1, t5.a0, t5.a1);
-    t_r2 t25 = pairs_loose_multiply(t11.a0, t11.a1, t11.a0, t11.a1);
-    t_r2 t26 = pairs_loose_add(t24.a0, t24.a1, t25.a0, t25.a1);
-    t_r2 t27 = pairs_loose_multiply(t17.a0, t17.a1, t17.a0, t17.a1);
-    t_r2 t28 = pairs_loose_multiply(t23.a0, t23.a1, t23.a0, t23.a1);
-    t_r2 t29 = pairs_loose_add(t27.a0, t27.a1, t28.a0, t28.a1);
-    t_r2 t30 = pairs_loose_add(t26.a0, t26.a1, t29.a0, t29.a1), t31 = pairs_loose_add_float(-t30.a0, -t30.a1, 3);
-    real t32 = t31.a0 / 2, t32_ = t31.a1 / 2;
-    t_r2 t33 = pairs_loose_multiply(t5.a0, t5.a1, t32, t32_), t34 = pairs_loose_multiply(t11.a0, t11.a1, t32, t32_);
-    t_r2 t35 = pairs_loose_multiply(t17.a0, t17.a1, t32, t32_);
-    t_r2 t36 = pairs_loose_multiply(t23.a0, t23.a1, t32, t32_), o_b0 = pairs_two_sum(t33.a0, t33.a1);
-    t_r2 o_b1 = pairs_two_sum(t34.a0, t34.a1), o_b2 = pairs_two_sum(t35.a0, t35.a1);
-    t_r2 o_b3 = pairs_two_sum(t36.a0, t36.a1);
-    return (t_r8){o_b0.a0, o_b0.a1, o_b1.a0, o_b1.a1, o_b2.a0, o_b2.a1, o_b3.a0, o_b3.a1};
+INLINE t_r4 double_double_step_rotation_of(t_r3 w) {
+    real p0 = R(1.0) / R(sqrt(R(1.0) + vectors_square(w))); return (t_r4){p0, p0 * w.a0, p0 * w.a1, p0 * w.a2};
 }
 
-INLINE t_br6 double_double_step_polished(real q0, real q1, real q2, real q3, real k1, real k1_, real k2, real k2_,
-    real k3, real k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_, real J1, real J2, real J3, real D,
-    real near) {
-    t_r6 r1; t_r10 det; real w1, w2, w3, change, extent;
-    real q0_ = R(0.0), q1_ = R(0.0), q2_ = R(0.0), q3_ = R(0.0), before = near; int settled = 0;
+INLINE t_p3 vectors_plus__p3_2(t_p3 a, t_p3 b) {
+    return (t_p3){pairs_loose_add(a.a0.a0, a.a0.a1, b.a0.a0, b.a0.a1), pairs_loose_add(a.a1.a0, a.a1.a1, b.a1.a0,
+        b.a1.a1), pairs_loose_add(a.a2.a0, a.a2.a1, b.a2.a0, b.a2.a1)};
+}
+
+INLINE t_q3 double_double_step_sums_normal__p3_(t_p3 v) {
+    return (t_q3){(t_r2){v.a0.a0, v.a0.a1}, (t_r2){v.a1.a0, v.a1.a1}, (t_r2){v.a2.a0, v.a2.a1}};
+}
+
+INLINE t_q3 kernel_residual_q10e4(t_r2 q0, t_r2 q1, t_r2 q2, t_r2 q3, t_r2 K1, t_r2 K2, t_r2 K3, t_r2 g1, t_r2 g2,
+    t_r2 g3, real J1, real J2, real J3, real D) {
+    t_r2 t_1 = pairs_loose_multiply(g3.a0, g3.a1, q2.a0, q2.a1);
+    t_r2 t_2 = pairs_loose_multiply(g2.a0, g2.a1, q3.a0, q3.a1);
+    t_r2 t_3 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1), c1 = pairs_two_sum(t_3.a0, t_3.a1);
+    t_r2 t_4 = pairs_loose_multiply(g1.a0, g1.a1, q3.a0, q3.a1);
+    t_r2 t_5 = pairs_loose_multiply(g3.a0, g3.a1, q1.a0, q1.a1);
+    t_r2 t_6 = pairs_loose_subtract(t_4.a0, t_4.a1, t_5.a0, t_5.a1), c2 = pairs_two_sum(t_6.a0, t_6.a1);
+    t_r2 t_7 = pairs_loose_multiply(g2.a0, g2.a1, q1.a0, q1.a1);
+    t_r2 t_8 = pairs_loose_multiply(g1.a0, g1.a1, q2.a0, q2.a1);
+    t_r2 t_9 = pairs_loose_subtract(t_7.a0, t_7.a1, t_8.a0, t_8.a1), c3 = pairs_two_sum(t_9.a0, t_9.a1);
+    t_r2 f1 = pairs_loose_multiply_float(c1.a0, c1.a1, D), f2 = pairs_loose_multiply_float(c2.a0, c2.a1, D);
+    t_r2 f3 = pairs_loose_multiply_float(c3.a0, c3.a1, D); real t0 = -J3;
+    t_r2 t1 = (t_r2){2 * q3.a0, 2 * q3.a1}, t2 = (t_r2){2 * q0.a0, 2 * q0.a1}, t_10 = pairs_two_sum(J2, J3);
+    t_r2 t_11 = pairs_loose_multiply(f3.a0, f3.a1, g2.a0, g2.a1);
+    t_r2 t_12 = pairs_loose_multiply(q1.a0, q1.a1, t_10.a0, t_10.a1);
+    t_r2 t_13 = pairs_loose_add(t_11.a0, t_11.a1, t_12.a0, t_12.a1), t_14 = pairs_two_sum(t_13.a0, t_13.a1);
+    t_r2 t_15 = pairs_loose_multiply(f2.a0, f2.a1, g3.a0, g3.a1);
+    t_r2 t_16 = pairs_loose_subtract(t_14.a0, t_14.a1, t_15.a0, t_15.a1), t_17 = pairs_two_sum(t_16.a0, t_16.a1);
+    t_r2 t_18 = pairs_loose_multiply(q2.a0, q2.a1, t1.a0, t1.a1), t_19 = pairs_two_sum(J2, t0);
+    t_r2 t_20 = pairs_loose_multiply(t2.a0, t2.a1, t_17.a0, t_17.a1);
+    t_r2 t_21 = pairs_loose_multiply(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
+    t_r2 t_22 = pairs_loose_add(t_20.a0, t_20.a1, t_21.a0, t_21.a1), t_23 = pairs_two_sum(t_22.a0, t_22.a1);
+    t_r2 t_24 = pairs_loose_subtract(t_23.a0, t_23.a1, K1.a0, K1.a1), o_r1 = pairs_two_sum(t_24.a0, t_24.a1);
+    t_r2 t_25 = pairs_two_sum(J1, J3), t_26 = pairs_loose_multiply(f1.a0, f1.a1, g3.a0, g3.a1);
+    t_r2 t_27 = pairs_loose_multiply(q2.a0, q2.a1, t_25.a0, t_25.a1);
+    t_r2 t_28 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1), t_29 = pairs_two_sum(t_28.a0, t_28.a1);
+    t_r2 t_30 = pairs_loose_multiply(f3.a0, f3.a1, g1.a0, g1.a1);
+    t_r2 t_31 = pairs_loose_subtract(t_29.a0, t_29.a1, t_30.a0, t_30.a1), t_32 = (t_r2){2 * q0.a0, 2 * q0.a1};
+    t_r2 t_33 = pairs_two_sum(t_31.a0, t_31.a1), t_34 = pairs_loose_multiply(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
+    t_r2 t_35 = pairs_loose_subtract(t_34.a0, t_34.a1, K2.a0, K2.a1);
+    t_r2 t_36 = pairs_loose_multiply(q1.a0, q1.a1, t1.a0, t1.a1), t_37 = pairs_two_sum(J1, t0);
+    t_r2 t_38 = pairs_two_sum(t_35.a0, t_35.a1), t_39 = pairs_loose_multiply(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
+    t_r2 t_40 = pairs_loose_subtract(t_38.a0, t_38.a1, t_39.a0, t_39.a1), o_r2 = pairs_two_sum(t_40.a0, t_40.a1);
+    t_r2 t_41 = pairs_two_sum(J1, J2), t_42 = pairs_loose_multiply(f2.a0, f2.a1, g1.a0, g1.a1);
+    t_r2 t_43 = pairs_loose_multiply(q3.a0, q3.a1, t_41.a0, t_41.a1);
+    t_r2 t_44 = pairs_loose_add(t_42.a0, t_42.a1, t_43.a0, t_43.a1), t_45 = pairs_two_sum(t_44.a0, t_44.a1);
+    t_r2 t_46 = pairs_loose_multiply(f1.a0, f1.a1, g2.a0, g2.a1);
+    t_r2 t_47 = pairs_loose_subtract(t_45.a0, t_45.a1, t_46.a0, t_46.a1), t_48 = pairs_two_sum(t_47.a0, t_47.a1);
+    t_r2 t_49 = (t_r2){2 * q1.a0, 2 * q1.a1}, t_50 = pairs_loose_multiply(t_49.a0, t_49.a1, q2.a0, q2.a1);
+    t_r2 t_51 = pairs_two_sum(J1, -J2), t_52 = pairs_loose_multiply(t2.a0, t2.a1, t_48.a0, t_48.a1);
+    t_r2 t_53 = pairs_loose_multiply(t_50.a0, t_50.a1, t_51.a0, t_51.a1);
+    t_r2 t_54 = pairs_loose_add(t_52.a0, t_52.a1, t_53.a0, t_53.a1), t_55 = pairs_two_sum(t_54.a0, t_54.a1);
+    t_r2 t_56 = pairs_loose_subtract(t_55.a0, t_55.a1, K3.a0, K3.a1), o_r3 = pairs_two_sum(t_56.a0, t_56.a1);
+    return (t_q3){o_r1, o_r2, o_r3};
+}
+
+INLINE t_p4 kernel_compose_p41e3(t_r2 a0, t_r2 a1, t_r2 a2, t_r2 a3, int64_t b0, real b1, real b2, real b3) {
+    t_r2 t_1 = pairs_loose_multiply_float(a1.a0, a1.a1, b1), t_2 = pairs_loose_multiply_float(a2.a0, a2.a1, b2);
+    t_r2 t_3 = pairs_loose_multiply_float(a3.a0, a3.a1, b3);
+    t_r2 t_4 = pairs_loose_subtract(a0.a0, a0.a1, t_1.a0, t_1.a1);
+    t_r2 t_5 = pairs_loose_add(t_2.a0, t_2.a1, t_3.a0, t_3.a1);
+    t_r2 o_c0 = pairs_loose_subtract(t_4.a0, t_4.a1, t_5.a0, t_5.a1);
+    t_r2 t_6 = pairs_loose_multiply_float(a0.a0, a0.a1, b1), t_7 = pairs_loose_multiply_float(a2.a0, a2.a1, b3);
+    t_r2 t_8 = pairs_loose_multiply_float(a3.a0, a3.a1, b2), t_9 = pairs_loose_add(t_6.a0, t_6.a1, a1.a0, a1.a1);
+    t_r2 t_10 = pairs_loose_subtract(t_7.a0, t_7.a1, t_8.a0, t_8.a1);
+    t_r2 o_c1 = pairs_loose_add(t_9.a0, t_9.a1, t_10.a0, t_10.a1);
+    t_r2 t_11 = pairs_loose_multiply_float(a0.a0, a0.a1, b2), t_12 = pairs_loose_multiply_float(a3.a0, a3.a1, b1);
+    t_r2 t_13 = pairs_loose_multiply_float(a1.a0, a1.a1, b3), t_14 = pairs_loose_add(t_11.a0, t_11.a1, a2.a0, a2.a1);
+    t_r2 t_15 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
+    t_r2 o_c2 = pairs_loose_add(t_14.a0, t_14.a1, t_15.a0, t_15.a1);
+    t_r2 t_16 = pairs_loose_multiply_float(a0.a0, a0.a1, b3), t_17 = pairs_loose_multiply_float(a1.a0, a1.a1, b2);
+    t_r2 t_18 = pairs_loose_multiply_float(a2.a0, a2.a1, b1);
+    t_r2 t_19 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
+    t_r2 t_20 = pairs_loose_subtract(a3.a0, a3.a1, t_18.a0, t_18.a1);
+    t_r2 o_c3 = pairs_loose_add(t_19.a0, t_19.a1, t_20.a0, t_20.a1); return (t_p4){o_c0, o_c1, o_c2, o_c3};
+}
+
+INLINE t_r2 vectors_square_of_four__p4_(t_p4 q) {
+    t_r2 t_1 = pairs_loose_multiply(q.a0.a0, q.a0.a1, q.a0.a0, q.a0.a1);
+    t_r2 t_2 = pairs_loose_multiply(q.a1.a0, q.a1.a1, q.a1.a0, q.a1.a1);
+    t_r2 t_3 = pairs_loose_multiply(q.a2.a0, q.a2.a1, q.a2.a0, q.a2.a1);
+    t_r2 t_4 = pairs_loose_multiply(q.a3.a0, q.a3.a1, q.a3.a0, q.a3.a1);
+    t_r2 t_5 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
+    t_r2 t_6 = pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+    return pairs_loose_add(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
+}
+
+INLINE t_p4 vectors_of_length_one__p4_(t_p4 q) {
+    t_r2 t_1 = vectors_square_of_four__p4_(q), t_2 = pairs_loose_add_float(-t_1.a0, -t_1.a1, 3);
+    t_r2 t = (t_r2){t_2.a0 / 2, t_2.a1 / 2};
+    return (t_p4){pairs_loose_multiply(t.a0, t.a1, q.a0.a0, q.a0.a1), pairs_loose_multiply(t.a0, t.a1, q.a1.a0,
+        q.a1.a1), pairs_loose_multiply(t.a0, t.a1, q.a2.a0, q.a2.a1), pairs_loose_multiply(t.a0, t.a1, q.a3.a0,
+        q.a3.a1)};
+}
+
+INLINE t_p4 vectors_normalised_four__p4_(t_p4 q) {
+    return (t_p4){pairs_two_sum(q.a0.a0, q.a0.a1), pairs_two_sum(q.a1.a0, q.a1.a1), pairs_two_sum(q.a2.a0, q.a2.a1),
+        pairs_two_sum(q.a3.a0, q.a3.a1)};
+}
+
+INLINE t_b_p3_ double_double_step_polished__r4__p3_2_r3_r2(t_r4 p, t_p3 k, t_p3 g, t_r3 J, real D, real near) {
+    t_q3 r; t_r_r9_ det; t_r3 w; real change, extent;
+    t_q3 K = double_double_step_sums_normal__p3_(vectors_plus__p3_2(k, k));
+    t_q3 v = double_double_step_sums_normal__p3_(g); t_r3 floats = vectors_highs__p3_(g);
+    t_p4 q = (t_p4){(t_r2){p.a0, R(0.0)}, (t_r2){p.a1, R(0.0)}, (t_r2){p.a2, R(0.0)}, (t_r2){p.a3, R(0.0)}};
+    real before = near; int settled = 0;
     for (int64_t i_0 = 0; i_0 < 60; i_0++) {
-        r1 = double_double_residual_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, R(2.0) * k1, R(2.0) * k1_, R(2.0) * k2,
-            R(2.0) * k2_, R(2.0) * k3, R(2.0) * k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D);
-        det = branch_inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D);
+        t_q3 t_1 = double_double_step_sums_normal__p3_((t_p3){q.a1, q.a2, q.a3}); t_e3 t_2 = vectors_exact(J);
+        r = kernel_residual_q10e4((t_r2){q.a0.a0, q.a0.a1}, t_1.a0, t_1.a1, t_1.a2, K.a0, K.a1, K.a2, v.a0, v.a1,
+            v.a2, t_2.a0, t_2.a1, t_2.a2, D);
+        t_r3 t_3 = vectors_highs__p3_((t_p3){q.a1, q.a2, q.a3});
+        det = branch_inverse((t_r4){q.a0.a0, t_3.a0, t_3.a1, t_3.a2}, floats, J, D);
         if (!(det.a0 > R(0.0))) { break; }
-        w1 = -(det.a1 * r1.a0 + det.a2 * r1.a2 + det.a3 * r1.a4);
-        w2 = -(det.a4 * r1.a0 + det.a5 * r1.a2 + det.a6 * r1.a4);
-        w3 = -(det.a7 * r1.a0 + det.a8 * r1.a2 + det.a9 * r1.a4);
-        t_r8 t_1 = double_double_moved_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, w1, w2, w3); q0 = t_1.a0;
-        q0_ = t_1.a1; q1 = t_1.a2; q1_ = t_1.a3; q2 = t_1.a4; q2_ = t_1.a5; q3 = t_1.a6; q3_ = t_1.a7;
-        change = max_r(max_r(R(fabs(w1)), R(fabs(w2))), R(fabs(w3)));
-        extent = max_r(max_r(R(fabs(q1)), R(fabs(q2))), R(fabs(q3)));
+        t_r2 t_4 = pairs_two_sum(r.a0.a0, r.a0.a1), t_5 = pairs_two_sum(r.a1.a0, r.a1.a1);
+        t_r2 t_6 = pairs_two_sum(r.a2.a0, r.a2.a1); w = branch_product(det.a1, (t_r3){t_4.a0, t_5.a0, t_6.a0});
+        q = vectors_normalised_four__p4_(vectors_of_length_one__p4_(kernel_compose_p41e3(q.a0, q.a1, q.a2, q.a3, 1,
+            -w.a0, -w.a1, -w.a2)));
+        change = vectors_largest(w); extent = vectors_largest(vectors_highs__p3_((t_p3){q.a1, q.a2, q.a3}));
         if (change > near) { break; }
         settled = change <= R(4.930380657631324e-32) * extent || (change <= R(8.673617379884035e-19) * extent &&
             change >= R(0.25) * before);
         if (settled) { break; }
         before = change;
     }
-    if (q0 == R(0.0)) { q0 = R(7.703719777548943e-34); }
-    t_r2 t_2 = pairs_divide(q1, q1_, q0, q0_), t_3 = pairs_divide(q2, q2_, q0, q0_);
-    t_r2 t_4 = pairs_divide(q3, q3_, q0, q0_);
-    return (t_br6){settled, t_2.a0, t_2.a1, t_3.a0, t_3.a1, t_4.a0, t_4.a1};
+    t_r2 cosine = q.a0;
+    if (cosine.a0 == R(0.0)) { cosine = (t_r2){R(7.703719777548943e-34), q.a0.a1}; }
+    t_r2 t_7 = pairs_two_sum(cosine.a0, cosine.a1), t_8 = pairs_two_sum(cosine.a0, cosine.a1);
+    t_r2 t_9 = pairs_two_sum(cosine.a0, cosine.a1);
+    return (t_b_p3_){settled, (t_p3){pairs_divide(q.a1.a0, q.a1.a1, t_7.a0, t_7.a1), pairs_divide(q.a2.a0, q.a2.a1,
+        t_8.a0, t_8.a1), pairs_divide(q.a3.a0, q.a3.a1, t_9.a0, t_9.a1)}};
 }
 
-INLINE t_ir7 double_double_step_solved(real u1, real u2, real u3, real k1, real k1_, real k2, real k2_, real k3, real
-    k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_, real I1, real I1_, real I2, real I2_, real I3, real
-    I3_, real J1, real J2, real J3, real D, real radius, real enough) {
-    t_r6 r1; t_r3 e1; real p0, p1, p2, p3; int near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius;
-    Round r = double_double_step_approach(near ? u1 : R(0.0), near ? u2 : R(0.0), near ? u3 : R(0.0), k1, k2, k3, g1,
-        g2, g3, I1, I2, I3, D, radius, enough);
-    int settled = radius >= R(0.0) && r.first <= enough; real w1 = r.w1, w2 = r.w2, w3 = r.w3; int64_t status = 0;
-    real reach = R(1.0);
+INLINE t_ir_p3_ double_double_step_solved__r3__p3_3_r3_r3(t_r3 u, t_p3 k, t_p3 g, t_p3 I, t_r3 J, real D, real radius,
+    real enough) {
+    t_p3 G; t_r3 left, e; t_r4 p; real p0, p1, p2, p3;
+    t_r3 floats = vectors_highs__p3_(k), vertical = vectors_highs__p3_(g), inertia = vectors_highs__p3_(I);
+    t_r2 zero = (t_r2){R(0.0), R(0.0)}; int t_1 = vectors_square(u) <= radius;
+    t_r3 t_2 = (t_r3){R(0.0), R(0.0), R(0.0)};
+    Round r = double_double_step_approach((t_r3){t_1 ? u.a0 : t_2.a0, t_1 ? u.a1 : t_2.a1, t_1 ? u.a2 : t_2.a2},
+        floats, vertical, inertia, D, radius, enough);
+    int settled = radius >= R(0.0) && r.first <= enough; t_r3 w = r.w; int64_t status = 0; real reach = R(1.0);
     if (settled) {
-        r1 = double_double_gibbs_residual_pairs(w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1,
-            I1_, I2, I2_, I3, I3_, D);
-        e1 = double_double_step_correction(r, r1.a0, r1.a2, r1.a4, k1, k2, k3, I1, I2, I3);
-        if (double_double_step_small(w1, w2, w3, e1.a0, e1.a1, e1.a2)) {
-            t_r2 t_1 = pairs_two_sum(w1, e1.a0), t_2 = pairs_two_sum(w2, e1.a1), t_3 = pairs_two_sum(w3, e1.a2);
-            return (t_ir7){0, R(1.0), t_1.a0, t_1.a1, t_2.a0, t_2.a1, t_3.a0, t_3.a1};
-        }
-        w1 = w1 + e1.a0; w2 = w2 + e1.a1; w3 = w3 + e1.a2;
-        p0 = R(1.0) / R(sqrt(R(1.0) + (w1 * w1 + (w2 * w2 + w3 * w3)))); p1 = p0 * w1; p2 = p0 * w2; p3 = p0 * w3;
+        t_e3 t_3 = vectors_exact(w);
+        G = kernel_gibbs_residual_e3p9e(t_3.a0, t_3.a1, t_3.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, I.a0, I.a1, I.a2,
+            D);
+        t_r2 t_4 = pairs_two_sum(G.a0.a0, G.a0.a1), t_5 = pairs_two_sum(G.a1.a0, G.a1.a1);
+        t_r2 t_6 = pairs_two_sum(G.a2.a0, G.a2.a1); left = (t_r3){t_4.a0, t_5.a0, t_6.a0};
+        e = double_double_step_correction(r.p.a0, r.d, r.cofactors, left, floats, inertia);
+        if (double_double_step_small(w, e)) { return (t_ir_p3_){0, R(1.0), vectors_summed(w, e)}; }
+        p = double_double_step_rotation_of(vectors_plus(w, e));
     }
     else {
         if (radius == R(-2.0)) {
-            t_br7 t_4 = path_search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D); settled = t_4.a0;
-            p0 = t_4.a1; p1 = t_4.a2; p2 = t_4.a3; p3 = t_4.a4; w1 = t_4.a5; w2 = t_4.a6; w3 = t_4.a7;
+            t_b_r4__r3_ t_7 = path_search_on_path(u, floats, vertical, inertia, D); settled = t_7.a0; p = t_7.a1;
+            w = t_7.a2;
         }
-        if (settled) {
-            p0 = R(1.0) / R(sqrt(R(1.0) + (w1 * w1 + (w2 * w2 + w3 * w3)))); p1 = p0 * w1; p2 = p0 * w2; p3 = p0 * w3;
-        }
+        if (settled) { p = double_double_step_rotation_of(w); }
         else {
-            t_ir5 t_5 = branch_small_rotation(R(2.0) * k1, R(2.0) * k2, R(2.0) * k3, g1, g2, g3, J1, J2, J3, D);
-            status = t_5.a0; reach = t_5.a1; p0 = t_5.a2; p1 = t_5.a3; p2 = t_5.a4; p3 = t_5.a5;
+            t_r3 t_8 = vectors_scaled(R(2.0), floats);
+            t_ir5 t_9 = branch_small_rotation(t_8.a0, t_8.a1, t_8.a2, vertical.a0, vertical.a1, vertical.a2, J.a0,
+                J.a1, J.a2, D);
+            status = t_9.a0; reach = t_9.a1; p0 = t_9.a2; p1 = t_9.a3; p2 = t_9.a4; p3 = t_9.a5;
+            p = (t_r4){p0, p1, p2, p3};
         }
         if (status != 0 && !(status == 1 && reach > R(0.9999999999999716))) {
-            return (t_ir7){status, reach, R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)};
+            return (t_ir_p3_){status, reach, (t_p3){zero, zero, zero}};
         }
     }
-    t_br6 t_6 = double_double_step_polished(p0, p1, p2, p3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1,
-        J2, J3, D, status == 1 ? R(1e-06) : R(0.1));
-    settled = t_6.a0; u1 = t_6.a1; real u1_ = t_6.a2; u2 = t_6.a3; real u2_ = t_6.a4; u3 = t_6.a5; real u3_ = t_6.a6;
-    if (settled) { return (t_ir7){0, R(1.0), u1, u1_, u2, u2_, u3, u3_}; }
-    return (t_ir7){status == 1 ? 1 : 2, reach, R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)};
+    t_b_p3_ t_10 = double_double_step_polished__r4__p3_2_r3_r2(p, k, g, J, D, status == 1 ? R(1e-06) : R(0.1));
+    settled = t_10.a0; t_p3 found = t_10.a1;
+    if (settled) { return (t_ir_p3_){0, R(1.0), found}; }
+    return (t_ir_p3_){status == 1 ? 1 : 2, reach, (t_p3){zero, zero, zero}};
 }
 
 INLINE t_r8 sums_filtered(real b, real c, real d, real e, real f, real h, real o, real w) {
@@ -2352,186 +2346,174 @@ INLINE t_r8 sums_filtered(real b, real c, real d, real e, real f, real h, real o
         o + R(8.0) * w, -w};
 }
 
-INLINE void double_double_loop_extrapolated(r2 past, real w1, real w2, real w3) {
-    int64_t c = 0; real w = w1;
+INLINE void double_double_loop_extrapolated(r2 past, t_r3 w) {
+    int64_t c = 0; real x = w.a0;
     t_r8 t_1 = sums_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
-        AT2(past, 6, c), AT2(past, 7, c), w);
+        AT2(past, 6, c), AT2(past, 7, c), x);
     AT2(past, 0, c) = t_1.a0; AT2(past, 1, c) = t_1.a1; AT2(past, 2, c) = t_1.a2; AT2(past, 3, c) = t_1.a3;
     AT2(past, 4, c) = t_1.a4; AT2(past, 5, c) = t_1.a5; AT2(past, 6, c) = t_1.a6; AT2(past, 7, c) = t_1.a7; c = 1;
-    w = w2;
+    x = w.a1;
     t_r8 t_2 = sums_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
-        AT2(past, 6, c), AT2(past, 7, c), w);
+        AT2(past, 6, c), AT2(past, 7, c), x);
     AT2(past, 0, c) = t_2.a0; AT2(past, 1, c) = t_2.a1; AT2(past, 2, c) = t_2.a2; AT2(past, 3, c) = t_2.a3;
     AT2(past, 4, c) = t_2.a4; AT2(past, 5, c) = t_2.a5; AT2(past, 6, c) = t_2.a6; AT2(past, 7, c) = t_2.a7; c = 2;
-    w = w3;
+    x = w.a2;
     t_r8 t_3 = sums_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
-        AT2(past, 6, c), AT2(past, 7, c), w);
+        AT2(past, 6, c), AT2(past, 7, c), x);
     AT2(past, 0, c) = t_3.a0; AT2(past, 1, c) = t_3.a1; AT2(past, 2, c) = t_3.a2; AT2(past, 3, c) = t_3.a3;
     AT2(past, 4, c) = t_3.a4; AT2(past, 5, c) = t_3.a5; AT2(past, 6, c) = t_3.a6; AT2(past, 7, c) = t_3.a7;
 }
 
-INLINE t_ir7 double_double_loop_stage(r1 state, real c, real c_, real radius, real enough, r2 past) {
-    t_r2 k1 = pairs_multiply(state.p[0], state.p[1], c, c_), k2 = pairs_multiply(state.p[2], state.p[3], c, c_);
-    t_r2 k3 = pairs_multiply(state.p[4], state.p[5], c, c_);
-    t_ir7 status = double_double_step_solved(AT2(past, 0, 0), AT2(past, 0, 1), AT2(past, 0, 2), k1.a0, k1.a1, k2.a0,
-        k2.a1, k3.a0, k3.a1, state.p[6], state.p[7], state.p[8], state.p[9], state.p[10], state.p[11], state.p[12],
-        state.p[13], state.p[14], state.p[15], state.p[16], state.p[17], state.p[18], state.p[19], state.p[20],
-        state.p[21], radius, enough);
-    if (status.a0 == 0) { double_double_loop_extrapolated(past, status.a2, status.a4, status.a6); }
-    return (t_ir7){status.a0, status.a1, status.a2, status.a3, status.a4, status.a5, status.a6, status.a7};
+INLINE t_ir_p3_ double_double_loop_stage_r1pr2r2(r1 state, t_r2 c, real radius, real enough, r2 past) {
+    t_p3 k = vectors_normalised__p3_(vectors_scaled_p_p3_(c, vectors_three_pairs(state, 0)));
+    t_p3 g = vectors_three_pairs(state, 6), inertia = vectors_three_pairs(state, 12);
+    t_ir_p3_ status = double_double_step_solved__r3__p3_3_r3_r3(vectors_three(r2_row(past, 0), 0), k, g, inertia,
+        vectors_three(state, 18), state.p[21], radius, enough);
+    if (status.a0 == 0) { double_double_loop_extrapolated(past, vectors_highs__p3_(status.a2)); }
+    return (t_ir_p3_){status.a0, status.a1, status.a2};
 }
 
-INLINE t_r12 double_double_roll_pairs(real q0, real q0_, real u1, real u1_, real u2, real u2_, real u3, real u3_, real
-    g1, real g1_, real g2, real g2_, real g3, real g3_, real a0, real a0_, real a1, real a1_, real a2, real a2_, real
-    a3, real a3_, real z1, real z1_, real z2, real z2_, real rho) {
-    t_r2 t0 = pairs_loose_multiply(q0, q0_, u1, u1_), t1 = pairs_loose_multiply(q0, q0_, u2, u2_);
-    t_r2 t2 = pairs_loose_multiply(q0, q0_, u3, u3_); real t3 = 2 * q0, t3_ = 2 * q0_;
-    t_r2 t4 = pairs_loose_multiply(g3, g3_, t1.a0, t1.a1), t5 = pairs_loose_multiply(g2, g2_, t2.a0, t2.a1);
-    t_r2 t6 = pairs_loose_subtract(t4.a0, t4.a1, t5.a0, t5.a1), t7 = pairs_loose_multiply(t3, t3_, t6.a0, t6.a1);
-    real t8 = -t3, t8_ = -t3_;
-    t_r2 t9 = pairs_loose_multiply(g3, g3_, t0.a0, t0.a1), t10 = pairs_loose_multiply(g1, g1_, t2.a0, t2.a1);
-    t_r2 t11 = pairs_loose_subtract(t9.a0, t9.a1, t10.a0, t10.a1);
-    t_r2 t12 = pairs_loose_multiply(t8, t8_, t11.a0, t11.a1), t13 = pairs_loose_multiply(g2, g2_, t0.a0, t0.a1);
-    t_r2 t14 = pairs_loose_multiply(g1, g1_, t1.a0, t1.a1);
-    t_r2 t15 = pairs_loose_subtract(t13.a0, t13.a1, t14.a0, t14.a1);
-    t_r2 t16 = pairs_loose_multiply(t3, t3_, t15.a0, t15.a1), t17 = pairs_loose_multiply(a2, a2_, a2, a2_);
-    t_r2 t18 = pairs_loose_multiply(a3, a3_, a3, a3_); real t19 = 2 * t7.a0, t19_ = 2 * t7.a1;
-    t_r2 t20 = pairs_loose_multiply(a0, a0_, a2, a2_), t21 = pairs_loose_multiply(a1, a1_, a3, a3_);
-    t_r2 t22 = pairs_loose_multiply(a0, a0_, a3, a3_), t23 = pairs_loose_multiply(a1, a1_, a2, a2_);
-    real t24 = 2 * t12.a0, t24_ = 2 * t12.a1;
-    t_r2 t25 = pairs_loose_multiply(a1, a1_, a1, a1_), t26 = pairs_loose_multiply(a0, a0_, a1, a1_);
-    t_r2 t27 = pairs_loose_multiply(a2, a2_, a3, a3_); real t28 = 2 * t16.a0, t28_ = 2 * t16.a1;
-    t_r2 t29 = pairs_loose_add(t20.a0, t20.a1, t21.a0, t21.a1);
-    t_r2 t30 = pairs_loose_multiply(t28, t28_, t29.a0, t29.a1), t31 = pairs_loose_add(t7.a0, t7.a1, t30.a0, t30.a1);
-    t_r2 t32 = pairs_loose_add(t17.a0, t17.a1, t18.a0, t18.a1);
-    t_r2 t33 = pairs_loose_multiply(t19, t19_, t32.a0, t32.a1);
-    t_r2 t34 = pairs_loose_subtract(t22.a0, t22.a1, t23.a0, t23.a1);
-    t_r2 t35 = pairs_loose_multiply(t24, t24_, t34.a0, t34.a1);
-    t_r2 t36 = pairs_loose_add(t33.a0, t33.a1, t35.a0, t35.a1);
-    t_r2 t37 = pairs_loose_subtract(t31.a0, t31.a1, t36.a0, t36.a1);
-    t_r2 t38 = pairs_loose_add(t22.a0, t22.a1, t23.a0, t23.a1);
-    t_r2 t39 = pairs_loose_multiply(t19, t19_, t38.a0, t38.a1);
-    t_r2 t40 = pairs_loose_add(t12.a0, t12.a1, t39.a0, t39.a1);
-    t_r2 t41 = pairs_loose_subtract(t26.a0, t26.a1, t27.a0, t27.a1);
-    t_r2 t42 = pairs_loose_multiply(t28, t28_, t41.a0, t41.a1);
-    t_r2 t43 = pairs_loose_add(t18.a0, t18.a1, t25.a0, t25.a1);
-    t_r2 t44 = pairs_loose_multiply(t24, t24_, t43.a0, t43.a1);
-    t_r2 t45 = pairs_loose_add(t42.a0, t42.a1, t44.a0, t44.a1);
-    t_r2 t46 = pairs_loose_subtract(t40.a0, t40.a1, t45.a0, t45.a1);
-    t_r2 t47 = pairs_loose_multiply_float(t37.a0, t37.a1, rho), t48 = pairs_loose_add(z1, z1_, t47.a0, t47.a1);
-    t_r2 t49 = pairs_loose_multiply_float(t46.a0, t46.a1, rho), t50 = pairs_loose_add(z2, z2_, t49.a0, t49.a1);
-    t_r2 t51 = pairs_loose_multiply(q0, q0_, a0, a0_), t52 = pairs_loose_multiply(a1, a1_, t0.a0, t0.a1);
-    t_r2 t53 = pairs_loose_subtract(t51.a0, t51.a1, t52.a0, t52.a1);
-    t_r2 t54 = pairs_loose_multiply(a2, a2_, t1.a0, t1.a1), t55 = pairs_loose_multiply(a3, a3_, t2.a0, t2.a1);
-    t_r2 t56 = pairs_loose_add(t54.a0, t54.a1, t55.a0, t55.a1);
-    t_r2 t57 = pairs_loose_subtract(t53.a0, t53.a1, t56.a0, t56.a1);
-    t_r2 t58 = pairs_loose_multiply(a0, a0_, t0.a0, t0.a1), t59 = pairs_loose_multiply(q0, q0_, a1, a1_);
-    t_r2 t60 = pairs_loose_add(t58.a0, t58.a1, t59.a0, t59.a1), t61 = pairs_loose_multiply(a2, a2_, t2.a0, t2.a1);
-    t_r2 t62 = pairs_loose_multiply(a3, a3_, t1.a0, t1.a1);
-    t_r2 t63 = pairs_loose_subtract(t61.a0, t61.a1, t62.a0, t62.a1);
-    t_r2 t64 = pairs_loose_add(t60.a0, t60.a1, t63.a0, t63.a1), t65 = pairs_loose_multiply(a0, a0_, t1.a0, t1.a1);
-    t_r2 t66 = pairs_loose_multiply(q0, q0_, a2, a2_), t67 = pairs_loose_add(t65.a0, t65.a1, t66.a0, t66.a1);
-    t_r2 t68 = pairs_loose_multiply(a3, a3_, t0.a0, t0.a1), t69 = pairs_loose_multiply(a1, a1_, t2.a0, t2.a1);
-    t_r2 t70 = pairs_loose_subtract(t68.a0, t68.a1, t69.a0, t69.a1);
-    t_r2 t71 = pairs_loose_add(t67.a0, t67.a1, t70.a0, t70.a1), t72 = pairs_loose_multiply(a0, a0_, t2.a0, t2.a1);
-    t_r2 t73 = pairs_loose_multiply(a1, a1_, t1.a0, t1.a1), t74 = pairs_loose_add(t72.a0, t72.a1, t73.a0, t73.a1);
-    t_r2 t75 = pairs_loose_multiply(q0, q0_, a3, a3_), t76 = pairs_loose_multiply(a2, a2_, t0.a0, t0.a1);
-    t_r2 t77 = pairs_loose_subtract(t75.a0, t75.a1, t76.a0, t76.a1);
-    t_r2 t78 = pairs_loose_add(t74.a0, t74.a1, t77.a0, t77.a1);
-    t_r2 t79 = pairs_loose_multiply(t57.a0, t57.a1, t57.a0, t57.a1);
-    t_r2 t80 = pairs_loose_multiply(t64.a0, t64.a1, t64.a0, t64.a1);
-    t_r2 t81 = pairs_loose_add(t79.a0, t79.a1, t80.a0, t80.a1);
-    t_r2 t82 = pairs_loose_multiply(t71.a0, t71.a1, t71.a0, t71.a1);
-    t_r2 t83 = pairs_loose_multiply(t78.a0, t78.a1, t78.a0, t78.a1);
-    t_r2 t84 = pairs_loose_add(t82.a0, t82.a1, t83.a0, t83.a1);
-    t_r2 t85 = pairs_loose_add(t81.a0, t81.a1, t84.a0, t84.a1), t86 = pairs_loose_add_float(-t85.a0, -t85.a1, 3);
-    real t87 = t86.a0 / 2, t87_ = t86.a1 / 2; t_r2 t88 = pairs_loose_multiply(t57.a0, t57.a1, t87, t87_);
-    t_r2 t89 = pairs_loose_multiply(t64.a0, t64.a1, t87, t87_);
-    t_r2 t90 = pairs_loose_multiply(t71.a0, t71.a1, t87, t87_);
-    t_r2 t91 = pairs_loose_multiply(t78.a0, t78.a1, t87, t87_), o_b0 = pairs_two_sum(t88.a0, t88.a1);
-    t_r2 o_b1 = pairs_two_sum(t89.a0, t89.a1), o_b2 = pairs_two_sum(t90.a0, t90.a1);
-    t_r2 o_b3 = pairs_two_sum(t91.a0, t91.a1), o_n1 = pairs_two_sum(t48.a0, t48.a1);
-    t_r2 o_n2 = pairs_two_sum(t50.a0, t50.a1);
-    return (t_r12){o_b0.a0, o_b0.a1, o_b1.a0, o_b1.a1, o_b2.a0, o_b2.a1, o_b3.a0, o_b3.a1, o_n1.a0, o_n1.a1, o_n2.a0,
-        o_n2.a1};
+INLINE t_p3 kernel_centre_step_p7(t_r2 q0, t_r2 q1, t_r2 q2, t_r2 q3, t_r2 g1, t_r2 g2, t_r2 g3) {
+    t_r2 t0 = (t_r2){2 * q0.a0, 2 * q0.a1}, t_1 = pairs_loose_multiply(g3.a0, g3.a1, q2.a0, q2.a1);
+    t_r2 t_2 = pairs_loose_multiply(g2.a0, g2.a1, q3.a0, q3.a1);
+    t_r2 t_3 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
+    t_r2 o_s1 = pairs_loose_multiply(t0.a0, t0.a1, t_3.a0, t_3.a1);
+    t_r2 t_4 = pairs_loose_multiply(g3.a0, g3.a1, q1.a0, q1.a1);
+    t_r2 t_5 = pairs_loose_multiply(g1.a0, g1.a1, q3.a0, q3.a1), t_6 = (t_r2){-t0.a0, -t0.a1};
+    t_r2 t_7 = pairs_loose_subtract(t_4.a0, t_4.a1, t_5.a0, t_5.a1);
+    t_r2 o_s2 = pairs_loose_multiply(t_6.a0, t_6.a1, t_7.a0, t_7.a1);
+    t_r2 t_8 = pairs_loose_multiply(g2.a0, g2.a1, q1.a0, q1.a1);
+    t_r2 t_9 = pairs_loose_multiply(g1.a0, g1.a1, q2.a0, q2.a1);
+    t_r2 t_10 = pairs_loose_subtract(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
+    t_r2 o_s3 = pairs_loose_multiply(t0.a0, t0.a1, t_10.a0, t_10.a1); return (t_p3){o_s1, o_s2, o_s3};
 }
 
-INLINE void double_double_loop_follow_body(real u1, real u1_, real u2, real u2_, real u3, real u3_, r1 state, r1
-    attitude, r1 contact, real rho) {
-    t_r2 t_1 = pairs_loose_multiply(u1, u1_, u1, u1_), t_2 = pairs_loose_multiply(u2, u2_, u2, u2_);
-    t_r2 t_3 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1); real n = t_3.a0, n_ = t_3.a1;
-    t_r2 t_4 = pairs_loose_multiply(u3, u3_, u3, u3_), t_5 = pairs_loose_add(n, n_, t_4.a0, t_4.a1); n = t_5.a0;
-    n_ = t_5.a1; t_r2 t_6 = pairs_loose_add_float(n, n_, R(1.0)), t_7 = pairs_two_sum(t_6.a0, t_6.a1);
-    t_r2 t_8 = pairs_root(t_7.a0, t_7.a1); n = t_8.a0; n_ = t_8.a1; t_r2 q0 = pairs_divide(R(1.0), R(0.0), n, n_);
-    t_r12 t_9 = double_double_roll_pairs(q0.a0, q0.a1, u1, u1_, u2, u2_, u3, u3_, state.p[6], state.p[7], state.p[8],
-        state.p[9], state.p[10], state.p[11], attitude.p[0], attitude.p[1], attitude.p[2], attitude.p[3],
-        attitude.p[4], attitude.p[5], attitude.p[6], attitude.p[7], contact.p[0], contact.p[1], contact.p[2],
-        contact.p[3], rho);
-    attitude.p[0] = t_9.a0; attitude.p[1] = t_9.a1; attitude.p[2] = t_9.a2; attitude.p[3] = t_9.a3;
-    attitude.p[4] = t_9.a4; attitude.p[5] = t_9.a5; attitude.p[6] = t_9.a6; attitude.p[7] = t_9.a7;
-    contact.p[0] = t_9.a8; contact.p[1] = t_9.a9; contact.p[2] = t_9.a10; contact.p[3] = t_9.a11;
+INLINE t_p3 kernel_rotate_p7(t_r2 q0, t_r2 q1, t_r2 q2, t_r2 q3, t_r2 v1, t_r2 v2, t_r2 v3) {
+    t_r2 t0 = pairs_loose_multiply(q2.a0, q2.a1, q2.a0, q2.a1);
+    t_r2 t1 = pairs_loose_multiply(q3.a0, q3.a1, q3.a0, q3.a1), t2 = (t_r2){2 * v1.a0, 2 * v1.a1};
+    t_r2 t3 = pairs_loose_multiply(q0.a0, q0.a1, q2.a0, q2.a1);
+    t_r2 t4 = pairs_loose_multiply(q1.a0, q1.a1, q3.a0, q3.a1);
+    t_r2 t5 = pairs_loose_multiply(q0.a0, q0.a1, q3.a0, q3.a1);
+    t_r2 t6 = pairs_loose_multiply(q1.a0, q1.a1, q2.a0, q2.a1), t7 = (t_r2){2 * v2.a0, 2 * v2.a1};
+    t_r2 t8 = pairs_loose_multiply(q1.a0, q1.a1, q1.a0, q1.a1);
+    t_r2 t9 = pairs_loose_multiply(q0.a0, q0.a1, q1.a0, q1.a1);
+    t_r2 t10 = pairs_loose_multiply(q2.a0, q2.a1, q3.a0, q3.a1), t11 = (t_r2){2 * v3.a0, 2 * v3.a1};
+    t_r2 t_1 = (t_r2){2 * v3.a0, 2 * v3.a1}, t_2 = pairs_loose_add(t3.a0, t3.a1, t4.a0, t4.a1);
+    t_r2 t_3 = pairs_loose_multiply(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
+    t_r2 t_4 = pairs_loose_add(t0.a0, t0.a1, t1.a0, t1.a1), t_5 = pairs_loose_subtract(t5.a0, t5.a1, t6.a0, t6.a1);
+    t_r2 t_6 = pairs_loose_multiply(t2.a0, t2.a1, t_4.a0, t_4.a1);
+    t_r2 t_7 = pairs_loose_multiply(t7.a0, t7.a1, t_5.a0, t_5.a1);
+    t_r2 t_8 = pairs_loose_add(v1.a0, v1.a1, t_3.a0, t_3.a1), t_9 = pairs_loose_add(t_6.a0, t_6.a1, t_7.a0, t_7.a1);
+    t_r2 o_x1 = pairs_loose_subtract(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
+    t_r2 t_10 = pairs_loose_add(t5.a0, t5.a1, t6.a0, t6.a1);
+    t_r2 t_11 = pairs_loose_multiply(t2.a0, t2.a1, t_10.a0, t_10.a1);
+    t_r2 t_12 = pairs_loose_subtract(t9.a0, t9.a1, t10.a0, t10.a1);
+    t_r2 t_13 = pairs_loose_add(t1.a0, t1.a1, t8.a0, t8.a1);
+    t_r2 t_14 = pairs_loose_multiply(t11.a0, t11.a1, t_12.a0, t_12.a1);
+    t_r2 t_15 = pairs_loose_multiply(t7.a0, t7.a1, t_13.a0, t_13.a1);
+    t_r2 t_16 = pairs_loose_add(v2.a0, v2.a1, t_11.a0, t_11.a1);
+    t_r2 t_17 = pairs_loose_add(t_14.a0, t_14.a1, t_15.a0, t_15.a1);
+    t_r2 o_x2 = pairs_loose_subtract(t_16.a0, t_16.a1, t_17.a0, t_17.a1), t_18 = (t_r2){2 * v2.a0, 2 * v2.a1};
+    t_r2 t_19 = pairs_loose_add(t10.a0, t10.a1, t9.a0, t9.a1);
+    t_r2 t_20 = pairs_loose_multiply(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
+    t_r2 t_21 = pairs_loose_add(t0.a0, t0.a1, t8.a0, t8.a1), t_22 = pairs_loose_subtract(t3.a0, t3.a1, t4.a0, t4.a1);
+    t_r2 t_23 = pairs_loose_multiply(t11.a0, t11.a1, t_21.a0, t_21.a1);
+    t_r2 t_24 = pairs_loose_multiply(t2.a0, t2.a1, t_22.a0, t_22.a1);
+    t_r2 t_25 = pairs_loose_add(v3.a0, v3.a1, t_20.a0, t_20.a1);
+    t_r2 t_26 = pairs_loose_add(t_23.a0, t_23.a1, t_24.a0, t_24.a1);
+    t_r2 o_x3 = pairs_loose_subtract(t_25.a0, t_25.a1, t_26.a0, t_26.a1); return (t_p3){o_x1, o_x2, o_x3};
 }
 
-INLINE t_r12 double_double_turn_pairs(real u1, real u1_, real u2, real u2_, real u3, real u3_, real k1, real k1_, real
-    k2, real k2_, real k3, real k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_) {
-    t_r2 t0 = pairs_loose_multiply(u1, u1_, u1, u1_), t1 = pairs_loose_add_float(t0.a0, t0.a1, 1);
-    t_r2 t2 = pairs_loose_multiply(u2, u2_, u2, u2_), t3 = pairs_loose_multiply(u3, u3_, u3, u3_);
-    t_r2 t4 = pairs_loose_add(t2.a0, t2.a1, t3.a0, t3.a1), t5 = pairs_loose_add(t1.a0, t1.a1, t4.a0, t4.a1);
-    t_r2 t6d = pairs_two_sum(t5.a0, t5.a1), t6 = pairs_divide(2, 0, t6d.a0, t6d.a1);
-    t_r2 t7 = pairs_loose_multiply(u2, u2_, k3, k3_), t8 = pairs_loose_multiply(u3, u3_, k2, k2_);
-    t_r2 t9 = pairs_loose_subtract(t7.a0, t7.a1, t8.a0, t8.a1), t10 = pairs_loose_multiply(u3, u3_, k1, k1_);
-    t_r2 t11 = pairs_loose_multiply(u1, u1_, k3, k3_), t12 = pairs_loose_subtract(t10.a0, t10.a1, t11.a0, t11.a1);
-    t_r2 t13 = pairs_loose_multiply(u1, u1_, k2, k2_), t14 = pairs_loose_multiply(u2, u2_, k1, k1_);
-    t_r2 t15 = pairs_loose_subtract(t13.a0, t13.a1, t14.a0, t14.a1);
-    t_r2 t16 = pairs_loose_multiply(u2, u2_, t15.a0, t15.a1);
-    t_r2 t17 = pairs_loose_subtract(t16.a0, t16.a1, t9.a0, t9.a1);
-    t_r2 t18 = pairs_loose_multiply(u3, u3_, t12.a0, t12.a1);
-    t_r2 t19 = pairs_loose_subtract(t17.a0, t17.a1, t18.a0, t18.a1);
-    t_r2 t20 = pairs_loose_multiply(t6.a0, t6.a1, t19.a0, t19.a1), t21 = pairs_loose_multiply(u3, u3_, t9.a0, t9.a1);
-    t_r2 t22 = pairs_loose_subtract(t21.a0, t21.a1, t12.a0, t12.a1);
-    t_r2 t23 = pairs_loose_multiply(u1, u1_, t15.a0, t15.a1);
-    t_r2 t24 = pairs_loose_subtract(t22.a0, t22.a1, t23.a0, t23.a1);
-    t_r2 t25 = pairs_loose_multiply(t6.a0, t6.a1, t24.a0, t24.a1);
-    t_r2 t26 = pairs_loose_multiply(u1, u1_, t12.a0, t12.a1);
-    t_r2 t27 = pairs_loose_subtract(t26.a0, t26.a1, t15.a0, t15.a1);
-    t_r2 t28 = pairs_loose_multiply(u2, u2_, t9.a0, t9.a1);
-    t_r2 t29 = pairs_loose_subtract(t27.a0, t27.a1, t28.a0, t28.a1);
-    t_r2 t30 = pairs_loose_multiply(t6.a0, t6.a1, t29.a0, t29.a1), t31 = pairs_loose_multiply(u2, u2_, g3, g3_);
-    t_r2 t32 = pairs_loose_multiply(u3, u3_, g2, g2_), t33 = pairs_loose_subtract(t31.a0, t31.a1, t32.a0, t32.a1);
-    t_r2 t34 = pairs_loose_multiply(u3, u3_, g1, g1_), t35 = pairs_loose_multiply(u1, u1_, g3, g3_);
-    t_r2 t36 = pairs_loose_subtract(t34.a0, t34.a1, t35.a0, t35.a1), t37 = pairs_loose_multiply(u1, u1_, g2, g2_);
-    t_r2 t38 = pairs_loose_multiply(u2, u2_, g1, g1_), t39 = pairs_loose_subtract(t37.a0, t37.a1, t38.a0, t38.a1);
-    t_r2 t40 = pairs_loose_multiply(u2, u2_, t39.a0, t39.a1);
-    t_r2 t41 = pairs_loose_subtract(t40.a0, t40.a1, t33.a0, t33.a1);
-    t_r2 t42 = pairs_loose_multiply(u3, u3_, t36.a0, t36.a1);
-    t_r2 t43 = pairs_loose_subtract(t41.a0, t41.a1, t42.a0, t42.a1);
-    t_r2 t44 = pairs_loose_multiply(t6.a0, t6.a1, t43.a0, t43.a1);
-    t_r2 t45 = pairs_loose_multiply(u3, u3_, t33.a0, t33.a1);
-    t_r2 t46 = pairs_loose_subtract(t45.a0, t45.a1, t36.a0, t36.a1);
-    t_r2 t47 = pairs_loose_multiply(u1, u1_, t39.a0, t39.a1);
-    t_r2 t48 = pairs_loose_subtract(t46.a0, t46.a1, t47.a0, t47.a1);
-    t_r2 t49 = pairs_loose_multiply(t6.a0, t6.a1, t48.a0, t48.a1);
-    t_r2 t50 = pairs_loose_multiply(u1, u1_, t36.a0, t36.a1);
-    t_r2 t51 = pairs_loose_subtract(t50.a0, t50.a1, t39.a0, t39.a1);
-    t_r2 t52 = pairs_loose_multiply(u2, u2_, t33.a0, t33.a1);
-    t_r2 t53 = pairs_loose_subtract(t51.a0, t51.a1, t52.a0, t52.a1);
-    t_r2 t54 = pairs_loose_multiply(t6.a0, t6.a1, t53.a0, t53.a1), t55 = pairs_loose_add(k1, k1_, t20.a0, t20.a1);
-    t_r2 t56 = pairs_loose_add(k2, k2_, t25.a0, t25.a1), t57 = pairs_loose_add(k3, k3_, t30.a0, t30.a1);
-    t_r2 t58 = pairs_loose_add(g1, g1_, t44.a0, t44.a1), t59 = pairs_loose_add(g2, g2_, t49.a0, t49.a1);
-    t_r2 t60 = pairs_loose_add(g3, g3_, t54.a0, t54.a1), o_l1 = pairs_two_sum(t55.a0, t55.a1);
-    t_r2 o_l2 = pairs_two_sum(t56.a0, t56.a1), o_l3 = pairs_two_sum(t57.a0, t57.a1);
-    t_r2 o_h1 = pairs_two_sum(t58.a0, t58.a1), o_h2 = pairs_two_sum(t59.a0, t59.a1);
-    t_r2 o_h3 = pairs_two_sum(t60.a0, t60.a1);
-    return (t_r12){o_l1.a0, o_l1.a1, o_l2.a0, o_l2.a1, o_l3.a0, o_l3.a1, o_h1.a0, o_h1.a1, o_h2.a0, o_h2.a1, o_h3.a0,
-        o_h3.a1};
+INLINE t_p4 kernel_compose_p8(t_r2 a0, t_r2 a1, t_r2 a2, t_r2 a3, t_r2 b0, t_r2 b1, t_r2 b2, t_r2 b3) {
+    t_r2 t_1 = pairs_loose_multiply(a0.a0, a0.a1, b0.a0, b0.a1);
+    t_r2 t_2 = pairs_loose_multiply(a1.a0, a1.a1, b1.a0, b1.a1);
+    t_r2 t_3 = pairs_loose_multiply(a2.a0, a2.a1, b2.a0, b2.a1);
+    t_r2 t_4 = pairs_loose_multiply(a3.a0, a3.a1, b3.a0, b3.a1);
+    t_r2 t_5 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
+    t_r2 t_6 = pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+    t_r2 o_c0 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
+    t_r2 t_7 = pairs_loose_multiply(a0.a0, a0.a1, b1.a0, b1.a1);
+    t_r2 t_8 = pairs_loose_multiply(a1.a0, a1.a1, b0.a0, b0.a1);
+    t_r2 t_9 = pairs_loose_multiply(a2.a0, a2.a1, b3.a0, b3.a1);
+    t_r2 t_10 = pairs_loose_multiply(a3.a0, a3.a1, b2.a0, b2.a1);
+    t_r2 t_11 = pairs_loose_add(t_7.a0, t_7.a1, t_8.a0, t_8.a1);
+    t_r2 t_12 = pairs_loose_subtract(t_9.a0, t_9.a1, t_10.a0, t_10.a1);
+    t_r2 o_c1 = pairs_loose_add(t_11.a0, t_11.a1, t_12.a0, t_12.a1);
+    t_r2 t_13 = pairs_loose_multiply(a0.a0, a0.a1, b2.a0, b2.a1);
+    t_r2 t_14 = pairs_loose_multiply(a2.a0, a2.a1, b0.a0, b0.a1);
+    t_r2 t_15 = pairs_loose_multiply(a3.a0, a3.a1, b1.a0, b1.a1);
+    t_r2 t_16 = pairs_loose_multiply(a1.a0, a1.a1, b3.a0, b3.a1);
+    t_r2 t_17 = pairs_loose_add(t_13.a0, t_13.a1, t_14.a0, t_14.a1);
+    t_r2 t_18 = pairs_loose_subtract(t_15.a0, t_15.a1, t_16.a0, t_16.a1);
+    t_r2 o_c2 = pairs_loose_add(t_17.a0, t_17.a1, t_18.a0, t_18.a1);
+    t_r2 t_19 = pairs_loose_multiply(a0.a0, a0.a1, b3.a0, b3.a1);
+    t_r2 t_20 = pairs_loose_multiply(a1.a0, a1.a1, b2.a0, b2.a1);
+    t_r2 t_21 = pairs_loose_multiply(a3.a0, a3.a1, b0.a0, b0.a1);
+    t_r2 t_22 = pairs_loose_multiply(a2.a0, a2.a1, b1.a0, b1.a1);
+    t_r2 t_23 = pairs_loose_add(t_19.a0, t_19.a1, t_20.a0, t_20.a1);
+    t_r2 t_24 = pairs_loose_subtract(t_21.a0, t_21.a1, t_22.a0, t_22.a1);
+    t_r2 o_c3 = pairs_loose_add(t_23.a0, t_23.a1, t_24.a0, t_24.a1); return (t_p4){o_c0, o_c1, o_c2, o_c3};
 }
 
-INLINE void double_double_loop_turn_both(real u1, real u1_, real u2, real u2_, real u3, real u3_, r1 state) {
-    t_r12 t_1 = double_double_turn_pairs(u1, u1_, u2, u2_, u3, u3_, state.p[0], state.p[1], state.p[2], state.p[3],
-        state.p[4], state.p[5], state.p[6], state.p[7], state.p[8], state.p[9], state.p[10], state.p[11]);
-    state.p[0] = t_1.a0; state.p[1] = t_1.a1; state.p[2] = t_1.a2; state.p[3] = t_1.a3; state.p[4] = t_1.a4;
-    state.p[5] = t_1.a5; state.p[6] = t_1.a6; state.p[7] = t_1.a7; state.p[8] = t_1.a8; state.p[9] = t_1.a9;
-    state.p[10] = t_1.a10; state.p[11] = t_1.a11;
+INLINE t__p4_p2 double_double_loop_rolled__p3_2_p4_p2r(t_p3 u, t_p3 g, t_p4 a, t_r2 x, t_r2 y, real rho) {
+    t_r2 t_1 = vectors_dot__p3_2(u, u), t_2 = pairs_loose_add_float(t_1.a0, t_1.a1, R(1.0));
+    t_r2 t_3 = pairs_two_sum(t_2.a0, t_2.a1), t_4 = pairs_root(t_3.a0, t_3.a1), t_5 = pairs_two_sum(t_4.a0, t_4.a1);
+    t_r2 q0 = pairs_divide(R(1.0), 0, t_5.a0, t_5.a1);
+    t_p3 q = vectors_scaled_p_p3_(q0, u), t_6 = kernel_centre_step_p7(q0, q.a0, q.a1, q.a2, g.a0, g.a1, g.a2);
+    t_p3 d1 = kernel_rotate_p7(a.a0, a.a1, a.a2, a.a3, t_6.a0, t_6.a1, t_6.a2);
+    t_p4 turned = vectors_normalised_four__p4_(vectors_of_length_one__p4_(kernel_compose_p8(a.a0, a.a1, a.a2, a.a3,
+        q0, q.a0, q.a1, q.a2)));
+    t_r2 t_7 = pairs_loose_multiply_float(d1.a0.a0, d1.a0.a1, rho);
+    t_r2 t_8 = pairs_loose_add(x.a0, x.a1, t_7.a0, t_7.a1);
+    t_r2 t_9 = pairs_loose_multiply_float(d1.a1.a0, d1.a1.a1, rho);
+    t_r2 t_10 = pairs_loose_add(y.a0, y.a1, t_9.a0, t_9.a1);
+    return (t__p4_p2){turned, pairs_two_sum(t_8.a0, t_8.a1), pairs_two_sum(t_10.a0, t_10.a1)};
+}
+
+INLINE void double_double_loop_follow_body__p3_r13r(t_p3 u, r1 state, r1 attitude, r1 contact, real rho) {
+    t_p4 a = (t_p4){vectors_pair(attitude, 0), vectors_pair(attitude, 2), vectors_pair(attitude, 4),
+        vectors_pair(attitude, 6)};
+    t__p4_p2 b = double_double_loop_rolled__p3_2_p4_p2r(u, vectors_three_pairs(state, 6), a, vectors_pair(contact, 0),
+        vectors_pair(contact, 2), rho);
+    vectors_put_pair_r1ip(attitude, 0, b.a0.a0);
+    vectors_put_pairs_r1i_p3_(attitude, 2, (t_p3){b.a0.a1, b.a0.a2, b.a0.a3});
+    vectors_put_pair_r1ip(contact, 0, b.a1); vectors_put_pair_r1ip(contact, 2, b.a2);
+}
+
+INLINE t_p3 kernel_turn_1p6(int64_t p0, t_r2 p1, t_r2 p2, t_r2 p3, t_r2 v1, t_r2 v2, t_r2 v3) {
+    t_r2 t_1 = pairs_loose_multiply(p1.a0, p1.a1, p1.a0, p1.a1);
+    t_r2 t_2 = pairs_loose_multiply(p2.a0, p2.a1, p2.a0, p2.a1);
+    t_r2 t_3 = pairs_loose_multiply(p3.a0, p3.a1, p3.a0, p3.a1), t_4 = pairs_loose_add_float(t_1.a0, t_1.a1, p0);
+    t_r2 t_5 = pairs_loose_add(t_2.a0, t_2.a1, t_3.a0, t_3.a1);
+    t_r2 t_6 = pairs_loose_add(t_4.a0, t_4.a1, t_5.a0, t_5.a1), t_7 = pairs_two_sum(t_6.a0, t_6.a1);
+    t_r2 s = pairs_divide(2, 0, t_7.a0, t_7.a1), t_8 = pairs_loose_multiply(p2.a0, p2.a1, v3.a0, v3.a1);
+    t_r2 t_9 = pairs_loose_multiply(p3.a0, p3.a1, v2.a0, v2.a1);
+    t_r2 x1 = pairs_loose_subtract(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
+    t_r2 t_10 = pairs_loose_multiply(p3.a0, p3.a1, v1.a0, v1.a1);
+    t_r2 t_11 = pairs_loose_multiply(p1.a0, p1.a1, v3.a0, v3.a1);
+    t_r2 x2 = pairs_loose_subtract(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
+    t_r2 t_12 = pairs_loose_multiply(p1.a0, p1.a1, v2.a0, v2.a1);
+    t_r2 t_13 = pairs_loose_multiply(p2.a0, p2.a1, v1.a0, v1.a1);
+    t_r2 x3 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
+    t_r2 t_14 = pairs_loose_multiply(p2.a0, p2.a1, x3.a0, x3.a1);
+    t_r2 t_15 = pairs_loose_subtract(t_14.a0, t_14.a1, x1.a0, x1.a1);
+    t_r2 t_16 = pairs_loose_multiply(p3.a0, p3.a1, x2.a0, x2.a1);
+    t_r2 t_17 = pairs_loose_subtract(t_15.a0, t_15.a1, t_16.a0, t_16.a1);
+    t_r2 o_x1 = pairs_loose_multiply(s.a0, s.a1, t_17.a0, t_17.a1);
+    t_r2 t_18 = pairs_loose_multiply(p3.a0, p3.a1, x1.a0, x1.a1);
+    t_r2 t_19 = pairs_loose_subtract(t_18.a0, t_18.a1, x2.a0, x2.a1);
+    t_r2 t_20 = pairs_loose_multiply(p1.a0, p1.a1, x3.a0, x3.a1);
+    t_r2 t_21 = pairs_loose_subtract(t_19.a0, t_19.a1, t_20.a0, t_20.a1);
+    t_r2 o_x2 = pairs_loose_multiply(s.a0, s.a1, t_21.a0, t_21.a1);
+    t_r2 t_22 = pairs_loose_multiply(p1.a0, p1.a1, x2.a0, x2.a1);
+    t_r2 t_23 = pairs_loose_subtract(t_22.a0, t_22.a1, x3.a0, x3.a1);
+    t_r2 t_24 = pairs_loose_multiply(p2.a0, p2.a1, x1.a0, x1.a1);
+    t_r2 t_25 = pairs_loose_subtract(t_23.a0, t_23.a1, t_24.a0, t_24.a1);
+    t_r2 o_x3 = pairs_loose_multiply(s.a0, s.a1, t_25.a0, t_25.a1); return (t_p3){o_x1, o_x2, o_x3};
+}
+
+INLINE t_p3 double_double_loop_turned__p3_2(t_p3 u, t_p3 v) {
+    return vectors_normalised__p3_(vectors_plus__p3_2(v, kernel_turn_1p6(1, u.a0, u.a1, u.a2, v.a0, v.a1, v.a2)));
 }
 
 INLINE t_r2 pairs_add(real a, real a_, real b, real b_) {
@@ -2542,15 +2524,20 @@ INLINE t_r2 pairs_add(real a, real a_, real b, real b_) {
 
 INLINE t_r2 pairs_subtract(real a, real a_, real b, real b_) { return pairs_add(a, a_, -b, -b_); }
 OUT_OF_LINE void double_double_loop_restore_pairs(r1 state) {
-    r1 k = r1_part(state, 0, 6), g = r1_part(state, 6, 12), h = r1_part(state, 22, 28);
-    t_r2 t_1 = double_double_loop_inner(g, g), unit = pairs_subtract(h.p[0], h.p[1], t_1.a0, t_1.a1);
-    t_r2 t_2 = double_double_loop_inner(k, g), height = pairs_subtract(h.p[2], h.p[3], t_2.a0, t_2.a1);
-    t_r2 t_3 = double_double_loop_inner(k, k), squared = pairs_subtract(h.p[4], h.p[5], t_3.a0, t_3.a1);
-    t_r3 stretch = integrals_shares(unit.a0, height.a0, squared.a0, h.p[0], h.p[2], h.p[4]);
+    t_r2 x, y;
+    t_p3 k = vectors_three_pairs(state, 0), g = vectors_three_pairs(state, 6), h = vectors_three_pairs(state, 22);
+    t_p3 now = vectors_normalised__p3_((t_p3){vectors_dot__p3_2(g, g), vectors_dot__p3_2(k, g), vectors_dot__p3_2(k,
+        k)});
+    t_r2 unit = pairs_subtract(h.a0.a0, h.a0.a1, now.a0.a0, now.a0.a1);
+    t_r2 height = pairs_subtract(h.a1.a0, h.a1.a1, now.a1.a0, now.a1.a1);
+    t_r2 squared = pairs_subtract(h.a2.a0, h.a2.a1, now.a2.a0, now.a2.a1);
+    t_r3 stretch = integrals_shares(unit.a0, height.a0, squared.a0, h.a0.a0, h.a1.a0, h.a2.a0);
     for (int64_t i = 0; i < 6; i += 2) {
-        t_r2 t_4 = pairs_two_sum(k.p[i], k.p[i + 1] + (stretch.a1 * k.p[i] + stretch.a2 * g.p[i])); k.p[i] = t_4.a0;
-        k.p[i + 1] = t_4.a1; t_r2 t_5 = pairs_two_sum(g.p[i], g.p[i + 1] + stretch.a0 * g.p[i]); g.p[i] = t_5.a0;
-        g.p[i + 1] = t_5.a1;
+        x = vectors_pair(state, 0 + i); y = vectors_pair(state, 6 + i);
+        t_r2 t_1 = pairs_two_sum(x.a0, x.a1 + (stretch.a1 * x.a0 + stretch.a2 * y.a0));
+        vectors_put_pair_r1ip(state, 0 + i, (t_r2){t_1.a0, t_1.a1});
+        t_r2 t_2 = pairs_two_sum(y.a0, y.a1 + stretch.a0 * y.a0);
+        vectors_put_pair_r1ip(state, 6 + i, (t_r2){t_2.a0, t_2.a1});
     }
 }
 
@@ -2564,17 +2551,17 @@ INLINE void double_double_loop_write(r1 frame, r1 frame_, r1 pairs, int64_t at, 
 INLINE t_i2r double_double_loop_march_pairs(r1 state, r2 c, r1 radius, r1 enough, r3 past, int64_t first, int64_t
     count, int64_t every, int64_t shift, int64_t beyond, r2 momenta, r2 momenta_, r2 verticals, r2 verticals_, int
     with_body, r1 attitude, r1 contact, real rho, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
-    t_ir7 status; int64_t frame; int64_t period = max_i(1, div_i(1024, c.n0));
+    t_ir_p3_ status; int64_t frame; int64_t period = max_i(1, div_i(1024, c.n0));
     for (int64_t step = first + 1, end_step = first + count + 1; step < end_step; step++) {
         for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
-            status = double_double_loop_stage(state, AT2(c, i, 0), AT2(c, i, 1), radius.p[i], enough.p[i],
-                r3_row(past, i));
+            status = double_double_loop_stage_r1pr2r2(state, (t_r2){AT2(c, i, 0), AT2(c, i, 1)}, radius.p[i],
+                enough.p[i], r3_row(past, i));
             if (status.a0 != 0) { return (t_i2r){step - 1 - first, status.a0, status.a1}; }
-            if (with_body) {
-                double_double_loop_follow_body(status.a2, status.a3, status.a4, status.a5, status.a6, status.a7,
-                    state, attitude, contact, rho);
-            }
-            double_double_loop_turn_both(status.a2, status.a3, status.a4, status.a5, status.a6, status.a7, state);
+            if (with_body) { double_double_loop_follow_body__p3_r13r(status.a2, state, attitude, contact, rho); }
+            vectors_put_pairs_r1i_p3_(state, 0, double_double_loop_turned__p3_2(status.a2, vectors_three_pairs(state,
+                0)));
+            vectors_put_pairs_r1i_p3_(state, 6, double_double_loop_turned__p3_2(status.a2, vectors_three_pairs(state,
+                6)));
         }
         if (mod_i(step, period) == 0) { double_double_loop_restore_pairs(state); }
         if (mod_i(step, every) == 0) {
@@ -2604,27 +2591,33 @@ INLINE void double_double_block_prepare_pairs_block(r2 momentum, r2 g, r2 tensor
     }
 }
 
+INLINE t_p3 vectors_pairs_in(r2 S, int64_t at, int64_t i) {
+    return (t_p3){(t_r2){AT2(S, at, i), AT2(S, at + 1, i)}, (t_r2){AT2(S, at + 2, i), AT2(S, at + 3, i)},
+        (t_r2){AT2(S, at + 4, i), AT2(S, at + 5, i)}};
+}
+
 INLINE int64_t double_double_block_approached(r2 S, r2 P, i1 ok, int again) {
-    real radius, u1, u2, u3, x; int near, done; Round r; int64_t row; int64_t bad = 0;
+    real radius; t_r3 u, k, g, inertia; Round r; int done; t_r9 c; int64_t bad = 0;
     INDEPENDENT for (int64_t i = 0; i < 16; i++) {
-        radius = AT2(S, 52, i);
-        if (again) { u1 = AT2(P, 0, i); u2 = AT2(P, 1, i); u3 = AT2(P, 2, i); }
-        else { u1 = AT2(S, 28, i); u2 = AT2(S, 29, i); u3 = AT2(S, 30, i); }
-        near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius; u1 = near ? u1 : R(0.0); u2 = near ? u2 : R(0.0);
-        u3 = near ? u3 : R(0.0);
-        r = gibbs_newton_round(u1, u2, u3, AT2(S, 0, i), AT2(S, 2, i), AT2(S, 4, i), AT2(S, 6, i), AT2(S, 8, i),
-            AT2(S, 10, i), AT2(S, 12, i), AT2(S, 14, i), AT2(S, 16, i), AT2(S, 21, i), 0);
-        done = again & (ok.p[i] == 1); row = 0; x = r.w1; AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 1;
-        x = r.w2; AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 2; x = r.w3;
-        AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 3; x = r.d1; AT2(P, row, i) = done ? AT2(P, row, i) : x;
-        row = 4; x = r.d2; AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 5; x = r.d3;
-        AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 6; x = r.p0; AT2(P, row, i) = done ? AT2(P, row, i) : x;
-        row = 7; x = r.c11; AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 8; x = r.c12;
-        AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 9; x = r.c13; AT2(P, row, i) = done ? AT2(P, row, i) : x;
-        row = 10; x = r.c21; AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 11; x = r.c22;
-        AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 12; x = r.c23; AT2(P, row, i) = done ? AT2(P, row, i) : x;
-        row = 13; x = r.c31; AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 14; x = r.c32;
-        AT2(P, row, i) = done ? AT2(P, row, i) : x; row = 15; x = r.c33; AT2(P, row, i) = done ? AT2(P, row, i) : x;
+        radius = AT2(S, 52, i); t_r3 t_1 = vectors_three_in(P, 0, i), t_2 = vectors_three_in(S, 28, i);
+        u = (t_r3){again ? t_1.a0 : t_2.a0, again ? t_1.a1 : t_2.a1, again ? t_1.a2 : t_2.a2};
+        int t_3 = vectors_square(u) <= radius; t_r3 t_4 = (t_r3){R(0.0), R(0.0), R(0.0)};
+        u = (t_r3){t_3 ? u.a0 : t_4.a0, t_3 ? u.a1 : t_4.a1, t_3 ? u.a2 : t_4.a2};
+        k = vectors_highs__p3_(vectors_pairs_in(S, 0, i)); g = vectors_highs__p3_(vectors_pairs_in(S, 6, i));
+        inertia = vectors_highs__p3_(vectors_pairs_in(S, 12, i));
+        r = gibbs_newton_round(u, k, g, inertia, AT2(S, 21, i), 0); done = again & (ok.p[i] == 1); c = r.cofactors;
+        t_r3 t_5 = vectors_three_in(P, 0, i);
+        vectors_put_in(P, 0, i, (t_r3){done ? t_5.a0 : r.w.a0, done ? t_5.a1 : r.w.a1, done ? t_5.a2 : r.w.a2});
+        t_r3 t_6 = vectors_three_in(P, 3, i);
+        vectors_put_in(P, 3, i, (t_r3){done ? t_6.a0 : r.d.a0, done ? t_6.a1 : r.d.a1, done ? t_6.a2 : r.d.a2});
+        t_r3 t_7 = vectors_three_in(P, 7, i), t_8 = (t_r3){c.a0, c.a1, c.a2};
+        vectors_put_in(P, 7, i, (t_r3){done ? t_7.a0 : t_8.a0, done ? t_7.a1 : t_8.a1, done ? t_7.a2 : t_8.a2});
+        t_r3 t_9 = vectors_three_in(P, 10, i), t_10 = (t_r3){c.a3, c.a4, c.a5};
+        vectors_put_in(P, 10, i, (t_r3){done ? t_9.a0 : t_10.a0, done ? t_9.a1 : t_10.a1, done ? t_9.a2 : t_10.a2});
+        t_r3 t_11 = vectors_three_in(P, 13, i), t_12 = (t_r3){c.a6, c.a7, c.a8};
+        vectors_put_in(P, 13, i, (t_r3){done ? t_11.a0 : t_12.a0, done ? t_11.a1 : t_12.a1, done ? t_11.a2 :
+            t_12.a2});
+        AT2(P, 6, i) = done ? AT2(P, 6, i) : r.p.a0;
         ok.p[i] = (done | ((radius >= R(0.0)) & (r.first <= AT2(S, 53, i)))) ? 1 : 0;
         bad = bad + (radius >= R(0.0) ? 1 - ok.p[i] : 0);
     }
@@ -2632,52 +2625,56 @@ INLINE int64_t double_double_block_approached(r2 S, r2 P, i1 ok, int again) {
 }
 
 INLINE void double_double_block_residuals(r2 S, r2 P) {
+    t_e3 w; real contact; t_p3 k, g, inertia;
     INDEPENDENT for (int64_t i = 0; i < 16; i++) {
-        t_r6 t_1 = double_double_gibbs_residual_pairs(AT2(P, 0, i), AT2(P, 1, i), AT2(P, 2, i), AT2(S, 0, i), AT2(S,
-            1, i), AT2(S, 2, i), AT2(S, 3, i), AT2(S, 4, i), AT2(S, 5, i), AT2(S, 6, i), AT2(S, 7, i), AT2(S, 8, i),
-            AT2(S, 9, i), AT2(S, 10, i), AT2(S, 11, i), AT2(S, 12, i), AT2(S, 13, i), AT2(S, 14, i), AT2(S, 15, i),
-            AT2(S, 16, i), AT2(S, 17, i), AT2(S, 21, i));
-        AT2(P, 16, i) = t_1.a0; AT2(P, 17, i) = t_1.a2; AT2(P, 18, i) = t_1.a4;
+        w = vectors_exact(vectors_three_in(P, 0, i)); contact = AT2(S, 21, i); k = vectors_pairs_in(S, 0, i);
+        g = vectors_pairs_in(S, 6, i); inertia = vectors_pairs_in(S, 12, i);
+        vectors_put_in(P, 16, i, vectors_highs__p3_(vectors_normalised__p3_(kernel_gibbs_residual_e3p9e(w.a0, w.a1,
+            w.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, inertia.a0, inertia.a1, inertia.a2, contact))));
     }
 }
 
 INLINE int64_t double_double_block_corrected(r2 S, r2 P, i1 ok) {
-    real w1, w2, w3; Round r; t_r3 e1; int64_t bad = 0;
+    t_r9 c; t_r3 k, inertia, e; int64_t bad = 0;
     INDEPENDENT for (int64_t i = 0; i < 16; i++) {
-        w1 = AT2(P, 0, i); w2 = AT2(P, 1, i); w3 = AT2(P, 2, i);
-        r = (Round){AT2(P, 6, i), R(0.0), R(0.0), R(0.0), w1, w2, w3, R(0.0), AT2(P, 3, i), AT2(P, 4, i), AT2(P, 5,
-            i), AT2(P, 7, i), AT2(P, 8, i), AT2(P, 9, i), AT2(P, 10, i), AT2(P, 11, i), AT2(P, 12, i), AT2(P, 13, i),
-            AT2(P, 14, i), AT2(P, 15, i)};
-        e1 = double_double_step_correction(r, AT2(P, 16, i), AT2(P, 17, i), AT2(P, 18, i), AT2(S, 0, i), AT2(S, 2, i),
-            AT2(S, 4, i), AT2(S, 12, i), AT2(S, 14, i), AT2(S, 16, i));
-        AT2(P, 19, i) = e1.a0; AT2(P, 20, i) = e1.a1; AT2(P, 21, i) = e1.a2;
-        ok.p[i] = ((ok.p[i] == 1) & double_double_step_small(w1, w2, w3, e1.a0, e1.a1, e1.a2)) ? 1 : 0;
+        t_r3 t_1 = vectors_three_in(P, 7, i), t_2 = vectors_three_in(P, 10, i), t_3 = vectors_three_in(P, 13, i);
+        c = (t_r9){t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2};
+        k = vectors_highs__p3_(vectors_pairs_in(S, 0, i)); inertia = vectors_highs__p3_(vectors_pairs_in(S, 12, i));
+        e = double_double_step_correction(AT2(P, 6, i), vectors_three_in(P, 3, i), c, vectors_three_in(P, 16, i), k,
+            inertia);
+        vectors_put_in(P, 19, i, e);
+        ok.p[i] = ((ok.p[i] == 1) & double_double_step_small(vectors_three_in(P, 0, i), e)) ? 1 : 0;
         bad = bad + (1 - ok.p[i]);
     }
     return bad;
 }
 
+INLINE t_r3 vectors_lows__p3_(t_p3 v) { return (t_r3){v.a0.a1, v.a1.a1, v.a2.a1}; }
 OUT_OF_LINE void double_double_block_mend(r2 S, r2 P, i1 ok, int64_t step, i1 taken, i1 status, d1 reach) {
-    real u1, u1_, u2, u2_, u3, u3_;
+    t_p3 u;
     for (int64_t i = 0; i < 16; i++) {
         if (ok.p[i] == 1) { continue; }
-        AT2(P, 0, i) = R(0.0); AT2(P, 1, i) = R(0.0); AT2(P, 2, i) = R(0.0); AT2(P, 19, i) = R(0.0);
-        AT2(P, 20, i) = R(0.0); AT2(P, 21, i) = R(0.0);
+        vectors_put_in(P, 0, i, (t_r3){R(0.0), R(0.0), R(0.0)});
+        vectors_put_in(P, 19, i, (t_r3){R(0.0), R(0.0), R(0.0)});
         if (i < status.n0 && status.p[i] == 0) {
             real s_[S.n0]; r1 s = {s_, S.n0};
             for (int64_t i_ = 0; i_ < S.n0; i_++) { s_[i_] = AT2(S, i_, i); }
-            t_ir7 t_1 = double_double_loop_stage(s, R(1.0), R(0.0), s.p[52], s.p[53], (r2){r1_part(s, 28, 52).p, 8, 3,
-                3});
-            status.p[i] = t_1.a0; reach.p[i] = t_1.a1; u1 = t_1.a2; u1_ = t_1.a3; u2 = t_1.a4; u2_ = t_1.a5;
-            u3 = t_1.a6; u3_ = t_1.a7;
+            t_ir_p3_ t_1 = double_double_loop_stage_r1pr2r2(s, (t_r2){R(1.0), R(0.0)}, s.p[52], s.p[53],
+                (r2){r1_part(s, 28, 52).p, 8, 3, 3});
+            status.p[i] = t_1.a0; reach.p[i] = t_1.a1; u = t_1.a2;
             if (status.p[i] == 0) {
-                AT2(P, 0, i) = u1; AT2(P, 1, i) = u2; AT2(P, 2, i) = u3; AT2(P, 19, i) = u1_; AT2(P, 20, i) = u2_;
-                AT2(P, 21, i) = u3_; continue;
+                vectors_put_in(P, 0, i, vectors_highs__p3_(u)); vectors_put_in(P, 19, i, vectors_lows__p3_(u));
+                continue;
             }
             taken.p[i] = step;
         }
         AT2(S, 52, i) = R(-1.0);
     }
+}
+
+INLINE void vectors_put_pairs_in_r2i2_p3_(r2 S, int64_t at, int64_t i, t_p3 v) {
+    vectors_put_in(S, at, i, (t_r3){v.a0.a0, v.a0.a1, v.a1.a0});
+    vectors_put_in(S, at + 3, i, (t_r3){v.a1.a1, v.a2.a0, v.a2.a1});
 }
 
 INLINE void double_double_block_extrapolated(r2 S, int64_t row, int64_t i, real w) {
@@ -2688,19 +2685,15 @@ INLINE void double_double_block_extrapolated(r2 S, int64_t row, int64_t i, real 
     AT2(S, row + 21, i) = t_1.a7;
 }
 
-INLINE void double_double_block_turned(r2 S, r2 P) {
+INLINE void double_double_block_all_turned(r2 S, r2 P) {
+    t_r3 w, e; t_p3 u;
     INDEPENDENT for (int64_t i = 0; i < 16; i++) {
-        t_r2 t_1 = pairs_two_sum(AT2(P, 0, i), AT2(P, 19, i)), t_2 = pairs_two_sum(AT2(P, 1, i), AT2(P, 20, i));
-        t_r2 t_3 = pairs_two_sum(AT2(P, 2, i), AT2(P, 21, i));
-        t_r12 t_4 = double_double_turn_pairs(t_1.a0, t_1.a1, t_2.a0, t_2.a1, t_3.a0, t_3.a1, AT2(S, 0, i), AT2(S, 1,
-            i), AT2(S, 2, i), AT2(S, 3, i), AT2(S, 4, i), AT2(S, 5, i), AT2(S, 6, i), AT2(S, 7, i), AT2(S, 8, i),
-            AT2(S, 9, i), AT2(S, 10, i), AT2(S, 11, i));
-        AT2(S, 0, i) = t_4.a0; AT2(S, 1, i) = t_4.a1; AT2(S, 2, i) = t_4.a2; AT2(S, 3, i) = t_4.a3;
-        AT2(S, 4, i) = t_4.a4; AT2(S, 5, i) = t_4.a5; AT2(S, 6, i) = t_4.a6; AT2(S, 7, i) = t_4.a7;
-        AT2(S, 8, i) = t_4.a8; AT2(S, 9, i) = t_4.a9; AT2(S, 10, i) = t_4.a10; AT2(S, 11, i) = t_4.a11;
-        double_double_block_extrapolated(S, 28, i, AT2(P, 0, i) + AT2(P, 19, i));
-        double_double_block_extrapolated(S, 29, i, AT2(P, 1, i) + AT2(P, 20, i));
-        double_double_block_extrapolated(S, 30, i, AT2(P, 2, i) + AT2(P, 21, i));
+        w = vectors_three_in(P, 0, i); e = vectors_three_in(P, 19, i); u = vectors_summed(w, e);
+        vectors_put_pairs_in_r2i2_p3_(S, 0, i, double_double_loop_turned__p3_2(u, vectors_pairs_in(S, 0, i)));
+        vectors_put_pairs_in_r2i2_p3_(S, 6, i, double_double_loop_turned__p3_2(u, vectors_pairs_in(S, 6, i)));
+        double_double_block_extrapolated(S, 28, i, w.a0 + e.a0);
+        double_double_block_extrapolated(S, 29, i, w.a1 + e.a1);
+        double_double_block_extrapolated(S, 30, i, w.a2 + e.a2);
     }
 }
 
@@ -2715,7 +2708,7 @@ INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64
         if (double_double_block_corrected(S, P, ok) != 0) {
             double_double_block_mend(S, P, ok, step, taken, status, reach);
         }
-        double_double_block_turned(S, P);
+        double_double_block_all_turned(S, P);
         if (mod_i(step + 1, 1024) == 0) {
             for (int64_t i = 0; i < 16; i++) {
                 real one_[28]; r1 one = {one_, 28};
@@ -2744,159 +2737,113 @@ INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64
     block_carry(S, state, 16);
 }
 
-INLINE t_r12 double_double_rotate_pairs(real a0, real a0_, real a1, real a1_, real a2, real a2_, real a3, real a3_,
-    real k1, real k1_, real k2, real k2_, real k3, real k3_, real g1, real g1_, real g2, real g2_, real g3, real g3_)
-    {
-    t_r2 t0 = pairs_loose_multiply(a2, a2_, a2, a2_), t1 = pairs_loose_multiply(a3, a3_, a3, a3_);
-    real t2 = 2 * k1, t2_ = 2 * k1_;
-    t_r2 t3 = pairs_loose_multiply(a0, a0_, a2, a2_), t4 = pairs_loose_multiply(a1, a1_, a3, a3_);
-    t_r2 t5 = pairs_loose_multiply(a0, a0_, a3, a3_), t6 = pairs_loose_multiply(a1, a1_, a2, a2_);
-    real t7 = 2 * k2, t7_ = 2 * k2_;
-    t_r2 t8 = pairs_loose_multiply(a1, a1_, a1, a1_), t9 = pairs_loose_multiply(a0, a0_, a1, a1_);
-    t_r2 t10 = pairs_loose_multiply(a2, a2_, a3, a3_); real t11 = 2 * k3, t11_ = 2 * k3_;
-    t_r2 t12 = pairs_loose_add(t3.a0, t3.a1, t4.a0, t4.a1), t13 = pairs_loose_multiply(t11, t11_, t12.a0, t12.a1);
-    t_r2 t14 = pairs_loose_add(k1, k1_, t13.a0, t13.a1), t15 = pairs_loose_add(t0.a0, t0.a1, t1.a0, t1.a1);
-    t_r2 t16 = pairs_loose_multiply(t2, t2_, t15.a0, t15.a1), t17 = pairs_loose_subtract(t5.a0, t5.a1, t6.a0, t6.a1);
-    t_r2 t18 = pairs_loose_multiply(t7, t7_, t17.a0, t17.a1), t19 = pairs_loose_add(t16.a0, t16.a1, t18.a0, t18.a1);
-    t_r2 t20 = pairs_loose_subtract(t14.a0, t14.a1, t19.a0, t19.a1);
-    t_r2 t21 = pairs_loose_add(t5.a0, t5.a1, t6.a0, t6.a1), t22 = pairs_loose_multiply(t2, t2_, t21.a0, t21.a1);
-    t_r2 t23 = pairs_loose_add(k2, k2_, t22.a0, t22.a1), t24 = pairs_loose_subtract(t9.a0, t9.a1, t10.a0, t10.a1);
-    t_r2 t25 = pairs_loose_multiply(t11, t11_, t24.a0, t24.a1), t26 = pairs_loose_add(t1.a0, t1.a1, t8.a0, t8.a1);
-    t_r2 t27 = pairs_loose_multiply(t7, t7_, t26.a0, t26.a1), t28 = pairs_loose_add(t25.a0, t25.a1, t27.a0, t27.a1);
-    t_r2 t29 = pairs_loose_subtract(t23.a0, t23.a1, t28.a0, t28.a1);
-    t_r2 t30 = pairs_loose_add(t9.a0, t9.a1, t10.a0, t10.a1), t31 = pairs_loose_multiply(t7, t7_, t30.a0, t30.a1);
-    t_r2 t32 = pairs_loose_add(k3, k3_, t31.a0, t31.a1), t33 = pairs_loose_add(t0.a0, t0.a1, t8.a0, t8.a1);
-    t_r2 t34 = pairs_loose_multiply(t11, t11_, t33.a0, t33.a1);
-    t_r2 t35 = pairs_loose_subtract(t3.a0, t3.a1, t4.a0, t4.a1), t36 = pairs_loose_multiply(t2, t2_, t35.a0, t35.a1);
-    t_r2 t37 = pairs_loose_add(t34.a0, t34.a1, t36.a0, t36.a1);
-    t_r2 t38 = pairs_loose_subtract(t32.a0, t32.a1, t37.a0, t37.a1);
-    real t39 = 2 * g1, t39_ = 2 * g1_, t40 = 2 * g2, t40_ = 2 * g2_, t41 = 2 * g3, t41_ = 2 * g3_;
-    t_r2 t42 = pairs_loose_multiply(t12.a0, t12.a1, t41, t41_), t43 = pairs_loose_add(g1, g1_, t42.a0, t42.a1);
-    t_r2 t44 = pairs_loose_multiply(t15.a0, t15.a1, t39, t39_);
-    t_r2 t45 = pairs_loose_multiply(t17.a0, t17.a1, t40, t40_);
-    t_r2 t46 = pairs_loose_add(t44.a0, t44.a1, t45.a0, t45.a1);
-    t_r2 t47 = pairs_loose_subtract(t43.a0, t43.a1, t46.a0, t46.a1);
-    t_r2 t48 = pairs_loose_multiply(t21.a0, t21.a1, t39, t39_), t49 = pairs_loose_add(g2, g2_, t48.a0, t48.a1);
-    t_r2 t50 = pairs_loose_multiply(t24.a0, t24.a1, t41, t41_);
-    t_r2 t51 = pairs_loose_multiply(t26.a0, t26.a1, t40, t40_);
-    t_r2 t52 = pairs_loose_add(t50.a0, t50.a1, t51.a0, t51.a1);
-    t_r2 t53 = pairs_loose_subtract(t49.a0, t49.a1, t52.a0, t52.a1);
-    t_r2 t54 = pairs_loose_multiply(t30.a0, t30.a1, t40, t40_), t55 = pairs_loose_add(g3, g3_, t54.a0, t54.a1);
-    t_r2 t56 = pairs_loose_multiply(t33.a0, t33.a1, t41, t41_);
-    t_r2 t57 = pairs_loose_multiply(t35.a0, t35.a1, t39, t39_);
-    t_r2 t58 = pairs_loose_add(t56.a0, t56.a1, t57.a0, t57.a1);
-    t_r2 t59 = pairs_loose_subtract(t55.a0, t55.a1, t58.a0, t58.a1), o_l1 = pairs_two_sum(t20.a0, t20.a1);
-    t_r2 o_l2 = pairs_two_sum(t29.a0, t29.a1), o_l3 = pairs_two_sum(t38.a0, t38.a1);
-    t_r2 o_h1 = pairs_two_sum(t47.a0, t47.a1), o_h2 = pairs_two_sum(t53.a0, t53.a1);
-    t_r2 o_h3 = pairs_two_sum(t59.a0, t59.a1);
-    return (t_r12){o_l1.a0, o_l1.a1, o_l2.a0, o_l2.a1, o_l3.a0, o_l3.a1, o_h1.a0, o_h1.a1, o_h2.a0, o_h2.a1, o_h3.a0,
-        o_h3.a1};
+INLINE t_p3 double_double_long_rotated__p4__p3_(t_p4 a, t_p3 v) {
+    return vectors_normalised__p3_(kernel_rotate_p7(a.a0, a.a1, a.a2, a.a3, v.a0, v.a1, v.a2));
 }
 
-INLINE void double_double_long_turned_into(r1 vectors, r1 attitude, real way, r1 to) {
-    t_r12 t_1 = double_double_rotate_pairs(attitude.p[0], attitude.p[1], way * attitude.p[2], way * attitude.p[3], way
-        * attitude.p[4], way * attitude.p[5], way * attitude.p[6], way * attitude.p[7], vectors.p[0], vectors.p[1],
-        vectors.p[2], vectors.p[3], vectors.p[4], vectors.p[5], vectors.p[6], vectors.p[7], vectors.p[8],
-        vectors.p[9], vectors.p[10], vectors.p[11]);
-    to.p[0] = t_1.a0; to.p[1] = t_1.a1; to.p[2] = t_1.a2; to.p[3] = t_1.a3; to.p[4] = t_1.a4; to.p[5] = t_1.a5;
-    to.p[6] = t_1.a6; to.p[7] = t_1.a7; to.p[8] = t_1.a8; to.p[9] = t_1.a9; to.p[10] = t_1.a10; to.p[11] = t_1.a11;
+INLINE t_p4 vectors_conjugate__p4_(t_p4 q) {
+    return (t_p4){q.a0, (t_r2){-q.a1.a0, -q.a1.a1}, (t_r2){-q.a2.a0, -q.a2.a1}, (t_r2){-q.a3.a0, -q.a3.a1}};
 }
 
-INLINE t_ir double_double_long_column(r1 state, int64_t n, real radius, real enough, real rho, r1 body) {
-    t_ir7 status; r1 attitude = r1_part(body, 0, 8), contact = r1_part(body, 8, 12);
-    t_r3 t_1 = kernel_angular_velocity(state.p[0], state.p[2], state.p[4], state.p[6], state.p[8], state.p[10],
-        state.p[18], state.p[19], state.p[20], state.p[21]);
-    real u1 = t_1.a0, u2 = t_1.a1, u3 = t_1.a2, v1 = u1, v2 = u2, v3 = u3;
+INLINE t_ir_p4_p2 double_double_long_column__p3_2_p4_p2ir1r3(t_p3 k, t_p3 g, t_p4 a, t_r2 x, t_r2 y, int64_t n, r1
+    state, real radius, real enough, real rho) {
+    t_p3 w; t_p3 inertia = vectors_three_pairs(state, 12); t_r3 J = vectors_three(state, 18);
+    real contact = state.p[21]; t_r3 t_1 = vectors_highs__p3_(k), t_2 = vectors_highs__p3_(g);
+    t_r3 u = kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, J.a0, J.a1, J.a2, contact);
+    t_r3 v = u; int64_t status = 0; real reach = R(1.0);
     for (int64_t i_0 = 0, end_i_0 = n; i_0 < end_i_0; i_0++) {
-        status = double_double_step_solved(u1, u2, u3, state.p[0], state.p[1], state.p[2], state.p[3], state.p[4],
-            state.p[5], state.p[6], state.p[7], state.p[8], state.p[9], state.p[10], state.p[11], state.p[12],
-            state.p[13], state.p[14], state.p[15], state.p[16], state.p[17], state.p[18], state.p[19], state.p[20],
-            state.p[21], radius, enough);
-        if (status.a0 != 0) { return (t_ir){status.a0, status.a1}; }
-        double_double_loop_follow_body(status.a2, status.a3, status.a4, status.a5, status.a6, status.a7, state,
-            attitude, contact, rho);
-        double_double_loop_turn_both(status.a2, status.a3, status.a4, status.a5, status.a6, status.a7, state);
-        u1 = R(2.0) * status.a2 - v1; u2 = R(2.0) * status.a4 - v2; u3 = R(2.0) * status.a6 - v3; v1 = status.a2;
-        v2 = status.a4; v3 = status.a6;
+        t_ir_p3_ t_3 = double_double_step_solved__r3__p3_3_r3_r3(u, k, g, inertia, J, contact, radius, enough);
+        status = t_3.a0; reach = t_3.a1; w = t_3.a2;
+        if (status != 0) { break; }
+        t__p4_p2 t_4 = double_double_loop_rolled__p3_2_p4_p2r(w, g, a, x, y, rho); a = t_4.a0; x = t_4.a1; y = t_4.a2;
+        k = double_double_loop_turned__p3_2(w, k); g = double_double_loop_turned__p3_2(w, g);
+        u = vectors_minus(vectors_scaled(R(2.0), vectors_highs__p3_(w)), v); v = vectors_highs__p3_(w);
     }
-    return (t_ir){0, R(1.0)};
+    return (t_ir_p4_p2){status, reach, a, x, y};
 }
 
-INLINE void double_double_long_add_share(r1 sums, real w, real w_, r1 numbers, int64_t count) {
-    real x, x_;
-    for (int64_t i = 0, end_i = 2 * count; i < end_i; i += 2) {
-        t_r2 t_1 = pairs_multiply(w, w_, numbers.p[i], numbers.p[i + 1]); x = t_1.a0; x_ = t_1.a1;
-        t_r2 t_2 = pairs_loose_add(sums.p[i], sums.p[i + 1], x, x_); x = t_2.a0; x_ = t_2.a1;
-        t_r2 t_3 = pairs_two_sum(x, x_); sums.p[i] = t_3.a0; sums.p[i + 1] = t_3.a1;
-    }
+INLINE t_r2 double_double_long_with_share_p3(t_r2 total, t_r2 weight, t_r2 x) {
+    t_r2 t_1 = pairs_loose_multiply(weight.a0, weight.a1, x.a0, x.a1), t_2 = pairs_two_sum(t_1.a0, t_1.a1);
+    t_r2 t_3 = pairs_loose_add(total.a0, total.a1, t_2.a0, t_2.a1); return pairs_two_sum(t_3.a0, t_3.a1);
 }
 
-INLINE void double_double_long_to_length_one(r1 q) {
-    real x, x_; t_r2 t_1 = pairs_loose_multiply(q.p[0], q.p[1], q.p[0], q.p[1]); real n = t_1.a0, n_ = t_1.a1;
-    for (int64_t i = 2; i < 8; i += 2) {
-        t_r2 t_2 = pairs_loose_multiply(q.p[i], q.p[i + 1], q.p[i], q.p[i + 1]); x = t_2.a0; x_ = t_2.a1;
-        t_r2 t_3 = pairs_loose_add(n, n_, x, x_); n = t_3.a0; n_ = t_3.a1;
-    }
-    t_r2 t_4 = pairs_two_sum(n, n_); x = t_4.a0; x_ = t_4.a1; t_r2 t_5 = pairs_root(x, x_); n = t_5.a0; n_ = t_5.a1;
-    for (int64_t i = 0; i < 8; i += 2) {
-        t_r2 t_6 = pairs_divide(q.p[i], q.p[i + 1], n, n_); q.p[i] = t_6.a0; q.p[i + 1] = t_6.a1;
-    }
+INLINE t_p4 double_double_long_with_shares__p4_p_p4_(t_p4 total, t_r2 weight, t_p4 q) {
+    return (t_p4){double_double_long_with_share_p3(total.a0, weight, q.a0), double_double_long_with_share_p3(total.a1,
+        weight, q.a1), double_double_long_with_share_p3(total.a2, weight, q.a2),
+        double_double_long_with_share_p3(total.a3, weight, q.a3)};
+}
+
+INLINE t_r2 vectors_dot_four__p4_2(t_p4 a, t_p4 b) {
+    t_r2 t_1 = pairs_loose_multiply(a.a0.a0, a.a0.a1, b.a0.a0, b.a0.a1);
+    t_r2 t_2 = pairs_loose_multiply(a.a1.a0, a.a1.a1, b.a1.a0, b.a1.a1);
+    t_r2 t_3 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
+    t_r2 t_4 = pairs_loose_multiply(a.a2.a0, a.a2.a1, b.a2.a0, b.a2.a1);
+    t_r2 t_5 = pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+    t_r2 t_6 = pairs_loose_multiply(a.a3.a0, a.a3.a1, b.a3.a0, b.a3.a1);
+    return pairs_loose_add(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
 }
 
 INLINE t_i2r2 double_double_long_march_long_pairs(r1 momentum, r1 g, r1 tensor, real contact, real h, real h_, int64_t
     first, int64_t count, int64_t every, r2 weights, real rho, int follows, r1 attitude, r1 body, r2 momenta, r2
     momenta_, r2 verticals, r2 verticals_, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
-    real s, a, b, c_, d; int64_t n, frame; t_r2 f, x; t_ir status; int64_t columns = weights.n0; real doubt = R(0.0);
+    t_p4 sums, changes; t_r2 x_, y_, f, weight, change, length; t_p3 k_body, g_body; int64_t n, frame;
+    t_ir_p4_p2 status; int64_t columns = weights.n0; real doubt = R(0.0); t_r2 zero = (t_r2){R(0.0), R(0.0)};
     ALIGNED real state_[28]; memset(state_, 0, sizeof state_); r1 state = {state_, 28}; ALIGNED real one_[1 * 2];
     memset(one_, 0, sizeof one_); r2 one = {one_, 1, 2, 2}; ALIGNED real limits_[2 * columns];
-    memset(limits_, 0, sizeof limits_); r2 limits = {limits_, 2, columns, columns}; ALIGNED real space_[12];
-    memset(space_, 0, sizeof space_); r1 space = {space_, 12}; ALIGNED real moved_[12];
-    memset(moved_, 0, sizeof moved_); r1 moved = {moved_, 12}; ALIGNED real sums_[12]; memset(sums_, 0, sizeof sums_);
-    r1 sums = {sums_, 12}; ALIGNED real changes_[8]; memset(changes_, 0, sizeof changes_); r1 changes = {changes_, 8};
-    AT2(one, 0, 0) = R(1.0);
-    t_ri size = real_frexp(max_r(max_r(R(fabs(momentum.p[0])), R(fabs(momentum.p[1]))), R(fabs(momentum.p[2]))));
-    t_ri mantissa = real_frexp(h); ALIGNED real part_[3]; memset(part_, 0, sizeof part_); r1 part = {part_, 3};
-    for (int64_t c = 0; c < 3; c++) {
-        part.p[c] = R(ldexp(R(ldexp(momentum.p[c], (int)-size.a1)), (int)min_i(size.a1 + mantissa.a1, 1000)));
-    }
+    memset(limits_, 0, sizeof limits_); r2 limits = {limits_, 2, columns, columns}; AT2(one, 0, 0) = R(1.0);
+    t_ri size = real_frexp(vectors_largest(vectors_three(momentum, 0))), mantissa = real_frexp(h);
+    t_r3 k = vectors_shifted(vectors_three(momentum, 0), -size.a1); ALIGNED real part_[3];
+    memset(part_, 0, sizeof part_); r1 part = {part_, 3};
+    vectors_put(part, 0, vectors_shifted(k, min_i(size.a1 + mantissa.a1, 1000)));
     t_i2 shift = double_double_loop_prepare_pairs(part, g, tensor, contact, one, state, r2_row(limits, 0),
         r2_row(limits, 1));
     real half = R(ldexp(mantissa.a0, (int)min_i(size.a1 + mantissa.a1 + shift.a0, 100)));
     real half_ = R(ldexp(R(ldexp(h_, (int)-mantissa.a1)), (int)min_i(size.a1 + mantissa.a1 + shift.a0, 100)));
-    for (int64_t c = 0; c < 3; c++) { moved.p[2 * c] = R(ldexp(momentum.p[c], (int)-size.a1)); }
-    for (int64_t c = 0; c < 6; c++) { moved.p[6 + c] = state.p[6 + c]; }
     for (int64_t j = 0, end_j = columns; j < end_j; j++) {
-        s = half / (3 + j);
-        t_r2 t_1 = double_double_step_bounds(s * moved.p[0], s * moved.p[2], s * moved.p[4], state.p[12], state.p[14],
-            state.p[16], state.p[21]);
+        t_r2 t_1 = double_double_step_bounds(vectors_scaled(half / (3 + j), k),
+            vectors_highs__p3_(vectors_three_pairs(state, 12)), state.p[21]);
         AT2(limits, 0, j) = t_1.a0; AT2(limits, 1, j) = t_1.a1;
     }
-    double_double_long_turned_into(moved, attitude, R(1.0), space);
+    t_p4 a = (t_p4){vectors_pair(attitude, 0), vectors_pair(attitude, 2), vectors_pair(attitude, 4),
+        vectors_pair(attitude, 6)};
+    t_p3 K_ = double_double_long_rotated__p4__p3_(a, (t_p3){(t_r2){k.a0, R(0.0)}, (t_r2){k.a1, R(0.0)}, (t_r2){k.a2,
+        R(0.0)}});
+    t_p3 g_ = double_double_long_rotated__p4__p3_(a, vectors_three_pairs(state, 6));
+    a = (t_p4){vectors_pair(body, 0), vectors_pair(body, 2), vectors_pair(body, 4), vectors_pair(body, 6)};
+    t_r2 x = vectors_pair(body, 8), y = vectors_pair(body, 10);
     for (int64_t step = first, end_step = first + count; step < end_step; step++) {
-        r1_fill(sums, R(0.0)); r1_fill(changes, R(0.0));
+        sums = (t_p4){zero, zero, zero, zero}; changes = (t_p4){zero, zero, zero, zero}; x_ = zero; y_ = zero;
+        k_body = double_double_long_rotated__p4__p3_(vectors_conjugate__p4_(a), K_);
+        g_body = double_double_long_rotated__p4__p3_(vectors_conjugate__p4_(a), g_);
         for (int64_t j = 0, end_j = columns; j < end_j; j++) {
-            n = 3 + j; double_double_long_turned_into(space, body, R(-1.0), state);
-            f = pairs_divide(half, half_, n * R(1.0), R(0.0));
-            for (int64_t c = 0; c < 6; c += 2) {
-                t_r2 t_2 = pairs_multiply(state.p[0 + c], state.p[0 + c + 1], f.a0, f.a1); state.p[0 + c] = t_2.a0;
-                state.p[0 + c + 1] = t_2.a1;
-            }
-            for (int64_t c = 0; c < 8; c++) { moved.p[c] = body.p[c]; moved.p[8 + div_i(c, 2)] = R(0.0); }
-            status = double_double_long_column(state, n, AT2(limits, 0, j), AT2(limits, 1, j), rho, moved);
+            n = 3 + j; t_r2 t_2 = (t_r2){half, half_}; f = pairs_divide(t_2.a0, t_2.a1, n * R(1.0), 0);
+            status = double_double_long_column__p3_2_p4_p2ir1r3(vectors_normalised__p3_(vectors_scaled_p_p3_(f,
+                k_body)), g_body, a, zero, zero, n, state, AT2(limits, 0, j), AT2(limits, 1, j), rho);
             if (status.a0 != 0) { return (t_i2r2){step - first, status.a0, status.a1, doubt}; }
-            double_double_long_add_share(sums, AT2(weights, j, 0), AT2(weights, j, 1), moved, 6);
-            double_double_long_add_share(changes, AT2(weights, j, 2), AT2(weights, j, 3), moved, 4);
+            weight = (t_r2){AT2(weights, j, 0), AT2(weights, j, 1)};
+            change = (t_r2){AT2(weights, j, 2), AT2(weights, j, 3)};
+            sums = double_double_long_with_shares__p4_p_p4_(sums, weight, status.a2);
+            x_ = double_double_long_with_share_p3(x_, weight, status.a3);
+            y_ = double_double_long_with_share_p3(y_, weight, status.a4);
+            changes = double_double_long_with_shares__p4_p_p4_(changes, change, status.a2);
         }
-        for (int64_t c = 0; c < 8; c++) { body.p[c] = sums.p[c]; }
-        double_double_long_to_length_one(body);
-        for (int64_t c = 8; c < 12; c += 2) {
-            x = pairs_loose_add(body.p[c], body.p[c + 1], sums.p[c], sums.p[c + 1]);
-            t_r2 t_3 = pairs_two_sum(x.a0, x.a1); body.p[c] = t_3.a0; body.p[c + 1] = t_3.a1;
-        }
-        a = changes.p[0]; b = changes.p[2]; c_ = changes.p[4]; d = changes.p[6];
-        doubt = doubt + R(2.0) * R(sqrt(a * a + b * b + (c_ * c_ + d * d)));
+        t_r2 t_3 = vectors_dot_four__p4_2(sums, sums), t_4 = pairs_two_sum(t_3.a0, t_3.a1);
+        length = pairs_root(t_4.a0, t_4.a1);
+        t_r2 t_5 = pairs_two_sum(length.a0, length.a1), t_6 = pairs_two_sum(length.a0, length.a1);
+        t_r2 t_7 = pairs_two_sum(length.a0, length.a1), t_8 = pairs_two_sum(length.a0, length.a1);
+        a = (t_p4){pairs_divide(sums.a0.a0, sums.a0.a1, t_5.a0, t_5.a1), pairs_divide(sums.a1.a0, sums.a1.a1, t_6.a0,
+            t_6.a1), pairs_divide(sums.a2.a0, sums.a2.a1, t_7.a0, t_7.a1), pairs_divide(sums.a3.a0, sums.a3.a1,
+            t_8.a0, t_8.a1)};
+        t_r2 t_9 = pairs_loose_add(x.a0, x.a1, x_.a0, x_.a1), t_10 = pairs_loose_add(y.a0, y.a1, y_.a0, y_.a1);
+        x = pairs_two_sum(t_9.a0, t_9.a1); y = pairs_two_sum(t_10.a0, t_10.a1); vectors_put_pair_r1ip(body, 0, a.a0);
+        vectors_put_pairs_r1i_p3_(body, 2, (t_p3){a.a1, a.a2, a.a3}); vectors_put_pair_r1ip(body, 8, x);
+        vectors_put_pair_r1ip(body, 10, y);
+        t_r3 t_11 = vectors_highs__p3_((t_p3){changes.a1, changes.a2, changes.a3});
+        doubt = doubt + R(2.0) * R(sqrt(vectors_square_of_four((t_r4){changes.a0.a0, t_11.a0, t_11.a1, t_11.a2})));
         if (mod_i(step + 1, every) == 0) {
-            frame = div_i(step + 1, every); double_double_long_turned_into(space, body, R(-1.0), state);
+            frame = div_i(step + 1, every);
+            vectors_put_pairs_r1i_p3_(state, 0, double_double_long_rotated__p4__p3_(vectors_conjugate__p4_(a), K_));
+            vectors_put_pairs_r1i_p3_(state, 6, double_double_long_rotated__p4__p3_(vectors_conjugate__p4_(a), g_));
             double_double_loop_write(r2_row(momenta, frame), r2_row(momenta_, frame), state, 0, size.a1);
             double_double_loop_write(r2_row(verticals, frame), r2_row(verticals_, frame), state, 6, 0);
             if (follows) {
@@ -2908,34 +2855,25 @@ INLINE t_i2r2 double_double_long_march_long_pairs(r1 momentum, r1 g, r1 tensor, 
     return (t_i2r2){count, 0, R(1.0), doubt};
 }
 
-INLINE t_r3 tangent_cross(real a1, real a2, real a3, real b1, real b2, real b3) {
-    return (t_r3){a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1};
+INLINE t_r3 tangent_column(t_r3 x, t_r3 u, r1 state, real det, t_r9 c) {
+    t_r3 g = vectors_three(state, 3), a = vectors_cross(vectors_three(state, 0), x), b = vectors_cross(g, x);
+    real length = R(1.0) + vectors_dot(u, u);
+    t_r3 r = vectors_plus(vectors_plus(vectors_scaled(state.p[24] * vectors_dot(g, u), b), vectors_scaled(state.p[24]
+        * vectors_dot(b, u), g)), vectors_scaled(length, a));
+    real d1 = (c.a0 * r.a0 + c.a3 * r.a1 + c.a6 * r.a2) / det, d2 = (c.a1 * r.a0 + c.a4 * r.a1 + c.a7 * r.a2) / det;
+    real d3 = (c.a2 * r.a0 + c.a5 * r.a1 + c.a8 * r.a2) / det; t_r3 d = (t_r3){d1, d2, d3};
+    return vectors_plus(vectors_plus(x, kernel_turn(R(1.0), u.a0, u.a1, u.a2, x.a0, x.a1, x.a2)),
+        vectors_scaled(R(2.0) / length, vectors_minus(d, vectors_cross(u, d))));
 }
 
-INLINE t_r3 tangent_column(real x1, real x2, real x3, real u1, real u2, real u3, r1 state, real det, r1 c) {
-    t_r3 g1 = loop_three(state, 3), a1 = tangent_cross(state.p[0], state.p[1], state.p[2], x1, x2, x3);
-    t_r3 b1 = tangent_cross(g1.a0, g1.a1, g1.a2, x1, x2, x3); real length = R(1.0) + (u1 * u1 + u2 * u2 + u3 * u3);
-    real along = state.p[24] * (g1.a0 * u1 + g1.a1 * u2 + g1.a2 * u3);
-    real across = state.p[24] * (b1.a0 * u1 + b1.a1 * u2 + b1.a2 * u3);
-    real r1 = along * b1.a0 + across * g1.a0 + length * a1.a0, r2 = along * b1.a1 + across * g1.a1 + length * a1.a1;
-    real r3 = along * b1.a2 + across * g1.a2 + length * a1.a2, d1 = (c.p[0] * r1 + c.p[3] * r2 + c.p[6] * r3) / det;
-    real d2 = (c.p[1] * r1 + c.p[4] * r2 + c.p[7] * r3) / det, d3 = (c.p[2] * r1 + c.p[5] * r2 + c.p[8] * r3) / det;
-    t_r3 v1 = tangent_cross(u1, u2, u3, d1, d2, d3), t1 = kernel_turn(R(1.0), u1, u2, u3, x1, x2, x3);
-    real f = R(2.0) / length;
-    return (t_r3){x1 + t1.a0 + f * (d1 - v1.a0), x2 + t1.a1 + f * (d2 - v1.a1), x3 + t1.a2 + f * (d3 - v1.a2)};
-}
-
-INLINE void tangent_derivative(real u1, real u2, real u3, r1 state, r2 T) {
-    real x, y, z; t_r3 t_1 = loop_three(state, 0), t_2 = loop_three(state, 3), t_3 = loop_three(state, 21);
-    t_r13 t_4 = kernel_gibbs_newton(u1, u2, u3, t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1,
+INLINE void tangent_derivative(t_r3 u, r1 state, r2 T) {
+    t_r3 x; t_r3 t_1 = vectors_three(state, 0), t_2 = vectors_three(state, 3), t_3 = vectors_three(state, 21);
+    t_r13 n = kernel_gibbs_newton(u.a0, u.a1, u.a2, t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1,
         t_3.a2, state.p[24]);
-    real found_[] = {t_4.a0, t_4.a1, t_4.a2, t_4.a3, t_4.a4, t_4.a5, t_4.a6, t_4.a7, t_4.a8, t_4.a9, t_4.a10, t_4.a11,
-        t_4.a12};
-    r1 found = {found_, 13};
     for (int64_t i = 0; i < 3; i++) {
-        x = i == 0 ? R(1.0) : R(0.0); y = i == 1 ? R(1.0) : R(0.0); z = i == 2 ? R(1.0) : R(0.0);
-        t_r3 t_5 = tangent_column(x, y, z, u1, u2, u3, state, found.p[0], r1_part(found, 4, 13));
-        AT2(T, i, 0) = t_5.a0; AT2(T, i, 1) = t_5.a1; AT2(T, i, 2) = t_5.a2;
+        x = (t_r3){i == 0 ? R(1.0) : R(0.0), i == 1 ? R(1.0) : R(0.0), i == 2 ? R(1.0) : R(0.0)};
+        vectors_put(r2_row(T, i), 0, tangent_column(x, u, state, n.a0, (t_r9){n.a4, n.a5, n.a6, n.a7, n.a8, n.a9,
+            n.a10, n.a11, n.a12}));
     }
 }
 
@@ -2957,8 +2895,8 @@ INLINE void tangent_moved(r2 T, r2 frame, r1 growth) {
 }
 
 INLINE real tangent_determinant(r2 T) {
-    t_r3 n1 = tangent_cross(AT2(T, 1, 0), AT2(T, 1, 1), AT2(T, 1, 2), AT2(T, 2, 0), AT2(T, 2, 1), AT2(T, 2, 2));
-    return AT2(T, 0, 0) * n1.a0 + AT2(T, 0, 1) * n1.a1 + AT2(T, 0, 2) * n1.a2;
+    return vectors_dot(vectors_three(r2_row(T, 0), 0), vectors_cross(vectors_three(r2_row(T, 1), 0),
+        vectors_three(r2_row(T, 2), 0)));
 }
 
 INLINE real kernel_energy(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3, real D) {
@@ -2974,30 +2912,28 @@ INLINE real tangent_weight(int64_t n, int64_t count) {
 }
 
 INLINE void tangent_follow(r1 momentum, r1 gamma, r1 tensor, real contact, int64_t steps, r1 row) {
-    int64_t status, second; real p0, p1, p2, p3, volume, E, share, z1, z2, z3; t_r3 k1, g1; ALIGNED real state_[27];
+    int64_t status, second; t_r4 p; real volume, E, share; t_r3 k, g; ALIGNED real state_[27];
     r1 state = {state_, 27}; ALIGNED real frame_[3 * 3]; memset(frame_, 0, sizeof frame_);
     r2 frame = {frame_, 3, 3, 3};
     for (int64_t i_ = 0; i_ < 3; i_++) { frame_[i_ * (3 + 1)] = 1; }
     ALIGNED real growth_[3]; memset(growth_, 0, sizeof growth_); r1 growth = {growth_, 3}; ALIGNED real T_[3 * 3];
-    r2 T = {T_, 3, 3, 3};
-    real scale = loop_scaled(momentum, gamma, tensor, contact, state), u1 = R(0.0), u2 = R(0.0), u3 = R(0.0);
-    int64_t half = div_i(steps, 2); real total = R(0.0); r1_fill(row, R(0.0)); row.p[8] = R(INFINITY);
-    row.p[9] = R(-INFINITY);
+    r2 T = {T_, 3, 3, 3}; real scale = loop_entered(momentum, gamma, tensor, contact, state);
+    t_r3 u = (t_r3){R(0.0), R(0.0), R(0.0)}; int64_t half = div_i(steps, 2); real total = R(0.0);
+    r1_fill(row, R(0.0)); row.p[8] = R(INFINITY); row.p[9] = R(-INFINITY);
     for (int64_t n = 0, end_n = 2 * half; n < end_n; n++) {
-        t_ir8 t_1 = loop_safe_rotation(u1, u2, u3, state); status = t_1.a0; p0 = t_1.a2; p1 = t_1.a3; p2 = t_1.a4;
-        p3 = t_1.a5; u1 = t_1.a6; u2 = t_1.a7; u3 = t_1.a8;
-        if (status != 0 || p0 == R(0.0)) { return; }
-        tangent_derivative(u1, u2, u3, state, T); tangent_moved(T, frame, growth);
-        volume = R(log(R(fabs(tangent_determinant(T))))); k1 = loop_three(state, 0); g1 = loop_three(state, 3);
-        E = kernel_energy(scale * k1.a0, scale * k1.a1, scale * k1.a2, g1.a0, g1.a1, g1.a2, tensor.p[0], tensor.p[1],
-            tensor.p[2], contact);
+        t_ir_r4__r3_ t_1 = loop_safe_rotation(u, state); status = t_1.a0; p = t_1.a2; u = t_1.a3;
+        if (status != 0 || p.a0 == R(0.0)) { return; }
+        tangent_derivative(u, state, T); tangent_moved(T, frame, growth);
+        volume = R(log(R(fabs(tangent_determinant(T))))); k = vectors_three(state, 0); g = vectors_three(state, 3);
+        t_r3 t_2 = vectors_scaled(scale, k), t_3 = vectors_three(tensor, 0);
+        E = kernel_energy(t_2.a0, t_2.a1, t_2.a2, g.a0, g.a1, g.a2, t_3.a0, t_3.a1, t_3.a2, contact);
         second = n >= half ? 1 : 0; share = tangent_weight(n - second * half, half);
         total = total + (second == 1 ? R(0.0) : share); row.p[4 + second] = row.p[4 + second] + share * volume;
-        row.p[6 + second] = row.p[6 + second] + share * E; real t_2 = min_r(row.p[8], E), t_3 = max_r(row.p[9], E);
-        row.p[8] = t_2; row.p[9] = t_3; t_r3 t_4 = kernel_turn(p0, p1, p2, p3, k1.a0, k1.a1, k1.a2); z1 = t_4.a0;
-        z2 = t_4.a1; z3 = t_4.a2; loop_put(state, 0, k1.a0 + z1, k1.a1 + z2, k1.a2 + z3);
-        t_r3 t_5 = kernel_turn(p0, p1, p2, p3, g1.a0, g1.a1, g1.a2); z1 = t_5.a0; z2 = t_5.a1; z3 = t_5.a2;
-        loop_put(state, 3, g1.a0 + z1, g1.a1 + z2, g1.a2 + z3); row.p[0] = n + R(1.0);
+        row.p[6 + second] = row.p[6 + second] + share * E; real t_4 = min_r(row.p[8], E), t_5 = max_r(row.p[9], E);
+        row.p[8] = t_4; row.p[9] = t_5;
+        vectors_put(state, 0, vectors_plus(k, kernel_turn(p.a0, p.a1, p.a2, p.a3, k.a0, k.a1, k.a2)));
+        vectors_put(state, 3, vectors_plus(g, kernel_turn(p.a0, p.a1, p.a2, p.a3, g.a0, g.a1, g.a2)));
+        row.p[0] = n + R(1.0);
     }
     for (int64_t c = 0; c < 3; c++) { row.p[1 + c] = growth.p[c]; }
     for (int64_t c = 4; c < 8; c++) { row.p[c] = row.p[c] / total; }
@@ -3024,12 +2960,12 @@ INLINE int following_aimed(r1 lane, int64_t frames, real interval) {
     return 1;
 }
 
-INLINE void carried_begun(r2 E, int64_t B, int64_t b, real J1, real J2, real J3, real start) {
+INLINE void carried_begun(r2 E, int64_t B, int64_t b, t_r3 J, real start) {
     int64_t i;
     for (int64_t lane = 0; lane < 4; lane++) {
         i = lane * B + b;
         for (int64_t c = 0; c < 3; c++) { AT2(E, 38 + c, i) = c == lane ? R(1.0) : R(0.0); }
-        AT2(E, 51, i) = J1; AT2(E, 52, i) = J2; AT2(E, 53, i) = J3;
+        vectors_put_in(E, 51, i, J);
         for (int64_t row = 59; row < 115; row++) { AT2(E, row, i) = R(0.0); }
     }
     AT2(E, 64, b) = start * start; AT2(E, 67, b) = start * start; AT2(E, 69, b) = start * start;
@@ -3043,16 +2979,15 @@ INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t colu
     lane.p[20] = R(1e+300); following_aimed(lane, frames, interval);
     int64_t exponent = long_run_enter(S, B, b, columns, r2_row(J0, i), D0.p[i], radius.p[i], lane.p[1], sums,
         beginning, body, state);
-    lane.p[2] = R(2.0) * AT2(S, 129, b) / lane.p[1];
-    carried_begun(E, B, b, AT2(S, 131, b), AT2(S, 132, b), AT2(S, 133, b), start);
+    lane.p[2] = R(2.0) * AT2(S, 129, b) / lane.p[1]; carried_begun(E, B, b, vectors_three_in(S, 131, b), start);
     for (int64_t c = 0; c < 6; c++) { AT2(reported, i, c) = c == 5 ? R(1.0) : R(0.0); }
     return exponent;
 }
 
+INLINE t_r3 carried_by(t_r3 a, t_r3 b) { return (t_r3){a.a0 * b.a0, a.a1 * b.a1, a.a2 * b.a2}; }
 INLINE void carried_tangent(r2 S, r2 E, int64_t B, int64_t at, int traced) {
-    real one, g1, g2, g3, J1, J2, J3, contact, I1, I2, I3, m1, m2, m3, s1, s2, s3, n1, n2, n3, least, v1, v2, v3, u1,
-        u2, u3, e1, e2, e3, v, u, f1, f2, f3, up, over, p1, p2, p3, z1, z2, z3, b1, b2, b3, q0, q1, q2, q3;
-    t_r3 w1, a1, t1;
+    real one, contact, least, along, across, up, over;
+    t_r3 K, g, J, body, w, m, s, a, n, v, u, e, f, turned, t, p, z, b; t_r4 q;
     for (int64_t row = 0; row < 10; row++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
             one = AT2(S, 105 + row, b); AT2(E, 41 + row, b) = one; AT2(E, 41 + row, B + b) = one;
@@ -3060,65 +2995,49 @@ INLINE void carried_tangent(r2 S, r2 E, int64_t B, int64_t at, int traced) {
         }
     }
     INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
-        g1 = AT2(E, 44, i); g2 = AT2(E, 45, i); g3 = AT2(E, 46, i); J1 = AT2(E, 51, i); J2 = AT2(E, 52, i);
-        J3 = AT2(E, 53, i); contact = AT2(S, 30, i); I1 = AT2(S, 27, i) + contact; I2 = AT2(S, 28, i) + contact;
-        I3 = AT2(S, 29, i) + contact;
-        w1 = kernel_angular_velocity(AT2(E, 41, i), AT2(E, 42, i), AT2(E, 43, i), g1, g2, g3, J1, J2, J3, contact);
-        m1 = I1 * w1.a0; m2 = I2 * w1.a1; m3 = I3 * w1.a2; s1 = w1.a1 * m3 - w1.a2 * m2; s2 = w1.a2 * m1 - w1.a0 * m3;
-        s3 = w1.a0 * m2 - w1.a1 * m1; a1 = kernel_angular_velocity(-s1, -s2, -s3, g1, g2, g3, J1, J2, J3, contact);
-        n1 = I1 * a1.a0; n2 = I2 * a1.a1; n3 = I3 * a1.a2; AT2(E, at + 13, i) = w1.a0; AT2(E, at + 13 + 1, i) = w1.a1;
-        AT2(E, at + 13 + 2, i) = w1.a2;
-        least = R(9.999999999999998e-15) * ((m1 * m1 + m2 * m2 + m3 * m3) * (w1.a0 * w1.a0 + w1.a1 * w1.a1 + w1.a2 *
-            w1.a2));
-        one = s1 * s1 + s2 * s2 + s3 * s3 > least ? R(1.0) : R(0.0); AT2(E, at + 16, i) = one * s1;
-        AT2(E, at + 16 + 1, i) = one * s2; AT2(E, at + 16 + 2, i) = one * s3; v1 = w1.a1 * g3 - w1.a2 * g2;
-        v2 = w1.a2 * g1 - w1.a0 * g3; v3 = w1.a0 * g2 - w1.a1 * g1;
-        u1 = a1.a1 * g3 - a1.a2 * g2 - (w1.a1 * v3 - w1.a2 * v2);
-        u2 = a1.a2 * g1 - a1.a0 * g3 - (w1.a2 * v1 - w1.a0 * v3);
-        u3 = a1.a0 * g2 - a1.a1 * g1 - (w1.a0 * v2 - w1.a1 * v1); e1 = AT2(E, 38, i); e2 = AT2(E, 39, i);
-        e3 = AT2(E, 40, i); v = contact * (v1 * e1 + v2 * e2 + v3 * e3); u = contact * (u1 * e1 + u2 * e2 + u3 * e3);
-        t_r3 t_1 = kernel_angular_velocity(m2 * e3 - m3 * e2 + v * g1, m3 * e1 - m1 * e3 + v * g2, m1 * e2 - m2 * e1 +
-            v * g3, g1, g2, g3, J1, J2, J3, contact);
-        s1 = t_1.a0; s2 = t_1.a1; s3 = t_1.a2; f1 = s1 + (e2 * w1.a2 - e3 * w1.a1);
-        f2 = s2 + (e3 * w1.a0 - e1 * w1.a2); f3 = s3 + (e1 * w1.a1 - e2 * w1.a0);
-        up = u + contact * (v1 * f1 + v2 * f2 + v3 * f3 - (v1 * s1 + v2 * s2 + v3 * s3));
-        over = v + contact * (g1 * s1 + g2 * s2 + g3 * s3);
-        t1 = kernel_angular_velocity(n2 * e3 - n3 * e2 + (m2 * f3 - m3 * f2) + (up * g1 - over * v1), n3 * e1 - n1 *
-            e3 + (m3 * f1 - m1 * f3) + (up * g2 - over * v2), n1 * e2 - n2 * e1 + (m1 * f2 - m2 * f1) + (up * g3 -
-            over * v3), g1, g2, g3, J1, J2, J3, contact);
-        p1 = t1.a0 + (f2 * w1.a2 - f3 * w1.a1) + (e2 * a1.a2 - e3 * a1.a1);
-        p2 = t1.a1 + (f3 * w1.a0 - f1 * w1.a2) + (e3 * a1.a0 - e1 * a1.a2);
-        p3 = t1.a2 + (f1 * w1.a1 - f2 * w1.a0) + (e1 * a1.a1 - e2 * a1.a0); AT2(E, at + 0, i) = s1;
-        AT2(E, at + 0 + 1, i) = s2; AT2(E, at + 0 + 2, i) = s3; AT2(E, at + 3, i) = f1; AT2(E, at + 3 + 1, i) = f2;
-        AT2(E, at + 3 + 2, i) = f3; AT2(E, at + 6, i) = p1; AT2(E, at + 6 + 1, i) = p2; AT2(E, at + 6 + 2, i) = p3;
+        K = vectors_three_in(E, 41, i); g = vectors_three_in(E, 44, i); J = vectors_three_in(E, 51, i);
+        contact = AT2(S, 30, i);
+        body = (t_r3){AT2(S, 27, i) + contact, AT2(S, 28, i) + contact, AT2(S, 29, i) + contact};
+        w = kernel_angular_velocity(K.a0, K.a1, K.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
+        m = carried_by(body, w); s = vectors_cross(w, m);
+        a = kernel_angular_velocity(-s.a0, -s.a1, -s.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
+        n = carried_by(body, a); vectors_put_in(E, at + 13, i, w);
+        least = R(9.999999999999998e-15) * (vectors_dot(m, m) * vectors_dot(w, w));
+        vectors_put_in(E, at + 16, i, vectors_scaled(vectors_dot(s, s) > least ? R(1.0) : R(0.0), s));
+        v = vectors_cross(w, g); u = vectors_minus(vectors_cross(a, g), vectors_cross(w, v));
+        e = vectors_three_in(E, 38, i); along = contact * vectors_dot(v, e); across = contact * vectors_dot(u, e);
+        t_r3 t_1 = vectors_plus(vectors_cross(m, e), vectors_scaled(along, g));
+        s = kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
+        f = vectors_plus(s, vectors_cross(e, w)); up = across + contact * (vectors_dot(v, f) - vectors_dot(v, s));
+        over = along + contact * vectors_dot(g, s);
+        turned = vectors_minus(vectors_scaled(up, g), vectors_scaled(over, v));
+        t_r3 t_2 = vectors_plus(vectors_plus(vectors_cross(n, e), vectors_cross(m, f)), turned);
+        t = kernel_angular_velocity(t_2.a0, t_2.a1, t_2.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
+        p = vectors_plus(vectors_plus(t, vectors_cross(f, w)), vectors_cross(e, a)); vectors_put_in(E, at + 0, i, s);
+        vectors_put_in(E, at + 3, i, f); vectors_put_in(E, at + 6, i, p);
         if (traced) {
-            z1 = f2 * g3 - f3 * g2; z2 = f3 * g1 - f1 * g3; z3 = f1 * g2 - f2 * g1;
-            b1 = w1.a1 * z3 - w1.a2 * z2 + (p2 * g3 - p3 * g2) - (f2 * v3 - f3 * v2);
-            b2 = w1.a2 * z1 - w1.a0 * z3 + (p3 * g1 - p1 * g3) - (f3 * v1 - f1 * v3);
-            b3 = w1.a0 * z2 - w1.a1 * z1 + (p1 * g2 - p2 * g1) - (f1 * v2 - f2 * v1); q0 = AT2(E, 47, i);
-            q1 = AT2(E, 48, i); q2 = AT2(E, 49, i); q3 = AT2(E, 50, i);
-            t_r3 t_2 = kernel_rotate(q0, q1, q2, q3, z1, z2, z3); AT2(E, at + 9, i) = t_2.a0;
-            AT2(E, at + 9 + 1, i) = t_2.a1; t_r3 t_3 = kernel_rotate(q0, q1, q2, q3, b1, b2, b3);
-            AT2(E, at + 11, i) = t_3.a0; AT2(E, at + 11 + 1, i) = t_3.a1;
+            q = vectors_four_in(E, 47, i); z = vectors_cross(f, g);
+            b = vectors_minus(vectors_plus(vectors_cross(w, z), vectors_cross(p, g)), vectors_cross(f, v));
+            t_r3 t_3 = kernel_rotate(q.a0, q.a1, q.a2, q.a3, z.a0, z.a1, z.a2); AT2(E, at + 9, i) = t_3.a0;
+            AT2(E, at + 9 + 1, i) = t_3.a1; t_r3 t_4 = kernel_rotate(q.a0, q.a1, q.a2, q.a3, b.a0, b.a1, b.a2);
+            AT2(E, at + 11, i) = t_4.a0; AT2(E, at + 11 + 1, i) = t_4.a1;
         }
     }
 }
 
 INLINE void carried_changes(r2 S, r2 E, int64_t B) {
-    real a0, a1, a2, a3, b0, b1, b2, b3, one, two, w, v; int64_t at, row;
+    t_r4 a, b; real one, two, w, v; t_r3 way;
     INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
-        a0 = AT2(S, 87, i); a1 = AT2(S, 88, i); a2 = AT2(S, 89, i); a3 = AT2(S, 90, i); b0 = AT2(S, 15, i);
-        b1 = AT2(S, 16, i); b2 = AT2(S, 17, i); b3 = AT2(S, 18, i);
-        one = R(1.0) / R(sqrt(a0 * a0 + a1 * a1 + (a2 * a2 + a3 * a3)));
-        two = R(1.0) / R(sqrt(b0 * b0 + b1 * b1 + (b2 * b2 + b3 * b3)));
+        a = vectors_four_in(S, 87, i); b = vectors_four_in(S, 15, i);
+        one = R(1.0) / R(sqrt(vectors_square_of_four(a))); two = R(1.0) / R(sqrt(vectors_square_of_four(b)));
         for (int64_t c = 0; c < 3; c++) {
             w = AT2(S, 73 + 2 * c, i) * one; v = AT2(S, 73 + 2 * c + 1, i) * two;
-            AT2(E, 100 + 4 * c, i) = w * a0 + v * b0; AT2(E, 100 + 4 * c + 1, i) = w * a1 + v * b1;
-            AT2(E, 100 + 4 * c + 2, i) = w * a2 + v * b2; AT2(E, 100 + 4 * c + 3, i) = w * a3 + v * b3;
+            vectors_put_four_in(E, 100 + 4 * c, i, vectors_plus_four(vectors_scaled_four(w, a), vectors_scaled_four(v,
+                b)));
         }
-        for (int64_t c = 0; c < 3; c++) {
-            at = 112 + c; AT2(E, at, i) = AT2(S, 73, i) * AT2(S, 91 + c, i) + AT2(S, 74, i) * AT2(S, 19 + c, i);
-        }
+        way = vectors_plus(vectors_scaled(AT2(S, 73, i), vectors_three_in(S, 91, i)), vectors_scaled(AT2(S, 74, i),
+            vectors_three_in(S, 19, i)));
+        vectors_put_in(E, 112, i, way);
     }
     for (int64_t row = 100; row < 115; row++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
@@ -3127,30 +3046,22 @@ INLINE void carried_changes(r2 S, r2 E, int64_t B) {
     }
     for (int64_t c = 0; c < 3; c++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-            at = 118 + 3 * c; row = 100 + 4 * c;
-            t_r3 t_1 = long_step_twist(AT2(S, 94, b), AT2(S, 95, b), AT2(S, 96, b), AT2(S, 97, b), AT2(E, row, b),
-                AT2(E, row + 1, b), AT2(E, row + 2, b), AT2(E, row + 3, b));
-            AT2(S, at, b) = t_1.a0; AT2(S, at + 1, b) = t_1.a1; AT2(S, at + 2, b) = t_1.a2;
+            vectors_put_in(S, 118 + 3 * c, b, long_step_twist(vectors_four_in(S, 94, b), vectors_four_in(E, 100 + 4 *
+                c, b)));
         }
     }
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        at = 47; row = 112;
-        t_r3 t_2 = kernel_rotate(AT2(E, at, b), AT2(E, at + 1, b), AT2(E, at + 2, b), AT2(E, at + 3, b), AT2(E, row,
-            b), AT2(E, row + 1, b), AT2(E, row + 2, b));
-        AT2(S, 127, b) = t_2.a0; AT2(S, 128, b) = t_2.a1;
+        t_r4 t_1 = vectors_four_in(E, 47, b); t_r3 t_2 = vectors_three_in(E, 112, b);
+        t_r3 t_3 = kernel_rotate(t_1.a0, t_1.a1, t_1.a2, t_1.a3, t_2.a0, t_2.a1, t_2.a2); AT2(S, 127, b) = t_3.a0;
+        AT2(S, 128, b) = t_3.a1;
     }
 }
 
 INLINE t_r4 following_left(r2 S, int64_t b, real start) {
     int64_t at = 118;
-    real x = R(sqrt(AT2(S, at, b) * AT2(S, at, b) + AT2(S, at + 1, b) * AT2(S, at + 1, b) + AT2(S, at + 2, b) * AT2(S,
-        at + 2, b)));
-    real y = R(sqrt(AT2(S, at + 3, b) * AT2(S, at + 3, b) + AT2(S, at + 4, b) * AT2(S, at + 4, b) + AT2(S, at + 5, b)
-        * AT2(S, at + 5, b)));
-    real z = R(sqrt(AT2(S, at + 6, b) * AT2(S, at + 6, b) + AT2(S, at + 7, b) * AT2(S, at + 7, b) + AT2(S, at + 8, b)
-        * AT2(S, at + 8, b)));
-    real rounded = R(2e-15) + R(10.0) * start, last = max_r(x - rounded, R(0.0));
-    real middle = max_r(y - rounded, R(0.0));
+    real x = vectors_length(vectors_three_in(S, at, b)), y = vectors_length(vectors_three_in(S, at + 3, b));
+    real z = vectors_length(vectors_three_in(S, at + 6, b)), rounded = R(2e-15) + R(10.0) * start;
+    real last = max_r(x - rounded, R(0.0)), middle = max_r(y - rounded, R(0.0));
     if (!(middle > R(0.0) && z > R(0.0))) { return (t_r4){R(0.0), x, y, z}; }
     last = max_r(last, middle * min_r(middle / z, R(1.0)));
     return (t_r4){R(2.0) * last * min_r(last / middle, R(1.0)), x, y, z};
@@ -3162,9 +3073,8 @@ INLINE real following_lengthened(real ratio) {
 }
 
 INLINE void following_judged(r2 S, r2 E, int64_t b, int lost, real start, r2 sums, r1 state, r1 lane) {
-    int heavy; int64_t stopped; real reached; real step = lane.p[1], tries = lane.p[6];
-    real size = lane.p[2] * R(sqrt(AT2(S, 37, b) * AT2(S, 37, b) + (AT2(S, 38, b) * AT2(S, 38, b) + AT2(S, 39, b) *
-        AT2(S, 39, b))));
+    int heavy; int64_t stopped; real reached;
+    real step = lane.p[1], tries = lane.p[6], size = lane.p[2] * R(sqrt(vectors_square(vectors_three_in(S, 37, b))));
     lane.p[11] = size; lane.p[12] = R(3.0); lane.p[14] = R(0.0); lane.p[15] = R(0.0);
     if (lost && AT2(S, 58, b) != R(0.0)) {
         heavy = AT2(S, 62, b) < R(0.0); stopped = 0;
@@ -3210,57 +3120,49 @@ INLINE real between_crossed(r2 V, int64_t at, int64_t n, int64_t i) {
     return found;
 }
 
-INLINE void between_series(r1 body, real J1, real J2, real J3, real contact, real radius, real whole, int traced, r2
-    V, r2 end) {
-    real x1, x2, x3, along, here, part, x, y, b0, b1, b2, b3, half; t_r3 w1; t_r4 c0;
-    real g1 = body.p[3], g2 = body.p[4], g3 = body.p[5], a0 = body.p[6], a1 = body.p[7], a2 = body.p[8];
-    real a3 = body.p[9];
-    for (int64_t i = 0; i < 3; i++) { AT2(V, 3 + i, 0) = body.p[i]; AT2(V, 6 + i, 0) = body.p[3 + i]; }
+INLINE void between_series(r1 body, t_r3 J, real contact, real radius, real whole, int traced, r2 V, r2 end) {
+    t_r3 x, w; real along, part, x1, x2; t_r4 b; t_r3 g = vectors_three(body, 3); t_r4 a = vectors_four(body, 6);
+    vectors_put_in(V, 3, 0, vectors_three(body, 0)); vectors_put_in(V, 6, 0, g);
     if (traced) {
-        t_r3 t_1 = kernel_rotate(a0, -a1, -a2, -a3, R(1.0), R(0.0), R(0.0)); AT2(V, 9, 0) = t_1.a0;
-        AT2(V, 10, 0) = t_1.a1; AT2(V, 11, 0) = t_1.a2;
-        t_r3 t_2 = kernel_rotate(a0, -a1, -a2, -a3, R(0.0), R(1.0), R(0.0)); AT2(V, 12, 0) = t_2.a0;
-        AT2(V, 13, 0) = t_2.a1; AT2(V, 14, 0) = t_2.a2;
+        t_r4 t_1 = vectors_conjugate(a);
+        vectors_put_in(V, 9, 0, kernel_rotate(t_1.a0, t_1.a1, t_1.a2, t_1.a3, R(1.0), R(0.0), R(0.0)));
+        t_r4 t_2 = vectors_conjugate(a);
+        vectors_put_in(V, 12, 0, kernel_rotate(t_2.a0, t_2.a1, t_2.a2, t_2.a3, R(0.0), R(1.0), R(0.0)));
     }
-    AT2(end, 0, 0) = a0; AT2(end, 0, 1) = a1; AT2(end, 0, 2) = a2; AT2(end, 0, 3) = a3; AT2(end, 0, 4) = body.p[10];
-    AT2(end, 0, 5) = body.p[11];
+    vectors_put_four(r2_row(end, 0), 0, a); AT2(end, 0, 4) = body.p[10]; AT2(end, 0, 5) = body.p[11];
     for (int64_t n = 0; n < 5; n++) {
-        x1 = whole * AT2(V, 3, n); x2 = whole * AT2(V, 4, n); x3 = whole * AT2(V, 5, n); along = R(0.0);
+        x = vectors_scaled(whole, vectors_three_in(V, 3, n)); along = R(0.0);
         for (int64_t m = 1, end_m = n + 1; m < end_m; m++) {
-            here = contact * AT2(V, 15, n - m);
-            along = along + (AT2(V, 6, m) * AT2(V, 0, n - m) + AT2(V, 7, m) * AT2(V, 1, n - m) + AT2(V, 8, m) * AT2(V,
-                2, n - m));
-            x1 = x1 + here * AT2(V, 6, m); x2 = x2 + here * AT2(V, 7, m); x3 = x3 + here * AT2(V, 8, m);
+            along = along + vectors_dot(vectors_three_in(V, 6, m), vectors_three_in(V, 0, n - m));
+            x = vectors_plus(x, vectors_scaled(contact * AT2(V, 15, n - m), vectors_three_in(V, 6, m)));
         }
-        here = contact * along;
-        w1 = kernel_angular_velocity(x1 + here * g1, x2 + here * g2, x3 + here * g3, g1, g2, g3, J1, J2, J3, contact);
-        AT2(V, 0, n) = w1.a0; AT2(V, 1, n) = w1.a1; AT2(V, 2, n) = w1.a2;
-        AT2(V, 15, n) = along + (g1 * w1.a0 + g2 * w1.a1 + g3 * w1.a2); part = R(1.0) / (n + 1);
+        t_r3 t_3 = vectors_plus(x, vectors_scaled(contact * along, g));
+        w = kernel_angular_velocity(t_3.a0, t_3.a1, t_3.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
+        vectors_put_in(V, 0, n, w); AT2(V, 15, n) = along + vectors_dot(g, w); part = R(1.0) / (n + 1);
         for (int64_t i = 0; i < 3; i++) {
-            real t_3 = part * between_crossed(V, 3, n, i), t_4 = part * between_crossed(V, 6, n, i);
-            AT2(V, 3 + i, n + 1) = t_3; AT2(V, 6 + i, n + 1) = t_4;
+            real t_4 = part * between_crossed(V, 3, n, i), t_5 = part * between_crossed(V, 6, n, i);
+            AT2(V, 3 + i, n + 1) = t_4; AT2(V, 6 + i, n + 1) = t_5;
         }
         if (traced) {
             for (int64_t i = 0; i < 3; i++) {
-                real t_5 = part * between_crossed(V, 9, n, i), t_6 = part * between_crossed(V, 12, n, i);
-                AT2(V, 9 + i, n + 1) = t_5; AT2(V, 12 + i, n + 1) = t_6;
+                real t_6 = part * between_crossed(V, 9, n, i), t_7 = part * between_crossed(V, 12, n, i);
+                AT2(V, 9 + i, n + 1) = t_6; AT2(V, 12 + i, n + 1) = t_7;
             }
-            x = R(0.0); y = R(0.0);
+            x1 = R(0.0); x2 = R(0.0);
             for (int64_t m = 0, end_m = n + 1; m < end_m; m++) {
                 for (int64_t i = 0; i < 3; i++) {
-                    x = x + AT2(V, 0 + i, m) * AT2(V, 12 + i, n - m); y = y - AT2(V, 0 + i, m) * AT2(V, 9 + i, n - m);
+                    x1 = x1 + AT2(V, 0 + i, m) * AT2(V, 12 + i, n - m);
+                    x2 = x2 - AT2(V, 0 + i, m) * AT2(V, 9 + i, n - m);
                 }
             }
-            AT2(end, n + 1, 4) = radius * part * x; AT2(end, n + 1, 5) = radius * part * y;
+            AT2(end, n + 1, 4) = radius * part * x1; AT2(end, n + 1, 5) = radius * part * x2;
         }
-        b0 = R(0.0); b1 = R(0.0); b2 = R(0.0); b3 = R(0.0);
+        b = (t_r4){R(0.0), R(0.0), R(0.0), R(0.0)};
         for (int64_t m = 0, end_m = n + 1; m < end_m; m++) {
-            c0 = kernel_compose(AT2(end, m, 0), AT2(end, m, 1), AT2(end, m, 2), AT2(end, m, 3), R(0.0), AT2(V, 0, n -
-                m), AT2(V, 1, n - m), AT2(V, 2, n - m));
-            b0 = b0 + c0.a0; b1 = b1 + c0.a1; b2 = b2 + c0.a2; b3 = b3 + c0.a3;
+            t_r4 t_8 = vectors_four(r2_row(end, m), 0); t_r3 t_9 = vectors_three_in(V, 0, n - m);
+            b = vectors_plus_four(b, kernel_compose(t_8.a0, t_8.a1, t_8.a2, t_8.a3, R(0.0), t_9.a0, t_9.a1, t_9.a2));
         }
-        half = R(0.5) * part; AT2(end, n + 1, 0) = half * b0; AT2(end, n + 1, 1) = half * b1;
-        AT2(end, n + 1, 2) = half * b2; AT2(end, n + 1, 3) = half * b3;
+        vectors_put_four(r2_row(end, n + 1), 0, vectors_scaled_four(R(0.5) * part, b));
     }
 }
 
@@ -3298,7 +3200,7 @@ INLINE t_r2 between_joined(r2 first, r2 end, real radius, int traced, r2 curve) 
 
 INLINE t_r2 following_through(r2 S, int64_t b, r1 body, r1 now, int traced, r1 lane, r2 V, r2 first, r2 last, r2
     curve) {
-    real whole = lane.p[1] * lane.p[2], J1 = AT2(S, 131, b), J2 = AT2(S, 132, b), J3 = AT2(S, 133, b);
+    real whole = lane.p[1] * lane.p[2]; t_r3 J = vectors_three_in(S, 131, b);
     real contact = AT2(S, 134, b), radius = AT2(S, 130, b);
     if (lane.p[9] > R(0.0)) {
         for (int64_t n = 0; n < 6; n++) {
@@ -3306,8 +3208,8 @@ INLINE t_r2 following_through(r2 S, int64_t b, r1 body, r1 now, int traced, r1 l
         }
         if (lane.p[9] != whole) { between_shortened(first, whole / lane.p[9]); }
     }
-    else { between_series(body, J1, J2, J3, contact, radius, whole, traced, V, first); }
-    between_series(now, J1, J2, J3, contact, radius, whole, traced, V, last);
+    else { between_series(body, J, contact, radius, whole, traced, V, first); }
+    between_series(now, J, contact, radius, whole, traced, V, last);
     return between_joined(first, last, radius, traced, curve);
 }
 
@@ -3352,54 +3254,56 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real
     }
 }
 
+INLINE t_r3 carried_ended(r2 E, int64_t i, real half, real twelfth) {
+    return vectors_minus(vectors_scaled(twelfth, vectors_three_in(E, 25, i)), vectors_scaled(half, vectors_three_in(E,
+        22, i)));
+}
+
+INLINE t_r3 carried_applied(t__r3_3 columns, t_r3 v) {
+    return vectors_plus(vectors_plus(vectors_scaled(v.a0, columns.a0), vectors_scaled(v.a1, columns.a1)),
+        vectors_scaled(v.a2, columns.a2));
+}
+
 INLINE void carried_kept(r2 E, int64_t B) {
-    int64_t i, j, k; real w1, w2, w3, square, part, x, y, z, a1, a2, a3, b1, b2, b3, c1, c2, c3, n1, n2, n3;
+    int64_t i, j, k; t_r3 w, x, c1, c2, c3, n, m; t__r3_3 columns; real size, part;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        i = b; j = B + b; k = 2 * B + b; w1 = AT2(E, 13, b); w2 = AT2(E, 14, b); w3 = AT2(E, 15, b);
-        square = w1 * w1 + w2 * w2 + w3 * w3; part = square > R(0.0) ? R(1.0) / square : R(0.0);
-        x = part * (AT2(E, 32, b) - (AT2(E, 54, i) * w1 + AT2(E, 54, j) * w2 + AT2(E, 54, k) * w3));
-        y = part * (AT2(E, 33, b) - (AT2(E, 55, i) * w1 + AT2(E, 55, j) * w2 + AT2(E, 55, k) * w3));
-        z = part * (AT2(E, 34, b) - (AT2(E, 56, i) * w1 + AT2(E, 56, j) * w2 + AT2(E, 56, k) * w3));
-        a1 = AT2(E, 54, i) + x * w1; a2 = AT2(E, 55, i) + y * w1; a3 = AT2(E, 56, i) + z * w1;
-        b1 = AT2(E, 54, j) + x * w2; b2 = AT2(E, 55, j) + y * w2; b3 = AT2(E, 56, j) + z * w2;
-        c1 = AT2(E, 54, k) + x * w3; c2 = AT2(E, 55, k) + y * w3; c3 = AT2(E, 56, k) + z * w3; n1 = AT2(E, 35, b);
-        n2 = AT2(E, 36, b); n3 = AT2(E, 37, b); x = AT2(E, 16, b); y = AT2(E, 17, b); z = AT2(E, 18, b);
-        square = n1 * n1 + n2 * n2 + n3 * n3;
-        part = (square > R(0.0) && x * x + y * y + z * z > R(0.0)) ? R(1.0) / square : R(0.0);
-        x = part * (x - (n1 * a1 + n2 * a2 + n3 * a3)); y = part * (y - (n1 * b1 + n2 * b2 + n3 * b3));
-        z = part * (z - (n1 * c1 + n2 * c2 + n3 * c3)); AT2(E, 54, i) = a1 + x * n1; AT2(E, 55, i) = a2 + x * n2;
-        AT2(E, 56, i) = a3 + x * n3; AT2(E, 54, j) = b1 + y * n1; AT2(E, 55, j) = b2 + y * n2;
-        AT2(E, 56, j) = b3 + y * n3; AT2(E, 54, k) = c1 + z * n1; AT2(E, 55, k) = c2 + z * n2;
-        AT2(E, 56, k) = c3 + z * n3;
+        i = b; j = B + b; k = 2 * B + b; w = vectors_three_in(E, 13, b);
+        columns = (t__r3_3){vectors_three_in(E, 54, i), vectors_three_in(E, 54, j), vectors_three_in(E, 54, k)};
+        size = vectors_dot(w, w); part = size > R(0.0) ? R(1.0) / size : R(0.0);
+        x = vectors_scaled(part, vectors_minus(vectors_three_in(E, 32, b), carried_applied(columns, w)));
+        c1 = vectors_plus(columns.a0, vectors_scaled(w.a0, x));
+        c2 = vectors_plus(columns.a1, vectors_scaled(w.a1, x));
+        c3 = vectors_plus(columns.a2, vectors_scaled(w.a2, x)); n = vectors_three_in(E, 35, b);
+        m = vectors_three_in(E, 16, b); size = vectors_dot(n, n);
+        part = (size > R(0.0) && vectors_dot(m, m) > R(0.0)) ? R(1.0) / size : R(0.0);
+        vectors_put_in(E, 54, i, vectors_plus(c1, vectors_scaled(part * (m.a0 - vectors_dot(n, c1)), n)));
+        vectors_put_in(E, 54, j, vectors_plus(c2, vectors_scaled(part * (m.a1 - vectors_dot(n, c2)), n)));
+        vectors_put_in(E, 54, k, vectors_plus(c3, vectors_scaled(part * (m.a2 - vectors_dot(n, c3)), n)));
     }
 }
 
 INLINE void carried_flown(r2 E, int64_t B, int traced) {
-    real half, twelfth, a1, a2, a3, b1, b2, b3, c1, c2, c3, r1, r2, r3, over, x, y, z, off; int64_t i, j, k, lane;
+    real half, twelfth, over, x, y, off; int64_t i, j, k, lane; t_r3 u, v, w, a, d, c, row;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
         half = R(0.5) * AT2(E, 78, b); twelfth = AT2(E, 78, b) * AT2(E, 78, b) * R(0.08333333333333333); i = b;
-        j = B + b; k = 2 * B + b; a1 = R(1.0) - half * AT2(E, 22, i) + twelfth * AT2(E, 25, i);
-        a2 = twelfth * AT2(E, 26, i) - half * AT2(E, 23, i); a3 = twelfth * AT2(E, 27, i) - half * AT2(E, 24, i);
-        b1 = twelfth * AT2(E, 25, j) - half * AT2(E, 22, j);
-        b2 = R(1.0) - half * AT2(E, 23, j) + twelfth * AT2(E, 26, j);
-        b3 = twelfth * AT2(E, 27, j) - half * AT2(E, 24, j); c1 = twelfth * AT2(E, 25, k) - half * AT2(E, 22, k);
-        c2 = twelfth * AT2(E, 26, k) - half * AT2(E, 23, k);
-        c3 = R(1.0) - half * AT2(E, 24, k) + twelfth * AT2(E, 27, k); r1 = b2 * c3 - b3 * c2; r2 = b3 * c1 - b1 * c3;
-        r3 = b1 * c2 - b2 * c1; over = R(1.0) / (a1 * r1 + a2 * r2 + a3 * r3); AT2(E, 89, b) = over * r1;
-        AT2(E, 90, b) = over * r2; AT2(E, 91, b) = over * r3; AT2(E, 92, b) = over * (c2 * a3 - c3 * a2);
-        AT2(E, 93, b) = over * (c3 * a1 - c1 * a3); AT2(E, 94, b) = over * (c1 * a2 - c2 * a1);
-        AT2(E, 95, b) = over * (a2 * b3 - a3 * b2); AT2(E, 96, b) = over * (a3 * b1 - a1 * b3);
-        AT2(E, 97, b) = over * (a1 * b2 - a2 * b1); AT2(E, 98, b) = half; AT2(E, 99, b) = twelfth;
+        j = B + b; k = 2 * B + b; u = carried_ended(E, i, half, twelfth); v = carried_ended(E, j, half, twelfth);
+        w = carried_ended(E, k, half, twelfth);
+        a = (t_r3){R(1.0) - half * AT2(E, 22, i) + twelfth * AT2(E, 25, i), u.a1, u.a2};
+        d = (t_r3){v.a0, R(1.0) - half * AT2(E, 23, j) + twelfth * AT2(E, 26, j), v.a2};
+        c = (t_r3){w.a0, w.a1, R(1.0) - half * AT2(E, 24, k) + twelfth * AT2(E, 27, k)}; row = vectors_cross(d, c);
+        over = R(1.0) / vectors_dot(a, row); vectors_put_in(E, 89, b, vectors_scaled(over, row));
+        vectors_put_in(E, 92, b, vectors_scaled(over, vectors_cross(c, a)));
+        vectors_put_in(E, 95, b, vectors_scaled(over, vectors_cross(a, d))); AT2(E, 98, b) = half;
+        AT2(E, 99, b) = twelfth;
     }
     for (int64_t column = 0; column < 3; column++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
             i = column * B + b; half = AT2(E, 98, b); twelfth = AT2(E, 99, b);
-            x = AT2(E, 38, i) + half * AT2(E, 3, i) + twelfth * AT2(E, 6, i);
-            y = AT2(E, 39, i) + half * AT2(E, 4, i) + twelfth * AT2(E, 7, i);
-            z = AT2(E, 40, i) + half * AT2(E, 5, i) + twelfth * AT2(E, 8, i);
-            AT2(E, 54, i) = AT2(E, 89, b) * x + AT2(E, 90, b) * y + AT2(E, 91, b) * z;
-            AT2(E, 55, i) = AT2(E, 92, b) * x + AT2(E, 93, b) * y + AT2(E, 94, b) * z;
-            AT2(E, 56, i) = AT2(E, 95, b) * x + AT2(E, 96, b) * y + AT2(E, 97, b) * z;
+            v = vectors_plus(vectors_three_in(E, 38, i), vectors_scaled(half, vectors_three_in(E, 3, i)));
+            v = vectors_plus(v, vectors_scaled(twelfth, vectors_three_in(E, 6, i)));
+            AT2(E, 54, i) = vectors_dot(vectors_three_in(E, 89, b), v);
+            real t_1 = vectors_dot(vectors_three_in(E, 92, b), v), t_2 = vectors_dot(vectors_three_in(E, 95, b), v);
+            AT2(E, 55, i) = t_1; AT2(E, 56, i) = t_2;
         }
     }
     carried_kept(E, B);
@@ -3419,30 +3323,30 @@ INLINE void carried_flown(r2 E, int64_t B, int traced) {
     }
 }
 
+INLINE t_r3 carried_row_of(r2 E, int64_t at, int64_t i, int64_t j, int64_t k) {
+    return (t_r3){AT2(E, at, i), AT2(E, at, j), AT2(E, at, k)};
+}
+
 INLINE void carried_leave(r2 S, r2 E, int64_t B, int traced) {
-    int64_t i, j, k, lane, at; real part, v1, v2, v3, l1, l2, l3, x, y, z;
+    int64_t i, j, k, lane; real part, y1, y2; t_r3 v, l, x, east, north; t__r3_3 columns;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
         AT2(E, 83, b) = R(0.0); AT2(E, 84, b) = R(0.0); AT2(E, 85, b) = R(0.0);
     }
     for (int64_t c = 0; c < 3; c++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-            i = b; j = B + b; k = 2 * B + b; lane = c * B + b; part = AT2(E, 79 + c, b); v1 = AT2(E, 59, lane);
-            v2 = AT2(E, 60, lane); v3 = AT2(E, 61, lane); at = 118 + 3 * c;
-            l1 = AT2(E, 54, i) * v1 + AT2(E, 54, j) * v2 + AT2(E, 54, k) * v3 + part * AT2(S, at, b);
-            l2 = AT2(E, 55, i) * v1 + AT2(E, 55, j) * v2 + AT2(E, 55, k) * v3 + part * AT2(S, at + 1, b);
-            l3 = AT2(E, 56, i) * v1 + AT2(E, 56, j) * v2 + AT2(E, 56, k) * v3 + part * AT2(S, at + 2, b);
-            AT2(E, 59, lane) = l1; AT2(E, 60, lane) = l2; AT2(E, 61, lane) = l3; at = 19;
-            x = AT2(E, at, i) * l1 + AT2(E, at, j) * l2 + AT2(E, at, k) * l3;
-            y = AT2(E, at + 1, i) * l1 + AT2(E, at + 1, j) * l2 + AT2(E, at + 1, k) * l3;
-            z = AT2(E, at + 2, i) * l1 + AT2(E, at + 2, j) * l2 + AT2(E, at + 2, k) * l3;
-            AT2(E, 83, b) = AT2(E, 83, b) + (l1 * l1 + l2 * l2 + l3 * l3);
-            AT2(E, 84, b) = AT2(E, 84, b) + (x * x + y * y + z * z);
+            i = b; j = B + b; k = 2 * B + b; lane = c * B + b; part = AT2(E, 79 + c, b);
+            v = vectors_three_in(E, 59, lane);
+            columns = (t__r3_3){vectors_three_in(E, 54, i), vectors_three_in(E, 54, j), vectors_three_in(E, 54, k)};
+            l = vectors_plus(carried_applied(columns, v), vectors_scaled(part, vectors_three_in(S, 118 + 3 * c, b)));
+            vectors_put_in(E, 59, lane, l);
+            columns = (t__r3_3){vectors_three_in(E, 19, i), vectors_three_in(E, 19, j), vectors_three_in(E, 19, k)};
+            x = carried_applied(columns, l); AT2(E, 83, b) = AT2(E, 83, b) + vectors_dot(l, l);
+            AT2(E, 84, b) = AT2(E, 84, b) + vectors_dot(x, x);
             if (traced) {
-                at = 57; part = AT2(E, 79, b);
-                x = AT2(E, at, i) * v1 + AT2(E, at, j) * v2 + AT2(E, at, k) * v3 + part * AT2(S, 127, b);
-                y = AT2(E, at + 1, i) * v1 + AT2(E, at + 1, j) * v2 + AT2(E, at + 1, k) * v3 + part * AT2(S, 128, b);
-                x = AT2(E, 62, lane) + x; y = AT2(E, 63, lane) + y; AT2(E, 62, lane) = x; AT2(E, 63, lane) = y;
-                AT2(E, 85, b) = AT2(E, 85, b) + (x * x + y * y);
+                east = carried_row_of(E, 57, i, j, k); north = carried_row_of(E, 58, i, j, k);
+                y1 = AT2(E, 62, lane) + (vectors_dot(east, v) + AT2(E, 79, b) * AT2(S, 127, b));
+                y2 = AT2(E, 63, lane) + (vectors_dot(north, v) + AT2(E, 79, b) * AT2(S, 128, b));
+                AT2(E, 62, lane) = y1; AT2(E, 63, lane) = y2; AT2(E, 85, b) = AT2(E, 85, b) + (y1 * y1 + y2 * y2);
             }
         }
     }
@@ -3453,46 +3357,37 @@ INLINE void carried_leave(r2 S, r2 E, int64_t B, int traced) {
 }
 
 INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
-    int64_t i, j, k;
-    real a1, a2, a3, b1, b2, b3, c1, c2, c3, error, s11, s12, s13, s22, s23, s33, p11, p12, p13, p21, p22, p23, p31,
-        p32, p33, e11, e12, e13, e22, e23, e33, rounded, x, y, z, x1, x2, x3, y1, y2, y3, m1, m2, m3, n1, n2, n3, u1,
-        u2, u3, v1, v2, v3, one;
-    carried_flown(E, B, traced); carried_leave(S, E, B, traced);
+    int64_t i, j, k; t_r3 a, d, c, s11, s22, s1, s2, s3, p1, p2, p3, east, north, m, n, u, v;
+    real error, e11, e12, e13, e22, e23, e33, rounded, x, y, z, one; carried_flown(E, B, traced);
+    carried_leave(S, E, B, traced);
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        i = b; j = B + b; k = 2 * B + b; a1 = AT2(E, 54, i); a2 = AT2(E, 55, i); a3 = AT2(E, 56, i);
-        b1 = AT2(E, 54, j); b2 = AT2(E, 55, j); b3 = AT2(E, 56, j); c1 = AT2(E, 54, k); c2 = AT2(E, 55, k);
-        c3 = AT2(E, 56, k); error = AT2(E, 82, b); s11 = AT2(E, 64, b); s12 = AT2(E, 65, b); s13 = AT2(E, 66, b);
-        s22 = AT2(E, 67, b); s23 = AT2(E, 68, b); s33 = AT2(E, 69, b); p11 = a1 * s11 + b1 * s12 + c1 * s13;
-        p12 = a1 * s12 + b1 * s22 + c1 * s23; p13 = a1 * s13 + b1 * s23 + c1 * s33;
-        p21 = a2 * s11 + b2 * s12 + c2 * s13; p22 = a2 * s12 + b2 * s22 + c2 * s23;
-        p23 = a2 * s13 + b2 * s23 + c2 * s33; p31 = a3 * s11 + b3 * s12 + c3 * s13;
-        p32 = a3 * s12 + b3 * s22 + c3 * s23; p33 = a3 * s13 + b3 * s23 + c3 * s33;
-        e11 = p11 * a1 + p12 * b1 + p13 * c1; e12 = p11 * a2 + p12 * b2 + p13 * c2;
-        e13 = p11 * a3 + p12 * b3 + p13 * c3; e22 = p21 * a2 + p22 * b2 + p23 * c2;
-        e23 = p21 * a3 + p22 * b3 + p23 * c3; e33 = p31 * a3 + p32 * b3 + p33 * c3; e11 = e11 + error;
-        e22 = e22 + error; e33 = e33 + error; AT2(E, 64, b) = e11; AT2(E, 65, b) = e12; AT2(E, 66, b) = e13;
-        AT2(E, 67, b) = e22; AT2(E, 68, b) = e23; AT2(E, 69, b) = e33; rounded = R(0.0);
-        for (int64_t c = 0; c < 3; c++) {
-            x = AT2(E, 19 + c, i); y = AT2(E, 19 + c, j); z = AT2(E, 19 + c, k);
+        i = b; j = B + b; k = 2 * B + b; a = carried_row_of(E, 54, i, j, k); d = carried_row_of(E, 55, i, j, k);
+        c = carried_row_of(E, 56, i, j, k); error = AT2(E, 82, b); s11 = vectors_three_in(E, 64, b);
+        s22 = vectors_three_in(E, 67, b); s1 = (t_r3){s11.a0, s11.a1, s11.a2}; s2 = (t_r3){s11.a1, s22.a0, s22.a1};
+        s3 = (t_r3){s11.a2, s22.a1, s22.a2}; p1 = (t_r3){vectors_dot(a, s1), vectors_dot(a, s2), vectors_dot(a, s3)};
+        p2 = (t_r3){vectors_dot(d, s1), vectors_dot(d, s2), vectors_dot(d, s3)};
+        p3 = (t_r3){vectors_dot(c, s1), vectors_dot(c, s2), vectors_dot(c, s3)}; e11 = vectors_dot(p1, a) + error;
+        e12 = vectors_dot(p1, d); e13 = vectors_dot(p1, c); e22 = vectors_dot(p2, d) + error;
+        e23 = vectors_dot(p2, c); e33 = vectors_dot(p3, c) + error; vectors_put_in(E, 64, b, (t_r3){e11, e12, e13});
+        vectors_put_in(E, 67, b, (t_r3){e22, e23, e33}); rounded = R(0.0);
+        for (int64_t n = 0; n < 3; n++) {
+            t_r3 t_1 = carried_row_of(E, 19 + n, i, j, k); x = t_1.a0; y = t_1.a1; z = t_1.a2;
             rounded = rounded + (x * (x * e11 + R(2.0) * (y * e12 + z * e13)) + y * (y * e22 + R(2.0) * z * e23) + z *
                 z * e33);
         }
         AT2(E, 86, b) = R(sqrt(e11 + e22 + e33)); AT2(E, 87, b) = R(sqrt(max_r(rounded, R(0.0))));
         if (traced) {
-            x1 = AT2(E, 57, i); x2 = AT2(E, 57, j); x3 = AT2(E, 57, k); y1 = AT2(E, 58, i); y2 = AT2(E, 58, j);
-            y3 = AT2(E, 58, k); m1 = AT2(E, 70, b); m2 = AT2(E, 71, b); m3 = AT2(E, 72, b); n1 = AT2(E, 73, b);
-            n2 = AT2(E, 74, b); n3 = AT2(E, 75, b); u1 = x1 * s11 + x2 * s12 + x3 * s13 + m1;
-            u2 = x1 * s12 + x2 * s22 + x3 * s23 + m2; u3 = x1 * s13 + x2 * s23 + x3 * s33 + m3;
-            v1 = y1 * s11 + y2 * s12 + y3 * s13 + n1; v2 = y1 * s12 + y2 * s22 + y3 * s23 + n2;
-            v3 = y1 * s13 + y2 * s23 + y3 * s33 + n3; x = AT2(S, 115, b); y = AT2(S, 116, b);
-            one = R(1.1102230246251565e-16) / AT2(S, 130, b);
+            east = carried_row_of(E, 57, i, j, k); north = carried_row_of(E, 58, i, j, k);
+            m = vectors_three_in(E, 70, b); n = vectors_three_in(E, 73, b);
+            u = vectors_plus((t_r3){vectors_dot(east, s1), vectors_dot(east, s2), vectors_dot(east, s3)}, m);
+            v = vectors_plus((t_r3){vectors_dot(north, s1), vectors_dot(north, s2), vectors_dot(north, s3)}, n);
+            x = AT2(S, 115, b); y = AT2(S, 116, b); one = R(1.1102230246251565e-16) / AT2(S, 130, b);
             error = error + (error > R(0.0) ? one * one * (x * x + y * y) : R(0.0));
-            x = AT2(E, 76, b) + (u1 * x1 + u2 * x2 + u3 * x3 + (m1 * x1 + m2 * x2 + m3 * x3) + error);
-            y = AT2(E, 77, b) + (v1 * y1 + v2 * y2 + v3 * y3 + (n1 * y1 + n2 * y2 + n3 * y3) + error);
-            AT2(E, 76, b) = x; AT2(E, 77, b) = y; AT2(E, 88, b) = R(sqrt(max_r(x + y, R(0.0))));
-            AT2(E, 70, b) = u1 * a1 + u2 * b1 + u3 * c1; AT2(E, 71, b) = u1 * a2 + u2 * b2 + u3 * c2;
-            AT2(E, 72, b) = u1 * a3 + u2 * b3 + u3 * c3; AT2(E, 73, b) = v1 * a1 + v2 * b1 + v3 * c1;
-            AT2(E, 74, b) = v1 * a2 + v2 * b2 + v3 * c2; AT2(E, 75, b) = v1 * a3 + v2 * b3 + v3 * c3;
+            x = AT2(E, 76, b) + (vectors_dot(u, east) + vectors_dot(m, east) + error);
+            y = AT2(E, 77, b) + (vectors_dot(v, north) + vectors_dot(n, north) + error); AT2(E, 76, b) = x;
+            AT2(E, 77, b) = y; AT2(E, 88, b) = R(sqrt(max_r(x + y, R(0.0))));
+            vectors_put_in(E, 70, b, (t_r3){vectors_dot(u, a), vectors_dot(u, d), vectors_dot(u, c)});
+            vectors_put_in(E, 73, b, (t_r3){vectors_dot(v, a), vectors_dot(v, d), vectors_dot(v, c)});
         }
     }
     for (int64_t row = 0; row < 19; row++) {
@@ -3510,34 +3405,31 @@ INLINE void following_stopped_at(int64_t i, int64_t frame, r3 momenta, r3 vertic
 
 INLINE void following_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, r3 momenta, r3 verticals, r3
     attitudes, r3 traces, int follows, int traced) {
-    for (int64_t c = 0; c < 3; c++) {
-        AT3(momenta, i, frame, c) = R(ldexp(body.p[c], (int)(int64_t)exponent));
-        AT3(verticals, i, frame, c) = body.p[3 + c];
-    }
-    if (follows) {
-        for (int64_t c = 0; c < 4; c++) { AT3(attitudes, i, frame, c) = body.p[6 + c]; }
-    }
+    vectors_put(r2_row(r3_row(momenta, i), frame), 0, vectors_shifted(vectors_three(body, 0), (int64_t)exponent));
+    vectors_put(r2_row(r3_row(verticals, i), frame), 0, vectors_three(body, 3));
+    if (follows) { vectors_put_four(r2_row(r3_row(attitudes, i), frame), 0, vectors_four(body, 6)); }
     if (traced) { AT3(traces, i, frame, 0) = body.p[10]; AT3(traces, i, frame, 1) = body.p[11]; }
 }
 
 INLINE real between_at_part(r2 curve, int64_t i, real s) {
-    real r = s - R(1.0), square = s * s;
+    real r = s - R(1.0), power = s * s;
     real low = ((AT2(curve, 5, i) * s + AT2(curve, 4, i)) * s + AT2(curve, 3, i)) * s + AT2(curve, 2, i);
     real high = ((AT2(curve, 11, i) * r + AT2(curve, 10, i)) * r + AT2(curve, 9, i)) * r + AT2(curve, 8, i);
     low = (low * s + AT2(curve, 1, i)) * s + AT2(curve, 0, i);
-    high = (high * r + AT2(curve, 7, i)) * r + AT2(curve, 6, i); return low + square * square * square * high;
+    high = (high * r + AT2(curve, 7, i)) * r + AT2(curve, 6, i); return low + power * power * power * high;
 }
 
 INLINE void between_ball_at(r2 curve, real s, r1 body, int traced, r1 found) {
-    real q0 = between_at_part(curve, 0, s), q1 = between_at_part(curve, 1, s), q2 = between_at_part(curve, 2, s);
-    real q3 = between_at_part(curve, 3, s), scale = R(1.0) / R(sqrt(q0 * q0 + q1 * q1 + (q2 * q2 + q3 * q3)));
-    q0 = scale * q0; q1 = scale * q1; q2 = scale * q2; q3 = scale * q3;
-    real a0 = body.p[6], a1 = body.p[7], a2 = body.p[8], a3 = body.p[9];
-    t_r4 p0 = kernel_compose(q0, -q1, -q2, -q3, a0, a1, a2, a3);
-    t_r3 t_1 = kernel_rotate(p0.a0, p0.a1, p0.a2, p0.a3, body.p[0], body.p[1], body.p[2]); found.p[0] = t_1.a0;
-    found.p[1] = t_1.a1; found.p[2] = t_1.a2;
-    t_r3 t_2 = kernel_rotate(p0.a0, p0.a1, p0.a2, p0.a3, body.p[3], body.p[4], body.p[5]); found.p[3] = t_2.a0;
-    found.p[4] = t_2.a1; found.p[5] = t_2.a2; found.p[6] = q0; found.p[7] = q1; found.p[8] = q2; found.p[9] = q3;
+    t_r4 q = (t_r4){between_at_part(curve, 0, s), between_at_part(curve, 1, s), between_at_part(curve, 2, s),
+        between_at_part(curve, 3, s)};
+    q = vectors_scaled_four(R(1.0) / R(sqrt(vectors_square_of_four(q))), q);
+    t_r4 t_1 = vectors_conjugate(q), t_2 = vectors_four(body, 6);
+    t_r4 p = kernel_compose(t_1.a0, t_1.a1, t_1.a2, t_1.a3, t_2.a0, t_2.a1, t_2.a2, t_2.a3);
+    t_r3 t_3 = vectors_three(body, 0);
+    vectors_put(found, 0, kernel_rotate(p.a0, p.a1, p.a2, p.a3, t_3.a0, t_3.a1, t_3.a2));
+    t_r3 t_4 = vectors_three(body, 3);
+    vectors_put(found, 3, kernel_rotate(p.a0, p.a1, p.a2, p.a3, t_4.a0, t_4.a1, t_4.a2));
+    vectors_put_four(found, 6, q);
     if (traced) { found.p[10] = between_at_part(curve, 4, s); found.p[11] = between_at_part(curve, 5, s); }
 }
 
@@ -3677,25 +3569,23 @@ INLINE void following_follow_eight(r3 momenta, r3 verticals, r3 attitudes, r3 tr
 }
 
 INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
-    t_ri size, weight; real k1, k2, k3, j1, j2, j3, D, rate, least, condition, turned, root, walked, allowed, part;
-    t_r3 w1; int64_t zeros; int known; real floor = R(0.0), single = R(0.0);
+    t_ri size, weight; t_r3 k, J, w, inertia; real D, rate, least, condition, turned, root, walked, allowed, part;
+    int64_t zeros; int known; real floor = R(0.0), single = R(0.0);
     for (int64_t i = 0, end_i = momenta.n0; i < end_i; i++) {
-        size = real_frexp(max_r(max_r(R(fabs(AT2(momenta, i, 0))), R(fabs(AT2(momenta, i, 1)))), R(fabs(AT2(momenta,
-            i, 2)))));
+        size = real_frexp(vectors_largest(vectors_three(r2_row(momenta, i), 0)));
         weight = real_frexp(max_r(max_r(max_r(AT2(J0, i, 0), AT2(J0, i, 1)), AT2(J0, i, 2)), D0.p[i]));
-        k1 = R(ldexp(AT2(momenta, i, 0), (int)-size.a1)); k2 = R(ldexp(AT2(momenta, i, 1), (int)-size.a1));
-        k3 = R(ldexp(AT2(momenta, i, 2), (int)-size.a1)); j1 = R(ldexp(AT2(J0, i, 0), (int)-weight.a1));
-        j2 = R(ldexp(AT2(J0, i, 1), (int)-weight.a1)); j3 = R(ldexp(AT2(J0, i, 2), (int)-weight.a1));
-        D = R(ldexp(D0.p[i], (int)-weight.a1));
-        w1 = kernel_angular_velocity(k1, k2, k3, AT2(verticals, i, 0), AT2(verticals, i, 1), AT2(verticals, i, 2), j1,
-            j2, j3, D);
-        rate = R(ldexp(R(sqrt(w1.a0 * w1.a0 + w1.a1 * w1.a1 + w1.a2 * w1.a2)), (int)(size.a1 - weight.a1)));
-        least = min_r(min_r(j2 + j3, j1 + j3), j1 + j2);
-        condition = least > R(0.0) ? (max_r(max_r(j2 + j3, j1 + j3), j1 + j2) + D) / least :
+        k = vectors_shifted(vectors_three(r2_row(momenta, i), 0), -size.a1);
+        J = vectors_shifted(vectors_three(r2_row(J0, i), 0), -weight.a1); D = R(ldexp(D0.p[i], (int)-weight.a1));
+        t_r3 t_1 = vectors_three(r2_row(verticals, i), 0);
+        w = kernel_angular_velocity(k.a0, k.a1, k.a2, t_1.a0, t_1.a1, t_1.a2, J.a0, J.a1, J.a2, D);
+        rate = R(ldexp(vectors_length(w), (int)(size.a1 - weight.a1))); inertia = branch_moments(J);
+        least = min_r(min_r(inertia.a0, inertia.a1), inertia.a2);
+        condition = least > R(0.0) ? (max_r(max_r(inertia.a0, inertia.a1), inertia.a2) + D) / least :
             R(1.0715086071862673e+301);
-        zeros = (k1 == R(0.0) ? 1 : 0) + (k2 == R(0.0) ? 1 : 0) + (k3 == R(0.0) ? 1 : 0); turned = rate * end;
+        zeros = (k.a0 == R(0.0) ? 1 : 0) + (k.a1 == R(0.0) ? 1 : 0) + (k.a2 == R(0.0) ? 1 : 0); turned = rate * end;
         root = R(sqrt(condition)); walked = R(sqrt(R(1.0) + R(40.0) * turned)); AT2(found, 0, i) = rate;
-        AT2(found, 1, i) = condition; AT2(found, 2, i) = (zeros > 1 || (j1 == j2 && j2 == j3)) ? R(1.0) : R(0.0);
+        AT2(found, 1, i) = condition;
+        AT2(found, 2, i) = (zeros > 1 || (J.a0 == J.a1 && J.a1 == J.a2)) ? R(1.0) : R(0.0);
         AT2(found, 3, i) = R(1.1102230246251565e-16) * ((R(1.0) + turned) * (R(2.0) * root + walked) + R(8.0) *
             condition) * unit.p[i];
         AT2(found, 4, i) = R(1.1102230246251565e-16) * ((R(1.0) + turned) * (R(2.0) * root + R(1.0)) + R(8.0) *
@@ -3856,5 +3746,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "78c73e63be779e905a50fe30c41fd96b9835e046ad3a25a6e18692d78dc643f4";
+const char loops_text[] = "3617e0c26848ea3ba4ebf636d4e6a46dc17f66ce650711cb2da0b786115ebcd4";
 #endif

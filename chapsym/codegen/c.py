@@ -2,7 +2,8 @@
 
 A function is printed again and again until the kinds of its names and results are known.  A kind is "b", "i" or "r"
 for a truth, an integer or a number of the type that the loops are compiled for; "d" for one that is float64 in float32,
-too; an `Array`; a `Record`; or a tuple of kinds, which only a call has.
+too; an `Array`; a `Record`; or a tuple of kinds, as of a vector.  In double-double it is "p" or "q" for a pair, `Loose`
+or `Normal`, "e" for a float that counts as exact, "1" for that number.  A function is printed anew for such kinds.
 """
 
 import ast
@@ -16,7 +17,7 @@ from textwrap import wrap
 from typing import Any
 
 from .printer import FUNCTIONS
-from .source import Function, NotConstant, Record, Varying, constant, meaning
+from .source import LOOSE, PAIRS, Function, NotConstant, Program, Record, Varying, constant, meaning
 
 #: What binds tighter has the larger number, as in C.
 OPERATORS: dict[type, tuple[str, int]] = {
@@ -27,6 +28,13 @@ OPERATORS: dict[type, tuple[str, int]] = {
 TERNARY, OR, AND, LESS, BITS, UNARY, ATOM = 1, 2, 3, 6, 8, 11, 12
 #: The kinds of numbers, narrow ones first, and w for the elements of an array of integers of 32 bits.
 SCALARS = {"b": "int", "i": "int64_t", "r": "real", "d": "double", "w": "int32_t"}
+#: Those of double-double: the sum and the product of two floats, of a pair and a float, and of two pairs.
+LOOSE_SCALARS = {"1": "int64_t", "e": "real", "p": "t_r2", "q": "t_r2"}
+FORMS: dict[type, tuple[str, str, str]] = {
+    ast.Add: ("two_sum", "loose_add_float", "loose_add"),
+    ast.Sub: ("two_sum", "loose_add_float", "loose_subtract"),
+    ast.Mult: ("two_product", "loose_multiply_float", "loose_multiply"),
+}
 #: Functions of Python and its libraries that C has for float64, and those that are casts to a kind.
 LIBRARY = {"math.sqrt": "sqrt", "math.exp": "exp", "math.log": "log", "abs": "fabs"}
 CASTS = {"int": "i", "float": "r", "numpy.float32": "r", "numpy.float64": "d"}
@@ -69,13 +77,22 @@ def joined(a: Any, b: Any) -> Any:
 
 
 def c_type(kind: Any) -> str:
-    """The name of a kind in C; that of a tuple has the runs of equal kinds."""
+    """The name of a kind in C; that of a tuple has the runs of equal kinds, each tuple inside between underscores."""
     if isinstance(kind, tuple):
-        runs = [(one, len(list(run))) for one, run in groupby(kind)]
+        inner = (
+            f"_{c_type(one)[2:]}_" if isinstance(one, tuple) else c_type(one) if isinstance(one, Record) else one
+            for one in kind
+        )
+        runs = [(one, len(list(run))) for one, run in groupby(inner)]
         return "t_" + "".join(f"{one}{count if count > 1 else ''}" for one, count in runs)
     if isinstance(kind, Array | Record):
         return kind.name if isinstance(kind, Record) else str(kind)
-    return "void" if kind is None else SCALARS[kind]
+    return "void" if kind is None else (SCALARS | LOOSE_SCALARS)[kind]
+
+
+def is_loose(kind: Any) -> bool:
+    """Whether a kind is one of double-double, or a tuple that has some."""
+    return any(map(is_loose, kind)) if isinstance(kind, tuple) else isinstance(kind, str) and kind in LOOSE_SCALARS
 
 
 def widened(kind: tuple[str, ...]) -> tuple[str, ...]:
@@ -99,10 +116,21 @@ class Text:
     def parts(self) -> list["Text"]:
         """The fields of a record, or of the structure that a call returned."""
         if isinstance(self.kind, Record):
-            return [Text(f"{self.text}.{name}", "r") for name in self.kind.fields]
+            return [Text(f"{self.text}.{name}", kind) for name, kind in self.kind.fields]
         if isinstance(self.kind, tuple):
             return [Text(f"{self.text}.a{i}", kind) for i, kind in enumerate(self.kind)]
         raise TypeError("one value is no tuple")
+
+    def to(self, kind: Any) -> "Text":
+        """The same value, where a tuple is wanted of elements of other kinds."""
+        if not isinstance(kind, tuple) or kind == self.kind:
+            return self
+        return several_in(kind, [part.to(one) for part, one in zip(self.parts, kind, strict=True)])
+
+
+def several_in(kind: tuple[Any, ...], parts: Sequence[Text]) -> Text:
+    """A tuple of these values."""
+    return Text(f"({c_type(kind)}){{{', '.join(part.text for part in parts)}}}", kind)
 
 
 def number(value: float) -> Text:
@@ -132,6 +160,13 @@ class Printer:
 
     def __init__(self, printers: "Printers", function: Function) -> None:
         self.printers, self.function, self.module = printers, function, function.module
+        #: The tuples that its text names, and the names of those of which an element is asked for by a variable.
+        self.tuples = set[tuple[Any, ...]]()
+        self.listed = {
+            n.value.id
+            for n in ast.walk(function.node)
+            if isinstance(n, ast.Subscript) and isinstance(n.value, ast.Name) and not is_whole(n.slice)
+        }
         self.names: dict[str, Any] = {
             a.arg: ANNOTATIONS[ast.unparse(a.annotation)] for a in function.node.args.args if a.annotation
         }
@@ -195,14 +230,24 @@ class Printer:
                 return Text(name, "i")
             case ast.Name(id=name) if name in self.own and name not in self.ended:
                 return self.within.get(name) or Text(name, self.names[name])
-            case ast.Attribute(value=ast.Name(id=name), attr=attribute) if isinstance(self.names.get(name), Record):
-                return Text(f"{name}.{attribute}", "r")
+            case ast.Attribute(value=value, attr="high" | "low" as half):
+                of = self.expression(value)
+                if of.kind == "e":
+                    return Text(of.text, "r", of.level)
+                return Text(f"{self.named(of).text}.{'a0' if half == 'high' else 'a1'}", "r")
+            case ast.Attribute(value=ast.Name(id=name), attr=attribute) if name in self.own:
+                record = self.named(self.expression(node.value))
+                return next(x for x in record.parts if x.text == f"{record.text}.{attribute}")
+            case ast.Tuple(elts=elements):
+                return self.together(list(self.several(elements)))
             case ast.Name() | ast.Attribute() if isinstance(varying := self.outside(node), Varying):
                 return Text(varying.name, number(varying.double).kind)
             case ast.BinOp(left=left, op=op, right=right):
                 return self.operation(self.expression(left), op, self.expression(right))
             case ast.UnaryOp(op=ast.Not() | ast.USub() as op, operand=operand):
                 of = self.expression(operand)
+                if of.kind in ("p", "q"):
+                    return self.halves(of, "-{}")
                 sign = "!" if isinstance(op, ast.Not) else "-"
                 text = of.at(ATOM if of.text[0] == "-" else UNARY)  # -- is another operator
                 return Text(sign + text, "b" if sign == "!" else of.kind, UNARY)
@@ -219,18 +264,41 @@ class Printer:
                 parts = [self.expression(first), *map(self.unhurried, others)]
                 return Text(f" {sign} ".join(part.at(AND + 1) for part in parts), "b", level)
             case ast.IfExp(test=test, body=body, orelse=orelse):
-                given, yes, no = self.expression(test), self.unhurried(body), self.unhurried(orelse)
-                text = f"{given.at(LESS)} ? {yes.at(LESS)} : {no.at(LESS)}"
-                return Text(text, joined(yes.kind, no.kind), TERNARY)
+                given, before = self.expression(test), self.temporaries
+                yes, no = self.expression(body), self.expression(orelse)
+                if isinstance(yes.kind, tuple):  # both are computed, as they write nothing: so it becomes vector code
+                    given, yes, no = map(self.named, (given, yes, no))
+                    both = zip(yes.parts, no.parts, strict=True)
+                    return self.together([self.chosen(given, *one) for one in both])
+                if self.temporaries > before:
+                    raise TypeError(f"a call in {ast.unparse(node)} would come too early")
+                return self.chosen(given, yes, no)
             case ast.Subscript(value=ast.Attribute(value=array, attr="shape"), slice=axis):
                 return Text(f"{self.expression(array).text}.n{self.value(axis)}", "i")
             case ast.Subscript(value=array, slice=ast.Tuple(elts=indices)):
                 return self.indexed(self.expression(array), indices)
             case ast.Subscript(value=array, slice=index):
-                return self.indexed(self.expression(array), [index])
+                of = self.expression(array)
+                if not isinstance(of.kind, tuple):
+                    return self.indexed(of, [index])
+                of = self.named(of)
+                if isinstance(index, ast.Slice):
+                    return self.together(of.parts[self.value(index.lower) : self.value(index.upper)])
+                return of.parts[self.value(index)]
             case ast.Call(func=func, args=arguments, keywords=[]):
                 return self.call(func, arguments)
         raise TypeError(f"{ast.unparse(node)} has no form that is known")
+
+    def together(self, parts: Sequence[Text]) -> Text:
+        """A tuple."""
+        kind = tuple(part.kind for part in parts)
+        self.tuples.add(kind)
+        return several_in(kind, parts)
+
+    def chosen(self, given: Text, yes: Text, no: Text) -> Text:
+        """One of two values."""
+        text = f"{given.at(LESS)} ? {yes.at(LESS)} : {no.at(LESS)}"
+        return Text(text, joined(yes.kind, no.kind), TERNARY)
 
     def unhurried(self, node: ast.expr) -> Text:
         """An expression that is not always evaluated, or more than once: nothing of it may come before the others."""
@@ -242,6 +310,8 @@ class Printer:
 
     def operation(self, a: Text, op: ast.operator, b: Text) -> Text:
         """An operation with two operands; the remainder is of integers, as is the quotient."""
+        if a.kind in LOOSE_SCALARS or b.kind in LOOSE_SCALARS:
+            return self.loose(a, type(op), b)
         (sign, level), kind = OPERATORS[type(op)], joined(a.kind, b.kind)
         if isinstance(op, ast.FloorDiv | ast.Mod):
             if kind not in ("b", "i"):
@@ -253,6 +323,54 @@ class Printer:
             first = f"R({a.text})" if a.kind in ("b", "i") else a.at(level)
             return Text(f"{first} {sign} {b.at(UNARY)}", "r" if kind in ("b", "i") else kind, level)
         return Text(f"{a.at(level)} {sign} {b.at(level + 1)}", "i" if kind == "b" else kind, level)
+
+    def loose(self, a: Text, op: type, b: Text) -> Text:
+        """An operation of double-double, as `Loose` and `Normal` do it."""
+        one, two = (x.kind == "1" or (x.kind == "i" and x.text in ("1", "2")) for x in (a, b))
+        if op is ast.Mult and (one or two):
+            whole, other = (a, b) if one else (b, a)
+            if whole.text == "2":
+                return self.halves(other, "2 * {}")
+            return other
+        if op is ast.Div:
+            if b.text == "2":
+                return self.halves(a, "{} / 2")
+            divisor = self.normalised(b)
+            return Text(self.on_halves("divide", *self.of(a), *self.of(divisor)).text, "q" if a.kind == "q" else "p")
+        first, second = (self.of(x) if x.kind in ("p", "q") else [Text(x.text, "r", x.level)] for x in (a, b))
+        if op is ast.Sub and len(first) + len(second) < 4:
+            second = [Text(f"-{x.at(ATOM)}", "r", UNARY) for x in second]
+        if len(first) < len(second):
+            first, second = second, first
+        found = self.on_halves(FORMS[op][len(first) + len(second) - 2], *first, *second)
+        if "q" not in (a.kind, b.kind):
+            return found
+        found = Text(found.text, "q")
+        return found if op is ast.Mult else self.normalised(found)
+
+    def of(self, value: Text) -> list[Text]:
+        """The two halves of a number."""
+        if value.kind not in ("p", "q"):
+            return [Text(value.text, "r", value.level), Text("0", "r")]
+        name = self.named(value).text
+        return [Text(f"{name}.a0", "r"), Text(f"{name}.a1", "r")]
+
+    def halves(self, value: Text, form: str) -> Text:
+        """The same done to both halves."""
+        if value.kind not in ("p", "q"):
+            return Text(form.format(value.at(UNARY)), value.kind, UNARY)
+        return Text(f"(t_r2){{{', '.join(form.format(x.text) for x in self.of(value))}}}", value.kind)
+
+    def normalised(self, value: Text) -> Text:
+        """A pair of which the low half is small."""
+        if value.kind not in ("p", "q"):
+            return value
+        return Text(self.on_halves("two_sum", *self.of(value)).text, value.kind)
+
+    def on_halves(self, name: str, *halves: Text) -> Text:
+        """A call of a function of `chapsym.numbers.pairs`: it is a pair."""
+        functions = self.printers.program.module(PAIRS).functions
+        return Text(self.called(functions[name], [], list(halves)).text, "p")
 
     def indexed(self, array: Text, indices: Sequence[ast.expr]) -> Text:
         """An element, a row or some rows of an array."""
@@ -282,6 +400,8 @@ class Printer:
     def call(self, func: ast.expr, arguments: Sequence[ast.expr]) -> Text:
         """A call."""
         callee = self.callee(func)
+        if callee == "normalised":
+            return self.normalised(self.expression(func.value))  # type: ignore[attr-defined]
         if callee == "reshape":
             array, shape = func.value, arguments[0].elts  # type: ignore[attr-defined]
             rows, columns = (self.expression(x).text for x in shape)
@@ -289,6 +409,11 @@ class Printer:
         if isinstance(callee, str) and callee.startswith(f"{FUNCTIONS}."):
             return self.adjoined(callee.rpartition(".")[2], self.expression(arguments[0]))  # the others are for Python
         given = list(self.several(arguments))
+        if isinstance(callee, str) and callee.startswith(f"{LOOSE}."):
+            return self.of_loose(callee.rpartition(".")[2], given)
+        if isinstance(callee, Function) and any(is_loose(x.kind) for x in given):
+            given = [Text("1", "1") if x.text == "1" else x for x in given]
+            callee = self.printers.special(callee, given)
         if isinstance(callee, Function | Varying):
             return self.called(callee, arguments, given)
         if isinstance(callee, Record):
@@ -309,6 +434,14 @@ class Printer:
             return Text(f"llabs({of.text})", "i")
         text = f"{LIBRARY[callee]}({of.text})"
         return Text(text, "d") if of.kind == "d" else Text(f"R({text})", "r")
+
+    def of_loose(self, name: str, given: Sequence[Text]) -> Text:
+        """A number of double-double from one or two floats, or the root of one."""
+        if name == "square_root":
+            return self.on_halves("root", *self.of(self.normalised(given[0])))
+        if len(given) == 1:
+            return Text(given[0].text, "e", given[0].level)
+        return Text(f"(t_r2){{{', '.join(x.text for x in given)}}}", "q" if name == "Normal" else "p")
 
     def adjoined(self, name: str, of: Text) -> Text:
         """A letter of a kernel, by a function of the mathematics library."""
@@ -332,7 +465,9 @@ class Printer:
             for name, node in zip(function.parameters, arguments, strict=False):
                 if name in of.written:
                     self.writes(node)
-        text = ", ".join(x.text for x in full)
+        wanted = self.printers[double].names
+        self.tuples |= {kind for kind in wanted.values() if isinstance(kind, tuple)}
+        text = ", ".join(x.to(wanted[name]).text for x, name in zip(full, double.parameters, strict=True))
         if is_external(self.function, double):
             return Text(f"{double.name}_double({text})", widened(of.returned))
         return Text(f"{callee.name if single is not double else double.name}({text})", of.returned)
@@ -341,7 +476,7 @@ class Printer:
         """The values of arguments or of the elements of a tuple, of which some may be starred."""
         for node in nodes:
             if isinstance(node, ast.Starred):
-                yield from self.kept(self.expression(node.value)).parts
+                yield from self.named(self.expression(node.value)).parts
             else:
                 yield self.expression(node)
 
@@ -377,6 +512,10 @@ class Printer:
             self.declare(c_type(kind), name, text)
         self.declared.add(name)
 
+    def named(self, value: Text) -> Text:
+        """A value that may be written several times: it is kept unless it is a name."""
+        return value if re.fullmatch(r"[\w.]+", value.text) else self.kept(value)
+
     def kept(self, value: Text) -> Text:
         """A name of what a call returned."""
         self.temporaries += 1
@@ -391,7 +530,7 @@ class Printer:
             case ast.Name(id=name) if name not in self.loops:
                 self.note(name, value.kind)
                 self.ended.discard(name)
-                self.assigned(name, self.names[name], value.text)
+                self.assigned(name, self.names[name], value.to(self.names[name]).text)
             case ast.Subscript():
                 self.writes(target)
                 to = self.expression(target)
@@ -466,7 +605,7 @@ class Printer:
         if not parts and (kind == self.returned or not isinstance(kind, tuple)):
             return f"return {value.text}"
         parts = parts or self.kept(value).parts
-        return f"return ({c_type(self.returned)}){{{', '.join(x.text for x in parts)}}}"
+        return f"return {several_in(self.returned, [x.to(k) for x, k in zip(parts, self.returned, strict=True)]).text}"
 
     def assign(self, target: ast.expr, value: ast.expr) -> None:
         """Adds an assignment."""
@@ -484,7 +623,7 @@ class Printer:
                 self.allocate(name, value)
             case ast.Name(id=name), _:
                 of = self.expression(value)
-                if isinstance(of.kind, tuple):  # it is kept whole: its elements are asked for by number
+                if isinstance(of.kind, tuple) and name in self.listed:
                     parts = ", ".join(x.text for x in self.kept(of).parts)
                     self.array(name, Array("r", 1), [str(len(of.kind))], f"real {name}_[] = {{{parts}}}")
                 else:
@@ -573,22 +712,39 @@ def base_name(node: ast.expr) -> str:
     return node.id if isinstance(node, ast.Name) else ""
 
 
+def is_whole(node: ast.expr) -> bool:
+    """Whether an index is a whole number, or a slice from one to another."""
+    bounds = (node.lower, node.upper) if isinstance(node, ast.Slice) else (node,)
+    return all(isinstance(n, ast.Constant) and isinstance(n.value, int) for n in bounds)
+
+
 def is_external(caller: Function, callee: Function) -> bool:
     """Whether what is in float32 calls a function in float64."""
     return caller.module.name == NARROW and callee.module.name == WIDE
 
 
 class Printers(dict[Function, Printer]):
-    """A printer for each function that is asked for."""
+    """A printer for each function that is asked for, and one for each of the kinds that it is specialised for."""
+
+    def __init__(self, program: Program) -> None:
+        self.program, self.specialised = program, dict[tuple[Function, str], Function]()
+
+    def special(self, function: Function, given: Sequence[Text]) -> Function:
+        """The function for these kinds."""
+        variant = "_" + c_type(tuple(x.kind for x in given))[2:]
+        key = function, variant
+        if key not in self.specialised:
+            self.specialised[key] = Function(function.module, function.node, variant)
+        return self.specialised[key]
 
     def __missing__(self, function: Function) -> Printer:
         self[function] = Printer(self, function)
         return self[function]
 
 
-def printed(roots: Sequence[Function], kernels: Sequence[Function] = ()) -> Printers:
+def printed(program: Program, roots: Sequence[Function], kernels: Sequence[Function] = ()) -> Printers:
     """The printers of some functions and of all that these call; a kernel has numbers as parameters."""
-    found = Printers()
+    found = Printers(program)
     for function in (*roots, *kernels):
         found[function].names |= dict.fromkeys(function.parameters, "r") if function in kernels else {}
     before: Any = None

@@ -1,11 +1,11 @@
 """The files in C: the loops for two types of numbers, and a library of the kernels and a step for other languages."""
 
 import hashlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
-from .c import SCALARS, Printer, Text, block, broken, c_type, is_external, number, printed, widened
+from .c import Printer, Text, block, broken, c_type, is_external, number, printed, widened
 from .kernels import Kernel
 from .source import Function, Program, Record
 
@@ -133,7 +133,7 @@ class Texts:
         self, program: Program, roots: Sequence[Function], single: Sequence[Function], kernels: Sequence[Function] = ()
     ) -> None:
         self.program, self.roots, self.single = program, roots, single
-        self.of = printed(roots, kernels)
+        self.of = printed(program, roots, kernels)
         double, single_, every = (self.reached(*x) for x in ((roots, "double"), (single, "single"), (roots, "")))
         #: Each function, after those that it calls, with the guard of the type of numbers that it is for.
         self.groups = {
@@ -164,15 +164,26 @@ class Texts:
 
     def typedefs(self) -> str:
         """The records and the tuples that functions return."""
-        returned = {of.returned for of in self.of.values()} | {widened(of.returned) for _, of in self.external()}
-        records = sorted((x for x in returned if isinstance(x, Record)), key=lambda x: x.name)
-        rows = [f"typedef struct {{ real {', '.join(x.fields)}; }} {x.name};" for x in records]
-        tuples = (x for x in returned - {("r", "i")} if isinstance(x, tuple))
-        for kinds in sorted(tuples, key=lambda t: (len(t), t)):
-            runs = groupby(enumerate(kinds), key=lambda x: x[1])
-            fields = (f"{SCALARS[kind]} {', '.join(f'a{i}' for i, _ in run)};" for kind, run in runs)
-            rows.append(f"typedef struct {{ {' '.join(fields)} }} {c_type(kinds)};")
+        used = {of.returned for of in self.of.values()} | {widened(of.returned) for _, of in self.external()}
+        used = used.union(*(of.tuples for of in self.of.values()))
+        found = dict.fromkeys(kind for one in sorted(used, key=c_type) for kind in self.inside(one))
+        rows = []
+        for kind in found:
+            fields = kind.fields if isinstance(kind, Record) else [(f"a{i}", one) for i, one in enumerate(kind)]
+            runs = groupby(fields, key=lambda field: c_type(field[1]))
+            members = (f"{of} {', '.join(name for name, _ in run)};" for of, run in runs)
+            rows.append(f"typedef struct {{ {' '.join(members)} }} {c_type(kind)};")
         return "\n".join([*(part for row in rows for part in broken(row)), "\n"])
+
+    def inside(self, kind: Any) -> Iterator[Any]:
+        """The structures that a kind needs, itself the last."""
+        if isinstance(kind, tuple | Record):
+            for one in kind if isinstance(kind, tuple) else (of for _, of in kind.fields):
+                yield from self.inside(one)
+            if kind != ("r", "i"):  # which the first lines have
+                yield kind
+        elif kind in ("p", "q"):
+            yield ("r", "r")
 
     def external(self) -> list[tuple[Function, Printer]]:
         """What float32 calls in float64."""

@@ -12,8 +12,16 @@ from typing import Any
 
 from .printer import FUNCTIONS
 
+#: The numbers of the loops in double-double, and the operations that theirs are made of.
+LOOSE, PAIRS = "chapsym.numbers.loose", "chapsym.numbers.pairs"
 #: Packages of which a module imports: what is imported from them is not read.
-OUTSIDE = ("math", "numpy", "typing", "collections.abc", FUNCTIONS)
+OUTSIDE = ("math", "numpy", "typing", "collections.abc", FUNCTIONS, LOOSE)
+
+
+#: The kinds of what a field of a named tuple may be annotated with.
+FIELDS: dict[str, Any] = {
+    "float": "r", "Three": ("r",) * 3, "Four": ("r",) * 4, "Nine": ("r",) * 9,
+}  # fmt: skip
 
 
 class NotConstant(ValueError):
@@ -22,15 +30,16 @@ class NotConstant(ValueError):
 
 @dataclass(eq=False)
 class Function:
-    """A function of a module: its tree, and the module in which its names are looked up."""
+    """A function of a module: its tree, the module in which its names are looked up, and for which kinds it is."""
 
     module: "Module"
     node: ast.FunctionDef
+    variant: str = ""
 
     @property
     def name(self) -> str:
         """Its name in C, which has one scope for all modules."""
-        return f"{'kernel' if self.module.name == 'generated' else self.module.name}_{self.node.name}"
+        return f"{'kernel' if self.module.name == 'generated' else self.module.name}_{self.node.name}{self.variant}"
 
     @property
     def parameters(self) -> list[str]:
@@ -50,10 +59,10 @@ class Function:
 
 @dataclass(frozen=True)
 class Record:
-    """A named tuple of numbers: its name and those of its fields."""
+    """A named tuple: its name, and the name and the kind of each of its fields."""
 
     name: str
-    fields: tuple[str, ...]
+    fields: tuple[tuple[str, Any], ...]
 
 
 @dataclass(frozen=True)
@@ -96,8 +105,8 @@ class Program:
                 case ast.FunctionDef(name=name):
                     names[name] = module.functions[name] = Function(module, node)
                 case ast.ClassDef(name=name, bases=[ast.Name(id="NamedTuple")], body=body):
-                    fields = (ast.unparse(n.target) for n in body if isinstance(n, ast.AnnAssign))
-                    names[name] = Record(name, tuple(fields))
+                    fields = ((ast.unparse(n.target), n.annotation) for n in body if isinstance(n, ast.AnnAssign))
+                    names[name] = Record(name, tuple((field, FIELDS[ast.unparse(kind)]) for field, kind in fields))
                 case ast.Import(names=aliases):
                     names.update((alias.asname or alias.name, alias.name) for alias in aliases)
                 case ast.ImportFrom():

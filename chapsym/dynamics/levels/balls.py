@@ -111,7 +111,8 @@ class DigitsBall(_UnderWay):
         self.root_bits = bits
         self.floats = *map(float, self.I), float(self.D)
         half = tuple(map(float, self.k))
-        self.bounds = [certificate(*(abs(float(c)) * x for x in half), *self.floats)[0] for c in stages]
+        inertia, contact = self.floats[:3], self.floats[3]
+        self.bounds = [certificate([abs(float(c)) * x for x in half], inertia, contact)[0] for c in stages]
 
     def step(self) -> None:
         """Takes one step; raises StepNotTaken, the ball then being where the step began or at a stage of it."""
@@ -145,8 +146,7 @@ class DigitsBall(_UnderWay):
         """Whether the straight path joins a root to no rotation: an inequality with room, looked at in float64."""
         u, half, g = (tuple(map(float, v)) for v in (root, k, self.g))
         spread = 0.5 * (max(self.floats[:3]) - min(self.floats[:3]))
-        numbers = *u, square_of(u), *half, math.hypot(*half), *g, *self.floats, spread
-        proved, _ = joined(*numbers)
+        proved, _ = joined(u, square_of(u), half, math.hypot(*half), g, self.floats[:3], self.floats[3], spread)
         return bool(proved)
 
     def _rotation(self, k: Numbers) -> Numbers:

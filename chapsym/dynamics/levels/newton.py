@@ -7,7 +7,7 @@ from flint import arb, arb_mat, ctx
 
 import chapsym.generated as generated
 
-from ..loops.branch import inverse
+from ..loops.branch import inverse, product
 
 #: Refinement must stay this near to the float64 root, else another branch may have been met.
 NEAR = 1e-6
@@ -33,8 +33,7 @@ def refined(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
 def _correction(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
     """The Newton correction w for unit q: q becomes q ∘ (1, w)."""
     r = generated.residual(*q, *K, *g, *J, *D)
-    _, *i = inverse(*q, *g, *J, *D)
-    return tuple(-(i[3 * n] * r[0] + i[3 * n + 1] * r[1] + i[3 * n + 2] * r[2]) for n in range(3))
+    return tuple(-x for x in product(inverse(q, g, J, *D)[1], r))
 
 
 def unit(v: Iterable[Any]) -> tuple[Any, ...]:

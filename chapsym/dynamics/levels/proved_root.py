@@ -73,10 +73,10 @@ def on_path(u: Numbers, length: Any, *state: Any) -> Any:
 
 def stretch(box: Numbers, *state: Any) -> Any:
     """m by lemma `straight-path`, for every point of a box treated as if it were the root; None where it fails."""
-    k, I = state[:3], state[6:9]
+    k, g, I, D = state[:3], state[3:6], state[6:9], state[9]
     least = lowest(*I)
     square, half = sum(x * x for x in box), sum(x * x for x in k).sqrt()
-    proved, slope = joined()(*box, square, *k, half, *state[3:], (highest(*I) - least) / 2)
+    proved, slope = joined()(box, square, k, half, g, I, D, (highest(*I) - least) / 2)
     return slope.abs_lower() if proved and least > 0 else None
 
 

@@ -74,17 +74,18 @@ def _rounded(state: Vector) -> Vector:
 
 def _in_float64(guess: Vector, state: Vector) -> tuple[Vector, list[float]]:
     """A Gibbs vector by Newton's iteration in float64, and (∂G/∂u)⁻¹, column by column."""
-    u1, u2, u3 = guess
+    u, (k, g, inertia, D) = guess, (state[:3], state[3:6], state[6:9], state[9])
     rounds, enough = COLD if guess == (0.0, 0.0, 0.0) else WARM
     for _ in range(rounds):
-        det, _, _, _, u1, u2, u3, _, d1, d2, d3, *cofactors = newton_round(u1, u2, u3, *state)
-        if max(abs(d1), abs(d2), abs(d3)) <= enough * max(abs(u1), abs(u2), abs(u3)):
+        r = newton_round(u, k, g, inertia, D)
+        u = r.w
+        if max(map(abs, r.d)) <= enough * max(map(abs, u)):
             break
-    scale = 1.0 / det
-    inverse = [c * scale for c in cofactors]
-    if not all(map(math.isfinite, (u1, u2, u3, *inverse))):
+    scale = 1.0 / r.p[0]
+    inverse = [c * scale for c in r.cofactors]
+    if not all(map(math.isfinite, (*u, *inverse))):
         raise NotSettled
-    return (u1, u2, u3), inverse
+    return u, inverse
 
 
 def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, unit: Any) -> Vector:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import Status, StepNotTaken
 from ..failure import explain
-from ..loops import branch
+from ..loops import branch, vectors
 from ..loops.twins import twin
 
 Exact = Sequence[Fraction]
@@ -106,15 +106,17 @@ def _on_numbers(K: Exact, g: Exact, J: Exact, D: Fraction, digits: int) -> tuple
     values = [[context.mpf(x.numerator) / x.denominator for x in v] for v in (K, g, J, (D,))]
     length = context.sqrt(sum(x * x for x in values[1]))
     values[1] = [x / length for x in values[1]]
-    status, reach, *q = on(context)(*(x for v in values for x in v))
+    K, g, J, (D,) = values
+    status, reach, q = on(context)(K, g, J, D)
     return status, fraction(reach), list(map(fraction, q))
 
 
 def on(context: Any) -> Callable[..., tuple]:
-    """`branch.small_rotation` in the numbers of an mpmath context, with its own limits."""
+    """`branch.continued` in the numbers of an mpmath context, with its own limits."""
     unit = context.ldexp(1, -context.prec)
+    shifted = twin(vectors, context.mpf, ldexp=context.ldexp)["shifted"]
     names = twin(
-        branch, context.mpf, frexp=context.frexp, ldexp=context.ldexp, sqrt=context.sqrt,
+        branch, context.mpf, frexp=context.frexp, ldexp=context.ldexp, sqrt=context.sqrt, shifted=shifted,
         UNIT_ROUNDOFF=unit, SMALLEST=0, LEAST=-math.inf, SINGULAR=unit * 8,
     )  # fmt: skip
     return partial(names["continued"], shortest=8 * unit)  # a step that is shorter is a fold

@@ -14,6 +14,21 @@ from math import sqrt
 from chapsym.generated import angular_velocity, compose, rotate
 
 from .long_step import ATTITUDE, SPOT
+from .vectors import (
+    conjugate,
+    dot,
+    four,
+    plus,
+    plus_four,
+    put,
+    put_four,
+    put_in,
+    scaled,
+    scaled_four,
+    square_of_four,
+    three,
+    three_in,
+)
 
 #: Values and derivatives at an end, and of what: the attitude (4), the contact point (2).
 TERMS, PARTS = 6, 6
@@ -36,53 +51,45 @@ def crossed(V, at, n, i):
     return found
 
 
-def series(body, J1, J2, J3, contact, radius, whole, traced, V, end):
+def series(body, J, contact, radius, whole, traced, V, end):
     """Taylor's coefficients of the attitude and the contact point at `body`, in parts of a step, into `end` (6, 6).
 
     body: `long_step.MOVING`.  whole: the step, in the unit of time of K and J.  V (SERIES, TERMS) is used.
     traced: whether the contact point is wanted.
     """
-    g1, g2, g3 = body[3], body[4], body[5]
-    a0, a1, a2, a3 = body[ATTITUDE], body[ATTITUDE + 1], body[ATTITUDE + 2], body[ATTITUDE + 3]
-    for i in range(3):
-        V[SPACE + i, 0], V[UP + i, 0] = body[i], body[3 + i]
+    g, a = three(body, 3), four(body, ATTITUDE)
+    put_in(V, SPACE, 0, three(body, 0))
+    put_in(V, UP, 0, g)
     if traced:
-        V[EAST, 0], V[EAST + 1, 0], V[EAST + 2, 0] = rotate(a0, -a1, -a2, -a3, 1.0, 0.0, 0.0)
-        V[NORTH, 0], V[NORTH + 1, 0], V[NORTH + 2, 0] = rotate(a0, -a1, -a2, -a3, 0.0, 1.0, 0.0)
-    end[0, 0], end[0, 1], end[0, 2], end[0, 3] = a0, a1, a2, a3
+        put_in(V, EAST, 0, rotate(*conjugate(a), 1.0, 0.0, 0.0))
+        put_in(V, NORTH, 0, rotate(*conjugate(a), 0.0, 1.0, 0.0))
+    put_four(end[0], 0, a)
     end[0, 4], end[0, 5] = body[SPOT], body[SPOT + 1]
     for n in range(TERMS - 1):
         # Λω - D⟨γ,ω⟩γ = K, of which all but the terms of ω itself is known.
-        x1, x2, x3, along = whole * V[SPACE, n], whole * V[SPACE + 1, n], whole * V[SPACE + 2, n], 0.0
+        x, along = scaled(whole, three_in(V, SPACE, n)), 0.0
         for m in range(1, n + 1):
-            here = contact * V[ALONG, n - m]
-            along += V[UP, m] * V[SPIN, n - m] + V[UP + 1, m] * V[SPIN + 1, n - m] + V[UP + 2, m] * V[SPIN + 2, n - m]
-            x1, x2, x3 = x1 + here * V[UP, m], x2 + here * V[UP + 1, m], x3 + here * V[UP + 2, m]
-        here = contact * along
-        w1, w2, w3 = angular_velocity(x1 + here * g1, x2 + here * g2, x3 + here * g3, g1, g2, g3, J1, J2, J3, contact)
-        V[SPIN, n], V[SPIN + 1, n], V[SPIN + 2, n] = w1, w2, w3
-        V[ALONG, n] = along + (g1 * w1 + g2 * w2 + g3 * w3)
+            along += dot(three_in(V, UP, m), three_in(V, SPIN, n - m))
+            x = plus(x, scaled(contact * V[ALONG, n - m], three_in(V, UP, m)))
+        w = angular_velocity(*plus(x, scaled(contact * along, g)), *g, *J, contact)
+        put_in(V, SPIN, n, w)
+        V[ALONG, n] = along + dot(g, w)
         part = 1.0 / (n + 1)
         for i in range(3):
             V[SPACE + i, n + 1], V[UP + i, n + 1] = part * crossed(V, SPACE, n, i), part * crossed(V, UP, n, i)
         if traced:
             for i in range(3):
                 V[EAST + i, n + 1], V[NORTH + i, n + 1] = part * crossed(V, EAST, n, i), part * crossed(V, NORTH, n, i)
-            x, y = 0.0, 0.0
+            x1, x2 = 0.0, 0.0
             for m in range(n + 1):
                 for i in range(3):
-                    x += V[SPIN + i, m] * V[NORTH + i, n - m]
-                    y -= V[SPIN + i, m] * V[EAST + i, n - m]
-            end[n + 1, 4], end[n + 1, 5] = radius * part * x, radius * part * y
-        b0, b1, b2, b3 = 0.0, 0.0, 0.0, 0.0
+                    x1 += V[SPIN + i, m] * V[NORTH + i, n - m]
+                    x2 -= V[SPIN + i, m] * V[EAST + i, n - m]
+            end[n + 1, 4], end[n + 1, 5] = radius * part * x1, radius * part * x2
+        b = 0.0, 0.0, 0.0, 0.0
         for m in range(n + 1):
-            c0, c1, c2, c3 = compose(
-                end[m, 0], end[m, 1], end[m, 2], end[m, 3],
-                0.0, V[SPIN, n - m], V[SPIN + 1, n - m], V[SPIN + 2, n - m],
-            )  # fmt: skip
-            b0, b1, b2, b3 = b0 + c0, b1 + c1, b2 + c2, b3 + c3
-        half = 0.5 * part
-        end[n + 1, 0], end[n + 1, 1], end[n + 1, 2], end[n + 1, 3] = half * b0, half * b1, half * b2, half * b3
+            b = plus_four(b, compose(*four(end[m], 0), 0.0, *three_in(V, SPIN, n - m)))
+        put_four(end[n + 1], 0, scaled_four(0.5 * part, b))
 
 
 def shortened(end, ratio):
@@ -133,22 +140,20 @@ def followed(last, before):
 
 def at_part(curve, i, s):
     """One of the numbers at the part s of the step."""
-    r, square = s - 1.0, s * s
+    r, power = s - 1.0, s * s
     low = ((curve[5, i] * s + curve[4, i]) * s + curve[3, i]) * s + curve[2, i]
     high = ((curve[11, i] * r + curve[10, i]) * r + curve[9, i]) * r + curve[8, i]
     low, high = (low * s + curve[1, i]) * s + curve[0, i], (high * r + curve[7, i]) * r + curve[6, i]
-    return low + square * square * square * high
+    return low + power * power * power * high
 
 
 def ball_at(curve, s, body, traced, found):
     """The ball at the part s of the step that began at `body`, into `found`; both `long_step.MOVING`."""
-    q0, q1, q2, q3 = at_part(curve, 0, s), at_part(curve, 1, s), at_part(curve, 2, s), at_part(curve, 3, s)
-    scale = 1.0 / sqrt((q0 * q0 + q1 * q1) + (q2 * q2 + q3 * q3))
-    q0, q1, q2, q3 = scale * q0, scale * q1, scale * q2, scale * q3
-    a0, a1, a2, a3 = body[ATTITUDE], body[ATTITUDE + 1], body[ATTITUDE + 2], body[ATTITUDE + 3]
-    p0, p1, p2, p3 = compose(q0, -q1, -q2, -q3, a0, a1, a2, a3)  # from the axes at the beginning to those of now
-    found[0], found[1], found[2] = rotate(p0, p1, p2, p3, body[0], body[1], body[2])
-    found[3], found[4], found[5] = rotate(p0, p1, p2, p3, body[3], body[4], body[5])
-    found[ATTITUDE], found[ATTITUDE + 1], found[ATTITUDE + 2], found[ATTITUDE + 3] = q0, q1, q2, q3
+    q = at_part(curve, 0, s), at_part(curve, 1, s), at_part(curve, 2, s), at_part(curve, 3, s)
+    q = scaled_four(1.0 / sqrt(square_of_four(q)), q)
+    p = compose(*conjugate(q), *four(body, ATTITUDE))  # from the axes at the beginning to those of now
+    put(found, 0, rotate(*p, *three(body, 0)))
+    put(found, 3, rotate(*p, *three(body, 3)))
+    put_four(found, ATTITUDE, q)
     if traced:
         found[SPOT], found[SPOT + 1] = at_part(curve, 4, s), at_part(curve, 5, s)

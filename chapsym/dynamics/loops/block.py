@@ -7,11 +7,12 @@ import numpy as np
 
 from .gibbs import BEYOND, newton_round, second_round, settle
 from .integrals import PERIOD, restore
-from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, X, followed, prepare, safe_rotation, three
+from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, X, followed, prepare, safe_rotation
 from .path import MOST_ROUNDS as PATH_ROUNDS
 from .path import improved, proved
 from .sums import turned
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
+from .vectors import four_in, plus, put_four_in, put_in, scaled, square, three, three_in
 
 #: Balls in a block, at most: its rows stay in the first-level cache.
 LANES = 40
@@ -23,9 +24,9 @@ SINGLE = {"LANES": 80, "REGISTER": 16}
 PATIENCE = 64
 #: In place of a radius²: the ball has stopped.
 STOPPED = -3.0
-#: Rows of the rotations: the quaternion p and its Gibbs vector w; whether a lane is on its way along the path, and what
-#: is left there; and the guess of the Gibbs vector.
-P_ROWS, A = 12, 9
+#: Rows of the rotations: the quaternion p and its Gibbs vector, from W on; whether a lane is on its way along the path,
+#: and what is left there; and the guess of the Gibbs vector.
+P_ROWS, W, A = 12, 4, 9
 #: Rounds that all lanes take together where more than a few did not settle; those few are mended one by one.
 ROUNDS = 4
 FEW = 2
@@ -36,17 +37,19 @@ def whole(ok):
     return len(ok) // REGISTER * REGISTER
 
 
+def body_in(S, i):
+    """k, γ, I and D of a lane."""
+    return three_in(S, K, i), three_in(S, G, i), three_in(S, I, i), S[D, i]
+
+
 def predicted(S, P, ok):
     """Every lane's rotation, by a Newton iterate from the extrapolation; returns how many did not settle."""
     for i in lanes(whole(ok)):
-        u1, u2, u3 = P[A, i], P[A + 1, i], P[A + 2, i]
-        r = newton_round(
-            u1, u2, u3, S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
-            S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
-        )  # fmt: skip
-        P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = r.p0, r.p1, r.p2, r.p3, r.w1, r.w2, r.w3
-        settled = (u1 * u1 + (u2 * u2 + u3 * u3) <= S[RADIUS, i]) & (r.first <= S[ENOUGH, i])
-        ok[i] = 1 if settled else 0
+        u = three_in(P, A, i)
+        r = newton_round(u, *body_in(S, i))
+        put_four_in(P, 0, i, r.p)
+        put_in(P, W, i, r.w)
+        ok[i] = 1 if (square(u) <= S[RADIUS, i]) & (r.first <= S[ENOUGH, i]) else 0
     return unsettled(ok)
 
 
@@ -57,25 +60,23 @@ def corrected(S, P, ok, again):
     """
     for i in lanes(whole(ok)):
         radius, enough = S[RADIUS, i], S[ENOUGH, i]
-        u1, u2, u3 = (P[4, i], P[5, i], P[6, i]) if again else (P[A, i], P[A + 1, i], P[A + 2, i])
-        near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
+        u = three_in(P, W, i) if again else three_in(P, A, i)
+        near = square(u) <= radius
         if again:
-            u1, u2, u3 = u1 if near else 0.0, u2 if near else 0.0, u3 if near else 0.0
+            u = u if near else (0.0, 0.0, 0.0)
             near = radius >= 0.0
-        k1, k2, k3, I1, I2, I3 = S[K, i], S[K + 1, i], S[K + 2, i], S[I, i], S[I + 1, i], S[I + 2, i]
-        r = newton_round(u1, u2, u3, k1, k2, k3, S[G, i], S[G + 1, i], S[G + 2, i], I1, I2, I3, S[D, i])
-        r1, r2, r3, v1, v2, v3, second = second_round(r, k1, k2, k3, I1, I2, I3)
-        p0, first = r.p0, r.first
-        once = near & (first <= enough)
-        twice = near & (v1 * v1 + (v2 * v2 + v3 * v3) <= radius)
-        twice = twice & (9.0 * max(first, second) * second <= enough * enough)
+        k, g, inertia, contact = body_in(S, i)
+        r = newton_round(u, k, g, inertia, contact)
+        p, v, second = second_round(r, k, inertia)
+        once = near & (r.first <= enough)
+        twice = near & (square(v) <= radius)
+        twice = twice & (9.0 * max(r.first, second) * second <= enough * enough)
         done = again & (ok[i] == 1)
-        p1, p2, p3 = r.p1 if once else r1, r.p2 if once else r2, r.p3 if once else r3
-        w1, w2, w3 = r.w1 if once else v1, r.w2 if once else v2, r.w3 if once else v3
-        w1, w2, w3 = w1 if near else u1, w2 if near else u2, w3 if near else u3
-        P[0, i], P[1, i] = P[0, i] if done else p0, P[1, i] if done else p1
-        P[2, i], P[3, i] = P[2, i] if done else p2, P[3, i] if done else p3
-        P[4, i], P[5, i], P[6, i] = P[4, i] if done else w1, P[5, i] if done else w2, P[6, i] if done else w3
+        p = r.p if once else p
+        w = r.w if once else v
+        w = w if near else u
+        put_four_in(P, 0, i, four_in(P, 0, i) if done else p)
+        put_in(P, W, i, three_in(P, W, i) if done else w)
         ok[i] = 1 if done | once | twice else 0
     return unsettled(ok)
 
@@ -84,12 +85,8 @@ def approached(S, P, ok):
     """The lanes beyond the bound by a Newton iterate from the extrapolation, as `path.search_on_path` begins."""
     for i in lanes(whole(ok)):
         beyond = S[RADIUS, i] == BEYOND
-        r = newton_round(
-            P[A, i], P[A + 1, i], P[A + 2, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
-            S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
-        )  # fmt: skip
-        P[4, i], P[5, i] = r.w1 if beyond else P[4, i], r.w2 if beyond else P[5, i]
-        P[6, i] = r.w3 if beyond else P[6, i]
+        r = newton_round(three_in(P, A, i), *body_in(S, i))
+        put_in(P, W, i, r.w if beyond else three_in(P, W, i))
         P[7, i] = 1.0 if beyond else 0.0
         ok[i] = 0 if beyond else ok[i]
 
@@ -98,13 +95,9 @@ def nearer(S, P, ok):
     """A round of corrections for the lanes on the path that are not near; returns how many are left for another."""
     for i in lanes(whole(ok)):
         going = P[7, i] == 1.0
-        p0, p1, p2, p3, w1, w2, w3, left, near, found = improved(
-            P[4, i], P[5, i], P[6, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
-            S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
-        )  # fmt: skip
-        P[0, i], P[1, i] = p0 if going else P[0, i], p1 if going else P[1, i]
-        P[2, i], P[3, i] = p2 if going else P[2, i], p3 if going else P[3, i]
-        P[4, i], P[5, i], P[6, i] = w1 if going else P[4, i], w2 if going else P[5, i], w3 if going else P[6, i]
+        p, w, left, near, found = improved(three_in(P, W, i), *body_in(S, i))
+        put_four_in(P, 0, i, p if going else four_in(P, 0, i))
+        put_in(P, W, i, w if going else three_in(P, W, i))
         P[7, i], P[8, i] = 0.0 if near | found else P[7, i], left if going else P[8, i]
     left = 0.0
     for i in lanes(whole(ok)):
@@ -118,10 +111,7 @@ def on_path(S, P, ok):
     The others go the way of one ball, `mend`, from the beginning.
     """
     for i in lanes(whole(ok)):
-        settled = (S[RADIUS, i] == BEYOND) & proved(
-            P[4, i], P[5, i], P[6, i], P[8, i], S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i],
-            S[I, i], S[I + 1, i], S[I + 2, i], S[D, i],
-        )  # fmt: skip
+        settled = (S[RADIUS, i] == BEYOND) & proved(three_in(P, W, i), P[8, i], *body_in(S, i))
         ok[i] = 1 if settled else ok[i]
     return unsettled(ok)
 
@@ -173,59 +163,57 @@ def mend(S, P, ok, step, taken, status, reach, balls):
             continue
         if i < balls and status[i] == 0:
             one = S[:, i].copy()
-            _, _, _, _, _, u1, u2, u3 = settle(  # type: ignore[call-arg]
-                P[A, i], P[A + 1, i], P[A + 2, i],
-                *three(one, K), *three(one, G), *three(one, I), one[D], one[RADIUS], one[ENOUGH],
-            )  # fmt: skip
-            status[i], reach[i], p0, p1, p2, p3, w1, w2, w3 = safe_rotation(u1, u2, u3, one)
+            k, g, inertia = three(one, K), three(one, G), three(one, I)
+            _, _, u = settle(three_in(P, A, i), k, g, inertia, one[D], one[RADIUS], one[ENOUGH])
+            status[i], reach[i], p, w = safe_rotation(u, one)
             if status[i] == 0:
-                P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = p0, p1, p2, p3, w1, w2, w3
+                put_four_in(P, 0, i, p)
+                put_in(P, W, i, w)
                 continue
             taken[i] = step
         S[RADIUS, i] = -1.0
-        P[0, i], P[1, i], P[2, i], P[3, i], P[4, i], P[5, i], P[6, i] = 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        put_four_in(P, 0, i, (1.0, 0.0, 0.0, 0.0))
+        put_in(P, W, i, (0.0, 0.0, 0.0))
 
 
 def rolled(S, P, B, ok):
     """Moves the attitude and the contact point of every lane by the step that begins at its γ."""
     for i in lanes(whole(ok)):
-        B[0, i], B[1, i], B[2, i], B[3, i], B[4, i], B[5, i] = followed(
-            P[0, i], P[1, i], P[2, i], P[3, i], S[G, i], S[G + 1, i], S[G + 2, i],
-            B[0, i], B[1, i], B[2, i], B[3, i], B[4, i], B[5, i], B[6, i],
-        )  # fmt: skip
+        a, x, y = followed(four_in(P, 0, i), three_in(S, G, i), four_in(B, 0, i), B[4, i], B[5, i], B[6, i])
+        put_four_in(B, 0, i, a)
+        B[4, i], B[5, i] = x, y
 
 
 def guessed(P, past, at, places, weights, ok):
     """`loop.guessed` of every lane, from the rows of past (3 places, lanes); four vectors are read at once."""
     for i in lanes(whole(ok)):
-        P[A, i], P[A + 1, i], P[A + 2, i] = 0.0, 0.0, 0.0
+        put_in(P, A, i, (0.0, 0.0, 0.0))
     for j in range(0, len(weights), 4):
         a, b, c, d = weights[j], weights[j + 1], weights[j + 2], weights[j + 3]
         w, x = 3 * ((at + j) % places), 3 * ((at + j + 1) % places)
         y, z = 3 * ((at + j + 2) % places), 3 * ((at + j + 3) % places)
         for i in lanes(whole(ok)):
-            u1, u2, u3 = P[A, i] + a * past[w, i], P[A + 1, i] + a * past[w + 1, i], P[A + 2, i] + a * past[w + 2, i]
-            u1, u2, u3 = u1 + b * past[x, i], u2 + b * past[x + 1, i], u3 + b * past[x + 2, i]
-            u1, u2, u3 = u1 + c * past[y, i], u2 + c * past[y + 1, i], u3 + c * past[y + 2, i]
-            u1, u2, u3 = u1 + d * past[z, i], u2 + d * past[z + 1, i], u3 + d * past[z + 2, i]
-            P[A, i], P[A + 1, i], P[A + 2, i] = u1, u2, u3
+            u = plus(three_in(P, A, i), scaled(a, three_in(past, w, i)))
+            u = plus(u, scaled(b, three_in(past, x, i)))
+            u = plus(u, scaled(c, three_in(past, y, i)))
+            put_in(P, A, i, plus(u, scaled(d, three_in(past, z, i))))
 
 
 def begin_stage(S, T, s, radius, enough, ok):
     """The ball of a stage with the coefficient s: 𝒦 is s times that of the step."""
     for i in lanes(whole(ok)):
-        T[K, i], T[K + 1, i], T[K + 2, i] = s * S[K, i], s * S[K + 1, i], s * S[K + 2, i]
-        T[G, i], T[G + 1, i], T[G + 2, i] = S[G, i], S[G + 1, i], S[G + 2, i]
+        put_in(T, K, i, scaled(s, three_in(S, K, i)))
+        put_in(T, G, i, three_in(S, G, i))
         T[RADIUS, i], T[ENOUGH, i] = radius[i], enough[i]
 
 
 def end_stage(S, P, past, row, ok):
     """Turns 𝒦 and γ of every lane, with compensation, and keeps the Gibbs vectors in the rows of past from `row` on."""
     for i in lanes(whole(ok)):
-        p0, p1, p2, p3 = P[0, i], P[1, i], P[2, i], P[3, i]
-        turn_at(p0, p1, p2, p3, S, K, X, i)
-        turn_at(p0, p1, p2, p3, S, G, X + 3, i)
-        past[row, i], past[row + 1, i], past[row + 2, i] = P[4, i], P[5, i], P[6, i]
+        p = four_in(P, 0, i)
+        turn_in(p, S, K, X, i)
+        turn_in(p, S, G, X + 3, i)
+        put_in(past, row, i, three_in(P, W, i))
 
 
 def stop(S, T, radius, status, ok):
@@ -238,13 +226,11 @@ def stop(S, T, radius, status, ok):
                 S[row, i] = T[row, i]
 
 
-def turn_at(p0, p1, p2, p3, S, at, rest, i):
+def turn_in(p, S, at, rest, i):
     """Turns the vector in the rows from `at` on, with the rests of its sums in those from `rest` on, in a lane."""
-    v1, v2, v3, x1, x2, x3 = turned(
-        p0, p1, p2, p3, S[at, i], S[at + 1, i], S[at + 2, i], S[rest, i], S[rest + 1, i], S[rest + 2, i]
-    )
-    S[at, i], S[at + 1, i], S[at + 2, i] = v1, v2, v3
-    S[rest, i], S[rest + 1, i], S[rest + 2, i] = x1, x2, x3
+    v, x = turned(p, three_in(S, at, i), three_in(S, rest, i))
+    put_in(S, at, i, v)
+    put_in(S, rest, i, x)
 
 
 def carry(numbers, to, width):
@@ -303,17 +289,17 @@ def march_block(
     body: (7, lanes), the attitude, the contact point and the radius, which are touched only when `with_body`.
     scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
-    S, W = np.empty((ROWS, LANES), state.dtype), np.empty((ROWS, LANES), state.dtype)
+    S, other = np.empty((ROWS, LANES), state.dtype), np.empty((ROWS, LANES), state.dtype)
     P, B = np.empty((P_ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
     H = np.empty((len(past), LANES), state.dtype)
     width, stages, places, balls = state.shape[1], len(c), weights.shape[1], len(status)
     ok, period = np.empty(width, dtype=np.int32), max(1, PERIOD // stages)
     hopeless, beyond = np.empty(stages, dtype=np.int64), np.empty(stages, dtype=np.int64)
     carry(state, S, width)
-    carry(state, W, width)
+    carry(state, other, width)
     carry(body, B, width)
     carry(past, H, width)
-    T = S if stages == 1 else W  # the ball of a stage
+    T = S if stages == 1 else other  # the ball of a stage
     last, patience = first + count, 0
     for s in range(stages):
         hopeless[s], beyond[s] = uncertified(radius[s], ok)
@@ -328,8 +314,8 @@ def march_block(
             if bad != 0:
                 mend(T, P, ok, step, taken, status, reach, balls)
                 stop(S, T, radius, status, ok)
-                for other in range(stages):
-                    hopeless[other], beyond[other] = uncertified(radius[other], ok)
+                for n in range(stages):
+                    hopeless[n], beyond[n] = uncertified(radius[n], ok)
             if with_body:
                 rolled(T, P, B, ok)
             end_stage(S, P, H, 3 * (at + s), ok)

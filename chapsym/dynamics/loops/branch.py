@@ -16,6 +16,7 @@ from math import frexp, ldexp, sqrt
 from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobian
 
 from .gibbs import is_heavy
+from .vectors import dot, largest, scaled, shifted
 
 TAKEN, FOLDED, NOT_CONVERGED, NO_INERTIA = 0, 1, 2, 4
 
@@ -44,135 +45,135 @@ MOST_CORRECTIONS = 20
 
 
 def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
-    """Solves 𝒦(q, γ) = 𝒦 on the small-rotation branch; returns as `continued`."""
-    return continued(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, SHORTEST)
+    """Solves 𝒦(q, γ) = 𝒦 on the small-rotation branch: (status, reach, q0, q1, q2, q3), as `continued`."""
+    status, reach, q = continued((K1, K2, K3), (g1, g2, g3), (J1, J2, J3), D, SHORTEST)
+    return status, reach, *q
 
 
-def continued(K1, K2, K3, g1, g2, g3, J1, J2, J3, D, shortest):
+def continued(K, g, J, D, shortest):
     """The small-rotation branch up to the momentum 𝒦; a step below `shortest` is taken for a fold.
 
-    Returns (status, reach, q0, q1, q2, q3): the unit Euler parameters with q0 ≥ 0, and the fraction t
-    that was attained, 1 when the status is TAKEN.
+    Returns (status, reach, q): the unit Euler parameters with q0 ≥ 0, and the fraction t that was attained, 1 when the
+    status is TAKEN.
     """
-    if K1 != K1 or K2 != K2 or K3 != K3:  # a product of the caller overflowed
-        return NOT_CONVERGED, 0.0, 1.0, 0.0, 0.0, 0.0
-    _, exponent = frexp(max(J2 + J3, J1 + J3, J1 + J2) + D)
-    J1, J2, J3, D = ldexp(J1, -exponent), ldexp(J2, -exponent), ldexp(J3, -exponent), ldexp(D, -exponent)
-    largest = max(abs(K1), abs(K2), abs(K3))
-    _, size = frexp(largest)
-    shift = min(-exponent, FARTHEST - size) if largest > 0.0 else -exponent
-    beyond = max(0, LEAST - (size + shift)) if largest > 0.0 else 0
-    K1, K2, K3 = ldexp(K1, shift + beyond), ldexp(K2, shift + beyond), ldexp(K3, shift + beyond)
-    end = ldexp(1.0, shift + exponent)
+    q = 1.0, 0.0, 0.0, 0.0
+    if K[0] != K[0] or K[1] != K[1] or K[2] != K[2]:  # a product of the caller overflowed
+        return NOT_CONVERGED, 0.0, q
+    _, exponent = frexp(max(*moments(J)) + D)
+    J, D = shifted(J, -exponent), ldexp(D, -exponent)
+    most = largest(K)
+    _, size = frexp(most)
+    shift = min(-exponent, FARTHEST - size) if most > 0.0 else -exponent
+    beyond = max(0, LEAST - (size + shift)) if most > 0.0 else 0
+    K, end = shifted(K, shift + beyond), ldexp(1.0, shift + exponent)
     t = 0.0  # of the path up to `end` times the momentum
-    q0, q1, q2, q3 = 1.0, 0.0, 0.0, 0.0
     for _ in range(MOST_STEPS):
-        det, speed, bend, d1, d2, d3 = tangent(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
+        det, speed, bend, d = tangent(q, K, g, J, D)
         if t == 0.0 and not det > SINGULAR:
-            return NO_INERTIA, 0.0, q0, q1, q2, q3
+            return NO_INERTIA, 0.0, q
         if not det > 0.0:
-            return FOLDED, t * end, q0, q1, q2, q3
+            return FOLDED, t * end, q
         # The longest step with speed·step·(bend + 2(t + step)·speed) ≤ CONTRACTION.
         slope = bend + 2.0 * t * speed
         length = 2.0 * CONTRACTION / (slope + sqrt(slope * slope + 8.0 * CONTRACTION))
         remaining = 1.0 - t
         step = remaining if speed * remaining <= length else length / speed
         if step < remaining and step < max(shortest * t, FAR * min(t, remaining)):
-            return FOLDED, t * end, q0, q1, q2, q3
+            return FOLDED, t * end, q
         ahead = 1.0 if step == remaining else t + step
-        p0, p1, p2, p3 = turned(q0, q1, q2, q3, step * d1, step * d2, step * d3)
-        settled, p0, p1, p2, p3 = corrected(
-            p0, p1, p2, p3, ahead * K1, ahead * K2, ahead * K3, g1, g2, g3, J1, J2, J3, D
-        )
+        settled, p = corrected(turned(q, scaled(step, d)), scaled(ahead, K), g, J, D)
         if not settled:
-            return NOT_CONVERGED, t * end, q0, q1, q2, q3
-        t, q0, q1, q2, q3 = ahead, p0, p1, p2, p3
+            return NOT_CONVERGED, t * end, q
+        t, q = ahead, p
         if t == 1.0 and end < 1.0:  # past what any rotation has: the fold was missed
-            return NOT_CONVERGED, end, q0, q1, q2, q3
+            return NOT_CONVERGED, end, q
         if t == 1.0:
-            if q0 < 0.0:
-                q0, q1, q2, q3 = -q0, -q1, -q2, -q3
-            return TAKEN, 1.0, q0, ldexp(q1, -beyond), ldexp(q2, -beyond), ldexp(q3, -beyond)
-    return NOT_CONVERGED, t * end, q0, q1, q2, q3
+            if q[0] < 0.0:
+                q = -q[0], -q[1], -q[2], -q[3]
+            return TAKEN, 1.0, (q[0], *shifted(q[1:4], -beyond))
+    return NOT_CONVERGED, t * end, q
 
 
-def tangent(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
+def moments(J):
+    """The moments of inertia."""
+    return J[1] + J[2], J[0] + J[2], J[0] + J[1]
+
+
+def tangent(q, K, g, J, D):
     """The direction of the curve, d = T⁻¹𝒦, and what bounds the step along it.
 
-    Returns (det T, |d|, |T⁻¹𝒦''|, d1, d2, d3), with the Frobenius norm of T⁻¹𝒦''.
+    Returns (det T, |d|, |T⁻¹𝒦''|, d), with the Frobenius norm of T⁻¹𝒦''.
     """
-    det, i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D)
-    h = tangent_hessian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D)
+    det, n = inverse(q, g, J, D)
+    h = tangent_hessian(*q, *g, *J, D)
     bend = 0.0
     for pair in range(6):
-        x, y, z = h[3 * pair], h[3 * pair + 1], h[3 * pair + 2]
-        a, b, c = i11 * x + i12 * y + i13 * z, i21 * x + i22 * y + i23 * z, i31 * x + i32 * y + i33 * z
+        w = product(n, (h[3 * pair], h[3 * pair + 1], h[3 * pair + 2]))
         weight = 1.0 if pair < 3 else 2.0
-        bend += weight * (a * a + b * b + c * c)
-    d1 = i11 * K1 + i12 * K2 + i13 * K3
-    d2 = i21 * K1 + i22 * K2 + i23 * K3
-    d3 = i31 * K1 + i32 * K2 + i33 * K3
-    return det, sqrt(d1 * d1 + d2 * d2 + d3 * d3), sqrt(bend), d1, d2, d3
+        bend += weight * dot(w, w)
+    d = product(n, K)
+    return det, sqrt(dot(d, d)), sqrt(bend), d
 
 
-def corrected(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
-    """Newton's iteration at a fixed momentum; returns (settled, q0, q1, q2, q3)."""
-    size = max(abs(K1), abs(K2), abs(K3))
-    top = max(J2 + J3, J1 + J3, J1 + J2) + D
+def corrected(q, K, g, J, D):
+    """Newton's iteration at a fixed momentum; returns (settled, q)."""
+    size = largest(K)
+    top = max(*moments(J)) + D
     before = 2.0
     for _ in range(MOST_CORRECTIONS):
-        r1, r2, r3 = residual(q0, q1, q2, q3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
-        det, i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D)
+        r = residual(*q, *K, *g, *J, D)
+        det, n = inverse(q, g, J, D)
         if det == 0.0:
-            return False, q0, q1, q2, q3
-        w1 = -(i11 * r1 + i12 * r2 + i13 * r3)
-        w2 = -(i21 * r1 + i22 * r2 + i23 * r3)
-        w3 = -(i31 * r1 + i32 * r2 + i33 * r3)
-        q0, q1, q2, q3 = turned(q0, q1, q2, q3, w1, w2, w3)
-        change = max(abs(w1), abs(w2), abs(w3))
-        extent = max(abs(q1), abs(q2), abs(q3))
-        largest = max(abs(i11), abs(i12), abs(i13), abs(i21), abs(i22), abs(i23), abs(i31), abs(i32), abs(i33))
-        noise = ROUNDINGS * UNIT_ROUNDOFF * largest * (size + 2.0 * top * extent)
+            return False, q
+        w = product(n, r)
+        q = turned(q, (-w[0], -w[1], -w[2]))
+        change, extent = largest(w), largest(q[1:4])
+        most = max(largest(n[0:3]), largest(n[3:6]), largest(n[6:9]))
+        noise = ROUNDINGS * UNIT_ROUNDOFF * most * (size + 2.0 * top * extent)
         if change <= max(SETTLED * extent, SMALLEST):
-            return True, q0, q1, q2, q3
+            return True, q
         # Corrections that are rounding no longer shrink as Newton's do.
         if change <= noise and change >= 0.25 * before:
-            return True, q0, q1, q2, q3
+            return True, q
         before = change
-    return False, q0, q1, q2, q3
+    return False, q
 
 
-def inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D):
+def product(n, v):
+    """A matrix, row by row, times a vector."""
+    return dot(n[0:3], v), dot(n[3:6], v), dot(n[6:9], v)
+
+
+def inverse(q, g, J, D):
     """det T and T⁻¹, row by row, of the tangent Jacobian T; zeros if T is singular."""
-    a11, a12, a13, a21, a22, a23, a31, a32, a33 = tangent_jacobian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D)
-    det, i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse_of(a11, a12, a13, a21, a22, a23, a31, a32, a33)
-    if det == 0.0 or not is_heavy(J2 + J3, J1 + J3, J1 + J2, D):
-        return det, i11, i12, i13, i21, i22, i23, i31, i32, i33
+    det, n = inverse_of(tangent_jacobian(*q, *g, *J, D))
+    if det == 0.0 or not is_heavy(moments(J), D):
+        return det, n
     # Lemma `stable-determinant`: γᵀT does not know D, and γᵀT T⁻¹γ = |γ|² would hold if `det` had no rounding of D³.
-    a11, a12, a13, a21, a22, a23, a31, a32, a33 = tangent_jacobian(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, 0.0 * D)
-    y1, y2, y3 = g1 * a11 + g2 * a21 + g3 * a31, g1 * a12 + g2 * a22 + g3 * a32, g1 * a13 + g2 * a23 + g3 * a33
-    z1, z2, z3 = i11 * g1 + i12 * g2 + i13 * g3, i21 * g1 + i22 * g2 + i23 * g3, i31 * g1 + i32 * g2 + i33 * g3
-    true = (y1 * z1 + y2 * z2 + y3 * z3) / (g1 * g1 + g2 * g2 + g3 * g3)
+    a = tangent_jacobian(*q, *g, *J, 0.0 * D)
+    y = dot(g, (a[0], a[3], a[6])), dot(g, (a[1], a[4], a[7])), dot(g, (a[2], a[5], a[8]))
+    true = dot(y, product(n, g)) / dot(g, g)
     if true == 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        return 0.0, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     s = 1.0 / true
-    return det * true, s * i11, s * i12, s * i13, s * i21, s * i22, s * i23, s * i31, s * i32, s * i33
+    return det * true, (*scaled(s, n[0:3]), *scaled(s, n[3:6]), *scaled(s, n[6:9]))
 
 
-def inverse_of(a11, a12, a13, a21, a22, a23, a31, a32, a33):
+def inverse_of(a):
     """The determinant and the inverse of a 3×3 matrix of any numbers, row by row; zeros if it is singular."""
+    a11, a12, a13, a21, a22, a23, a31, a32, a33 = a
     c11, c12, c13 = a22 * a33 - a23 * a32, a23 * a31 - a21 * a33, a21 * a32 - a22 * a31
     c21, c22, c23 = a13 * a32 - a12 * a33, a11 * a33 - a13 * a31, a12 * a31 - a11 * a32
     c31, c32, c33 = a12 * a23 - a13 * a22, a13 * a21 - a11 * a23, a11 * a22 - a12 * a21
     det = a11 * c11 + a12 * c12 + a13 * c13
     if det == 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        return 0.0, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     s = 1.0 / det
-    return det, c11 * s, c21 * s, c31 * s, c12 * s, c22 * s, c32 * s, c13 * s, c23 * s, c33 * s
+    return det, (c11 * s, c21 * s, c31 * s, c12 * s, c22 * s, c32 * s, c13 * s, c23 * s, c33 * s)
 
 
-def turned(q0, q1, q2, q3, w1, w2, w3):
+def turned(q, w):
     """q ∘ (1, w), normalised."""
-    p0, p1, p2, p3 = compose(q0, q1, q2, q3, 1.0, w1, w2, w3)
-    length = sqrt(p0 * p0 + p1 * p1 + p2 * p2 + p3 * p3)
-    return p0 / length, p1 / length, p2 / length, p3 / length
+    p = compose(*q, 1.0, *w)
+    length = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3])
+    return p[0] / length, p[1] / length, p[2] / length, p[3] / length

@@ -5,17 +5,18 @@ Each lane has the bits of `double_double_loop.march_pairs` for that ball alone.
 
 import numpy as np
 
-from chapsym.generated.double_double import gibbs_residual_pairs, turn_pairs
-from chapsym.numbers.pairs import two_sum
+from chapsym.generated import gibbs_residual
+from chapsym.numbers.loose import Loose
 
 from .block import carry
 from .branch import TAKEN
-from .double_double_loop import ROWS, D, G, I, K, prepare_pairs, restore_pairs, stage, write
+from .double_double_loop import ROWS, D, G, I, K, prepare_pairs, restore_pairs, stage, turned, write
 from .double_double_step import correction, small
-from .gibbs import Round, newton_round
+from .gibbs import newton_round
 from .integrals import PERIOD
 from .sums import filtered
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
+from .vectors import exact, highs, lows, normalised, pairs_in, put_in, put_pairs_in, square, summed, three_in
 
 #: Balls in a block: its rows stay in the first-level cache.
 LANES = 16
@@ -34,20 +35,17 @@ def approached(S, P, ok, again):
     bad = 0
     for i in lanes(LANES):
         radius = S[RADIUS, i]
-        u1, u2, u3 = (P[W, i], P[W + 1, i], P[W + 2, i]) if again else (S[A, i], S[A + 1, i], S[A + 2, i])
-        near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
-        u1, u2, u3 = u1 if near else 0.0, u2 if near else 0.0, u3 if near else 0.0
-        r = newton_round(
-            u1, u2, u3, S[K, i], S[K + 2, i], S[K + 4, i], S[G, i], S[G + 2, i], S[G + 4, i],
-            S[I, i], S[I + 2, i], S[I + 4, i], S[D, i],
-        )  # fmt: skip
-        done = again & (ok[i] == 1)
-        for row, x in (
-            (W, r.w1), (W + 1, r.w2), (W + 2, r.w3), (DELTA, r.d1), (DELTA + 1, r.d2), (DELTA + 2, r.d3), (DET, r.p0),
-            (C, r.c11), (C + 1, r.c12), (C + 2, r.c13), (C + 3, r.c21), (C + 4, r.c22), (C + 5, r.c23),
-            (C + 6, r.c31), (C + 7, r.c32), (C + 8, r.c33),
-        ):  # fmt: skip
-            P[row, i] = P[row, i] if done else x
+        u = three_in(P, W, i) if again else three_in(S, A, i)
+        u = u if square(u) <= radius else (0.0, 0.0, 0.0)
+        k, g, inertia = highs(pairs_in(S, K, i)), highs(pairs_in(S, G, i)), highs(pairs_in(S, I, i))
+        r = newton_round(u, k, g, inertia, S[D, i])
+        done, c = again & (ok[i] == 1), r.cofactors
+        put_in(P, W, i, three_in(P, W, i) if done else r.w)
+        put_in(P, DELTA, i, three_in(P, DELTA, i) if done else r.d)
+        put_in(P, C, i, three_in(P, C, i) if done else c[0:3])
+        put_in(P, C + 3, i, three_in(P, C + 3, i) if done else c[3:6])
+        put_in(P, C + 6, i, three_in(P, C + 6, i) if done else c[6:9])
+        P[DET, i] = P[DET, i] if done else r.p[0]
         ok[i] = 1 if done | ((radius >= 0.0) & (r.first <= S[ENOUGH, i])) else 0
         bad += 1 - ok[i] if radius >= 0.0 else 0
     return bad
@@ -56,28 +54,20 @@ def approached(S, P, ok, again):
 def residuals(S, P):
     """G at every lane's w, in pairs."""
     for i in lanes(LANES):
-        P[R, i], _, P[R + 1, i], _, P[R + 2, i], _ = gibbs_residual_pairs(
-            P[W, i], P[W + 1, i], P[W + 2, i],
-            S[K, i], S[K + 1, i], S[K + 2, i], S[K + 3, i], S[K + 4, i], S[K + 5, i],
-            S[G, i], S[G + 1, i], S[G + 2, i], S[G + 3, i], S[G + 4, i], S[G + 5, i],
-            S[I, i], S[I + 1, i], S[I + 2, i], S[I + 3, i], S[I + 4, i], S[I + 5, i], S[D, i],
-        )  # fmt: skip
+        w, contact = exact(three_in(P, W, i)), Loose(S[D, i])
+        k, g, inertia = pairs_in(S, K, i), pairs_in(S, G, i), pairs_in(S, I, i)
+        put_in(P, R, i, highs(normalised(gibbs_residual(*w, *k, *g, *inertia, contact))))
 
 
 def corrected(S, P, ok):
     """The correction e of every lane; returns how many did not settle."""
     bad = 0
     for i in lanes(LANES):
-        w1, w2, w3 = P[W, i], P[W + 1, i], P[W + 2, i]
-        r = Round(
-            P[DET, i], 0.0, 0.0, 0.0, w1, w2, w3, 0.0, P[DELTA, i], P[DELTA + 1, i], P[DELTA + 2, i], P[C, i],
-            P[C + 1, i], P[C + 2, i], P[C + 3, i], P[C + 4, i], P[C + 5, i], P[C + 6, i], P[C + 7, i], P[C + 8, i],
-        )  # fmt: skip
-        e1, e2, e3 = correction(
-            r, P[R, i], P[R + 1, i], P[R + 2, i], S[K, i], S[K + 2, i], S[K + 4, i], S[I, i], S[I + 2, i], S[I + 4, i]
-        )
-        P[E, i], P[E + 1, i], P[E + 2, i] = e1, e2, e3
-        ok[i] = 1 if (ok[i] == 1) & small(w1, w2, w3, e1, e2, e3) else 0
+        c = *three_in(P, C, i), *three_in(P, C + 3, i), *three_in(P, C + 6, i)
+        k, inertia = highs(pairs_in(S, K, i)), highs(pairs_in(S, I, i))
+        e = correction(P[DET, i], three_in(P, DELTA, i), c, three_in(P, R, i), k, inertia)
+        put_in(P, E, i, e)
+        ok[i] = 1 if (ok[i] == 1) & small(three_in(P, W, i), e) else 0
         bad += 1 - ok[i]
     return bad
 
@@ -88,14 +78,14 @@ def mend(S, P, ok, step, taken, status, reach):
     for i in range(LANES):
         if ok[i] == 1:
             continue
-        P[W, i], P[W + 1, i], P[W + 2, i], P[E, i], P[E + 1, i], P[E + 2, i] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        put_in(P, W, i, (0.0, 0.0, 0.0))
+        put_in(P, E, i, (0.0, 0.0, 0.0))
         if i < len(status) and status[i] == TAKEN:
             s = S[:, i].copy()
-            status[i], reach[i], u1, u1_, u2, u2_, u3, u3_ = stage(
-                s, 1.0, 0.0, s[RADIUS], s[ENOUGH], s[A:RADIUS].reshape((8, 3))
-            )
+            status[i], reach[i], u = stage(s, Loose(1.0, 0.0), s[RADIUS], s[ENOUGH], s[A:RADIUS].reshape((8, 3)))
             if status[i] == TAKEN:
-                P[W, i], P[W + 1, i], P[W + 2, i], P[E, i], P[E + 1, i], P[E + 2, i] = u1, u2, u3, u1_, u2_, u3_
+                put_in(P, W, i, highs(u))
+                put_in(P, E, i, lows(u))
                 continue
             taken[i] = step
         S[RADIUS, i] = -1.0
@@ -111,20 +101,16 @@ def extrapolated(S, row, i, w):
     )  # fmt: skip
 
 
-def turned(S, P):
+def all_turned(S, P):
     """Turns k and γ of every lane, and carries the extrapolation on."""
     for i in lanes(LANES):
-        (
-            S[0, i], S[1, i], S[2, i], S[3, i], S[4, i], S[5, i],
-            S[6, i], S[7, i], S[8, i], S[9, i], S[10, i], S[11, i],
-        ) = turn_pairs(  # type: ignore[call-arg]
-            *two_sum(P[W, i], P[E, i]), *two_sum(P[W + 1, i], P[E + 1, i]), *two_sum(P[W + 2, i], P[E + 2, i]),
-            S[0, i], S[1, i], S[2, i], S[3, i], S[4, i], S[5, i],
-            S[6, i], S[7, i], S[8, i], S[9, i], S[10, i], S[11, i],
-        )  # fmt: skip
-        extrapolated(S, A, i, P[W, i] + P[E, i])
-        extrapolated(S, A + 1, i, P[W + 1, i] + P[E + 1, i])
-        extrapolated(S, A + 2, i, P[W + 2, i] + P[E + 2, i])
+        w, e = three_in(P, W, i), three_in(P, E, i)
+        u = summed(w, e)
+        put_pairs_in(S, K, i, turned(u, pairs_in(S, K, i)))
+        put_pairs_in(S, G, i, turned(u, pairs_in(S, G, i)))
+        extrapolated(S, A, i, w[0] + e[0])
+        extrapolated(S, A + 1, i, w[1] + e[1])
+        extrapolated(S, A + 2, i, w[2] + e[2])
 
 
 def prepare_pairs_block(
@@ -158,7 +144,7 @@ def march_pairs_block(
         residuals(S, P)
         if corrected(S, P, ok) != 0:
             mend(S, P, ok, step, taken, status, reach)
-        turned(S, P)
+        all_turned(S, P)
         if (step + 1) % PERIOD == 0:
             for i in range(LANES):
                 one = S[:ROWS, i].copy()

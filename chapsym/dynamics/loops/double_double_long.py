@@ -8,14 +8,31 @@ from math import frexp, ldexp, sqrt
 
 import numpy as np
 
-from chapsym.generated import angular_velocity
-from chapsym.generated.double_double import rotate_pairs
-from chapsym.numbers.pairs import divide, loose_add, loose_multiply, multiply, root, two_sum
+from chapsym.generated import angular_velocity, rotate
+from chapsym.numbers.loose import Loose, square_root
 
 from .branch import TAKEN
-from .double_double_loop import ROWS, D, G, I, J, K, follow_body, prepare_pairs, turn_both, write
+from .double_double_loop import ROWS, D, G, I, K, prepare_pairs, rolled, turned, write
+from .double_double_loop import J as J_ROW
 from .double_double_step import bounds, solved
 from .text import Matrix, Vector
+from .vectors import (
+    conjugate,
+    dot_four,
+    highs,
+    largest,
+    minus,
+    normalised,
+    pair,
+    put,
+    put_pair,
+    put_pairs,
+    scaled,
+    shifted,
+    square_of_four,
+    three,
+    three_pairs,
+)  # fmt: skip
 
 #: The n of the first column; more columns are of n one by one larger.
 FIRST = 3
@@ -23,59 +40,40 @@ FIRST = 3
 LONGEST = 100
 
 
-def turned_into(vectors, attitude, way, to):
-    """Writes the vectors k and γ (12), turned by the attitude, or by its inverse where `way` is -1."""
-    (
-        to[0], to[1], to[2], to[3], to[4], to[5], to[6], to[7], to[8], to[9], to[10], to[11],
-    ) = rotate_pairs(
-        attitude[0], attitude[1], way * attitude[2], way * attitude[3], way * attitude[4], way * attitude[5],
-        way * attitude[6], way * attitude[7], vectors[0], vectors[1], vectors[2], vectors[3], vectors[4], vectors[5],
-        vectors[6], vectors[7], vectors[8], vectors[9], vectors[10], vectors[11],
-    )  # fmt: skip
+def rotated(a, v):
+    """The vector v of pairs by the attitude a."""
+    return normalised(rotate(*a, *v))
 
 
-def column(state, n, radius, enough, rho, body):
-    """Takes n steps of the map from k and γ of the state; body (12), attitude and contact point, moves with them."""
-    attitude, contact = body[0:8], body[8:12]
-    u1, u2, u3 = angular_velocity(
-        state[K], state[K + 2], state[K + 4], state[G], state[G + 2], state[G + 4], state[J], state[J + 1],
-        state[J + 2], state[D],
-    )  # fmt: skip
-    v1, v2, v3 = u1, u2, u3  # the Gibbs vector of the step before
+def column(k, g, a, x, y, n, state, radius, enough, rho):
+    """n steps of the map from k and γ, pairs: (status, reach, a, x, y), the attitude and the contact point moved.
+
+    state: with I, J and D.
+    """
+    inertia, J, contact = three_pairs(state, I), three(state, J_ROW), state[D]
+    u = angular_velocity(*highs(k), *highs(g), *J, contact)
+    v, status, reach = u, TAKEN, 1.0  # v: the Gibbs vector of the step before
     for _ in range(n):
-        status, reach, w1, w1_, w2, w2_, w3, w3_ = solved(
-            u1, u2, u3, state[K], state[K + 1], state[K + 2], state[K + 3], state[K + 4], state[K + 5],
-            state[G], state[G + 1], state[G + 2], state[G + 3], state[G + 4], state[G + 5],
-            state[I], state[I + 1], state[I + 2], state[I + 3], state[I + 4], state[I + 5],
-            state[J], state[J + 1], state[J + 2], state[D], radius, enough,
-        )  # fmt: skip
+        status, reach, w = solved(u, k, g, inertia, J, contact, radius, enough)
         if status != TAKEN:
-            return status, reach
-        follow_body(w1, w1_, w2, w2_, w3, w3_, state, attitude, contact, rho)
-        turn_both(w1, w1_, w2, w2_, w3, w3_, state)
-        u1, u2, u3 = 2.0 * w1 - v1, 2.0 * w2 - v2, 2.0 * w3 - v3
-        v1, v2, v3 = w1, w2, w3
-    return TAKEN, 1.0
+            break
+        a, x, y = rolled(w, g, a, x, y, rho)
+        k, g = turned(w, k), turned(w, g)
+        u, v = minus(scaled(2.0, highs(w)), v), highs(w)
+    return status, reach, a, x, y
 
 
-def add_share(sums, w, w_, numbers, count):
-    """Adds a weight times `count` pairs to sums."""
-    for i in range(0, 2 * count, 2):
-        x, x_ = multiply(w, w_, numbers[i], numbers[i + 1])
-        x, x_ = loose_add(sums[i], sums[i + 1], x, x_)
-        sums[i], sums[i + 1] = two_sum(x, x_)
+def with_share(total, weight, x):
+    """The pair `total` with a weight times another."""
+    return (total + (weight * x).normalised()).normalised()
 
 
-def to_length_one(q):
-    """Divides a quaternion of pairs (8) by its length."""
-    n, n_ = loose_multiply(q[0], q[1], q[0], q[1])
-    for i in range(2, 8, 2):
-        x, x_ = loose_multiply(q[i], q[i + 1], q[i], q[i + 1])
-        n, n_ = loose_add(n, n_, x, x_)
-    x, x_ = two_sum(n, n_)
-    n, n_ = root(x, x_)
-    for i in range(0, 8, 2):
-        q[i], q[i + 1] = divide(q[i], q[i + 1], n, n_)
+def with_shares(total, weight, q):
+    """The same of four pairs."""
+    return (
+        with_share(total[0], weight, q[0]), with_share(total[1], weight, q[1]),
+        with_share(total[2], weight, q[2]), with_share(total[3], weight, q[3]),
+    )  # fmt: skip
 
 
 def march_long_pairs(
@@ -91,56 +89,48 @@ def march_long_pairs(
     weights: of the columns n = FIRST, ..., as pairs, and of the differences that the last one makes, (columns, 4).
     Returns (taken, status, reach, doubt).
     """
-    columns, doubt = weights.shape[0], 0.0
+    columns, doubt, zero = weights.shape[0], 0.0, Loose(0.0, 0.0)
     state, one, limits = np.zeros(ROWS), np.zeros((1, 2)), np.zeros((2, columns))
-    space, moved, sums, changes = np.zeros(12), np.zeros(12), np.zeros(12), np.zeros(8)
     one[0, 0] = 1.0
     # K is scaled to about 1, and h apart from its exponent, so that neither leaves the range.
-    _, size = frexp(max(abs(momentum[0]), abs(momentum[1]), abs(momentum[2])))
+    _, size = frexp(largest(three(momentum, 0)))
     mantissa, exponent = frexp(h)
-    part = np.zeros(3)
-    for c in range(3):
-        part[c] = ldexp(ldexp(momentum[c], -size), min(size + exponent, 1000))
+    k, part = shifted(three(momentum, 0), -size), np.zeros(3)
+    put(part, 0, shifted(k, min(size + exponent, 1000)))
     shift, beyond = prepare_pairs(part, g, tensor, contact, one, state, limits[0], limits[1])
     half = ldexp(mantissa, min(size + exponent + shift, LONGEST))
     half_ = ldexp(ldexp(h_, -exponent), min(size + exponent + shift, LONGEST))
-    for c in range(3):
-        moved[2 * c] = ldexp(momentum[c], -size)
-    for c in range(6):
-        moved[6 + c] = state[G + c]
     for j in range(columns):
-        s = half / (FIRST + j)
-        limits[0, j], limits[1, j] = bounds(
-            s * moved[0], s * moved[2], s * moved[4], state[I], state[I + 2], state[I + 4], state[D]
-        )
-    turned_into(moved, attitude, 1.0, space)
+        limits[0, j], limits[1, j] = bounds(scaled(half / (FIRST + j), k), highs(three_pairs(state, I)), state[D])
+    a = pair(attitude, 0), pair(attitude, 2), pair(attitude, 4), pair(attitude, 6)
+    K_, g_ = rotated(a, (Loose(k[0], 0.0), Loose(k[1], 0.0), Loose(k[2], 0.0))), rotated(a, three_pairs(state, G))
+    a, x, y = (pair(body, 0), pair(body, 2), pair(body, 4), pair(body, 6)), pair(body, 8), pair(body, 10)
     for step in range(first, first + count):
-        sums[:] = 0.0
-        changes[:] = 0.0
+        sums, changes, x_, y_ = (zero, zero, zero, zero), (zero, zero, zero, zero), zero, zero
+        k_body, g_body = rotated(conjugate(a), K_), rotated(conjugate(a), g_)
         for j in range(columns):
             n = FIRST + j
-            turned_into(space, body, -1.0, state)
-            f, f_ = divide(half, half_, n * 1.0, 0.0)
-            for c in range(0, 6, 2):
-                state[K + c], state[K + c + 1] = multiply(state[K + c], state[K + c + 1], f, f_)
-            for c in range(8):
-                moved[c], moved[8 + c // 2] = body[c], 0.0
-            status, reach = column(state, n, limits[0, j], limits[1, j], rho, moved)
+            f = Loose(half, half_) / Loose(n * 1.0)
+            status, reach, p, s, t = column(
+                normalised(scaled(f, k_body)), g_body, a, zero, zero, n, state, limits[0, j], limits[1, j], rho
+            )
             if status != TAKEN:
                 return step - first, status, reach, doubt
-            add_share(sums, weights[j, 0], weights[j, 1], moved, 6)
-            add_share(changes, weights[j, 2], weights[j, 3], moved, 4)
-        for c in range(8):
-            body[c] = sums[c]
-        to_length_one(body)
-        for c in range(8, 12, 2):
-            x, x_ = loose_add(body[c], body[c + 1], sums[c], sums[c + 1])
-            body[c], body[c + 1] = two_sum(x, x_)
-        a, b, c_, d = changes[0], changes[2], changes[4], changes[6]
-        doubt = doubt + 2.0 * sqrt((a * a + b * b) + (c_ * c_ + d * d))
+            weight, change = Loose(weights[j, 0], weights[j, 1]), Loose(weights[j, 2], weights[j, 3])
+            sums, x_, y_ = with_shares(sums, weight, p), with_share(x_, weight, s), with_share(y_, weight, t)
+            changes = with_shares(changes, change, p)
+        length = square_root(dot_four(sums, sums))
+        a = sums[0] / length, sums[1] / length, sums[2] / length, sums[3] / length
+        x, y = (x + x_).normalised(), (y + y_).normalised()
+        put_pair(body, 0, a[0])
+        put_pairs(body, 2, a[1:4])
+        put_pair(body, 8, x)
+        put_pair(body, 10, y)
+        doubt = doubt + 2.0 * sqrt(square_of_four((changes[0].high, *highs(changes[1:4]))))
         if (step + 1) % every == 0:
             frame = (step + 1) // every
-            turned_into(space, body, -1.0, state)
+            put_pairs(state, K, rotated(conjugate(a), K_))
+            put_pairs(state, G, rotated(conjugate(a), g_))
             write(momenta[frame], momenta_[frame], state, K, size)
             write(verticals[frame], verticals_[frame], state, G, 0)
             if follows:

@@ -1,6 +1,6 @@
 """One step in double-double: the float64 root, corrected once by a residual in pairs.
 
-Names as in `numbers.pairs`: x, x_ are the halves of x.  Let w be a float64 Gibbs vector near the root of
+Let w be a float64 Gibbs vector near the root of
 G(u) = B(γ)u + u × Iu - (1 + |u|²)k, found by a Newton correction d, and A the Jacobian before d, in float64.  G(w) in
 pairs is as exact as its terms allow, so e = -A⁻¹G(w) is the error of w to a few parts in 2⁵³, up to what A misses: by
 `gibbs-newton` that is exactly 2b(d, e) + b(e, e), b the quadratic part of G, and a second solution takes it back.
@@ -11,14 +11,14 @@ is more, the rotation of w + e is corrected afresh, in Euler parameters (`polish
 
 from math import frexp, sqrt
 
-from chapsym.generated import gibbs_mixed
-from chapsym.generated.double_double import gibbs_residual_pairs, moved_pairs, residual_pairs
-from chapsym.numbers.pairs import divide, loose_add, root, two_product, two_sum
+from chapsym.generated import compose, gibbs_mixed, gibbs_residual, residual
+from chapsym.numbers.loose import Loose, Normal, square_root
 
-from .branch import FOLDED, NOT_CONVERGED, TAKEN, inverse, small_rotation
+from .branch import FOLDED, NOT_CONVERGED, TAKEN, inverse, product, small_rotation
 from .gibbs import BEYOND, MOST_ROUNDS, certificate, newton_round
 from .loop import HIGHEST
 from .path import search_on_path
+from .vectors import dot, exact, highs, largest, normalised_four, of_length_one, plus, scaled, square, summed
 
 #: |e|² relative to |w|² from which the sum is corrected once more: 8 roundings of float64.
 SMALL = 2.0**-100
@@ -38,66 +38,56 @@ LEAST = -200
 SMALLEST = 2.0**-120
 
 
-def unit(a, b, c):
-    """The float vector (a, b, c) divided by its length, as pairs."""
-    n, n_ = loose_add(*two_product(a, a), *two_product(b, b))
-    n, n_ = loose_add(n, n_, *two_product(c, c))
-    n, n_ = root(*two_sum(n, n_))
-    x, x_ = divide(a, 0.0, n, n_)
-    y, y_ = divide(b, 0.0, n, n_)
-    z, z_ = divide(c, 0.0, n, n_)
-    return x, x_, y, y_, z, z_
+def unit(v):
+    """A vector of floats divided by its length, as pairs."""
+    x = exact(v)
+    length = square_root(dot(x, x))
+    return x[0] / length, x[1] / length, x[2] / length
 
 
 def scales(momentum, tensor, contact):
     """Exponents (shift, beyond): k = 2^shift 𝒦, exactly, for Λmax about 1; tiny momenta are 2^beyond times as large."""
     _, exponent = frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + contact)
-    largest = max(abs(momentum[0]), abs(momentum[1]), abs(momentum[2]))
-    _, size = frexp(largest)
+    most = max(abs(momentum[0]), abs(momentum[1]), abs(momentum[2]))
+    _, size = frexp(most)
     exponent = max(exponent, size - HIGHEST)  # k does not overflow
-    beyond = max(0, LEAST - (size - exponent)) if largest > 0.0 else 0
+    beyond = max(0, LEAST - (size - exponent)) if most > 0.0 else 0
     return beyond - exponent - 1, beyond
 
 
-def bounds(k1, k2, k3, I1, I2, I3, D):
+def bounds(k, I, D):
     """(radius², enough) by the certificate of |𝒦|; radius² = -1 where every step takes the safe way."""
-    if min(I1, I2, I3) < SMALLEST:
+    if min(*I) < SMALLEST:
         return -1.0, 0.0
-    return certificate(k1, k2, k3, I1, I2, I3, D)
+    return certificate(k, I, D)
 
 
-def approach(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
+def approach(u, k, g, I, D, radius, enough):
     """Newton's iteration in float64: the last round."""
-    r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+    r = newton_round(u, k, g, I, D)
     for _ in range(MOST_ROUNDS - 1):
         if r.first <= enough or radius < 0.0:
             break
-        w1, w2, w3 = r.w1, r.w2, r.w3
-        if not w1 * w1 + (w2 * w2 + w3 * w3) <= radius:
-            w1, w2, w3 = 0.0, 0.0, 0.0
-        r = newton_round(w1, w2, w3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+        r = newton_round(r.w if square(r.w) <= radius else (0.0, 0.0, 0.0), k, g, I, D)
     return r
 
 
-def correction(r, r1, r2, r3, k1, k2, k3, I1, I2, I3):
-    """e with G(w + e) = 0 for G(w) = (r1, r2, r3), by the Jacobian of the round r that led to w."""
-    s = -1.0 / r.p0
-    e1 = s * (r.c11 * r1 + r.c21 * r2 + r.c31 * r3)
-    e2 = s * (r.c12 * r1 + r.c22 * r2 + r.c32 * r3)
-    e3 = s * (r.c13 * r1 + r.c23 * r2 + r.c33 * r3)
-    x1, x2, x3 = gibbs_mixed(
-        r.d1 + 0.5 * e1, r.d2 + 0.5 * e2, r.d3 + 0.5 * e3, e1, e2, e3, k1, k2, k3,
-        r.c11, r.c12, r.c13, r.c21, r.c22, r.c23, r.c31, r.c32, r.c33, I1, I2, I3,
-    )  # fmt: skip
-    return e1 + s * x1, e2 + s * x2, e3 + s * x3
+def correction(det, d, cofactors, r, k, I):
+    """e with G(w + e) = 0 for G(w) = r, by the Jacobian of the round that led to w by d."""
+    c, s = cofactors, -1.0 / det
+    e1 = s * (c[0] * r[0] + c[3] * r[1] + c[6] * r[2])
+    e2 = s * (c[1] * r[0] + c[4] * r[1] + c[7] * r[2])
+    e3 = s * (c[2] * r[0] + c[5] * r[1] + c[8] * r[2])
+    e = e1, e2, e3
+    return plus(e, scaled(s, gibbs_mixed(*plus(d, scaled(0.5, e)), *e, *k, *c, *I)))
 
 
-def small(w1, w2, w3, e1, e2, e3):
+def small(w, e):
     """Whether e is a few roundings of w."""
-    return e1 * e1 + (e2 * e2 + e3 * e3) <= SMALL * (w1 * w1 + (w2 * w2 + w3 * w3))
+    return square(e) <= SMALL * square(w)
 
 
-def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D, near):
+def polished(p, k, g, J, D, near):
     """Newton's iteration in pairs from a float64 rotation near the root: (settled, u as pairs).
 
     In Euler parameters, so that it is regular at every rotation, and with their residual again at each pair: so it
@@ -105,21 +95,16 @@ def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3
     fold the branch has det > 0, and its mirror behind the fold det < 0: det ≤ 0 or a correction above `near` means
     another branch.
     """
-    q0_, q1_, q2_, q3_, before = 0.0, 0.0, 0.0, 0.0, near
-    settled = False
+    K, v, floats = sums_normal(plus(k, k)), sums_normal(g), highs(g)
+    q, before, settled = (Loose(p[0], 0.0), Loose(p[1], 0.0), Loose(p[2], 0.0), Loose(p[3], 0.0)), near, False
     for _ in range(MOST_CORRECTIONS):
-        r1, _, r2, _, r3, _ = residual_pairs(
-            q0, q0_, q1, q1_, q2, q2_, q3, q3_, 2.0 * k1, 2.0 * k1_, 2.0 * k2, 2.0 * k2_, 2.0 * k3, 2.0 * k3_,
-            g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D,
-        )  # fmt: skip
-        det, i11, i12, i13, i21, i22, i23, i31, i32, i33 = inverse(q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D)
+        r = residual(Normal(q[0].high, q[0].low), *sums_normal(q[1:4]), *K, *v, *exact(J), Loose(D))
+        det, n = inverse((q[0].high, *highs(q[1:4])), floats, J, D)
         if not det > 0.0:
             break
-        w1 = -(i11 * r1 + i12 * r2 + i13 * r3)
-        w2 = -(i21 * r1 + i22 * r2 + i23 * r3)
-        w3 = -(i31 * r1 + i32 * r2 + i33 * r3)
-        q0, q0_, q1, q1_, q2, q2_, q3, q3_ = moved_pairs(q0, q0_, q1, q1_, q2, q2_, q3, q3_, w1, w2, w3)
-        change, extent = max(abs(w1), abs(w2), abs(w3)), max(abs(q1), abs(q2), abs(q3))
+        w = product(n, (r[0].normalised().high, r[1].normalised().high, r[2].normalised().high))
+        q = normalised_four(of_length_one(compose(*q, 1, Loose(-w[0]), Loose(-w[1]), Loose(-w[2]))))
+        change, extent = largest(w), largest(highs(q[1:4]))
         if change > near:
             break
         # The last correction is a rounding of pairs, or one that the condition leaves: it shrinks no more.
@@ -127,48 +112,47 @@ def polished(q0, q1, q2, q3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3
         if settled:
             break
         before = change
-    if q0 == 0.0:
-        q0 = LEAST_COSINE
-    return settled, *divide(q1, q1_, q0, q0_), *divide(q2, q2_, q0, q0_), *divide(q3, q3_, q0, q0_)
+    cosine = q[0]
+    if cosine.high == 0.0:
+        cosine = Loose(LEAST_COSINE, q[0].low)
+    return settled, (q[1] / cosine, q[2] / cosine, q[3] / cosine)
 
 
-def solved(
-    u1, u2, u3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, J1, J2, J3, D,
-    radius, enough,
-):  # fmt: skip
-    """The Gibbs vector of a step from a guess u: (status, reach, u1, u1_, u2, u2_, u3, u3_)."""
-    near = u1 * u1 + (u2 * u2 + u3 * u3) <= radius
-    r = approach(
-        u1 if near else 0.0, u2 if near else 0.0, u3 if near else 0.0, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius,
-        enough,
-    )  # fmt: skip
-    settled, w1, w2, w3 = radius >= 0.0 and r.first <= enough, r.w1, r.w2, r.w3
-    status, reach = TAKEN, 1.0
+def sums_normal(v):
+    """A vector of pairs of which sums are normalised."""
+    return Normal(v[0].high, v[0].low), Normal(v[1].high, v[1].low), Normal(v[2].high, v[2].low)
+
+
+def solved(u, k, g, I, J, D, radius, enough):
+    """The Gibbs vector of a step from a guess u, with k, γ and I in pairs: (status, reach, u as pairs)."""
+    floats, vertical, inertia, zero = highs(k), highs(g), highs(I), Loose(0.0, 0.0)
+    r = approach(u if square(u) <= radius else (0.0, 0.0, 0.0), floats, vertical, inertia, D, radius, enough)
+    settled, w, status, reach = radius >= 0.0 and r.first <= enough, r.w, TAKEN, 1.0
     if settled:
-        r1, _, r2, _, r3, _ = gibbs_residual_pairs(
-            w1, w2, w3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, I1, I1_, I2, I2_, I3, I3_, D
-        )
-        e1, e2, e3 = correction(r, r1, r2, r3, k1, k2, k3, I1, I2, I3)
-        if small(w1, w2, w3, e1, e2, e3):
-            return TAKEN, 1.0, *two_sum(w1, e1), *two_sum(w2, e2), *two_sum(w3, e3)
-        w1, w2, w3 = w1 + e1, w2 + e2, w3 + e3
-        p0 = 1.0 / sqrt(1.0 + (w1 * w1 + (w2 * w2 + w3 * w3)))
-        p1, p2, p3 = p0 * w1, p0 * w2, p0 * w3
+        G = gibbs_residual(*exact(w), *k, *g, *I, Loose(D))
+        left = G[0].normalised().high, G[1].normalised().high, G[2].normalised().high
+        e = correction(r.p[0], r.d, r.cofactors, left, floats, inertia)
+        if small(w, e):
+            return TAKEN, 1.0, summed(w, e)
+        p = rotation_of(plus(w, e))
     else:
         if radius == BEYOND:
-            settled, p0, p1, p2, p3, w1, w2, w3 = search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
+            settled, p, w = search_on_path(u, floats, vertical, inertia, D)
         if settled:
-            p0 = 1.0 / sqrt(1.0 + (w1 * w1 + (w2 * w2 + w3 * w3)))
-            p1, p2, p3 = p0 * w1, p0 * w2, p0 * w3
+            p = rotation_of(w)
         else:
-            status, reach, p0, p1, p2, p3 = small_rotation(2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, J1, J2, J3, D)
+            status, reach, p0, p1, p2, p3 = small_rotation(*scaled(2.0, floats), *vertical, *J, D)
+            p = p0, p1, p2, p3
         # So near to 1 float64 does not see on which side of the fold 𝒦 is; pairs do.
         if status != TAKEN and not (status == FOLDED and reach > NEARLY):
-            return status, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    settled, u1, u1_, u2, u2_, u3, u3_ = polished(
-        p0, p1, p2, p3, k1, k1_, k2, k2_, k3, k3_, g1, g1_, g2, g2_, g3, g3_, J1, J2, J3, D,
-        BESIDE_FOLD if status == FOLDED else ANYWHERE,
-    )  # fmt: skip
+            return status, reach, (zero, zero, zero)
+    settled, found = polished(p, k, g, J, D, BESIDE_FOLD if status == FOLDED else ANYWHERE)
     if settled:
-        return TAKEN, 1.0, u1, u1_, u2, u2_, u3, u3_
-    return FOLDED if status == FOLDED else NOT_CONVERGED, reach, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        return TAKEN, 1.0, found
+    return FOLDED if status == FOLDED else NOT_CONVERGED, reach, (zero, zero, zero)
+
+
+def rotation_of(w):
+    """The Euler parameters of a Gibbs vector."""
+    p0 = 1.0 / sqrt(1.0 + square(w))
+    return p0, p0 * w[0], p0 * w[1], p0 * w[2]

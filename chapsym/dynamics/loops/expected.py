@@ -4,8 +4,10 @@ from math import frexp, inf, ldexp, sqrt
 
 from chapsym.generated import angular_velocity
 
+from .branch import moments
 from .following import CAUTIOUS, FARTHEST, ROLLED, ROUNDINGS, SPUN, STEPS, TURNED, UNTIL, WALKED
 from .text import Matrix, Vector
+from .vectors import largest, length, shifted, three
 
 #: What is found of a ball: |ω| at the start in rad/s; the condition of Λ - Dγγᵀ, at most; whether it may rotate
 #: steadily; what rounding may leave of it, and if it does; the first step in seconds, the error of a second, and that
@@ -27,14 +29,7 @@ ENDLESS = 2.0**1000
 
 
 def surveyed(
-    momenta: Matrix,
-    verticals: Matrix,
-    J0: Matrix,
-    D0: Vector,
-    unit: Vector,
-    end: float,
-    accuracy: float,
-    found: Matrix,
+    momenta: Matrix, verticals: Matrix, J0: Matrix, D0: Vector, unit: Vector, end: float, accuracy: float, found: Matrix
 ):
     """What can be said of each ball at the start, (FOUND, balls); unit: what a relative error comes to, (balls,).
 
@@ -44,20 +39,19 @@ def surveyed(
     floor, single = 0.0, 0.0
     for i in range(momenta.shape[0]):
         # By powers of two, exactly, K and the moments are about 1.
-        _, size = frexp(max(abs(momenta[i, 0]), abs(momenta[i, 1]), abs(momenta[i, 2])))
+        _, size = frexp(largest(three(momenta[i], 0)))
         _, weight = frexp(max(J0[i, 0], J0[i, 1], J0[i, 2], D0[i]))
-        k1, k2, k3 = ldexp(momenta[i, 0], -size), ldexp(momenta[i, 1], -size), ldexp(momenta[i, 2], -size)
-        j1, j2, j3 = ldexp(J0[i, 0], -weight), ldexp(J0[i, 1], -weight), ldexp(J0[i, 2], -weight)
-        D = ldexp(D0[i], -weight)
-        w1, w2, w3 = angular_velocity(k1, k2, k3, verticals[i, 0], verticals[i, 1], verticals[i, 2], j1, j2, j3, D)
-        rate = ldexp(sqrt(w1 * w1 + w2 * w2 + w3 * w3), size - weight)
-        least = min(j2 + j3, j1 + j3, j1 + j2)
-        condition = (max(j2 + j3, j1 + j3, j1 + j2) + D) / least if least > 0.0 else ENDLESS
-        zeros = (1 if k1 == 0.0 else 0) + (1 if k2 == 0.0 else 0) + (1 if k3 == 0.0 else 0)
+        k, J, D = shifted(three(momenta[i], 0), -size), shifted(three(J0[i], 0), -weight), ldexp(D0[i], -weight)
+        w = angular_velocity(*k, *three(verticals[i], 0), *J, D)
+        rate = ldexp(length(w), size - weight)
+        inertia = moments(J)
+        least = min(*inertia)
+        condition = (max(*inertia) + D) / least if least > 0.0 else ENDLESS
+        zeros = (1 if k[0] == 0.0 else 0) + (1 if k[1] == 0.0 else 0) + (1 if k[2] == 0.0 else 0)
         turned, root = rate * end, sqrt(condition)
         walked = sqrt(1.0 + 40.0 * turned)
         found[RATE, i], found[CONDITION, i] = rate, condition
-        found[SINGLE, i] = 1.0 if zeros > 1 or (j1 == j2 and j2 == j3) else 0.0
+        found[SINGLE, i] = 1.0 if zeros > 1 or (J[0] == J[1] and J[1] == J[2]) else 0.0
         found[FLOOR, i] = UNIT * ((1.0 + turned) * (2.0 * root + walked) + 8.0 * condition) * unit[i]
         found[STILL, i] = UNIT * ((1.0 + turned) * (2.0 * root + 1.0) + 8.0 * condition) * unit[i]
         allowed = AIM * accuracy / unit[i] / (CAUTIOUS * GROWTH) / end if end > 0.0 else 1.0
@@ -72,16 +66,9 @@ def surveyed(
 
 
 def estimated(
-    found: Matrix,
-    reported: Matrix,
-    unit: Vector,
-    turned: bool,
-    spun: bool,
-    rolled: bool,
-    error: Vector,
-    noise: Vector,
+    found: Matrix, reported: Matrix, unit: Vector, turned: bool, spun: bool, rolled: bool, error: Vector, noise: Vector,
     started: Vector,
-):
+):  # fmt: skip
     """The errors that the loop estimated, and what of them the roundings of the steps, and of the start, may have made.
 
     Those of a ball that stopped are NaN.  Roundings walk, and what is left of them grows as the errors do.  turned,

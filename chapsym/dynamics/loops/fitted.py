@@ -5,14 +5,16 @@ has the length s = sin(h|ω|)/|ω|.  That is h times an even function of h, so t
 series.  In lemma `modified-field` 12ω₃ loses its part 2|ω|²ω so, up to what |ω| changes in the long step.
 """
 
+from .vectors import square
+
 #: 1.5²: steps that would turn the ball by nearly a right angle, where the branch folds, are not fitted.
 MOST_TURN = 2.25
 
 
-def turn_square(h, first, w1, w2, w3):
+def turn_square(h, first, w):
     """(h|ω|)² for a long step h, or 0 where its steps, the longest h/`first`, are not fitted."""
-    square = h * h * (w1 * w1 + (w2 * w2 + w3 * w3))
-    return square if square <= MOST_TURN * (first * first) else 0.0
+    turned = h * h * square(w)
+    return turned if turned <= MOST_TURN * (first * first) else 0.0
 
 
 def fitted(square):

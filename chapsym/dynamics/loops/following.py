@@ -5,7 +5,7 @@ does depends on its own ball alone, so a ball has the same bits alone and among 
 the same functions run on floats and are compiled.
 """
 
-from math import ldexp, nan, sqrt
+from math import nan, sqrt
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from .lanes import CONTACT, EIGHT, FIRSTS, LANES, LENGTH, LOST, MOVED, OMEGA, RA
 from .long_run import enter, placed, resized, safely
 from .long_step import ATTITUDE, DOUBT, MOVING, SPOT, TWIST
 from .text import Cube, Doubles, Integers, Matrix, Vector
+from .vectors import four, length, put, put_four, shifted, square, three, three_in
 
 #: The largest |ω|h of a step, in radians: longer ones have errors beyond 10⁻⁴, or do not settle.
 FARTHEST = 1.7
@@ -117,9 +118,7 @@ def left(S, b, start):
     smaller than the two before let expect, these say how large it would be.
     """
     at = MOVED + TWIST
-    x = sqrt(S[at, b] * S[at, b] + S[at + 1, b] * S[at + 1, b] + S[at + 2, b] * S[at + 2, b])
-    y = sqrt(S[at + 3, b] * S[at + 3, b] + S[at + 4, b] * S[at + 4, b] + S[at + 5, b] * S[at + 5, b])
-    z = sqrt(S[at + 6, b] * S[at + 6, b] + S[at + 7, b] * S[at + 7, b] + S[at + 8, b] * S[at + 8, b])
+    x, y, z = length(three_in(S, at, b)), length(three_in(S, at + 3, b)), length(three_in(S, at + 6, b))
     rounded = ROUNDED + ROUNDED_START * start
     last, middle = max(x - rounded, 0.0), max(y - rounded, 0.0)
     if not (middle > 0.0 and z > 0.0):
@@ -140,7 +139,7 @@ def taken_in(
     aimed(lane, frames, interval)
     exponent = enter(S, B, b, columns, J0[i], D0[i], radius[i], lane[STEP], sums, beginning, body, state)
     lane[UNIT] = 2.0 * S[LENGTH, b] / lane[STEP]
-    begun(E, B, b, S[TENSOR, b], S[TENSOR + 1, b], S[TENSOR + 2, b], start)
+    begun(E, B, b, three_in(S, TENSOR, b), start)
     for c in range(REPORTED):
         reported[i, c] = 1.0 if c == UNTIL else 0.0
     return exponent
@@ -148,11 +147,10 @@ def taken_in(
 
 def shown(body, exponent, i, frame, momenta, verticals, attitudes, traces, follows, traced):
     """Writes a ball into one of its frames."""
-    for c in range(3):
-        momenta[i, frame, c], verticals[i, frame, c] = ldexp(body[c], int(exponent)), body[3 + c]
+    put(momenta[i, frame], 0, shifted(three(body, 0), int(exponent)))
+    put(verticals[i, frame], 0, three(body, 3))
     if follows:
-        for c in range(4):
-            attitudes[i, frame, c] = body[ATTITUDE + c]
+        put_four(attitudes[i, frame], 0, four(body, ATTITUDE))
     if traced:
         traces[i, frame, 0], traces[i, frame, 1] = body[SPOT], body[SPOT + 1]
 
@@ -170,9 +168,7 @@ def stopped_at(i, frame, momenta, verticals, attitudes, traces, follows, traced)
 def judged(S, E, b, lost, start, sums, state, lane):
     """Decides the fate of a long step, and the length of the next."""
     step, tries = lane[STEP], lane[TRIES]
-    size = lane[UNIT] * sqrt(
-        S[OMEGA, b] * S[OMEGA, b] + (S[OMEGA + 1, b] * S[OMEGA + 1, b] + S[OMEGA + 2, b] * S[OMEGA + 2, b])
-    )
+    size = lane[UNIT] * sqrt(square(three_in(S, OMEGA, b)))
     lane[SPEED], lane[FATE], lane[OFF], lane[OUT] = size, STAYS, 0.0, 0.0
     if lost and S[LOST, b] != 0.0:
         heavy = S[FIRSTS + 3, b] < 0.0  # always takes the safe way
@@ -207,7 +203,7 @@ def part_of(lane, frame, interval):
 def through(S, b, body, now, traced, lane, V, first, last, curve):
     """The polynomials of a step from `body` to `now`; returns what may be wrong of them (`between.joined`)."""
     whole = lane[STEP] * lane[UNIT]
-    J1, J2, J3, contact, radius = S[TENSOR, b], S[TENSOR + 1, b], S[TENSOR + 2, b], S[CONTACT, b], S[RADIUS, b]
+    J, contact, radius = three_in(S, TENSOR, b), S[CONTACT, b], S[RADIUS, b]
     if lane[KNOWN] > 0.0:
         for n in range(TERMS):
             for c in range(PARTS):
@@ -215,8 +211,8 @@ def through(S, b, body, now, traced, lane, V, first, last, curve):
         if lane[KNOWN] != whole:
             shortened(first, whole / lane[KNOWN])
     else:
-        series(body, J1, J2, J3, contact, radius, whole, traced, V, first)
-    series(now, J1, J2, J3, contact, radius, whole, traced, V, last)
+        series(body, J, contact, radius, whole, traced, V, first)
+    series(now, J, contact, radius, whole, traced, V, last)
     return joined(first, last, radius, traced, curve)
 
 

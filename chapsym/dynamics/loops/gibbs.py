@@ -15,6 +15,9 @@ from typing import NamedTuple
 
 from chapsym.generated import gibbs_newton, gibbs_newton_heavy, gibbs_second
 
+from .text import Four, Nine, Three
+from .vectors import largest, length, minus, scaled, shifted, square
+
 #: The error that the last correction may leave, relative to the least that |u| can be: the unit roundoff.
 LEFT = 2.0**-53
 #: An `enough` below this cannot be compared with squares: only float32 has so few exponents.
@@ -34,26 +37,26 @@ BEYOND = -2.0
 SINGLE = {"LEFT": 2.0**-24, "SMALLEST": 2.0**-48, "LIGHTEST": 2.0**-48, "LEAST_ENOUGH": 2.0**-62}
 
 
-def is_heavy(I1, I2, I3, D):
+def is_heavy(I, D):
     """Whether the determinant by a row of the Jacobian loses too much."""
-    return HEAVY * min(I1, I2, I3) < D
+    return HEAVY * min(*I) < D
 
 
-def certificate(k1, k2, k3, I1, I2, I3, D):
+def certificate(k, I, D):
     """`bound` for a ball that is not heavy, else (-1, 0)."""
-    if is_heavy(I1, I2, I3, D):
+    if is_heavy(I, D):
         return -1.0, 0.0
-    return bound(k1, k2, k3, I1, I2, I3, D)
+    return bound(k, I, D)
 
 
-def bound(k1, k2, k3, I1, I2, I3, D):
+def bound(k, I, D):
     """(radius², enough) by lemma `small-branch`; (BEYOND, 0) where |𝒦| is beyond its bound.
 
     A Newton correction d with |d|² ≤ enough is the last: it leaves a relative error of `LEFT` at most.
     """
-    half = sqrt(k1 * k1 + k2 * k2 + k3 * k3)
+    half = length(k)
     size = 2.0 * half
-    least, most = min(I1, I2, I3), max(I1, I2, I3)
+    least, most = min(*I), max(*I)
     spread = 0.5 * (most - least)
     if not size < least:
         return BEYOND, 0.0
@@ -65,7 +68,7 @@ def bound(k1, k2, k3, I1, I2, I3, D):
     # A little more than the ball that contains the root, inside the one on which G is monotone.
     radius = min(1.25 * inner, 0.5 * (inner + limit))
     if half == 0.0:  # its square may be below the range of float32
-        moving = k1 != 0.0 or k2 != 0.0 or k3 != 0.0
+        moving = k[0] != 0.0 or k[1] != 0.0 or k[2] != 0.0
         return (-1.0, 0.0) if moving and LEAST_ENOUGH > 0.0 else (0.0, 0.0)
     contraction = (spread + half) / (least - radius * slope)
     enough = LEFT * half / ((most + D + spread) * contraction)
@@ -75,97 +78,72 @@ def bound(k1, k2, k3, I1, I2, I3, D):
 class Round(NamedTuple):
     """A Newton iterate: a quaternion p and its Gibbs vector w = u + d; |d|², d, and the cofactors of ∂G/∂u at u."""
 
-    p0: float
-    p1: float
-    p2: float
-    p3: float
-    w1: float
-    w2: float
-    w3: float
+    p: Four
+    w: Three
     first: float
-    d1: float
-    d2: float
-    d3: float
-    c11: float
-    c12: float
-    c13: float
-    c21: float
-    c22: float
-    c23: float
-    c31: float
-    c32: float
-    c33: float
+    d: Three
+    cofactors: Nine
 
 
-def newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy=False):
+def newton_round(u, k, g, I, D, heavy=False):
     """A Newton iterate from u."""
     if heavy:
-        p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton_heavy(
-            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
-        )
-    else:
-        p0, p1, p2, p3, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(
-            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D
-        )
-    scale = 1.0 / p0
-    w1, w2, w3 = p1 * scale, p2 * scale, p3 * scale
-    d1, d2, d3 = w1 - u1, w2 - u2, w3 - u3
-    first = d1 * d1 + (d2 * d2 + d3 * d3)
-    return Round(p0, p1, p2, p3, w1, w2, w3, first, d1, d2, d3, c11, c12, c13, c21, c22, c23, c31, c32, c33)
+        return round_from(u, gibbs_newton_heavy(*u, *k, *g, *I, D))
+    return round_from(u, gibbs_newton(*u, *k, *g, *I, D))
 
 
-def second_round(r, k1, k2, k3, I1, I2, I3):
-    """The second correction e after a round: (p1, p2, p3, w1, w2, w3, |e|²)."""
-    e1, e2, e3 = gibbs_second(
-        r.d1, r.d2, r.d3, k1, k2, k3, r.c11, r.c12, r.c13, r.c21, r.c22, r.c23, r.c31, r.c32, r.c33, I1, I2, I3
-    )
-    scale = 1.0 / r.p0
-    p1, p2, p3 = r.p1 - e1, r.p2 - e2, r.p3 - e3
-    second = (e1 * e1 + (e2 * e2 + e3 * e3)) * (scale * scale)
-    return p1, p2, p3, p1 * scale, p2 * scale, p3 * scale, second
+def round_from(u, found):
+    """The iterate from u of which a kernel has `found` the quaternion and the cofactors."""
+    w = scaled(1.0 / found[0], found[1:4])
+    d = minus(w, u)
+    return Round(found[0:4], w, square(d), d, found[4:13])
 
 
-def settle(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy=False):
+def second_round(r, k, I):
+    """The second correction e after a round: (p, w, |e|²)."""
+    e = gibbs_second(*r.d, *k, *r.cofactors, *I)
+    scale = 1.0 / r.p[0]
+    v = minus(r.p[1:4], e)
+    return (r.p[0], *v), scaled(scale, v), square(e) * (scale * scale)
+
+
+def settle(u, k, g, I, D, radius, enough, heavy=False):
     """One round from a guess of the Gibbs vector: a Newton iterate, and a second correction where it is needed.
 
-    Returns (settled, p0, p1, p2, p3, u1, u2, u3): the rotation as a quaternion of any length, and as a Gibbs vector.
+    Returns (settled, p, u): the rotation as a quaternion of any length, and as a Gibbs vector.
     """
-    if not u1 * u1 + (u2 * u2 + u3 * u3) <= radius:
-        return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
-    r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, heavy)
+    if not square(u) <= radius:
+        return False, (1.0, 0.0, 0.0, 0.0), u
+    r = newton_round(u, k, g, I, D, heavy)
     if r.first <= enough:
-        return True, r.p0, r.p1, r.p2, r.p3, r.w1, r.w2, r.w3
-    p1, p2, p3, w1, w2, w3, second = second_round(r, k1, k2, k3, I1, I2, I3)
-    settled = 9.0 * max(r.first, second) * second <= enough * enough and w1 * w1 + (w2 * w2 + w3 * w3) <= radius
-    return settled, r.p0, p1, p2, p3, w1, w2, w3
+        return True, r.p, r.w
+    p, w, second = second_round(r, k, I)
+    return 9.0 * max(r.first, second) * second <= enough * enough and square(w) <= radius, p, w
 
 
-def search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy=False):
+def search(u, k, g, I, D, radius, enough, heavy=False):
     """Rounds of `settle` from a poor guess, and from no rotation where that leads nowhere; returns as it does."""
     for guess in range(2):
         if guess == 1:
-            u1, u2, u3 = 0.0, 0.0, 0.0
+            u = 0.0, 0.0, 0.0
         for _ in range(MOST_ROUNDS):
-            settled, p0, p1, p2, p3, u1, u2, u3 = settle(
-                u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy
-            )  # fmt: skip
+            settled, p, u = settle(u, k, g, I, D, radius, enough, heavy)
             if settled:
-                return True, p0, p1, p2, p3, u1, u2, u3
-    return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
+                return True, p, u
+    return False, (1.0, 0.0, 0.0, 0.0), u
 
 
-def search_safely(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough):
+def search_safely(u, k, g, I, D, radius, enough):
     """`search` by the certificate, and for a heavy ball by `bound`; nothing where it does not reach, or underflows.
 
     A heavy ball is scaled anew, as that with a tiny momentum is not, and products of its D would overflow.
     """
-    heavy = is_heavy(I1, I2, I3, D)
-    if heavy and max(abs(k1), abs(k2), abs(k3)) < min(I1, I2, I3):
-        _, size = frexp(max(I1, I2, I3) + D)
-        I1, I2, I3, D = ldexp(I1, -size), ldexp(I2, -size), ldexp(I3, -size), ldexp(D, -size)
-        k1, k2, k3 = ldexp(k1, -size), ldexp(k2, -size), ldexp(k3, -size)
-        if min(I1, I2, I3) >= LIGHTEST and max(abs(k1), abs(k2), abs(k3)) >= LIGHTEST:
-            radius, enough = bound(k1, k2, k3, I1, I2, I3, D)
+    heavy = is_heavy(I, D)
+    if heavy and largest(k) < min(*I):
+        _, size = frexp(max(*I) + D)
+        I, D, k = shifted(I, -size), ldexp(D, -size), shifted(k, -size)
+        if min(*I) >= LIGHTEST and largest(k) >= LIGHTEST:
+            radius, enough = bound(k, I, D)
     if not radius >= 0.0:
-        return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
-    return search(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D, radius, enough, heavy)
+        return False, (1.0, 0.0, 0.0, 0.0), u
+    return search(u, k, g, I, D, radius, enough, heavy)

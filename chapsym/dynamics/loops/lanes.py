@@ -22,6 +22,21 @@ from .fitted import fitted, half_angle, turn_square
 from .gibbs import newton_round, second_round
 from .long_step import DOUBT, LAST, MOVING, moved_body
 from .text import lanes
+from .vectors import (
+    conjugate,
+    cross,
+    dot,
+    four_in,
+    plus,
+    plus_four,
+    put_four_in,
+    put_in,
+    scaled,
+    scaled_four,
+    square,
+    square_of_four,
+    three_in,
+)  # fmt: skip
 
 #: Columns side by side, and balls in a block.
 LANES, EIGHT = 4, 8
@@ -63,25 +78,28 @@ def checked(S, B, again):
     A lane that has settled before stays as it is.
     """
     for i in lanes(LANES * B):
-        k1, k2, k3, g1, g2, g3 = S[K, i], S[K + 1, i], S[K + 2, i], S[G, i], S[G + 1, i], S[G + 2, i]
-        u1, u2, u3 = S[U, i], S[U + 1, i], S[U + 2, i]
-        I1, I2, I3, contact = S[BALL, i], S[BALL + 1, i], S[BALL + 2, i], S[BALL + 3, i]
+        u, k, g, inertia, contact = (
+            three_in(S, U, i),
+            three_in(S, K, i),
+            three_in(S, G, i),
+            three_in(S, BALL, i),
+            S[BALL + 3, i],
+        )
         if not again:
-            r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact)
-            u1, u2, u3 = r.w1, r.w2, r.w3
-        r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, contact)
-        p1, p2, p3, w1, w2, w3, second = second_round(r, k1, k2, k3, I1, I2, I3)
-        squares = (r.c11 * r.c11 + r.c12 * r.c12 + r.c13 * r.c13) + (r.c21 * r.c21 + r.c22 * r.c22 + r.c23 * r.c23)
-        p0, first = r.p0, r.first
-        bent = S[SLOPE, i] * (squares + (r.c31 * r.c31 + r.c32 * r.c32 + r.c33 * r.c33))  # (p0 c |A⁻¹|)²
-        settled = (p0 > 0.0) & (w1 * w1 + (w2 * w2 + w3 * w3) <= S[WITHIN, i])
+            r = newton_round(u, k, g, inertia, contact)
+            u = r.w
+        r = newton_round(u, k, g, inertia, contact)
+        p, w, second = second_round(r, k, inertia)
+        c = r.cofactors
+        squares = dot(c[0:3], c[0:3]) + dot(c[3:6], c[3:6])
+        p0, first = p[0], r.first
+        bent = S[SLOPE, i] * (squares + dot(c[6:9], c[6:9]))  # (p0 c |A⁻¹|)²
+        settled = (p0 > 0.0) & (square(w) <= S[WITHIN, i])
         settled = settled & (bent * first <= KANTOROVICH * (p0 * p0))
         settled = settled & (bent * (max(first, second) * second) <= S[LEAST, i] * (p0 * p0))
         closed = again & (S[OPEN, i] == 0.0)
-        S[P, i], S[P + 1, i] = S[P, i] if closed else p0, S[P + 1, i] if closed else p1
-        S[P + 2, i], S[P + 3, i] = S[P + 2, i] if closed else p2, S[P + 3, i] if closed else p3
-        S[U, i], S[U + 1, i] = S[U, i] if closed else w1, S[U + 1, i] if closed else w2
-        S[U + 2, i] = S[U + 2, i] if closed else w3
+        put_four_in(S, P, i, four_in(S, P, i) if closed else p)
+        put_in(S, U, i, three_in(S, U, i) if closed else w)
         S[OPEN, i] = 0.0 if closed | settled | (S[LOST, i] != 0.0) else 1.0
     left = 0
     for i in lanes(LANES * B):
@@ -95,48 +113,34 @@ def moved(S, B, traced):
     traced: whether its centre moves, too, in the axes of the body at the beginning of the long step.
     """
     for i in lanes(LANES * B):
-        p0, p1, p2, p3 = S[P, i], S[P + 1, i], S[P + 2, i], S[P + 3, i]
-        w1, w2, w3 = S[U, i], S[U + 1, i], S[U + 2, i]
+        p, q, w, k, g = four_in(S, P, i), four_in(S, Q, i), three_in(S, U, i), three_in(S, K, i), three_in(S, G, i)
         if traced:
-            scale = 1.0 / (1.0 + (w1 * w1 + (w2 * w2 + w3 * w3)))
-            s1, s2, s3 = centre_step(1.0, w1, w2, w3, S[G, i], S[G + 1, i], S[G + 2, i])
-            s1, s2, s3 = scale * s1, scale * s2, scale * s3
-            x1, x2, x3 = turn(S[Q, i], -S[Q + 1, i], -S[Q + 2, i], -S[Q + 3, i], s1, s2, s3)
-            S[Y, i] += s1 + x1
-            S[Y + 1, i] += s2 + x2
-            S[Y + 2, i] += s3 + x3
-        x1, x2, x3 = turn(p0, p1, p2, p3, S[K, i], S[K + 1, i], S[K + 2, i])
-        S[K, i] += x1
-        S[K + 1, i] += x2
-        S[K + 2, i] += x3
-        x1, x2, x3 = turn(p0, p1, p2, p3, S[G, i], S[G + 1, i], S[G + 2, i])
-        S[G, i] += x1
-        S[G + 1, i] += x2
-        S[G + 2, i] += x3
-        S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i] = compose(
-            S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i], 1.0, w1, w2, w3
-        )
-        v1, v2, v3, x1, x2, x3 = S[V, i], S[V + 1, i], S[V + 2, i], S[X, i], S[X + 1, i], S[X + 2, i]
-        S[V, i], S[V + 1, i], S[V + 2, i], S[X, i], S[X + 1, i], S[X + 2, i] = w1, w2, w3, v1, v2, v3
-        d, e, f = S[WEIGHT, i], S[WEIGHT + 1, i], S[WEIGHT + 2, i]
-        a, b, c = S[WEIGHT + 3, i], S[WEIGHT + 4, i], S[WEIGHT + 5, i]
-        tangent = S[TANGENT, i]
-        y1 = (d * S[OMEGA, i] + e * S[RATE, i]) + f * S[CURVE, i]
-        y2 = (d * S[OMEGA + 1, i] + e * S[RATE + 1, i]) + f * S[CURVE + 1, i]
-        y3 = (d * S[OMEGA + 2, i] + e * S[RATE + 2, i]) + f * S[CURVE + 2, i]
-        S[U, i] = (a * w1 + b * v1) + (c * x1 + tangent * y1)
-        S[U + 1, i] = (a * w2 + b * v2) + (c * x2 + tangent * y2)
-        S[U + 2, i] = (a * w3 + b * v3) + (c * x3 + tangent * y3)
+            s = scaled(1.0 / (1.0 + square(w)), centre_step(1.0, *w, *g))
+            put_in(S, Y, i, plus(three_in(S, Y, i), plus(s, turn(*conjugate(q), *s))))
+        put_in(S, K, i, plus(k, turn(*p, *k)))
+        put_in(S, G, i, plus(g, turn(*p, *g)))
+        put_four_in(S, Q, i, compose(*q, 1.0, *w))
+        v, x = three_in(S, V, i), three_in(S, X, i)
+        put_in(S, V, i, w)
+        put_in(S, X, i, v)
+        d, e, f = three_in(S, WEIGHT, i)
+        a, b, c = three_in(S, WEIGHT + 3, i)
+        y = scaled(S[TANGENT, i], expanded(S, i, d, e, f))
+        put_in(S, U, i, plus(plus(scaled(a, w), scaled(b, v)), plus(scaled(c, x), y)))
+
+
+def expanded(S, i, a, b, c):
+    """ω and its derivatives at the beginning with these weights."""
+    return plus(
+        plus(scaled(a, three_in(S, OMEGA, i)), scaled(b, three_in(S, RATE, i))), scaled(c, three_in(S, CURVE, i))
+    )
 
 
 def begin(S, B):
     """Puts its first column into every lane, with the first guess."""
     for i in lanes(LANES * B):
         start(S, i, FIRSTS)
-        tangent, a, b, c = S[TANGENT, i], S[GUESS, i], S[GUESS + 1, i], S[GUESS + 2, i]
-        S[U, i] = tangent * ((a * S[OMEGA, i] + b * S[RATE, i]) + c * S[CURVE, i])
-        S[U + 1, i] = tangent * ((a * S[OMEGA + 1, i] + b * S[RATE + 1, i]) + c * S[CURVE + 1, i])
-        S[U + 2, i] = tangent * ((a * S[OMEGA + 2, i] + b * S[RATE + 2, i]) + c * S[CURVE + 2, i])
+        put_in(S, U, i, scaled(S[TANGENT, i], expanded(S, i, *three_in(S, GUESS, i))))
 
 
 def begin_second(S, B, lane, weights):
@@ -148,15 +152,12 @@ def begin_second(S, B, lane, weights):
         weights[lane, 4], weights[lane, 5], weights[lane, 6], weights[lane, 7],
     )  # fmt: skip
     for b in lanes(B):  # not a loop of the components: eight balls would be unrolled, and not become vector code
-        i, j, k, m = b, B + b, 2 * B + b, 3 * B + b
-        tangent = S[TANGENT, lane * B + b]
-        x1 = (w0 * S[OMEGA, i] + w1 * S[RATE, i]) + (w2 * S[CURVE, i] + w3 * S[KEPT, i])
-        x2 = (w0 * S[OMEGA + 1, i] + w1 * S[RATE + 1, i]) + (w2 * S[CURVE + 1, i] + w3 * S[KEPT + 1, i])
-        x3 = (w0 * S[OMEGA + 2, i] + w1 * S[RATE + 2, i]) + (w2 * S[CURVE + 2, i] + w3 * S[KEPT + 2, i])
-        x1 += (w4 * S[KEPT, j] + w5 * S[KEPT, k]) + (w6 * S[KEPT, m] + w7 * S[LATER, i])
-        x2 += (w4 * S[KEPT + 1, j] + w5 * S[KEPT + 1, k]) + (w6 * S[KEPT + 1, m] + w7 * S[LATER + 1, i])
-        x3 += (w4 * S[KEPT + 2, j] + w5 * S[KEPT + 2, k]) + (w6 * S[KEPT + 2, m] + w7 * S[LATER + 2, i])
-        S[U, lane * B + b], S[U + 1, lane * B + b], S[U + 2, lane * B + b] = tangent * x1, tangent * x2, tangent * x3
+        omega, rate, curve = three_in(S, OMEGA, b), three_in(S, RATE, b), three_in(S, CURVE, b)
+        first, second, later = three_in(S, KEPT, b), three_in(S, KEPT, B + b), three_in(S, LATER, b)
+        third, fourth = three_in(S, KEPT, 2 * B + b), three_in(S, KEPT, 3 * B + b)
+        x = plus(plus(scaled(w0, omega), scaled(w1, rate)), plus(scaled(w2, curve), scaled(w3, first)))
+        y = plus(plus(scaled(w4, second), scaled(w5, third)), plus(scaled(w6, fourth), scaled(w7, later)))
+        put_in(S, U, lane * B + b, scaled(S[TANGENT, lane * B + b], plus(x, y)))
 
 
 def start(S, i, at):
@@ -167,68 +168,43 @@ def start(S, i, at):
     S[TANGENT, i] = half / bend
     S[HALF, i], S[INVERSE, i], S[SLOPE, i] = half, S[at + 1, i] * bend / scale, slope * slope
     S[WITHIN, i], S[LEAST, i] = S[at + 3, i], S[at + 4, i] * (scale * scale)
-    S[K, i], S[K + 1, i], S[K + 2, i] = half * S[START, i], half * S[START + 1, i], half * S[START + 2, i]
-    S[G, i], S[G + 1, i], S[G + 2, i] = S[VERTICAL, i], S[VERTICAL + 1, i], S[VERTICAL + 2, i]
-    S[V, i], S[V + 1, i], S[V + 2, i], S[X, i], S[X + 1, i], S[X + 2, i] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i] = 1.0, 0.0, 0.0, 0.0
-    S[Y, i], S[Y + 1, i], S[Y + 2, i] = 0.0, 0.0, 0.0
+    put_in(S, K, i, scaled(half, three_in(S, START, i)))
+    put_in(S, G, i, three_in(S, VERTICAL, i))
+    put_in(S, V, i, (0.0, 0.0, 0.0))
+    put_in(S, X, i, (0.0, 0.0, 0.0))
+    put_four_in(S, Q, i, (1.0, 0.0, 0.0, 0.0))
+    put_in(S, Y, i, (0.0, 0.0, 0.0))
 
 
 def finish(S, i):
     """Keeps the quaternion and the way of the first column of a lane."""
-    S[DONE, i], S[DONE + 1, i], S[DONE + 2, i], S[DONE + 3, i] = S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i]
-    S[DONE + 4, i], S[DONE + 5, i], S[DONE + 6, i] = S[Y, i], S[Y + 1, i], S[Y + 2, i]
+    put_four_in(S, DONE, i, four_in(S, Q, i))
+    put_in(S, DONE + 4, i, three_in(S, Y, i))
 
 
 def gather(S, B):
     """Turns every ball by the weighted sum of the columns, but those that are lost."""
     for i in lanes(LANES * B):
-        a0, a1, a2, a3 = S[DONE, i], S[DONE + 1, i], S[DONE + 2, i], S[DONE + 3, i]
-        b0, b1, b2, b3 = S[Q, i], S[Q + 1, i], S[Q + 2, i], S[Q + 3, i]
-        one = 1.0 / sqrt((a0 * a0 + a1 * a1) + (a2 * a2 + a3 * a3))
-        two = 1.0 / sqrt((b0 * b0 + b1 * b1) + (b2 * b2 + b3 * b3))
-        w, v = S[FULL, i] * one, S[FULL + 1, i] * two
-        S[SUMS, i], S[SUMS + 1, i] = w * a0 + v * b0, w * a1 + v * b1
-        S[SUMS + 2, i], S[SUMS + 3, i] = w * a2 + v * b2, w * a3 + v * b3
-        w, v = S[CHANGE, i] * one, S[CHANGE + 1, i] * two
-        S[SUMS + 4, i], S[SUMS + 5, i] = w * a0 + v * b0, w * a1 + v * b1
-        S[SUMS + 6, i], S[SUMS + 7, i] = w * a2 + v * b2, w * a3 + v * b3
+        a, b = four_in(S, DONE, i), four_in(S, Q, i)
+        one, two = 1.0 / sqrt(square_of_four(a)), 1.0 / sqrt(square_of_four(b))
         w, v = S[FULL, i], S[FULL + 1, i]
-        S[SUMS + 8, i] = w * S[DONE + 4, i] + v * S[Y, i]
-        S[SUMS + 9, i] = w * S[DONE + 5, i] + v * S[Y + 1, i]
-        S[SUMS + 10, i] = w * S[DONE + 6, i] + v * S[Y + 2, i]
+        put_four_in(S, SUMS, i, plus_four(scaled_four(w * one, a), scaled_four(v * two, b)))
+        put_four_in(
+            S, SUMS + 4, i, plus_four(scaled_four(S[CHANGE, i] * one, a), scaled_four(S[CHANGE + 1, i] * two, b))
+        )
+        put_in(S, SUMS + 8, i, plus(scaled(w, three_in(S, DONE + 4, i)), scaled(v, three_in(S, Y, i))))
     for c in range(11):
         for b in lanes(B):
             S[SUMS + c, b] = (S[SUMS + c, b] + S[SUMS + c, B + b]) + (S[SUMS + c, 2 * B + b] + S[SUMS + c, 3 * B + b])
     for b in lanes(B):
         rests = S[LOST, b] != 0.0
-        k1, k2, k3, g1, g2, g3 = (
-            S[MOVED, b],
-            S[MOVED + 1, b],
-            S[MOVED + 2, b],
-            S[MOVED + 3, b],
-            S[MOVED + 4, b],
-            S[MOVED + 5, b],
-        )
-        a0, a1, a2, a3, x, y = (
-            S[MOVED + 6, b],
-            S[MOVED + 7, b],
-            S[MOVED + 8, b],
-            S[MOVED + 9, b],
-            S[MOVED + 10, b],
-            S[MOVED + 11, b],
-        )
-        d0, d1, d2, d3 = S[SUMS + 4, b], S[SUMS + 5, b], S[SUMS + 6, b], S[SUMS + 7, b]
-        more = 2.0 * sqrt((d0 * d0 + d1 * d1) + (d2 * d2 + d3 * d3))
-        l1, l2, l3, h1, h2, h3, b0, b1, b2, b3, v, w = moved_body(
-            k1, k2, k3, g1, g2, g3, a0, a1, a2, a3, x, y, S[SUMS, b], S[SUMS + 1, b], S[SUMS + 2, b], S[SUMS + 3, b],
-            S[SUMS + 8, b], S[SUMS + 9, b], S[SUMS + 10, b], S[RADIUS, b],
-        )  # fmt: skip
-        S[MOVED, b], S[MOVED + 1, b], S[MOVED + 2, b] = k1 if rests else l1, k2 if rests else l2, k3 if rests else l3
-        S[MOVED + 3, b], S[MOVED + 4, b] = g1 if rests else h1, g2 if rests else h2
-        S[MOVED + 5, b] = g3 if rests else h3
-        S[MOVED + 6, b], S[MOVED + 7, b] = a0 if rests else b0, a1 if rests else b1
-        S[MOVED + 8, b], S[MOVED + 9, b] = a2 if rests else b2, a3 if rests else b3
+        k, g, a = three_in(S, MOVED, b), three_in(S, MOVED + 3, b), four_in(S, MOVED + 6, b)
+        x, y = S[MOVED + 10, b], S[MOVED + 11, b]
+        more = 2.0 * sqrt(square_of_four(four_in(S, SUMS + 4, b)))
+        l, h, c, v, w = moved_body(k, g, a, x, y, four_in(S, SUMS, b), three_in(S, SUMS + 8, b), S[RADIUS, b])
+        put_in(S, MOVED, b, k if rests else l)
+        put_in(S, MOVED + 3, b, g if rests else h)
+        put_four_in(S, MOVED + 6, b, a if rests else c)
         S[MOVED + 10, b], S[MOVED + 11, b] = x if rests else v, y if rests else w
         S[MOVED + DOUBT, b] += 0.0 if rests else more
 
@@ -236,38 +212,25 @@ def gather(S, B):
 def rates(S, B, first):
     """K, γ, ω and two derivatives in units of the long step, (2.12) and (2.13), of every ball in all its lanes."""
     for b in lanes(B):
-        K1, K2, K3, g1, g2, g3 = (
-            S[MOVED, b],
-            S[MOVED + 1, b],
-            S[MOVED + 2, b],
-            S[MOVED + 3, b],
-            S[MOVED + 4, b],
-            S[MOVED + 5, b],
-        )
-        J1, J2, J3, contact = S[TENSOR, b], S[TENSOR + 1, b], S[TENSOR + 2, b], S[CONTACT, b]
-        w1, w2, w3 = angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, contact)
+        K, g, J, contact = three_in(S, MOVED, b), three_in(S, MOVED + 3, b), three_in(S, TENSOR, b), S[CONTACT, b]
+        w = angular_velocity(*K, *g, *J, contact)
         # K = Λω - D⟨γ,ω⟩γ turns, and so does γ: B(γ)ω̇ = (K + D⟨γ,ω⟩γ) × ω.
-        height = contact * (g1 * w1 + g2 * w2 + g3 * w3)
-        m1, m2, m3 = K1 + height * g1, K2 + height * g2, K3 + height * g3
-        x1, x2, x3 = m2 * w3 - m3 * w2, m3 * w1 - m1 * w3, m1 * w2 - m2 * w1
-        a1, a2, a3 = angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact)
+        m = plus(K, scaled(contact * dot(g, w), g))
+        a = angular_velocity(*cross(m, w), *g, *J, contact)
         # B(γ)ω̈ = Λω̇ × ω + Λω × ω̇ + D(⟨γ̇,ω̇⟩γ + ⟨γ,ω̇⟩γ̇).
-        d1, d2, d3 = g2 * w3 - g3 * w2, g3 * w1 - g1 * w3, g1 * w2 - g2 * w1
-        along, across = contact * (d1 * a1 + d2 * a2 + d3 * a3), contact * (g1 * a1 + g2 * a2 + g3 * a3)
-        n1, n2, n3 = (S[BALL, b] + contact) * a1, (S[BALL + 1, b] + contact) * a2, (S[BALL + 2, b] + contact) * a3
-        x1 = ((n2 * w3 - n3 * w2) + (m2 * a3 - m3 * a2)) + (along * g1 + across * d1)
-        x2 = ((n3 * w1 - n1 * w3) + (m3 * a1 - m1 * a3)) + (along * g2 + across * d2)
-        x3 = ((n1 * w2 - n2 * w1) + (m1 * a2 - m2 * a1)) + (along * g3 + across * d3)
-        x1, x2, x3 = angular_velocity(x1, x2, x3, g1, g2, g3, J1, J2, J3, contact)
+        d = cross(g, w)
+        n = (S[BALL, b] + contact) * a[0], (S[BALL + 1, b] + contact) * a[1], (S[BALL + 2, b] + contact) * a[2]
+        x = plus(scaled(contact * dot(d, a), g), scaled(contact * dot(g, a), d))
+        x = angular_velocity(*plus(plus(cross(n, w), cross(m, a)), x), *g, *J, contact)
         whole = 2.0 * S[LENGTH, b]
-        square = whole * whole
-        S[START, b], S[START + 1, b], S[START + 2, b] = K1, K2, K3
-        S[VERTICAL, b], S[VERTICAL + 1, b], S[VERTICAL + 2, b] = g1, g2, g3
-        S[OMEGA, b], S[OMEGA + 1, b], S[OMEGA + 2, b] = w1, w2, w3
-        S[RATE, b], S[RATE + 1, b], S[RATE + 2, b] = whole * a1, whole * a2, whole * a3
-        S[CURVE, b], S[CURVE + 1, b], S[CURVE + 2, b] = square * x1, square * x2, square * x3
-        S[TURNED, b] = turn_square(whole, first, w1, w2, w3)
-        S[LATER, b], S[LATER + 1, b], S[LATER + 2, b], S[LOST, b] = 0.0, 0.0, 0.0, S[RESTS, b]
+        put_in(S, START, b, K)
+        put_in(S, VERTICAL, b, g)
+        put_in(S, OMEGA, b, w)
+        put_in(S, RATE, b, scaled(whole, a))
+        put_in(S, CURVE, b, scaled(whole * whole, x))
+        S[TURNED, b] = turn_square(whole, first, w)
+        put_in(S, LATER, b, (0.0, 0.0, 0.0))
+        S[LOST, b] = S[RESTS, b]
     for row in range(START, TURNED + 1):
         for b in lanes(B):
             one = S[row, b]
@@ -311,13 +274,11 @@ def side_by_side(S, B, columns, traced, following, beginning):
             moved(S, B, False)
         if slot == 0:
             for i in lanes(LANES * B):
-                S[KEPT, i], S[KEPT + 1, i] = S[V, i] * S[INVERSE, i], S[V + 1, i] * S[INVERSE, i]
-                S[KEPT + 2, i] = S[V + 2, i] * S[INVERSE, i]
+                put_in(S, KEPT, i, scaled(S[INVERSE, i], three_in(S, V, i)))
         elif lane == second and lane < LANES:
             for b in lanes(B):
                 i = lane * B + b
-                S[LATER, b], S[LATER + 1, b] = S[V, i] * S[INVERSE, i], S[V + 1, i] * S[INVERSE, i]
-                S[LATER + 2, b] = S[V + 2, i] * S[INVERSE, i]
+                put_in(S, LATER, b, scaled(S[INVERSE, i], three_in(S, V, i)))
     for b in lanes(B):
         finish(S, b)
     gather(S, B)

@@ -1,6 +1,6 @@
 """Many long steps of one ball or of eight: the frames in and out, and the safe way where the lanes do not settle."""
 
-from math import ldexp, nan, sqrt
+from math import ldexp, nan
 
 import numpy as np
 
@@ -27,8 +27,9 @@ from .lanes import (
     side_by_side,
 )
 from .long_step import ATTITUDE, CHANGES, DOUBT, LAST, MOVING, SPOT, begun, long_step
-from .loop import D, I, J, three
+from .loop import D, I, J
 from .text import Cube, Doubles, Integers, Matrix, Vector, out_of_line
+from .vectors import four, length, put, put_four, put_in, scaled, three
 
 #: Where the lemma has no radius, none is asked for.
 ANYWHERE = 2.0**1000
@@ -39,12 +40,11 @@ BEHIND = 18.2
 def placed(body, i, momenta, verticals, attitudes, traces, follows, traced):
     """The ball i as it is at frame 0."""
     body[:] = 0.0
-    for c in range(3):
-        body[c], body[3 + c] = momenta[i, 0, c], verticals[i, 0, c]
+    put(body, 0, three(momenta[i, 0], 0))
+    put(body, 3, three(verticals[i, 0], 0))
     body[ATTITUDE] = 1.0
     if follows:
-        for c in range(4):
-            body[ATTITUDE + c] = attitudes[i, 0, c]
+        put_four(body, ATTITUDE, four(attitudes[i, 0], 0))
     if traced:
         body[SPOT], body[SPOT + 1] = traces[i, 0, 0], traces[i, 0, 1]
 
@@ -56,13 +56,11 @@ def enter(S, B, b, columns, J0, D0, radius, h, sums, beginning, body, state):
     for c in range(MOVING):
         S[MOVED + c, b] = body[c]
     S[LENGTH, b], S[RADIUS, b], S[CONTACT, b], S[RESTS, b] = half, radius, state[D], 0.0
-    for c in range(3):
-        S[TENSOR + c, b] = state[J + c]
+    put_in(S, TENSOR, b, three(state, J))
     least = LAST + 1 - columns
     for lane in range(LANES):
         i, first = lane * B + b, max(LAST - lane, least)
-        for c in range(3):
-            S[BALL + c, i] = state[I + c]
+        put_in(S, BALL, i, three(state, I))
         S[BALL + 3, i] = state[D]
         one, two = LAST - lane >= least, lane >= least
         for c in range(DERIVATIVES):
@@ -89,13 +87,13 @@ def entered(S, at, i, body, half, n, state):
     nearer to 0, and what is monotone stays so.
     """
     part = half / n
-    I1, I2, I3 = three(state, I)
-    spread = 0.5 * (max(I1, I2, I3) - min(I1, I2, I3))
-    k1, k2, k3 = part * body[0], part * body[1], part * body[2]
-    size = sqrt(k1 * k1 + k2 * k2 + k3 * k3)
-    within, _ = certificate(k1, k2, k3, I1, I2, I3, state[D])
-    least = LEFT * size / (max(I1, I2, I3) + state[D] + spread)
-    anywhere = -1.0 if is_heavy(I1, I2, I3, state[D]) else ANYWHERE  # a heavy ball takes the safe way
+    inertia, contact = three(state, I), state[D]
+    spread = 0.5 * (max(*inertia) - min(*inertia))
+    k = scaled(part, three(body, 0))
+    size = length(k)
+    within, _ = certificate(k, inertia, contact)
+    least = LEFT * size / (max(*inertia) + contact + spread)
+    anywhere = -1.0 if is_heavy(inertia, contact) else ANYWHERE  # a heavy ball takes the safe way
     S[at, i], S[at + 1, i], S[at + 2, i], S[SPREAD, i] = part, 1.0 / part if part != 0.0 else 0.0, size, spread
     S[at + 3, i], S[at + 4, i] = within if within >= 0.0 else anywhere, least * least / BEHIND
     S[at + 5, i] = 1.0 / (n * n)

@@ -18,6 +18,7 @@ from .integrals import PERIOD, remember, restore
 from .path import search_on_path
 from .sums import turned
 from .text import Cube, Matrix, Vector, out_of_line
+from .vectors import plus, put, scaled, scaled_four, square_of_four, three
 
 #: The largest exponent by which a ball is scaled.
 HIGHEST = 1021
@@ -27,16 +28,6 @@ K, G, X, INTEGRALS, J, I, D, RADIUS, ENOUGH = 0, 3, 6, 12, 18, 21, 24, 25, 26
 ROWS = 27
 #: What float32 takes in their place.
 SINGLE = {"small_rotation": single_loop.widened, "follow_body": single_loop.follow_body}
-
-
-def three(array, at):
-    """Three numbers of an array, from `at` on."""
-    return array[at], array[at + 1], array[at + 2]
-
-
-def put(array, at, x, y, z):
-    """Writes three numbers into an array, from `at` on."""
-    array[at], array[at + 1], array[at + 2] = x, y, z
 
 
 @out_of_line
@@ -53,9 +44,9 @@ def prepare(
         if c[i] != 1.0:
             for j in range(3):
                 part[j] = c[i] * momentum[j]
-            scaled(part, g, tensor, contact, state)
+            entered(part, g, tensor, contact, state)
             radius[i], enough[i] = state[RADIUS], state[ENOUGH]
-    scale = scaled(momentum, g, tensor, contact, state)
+    scale = entered(momentum, g, tensor, contact, state)
     remember(state)
     for i in range(c.shape[0]):
         if c[i] == 1.0:
@@ -74,7 +65,7 @@ def times(x, power, exponent):
 
 
 @out_of_line
-def scaled(momentum, g, tensor, contact, state):
+def entered(momentum, g, tensor, contact, state):
     """Writes the state of a ball at the start, but for the integrals; returns `scale`.
 
     All is scaled by a power of two, exactly, so that the largest moment of inertia is about 1.
@@ -94,67 +85,56 @@ def scaled(momentum, g, tensor, contact, state):
         state[J + c] = times(tensor[c], power, -exponent)
     state[I], state[I + 1], state[I + 2] = state[J + 1] + state[J + 2], state[J] + state[J + 2], state[J] + state[J + 1]
     state[D] = times(contact, power, -exponent)
-    k1, k2, k3 = three(state, K)
-    I1, I2, I3 = three(state, I)
-    state[RADIUS], state[ENOUGH] = certificate(k1, k2, k3, I1, I2, I3, state[D])
-    if tiny or min(I1, I2, I3) < SMALLEST:
+    inertia = three(state, I)
+    state[RADIUS], state[ENOUGH] = certificate(three(state, K), inertia, state[D])
+    if tiny or min(*inertia) < SMALLEST:
         state[RADIUS] = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
     return ldexp(1.0, exponent + 1)
 
 
 @out_of_line
-def safe_rotation(u1, u2, u3, state):
+def safe_rotation(u, state):
     """The rotation of a step that the first round did not settle: from where it came, or by the continuation.
 
-    Returns (status, reach, p0, p1, p2, p3, u1, u2, u3).
+    Returns (status, reach, p, u).
     """
-    k1, k2, k3 = three(state, K)
-    g1, g2, g3 = three(state, G)
-    I1, I2, I3 = three(state, I)
+    k, g, inertia, contact = three(state, K), three(state, G), three(state, I), state[D]
     if state[RADIUS] == BEYOND:
-        settled, p0, p1, p2, p3, w1, w2, w3 = search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, state[D])
+        settled, p, w = search_on_path(u, k, g, inertia, contact)
     else:
-        settled, p0, p1, p2, p3, w1, w2, w3 = search_safely(
-            u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, state[D], state[RADIUS], state[ENOUGH]
-        )  # fmt: skip
+        settled, p, w = search_safely(u, k, g, inertia, contact, state[RADIUS], state[ENOUGH])
     if settled:
-        return 0, 1.0, p0, p1, p2, p3, w1, w2, w3
-    status, reach, p0, p1, p2, p3 = small_rotation(
-        2.0 * k1, 2.0 * k2, 2.0 * k3, g1, g2, g3, state[J], state[J + 1], state[J + 2], state[D]
-    )  # fmt: skip
+        return 0, 1.0, p, w
+    status, reach, p0, p1, p2, p3 = small_rotation(*scaled(2.0, k), *g, *three(state, J), contact)
     if p0 == 0.0:
-        return status, reach, p0, p1, p2, p3, 0.0, 0.0, 0.0  # a rotation by π has no Gibbs vector
-    return status, reach, p0, p1, p2, p3, p1 / p0, p2 / p0, p3 / p0
+        return status, reach, (p0, p1, p2, p3), (0.0, 0.0, 0.0)  # a rotation by π has no Gibbs vector
+    return status, reach, (p0, p1, p2, p3), (p1 / p0, p2 / p0, p3 / p0)
 
 
-def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):
+def follow_body(p, g, attitude, contact, radius):
     """Moves the attitude and the contact point by the step with the quaternion p that begins at the vertical g."""
-    a0, a1, a2, a3 = attitude[0], attitude[1], attitude[2], attitude[3]
-    attitude[0], attitude[1], attitude[2], attitude[3], contact[0], contact[1] = followed(
-        p0, p1, p2, p3, g1, g2, g3, a0, a1, a2, a3, contact[0], contact[1], radius
-    )
+    a = attitude[0], attitude[1], attitude[2], attitude[3]
+    a, contact[0], contact[1] = followed(p, g, a, contact[0], contact[1], radius)
+    attitude[0], attitude[1], attitude[2], attitude[3] = a
 
 
-def followed(p0, p1, p2, p3, g1, g2, g3, a0, a1, a2, a3, x, y, radius):
+def followed(p, g, a, x, y, radius):
     """The attitude a and the contact point (x, y) after the step with the quaternion p from the vertical g."""
-    length = sqrt((p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3))
-    q0, q1, q2, q3 = p0 / length, p1 / length, p2 / length, p3 / length
-    s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
-    d1, d2, _ = rotate(a0, a1, a2, a3, s1, s2, s3)
-    a0, a1, a2, a3 = compose(a0, a1, a2, a3, q0, q1, q2, q3)
+    length = sqrt(square_of_four(p))
+    q = p[0] / length, p[1] / length, p[2] / length, p[3] / length
+    d1, d2, _ = rotate(*a, *centre_step(*q, *g))
+    b = compose(*a, *q)
     # One Newton step to length 1: the product of unit quaternions is off by a rounding only.
-    scale = 1.5 - 0.5 * (a0 * a0 + a1 * a1 + a2 * a2 + a3 * a3)
-    return a0 * scale, a1 * scale, a2 * scale, a3 * scale, x + radius * d1, y + radius * d2
+    scale = 1.5 - 0.5 * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2] + b[3] * b[3])
+    return scaled_four(scale, b), x + radius * d1, y + radius * d2
 
 
 def guessed(past, at, weights):
     """The next Gibbs vector from the last ones, of which the oldest is in the row `at` of past, by their weights."""
-    u1, u2, u3 = 0.0, 0.0, 0.0
+    u = 0.0, 0.0, 0.0
     for j in range(len(weights)):
-        u1 = u1 + weights[j] * past[at + j, 0]
-        u2 = u2 + weights[j] * past[at + j, 1]
-        u3 = u3 + weights[j] * past[at + j, 2]
-    return u1, u2, u3
+        u = plus(u, scaled(weights[j], three(past[at + j], 0)))
+    return u
 
 
 def march(
@@ -171,11 +151,7 @@ def march(
     and the trace are touched only when `with_body`.  Returns (taken, status, reach); where a stage is not taken, the
     state is left with its momentum and its vertical.
     """
-    k1, k2, k3 = three(state, K)
-    g1, g2, g3 = three(state, G)
-    x1, x2, x3 = three(state, X)
-    y1, y2, y3 = three(state, X + 3)
-    I1, I2, I3 = three(state, I)
+    k, g, x, y, inertia = three(state, K), three(state, G), three(state, X), three(state, X + 3), three(state, I)
     stages, places = c.shape[0], weights.shape[1]
     period = max(1, PERIOD // stages)
     step, status, reach = first, 0, 1.0
@@ -187,40 +163,37 @@ def march(
             at = (begun + step) * stages % places
             later = 1 if (begun + step) * stages >= places else 0
             for i in range(stages):
-                m1, m2, m3 = c[i] * k1, c[i] * k2, c[i] * k3
-                u1, u2, u3 = guessed(past, at + i, weights[later, at + i])
-                settled, p0, p1, p2, p3, w1, w2, w3 = settle(
-                    u1, u2, u3, m1, m2, m3, g1, g2, g3, I1, I2, I3, state[D], radius[i], enough[i]
-                )  # fmt: skip
+                m = scaled(c[i], k)
+                u = guessed(past, at + i, weights[later, at + i])
+                settled, p, u = settle(u, m, g, inertia, state[D], radius[i], enough[i])
                 if not settled:
-                    put(state, K, m1, m2, m3)
-                    put(state, G, g1, g2, g3)
+                    put(state, K, m)
+                    put(state, G, g)
                     state[RADIUS], state[ENOUGH] = radius[i], enough[i]
-                    status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
+                    status, reach, p, u = safe_rotation(u, state)
                     if status != 0:
                         break
-                put(past[at + i], 0, w1, w2, w3)
-                put(past[places + at + i], 0, w1, w2, w3)
+                put(past[at + i], 0, u)
+                put(past[places + at + i], 0, u)
                 if with_body:
-                    follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, rho)
-                k1, k2, k3, x1, x2, x3 = turned(p0, p1, p2, p3, k1, k2, k3, x1, x2, x3)
-                g1, g2, g3, y1, y2, y3 = turned(p0, p1, p2, p3, g1, g2, g3, y1, y2, y3)
+                    follow_body(p, g, attitude, contact, rho)
+                k, x = turned(p, k, x)
+                g, y = turned(p, g, y)
             if status != 0:
                 break
             step += 1
         if status == 0:
-            put(state, K, k1, k2, k3)
-            put(state, G, g1, g2, g3)
-        put(state, X, x1, x2, x3)
-        put(state, X + 3, y1, y2, y3)
+            put(state, K, k)
+            put(state, G, g)
+        put(state, X, x)
+        put(state, X + 3, y)
         if status == 0 and (begun + step) % period == 0:
             restore(state)
-            x1, x2, x3 = three(state, X)
-            y1, y2, y3 = three(state, X + 3)
+            x, y = three(state, X), three(state, X + 3)
         if status == 0 and step % every == 0:
             frame = step // every
-            put(momenta[frame], 0, scale * k1, scale * k2, scale * k3)
-            put(verticals[frame], 0, g1, g2, g3)
+            put(momenta[frame], 0, scaled(scale, k))
+            put(verticals[frame], 0, g)
             if with_body:
                 for i in range(4):
                     attitudes[frame, i] = attitude[i]

@@ -11,6 +11,7 @@ from math import sqrt
 from chapsym.generated import gibbs_symmetric
 
 from .gibbs import LEFT, newton_round, second_round
+from .vectors import square
 
 #: How much of the inequality may be used: its roundings are far below the rest.
 INSIDE = 0.98
@@ -24,80 +25,78 @@ NEAR = 0.0625
 FOUND = 1e-26
 
 
-def search_on_path(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
+def search_on_path(u, k, g, I, D):
     """A Newton iterate, and rounds of corrections until the root is proved to be that of the branch.
 
-    Returns (settled, p0, p1, p2, p3, u1, u2, u3).
+    Returns (settled, p, u).
     """
-    r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
-    u1, u2, u3 = r.w1, r.w2, r.w3
+    r = newton_round(u, k, g, I, D)
+    u = r.w
     for _ in range(MOST_ROUNDS):
-        p0, p1, p2, p3, u1, u2, u3, left, near, found = improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
-        if (near or found) and proved(u1, u2, u3, left, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
-            return True, p0, p1, p2, p3, u1, u2, u3
+        p, u, left, near, found = improved(u, k, g, I, D)
+        if (near or found) and proved(u, left, k, g, I, D):
+            return True, p, u
         if found:
             break
-    return False, 1.0, 0.0, 0.0, 0.0, u1, u2, u3
+    return False, (1.0, 0.0, 0.0, 0.0), u
 
 
-def improved(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
-    """Two corrections, d and e, of a guess of the Gibbs vector: (p0, p1, p2, p3, u1, u2, u3, left, near, found).
+def improved(u, k, g, I, D):
+    """Two corrections, d and e, of a guess of the Gibbs vector: (p, u, left, near, found).
 
     They leave a residual of at most 3κ max(|d|,|e|)|e|, κ = ½(I_max - I_min) + |k| (`gibbs-newton`); left: the square
     of twice that.  near: `proved` may well allow so much; found: another round would not leave less.
     """
-    r = newton_round(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D)
-    p1, p2, p3, w1, w2, w3, second = second_round(r, k1, k2, k3, I1, I2, I3)
-    square = w1 * w1 + (w2 * w2 + w3 * w3)
-    curved = 6.0 * (0.5 * (max(I1, I2, I3) - min(I1, I2, I3)) + sqrt(k1 * k1 + (k2 * k2 + k3 * k3)))
+    r = newton_round(u, k, g, I, D)
+    p, w, second = second_round(r, k, I)
+    size = square(w)
+    curved = 6.0 * (0.5 * (max(*I) - min(*I)) + sqrt(square(k)))
     left = curved * curved * (max(r.first, second) * second)
-    allowed = LEFT * (NEAR * (max(I1, I2, I3) + D))
-    return r.p0, p1, p2, p3, w1, w2, w3, left, left <= allowed * allowed * square, second <= FOUND * square
+    allowed = LEFT * (NEAR * (max(*I) + D))
+    return p, w, left, left <= allowed * allowed * size, second <= FOUND * size
 
 
-def proved(u1, u2, u3, left, k1, k2, k3, g1, g2, g3, I1, I2, I3, D):
+def proved(u, left, k, g, I, D):
     """Whether u is proved to be the branch's root up to a rounding: half the least stretch divides what is left."""
-    half = sqrt(k1 * k1 + (k2 * k2 + k3 * k3))
-    spread = 0.5 * (max(I1, I2, I3) - min(I1, I2, I3))
-    square = u1 * u1 + (u2 * u2 + u3 * u3)
-    reached, least = joined(u1, u2, u3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread)
+    half, spread, size = sqrt(square(k)), 0.5 * (max(*I) - min(*I)), square(u)
+    reached, least = joined(u, size, k, half, g, I, D, spread)
     allowed = LEFT * least
-    return reached & (left <= allowed * allowed * square)
+    return reached & (left <= allowed * allowed * size)
 
 
-def joined(u1, u2, u3, square, k1, k2, k3, half, g1, g2, g3, I1, I2, I3, D, spread):
+def joined(u, size, k, half, g, I, D, spread):
     """Whether the straight path joins a root u of G to no rotation, and the least stretch m(1) at u.
 
-    square: |u|²; half: |k|; spread: ½(I_max - I_min).
+    size: |u|²; half: |k|; spread: ½(I_max - I_min).
     """
-    none = 0.0 * u1
-    first = lowest(*gibbs_symmetric(none, none, none, k1, k2, k3, g1, g2, g3, I1, I2, I3, D))
-    last = lowest(*gibbs_symmetric(u1, u2, u3, k1, k2, k3, g1, g2, g3, I1, I2, I3, D))
-    x1 = I3 * u2 * u3 - I2 * u2 * u3
-    x2 = I1 * u1 * u3 - I3 * u1 * u3
-    x3 = I2 * u1 * u2 - I1 * u1 * u2
-    along = (x1 * k1 + (x2 * k2 + x3 * k3)) / (half * half)
-    across = max(x1 * x1 + (x2 * x2 + x3 * x3) - along * along * (half * half), 0.0)
-    c = max(0.0, min(1.0, (square * (1.0 + LEVEL) - along) / (1.0 + LEVEL * LEVEL * square)))
-    sag = half * sqrt(square) - (k1 * u1 + (k2 * u2 + k3 * u3))
+    none = 0.0 * u[0]
+    first = lowest(*gibbs_symmetric(none, none, none, *k, *g, *I, D))
+    last = lowest(*gibbs_symmetric(*u, *k, *g, *I, D))
+    u1, u2, u3 = u
+    I1, I2, I3 = I
+    x = (I3 * u2 * u3 - I2 * u2 * u3, I1 * u1 * u3 - I3 * u1 * u3, I2 * u1 * u2 - I1 * u1 * u2)  # u × Iu
+    along = (x[0] * k[0] + (x[1] * k[1] + x[2] * k[2])) / (half * half)
+    across = max(square(x) - along * along * (half * half), 0.0)
+    c = max(0.0, min(1.0, (size * (1.0 + LEVEL) - along) / (1.0 + LEVEL * LEVEL * size)))
+    sag = half * sqrt(size) - (k[0] * u1 + (k[1] * u2 + k[2] * u3))
     slope = spread + 2.0 * half
     proved = (first > 0.0) & (last > 0.0)
-    proved = proved & small_between(0.0, 0.4, 0.24, square, c, along, across, half, slope, sag, first, last)
-    proved = proved & small_between(0.4, 0.65, 0.25, square, c, along, across, half, slope, sag, first, last)
-    proved = proved & small_between(0.65, 0.85, 0.2275, square, c, along, across, half, slope, sag, first, last)
-    proved = proved & small_between(0.85, 1.0, 0.1275, square, c, along, across, half, slope, sag, first, last)
+    proved = proved & small_between(0.0, 0.4, 0.24, size, c, along, across, half, slope, sag, first, last)
+    proved = proved & small_between(0.4, 0.65, 0.25, size, c, along, across, half, slope, sag, first, last)
+    proved = proved & small_between(0.65, 0.85, 0.2275, size, c, along, across, half, slope, sag, first, last)
+    proved = proved & small_between(0.85, 1.0, 0.1275, size, c, along, across, half, slope, sag, first, last)
     return proved, last
 
 
-def small_between(a, b, most, square, c, along, across, half, slope, sag, first, last):
+def small_between(a, b, most, size, c, along, across, half, slope, sag, first, last):
     """Whether 4σs(1 - s)|R(s)| < m(s)² for a ≤ s ≤ b, where s(1 - s) ≤ most.
 
     R(s) has the component |k|r(s) along k, r = |u|²(1 + s) - c(1 + s²|u|²) - `along`, which is concave, and the
-    square `across` beside it; m(s) = (1 - s)·first + s·last - s(1 - s)·sag at least.
+    square `across` across it; m(s) = (1 - s)·first + s·last - s(1 - s)·sag at least.
     """
-    start = square * (1.0 + a) - c * (1.0 + a * a * square) - along
-    end = square * (1.0 + b) - c * (1.0 + b * b * square) - along
-    r = max(abs(start), abs(end)) + 0.25 * (b - a) * (b - a) * c * square
+    start = size * (1.0 + a) - c * (1.0 + a * a * size) - along
+    end = size * (1.0 + b) - c * (1.0 + b * b * size) - along
+    r = max(abs(start), abs(end)) + 0.25 * (b - a) * (b - a) * c * size
     m = min((1.0 - a) * first + a * last, (1.0 - b) * first + b * last) - most * sag
     left = 4.0 * slope * most
     return (m > 0.0) & (left * left * (half * half * (r * r) + across) < INSIDE * (m * m) * (m * m))

@@ -8,6 +8,7 @@ from chapsym.generated import centre_step, compose, rotate
 
 from .branch import small_rotation
 from .sums import added
+from .vectors import square, square_of_four
 
 
 def widened(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
@@ -29,23 +30,22 @@ def add(array, at, rest, z):
     array[at], array[rest] = added(array[at], array[rest], z)
 
 
-def follow_body(p0, p1, p2, p3, g1, g2, g3, attitude, contact, radius):
+def follow_body(p, g, attitude, contact, radius):
     """`loop.follow_body` with compensation: attitude (4, then 4 rests) and contact (2, then 2 rests).
 
-    A slow ball turns and rolls less in a step than a float32 can be told apart from the next.
+    A slow ball turns and rolls less in a step than float32 can hold.
     """
-    squared = p1 * p1 + (p2 * p2 + p3 * p3)
-    length = sqrt(p0 * p0 + squared)
-    q0, q1, q2, q3 = p0 / length, p1 / length, p2 / length, p3 / length
-    s1, s2, s3 = centre_step(q0, q1, q2, q3, g1, g2, g3)
-    a0, a1, a2, a3 = attitude[0], attitude[1], attitude[2], attitude[3]
-    x, y, _ = rotate(a0, a1, a2, a3, s1, s2, s3)
+    squared = square(p[1:4])
+    length = sqrt(p[0] * p[0] + squared)
+    q = p[0] / length, p[1] / length, p[2] / length, p[3] / length
+    a = attitude[0], attitude[1], attitude[2], attitude[3]
+    x, y, _ = rotate(*a, *centre_step(*q, *g))
     add(contact, 0, 2, radius * x)
     add(contact, 1, 3, radius * y)
     # a ∘ (q - 1), with q0 - 1 from the versed sine, and one Newton step to length 1.
-    z0, z1, z2, z3 = compose(a0, a1, a2, a3, -squared / (length * (length + p0)), q1, q2, q3)
-    stretch = 0.5 - 0.5 * ((a0 * a0 + a1 * a1) + (a2 * a2 + a3 * a3))
-    add(attitude, 0, 4, z0 + stretch * a0)
-    add(attitude, 1, 5, z1 + stretch * a1)
-    add(attitude, 2, 6, z2 + stretch * a2)
-    add(attitude, 3, 7, z3 + stretch * a3)
+    z = compose(*a, -squared / (length * (length + p[0])), *q[1:4])
+    stretch = 0.5 - 0.5 * square_of_four(a)
+    add(attitude, 0, 4, z[0] + stretch * a[0])
+    add(attitude, 1, 5, z[1] + stretch * a[1])
+    add(attitude, 2, 6, z[2] + stretch * a[2])
+    add(attitude, 3, 7, z[3] + stretch * a[3])

@@ -7,8 +7,9 @@ import numpy as np
 from chapsym.generated import turn
 
 from .gibbs import settle
-from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, put, safe_rotation, scaled, three
+from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, entered, safe_rotation
 from .text import Doubles, Integers, Matrix, Vector
+from .vectors import plus, put, scaled, square_of_four, three
 
 
 def advance(momentum, g, tensor, contact, state, q):
@@ -16,24 +17,17 @@ def advance(momentum, g, tensor, contact, state, q):
 
     state (ROWS) is overwritten.  Returns (status, reach); nothing else is written unless the status is 0.
     """
-    scale = scaled(momentum, g, tensor, contact, state)
-    k1, k2, k3 = three(state, K)
-    g1, g2, g3 = three(state, G)
-    I1, I2, I3 = three(state, I)
-    reach = 1.0
-    settled, p0, p1, p2, p3, w1, w2, w3 = settle(
-        0.0, 0.0, 0.0, k1, k2, k3, g1, g2, g3, I1, I2, I3, state[D], state[RADIUS], state[ENOUGH]
-    )  # fmt: skip
+    scale = entered(momentum, g, tensor, contact, state)
+    k, v, reach = three(state, K), three(state, G), 1.0
+    settled, p, u = settle((0.0, 0.0, 0.0), k, v, three(state, I), state[D], state[RADIUS], state[ENOUGH])
     if not settled:
-        status, reach, p0, p1, p2, p3, w1, w2, w3 = safe_rotation(w1, w2, w3, state)
+        status, reach, p, u = safe_rotation(u, state)
         if status != 0:
             return status, reach
-    length = sqrt((p0 * p0 + p1 * p1) + (p2 * p2 + p3 * p3))
-    q[0], q[1], q[2], q[3] = p0 / length, p1 / length, p2 / length, p3 / length
-    z1, z2, z3 = turn(p0, p1, p2, p3, k1, k2, k3)
-    put(momentum, 0, scale * (k1 + z1), scale * (k2 + z2), scale * (k3 + z3))
-    z1, z2, z3 = turn(p0, p1, p2, p3, g1, g2, g3)
-    put(g, 0, g1 + z1, g2 + z2, g3 + z3)
+    length = sqrt(square_of_four(p))
+    q[0], q[1], q[2], q[3] = p[0] / length, p[1] / length, p[2] / length, p[3] / length
+    put(momentum, 0, scaled(scale, plus(k, turn(*p, *k))))
+    put(g, 0, plus(v, turn(*p, *v)))
     return 0, reach
 
 

@@ -13,13 +13,13 @@ def added(total, rest, more):
     return there, (there - total) - more
 
 
-def turned(p0, p1, p2, p3, v1, v2, v3, x1, x2, x3):
+def turned(p, v, x):
     """The vector v, with the rests x of its sums, turned by the quaternion p, of any length: (v, x)."""
-    z1, z2, z3 = turn(p0, p1, p2, p3, v1, v2, v3)
-    v1, x1 = added(v1, x1, z1)
-    v2, x2 = added(v2, x2, z2)
-    v3, x3 = added(v3, x3, z3)
-    return v1, v2, v3, x1, x2, x3
+    z = turn(*p, *v)
+    v1, x1 = added(v[0], x[0], z[0])
+    v2, x2 = added(v[1], x[1], z[1])
+    v3, x3 = added(v[2], x[2], z[2])
+    return (v1, v2, v3), (x1, x2, x3)
 
 
 def filtered(b, c, d, e, f, h, o, w):

@@ -17,6 +17,10 @@ Tensor: TypeAlias = np.ndarray
 #: int64, and float64 in loops of float32, too; one axis.
 Integers: TypeAlias = np.ndarray
 Doubles: TypeAlias = np.ndarray
+#: Vectors, quaternions and matrices as tuples: the fields of records.
+Three: TypeAlias = tuple[float, float, float]
+Four: TypeAlias = tuple[float, float, float, float]
+Nine: TypeAlias = tuple[float, ...]
 #: A range whose turns do not depend on each other: vector code.
 lanes = range
 

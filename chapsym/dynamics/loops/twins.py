@@ -10,7 +10,17 @@ from typing import Any
 import numpy as np
 
 #: What the loops of float32 consist of; each after those that it imports from.
-MODULES = ("chapsym.numbers.pairs", "sums", "integrals", "gibbs", "path", "single_loop", "loop", "single_step")
+MODULES = (
+    "chapsym.numbers.pairs",
+    "vectors",
+    "sums",
+    "integrals",
+    "gibbs",
+    "path",
+    "single_loop",
+    "loop",
+    "single_step",
+)
 
 
 def twin(module: ModuleType, number: Callable[[float], Any], **instead: Any) -> dict[str, Any]:
