@@ -109,8 +109,8 @@ def states(
     """(ball, momentum, gamma) whose next step exists: a fraction of the momentum at which the branch folds."""
     ball, gamma, direction = draw(balls(strata)), draw(unit_vectors()), draw(unit_vectors())
     far = direction * 100 * (ball.mass_tensor.sum() + float(ball.D))
-    state = [*far, *gamma, *ball.mass_tensor, float(ball.D)]
-    reach = continued(*[*state, 1e-5])[1]  # to a few digits, which is enough here and fast
+    # To a few digits, which is enough here and fast.
+    _, reach, _ = continued(far.tolist(), gamma.tolist(), ball.mass_tensor.tolist(), float(ball.D), 1e-5)
     return ball, far * reach * draw(st.floats(*fraction)), gamma
 
 

@@ -2223,7 +2223,7 @@ INLINE t_q3 kernel_residual_q10e4(t_r2 q0, t_r2 q1, t_r2 q2, t_r2 q3, t_r2 K1, t
     return (t_q3){o_r1, o_r2, o_r3};
 }
 
-INLINE t_p4 kernel_compose_p41e3(t_r2 a0, t_r2 a1, t_r2 a2, t_r2 a3, int64_t b0, real b1, real b2, real b3) {
+INLINE t_p4 kernel_compose_p41e3(t_r2 a0, t_r2 a1, t_r2 a2, t_r2 a3, real b1, real b2, real b3) {
     t_r2 t_1 = pairs_loose_multiply_float(a1.a0, a1.a1, b1), t_2 = pairs_loose_multiply_float(a2.a0, a2.a1, b2);
     t_r2 t_3 = pairs_loose_multiply_float(a3.a0, a3.a1, b3);
     t_r2 t_4 = pairs_loose_subtract(a0.a0, a0.a1, t_1.a0, t_1.a1);
@@ -2282,7 +2282,7 @@ INLINE t_b_p3_ double_double_step_polished__r4__p3_2_r3_r2(t_r4 p, t_p3 k, t_p3 
         if (!(det.a0 > R(0.0))) { break; }
         t_r2 t_4 = pairs_two_sum(r.a0.a0, r.a0.a1), t_5 = pairs_two_sum(r.a1.a0, r.a1.a1);
         t_r2 t_6 = pairs_two_sum(r.a2.a0, r.a2.a1); w = branch_product(det.a1, (t_r3){t_4.a0, t_5.a0, t_6.a0});
-        q = vectors_normalised_four__p4_(vectors_of_length_one__p4_(kernel_compose_p41e3(q.a0, q.a1, q.a2, q.a3, 1,
+        q = vectors_normalised_four__p4_(vectors_of_length_one__p4_(kernel_compose_p41e3(q.a0, q.a1, q.a2, q.a3,
             -w.a0, -w.a1, -w.a2)));
         change = vectors_largest(w); extent = vectors_largest(vectors_highs__p3_((t_p3){q.a1, q.a2, q.a3}));
         if (change > near) { break; }
@@ -2480,10 +2480,10 @@ INLINE void double_double_loop_follow_body__p3_r13r(t_p3 u, r1 state, r1 attitud
     vectors_put_pair_r1ip(contact, 0, b.a1); vectors_put_pair_r1ip(contact, 2, b.a2);
 }
 
-INLINE t_p3 kernel_turn_1p6(int64_t p0, t_r2 p1, t_r2 p2, t_r2 p3, t_r2 v1, t_r2 v2, t_r2 v3) {
+INLINE t_p3 kernel_turn_1p6(t_r2 p1, t_r2 p2, t_r2 p3, t_r2 v1, t_r2 v2, t_r2 v3) {
     t_r2 t_1 = pairs_loose_multiply(p1.a0, p1.a1, p1.a0, p1.a1);
     t_r2 t_2 = pairs_loose_multiply(p2.a0, p2.a1, p2.a0, p2.a1);
-    t_r2 t_3 = pairs_loose_multiply(p3.a0, p3.a1, p3.a0, p3.a1), t_4 = pairs_loose_add_float(t_1.a0, t_1.a1, p0);
+    t_r2 t_3 = pairs_loose_multiply(p3.a0, p3.a1, p3.a0, p3.a1), t_4 = pairs_loose_add_float(t_1.a0, t_1.a1, 1);
     t_r2 t_5 = pairs_loose_add(t_2.a0, t_2.a1, t_3.a0, t_3.a1);
     t_r2 t_6 = pairs_loose_add(t_4.a0, t_4.a1, t_5.a0, t_5.a1), t_7 = pairs_two_sum(t_6.a0, t_6.a1);
     t_r2 s = pairs_divide(2, 0, t_7.a0, t_7.a1), t_8 = pairs_loose_multiply(p2.a0, p2.a1, v3.a0, v3.a1);
@@ -2513,7 +2513,7 @@ INLINE t_p3 kernel_turn_1p6(int64_t p0, t_r2 p1, t_r2 p2, t_r2 p3, t_r2 v1, t_r2
 }
 
 INLINE t_p3 double_double_loop_turned__p3_2(t_p3 u, t_p3 v) {
-    return vectors_normalised__p3_(vectors_plus__p3_2(v, kernel_turn_1p6(1, u.a0, u.a1, u.a2, v.a0, v.a1, v.a2)));
+    return vectors_normalised__p3_(vectors_plus__p3_2(v, kernel_turn_1p6(u.a0, u.a1, u.a2, v.a0, v.a1, v.a2)));
 }
 
 INLINE t_r2 pairs_add(real a, real a_, real b, real b_) {
@@ -3283,16 +3283,16 @@ INLINE void carried_kept(r2 E, int64_t B) {
 }
 
 INLINE void carried_flown(r2 E, int64_t B, int traced) {
-    real half, twelfth, over, x, y, off; int64_t i, j, k, lane; t_r3 u, v, w, a, d, c, row;
+    real half, twelfth, over, x, y, off; int64_t i, j, k, lane; t_r3 u, v, w, a, d, e, row;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
         half = R(0.5) * AT2(E, 78, b); twelfth = AT2(E, 78, b) * AT2(E, 78, b) * R(0.08333333333333333); i = b;
         j = B + b; k = 2 * B + b; u = carried_ended(E, i, half, twelfth); v = carried_ended(E, j, half, twelfth);
         w = carried_ended(E, k, half, twelfth);
         a = (t_r3){R(1.0) - half * AT2(E, 22, i) + twelfth * AT2(E, 25, i), u.a1, u.a2};
         d = (t_r3){v.a0, R(1.0) - half * AT2(E, 23, j) + twelfth * AT2(E, 26, j), v.a2};
-        c = (t_r3){w.a0, w.a1, R(1.0) - half * AT2(E, 24, k) + twelfth * AT2(E, 27, k)}; row = vectors_cross(d, c);
+        e = (t_r3){w.a0, w.a1, R(1.0) - half * AT2(E, 24, k) + twelfth * AT2(E, 27, k)}; row = vectors_cross(d, e);
         over = R(1.0) / vectors_dot(a, row); vectors_put_in(E, 89, b, vectors_scaled(over, row));
-        vectors_put_in(E, 92, b, vectors_scaled(over, vectors_cross(c, a)));
+        vectors_put_in(E, 92, b, vectors_scaled(over, vectors_cross(e, a)));
         vectors_put_in(E, 95, b, vectors_scaled(over, vectors_cross(a, d))); AT2(E, 98, b) = half;
         AT2(E, 99, b) = twelfth;
     }
@@ -3746,5 +3746,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "3617e0c26848ea3ba4ebf636d4e6a46dc17f66ce650711cb2da0b786115ebcd4";
+const char loops_text[] = "d665ed15b1446f979c09a327a396115a72040bdeece23253606f57a2a1a5a380";
 #endif

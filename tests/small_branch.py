@@ -11,12 +11,12 @@ def prepared(state):
     """A ball under way, but for its integrals."""
     ball, momentum, gamma = state
     array = np.zeros(loop.ROWS)
-    loop.scaled(momentum, gamma, ball.mass_tensor, float(ball.D), array)
+    loop.entered(momentum, gamma, ball.mass_tensor, float(ball.D), array)
     return array
 
 
 def heavy(ball):
-    return gibbs.is_heavy(*ball.inertia, float(ball.D))
+    return gibbs.is_heavy(ball.inertia, float(ball.D))
 
 
 @st.composite

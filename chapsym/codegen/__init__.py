@@ -2,6 +2,5 @@
 
 from .carriers import Carrier, left, right
 from .kernels import Group, Kernel
-from .programs import Program
 
-__all__ = ["Carrier", "Group", "Kernel", "Program", "left", "right"]
+__all__ = ["Carrier", "Group", "Kernel", "left", "right"]

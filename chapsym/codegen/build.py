@@ -12,7 +12,6 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, cached_property, partial
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import sympy as sp
@@ -23,17 +22,14 @@ from chapsym.prove import PROOFS, Register, Verdict
 from chapsym.prove.claims import Judgement, judgement_of, once
 from chapsym.prove.trees import tree
 
-from . import c_files, carriers, ir, pairs, passes, printer
+from . import c_files, carriers, passes, printer
 from .kernels import Kernel
-from .programs import Program
-from .values import fingerprint, program_fingerprint, target_fingerprint, text_fingerprint
+from .values import fingerprint, text_fingerprint
 
-#: What is written from programs, each into a module of its own.
-TARGETS: tuple[ModuleType, ...] = (pairs,)
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
 EDIT = "Written by `chapsym codegen`: do not edit; change the derivation and generate again."
-#: The values of functions as derived, and as a text of their module has them, by name.
-Computed = dict[str, tuple[list[str], Callable[[str], list[str]]]]
+#: The values of a kernel as derived, and as a text of its module has them.
+Computed = tuple[list[str], Callable[[str], list[str]]]
 
 
 class NoKernels(ValueError):
@@ -46,7 +42,7 @@ class Package:
     Parameters
     ----------
     register : Register
-        Whose `kernels.py` has KERNELS, and may have PROGRAMS for double-double.
+        Whose `kernels.py` has KERNELS.
 
     Raises
     ------
@@ -62,8 +58,7 @@ class Package:
         if not isinstance(found, list | tuple) or not all(isinstance(one, Kernel) for one in found) or not found:
             raise NoKernels(f"{register.place} has no kernels.py with KERNELS, a list of Kernel")
         self.kernels: tuple[Kernel, ...] = tuple(found)
-        self.programs: tuple[Program, ...] = tuple(getattr(module, "PROGRAMS", ()))
-        names = [*(kernel.name for kernel in self.kernels), *(program.name for program in self.programs)]
+        names = [kernel.name for kernel in self.kernels]
         if twice := [name for name in names if names.count(name) > 1]:
             raise NoKernels(f"{register.place}: two kernels have the name {twice[0]}")
 
@@ -136,26 +131,6 @@ class Package:
         binding.check(row, text, certificates, kernel.name)
         return text, row
 
-    def target_source(self, target: ModuleType) -> tuple[str, dict[str, dict[str, Any]]]:
-        """A module that is written from programs and its rows of the manifest."""
-        functions = [target.function(program, self.texts) for program in self.programs]
-        written, rows = [], {}
-        for p, made in zip(self.programs, functions, strict=True):
-            written.append(ir.function(p.name, p.summary, p.groups, made.arguments, made.notes, made.body))
-            rows[p.name] = {"kernels": ir.called(p), **made.facts, "text_sha256": _hash(written[-1])}
-        kernels = sorted({name for row in rows.values() for name in row["kernels"]})
-        claims = sorted({id for kernel in self.kernels if kernel.name in kernels for id in kernel.claims})
-        programs = "\n".join(program.text for program in self.programs)
-        about = [target.ABOUT, "", EDIT, f"From the kernels {', '.join(kernels)}.", f"Proved by: {', '.join(claims)}."]
-        about.append(f"Programs: sha256 {_hash(programs)}.")
-        return _module(about, target.preamble(functions), written), rows
-
-    @cached_property
-    def texts(self) -> dict[str, str]:
-        """The functions of the kernels that programs call, by name."""
-        wanted = {name for program in self.programs for name in ir.called(program)}
-        return {kernel.name: code(kernel) for kernel in self.kernels if kernel.name in wanted}
-
     @cached_property
     def files(self) -> dict[str, str]:
         """Every generated file but the fingerprints, by name.
@@ -172,12 +147,9 @@ class Package:
                     said = f"{kernel.name}: {said.replace('the certificate has', 'it makes')}; divide less in it"
                 raise ArithmeticError(said) from None
         table = {"kernels": rows}
-        for target in TARGETS if self.programs else ():
-            files[target.FILE], table[target.KEY] = self.target_source(target)
-        for name, functions in self.computed.items():
-            for function, (derived, values) in functions.items():
-                if values(files[name]) != derived:
-                    raise ArithmeticError(f"the text of {function} in {name} does not compute its expression")
+        for name, (derived, values) in self.computed.items():
+            if values(files[f"{name}.py"]) != derived:
+                raise ArithmeticError(f"the text of {name} does not compute its expression")
         if self.is_ours:
             files |= c_files.build(partial(self.text, files), self.kernels)
         else:
@@ -190,32 +162,20 @@ class Package:
         """The text of a module that the loops are made of: of what is generated the one that is being built."""
         if path == "chapsym.generated":
             return "\n\n".join(files[f"{kernel.name}.py"] for kernel in self.kernels)
-        package, _, name = path.rpartition(".")
-        if package == "chapsym.generated":
-            return files[f"{name}.py"]
         return Path(__file__).parents[1].joinpath(*path.split(".")[1:]).with_suffix(".py").read_text(encoding="utf-8")
 
     @cached_property
     def computed(self) -> dict[str, Computed]:
-        """What the functions of each module in Python compute."""
-        found: dict[str, Computed] = {
-            f"{kernel.name}.py": {kernel.name: (fingerprint(kernel), partial(text_fingerprint, kernel))}
-            for kernel in self.kernels
-        }
-        for target in TARGETS if self.programs else ():
-            found[target.FILE] = {
-                program.name: (program_fingerprint(program, self.texts), partial(target_fingerprint, target, program))
-                for program in self.programs
-            }
-        return found
+        """What the kernels compute."""
+        return {kernel.name: (fingerprint(kernel), partial(text_fingerprint, kernel)) for kernel in self.kernels}
 
     @cached_property
     def fingerprints(self) -> dict[str, list[str]]:
-        """The values of every kernel and of every program, by name."""
-        return {name: derived for functions in self.computed.values() for name, (derived, _) in functions.items()}
+        """The values of every kernel, by name."""
+        return {name: derived for name, (derived, _) in self.computed.items()}
 
     def distrusted(self, place: Path) -> dict[str, str]:
-        """What the trusted fingerprints say against the derivation: a sentence for each kernel or program."""
+        """What the trusted fingerprints say against the derivation: a sentence for each kernel."""
         trusted, problems = stored_fingerprints(place), {}
         for name, value in self.fingerprints.items():
             if name not in trusted:
@@ -235,17 +195,15 @@ class Package:
         problems += [f"{name} is extra" for name in sorted(set(found) - set(fresh) | folders)]
         problems += [f"{name} is changed" for name in changed]
         for name in changed:
-            for function, (derived, values) in self.computed.get(name, {}).items():
-                problems += _doubts(
-                    name if name == f"{function}.py" else f"{function} in {name}", derived, values, found[name]
-                )
+            if name.removesuffix(".py") in self.computed:
+                problems += _doubts(name, *self.computed[name.removesuffix(".py")], found[name])
         strangers = sorted(set(stored_fingerprints(place)) - set(self.fingerprints))
         problems += self.distrusted(place).values()
         return problems + [f"the fingerprint of {name} belongs to no kernel" for name in strangers]
 
     def check_names(self, trust: Sequence[str]) -> None:
-        """Raises ValueError if a name in `trust` is no kernel's and no program's."""
-        names = {"all", *(kernel.name for kernel in self.kernels), *(program.name for program in self.programs)}
+        """Raises ValueError if a name in `trust` is no kernel's."""
+        names = {"all", *(kernel.name for kernel in self.kernels)}
         for name in trust:
             if name not in names:
                 raise ValueError(f"--trust {name}: there is no such kernel; the names are {', '.join(sorted(names))}")
@@ -305,7 +263,14 @@ def code(kernel: Kernel, chosen: tuple[str, ...] = passes.PASSES) -> str:
     matrix = f", the {'×'.join(map(str, kernel.shape))} matrix row by row" if len(kernel.shape) > 1 else ""
     notes = [f"Returns {', '.join(kernel.outputs)}{matrix}."]
     arguments = ", ".join(symbol.name for symbol in kernel.inputs)
-    return ir.function(kernel.name, kernel.summary, kernel.groups, arguments, notes, body)
+    lines = [f'"""{kernel.summary}', ""]
+    lines += [
+        *(f"{group}: {', '.join(s.name for s in symbols)}" for group, symbols in kernel.groups),
+        *notes,
+        '"""',
+        *body,
+    ]
+    return "\n".join([f"def {kernel.name}({arguments}):", *(f"    {line}".rstrip() for line in lines), ""])
 
 
 def package_source(kernels: Sequence[Kernel]) -> str:

@@ -197,7 +197,8 @@ class Printer:
         kinds = dict.fromkeys(self.above.values())
         above = [Statement(f"{kind} {', '.join(x for x in self.above if self.above[x] == kind)}") for kind in kinds]
         body = BY_HAND.get(self.function.name) or [*above, *(self.statements or [])]
-        parameters = ", ".join(f"{c_type(self.names[name])} {name}" for name in self.function.parameters)
+        taken = [(self.names[name], name) for name in self.function.parameters if self.names[name] != "1"]
+        parameters = ", ".join(f"{c_type(kind)} {name}" for kind, name in taken)
         where = "OUT_OF_LINE" if self.function.is_out_of_line else "INLINE"
         return block(f"{where} {c_type(self.returned)} {self.function.name}({parameters})", *body)
 
@@ -229,7 +230,8 @@ class Printer:
             case ast.Name(id=name) if name in self.loops:
                 return Text(name, "i")
             case ast.Name(id=name) if name in self.own and name not in self.ended:
-                return self.within.get(name) or Text(name, self.names[name])
+                kind = self.names[name] if name not in self.within else None
+                return self.within.get(name) or Text("1" if kind == "1" else name, kind)
             case ast.Attribute(value=value, attr="high" | "low" as half):
                 of = self.expression(value)
                 if of.kind == "e":
@@ -283,7 +285,8 @@ class Printer:
                     return self.indexed(of, [index])
                 of = self.named(of)
                 if isinstance(index, ast.Slice):
-                    return self.together(of.parts[self.value(index.lower) : self.value(index.upper)])
+                    low, high = (self.value(x) if x else None for x in (index.lower, index.upper))
+                    return self.together(of.parts[low:high])
                 return of.parts[self.value(index)]
             case ast.Call(func=func, args=arguments, keywords=[]):
                 return self.call(func, arguments)
@@ -467,7 +470,8 @@ class Printer:
                     self.writes(node)
         wanted = self.printers[double].names
         self.tuples |= {kind for kind in wanted.values() if isinstance(kind, tuple)}
-        text = ", ".join(x.to(wanted[name]).text for x, name in zip(full, double.parameters, strict=True))
+        taken = [(x, wanted[name]) for x, name in zip(full, double.parameters, strict=True) if x.kind != "1"]
+        text = ", ".join(x.to(kind).text for x, kind in taken)
         if is_external(self.function, double):
             return Text(f"{double.name}_double({text})", widened(of.returned))
         return Text(f"{callee.name if single is not double else double.name}({text})", of.returned)

@@ -1,19 +1,16 @@
-"""The values of kernels and programs at a rational point: they survive another order of the text."""
+"""The values of kernels at a rational point: they survive another order of the text."""
 
 import ast
 import hashlib
 from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
-from types import ModuleType
 from typing import Any
 
 import sympy as sp
 
-from . import ir
 from .kernels import Kernel
 from .passes import letters
-from .programs import Program
 
 DIGITS = 40
 #: What a text calls in the place of its functions: no kernel may have a name that begins so.
@@ -60,16 +57,3 @@ def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
 def _function(name: str, text: str, **scope: Any) -> Callable:
     exec(compile(text, f"{name}.py", "exec"), scope)  # our own text, never a user's
     return scope[name]
-
-
-def program_fingerprint(program: Program, texts: ir.Texts) -> list[str]:
-    """The values of a program at the rational point, by its own text and those of the kernels."""
-    scope: dict = {name: _function(name, texts[name]) for name in ir.called(program)}
-    scope |= {name: at(name) for name in program.inputs}
-    exec(compile(program.text, program.name, "exec"), scope)  # our own text, never a user's
-    return [decimal(scope[name]) for name in program.outputs]
-
-
-def target_fingerprint(target: ModuleType, program: Program, text: str) -> list[str]:
-    """The same values from the text of a backend, run on its numbers: pairs or integers of fractions."""
-    return [decimal(value) for value in target.text_values(program, text, at)]

@@ -1,7 +1,7 @@
 """Numbers of the loops in double-double: floats that count as exact, and pairs of them, by the loose operations.
 
 The generated kernels run on them as on floats: a product of two floats is an exact pair, and a float with a pair saves
-half of the work.  Compiled, each operation is the function of `numbers.pairs` that it calls here: the bits are the same.
+half of the work.  Compiled, each operation is the function of `numbers.pairs` that it calls here, to the same bits.
 """
 
 from collections.abc import Callable

@@ -77,7 +77,7 @@ class Level:
         self._floats: Any = [float(x) for x in (*self.I, self.D)]
         self._J: Any = [float(x) for x in J]
         h = float(self.h)
-        self._bound = bound(h / 2, 0.0, 0.0, *self._floats)
+        self._bound = bound((h / 2, 0.0, 0.0), self._floats[:3], self._floats[3])
 
     def point(self, phase: Any) -> Vector:
         """γ at a phase."""
@@ -121,10 +121,9 @@ class Level:
 
     def _near(self, k: Any, gamma: Any) -> Any:
         if self._bound[0] >= 0.0:
-            certified: Any = (0.0, 0.0, 0.0, *k, *gamma, *self._floats, *self._bound)
-            settled, *_, u1, u2, u3 = search(*certified)
+            settled, _, u = search((0.0, 0.0, 0.0), k, gamma, self._floats[:3], self._floats[3], *self._bound)
             if settled:
-                return u1, u2, u3
+                return u
         given: Any = (*(2 * x for x in k), *gamma, *self._J, self._floats[3])
         status, _, q0, *q = small_rotation(*given)
         if status != TAKEN or q0 < 1e-6:

@@ -301,7 +301,7 @@ def translated(tmp_path, text):
         "return a in (1.0, 2.0)", "return a is None", "return [a]", "return {a: n}", "return lambda: a",
         "return 'text'", "return f'{a}'", "return a[0]", "return unknown(a)", "return np.sin(a)", "return math.sin(a)",
         "return twice(x=a)",
-        "return twice(a, a)", "return [x for x in v]", "return (x := a)", "return v.sum()", "return (a, n)[0]",
+        "return twice(a, a)", "return [x for x in v]", "return (x := a)", "return v.sum()", "return (a, n)[n]",
         "x = v\n    x = n\n    return x", "x = 1.0 if n else v\n    return x", "return unknown_name",
         "while sqrt(*twice(a)) > 1.0:\n        a = a - 1.0\n    return a",
         "return max(*twice(a)) if n > 0 else a", "x = a > 0.0 and max(*twice(a)) > 1.0\n    return x",

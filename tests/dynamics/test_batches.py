@@ -141,8 +141,8 @@ def test_further_rounds_are_those_of_the_search():
     assert 2 not in settled
     for i in settled:
         s = S[:, i].tolist()
-        found = gibbs.search(*P[block.A :, i].tolist(), *s[:6], *s[loop.I :])
-        assert found == (True, *P[:7, i])
+        found = gibbs.search(P[block.A :, i].tolist(), s[:3], s[3:6], s[loop.I : loop.D], *s[loop.D :])
+        assert found == (True, tuple(P[:4, i]), tuple(P[4:7, i]))
 
 
 def test_a_lane_that_has_settled_stays():

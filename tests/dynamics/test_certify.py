@@ -187,7 +187,7 @@ def test_a_check_of_the_path_in_balls_is_that_in_floats_where_it_is_certain():
         said[slope is not None] += 1
         for corner in itertools.product((-width, width), repeat=3):
             v = u + corner
-            proved, least = path.joined(*v, v @ v, *k, np.linalg.norm(k), *g, *inertia, D, spread)
+            proved, least = path.joined(v, v @ v, k, np.linalg.norm(k), g, inertia, D, spread)
             assert proved or slope is None
             assert slope is None or float(slope) <= least * (1 + 1e-9)
         assert width or (slope is not None) == proved

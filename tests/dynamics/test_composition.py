@@ -220,7 +220,7 @@ def test_the_guess_continues_polynomials_of_degree_7():
     for degree, exact in ((7, True), (8, False)):
         past = np.zeros((8, 3))
         for n in range(-8, 0):
-            double_double_loop.extrapolated(past, float(n**degree), float((n + 2) ** degree), 1.0)
+            double_double_loop.extrapolated(past, (float(n**degree), float((n + 2) ** degree), 1.0))
         assert (past[0] == [0.0, 2.0**degree, 1.0]).all() == exact
 
 
@@ -262,10 +262,10 @@ def test_a_stage_is_guessed_from_those_around_it(order, monkeypatch):
     """From the second round on no stage is searched, and the guesses are near: they lack 1e-4 at most."""
     missed, honest = [], loop.settle
 
-    def settle(*arguments):
-        found = honest(*arguments)
-        missed.append(math.dist(arguments[:3], found[-3:]) / math.hypot(*found[-3:]) if found[0] else math.inf)
-        return found
+    def settle(guess, *rest):
+        settled, p, u = honest(guess, *rest)
+        missed.append(math.dist(guess, u) / math.hypot(*u) if settled else math.inf)
+        return settled, p, u
 
     monkeypatch.setattr(loop, "settle", settle)
     chapsym.trajectory(BALL, 0.2 * K, GAMMA, 12, order=order)
@@ -277,17 +277,17 @@ def test_a_stage_is_guessed_from_those_around_it(order, monkeypatch):
 @pytest.mark.usefixtures("plain")
 def test_each_stage_has_the_certificate_of_its_own_momentum(monkeypatch):
     seen, honest = [], loop.settle
-    monkeypatch.setattr(loop, "settle", lambda *a: seen.append((*a[3:6], *a[-2:])) or honest(*a))
+    monkeypatch.setattr(loop, "settle", lambda *a: seen.append((a[1], *a[-2:])) or honest(*a))
     safe, searched = loop.safe_rotation, []
     monkeypatch.setattr(
         loop,
         "safe_rotation",
-        lambda *a: searched.append((*a[-1][:3], a[-1][loop.RADIUS], a[-1][loop.ENOUGH])) or safe(*a),
+        lambda *a: searched.append((tuple(a[-1][:3]), a[-1][loop.RADIUS], a[-1][loop.ENOUGH])) or safe(*a),
     )
     chapsym.trajectory(BALL, 0.5 * K, GAMMA, 1, order=8)
     assert searched
     inertia = (BALL.mass_tensor.sum() - BALL.mass_tensor) / 4  # Λmax is scaled into [1/2, 1)
     assert len(seen) == 17
-    for *k, radius, enough in seen + searched:
-        assert (radius, enough) == pytest.approx(gibbs.certificate(*k, *inertia, float(BALL.D) / 4), rel=1e-13)
+    for k, radius, enough in seen + searched:
+        assert (radius, enough) == pytest.approx(gibbs.certificate(k, inertia, float(BALL.D) / 4), rel=1e-13)
     assert len({round(radius, 9) for *_, radius, _ in seen}) == 9

@@ -68,9 +68,9 @@ def test_the_sine_is_that_of_the_standard_library_as_far_as_it_says():
 
 
 def test_a_step_that_turns_too_far_is_not_fitted():
-    assert turn_square(1.0, 2, 3.0, 0.0, 0.0) == 9.0
-    assert turn_square(1.001, 2, 3.0, 0.0, 0.0) == 0.0
-    assert turn_square(1.001, 3, 3.0, 0.0, 0.0) > 9.0
+    assert turn_square(1.0, 2, (3.0, 0.0, 0.0)) == 9.0
+    assert turn_square(1.001, 2, (3.0, 0.0, 0.0)) == 0.0
+    assert turn_square(1.001, 3, (3.0, 0.0, 0.0)) > 9.0
 
 
 def test_against_two_independent_integrators_at_100():

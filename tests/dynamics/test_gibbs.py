@@ -22,7 +22,7 @@ G = (2 / 7, 3 / 7, 6 / 7)
 
 def round_from(guess, array):
     k, g, inertia = array[0:3], array[3:6], array[loop.I : loop.D]
-    return gibbs.settle(*guess, *k, *g, *inertia, *array[loop.D :])
+    return gibbs.settle(guess, k, g, inertia, *array[loop.D :])
 
 
 @given(certified((0.0, 1.0)))
@@ -34,13 +34,13 @@ def test_a_certified_root_is_that_of_the_continuation(state):
     assert status == 0
     u = np.array(q) / q0
     assert u @ u <= array[loop.RADIUS] * (1 + 1e-12)
-    found = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I :])
+    found = gibbs.search((0.0, 0.0, 0.0), array[0:3], array[3:6], array[loop.I : loop.D], *array[loop.D :])
     assert found[0]
     # ⟨d, ∂G d⟩ ≥ least|d|² by the lemma, and the residuals of both are rounded a few times: Bu, u × Iu, (1 + |u|²)k.
     inertia, size = array[loop.I : loop.D], 2 * np.linalg.norm(array[0:3])
     least = inertia.min() - np.linalg.norm(u) * ((inertia.max() - inertia.min()) / 2 + size)
     rounded = (inertia.max() + array[loop.D]) * np.linalg.norm(u) + size
-    assert np.abs(np.array(found[5:]) - u).max() <= 8 * 2.0**-53 * rounded / least + 1e-300
+    assert np.abs(np.array(found[2]) - u).max() <= 8 * 2.0**-53 * rounded / least + 1e-300
 
 
 @given(certified((1e-9, 0.3)), st.floats(0.0, 1e-6), testing.unit_vectors())
@@ -49,29 +49,29 @@ def test_what_is_settled_is_settled(state, off, direction):
     array = prepared(state)
     assume(array[loop.RADIUS] > 0)
     size = math.sqrt(array[loop.RADIUS])
-    root = gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I :])
-    settled, p0, p1, p2, p3, *u = round_from(np.array(root[5:]) + off * size * direction, array)
+    root = gibbs.search((0.0, 0.0, 0.0), array[0:3], array[3:6], array[loop.I : loop.D], *array[loop.D :])
+    settled, p, u = round_from(np.array(root[2]) + off * size * direction, array)
     assert settled
     exact = [Fraction(float(x)) for x in (*u, *array[0:6], *array[loop.I : loop.RADIUS])]
     det, *n = gibbs_newton(*exact)[:4]
     top, least = array[loop.I : loop.D].max() + array[loop.D], array[loop.I : loop.D].min()
-    for x, y, p in zip(u, n, (p1, p2, p3), strict=True):
+    for x, y, z in zip(u, n, p[1:], strict=True):
         budget = 24 * 2.0**-53 * (top / least) * max(map(abs, u))
         assert abs(float(y / det - Fraction(float(x)))) <= budget
-        assert abs(p / p0 - x) <= 2.0**-52 * max(map(abs, u))
+        assert abs(z / p[0] - x) <= 2.0**-52 * max(map(abs, u))
 
 
 @pytest.mark.parametrize("guess", [(2.0, 0.0, 0.0), (math.nan, 0.0, 0.0), (math.inf, 1.0, 1.0)])
 def test_a_guess_outside_the_ball_settles_nothing(guess):
     state = np.zeros(loop.ROWS)
-    loop.scaled((0.03, -0.02, 0.04), G, J, D, state)
+    loop.entered((0.03, -0.02, 0.04), G, J, D, state)
     assert not round_from(guess, state)[0]
-    assert loop.safe_rotation(*guess, state)[0] == 0  # and the safe way goes on without it
+    assert loop.safe_rotation(guess, state)[0] == 0  # and the safe way goes on without it
 
 
 def test_a_poor_guess_is_not_settled_in_one_round():
     state = np.zeros(loop.ROWS)
-    loop.scaled((0.3, -0.2, 0.2), G, J, D, state)
+    loop.entered((0.3, -0.2, 0.2), G, J, D, state)
     assert not round_from((0.0, 0.0, 0.0), state)[0]
 
 
@@ -81,7 +81,7 @@ def test_a_poor_guess_is_not_settled_in_one_round():
 )
 def test_the_certificate_ends_where_the_lemma_does(momentum, certified):
     """I_min = 0.6: |𝒦| = 0.58 is below it, but its ball is not inside the one on which G is monotone."""
-    radius, _ = gibbs.certificate(*(x / 2 for x in momentum), *I, D)
+    radius, _ = gibbs.certificate([x / 2 for x in momentum], I, D)
     assert (radius >= 0) == certified
 
 
@@ -91,7 +91,7 @@ def test_the_bound_on_what_a_correction_leaves_is_one(state):
     array = prepared(state)
     radius, enough = array[loop.RADIUS], array[loop.ENOUGH]
     assume(radius > 1e-20)
-    root = np.array(gibbs.search(0.0, 0.0, 0.0, *array[0:3], *array[3:6], *array[loop.I :])[5:])
+    root = np.array(gibbs.search((0.0, 0.0, 0.0), array[0:3], array[3:6], array[loop.I : loop.D], *array[loop.D :])[2])
     size = np.linalg.norm(root)
     for share in (0.0, 0.5, -0.5):
         guess = share * math.sqrt(radius) * np.array(G)
@@ -103,6 +103,6 @@ def test_the_bound_on_what_a_correction_leaves_is_one(state):
 
 def test_what_would_underflow_takes_the_safe_way():
     state = np.zeros(loop.ROWS)
-    scale = loop.scaled(np.array([1e-200, 0, 0]), G, np.array(J), D, state)
+    scale = loop.entered(np.array([1e-200, 0, 0]), G, np.array(J), D, state)
     assert state[loop.RADIUS] == -1
     assert scale * state[0] == 1e-200

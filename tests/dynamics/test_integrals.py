@@ -25,7 +25,7 @@ def test_the_integrals_come_back(state, off):
     """The state has moved by up to 99 units of 2^-53; the integrals come back, but for the square of that."""
     ball, momentum, gamma = state
     array = np.zeros(loop.ROWS)
-    loop.scaled(momentum, gamma, ball.mass_tensor, float(ball.D), array)
+    loop.entered(momentum, gamma, ball.mass_tensor, float(ball.D), array)
     integrals.remember(array)
     size = np.sqrt(array[0:3] @ array[0:3])
     scales = [1.0, size, size * size]

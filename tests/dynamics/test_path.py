@@ -22,7 +22,7 @@ def of(state):
     array = prepared(state)
     if array[loop.RADIUS] != gibbs.BEYOND:
         return None
-    return (*array[loop.K : loop.K + 3], *array[loop.G : loop.G + 3], *array[loop.I : loop.I + 3], array[loop.D])
+    return array[loop.K : loop.K + 3], array[loop.G : loop.G + 3], array[loop.I : loop.I + 3], array[loop.D]
 
 
 def continued(state):
@@ -41,10 +41,10 @@ def test_what_is_proved_is_the_root_of_the_continuation(state, direction, size):
     status, u = continued(state)
     assert status == Status.TAKEN
     for guess in (u, u + size * direction, -size * u, size * direction):
-        settled, p0, *rest = path.search_on_path(*guess, *numbers)
+        settled, p, found = path.search_on_path(guess, *numbers)
         if settled:
-            assert np.abs(np.array(rest[3:]) - u).max() <= 1e-9 * np.linalg.norm(u)  # near a fold both lose digits
-            assert np.array(rest[:3]) / p0 == pytest.approx(np.array(rest[3:]), rel=1e-14)
+            assert np.abs(np.array(found) - u).max() <= 1e-9 * np.linalg.norm(u)  # near a fold both lose digits
+            assert np.array(p[1:]) / p[0] == pytest.approx(np.array(found), rel=1e-14)
 
 
 @given(testing.states(fraction=(1.0001, 3.0)), testing.unit_vectors(), st.floats(0, 3))
@@ -54,19 +54,19 @@ def test_behind_the_fold_nothing_is_proved(state, direction, size):
     numbers = of(state)
     assume(numbers is not None and continued(state)[0] == Status.FOLDED)
     for guess in (size * direction, -size * direction, 3 * size * direction):
-        assert not path.search_on_path(*guess, *numbers)[0]
+        assert not path.search_on_path(guess, *numbers)[0]
 
 
 def test_a_root_is_proved_only_up_to_what_its_corrections_leave():
     """What is left over is divided by half the least stretch: for this root it may be 2^-53 of |u|, and no more."""
     state = BALL, 0.8 * MOMENTUM, GAMMA
     numbers, (_, u) = of(state), continued(state)
-    k, (g, inertia, D) = numbers[:3], (numbers[3:6], numbers[6:9], numbers[9])
+    k, g, inertia, D = numbers
     square, half = float(u @ u), math.hypot(*k)
-    _, least = path.joined(*u, square, *k, half, *g, *inertia, D, (max(inertia) - min(inertia)) / 2)
+    _, least = path.joined(u, square, k, half, g, inertia, D, (max(inertia) - min(inertia)) / 2)
     most = (2.0**-53 * least) ** 2 * square
-    assert path.proved(*u, 0.99 * most, *numbers)
-    assert not path.proved(*u, 1.01 * most, *numbers)
+    assert path.proved(u, 0.99 * most, *numbers)
+    assert not path.proved(u, 1.01 * most, *numbers)
 
 
 def test_how_far_the_straight_path_reaches():
@@ -85,7 +85,7 @@ def test_how_far_the_straight_path_reaches():
         for fraction in proved:
             state = ball, fraction * reach * K, g
             numbers = of(state)
-            proved[fraction] += numbers is None or path.search_on_path(*continued(state)[1], *numbers)[0]
+            proved[fraction] += numbers is None or path.search_on_path(continued(state)[1], *numbers)[0]
     assert proved[0.6] >= 299
     assert proved[0.8] >= 290
     assert proved[0.9] >= 265
@@ -104,7 +104,7 @@ def test_where_the_path_joins_its_inequality_holds():
             square, x = u @ u, np.cross(u, inertia * u)
             k = (B @ u + x) / (1 + square)  # so that u is a root
             half = np.linalg.norm(k)
-            if path.joined(*u, square, *k, half, *g, *inertia, D, spread)[0]:
+            if path.joined(u, square, k, half, g, inertia, D, spread)[0]:
                 break
         c = (square * (1 + path.LEVEL) - x @ k / half**2) / (1 + path.LEVEL**2 * square)
         t = s + np.clip(c, 0, 1) * s * (1 - s)
@@ -131,7 +131,7 @@ def test_the_intervals_cover_the_path(monkeypatch):
         square, x, spread = u @ u, np.cross(u, inertia * u), np.ptp(inertia) / 2
         k = draw.choice([0.1 * x, k])  # c is 0 where u × Iu has much of a small k
         half = np.linalg.norm(k)
-        proved, least = path.joined(*u, square, *k, half, *g, *inertia, D, spread)
+        proved, least = path.joined(u, square, k, half, g, inertia, D, spread)
         B = np.diag(inertia) + D * (np.eye(3) - np.outer(g, g))
         bent = np.array([np.cross(u, inertia * e) + np.cross(e, inertia * u) for e in np.eye(3)]).T
         S = B + (bent + bent.T) / 2 - np.outer(k, u) - np.outer(u, k)
@@ -177,7 +177,7 @@ def test_the_least_eigenvalue_is_bounded_from_below():
 def test_a_guess_that_is_no_number_proves_nothing(guess):
     numbers = of((BALL, 0.6 * MOMENTUM, GAMMA))
     with np.errstate(all="ignore"):
-        assert not path.search_on_path(*map(np.float64, guess), *map(np.float64, numbers))[0]
+        assert not path.search_on_path(tuple(map(np.float64, guess)), *numbers)[0]
 
 
 def test_an_interval_is_small_where_it_says_so():

@@ -72,7 +72,7 @@ def test_no_bound_underflows(moments):
     """What is compared with the square of a bound is compared in normal numbers; what has none takes the safe way."""
     bound = twins.single(gibbs.certificate)
     I = np.array(moments, np.float32)
-    found = [bound(np.float32(10.0**-e), *np.zeros(2, np.float32), *I, np.float32(0)) for e in range(1, 38)]
+    found = [bound(np.array([10.0**-e, 0, 0], np.float32), I, np.float32(0)) for e in range(1, 38)]
     kept = [np.float32(enough) ** 2 for radius, enough in found if radius >= 0]
     assert all(square >= np.finfo(np.float32).tiny for square in kept)
     assert kept or min(moments) < 1e-6

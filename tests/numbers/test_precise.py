@@ -161,13 +161,13 @@ def test_the_continuation_is_the_same_on_other_numbers():
     context = mpmath.MPContext()
     context.dps = 30
     for factor in (0.1, 1.0, 1.15, 5.0):
-        state = [factor * float(x) for x in K] + [2 / 7, 3 / 7, 6 / 7, 1.0, 2.0, 4.0, 3.0]
-        plain = branch.small_rotation(*state)
-        found = start.on(context)(*map(context.mpf, state))
-        assert found[0] == plain[0]
-        assert abs(found[1] - plain[1]) < 1e-9
-        if plain[0] == 0:
-            assert all(abs(a - b) < 1e-12 for a, b in zip(found[2:], plain[2:], strict=True))
+        state = [factor * float(x) for x in K], [2 / 7, 3 / 7, 6 / 7], [1.0, 2.0, 4.0]
+        status, reach, *q = branch.small_rotation(*state[0], *state[1], *state[2], 3.0)
+        found = start.on(context)(*([context.mpf(x) for x in v] for v in state), context.mpf(3))
+        assert found[0] == status
+        assert abs(found[1] - reach) < 1e-9
+        if status == 0:
+            assert all(abs(a - b) < 1e-12 for a, b in zip(found[2], q, strict=True))
 
 
 def test_a_body_is_checked_at_any_size():

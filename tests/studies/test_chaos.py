@@ -26,8 +26,8 @@ def turned(v, x):
 def matrix(K, g, ball=BALL):
     """The derivative of the step from 𝒦 and γ, its columns as rows."""
     u, state, found = chapsym.step(ball, K, g).rotation, np.zeros(loop.ROWS), np.empty((3, 3))
-    loop.scaled(K, g, ball.mass_tensor, float(ball.D), state)
-    tangent.derivative(*(u[1:] / u[0]), state, found)
+    loop.entered(K, g, ball.mass_tensor, float(ball.D), state)
+    tangent.derivative(u[1:] / u[0], state, found)
     return found
 
 

@@ -11,14 +11,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.generated.double_double import steady_pairs
+from chapsym.generated import isotropic_spin
 from chapsym.numbers import pairs
+from chapsym.numbers.loose import Loose
 
 from .. import kernels
 from ..attitudes import initial_attitude
 from ..ball import Ball, Floats, batch, numbers, unit_vertical
 from ..errors import BadInput, Status
 from ..failure import explain
+from ..loops.vectors import dot
 from ..results import Trajectory, finished
 from ..trajectories import step_numbers
 from . import turns
@@ -125,7 +127,7 @@ def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floa
     with np.errstate(all="ignore"):
         k = np.ldexp(K, -up[:, np.newaxis])
         I, I_ = (np.where(hollow, one, np.ldexp(x, -down)) for x, one in zip(moment, (1.0, 0.0), strict=True))
-        w1, _, w2, _, w3, _, square, square_ = turns.each(steady_pairs, *k.T, *g.T, I, I_, np.ldexp(D, -down))
+        w1, w2, w3, square, square_ = turns.each(_spin, *k.T, *g.T, I, I_, np.ldexp(D, -down))
         square, square_ = np.where(still, 1.0, square), np.where(still, 0.0, square_)
         size, size_ = (np.ldexp(x, up - down) for x in turns.each(turns.root, square, square_))
         size, size_ = np.where(still, 0.0, np.where(hollow, np.inf, size)), np.where(still | hollow, 0.0, size_)
@@ -135,6 +137,14 @@ def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floa
         axis = np.stack([w1, w2, w3], axis=-1) / np.sqrt(square)[:, np.newaxis]
     axis[still | ~taken] = 0.0
     return axis, (half[0], half[1]), size
+
+
+def _spin(*state: Floats) -> tuple[Floats, ...]:
+    """w = B(γ)⁻¹k from k, γ, the moment as a pair and D, and |w|² as a pair."""
+    k1, k2, k3, g1, g2, g3 = map(Loose, state[:6])
+    w = isotropic_spin(k1, k2, k3, g1, g2, g3, Loose(state[6], state[7]), Loose(state[8]))
+    square = dot(w, w).normalised()
+    return *(x.normalised().high for x in w), square.high, square.low
 
 
 def _half_angle(sine: Floats, sine_: Floats) -> turns.Pair:

@@ -133,7 +133,7 @@ def _closed(
     Lemma `small-branch`: where there is a radius, a root with |q| < q₀ is that of the small-rotation branch.
     """
     state, q = np.empty(loop.ROWS), np.zeros(4)
-    loop.scaled((float(h), 0.0, 0.0), g, J, 0.0, state)
+    loop.entered((float(h), 0.0, 0.0), g, J, 0.0, state)
     k, inertia, radius = state[loop.K], state[loop.I : loop.D], state[loop.RADIUS]
     if radius < 0.0 or not march(g, inertia, k, steps, every, frames.gamma[i], q):
         return False

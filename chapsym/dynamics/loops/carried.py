@@ -131,12 +131,12 @@ def flown(E, B, traced):
         u, v, w = ended(E, i, half, twelfth), ended(E, j, half, twelfth), ended(E, k, half, twelfth)
         a = 1.0 - half * E[END + RATE, i] + twelfth * E[END + SECOND, i], u[1], u[2]
         d = v[0], 1.0 - half * E[END + RATE + 1, j] + twelfth * E[END + SECOND + 1, j], v[2]
-        c = w[0], w[1], 1.0 - half * E[END + RATE + 2, k] + twelfth * E[END + SECOND + 2, k]
+        e = w[0], w[1], 1.0 - half * E[END + RATE + 2, k] + twelfth * E[END + SECOND + 2, k]
         # The rows of the inverse are the cross products of the columns, over the determinant.
-        row = cross(d, c)
+        row = cross(d, e)
         over = 1.0 / dot(a, row)
         put_in(E, INVERSE, b, scaled(over, row))
-        put_in(E, INVERSE + 3, b, scaled(over, cross(c, a)))
+        put_in(E, INVERSE + 3, b, scaled(over, cross(e, a)))
         put_in(E, INVERSE + 6, b, scaled(over, cross(a, d)))
         E[HALF, b], E[TWELFTH, b] = half, twelfth
     for column in range(3):
