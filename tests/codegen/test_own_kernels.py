@@ -9,10 +9,12 @@ import sys
 from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
 import pytest
 from commands import answer, chapsym, child
 from pendulum import CLAIMS, GROUPS, KERNELS
 
+from chapsym import Enclosure, implicit_step
 from chapsym.codegen import build
 
 ROOT = Path(build.__file__).parents[2]
@@ -177,3 +179,39 @@ def test_what_is_equal_because_nothing_obeys_the_relations_is_refused(register, 
     assert (done.returncode, done.stdout) == (1, "")
     assert re.search("wrong (has no point at which its relations hold|divides by 0 at its point)", done.stderr)
     assert not (folder / "generated").exists()
+
+
+def test_the_disc_takes_steps(monkeypatch):
+    """The midpoint rule of its register: of order 2, its own inverse, at rest in steady motions."""
+    monkeypatch.syspath_prepend(DISC.parent)
+    from rolling_disc.generated import TABLE, spin_rates
+
+    middle = implicit_step(TABLE["step_lack"], TABLE["step_slope"])
+
+    def end(start, h, **options):
+        return 2 * middle(start, start, [0.5], [9.81], [h], **options) - start
+
+    def rates(x):
+        return np.array([x[1], *spin_rates(*x, 0.5, 9.81)])
+
+    def runge_kutta(x, h):
+        a = rates(x)
+        b = rates(x + h / 2 * a)
+        c = rates(x + h / 2 * b)
+        return x + h / 6 * (a + 2 * b + 2 * c + rates(x + h * c))
+
+    start, off = np.array([0.3, 0.1, -2.0, 1.5]), []
+    for steps in (20, 40):
+        x, exact = start, start
+        for _ in range(steps):
+            x, exact = end(x, 1.0 / steps), runge_kutta(exact, 1.0 / steps)
+        off.append(np.abs(x - exact).max())
+    assert 3.8 < off[0] / off[1] < 4.2
+    assert np.abs(end(end(start, 0.1), -0.1) - start).max() < 20 * 2.0**-53 * np.abs(start).max()
+    turn, lean = 1.5, 0.3
+    roll = (0.5 * turn**2 * math.tan(lean) - 4 * 9.81 * math.sin(lean)) / (6 * 0.5 * turn)
+    steady = np.array([lean, 0.0, roll, turn])
+    assert np.abs(end(steady, 0.5) - steady).max() < 20 * 2.0**-53 * np.abs(steady).max()
+    proved = middle(start, start, [0.5], [9.81], [0.1], precision=Enclosure(100))
+    near = middle(start, start, [0.5], [9.81], [0.1])
+    assert all(abs(x.mid() - y) < 1e-15 for x, y in zip(proved, near, strict=True))

@@ -1,6 +1,6 @@
 """What the documentation of SymPy prints about a rolling disc, judged: a register that is not of chapsym."""
 
-SCRIPTS = ("kane", "forces", "lagrange", "issue")
+SCRIPTS = ("kane", "forces", "lagrange", "issue", "step")
 
 PAPER = "SymPy, documentation of sympy.physics.mechanics, A rolling disc"
 

@@ -1,4 +1,4 @@
-"""What the disc runs on: its accelerations, the rates of its angular velocity, and the velocity of its centre."""
+"""What the disc runs on: its accelerations, the rates of its angular velocity, the velocity of its centre, a step."""
 
 import sympy as sp
 
@@ -6,11 +6,21 @@ from chapsym.codegen import Kernel, left, right
 
 from .disc import LINEAR, a, accelerations, c, d, g, r, s, u
 from .kane import spin_rates
+from .step import STEP, h, q2, typed, x, z
 
-q2 = sp.Symbol("q2")
 LEANS = {s[1]: sp.sin(q2), c[1]: sp.cos(q2)}
 LEAN, RATES, SPIN = ("lean", (q2,)), ("rates", d), ("spin", u)
 RADIUS, GRAVITY = ("radius", (r,)), ("gravity", (g,))
+STATE = ("middle", tuple(z)), ("start", tuple(x)), RADIUS, GRAVITY, ("step", (h,))
+#: The derivatives by the middle: the letters move with the lean.
+BY_MIDDLE = {q2: 1, s[1]: c[1], c[1]: -s[1]}, *({y: 1} for y in u)
+
+
+def slope():
+    """The derivatives of a step's equations by the lean and the angular velocity in the middle."""
+    lack = typed(x, h)
+    by_lean = [sum(sp.diff(f, y) * rate for y, rate in BY_MIDDLE[0].items()) for f in lack]
+    return sp.Matrix.hstack(sp.Matrix(by_lean), lack.jacobian(u))
 
 
 def at_rest(principle):
@@ -48,5 +58,23 @@ KERNELS = [
         (SPIN, RADIUS),
         ("v1", "v2"),
         lambda: [r * u[1], -r * u[0]],
+    ),
+    Kernel(
+        "step_lack",
+        "What vanishes where the middle is that of a step of the midpoint rule.",
+        (right("M-step", STEP),),
+        STATE,
+        ("f1", "f2", "f3", "f4"),
+        lambda: list(typed(x, h)),
+        letters=LEANS,
+    ),
+    Kernel(
+        "step_slope",
+        "Its derivatives by the middle, row by row.",
+        (right("M-step", STEP).along(*BY_MIDDLE),),
+        STATE,
+        tuple(f"j{row}{column}" for row in range(1, 5) for column in range(1, 5)),
+        lambda: list(slope()),
+        letters=LEANS,
     ),
 ]
