@@ -86,12 +86,10 @@ def symmetries(p: Proof) -> None:
     p.say("Axes named anew, in the equation of the ball with its moments named so:")
     p.lemma(*renamed(CIRCLE), *renamed(SWAP))
     p.say(
-        "The first commutes with G_h. The second is a reflection: with u and 𝒦 = hγ it changes the sign of h, and G_{-h} ="
+        "The first commutes with G_h. The second is a reflection: with u and 𝒦 = hγ it changes the sign of h, and G_{-h} =",
+        "G_h⁻¹. These two make all orders of the axes: what is proved for I1 > I2 > I3 holds for any three different moments,",
+        "as a displacement of the inverse map is -δ∘F⁻¹.",
     )
-    p.say(
-        "G_h⁻¹. These two make all orders of the axes: what is proved for I1 > I2 > I3 holds for any three different moments,"
-    )
-    p.say("as a displacement of the inverse map is -δ∘F⁻¹.")
     p.step(RENAMED, BELOW, "gibbs", "gibbs-rotation", "small-branch", "self-adjoint")
     p.say("The half γ_c < 0 of the sphere repeats the half γ_c > 0. On a level")
     p.say("circle around the axis c let F be a lift of R^p G_h^q, R the rotation by π about c, and δ = F - 1. With the")

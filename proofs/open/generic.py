@@ -61,35 +61,27 @@ def almost_every(p: Proof) -> None:
     p.say("both terms positive.")
     p.step(SLOW_STEP, terms.THREE, terms.SMALL_BRANCH, "small-branch", "5.15", "5.9-circle")
     p.say(
-        "K decreases with l (plateaus). Let δ(u; l, D, h) = u_q - u - 2K, the displacement beyond one half turn. While"
+        "K decreases with l (plateaus). Let δ(u; l, D, h) = u_q - u - 2K, the displacement beyond one half turn. While",
+        "qh is bounded the derivatives of u_q obey v~ = v(1 + h²e_u) + hr' + h²e_l by l, and likewise by h: so ∂δ/∂l =",
+        "qhr' - 2K' + O(h), where δ = 0 equal to 2K(r'/r - K'/K) + O(h) > 0, and ∂δ/∂h = qr + O(1) > 0, for h small.",
+        "Hence the (D, h) with δ(0; l₁, D, h) < 0 < δ(0; l₂, D, h), 0 < D < D̂, form a strip h₋(D) < h < h₊(D),",
+        "connected, for each q ≥ q₀, where q₀ is such that they are below h₀. On it δ(0; l*, D, h) = 0 has one solution",
+        "l*(D, h), analytic; so Δ(D, h) = δ(K/q; l*, D, h) is analytic on it. Every (D, h) with h small is in a strip,",
+        "as q need only be between 2K/(hr) at l₂ and at l₁ up to O(1), c/h apart.",
     )
-    p.say(
-        "qh is bounded the derivatives of u_q obey v~ = v(1 + h²e_u) + hr' + h²e_l by l, and likewise by h: so ∂δ/∂l ="
-    )
-    p.say("qhr' - 2K' + O(h), where δ = 0 equal to 2K(r'/r - K'/K) + O(h) > 0, and ∂δ/∂h = qr + O(1) > 0, for h small.")
-    p.say("Hence the (D, h) with δ(0; l₁, D, h) < 0 < δ(0; l₂, D, h), 0 < D < D̂, form a strip h₋(D) < h < h₊(D),")
-    p.say(
-        "connected, for each q ≥ q₀, where q₀ is such that they are below h₀. On it δ(0; l*, D, h) = 0 has one solution"
-    )
-    p.say(
-        "l*(D, h), analytic; so Δ(D, h) = δ(K/q; l*, D, h) is analytic on it. Every (D, h) with h small is in a strip,"
-    )
-    p.say("as q need only be between 2K/(hr) at l₂ and at l₁ up to O(1), c/h apart.")
     p.step(STRIPS, SLOW_STEP, "plateaus", terms.FOR_ALMOST_ALL)
     p.say(
         "For D → 0 at fixed h it is 2A''D²(f(0) - f(K/q)) + O(D³) by resonance, with A'' > 0 by plateaus: not 0. So Δ"
     )
     p.say("is 0 on a set of measure 0 of the strip at most.")
     p.step(NOT_ZERO, STRIPS, "resonance", "plateaus")
-    p.say("Where Δ ≠ 0, δ is 0 at one point of the circle l* and not at another; as ∂δ/∂l > 0 there is an interval of")
     p.say(
-        "levels, with l* at one end, on which δ has both signs. A (D, h) without such levels is a zero of Δ for all of"
+        "Where Δ ≠ 0, δ is 0 at one point of the circle l* and not at another; as ∂δ/∂l > 0 there is an interval of",
+        "levels, with l* at one end, on which δ has both signs. A (D, h) without such levels is a zero of Δ for all of",
+        "its c/h strips. For h < 0 it is the inverse map (self-adjoint): its displacement is -δ∘F⁻¹, of both signs as",
+        "well.",
+        "Another order of the moments is the same with other names (symmetries).",
     )
-    p.say(
-        "its c/h strips. For h < 0 it is the inverse map (self-adjoint): its displacement is -δ∘F⁻¹, of both signs as"
-    )
-    p.say("well.")
-    p.say("Another order of the moments is the same with other names (symmetries).")
     p.step(terms.BOTH_SIGNS, STRIPS, NOT_ZERO, terms.FOR_ALMOST_ALL, "self-adjoint", "symmetries")
     p.witness("a level", {"Λ": "(6, 5, 2)", "l": "3/10", "D": "3/2"},
               Fact("V² > 0, 0 < k² < 1 and 0 < Dl < 1", all(0 < e < 1 for e in (*at_a_level(), sp.Rational(9, 20)))))  # fmt: skip

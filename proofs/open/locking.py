@@ -103,13 +103,9 @@ def locked_circle(p: Proof) -> None:
     p.say("Finite is needed. Near a fixed point f(x) = x/2 leaves dx/x invariant:")
     p.lemma(infinite_density())
     p.say(
-        "And as g commutes with F it permutes the zeros and the arcs. Let g^m be the first power that takes I to itself."
-    )
-    p.say(
-        "It has no fixed point in I: f^{2m} = (g^m)^{2q} has none. So I/g^m is a circle; a positive smooth density on"
-    )
-    p.say(
-        "it, lifted to I and carried along by g, is invariant under g, positive and smooth, and infinite on each arc."
+        "And as g commutes with F it permutes the zeros and the arcs. Let g^m be the first power that takes I to itself.",
+        "It has no fixed point in I: f^{2m} = (g^m)^{2q} has none. So I/g^m is a circle; a positive smooth density on",
+        "it, lifted to I and carried along by g, is invariant under g, positive and smooth, and infinite on each arc.",
     )
     p.step(there_is(terms.INFINITE), SHIFT, terms.BOTH_SIGNS)
     p.say("Nor is there a real u = f(s), f a homeomorphism onto the lift of C, f(s + S) = f(s) + the period of u, with")

@@ -72,12 +72,10 @@ def no(p: Proof) -> None:
     for id in LEMMAS:
         p.lemma(judged(id))
     p.say(
-        "(1) By plateaus, (2) by almost-every, (4) by separatrix there is an interval of levels with displacements of both signs. By"
+        "(1) By plateaus, (2) by almost-every, (4) by separatrix there is an interval of levels with displacements of both signs. By",
+        "locked-circle the finite invariant measures are carried there by periodic points: none has a density that is",
+        "positive almost everywhere.",
     )
-    p.say(
-        "locked-circle the finite invariant measures are carried there by periodic points: none has a density that is"
-    )
-    p.say("positive almost everywhere.")
     p.state(Theorem((WITHIN,), (terms.SMALL_BRANCH,), (terms.BOTH_SIGNS,)), readings.BOXES)
     p.say("(3) For numbers at hand two orbits, in interval arithmetic, one beyond and one short of p half turns:")
     accepted = [data for data in certified.present(p, FILES, KIND) if "branch" not in data]
@@ -96,14 +94,12 @@ def beyond(p: Proof) -> None:
     """The certificates that prove the branch, too."""
     p.state(Theorem((WITHIN_BEYOND,), (terms.ON_BRANCH,), (no_such(terms.NEAR_A_CIRCLE),)), readings.BEYOND)
     p.say(
-        "(6) Beyond the bound of small-branch a certificate also says into how many arcs a half circle is cut, and the"
+        "(6) Beyond the bound of small-branch a certificate also says into how many arcs a half circle is cut, and the",
+        "checker proves one root in a box over each, joined to one branch whose map is a homeomorphism of the circle",
+        "that keeps the direction and commutes with the rotation by π about its axis. As each root is simple, the map is",
+        "analytic, and so for the levels, J, D and h within the radius. With the two orbits 2., 3. and 5. of",
+        "locked-circle hold as they stand, for the half γ_c > 0: they use no more of the map.",
     )
-    p.say("checker proves one root in a box over each, joined to one branch whose map is a homeomorphism of the circle")
-    p.say(
-        "that keeps the direction and commutes with the rotation by π about its axis. As each root is simple, the map is"
-    )
-    p.say("analytic, and so for the levels, J, D and h within the radius. With the two orbits 2., 3. and 5. of")
-    p.say("locked-circle hold as they stand, for the half γ_c > 0: they use no more of the map.")
     p.step(no_such(terms.NEAR_A_CIRCLE), WITHIN_BEYOND, terms.ON_BRANCH, "locked-circle",
            *(file.name for file in FILES if certified.has_branch(file)))  # fmt: skip
 
@@ -112,12 +108,10 @@ def ends(p: Proof) -> None:
     """The certificates of what orbits on the level l = 1/Λ2 miss at their ends."""
     p.state(Theorem((WITHIN_ENDS,), (terms.SMALL_BRANCH,), (terms.NOT_CONSTANT,)), readings.ENDS)
     p.say(
-        "(5) For numbers at hand two orbits of the map of separatrix-map have different Δ(u), in interval arithmetic: Δ is"
+        "(5) For numbers at hand two orbits of the map of separatrix-map have different Δ(u), in interval arithmetic: Δ is",
+        "not constant. There I1 > I2 > I3, so by separatrix-limit there are levels near 1/Λ2 with displacements of both",
+        "signs. No small D is left out or assumed: it is one ball and one h, with all within the radius.",
     )
-    p.say(
-        "not constant. There I1 > I2 > I3, so by separatrix-limit there are levels near 1/Λ2 with displacements of both"
-    )
-    p.say("signs. No small D is left out or assumed: it is one ball and one h, with all within the radius.")
     accepted = certified.present(p, ENDS, HETEROCLINIC)
     p.step(terms.NOT_CONSTANT, WITHIN_ENDS, terms.SMALL_BRANCH, "separatrix-map", *(file.name for file in ENDS))
     if accepted:

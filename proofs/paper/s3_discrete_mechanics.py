@@ -135,12 +135,10 @@ def discrete_principle(p: Proof) -> None:
         Equation("δS = Σ_{k=1}^{N-1}, for δq_0 = δq_N = 0", first_variation(), discrete_sum(1), both_fixed),
     )
     p.say(
-        "With δq_0 = 0 the printed sum says the same, but then its first term is void; the paper does not fix the ends."
+        "With δq_0 = 0 the printed sum says the same, but then its first term is void; the paper does not fix the ends.",
+        "For every N and every number of coordinates, with free ends, δS = the sum from k = 1 + the two terms of the ends:",
+        "for N = 1 the sum is empty, and one step more adds to both sides the same.",
     )
-    p.say(
-        "For every N and every number of coordinates, with free ends, δS = the sum from k = 1 + the two terms of the ends:"
-    )
-    p.say("for N = 1 the sum is empty, and one step more adds to both sides the same.")
     p.lemma(one_step_more())
     p.say("For a path that begins at q_{-1}, with both ends fixed, the printed range would be right:")
     longer = first_variation() + sp.diff(step_action(PATH[0], PATH[1]), PATH[1]) * CHANGE[0]

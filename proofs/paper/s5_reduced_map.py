@@ -64,11 +64,9 @@ def invariant_curve(p: Proof) -> None:
     whole = sp.prod(squares) * (z - l) ** 4 * scale**2
     p.printed(Equation("w² = -(z-1/Λ1)(z-1/Λ2)(z-1/Λ3)(z-l)", whole, quartic, ring))
     p.say(
-        "A point (z, w) fixes γ_i² and γ₁γ₂γ₃: four γ, from one by changing two of the four signs of (1, γ₁, γ₂, γ₃) in P³."
-    )
-    p.say("A change of two signs has a fixed point only where two of the four coordinates vanish:")
-    p.say(
-        "No two of γ₁², γ₂², γ₃² vanish at one z: γ_i² does at z = 1/Λ_i alone, where γ_j² is a product of differences"
+        "A point (z, w) fixes γ_i² and γ₁γ₂γ₃: four γ, from one by changing two of the four signs of (1, γ₁, γ₂, γ₃) in P³.",
+        "A change of two signs has a fixed point only where two of the four coordinates vanish:",
+        "No two of γ₁², γ₂², γ₃² vanish at one z: γ_i² does at z = 1/Λ_i alone, where γ_j² is a product of differences",
     )
     pairs = [(i, j, 3 - i - j) for i in range(3) for j in range(3) if i != j]
     p.printed(Equation("γ_j² = (l - 1/Λ_k)/(1/Λ_j - 1/Λ_k) at z = 1/Λ_i", [squares[j].subs(z, roots[i]) for i, j, _ in pairs],
