@@ -36,24 +36,24 @@ Variable x : state.
 Definition tinyc n (f : state -> 'cV[R]_n) := forall i, tiny x (fun y => f y i ord0).
 Arguments tinyc {n} f.
 Lemma tinyc_ext n (f g : state -> 'cV[R]_n) : close x (fun y => f y = g y) -> tinyc f -> tinyc g.
-Proof. by move=> E F i; apply: (tiny_ext x _ _ _ (F i)); move: E; apply: close_mono => y ->. Qed.
+Proof. by move=> E F i; apply: (order_ext x _ _ _ _ (F i)); move: E; apply: close_mono => y ->. Qed.
 Lemma tinyc_add n (f g : state -> 'cV[R]_n) : tinyc f -> tinyc g -> tinyc (fun y => f y + g y)%R.
 Proof.
-move=> F G i; apply: (tiny_ext x (fun y => f y i ord0 + g y i ord0)); last exact: tiny_plus.
+move=> F G i; apply: (order_ext x _ (fun y => f y i ord0 + g y i ord0)); last exact: order_plus.
 by apply: close_all => y; rewrite mxE.
 Qed.
 Lemma tiny_sum n (F : 'I_n -> state -> R) : (forall j, tiny x (F j)) -> tiny x (fun y => \sum_j F j y)%R.
 Proof.
 elim: n F => [F _ | n IH F T].
-  by apply: (tiny_ext x (fun _ => 0)); [apply: close_all => y; rewrite big_ord0 | exact: tiny_zero].
-apply: (tiny_ext x (fun y => F ord0 y + (\sum_j F (lift ord0 j) y)%R)).
+  by apply: (order_ext x _ (fun _ => 0)); [apply: close_all => y; rewrite big_ord0 | exact: order_zero].
+apply: (order_ext x _ (fun y => F ord0 y + (\sum_j F (lift ord0 j) y)%R)).
   by apply: close_all => y; rewrite big_ord_recl.
-by apply: tiny_plus => //; apply: IH.
+by apply: order_plus => //; apply: IH.
 Qed.
 Lemma tinyc_mul m n (A : 'M[R]_(m, n)) (f : state -> 'cV[R]_n) : tinyc f -> tinyc (fun y => A *m f y)%R.
 Proof.
-move=> F i; apply: (tiny_ext x (fun y => \sum_j (A i j * f y j ord0))%R); first by apply: close_all => y; rewrite mxE.
-by apply: (tiny_sum _ (fun j y => A i j * f y j ord0)) => j; apply: tiny_scale.
+move=> F i; apply: (order_ext x _ (fun y => \sum_j (A i j * f y j ord0))%R); first by apply: close_all => y; rewrite mxE.
+by apply: (tiny_sum _ (fun j y => A i j * f y j ord0)) => j; apply: order_scale.
 Qed.
 Lemma tinyc_opp n (f : state -> 'cV[R]_n) : tinyc f -> tinyc (fun y => - f y)%R.
 Proof.
@@ -68,12 +68,12 @@ Proof.
 have C v i : tiny x (fun y => c1 (v y)) /\ tiny x (fun y => c2 (v y)) /\ tiny x (fun y => c3 (v y)) ->
     tiny x (fun y => column (v y) i ord0).
   move=> [A [B E]]; case: i => [[|[|[|i]]] Hi] //.
-  - by apply: (tiny_ext x _ _ _ A); apply: close_all => y; rewrite mxE.
-  - by apply: (tiny_ext x _ _ _ B); apply: close_all => y; rewrite mxE.
-  - by apply: (tiny_ext x _ _ _ E); apply: close_all => y; rewrite mxE.
+  - by apply: (order_ext x _ _ _ _ A); apply: close_all => y; rewrite mxE.
+  - by apply: (order_ext x _ _ _ _ B); apply: close_all => y; rewrite mxE.
+  - by apply: (order_ext x _ _ _ _ E); apply: close_all => y; rewrite mxE.
 move=> K G i; rewrite -(splitK i); case: (split i) => j /=.
-- by apply: (tiny_ext x _ _ _ (C _ j K)); apply: close_all => y; rewrite col_mxEu.
-- by apply: (tiny_ext x _ _ _ (C _ j G)); apply: close_all => y; rewrite col_mxEd.
+- by apply: (order_ext x _ _ _ _ (C _ j K)); apply: close_all => y; rewrite col_mxEu.
+- by apply: (order_ext x _ _ _ _ (C _ j G)); apply: close_all => y; rewrite col_mxEd.
 Qed.
 Lemma tiny_rate f e : tiny x f -> 0 < e -> close x (fun y => Rabs (f y) <= e * distance y x).
 Proof.
@@ -239,7 +239,7 @@ have Fg' : follows x (fun y => turned (u_ y) (snd y)) by apply: turned_follows.
 have Fm v : follows x v -> follows x (fun y => opposite (v y)).
 { move=> [A [B C]]; rewrite /follows /opposite /scale; cbn [c1 c2 c3].
   have T f : small x (fun y => f y - f x) -> small x (fun y => -1 * f y - -1 * f x).
-    move=> F; apply: (small_ext x (fun y => -1 * (f y - f x))); [by apply: close_all => y; ring | exact: small_scale].
+    move=> F; apply: (order_ext x _ (fun y => -1 * (f y - f x))); [by apply: close_all => y; ring | exact: order_scale].
   by split; [|split]; apply: T. }
 have Roots : close x (fun y => residual b (fst y, snd y) (u_ y) = V 0 0 0).
 { move: NC; apply: close_mono => y Ny; have [R _] := gibbs_root _ _ _ _ _ H y Ny; by rewrite -surjective_pairing. }
@@ -260,7 +260,7 @@ have C d k : [/\ tiny x (fun y => c1 (d y)), tiny x (fun y => c2 (d y)) & tiny x
     tinyc x (fun y => col_mx (column (d y)) (column (k y))).
 { by move=> [A1 A2 A3] [B1 B2 B3]; apply: tinyc_columns. }
 have O : [/\ tiny x (fun y : state => c1 (V 0 0 0)), tiny x (fun y : state => c2 (V 0 0 0)) & tiny x (fun y : state => c3 (V 0 0 0))].
-{ by split; apply: tiny_zero. }
+{ by split; apply: order_zero. }
 set N0 : 'M[R]_(3 + 3) := block_mx c%:M z 0 1%:M; set N1 : 'M[R]_(3 + 3) := block_mx a 0 0 1%:M.
 set M2 : 'M[R]_(3 + 3) := block_mx 1%:M 0 W Q; set P2 : 'M[R]_(3 + 3) := block_mx 1%:M 0 0 P.
 set M3 : 'M[R]_(3 + 3) := block_mx a' z' 0 1%:M; set C3 : 'M[R]_(3 + 3) := block_mx c%:M 0 0 1%:M.
@@ -273,7 +273,7 @@ have T1 : tinyc x (fun y => N1 *m w_ y - N0 *m v_ y)%R.
     rewrite opp_col_mx add_col_mx GRing.subrr -column_zero -column_scale -column_add -column_sub; congr (col_mx (column _) _).
     by apply vec_eq; rewrite /e /image /sub /add /scale; cbn [c1 c2 c3]; ring.
   - move: E1 => [A1 [A2 A3]]; apply: C => //.
-    split; [apply: (tiny_ext x _ _ _ A1) | apply: (tiny_ext x _ _ _ A2) | apply: (tiny_ext x _ _ _ A3)]; apply: close_all => y;
+    split; [apply: (order_ext x _ _ _ _ A1) | apply: (order_ext x _ _ _ _ A2) | apply: (order_ext x _ _ _ _ A3)]; apply: close_all => y;
     rewrite -surjective_pairing /e /image /d_ /k_ /g_ -/u -/K -/g /c /sub /add /scale; cbn [c1 c2 c3]; ring. }
 have T2 : tinyc x (fun y => P2 *m w2_ y - M2 *m w_ y)%R.
 { pose e := fun y : state => cross (add (g'_ y) (g_ y)) (d_ y).
@@ -284,12 +284,12 @@ have T2 : tinyc x (fun y => P2 *m w2_ y - M2 *m w_ y)%R.
   - move: Fu Fg Fg' => [F1 [F2 F3]] [G1 [G2 G3]] [I1 [I2 I3]].
     have S f h : small x (fun y => f y - f x) -> small x (fun y => h y - h x) ->
       small x (fun y => (f y + -1 * f x) + (h y + -1 * h x)).
-    { by move=> A B; apply: (small_ext x (fun y => (f y - f x) + (h y - h x))); [apply: close_all => y; ring | apply: small_plus]. }
+    { by move=> A B; apply: (order_ext x _ (fun y => (f y - f x) + (h y - h x))); [apply: close_all => y; ring | apply: order_plus]. }
     have S' f : small x (fun y => f y - f x) -> small x (fun y => f y + -1 * f x).
-    { by move=> A; apply: (small_ext x (fun y => f y - f x)); [apply: close_all => y; ring | ]. }
+    { by move=> A; apply: (order_ext x _ (fun y => f y - f x)); [apply: close_all => y; ring | ]. }
     have D f h f' h' : small x f -> small x h -> small x f' -> small x h' -> tiny x (fun y => f y * h y - f' y * h' y).
-    { move=> A B A' B'; apply: (tiny_ext x (fun y => f y * h y + -1 * (f' y * h' y))); first by apply: close_all => y; ring.
-      by apply: tiny_plus; [|apply: tiny_scale]; apply: small_small. }
+    { move=> A B A' B'; apply: (order_ext x _ (fun y => f y * h y + -1 * (f' y * h' y))); first by apply: close_all => y; ring.
+      by apply: order_plus; [|apply: order_scale]; apply: order_mult. }
     by apply: C => //; split; rewrite /e /cross /add /d_ /g_ /g'_ /sub /scale; cbn [c1 c2 c3]; apply: D;
       (apply: S || apply: S'). }
 have T3 : tinyc x (fun y => C3 *m w3_ y - M3 *m w2_ y)%R.
@@ -299,7 +299,7 @@ have T3 : tinyc x (fun y => C3 *m w3_ y - M3 *m w2_ y)%R.
   - apply: close_all => y; rewrite /C3 /M3 /w3_ /w2_ !mul_block_col !column_rows !mul0mx !mul1mx mul_scalar_mx !GRing.addr0 !GRing.add0r.
     by rewrite opp_col_mx add_col_mx GRing.subrr -column_zero -column_scale -column_add -column_sub.
   - move: E3 => [A1 [A2 A3]]; apply: C => //.
-    split; [apply: (tiny_ext x _ _ _ A1) | apply: (tiny_ext x _ _ _ A2) | apply: (tiny_ext x _ _ _ A3)]; apply: close_all => y;
+    split; [apply: (order_ext x _ _ _ _ A1) | apply: (order_ext x _ _ _ _ A2) | apply: (order_ext x _ _ _ _ A3)]; apply: close_all => y;
     rewrite /e /image /d_ /k'_ /g'_ -/u -/K -/g -/K' -/g' /c /weight;
     set s1 := slope1 _ _ _; set s2 := slope2 _ _ _; set s3 := slope3 _ _ _; set i1 := tilt1 _ _ _; set i2 := tilt2 _ _ _; set i3 := tilt3 _ _ _;
     rewrite /dot /opposite /sub /add /scale; cbn [c1 c2 c3]; field. }

@@ -34,7 +34,7 @@ Proof. intros [d [d0 A]]; apply A; rewrite distance_self; assumption. Qed.
 Lemma tiny_opp f l : expands x f l -> close x (fun y => f y = 0) -> tiny x l.
 Proof.
 intros [A _] Z; assert (Zx := close_here _ Z).
-apply tiny_ext with (fun y => -1 * (f y - f x - l y)); [|apply tiny_scale; assumption].
+apply order_ext with (fun y => -1 * (f y - f x - l y)); [|apply order_scale; assumption].
 revert Z; apply close_mono; intros y Zy; simpl in *; rewrite Zx, Zy; ring.
 Qed.
 
@@ -49,7 +49,7 @@ Proof.
 intros [U1 [U2 U3]] [K1 [K2 K3]] [G1 [G2 G3]] G Z at_ left; assert (Q := square_nonzero _ G).
 assert (step_ : forall c l l', expands x (fun y => c (residual b (k y, g y) (u y))) l -> c (V 0 0 0) = 0 ->
   (forall y, l y = l' y) -> tiny x l').
-{ intros c l l' E c0 L; apply tiny_ext with l; [apply close_all; exact L |].
+{ intros c l l' E c0 L; apply order_ext with l; [apply close_all; exact L |].
   apply (tiny_opp _ _ E); revert Z; apply close_mono; intros y ->; exact c0. }
 cbv beta delta [dot] in Q.
 Ltac first_order := cbv beta iota delta [residual inertia add scale cross dot]; cbn [c1 c2 c3]; expand; try assumption; try lra.
@@ -101,6 +101,10 @@ unfold turned, add, scale, cross, dot; cbn [c1 c2 c3]; rewrite K1, K2, K3; clear
 apply vec_eq; cbn [c1 c2 c3]; field; lra.
 Qed.
 
+(* A vector of rational functions of vectors that follow. *)
+Ltac follow := split; [|split]; lazymatch goal with |- order ?x _ (fun y => @?h y - _) => eapply (expands_small x h) end;
+  unfold residual, turned, inertia, add, scale, cross, dot; cbn [c1 c2 c3]; expand; try assumption; try lra.
+
 Section Branch.
 Variables (b : ball) (r s m M : R) (H : within b r s m M).
 
@@ -130,18 +134,13 @@ set (u := gibbs x); assert (Ru := gibbs_root x N); fold u in Ru.
 set (f := fun y => residual b (fst y, snd y) u).
 assert (Z : f x = V 0 0 0) by (destruct x as [K g]; apply Ru).
 unfold dot in Q.
-assert (F1 : small x (fun y => c1 (f y) - c1 (f x))).
-{ eapply (expands_small x (fun y => c1 (f y))); unfold f, residual, inertia, add, scale, cross, dot; cbn [c1 c2 c3]; expand; try assumption; lra. }
-assert (F2 : small x (fun y => c2 (f y) - c2 (f x))).
-{ eapply (expands_small x (fun y => c2 (f y))); unfold f, residual, inertia, add, scale, cross, dot; cbn [c1 c2 c3]; expand; try assumption; lra. }
-assert (F3 : small x (fun y => c3 (f y) - c3 (f x))).
-{ eapply (expands_small x (fun y => c3 (f y))); unfold f, residual, inertia, add, scale, cross, dot; cbn [c1 c2 c3]; expand; try assumption; lra. }
+assert (F : follows x f) by (unfold f; follow); destruct F as [F1 [F2 F3]].
 rewrite Z in F1, F2, F3; cbn [c1 c2 c3] in F1, F2, F3.
 set (F := fun y => / mu r s m M * (Rabs (c1 (f y) - 0) + Rabs (c2 (f y) - 0) + Rabs (c3 (f y) - 0))).
 assert (FS : small x F).
 { assert (T : forall p, small x p -> small x (fun y => Rabs (p y))).
   { intros p [C [c0 A]]; exists C; split; [assumption |]; revert A; apply close_mono; intros y; rewrite Rabs_Rabsolu; trivial. }
-  apply small_scale; apply small_plus; [apply small_plus |]; apply T; assumption. }
+  apply order_scale; apply order_plus; [apply order_plus |]; apply T; assumption. }
 assert (B : close x (fun y => norm (sub (gibbs y) u) <= F y)).
 { generalize (near_close x N); apply close_mono; intros y Ny; assert (Ry := gibbs_root y Ny).
   assert (Wy := root_within _ _ _ _ _ H _ _ Ny Ry); assert (Wu := root_within _ _ _ _ _ H _ _ N Ru).
@@ -169,9 +168,6 @@ Qed.
 Lemma turned_follows x (u v : state -> vec) : follows x u -> follows x v -> follows x (fun y => turned (u y) (v y)).
 Proof.
 intros [A1 [A2 A3]] [B1 [B2 B3]]; assert (P : 1 + dot (u x) (u x) <> 0) by (generalize (one_plus (u x)); lra).
-unfold dot in P; split; [|split].
-- eapply (expands_small x (fun y => c1 (turned (u y) (v y)))); unfold turned, add, scale, cross, dot; cbn [c1 c2 c3]; expand; try assumption.
-- eapply (expands_small x (fun y => c2 (turned (u y) (v y)))); unfold turned, add, scale, cross, dot; cbn [c1 c2 c3]; expand; try assumption.
-- eapply (expands_small x (fun y => c3 (turned (u y) (v y)))); unfold turned, add, scale, cross, dot; cbn [c1 c2 c3]; expand; try assumption.
+unfold dot in P; follow.
 Qed.
 End Branch.
