@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .search import Worst
 
-__all__ = ["Row", "as_json", "measure_kernels", "table"]
+__all__ = ["Kernels", "Row", "measure_kernels"]
 
 
 @dataclass(frozen=True)
@@ -71,31 +71,38 @@ def _measured(kernel: str, quick: bool) -> list[Row]:
     return rows
 
 
-def table(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    """The rows of a table: the worst error, the condition number there, and the worst error in units of it."""
-    return [
-        {
-            "kernel": row.kernel,
-            "output": row.output,
-            "without": row.without or "-",
-            "operations": row.operations,
-            "ns": row.nanoseconds,
-            "worst ulps": row.worst.ulps,
-            "condition": row.worst.condition,
-            "where": row.worst.stratum,
-            "ulps / condition": row.hardest.share,
-        }
-        for row in rows
-    ]
+@dataclass(frozen=True)
+class Kernels:
+    """The rows, as a section of the trade."""
+
+    rows: list[Row]
+    title: str = "kernels: errors in ulps, and times"
+
+    def table(self) -> list[dict[str, Any]]:
+        """The worst error, the condition number there, and the worst error in units of it, for each row."""
+        return [
+            {
+                "kernel": row.kernel, "output": row.output, "without": row.without or "-",
+                "operations": row.operations, "ns": row.nanoseconds, "worst ulps": row.worst.ulps,
+                "condition": row.worst.condition, "where": row.worst.stratum, "ulps / condition": row.hardest.share,
+            }
+            for row in self.rows
+        ]  # fmt: skip
+
+    def sentences(self) -> list[str]:
+        """What the columns are."""
+        return [
+            "errors against 60 digits; `without`: the codegen pass that the text goes without; times in a compiled loop"
+        ]
+
+    def as_json(self) -> dict[str, Any]:
+        """All that was measured, as plain data; a time that was not taken, or an error that is not finite, is None."""
+        return {"title": self.title, "kernels": [_plain(asdict(row) | _worst(row)) for row in self.rows]}
 
 
-def as_json(rows: Sequence[Row]) -> list[dict[str, Any]]:
-    """The rows as plain data; a time that was not taken, or an error that is not finite, is None."""
-    return [_plain(asdict(row) | {"worst": _worst(row.worst), "hardest": _worst(row.hardest)}) for row in rows]
-
-
-def _worst(worst: "Worst") -> dict[str, Any]:
-    return asdict(worst) | {"share": worst.share}
+def _worst(row: Row) -> dict[str, Any]:
+    """The two states of a row, with their shares."""
+    return {name: asdict(one) | {"share": one.share} for name, one in vars(row).items() if name in ("worst", "hardest")}
 
 
 def _plain(value: Any) -> Any:

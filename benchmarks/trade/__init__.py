@@ -16,9 +16,9 @@ __all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "as_json",
 
 
 def _kernels(quick: bool, say: Callable[[str], None]) -> Any:
-    from benchmarks.kernels import section
+    from benchmarks import kernels
 
-    return section.measure(quick, say)
+    return kernels.Kernels(kernels.measure_kernels(quick, lambda name: say(f"kernels: {name}")))
 
 
 #: The sections that have a frontier, and all of them; each measures quickly or in full, and says what it does.

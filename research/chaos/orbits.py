@@ -1,4 +1,4 @@
-"""Samples of orbits, told chaotic or regular, and pictures of the section: functions of plain data, units of the study.
+"""Samples of orbits, chaotic or regular by the derivative of the map, and pictures of the section: units of the study.
 
 A deviation grows at most like n on a torus, and like e^{λn} in chaos: an orbit is told chaotic if in n steps it has
 grown by more than n^LIMIT.  D = 0, which is integrable, measures how often that is wrong.
@@ -8,19 +8,25 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import Ball
+from chapsym.dynamics import Ball, native
 from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.loops.gibbs import HEAVY
+from chapsym.dynamics.loops.tangent import follow_all
 
 from ..energy.amplitude import chunks
 from ..energy.continuous import Level
 from ..energy.section import coordinates, rising, state
-from .tangent import follow_orbits
 
 LIMIT = 2.5
 #: A start near the unstable rotation is this many powers of ten beside axis 2, at most.
 NEAREST = 4.0
 #: Points with |K₂| below this share of |K| are moved to the section along the motion: off by its square.
 SLAB = 0.01
+#: The columns of `follow_all`, in its order.
+COLUMNS = (
+    "taken", "growth1", "growth2", "growth3", "volume_first", "volume_second", "energy_first", "energy_second",
+    "energy_low", "energy_high",
+)  # fmt: skip
 
 
 def starts(orbits: int, near: bool, seed: int) -> tuple[Floats, Floats]:
@@ -31,6 +37,20 @@ def starts(orbits: int, near: bool, seed: int) -> tuple[Floats, Floats]:
         K[:, 1] = 1.0
         K[:, ::2] *= 10.0 ** -rng.uniform(0.0, NEAREST, size=(orbits, 1))
     return K / np.linalg.norm(K, axis=1, keepdims=True), g / np.linalg.norm(g, axis=1, keepdims=True)
+
+
+def follow_orbits(ball: Any, momenta: np.ndarray, gammas: np.ndarray, steps: int) -> dict[str, np.ndarray]:
+    """The `COLUMNS` of each orbit of a ball, from the starts (n, 3) and (n, 3); NaN where an orbit met a fold.
+
+    Raises ValueError for a heavy ball: its Gibbs vector needs another kernel.
+    """
+    if (HEAVY * ball.inertia.min() < ball.D).any():
+        raise ValueError("the derivative of the step is computed for balls with D ≤ 32 I_min only")
+    rows = np.empty((len(momenta), len(COLUMNS)))
+    follow = native.loop(follow_all)
+    follow(np.ascontiguousarray(momenta), np.ascontiguousarray(gammas), ball.mass_tensor, float(ball.D), steps, rows)
+    rows[rows[:, 0] < 2 * (steps // 2), 1:] = np.nan
+    return dict(zip(COLUMNS, rows.T, strict=True))
 
 
 def sample(

@@ -7,7 +7,7 @@ import numpy as np
 
 from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
-from .told import decimal, log10, named, scaled
+from .words import decimal, log10, named, scaled
 
 BLUE, RED = COLOURS[:2]
 GREY = "0.45"

@@ -9,7 +9,7 @@ from matplotlib.ticker import NullFormatter, ScalarFormatter
 from chapsym.show.drawing.style import COLOURS, WIDE, Picture, new
 
 from .drawn_circle import continued, power_of
-from .told import decimal, log10, named
+from .words import decimal, log10, named
 
 BLUE, RED, GREEN = COLOURS[:3]
 GREY = "0.45"

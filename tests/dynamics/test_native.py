@@ -13,7 +13,7 @@ import chapsym
 from chapsym import Ball
 from chapsym.dynamics import native
 from chapsym.dynamics.loops import block, loop, single_step, twins
-from research.chaos.tangent import follow_orbits
+from research.chaos.orbits import follow_orbits
 
 #: Only where no C was asked for: a compilation that failed is a failure of the tests, not a reason to skip them.
 needs_compiled = pytest.mark.skipif("CHAPSYM_WITHOUT_C" in os.environ, reason="CHAPSYM_WITHOUT_C is set")

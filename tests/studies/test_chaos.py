@@ -8,8 +8,7 @@ import pytest
 import chapsym
 from chapsym.dynamics.loops import loop, tangent
 from research import chaos
-from research.chaos.orbits import LIMIT, picture, sample, slab, starts
-from research.chaos.tangent import follow_orbits
+from research.chaos.orbits import LIMIT, follow_orbits, picture, sample, slab, starts
 from research.energy.continuous import Level
 from research.energy.section import state
 

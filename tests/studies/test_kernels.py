@@ -174,9 +174,9 @@ def test_measured_rows():
         found = errors.ulps(row.kernel, texts.text(row.kernel, row.without).function, row.worst.arguments,
                             errors.exact(row.kernel, TABLE[row.kernel][0], row.worst.arguments))  # fmt: skip
         assert found[row.output] == row.worst.ulps  # it can be replayed
-    plain = json.loads(json.dumps(kernels.as_json(rows), allow_nan=False))
+    plain = json.loads(json.dumps(kernels.Kernels(rows).as_json(), allow_nan=False))["kernels"]
     assert plain[0]["worst"]["arguments"]
-    assert len(kernels.table(rows)) == len(rows)
+    assert len(kernels.Kernels(rows).table()) == len(rows)
 
 
 def test_a_kernel_is_the_same_in_c():
