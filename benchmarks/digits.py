@@ -10,7 +10,7 @@ from mpmath import mp, mpf
 import chapsym
 from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
 
-from .peers import MOST, SETTLED, newton_in_u, turned
+from .peers import MOST, SETTLED, moments_of, newton_in_u, turned
 from .results import Reached, Result, ratio_columns
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
@@ -36,7 +36,7 @@ def with_mpmath(digits: int, steps: int) -> tuple[Any, Any]:
         reached = -float(np.log10(SETTLED))
         for _ in range(steps):
             for more in range(MOST):
-                settled, *u = newton_in_u(*u, *K, *g, *J, contact)  # type: ignore[call-arg]
+                settled, *u = newton_in_u(*u, *K, *g, *moments_of(*J), contact)  # type: ignore[call-arg]
                 if not settled:
                     raise NotComparable("Newton's iteration in u does not converge")
                 if 2 ** (more + 1) * reached > digits + 10:

@@ -13,30 +13,46 @@ MOST = 30
 
 
 def with_lists(K, g, J, D, steps):
-    """Plain Python floats: the Gibbs vector u = q/q₀, extrapolated from six steps, corrected and checked."""
-    K, g, J = (tuple(map(float, v)) for v in (K, g, J))
+    """Plain Python floats."""
+    K, g = _run(*(tuple(map(float, v)) for v in (K, g, J)), D, steps, bool)
+    return np.array(K), np.array(g)
+
+
+def by_columns(K, g, J, D, steps):
+    """NumPy with one array for each component, of all balls."""
+    K, g = _run(*(v.T.copy() for v in (K, g, J)), D, steps, np.all)
+    return np.stack(K, axis=-1), np.stack(g, axis=-1)
+
+
+def _run(K, g, J, D, steps, everywhere):
+    """By the Gibbs vector u = q/q₀, extrapolated from six steps, corrected and checked."""
     past: list = []
+    moments = moments_of(*J)
     for _ in range(steps):
         if len(past) == 6:
             u = [6 * (p + t) - 15 * (q + s) + (20 * r - z) for p, q, r, s, t, z in zip(*past, strict=True)]
             past.pop()
         else:
-            u = past[0] if past else [0.0, 0.0, 0.0]
-        settled, *u = newton_in_u(*u, *K, *g, *J, D)  # type: ignore[call-arg]
+            u = past[0] if past else [0 * x for x in K]
+        settled, *u = newton_in_u(*u, *K, *g, *moments, D, everywhere)  # type: ignore[call-arg]
         if not settled:
             raise NotComparable("Newton's iteration in u does not converge")
         past.insert(0, u)
         f = 2 / (1 + u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
         K, g = turned(*u, f, *K), turned(*u, f, *g)  # type: ignore[call-arg]
-    return np.array(K), np.array(g)
+    return K, g
 
 
-def newton_in_u(u1, u2, u3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
+def moments_of(J1, J2, J3):
+    """The moments of inertia, and the differences that Λ has, too."""
+    return J2 + J3, J1 + J3, J1 + J2, J2 - J3, J3 - J1, J1 - J2
+
+
+def newton_in_u(u1, u2, u3, K1, K2, K3, g1, g2, g3, I1, I2, I3, E1, E2, E3, D, everywhere=bool):
     """Solves Bu + u×Λu = ½𝒦(1 + |u|²), B = Λ - Dγγᵀ, from a start; returns (settled, u1, u2, u3)."""
     k1, k2, k3 = 0.5 * K1, 0.5 * K2, 0.5 * K3
-    E1, E2, E3 = J2 - J3, J3 - J1, J1 - J2
     e1, e2, e3 = D * g1, D * g2, D * g3
-    b11, b22, b33 = J2 + J3 + e2 * g2 + e3 * g3, J1 + J3 + e1 * g1 + e3 * g3, J1 + J2 + e1 * g1 + e2 * g2
+    b11, b22, b33 = I1 + e2 * g2 + e3 * g3, I2 + e1 * g1 + e3 * g3, I3 + e1 * g1 + e2 * g2
     b12, b13, b23 = -e1 * g2, -e1 * g3, -e2 * g3
     for _ in range(MOST):
         t1, t2, t3 = E1 * u2, E2 * u3, E3 * u1
@@ -52,7 +68,7 @@ def newton_in_u(u1, u2, u3, K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
             r1, r2, r3,
         )  # fmt: skip
         u1, u2, u3 = u1 - d1, u2 - d2, u3 - d3
-        if d1 * d1 + d2 * d2 + d3 * d3 <= SETTLED * SETTLED * (w - 1):
+        if everywhere(d1 * d1 + d2 * d2 + d3 * d3 <= SETTLED * SETTLED * (w - 1)):
             return True, u1, u2, u3
     return False, u1, u2, u3
 
@@ -96,50 +112,3 @@ def with_tuned_arrays(K, g, J, D, steps):
         cross = np.array([[0.0, -u[2], u[1]], [u[2], 0.0, -u[0]], [-u[1], u[0], 0.0]])
         state = state + (2 / (1 + u @ u)) * (cross @ (cross @ state - state))
     return state[:, 0], state[:, 1]
-
-
-#: The weights that extend six values of a polynomial of degree five, the newest first.
-EXTEND = (6.0, -15.0, 20.0, -15.0, 6.0, -1.0)
-
-
-def by_columns(K, g, J, D, steps):
-    """NumPy with one array for each component: the Gibbs vector, extrapolated from six steps, and a check of all."""
-    K1, K2, K3 = K.T.copy()
-    g1, g2, g3 = g.T.copy()
-    J1, J2, J3 = J.T.copy()
-    S1, S2, S3, E1, E2, E3 = J2 + J3, J1 + J3, J1 + J2, J2 - J3, J3 - J1, J1 - J2
-    past: list[list[np.ndarray]] = []
-    for _ in range(steps):
-        k1, k2, k3 = 0.5 * K1, 0.5 * K2, 0.5 * K3
-        d1, d2, d3 = D * g1, D * g2, D * g3
-        e1, e2, e3 = d1 * g1, d2 * g2, d3 * g3
-        b11, b22, b33 = S1 + (e2 + e3), S2 + (e1 + e3), S3 + (e1 + e2)
-        b12, b13, b23 = -d1 * g2, -d1 * g3, -d2 * g3
-        if len(past) == len(EXTEND):
-            u1, u2, u3 = (sum(w * p[i] for w, p in zip(EXTEND, past, strict=True)) for i in range(3))
-            past.pop()
-        else:
-            u1, u2, u3 = past[0] if past else solved(b11, b12, b13, b12, b22, b23, b13, b23, b33, k1, k2, k3)
-        for _ in range(MOST):
-            t1, t2, t3 = E1 * u2, E2 * u3, E3 * u1
-            w = u1 * u1 + u2 * u2 + u3 * u3
-            r1 = b11 * u1 + b12 * u2 + b13 * u3 + t1 * u3 - (1 + w) * k1
-            r2 = b12 * u1 + b22 * u2 + b23 * u3 + t2 * u1 - (1 + w) * k2
-            r3 = b13 * u1 + b23 * u2 + b33 * u3 + t3 * u2 - (1 + w) * k3
-            v1, v2, v3 = 2 * u1, 2 * u2, 2 * u3
-            c1, c2, c3 = solved(
-                b11 - k1 * v1, b12 + E1 * u3 - k1 * v2, b13 + t1 - k1 * v3,
-                b12 + t2 - k2 * v1, b22 - k2 * v2, b23 + E2 * u1 - k2 * v3,
-                b13 + E3 * u2 - k3 * v1, b23 + t3 - k3 * v2, b33 - k3 * v3,
-                r1, r2, r3,
-            )  # fmt: skip
-            u1, u2, u3 = u1 - c1, u2 - c2, u3 - c3
-            if (c1 * c1 + c2 * c2 + c3 * c3 <= SETTLED * SETTLED * w).all():
-                break
-        else:
-            raise NotComparable("Newton's iteration by columns does not converge")
-        past.insert(0, [u1, u2, u3])
-        f = 2 / (1 + u1 * u1 + u2 * u2 + u3 * u3)
-        K1, K2, K3 = turned(u1, u2, u3, f, K1, K2, K3)
-        g1, g2, g3 = turned(u1, u2, u3, f, g1, g2, g3)
-    return np.stack([K1, K2, K3], axis=-1), np.stack([g1, g2, g3], axis=-1)

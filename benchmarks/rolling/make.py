@@ -15,7 +15,7 @@ from typing import Any
 
 import mpmath
 
-from chapsym import files
+from chapsym import files, generated
 from chapsym.dynamics.enclosed_motion import decimal, follow
 from chapsym.scene import load
 from chapsym.scene.members.exactly import exact_motion
@@ -64,19 +64,11 @@ def table(case: dict[str, Any]) -> str:
         (x, y), q, spin = (
             [mpmath.mpf(middle) for middle, _ in frame[part]] for part in ("contact", "attitude", "omega")
         )
-        w = turned(q, spin)
+        w = generated.rotate(*q, *spin)
         velocity = [radius * w[1], -radius * w[0], mpmath.mpf(0)]
         numbers = [x, y, radius, *q, *velocity, *w]
         rows.writerow([frame["time"], *(mpmath.nstr(v if abs(v) > NOTHING else 0, SHOWN) for v in numbers)])
     return stream.getvalue()
-
-
-def turned(q: list[Any], v: list[Any]) -> list[Any]:
-    """A vector of the body in space."""
-    from chapsym import generated
-
-    rows = generated.rotation(*q)
-    return [sum(rows[3 * i + j] * v[j] for j in range(3)) for i in range(3)]
 
 
 def main(names: list[str]) -> None:
