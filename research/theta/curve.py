@@ -24,20 +24,10 @@ BRANCHES = (
     Characteristic((1, 0), (0, 0)), Characteristic((1, 0), (1, 0)), Characteristic((0, 1), (1, 0)),
     Characteristic((0, 1), (1, 1)), Characteristic((0, 0), (1, 1)),
 )  # fmt: skip
-ZERO = Characteristic((0, 0), (0, 0))
+#: The Δ with θ[Δ](∫ from infinity to P) = 0 for all P of the curve.  The zeros of θ are the curve, moved by a half
+#: period, and six half periods are among them, the odd ones: only this makes Δ and Δ + each branch point odd.
+RIEMANN = Characteristic((1, 1), (0, 1))
 OTHERS = ((1, 2), (0, 2), (0, 1))
-
-
-def riemann() -> Characteristic:
-    """The Δ with θ[Δ](∫ from infinity to P) = 0 for all P of the curve.
-
-    The zeros of θ are the curve, moved by a half period, and six half periods are among them, the odd ones: so Δ is
-    the only one that makes Δ and Δ + each of the five branch points odd.
-    """
-    pairs = tuple(itertools.product((0, 1), repeat=2))
-    every = (Characteristic(a, b) for a in pairs for b in pairs)
-    (found,) = (c for c in every if all(c.plus(branch).odd for branch in (ZERO, *BRANCHES)))
-    return found
 
 
 @dataclass(frozen=True)
@@ -58,7 +48,7 @@ class Curve:
     def characteristic(self, *names: Any) -> Characteristic:
         """Δ and the half periods of some branch points, and those of e₁ and e₃ from which μ₁ and μ₂ are counted."""
         branches = (BRANCHES[self.names.index(name)] for name in names)
-        return riemann().plus(BRANCHES[0], BRANCHES[2], *branches)
+        return RIEMANN.plus(BRANCHES[0], BRANCHES[2], *branches)
 
     def line(self, found: Reduced) -> tuple[Vector, Vector]:
         """Where the two variables are at the start, in periods from e₁ and e₃, and their rate in T."""

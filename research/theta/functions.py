@@ -34,11 +34,6 @@ class Characteristic(NamedTuple):
         a, b = (tuple(sum(x) % 2 for x in zip(*rows, strict=True)) for rows in zip(*every, strict=True))
         return Characteristic(a, b)
 
-    @property
-    def odd(self) -> bool:
-        """Whether θ[a,b] is odd."""
-        return sum(x * y for x, y in zip(self.a, self.b, strict=True)) % 2 == 1
-
 
 class Thetas:
     """The functions of some characteristics on the line x₀ + sU, s complex; `reach` bounds |Im s|.

@@ -101,9 +101,17 @@ def test_a_period_matrix_that_is_not_positive_has_no_functions():
 
 
 def test_the_characteristic_of_riemann_is_the_only_one():
-    found = curve.riemann()
-    assert all(found.plus(branch).odd for branch in (curve.ZERO, *curve.BRANCHES))
-    assert curve.ZERO.plus(*curve.BRANCHES) == curve.ZERO
+    """It makes the half periods of infinity and of all branch points odd."""
+    zero = Characteristic((0, 0), (0, 0))
+    halves = [*product((0, 1), repeat=2)]
+
+    def odd(c):
+        return sum(x * y for x, y in zip(c.a, c.b, strict=True)) % 2 == 1
+
+    every = (Characteristic(*pair) for pair in product(halves, repeat=2))
+    found = [c for c in every if all(odd(c.plus(branch)) for branch in (zero, *curve.BRANCHES))]
+    assert found == [curve.RIEMANN]
+    assert zero.plus(*curve.BRANCHES) == zero
 
 
 def test_the_roots_and_the_curve_are_those_of_the_lemma():
