@@ -66,14 +66,14 @@ def convergence(tensor: list[Any], D: Any, height: Any, level: Any, counts: list
         }  # fmt: skip
 
 
-def row(tensor: list[Any], D: Any, height: Any, outer: bool, points: int, steps: int, digits: int) -> dict[str, Any]:
+def row(tensor: list[Any], D: Any, height: Any, points: int, steps: int, digits: int) -> dict[str, Any]:
     """The rotation number in half turns, as text, on levels of equal distance; None where the branch ends.
 
     With as many digits as the average over half the steps has, which has fewer.
     """
     found: list[str | None] = []
     with ctx.workdps(digits):
-        low, high = levels(tensor, D, outer)
+        low, high = levels(tensor, D)
         for i in range(points):
             l = low + (high - low) * (2 * i + 1) / (2 * points)
             try:

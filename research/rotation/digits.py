@@ -19,10 +19,10 @@ TIMED, REPEATS = 60, 5
 
 
 def measured(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool = True, in_height: bool = False
+    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, in_height: bool = False
 ) -> dict[str, Any]:
     """`plateau`, with the fewest working digits at which it is seen."""
-    found = plateau(tensor, D, height, steps, turns, outer, in_height)
+    found = plateau(tensor, D, height, steps, turns, in_height)
     return {**found, "needed": needed(found)}
 
 

@@ -13,15 +13,13 @@ from .relation import Relation
 COMPARED = 3
 
 
-def middle_level(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool, kick: Any, samples: int
-) -> Any:
+def middle_level(tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, kick: Any, samples: int) -> Any:
     """The level in the middle of the plateau, to the working digits.
 
     There the two symmetric orbits are displaced by opposite amounts; a perturbed top, which has no reversor, has the
     mean displacement 0.
     """
-    near, _, _ = resonance(tensor, D, height, steps, turns, outer, kick)
+    near, _, _ = resonance(tensor, D, height, steps, turns, kick)
     phases = starts(Level(tensor, D, height, near, kick), samples)
 
     def off(l: Any) -> Any:
@@ -54,15 +52,7 @@ def spectrum(values: Sequence[Any]) -> list[tuple[Any, Any]]:
 
 
 def displacement(
-    tensor: Sequence[Any],
-    D: Any,
-    height: Any,
-    steps: int,
-    turns: int,
-    digits: int,
-    samples: int,
-    outer: bool = True,
-    kick: Any = 0,
+    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, digits: int, samples: int, kick: Any = 0
 ) -> dict[str, Any]:
     """(G^q(u) - u)/2K - p at u = 2Ki/n, in the middle of the plateau, and its Fourier coefficients in jπu/K.
 
@@ -71,7 +61,7 @@ def displacement(
     kick: τ of a perturbed top; that has the first route only.
     """
     with ctx.workdps(digits):
-        l = middle_level(tensor, D, height, steps, turns, outer, kick, samples)
+        l = middle_level(tensor, D, height, steps, turns, kick, samples)
         level = Level(tensor, D, height, l, kick)
         phases = starts(level, samples)
         values = [level.displacement(x, steps, turns) for x in phases]

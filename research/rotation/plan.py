@@ -47,7 +47,7 @@ def overview(quick: bool) -> list[Unit]:
     return [
         Unit(
             f"{HERE}.average:row",
-            {"tensor": LAMINA["tensor"], "D": D, "height": f"{3 * i}/{2 * rows}", "outer": True, "points": points,
+            {"tensor": LAMINA["tensor"], "D": D, "height": f"{3 * i}/{2 * rows}", "points": points,
              "steps": steps, "digits": 40},
         )
         for D in ("0", "1/2", "2") for i in range(1, rows + 1)

@@ -59,20 +59,20 @@ def symmetric_starts(level: Level, steps: int) -> tuple[Any, Any]:
     return arb(0), solved(closed, guess, guess * arb("0.99"))
 
 
-def levels(tensor: Sequence[Any], D: Any, outer: bool) -> tuple[Any, Any]:
-    """The range of l: (1/Λ_b, greatest 1/Λ) if outer, else (least 1/Λ, 1/Λ_b)."""
+def levels(tensor: Sequence[Any], D: Any) -> tuple[Any, Any]:
+    """The range of l around the outer axis: (1/Λ_b, greatest 1/Λ)."""
     J = [number(x) for x in tensor]
-    inverse = sorted((1 / (sum(J) - x + number(D)) for x in J), key=float)
-    return (inverse[1], inverse[2]) if outer else (inverse[0], inverse[1])
+    _, low, high = sorted((1 / (sum(J) - x + number(D)) for x in J), key=float)
+    return low, high
 
 
-def bracket(off: Callable[[Any], Any], low: Any, high: Any, outer: bool) -> Any:
+def bracket(off: Callable[[Any], Any], low: Any, high: Any) -> Any:
     """Two levels near each other between which the rotation number passes p/q, found at few digits; None if there are
     none.
     """
     before = None
     for i in range(1, SEARCHED):
-        l = low + (high - low) * i * i / SEARCHED**2 if outer else high - (high - low) * i * i / SEARCHED**2
+        l = low + (high - low) * i * i / SEARCHED**2
         try:
             here = off(l)
         except BadInput:  # the branch has ended, or the step turns too far
@@ -93,7 +93,7 @@ def _closer(off: Callable[[Any], Any], a: Any, at_a: Any, b: Any) -> tuple[Any, 
 
 
 def resonance(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool = True, kick: Any = 0
+    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, kick: Any = 0
 ) -> tuple[Any, Any, int]:
     """(l, width by the law, digits to work with) near a resonance, at few digits."""
     with ctx.workdps(COARSE):
@@ -101,7 +101,7 @@ def resonance(
         def off(l: Any) -> Any:
             return Level(tensor, D, height, l, kick).displacement(0, steps, turns)
 
-        ends = bracket(off, *levels(tensor, D, outer), outer)
+        ends = bracket(off, *levels(tensor, D))
         if ends is None:
             raise BadInput(f"no level has the rotation number {turns}/{steps} half turns")
         l = solved(off, *ends)
@@ -114,14 +114,14 @@ def resonance(
 
 
 def plateau(
-    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, outer: bool = True, in_height: bool = False
+    tensor: Sequence[Any], D: Any, height: Any, steps: int, turns: int, in_height: bool = False
 ) -> dict[str, Any]:
     """Edges, middle, displacement and law of one plateau; numbers as decimal strings.
 
     width: in l; width_in_height: in h at the middle level; displacement: that of the symmetric orbits in the middle, in
     half turns, (even q: of u = 0 and of the mean chord); law: the width that the law predicts; digits: worked with.
     """
-    near, _, digits = resonance(tensor, D, height, steps, turns, outer)
+    near, _, digits = resonance(tensor, D, height, steps, turns)
     with ctx.workdps(digits):
 
         def off(which: int, l: Any, h: Any = height) -> Any:
@@ -136,7 +136,7 @@ def plateau(
         level = Level(tensor, D, height, centre)
         law = 2 * Relation(level).law(steps, turns) / abs(slope)
         found = {
-            "tensor": list(map(str, tensor)), "D": str(D), "height": str(height), "outer": outer, "steps": steps,
+            "tensor": list(map(str, tensor)), "D": str(D), "height": str(height), "outer": True, "steps": steps,
             "half_turns": turns, "digits": digits, "level": text(centre, digits - 5), "width": text(width),
             "displacement": [text(off(w, centre)) for w in (0, 1)], "slope": text(slope), "law": text(law),
             "ratio": float(width / law) if law > 0 else None, "modulus": float(level.m.sqrt()),

@@ -102,7 +102,7 @@ def test_averages_agree_with_those_of_the_package_s_increments():
 
 
 def test_a_row_says_where_the_branch_ends():
-    found = average.row([0, 1, 3], "1/2", "6/4", True, 3, 40, 20)
+    found = average.row([0, 1, 3], "1/2", "6/4", 3, 40, 20)
     assert found["height"] == "3/2"
     assert found["row"][-1] is None
     assert 0.05 < float(found["row"][0]) < 0.4
