@@ -1,7 +1,5 @@
 """The kernels of the ball: each with its inputs, its expressions, and the decided statements that carry it."""
 
-from collections.abc import Sequence
-
 import sympy as sp
 
 from chapsym.codegen import Group, Kernel, left, right
@@ -40,10 +38,6 @@ def _matrix(prefix: str) -> tuple[str, ...]:
 
 def _vector(prefix: str) -> tuple[str, ...]:
     return tuple(f"{prefix}{row}" for row in (1, 2, 3))
-
-
-def _column(symbols: Sequence[sp.Symbol]) -> sp.Matrix:
-    return sp.Matrix(list(symbols))
 
 
 #: The moments of inertia by the mass tensor.
@@ -116,7 +110,7 @@ KERNELS: tuple[Kernel, ...] = (
         (left("5.1", "Ωx = x + (Ω - (q₀² + |q|²))x"),),
         (QUATERNION, VECTOR),
         _vector("x"),
-        lambda: three.rotated(_column(VECTOR[1])),
+        lambda: three.rotated(sp.Matrix(VECTOR[1])),
     ),
     Kernel(
         "transport",
@@ -124,7 +118,7 @@ KERNELS: tuple[Kernel, ...] = (
         (left("5.3", "Ωᵀx = x + (Ω - (q₀² + |q|²))ᵀx, here of 𝒦⃗").at(three.placed((K, VECTOR[1]))),),
         (QUATERNION, VECTOR),
         _vector("x"),
-        lambda: three.transported(_column(VECTOR[1])),
+        lambda: three.transported(sp.Matrix(VECTOR[1])),
     ),
     Kernel(
         "compose",
@@ -132,7 +126,7 @@ KERNELS: tuple[Kernel, ...] = (
         (left("5.1", "⟨ab, p⟩ = ⟨a, p b̄⟩").along(*({x: 1} for x in sp.symbols("p0:4"))),),
         (FIRST, SECOND),
         ("c0", "c1", "c2", "c3"),
-        lambda: three.quaternion_product(_column(FIRST[1]), _column(SECOND[1])),
+        lambda: three.quaternion_product(sp.Matrix(FIRST[1]), sp.Matrix(SECOND[1])),
     ),
     Kernel(
         "centre_step",

@@ -49,6 +49,16 @@ def axial(a: sp.Matrix) -> sp.Matrix:
     return sp.Matrix([a[2, 1], a[0, 2], a[1, 0]])
 
 
+def triple(m: sp.Matrix) -> sp.Expr:
+    """The determinant of a 3 × 3 matrix, as a product of its rows."""
+    return m[0, :].dot(m[1, :].cross(m[2, :]))
+
+
+def determinant(matrix: sp.Matrix) -> sp.Expr:
+    """The determinant without divisions, so that nothing is simplified on the way."""
+    return matrix.det(method="berkowitz")
+
+
 def quaternion_product(a: sp.Matrix, b: sp.Matrix) -> sp.Matrix:
     """Hamilton's product of (scalar, vector) columns."""
     a0, av, b0, bv = a[0], a[1:, :], b[0], b[1:, :]

@@ -2,17 +2,18 @@
 
 import sympy as sp
 
-from chapsym.derive import continuous, derivation, gyrostat, motion, three
+from chapsym.derive import continuous, gyrostat, motion, three
 from chapsym.derive.gyrostat import ALGEBRA, RATES, A, rotor
 from chapsym.derive.limits import omega
 from chapsym.derive.motion import D, Gamma, J, commutator, rate
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, gamma, hat
 from chapsym.derive.words import Traces, evaluate
+from chapsym.proofs.paper.s2_classical import along, factor_and_divergence, solved_acceleration
+from chapsym.proofs.paper.s2_every_n import moving
 from chapsym.prove import Proof, claim, equations, main
 
 RING = Quotient((*omega, *gamma, *rotor, J1, J2, J3, three.D), [three.UNIT_VERTICAL])
-VERTICAL_RATE = gamma.cross(omega)
 
 words, vectors = equations(ALGEBRA), equations(RING)
 
@@ -65,11 +66,6 @@ def which_rotor(p: Proof) -> None:
     p.control(equation("Routh's with I", whole - impulse * speed, routh + kinetic(locked - lighter, omega)))
 
 
-def moving(name: str, expr: sp.Expr) -> sp.Symbol:
-    """The rate of an expression, as a step of the certificate."""
-    return derivation.rate(f"{name}_rate", "d/dt", derivation.written(name, "as in the claim", expr, ALGEBRA), RATES)
-
-
 @claim(
     "gyrostat-motion",
     r"\dot{\mathbf K} + [\omega,\mathbf K] = 0,\ \mathbf K = J\omega + \omega J + D(\Gamma\omega + \omega\Gamma) + A;\quad "
@@ -91,7 +87,11 @@ def equations_of_motion(p: Proof) -> None:
     printed = J * spin + spin * J + D * (Gamma * spin + spin * Gamma) + A
     p.printed(
         words("K = Jω + ωJ + D(Γω + ωΓ) + A", printed, momentum),
-        words("K̇ + [ω,K] is the principle", moving("K_rotor", momentum) + commutator(spin, momentum), whole),
+        words(
+            "K̇ + [ω,K] is the principle",
+            moving("K_rotor", momentum, RATES, ALGEBRA) + commutator(spin, momentum),
+            whole,
+        ),
         words("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(spin, Gamma), 0),
     )
     p.say("For n = 3, A = a× and (A₃₂, A₁₃, A₂₁) of K:")
@@ -109,19 +109,6 @@ def momentum() -> sp.Matrix:
     return sp.Matrix(continuous.momentum()) + rotor
 
 
-def acceleration(turned: sp.Matrix = rotor) -> sp.Matrix:
-    """ω̇, of Λω̇ = g + (D/F)⟨Λ⁻¹γ, g⟩γ with g = (Λω + a) × ω; `turned` in the place of a."""
-    gyration = (three.lam() * omega + turned).cross(omega)
-    inverse = continuous.inverse_inertia()
-    lift = three.D / continuous.rolling_factor() * (inverse * gamma).dot(gyration) * gamma
-    return inverse * (gyration + lift)
-
-
-def along(expr: sp.Matrix, faster: sp.Matrix) -> sp.Matrix:
-    """The derivative of functions of ω, γ."""
-    return expr.jacobian(omega) * faster + expr.jacobian(gamma) * VERTICAL_RATE
-
-
 @claim(
     "gyrostat-integrals",
     r"\langle K,\gamma\rangle,\ \langle K,K\rangle,\ \langle\gamma,\gamma\rangle,\ H = \tfrac12\langle\omega,B(\gamma)\omega\rangle"
@@ -131,7 +118,7 @@ def along(expr: sp.Matrix, faster: sp.Matrix) -> sp.Matrix:
 def integrals(p: Proof) -> None:
     """The four integrals of the ball with a rotor; for every n tr K², tr K²Γ and the energy."""
     p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
-    faster, K = acceleration(), momentum()
+    faster, K = solved_acceleration(rotor), momentum()
     p.say("ω̇ of K̇ = K × ω with K = B(γ)ω + a, unique as B(γ) is regular:")
     p.lemma(vectors("K̇ = K × ω for Λω̇ = g + (D/F)⟨Λ⁻¹γ,g⟩γ, g = (Λω + a) × ω", along(K, faster), K.cross(omega)))
     energy = omega.dot(sp.Matrix(continuous.momentum())) / 2
@@ -146,11 +133,15 @@ def integrals(p: Proof) -> None:
     spin = motion.omega
     power = -spin * gyrostat.eliminated() / 2
     ball = -spin * (gyrostat.contact_momentum() - A) / 4
-    p.lemma(words("dH/dt, H = -¼ tr(ω(K - A)), is that", moving("energy_rotor", ball), power, Traces(ALGEBRA)))
+    p.lemma(
+        words(
+            "dH/dt, H = -¼ tr(ω(K - A)), is that", moving("energy_rotor", ball, RATES, ALGEBRA), power, Traces(ALGEBRA)
+        )
+    )
     p.control(vectors("d/dt ½⟨K,ω⟩ = 0", along(sp.Matrix([K.dot(omega) / 2]), faster), sp.zeros(1, 1)))
     plain = sp.Matrix(continuous.momentum())
     p.control(vectors("d/dt ⟨B(γ)ω,γ⟩ = 0", along(sp.Matrix([plain.dot(gamma)]), faster), sp.zeros(1, 1)))
-    p.control(vectors("K̇ = K × ω with -a in ω̇", along(K, acceleration(-rotor)), K.cross(omega)))
+    p.control(vectors("K̇ = K × ω with -a in ω̇", along(K, solved_acceleration(-rotor)), K.cross(omega)))
 
 
 @claim(
@@ -163,12 +154,10 @@ def measure(p: Proof) -> None:
     p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
     p.assume("|γ| = 1: F is taken as ⟨Iγ, Λ⁻¹γ⟩ near the sphere, and the field is tangent to it")
     p.say("As in 2.6, div(√F X) = 0 is, times 2√F: Ḟ + 2F div X = 0, X = (ω̇, γ × ω).")
-    factor = continuous.rolling_factor()
-    change = along(sp.Matrix([factor]), acceleration())[0]
-    divergence = sum(sp.diff(x, at) for x, at in zip([*acceleration(), *VERTICAL_RATE], [*omega, *gamma], strict=True))
+    factor, change, divergence = factor_and_divergence(solved_acceleration(rotor))
     p.printed(vectors("Ḟ + 2F div X = 0", change + 2 * factor * divergence, 0))
     p.say("a is not in it: what it adds to ω̇ is B(γ)⁻¹(a × ω), whose divergence is that of a symmetric matrix with a×.")
-    extra = acceleration() - acceleration(0 * rotor)
+    extra = solved_acceleration(rotor) - solved_acceleration()
     p.lemma(vectors("∂/∂ω of what a adds to ω̇ has the trace 0", extra.jacobian(omega).trace(), 0))
     p.control(vectors("Ḟ + F div X = 0 (density F)", change + factor * divergence, 0))
     p.control(vectors("div X = 0 (density 1)", divergence, 0))

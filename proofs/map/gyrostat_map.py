@@ -5,13 +5,14 @@ from functools import cache
 import sympy as sp
 
 from chapsym.derive import ball, continuous, gyrostat, three
-from chapsym.derive.ball import D, Gamma, J, K, Omega, OmegaT, gamma, gammaT
+from chapsym.derive.ball import D, Gamma, J, K, Omega, OmegaT
 from chapsym.derive.derivation import replaced
 from chapsym.derive.gyrostat import RING, STEP, A, rotor, step_A
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, placed, q, q0
 from chapsym.derive.words import Traces
+from chapsym.proofs.map.self_adjoint import RETURN
 from chapsym.prove import Comparison, Proof, claim, equations, main
 
 words, vectors = equations(STEP), equations(RING)
@@ -123,16 +124,9 @@ def integrals(p: Proof) -> None:
 
 def momentum_back(sign: int) -> sp.Symbol:
     """𝒦 of the step that goes back, with sign·A, as a step of the certificate."""
-    places = {
-        Omega: OmegaT,
-        OmegaT: Omega,
-        Gamma: OmegaT * Gamma * Omega,
-        gamma: OmegaT * gamma,
-        gammaT: gammaT * Omega,
-    }
     name = "gyrostat_back" if sign < 0 else "gyrostat_back_same"
     text = "Ωᵀ for Ω, γ_+ = Ωᵀγ for γ" + (", -A for A" if sign < 0 else "")
-    return replaced(name, text, gyrostat.momentum(), places | {step_A: sign * step_A}, gyrostat.BOTH)
+    return replaced(name, text, gyrostat.momentum(), RETURN | {step_A: sign * step_A}, gyrostat.BOTH)
 
 
 @claim(
@@ -225,11 +219,6 @@ def energy(p: Proof) -> None:
         x.subs({J2: J1, rotor[1]: 0, rotor[2]: 0}) for x in (end, start)), ring))  # fmt: skip
 
 
-def triple(matrix: sp.Matrix) -> sp.Expr:
-    """The determinant of a (3, 3) matrix, not expanded."""
-    return matrix.col(0).dot(matrix.col(1).cross(matrix.col(2)))
-
-
 @cache
 def volumes() -> tuple[sp.Expr, sp.Expr]:
     """The determinants of the derivatives of (𝒦, γ) before and after a step, by a turn of q and by γ."""
@@ -239,7 +228,7 @@ def volumes() -> tuple[sp.Expr, sp.Expr]:
         for y, z in ((QUATERNION, body), (three.gamma, sp.eye(3)))
     )
     after = by_turn[1] - turn.T * by_vertical[0] * turn * by_turn[2]
-    return triple(by_turn[0]), triple(after)
+    return three.triple(by_turn[0].T), three.triple(after.T)
 
 
 @claim(
@@ -261,7 +250,7 @@ def measure(p: Proof) -> None:
     end = start.subs(placed((q, -q), (rotor, -rotor)), simultaneous=True) * -1
     p.lemma(vectors("Ωᵀ𝒦(q; a) = -𝒦(-q; -a) for D = 0", turn * start, end, ring))
     body = sp.Matrix.hstack(*three.body_directions())
-    here, there = (triple(x.jacobian(QUATERNION) * body) for x in (start, end))
+    here, there = (three.triple((x.jacobian(QUATERNION) * body).T) for x in (start, end))
     p.printed(vectors("det ∂(Ωᵀ𝒦) = det ∂𝒦 for D = 0", there, here, ring))
     p.say("For equal moments F = 1 - D/(I + D): the continuous ball has the constant density.  At q = (4, 2, 1, 2)/5:")
     at = TURN | UNIT | EQUAL | ROLLING

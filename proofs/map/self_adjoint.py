@@ -17,21 +17,21 @@ from chapsym.prove import Equation, Identity, Proof, Theorem, claim, equations, 
 equation = equations(ALGEBRA)
 
 
-def with_ends_swapped(expr: sp.Expr, vertical: sp.Expr = OmegaT * Gamma * Omega) -> sp.Expr:
-    """The same function of the step that goes back: Ωᵀ in the place of Ω, and Γ where the step has ended."""
+#: The step that goes back: Ωᵀ in the place of Ω, and the vertical where the step has ended.
+RETURN = {
+    **{Omega: OmegaT, OmegaT: Omega, Gamma: OmegaT * Gamma * Omega},
+    **{gamma: OmegaT * gamma, gammaT: gammaT * Omega},
+}
+
+
+def with_ends_swapped(expr: sp.Expr, vertical: sp.Expr = RETURN[Gamma]) -> sp.Expr:
+    """The same function of the step that goes back."""
     return ALGEBRA.normal(unfolded(expr).xreplace({Omega: OmegaT, OmegaT: Omega, Gamma: vertical}))
 
 
 def momentum_back() -> sp.Symbol:
     """𝒦 of that step, as a step of the certificate."""
-    places = {
-        Omega: OmegaT,
-        OmegaT: Omega,
-        Gamma: OmegaT * Gamma * Omega,
-        gamma: OmegaT * gamma,
-        gammaT: gammaT * Omega,
-    }
-    return replaced("momentum_back", "Ωᵀ for Ω and γ_+ = Ωᵀγ for γ", ball.momentum(), places, ball.BOTH)
+    return replaced("momentum_back", "Ωᵀ for Ω and γ_+ = Ωᵀγ for γ", ball.momentum(), RETURN, ball.BOTH)
 
 
 def vector_with_ends_swapped() -> sp.Matrix:

@@ -23,9 +23,6 @@ UNIT = Quotient((*K, *gamma, I1, I2, I3, D), [three.UNIT_VERTICAL])
 equal = equations(FREE)
 
 
-scalar = equations(FREE)
-
-
 def inertial(value: sp.Matrix) -> sp.Matrix:
     """The same with the moments of inertia."""
     return sp.Matrix(value).subs(BY_INERTIA, simultaneous=True)
@@ -41,7 +38,7 @@ def stable_momentum(p: Proof) -> None:
     B = inertial(three.contact_inertia())
     p.printed(equal("B(γ)x = Ix + γ × D(x × γ)", B * x, INERTIA * x + gamma.cross(D * x.cross(gamma))))
     p.say("Let e be what rounding makes of x × γ: then D e moves the result across γ only,")
-    p.printed(scalar("⟨γ, Ix + γ × D(x × γ + e)⟩ = ⟨γ, Ix⟩",
+    p.printed(equal("⟨γ, Ix + γ × D(x × γ + e)⟩ = ⟨γ, Ix⟩",
                      gamma.dot(INERTIA * x + gamma.cross(D * (x.cross(gamma) + e))), gamma.dot(INERTIA * x)))  # fmt: skip
     p.say(
         "where B(γ) ≥ D.  So it is a change of x by at most √(1 + (b/a)²)|e|, whatever D is, with a = ⟨γ, Iγ⟩ and b the part of",
@@ -56,7 +53,7 @@ def stable_momentum(p: Proof) -> None:
     p.lemma(equal("those of `residual` 𝒦(q, γ) - 𝒦", inertial(unrolled(steps, value)), inertial(three.momentum()) - K))
     steps, value = continuous.momentum_steps()
     p.lemma(equal("those of `contact_momentum` B(γ)ω", inertial(unrolled(steps, value)), B * omega))
-    p.control(scalar("⟨γ, (B + D e e₁e₁ᵀ)x⟩ = ⟨γ, Ix⟩", gamma.dot(rounded * x), gamma.dot(INERTIA * x)))
+    p.control(equal("⟨γ, (B + D e e₁e₁ᵀ)x⟩ = ⟨γ, Ix⟩", gamma.dot(rounded * x), gamma.dot(INERTIA * x)))
     p.control(equal("B(γ)x = Ix + γ × D(γ × x)", B * x, INERTIA * x + gamma.cross(D * gamma.cross(x))))
 
 
@@ -72,9 +69,7 @@ def stable_determinant(p: Proof) -> None:
     adjugate = A.adjugate()
     value = (gamma.T * M * adjugate * gamma)[0]
     p.say("γᵀ(|γ|² - γγᵀ) = 0, so γᵀA = γᵀM; times adj(A)γ:")
-    p.printed(
-        equal("γᵀA = γᵀM", gamma.T * A, gamma.T * M), scalar("|γ|² det A = ⟨Mᵀγ, adj(A)γ⟩", NORM * A.det(), value)
-    )
+    p.printed(equal("γᵀA = γᵀM", gamma.T * A, gamma.T * M), equal("|γ|² det A = ⟨Mᵀγ, adj(A)γ⟩", NORM * A.det(), value))
     p.say("adj(A) has D² at most, and M none.  In the sum over a row of A the terms have D³, which cancels:")
     one = placed((M, sp.eye(3)))
     terms = [A[0, j].subs(one) * adjugate[j, 0].subs(one) for j in range(3)]
@@ -94,7 +89,7 @@ def stable_determinant(p: Proof) -> None:
     p.lemma(equal("B(γ) = I + D(|γ|² - γγᵀ)", B, INERTIA + D * rolling))
     steps, (determinant, *rest) = gibbs.newton_heavy_steps()
     last = [(names, values) for names, values in steps if names in (gibbs.Y, gibbs.Z)]
-    p.lemma(scalar("the kernel divides ⟨Mᵀγ, Cᵀγ⟩ by |γ|²", sp.cancel(unrolled(last, sp.Matrix([determinant]))[0] * NORM),
+    p.lemma(equal("the kernel divides ⟨Mᵀγ, Cᵀγ⟩ by |γ|²", sp.cancel(unrolled(last, sp.Matrix([determinant]))[0] * NORM),
                    (gamma.T * gibbs.M * gibbs.C.T * gamma)[0],
                    Quotient((*gibbs.M, *gibbs.C, *gamma), [])))  # fmt: skip
     others = gibbs.newton_steps()[1][1:]
@@ -102,9 +97,9 @@ def stable_determinant(p: Proof) -> None:
     p.lemma(Equation("and the rest is that of `gibbs_newton`", rest, others, Quotient(names)))
     T = sp.Matrix(three.tangent_jacobian())
     p.lemma(equal("γᵀT(D) = γᵀT(0) for the tangent Jacobian", inertial(gamma.T * T), inertial(gamma.T * T.subs(D, 0))))
-    p.control(scalar("|γ|² det A = ⟨Mγ, adj(A)γ⟩", NORM * A.det(), ((M * gamma).T * adjugate * gamma)[0]))
+    p.control(equal("|γ|² det A = ⟨Mγ, adj(A)γ⟩", NORM * A.det(), ((M * gamma).T * adjugate * gamma)[0]))
     p.control(equal("T(D)γ = T(0)γ", inertial(T * gamma), inertial(T.subs(D, 0) * gamma)))
-    p.control(scalar("|γ|² det A = ⟨γ, M adj(M)γ⟩", NORM * A.det(), (gamma.T * M * M.adjugate() * gamma)[0]))
+    p.control(equal("|γ|² det A = ⟨γ, M adj(M)γ⟩", NORM * A.det(), (gamma.T * M * M.adjugate() * gamma)[0]))
 
 
 @claim(
@@ -121,24 +116,24 @@ def stable_inverse(p: Proof) -> None:
     adjugate = Lam.adjugate()
     f = gamma.dot(INERTIA * adjugate * gamma)  # F det Λ
     inverse = f * adjugate + D * adjugate * gamma * gamma.T * adjugate  # times F (det Λ)²
-    p.printed(scalar("F det Λ = |γ|² det Λ - D⟨γ, adj(Λ)γ⟩", f, NORM * whole - D * gamma.dot(adjugate * gamma)),
+    p.printed(equal("F det Λ = |γ|² det Λ - D⟨γ, adj(Λ)γ⟩", f, NORM * whole - D * gamma.dot(adjugate * gamma)),
               equal("(|γ|²Λ - Dγγᵀ)(F adj(Λ) det Λ + D adj(Λ)γγᵀadj(Λ)) = |γ|² F (det Λ)²",
                     (NORM * Lam - D * gamma * gamma.T) * inverse, NORM * f * whole * sp.eye(3)))  # fmt: skip
     B = sp.Matrix(gibbs.contact_inertia())
     p.lemma(equal("on |γ| = 1: B(γ) = Λ - Dγγᵀ", B, Lam - D * gamma * gamma.T, UNIT))
-    p.lemma(scalar("det B = F det Λ there", B.det(), f, UNIT))
+    p.lemma(equal("det B = F det Λ there", B.det(), f, UNIT))
     p.say(
         "F is a sum of positive terms; an entry i ≠ j is the product of D γᵢγⱼ and 1/(ΛᵢΛⱼF), one on the diagonal a sum",
         "of two positive terms.  So every entry has its digits, and ω has an error of a few roundings of |B⁻¹||K|: what",
         "a rounding of K does itself.  That is the condition of ω: |B⁻¹||K|/|ω|, up to Λmax/I_min for K across γ.",
     )
     across = [gamma[i] * gamma[j] if i != j else sp.S.One for i in range(3) for j in range(3)]
-    p.lemma(scalar("F det Λ is a polynomial in γ², I, D without a minus sign", f, without_minus(f)))
+    p.lemma(equal("F det Λ is a polynomial in γ², I, D without a minus sign", f, without_minus(f)))
     p.lemma(equal("so is each entry of F (det Λ)² B⁻¹, but for the factor γᵢγⱼ", inverse,
                   [factor * without_minus(sp.cancel(entry / factor)) for factor, entry in zip(across, inverse, strict=True)]))  # fmt: skip
     p.lemma(_quotient("ω of the kernel", sp.Matrix(continuous.angular_velocity()), inverse * K, f * whole))
     p.lemma(_quotient("its energy", sp.Matrix([continuous.energy()]), K.T * inverse * K, 2 * f * whole))
-    p.control(scalar("F det Λ = det Λ - D⟨γ, adj(Λ)γ⟩ off |γ| = 1", f, whole - D * gamma.dot(adjugate * gamma)))
+    p.control(equal("F det Λ = det Λ - D⟨γ, adj(Λ)γ⟩ off |γ| = 1", f, whole - D * gamma.dot(adjugate * gamma)))
     p.control(Fact("|γ|² det Λ - D⟨γ, adj(Λ)γ⟩, term by term, without a minus sign",
                    _positive(NORM * whole) and _positive(-D * gamma.dot(adjugate * gamma))))  # fmt: skip
     p.control(equal("B⁻¹ with -D/F", (NORM * Lam - D * gamma * gamma.T) * (2 * f * adjugate - inverse),

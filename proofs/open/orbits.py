@@ -7,7 +7,7 @@ import sympy as sp
 from chapsym.derive import gibbs
 from chapsym.derive.gibbs import I1, I2, I3, D, d, k, u
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import gamma, placed
+from chapsym.derive.three import determinant, gamma, placed, triple
 from chapsym.proofs.map.gibbs import FREE, equal
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, in_field, main
 
@@ -63,7 +63,7 @@ def turning(v: sp.Matrix) -> sp.Matrix:
     r"\det D\Phi|_M = \frac{\det\partial_uG(-u;\, \Omega^T\gamma, -\Omega^Tk)}{\det\partial_uG(u;\, \gamma, k)}",
     uses=("gibbs", "gibbs-rotation", "self-adjoint"),
 )
-def step_determinant(p: Proof) -> None:
+def stepdeterminant(p: Proof) -> None:
     """How a step changes volumes: the quotient of two Jacobians, that of the step back and that of the step."""
     p.assume("𝒦 and γ not parallel, ∂G/∂u regular (below the bound of small-branch it is)")
     p.say(
@@ -93,8 +93,8 @@ def step_determinant(p: Proof) -> None:
     p.lemma(exchanged())
     p.say("For D = 0 the two dets are equal: there the volume is invariant.")
     without = {D: sp.S.Zero}
-    p.printed(Equation("det 𝒜~ = det 𝒜 for D = 0", [_determinant(slope(-u, gamma).subs(without))],
-                     [_determinant(slope(u, gamma).subs(without))], FREE))  # fmt: skip
+    p.printed(Equation("det 𝒜~ = det 𝒜 for D = 0", [determinant(slope(-u, gamma).subs(without))],
+                     [determinant(slope(u, gamma).subs(without))], FREE))  # fmt: skip
     p.say("For one step, with Y and S as they are defined:")
     point, ball = sp.Matrix([sp.Rational(1, 3), sp.Rational(-1, 4), sp.Rational(1, 5)]), {I1: 6, I2: 5, I3: 3}
     here, there = slope(point, gamma).subs(ball), slope(-point, turn(point) * gamma).subs(ball)
@@ -107,9 +107,9 @@ def step_determinant(p: Proof) -> None:
     defined = [sp.Eq(a, b) for left, right in pairs for a, b in zip(left, right, strict=True)]
 
     def by_definition(text: str, quotient: sp.Expr) -> Comparison:
-        return Comparison(text, [*defined, sp.Eq(_triple(S), quotient)], numbers)
+        return Comparison(text, [*defined, sp.Eq(triple(S), quotient)], numbers)
 
-    quotient = _triple(A_back) / _triple(A)
+    quotient = triple(A_back) / triple(A)
     p.lemma(by_definition("det S by its definition is this quotient, at γ = (2, 3, 6)/7, D = 2", quotient))
     p.control(key("T⁻¹𝒜~ = 𝒜 + 𝒢T⁻¹E", -1))
     p.control(exchanged(-1))
@@ -120,16 +120,7 @@ def exchanged(sign: int = 1) -> Equation:
     """det(1 - FY) of any two matrices is det(1 - YF); the argument mutates it."""
     one = sp.eye(3)
     text = "det(1 - FY) = det(1 - YF)" if sign > 0 else "det(1 - FY) = det(1 + YF)"
-    return Equation(text, [_determinant(one - S * Y)], [_determinant(one - sign * Y * S)], Quotient((*S, *Y), []))
-
-
-def _triple(m: sp.Matrix) -> sp.Expr:
-    """The determinant of a 3 × 3 matrix, as a product of its rows."""
-    return m[0, :].dot(m[1, :].cross(m[2, :]))
-
-
-def _determinant(m: sp.Matrix) -> sp.Expr:
-    return m.det(method="berkowitz")
+    return Equation(text, [determinant(one - S * Y)], [determinant(one - sign * Y * S)], Quotient((*S, *Y), []))
 
 
 def steady_level(t_: sp.Expr) -> sp.Expr:
@@ -167,7 +158,7 @@ def steady_circles(p: Proof) -> None:
                      list((1 + t**2) ** 2 * turned * half_momentum(axis, vertical)), STEADY))  # fmt: skip
 
     def steady(text: str, swing: sp.Expr) -> Equation:
-        return Equation(text, [(1 + t**2) * _determinant(slope(axis, vertical))],
+        return Equation(text, [(1 + t**2) * determinant(slope(axis, vertical))],
                         [(1 - t**2) * (steady_level(t) + swing * around(x, y, t))], STEADY)  # fmt: skip
 
     p.printed(steady("(1 + t²) det 𝒜 = (1 - t²) f, f = P + Q Re((1 - it)(x + iy)²)", SWING))
@@ -210,7 +201,7 @@ def _example(p: Proof) -> None:
     steps = [(sp.Matrix(3, 3, e[:9]), sp.Matrix(3, 3, e[9:])) for e in known]
     slopes = [normal(A.adjugate() * _inverse(normal(sp.Matrix([A.det()]))[0]) * G) for A, G in steps]
     changes = [normal(T - E * Y_) for Y_ in slopes]
-    parts = [normal(sp.Matrix([_determinant(S_)]))[0] for S_ in changes]
+    parts = [normal(sp.Matrix([determinant(S_)]))[0] for S_ in changes]
     product = normal(sp.Matrix([sp.prod(parts)]))[0]
     least, size, largest, slope_ = sp.symbols("i1 k i3 rho")
     facts = (
@@ -224,7 +215,7 @@ def _example(p: Proof) -> None:
         at_root("𝒜 and 𝒢 at each step", [e.xreplace(at) for at in places for e in made], _all(known)),
         at_root("𝒜Y = 𝒢", _all(A * Y_ for (A, _), Y_ in zip(steps, slopes, strict=True)), _all(G for _, G in steps)),
         at_root("S = T - EY", _all(changes), _all(T - E * Y_ for Y_ in slopes)),
-        at_root("the determinants of S, and their product", [*map(_determinant, changes), sp.Mul(*parts, evaluate=False)], [*parts, product]),
+        at_root("the determinants of S, and their product", [*map(determinant, changes), sp.Mul(*parts, evaluate=False)], [*parts, product]),
         not_one("the product", product),
         at_root("it is Πf(φ - (j + ½)θ)/f(φ - jθ)", [by_formula(EXAMPLE)], [product]),
     )  # fmt: skip

@@ -31,14 +31,14 @@ def momentum() -> sp.Matrix:
     return sp.Matrix(continuous.momentum())
 
 
-def momentum_rate() -> sp.Matrix:
-    """dK/dt along γ̇ = γ×ω, for any ω̇."""
-    return momentum().jacobian(omega) * alpha + momentum().jacobian(gamma) * VERTICAL_RATE
+def along(expr: sp.Matrix, faster: sp.Matrix = alpha) -> sp.Matrix:
+    """The derivative of functions of ω, γ along γ̇ = γ×ω, for any ω̇."""
+    return expr.jacobian(omega) * faster + expr.jacobian(gamma) * VERTICAL_RATE
 
 
-def solved_acceleration() -> sp.Matrix:
-    """ω̇ of (2.2)."""
-    gyration = (three.lam() * omega).cross(omega)
+def solved_acceleration(rotor: sp.Matrix | None = None) -> sp.Matrix:
+    """ω̇ of (2.2); with the momentum of a rotor, of K = Λω - D⟨ω,γ⟩γ + a, too (lemma `gyrostat-motion`)."""
+    gyration = (three.lam() * omega + (sp.zeros(3, 1) if rotor is None else rotor)).cross(omega)
     lift = D / rolling_factor() * (inverse_inertia() * gamma).dot(gyration) * gamma
     return inverse_inertia() * (gyration + lift)
 
@@ -107,11 +107,11 @@ def closed_system(p: Proof) -> None:
         "Put ω̇ from (2.2) into K̇ = ∂K/∂ω ω̇ + ∂K/∂γ (γ×ω); it must be K×ω. B(γ) = ∂K/∂ω is invertible, so ω̇ is unique."
     )
     acceleration = dict(zip(alpha, solved_acceleration(), strict=True))
-    rate = momentum_rate().subs(acceleration, simultaneous=True)
+    rate = along(momentum()).subs(acceleration, simultaneous=True)
     p.printed(equation("K̇ = K×ω", rate, momentum().cross(omega)))
     p.lemma(equation("det B(γ) = det Λ · F", momentum().jacobian(omega).det(), three.lam().det() * rolling_factor()))
     wrong = dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True))
-    rate = momentum_rate().subs(wrong, simultaneous=True)
+    rate = along(momentum()).subs(wrong, simultaneous=True)
     p.control(equation("K̇ = K×ω without the last term", rate, momentum().cross(omega)))
 
 
@@ -139,7 +139,7 @@ def four_integrals(p: Proof) -> None:
     p.printed(equation("⟨K,γ⟩ = ⟨Jω,γ⟩", k.dot(gamma), (central * omega).dot(gamma)))
     energy = k.dot(omega)
     acceleration = dict(zip(alpha, solved_acceleration(), strict=True))
-    power = (sp.Matrix([energy]).jacobian(omega) * alpha + sp.Matrix([energy]).jacobian(gamma) * VERTICAL_RATE)[0]
+    power = along(sp.Matrix([energy]))[0]
     p.printed(equation("d/dt ⟨K,ω⟩ = 0", power.subs(acceleration, simultaneous=True), 0))
     p.say("Independent: their gradients have rank 4 at a rational point, hence on an open dense set.")
     functions = sp.Matrix([gamma.dot(gamma), k.dot(gamma), k.dot(k), energy])
@@ -188,14 +188,20 @@ def invariant_measure(p: Proof) -> None:
     p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
     p.assume("|γ| = 1: F is taken as ⟨Iγ, Λ⁻¹γ⟩ near the sphere, and the field is tangent to it")
     p.say("div(√F X) = 0 is, times 2√F: Ḟ + 2F div X = 0, with X = (ω̇, γ×ω) of (2.2) in R⁶.")
-    factor = rolling_factor()
-    field = sp.Matrix([*solved_acceleration(), *VERTICAL_RATE])
-    places = [*omega, *gamma]
-    divergence = sum(sp.diff(field[i], places[i]) for i in range(6))
-    rate = (sp.Matrix([factor]).jacobian(gamma) * VERTICAL_RATE)[0]
+    factor, rate, divergence = factor_and_divergence(solved_acceleration())
     p.printed(equation("Ḟ + 2F div X = 0", rate + 2 * factor * divergence, 0))
     p.control(equation("Ḟ + F div X = 0 (density F)", rate + factor * divergence, 0))
     p.control(equation("div X = 0 (density 1)", divergence, 0))
+
+
+def factor_and_divergence(acceleration: sp.Matrix) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """F, Ḟ, and the divergence of (ω̇, γ×ω)."""
+    field = zip([*acceleration, *VERTICAL_RATE], [*omega, *gamma], strict=True)
+    return (
+        rolling_factor(),
+        along(sp.Matrix([rolling_factor()]), acceleration)[0],
+        sum(sp.diff(x, at) for x, at in field),
+    )
 
 
 def at_vertical(expr: sp.Expr | sp.Matrix):

@@ -39,9 +39,11 @@ def motion_symbols() -> Symbols:
     }
 
 
-def moving(name: str, expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr] = motion.RATES) -> sp.Symbol:
+def moving(
+    name: str, expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr] = motion.RATES, algebra: WordAlgebra = ALGEBRA
+) -> sp.Symbol:
     """The rate of an expression, as a step of the certificate."""
-    return derivation.rate(f"{name}_rate", "d/dt", derivation.written(name, "as in the claim", expr, ALGEBRA), rates)
+    return derivation.rate(f"{name}_rate", "d/dt", derivation.written(name, "as in the claim", expr, algebra), rates)
 
 
 def motion_point() -> Point:

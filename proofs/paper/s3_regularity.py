@@ -5,6 +5,7 @@ import sympy as sp
 from chapsym.derive import continuous, principle, three
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, gamma, hat, placed, q, q0
+from chapsym.derive.three import determinant as det
 from chapsym.prove import REAL, Comparison, Count, Equation, Fact, Proof, claim, equations, main
 
 m, rho = sp.symbols("m rho")
@@ -43,11 +44,6 @@ def eliminated(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:
     matrix = regularity_matrix(factor, rotation)
     corner, side = matrix[3:, 3:], matrix[:3, 3:]
     return (matrix[:3, :3] - side * corner.inv() * matrix[3:, :3]).applyfunc(sp.expand)
-
-
-def det(matrix: sp.Matrix) -> sp.Expr:
-    """Without divisions, so that nothing is simplified on the way."""
-    return matrix.det(method="berkowitz")
 
 
 def determinant(factor: sp.Expr, rotation: sp.Matrix) -> sp.Expr:
@@ -133,9 +129,8 @@ def regularity(p: Proof) -> None:
     p.say(
         "It changes sign between these two turns (of degree 6 in the parameters, which are given up to their length):"
     )
-    triple = jacobian[0, :].dot(jacobian[1, :].cross(jacobian[2, :]))
     for (name, turn), sign in zip(turns.items(), signs, strict=True):
-        relation = triple > 0 if sign > 0 else triple < 0
+        relation = three.triple(jacobian) > 0 if sign > 0 else three.triple(jacobian) < 0
         p.lemma(Comparison(f"the sign at {name} is that of {sign}", [relation], at | placed(((q0, *q), turn))))
     p.witness("generic", {"J": "(1,1,1)", "m": "1", "ρ": "1", "γ": "e3", "Ω": "1"}, Fact("det > 0", regular > 0))
     p.control(equation("c = ½: det = det(I + D(1 - γγᵀ))", at_rest_as_printed, det(inertia + lifted)))

@@ -7,7 +7,7 @@ from chapsym.derive.derivation import written
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
 from chapsym.derive.words import Traces, matrix_symbols, unfolded
 from chapsym.proofs.paper.s4_limits import exact_order
-from chapsym.proofs.paper.s4_principle import equation, path_point, step_symbols
+from chapsym.proofs.paper.s4_principle import TURN_1, TURN_2, equation, path_point, step_symbols
 from chapsym.prove import Comparison, Equation, Point, Proof, claim, main
 
 # Body rotations and the vertical tensor, as words in the attitudes.
@@ -149,10 +149,8 @@ def body_reaction(p: Proof) -> None:
         r"\vec F^k = -\frac{m\rho}2(\Omega_k-\Omega_k^T)\gamma_k + \frac{m\rho}2(\Omega_{k-1}-\Omega_{k-1}^T)\gamma_k",
         equation("F with + in its second term = R_kᵀ f", -after + before, force),
     )
-    turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
-    other = sp.Matrix([["3/5", 0, "4/5"], [0, 1, 0], ["-4/5", 0, "3/5"]])
     p.counterexample(
-        path_point({R0: sp.eye(3), R: turn, R1: other, gamma: sp.Matrix([0, 0, 1]), m: sp.S.One, rho: sp.S.One})
+        path_point({R0: sp.eye(3), R: TURN_1, R1: TURN_2, gamma: sp.Matrix([0, 0, 1]), m: sp.S.One, rho: sp.S.One})
     )
     p.control(equation("F with both signs flipped", after - before, force))
 

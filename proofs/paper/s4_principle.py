@@ -26,6 +26,11 @@ def _in_body(a: sp.Expr, b: sp.Expr) -> sp.Expr:
     return principle.ALGEBRA.transpose(a) * principle.spatial_momentum(a, b) * a
 
 
+def carried_momenta() -> tuple[sp.Expr, sp.Expr]:
+    """M_k, and Ω_{k-1}ᵀ M_{k-1} Ω_{k-1}."""
+    return _in_body(R, R1), RT * R0 * _in_body(R0, R) * R0T * R
+
+
 def step_symbols() -> Symbols:
     """The discrete ball, for every n, in its attitudes and centres (Section 4)."""
     return {
@@ -57,6 +62,12 @@ def step_symbols() -> Symbols:
         "M_k": (_in_body(principle.R, principle.R1), "R_kᵀm_kR_k (4.6 as corrected)"),
         "M_{k-1}": (_in_body(principle.R0, principle.R), "that a step before"),
     }
+
+
+#: Turns by the angle with the cosine 3/5 about the axes.
+TURN_1 = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
+TURN_2 = sp.Matrix([["3/5", 0, "4/5"], [0, 1, 0], ["-4/5", 0, "3/5"]])
+TURN_3 = sp.Matrix([["3/5", "-4/5", 0], ["4/5", "3/5", 0], [0, 0, 1]])
 
 
 def path_point(values: dict, *hypotheses: Equation) -> Point:
@@ -122,7 +133,7 @@ def discrete_lagrangian(p: Proof) -> None:
             {
                 R0: sp.eye(3),
                 R: sp.eye(3),
-                R1: sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]]),
+                R1: TURN_1,
                 principle.r0: sp.zeros(3, 1),
                 principle.r: sp.zeros(3, 1),
                 principle.r1: sp.Matrix([0, "4/5", 0]),
@@ -253,12 +264,10 @@ def euler_poincare(p: Proof) -> None:
     p.say(
         "Ω_k = R_kᵀR_{k+1}, M_k = R_kᵀ m_k R_k = Ω_k J - JΩ_kᵀ, F = R_kᵀf, γ_k = R_kᵀγ; R_kᵀ S R_k = 0 is the balance."
     )
-    now = RT * principle.spatial_momentum(R, R1) * R
-    step, before = R0T * R, R0T * principle.spatial_momentum(R0, R) * R0
+    now, moved = carried_momenta()
     p.lemma(equation("M_k = Ω_k J - J Ω_kᵀ", now, RT * R1 * J - J * ALGEBRA.transpose(RT * R1)))
     force = ALGEBRA.wedge(RT * principle.reaction(), RT * gamma)
     balance = RT * principle.momentum_balance(CORRECTED) * R
-    moved = ALGEBRA.transpose(step) * before * step
     p.reads(
         step_symbols()
         | {
@@ -268,7 +277,7 @@ def euler_poincare(p: Proof) -> None:
         }
     )
     p.printed(equation("M_k - Ωᵀ M_{k-1} Ω - ρ F∧γ = R_kᵀ S R_k", now - moved - rho * force, balance))
-    turned = step * before * ALGEBRA.transpose(step)
+    turned = R0T * R * _in_body(R0, R) * RT * R0
     p.control(equation("the same with Ω M_{k-1} Ωᵀ", now - turned - rho * force, balance))
     p.control(equation("the same with γ∧F", now - moved + rho * force, balance))
 
@@ -329,9 +338,7 @@ def body_momentum(p: Proof) -> None:
         r"M_k = \mathrm{Ad}_{R_k^{-1}} m_k = R_k^T m_k R_k",
         equation("R_kᵀ m_k R_k = Ω_k J - J Ω_kᵀ", RT * spatial * R, body),
     )
-    turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
-    other = sp.Matrix([["3/5", "-4/5", 0], ["4/5", "3/5", 0], [0, 0, 1]])
-    p.counterexample(path_point({R: turn, R1: other, J: sp.diag(1, 2, 3)}))
+    p.counterexample(path_point({R: TURN_1, R1: TURN_3, J: sp.diag(1, 2, 3)}))
     p.control(equation("R_kᵀ m_k R_k = J Ω_k - Ω_kᵀ J", RT * spatial * R, J * RT * R1 - R1T * R * J))
 
 
@@ -344,9 +351,7 @@ def balance_in_body(p: Proof) -> None:
     """The balance carried to the body: γ_k stands where the spatial γ must."""
     p.slips("typo")
     p.assume("γ without an index is the vertical in space; γ_k = R_kᵀγ is the one in the body (4.8)")
-    now = RT * principle.spatial_momentum(R, R1) * R
-    step, before = R0T * R, R0T * principle.spatial_momentum(R0, R) * R0
-    moved = ALGEBRA.transpose(step) * before * step
+    now, moved = carried_momenta()
     force = principle.reaction()
     balance = RT * principle.momentum_balance(CORRECTED) * R
     p.reads(
@@ -368,8 +373,7 @@ def balance_in_body(p: Proof) -> None:
         r"M_k = \Omega_{k-1}^T M_{k-1}\Omega_{k-1} + \rho(R_k^T\vec f^k\vec\gamma^T R_k - R_k^T\vec\gamma\vec f^T R_k)",
         carried("with R_kᵀγ fᵀR_k", gamma),
     )
-    turn = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
-    values = {R0: turn, R: turn, R1: turn * turn, J: sp.diag(1, 2, 3), gamma: sp.Matrix([0, 0, 1])}
+    values = {R0: TURN_1, R: TURN_1, R1: TURN_1 * TURN_1, J: sp.diag(1, 2, 3), gamma: sp.Matrix([0, 0, 1])}
     values |= {principle.r0: sp.zeros(3, 1), principle.r: sp.zeros(3, 1), principle.r1: sp.Matrix([0, -4, 0])}
     solved = equation("(4.6)", principle.momentum_balance(CORRECTED), 0)
     p.counterexample(path_point({**values, m: sp.S.One, rho: sp.S.One}, solved))

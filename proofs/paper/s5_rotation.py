@@ -115,20 +115,20 @@ def axis_and_angle(p: Proof) -> None:
     p.control(equation("the same by the angle -θ", rotation, rodrigues(-1)))
 
 
-def printed_centre_momentum() -> sp.Matrix:
-    """M⃗ of (5.2) as printed."""
-    return 2 * sp.Matrix(
+def half_momentum(h1: sp.Expr, h2: sp.Expr, h3: sp.Expr, sign: int = 1) -> sp.Matrix:
+    """½M⃗ of (5.2) as printed, of the mass tensor diag(h1, h2, h3); the sign is that of its second terms."""
+    return sp.Matrix(
         [
-            (J2 + J3) * q0 * q1 + (J2 - J3) * q2 * q3,
-            (J1 + J3) * q0 * q2 + (J3 - J1) * q1 * q3,
-            (J1 + J2) * q0 * q3 + (J1 - J2) * q1 * q2,
+            (h2 + h3) * q0 * q1 + sign * (h2 - h3) * q2 * q3,
+            (h1 + h3) * q0 * q2 + sign * (h3 - h1) * q1 * q3,
+            (h1 + h2) * q0 * q3 + sign * (h1 - h2) * q1 * q2,
         ]
     )
 
 
 def printed_momentum(sign: int = 1, factor: int = 2) -> sp.Matrix:
     """𝒦⃗ of (5.2) as printed; the arguments mutate its last term."""
-    return printed_centre_momentum() + factor * D * q0 * (q - sign * gamma.dot(q) * gamma)
+    return 2 * half_momentum(J1, J2, J3) + factor * D * q0 * (q - sign * gamma.dot(q) * gamma)
 
 
 def second_derivatives() -> list[sp.Expr]:
@@ -175,7 +175,7 @@ def vector_momentum(p: Proof) -> None:
     )
     p.show("𝒦", sp.Matrix(three.momentum()))
     p.printed(
-        equation("M⃗ as printed", printed_centre_momentum(), centre),
+        equation("M⃗ as printed", 2 * half_momentum(J1, J2, J3), centre),
         equation("𝒦⃗ as printed", printed_momentum(), derived),
     )
     p.lemma(equation("the collected form, which the kernels use", three.momentum(), derived))

@@ -69,6 +69,14 @@ def example(contact: int, number: int) -> Count:
     return count(text, contact, momentum, *relations, nonzero=[] if odd else [q0])
 
 
+def homogeneous(text: str) -> Equation:
+    """That the equations are homogeneous of degree 2, with real coefficients."""
+    scale = sp.Symbol("s")
+    grown = [e.subs({x: scale * x for x in solutions.POINT}, simultaneous=True) for e in solutions.quadrics()]
+    ring = Quotient((scale, *three.K, *RING.symbols))
+    return Equation(text, grown, [scale**2 * e for e in solutions.quadrics()], ring)
+
+
 def isotropic_points() -> tuple[Quotient, list[sp.Expr]]:
     """The ring and coordinates of the common points of the quadrics at D = 0 with q₀² + |q|² = 0."""
     lam = sp.symbols("L1:4")
@@ -92,10 +100,6 @@ def upper_bound(p: Proof) -> None:
     p.assume(FINITE)
     p.assume("J1, J2, J3 differ", *UNEQUAL)
     p.say("𝒦(q, γ) - 𝒦(q₀² + |q|²) = 0 are three quadrics in P³: at most 8 points if finitely many (Bézout).")
-    quadrics = solutions.quadrics()
-    scale = sp.Symbol("s")
-    ring = Quotient((scale, *three.K, *RING.symbols))
-    grown = [e.subs({x: scale * x for x in solutions.POINT}, simultaneous=True) for e in quadrics]
     p.printed(count(NUMBER, STRONG, ROLLING[8], REAL <= 4))
     points, isotropic = isotropic_points()
     spin = sp.Matrix(isotropic[1:])
@@ -106,7 +110,7 @@ def upper_bound(p: Proof) -> None:
     p.corrected(
         r"\text{if } J_1, J_2, J_3 \text{ differ and the solutions are finitely many, complex ones with them: "
         r"at most 8 real solutions, and at most 4 if } D = 0",
-        Equation("the three equations are homogeneous of degree 2", grown, [scale**2 * e for e in quadrics], ring),
+        homogeneous("the three equations are homogeneous of degree 2"),
         Equation("D = 0: 2(q₀Λq + q×Λq) = 0 at those points", flat, [sp.S.Zero] * 3, points),
         Equation("and q₀² + |q|² = 0", isotropic[0] ** 2 + spin.dot(spin), 0, points),
         example(STRONG, 8),
@@ -182,14 +186,11 @@ def lower_bound(p: Proof) -> None:
     )
     p.say("Bézout: the quadrics have 8 common points with multiplicity (at D = 0 four of them are not rotations).")
     p.say("Their coefficients are real, so the non-real points come in conjugate pairs: one solution is never alone.")
-    scale = sp.Symbol("s")
-    ring = Quotient((scale, *three.K, *RING.symbols))
-    grown = [e.subs({x: scale * x for x in solutions.POINT}, simultaneous=True) for e in solutions.quadrics()]
     single = WITHOUT_ROLLING[1]
     double = (sp.Eq(REAL, 1), sp.Eq(REAL_MULTIPLE, 2))
     p.under(
         "𝒦 = 𝒦(Ω, γ) for some rotation Ω, and solutions counted with multiplicity",
-        Equation("three quadrics with real coefficients", grown, [scale**2 * e for e in solutions.quadrics()], ring),
+        homogeneous("three quadrics with real coefficients"),
         count("the one solution of 𝒦 = (0, 0, 3), D = 0, is double", 0, single, *double),
         count("2 solutions of 𝒦 = (1, 1, 1), D = 0", 0, WITHOUT_ROLLING[2], sp.Eq(REAL, 2)),
     )

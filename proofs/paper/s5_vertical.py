@@ -10,6 +10,7 @@ from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0, q1, q2, q3
 from chapsym.derive.vertical import RING, h, sigma
 from chapsym.proofs import glossary, second_routes
 from chapsym.proofs.glossary import Symbols
+from chapsym.proofs.paper.s5_rotation import half_momentum
 from chapsym.prove import Equation, Point, Proof, claim, equations, main, rational_point
 
 equation = equations(RING)
@@ -53,14 +54,7 @@ def vertical_point(state: dict) -> Point:
 
 def printed_vector(sign: int) -> sp.Matrix:
     """The vector of (5.6) as printed, without 2/σ; the sign is that of its second terms."""
-    h1, h2, h3 = (J + D / 2 for J in (J1, J2, J3))
-    return sp.Matrix(
-        [
-            (h2 + h3) * q0 * q1 + sign * (h2 - h3) * q2 * q3,
-            (h1 + h3) * q0 * q2 + sign * (h3 - h1) * q1 * q3,
-            (h1 + h2) * q0 * q3 + sign * (h1 - h2) * q1 * q2,
-        ]
-    )
+    return half_momentum(*(J + D / 2 for J in (J1, J2, J3)), sign)
 
 
 @claim(
