@@ -13,17 +13,13 @@ from chapsym.derive.three import J1, J2, J3, D, K, gamma, hat
 from chapsym.derive.words import evaluate
 from chapsym.proofs import glossary
 from chapsym.proofs.paper.s2_continuous import BALL, SPIN, UNIT, unit_vertical
-from chapsym.prove import Comparison, Equation, Proof, claim, main, rational_point
+from chapsym.prove import Comparison, Equation, Proof, claim, equations, main, rational_point
 
 alpha = sp.Matrix(sp.symbols("a1:4"))  # dω/dt
 h, l = sp.symbols("h l")
 VERTICAL_RATE = gamma.cross(omega)
 
-
-def equation(text: str, left, right, ring: Quotient = RING) -> Equation:
-    """One scalar or vector equation."""
-    left, right = (list(side) if isinstance(side, sp.MatrixBase) else [sp.sympify(side)] for side in (left, right))
-    return Equation(text, left, right, ring)
+equation = equations(RING)
 
 
 def momentum() -> sp.Matrix:
