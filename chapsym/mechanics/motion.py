@@ -370,7 +370,7 @@ def _in_python(
     runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: np.ndarray, fixed: np.ndarray,
     recorded: np.ndarray,
 ) -> int:  # fmt: skip
-    """The same steps as `march.c` takes, in Python."""
+    """The same steps as `march.c` takes, in Python: each from the unknowns of the last, by Newton's iteration alone."""
     functions, stages, size = runner.functions, runner.scheme.stages, len(unknowns)
 
     def of(name: str, at: np.ndarray) -> np.ndarray:
@@ -378,32 +378,22 @@ def _in_python(
         return np.array(found if isinstance(found, tuple) else (found,))
 
     def solved(at: np.ndarray) -> bool:
-        before, inverse = np.inf, None
-        for i in range(MOST_ROUNDS):
-            if inverse is None:
-                slope = of("slope", at).reshape(size, size)
-                if not np.isfinite(slope).all() or np.linalg.matrix_rank(slope) < size:
-                    return False
-                inverse = np.linalg.inv(slope)
-            change = inverse @ of("residual", at)
+        before = np.inf
+        for _ in range(MOST_ROUNDS):
+            slope = of("slope", at).reshape(size, size)
+            if not np.isfinite(slope).all() or np.linalg.matrix_rank(slope) < size:
+                return False
+            change = np.linalg.solve(slope, of("residual", at))
             unknowns[:] -= change
             largest = float(np.max(np.abs(change) / (1 + np.abs(unknowns))))
             if not largest < np.inf:
                 return False
-            settled = largest <= LAST or (i > 0 and largest / before * largest <= LAST)
-            if stages or settled or (largest < STAYS and largest >= before / 2):
+            if stages or largest <= LAST or (largest < STAYS and largest >= before / 2):
                 return True
-            inverse = inverse if largest <= SHRINKS * before and i > 0 else None
             before = largest
         return False
 
-    last = [unknowns.copy()] * 2
     for i in range(steps):
-        if not stages and i > 0:  # the parabola through the last three
-            now = unknowns.copy()
-            if i > 2:
-                unknowns[:] = 3 * (now - last[0]) + last[1]
-            last = [now, last[0]]
         if not solved(state):
             return i
         if i % every == 0:
