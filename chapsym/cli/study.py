@@ -1,6 +1,7 @@
 """chapsym study: numerical evidence about the questions that the paper left open."""
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,8 +11,8 @@ from .app import app
 from .options import Json
 from .output import fail, print_json, progress_bar
 
-#: The packages of research, in a checkout, that offer study(quick, path, scheduler, report), sentences(found) and
-#: save_figures(found, folder).
+#: The packages of research, in a checkout, that offer study(quick, run), run as `run_units`, sentences(found)
+#: and save_figures(found, folder).
 STUDIES = ("rotation", "energy", "chaos")
 
 
@@ -48,7 +49,8 @@ def study(
     folder = None if output is None else units.folder(output)
     kept = None if folder is None else folder / f"{name}.jsonl"
     with progress_bar(name, 0) as shown:
-        found = module.study(quick, kept, scheduler, shown)
+        run = partial(units.run_units, path=kept, scheduler=scheduler, report=shown)
+        found = module.study(quick, run)
     written = [] if folder is None else _write(module, name, found, folder)
     if as_json:
         print_json(found)

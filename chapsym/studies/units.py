@@ -22,6 +22,8 @@ from chapsym.dynamics.levels.frames import cores
 
 #: Called with the units that are done and how many there are.
 Report = Callable[[int, int], None]
+#: The results of units, in their order: `run_units`.
+Run = Callable[["Sequence[Unit]"], list[Any]]
 
 
 @dataclass(frozen=True)

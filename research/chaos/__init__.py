@@ -7,7 +7,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from chapsym.studies.units import Report, Unit, run_units
+from chapsym.studies.units import Run, Unit, run_units
 
 from ..energy.section import packed
 from .orbits import share
@@ -39,18 +39,10 @@ PICTURES: tuple[dict[str, Any], ...] = (
 )
 
 
-def study(
-    quick: bool = False,
-    path: Path | None = None,
-    scheduler: str | None = None,
-    report: Report = lambda done, of: None,
-) -> dict[str, Any]:
-    """Counts of chaotic orbits against ε, their exponents, what the phase volume does, and pictures; JSON data.
-
-    path, scheduler, report: as for `run_units`.  Raises BadInput as it does.
-    """
+def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
+    """Counts of chaotic orbits against ε, their exponents, what the phase volume does, and pictures; JSON data."""
     units = _units(quick)
-    results = run_units([unit for _, unit in units], path, scheduler, report)
+    results = run([unit for _, unit in units])
     found: dict[str, Any] = {"seed": SEED, "samples": [], "lengths": [], "pictures": []}
     for (group, unit), result in zip(units, results, strict=True):
         told = {name: value for name, value in unit.arguments.items() if name not in ("seed", "points")}

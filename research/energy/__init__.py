@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.studies.units import Report, Unit, run_units
+from chapsym.studies.units import Run, Unit, run_units
 
 from .continuous import Level
 from .section import packed
@@ -43,23 +43,15 @@ SHOWN = 0.05
 ISLAND = (0.02, 0.3, 0.55, 0.8, 0.93, 1.03, -1.03, 1.25, -1.25)
 
 
-def study(
-    quick: bool = False,
-    path: Path | None = None,
-    scheduler: str | None = None,
-    report: Report = lambda done, of: None,
-) -> dict[str, Any]:
-    """Range and drift of the energy at generic, vertical and resonant starts, and with D = 0; JSON data.
-
-    path, scheduler, report: as for `run_units`.  Raises BadInput as it does.
-    """
+def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
+    """Range and drift of the energy at generic, vertical and resonant starts, and with D = 0; JSON data."""
     balls = [[list(J), D, c] for J, D in BALLS for c in COSINES]
     balls = [[[0, 1, 3], 4.0, 0.5], [[1, 2, 4], 1.0, 0.617126]] if quick else balls
     search = {"most": 1 if quick else 2, "time": 60.0, "grid": 64}
-    levels = run_units([Unit(HERE + "resonances", {"ball": b, **search}) for b in balls], path, scheduler, report)
+    levels = run([Unit(HERE + "resonances", {"ball": b, **search}) for b in balls])
     resonant = _widest([r for level in levels for r in level])
     units = _units(resonant, quick)
-    results = run_units([unit for _, unit in units], path, scheduler, report)
+    results = run([unit for _, unit in units])
     found: dict[str, Any] = {"seed": SEED, "shown": SHOWN, "resonances": _table(levels), "widest": resonant}
     for (group, unit), result in zip(units, results, strict=True):
         told = {"ball": unit.arguments["ball"], "start": unit.arguments["start"]}
@@ -69,7 +61,7 @@ def study(
     # What drifts most among the generic starts may swing slowly: it is followed for longer.
     worst = max(found["generic"], key=lambda run: abs(run["drift"]) / run["range"])
     longer = {name: worst[name] for name in ("ball", "start", "epsilon")} | {"steps": LONGER * worst["steps"]}
-    found["longer"] = run_units([Unit(HERE + "amplitude", longer)], path, scheduler, report)
+    found["longer"] = run([Unit(HERE + "amplitude", longer)])
     found["powers"] = {name: _exponent(found[name]) for name in ("generic", "resonant")}
     return found
 

@@ -57,8 +57,8 @@ class Level:
         """X₃(H), (...): the coefficient of ε³ in the change of H by a step with 𝒦 = εK (lemma `modified-energy`)."""
         omega = _parts(self.omega(K, g))
         torque = generated.torque(*omega, *self.mass_tensor)
-        rate = generated.angular_velocity(*torque, *_parts(g), *self.mass_tensor, self.D)
-        return np.asarray(generated.energy_rate(*omega, *rate, *_parts(g), self.D)) / 4
+        rate = generated.angular_velocity(*(*torque, *_parts(g), *self.mass_tensor, self.D))
+        return np.asarray(generated.energy_rate(*(*omega, *rate, *_parts(g), self.D))) / 4
 
 
 def _parts(v: Floats) -> tuple[Floats, Floats, Floats]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from chapsym.studies.harness import machine
-from chapsym.studies.units import Report, run_units
+from chapsym.studies.units import Run, run_units
 
 from .plan import units
 from .words import sentences
@@ -29,15 +29,10 @@ CAPTIONS = {
 }
 
 
-def study(
-    quick: bool, path: Path | None = None, scheduler: str | None = None, report: Report = lambda done, of: None
-) -> dict[str, Any]:
-    """All that is measured, as plain data; quick takes less than a minute.
-
-    path, scheduler, report: as `run_units`.  Raises BadInput as it does.
-    """
+def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
+    """All that is measured, as plain data; quick takes less than a minute."""
     planned = units(quick)
-    results = iter(run_units([unit for section in planned.values() for unit in section], path, scheduler, report))
+    results = iter(run([unit for section in planned.values() for unit in section]))
     found: dict[str, Any] = {name: [next(results) for _ in section] for name, section in planned.items()}
     return assembled(found, quick)
 
