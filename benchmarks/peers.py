@@ -14,13 +14,13 @@ MOST = 30
 
 def with_lists(K, g, J, D, steps):
     """Plain Python floats."""
-    K, g = _run(*(tuple(map(float, v)) for v in (K, g, J)), D, steps, bool)
+    K, g = _run(*(tuple(map(float, v)) for v in (K, g, J)), D, steps, bool)  # type: ignore[call-arg]
     return np.array(K), np.array(g)
 
 
 def by_columns(K, g, J, D, steps):
     """NumPy with one array for each component, of all balls."""
-    K, g = _run(*(v.T.copy() for v in (K, g, J)), D, steps, np.all)
+    K, g = _run(*(v.T.copy() for v in (K, g, J)), D, steps, np.all)  # type: ignore[call-arg]
     return np.stack(K, axis=-1), np.stack(g, axis=-1)
 
 

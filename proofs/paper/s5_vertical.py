@@ -54,7 +54,7 @@ def vertical_point(state: dict) -> Point:
 
 def printed_vector(sign: int) -> sp.Matrix:
     """The vector of (5.6) as printed, without 2/σ; the sign is that of its second terms."""
-    return half_momentum(*(J + D / 2 for J in (J1, J2, J3)), sign)
+    return half_momentum(J1 + D / 2, J2 + D / 2, J3 + D / 2, sign)
 
 
 @claim(
