@@ -15,7 +15,7 @@ from chapsym.derive import Quotient
 from chapsym.prove import Examples
 from chapsym.prove.points import drawn, small, some
 
-from .system import BadSystem, System, rational
+from .system import BadSystem, System, rational, without
 
 #: Points that are looked at.
 MOST_POINTS = 24
@@ -143,9 +143,7 @@ class Algebra:
         self.offsets: sp.Matrix = self.into(system.offsets)
         self.more = [self.into(one) for one in more]
         known = {*system.coordinates, *system.velocities, *self.letters.meanings}
-        if strange := set().union(*(e.free_symbols for e in self.more)) - known:
-            listed = ", ".join(sorted(map(str, strange)))
-            raise BadSystem(f"{system.name}: there is {listed}, which is no coordinate, velocity or parameter")
+        without(f"{system.name}: there is", set().union(*(e.free_symbols for e in self.more)) - known)
         self._check()
 
     def into(self, expr: Any) -> Any:

@@ -10,7 +10,7 @@ from sympy.physics.vector import dynamicsymbols
 
 from .algebra import Algebra, adjugate, determinant, generic, pivots
 from .brackets import _kernel
-from .system import BadSystem, System, dot, expression, rate
+from .system import BadSystem, System, dot, expression, rate, without
 
 
 @dataclass(frozen=True)
@@ -143,9 +143,8 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
     not kept: its rate is -7 at y = 2, y_dot = 5, z_dot = 7, x_dot = 7/2
     """
     quantity = expression(quantity, f"{system.name}: the quantity")
-    if strange := quantity.free_symbols - {*system.coordinates, *system.velocities, *system.parameters}:
-        listed = ", ".join(sorted(map(str, strange)))
-        raise BadSystem(f"{system.name}: there is {listed}, which is no coordinate, velocity or parameter")
+    known = {*system.coordinates, *system.velocities, *system.parameters}
+    without(f"{system.name}: there is", quantity.free_symbols - known)
     slope = [sp.diff(quantity, v) for v in system.velocities]
     of = _OnShell(system, rate(quantity, system.coordinates), *slope)
     alone, slope = of.more[0], sp.Matrix([of.more[1:]])

@@ -3,7 +3,7 @@
 import hashlib
 import importlib.util
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -21,6 +21,12 @@ NEAR = 1e-9
 
 class BadSystem(ValueError):
     """A system that is none; the message says what is wrong and what would be right."""
+
+
+def without(where: str, strange: Set[sp.Basic], what: str = "no coordinate, velocity or parameter") -> None:
+    """Raises BadSystem if there are symbols that have no place where they are."""
+    if strange:
+        raise BadSystem(f"{where} {', '.join(sorted(map(str, strange)))}, which is {what}")
 
 
 def dot(x: sp.Symbol) -> sp.Symbol:
@@ -150,17 +156,14 @@ class System:
             ("an integral", self.integrals.values(), known),
         ):
             for one in expressions:
-                if strange_ := one.free_symbols - allowed:
-                    listed = ", ".join(sorted(map(str, strange_)))
-                    raise BadSystem(f"{self.name}: {what} has {listed}, which is no coordinate, velocity or parameter")
+                without(f"{self.name}: {what} has", one.free_symbols - allowed)
         if self.discrete is not None:
             own = [expression(e, f"{self.name}: the discretization") for e in self._own(self.discrete)]
             object.__setattr__(self, "discrete", Discrete(own[0], tuple(own[1:])))
             self._check(self.discrete, places | {after(x) for x in self.coordinates} | {STEP})
-        if strange_ := set(self.forces) - set(self.coordinates):
-            raise BadSystem(f"{self.name}: a force is along {min(map(str, strange_))}, which is no coordinate")
-        if strange_ := set(self.start) - {*self.coordinates, *self.velocities}:
-            raise BadSystem(f"{self.name}: the start has {min(map(str, strange_))}, which is no coordinate or velocity")
+        without(f"{self.name}: a force is along", set(self.forces) - set(self.coordinates), "no coordinate")
+        moving = {*self.coordinates, *self.velocities}
+        without(f"{self.name}: the start has", set(self.start) - moving, "no coordinate or velocity")
         if self.mass.free_symbols & set(self.velocities):
             raise BadSystem(f"{self.name}: the Lagrangian is not of degree two in the velocities")
         if self.rows.free_symbols & set(self.velocities):
@@ -173,9 +176,7 @@ class System:
 
     def _check(self, discrete: Discrete, allowed: set[sp.Symbol]) -> None:
         for one in (discrete.lagrangian, *discrete.constraints):
-            if strange := one.free_symbols - allowed:
-                listed = ", ".join(sorted(map(str, strange)))
-                raise BadSystem(f"{self.name}: the discretization has {listed}, which is nothing at a step's two ends")
+            without(f"{self.name}: the discretization has", one.free_symbols - allowed, "nothing at a step's two ends")
         if len(discrete.constraints) != len(self.constraints):
             counts = f"{len(discrete.constraints)} constraints, and the system {len(self.constraints)}"
             raise BadSystem(f"{self.name}: the discretization has {counts}")
