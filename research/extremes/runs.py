@@ -15,7 +15,7 @@ from . import states
 from .formulas import angular_velocity
 from .judging import BUDGET, FAILED, Compared, Judged, Level, compared, mp, number, unless_refused, whole, worst
 from .steps import state_vectors
-from .truth import State, chain, promised, scaled
+from .truth import State, chain, promised, rotation_matrix, scaled
 
 #: Balls of a batch: enough, with ten steps, for the loop over blocks of balls.
 BATCH = 4096
@@ -115,8 +115,8 @@ def long_step(state: State, columns: int) -> tuple[list[Any], list[Any], float, 
         total = [a + number(w) * b for a, b in zip(total, product, strict=True)]
         ulps += abs(float(w)) * promised(state, stages)
     length = mp.sqrt(sum(x * x for x in total))
-    back = [x / length * sign for x, sign in zip(total, (1, -1, -1, -1), strict=True)]
-    return _turned(back, state.K), _turned(back, state.g), ulps, kappa
+    back = rotation_matrix(mp, [x / length * sign for x, sign in zip(total, (1, -1, -1, -1), strict=True)])
+    return list(back * mp.matrix(state.K)), list(back * mp.matrix(state.g)), ulps, kappa
 
 
 def _compose(p: Sequence[Any], q: Sequence[Any]) -> list[Any]:
@@ -128,11 +128,6 @@ def _compose(p: Sequence[Any], q: Sequence[Any]) -> list[Any]:
         a * g - b * h + c * e + d * f,
         a * h + b * g - c * f + d * e,
     ]
-
-
-def _turned(q: Sequence[Any], v: Sequence[Any]) -> list[Any]:
-    opposite = [q[0], *(-x for x in q[1:])]
-    return _compose(_compose(q, [mp.zero, *map(mp.mpf, v)]), opposite)[1:]
 
 
 def extrapolated(state: State, level: Level, quick: bool) -> Judged:
