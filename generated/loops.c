@@ -357,26 +357,26 @@ INLINE t_r3 kernel_gibbs_symmetric(real u1, real u2, real u3, real k1, real k2, 
 }
 
 INLINE real path_lowest(real trace, real minors, real det) {
-    real value, slope; int positive = ((trace > R(0.0)) & (minors > R(0.0))) & (det > R(0.0));
-    real x = positive ? det / minors : R(-1.0);
+    real value, slope; real x = minors > R(0.0) ? det / minors : R(-1.0);
     for (int64_t i_0 = 0; i_0 < 2; i_0++) {
         value = ((x - trace) * x + minors) * x - det; slope = (R(3.0) * x - R(2.0) * trace) * x + minors;
-        x = (positive & (slope > R(0.0))) ? x - value / slope : x;
+        x = slope > R(0.0) ? x - value / slope : x;
     }
-    return x;
+    x = trace > R(0.0) ? x : R(-1.0); x = minors > R(0.0) ? x : R(-1.0); return det > R(0.0) ? x : R(-1.0);
 }
 
-INLINE int path_small_between(real a, real b, real most, real size, real c, real along, real across, real half, real
+INLINE real path_small_between(real a, real b, real most, real size, real c, real along, real across, real half, real
     slope, real sag, real first, real last) {
     real start = size * (R(1.0) + a) - c * (R(1.0) + a * a * size) - along;
     real end = size * (R(1.0) + b) - c * (R(1.0) + b * b * size) - along;
     real r = max_r(R(fabs(start)), R(fabs(end))) + R(0.25) * (b - a) * (b - a) * c * size;
     real m = min_r((R(1.0) - a) * first + a * last, (R(1.0) - b) * first + b * last) - most * sag;
     real left = R(4.0) * slope * most;
-    return (m > R(0.0)) & (left * left * (half * half * (r * r) + across) < R(0.98) * (m * m) * (m * m));
+    real small = left * left * (half * half * (r * r) + across) < R(0.98) * (m * m) * (m * m) ? R(1.0) : R(0.0);
+    return m > R(0.0) ? small : R(0.0);
 }
 
-INLINE t_br path_joined(t_r3 u, real size, t_r3 k, real half, t_r3 g, t_r3 I, real D, real spread) {
+INLINE t_r2 path_joined(t_r3 u, real size, t_r3 k, real half, t_r3 g, t_r3 I, real D, real spread) {
     real none = R(0.0) * u.a0;
     t_r3 t_1 = kernel_gibbs_symmetric(none, none, none, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D);
     real first = path_lowest(t_1.a0, t_1.a1, t_1.a2);
@@ -388,23 +388,23 @@ INLINE t_br path_joined(t_r3 u, real size, t_r3 k, real half, t_r3 g, t_r3 I, re
     real across = max_r(vectors_square(x) - along * along * (half * half), R(0.0));
     real c = max_r(R(0.0), min_r(R(1.0), (size * R(1.75) - along) / (R(1.0) + R(0.5625) * size)));
     real sag = half * R(sqrt(size)) - (k.a0 * u1.a0 + (k.a1 * u1.a1 + k.a2 * u1.a2)), slope = spread + R(2.0) * half;
-    int proved = (first > R(0.0)) & (last > R(0.0));
-    proved = proved & path_small_between(R(0.0), R(0.4), R(0.24), size, c, along, across, half, slope, sag, first,
+    real proved = first > R(0.0) ? R(1.0) : R(0.0); proved = last > R(0.0) ? proved : R(0.0);
+    proved = proved * path_small_between(R(0.0), R(0.4), R(0.24), size, c, along, across, half, slope, sag, first,
         last);
-    proved = proved & path_small_between(R(0.4), R(0.65), R(0.25), size, c, along, across, half, slope, sag, first,
+    proved = proved * path_small_between(R(0.4), R(0.65), R(0.25), size, c, along, across, half, slope, sag, first,
         last);
-    proved = proved & path_small_between(R(0.65), R(0.85), R(0.2275), size, c, along, across, half, slope, sag, first,
+    proved = proved * path_small_between(R(0.65), R(0.85), R(0.2275), size, c, along, across, half, slope, sag, first,
         last);
-    proved = proved & path_small_between(R(0.85), R(1.0), R(0.1275), size, c, along, across, half, slope, sag, first,
+    proved = proved * path_small_between(R(0.85), R(1.0), R(0.1275), size, c, along, across, half, slope, sag, first,
         last);
-    return (t_br){proved, last};
+    return (t_r2){proved, last};
 }
 
 INLINE int path_proved(t_r3 u, real left, t_r3 k, t_r3 g, t_r3 I, real D) {
     real half = R(sqrt(vectors_square(k)));
     real spread = R(0.5) * (max_r(max_r(I.a0, I.a1), I.a2) - min_r(min_r(I.a0, I.a1), I.a2));
-    real size = vectors_square(u); t_br reached = path_joined(u, size, k, half, g, I, D, spread);
-    real allowed = gibbs_LEFT * reached.a1; return reached.a0 & (left <= allowed * allowed * size);
+    real size = vectors_square(u); t_r2 reached = path_joined(u, size, k, half, g, I, D, spread);
+    real allowed = gibbs_LEFT * reached.a1; return (left <= allowed * allowed * size ? reached.a0 : R(0.0)) > R(0.0);
 }
 
 INLINE t_b_r4__r3_ path_search_on_path(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
@@ -989,9 +989,8 @@ INLINE int64_t block_on_path(r2 S, r2 P, w1 ok) {
     int settled;
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
         t__r3_3r t_1 = block_body_in(S, i);
-        settled = (AT2(S, 25, i) == R(-2.0)) & path_proved(vectors_three_in(P, 4, i), AT2(P, 8, i), t_1.a0, t_1.a1,
-            t_1.a2, t_1.a3);
-        ok.p[i] = settled ? 1 : ok.p[i];
+        settled = path_proved(vectors_three_in(P, 4, i), AT2(P, 8, i), t_1.a0, t_1.a1, t_1.a2, t_1.a3);
+        ok.p[i] = ((AT2(S, 25, i) == R(-2.0)) & settled) ? 1 : ok.p[i];
     }
     return block_unsettled(ok);
 }
@@ -3746,5 +3745,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "d665ed15b1446f979c09a327a396115a72040bdeece23253606f57a2a1a5a380";
+const char loops_text[] = "6f00753fd97a66ac45e563c23b57c775d63f367d77c34283ddef67b0f8bf5a1f";
 #endif

@@ -147,7 +147,7 @@ class DigitsBall(_UnderWay):
         u, half, g = (tuple(map(float, v)) for v in (root, k, self.g))
         spread = 0.5 * (max(self.floats[:3]) - min(self.floats[:3]))
         proved, _ = joined(u, square_of(u), half, math.hypot(*half), g, self.floats[:3], self.floats[3], spread)
-        return bool(proved)
+        return proved > 0
 
     def _rotation(self, k: Numbers) -> Numbers:
         """The rotation where neither lemma holds, refined."""

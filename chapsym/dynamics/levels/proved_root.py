@@ -77,7 +77,7 @@ def stretch(box: Numbers, *state: Any) -> Any:
     least = lowest(*I)
     square, half = sum(x * x for x in box), sum(x * x for x in k).sqrt()
     proved, slope = joined()(box, square, k, half, g, I, D, (highest(*I) - least) / 2)
-    return slope.abs_lower() if proved and least > 0 else None
+    return slope.abs_lower() if proved > 0 and least > 0 else None
 
 
 def highest(*v: Any) -> Any:

@@ -111,8 +111,8 @@ def on_path(S, P, ok):
     The others go the way of one ball, `mend`, from the beginning.
     """
     for i in lanes(whole(ok)):
-        settled = (S[RADIUS, i] == BEYOND) & proved(three_in(P, W, i), P[8, i], *body_in(S, i))
-        ok[i] = 1 if settled else ok[i]
+        settled = proved(three_in(P, W, i), P[8, i], *body_in(S, i))
+        ok[i] = 1 if (S[RADIUS, i] == BEYOND) & settled else ok[i]
     return unsettled(ok)
 
 

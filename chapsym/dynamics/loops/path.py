@@ -61,11 +61,11 @@ def proved(u, left, k, g, I, D):
     half, spread, size = sqrt(square(k)), 0.5 * (max(*I) - min(*I)), square(u)
     reached, least = joined(u, size, k, half, g, I, D, spread)
     allowed = LEFT * least
-    return reached & (left <= allowed * allowed * size)
+    return (reached if left <= allowed * allowed * size else 0.0) > 0.0
 
 
 def joined(u, size, k, half, g, I, D, spread):
-    """Whether the straight path joins a root u of G to no rotation, and the least stretch m(1) at u.
+    """1 if the straight path joins a root u of G to no rotation, else 0, and the least stretch m(1) at u.
 
     size: |u|²; half: |k|; spread: ½(I_max - I_min).
     """
@@ -80,16 +80,18 @@ def joined(u, size, k, half, g, I, D, spread):
     c = max(0.0, min(1.0, (size * (1.0 + LEVEL) - along) / (1.0 + LEVEL * LEVEL * size)))
     sag = half * sqrt(size) - (k[0] * u1 + (k[1] * u2 + k[2] * u3))
     slope = spread + 2.0 * half
-    proved = (first > 0.0) & (last > 0.0)
-    proved = proved & small_between(0.0, 0.4, 0.24, size, c, along, across, half, slope, sag, first, last)
-    proved = proved & small_between(0.4, 0.65, 0.25, size, c, along, across, half, slope, sag, first, last)
-    proved = proved & small_between(0.65, 0.85, 0.2275, size, c, along, across, half, slope, sag, first, last)
-    proved = proved & small_between(0.85, 1.0, 0.1275, size, c, along, across, half, slope, sag, first, last)
+    # Numbers, each of one comparison, as compilers make no vectors of truths that are joined.
+    proved = 1.0 if first > 0.0 else 0.0
+    proved = proved if last > 0.0 else 0.0
+    proved = proved * small_between(0.0, 0.4, 0.24, size, c, along, across, half, slope, sag, first, last)
+    proved = proved * small_between(0.4, 0.65, 0.25, size, c, along, across, half, slope, sag, first, last)
+    proved = proved * small_between(0.65, 0.85, 0.2275, size, c, along, across, half, slope, sag, first, last)
+    proved = proved * small_between(0.85, 1.0, 0.1275, size, c, along, across, half, slope, sag, first, last)
     return proved, last
 
 
 def small_between(a, b, most, size, c, along, across, half, slope, sag, first, last):
-    """Whether 4σs(1 - s)|R(s)| < m(s)² for a ≤ s ≤ b, where s(1 - s) ≤ most.
+    """1 if 4σs(1 - s)|R(s)| < m(s)² for a ≤ s ≤ b, where s(1 - s) ≤ most, else 0.
 
     R(s) has the component |k|r(s) along k, r = |u|²(1 + s) - c(1 + s²|u|²) - `along`, which is concave, and the
     square `across` across it; m(s) = (1 - s)·first + s·last - s(1 - s)·sag at least.
@@ -99,7 +101,8 @@ def small_between(a, b, most, size, c, along, across, half, slope, sag, first, l
     r = max(abs(start), abs(end)) + 0.25 * (b - a) * (b - a) * c * size
     m = min((1.0 - a) * first + a * last, (1.0 - b) * first + b * last) - most * sag
     left = 4.0 * slope * most
-    return (m > 0.0) & (left * left * (half * half * (r * r) + across) < INSIDE * (m * m) * (m * m))
+    small = 1.0 if left * left * (half * half * (r * r) + across) < INSIDE * (m * m) * (m * m) else 0.0
+    return small if m > 0.0 else 0.0
 
 
 def lowest(trace, minors, det):
@@ -108,9 +111,10 @@ def lowest(trace, minors, det):
     Newton's iteration on the characteristic polynomial from 0: left of its roots it is concave and grows, so no
     iterate passes the first.
     """
-    positive = (trace > 0.0) & (minors > 0.0) & (det > 0.0)
-    x = det / minors if positive else -1.0
+    x = det / minors if minors > 0.0 else -1.0
     for _ in range(2):
         value, slope = ((x - trace) * x + minors) * x - det, (3.0 * x - 2.0 * trace) * x + minors
-        x = x - value / slope if positive & (slope > 0.0) else x
-    return x
+        x = x - value / slope if slope > 0.0 else x
+    x = x if trace > 0.0 else -1.0
+    x = x if minors > 0.0 else -1.0
+    return x if det > 0.0 else -1.0
