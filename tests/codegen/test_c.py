@@ -229,7 +229,7 @@ def pairs(a: float, b: float, c: float):
     x, y, u = Loose(a, 1e-17 * b), Loose(b, 1e-18 * c), Loose(c)
     p = mixed(x, y, u, Loose(b)) if a < b else mixed(y, x, u, Loose(a))
     k, m = normal(Normal(a, 1e-17), y)
-    root = square_root(dotted((x, u), (x, u)))
+    root = square_root(dotted((x, u), (x, u)) * Loose(1.0, 0.4))
     n = (root - p[0]).normalised()
     x = n if c > 0.0 else p[2].normalised()
     one = dotted((x, y), (1, u))
