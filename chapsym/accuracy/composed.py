@@ -8,15 +8,17 @@ believed: errors do not yet fall as they should there, and may be alike by chanc
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import Status
+from chapsym.dynamics import Status, substeps
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.loops.expected import FLOOR
 
-from .problem import Motion, Problem, Run, Stepping, apart, nothing
+from .problem import Motion, Problem, apart, nothing, put
+from .request import lengths
 
 #: c of each order, measured on balls of all shapes; and the part of the accuracy that the law is to give.
 LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
@@ -24,6 +26,8 @@ LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
 SAFETY, RATIO = 4.0, 1.5
 #: How many roundings beside the start a run begins that verifies another.
 ROUNDED = 8
+#: A direction that nothing prefers.
+ASIDE = np.array([0.6, 0.64, 0.48])
 #: Runs that are tried, and how many times the steps of one, at least and at most, the next of the same order has.
 ATTEMPTS, LEAST_FINER, MOST_FINER = 8, 1.2, 4.0
 
@@ -41,9 +45,10 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
     for attempt in range(ATTEMPTS):
         for order, steps in sorted(set(zip(found.order[left].tolist(), found.steps[left].tolist(), strict=True))):
             some = left[(found.order[left] == order) & (found.steps[left] == steps)]
-            part, method = problem.of(some), Stepping(order, steps)
-            run = part.take(method)
-            _put(found, some, run, method, _verified(part, method, run))
+            part = problem.of(some)
+            run = part.take(order, steps)
+            run.error[:] = _verified(part, order, steps, run)
+            put(found, some, run)
         error = found.error[left]
         fell, error = np.isfinite(error), np.where(stopped[left], np.inf, error)
         found.error[left], stopped[left] = np.where(found.status[left] == Status.TAKEN, error, np.nan), ~fell
@@ -70,7 +75,7 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
 def _error(problem: Problem, order: Any, step: Any) -> Floats:
     """The error by the law, of each ball."""
     rate, law = problem.rate, np.vectorize(LAW.get, otypes=[float])(order)
-    return np.asarray(law * (rate * step) ** order * (1 + rate * problem.end) * problem.unit)
+    return np.asarray(law * (rate * step) ** order * (1 + rate * problem.end) * problem.units)
 
 
 def cheapest(problem: Problem, factor: Floats) -> tuple[np.ndarray, np.ndarray]:
@@ -82,7 +87,7 @@ def cheapest(problem: Problem, factor: Floats) -> tuple[np.ndarray, np.ndarray]:
     for order in LAW:
         expected = factor * _error(problem, order, problem.interval)
         found.append(shared((expected / (MARGIN * problem.accuracy)) ** (1 / order), 1 + problem.frames % 2))
-    steps, stages = np.array(found), np.array([[Stepping(order, 1).stages] for order in LAW])
+    steps, stages = np.array(found), np.array([[len(substeps(order))] for order in LAW])
     best = (steps * stages).argmin(axis=0)
     return np.array(list(LAW))[best], np.take_along_axis(steps, best[np.newaxis], axis=0)[0]
 
@@ -93,15 +98,16 @@ def shared(steps: Floats, least: int = 1) -> np.ndarray:
     return np.maximum(np.ceil(np.ldexp(np.ceil(8 * part), exponent - 3)), least).astype(np.int64)
 
 
-def _verified(problem: Problem, method: Stepping, run: Run) -> Floats:
+def _verified(problem: Problem, order: int, steps: int, run: Motion) -> Floats:
     """The error of each ball by a run of fewer steps, infinite if one has stopped; and what rounding may leave.
 
     That run starts a few roundings beside the other, so that a ball that is sensitive to its start shows it.
     """
-    stride, fewer = (2, 1) if method.steps == 1 else (1, 1 if method.steps == 2 else round(method.steps / RATIO))
-    left = (stride * method.steps / fewer) ** method.order - 1
+    stride, fewer = (2, 1) if steps == 1 else (1, 1 if steps == 2 else round(steps / RATIO))
+    left = (stride * steps / fewer) ** order - 1
     share = min(SAFETY / left, max(1.0, 2 / left))
-    beside = problem.beside(ROUNDED * 2.0**-53 / share).take(Stepping(method.order, fewer), stride)
+    moved = ROUNDED * 2.0**-53 / share * lengths(problem.K)[:, np.newaxis] * ASIDE
+    beside = replace(problem, K=problem.K + moved).take(order, fewer, stride)
     off = apart(problem, run, beside, stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
     rounded = problem.survey[FLOOR]
@@ -109,16 +115,5 @@ def _verified(problem: Problem, method: Stepping, run: Run) -> Floats:
         # The way of the contact point is a sum of as many terms as there are steps of the map, and each turns with the
         # attitude, which is a product of as many.
         way = np.nan_to_num(np.abs(run.contact)).max(axis=(-2, -1)) / problem.ball.radius + problem.rate * problem.end
-        rounded = rounded + problem.units * way * 2.0**-53 * (problem.frames * method.stages) ** 0.5
+        rounded = rounded + problem.units * way * 2.0**-53 * (problem.frames * len(substeps(order)) * steps) ** 0.5
     return np.asarray(off * share + rounded)
-
-
-def _put(found: Motion, where: np.ndarray, run: Run, method: Stepping, error: Floats) -> None:
-    """Copies a run to its place."""
-    found.angular_momentum[where], found.gamma[where] = run.angular_momentum, run.gamma
-    if found.attitude is not None:
-        found.attitude[where] = run.attitude
-    if found.contact is not None:
-        found.contact[where] = run.contact
-    found.reached[where], found.status[where] = run.taken // method.steps, run.status
-    found.error[where], found.order[where], found.steps[where] = error, method.order, method.steps

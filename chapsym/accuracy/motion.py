@@ -128,7 +128,6 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     if len(poor):
         part = problem.of(poor)
         other = composed(part)
-        other.total[:] = other.steps * problem.frames
         other.error[:] += np.nan_to_num(SENSITIVE * started[poor])
         # That estimate may miss how sensitive a ball is: it is believed where it is within the accuracy, or alone.
         better = (other.error <= accuracy) | (found.status[poor] != Status.TAKEN)

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, Ball, kernels, native, substeps, trajectory
+from chapsym.dynamics import BadInput, Ball, kernels, native, trajectory
 from chapsym.dynamics.ball import Asked, Floats, checked_before
-from chapsym.dynamics.loops.expected import CONDITION, FIRST, FOUND, RATE, surveyed
+from chapsym.dynamics.loops.expected import FIRST, FOUND, RATE, surveyed
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 
 from .request import lengths
@@ -17,39 +17,6 @@ PARTS = frozenset({"momentum", "gamma", "omega", "attitude", "contact"})
 #: The order of long steps with all columns; lower ones are of the map and its compositions.
 EXTRAPOLATED = 2 * MOST_COLUMNS
 _UP = np.array([0.0, 0.0, 1.0])
-
-
-@dataclass(frozen=True)
-class Stepping:
-    """The order of a composition, and its steps between two frames."""
-
-    order: int
-    steps: int
-
-    @property
-    def stages(self) -> int:
-        """Steps of the map between two frames."""
-        return len(substeps(self.order)) * self.steps
-
-
-@dataclass(frozen=True, eq=False)
-class Run:
-    """Balls at the frames of a run: angular_momentum, gamma, attitude and contact as in `Motion`.
-
-    taken: the steps of each ball, (n,).  status: why it stopped, a `Status`, (n,).
-    """
-
-    angular_momentum: Floats
-    gamma: Floats
-    attitude: Asked
-    contact: Asked
-    taken: np.ndarray
-    status: np.ndarray
-
-    def of(self, which: np.ndarray) -> "Run":
-        """Some of the balls."""
-        arrays: dict[str, Any] = {name: None if x is None else x[which] for name, x in vars(self).items()}
-        return Run(**arrays)
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,7 +66,7 @@ class Problem:
     def __post_init__(self) -> None:
         """Finds `units`, and what `loops.expected` finds of each ball at the start: `survey`, (FOUND, n)."""
         ball, n = self.ball, len(self.K)
-        #: `unit` of each ball, (n,).
+        #: What a relative error of each ball comes to in the norm, (n,): 1, or the radius in m.
         self.units = ball.radius if self.metres and ball.radius is not None else np.full(n, 1.0)
         self.survey: Floats = np.empty((FOUND, n))
         survey = native.loop(surveyed)
@@ -125,38 +92,26 @@ class Problem:
         return self.frames * self.interval
 
     @property
-    def unit(self) -> Any:
-        """What a relative error comes to in the norm: 1, or the radius in m."""
-        return self.ball.radius if self.metres else 1.0
-
-    def beside(self, distance: float) -> "Problem":
-        """The same with K so far off, relatively, in a direction that nothing prefers."""
-        return replace(self, K=self.K + distance * lengths(self.K)[:, np.newaxis] * np.array([0.6, 0.64, 0.48]))
-
-    @property
     def rate(self) -> Floats:
         """|ω| at the start in rad/s, (n,)."""
         return self.survey[RATE]
-
-    @property
-    def condition(self) -> Floats:
-        """Of Λ - Dγγᵀ, at most, (n,)."""
-        return self.survey[CONDITION]
 
     @property
     def expected(self) -> float:
         """About how many long steps all balls take."""
         return float((self.end / self.survey[FIRST]).sum()) if self.frames else 0.0
 
-    def take(self, method: Stepping, stride: int = 1) -> Run:
-        """The balls at every `stride`-th frame, in `method.steps` steps from one to the next."""
-        steps, step = method.steps * (self.frames // stride), stride * self.interval / method.steps
-        common: dict[str, Any] = {
-            "every": method.steps, "attitude": False if self.attitude is None else self.attitude,
-            "contact": self.contact, "threads": self.threads,
-        }  # fmt: skip
-        run = trajectory(self.ball, step * self.K, self.gamma, steps, order=method.order, time_step=step, **common)
-        return Run(run.angular_momentum(), run.gamma, run.attitude, run.contact, run.taken, run.status)
+    def take(self, order: int, steps: int, stride: int = 1) -> "Motion":
+        """The balls at every `stride`-th frame, by `steps` steps of a composition from one to the next."""
+        step, total = stride * self.interval / steps, steps * (self.frames // stride)
+        run = trajectory(
+            self.ball, step * self.K, self.gamma, total, order=order, every=steps, time_step=step,
+            attitude=False if self.attitude is None else self.attitude, contact=self.contact, threads=self.threads,
+        )  # fmt: skip
+        how = (np.full(len(self), x) for x in (np.nan, order, steps, total))
+        return Motion(
+            run.angular_momentum(), run.gamma, run.attitude, run.contact, run.taken // steps, run.status, *how
+        )
 
 
 def nothing(problem: Problem) -> Motion:
@@ -205,7 +160,7 @@ def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
 
 
 @np.errstate(all="ignore")  # frames that were not reached are NaN
-def apart(problem: Problem, run: Run | Motion, other: Run, stride: int = 1) -> Floats:
+def apart(problem: Problem, run: Motion, other: Motion, stride: int = 1) -> Floats:
     """How far two runs are apart at each common frame, (n, frames): other has every `stride`-th frame of run.
 
     The largest of the parts that are asked for: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle
