@@ -6,14 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import (
-    BadInput,
-    Trajectory,
-    exact_top,
-    extrapolate,
-    substeps,
-    trajectory,
-)
+from chapsym.dynamics import BadInput, Trajectory, exact_top, extrapolate, substeps, trajectory
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, stages_of
 from chapsym.dynamics.loops.double_double_long import FIRST

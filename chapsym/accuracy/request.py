@@ -9,19 +9,15 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, Trajectory, kernels
-from chapsym.dynamics.attitudes import attitude_with, initial_attitude
+from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.ball import Floats, batch, numbers, unit_vertical
 from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.trajectories import whole_number
-from chapsym.numbers import Digits, Precision
 
 #: What the accuracy may be of.
 NORMS = ("state", "contact")
 #: The coefficients of the compositions have 40 digits, and the times of a run are as exact as they.
 FINEST = 1e-30
-#: The unit roundoff of the precisions: that of double-double is a few units of its last place, and the momentum of
-#: mpmath's runs starts with 106 bits.
-ROUNDINGS = {"Single": 2.0**-24, "Double": 2.0**-53, "DoubleDouble": 2.0**-103, "Digits": 2.0**-106}
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,16 +67,6 @@ class Request:
         """The attitude that a run follows, as `trajectory` takes it."""
         return True if self.attitude is False and self.of == "contact" else self.attitude
 
-    @property
-    def with_body(self) -> bool:
-        """Whether a run follows the attitude."""
-        return self.body is not False
-
-    @property
-    def first_attitude(self) -> Floats:
-        """The attitude at the start in float64, a unit quaternion, (4,)."""
-        return attitude_with(self.gamma) if isinstance(self.attitude, bool) else np.asarray(self.attitude)
-
     @cached_property
     def rate(self) -> float:
         """|ω| at the start, in rad/s; raises BadInput for what has none."""
@@ -120,24 +106,12 @@ class Request:
         """What a relative error of the motion comes to in the norm: 1, or the radius in metres."""
         return float(self.ball.radius) if self.of == "contact" else 1.0  # type: ignore[arg-type]
 
-    def shared(self, precision: Precision) -> float:
-        """The rounding that all runs at a precision have in common, so that no comparison shows it: of J, D, K and γ.
-
-        The factor is the least that covered what was measured on some twenty random balls.
-        """
-        return 2 * rounding(precision) * math.sqrt(self.condition) * (1 + self.angle) * self.unit
-
 
 def _positive(value: Any, name: str) -> float:
     found = numbers(value, name)
     if found.ndim or not found > 0:
         raise BadInput(f"{name} must be one positive number, not {value!r}")
     return float(found)
-
-
-def rounding(precision: Precision) -> float:
-    """The unit roundoff of a precision."""
-    return ROUNDINGS["Digits" if isinstance(precision, Digits) else type(precision).__name__]
 
 
 def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:

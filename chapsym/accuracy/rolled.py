@@ -69,9 +69,9 @@ def roll(
         raise BadInput("accuracy is of the motion of the ball; leave out order, precision and map")
     run = _rolled(
         ball, spin, vertical, turned, flag(contact, "contact"), "double" if precision is None else precision,
-        seconds(time_step), whole_number(steps, "steps", 0), every=whole_number(every, "every", 1),
-        order=2 if order is None else order, accuracy=None if by_map else _accuracy(accuracy),
-        threads=whole_number(threads, "threads", 0), progress=progress,
+        seconds(time_step), whole_number(steps, "steps", 0), whole_number(every, "every", 1),
+        2 if order is None else order, None if by_map else _accuracy(accuracy), whole_number(threads, "threads", 0),
+        progress,
     )  # fmt: skip
     if contact and place is not None:
         run.contact[...] += place[..., np.newaxis, :]
@@ -118,17 +118,42 @@ def _start(
 @in_given_axes
 def _rolled(
     ball: Ball, omega: Floats, gamma: Floats, attitude: bool | Floats, contact: bool, precision: str | Precision,
-    epsilon: float, steps: int, *, every: int, order: int, accuracy: float | None, threads: int,
+    epsilon: float, steps: int, every: int, order: int, accuracy: float | None, threads: int,
     progress: Callable[[int], None],
 ) -> Trajectory:  # fmt: skip
-    """The map, or to an accuracy the motion, in principal axes."""
+    """The map, or to an accuracy the motion as a trajectory of order 0, in principal axes."""
     K = _momentum(ball, omega, gamma, epsilon)
-    if accuracy is not None:
-        return _motion(ball, K, gamma, epsilon, steps, every, attitude, contact, accuracy, threads, progress)
-    return trajectory(
-        ball, epsilon * K, gamma, steps, order=order, every=every, attitude=attitude, contact=contact,
-        time_step=epsilon, precision=precision, threads=threads, progress=progress,
+    if accuracy is None:
+        return trajectory(
+            ball, epsilon * K, gamma, steps, order=order, every=every, attitude=attitude, contact=contact,
+            time_step=epsilon, precision=precision, threads=threads, progress=progress,
+        )  # fmt: skip
+    shape, (flat, g, J, D) = batch(ball, K, gamma)
+    every, radius = min(every, steps + 1), ball.radius
+    if contact and radius is None:
+        raise BadInput("the contact point needs the radius: give the ball its radius")
+    if radius is not None:
+        radius = radius.reshape(1).copy() if not shape else np.broadcast_to(radius, shape).reshape(-1).copy()
+    if isinstance(attitude, bool):
+        turned = attitude_with(g if shape else g[0]).reshape(-1, 4) if contact or attitude else None
+    else:
+        turned = np.broadcast_to(attitude, (*shape, 4)).reshape(-1, 4)
+    body = checked_before(J, D, radius)
+    problem = Problem(body, flat, g, every * epsilon, steps // every, accuracy, turned, contact, threads=threads)
+    found = moved(problem, lambda balls: progress(int(balls * steps)))
+
+    def shaped(array: np.ndarray | None) -> Any:
+        return None if array is None else array.reshape((*shape, *array.shape[1:]))
+
+    taken = found.reached * every
+    taken[found.reached == problem.frames] = steps
+    found.angular_momentum[...] *= epsilon
+    run = Trajectory(
+        ball, np.arange(0, steps + 1, every), shaped(found.angular_momentum), shaped(found.gamma),
+        shaped(found.attitude), shaped(found.contact), shaped(taken), shaped(found.status), epsilon, 0,
+        error=shaped(found.error),
     )  # fmt: skip
+    return finished(run, UNKNOWN)
 
 
 def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Floats:
@@ -162,46 +187,3 @@ def _accuracy(given: float | None) -> float:
             f"accuracy must be one number from {FINEST:g} on, not {given!r}; `accurate` has more digits than float64"
         )
     return float(found)
-
-
-def _motion(
-    ball: Ball, K: Floats, gamma: Floats, epsilon: float, steps: int, every: int, attitude: bool | Floats,
-    contact: bool, accuracy: float, threads: int, progress: Callable[[int], None],
-) -> Trajectory:  # fmt: skip
-    """The continuous motion as a trajectory of order 0."""
-    shape, (flat, g, J, D) = batch(ball, K, gamma)
-    every = min(every, steps + 1)
-    if contact and ball.radius is None:
-        raise BadInput("the contact point needs the radius: give the ball its radius")
-    radius = ball.radius
-    if radius is not None:
-        radius = radius.reshape(1).copy() if not shape else np.broadcast_to(radius, shape).reshape(-1).copy()
-    if isinstance(attitude, bool):
-        turned = attitude_with(g if shape else g[0]).reshape(-1, 4) if contact or attitude else None
-    else:
-        turned = np.broadcast_to(attitude, (*shape, 4)).reshape(-1, 4)
-    problem = Problem(
-        checked_before(J, D, radius),
-        flat,
-        g,
-        every * epsilon,
-        steps // every,
-        accuracy,
-        turned,
-        contact,
-        threads=threads,
-    )
-    found = moved(problem, lambda balls: progress(int(balls * steps)))
-
-    def shaped(array: np.ndarray | None) -> Any:
-        return None if array is None else array.reshape((*shape, *array.shape[1:]))
-
-    taken = found.reached * every
-    taken[found.reached == problem.frames] = steps
-    found.angular_momentum[...] *= epsilon
-    run = Trajectory(
-        ball, np.arange(0, steps + 1, every), shaped(found.angular_momentum), shaped(found.gamma),
-        shaped(found.attitude), shaped(found.contact), shaped(taken), shaped(found.status), epsilon, 0,
-        error=shaped(found.error),
-    )  # fmt: skip
-    return finished(run, UNKNOWN)
