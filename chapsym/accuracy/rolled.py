@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from chapsym.dynamics import BadInput, Ball, Trajectory, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import SMALLEST, Floats, batch, checked_before, numbers, unit_vertical
-from chapsym.dynamics.results import finished, in_given_axes
-from chapsym.dynamics.trajectories import flag, seconds, whole_number
+from chapsym.dynamics.results import finished, in_given_axes, of_balls
+from chapsym.dynamics.trajectories import flag, rolling_radius, seconds, whole_number
 from chapsym.generated import contact_momentum
 from chapsym.numbers import Precision
 
@@ -129,9 +129,7 @@ def _rolled(
             time_step=epsilon, precision=precision, threads=threads, progress=progress,
         )  # fmt: skip
     shape, (flat, g, J, D) = batch(ball, K, gamma)
-    every, radius = min(every, steps + 1), ball.radius
-    if contact and radius is None:
-        raise BadInput("the contact point needs the radius: give the ball its radius")
+    every, radius = min(every, steps + 1), rolling_radius(ball) if contact else ball.radius
     if radius is not None:
         radius = radius.reshape(1).copy() if not shape else np.broadcast_to(radius, shape).reshape(-1).copy()
     if isinstance(attitude, bool):
@@ -141,17 +139,12 @@ def _rolled(
     body = checked_before(J, D, radius)
     problem = Problem(body, flat, g, every * epsilon, steps // every, accuracy, turned, contact, threads=threads)
     found = moved(problem, lambda balls: progress(int(balls * steps)))
-
-    def shaped(array: np.ndarray | None) -> Any:
-        return None if array is None else array.reshape((*shape, *array.shape[1:]))
-
     taken = found.reached * every
     taken[found.reached == problem.frames] = steps
     found.angular_momentum[...] *= epsilon
-    run = Trajectory(
-        ball, np.arange(0, steps + 1, every), shaped(found.angular_momentum), shaped(found.gamma),
-        shaped(found.attitude), shaped(found.contact), shaped(taken), shaped(found.status), epsilon, 0,
-        error=shaped(found.error),
+    run = of_balls(
+        Trajectory, shape, ball, np.arange(0, steps + 1, every), found.angular_momentum, found.gamma, found.attitude,
+        found.contact, taken, found.status, time_step=epsilon, order=0, error=found.error.reshape(shape),
     )  # fmt: skip
     return finished(run, UNKNOWN)
 

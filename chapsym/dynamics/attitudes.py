@@ -61,3 +61,8 @@ def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
     if (np.abs(vertical - [0.0, 0.0, 1.0]) > (SINGLE_AGREEMENT if single else AGREEMENT)).any():
         raise BadInput("attitude and gamma disagree: the attitude must turn gamma to (0, 0, 1)")
     return given / np.sqrt(squared)[..., np.newaxis] if single else given
+
+
+def first_attitudes(attitude: bool | ArrayLike, gamma: Floats, shape: tuple[int, ...]) -> Floats:
+    """`initial_attitude` of flat states with the leading axes `shape`, γ (n, 3): (n, 4)."""
+    return np.broadcast_to(initial_attitude(attitude, gamma.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)

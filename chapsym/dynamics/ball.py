@@ -350,6 +350,11 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
     return shape, [*flat, _filled(shape, ball.D).reshape(-1)]
 
 
+def in_shape(shape: tuple[int, ...], array: Asked) -> Asked:
+    """A flat array (n, ...) with the leading axes `shape` in the place of n; None stays None."""
+    return None if array is None else array.reshape(shape + array.shape[1:])
+
+
 def is_followed(attitude: bool | ArrayLike) -> bool:
     """Whether an attitude is asked for: True, or one to start from."""
     return not isinstance(attitude, bool | np.bool_) or bool(attitude)

@@ -11,7 +11,7 @@ import numpy as np
 
 from chapsym.numbers import Enclosure
 
-from .ball import Asked, Floats, batch
+from .ball import Asked, Floats, batch, in_shape
 from .coefficients import COMPOSITIONS
 from .errors import BadInput, Status
 from .levels import dispatch, high
@@ -125,14 +125,12 @@ def _orbit(
     if trajectory.contact is not None:
         assert trajectory.ball.radius is not None
         radius = np.broadcast_to(trajectory.ball.radius, shape).reshape(-1)
-    with_body = first["attitude"] is not None
     precision = Enclosure(bits)
-    frames = dispatch.frames_for(precision, len(D), count, count if with_body else 0)
-    if with_body:
-        frames.attitude[:, 0] = first["attitude"]
+    every_ball = Balls(first["momentum"], first["gamma"], J, D, radius)
+    frames = dispatch.begun(precision, every_ball, count, first["attitude"])
     selected = []
     for i, taken in enumerate(trajectory.taken.reshape(-1)):
-        balls = Balls(*(x[i : i + 1] for x in (first["momentum"], first["gamma"], J, D, radius)))
+        balls = Balls(*(x[i : i + 1] for x in vars(every_ball).values() if x is not None))
         kept = min(count, int(taken) // every + 1)
         part = frames.part(i, kept)
         selected += high.run(precision, balls, (kept - 1) * every, every, part, trajectory.order, progress)
@@ -143,8 +141,7 @@ def _orbit(
             )
     arrays = (frames.momentum, frames.gamma, frames.attitude, frames.contact)
     found = {
-        name: None if first[name] is None else array.reshape(*shape, *array.shape[1:])
-        for name, array in zip(NAMES, arrays, strict=True)
+        name: None if first[name] is None else in_shape(shape, array) for name, array in zip(NAMES, arrays, strict=True)
     }
     return found, np.array(selected, dtype=np.int64).reshape(shape)
 

@@ -14,7 +14,7 @@ from chapsym.numbers import NAMED, Pair, Precision
 
 from . import kernels
 from .axes import in_axes, in_axes_of
-from .ball import Asked, Ball, Floats
+from .ball import Asked, Ball, Floats, in_shape
 from .errors import BadInput, Status, StepNotTaken
 from .interpolation import Moments, States, standing
 from .principal_axes import attitude_to_principal
@@ -105,6 +105,14 @@ def finished(run: Any, reach: Floats) -> Any:
         return run
     taken = int(run.taken)
     raise StepNotTaken(Status(int(run.status)), float(reach.flat[0]), taken, some_frames(run, run.index <= taken))
+
+
+def of_balls(
+    kind: Callable[..., R], shape: tuple[int, ...], ball: Any, index: np.ndarray, *flat: Asked, **more: Any
+) -> R:
+    """A run of any kind, from flat arrays (n, ...): momentum, gamma, attitude, contact, taken and status."""
+    names = ("momentum", "gamma", "attitude", "contact", "taken", "status")
+    return kind(ball, index, **{name: in_shape(shape, x) for name, x in zip(names, flat, strict=True)}, **more)
 
 
 @dataclass(frozen=True, eq=False)

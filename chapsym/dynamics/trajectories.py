@@ -11,13 +11,13 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Precision
 
-from .attitudes import initial_attitude
-from .ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
+from .attitudes import first_attitudes
+from .ball import Asked, Ball, Floats, batch, in_shape, is_followed, numbers, unit_vertical
 from .errors import BadInput
 from .levels import dispatch
 from .levels.frames import Balls, Frames
 from .map import beyond_float64
-from .results import Low, Trajectory, finished, in_given_axes
+from .results import Low, Trajectory, finished, in_given_axes, of_balls
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
 MOST_STEPS = 2**62
@@ -74,27 +74,18 @@ def trajectory(
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     with_body = flag(contact, "contact") or is_followed(attitude)
     radius = np.broadcast_to(rolling_radius(ball) if contact else 0.0, shape).reshape(-1)
-    balls, frames = len(D), steps // every + 1
-    body_frames = frames if with_body else 0
-    frame = dispatch.frames_for(precision, balls, frames, body_frames, isinstance(attitude, bool | np.bool_))
-    with np.errstate(over="ignore"):  # a precision of a smaller range refuses what it cannot hold
-        frame.momentum[:, 0], frame.gamma[:, 0] = K, g
-    rest = beyond_float64(momentum, shape) if np.asarray(momentum).dtype == object else None
-    if with_body:
-        first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4))
-        frame.attitude[:, 0], frame.contact[:, 0] = first.reshape(-1, 4), 0.0
-    dispatch.run(precision, Balls(K, g, J, D, radius, rest), steps, every, frame, order, threads, progress)
+    balls = Balls(K, g, J, D, radius, beyond_float64(momentum, shape))
+    first = first_attitudes(attitude, g, shape) if with_body else None
+    frame = dispatch.begun(precision, balls, steps // every + 1, first, isinstance(attitude, bool | np.bool_))
+    dispatch.run(precision, balls, steps, every, frame, order, threads, progress)
 
-    def shaped(array: np.ndarray) -> np.ndarray:
-        return array.reshape(*shape, *array.shape[1:])
+    def states(kept: Frames) -> tuple[Floats, Floats, Asked, Asked]:
+        return kept.momentum, kept.gamma, kept.attitude if with_body else None, kept.contact if contact else None
 
-    def bodies(kept: Frames) -> tuple[np.ndarray, np.ndarray, np.ndarray | None, np.ndarray | None]:
-        attitude = shaped(kept.attitude) if with_body else None
-        return shaped(kept.momentum), shaped(kept.gamma), attitude, shaped(kept.contact) if contact else None
-
-    result = Trajectory(
-        ball, np.arange(frames) * every, *bodies(frame), frame.taken.reshape(shape), frame.status.reshape(shape),
-        time_step, order, precision, None if frame.low is None else Low(*bodies(frame.low)),
+    low = None if frame.low is None else Low(*(in_shape(shape, x) for x in states(frame.low)))
+    result = of_balls(
+        Trajectory, shape, ball, np.arange(steps // every + 1) * every, *states(frame), frame.taken, frame.status,
+        time_step=time_step, order=order, precision=precision, low=low,
     )  # fmt: skip
     return finished(result, frame.reach)
 

@@ -16,13 +16,13 @@ from chapsym.numbers import pairs
 from chapsym.numbers.loose import Loose
 
 from .. import kernels
-from ..attitudes import initial_attitude
-from ..ball import Ball, Floats, batch, numbers, unit_vertical
+from ..attitudes import first_attitudes
+from ..ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
 from ..errors import BadInput, Status
 from ..failure import explain
 from ..loops.vectors import dot
-from ..results import Trajectory, finished
-from ..trajectories import step_numbers
+from ..results import Trajectory, finished, of_balls
+from ..trajectories import rolling_radius, step_numbers
 from . import turns
 
 #: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).
@@ -87,8 +87,8 @@ def steady_frames(
     balls, frames = len(D), len(numbered)
     momenta, verticals = np.empty((2, balls, frames, 3))
     attitudes = traces = first = later = None
-    if contact or not (isinstance(attitude, bool | np.bool_) and not attitude):
-        first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 4)
+    if contact or is_followed(attitude):
+        first = first_attitudes(attitude, g, shape)
         later = kernels.compose(first, np.concatenate([np.zeros((len(axis), 1)), axis], axis=-1))
         attitudes = np.empty((balls, frames, 4))
         if contact:
@@ -109,15 +109,9 @@ def steady_frames(
     for i in map(int, np.flatnonzero(~taken)):
         status[i] = Status.NO_INERTIA if moment[0][i] == 0.0 else explain(status[i], K[i], g[i], J[i], D[i])
 
-    def shaped(array: np.ndarray | None) -> np.ndarray | None:
-        return None if array is None else array.reshape(*shape, *array.shape[1:])
-
-    return finished(
-        Trajectory(
-            ball, numbered, shaped(momenta), shaped(verticals), shaped(attitudes), shaped(traces),  # type: ignore[arg-type]
-            np.where(taken, numbered[-1], 0).reshape(shape), status.reshape(shape), time_step,
-        ), 1.0 / np.where(taken, 1.0, sine),
-    )  # fmt: skip
+    arrays = momenta, verticals, attitudes, traces, np.where(taken, numbered[-1], 0), status
+    run = of_balls(Trajectory, shape, ball, numbered, *arrays, time_step=time_step)
+    return finished(run, 1.0 / np.where(taken, 1.0, sine))
 
 
 def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floats, turns.Pair, Floats]:
@@ -174,10 +168,8 @@ def _straight(
     ball: Ball, shape: tuple[int, ...], attitude: Floats, g: Floats, axis: Floats, half: turns.Pair, index: np.ndarray
 ) -> Floats:
     """The contact points k ρ Δ, (n, frames, 2), for the vector Δ of the first step."""
-    if ball.radius is None:
-        raise BadInput("the contact point needs the radius: give the ball its radius")
     cosine, sine = turns.cosine_and_sine(half[0])
     q = np.concatenate([cosine[:, np.newaxis], sine[:, np.newaxis] * axis], axis=-1)
     step = kernels.rotate(attitude, kernels.centre_step(q, g))[:, np.newaxis, :2]
-    radius = np.broadcast_to(ball.radius, shape).reshape(-1, 1, 1)
+    radius = np.broadcast_to(rolling_radius(ball), shape).reshape(-1, 1, 1)
     return np.asarray(index[:, np.newaxis] * (radius * step))

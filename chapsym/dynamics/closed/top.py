@@ -28,11 +28,11 @@ from chapsym.generated import curve_increment, gibbs_newton, precession_parts, t
 from chapsym.numbers import Enclosure
 
 from .. import kernels
-from ..attitudes import initial_attitude
-from ..ball import Ball, Floats, batch, in_principal_axes, inertia_of, numbers, unit_vertical
+from ..attitudes import first_attitudes
+from ..ball import Ball, Floats, batch, in_principal_axes, inertia_of, is_followed, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..flow.series import cross, dot
-from ..results import Trajectory, finished
+from ..results import Trajectory, finished, of_balls
 from ..trajectories import step_numbers
 from . import turns
 from .elliptic import Curve, across, height_of, increment
@@ -414,7 +414,7 @@ def top_frames(
             "this is no top whose frames are known at once: D must be 0, or two J equal and momentum along gamma, "
             "and it must not be steady (`is_steady`); run `trajectory`"
         )
-    follow = not (isinstance(attitude, bool | np.bool_) and not attitude)
+    follow = is_followed(attitude)
     balls, frames = len(D), len(numbered)
     momenta, verticals = np.full((2, balls, frames, 3), np.nan)
     turned = np.full((balls, frames, 4), np.nan)
@@ -435,17 +435,12 @@ def top_frames(
         verticals[i, later] = directions[later]
     attitudes = None
     if follow:
-        first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)).reshape(-1, 1, 4)
+        first = first_attitudes(attitude, g, shape)[:, np.newaxis]
         taken = np.isfinite(turned).all(axis=-1)
         attitudes = np.full_like(turned, np.nan)
         attitudes[taken] = kernels.compose(np.broadcast_to(first, turned.shape)[taken], turned[taken])
-        attitudes = attitudes.reshape(*shape, frames, 4)
-    return finished(
-        Trajectory(
-            ball, numbered, momenta.reshape(*shape, frames, 3), verticals.reshape(*shape, frames, 3), attitudes, None,
-            np.where(status == Status.TAKEN, numbered[-1], 0).reshape(shape), status.reshape(shape), time_step,
-        ), reach,
-    )  # fmt: skip
+    arrays = momenta, verticals, attitudes, None, np.where(status == Status.TAKEN, numbered[-1], 0), status
+    return finished(of_balls(Trajectory, shape, ball, numbered, *arrays, time_step=time_step), reach)
 
 
 def motion_of(ball: Ball, K: Floats, g: Floats) -> TopMotion:

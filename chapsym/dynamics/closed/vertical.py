@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 import chapsym.dynamics.native as native
 from chapsym.numbers import NAMED
 
-from ..ball import Ball, Floats, batch, numbers, unit_vertical
+from ..ball import Ball, Floats, batch, in_shape, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels import dispatch, double
 from ..levels.frames import Balls, Frames
@@ -64,11 +64,9 @@ def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     if not shape and frames.status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]))
     q *= np.where(q[:, :1] < 0, -1.0, 1.0)
-    gamma_next = frames.gamma[:, 1].reshape(*shape, 3)
-    momentum = h.reshape(shape)[..., np.newaxis] * gamma_next
-    return Step(
-        q.reshape(*shape, 4), momentum, gamma_next, frames.status.reshape(shape), frames.reach.reshape(shape)
-    )  # fmt: skip
+    arrays = q, h[:, np.newaxis] * frames.gamma[:, 1], frames.gamma[:, 1], frames.status, frames.reach
+    q, K, g, status, reach = (in_shape(shape, x) for x in arrays)
+    return Step(q, K, g, status, reach)
 
 
 @np.errstate(over="ignore", under="ignore", invalid="ignore")
@@ -85,11 +83,8 @@ def trajectory_vertical(
     every = min(every, steps + 1)
     shape, given = _flat(ball, height, gamma)
     frames = _taken(given, steps, every)
-    result = VerticalTrajectory(
-        ball, given[3].reshape(shape), np.arange(steps // every + 1) * every,
-        frames.gamma.reshape(*shape, steps // every + 1, 3), frames.taken.reshape(shape), frames.status.reshape(shape),
-    )  # fmt: skip
-    return finished(result, frames.reach)
+    h, *ends = (in_shape(shape, x) for x in (given[3], frames.gamma, frames.taken, frames.status))
+    return finished(VerticalTrajectory(ball, h, np.arange(steps // every + 1) * every, *ends), frames.reach)
 
 
 def _flat(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, ...], list[Floats]]:
@@ -109,17 +104,15 @@ def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) 
     rotation: of one step, the rotation as the attitude of frame 1.
     """
     g, J, D, h = given
-    precision, body = NAMED["double"], 2 * rotation
-    frames = dispatch.frames_for(precision, len(D), steps // every + 1, body)
-    frames.gamma[:, 0] = g
+    precision, still = NAMED["double"], [1.0, 0.0, 0.0, 0.0] if rotation else None
+    balls = Balls(h[:, np.newaxis] * g, g, J, D, np.zeros(len(D)))
+    frames = dispatch.begun(precision, balls, steps // every + 1, still)
     march = native.loop(vertical_loop.march)
     others = [i for i in range(len(D)) if D[i] != 0.0 or not _closed(march, g[i], J[i], h[i], steps, every, frames, i)]
     if others:
-        full = dispatch.frames_for(precision, len(others), steps // every + 1, body)
-        balls = Balls(h[others, np.newaxis] * g[others], g[others], J[others], D[others], np.zeros(len(others)))
-        full.momentum[:, 0], full.gamma[:, 0], full.attitude[:, :1] = balls.momentum, balls.gamma, [1.0, 0.0, 0.0, 0.0]
-        full.contact[:, :1] = 0.0
-        double.run(balls, steps, every, full, 2, 1, lambda done: None)
+        some = Balls(*(x[others] for x in vars(balls).values() if x is not None))
+        full = dispatch.begun(precision, some, steps // every + 1, still)
+        double.run(some, steps, every, full, 2, 1, lambda done: None)
         for name in ("gamma", "attitude", "taken", "status", "reach"):
             getattr(frames, name)[others] = getattr(full, name)
     return frames

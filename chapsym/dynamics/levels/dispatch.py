@@ -9,6 +9,7 @@ import numpy as np
 
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Enclosure, Precision, Single, named
 
+from ..ball import Asked, in_shape
 from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops import double_double_step
@@ -44,6 +45,16 @@ def frames_for(precision: Precision, balls: int, frames: int, body_frames: int, 
     return Frames(momenta, verticals, attitudes, traces, taken, status, reach, body_frames > 0, low, least)
 
 
+def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None, least: bool = False) -> Frames:
+    """Frames of which the first is that of the balls; attitude: at the start, (n, 4), where it is followed."""
+    frames = frames_for(precision, len(balls.D), count, 0 if attitude is None else count, least)
+    with np.errstate(over="ignore"):  # a precision of a smaller range refuses what it cannot hold
+        frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
+    if attitude is not None:
+        frames.attitude[:, 0], frames.contact[:, 0] = attitude, 0.0
+    return frames
+
+
 def no_room(frames: int, balls: int) -> BadInput:
     """What is raised where the frames do not fit into memory."""
     return BadInput(f"{frames} frames of {balls} balls do not fit into memory; keep fewer with every=")
@@ -76,10 +87,10 @@ def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int)
     else:
         frames = _after_one(precision, balls, order)
         q, K, g, status, reach = *_vectors(frames), frames.status, frames.reach
-        low = None if frames.low is None else LowStep(*_shaped(shape, *_vectors(frames.low)))
+        low = None if frames.low is None else LowStep(*(in_shape(shape, x) for x in _vectors(frames.low)))
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
-    q, K, g = _shaped(shape, q, K, g)
+    q, K, g = (in_shape(shape, x) for x in (q, K, g))
     return Step(q, K, g, status.reshape(shape), reach.reshape(shape), precision, low)
 
 
@@ -100,9 +111,7 @@ def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
 
 
 def _two_frames(precision: Precision, balls: Balls, order: int) -> Frames:
-    frames = frames_for(precision, len(balls.D), 2, 2)
-    frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
-    frames.attitude[:, 0], frames.contact[:, 0] = [1.0, 0, 0, 0], 0.0
+    frames = begun(precision, balls, 2, [1.0, 0, 0, 0])
     run(precision, balls, 1, 1, frames, order, 1, lambda done: None)
     return frames
 
@@ -118,7 +127,3 @@ def _lacking(bits: int, vector: np.ndarray) -> int:
 def _vectors(frames: Frames) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The rotation, 𝒦 and γ of the last frame."""
     return frames.attitude[:, 1], frames.momentum[:, 1], frames.gamma[:, 1]
-
-
-def _shaped(shape: tuple[int, ...], *vectors: np.ndarray) -> list[np.ndarray]:
-    return [x.reshape(*shape, x.shape[-1]) for x in vectors]

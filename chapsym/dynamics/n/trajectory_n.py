@@ -15,12 +15,12 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Digits, Double, Precision
 
-from ..ball import Asked, Floats, is_followed, numbers
+from ..ball import Asked, Floats, in_shape, is_followed, numbers
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count
-from ..results import finished
+from ..results import finished, of_balls
 from ..reversal import way_back
 from ..stepper import UnderWay
 from ..trajectories import whole_number
@@ -86,7 +86,7 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str
     frames, _, status, reach = _stepped(precision, state, 2, 1, 1)
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
-    momentum, gamma, rotation = (x[:, 1].reshape(*shape, *x.shape[2:]) for x in frames.values())
+    momentum, gamma, rotation = (in_shape(shape, x[:, 1]) for x in frames.values())
     return StepN(rotation, momentum, gamma, status.reshape(shape), reach.reshape(shape))
 
 
@@ -155,11 +155,8 @@ def trajectory_n(
     every = min(every, steps + 1)
     shape, state = start(ball, momentum, gamma, attitude, contact)
     frames, taken, status, reach = _stepped(precision, state, order, steps, every, threads)
-    shaped = {name: array.reshape(*shape, *array.shape[1:]) for name, array in frames.items()}
-    result = TrajectoryN(
-        ball, np.arange(0, steps + 1, every), shaped["momentum"], shaped["gamma"], shaped.get("attitude"),
-        shaped.get("contact"), taken.reshape(shape), status.reshape(shape), int(order),
-    )  # fmt: skip
+    flat = (*(frames.get(name) for name in MOVING), taken, status)
+    result = of_balls(TrajectoryN, shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order))
     return finished(result, reach)
 
 
