@@ -24,11 +24,11 @@ from numpy.typing import ArrayLike
 import chapsym.dynamics.native as native
 from chapsym.numbers import NAMED, Double, DoubleDouble, Pair, Precision
 
-from .attitudes import initial_attitude
+from .attitudes import first_attitudes
 from .ball import Asked, Ball, Floats, batch, is_followed, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double, double_double
-from .levels.dispatch import frames_for, no_room, precision_of
+from .levels.dispatch import begun, no_room, precision_of
 from .levels.frames import Balls, Count, cores, share
 from .loops import double_double_long
 from .loops.guess import guess_weights
@@ -140,7 +140,7 @@ def extrapolate(
     n, count = len(D), steps // kept + 1
     body = count if follows else 0
     radius = np.broadcast_to(rolling_radius(ball), shape).reshape(-1).copy() if contact else D
-    first = np.broadcast_to(initial_attitude(attitude, g.reshape(*shape, 3)), (*shape, 4)) if follows else None
+    first = first_attitudes(attitude, g, shape) if follows else None
 
     def shaped(array: Floats) -> Floats:
         array = array[:, -1] if every is None else array
@@ -154,13 +154,11 @@ def extrapolate(
         )  # fmt: skip
 
     if of_pairs:
-        frames = frames_for(NAMED["double-double"], n, count, body, isinstance(attitude, bool | np.bool_))
-        frames.momentum[:, 0], frames.gamma[:, 0] = K, g
-        if first is not None:
-            frames.attitude[:, 0], frames.contact[:, 0] = first.reshape(-1, 4), 0.0
+        balls, least = Balls(K, g, J, D, radius), isinstance(attitude, bool | np.bool_)
+        frames = begun(NAMED["double-double"], balls, count, first, least)
+        pair = Pair.of(time_step) if isinstance(time_step, Fraction) else Pair(h)
         doubt = double_double.run_long(
-            Balls(K, g, J, D, radius), _pair(time_step, h), steps, kept, frames, weights_of_pairs(columns), threads,
-            progress,
+            balls, pair, steps, kept, frames, weights_of_pairs(columns), threads, progress
         )  # fmt: skip
         taken, status = frames.taken, frames.status
         if not shape and status[0]:
@@ -174,7 +172,7 @@ def extrapolate(
     except (MemoryError, ValueError):
         raise no_room(count, n) from None
     if first is not None:
-        attitudes[:, 0], spots[:, 0] = first.reshape(-1, 4), 0.0
+        attitudes[:, 0], spots[:, 0] = first, 0.0
     arrays = momenta, verticals, attitudes, spots
     doubt, taken, status = _march(
         (*arrays, J, D, radius), (h, steps, kept, follows, contact), columns, threads, not shape, progress
@@ -188,11 +186,6 @@ def _is_doubled(precision: str | Precision) -> bool:
     if not isinstance(found, Double | DoubleDouble):
         raise BadInput('long steps have the precisions "double" and "double-double"')
     return isinstance(found, DoubleDouble)
-
-
-def _pair(time_step: Any, h: float) -> Pair:
-    """A long step for double-double."""
-    return Pair.of(time_step) if isinstance(time_step, Fraction) else Pair(h)
 
 
 def _frames(first: Floats, count: int) -> Floats:

@@ -37,8 +37,10 @@ def frames_for(precision: Precision, balls: int, frames: int, body_frames: int, 
     dtype = precision.dtype
     try:
         low = frames_for(NAMED["double"], balls, frames, body_frames) if isinstance(precision, DoubleDouble) else None
-        momenta, verticals = (np.full((balls, frames, 3), np.nan, dtype) for _ in "Kg")
-        attitudes, traces = (np.full((balls, body_frames, n), np.nan, dtype) for n in (4, 2))
+        momenta, verticals = (np.empty((balls, frames, 3), dtype) for _ in "Kg")
+        attitudes, traces = (np.empty((balls, body_frames, n), dtype) for n in (4, 2))
+        for array in (momenta, verticals, attitudes, traces):
+            array.fill(np.nan)
     except (MemoryError, ValueError):
         raise no_room(frames, balls) from None
     taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
