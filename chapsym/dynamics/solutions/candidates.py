@@ -27,7 +27,7 @@ POLISHINGS = 3
 #: Roundings of a residual, in units of EPSILON and of the norm of the forms.
 ROUNDINGS = 16.0
 #: A quadratic form: the coefficient of x_a x_b under (a, b), a ≤ b.
-Quadric = dict[tuple[int, int], Any]
+Quadric = dict[tuple[int, ...], Any]
 
 PAIRS = tuple(itertools.combinations_with_replacement(range(4), 2))
 
@@ -63,15 +63,10 @@ def momentum_forms(gamma: Sequence[Any], mass_tensor: Sequence[Any], D: Any) -> 
     return forms
 
 
-def quadrics(
-    momentum: Sequence[Any], gamma: Sequence[Any], mass_tensor: Sequence[Any], D: Any
-) -> tuple[Quadric, Quadric, Quadric]:
+def quadrics(momentum: Sequence[Any], gamma: Sequence[Any], mass_tensor: Sequence[Any], D: Any) -> list[Quadric]:
     """𝒦(q, γ) - 𝒦(q0² + |q|²), whose real zeros are the rotations with the momentum 𝒦."""
-    first, second, third = (
-        {(a, b): c - k if a == b else c for (a, b), c in form.items()}
-        for form, k in zip(momentum_forms(gamma, mass_tensor, D), momentum, strict=True)
-    )
-    return first, second, third
+    forms = zip(momentum_forms(gamma, mass_tensor, D), momentum, strict=True)
+    return [{at: c - k if at[0] == at[1] else c for at, c in form.items()} for form, k in forms]
 
 
 def candidates(forms: Floats) -> Candidates:

@@ -99,19 +99,14 @@ def precise_branches(
     state = [[fmpq(x.numerator, x.denominator) for x in v] for v in given]
     equations = quadrics(state[0], state[1], state[2], *state[3])
     try:
-        points = common_points([_form(e) for e in (*equations, *_proportional(*state))])
+        points = common_points([*equations, *_proportional(*state)])
     except NotFinite:
         found = _the_small_one(taken, given, precision)
         return PreciseBranches(precision, found, False, _why_infinite(equations))
     return PreciseBranches(precision, _with_small_rotation(_enclosures(points, precision, given), taken), True)
 
 
-def _form(quadric: Quadric) -> Form:
-    """The same form with exponents for indices."""
-    return {tuple(index.count(v) for v in range(4)): c for index, c in quadric.items()}
-
-
-def _proportional(K: list, g: list, J: list, D: list) -> Iterator[Quadric]:
+def _proportional(K: list, g: list, J: list, D: list) -> Iterator[Form]:
     """Linear equations that every rotation satisfies where 𝒦(q, γ) is q0 times a linear L(q), as for equal moments.
 
     Then q0 L(q) = 𝒦 ≠ 0, so that q0 ≠ 0 and 𝒦 × L(q) = 0, while the quadrics have a conic of complex points at q0 = 0.
@@ -121,7 +116,7 @@ def _proportional(K: list, g: list, J: list, D: list) -> Iterator[Quadric]:
         return
     linear = [[form[0, v] for v in range(4)] for form in forms]
     for i, j in ((1, 2), (2, 0), (0, 1)):
-        yield {(v,): K[i] * linear[j][v] - K[j] * linear[i][v] for v in range(4)}  # type: ignore[misc]
+        yield {(v,): K[i] * linear[j][v] - K[j] * linear[i][v] for v in range(4)}
 
 
 def _why_infinite(equations: Sequence[Quadric]) -> str:

@@ -19,7 +19,7 @@ from typing import Any
 import flint
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_mat, fmpz_poly
 
-#: A form with rational coefficients: exponents of (q0, q1, q2, q3) to coefficient.
+#: A form with rational coefficients, each under the ascending indices of the variables of its monomial.
 Form = Mapping[tuple[int, ...], fmpq]
 
 VARIABLES = range(4)
@@ -95,18 +95,21 @@ class _Algebra:
         if size > 8:
             raise NotFinite
         below, place = _monomials(DEGREE - 1), _places(DEGREE)
-        by_variable = [[_row(kernel, place[_times(m, v)]) for m in below] for v in VARIABLES]
+        rows = kernel.tolist()
+        by_variable = [fmpz_mat([rows[place[tuple(sorted((*m, v)))]] for m in below]) for v in VARIABLES]
         for k in PLANES:
-            plane = [_combination(rows, _powers(k)) for rows in zip(*by_variable, strict=True)]
-            chosen = _independent(plane)
-            if len(chosen) == size:
+            plane = sum((c * x for c, x in zip(_powers(k), by_variable, strict=True)), fmpz_mat(len(below), size))
+            # The first rows that span them all.
+            reduced, _, rank = plane.transpose().rref()
+            chosen = [next(j for j in range(len(below)) if reduced[i, j] != 0) for i in range(rank)]
+            if rank == size:
                 break
         else:
             raise NotFinite
-        inverse = fmpq_mat(fmpz_mat([plane[i] for i in chosen])).inv()
+        own = [fmpq_mat(fmpz_mat([x.tolist()[i] for i in chosen])) for x in (plane, *by_variable)]
         self.size = size
         self.basis = [below[i] for i in chosen]
-        self.variables = [inverse * fmpq_mat(fmpz_mat([rows[i] for i in chosen])) for rows in by_variable]
+        self.variables = [own[0].inv() * x for x in own[1:]]
         # Free of denominators: the same positive multiple of each.
         scale = _common(variable.numer_denom()[1] for variable in self.variables)
         self.integral = [(scale * variable).numer_denom()[0] for variable in self.variables]
@@ -117,20 +120,14 @@ class _Algebra:
 
     def inertia(self) -> tuple[int, int]:
         """Rank and signature of the trace form (a, b) -> tr(ab): the numbers of points, and of real points."""
-        elements = [self._product(m) for m in self.basis]  # times a positive number, which the inertia does not see
+        # Times a positive number, which the inertia does not see.
+        elements = [reduce(fmpz_mat.__mul__, (self.integral[v] for v in m)) for m in self.basis]
         form = _traces(elements, elements)
         # All roots are real, so that Descartes' rule is exact.
         polynomial = form.charpoly().coeffs()
         positive = _sign_changes(polynomial)
         negative = _sign_changes([-c if i % 2 else c for i, c in enumerate(polynomial)])
         return positive + negative, positive - negative
-
-    def _product(self, exponents: tuple[int, ...]) -> fmpz_mat:
-        matrix = _identity(self.size)
-        for factor, power in zip(self.integral, exponents, strict=True):
-            for _ in range(power):
-                matrix = matrix * factor
-        return matrix
 
 
 def _killed(forms: Sequence[Form]) -> fmpz_mat:
@@ -139,11 +136,10 @@ def _killed(forms: Sequence[Form]) -> fmpz_mat:
     rows = []
     for form in forms:
         denominator = _common(c.q for c in form.values())
-        degree = sum(next(iter(form)))
-        for m in _monomials(DEGREE - degree):
+        for m in _monomials(DEGREE - len(next(iter(form)))):
             row = [fmpz(0)] * len(place)
             for e, c in form.items():
-                row[place[tuple(map(sum, zip(e, m, strict=True)))]] = (c * denominator).p
+                row[place[tuple(sorted(e + m))]] = (c * denominator).p
             rows.append(row)
     columns, nullity = fmpz_mat(rows).nullspace()
     return fmpz_mat(len(place), nullity, [columns[i, j] for i in range(len(place)) for j in range(nullity)])
@@ -158,10 +154,7 @@ def _representation(algebra: _Algebra, multiplication: fmpq_mat, parts: list) ->
     for part, _ in parts:
         free *= part
     numerator, denominator = multiplication.numer_denom()
-    powers = [_identity(algebra.size)]
-    for _ in range(free.degree() - 1):
-        powers.append(powers[-1] * numerator)
-    traces = _traces(algebra.integral, powers)
+    traces = _traces(algebra.integral, [numerator**i for i in range(free.degree())])
     ascending = free.coeffs()
     found = []
     for v in VARIABLES:
@@ -188,7 +181,7 @@ def _split(part: fmpz_poly, coordinates: Sequence[fmpz_poly]) -> Iterator[tuple[
 
 @cache
 def _monomials(degree: int) -> list[tuple[int, ...]]:
-    return [e for e in itertools.product(range(degree + 1), repeat=4) if sum(e) == degree]
+    return [*itertools.combinations_with_replacement(VARIABLES, degree)][::-1]
 
 
 @cache
@@ -196,37 +189,13 @@ def _places(degree: int) -> dict[tuple[int, ...], int]:
     return {e: i for i, e in enumerate(_monomials(degree))}
 
 
-def _times(exponents: tuple[int, ...], variable: int) -> tuple[int, ...]:
-    return tuple(e + (v == variable) for v, e in enumerate(exponents))
-
-
 def _powers(k: int) -> list[int]:
     return [1, k, k * k, k**3]
-
-
-def _row(matrix: fmpz_mat, i: int) -> list[fmpz]:
-    return [matrix[i, j] for j in range(matrix.ncols())]
-
-
-def _combination(rows: Sequence[Sequence[fmpz]], coefficients: Sequence[int]) -> list[fmpz]:
-    return [
-        sum((c * x for c, x in zip(coefficients, column, strict=True)), fmpz(0)) for column in zip(*rows, strict=True)
-    ]
-
-
-def _independent(rows: Sequence[Sequence[fmpz]]) -> list[int]:
-    """The first rows that span them all."""
-    reduced, _, rank = fmpz_mat(rows).transpose().rref()
-    return [next(j for j in range(len(rows)) if reduced[i, j] != 0) for i in range(rank)]
 
 
 def _common(denominators: Iterable[fmpz]) -> fmpz:
     """The least common multiple."""
     return reduce(fmpz.lcm, denominators, fmpz(1))
-
-
-def _identity(size: int) -> fmpz_mat:
-    return fmpz_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
 
 
 def _traces(left: Sequence[fmpz_mat], right: Sequence[fmpz_mat]) -> fmpz_mat:
