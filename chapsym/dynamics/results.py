@@ -57,7 +57,7 @@ class Step:
     """The outcome of one step, for one ball or a batch with the leading axes (...).
 
     rotation: the Euler parameters (q0, q1, q2, q3) of the step in the body, q0 ≥ 0, shape (..., 4).
-    momentum, gamma: 𝒦 and γ after the step, shape (..., 3).
+    momentum, gamma: 𝒦 and γ after the step, shape (..., 3).  In n dimensions Ω and 𝒦 are (..., n, n), and γ (..., n).
     status: a `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
     reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
     precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.

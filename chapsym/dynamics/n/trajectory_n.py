@@ -20,7 +20,7 @@ from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count
-from ..results import finished, of_balls
+from ..results import Step, finished, of_balls
 from ..reversal import way_back
 from ..stepper import UnderWay
 from ..trajectories import whole_number
@@ -54,24 +54,11 @@ def _stepped(
     return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every)
 
 
-@dataclass(frozen=True, eq=False)
-class StepN:
-    """The outcome of one step, for one ball or a batch with the leading axes (...).
-
-    rotation: Ω of the step in the body, (..., n, n).
-    momentum, gamma: 𝒦 (..., n, n), in kg m², and γ (..., n) after the step.
-    status: a `Status` for each ball, (...); where it is not TAKEN the numbers above are NaN.
-    reach: the fraction of the momentum that the small-rotation branch attains, (...).
-    """
-
-    rotation: Floats
-    momentum: Floats
-    gamma: Floats
-    status: np.ndarray
-    reach: Floats
+#: What `step_n` returns.
+StepN = Step
 
 
-def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Precision = "double") -> StepN:
+def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Precision = "double") -> Step:
     """One step of the map (4.11), (4.12), (4.13) on the small-rotation branch: the first step of `trajectory_n`.
 
     momentum: 𝒦 = ε K of the paper, skew, in kg m², (..., n, n); gamma: unit verticals, (..., n).
@@ -87,7 +74,7 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
     momentum, gamma, rotation = (in_shape(shape, x[:, 1]) for x in frames.values())
-    return StepN(rotation, momentum, gamma, status.reshape(shape), reach.reshape(shape))
+    return Step(rotation, momentum, gamma, status.reshape(shape), reach.reshape(shape), precision_of(precision))
 
 
 @dataclass(frozen=True, eq=False)
