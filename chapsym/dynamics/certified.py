@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import Decimal
+from decimal import MIN_EMIN, ROUND_DOWN, Decimal, localcontext
 from fractions import Fraction
 from typing import Any
 
@@ -184,8 +184,5 @@ def proved_digits(x: Any) -> str:
 
 def _decade(x: Fraction) -> int:
     """The exponent n with 10ⁿ ≤ |x| < 10ⁿ⁺¹."""
-    x = abs(x)
-    guess = math.floor((x.numerator.bit_length() - x.denominator.bit_length()) * math.log10(2)) - 1
-    while Fraction(10) ** (guess + 1) <= x:
-        guess += 1
-    return guess
+    with localcontext(prec=3, rounding=ROUND_DOWN, Emin=MIN_EMIN):
+        return (Decimal(x.numerator) / x.denominator).adjusted()

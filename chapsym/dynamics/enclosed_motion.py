@@ -5,7 +5,7 @@ import pathlib
 import time as clock
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
-from decimal import Decimal
+from decimal import Decimal, Inexact, localcontext
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -413,19 +413,10 @@ def _log2(x: Fraction) -> float:
 
 def decimal(x: Fraction) -> str:
     """A fraction as a decimal number where it is one, else as a quotient."""
-    places = _power(x.denominator, 2), _power(x.denominator, 5)
-    if 2 ** places[0] * 5 ** places[1] != x.denominator:
-        return str(x)
-    figures = tuple(map(int, str(abs(x) * 10 ** max(places))))
-    return f"{Decimal((int(x < 0), figures, -max(places))):f}"
-
-
-def _power(x: int, prime: int) -> int:
-    """How often a prime divides it."""
-    found = 0
-    while x % prime == 0:
-        found, x = found + 1, x // prime
-    return found
+    with localcontext(prec=x.numerator.bit_length() + x.denominator.bit_length() + 1) as context:
+        context.clear_flags()
+        found = Decimal(x.numerator) / x.denominator
+        return str(x) if context.flags[Inexact] else f"{found:f}"
 
 
 def written(x: Any, digits: int) -> tuple[str, str]:
