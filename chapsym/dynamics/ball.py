@@ -88,10 +88,11 @@ def _has_mask(value: Any) -> bool:
 
 
 def _not_numbers(value: Any, name: str) -> BadInput:
-    return BadInput(f"{name} must be real numbers, not {_brief(value)}")
+    return BadInput(f"{name} must be real numbers, not {brief(value)}")
 
 
-def _brief(value: Any) -> str:
+def brief(value: Any) -> str:
+    """What a sentence says of a value that is refused."""
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
@@ -212,7 +213,7 @@ class Ball:
             return array
         axes = axes[..., np.newaxis, :] if frames else axes
         if array.dtype.kind not in "iuf" or array.shape[-1:] != (3,):
-            raise BadInput(f"vectors must be real numbers of the shape (..., 3), not {_brief(vectors)}")
+            raise BadInput(f"vectors must be real numbers of the shape (..., 3), not {brief(vectors)}")
         common_shape([axes.shape[:-1], array.shape[:-1]], "the axes of the ball and the vectors")
         return turn(axes, array)
 

@@ -178,7 +178,7 @@ def proved_digits(x: Any) -> str:
         unit = Fraction(10) ** place
         rounded = round(low / unit)
         if rounded == round(high / unit) and rounded:
-            return str(Decimal((int(rounded < 0), tuple(map(int, str(abs(rounded)))), place)))
+            return str(Decimal(f"{rounded}e{place}"))
     return f"0E{_decade(max(abs(low), abs(high))) + 1}"
 
 

@@ -407,8 +407,7 @@ def _missing(frame: dict[str, tuple[Any, ...]], digits: int, radius: Fraction | 
 
 
 def _log2(x: Fraction) -> float:
-    shift = exponent_of(x)
-    return math.log2(float(x / Fraction(2) ** shift)) + shift
+    return math.log2(x.numerator) - math.log2(x.denominator)
 
 
 def decimal(x: Fraction) -> str:
@@ -433,7 +432,5 @@ def written(x: Any, digits: int) -> tuple[str, str]:
     unit = Fraction(10) ** place
     rounded = round(middle / unit)
     off = math.ceil((radius + abs(middle - rounded * unit)) / unit)
-    figures = tuple(map(int, str(abs(rounded))))
-    shown = Decimal((int(rounded < 0), figures, place))
-    text = f"{shown:f}" if len(figures) + 12 > -place else f"{shown:e}"
-    return text, f"{Decimal((0, tuple(map(int, str(off))), place)):e}"
+    shown, error = (Decimal(f"{x}e{place}") for x in (rounded, off))
+    return f"{shown:f}" if len(str(abs(rounded))) + 12 > -place else f"{shown:e}", f"{error:e}"

@@ -17,7 +17,7 @@ from chapsym.numbers import Double, Enclosure, Precision, Single, named
 
 from .ball import numbers
 from .errors import BadInput
-from .kernels import Row
+from .kernels import Row, parts_of
 
 Vector = Sequence[Any]
 
@@ -194,7 +194,7 @@ class _System(NamedTuple):
         return np.abs(np.linalg.inv(slope)) @ np.abs(slope) @ np.abs(x)
 
     def _correction(self, x: list[Any], known: list[Any]) -> list[Any]:
-        slope, value = _parts(self.slope(*x, *known)), _parts(self.function(*x, *known))
+        slope, value = parts_of(self.slope(*x, *known)), parts_of(self.function(*x, *known))
         return _solved([slope[i * self.size : (i + 1) * self.size] for i in range(self.size)], value)
 
     def _enclosed(self, x: list[Any], known: list[Any]) -> list[Any]:
@@ -202,9 +202,9 @@ class _System(NamedTuple):
         from .levels.newton import isolated  # 40 ms with flint, which who runs on float64 need not wait for
 
         def slope(box: Sequence[Any]) -> list[Any]:
-            return _parts(self.slope(*(a + b for a, b in zip(x, box, strict=True)), *known))
+            return parts_of(self.slope(*(a + b for a, b in zip(x, box, strict=True)), *known))
 
-        image = isolated(_parts(self.function(*x, *known)), slope)
+        image = isolated(parts_of(self.function(*x, *known)), slope)
         if image is None:
             raise BadInput("a root is not proved here: more bits are needed, or it is singular")
         return [a + b for a, b in zip(x, image, strict=True)]
@@ -298,12 +298,8 @@ def _exact(array: np.ndarray, level: Precision, name: str) -> np.ndarray:
 def _values(function: Callable[..., Any], arrays: Sequence[np.ndarray]) -> list[np.ndarray]:
     """The results of a function at the rows of some arrays."""
     rows = len(arrays[0])
-    parts = _parts(function(*(array[:, i] for array in arrays for i in range(array.shape[1]))))
+    parts = parts_of(function(*(array[:, i] for array in arrays for i in range(array.shape[1]))))
     return [np.broadcast_to(part, rows) for part in parts]
-
-
-def _parts(result: Any) -> list[Any]:
-    return list(result) if isinstance(result, tuple) else [result]
 
 
 def _listed(groups: Sequence[tuple[str, int]]) -> str:

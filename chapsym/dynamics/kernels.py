@@ -89,13 +89,13 @@ def _in_blocks(function: Callable[..., Any], columns: list[np.ndarray], leading:
     """The results of a function (*leading, n) for n of them, a block of the leading axes after the other."""
     size = math.prod(leading)
     if size <= 2 * BLOCK or any(column.dtype == object for column in columns):
-        parts = _parts(function(*columns))
+        parts = parts_of(function(*columns))
         return _fill(np.empty((*leading, len(parts)), np.result_type(*parts)), parts)
     flat = [c.reshape(-1) if c.size == 1 else np.broadcast_to(c, leading).reshape(-1) for c in columns]
     result = np.empty(0)
     for start in range(0, size, BLOCK):
         block = slice(start, start + BLOCK)
-        parts = _parts(function(*(c if c.size == 1 else c[block] for c in flat)))
+        parts = parts_of(function(*(c if c.size == 1 else c[block] for c in flat)))
         result = result if start else np.empty((size, len(parts)), np.result_type(*parts))
         _fill(result[block], parts)
     return result
@@ -107,7 +107,8 @@ def _fill(result: np.ndarray, parts: list[Any]) -> np.ndarray:
     return result
 
 
-def _parts(result: Any) -> list[Any]:
+def parts_of(result: Any) -> list[Any]:
+    """What a generated function returns, one or several numbers."""
     return list(result) if isinstance(result, tuple) else [result]
 
 

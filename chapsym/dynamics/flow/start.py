@@ -13,6 +13,7 @@ from flint import acb_mat, arb, fmpq
 from chapsym import generated
 from chapsym.rationals import NotANumber, rational
 
+from ..ball import brief
 from ..errors import BadInput
 from ..levels.balls import unit
 from ..levels.proved_root import TooWide
@@ -61,7 +62,7 @@ def exactly(value: Any, name: str) -> Fraction:
         raise BadInput(f"{name} must be finite, not {value}") from None
     if getattr(value, "size", None) == 1 and type(value) is not type(plain := value.item()):
         return exactly(plain, name)
-    raise BadInput(f'{name} must be a number, or a text such as "0.1" or "2/7", not {_brief(value)}')
+    raise BadInput(f'{name} must be a number, or a text such as "0.1" or "2/7", not {brief(value)}')
 
 
 def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
@@ -71,13 +72,8 @@ def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
     except TypeError:
         listed = []
     if len(listed) != count:
-        raise BadInput(f"{name} must be {count} numbers, not {_brief(values)}")
+        raise BadInput(f"{name} must be {count} numbers, not {brief(values)}")
     return tuple(exactly(x, f"{name} {i}") for i, x in enumerate(listed, start=1))
-
-
-def _brief(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def parallel(v: Sequence[Fraction], w: Sequence[Fraction]) -> bool:

@@ -10,6 +10,7 @@ float64 continuation selects, and the interval Newton test of `newton` encloses 
 """
 
 import math
+from collections import deque
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
@@ -24,6 +25,7 @@ from chapsym.numbers.precisions import flint_bits
 from ..errors import Status, StepNotTaken
 from ..loops.gibbs import BEYOND, certificate
 from ..loops.path import joined
+from ..loops.sums import WEIGHTS
 from .newton import enclosed, refined, unit
 from .proved_root import MATRIX_BITS, Numbers, TooWide, certified, inverse_slope, on_path, stretch, upper
 from .root import extrapolated, root
@@ -66,9 +68,9 @@ class _UnderWay:
         self.a: Numbers = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
         self.x = (arb(0), arb(0))
         self.stages = [None if c == 1 else exact(c) for c in stages]
-        self.past: list[list[Any]] = [[] for _ in stages]
+        self.past: list[deque[Any]] = [deque(maxlen=len(WEIGHTS)) for _ in stages]
 
-    def _root(self, k: Numbers, past: list) -> Any:
+    def _root(self, k: Numbers, past: deque) -> Any:
         """A point near the Gibbs vector, and its float64 value; None where no iteration finds it."""
         state = *k, *self.g, *self.I, self.D
         try:
@@ -128,7 +130,7 @@ class DigitsBall(_UnderWay):
                 tuple((x + y).mid() for x, y in zip(v, turn(*p, *v), strict=True)) for v in (self.k, self.g)
             )
 
-    def _gibbs(self, k: Numbers, bound: float, past: list) -> Any:
+    def _gibbs(self, k: Numbers, bound: float, past: deque) -> Any:
         """The Gibbs vector where `small-branch` or `straight-path` says that it is that of the branch; else None."""
         found = self._root(k, past) if bound >= 0.0 or bound == BEYOND else None
         if found is None:
@@ -138,8 +140,7 @@ class DigitsBall(_UnderWay):
         if not (self._on_path(u, k) if bound == BEYOND else square_of(start) <= bound):
             past.clear()
             return None
-        past.insert(0, start)
-        del past[8:]
+        past.appendleft(start)
         return u
 
     def _on_path(self, root: Numbers, k: Numbers) -> bool:
@@ -201,7 +202,7 @@ class ArbBall(_UnderWay):
         along, across = arb(0, (off * self.length).abs_upper()), arb(0, off.abs_upper())
         return tuple(x + along for x in self.k), tuple(x + across for x in self.g)
 
-    def _proved(self, k: Numbers, every: Numbers, bound: tuple[Any, Any] | None, past: list) -> Any:
+    def _proved(self, k: Numbers, every: Numbers, bound: tuple[Any, Any] | None, past: deque) -> Any:
         """A point, and how far the branch's Gibbs vectors of all states are from it; None where that is not proved.
 
         k: that of the point that is followed; every: k, γ, I and D of all states.
@@ -215,11 +216,10 @@ class ArbBall(_UnderWay):
             slope = on_path(u, length, *every) if bound is None else bound[1] if upper(u) <= bound[0] else None
             if slope is None:
                 return None
-            past.insert(0, start)
-            del past[8:]
+            past.appendleft(start)
             return u, (length / slope).abs_upper()
 
-    def _selected(self, every: Numbers, bound: Any, past: list) -> Any:
+    def _selected(self, every: Numbers, bound: Any, past: deque) -> Any:
         """The same for the root that the continuation selects; None where its rotation is too long: it is taken here.
 
         A root that is proved to be the branch's after all serves the next steps as a guess.
@@ -229,7 +229,9 @@ class ArbBall(_UnderWay):
         u = tuple(x / q[0] for x in q[1:])
         with ctx.workprec(self.matrix_bits):
             proved = squared < q[0] * q[0] if bound else stretch(u, *every) is not None
-        past[:] = [tuple(map(float, u)), *past[:7]] if proved else []
+        past.appendleft(tuple(map(float, u)))
+        if not proved:
+            past.clear()
         self.selected += not proved
         if q[0] > LEAST_SCALAR:
             return tuple(x.mid() for x in u), upper([x.rad() for x in u])
