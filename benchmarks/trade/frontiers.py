@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.accuracy import Method, Request, methods, take
-from chapsym.accuracy.methods import CHECKS, EXACT, EXTRAPOLATED, label_of
+from chapsym.accuracy.methods import CHECKS, EXTRAPOLATED, label_of
 from chapsym.dynamics import Ball, BallN, Trajectory, extrapolate, kernels, trajectory, trajectory_n
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.certified import exactly
@@ -111,9 +111,7 @@ def ways(request: Request, quick: bool, balls: int = 1) -> Iterator[tuple[Method
     digits: list[Precision] = [] if quick or balls > 1 else [Digits(30), Digits(50)]
     longest = LONGEST[quick] / (4 * balls if balls > 1 else 1)
     for precision in (*NAMED.values(), *digits):
-        for method in methods(request, precision):
-            if method.order == EXACT:
-                continue
+        for method in methods(precision):
             for length in LENGTHS[quick]:
                 steps = CHECKS * max(1, round(request.rate * request.time / length / CHECKS))
                 if steps * method.stages * STAGE[label_of(precision)] <= longest:

@@ -100,14 +100,14 @@ def judge(request: Request) -> Outcome:
 def best_choice(request: Request, exact: np.ndarray, dearest: float) -> tuple[str, float]:
     """The cheapest precision, order and number of steps whose true error is within the accuracy, and its seconds."""
     runs = []
-    for method in (method for precision in NAMED.values() for method in methods(request, precision)):
+    for method in (method for precision in NAMED.values() for method in methods(precision)):
         parts = checks(request, method)
 
         def error(steps: int, method: Method = method, parts: int = parts) -> float:
             return true_error(request, take(request, method, steps * parts, parts), exact)
 
         with suppress(BadInput):
-            steps, _ = problems.fewest(error, request.accuracy, method.order or 2, 1, dearest)
+            steps, _ = problems.fewest(error, request.accuracy, method.order, 1, dearest)
             if steps:
                 run = partial(take, request, method, steps * parts, 1)
                 runs.append(Contender(_named(method, steps * parts), run, 1, time.thread_time))

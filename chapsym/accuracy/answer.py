@@ -22,7 +22,7 @@ from chapsym.numbers import NAMED, Digits, Double, Single
 from chapsym.renamed import in_words
 
 from .composed import ATTEMPTS, LEAST_FINER, MARGIN, MOST_FINER
-from .methods import EXACT, EXTRAPOLATED, Method, checks, in_range, take
+from .methods import EXTRAPOLATED, STEADY, Method, checks, in_range, take
 from .motion import FINEST, ROUNDING, moved, nominal
 from .problem import Motion, Problem
 from .request import Request, distance, exact_values
@@ -53,7 +53,7 @@ class Choice:
 
     def sentence(self) -> str:
         """The choice for a reader."""
-        order = f"order {self.method.order}" if self.method.order != EXACT else "steady rotation"
+        order = f"order {self.method.order}" if self.method.order != STEADY else "steady rotation"
         order = f"extrapolated to {order}" if self.method.columns else order
         return f"{in_words(self.method.label)}, {order}, {self.steps} steps of {self.time_step:.6g} s"
 

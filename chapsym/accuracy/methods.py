@@ -1,24 +1,22 @@
 """The ways to take a ball to the end: a precision and an order, each by one call of dynamics."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, Trajectory, exact_top, extrapolate, substeps, trajectory
+from chapsym.dynamics import BadInput, Trajectory, extrapolate, substeps, trajectory
 from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, stages_of
+from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of
 from chapsym.dynamics.loops.double_double_long import FIRST
-from chapsym.dynamics.results import Low
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, pairs
 
 from .problem import EXTRAPOLATED
 from .request import Request
 
-#: Orders of `trajectory`; that of `extrapolate` in double-double, at most; and that of the exact top, whose steps have
-#: no error.
-COMPOSED, OF_PAIRS, EXACT = (2, 4, 6, 8), 2 * MOST_OF_PAIRS, 0
+#: Orders of `trajectory`; that of `extrapolate` in double-double, at most; and that of a steady rotation.
+COMPOSED, OF_PAIRS, STEADY = (2, 4, 6, 8), 2 * MOST_OF_PAIRS, 0
 #: Below this not all 106 bits of double-double, of a stage of a composition, are within the range of float64.
 SMALLEST = 2.0**-900
 #: Runs are compared at so many times at least: a difference that is small by chance at one is not so at all.
@@ -27,7 +25,7 @@ CHECKS, FEW = 16, 4
 
 @dataclass(frozen=True)
 class Method:
-    """A precision and an order: 2 to 8; from 10 on that of `extrapolate`; 0 for `exact_top`, or a steady rotation."""
+    """A precision and an order: 2 to 8; from 10 on that of `extrapolate`; 0 for a steady rotation."""
 
     precision: Precision
     order: int
@@ -57,25 +55,14 @@ def label_of(precision: Precision) -> str:
     return "quad" if isinstance(precision, DoubleDouble) else type(precision).__name__.lower()
 
 
-def methods(request: Request, precision: Precision) -> list[Method]:
-    """All that can be asked of a precision for this request."""
+def methods(precision: Precision) -> list[Method]:
+    """All that can be asked of a precision."""
     found = [Method(precision, order) for order in COMPOSED]
     if precision == NAMED["double-double"]:
         found.append(Method(precision, OF_PAIRS))
     if precision == NAMED["double"]:
         found.append(Method(precision, EXTRAPOLATED))
-        if request.of == "state" and _is_top(request):
-            found.append(Method(precision, EXACT))
     return found
-
-
-def _is_top(request: Request) -> bool:
-    step = 1e-3 * request.time / (1.0 + request.angle)
-    try:
-        exact_top(request.ball, step * request.angular_momentum, request.gamma)
-    except BadInput:
-        return False
-    return True
 
 
 def checks(request: Request, method: Method) -> int:
@@ -92,20 +79,14 @@ def take(request: Request, method: Method, steps: int, frames: int) -> Trajector
     exactly, every = Fraction(request.time) / steps, steps // frames
     step = request.time / steps
     in_range(step, request.angular_momentum)
-    body = request.body
-    ball, K, g = request.ball, request.angular_momentum, request.gamma
     if method.columns:
         return _extrapolated(request, method, exactly, every, frames)
-    if method.order == EXACT:
-        top = exact_top(ball, step * K, g)
-        run = trajectory(top.ball, top.momentum, g, steps, every=every, attitude=body, time_step=step)
-        return top.restore(run)
-    momentum: Any = step * K
+    momentum: Any = step * request.angular_momentum
     if not isinstance(method.precision, Double | Single):  # of T/n and its product with K float64 has but 53 bits
-        momentum = [exactly * Fraction(float(x)) for x in K]
+        momentum = [exactly * Fraction(float(x)) for x in request.angular_momentum]
     return trajectory(
-        ball, momentum, g, steps, order=method.order, every=every, attitude=body, contact=request.of == "contact",
-        time_step=step, precision=method.precision,
+        request.ball, momentum, request.gamma, steps, order=method.order, every=every, attitude=request.body,
+        contact=request.of == "contact", time_step=step, precision=method.precision,
     )  # fmt: skip
 
 
@@ -125,11 +106,14 @@ def _extrapolated(request: Request, method: Method, step: Fraction, every: int, 
         columns=method.columns, every=every, attitude=request.body, contact=request.of == "contact",
         precision=method.precision,
     )  # fmt: skip
-    momentum, low = found.angular_momentum * float(step), None
-    if found.low is not None:
-        momentum, rest = pairs.multiply(found.angular_momentum, found.low.angular_momentum, *Pair.of(step).halves())
-        low = Low(rest, found.low.gamma, found.low.attitude, found.low.contact)
-    return Trajectory(
-        request.ball, np.arange(frames + 1) * every, momentum, found.gamma, found.attitude, found.contact,
-        np.array(frames * every), found.status, float(step), method.order, method.precision, low,
-    )  # fmt: skip
+
+    def run(of: Extrapolated, momentum: Floats) -> Trajectory:
+        return Trajectory(
+            request.ball, np.arange(frames + 1) * every, momentum, of.gamma, of.attitude, of.contact,
+            np.array(frames * every), found.status, float(step), method.order, method.precision,
+        )  # fmt: skip
+
+    if found.low is None:
+        return run(found, found.angular_momentum * float(step))
+    high, low = pairs.multiply(found.angular_momentum, found.low.angular_momentum, *Pair.of(step).halves())
+    return replace(run(found, high), low=run(found.low, low))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -17,7 +18,7 @@ from .errors import BadInput
 from .levels import dispatch
 from .levels.frames import Balls
 from .levels.start import exponent_of, fraction
-from .results import LowStep, Step, in_given_axes
+from .results import Step, in_given_axes
 
 #: The digits of a step of exact numbers that pairs cannot hold, before it is rounded to pairs.
 BEYOND_DOUBLE_DOUBLE = Digits(40)
@@ -91,7 +92,8 @@ def _in_pairs(step: Step, precision: DoubleDouble) -> Step:
     q, K, g = (
         np.array([Pair.of(fraction(x)).halves() for x in v]).T for v in (step.rotation, step.momentum, step.gamma)
     )
-    return Step(q[0], K[0], g[0], step.status, step.reach, precision, LowStep(q[1], K[1], g[1]))
+    high, low = (Step(q[i], K[i], g[i], step.status, step.reach, precision) for i in range(2))
+    return replace(high, low=low)
 
 
 def check_body(J: Sequence[Fraction], D: Fraction) -> None:

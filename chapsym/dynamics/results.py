@@ -44,15 +44,6 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
 
 
 @dataclass(frozen=True, eq=False)
-class LowStep:
-    """The second halves of the double-double numbers of a step, each at most half an ulp of the first."""
-
-    rotation: Floats
-    momentum: Floats
-    gamma: Floats
-
-
-@dataclass(frozen=True, eq=False)
 class Step:
     """The outcome of one step, for one ball or a batch with the leading axes (...).
 
@@ -61,7 +52,7 @@ class Step:
     status: a `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
     reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
     precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
-    low: for DoubleDouble, what the numbers have beyond float64, as of `Trajectory`; else None.
+    low: for DoubleDouble, what the numbers have beyond float64, as a step of its own; else None.
     """
 
     rotation: Floats
@@ -70,7 +61,7 @@ class Step:
     status: np.ndarray
     reach: Floats
     precision: Precision = NAMED["double"]
-    low: LowStep | Any = None
+    low: Step | Any = None
 
     def write(self) -> dict[str, Any]:
         """q0, q, momentum and gamma of one ball after the step, as floats or decimal strings."""
@@ -116,16 +107,6 @@ def of_balls(
 
 
 @dataclass(frozen=True, eq=False)
-class Low:
-    """The second halves of the double-double numbers of a trajectory, each at most half an ulp of the first."""
-
-    momentum: Floats
-    gamma: Floats
-    attitude: Asked
-    contact: Asked
-
-
-@dataclass(frozen=True, eq=False)
 class Trajectory:
     """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
 
@@ -139,7 +120,8 @@ class Trajectory:
     order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`roll`,
     `exact_top`), of which `index` counts time steps.
     precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
-    low: for DoubleDouble, what the numbers have beyond float64: `momentum` + `low.momentum` is 𝒦, and so on; else None.
+    low: for DoubleDouble, a record of what the numbers have beyond float64, each at most half an ulp of its number:
+    `momentum` + `low.momentum` is 𝒦, and so on; else None.
     error: of `roll`, an estimate of the largest error at any frame, (...); else None.
     """
 
@@ -154,7 +136,7 @@ class Trajectory:
     time_step: float | None = None
     order: int = 2
     precision: Precision = NAMED["double"]
-    low: Low | Any = None
+    low: Trajectory | Any = None
     error: Asked = None
 
     @property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import inf
 from typing import Any
 
@@ -12,12 +13,12 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import Precision
 
 from .attitudes import first_attitudes
-from .ball import Asked, Ball, Floats, batch, in_shape, is_followed, numbers, unit_vertical
+from .ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
 from .errors import BadInput
 from .levels import dispatch
 from .levels.frames import Balls, Frames
 from .map import beyond_float64
-from .results import Low, Trajectory, finished, in_given_axes, of_balls
+from .results import Trajectory, finished, in_given_axes, of_balls
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
 MOST_STEPS = 2**62
@@ -79,15 +80,15 @@ def trajectory(
     frame = dispatch.begun(precision, balls, steps // every + 1, first, isinstance(attitude, bool | np.bool_))
     dispatch.run(precision, balls, steps, every, frame, order, threads, progress)
 
-    def states(kept: Frames) -> tuple[Floats, Floats, Asked, Asked]:
-        return kept.momentum, kept.gamma, kept.attitude if with_body else None, kept.contact if contact else None
+    def run(kept: Frames) -> Trajectory:
+        body = kept.attitude if with_body else None, kept.contact if contact else None
+        return of_balls(
+            Trajectory, shape, ball, np.arange(steps // every + 1) * every, kept.momentum, kept.gamma, *body,
+            frame.taken, frame.status, time_step=time_step, order=order, precision=precision,
+        )  # fmt: skip
 
-    low = None if frame.low is None else Low(*(in_shape(shape, x) for x in states(frame.low)))
-    result = of_balls(
-        Trajectory, shape, ball, np.arange(steps // every + 1) * every, *states(frame), frame.taken, frame.status,
-        time_step=time_step, order=order, precision=precision, low=low,
-    )  # fmt: skip
-    return finished(result, frame.reach)
+    result = run(frame)
+    return finished(result if frame.low is None else replace(result, low=run(frame.low)), frame.reach)
 
 
 def rolling_radius(ball: Any) -> Floats:

@@ -13,7 +13,7 @@ from ..ball import Asked, in_shape
 from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops import double_double_step
-from ..results import LowStep, Step
+from ..results import Step
 from . import double, double_double, high, single
 from .frames import Balls, Frames
 from .start import exponent_of, fraction
@@ -83,17 +83,21 @@ def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int)
 
     The rotation is the attitude of a run that starts as the identity; the map on floats takes a shorter way there.
     """
-    low: LowStep | None = None
+    low = None
     if order == 2 and isinstance(precision, Single | Double):
         q, K, g, status, reach = LEVELS[type(precision)].step_all(balls)
     else:
         frames = _after_one(precision, balls, order)
         q, K, g, status, reach = *_vectors(frames), frames.status, frames.reach
-        low = None if frames.low is None else LowStep(*(in_shape(shape, x) for x in _vectors(frames.low)))
+        low = None if frames.low is None else _vectors(frames.low)
     if not shape and status[0] != Status.TAKEN:
         raise StepNotTaken(Status(int(status[0])), float(reach[0]))
-    q, K, g = (in_shape(shape, x) for x in (q, K, g))
-    return Step(q, K, g, status.reshape(shape), reach.reshape(shape), precision, low)
+
+    def result(q: np.ndarray, K: np.ndarray, g: np.ndarray, low: Step | None = None) -> Step:
+        q, K, g = (in_shape(shape, x) for x in (q, K, g))
+        return Step(q, K, g, status.reshape(shape), reach.reshape(shape), precision, low)
+
+    return result(q, K, g, None if low is None else result(*low))
 
 
 def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
