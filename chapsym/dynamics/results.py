@@ -17,6 +17,7 @@ from .axes import in_axes, in_axes_of
 from .ball import Asked, Ball, Floats, in_shape
 from .errors import BadInput, Status, StepNotTaken
 from .interpolation import Moments, States, standing
+from .n import so_n
 from .principal_axes import attitude_to_principal
 
 P = ParamSpec("P")
@@ -110,6 +111,9 @@ def of_balls(
 class Trajectory:
     """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
 
+    In n dimensions, of `trajectory_n`: 𝒦 and the attitude R, R γ = eₙ, are (..., frames, n, n), γ is (..., frames, n),
+    and the contact point (..., frames, n-1), from 0; there is no time step, and what follows from one.
+
     index: the step number of each frame, (frames,).
     momentum, gamma: 𝒦 (kg m²) and γ, (..., frames, 3).
     attitude: unit quaternions, body to space, scalar first, (..., frames, 4), or None.
@@ -154,6 +158,8 @@ class Trajectory:
         to an error of the map's own.  In float64, whatever the precision of the run.
         Raises BadInput for times beyond the frames, and where a ball turns by more than 1.5 radians between frames.
         """
+        if not isinstance(self.ball, Ball):
+            raise BadInput("the states between frames are found in three dimensions only")
         timed = self.time_step is not None
         momentum = self.angular_momentum() if timed else self.momentum
         there, frames = standing(momentum=momentum, gamma=self.gamma, attitude=self.attitude, contact=self.contact)
@@ -169,9 +175,13 @@ class Trajectory:
         return replace(found, momentum=found.momentum * self._time_step()) if timed else found
 
     def invariants(self) -> Floats:
-        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on DoubleDouble in float64, of the first halves."""
+        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on DoubleDouble in float64, of the first halves.
+
+        In n dimensions those of `invariants_n`, (..., frames, m).  Raises BadInput if a ball stopped early.
+        """
+        of = kernels.invariants if isinstance(self.ball, Ball) else so_n.invariants
         with self.precision.working():
-            return kernels.invariants(*self._finite(self.momentum, self.gamma))
+            return of(*self._finite(self.momentum, self.gamma))
 
     def angular_momentum(self) -> Floats:
         """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""

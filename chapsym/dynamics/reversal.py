@@ -88,18 +88,26 @@ def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
     """
     if not isinstance(run, Trajectory) or not isinstance(back, Trajectory) or run.gamma.shape != back.gamma.shape:
         raise BadInput("retrace_error compares a trajectory with its way back, of equal shape: give it reverse(run)")
-    size = np.abs(run.momentum).max(axis=(-1, -2))[..., np.newaxis]
-    gap = np.abs(run.momentum + back.momentum[..., ::-1, :]).max(axis=-1) / np.where(size > 0, size, 1.0)
-    gap = np.maximum(gap, np.abs(run.gamma - back.gamma[..., ::-1, :]).max(axis=-1))
+
+    def apart(there: Floats, here: Floats) -> Floats:
+        """The largest difference in each frame, of vectors or of matrices."""
+        frames = run.status.ndim
+        return np.asarray(np.abs(there - np.flip(here, frames)).max(axis=tuple(range(frames + 1, there.ndim))))
+
+    size = apart(run.momentum, np.zeros_like(run.momentum)).max(axis=-1, keepdims=True)
+    gap = apart(run.momentum, -back.momentum) / np.where(size > 0, size, 1.0)
+    gap = np.maximum(gap, apart(run.gamma, back.gamma))
     if run.attitude is None or back.attitude is None:
         return gap
-    return np.maximum(gap, np.abs(run.attitude - back.attitude[..., ::-1, :]).max(axis=-1))
+    return np.maximum(gap, apart(run.attitude, back.attitude))
 
 
 def _frames(run: Trajectory) -> tuple[int, int]:
     """The steps from the first frame to the last, and from one to the next."""
     if not isinstance(run, Trajectory):
         raise BadInput(f"reverse takes a Trajectory, not {type(run).__name__}; of a state, reverse the momentum")
+    if not isinstance(run.ball, Ball):
+        raise BadInput("reverse takes a ball in three dimensions; `reverse_n` one in n")
     if isinstance(run.precision, DoubleDouble | Digits | Enclosure):
         raise BadInput("reverse goes back in float32 or float64 only: a run starts from floats, not from finer numbers")
     if len(run.index) < 2:

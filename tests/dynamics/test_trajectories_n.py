@@ -6,14 +6,19 @@ from balls_n import SIZES, UNIT_ROUNDOFF, batch, invariant_scales
 
 from chapsym import (
     BadInput,
+    Ball,
     BallN,
     Status,
     StepNotTaken,
     axial,
+    certify,
     invariants_n,
+    retrace_error,
+    reverse,
     reverse_n,
     skew,
     step_n,
+    trajectory,
     trajectory_n,
 )  # fmt: skip
 from chapsym.dynamics.n import so_n
@@ -72,6 +77,21 @@ def test_the_way_back_leads_to_the_start(n):
     assert length > 0.3
     assert np.abs(back.contact[:, ::-1] - run.contact).max() <= budget * length
     assert back.index.tolist() == run.index.tolist()
+    assert retrace_error(run, back).shape == (5, 6)
+    assert retrace_error(run, back).max() <= budget
+
+
+def test_what_is_of_three_dimensions_only_is_refused():
+    run = trajectory_n(BallN(np.ones(4), 1), np.zeros((4, 4)), np.eye(4)[0], 3)
+    for refused, sentence in (
+        (lambda: run.at(1.5), "in three dimensions only"),
+        (lambda: run.omega, "has no time step"),
+        (lambda: reverse(run), "`reverse_n` one in n"),
+        (lambda: certify(run), "must be a chapsym.Ball, not BallN"),
+        (lambda: reverse_n(trajectory(Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1), 3)), "what `trajectory_n` returns"),
+    ):
+        with pytest.raises(BadInput, match=sentence):
+            refused()
 
 
 def test_only_the_frames_that_are_kept_are_allocated():

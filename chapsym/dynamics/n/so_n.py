@@ -88,3 +88,15 @@ def carried(skew: Floats, E: Floats) -> Floats:
 def transported(gamma: Floats, E: Floats) -> Floats:
     """Ωᵀγ, as γ and an increment."""
     return gamma + (E.mT @ gamma[..., np.newaxis])[..., 0]
+
+
+def invariants(K: Floats, gamma: Floats) -> Floats:
+    """`invariants_n` of what was checked, floats or other numbers."""
+    n, g = K.shape[-1], gamma[..., np.newaxis]
+    square, power, moved = K @ K, np.eye(n), g
+    traces, weights = [], []
+    for j in range(1, n // 2 + 1):
+        power, moved = power @ square, square @ moved
+        traces.append(np.trace(power, axis1=-2, axis2=-1))
+        weights += [(g.mT @ moved)[..., 0, 0]] if j <= (n - 1) // 2 else []
+    return np.stack(np.broadcast_arrays(*traces, *weights, (g.mT @ g)[..., 0, 0]), axis=-1)

@@ -7,7 +7,6 @@ continued from the identity, and goes to Ωᵀ𝒦Ω and Ωᵀγ (4.11, 4.12).  
 from __future__ import annotations
 
 from copy import deepcopy
-from dataclasses import dataclass
 from typing import Self, cast
 
 import numpy as np
@@ -15,15 +14,16 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Digits, Double, Precision
 
-from ..ball import Asked, Floats, in_shape, is_followed, numbers
+from ..ball import Floats, in_shape, is_followed, numbers
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count
-from ..results import Step, finished, of_balls
+from ..results import Step, Trajectory, finished, of_balls
 from ..reversal import way_back
 from ..stepper import UnderWay
 from ..trajectories import whole_number
+from . import so_n
 from .ball_n import BallN, skew_matrices
 from .near_n import limits
 from .run_n import MOVING, advance, begun, continued, run, start
@@ -54,8 +54,8 @@ def _stepped(
     return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every)
 
 
-#: What `step_n` returns.
-StepN = Step
+#: What `step_n` and `trajectory_n` return.
+StepN, TrajectoryN = Step, Trajectory
 
 
 def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Precision = "double") -> Step:
@@ -77,37 +77,6 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str
     return Step(rotation, momentum, gamma, status.reshape(shape), reach.reshape(shape), precision_of(precision))
 
 
-@dataclass(frozen=True, eq=False)
-class TrajectoryN:
-    """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
-
-    index: the step number of each frame, (frames,).
-    momentum, gamma: 𝒦 (..., frames, n, n), in kg m², and γ (..., frames, n); with Digits(N), here and below, mpmath's
-    numbers, in arrays of objects.
-    attitude: R from the body to space, R γ = eₙ, (..., frames, n, n), or None.
-    contact: the contact point on the hyperplane in metres, from 0, (..., frames, n-1), or None.
-    taken: the number of steps that were taken, (...); frames after it are NaN.
-    status: why a ball stopped, a `Status`, (...).
-    order: of the composition that made the steps; 2 for the map itself.
-    """
-
-    ball: BallN
-    index: np.ndarray
-    momentum: Floats
-    gamma: Floats
-    attitude: Asked
-    contact: Asked
-    taken: np.ndarray
-    status: np.ndarray
-    order: int = 2
-
-    def invariants(self) -> Floats:
-        """`invariants_n` of each frame, (..., frames, m); raises BadInput if a ball stopped early."""
-        if (self.taken < self.index[-1]).any():
-            raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
-        return _invariants(self.momentum, self.gamma)
-
-
 def trajectory_n(
     ball: BallN,
     momentum: ArrayLike,
@@ -120,7 +89,7 @@ def trajectory_n(
     contact: bool = False,
     threads: int = 0,
     precision: str | Precision = "double",
-) -> TrajectoryN:
+) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
     momentum, gamma: as for `step_n`.
@@ -143,11 +112,14 @@ def trajectory_n(
     shape, state = start(ball, momentum, gamma, attitude, contact)
     frames, taken, status, reach = _stepped(precision, state, order, steps, every, threads)
     flat = (*(frames.get(name) for name in MOVING), taken, status)
-    result = of_balls(TrajectoryN, shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order))
+    result = of_balls(
+        Trajectory, shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order),
+        precision=precision_of(precision),
+    )  # fmt: skip
     return finished(result, reach)
 
 
-class StepperN(UnderWay[TrajectoryN]):
+class StepperN(UnderWay[Trajectory]):
     """One ball in n dimensions under way, as `Stepper` in three: steps of the map without the price of a call.
 
     ball, momentum, gamma, order, attitude, contact: as for `trajectory_n`, of one ball.  All is checked here.
@@ -196,10 +168,10 @@ class StepperN(UnderWay[TrajectoryN]):
     def _frames(self, count: int) -> dict[str, Floats]:
         return {name: np.empty((count, *array.shape[1:])) for name, array in self._ends.items()}
 
-    def _run(self, index: np.ndarray, frames: dict[str, Floats], taken: np.ndarray, status: np.ndarray) -> TrajectoryN:
-        return TrajectoryN(
+    def _run(self, index: np.ndarray, frames: dict[str, Floats], taken: np.ndarray, status: np.ndarray) -> Trajectory:
+        return Trajectory(
             self.ball, index, frames["momentum"], frames["gamma"], frames.get("attitude"), frames.get("contact"), taken,
-            status, self.order,
+            status, order=self.order,
         )  # fmt: skip
 
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
@@ -232,21 +204,21 @@ class StepperN(UnderWay[TrajectoryN]):
                 array[1] = self._state[name][0]
 
 
-def reverse_n(trajectory: TrajectoryN) -> TrajectoryN:
+def reverse_n(trajectory: Trajectory) -> Trajectory:
     """The trajectory back from the last frame: from (-𝒦, γ) the map takes the same steps with Ωᵀ.
 
     Its frame j is the time reversal of the frame -1 - j: 𝒦 has the other sign, γ, attitude and contact are
     the same, up to rounding.  Raises BadInput if a ball stopped early, StepNotTaken as `trajectory_n` does
     (only for a step so large that the way back leaves the small-rotation branch).
     """
-    if not isinstance(trajectory, TrajectoryN):
-        raise BadInput(f"reverse_n takes a TrajectoryN, not {type(trajectory).__name__}")
+    if not isinstance(trajectory, Trajectory) or not isinstance(trajectory.ball, BallN):
+        raise BadInput(f"reverse_n takes what `trajectory_n` returns, not {type(trajectory).__name__}")
     if trajectory.momentum.dtype == object:
         raise BadInput("reverse_n takes trajectories in double precision: a run at N digits starts from floats")
     if (trajectory.status != Status.TAKEN).any():
         raise BadInput("a ball of the batch stopped early; reverse the balls that did not")
     steps, every = int(trajectory.index[-1]), int((*trajectory.index, 1)[1])
-    return cast(TrajectoryN, way_back(trajectory_n, trajectory, steps, every))
+    return cast(Trajectory, way_back(trajectory_n, trajectory, steps, every))
 
 
 def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
@@ -258,16 +230,4 @@ def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
     """
     K = numbers(momentum, "momentum")
     K = skew_matrices(K, K.shape[-1] if K.ndim else 3)
-    return _invariants(K, numbers(gamma, "gamma", K.shape[-1]))
-
-
-def _invariants(K: Floats, gamma: Floats) -> Floats:
-    """The same of what was checked, floats or other numbers."""
-    n, g = K.shape[-1], gamma[..., np.newaxis]
-    square, power, moved = K @ K, np.eye(n), g
-    traces, weights = [], []
-    for j in range(1, n // 2 + 1):
-        power, moved = power @ square, square @ moved
-        traces.append(np.trace(power, axis1=-2, axis2=-1))
-        weights += [(g.mT @ moved)[..., 0, 0]] if j <= (n - 1) // 2 else []
-    return np.stack(np.broadcast_arrays(*traces, *weights, (g.mT @ g)[..., 0, 0]), axis=-1)
+    return so_n.invariants(K, numbers(gamma, "gamma", K.shape[-1]))
