@@ -13,9 +13,9 @@ from .extrapolation import Extrapolated, extrapolate
 from .implicit import implicit_step
 from .map import compose_step, step
 from .n.ball_n import BallN, axial, skew
-from .n.trajectory_n import StepN, StepperN, TrajectoryN, invariants_n, reverse_n, step_n, trajectory_n
+from .n.trajectory_n import StepN, StepperN, TrajectoryN, invariants_n, step_n, trajectory_n
 from .results import Step, Trajectory
-from .reversal import NotRetraced, retrace_error, reverse
+from .reversal import NotRetraced, retrace_error, reverse, reverse_n
 from .solutions.continuation import Fold, Followed, fold, follow, margin
 from .solutions.multivalued import Branches, branches
 from .stepper import Stepper

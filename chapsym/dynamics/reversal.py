@@ -4,7 +4,7 @@ The map is reversible (lemma `reversible`): with ϱ(𝒦, γ) = (-𝒦, γ), ϱ�
 both carry the attitude and the contact point along.  So no step needs an inverse: the way back is a run of the map.
 """
 
-from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from chapsym.numbers import Digits, DoubleDouble, Enclosure
 from .ball import Ball, Floats
 from .errors import BadInput
 from .map import compose_step, step
+from .n.trajectory_n import trajectory_n
 from .results import Trajectory
 from .trajectories import trajectory
 
@@ -56,29 +57,30 @@ def reverse(run: Trajectory) -> Trajectory:
 
     Raises BadInput if a ball of the run stopped early, or if the run has no frame beside its first; NotRetraced if a
     step back takes another branch than the step there: never where |𝒦| is below the bound of the lemma `small-branch`,
-    and otherwise met only for D > 0, within 1% of a fold.  StepNotTaken as `trajectory` does.
+    and otherwise met only for D > 0, within 1% of a fold; it is looked for in three dimensions.  StepNotTaken as
+    `trajectory` and `trajectory_n` do.
     """
     steps, every = _frames(run)
+    three = isinstance(run.ball, Ball)
     if run.order == 0:
         raise BadInput("the way back of a restored run is that of exact_top with the opposite momentum at its end")
     if np.isnan(run.momentum).any():
         raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
-    back = way_back(trajectory, run, steps, every, time_step=run.time_step, precision=run.precision)
-    strayed = _strayed(run, retrace_error(run, back))
+    last: Any = (*[slice(None)] * run.status.ndim, -1)
+    attitude = False if run.attitude is None else run.attitude[last]
+    traced, start = run.contact is not None, (-run.momentum[last], run.gamma[last])
+    go: Any = partial(trajectory, time_step=run.time_step, precision=run.precision) if three else trajectory_n
+    back = go(run.ball, *start, steps, order=run.order, every=every, attitude=attitude, contact=traced)
+    if traced:
+        back.contact[...] += run.contact[..., -1:, :]
+    strayed = _strayed(run, retrace_error(run, back)) if three else []
     if strayed:
         raise NotRetraced(strayed[0][1], [ball for ball, _ in strayed], back)
     return back
 
 
-def way_back(go: Callable[..., Any], run: Any, steps: int, every: int, **options: Any) -> Any:
-    """The run by `go` from the last frame of a run of any dimension, with the momentum reversed."""
-    last = (*[slice(None)] * run.status.ndim, -1)
-    attitude = False if run.attitude is None else run.attitude[last]
-    traced, start = run.contact is not None, (-run.momentum[last], run.gamma[last])
-    back = go(run.ball, *start, steps, order=run.order, every=every, attitude=attitude, contact=traced, **options)
-    if traced:
-        back.contact[...] += run.contact[..., -1:, :]
-    return back
+#: The same, of a run in n dimensions.
+reverse_n = reverse
 
 
 def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
@@ -106,8 +108,6 @@ def _frames(run: Trajectory) -> tuple[int, int]:
     """The steps from the first frame to the last, and from one to the next."""
     if not isinstance(run, Trajectory):
         raise BadInput(f"reverse takes a Trajectory, not {type(run).__name__}; of a state, reverse the momentum")
-    if not isinstance(run.ball, Ball):
-        raise BadInput("reverse takes a ball in three dimensions; `reverse_n` one in n")
     if isinstance(run.precision, DoubleDouble | Digits | Enclosure):
         raise BadInput("reverse goes back in float32 or float64 only: a run starts from floats, not from finer numbers")
     if len(run.index) < 2:

@@ -58,7 +58,7 @@ def test_the_way_back_is_the_way(state):
     there = trajectory_n(ball, K, g, 3, precision=Digits(30))
     back = trajectory_n(ball, -there.momentum[-1].astype(float), there.gamma[-1].astype(float), 3, precision=Digits(30))
     assert distance(back.momentum[-1], -K) < 1e-15
-    with pytest.raises(BadInput, match="reverse_n takes trajectories in double precision"):
+    with pytest.raises(BadInput, match="reverse goes back in float32 or float64 only"):
         reverse_n(there)
 
 

@@ -6,7 +6,6 @@ from balls_n import SIZES, UNIT_ROUNDOFF, batch, invariant_scales
 
 from chapsym import (
     BadInput,
-    Ball,
     BallN,
     Status,
     StepNotTaken,
@@ -14,11 +13,9 @@ from chapsym import (
     certify,
     invariants_n,
     retrace_error,
-    reverse,
     reverse_n,
     skew,
     step_n,
-    trajectory,
     trajectory_n,
 )  # fmt: skip
 from chapsym.dynamics.n import so_n
@@ -86,9 +83,7 @@ def test_what_is_of_three_dimensions_only_is_refused():
     for refused, sentence in (
         (lambda: run.at(1.5), "in three dimensions only"),
         (lambda: run.omega, "has no time step"),
-        (lambda: reverse(run), "`reverse_n` one in n"),
         (lambda: certify(run), "must be a chapsym.Ball, not BallN"),
-        (lambda: reverse_n(trajectory(Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1), 3)), "what `trajectory_n` returns"),
     ):
         with pytest.raises(BadInput, match=sentence):
             refused()

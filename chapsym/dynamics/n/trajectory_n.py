@@ -7,7 +7,7 @@ continued from the identity, and goes to Ωᵀ𝒦Ω and Ωᵀγ (4.11, 4.12).  
 from __future__ import annotations
 
 from copy import deepcopy
-from typing import Self, cast
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,7 +20,6 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count
 from ..results import Step, Trajectory, finished, of_balls
-from ..reversal import way_back
 from ..stepper import UnderWay
 from ..trajectories import whole_number
 from . import so_n
@@ -202,23 +201,6 @@ class StepperN(UnderWay[Trajectory]):
         else:
             for name, array in self._ends.items():
                 array[1] = self._state[name][0]
-
-
-def reverse_n(trajectory: Trajectory) -> Trajectory:
-    """The trajectory back from the last frame: from (-𝒦, γ) the map takes the same steps with Ωᵀ.
-
-    Its frame j is the time reversal of the frame -1 - j: 𝒦 has the other sign, γ, attitude and contact are
-    the same, up to rounding.  Raises BadInput if a ball stopped early, StepNotTaken as `trajectory_n` does
-    (only for a step so large that the way back leaves the small-rotation branch).
-    """
-    if not isinstance(trajectory, Trajectory) or not isinstance(trajectory.ball, BallN):
-        raise BadInput(f"reverse_n takes what `trajectory_n` returns, not {type(trajectory).__name__}")
-    if trajectory.momentum.dtype == object:
-        raise BadInput("reverse_n takes trajectories in double precision: a run at N digits starts from floats")
-    if (trajectory.status != Status.TAKEN).any():
-        raise BadInput("a ball of the batch stopped early; reverse the balls that did not")
-    steps, every = int(trajectory.index[-1]), int((*trajectory.index, 1)[1])
-    return cast(Trajectory, way_back(trajectory_n, trajectory, steps, every))
 
 
 def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
