@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, Generic, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,14 +22,13 @@ from .loops.loop import G, K
 from .results import Trajectory, finished
 from .trajectories import flag, rolling_radius, seconds, whole_number
 
-R = TypeVar("R")
 
-
-class UnderWay(Generic[R]):
+class UnderWay:
     """One ball under way, in three dimensions or n: what moves is kept where a call finds it."""
 
     ball: Any
     order: int
+    time_step: float | None = None
     _follows: bool
     _traced: bool
     _taken: int
@@ -46,7 +45,7 @@ class UnderWay(Generic[R]):
         if status:
             raise StepNotTaken(Status(status), reach, taken)
 
-    def trajectory(self, steps: int, every: int = 1) -> R:
+    def trajectory(self, steps: int, every: int = 1) -> Trajectory:
         """Takes `steps` steps; returns the present state and every `every`-th after it, `index` counting from here.
 
         Raises StepNotTaken as `step`, with the `trajectory` before.
@@ -62,7 +61,11 @@ class UnderWay(Generic[R]):
             if len(array):
                 array[0] = self._ends[name][1]
         taken, status, reach = self._take(steps, every, frames)
-        run = self._run(np.arange(0, count * every, every), frames, np.array(taken), np.array(status))
+        run = Trajectory(
+            self.ball, np.arange(0, count * every, every), frames["momentum"], frames["gamma"],
+            frames["attitude"] if self._follows else None, frames["contact"] if self._traced else None,
+            np.array(taken), np.array(status), self.time_step, self.order,
+        )  # fmt: skip
         if status:
             finished(run, np.array(reach))
         return run
@@ -114,12 +117,8 @@ class UnderWay(Generic[R]):
         """Takes steps into frames, up to the first that is not taken; returns (taken, status, reach)."""
         raise NotImplementedError
 
-    def _run(self, index: np.ndarray, frames: dict[str, Floats], taken: np.ndarray, status: np.ndarray) -> R:
-        """What a call returns."""
-        raise NotImplementedError
 
-
-class Stepper(UnderWay[Trajectory]):
+class Stepper(UnderWay):
     """One ball under way, for control loops and other integrators: steps of the map without the price of a call.
 
     ball, momentum, gamma, order, attitude, contact, time_step: as for `trajectory`, of one ball in principal axes, in
@@ -192,13 +191,6 @@ class Stepper(UnderWay[Trajectory]):
             "momentum": np.empty((count, 3)), "gamma": np.empty((count, 3)),
             "attitude": np.empty((body, 4)), "contact": np.empty((body, 2)),
         }  # fmt: skip
-
-    def _run(self, index: np.ndarray, frames: dict[str, Floats], taken: np.ndarray, status: np.ndarray) -> Trajectory:
-        K, g, attitudes, contacts = frames.values()
-        return Trajectory(
-            self.ball, index, K, g, attitudes if self._follows else None, contacts if self._traced else None, taken,
-            status, self.time_step, self.order,
-        )  # fmt: skip
 
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         done, status, reach = 0, 0, 1.0

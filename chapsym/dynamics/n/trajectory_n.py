@@ -118,7 +118,7 @@ def trajectory_n(
     return finished(result, reach)
 
 
-class StepperN(UnderWay[Trajectory]):
+class StepperN(UnderWay):
     """One ball in n dimensions under way, as `Stepper` in three: steps of the map without the price of a call.
 
     ball, momentum, gamma, order, attitude, contact: as for `trajectory_n`, of one ball.  All is checked here.
@@ -166,12 +166,6 @@ class StepperN(UnderWay[Trajectory]):
 
     def _frames(self, count: int) -> dict[str, Floats]:
         return {name: np.empty((count, *array.shape[1:])) for name, array in self._ends.items()}
-
-    def _run(self, index: np.ndarray, frames: dict[str, Floats], taken: np.ndarray, status: np.ndarray) -> Trajectory:
-        return Trajectory(
-            self.ball, index, frames["momentum"], frames["gamma"], frames.get("attitude"), frames.get("contact"), taken,
-            status, order=self.order,
-        )  # fmt: skip
 
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         in_parts = self.order > 2 or not self._below
