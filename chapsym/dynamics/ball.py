@@ -268,6 +268,11 @@ def inertia_of(tensor: Floats) -> Floats:
     return np.stack([tensor[..., i] + tensor[..., j] for i, j in ((1, 2), (0, 2), (0, 1))], axis=-1)
 
 
+def largest_moment(tensor: Floats, D: Floats) -> Floats:
+    """Jᵢ + Jⱼ + D, (...), of the two largest of (..., n): float64 may hold it where it does not hold the sum of all."""
+    return np.asarray(np.sort(tensor, axis=-1)[..., -2:].sum(axis=-1) + D)
+
+
 def mass_tensor_of(inertia: ArrayLike) -> Floats:
     """J from the principal moments of inertia; raises BadInput if no body has them."""
     moments = numbers(inertia, "inertia", 3)

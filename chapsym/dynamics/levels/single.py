@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..ball import Floats
+from ..ball import Floats, largest_moment
 from ..errors import BadInput
 from ..loops import gibbs
 from . import double
@@ -33,7 +33,9 @@ def run(
     still.
     """
     in_single = rounded(balls)
-    slow = balls.momentum.any(axis=1) & (np.abs(balls.momentum).max(axis=1) < SLOWEST * _largest_moment(balls))
+    slow = balls.momentum.any(axis=1) & (
+        np.abs(balls.momentum).max(axis=1) < SLOWEST * largest_moment(balls.mass_tensor, balls.D)
+    )
     if steps > 1 and slow.any():
         raise BadInput(
             f"the momentum {_worst(balls.momentum, slow)} turns the ball by less than 2^-48 a step, and in float32 it "
@@ -50,7 +52,9 @@ def run(
 
 def rounded(balls: Balls) -> Balls:
     """The balls in float32, γ divided by its length, with the radius 1; raises BadInput where they leave its range."""
-    for name, size in (("momentum", np.abs(balls.momentum).max(axis=1)), ("moment of inertia", _largest_moment(balls))):
+    with np.errstate(over="ignore"):  # which is refused
+        largest = largest_moment(balls.mass_tensor, balls.D)
+    for name, size in (("momentum", np.abs(balls.momentum).max(axis=1)), ("moment of inertia", largest)):
         outside = (size > 0.0) & ~((size >= RANGE[0]) & (size <= RANGE[1]))
         if outside.any():
             raise BadInput(
@@ -66,12 +70,6 @@ def unit(vectors: Floats) -> np.ndarray:
     """Vectors divided by their length, rounded to float32."""
     wide = vectors.astype(np.float64)
     return (wide / np.linalg.norm(wide, axis=-1, keepdims=True)).astype(np.float32)
-
-
-@np.errstate(over="ignore")  # which is refused
-def _largest_moment(balls: Balls) -> Floats:
-    J = balls.mass_tensor
-    return np.asarray((J.sum(axis=1, keepdims=True) - J).max(axis=1) + balls.D)
 
 
 def _worst(momentum: Floats, which: np.ndarray) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats, common_shape, keep, numbers
+from ..ball import Floats, common_shape, keep, largest_moment, numbers
 from ..errors import BadInput
 from . import so_n
 
@@ -46,8 +46,8 @@ class BallN:
         if rho is not None and not (rho > 0).all():
             raise BadInput(f"radius must be positive, but it is {rho.min():g}")
         with np.errstate(over="ignore"):
-            top = np.sort(tensor, axis=-1)[..., -2:].sum(axis=-1) + contact
-        if not np.isfinite(top).all():
+            largest = largest_moment(tensor, contact)
+        if not np.isfinite(largest).all():
             raise BadInput("the moments of inertia J1 + J2 + D, ... are beyond the range of float64")
         vanishing = (tensor == 0).sum(axis=-1)
         if (vanishing + np.where(contact > 0, 0, 1) > 2).any():

@@ -14,7 +14,7 @@ Units: J, D and 𝒦 are first scaled by a power of two, exactly, so that the la
 
 import numpy as np
 
-from ..ball import Floats
+from ..ball import Floats, largest_moment
 from ..errors import Status
 from . import so_n
 
@@ -97,14 +97,9 @@ def _solved(matrix: Floats, vector: Floats) -> Floats:
         return np.concatenate([_solved(matrix[i : i + 1], vector[i : i + 1]) for i in range(len(matrix))])
 
 
-def top(J: Floats, D: Floats) -> Floats:
-    """The largest moment of inertia about the contact point, Jᵢ + Jⱼ + D: a bound of every entry of 𝒦."""
-    return np.sort(J, axis=-1)[..., -2:].sum(axis=-1) + D
-
-
 def _scaled(K: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """𝒦, J and D times a power of two for a largest moment of about 1, 𝒦 cut at 2^FARTHEST, and the fraction left."""
-    exponent = np.frexp(top(J, D))[1]
+    exponent = np.frexp(largest_moment(J, D))[1]
     largest = np.abs(K).max(axis=(-2, -1))
     shift = np.where(largest > 0, np.minimum(-exponent, FARTHEST - np.frexp(largest)[1]), -exponent)
     J, D = np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent)

@@ -24,8 +24,7 @@ A rotation that is found with a residual is the small rotation of a momentum so 
 
 import numpy as np
 
-from ..ball import Floats
-from .branch_n import top
+from ..ball import Floats, largest_moment
 
 #: The angles r that are tried, as fractions of the one at which λ vanishes: the least that will do.
 ANGLES = np.array((0.25, 0.5, 0.75, 0.9))
@@ -62,7 +61,7 @@ def bounds(size: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats]:
 
 def limits(K: Floats, J: Floats, D: Floats, stages: Floats) -> tuple[Floats, Floats]:
     """`bounds` of balls of any size, with 𝒦 (b, n, n), of the momentum cᵢ𝒦 of each stage: (b, s)."""
-    exponent = np.frexp(top(J, D))[1]
+    exponent = np.frexp(largest_moment(J, D))[1]
     with np.errstate(over="ignore", under="ignore"):
         size = np.linalg.norm(np.ldexp(K, -exponent[:, np.newaxis, np.newaxis]), axis=(-2, -1)) / np.sqrt(2)
         sizes = np.multiply.outer(size, np.abs(stages))

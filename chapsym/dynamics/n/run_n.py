@@ -9,14 +9,14 @@ from numpy.typing import ArrayLike
 
 import chapsym.dynamics.native as native
 
-from ..ball import Floats, common_shape, is_followed, unit_vertical
+from ..ball import Floats, common_shape, is_followed, largest_moment, unit_vertical
 from ..errors import BadInput, Status
 from ..levels.frames import Count, cores, share
 from ..loops import loop_n, rotation_n
 from ..trajectories import rolling_radius
 from . import so_n
 from .ball_n import BallN, initial_attitudes, skew_matrices
-from .branch_n import small_rotation, top
+from .branch_n import small_rotation
 from .near_n import limits
 
 #: The Jacobians of the balls that are solved together take about this many numbers: what a cache holds.
@@ -182,7 +182,7 @@ def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Float
     """Balls at their start, from the state that `run_n.run` takes, in memory of their own."""
     K, g, J, D = (state[x] for x in ("momentum", "gamma", "mass_tensor", "D"))
     b, n, s = *g.shape, len(stages)
-    exponent = np.frexp(top(J, D))[1]
+    exponent = np.frexp(largest_moment(J, D))[1]
     past, use = np.zeros((b, s, rotation_n.ORDER, n, n)), np.zeros((b, s, rotation_n.ORDER))
     return Under(
         np.ldexp(K, -exponent[:, np.newaxis, np.newaxis]), g.copy(), np.ldexp(J, -exponent[:, np.newaxis]),

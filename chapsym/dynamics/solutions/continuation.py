@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobian
 
-from ..ball import UNIT_TOLERANCE, Ball, Floats, batch, numbers, unit_vertical
+from ..ball import UNIT_TOLERANCE, Ball, Floats, batch, largest_moment, numbers, unit_vertical
 from ..errors import BadInput, Status
 from ..loops.branch import CONTRACTION, ROUNDINGS, SETTLED, SINGULAR, SMALLEST, UNIT_ROUNDOFF
 
@@ -296,12 +296,6 @@ class Marchers:
         """q ∘ (1, w), divided by its length."""
         self.q = np.stack(compose(*(*self.q.T, 1.0, *w.T)), axis=-1)
         self.q /= np.linalg.norm(self.q, axis=1, keepdims=True)
-
-
-def largest_moment(J: Floats, D: Floats) -> Floats:
-    """Λmax, (n,): float64 holds it where J₁ + J₂ + J₃ is beyond its range."""
-    ascending = np.sort(J, axis=1)
-    return np.asarray(ascending[:, 1] + ascending[:, 2] + D)
 
 
 def nonsingular(matrices: Floats) -> Floats:

@@ -15,11 +15,11 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Ball, Floats, batch, numbers, unit_vertical
+from ..ball import Ball, Floats, batch, largest_moment, numbers, unit_vertical
 from ..errors import Status
 from ..map import step
 from .candidates import Candidates, candidates, quadrics
-from .continuation import Marchers, largest_moment, nonsingular
+from .continuation import Marchers, nonsingular
 
 #: Most rotations that can have one momentum: the Bézout number of three quadrics.
 MOST = 8
