@@ -32,24 +32,22 @@ def precision_of(precision: str | Precision) -> Precision:
         raise BadInput(str(error)) from None
 
 
-def frames_for(precision: Precision, balls: int, frames: int, body_frames: int, least: bool = False) -> Frames:
-    """Empty frames in the numbers of the precision; raises BadInput if they do not fit into memory."""
-    dtype = precision.dtype
+def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None, least: bool = False) -> Frames:
+    """Frames in the numbers of the precision, of which the first is that of the balls; the others are NaN.
+
+    attitude: at the start, (n, 4), where it is followed.  Raises BadInput for frames that do not fit into memory.
+    """
+    n, body = len(balls.D), 0 if attitude is None else count
+    shapes = (n, count, 3), (n, count, 3), (n, body, 4), (n, body, 2)
     try:
-        low = frames_for(NAMED["double"], balls, frames, body_frames) if isinstance(precision, DoubleDouble) else None
-        momenta, verticals = (np.empty((balls, frames, 3), dtype) for _ in "Kg")
-        attitudes, traces = (np.empty((balls, body_frames, n), dtype) for n in (4, 2))
-        for array in (momenta, verticals, attitudes, traces):
+        low = begun(NAMED["double"], balls, count, attitude) if isinstance(precision, DoubleDouble) else None
+        momenta, verticals, attitudes, traces = arrays = [np.empty(shape, precision.dtype) for shape in shapes]
+        for array in arrays:
             array.fill(np.nan)
     except (MemoryError, ValueError):
-        raise no_room(frames, balls) from None
-    taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
-    return Frames(momenta, verticals, attitudes, traces, taken, status, reach, body_frames > 0, low, least)
-
-
-def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None, least: bool = False) -> Frames:
-    """Frames of which the first is that of the balls; attitude: at the start, (n, 4), where it is followed."""
-    frames = frames_for(precision, len(balls.D), count, 0 if attitude is None else count, least)
+        raise no_room(count, n) from None
+    ends = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64), np.ones(n)
+    frames = Frames(momenta, verticals, attitudes, traces, *ends, attitude is not None, low, least)
     with np.errstate(over="ignore"):  # a precision of a smaller range refuses what it cannot hold
         frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
     if attitude is not None:
