@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .ball import Ball, in_principal_axes
-from .errors import BadInput
+from .errors import BadInput, TooWide
 from .levels.start import exponent_of, fraction
 from .map import check_body, check_tensor, unit_exactly
 
@@ -54,7 +54,8 @@ class ExactBall:
         contact = exactly(D, "D")
         rho = None if radius is None else exactly(radius, "radius")
         moments: Any
-        if isinstance(mass_tensor, Sequence | np.ndarray) and _of_rows(mass_tensor):
+        rows = isinstance(mass_tensor, Sequence | np.ndarray) and len(mass_tensor) == 3
+        if rows and all(isinstance(x, list | tuple | np.ndarray) for x in mass_tensor):
             moments = check_tensor([vector(row, "mass_tensor") for row in mass_tensor], contact)
         else:
             moments = vector(mass_tensor, "mass_tensor")
@@ -167,11 +168,6 @@ def certified_motion(
     return follow(start, _ascending(times), digits, by=by, limit=limit, progress=progress)
 
 
-def _of_rows(values: Any) -> bool:
-    """Whether there are three, each a sequence."""
-    return len(values) == 3 and all(isinstance(x, list | tuple | np.ndarray) for x in values)
-
-
 def _exact_ball(ball: Any) -> ExactBall:
     if isinstance(ball, ExactBall):
         return ball
@@ -279,7 +275,7 @@ class _Search:
         """
         from flint import ctx
 
-        from .levels.proved_root import TooWide, upper
+        from .levels.proved_root import upper
 
         with ctx.workprec(1024):
             try:
@@ -298,8 +294,6 @@ class _Search:
         """Raises BadInput where theta functions do not give the motion, or only with very many bits or terms."""
         from flint import ctx
 
-        from .levels.proved_root import TooWide
-
         if any(map(any, self.start.rotor)):
             raise BadInput("the solution in theta functions is of a ball without a rotor")
         with ctx.workprec(SOLVED):
@@ -314,8 +308,6 @@ class _Search:
     def attempt(self, bits: int) -> int | None:
         """Follows the motion with so many bits; returns how many more are needed, or None: the time is up."""
         from flint import ctx
-
-        from .levels.proved_root import TooWide
 
         missing, kept = -math.inf, 0
         frames: list[dict[str, tuple[Any, ...]]] = []

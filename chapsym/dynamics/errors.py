@@ -32,6 +32,10 @@ _SENTENCES = {
 }
 
 
+class TooWide(ArithmeticError):
+    """The balls have grown so much that a step cannot be proved: more bits are needed."""
+
+
 class StepNotTaken(ArithmeticError):
     """A step of one ball that cannot be taken.
 

@@ -33,7 +33,8 @@ from flint import arb, arb_mat, arb_poly
 
 from chapsym import generated
 
-from ..levels.proved_root import TooWide, highest, lowest, upper
+from ..errors import TooWide
+from ..levels.proved_root import highest, lowest, upper
 from .series import Series, bend, cross, dot
 
 #: All τ that there are.

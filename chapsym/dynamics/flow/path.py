@@ -13,9 +13,10 @@ from flint import arb, arb_poly, ctx
 
 from chapsym import generated
 
+from ..errors import TooWide
 from ..levels.balls import exact as ball
 from ..levels.balls import point, unit
-from ..levels.proved_root import MATRIX_BITS, TooWide, highest, upper
+from ..levels.proved_root import MATRIX_BITS, highest, upper
 from ..levels.spread import Spread
 from ..levels.start import exponent_of
 from .deviation import Body, Defects, bound, defects, deviation, exact

@@ -14,9 +14,8 @@ from chapsym import generated
 from chapsym.rationals import NotANumber, rational
 
 from ..ball import brief
-from ..errors import BadInput
+from ..errors import BadInput, TooWide
 from ..levels.balls import unit
-from ..levels.proved_root import TooWide
 from ..levels.start import least
 from ..principal_axes import quaternions
 from .path import Numbers, Path

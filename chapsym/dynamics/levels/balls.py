@@ -22,12 +22,12 @@ from chapsym.generated import centre_step, compose, gibbs_residual, rotate, turn
 from chapsym.numbers import Digits
 from chapsym.numbers.precisions import flint_bits
 
-from ..errors import Status, StepNotTaken
+from ..errors import Status, StepNotTaken, TooWide
 from ..loops.gibbs import BEYOND, certificate
 from ..loops.path import joined
 from ..loops.sums import WEIGHTS
 from .newton import enclosed, refined, unit
-from .proved_root import MATRIX_BITS, Numbers, TooWide, certified, inverse_slope, on_path, stretch, upper
+from .proved_root import MATRIX_BITS, Numbers, certified, inverse_slope, on_path, stretch, upper
 from .root import extrapolated, root
 from .spread import Spread, carried
 from .start import Exact, exponent_of, fraction, least, magnitude, start

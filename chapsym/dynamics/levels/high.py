@@ -11,7 +11,7 @@ from chapsym.numbers import Digits, Enclosure
 from chapsym.numbers.precisions import flint_bits
 
 from ..coefficients import COMPOSITIONS
-from ..errors import BadInput, Status, StepNotTaken
+from ..errors import BadInput, Status, StepNotTaken, TooWide
 from .frames import Balls, Frames
 from .start import Exact, magnitude
 
@@ -131,7 +131,6 @@ def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, floa
     are left where a step could not be proved.
     """
     from .balls import ArbBall
-    from .proved_root import TooWide
 
     seen: tuple[int, float] = (0, math.inf)
     with flint_bits(bits):

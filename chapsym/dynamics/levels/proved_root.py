@@ -13,6 +13,7 @@ from flint import arb, arb_mat, ctx
 
 from chapsym.generated import gibbs_newton
 
+from ..errors import TooWide
 from ..loops import path
 from ..loops.twins import twin
 
@@ -22,10 +23,6 @@ Numbers = tuple[Any, ...]
 MATRIX_BITS = 64
 #: The box in which `straight-path` is looked at has so many times |G(u)|/I_min: enough if m is not much below I_min.
 WIDER = 1024
-
-
-class TooWide(ArithmeticError):
-    """The balls have grown so much that a step cannot be proved: more bits are needed."""
 
 
 def upper(v: Sequence[Any]) -> Any:

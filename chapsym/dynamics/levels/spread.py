@@ -12,7 +12,8 @@ from typing import Any
 
 from flint import arb, arb_mat
 
-from .proved_root import TooWide, upper
+from ..errors import TooWide
+from .proved_root import upper
 
 Vector = Sequence[Any]
 
