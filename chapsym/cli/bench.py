@@ -43,6 +43,7 @@ def bench(
     With --momentum and a ball, the section trajectory is measured with that ball.
 
     A figure that is not reached is shown, and is no failure: times depend on the machine and on what else it does.
+    It needs a checkout of chapsym.
 
     Example: chapsym bench trajectory --quick
     """

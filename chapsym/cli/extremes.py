@@ -27,7 +27,7 @@ def extremes(
 ) -> None:
     """Judge every precision at the extremes: tiny momenta, folds, rotations by π, D up to 1e15, odd bodies and arrays.
 
-    Exit status 1 if a cell failed: wrong, or refused without a true reason.
+    Exit status 1 if a cell failed: wrong, or refused without a true reason.  It needs a checkout of chapsym.
 
     Example: chapsym extremes --quick -o extremes.html
     """

@@ -24,7 +24,7 @@ def motion(
         Path | None, typer.Option(metavar="FILE", help="Write there what the separate checker judges on its own.")
     ] = None,
     by: Annotated[
-        str, typer.Option(metavar="ROUTE", help="taylor, or theta: the solution in theta functions.")
+        str, typer.Option(metavar="ROUTE", help="taylor, or theta: in theta functions, with a checkout of chapsym.")
     ] = "taylor",
     output: Output = None,
     as_json: Json = False,

@@ -33,7 +33,8 @@ def study(
 ) -> None:
     """Measure: rotation numbers and mode locking of the reduced map, the energy of the full map, how much is chaotic.
 
-    With -o every unit of work is kept as it is done: repeat the command to resume an interrupted study.
+    With -o every unit of work is kept as it is done: repeat the command to resume an interrupted study.  It needs a
+    checkout of chapsym.
 
     Example: chapsym study rotation --quick -o open
     """

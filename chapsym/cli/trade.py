@@ -60,7 +60,7 @@ def trade(
 ) -> None:
     """Measure speed against accuracy; or, with --accuracy, answer what is cheapest, run it, and verify it.
 
-    Without a scene or a ball it rolls the ball of docs/first.toml.
+    Without a scene or a ball it rolls the ball of docs/first.toml.  A SECTION needs a checkout of chapsym.
 
     Example: chapsym trade --accuracy 1e-8 --time 1000
     """

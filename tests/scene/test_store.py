@@ -8,6 +8,7 @@ import threading
 import time
 from contextlib import contextmanager, suppress
 from dataclasses import replace
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from small_units import EVERY, OUTPUTS, STEPS, UNITS, equal_to_the_bit, interrup
 from waiting import GUARD, until
 
 from chapsym.dynamics import BadInput, Status
+from chapsym.generated import TABLE
 from chapsym.scene import SceneError
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.plan import plan_from
@@ -182,12 +184,26 @@ def test_versions_kernels_and_starts_are_not_mixed(path, monkeypatch):
     for wanted in (other, replace(plan(), task=replace(plan().task, time_step=0.02))):
         with pytest.raises(SceneError, match="other balls or starts"):
             sweep.run_to_store(wanted, path)
-    monkeypatch.setattr(dataset, "_kernel_hashes", lambda: dict.fromkeys(plan().kernels(), "0"))
+    monkeypatch.setattr(dataset, "_code_hash", lambda kernel: "0")
     with pytest.raises(SceneError, match="other kernels"):
         sweep.run_to_store(plan(), path)
     monkeypatch.setattr("chapsym.__version__", "0.0.9")
     with pytest.raises(SceneError, match="another version of chapsym"):
         sweep.run_to_store(plan(), path)
+
+
+@pytest.mark.parametrize(("changed", "same"), [("Certificate of", True), ("return", False)])
+def test_kernels_are_known_by_their_code_and_not_by_their_certificates(path, tmp_path, monkeypatch, changed, same):
+    interrupted(path, monkeypatch, 3)
+    for kernel in TABLE:
+        text = (files("chapsym.generated") / f"{kernel}.py").read_text(encoding="utf-8")
+        (tmp_path / f"{kernel}.py").write_text(text.replace(changed, f"{changed} another"), encoding="utf-8")
+    with monkeypatch.context() as patch:
+        patch.setattr(dataset, "files", lambda package: tmp_path)
+        dataset._code_hash.cache_clear()
+        found = stores.difference(stores.attributes(path), dataset.provenance(plan()))
+    dataset._code_hash.cache_clear()
+    assert found == (None if same else "is of other kernels")
 
 
 def test_a_comment_or_another_output_is_no_other_scene_and_what_is_half_written_goes(path, monkeypatch):
