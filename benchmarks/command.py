@@ -8,7 +8,7 @@ import numpy as np
 
 import benchmarks
 from chapsym.cli import measured
-from chapsym.cli.output import check_figure, console_for, fail, print_json, print_table, quiet, say
+from chapsym.cli.output import check_figure, check_known, console_for, fail, print_json, quiet, say
 
 ABOUT = (
     "The map beside other ways, all in one process and interleaved. Ratios are of medians; times depend on the machine "
@@ -21,9 +21,7 @@ def measure(sections: Sequence[str], quick: bool, output: Path | None, as_json: 
     wanted = list(dict.fromkeys(sections or (benchmarks.SECTIONS if own is None else [benchmarks.OWN])))
     if own is not None and wanted != [benchmarks.OWN]:
         fail(f"a ball of your own goes with the section {benchmarks.OWN} alone", 2)
-    for name in wanted:
-        if name not in benchmarks.SECTIONS:
-            fail(f"there is no section {name!r}; there are {', '.join(benchmarks.SECTIONS)}", 2)
+    check_known("section", wanted, benchmarks.SECTIONS)
     page = measured.is_page(output)
     if output is not None and not page:
         from . import figure
@@ -92,11 +90,8 @@ def _goal(section: str, goal: dict[str, Any]) -> dict[str, Any]:
 
 def _print_all(found: dict[str, Any]) -> None:
     console = console_for(140)
-    for section in found["sections"].values():
-        print_table(console, section["title"], section["rows"], _shown)
-        for sentence in _sentences(section):
-            console.print(f"  {sentence}")
-        console.print()
+    tables = [measured.Table(one["title"], one["rows"], _sentences(one)) for one in found["sections"].values()]
+    measured.show(console, tables, _shown)
     machine = found["machine"]
     versions = ", ".join(f"{name} {version}" for name, version in machine["versions"].items())
     console.print(f"{machine['cpu']}; {machine['cores']} cores; {machine['system']}; C: {machine['compiler']}")

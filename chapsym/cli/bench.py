@@ -8,11 +8,12 @@ import typer
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from
+from .options import BALL, Json, ball_from, with_options
 from .output import fail
 
 
 @app.command()
+@with_options(BALL)
 def bench(
     sections: Annotated[
         list[str] | None,
@@ -27,16 +28,12 @@ def bench(
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="A figure (.svg, .png, .pdf) or a page (.md)."),
     ] = None,
-    mass_tensor: MassTensor = None,
-    inertia: Inertia = None,
-    contact: Contact = None,
-    mass: Mass = None,
-    radius: Radius = None,
     momentum: Annotated[
         str | None, typer.Option(metavar="K1,K2,K3", help="The discrete momentum of a ball of your own.")
     ] = None,
     gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="Its unit vertical, upwards.")] = "2/7,3/7,6/7",
     as_json: Json = False,
+    **body: str | None,
 ) -> None:
     """Measure speed, memory, drift and precision against other ways, all in one process, interleaved.
 
@@ -49,10 +46,9 @@ def bench(
     """
     from chapsym.studies.harness import in_checkout
 
-    told = (mass_tensor, inertia, contact, mass, radius)
     own = None
-    if momentum is not None or any(value is not None for value in told):
+    if momentum is not None or any(value is not None for value in body.values()):
         if momentum is None:
             fail("--momentum K1,K2,K3 goes with a ball of your own", 2)
-        own = *ball_from(*told), rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
+        own = *ball_from(body), rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     in_checkout("benchmarks", "command").measure(sections or [], quick, output, as_json, own)

@@ -7,29 +7,26 @@ import typer
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import Bits, Contact, Gamma, Inertia, Json, Mass, MassTensor, Momentum, Radius, ball_from, precision_from
+from .options import BALL, Bits, Gamma, Json, Momentum, ball_from, precision_from, with_options
 from .output import print_json
 
 
 @app.command()
+@with_options(BALL)
 def branches(
     momentum: Momentum,
     gamma: Gamma,
-    mass_tensor: MassTensor = None,
-    inertia: Inertia = None,
-    contact: Contact = None,
-    mass: Mass = None,
-    radius: Radius = None,
     digits: Annotated[int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits.")] = None,
     precision: Annotated[str | None, typer.Option(metavar="NAME", help="double: IEEE float64, the default.")] = None,
     ball: Bits = None,
     as_json: Json = False,
+    **body: str | None,
 ) -> None:
     """Find every rotation with the given momentum: all branches of the map, by angle, counted exactly.
 
     Example: chapsym branches --mass-tensor 1,2,4 --D 1000 --momentum=-1/4,-3/2,1/2 --gamma 6/7,2/7,3/7
     """
-    J, D = ball_from(mass_tensor, inertia, contact, mass, radius)
+    J, D = ball_from(body)
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     chosen = precision_from(digits, precision, ball, ("double",))
     from chapsym.dynamics.solutions.enclosed import precise_branches

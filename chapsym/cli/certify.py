@@ -41,7 +41,7 @@ def _ball(
         mass_tensor, contact = J, D
     if contact is None:
         fail("D is missing: give --D", 2)
-    return ball_from(mass_tensor, inertia, contact, None, None)
+    return ball_from({"mass_tensor": mass_tensor, "inertia": inertia, "contact": contact})
 
 
 def _optional(text: str | None, name: str) -> Fraction | None:

@@ -8,10 +8,10 @@ import typer
 from . import measured
 from .app import app
 from .options import Json
-from .output import console_for, fail, print_json, progress_bar
+from .output import check_known, console_for, fail, print_json, progress_bar
 
-#: How a verdict looks on a terminal; the signs read without colour.
-COLOURS = {"within": "green", "refused": "cyan", "failed": "bold red"}
+#: How the signs of the verdicts look on a terminal; they read without colour.
+COLOURS = {"✓": "green", "–": "cyan", "✗": "bold red"}
 
 
 @app.command()
@@ -35,11 +35,8 @@ def extremes(
     from chapsym.studies.harness import in_checkout
 
     study = in_checkout("research", "extremes")
-
     wanted = list(dict.fromkeys(groups or study.GROUPS))
-    for name in wanted:
-        if name not in study.GROUPS:
-            fail(f"there is no group {name!r}; there are {', '.join(study.GROUPS)}", 2)
+    check_known("group", wanted, study.GROUPS)
     if output is not None:
         if not measured.is_page(output) and output.suffix != ".html":
             fail(f"{str(output)!r}: the page must end in .html or .md", 2)
@@ -83,7 +80,6 @@ def _page(matrix: dict[str, Any]) -> str:
 def _about(counts: dict[str, int]) -> str:
     """What the cells of the tables say."""
     page = _reader()
-
     signs = "; ".join(f"{sign} {verdict}: {meaning}" for verdict, (sign, meaning) in page.VERDICTS.items())
     told = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
     return (
@@ -95,7 +91,6 @@ def _about(counts: dict[str, int]) -> str:
 def _tables(matrix: dict[str, Any]) -> list[measured.Table]:
     """A table for each group of conditions, with the sentences of what was refused."""
     page = _reader()
-
     return [
         measured.Table(
             f"{group['name']}: {group['title']}",
@@ -118,31 +113,10 @@ def _tables(matrix: dict[str, Any]) -> list[measured.Table]:
 
 
 def _print_matrix(matrix: dict[str, Any]) -> None:
-    from rich.table import Table
     from rich.text import Text
 
-    page = _reader()
-
-    console = console_for(120)
-    for group in page.groups(matrix):
-        table = Table(title=f"{group['name']}: {group['title']}", title_justify="left")
-        table.add_column("condition", min_width=46)
-        for precision in group["precisions"]:
-            table.add_column(precision, justify="right", min_width=10)
-        for condition, cells in group["rows"]:
-            shown = [
-                Text(page.shown(cells[precision]), COLOURS[cells[precision]["verdict"]])
-                if precision in cells
-                else Text("·")
-                for precision in group["precisions"]
-            ]
-            table.add_row(condition, *shown)
-        console.print(table)
-        for one in group["reasons"]:
-            sign = page.VERDICTS[one["verdict"]][0]
-            about = "; ".join(f"{condition} ({precisions})" for condition, precisions in one["about"])
-            console.print(Text(f"  {sign} {about}:", COLOURS[one["verdict"]]), one["reason"])
-        console.print()
+    page, console = _reader(), console_for(120)
+    measured.show(console, _tables(matrix), lambda cell: Text(cell, COLOURS.get(cell[:1], "")))
     for verdict, (sign, meaning) in page.VERDICTS.items():
         console.print(f"{sign} {verdict}: {meaning}")
     console.print(", ".join(f"{count} {verdict}" for verdict, count in matrix["counts"].items()))

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from .output import print_table
+
 
 class Table(NamedTuple):
     """A table of rows with the same names, and the sentences under it."""
@@ -42,6 +44,15 @@ def write(output: Path, title: str, about: str, tables: Sequence[Table], shown: 
         lines += ["", *(f"- {_text(sentence)}" for sentence in table.sentences)] if table.sentences else []
     text = "\n".join(lines) + "\n"
     files.write_whole(output, lambda stream: stream.write(text.encode()))
+
+
+def show(console: Any, tables: Sequence[Table], shown: Callable[[Any], Any]) -> None:
+    """Prints the tables, each with its sentences and an empty line after it."""
+    for table in tables:
+        print_table(console, table.title, table.rows, shown)
+        for sentence in table.sentences:
+            console.print(f"  {sentence}")
+        console.print()
 
 
 def _rows(rows: Sequence[Mapping[str, Any]], shown: Callable[[Any], str]) -> list[str]:

@@ -1,9 +1,10 @@
 """Options that several commands share, and the ball that they describe."""
 
-from collections.abc import Sequence
+import inspect
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
@@ -13,6 +14,8 @@ from .output import fail
 
 if TYPE_CHECKING:
     from chapsym.numbers import Precision
+
+Command = TypeVar("Command", bound=Callable[..., Any])
 
 #: By how much, relatively, a symmetric tensor may differ from its transpose, as in scenes.
 ASYMMETRY = Fraction(1, 10**12)
@@ -26,7 +29,6 @@ Records = Annotated[
     ),
 ]
 
-
 Own = Annotated[
     str | None,
     typer.Option(
@@ -36,61 +38,70 @@ Own = Annotated[
     ),
 ]
 
-
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output.")]
-
 
 MassTensor = Annotated[
     str | None, typer.Option("--mass-tensor", metavar="J1,J2,J3", help="J: second moments of mass (pseudo-inertia).")
 ]
-
 
 Inertia = Annotated[
     str | None,
     typer.Option(metavar="I1,I2,I3", help="Or principal moments, I1 = J2 + J3; or a tensor: I11,I12,I13;I21,...;I33."),
 ]
 
-
 Contact = Annotated[str | None, typer.Option("--D", metavar="D", help="D = m rho^2.")]
-
 
 Mass = Annotated[str | None, typer.Option(metavar="M", help="Mass, with --radius, instead of --D.")]
 
-
 Radius = Annotated[str | None, typer.Option(metavar="RHO", help="Radius.")]
-
 
 Momentum = Annotated[str, typer.Option(metavar="K1,K2,K3", help="The discrete momentum.")]
 
-
 Gamma = Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")]
-
 
 Bits = Annotated[int | None, typer.Option(metavar="BITS", min=2, max=1_000_000, help="Bits of an Arb enclosure.")]
 
 
-def ball_from(
-    mass_tensor: str | None, inertia: str | None, contact: str | None, mass: str | None, radius: str | None
-) -> tuple[tuple[Fraction, ...], Fraction]:
+#: The options of a ball, by parameter.
+BALL = {"mass_tensor": MassTensor, "inertia": Inertia, "contact": Contact, "mass": Mass, "radius": Radius}
+
+
+def with_options(options: Mapping[str, Any]) -> Callable[[Command], Command]:
+    """Gives a command that takes `**given` these options, None by default, before its own."""
+
+    def made(command: Command) -> Command:
+        only = inspect.Parameter.KEYWORD_ONLY
+        own = inspect.signature(command).parameters.values()
+        first = [inspect.Parameter(name, only, default=None, annotation=kind) for name, kind in options.items()]
+        others = [one.replace(kind=only) for one in own if one.kind is not one.VAR_KEYWORD]
+        command.__signature__ = inspect.Signature([*first, *others])  # type: ignore[attr-defined]
+        return command
+
+    return made
+
+
+def ball_from(given: Mapping[str, str | None]) -> tuple[tuple[Fraction, ...], Fraction]:
     """J and D from the options, exactly; ends the command where these are in other axes than the principal ones."""
+    mass_tensor, inertia = given.get("mass_tensor"), given.get("inertia")
     if (mass_tensor is None) == (inertia is None):
         fail("give either --mass-tensor J1,J2,J3 or --inertia I1,I2,I3", 2)
     if mass_tensor is not None:
         J = rationals(mass_tensor, "--mass-tensor", 3)
     else:
-        if tensor_from(inertia) is not None:
+        if tensor_from(given) is not None:
             told = "give its principal moments, --inertia I1,I2,I3, and all vectors in their axes"
             fail(f"--inertia is a tensor that is not diagonal, and this command takes principal axes only: {told}", 2)
-        given = _inertia(str(inertia))
-        J = mass_tensor_from(given if len(given) == 3 else given[::4])
+        moments = _inertia(str(inertia))
+        J = mass_tensor_from(moments if len(moments) == 3 else moments[::4])
         if min(J) < 0:
             fail(f"no body has the inertia {inertia}: each principal moment is at most the sum of the other two", 2)
-    return J, contact_from(contact, mass, radius)
+    return J, contact_from(given)
 
 
-def tensor_from(inertia: str | None) -> list[list[Fraction]] | None:
+def tensor_from(given: Mapping[str, str | None]) -> list[list[Fraction]] | None:
     """The rows of an inertia tensor that is not diagonal; None for all else, which `ball_from` takes."""
-    I = () if inertia is None else _inertia(inertia)
+    inertia = given.get("inertia")
+    I = () if inertia is None or given.get("mass_tensor") is not None else _inertia(inertia)
     if len(I) < 9 or not any(x for i, x in enumerate(I) if i % 4):
         return None
     for i, j in ((0, 1), (0, 2), (1, 2)):
@@ -109,8 +120,9 @@ def _inertia(text: str) -> tuple[Fraction, ...]:
     return rationals(flat, "--inertia", count)
 
 
-def contact_from(contact: str | None, mass: str | None, radius: str | None) -> Fraction:
+def contact_from(given: Mapping[str, str | None]) -> Fraction:
     """D from the options, exactly."""
+    contact, mass, radius = (given.get(name) for name in ("contact", "mass", "radius"))
     if contact is not None and (mass is not None or radius is not None):
         fail("give either --D, or --mass and --radius", 2)
     if contact is not None:

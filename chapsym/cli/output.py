@@ -66,6 +66,13 @@ def quiet() -> None:
         print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 
+def check_known(kind: str, names: Iterable[str], known: Iterable[str], more: str = "") -> None:
+    """Fails for a name that is none of those that there are."""
+    for name in names:
+        if name not in known:
+            fail(f"there is no {kind} {name!r}; there are {', '.join(known)}{more}", 2)
+
+
 def check_figure(output: Path, sections: Iterable[str], drawn: Iterable[str]) -> None:
     """Fails, before anything is measured, where a figure of these sections cannot be drawn or written."""
     from chapsym import extras, files
@@ -153,7 +160,7 @@ def console_for(width: int) -> Any:
     return Console(width=None if sys.stdout.isatty() else width, markup=False, highlight=False)
 
 
-def print_table(console: Any, title: str, rows: Sequence[Mapping[str, Any]], shown: Callable[[Any], str]) -> None:
+def print_table(console: Any, title: str, rows: Sequence[Mapping[str, Any]], shown: Callable[[Any], Any]) -> None:
     """A table of rows with the same names, words to the left."""
     from rich.table import Table
 

@@ -8,32 +8,25 @@ from chapsym.rationals import rationals
 
 from .app import app
 from .options import (
+    BALL,
     Bits,
-    Contact,
     Gamma,
-    Inertia,
     Json,
-    Mass,
-    MassTensor,
     Momentum,
-    Radius,
     ball_from,
     contact_from,
     precision_from,
     tensor_from,
+    with_options,
 )
 from .output import print_json
 
 
 @app.command()
+@with_options(BALL)
 def step(
     momentum: Momentum,
     gamma: Gamma,
-    mass_tensor: MassTensor = None,
-    inertia: Inertia = None,
-    contact: Contact = None,
-    mass: Mass = None,
-    radius: Radius = None,
     digits: Annotated[
         int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits, by mpmath.")
     ] = None,
@@ -43,6 +36,7 @@ def step(
     ] = None,
     ball: Bits = None,
     as_json: Json = False,
+    **body: str | None,
 ) -> None:
     """Take one step of the map, on the small-rotation branch.
 
@@ -51,17 +45,17 @@ def step(
     Example: chapsym step --mass-tensor 1,2,4 --D 3 --momentum 1,-1/2,3/4 --gamma 2/7,3/7,6/7 --digits 50 --json
     """
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
-    chosen, tensor = precision_from(digits, precision, ball), tensor_from(inertia)
+    chosen, tensor = precision_from(digits, precision, ball), tensor_from(body)
     import numpy as np
 
     from chapsym import dynamics
     from chapsym.dynamics.map import exact_step
 
-    if tensor is None or mass_tensor is not None:
-        taken = exact_step(*ball_from(mass_tensor, inertia, contact, mass, radius), K, g, chosen)
+    if tensor is None:
+        taken = exact_step(*ball_from(body), K, g, chosen)
     else:
-        body = dynamics.Ball.from_inertia(np.array(tensor), D=np.array(contact_from(contact, mass, radius)))
-        taken = dynamics.step(body, np.array(K), np.array(g), precision=chosen)
+        turned = dynamics.Ball.from_inertia(np.array(tensor), D=np.array(contact_from(body)))
+        taken = dynamics.step(turned, np.array(K), np.array(g), precision=chosen)
     result = taken.write()
     if as_json:
         print_json(result)

@@ -9,7 +9,7 @@ import typer
 
 from .app import app
 from .options import Json
-from .output import fail, print_json, progress_bar
+from .output import check_known, print_json, progress_bar
 
 #: The packages of research, in a checkout, that offer study(quick, run), run as `run_units`, sentences(found)
 #: and save_figures(found, folder).
@@ -42,8 +42,7 @@ def study(
     from chapsym.studies import units
     from chapsym.studies.harness import in_checkout
 
-    if name not in STUDIES:
-        fail(f"there is no study {name!r}; there are {', '.join(STUDIES)}", 2)
+    check_known("study", [name], STUDIES)
     if output is not None:
         extras.need("figures")
     module = in_checkout("research", name)

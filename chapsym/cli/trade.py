@@ -13,13 +13,21 @@ from chapsym.renamed import in_words
 
 from . import measured
 from .app import app
-from .options import Contact, Inertia, Json, Mass, MassTensor, Radius, ball_from, contact_from, tensor_from
-from .output import check_figure, console_for, fail, print_json, print_table, quiet, say
+from .options import BALL, Json, ball_from, contact_from, tensor_from, with_options
+from .output import check_figure, check_known, console_for, fail, print_json, quiet, say
 
 ABOUT = "Time of the processor against correct digits, for every precision level, order and length of step."
 
 
+#: The ball and its start, which a scene has, too.
+BALL_AND_START = BALL | {
+    "omega": Annotated[str | None, typer.Option(metavar="W1,W2,W3", help="Angular velocity in the body, rad/s.")],
+    "gamma": Annotated[str | None, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")],
+}
+
+
 @app.command()
+@with_options(BALL_AND_START)
 def trade(
     what: Annotated[
         list[str] | None,
@@ -36,15 +44,6 @@ def trade(
         str | None,
         typer.Option(metavar="WHAT", help="contact (metres; the default with a radius) or state (relative)."),
     ] = None,
-    mass_tensor: MassTensor = None,
-    inertia: Inertia = None,
-    contact: Contact = None,
-    mass: Mass = None,
-    radius: Radius = None,
-    omega: Annotated[str | None, typer.Option(metavar="W1,W2,W3", help="Angular velocity in the body, rad/s.")] = None,
-    gamma: Annotated[
-        str | None, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")
-    ] = None,
     limit: Annotated[float, typer.Option(metavar="S", help="Seconds of the processor that a run may take.")] = 600.0,
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs.")] = False,
     output: Annotated[
@@ -57,6 +56,7 @@ def trade(
         ),
     ] = None,
     as_json: Json = False,
+    **told: str | None,
 ) -> None:
     """Measure speed against accuracy; or, with --accuracy, answer what is cheapest, run it, and verify it.
 
@@ -64,26 +64,23 @@ def trade(
 
     Example: chapsym trade --accuracy 1e-8 --time 1000
     """
-    given = {
-        "--mass-tensor": mass_tensor, "--inertia": inertia, "--D": contact, "--mass": mass, "--radius": radius,
-        "--omega": omega, "--gamma": gamma, "--of": of,
-    }  # fmt: skip
-    told = {name: value for name, value in given.items() if value is not None}
+    given = {name: value for name, value in told.items() if value is not None}
+    first = next((f"--{'D' if name == 'contact' else name.replace('_', '-')}" for name in given), None)
     if accuracy is None:
-        if told or time is not None:
-            fail(f"{next(iter(told), '--time')} goes with --accuracy", 2)
+        if first or of or time is not None:
+            fail(f"{first or ('--of' if of else '--time')} goes with --accuracy", 2)
         _study(what or [], quick, output, as_json)
         return
     if len(what or []) > 1:
         fail("--accuracy takes one scene at most", 2)
-    if what and set(told) - {"--of"}:
-        fail(f"the scene has the ball and its start: leave out {next(iter(set(told) - {'--of'}))}", 2)
-    _answer(Path(what[0]) if what else None, accuracy, time, told, limit, output, as_json)
+    if what and first:
+        fail(f"the scene has the ball and its start: leave out {first}", 2)
+    _answer(Path(what[0]) if what else None, accuracy, time, of, given, limit, output, as_json)
 
 
 def _answer(
-    scene: Path | None, accuracy: float, time: float | None, told: dict[str, str], limit: float, output: Path | None,
-    as_json: bool,
+    scene: Path | None, accuracy: float, time: float | None, of: str | None, given: dict[str, str], limit: float,
+    output: Path | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Chooses, runs, verifies, and says what was chosen."""
     from chapsym import scene as scenes
@@ -100,9 +97,9 @@ def _answer(
     try:
         if output is not None:
             formats.check_destination(output)
-        wanted = scenes.load_for(scene, accuracy, time) if scene else _described(accuracy, time, told)
-        changed: dict[str, Any] = {"limit": limit, **({"of": told["--of"]} if "--of" in told else {})}
-        if changed.get("of") == "state":  # what is kept beside it is followed, and not to an accuracy of its own
+        wanted = scenes.load_for(scene, accuracy, time) if scene else _described(accuracy, time, given)
+        changed: dict[str, Any] = {"limit": limit, "of": of or wanted.run.of}
+        if of == "state":  # what is kept beside it is followed, and not to an accuracy of its own
             kept = [name for name in wanted.run.names() if name != "contact"]
             changed |= {"contact": None, "attitude": None, "outputs": kept or ["momentum", "gamma"]}
         plan, answers = sweep.answering(plan_of(wanted.with_run(**changed)), say)
@@ -133,24 +130,24 @@ def _in_options(sentence: str, all_of_it: bool) -> str:
     return sentence.removeprefix("the scene: ")
 
 
-def _described(accuracy: float, time: float | None, told: dict[str, str]) -> Any:
+def _described(accuracy: float, time: float | None, given: dict[str, str]) -> Any:
     """A scene from the options of the command; it reads exact numbers, and refuses what float64 does not hold."""
     from chapsym import scene as scenes
 
-    start: dict[str, Any] = {}
     ball: dict[str, Any] = {"inertia": (0.006, 0.007, 0.009), "mass": 2.0, "radius": 0.1}
-    if set(told) & {"--mass-tensor", "--inertia", "--D", "--mass", "--radius"}:
-        options = [told.get(f"--{name}") for name in ("mass-tensor", "inertia", "D", "mass", "radius")]
-        tensor = tensor_from(options[1])
-        if tensor is None or options[0] is not None:
-            J, D = ball_from(*options)
+    if given.keys() & BALL.keys():
+        tensor = tensor_from(given)
+        if tensor is None:
+            J, D = ball_from(given)
             ball = {"mass_tensor": list(map(str, J)), "D": str(D)}
         else:
-            ball = {"inertia": [list(map(str, row)) for row in tensor], "D": str(contact_from(*options[2:]))}
-        if "--radius" in told:
-            ball["radius"] = str(rationals(told["--radius"], "--radius", 1)[0])
-    start["omega"] = list(map(str, rationals(told.get("--omega", "3,-2,1"), "--omega", 3)))
-    start["gamma"] = list(map(str, rationals(told.get("--gamma", "2/7,3/7,6/7"), "--gamma", 3)))
+            ball = {"inertia": [list(map(str, row)) for row in tensor], "D": str(contact_from(given))}
+        if "radius" in given:
+            ball["radius"] = str(rationals(given["radius"], "--radius", 1)[0])
+    start = {
+        name: list(map(str, rationals(given.get(name, default), f"--{name}", 3)))
+        for name, default in (("omega", "3,-2,1"), ("gamma", "2/7,3/7,6/7"))
+    }
     run = {"accuracy": accuracy, "time": time, "contact": "radius" in ball}
     return scenes.checked({"ball": ball, "start": start, "run": {k: v for k, v in run.items() if v is not None}})
 
@@ -229,11 +226,7 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
 
     study = in_checkout("benchmarks", "trade")
     sections = list(dict.fromkeys(wanted or study.DRAWN))
-    for name in sections:
-        if name not in study.SECTIONS:
-            fail(
-                f"there is no section {name!r}; there are {', '.join(study.SECTIONS)} (a scene goes with --accuracy)", 2
-            )
+    check_known("section", sections, study.SECTIONS, " (a scene goes with --accuracy)")
     page = measured.is_page(output)
     if output is not None and not page:
         check_figure(output, sections, study.DRAWN)
@@ -245,8 +238,8 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
             quiet()
             fail(f"trade {name}: {error}", 1)
     quiet()
+    tables = [measured.Table(one.title, one.table(), [*map(in_words, one.sentences())]) for one in found.values()]
     if output is not None and page:
-        tables = [measured.Table(one.title, one.table(), [*map(in_words, one.sentences())]) for one in found.values()]
         measured.write(output, "Speed against accuracy", ABOUT, tables, _shown)
     elif output is not None:
         from chapsym.studies.figures import save_figure
@@ -256,21 +249,13 @@ def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -
     if as_json:
         print_json(study.as_json(found, quick))
     else:
-        print_tables(found, study.as_json({}, quick)["machine"])
+        console = console_for(120)
+        measured.show(console, tables, _shown)
+        machine = study.as_json({}, quick)["machine"]
+        console.print(f"{machine['cpu']}; {machine['cores']} cores; {machine['system']}; {machine['python']}")
     if missed := study.missed(found):
         fail(missed, 1)
 
 
 def _shown(value: Any) -> str:
     return f"{value:.3g}" if isinstance(value, float) else in_words(str(value))
-
-
-def print_tables(found: dict[str, Any], machine: dict[str, Any]) -> None:
-    """Each section's table and the sentences under it."""
-    console = console_for(120)
-    for section in found.values():
-        print_table(console, section.title, section.table(), _shown)
-        for sentence in section.sentences():
-            console.print(f"  {in_words(sentence)}")
-        console.print()
-    console.print(f"{machine['cpu']}; {machine['cores']} cores; {machine['system']}; {machine['python']}")
