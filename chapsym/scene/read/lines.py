@@ -2,7 +2,9 @@
 
 import re
 import tomllib
+from bisect import bisect_left
 from collections.abc import Sequence
+from itertools import islice
 from typing import Any
 
 #: Longer files, and statements that could end on more lines than this, get their errors without a line.
@@ -14,23 +16,19 @@ _END = re.compile(r"[]}=]|\"\"\"|'''|^\s*(#|$)")
 def line_of(text: str, path: Sequence[str | int]) -> int | None:
     """The line, from 1 on, on which the statement that gives the key at `path` begins; None if there is none.
 
-    Keys never vanish as more statements are read, so the first after which the key is there is found by bisection.
+    A statement is TOML by itself, and keys never vanish as more statements are read.
     """
     lines = text.replace("\r\n", "\n").split("\n")
-    if len(lines) > MOST_LINES or not _has(_said(lines), path):
-        return None
-    low, high = 0, len(lines)  # of whole statements: the key is not there after `low` lines, and is after `high`
-    while high - low > 1:
-        middle = (low + high) // 2
-        ends = [n for n in (*range(middle, high), *range(middle - 1, low, -1)) if _END.search(lines[n - 1])]
-        end = next((n for n in ends[:MOST_ENDS] if _said(lines[:n]) is not None), None)
+    ends = [0]
+    while len(lines) <= MOST_LINES and ends[-1] < len(lines):
+        first = ends[-1]
+        may_end = (n for n in range(first + 1, len(lines) + 1) if _END.search(lines[n - 1]))
+        end = next((n for n in islice(may_end, MOST_ENDS) if _said(lines[first:n]) is not None), None)
         if end is None:
-            return low + 1 if len(ends) <= MOST_ENDS else None
-        if _has(_said(lines[:end]), path):
-            high = end
-        else:
-            low = end
-    return low + 1
+            return None
+        ends.append(end)
+    found = bisect_left(ends, True, key=lambda end: _has(_said(lines[:end]), path))
+    return ends[found - 1] + 1 if found < len(ends) else None
 
 
 def _said(lines: Sequence[str]) -> Any:

@@ -52,7 +52,8 @@ LONGEST = 200
 def number(value: Any, dimension: Dimension = PURE) -> float:
     """A number in SI, or a text such as "2/7" or "30 rpm", as a float; raises ValueError with what would be right."""
     if isinstance(value, str):
-        return _float(_exact(value, dimension))
+        amount, factor = _amount(value, dimension)
+        return _float(amount * factor)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ValueError('it must be a number, or a text such as "2/7"' + ("" if dimension is PURE else _or(dimension)))
     if isinstance(value, int) and abs(value) > 10**300:
@@ -86,10 +87,6 @@ def _or(dimension: Dimension) -> str:
     return f' or "{dimension.example[1]}"'
 
 
-def _told(error: NotANumber) -> str:
-    return str(error).removeprefix("value: ")
-
-
 def _float(exact: Fraction) -> float:
     """The nearest float; raises ValueError where it would lose digits."""
     try:
@@ -101,25 +98,16 @@ def _float(exact: Fraction) -> float:
     return found
 
 
-def _exact(text: str, dimension: Dimension) -> Fraction:
-    """The number that a text means, in SI."""
-    amount, factor = _amount(text, dimension)
-    return amount * factor
-
-
 def _amount(text: str, dimension: Dimension) -> tuple[Fraction, Fraction]:
     """The number in a text, and what its unit is in SI."""
     parts = _FORM.fullmatch(text) if len(text) <= LONGEST else None
-    if parts is None or not parts[2]:
-        try:
-            return rational(text, "value"), Fraction(1)
-        except NotANumber as error:
-            raise ValueError(_told(error) + ("" if dimension is PURE else _or(dimension))) from None
+    unit = parts[2] if parts else ""
     try:
-        amount = rational(parts[1], "value")
+        amount = rational(parts[1] if parts and unit else text, "value")
     except NotANumber as error:
-        raise ValueError(_told(error)) from None
-    return amount, _factor(parts[2], text.strip(), dimension)
+        told = str(error).removeprefix("value: ")
+        raise ValueError(told + ("" if unit or dimension is PURE else _or(dimension))) from None
+    return amount, _factor(unit, text.strip(), dimension) if unit else Fraction(1)
 
 
 @cache
@@ -146,10 +134,10 @@ def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
     registry = _registry()
     try:
         found = registry.parse_units(spelled)
-        measures = _measures(found)
+        same = found.dimensionality == registry.parse_units(dimension.pint).dimensionality
     except Exception:  # pint raises whatever its tokenizer meets: all of it means that this is no unit
         raise ValueError(f"it is {dimension.name}, but {unit!r} in {shown!r} is not a known unit; {write}") from None
-    if measures != _measures(registry.parse_units(dimension.pint)):
+    if not same:
         if _SHORT.search(spelled):
             raise ValueError(f"it is {dimension.name}, but {shown!r} says no unit, only how many; {write}")
         names = [known.name for known in KNOWN if _is(known, found)]
@@ -158,22 +146,12 @@ def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
     if not _is(dimension, found):
         told = f"does not say which angle; write {ANGULAR[dimension]}"
         raise ValueError(f"it is {dimension.name}, but {shown!r} {told}")
-    return Fraction(_registry().Quantity(Fraction(1), found).to_base_units().magnitude)
+    return Fraction(registry.Quantity(Fraction(1), found).to_base_units().magnitude)
 
 
 def _is(dimension: Dimension, unit: Any) -> bool:
     """Whether a unit measures that; an angle, or its rate, in turns, degrees or radians to the power of one."""
-    if _measures(unit) != _measures(_registry().parse_units(dimension.pint)):
-        return False
-    return dimension not in ANGULAR or _roots(unit).get("radian") == 1
-
-
-def _measures(unit: Any) -> dict[str, Fraction]:
-    """The dimension, such as {"[length]": 1}."""
-    return {str(name): power for name, power in unit.dimensionality.items() if power}
-
-
-def _roots(unit: Any) -> dict[str, Any]:
-    """The base units and their powers."""
-    _, roots = _registry().get_root_units(unit)
-    return {str(name): power for name, power in _registry().Quantity(1, roots).unit_items()}
+    wanted = _registry().parse_units(dimension.pint)
+    if dimension in ANGULAR:
+        return bool(_registry().get_base_units(unit)[1] == wanted)
+    return bool(unit.dimensionality == wanted.dimensionality)
