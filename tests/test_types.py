@@ -7,6 +7,7 @@ import sys
 from mypy import api
 
 import chapsym
+from chapsym import dynamics
 
 START = """\
 import chapsym
@@ -43,3 +44,4 @@ def test_the_names_of_chapsym_are_its_public_ones_with_signatures_that_can_be_re
     assert len(functions) > 20
     assert not [f.__name__ for f in functions if "Supports" in str(inspect.signature(f))]
     assert dir(chapsym) == sorted(["__version__", *chapsym.__all__])
+    assert set(dynamics.__all__) <= set(chapsym.__all__)  # as type checkers take all of these

@@ -284,7 +284,7 @@ def test_31_digits_of_attitude_and_contact():
 def test_a_rotation_number_is_computed_once_for_all_segments(vertical, monkeypatch):
     asked = []
     real = chapsym.rotation_number
-    monkeypatch.setattr(models, "rotation_number", lambda *of: asked.append(of) or real(*of))
+    monkeypatch.setattr(models.dynamics, "rotation_number", lambda *of: asked.append(of) or real(*of))
     columns, _ = rolled(planned(vertical, Task(("rotation_number", "gamma"), 30)), [slice(0, 9), slice(9, 31)])
     assert len(asked) == 3
     assert np.isfinite(columns["rotation_number"]).all()

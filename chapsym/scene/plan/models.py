@@ -7,28 +7,12 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from chapsym import dynamics
 from chapsym.accuracy import Accurate, accurate, foreseen
 from chapsym.accuracy.motion import FINEST, moved, nominal
 from chapsym.accuracy.problem import PARTS, Problem
 from chapsym.accuracy.request import exact_values
-from chapsym.dynamics import (
-    BadInput,
-    Ball,
-    BallN,
-    Curve,
-    Status,
-    StepNotTaken,
-    TopMotion,
-    is_steady,
-    is_top,
-    rotation_number,
-    steady_frames,
-    substeps,
-    top_frames,
-    trajectory,
-    trajectory_n,
-    trajectory_vertical,
-)
+from chapsym.dynamics import BadInput, Ball, BallN, Curve, Status, StepNotTaken, TopMotion
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.closed import top
 from chapsym.dynamics.closed.top import Precession
@@ -202,14 +186,14 @@ class Rolling(Stepwise):
         alone, in_lanes = (40.0, 14.0) if needed & {"attitude", "contact"} else (27.0, 8.0)
         step = in_lanes if len(members) >= BATCH and task.order == 2 else alone
         step *= 4 if task.precision == "double-double" else 1
-        return 3e4 + len(members) * (task.steps * len(substeps(task.order)) * step + task.frames * 10.0)
+        return 3e4 + len(members) * (task.steps * len(dynamics.substeps(task.order)) * step + task.frames * 10.0)
 
     def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Any:
         """`chapsym.trajectory` of the batch."""
         attitude = state.get("attitude", False)
         if "attitude" in state and members.attitude is None and task.precision == "double-double":
             attitude = True  # in 31 digits, as γ; such a run has one segment
-        return trajectory(
+        return dynamics.trajectory(
             _ball(members), state["momentum"], state["gamma"], steps, every=task.every, order=task.order,
             attitude=attitude, contact="contact" in state,
             precision=task.precision, time_step=task.time_step, progress=progress,
@@ -231,19 +215,19 @@ class General(Stepwise):
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """Skew matrices of n(n-1)/2 components, in systems of that many equations."""
         step = 2e3 + 2.0 * members.dimension**4
-        return len(members) * task.steps * len(substeps(task.order)) * step
+        return len(members) * task.steps * len(dynamics.substeps(task.order)) * step
 
     def attitude(self, members: Members) -> np.ndarray:
         """The least rotation with R γ = eₙ."""
         assert isinstance(members.ball, BallN)
-        start = trajectory_n(members.ball, members.momentum, members.gamma, 0, attitude=True).attitude
+        start = dynamics.trajectory_n(members.ball, members.momentum, members.gamma, 0, attitude=True).attitude
         assert start is not None
         return start[:, 0]
 
     def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Any:
         """`chapsym.trajectory_n` of the batch."""
         assert isinstance(members.ball, BallN)
-        found = trajectory_n(
+        found = dynamics.trajectory_n(
             members.ball, state["momentum"], state["gamma"], steps, order=task.order, every=task.every,
             attitude=state.get("attitude", False), contact="contact" in state,
         )  # fmt: skip
@@ -298,7 +282,7 @@ class Vertical(Stepwise):
 
     def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Any:
         """`chapsym.trajectory_vertical` of the batch."""
-        found = trajectory_vertical(_ball(members), state["height"], state["gamma"], steps, every=task.every)
+        found = dynamics.trajectory_vertical(_ball(members), state["height"], state["gamma"], steps, every=task.every)
         progress(len(members) * steps)
         return found
 
@@ -328,7 +312,7 @@ def _heights(members: Members) -> np.ndarray:
 def _turns(members: Members, i: int, height: float) -> float:
     """The rotation number, NaN for a ball whose orbit ends at a fold: it has none."""
     try:
-        return rotation_number(one_ball(members, i), height, members.gamma[i])
+        return dynamics.rotation_number(one_ball(members, i), height, members.gamma[i])
     except StepNotTaken:
         return float("nan")
 
@@ -371,7 +355,7 @@ class Steady(Direct):
 
     def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Balls that do not rotate steadily."""
-        steady = is_steady(_ball(members), members.momentum, members.gamma)
+        steady = dynamics.is_steady(_ball(members), members.momentum, members.gamma)
         if not steady.all():
             return f"{members.names[int(np.argmin(steady))]} has unequal moments and is in no steady rotation"
         return None
@@ -384,7 +368,7 @@ class Steady(Direct):
     def frames(self, members: Members, task: Task, needed: frozenset[str], index: np.ndarray) -> tuple[Columns, Any]:
         """`chapsym.steady_frames` of the batch."""
         given = True if members.attitude is None else members.attitude
-        run = steady_frames(
+        run = dynamics.steady_frames(
             _ball(members), members.momentum, members.gamma, index, contact="contact" in needed,
             attitude=given if needed & {"attitude", "contact"} else False, time_step=task.time_step,
         )  # fmt: skip
@@ -405,7 +389,7 @@ class Top(Direct):
 
     def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Balls that are no such tops."""
-        tops = is_top(_ball(members), members.momentum, members.gamma)
+        tops = dynamics.is_top(_ball(members), members.momentum, members.gamma)
         if not tops.all():
             return f"D of {members.names[int(np.argmin(tops))]} is not 0, or its 𝒦 stays"
         return None
@@ -438,7 +422,7 @@ class Top(Direct):
         status = np.zeros(n, dtype=np.int64)
         if needed & {"gamma", "attitude", "momentum"}:
             given = True if members.attitude is None else members.attitude
-            run = top_frames(
+            run = dynamics.top_frames(
                 _ball(members), members.momentum, members.gamma, index,
                 attitude=given if "attitude" in needed else False, time_step=task.time_step,
             )  # fmt: skip
