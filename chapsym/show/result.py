@@ -2,7 +2,6 @@
 
 import sys
 import tempfile
-import warnings
 import webbrowser
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from chapsym.scene.result import formats
 from chapsym.scene.result.far import sentence
 from chapsym.scene.result.grid import grid
 from chapsym.scene.result.interpolation import interpolated
+from chapsym.scene.running import store
 from chapsym.scene.running.sweep import run_in_memory
 
 from . import figures
@@ -169,22 +169,16 @@ def _save_zarr(dataset: "Dataset", path: Path) -> None:
     """Writes a new .zarr, whole; raises SceneError if the disk refuses."""
     if path.exists():
         raise SceneError(f"{path} is there already; remove it, or choose another name")
-    try:
-        with (
-            tempfile.TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.", ignore_cleanup_errors=True) as folder,
-            warnings.catch_warnings(),
-        ):
-            # As the store of a run: other readers may not know its one file of metadata.
-            warnings.filterwarnings("ignore", message="Consolidated metadata")
-            whole = Path(folder) / "whole"
-            # Of a part of another .zarr the chunks do not fit those of its files.
-            dataset = dataset.drop_encoding().unify_chunks()
-            if dataset.chunks:
-                dataset = dataset.chunk({dim: max(lengths) for dim, lengths in dataset.chunks.items()})
-            dataset.assign_attrs({"complete": True} | dataset.attrs).to_zarr(whole, consolidated=True, zarr_format=3)
-            whole.rename(path)
-    except OSError as error:
-        raise SceneError(f"{path} cannot be written: {error.strerror or error}") from None
+    # Of a part of another .zarr the chunks do not fit those of its files.
+    whole = dataset.drop_encoding().unify_chunks().assign_attrs({"complete": True} | dataset.attrs)
+    if whole.chunks:
+        whole = whole.chunk({dim: max(lengths) for dim, lengths in whole.chunks.items()})
+
+    def fill(place: Path) -> None:
+        whole.to_zarr(place, zarr_format=3, consolidated=False)
+        store.consolidate(place)
+
+    store.created(path, fill)
 
 
 def _rows(dataset: "Dataset") -> list[tuple[str, str]]:

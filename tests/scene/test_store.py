@@ -138,7 +138,7 @@ def test_every_moment_of_the_creation_may_be_the_last(whole, tmp_path, monkeypat
     class Killed(BaseException):
         pass
 
-    for name in ("_fill", "_add_arrays", "_consolidate"):
+    for name in ("_fill", "_add_arrays", "consolidate"):
         real = getattr(stores, name)
 
         def killed(*args, real=real):

@@ -12,7 +12,7 @@ import time
 import tomllib
 import warnings
 import zipfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Self
@@ -62,7 +62,7 @@ class Store:
             with _locked(path):
                 _discard(path)
         if not path.exists():
-            _create(path, plan)
+            created(path, lambda place: _fill(place, plan))
         with _locked(path):
             for left in path.rglob("*.partial"):  # chunks that a killed process has left half written
                 left.unlink(missing_ok=True)
@@ -206,8 +206,8 @@ def _check_place(path: Path) -> None:
         raise SceneError(f"{path} cannot be written: choose a name in a folder that is writable")
 
 
-def _create(path: Path, plan: Plan) -> None:
-    """Puts a store without values at `path`, unless another process has; raises SceneError if the disk refuses."""
+def created(path: Path, fill: Callable[[Path], object]) -> None:
+    """Puts what `fill` writes at `path`, unless another process has; raises SceneError if the disk refuses."""
     for left in path.parent.glob(f".{path.name}.new-*"):  # of creations that were killed
         pid = left.name.rpartition("-")[2]
         if pid.isdigit() and not _alive(int(pid)):
@@ -216,7 +216,7 @@ def _create(path: Path, plan: Plan) -> None:
     try:
         with _refusals(path, creating=True):
             beside.mkdir()
-            _fill(beside / path.name, plan)
+            fill(beside / path.name)
             try:
                 os.rename(beside / path.name, path)
             except OSError:
@@ -264,7 +264,7 @@ def _fill(path: Path, plan: Plan) -> None:
     whole = build(plan, none, none).assign_attrs(complete=False)
     whole.drop_vars(variables).to_zarr(path, zarr_format=3, consolidated=False)
     _add_arrays(path, plan)
-    _consolidate(path)
+    consolidate(path)
     folder_of(path).mkdir()
 
 
@@ -283,7 +283,7 @@ def _add_arrays(path: Path, plan: Plan) -> None:
         )  # fmt: skip
 
 
-def _consolidate(path: Path) -> None:
+def consolidate(path: Path) -> None:
     """One file of all metadata."""
     import zarr
 
