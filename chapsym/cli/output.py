@@ -119,6 +119,8 @@ def following(as_json: bool) -> Iterator[Callable[[Any], None]]:
         with progress_bar("rolling", 0) as shown:
             yield lambda at: shown(at.steps, at.of, _balls(at))
         return
+    from chapsym.scene.plan.explain import duration
+
     tell, first = now_and_then(), None
 
     def report(at: Any) -> None:
@@ -127,7 +129,7 @@ def following(as_json: bool) -> Iterator[Callable[[Any], None]]:
         first = first or (now, at.steps)  # of a run that goes on, some are done already
         started, before = first
         speed = (at.steps - before) / (now - started) if now > started else 0.0
-        left = f", about {_seconds((at.of - at.steps) / speed)} left" if speed > 0 else ""
+        left = f", about {duration((at.of - at.steps) / speed)} left" if speed > 0 else ""
         tell(f"{at.steps / max(at.of, 1):.0%}, {_balls(at)}{left}")
 
     yield report
@@ -135,11 +137,6 @@ def following(as_json: bool) -> Iterator[Callable[[Any], None]]:
 
 def _balls(at: Any) -> str:
     return f"{at.balls} balls done" + (f", {at.failed} stopped early" if at.failed else "")
-
-
-def _seconds(seconds: float) -> str:
-    unit, length = ("s", 1) if seconds < 100 else ("min", 60) if seconds < 6000 else ("h", 3600)
-    return f"{seconds / length:.{1 if unit == 'h' else 0}f} {unit}"
 
 
 @contextmanager

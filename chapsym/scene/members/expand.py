@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -131,38 +133,28 @@ def _first_refused(made: Callable[[slice], Any], low: int, high: int) -> tuple[i
 
 def _joined(parts: list[Members]) -> Members:
     """The balls of several tables one after the other; what one of them does not have is as if it were not given."""
-    sizes = [len(part) for part in parts]
-    radii = [part.ball.radius for part in parts]
-    known = [radius for radius in radii if radius is not None]
-    if known and len(known) < len(radii):
+    if len({part.ball.radius is None for part in parts}) > 1:
         raise SceneError("some balls have a radius and others have none: give it to all")
-    ball = type(parts[0].ball)(
-        np.concatenate([part.ball.mass_tensor for part in parts]), np.concatenate([part.ball.D for part in parts]),
-        np.concatenate(known) if known else None,
-    )  # fmt: skip
+    ball, whole = type(parts[0].ball), partial(_whole, parts)
+    sizes = whole("ball.mass_tensor"), whole("ball.D"), whole("ball.radius")
     keys = dict.fromkeys(key for part in parts for key in part.parameters)
-    parameters = {
-        key: Parameter(
-            np.concatenate([_values(part, key, size) for part, size in zip(parts, sizes, strict=True)]), units_of(key)
-        )
-        for key in keys
-    }
     return Members(
-        tuple(name for part in parts for name in part.names), ball,
-        np.concatenate([part.momentum for part in parts]), np.concatenate([part.gamma for part in parts]),
-        _filled([part.axes for part in parts], lambda i: np.tile([1.0, 0.0, 0.0, 0.0], (sizes[i], 1))),
-        _filled([part.attitude for part in parts], lambda i: attitude_with(parts[i].gamma)),
-        _filled([part.place for part in parts], lambda i: np.zeros((sizes[i], parts[i].dimension - 1))), parameters,
+        tuple(name for part in parts for name in part.names), ball(*sizes), whole("momentum"), whole("gamma"),
+        whole("axes", lambda part: np.tile([1.0, 0.0, 0.0, 0.0], (len(part), 1))),
+        whole("attitude", lambda part: attitude_with(part.gamma)),
+        whole("place", lambda part: np.zeros((len(part), part.dimension - 1))),
+        {key: Parameter(np.concatenate([_values(part, key) for part in parts]), units_of(key)) for key in keys},
     )  # fmt: skip
 
 
-def _values(part: Members, key: str, size: int) -> Floats:
+def _values(part: Members, key: str) -> Floats:
     """The values of a parameter; NaN for balls of which it is not varied."""
-    return part.parameters[key].values if key in part.parameters else np.full(size, np.nan)
+    return part.parameters[key].values if key in part.parameters else np.full(len(part), np.nan)
 
 
-def _filled(arrays: list[Floats | None], default: Callable[[int], Floats]) -> Floats | None:
-    """The arrays one after the other, where any is given; else None."""
+def _whole(parts: list[Members], name: str, default: Callable[[Members], Any] = lambda part: None) -> Any:
+    """The arrays of that name one after the other, where any is given; else None."""
+    arrays = [attrgetter(name)(part) for part in parts]
     if all(array is None for array in arrays):
         return None
-    return np.concatenate([default(i) if array is None else array for i, array in enumerate(arrays)])
+    return np.concatenate([default(part) if a is None else a for part, a in zip(parts, arrays, strict=True)])

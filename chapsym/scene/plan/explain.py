@@ -70,10 +70,10 @@ def _told(plan: Plan) -> str:
     size, unit = float(plan.bytes), 0
     while size >= 1000 and unit < len(_UNITS) - 1:
         size, unit = size / 1000, unit + 1
-    return f"about {_seconds(predicted(plan))} of the processor, {size:.3g} {_UNITS[unit]}"
+    return f"about {duration(predicted(plan))} of the processor, {size:.3g} {_UNITS[unit]}"
 
 
-def _seconds(seconds: float) -> str:
+def duration(seconds: float) -> str:
     """A time for a reader."""
     units = (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3), ("µs", 1e-6))
     unit, length = next(((unit, length) for unit, length in units if seconds >= length), units[-1])
