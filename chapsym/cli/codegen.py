@@ -71,9 +71,5 @@ def codegen(
     if as_json:
         print_json({"folder": str(place), "written": written})
     else:
-        print(f"wrote {len(written)} files into {_shown(place)}/")
-
-
-def _shown(place: Path) -> Path:
-    """As it is seen from here."""
-    return place.relative_to(Path.cwd()) if place.is_relative_to(Path.cwd()) else place
+        seen = place.relative_to(Path.cwd()) if place.is_relative_to(Path.cwd()) else place
+        print(f"wrote {len(written)} files into {seen}/")

@@ -58,9 +58,6 @@ def html(
     return Page(records, versions).render(
         "questions.html", style=style(FOLDER / "questions.css"), date=None, certificates=certificates,
         questions=[(id, question, by_id[id]) for id, question in QUESTIONS.items() if id in by_id],
-        evidence=evidence, lemmas=[record for record in records if record["id"] not in QUESTIONS], source_of=_source_of,
+        evidence=evidence, lemmas=[record for record in records if record["id"] not in QUESTIONS],
+        source_of=lambda svg: "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode(),
     )  # fmt: skip
-
-
-def _source_of(svg: str) -> str:
-    return "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()

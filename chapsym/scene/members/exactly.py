@@ -50,7 +50,8 @@ def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
 def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]:
     if scene.toml is None:
         raise SceneError(f"{name}: certified digits need the numbers as a scene file writes them")
-    if len(expand(_without_rotors(scene))) != 1:
+    still = tuple(one.model_copy(update={"rotor": None}) for one in scene.ball)
+    if len(expand(scene.model_copy(update={"ball": still}))) != 1:
         raise SceneError(f"{name}: certify motion takes one ball; this scene has several, or a range")
     if scene.maps:
         raise SceneError(
@@ -97,10 +98,6 @@ def _moving(start: Mapping[str, Any]) -> tuple[Turns, ...]:
     if "omega" in start:
         return _numbers(start, "omega")
     return (*_numbers(start, "velocity"), _number(start.get("spin", 0), RATE))
-
-
-def _without_rotors(scene: Scene) -> Scene:
-    return scene.model_copy(update={"ball": tuple(one.model_copy(update={"rotor": None}) for one in scene.ball)})
 
 
 def _numbers(table: Mapping[str, Any], key: str) -> tuple[Turns, ...]:

@@ -67,25 +67,10 @@ def _integrals(n: int) -> dict[str, str]:
     return found | {"gamma.gamma": "1"}
 
 
-def _omega(J: Floats, D: Floats, given: Mapping[str, Floats]) -> Floats:
-    """ω = Λ⁻¹(K + D⟨ω,γ⟩γ), in principal axes (2.4 solved)."""
-    return kernels.angular_velocity(given[K], given["gamma"], J, D)
-
-
-def _energy(J: Floats, D: Floats, given: Mapping[str, Floats]) -> Floats:
-    """½⟨K,ω⟩ in joules."""
-    return kernels.energy(given[K], given["gamma"], J, D)
-
-
 def _invariants(J: Floats, D: Floats, given: Mapping[str, Floats]) -> Floats:
     """The momentum integrals, which the map keeps (Proposition 2)."""
     of = kernels.invariants if J.shape[-1] == 3 else invariants_n
     return of(given["momentum"], given["gamma"])
-
-
-def _one_invariant(i: int) -> Callable[[Floats, Floats, Mapping[str, Floats]], Floats]:
-    """One of the three momentum integrals of a ball in three dimensions."""
-    return lambda J, D, given: _invariants(J, D, given)[..., i]
 
 
 _MATRIX = ("row", "column")
@@ -100,12 +85,14 @@ OUTPUTS: dict[str, Output] = {
     "gamma": Output("vertical γ, upwards, body axes", "1", ("axis",), ("axis",)),
     "omega": Output(
         "angular velocity ω, body axes", "rad s-1", ("axis",),
-        needs=_GAMMA | {K}, with_D=_GAMMA, derive=_omega, kernels=("angular_velocity",),
+        needs=_GAMMA | {K}, with_D=_GAMMA, kernels=("angular_velocity",),
+        derive=lambda J, D, given: kernels.angular_velocity(given[K], given["gamma"], J, D),
     ),
     "attitude": Output("attitude, body axes to space", "1", ("quaternion",), _MATRIX),
     "contact": Output("contact point", "m", ("plane",), ("plane",), radius=True),
     "energy": Output(
-        "kinetic energy", "J", needs=_GAMMA | {K}, with_D=_GAMMA, derive=_energy, kernels=("energy",)
+        "kinetic energy", "J", needs=_GAMMA | {K}, with_D=_GAMMA, kernels=("energy",),
+        derive=lambda J, D, given: kernels.energy(given[K], given["gamma"], J, D),
     ),
     "integrals": Output(
         "momentum integrals", lambda n: ", ".join(_integrals(n).values()), ("integral",), ("integral",),
@@ -113,15 +100,18 @@ OUTPUTS: dict[str, Output] = {
         chosen=("momentum integrals", "kg m2 s-1, kg2 m4 s-2, 1"),
     ),
     "vertical_momentum": Output(
-        "vertical momentum ⟨𝒦,γ⟩", "kg m2", needs=_STATE, derive=_one_invariant(0), kernels=("invariants",),
+        "vertical momentum ⟨𝒦,γ⟩", "kg m2", needs=_STATE, kernels=("invariants",),
+        derive=lambda J, D, given: _invariants(J, D, given)[..., 0],
         chosen=("vertical angular momentum ⟨K,γ⟩", "kg m2 s-1"),
     ),
     "momentum_squared": Output(
-        "momentum squared ⟨𝒦,𝒦⟩", "kg2 m4", needs=_STATE, derive=_one_invariant(1), kernels=("invariants",),
+        "momentum squared ⟨𝒦,𝒦⟩", "kg2 m4", needs=_STATE, kernels=("invariants",),
+        derive=lambda J, D, given: _invariants(J, D, given)[..., 1],
         chosen=("angular momentum squared ⟨K,K⟩", "kg2 m4 s-2"),
     ),
     "gamma_squared": Output(
-        "vertical squared ⟨γ,γ⟩", "1", needs=_STATE, derive=_one_invariant(2), kernels=("invariants",)
+        "vertical squared ⟨γ,γ⟩", "1", needs=_STATE, kernels=("invariants",),
+        derive=lambda J, D, given: _invariants(J, D, given)[..., 2],
     ),
     "phase": Output("elliptic phase u", "1"),
     "rotation_number": Output("turns around the invariant curve, a step", "1", per_ball=True),

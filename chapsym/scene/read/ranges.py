@@ -146,13 +146,10 @@ class Sweep:
         axis = 0
         for key, one in self.ranges.items():
             if one.drawn:
-                found[key] = one.draw(len(self), self._generator(key))
+                spawned = np.random.SeedSequence(self.seed, spawn_key=tuple(f"{self.stream}/{key}".encode()))
+                found[key] = one.draw(len(self), np.random.Generator(np.random.PCG64(spawned)))
                 continue
             along = one.grid().reshape([-1 if i == axis else 1 for i in range(len(self.shape))])
             found[key] = np.broadcast_to(along, self.shape).reshape(-1)
             axis += 1
         return found
-
-    def _generator(self, key: str) -> np.random.Generator:
-        own = f"{self.stream}/{key}".encode()
-        return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=tuple(own))))

@@ -4,7 +4,6 @@ import json
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -37,7 +36,10 @@ def read_case(file: Path) -> Case:
         ball, frames = data["ball"], data["frames"]
         mass, radius, *inertia = (float(Fraction(x)) for x in (ball["mass"], ball["radius"], *ball["inertia"]))
         time = np.array([float(Fraction(frame["time"])) for frame in frames])
-        path, attitude, omega = (_middles(frames, part) for part in ("contact", "attitude", "omega"))
+        path, attitude, omega = (
+            np.array([[float(middle) for middle, _ in frame[part]] for frame in frames])
+            for part in ("contact", "attitude", "omega")
+        )
         shapes = [path.shape, attitude.shape, omega.shape]
         numbers = (mass, radius, *inertia, *time, *path.flat, *attitude.flat, *omega.flat)
         if shapes != [(len(time), n) for n in (2, 4, 3)] or len(inertia) != 3 or not np.isfinite(numbers).all():
@@ -49,10 +51,6 @@ def read_case(file: Path) -> Case:
         raise BadInput(f"{file} cannot be read: {error.strerror or error}") from None
     except (ValueError, KeyError, TypeError, IndexError, ArithmeticError, RecursionError):
         raise BadInput(f"{file} is no case: it must be a file of benchmarks/rolling/data that ends in .json") from None
-
-
-def _middles(frames: list[dict[str, Any]], part: str) -> np.ndarray:
-    return np.array([[float(middle) for middle, _ in frame[part]] for frame in frames])
 
 
 def in_space(attitude: np.ndarray, vector: np.ndarray) -> np.ndarray:

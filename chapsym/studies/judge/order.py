@@ -40,20 +40,19 @@ def convergence(case: Case, runs: Sequence[Trajectory], of: str = "path") -> Con
     steps = np.array([run.step for run in runs], dtype=float)
     ratios = steps[:-1] / steps[1:]
     if (ratios <= 1 + 1e-6).any() or np.ptp(ratios) > 1e-6 * ratios[0]:
-        raise BadInput(f"the steps must be divided by the same number each time, but they are {_listed(steps)}")
-    placed, apart = (_on_plane, _distance) if of == "path" else (_turned, angle)
-    points = [placed(case, run) for run in runs]
+        raise BadInput(
+            f"the steps must be divided by the same number each time, but they are {', '.join(f'{x:g}' for x in steps)}"
+        )
+    if of == "path":
+        points, truth, apart = [run.centre[:, :2] for run in runs], case.path, _distance
+    else:
+        points, truth, apart = [_turned(case, run) for run in runs], case.attitude, angle
     away = [float(apart(a, b).max()) for a, b in pairwise(points)]
     if not 0 < away[-1] < away[-2]:
         return Convergence(None, None, None)
     power = float(np.log(away[-2] / away[-1]) / np.log(ratios[-1]))
     limit = points[-1] + (points[-1] - points[-2]) / (ratios[-1] ** power - 1)
-    truth = case.path if of == "path" else case.attitude
     return Convergence(power, float(apart(points[-1], limit).max()), float(apart(limit, truth).max()))
-
-
-def _on_plane(case: Case, run: Trajectory) -> np.ndarray:
-    return run.centre[:, :2]
 
 
 def _turned(case: Case, run: Trajectory) -> np.ndarray:
@@ -74,7 +73,3 @@ def sentence(found: Convergence, unit: str) -> str:
         f"order {found.order:.2f}; the finest run is {found.of_the_step:.3g} {unit} from the limit of the runs, and "
         f"that is {found.floor:.3g} {unit} from the truth (estimated)"
     )
-
-
-def _listed(steps: np.ndarray) -> str:
-    return ", ".join(f"{x:g}" for x in steps)
