@@ -53,17 +53,14 @@ def json_text(value: Any, indent: int | None = None) -> str:
 
 
 def say(text: str) -> None:
-    """Progress on standard error: one line that moves on a terminal; elsewhere only what is done once a machine."""
+    """Progress on standard error, on a terminal: a line that moves, without a thread of Rich's, which costs time."""
     if sys.stderr.isatty():
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
-    elif ", once" in text:
-        note(text)
 
 
 def quiet() -> None:
     """Takes the line of progress away."""
-    if sys.stderr.isatty():
-        print("\r\033[K", end="", file=sys.stderr, flush=True)
+    say("")
 
 
 def check_known(kind: str, names: Iterable[str], known: Iterable[str], more: str = "") -> None:
