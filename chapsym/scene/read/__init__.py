@@ -1,1 +1,1 @@
-"""A scene file is read: tables, quantities, units, and what is wrong with them."""
+"""A scene file is read: tables, ranges, units, and what is wrong with them."""

@@ -7,8 +7,9 @@ from typing import Any
 from chapsym.dynamics import BadInput
 
 from .lines import line_of
-from .quantities import LIST, MATRIX
 
+#: The tags of lists and matrices are no keys: errors leave them out.
+LIST, MATRIX = "(list)", "(matrix)"
 #: More problems of one file are not listed.
 MOST_PROBLEMS = 5
 
