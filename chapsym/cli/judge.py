@@ -41,7 +41,7 @@ def judge(
     elif len(runs) == 2:
         fail("give one result, or three or more with steps in one ratio: two do not tell an order", 2)
     if output is not None:
-        from chapsym.studies.judge.drawing import save
+        from chapsym.studies.judge_drawing import save
 
         save(output, case, runs, found, known)
     if as_json:
@@ -65,7 +65,7 @@ def judge(
 
 def lines(summary: dict[str, Any]) -> list[str]:
     """A line for each part."""
-    from chapsym.studies.judge.departure import limit_of
+    from chapsym.studies.judge import limit_of
 
     found = []
     for name, part in summary.items():

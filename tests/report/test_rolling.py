@@ -11,9 +11,9 @@ from rolling_results import EVEN, rolled
 
 import chapsym
 from chapsym.dynamics import BadInput, Status, kernels
-from chapsym.show.rolling import html, turning, write_page
+from chapsym.show.rolling import html, write_page
 from chapsym.show.rolling import motion as motions
-from chapsym.show.rolling.motion import TOO_FAR, TOO_MANY, motion
+from chapsym.show.rolling.motion import TOO_FAR, TOO_MANY, motion, nearest_turns, turns_between
 
 FOLDER = Path(motions.__file__).parent
 UP = np.array([0.0, 0.0, 1.0])
@@ -87,14 +87,14 @@ def test_a_whole_turn_that_the_attitude_hides_is_seen_in_the_way_and_a_wrong_ome
 def test_one_step_tells_a_turn_beyond_a_quarter_and_two_do_not(steps, known):
     half = 0.3 * np.pi
     q = np.array([[1.0, 0.0, 0.0, 0.0], [np.cos(half), np.sin(half), 0.0, 0.0]])
-    turns, found = turning.between(q, None, np.array([steps]), None, None)
+    turns, found = turns_between(q, None, np.array([steps]), None, None)
     assert turns == pytest.approx(np.array([[2 * half, 0.0, 0.0]]))
     assert found.tolist() == [known]
 
 
 def test_a_ball_at_rest_does_not_turn():
     with np.errstate(all="raise"):
-        found, near = turning.nearest(np.zeros((1, 3)), np.zeros((1, 3)))
+        found, near = nearest_turns(np.zeros((1, 3)), np.zeros((1, 3)))
     assert (found.tolist(), near.tolist()) == ([[0.0] * 3], [True])
 
 
@@ -133,10 +133,10 @@ def test_the_nearest_turn_is_nearest():
     expected = rng.normal(size=(200, 3)) * 8
     angle = np.linalg.norm(expected, axis=1, keepdims=True)
     least = expected * (1 - 2 * np.pi / angle * np.round(angle / (2 * np.pi)))
-    found, near = turning.nearest(least, expected)
+    found, near = nearest_turns(least, expected)
     np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12)
     assert near.all()
-    still, near = turning.nearest(np.zeros((1, 3)), np.array([[0.0, 6.3, 0.0]]))
+    still, near = nearest_turns(np.zeros((1, 3)), np.array([[0.0, 6.3, 0.0]]))
     np.testing.assert_allclose(still, [[0.0, 2 * np.pi, 0.0]])
     assert near.all()
 

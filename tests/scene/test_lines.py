@@ -2,7 +2,7 @@
 
 import pytest
 
-from chapsym.scene.read.lines import MOST_ENDS, MOST_LINES, line_of
+from chapsym.scene.read.errors import MOST_ENDS, MOST_LINES, line_of
 
 TEXT = '''# a comment
 title = """

@@ -29,7 +29,7 @@ from chapsym.scene.result.formats import check_ours
 from chapsym.scene.running import store as stores
 from chapsym.scene.running import sweep
 from chapsym.scene.running.store import Store, write_region
-from chapsym.scene.running.tally import Stopped
+from chapsym.scene.running.sweep import Stopped
 
 CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
 

@@ -12,9 +12,18 @@ import pytest
 from commands import answer, chapsym, refused
 
 from benchmarks.rolling import make
-from chapsym.studies.judge import Case, Trajectory, convergence, departure, read_case, read_trajectory, sentence
-from chapsym.studies.judge.departure import angle
-from chapsym.studies.judge.trajectory import MORE, NEEDED
+from chapsym.studies.judge import (
+    MORE,
+    NEEDED,
+    Case,
+    Trajectory,
+    angle,
+    convergence,
+    departure,
+    read_case,
+    read_trajectory,
+    sentence,
+)  # fmt: skip
 
 DATA = make.DATA
 FILE = DATA / "random-3.json"

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from chapsym import files
-from chapsym.studies.judge import Case, read_case
-from chapsym.studies.judge.trajectory import MORE, NEEDED
+from chapsym.studies.judge import MORE, NEEDED, Case, read_case
 
 DATA = Path(__file__).parents[1] / "data"
 #: Time, centre, quaternion (scalar first), velocity and ω in space.

@@ -5,6 +5,8 @@ of the scene and the numbers of a unit, makes the plan of it again, and computes
 began keeps the marks.
 """
 
+import threading
+import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
@@ -17,7 +19,7 @@ import numpy as np
 import chapsym
 from chapsym import jobs
 from chapsym.accuracy import Accurate
-from chapsym.dynamics import BadInput
+from chapsym.dynamics import BadInput, Status
 from chapsym.dynamics.levels.frames import cores
 
 from ..plan.columns import asked_for
@@ -28,13 +30,14 @@ from ..read.task import Columns
 from ..result.arrays import Arrays
 from ..result.dataset import OUTCOME, arrays, layout, provenance, sizes, with_clock
 from .store import Store, check_same, difference, write_region
-from .tally import Report, Stopped, Tally, silent
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
 #: Chunks of balls that run side by side at most, one a core: while one is written, another is computed.
 ABREAST = 8
+#: Seconds between two reports.
+OFTEN = 0.1
 
 
 class NoAnswer(Exception):
@@ -56,6 +59,76 @@ class Outcome:
     def complete(self) -> bool:
         """Whether every unit was run."""
         return not self.lost
+
+
+@dataclass(frozen=True)
+class Progress:
+    """steps: of all balls together, taken so far of `of`.  balls: that are done.  failed: balls that stopped early."""
+
+    steps: int
+    of: int
+    balls: int
+    failed: int
+
+
+Report = Callable[[Progress], None]
+
+
+class Stopped(Exception):
+    """Raised inside a unit of work when the run is to stop."""
+
+
+def silent(progress: Progress) -> None:
+    """Reports nothing."""
+
+
+class Tally:
+    """Adds up the work of units that run side by side."""
+
+    def __init__(self, plan: Plan, report: Report = silent) -> None:
+        self.plan, self.report, self.stopped = plan, report, False
+        self._lock, self._told = threading.Lock(), 0.0
+        self._done: dict[int, int] = {}
+        self._failed: dict[int, int] = {}
+        self._finished = 0
+
+    def work(self, chunk: int, segments: int) -> int:
+        """Steps of the balls of a chunk in its first segments."""
+        balls, frames = self.plan.chunks[chunk], self.plan.segments[segments - 1].stop if segments else 0
+        return (balls.stop - balls.start) * frames * self.plan.task.every
+
+    def kept(self, chunk: int, segments: int, state: State) -> None:
+        """So many segments of a chunk are done."""
+        with self._lock:
+            self._done[chunk] = self.work(chunk, segments)
+            self._failed[chunk] = int(np.count_nonzero(state["status"] != Status.TAKEN))
+            balls = self.plan.chunks[chunk]
+            self._finished += (balls.stop - balls.start) * (segments == len(self.plan.segments))
+        self._tell(now=True)
+
+    def within(self, chunk: int, segment: int) -> Callable[[int], None]:
+        """The progress of a unit: a function of the steps that its balls have taken; it raises Stopped."""
+        before, after = self.work(chunk, segment), self.work(chunk, segment + 1)
+
+        def told(steps: int) -> None:
+            if self.stopped:
+                raise Stopped
+            self._done[chunk] = min(before + steps, after)
+            self._tell()
+
+        return told
+
+    @property
+    def progress(self) -> Progress:
+        """How far the run is."""
+        whole = len(self.plan.members) * self.plan.frames * self.plan.task.every
+        return Progress(sum(self._done.values()), whole, self._finished, sum(self._failed.values()))
+
+    def _tell(self, now: bool = False) -> None:
+        with self._lock:
+            if now or time.monotonic() - self._told >= OFTEN:
+                self._told = time.monotonic()
+                self.report(self.progress)
 
 
 class Memory:

@@ -12,10 +12,7 @@ from chapsym.dynamics.errors import BadInput
 from chapsym.show.drawing.style import WIDE, Picture, legend, new, styled
 from chapsym.studies.figures import save_figure
 
-from .case import Case
-from .departure import LIMITS, UNITS, Departure, limit_of
-from .order import Convergence, sentence
-from .trajectory import Trajectory
+from .judge import LIMITS, UNITS, Case, Convergence, Departure, Trajectory, limit_of, sentence
 
 FORMS = (".svg", ".png", ".pdf", ".html")
 
