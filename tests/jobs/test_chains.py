@@ -7,8 +7,7 @@ import pytest
 
 from chapsym import jobs
 from chapsym.dynamics import BadInput
-from chapsym.jobs import chains
-from chapsym.jobs.crews import Here, Pool
+from chapsym.jobs import Here, Pool
 
 
 class Gone(Exception):
@@ -61,8 +60,8 @@ AGAIN = ("a", 1, 1)
         (Paper(room=2), dict.fromkeys("abcde", 3), dict.fromkeys("abcde", 111), 2),
         (Paper(room=1), {"a": 0, "b": 0, "c": 3}, {"a": 0, "b": 0, "c": 111}, 1),
         (Paper(room=0), {"a": 3, "b": 3}, {"a": 111, "b": 111}, 1),
-        (Paper(lose=[AGAIN] * (chains.TRIES - 1)), {"a": 3, "b": 3}, {"a": 111, "b": 111}, 2),
-        (Paper(lose=[AGAIN] * chains.TRIES), {"a": 3, "b": 3}, {"a": "its worker was lost, 3 times", "b": 111}, 2),
+        (Paper(lose=[AGAIN] * (jobs.TRIES - 1)), {"a": 3, "b": 3}, {"a": 111, "b": 111}, 2),
+        (Paper(lose=[AGAIN] * jobs.TRIES), {"a": 3, "b": 3}, {"a": "its worker was lost, 3 times", "b": 111}, 2),
     ],
     ids=["abreast", "without calls", "without room", "lost and made again", "lost each time"],
 )
@@ -72,7 +71,7 @@ def test_each_call_gets_what_the_one_before_gave_and_so_many_are_abreast(crew, l
     jobs.run((chain(name, found, length) for name, length in lengths.items()), crew)
     assert found == kept
     assert crew.most == most
-    assert not lost or crew.submitted.count(AGAIN) == min(lost + 1, chains.TRIES)
+    assert not lost or crew.submitted.count(AGAIN) == min(lost + 1, jobs.TRIES)
 
 
 class Shared(Paper):

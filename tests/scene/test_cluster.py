@@ -20,8 +20,8 @@ from first import BALL
 from small_units import equal_to_the_bit
 from waiting import GUARD
 
+from chapsym import jobs
 from chapsym.dynamics import BadInput
-from chapsym.jobs import cluster
 from chapsym.scene import SceneError
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.models import Rolling
@@ -42,8 +42,8 @@ def small(patched):
     """Small units, here as in the workers; a scheduler or a worker may be slow to come."""
     patched.setattr(plans, "CHUNK", 4)
     patched.setattr(Rolling, "unit_steps", 400)
-    patched.setattr(cluster, "REACHED", GUARD)
-    patched.setattr(cluster, "ABANDONED", GUARD)
+    patched.setattr(jobs, "REACHED", GUARD)
+    patched.setattr(jobs, "ABANDONED", GUARD)
 
 
 @pytest.fixture(autouse=True)
@@ -137,13 +137,13 @@ def test_workers_with_another_chapsym_are_one_sentence(two, path, monkeypatch):
     ],
 )
 def test_a_scheduler_that_is_not_there_is_one_sentence(path, monkeypatch, address, told):
-    monkeypatch.setattr(cluster, "REACHED", 1.0)
+    monkeypatch.setattr(jobs, "REACHED", 1.0)
     with pytest.raises(BadInput, match=told):
         sweep.run_to_store(plan_from(SCENE), path, address)
 
 
 def test_a_scheduler_without_workers_is_one_sentence(path, monkeypatch):
-    monkeypatch.setattr(cluster, "ABANDONED", 1.0)
+    monkeypatch.setattr(jobs, "ABANDONED", 1.0)
     with workers(0) as running, pytest.raises(BadInput, match="has had no workers for"):
         sweep.run_to_store(plan_from(SCENE), path, running.scheduler_address)
 
@@ -157,7 +157,7 @@ class Stopped:
 
 
 def test_a_scheduler_that_answers_no_more_is_lost_and_is_not_asked_to_cancel():
-    crew = cluster.Workers(Stopped(), "tcp://nowhere")
+    crew = jobs.Workers(Stopped(), "tcp://nowhere")
     crew.flying.add("a call")
     with pytest.raises(BadInput, match="the Dask scheduler at tcp://nowhere is lost; the same command goes on"):
         crew.room()
