@@ -5,9 +5,8 @@ import xarray as xr
 
 import chapsym
 from chapsym.scene.members.members import Members, Parameter
-from chapsym.scene.plan.columns import asked_for
 from chapsym.scene.plan.models import FOLLOWED
-from chapsym.scene.plan.plan import planned
+from chapsym.scene.plan.plan import asked_for, planned
 from chapsym.scene.read.task import Task
 from chapsym.scene.result.dataset import build
 

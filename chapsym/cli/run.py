@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from chapsym.scene import Scene
     from chapsym.scene.plan.plan import Plan
-    from chapsym.scene.result.arrays import Arrays
+    from chapsym.scene.result.dataset import Arrays
 
 #: Seconds that a proof may take where the scene does not say.
 LIMIT = 600.0

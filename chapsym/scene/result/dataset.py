@@ -3,8 +3,8 @@
 import hashlib
 import json
 import re
-from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from dataclasses import asdict, dataclass, field
 from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import chapsym
-from chapsym.dynamics import Status
+from chapsym.accuracy.discretisation import discretisation
+from chapsym.dynamics import Ball, Status
 
 from ..plan.models import Moving
 from ..plan.plan import Plan
 from ..read.outputs import OUTPUTS, labels
-from .arrays import Arrays, Labelled
-from .far import attributes
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -29,6 +28,76 @@ OUTCOME = ("taken", "status", "error", "order", "substeps")
 NOT_RUN = -1
 #: The attributes of the times of frames.
 TIME = {"units": "s", "long_name": "time"}
+
+
+# Plain arrays, whose names are those of xarray.Dataset, so that a run, its summary and its files take either: loading
+# xarray takes longer than most runs.
+
+
+@dataclass(frozen=True)
+class Labelled:
+    """An array, the names of its dimensions, and its attributes."""
+
+    dims: tuple[str, ...]
+    values: np.ndarray
+    attrs: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """The type of its numbers, or object for texts."""
+        return self.values.dtype
+
+
+class Arrays:
+    """variables: by name, of which `coords` are those that label the others.  attrs: of the whole."""
+
+    def __init__(self, variables: Mapping[str, Labelled], coords: Iterable[str], attrs: Mapping[str, Any]) -> None:
+        self.variables, self.coords, self.attrs = dict(variables), tuple(coords), dict(attrs)
+        pairs = (zip(one.dims, one.values.shape, strict=True) for one in self.variables.values())
+        self.sizes = {dim: length for some in pairs for dim, length in some}
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """The names of all dimensions, in the order in which the variables have them."""
+        return tuple(self.sizes)
+
+    def __getitem__(self, name: str) -> Labelled:
+        return self.variables[name]
+
+    def __contains__(self, name: Hashable) -> bool:
+        return name in self.variables
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name in self.variables if name not in self.coords)
+
+    def isel(self, ball: int | slice) -> "Arrays":
+        """One ball, without the dimension of the balls, or some of them."""
+        kept = {name: _of(one, ball) for name, one in self.variables.items()}
+        return Arrays(kept, self.coords, self.attrs)
+
+    def assign_attrs(self, attrs: Mapping[str, Any]) -> "Arrays":
+        """The same with more attributes."""
+        return Arrays(self.variables, self.coords, self.attrs | dict(attrs))
+
+    def dataset(self) -> "Dataset":
+        """The same as an xarray.Dataset."""
+        import xarray
+
+        whole = {name: (one.dims, one.values, dict(one.attrs)) for name, one in self.variables.items()}
+        coords = {name: whole.pop(name) for name in list(whole) if name in self.coords}
+        return xarray.Dataset(whole, coords, self.attrs)
+
+
+def _of(one: Labelled, ball: int | slice) -> Labelled:
+    if "ball" not in one.dims:
+        return one
+    where = one.dims.index("ball")
+    values = one.values[(*[slice(None)] * where, ball)]
+    dims = one.dims if isinstance(ball, slice) else (*one.dims[:where], *one.dims[where + 1 :])
+    return Labelled(dims, np.asarray(values), one.attrs)
+
+
+# The result of a plan.
 
 
 @dataclass(frozen=True)
@@ -107,7 +176,7 @@ def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> 
     coords |= _moments(plan)
     for key, parameter in plan.members.parameters.items():
         coords[key] = Labelled(("ball",), np.asarray(parameter.values), _about(key, parameter.units))
-    return Arrays(variables | coords, coords, provenance(plan) | attributes(plan))
+    return Arrays(variables | coords, coords, provenance(plan) | _accuracy(plan))
 
 
 def _texts(names: Iterable[str], dim: str) -> Labelled:
@@ -180,3 +249,17 @@ def _code_hash(kernel: str) -> str:
     """The hash of a generated kernel without its docstrings: these hold the digests of certificates."""
     text = files("chapsym.generated").joinpath(f"{kernel}.py").read_text(encoding="utf-8")
     return hashlib.sha256(re.sub(r'"""[\s\S]*?"""', "", text).encode()).hexdigest()
+
+
+def _accuracy(plan: Plan) -> dict[str, Any]:
+    """What a result is told of it: the accuracy that was asked for, or the estimate of a pilot."""
+    members, task = plan.members, plan.task
+    if task.accuracy is not None:
+        return {"accuracy": task.accuracy, "accuracy_of": task.of}
+    if task.time_step is None or not isinstance(members.ball, Ball):
+        return {}
+    found = discretisation(
+        members.ball, members.momentum, members.gamma, task.time_step, task.steps, task.order, task.precision,
+        attitude=bool(plan.needed & {"attitude", "contact"}), contact="contact" in plan.needed,
+    )  # fmt: skip
+    return {} if found is None else {"discretisation": found.write()}

@@ -6,29 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from chapsym.accuracy.discretisation import Discretisation, discretisation, read
-from chapsym.dynamics import Ball
-
-from ..plan.plan import Plan
+from chapsym.accuracy.discretisation import Discretisation, read
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from .arrays import Arrays
-
-
-def attributes(plan: Plan) -> dict[str, Any]:
-    """What a result is told of it: the accuracy that was asked for, or the estimate of a pilot."""
-    members, task = plan.members, plan.task
-    if task.accuracy is not None:
-        return {"accuracy": task.accuracy, "accuracy_of": task.of}
-    if task.time_step is None or not isinstance(members.ball, Ball):
-        return {}
-    found = discretisation(
-        members.ball, members.momentum, members.gamma, task.time_step, task.steps, task.order, task.precision,
-        attitude=bool(plan.needed & {"attitude", "contact"}), contact="contact" in plan.needed,
-    )  # fmt: skip
-    return {} if found is None else {"discretisation": found.write()}
+    from .dataset import Arrays
 
 
 def far(data: "Dataset | Arrays") -> dict[str, Any]:

@@ -20,8 +20,7 @@ from chapsym import files
 from ..plan.plan import Plan
 from ..read.errors import SceneError
 from ..read.outputs import OUTPUTS, labels
-from .arrays import Arrays
-from .dataset import with_clock
+from .dataset import Arrays, with_clock
 
 if TYPE_CHECKING:
     from xarray import Dataset

@@ -14,7 +14,7 @@ from ..read.scene import Scene
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from .arrays import Arrays
+    from .dataset import Arrays
 
 #: Of more balls, this many are asked whether they can take the first step.
 TRIED = 20_000

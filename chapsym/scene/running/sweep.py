@@ -22,13 +22,11 @@ from chapsym.accuracy import Accurate
 from chapsym.dynamics import BadInput, Status
 from chapsym.dynamics.levels.frames import cores
 
-from ..plan.columns import asked_for
 from ..plan.models import Chosen, State
-from ..plan.plan import Plan, plan_from
+from ..plan.plan import Plan, asked_for, plan_from
 from ..read.errors import SceneError
 from ..read.task import Columns
-from ..result.arrays import Arrays
-from ..result.dataset import OUTCOME, arrays, layout, provenance, sizes, with_clock
+from ..result.dataset import OUTCOME, Arrays, arrays, layout, provenance, sizes, with_clock
 from .store import Store, check_same, difference, write_region
 
 if TYPE_CHECKING:
