@@ -17,7 +17,7 @@ import numpy as np
 import random_scenes
 
 import chapsym
-from chapsym.scene.members.expand import expand
+from chapsym.scene.members.members import expand
 from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.read.scene import checked
 from chapsym.scene.running.sweep import computed

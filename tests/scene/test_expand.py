@@ -9,7 +9,7 @@ from chapsym import Ball, axial, roll, skew, trajectory
 from chapsym.dynamics import kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.scene import SceneError, checked
-from chapsym.scene.members.expand import expand
+from chapsym.scene.members.members import expand
 
 EPS = np.finfo(np.float64).eps
 BALL = {"inertia": [0.006, 0.007, 0.009], "mass": 2.0, "radius": 0.1}

@@ -8,7 +8,7 @@ import pytest
 
 from chapsym import scene
 from chapsym.scene import SceneError
-from chapsym.scene.members.expand import expand
+from chapsym.scene.members.members import expand
 
 
 def checked(omega=(1, 2, 3), sweep=None, **ball):

@@ -15,7 +15,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from chapsym.scene import Scene, SceneError, checked, load
-from chapsym.scene.members.expand import expand
+from chapsym.scene.members.members import expand
 from chapsym.scene.read.example import example as scene_of
 from chapsym.scene.read.example import names
 from chapsym.scene.read.schema import schema

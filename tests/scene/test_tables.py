@@ -12,7 +12,7 @@ from first import BALL
 from chapsym import scene
 from chapsym.dynamics.certified import exactly
 from chapsym.scene import SceneError, checked
-from chapsym.scene.members.expand import expand
+from chapsym.scene.members.members import expand
 from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result import formats
 from chapsym.scene.running import sweep

@@ -29,7 +29,7 @@ from ..read.errors import SceneError
 from ..read.scene import Scene
 from ..read.tables import DIMENSIONS
 from ..read.units import MOMENT, RATE, Dimension, exact_number
-from .expand import expand
+from .members import expand
 
 
 def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:

@@ -1,13 +1,34 @@
-"""The balls of a scene with their starts, as arrays."""
+"""The balls of a scene with their starts, as arrays: every range spelled out, in principal axes, checked."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
+from operator import attrgetter
 from typing import Any, Self
 
 import numpy as np
 
-from chapsym.dynamics import Ball, BallN
-from chapsym.dynamics.ball import Floats
+from chapsym.dynamics import BadInput, Ball, BallN, kernels
+from chapsym.dynamics.attitudes import attitude_with
+from chapsym.dynamics.ball import SMALLEST, UNIT_TOLERANCE, Floats, contact_term, mass_tensor_of, numbers, unit_vertical
+from chapsym.dynamics.n import so_n
+from chapsym.dynamics.n.ball_n import skew_matrices
+from chapsym.dynamics.principal_axes import (
+    attitude_to_principal,
+    from_inertia_tensor,
+    inverse,
+    principal,
+    to_principal,
+)
+
+from ..read.bodies import PRESETS, check_inside
+from ..read.errors import SceneError, place
+from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
+from ..read.scene import Scene
+from ..read.tables import ATTITUDES, BallTable, StartTable, units_of
+
+#: What is this near to a unit vector was meant to be one, and is divided by its length.
+ROUNDED = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,3 +91,317 @@ def one_ball(members: Members, i: int) -> Ball:
 def _some(ball: Ball | BallN, chosen: int | slice | np.ndarray) -> Ball | BallN:
     """Some balls of a batch, or one."""
     return type(ball)(ball.mass_tensor[chosen], ball.D[chosen], None if ball.radius is None else ball.radius[chosen])
+
+
+# From a scene to its balls.
+
+
+def expand(scene: Scene) -> Members:
+    """The balls of a scene with their starts, the product of all ranges, checked.
+
+    A range of [start] goes for each ball that has no start of its own, and is drawn afresh for each.
+    Raises SceneError, which names the ball, for what no body can have and for starts that are none.
+    """
+    tables = bodies(scene)
+    total = sum(len(body) for body in tables)
+    if total > MOST_BALLS:
+        raise SceneError(f"the scene has {total} balls; a sweep has {MOST_BALLS} at most")
+    parts = [body.members() for body in tables]
+    if len({part.dimension for part in parts}) > 1:
+        raise SceneError("the balls of a scene roll in one space: all mass_tensors need as many numbers")
+    if len(parts) == 1:
+        return parts[0]
+    names = [name for part in parts for name in part.names]
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise SceneError(f"two balls have the name {twice!r}: balls of a sweep are numbered")
+    return _joined(parts)
+
+
+def bodies(scene: Scene) -> list["Body"]:
+    """The tables of a scene, in its order, each with its start and its ranges."""
+    return [Body(scene, i) for i in range(len(scene.ball))]
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """One [ball] of a scene, and its start."""
+
+    scene: Scene
+    index: int
+
+    @property
+    def ball(self) -> BallTable:
+        """Its table."""
+        return self.scene.ball[self.index]
+
+    @property
+    def start(self) -> StartTable:
+        """Its own start, or that of all."""
+        start = self.ball.start or self.scene.start
+        assert start is not None
+        return start
+
+    @property
+    def name(self) -> str:
+        """Its own name, or what it is called without."""
+        if self.ball.name is not None:
+            return self.ball.name
+        return "ball" if len(self.scene.ball) == 1 else f"ball {self.index + 1}"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What each of its balls is called: those of a sweep are numbered."""
+        sweep = self.sweep()
+        return tuple(f"{self.name} {i}" for i in range(1, len(sweep) + 1)) if sweep.ranges else (self.name,)
+
+    def sweep(self) -> Sweep:
+        """Its ranges, those of the ball first."""
+        found: dict[str, Range] = {}
+        for table, keys in (("ball", self.ball), ("start", self.start)):
+            for key in type(keys).model_fields:
+                found |= ranges_in(getattr(keys, key), f"{table}.{key}")
+        sweep = self.scene.sweep
+        try:
+            return Sweep(found, sweep.samples or 1, sweep.seed, str(self.index))
+        except ValueError as error:
+            raise SceneError(f"{self._place()}{error}") from None
+
+    def __len__(self) -> int:
+        return len(self.sweep())
+
+    def members(self) -> Members:
+        """Its members; raises SceneError with the name of the first that cannot be."""
+        if self.ball.rotor is not None:
+            told = "ball.rotor goes with chapsym certify motion alone: no run, map or reduction has a rotor inside"
+            raise SceneError(f"{self._place()}{told}")
+        sweep = self.sweep()
+        values, count, names = sweep.values(), len(sweep), self.names
+        parameters = {key: Parameter(array, units_of(key)) for key, array in values.items()}
+
+        def made(chosen: slice) -> Members:
+            given = Given({key: array[chosen] for key, array in values.items()}, len(range(count)[chosen]))
+            return members_of(self.ball, self.start, given, self.scene.scale, names[chosen])
+
+        try:
+            return replace(made(slice(0, count)), parameters=parameters)
+        except BadInput as error:
+            first, why = _first_refused(made, 0, count) or (0, error)
+            told = ", ".join(f"{key} = {array[first]:.6g}" for key, array in list(values.items())[:4])
+            raise SceneError(f"{self._place()}{names[first]}{f' ({told})' if told else ''}: {why}") from None
+
+    def _place(self) -> str:
+        where = place(self.scene.name, self.scene.toml, ("ball", self.index))
+        return f"{where}: " if where else ""
+
+
+def _first_refused(made: Callable[[slice], Any], low: int, high: int) -> tuple[int, BadInput] | None:
+    """The first ball of a batch that is refused, and why, if one is: a batch that is refused is halved."""
+    try:
+        made(slice(low, high))
+        return None
+    except BadInput as error:
+        if high - low == 1:
+            return low, error
+    middle = (low + high) // 2
+    return _first_refused(made, low, middle) or _first_refused(made, middle, high)
+
+
+def _joined(parts: list[Members]) -> Members:
+    """The balls of several tables one after the other; what one of them does not have is as if it were not given."""
+    if len({part.ball.radius is None for part in parts}) > 1:
+        raise SceneError("some balls have a radius and others have none: give it to all")
+    ball, whole = type(parts[0].ball), partial(_whole, parts)
+    sizes = whole("ball.mass_tensor"), whole("ball.D"), whole("ball.radius")
+    keys = dict.fromkeys(key for part in parts for key in part.parameters)
+    return Members(
+        tuple(name for part in parts for name in part.names), ball(*sizes), whole("momentum"), whole("gamma"),
+        whole("axes", lambda part: np.tile([1.0, 0.0, 0.0, 0.0], (len(part), 1))),
+        whole("attitude", lambda part: attitude_with(part.gamma)),
+        whole("place", lambda part: np.zeros((len(part), part.dimension - 1))),
+        {key: Parameter(np.concatenate([_values(part, key) for part in parts]), units_of(key)) for key in keys},
+    )  # fmt: skip
+
+
+def _values(part: Members, key: str) -> Floats:
+    """The values of a parameter; NaN for balls of which it is not varied."""
+    return part.parameters[key].values if key in part.parameters else np.full(len(part), np.nan)
+
+
+def _whole(parts: list[Members], name: str, default: Callable[[Members], Any] = lambda part: None) -> Any:
+    """The arrays of that name one after the other, where any is given; else None."""
+    arrays = [attrgetter(name)(part) for part in parts]
+    if all(array is None for array in arrays):
+        return None
+    return np.concatenate([default(part) if a is None else a for part, a in zip(parts, arrays, strict=True)])
+
+
+# The balls of one table, for given values of its ranges.
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """The values of the ranges for `count` balls, and all keys as arrays of that many."""
+
+    values: Mapping[str, Floats]
+    count: int
+
+    def array(self, value: Any, key: str) -> Floats:
+        """A number, (count,), a vector (count, n), or a matrix (count, n, m)."""
+        if isinstance(value, Range):
+            return self.values[key]
+        if isinstance(value, tuple):
+            parts = [self.array(part, f"{key}.{i}") for i, part in enumerate(value, start=1)]
+            if len({part.shape for part in parts}) > 1:
+                raise BadInput(f"the rows of {key} must have as many numbers each")
+            return np.stack(parts, axis=1)
+        return np.full(self.count, value)
+
+    def unit(self, value: Any, key: str) -> Floats:
+        """Unit vectors: one that varies, or that is typed with few digits, is divided by its length."""
+        array = self.array(value, key)
+        length = np.sqrt((array * array).sum(axis=-1, keepdims=True))
+        varies = bool(ranges_in(value, key))
+        if varies and not (length > 0).all():
+            raise BadInput(f"{key} must not be 0: it has a direction")
+        near = np.abs(length - 1)
+        return np.where((near > UNIT_TOLERANCE / 2) & (varies | (near < ROUNDED)), array / length, array)
+
+
+def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, names: tuple[str, ...]) -> Members:
+    """The members of one table; raises BadInput for what cannot be."""
+    with np.errstate(over="ignore", invalid="ignore", under="ignore"):
+        if ball.mass_tensor is not None and len(ball.mass_tensor) > 3:
+            return _members_n(ball, start, given, scale, names)
+        body, axes = _ball(ball, given)
+        gamma, attitude, motion, of_momentum = _start(start, given, body)
+        if axes is not None:
+            attitude = attitude_to_principal(axes, attitude_with(gamma) if attitude is None else attitude)
+            gamma, motion = (to_principal(axes, vector) for vector in (gamma, motion))
+        gamma = unit_vertical(gamma)
+        momentum = motion if of_momentum else _momentum_of(motion, gamma, body, scale)
+        if start.vertical_momentum is not None:
+            momentum = given.array(start.vertical_momentum, "start.vertical_momentum")[:, np.newaxis] * gamma
+        if not np.isfinite(momentum).all():
+            raise BadInput("K = Λω - D⟨ω,γ⟩γ is beyond the range of float64, about 1.8e308; take other units")
+        return Members(
+            names, body, momentum, gamma, axes, attitude, _position(start, given, 2)
+        )  # fmt: skip
+
+
+def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
+    """The balls, and what turns their principal axes to those of the table, if these are others."""
+    told, contact = _sizes(table, given)
+    axes = None
+    if table.mass_tensor is not None:
+        tensor = given.array(table.mass_tensor, "ball.mass_tensor")
+    elif table.preset is not None:
+        tensor = PRESETS[table.preset].tensor(told)
+    else:
+        inertia = given.array(table.inertia, "ball.inertia")
+        tensor = mass_tensor_of(inertia) if inertia.ndim == 2 else from_inertia_tensor(inertia)
+    if tensor.ndim == 3:
+        tensor, axes = principal(numbers(tensor, "inertia"))
+    if "mass" in told:
+        check_inside(tensor, told["mass"], told["radius"])
+    return Ball(tensor, contact, told.get("radius")), axes
+
+
+def _sizes(table: BallTable, given: Given) -> tuple[dict[str, Floats], Floats]:
+    """The masses and lengths of a table that are given, as arrays, and D."""
+    keys = ("mass", "radius", "D", *(key for preset in PRESETS.values() for key in preset.keys))
+    told = {key: given.array(value, f"ball.{key}") for key in keys if (value := getattr(table, key)) is not None}
+    return told, np.asarray(contact_term(told.get("mass"), told.get("radius"), told.get("D")))
+
+
+def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats | None, Floats, bool]:
+    """γ, the attitude if it is given, 𝒦 (or its direction) or ω, in the axes of the table, and whether it is 𝒦."""
+    attitude = _attitude(start, given)
+    if attitude is not None:
+        gamma = kernels.rotate(inverse(attitude), np.array([0.0, 0.0, 1.0]))
+    else:
+        gamma = given.unit(start.gamma or (0.0, 0.0, 1.0), "start.gamma")
+    body_to_space = attitude if attitude is not None else attitude_with(unit_vertical(gamma))
+    if start.vertical_momentum is not None:
+        return gamma, attitude, gamma, True
+    if start.velocity is not None:
+        motion = kernels.rotate(inverse(body_to_space), _rolling(start, given, ball))
+        return gamma, attitude, motion, False
+    key = "omega" if start.momentum is None else "momentum"
+    motion = given.array(getattr(start, key), f"start.{key}")
+    if motion.shape[-1] != 3 or motion.ndim != 2:
+        raise BadInput(f"start.{key} must be three numbers for a ball in three dimensions")
+    if start.axes == "space":
+        motion = kernels.rotate(inverse(body_to_space), motion)
+    return gamma, attitude, motion, key == "momentum"
+
+
+def _attitude(start: StartTable, given: Given) -> Floats | None:
+    """The unit quaternions from the body to space, (count, 4), scalar first; None where the start does not say them."""
+    if start.rpy is not None:
+        roll, pitch, yaw = given.array(start.rpy, "start.rpy").T
+        return kernels.compose(_turn(yaw, 2), kernels.compose(_turn(pitch, 1), _turn(roll, 0)))
+    key, scalar = ("attitude", "first") if start.quaternion_xyzw is None else ("quaternion_xyzw", "last")
+    if getattr(start, key) is None:
+        return None
+    attitude = given.unit(getattr(start, key), f"start.{key}")
+    length = np.sqrt((attitude * attitude).sum(axis=-1, keepdims=True))
+    if (np.abs(length - 1) > UNIT_TOLERANCE).any():
+        raise BadInput(f"{key} must be a unit quaternion (scalar {scalar}), but its length is {length.max():.9g}")
+    return (attitude if scalar == "first" else np.roll(attitude, 1, axis=-1)) / length
+
+
+def _turn(angle: Floats, axis: int) -> Floats:
+    """The unit quaternions (count, 4) of rotations by angles (count,) in radians about one axis."""
+    found = np.zeros((len(angle), 4))
+    found[:, 0], found[:, 1 + axis] = np.cos(angle / 2), np.sin(angle / 2)
+    return found
+
+
+def _rolling(start: StartTable, given: Given, ball: Ball) -> Floats:
+    """ω in space axes of a ball that rolls with a velocity (v₁, v₂) of its centre, and a spin.
+
+    The point of contact, at -ρe₃ from the centre, is at rest: v = ρ ω × e₃ = ρ(ω₂, -ω₁, 0).
+    """
+    if ball.radius is None:
+        raise BadInput("start.velocity needs ball.radius")
+    velocity = given.array(start.velocity, "start.velocity")
+    spin = given.array(0.0 if start.spin is None else start.spin, "start.spin")
+    return np.stack([-velocity[..., 1] / ball.radius, velocity[..., 0] / ball.radius, spin], axis=-1)
+
+
+def _momentum_of(omega: Floats, gamma: Floats, ball: Ball, scale: float) -> Floats:
+    """𝒦 = εK with K = Λω - D⟨ω,γ⟩γ; raises BadInput where float64 loses its digits."""
+    momentum = scale * kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
+    lost = (np.abs(momentum).max(axis=-1) < SMALLEST) & omega.any(axis=-1) & (ball.inertia > 0).all(axis=-1)
+    if lost.any():
+        raise BadInput("𝒦 = εK is below the range of float64, about 2.2e-308; take a longer time step or other units")
+    return momentum
+
+
+def _members_n(ball: BallTable, start: StartTable, given: Given, scale: float, names: tuple[str, ...]) -> Members:
+    """The members of a ball in more than three dimensions; 𝒦 of ω is that of E = εω in (4.13), as it is linear."""
+    n = len(ball.mass_tensor or ())
+    for key in ("velocity", "vertical_momentum", *ATTITUDES):
+        if getattr(start, key) is not None:
+            raise BadInput(f"start.{key} is for three dimensions; give omega or momentum, a skew matrix, and gamma")
+    if start.axes == "space":
+        raise BadInput('axes = "space" is for three dimensions')
+    tensor, (told, contact) = given.array(ball.mass_tensor, "ball.mass_tensor"), _sizes(ball, given)
+    if "mass" in told:
+        check_inside(tensor, told["mass"], told["radius"])
+    body = BallN(tensor, contact, told.get("radius"))
+    gamma = unit_vertical(given.unit(start.gamma or (*[0.0] * (n - 1), 1.0), "start.gamma"), n)
+    key = "omega" if start.momentum is None else "momentum"
+    motion = skew_matrices(given.array(getattr(start, key), f"start.{key}"), n, f"start.{key}")
+    if key == "omega":
+        motion = so_n.momentum(scale * motion, gamma, body.mass_tensor, body.D)
+    return Members(names, body, numbers(motion, "momentum"), gamma, place=_position(start, given, n - 1))
+
+
+def _position(start: StartTable, given: Given, count: int) -> Floats | None:
+    if start.position is None:
+        return None
+    if len(start.position) != count:
+        raise BadInput(f"start.position must have {count} numbers")
+    return given.array(start.position, "start.position")

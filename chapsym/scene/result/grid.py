@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..members.expand import Body, bodies
+from ..members.members import Body, bodies
 from ..read.errors import SceneError
 from ..read.ranges import Range
 from ..read.scene import from_source

@@ -6,8 +6,7 @@ import numpy as np
 
 from chapsym.dynamics import Ball, Status, kernels, step, step_n
 
-from ..members.expand import bodies
-from ..members.members import Members
+from ..members.members import Members, bodies
 from ..read.ranges import Range
 from ..read.scene import Scene
 
