@@ -6,7 +6,7 @@ or the command line is wrong; 130 interrupted; 141 nobody reads the output.
 
 # The order of the imports is that of the subcommands in --help.
 from . import (  # noqa: F401, I001
-    prove, report, codegen, step, branches, scene, run, show, check, certify, motion, judge, trade, extremes, study,
+    prove, report, codegen, step, branches, scene, run, show, check, certify, judge, trade, extremes, study,
     bench, lab,
 )  # fmt: skip
 from .app import main

@@ -116,7 +116,7 @@ def following(as_json: bool) -> Iterator[Callable[[Any], None]]:
         with progress_bar("rolling", 0) as shown:
             yield lambda at: shown(at.steps, at.of, _balls(at))
         return
-    from chapsym.scene.plan.explain import duration
+    from chapsym.scene.plan.plan import duration
 
     tell, first = now_and_then(), None
 

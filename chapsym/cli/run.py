@@ -115,7 +115,7 @@ def _tell(
     from chapsym.scene.result.proved import PROVED, UNITS
     from chapsym.scene.result.summary import last_state, stopped
 
-    from .motion import within
+    from .certify import within
     from .trade import described, print_answer
 
     balls, failed = len(plan.members), outcome.failed

@@ -79,8 +79,7 @@ def check(
     from chapsym.dynamics import BadInput
     from chapsym.scene import load
     from chapsym.scene.members.members import expand
-    from chapsym.scene.plan.explain import explained
-    from chapsym.scene.plan.plan import planned
+    from chapsym.scene.plan.plan import explained, planned
     from chapsym.scene.result.summary import refusals, summary
 
     try:

@@ -6,8 +6,8 @@ from chapsym import extras
 
 extras.need("report")
 
-from . import errata, errata_json, page  # noqa: E402
-from .errata_json import NotErrata, entries  # noqa: E402
+from . import errata, page  # noqa: E402
+from .errata import NotErrata, entries  # noqa: E402
 from .records import counts, unproved  # noqa: E402
 from .source import FEDOROV, Source, own  # noqa: E402
 
@@ -18,7 +18,7 @@ WRITERS: dict[str, Callable[..., str]] = {
     ".html": lambda records, versions, _, source=FEDOROV: page.html(records, versions, source=source),
     ".md": lambda records, versions, _, source=FEDOROV: errata.markdown(records, versions["chapsym"], source),
     ".tex": lambda records, versions, _, source=FEDOROV: errata.latex(records, versions["chapsym"], source),
-    ".json": lambda records, versions, earlier, source=FEDOROV: errata_json.text(
+    ".json": lambda records, versions, earlier, source=FEDOROV: errata.data(
         records, versions["chapsym"], earlier, source
     ),
 }

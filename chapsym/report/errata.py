@@ -1,11 +1,19 @@
-"""The list of errata, short enough to cite: Markdown, and LaTeX that compiles by itself."""
+"""The list of errata, short enough to cite: Markdown, LaTeX that compiles by itself, and JSON."""
 
-from collections.abc import Callable, Iterator, Sequence
+import hashlib
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from . import notation
-from .records import Record, errors, kinds, label, slip_of, truth
+from .records import Record, errors, kinds, label, section, slip_of, slips, truth
 from .source import FEDOROV, Source
+
+FORMAT = "chapsym errata 1"
+WITHDRAWN = "withdrawn"
+
+Entry = dict[str, Any]
+State = dict[str, Any]
 
 
 def markdown(records: Sequence[Record], version: str, source: Source = FEDOROV) -> str:
@@ -86,3 +94,106 @@ def latex(records: Sequence[Record], version: str, source: Source = FEDOROV) -> 
             lines += [rf"\textit{{At}} {point}: {notation.latex(statement)}; but ${both}$", ""]
         lines += [rf"\textit{{Proof:}} \texttt{{{notation.typed_latex(source.reproduce(record['id']))}}}", ""]
     return _PREAMBLE + "\n".join([*lines, r"\end{document}", ""])
+
+
+# As data: each entry with its counterexamples, what uses it, and the states that releases gave it, as in
+# `docs/errata.schema.json`.  An entry keeps its earlier states where the same file is written again.
+
+
+class NotErrata(ValueError):
+    """A text is not a list of errata as `data` writes it."""
+
+
+def data(records: Sequence[Record], version: str, earlier: Mapping[str, Entry], source: Source = FEDOROV) -> str:
+    """The errata as JSON; `earlier` are the entries of the file that this one replaces, see `entries`."""
+    current = [_with_states(_entry(record, source), record["verdict"], earlier, version) for record in errors(records)]
+    document = {
+        "format": FORMAT,
+        "paper": source.paper,
+        "note": source.note,
+        "cite": source.cite(version),
+        "chapsym": version,
+        "claims": len(records),
+        "kinds": {
+            kind: {"entries": number, "independent": independent}
+            for kind, (number, independent) in slips(records).items()
+        },
+        "errata": current,
+        "withdrawn": _withdrawn(earlier, {entry["id"] for entry in current}, version),
+    }
+    return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
+
+
+def entries(written: str) -> dict[str, Entry]:
+    """The entries of a list that `data` wrote, withdrawn ones too, by id; raises NotErrata if it is none."""
+    try:
+        document = json.loads(written)
+        if document["format"] != FORMAT:
+            raise NotErrata(f"its format is {document['format']!r}, not {FORMAT!r}")
+        found = {entry["id"]: entry for entry in [*document["errata"], *document["withdrawn"]]}
+        for entry in found.values():
+            _ = entry["states"][-1], [(state["since"], state["verdict"], state["digest"]) for state in entry["states"]]
+    except NotErrata:
+        raise
+    except (ValueError, LookupError, TypeError, RecursionError) as error:
+        raise NotErrata("it is no list of errata") from error
+    return found
+
+
+def _entry(record: Record, source: Source) -> Entry:
+    """What an entry says, without its states."""
+    formula, prose = truth(record)
+    number, title = section(record) or (None, None)
+    conditional = record["verdict"] == "conditional"
+    kind, follows = slip_of(record)
+    return {
+        "id": record["id"],
+        "label": label(record["id"]),
+        "section": number,
+        "section_title": title,
+        "title": record["evidence"]["title"],
+        "kind": kind or None,
+        "follows": follows,
+        "printed": record["printed"],
+        "true": formula or None,
+        "condition": prose or None if conditional else None,
+        "true_in_words": None if conditional else prose or None,
+        "hypotheses": record["evidence"].get("hypotheses", []),
+        "counterexamples": [_example(example, source) for example in record["evidence"].get("counterexamples", [])],
+        "downstream": record["evidence"].get("downstream", []),
+        "proof": source.reproduce(record["id"]),
+    }
+
+
+def _example(example: Mapping[str, Any], source: Source) -> dict[str, Any]:
+    """An exact point, and the two sides of what is printed there."""
+    named = notation.point(example["point"], not source.register)
+    printed = []
+    for one in example["printed"]:
+        left, right = ([notation.in_line(value) for value in side] for side in notation.sides(one))
+        printed.append({"statement": one["statement"], "left": left, "right": right})
+    return {"point": {symbol: notation.plain(value) for symbol, value in named}, "printed": printed}
+
+
+def _with_states(entry: Entry, verdict: str, earlier: Mapping[str, Entry], version: str) -> Entry:
+    digest = hashlib.sha256(json.dumps(entry, ensure_ascii=False, sort_keys=True).encode()).hexdigest()[:16]
+    before = earlier.get(entry["id"], {}).get("states", [])
+    return entry | {"states": _states(before, verdict, digest, version)}
+
+
+def _withdrawn(earlier: Mapping[str, Entry], current: set[str], version: str) -> list[Entry]:
+    """The entries that a release had and that are errors no more."""
+    return [
+        entry | {"states": _states(entry["states"], WITHDRAWN, entry["states"][-1]["digest"], version)}
+        for id, entry in earlier.items()
+        if id not in current and any(state["since"] != version for state in entry["states"])
+    ]
+
+
+def _states(earlier: list[State], verdict: str, digest: str, version: str) -> list[State]:
+    """The states with the newest last: one more if this one is new, in the place of another of the same release."""
+    released = [state for state in earlier if state["since"] != version]
+    for known in (earlier, released):
+        if known and (known[-1]["verdict"], known[-1]["digest"]) == (verdict, digest):
+            return known
+    return [*released, {"version": len(released) + 1, "since": version, "verdict": verdict, "digest": digest}]

@@ -9,7 +9,7 @@ import jsonschema
 import pytest
 
 import chapsym
-from chapsym.report import NotErrata, entries, errata, errata_json, records
+from chapsym.report import NotErrata, entries, errata, records
 
 DOCS = Path(__file__).parents[2] / "docs"
 SCHEMA = json.loads((DOCS / "errata.schema.json").read_text(encoding="utf-8"))
@@ -17,7 +17,7 @@ SCHEMA = json.loads((DOCS / "errata.schema.json").read_text(encoding="utf-8"))
 
 def written(found, version="1", before=None):
     """The document, valid by the schema."""
-    text = errata_json.text(found, version, entries(before) if before else {})
+    text = errata.data(found, version, entries(before) if before else {})
     document = json.loads(text)
     jsonschema.validate(document, SCHEMA, jsonschema.Draft202012Validator)
     return document, text

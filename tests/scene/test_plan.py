@@ -10,10 +10,9 @@ import chapsym
 from chapsym.dynamics import Status, kernels
 from chapsym.generated import TABLE
 from chapsym.scene.members.members import Members
-from chapsym.scene.plan import explain
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.models import MODELS, Chosen, Rolling
-from chapsym.scene.plan.plan import planned
+from chapsym.scene.plan.plan import full, planned, predicted
 from chapsym.scene.read.outputs import OUTPUTS, K, Output, columns_for, timed
 from chapsym.scene.read.task import Task
 from chapsym.scene.running import sweep
@@ -155,7 +154,7 @@ def test_an_output_is_added_by_one_record(members, monkeypatch):
     assert data.spin.dims == ("ball", "frame")
     assert data.spin.attrs == {"units": "rad s-1", "long_name": "spin ⟨ω,γ⟩"}
     assert (data.spin.values == (data.omega.values * data.gamma.values).sum(axis=-1)).all()
-    assert "spin" in explain.full(plan).task.outputs
+    assert "spin" in full(plan).task.outputs
     turned = members(axes=TURN)
     also = sweep.run_in_memory(planned(turned, Task(("spin",), 20, 1, 0.01)))
     assert (also.spin.values == data.spin.values).all()
@@ -212,7 +211,7 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
 
 def test_a_cost_is_nominal_and_grows_with_steps_digits_and_dimensions(members):
     def seconds(some, *task, **also):
-        return explain.predicted(planned(some, Task(("momentum",), *task, **also)))
+        return predicted(planned(some, Task(("momentum",), *task, **also)))
 
     few, many = (seconds(members(1), steps) for steps in (10**5, 10**7))
     assert 0.1 < many < 1.0

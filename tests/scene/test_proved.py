@@ -7,7 +7,7 @@ import pytest
 from commands import answer, chapsym, refused
 from first import BALL
 
-from chapsym.cli.motion import within
+from chapsym.cli.certify import within
 from chapsym.dynamics.enclosed_motion import follow
 from chapsym.scene import SceneError, load
 from chapsym.scene.members.exactly import exact_motion
