@@ -111,9 +111,8 @@ def _tell(
     plan: "Plan", destination: Path, outcome: Any, data: "Dataset | Arrays", answers: list[Any], as_json: bool
 ) -> None:
     """What was run and where it is; units that were not run are an error, balls that stopped early are none."""
-    from chapsym.scene.result.far import far, sentence
     from chapsym.scene.result.proved import PROVED, UNITS
-    from chapsym.scene.result.summary import last_state, stopped
+    from chapsym.scene.result.summary import far, last_state, sentence, stopped
 
     from .certify import within
     from .trade import described, print_answer

@@ -36,7 +36,7 @@ def new(
 
     Example: chapsym scene new my-ball.toml --example robot
     """
-    from chapsym.scene.read import example as examples
+    from chapsym.scene.read import schema as examples
 
     text = examples.example(example)
     if file.suffix != ".toml":

@@ -8,8 +8,7 @@ extras.need("report")
 
 from . import errata, page  # noqa: E402
 from .errata import NotErrata, entries  # noqa: E402
-from .records import counts, unproved  # noqa: E402
-from .source import FEDOROV, Source, own  # noqa: E402
+from .records import FEDOROV, Source, counts, own, unproved  # noqa: E402
 
 __all__ = ["FEDOROV", "WRITERS", "NotErrata", "Source", "counts", "entries", "own", "unproved"]
 

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from . import notation
-from .records import Record, errors, kinds, label, section, slip_of, slips, truth
-from .source import FEDOROV, Source
+from .records import FEDOROV, Record, Source, errors, kinds, label, section, slip_of, slips, truth
 
 FORMAT = "chapsym errata 1"
 WITHDRAWN = "withdrawn"

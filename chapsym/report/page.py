@@ -15,8 +15,7 @@ from markupsafe import Markup, escape
 
 from . import errata, formulas, graph, notation, symbols
 from . import records as reading
-from .records import Record
-from .source import FEDOROV, Source
+from .records import FEDOROV, Record, Source
 
 FOLDER = Path(__file__).parent / "templates"
 

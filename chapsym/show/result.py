@@ -15,9 +15,9 @@ from chapsym.dynamics import BadInput, kernels
 from chapsym.scene import Scene, SceneError, checked, load
 from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result import formats
-from chapsym.scene.result.far import sentence
-from chapsym.scene.result.grid import grid
+from chapsym.scene.result.dataset import grid
 from chapsym.scene.result.interpolation import interpolated
+from chapsym.scene.result.summary import sentence
 from chapsym.scene.running import store
 from chapsym.scene.running.sweep import run_in_memory
 

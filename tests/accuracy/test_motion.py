@@ -17,7 +17,7 @@ from chapsym.dynamics.attitudes import attitude_with
 from chapsym.scene import checked
 from chapsym.scene.plan.models import accurate_parts
 from chapsym.scene.plan.plan import plan_of
-from chapsym.scene.result.far import far, sentence
+from chapsym.scene.result.summary import far, sentence
 from chapsym.scene.running.sweep import run_in_memory
 
 INERTIA = np.array([0.006, 0.0071, 0.0089])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from commands import answer, chapsym, refused
 
-from chapsym.scene.read.example import names
+from chapsym.scene.read.schema import names
 
 
 def done(*arguments):

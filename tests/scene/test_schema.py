@@ -16,9 +16,8 @@ from hypothesis import strategies as st
 
 from chapsym.scene import Scene, SceneError, checked, load
 from chapsym.scene.members.members import expand
-from chapsym.scene.read.example import example as scene_of
-from chapsym.scene.read.example import names
-from chapsym.scene.read.schema import schema
+from chapsym.scene.read.schema import example as scene_of
+from chapsym.scene.read.schema import names, schema
 from chapsym.scene.read.tables import KEYS
 
 WHOLE = """title = "all keys"

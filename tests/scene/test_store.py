@@ -24,8 +24,8 @@ from chapsym.scene import SceneError
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.plan import plan_from
 from chapsym.scene.result import dataset
-from chapsym.scene.result.far import far
 from chapsym.scene.result.formats import check_ours
+from chapsym.scene.result.summary import far
 from chapsym.scene.running import store as stores
 from chapsym.scene.running import sweep
 from chapsym.scene.running.store import Store, write_region

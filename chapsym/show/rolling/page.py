@@ -17,7 +17,7 @@ from xarray import Dataset
 
 from chapsym import files
 from chapsym.dynamics import BadInput
-from chapsym.scene.result.far import sentence
+from chapsym.scene.result.summary import sentence
 
 from ..drawing import reading
 from .motion import Motion, Rolling, motion
