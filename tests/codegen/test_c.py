@@ -233,7 +233,8 @@ def pairs(a: float, b: float, c: float):
     n = (root - p[0]).normalised()
     x = n if c > 0.0 else p[2].normalised()
     one = dotted((x, y), (1, u))
-    return x.high, x.low, p[1].high, p[2].low, p[3].high, p[3].low, p[4].low, p[5].high, k.high, m.high, m.low, one.low, u.high
+    found = p[1].high, p[2].low, p[3].high, p[3].low, p[4].low, p[5].high
+    return *found, x.high, x.low, k.high, m.high, m.low, one.low, u.high
 """
 ONLY_DOUBLE = ("pairs",)
 
