@@ -3589,7 +3589,7 @@ INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
             condition) * unit.p[i];
         AT2(found, 4, i) = R(1.1102230246251565e-16) * ((R(1.0) + turned) * (R(2.0) * root + R(1.0)) + R(8.0) *
             condition) * unit.p[i];
-        allowed = end > R(0.0) ? R(1.0) * accuracy / unit.p[i] / R(600.0) / end : R(1.0);
+        allowed = end > R(0.0) ? R(0.5) * accuracy / unit.p[i] / R(600.0) / end : R(1.0);
         part = rate > R(0.0) ? R(sqrt(R(sqrt(R(sqrt(R(sqrt(min_r(allowed / (R(3e-09) * rate), R(1.0)))))))))) :
             R(1.0);
         part = R(1.7) * part * R(sqrt(part)); AT2(found, 5, i) = rate * end > part ? min_r(part / rate, end) : end;
@@ -3745,5 +3745,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "6f00753fd97a66ac45e563c23b57c775d63f367d77c34283ddef67b0f8bf5a1f";
+const char loops_text[] = "ef85a3a17a883a2543915f7162ac2c11a045197cbc4b7a338216d149858c565f";
 #endif

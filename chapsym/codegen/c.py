@@ -28,8 +28,9 @@ OPERATORS: dict[type, tuple[str, int]] = {
 TERNARY, OR, AND, LESS, BITS, UNARY, ATOM = 1, 2, 3, 6, 8, 11, 12
 #: The kinds of numbers, narrow ones first, and w for the elements of an array of integers of 32 bits.
 SCALARS = {"b": "int", "i": "int64_t", "r": "real", "d": "double", "w": "int32_t"}
-#: Those of double-double: the sum and the product of two floats, of a pair and a float, and of two pairs.
+#: The kinds of double-double.
 LOOSE_SCALARS = {"1": "int64_t", "e": "real", "p": "t_r2", "q": "t_r2"}
+#: What adds, subtracts and multiplies two floats, a pair and a float, and two pairs.
 FORMS: dict[type, tuple[str, str, str]] = {
     ast.Add: ("two_sum", "loose_add_float", "loose_add"),
     ast.Sub: ("two_sum", "loose_add_float", "loose_subtract"),
@@ -95,9 +96,9 @@ def is_loose(kind: Any) -> bool:
     return any(map(is_loose, kind)) if isinstance(kind, tuple) else isinstance(kind, str) and kind in LOOSE_SCALARS
 
 
-def widened(kind: tuple[str, ...]) -> tuple[str, ...]:
+def widened(kind: tuple[Any, ...]) -> tuple[Any, ...]:
     """What a function of float64 returns, as float32 sees it."""
-    return tuple("d" if x == "r" else x for x in kind)
+    return tuple(widened(x) if isinstance(x, tuple) else "d" if x == "r" else x for x in kind)
 
 
 @dataclass(frozen=True)
@@ -160,8 +161,8 @@ class Printer:
 
     def __init__(self, printers: "Printers", function: Function) -> None:
         self.printers, self.function, self.module = printers, function, function.module
-        #: The tuples that its text names, and the names of those of which an element is asked for by a variable.
-        self.tuples = set[tuple[Any, ...]]()
+        #: The tuples and the records that its text names, and names of tuples of which a variable asks for an element.
+        self.tuples = set[Any]()
         self.listed = {
             n.value.id
             for n in ast.walk(function.node)
@@ -234,8 +235,10 @@ class Printer:
                 return self.within.get(name) or Text("1" if kind == "1" else name, kind)
             case ast.Attribute(value=value, attr="high" | "low" as half):
                 of = self.expression(value)
-                if of.kind == "e":
+                if of.kind == "e" and half == "high":
                     return Text(of.text, "r", of.level)
+                if of.kind not in ("p", "q"):
+                    raise TypeError(f"{ast.unparse(value)} is no pair")
                 return Text(f"{self.named(of).text}.{'a0' if half == 'high' else 'a1'}", "r")
             case ast.Attribute(value=ast.Name(id=name), attr=attribute) if name in self.own:
                 record = self.named(self.expression(node.value))
@@ -251,10 +254,11 @@ class Printer:
                 if of.kind in ("p", "q"):
                     return self.halves(of, "-{}")
                 sign = "!" if isinstance(op, ast.Not) else "-"
+                of = Text(of.text, "i") if of.kind == "1" else of
                 text = of.at(ATOM if of.text[0] == "-" else UNARY)  # -- is another operator
                 return Text(sign + text, "b" if sign == "!" else of.kind, UNARY)
             case ast.Compare(left=left, ops=ops, comparators=comparators):
-                operands = [self.expression(x) for x in (left, *comparators)]
+                operands = [self.one(x) for x in (left, *comparators)]
                 signs = [OPERATORS[type(op)] for op in ops]
                 pairs = [
                     Text(f"{a.at(level + 1)} {sign} {b.at(level + 1)}", "b", level)
@@ -263,12 +267,14 @@ class Printer:
                 return pairs[0] if len(pairs) == 1 else Text(" && ".join(p.text for p in pairs), "b", AND)
             case ast.BoolOp(op=op, values=[first, *others]):
                 sign, level = ("&&", AND) if isinstance(op, ast.And) else ("||", OR)
-                parts = [self.expression(first), *map(self.unhurried, others)]
+                parts = [self.one(first), *map(self.unhurried, others)]
                 return Text(f" {sign} ".join(part.at(AND + 1) for part in parts), "b", level)
             case ast.IfExp(test=test, body=body, orelse=orelse):
-                given, before = self.expression(test), self.temporaries
+                given, before = self.one(test), self.temporaries
                 yes, no = self.expression(body), self.expression(orelse)
-                if isinstance(yes.kind, tuple):  # both are computed, as they write nothing: so it becomes vector code
+                if isinstance(yes.kind, tuple):  # both are computed, so that it becomes vector code
+                    if self.changes(body) or self.changes(orelse):
+                        raise TypeError("a call that writes would be made in any case")
                     given, yes, no = map(self.named, (given, yes, no))
                     both = zip(yes.parts, no.parts, strict=True)
                     return self.together([self.chosen(given, *one) for one in both])
@@ -285,12 +291,29 @@ class Printer:
                     return self.indexed(of, [index])
                 of = self.named(of)
                 if isinstance(index, ast.Slice):
+                    bounds = [self.value(x) for x in (index.lower, index.upper, index.step) if x]
+                    if index.step or None in bounds:
+                        raise TypeError("a slice of a tuple has a step, or a bound that is no constant")
                     low, high = (self.value(x) if x else None for x in (index.lower, index.upper))
                     return self.together(of.parts[low:high])
                 return of.parts[self.value(index)]
             case ast.Call(func=func, args=arguments, keywords=[]):
                 return self.call(func, arguments)
         raise TypeError(f"{ast.unparse(node)} has no form that is known")
+
+    def one(self, node: ast.expr) -> Text:
+        """An expression that is compared or asked for its truth: neither a tuple nor a number of double-double."""
+        of = self.expression(node)
+        if isinstance(of.kind, tuple | Record) or is_loose(of.kind):
+            raise TypeError(f"{ast.unparse(node)} has no order and no truth")
+        return of
+
+    def changes(self, node: ast.expr) -> bool:
+        """Whether a call in an expression writes into an array."""
+        callees = [self.callee(n.func) for n in ast.walk(node) if isinstance(n, ast.Call)]
+        known = [f for c in callees for f in ((c.double, c.single) if isinstance(c, Varying) else (c,))]
+        nodes = [f.node for f in known if isinstance(f, Function)]
+        return any(of.written and f.node in nodes for f, of in self.printers.items())
 
     def together(self, parts: Sequence[Text]) -> Text:
         """A tuple."""
@@ -313,8 +336,11 @@ class Printer:
 
     def operation(self, a: Text, op: ast.operator, b: Text) -> Text:
         """An operation with two operands; the remainder is of integers, as is the quotient."""
-        if a.kind in LOOSE_SCALARS or b.kind in LOOSE_SCALARS:
+        if not {a.kind, b.kind}.isdisjoint(("e", "p", "q")):
             return self.loose(a, type(op), b)
+        if a.kind == b.kind == "1" and isinstance(op, ast.Mult):
+            return a
+        a, b = (Text("1", "i") if x.kind == "1" else x for x in (a, b))
         (sign, level), kind = OPERATORS[type(op)], joined(a.kind, b.kind)
         if isinstance(op, ast.FloorDiv | ast.Mod):
             if kind not in ("b", "i"):
@@ -329,6 +355,9 @@ class Printer:
 
     def loose(self, a: Text, op: type, b: Text) -> Text:
         """An operation of double-double, as `Loose` and `Normal` do it."""
+        for x in (a, b):
+            if x.kind in ("b", "i") and not re.fullmatch(r"-?\d+", x.text) and op in (ast.Mult, ast.Div):
+                raise TypeError(f"{x.text} may be 1 or 2, by which nothing is rounded")
         one, two = (x.kind == "1" or (x.kind == "i" and x.text in ("1", "2")) for x in (a, b))
         if op is ast.Mult and (one or two):
             whole, other = (a, b) if one else (b, a)
@@ -361,7 +390,7 @@ class Printer:
     def halves(self, value: Text, form: str) -> Text:
         """The same done to both halves."""
         if value.kind not in ("p", "q"):
-            return Text(form.format(value.at(UNARY)), value.kind, UNARY)
+            return Text(form.format(value.at(UNARY)), value.kind, OPERATORS[ast.Mult][1])
         return Text(f"(t_r2){{{', '.join(form.format(x.text) for x in self.of(value))}}}", value.kind)
 
     def normalised(self, value: Text) -> Text:
@@ -415,12 +444,14 @@ class Printer:
         if isinstance(callee, str) and callee.startswith(f"{LOOSE}."):
             return self.of_loose(callee.rpartition(".")[2], given)
         if isinstance(callee, Function) and any(is_loose(x.kind) for x in given):
-            given = [Text("1", "1") if x.text == "1" else x for x in given]
+            given = [Text("1", "1") if (x.text, x.kind) == ("1", "i") else x for x in given]
             callee = self.printers.special(callee, given)
         if isinstance(callee, Function | Varying):
             return self.called(callee, arguments, given)
         if isinstance(callee, Record):
-            return Text(f"({callee.name}){{{', '.join(x.text for x in given)}}}", callee)
+            return self.record(callee, given)
+        if any(isinstance(x.kind, tuple) or is_loose(x.kind) for x in given):
+            raise TypeError(f"{ast.unparse(func)} takes no such number")
         if callee in ("max", "min"):
             kind = "r" if any(x.kind == "r" for x in given) else "i"
             return Text(reduce(lambda a, b: f"{callee}_{kind}({a}, {b})", [x.text for x in given]), kind)
@@ -438,13 +469,25 @@ class Printer:
         text = f"{LIBRARY[callee]}({of.text})"
         return Text(text, "d") if of.kind == "d" else Text(f"R({text})", "r")
 
+    def record(self, callee: Record, given: Sequence[Text]) -> Text:
+        """A named tuple: each field has its kind."""
+        for x, (name, kind) in zip(given, callee.fields, strict=True):
+            if joined(x.kind, kind) != kind:
+                raise TypeError(f"the field {name} is of another kind")
+        self.tuples.add(callee)
+        fields = [x.to(kind).text for x, (_, kind) in zip(given, callee.fields, strict=True)]
+        return Text(f"({callee.name}){{{', '.join(fields)}}}", callee)
+
     def of_loose(self, name: str, given: Sequence[Text]) -> Text:
         """A number of double-double from one or two floats, or the root of one."""
         if name == "square_root":
             return self.on_halves("root", *self.of(self.normalised(given[0])))
-        if len(given) == 1:
-            return Text(given[0].text, "e", given[0].level)
-        return Text(f"(t_r2){{{', '.join(x.text for x in given)}}}", "q" if name == "Normal" else "p")
+        if len(given) == 1 and name == "Loose":
+            return (
+                Text(given[0].text, "e", given[0].level) if given[0].kind == "r" else Text(f"R({given[0].text})", "e")
+            )
+        high, low = given
+        return Text(f"(t_r2){{{high.text}, {low.text}}}", "q" if name == "Normal" else "p")
 
     def adjoined(self, name: str, of: Text) -> Text:
         """A letter of a kernel, by a function of the mathematics library."""
@@ -471,8 +514,13 @@ class Printer:
         wanted = self.printers[double].names
         self.tuples |= {kind for kind in wanted.values() if isinstance(kind, tuple)}
         taken = [(x, wanted[name]) for x, name in zip(full, double.parameters, strict=True) if x.kind != "1"]
-        text = ", ".join(x.to(kind).text for x, kind in taken)
+        taken = [
+            (self.named(x).to(kind) if isinstance(kind, tuple) and kind != x.kind else x, kind) for x, kind in taken
+        ]
+        text = ", ".join(x.text for x, _ in taken)
         if is_external(self.function, double):
+            if not isinstance(of.returned, tuple) or any(isinstance(kind, tuple) for _, kind in taken):
+                raise TypeError(f"{double.name} of float64 must take numbers and return several")
             return Text(f"{double.name}_double({text})", widened(of.returned))
         return Text(f"{callee.name if single is not double else double.name}({text})", of.returned)
 
@@ -534,7 +582,9 @@ class Printer:
             case ast.Name(id=name) if name not in self.loops:
                 self.note(name, value.kind)
                 self.ended.discard(name)
-                self.assigned(name, self.names[name], value.to(self.names[name]).text)
+                kind = self.names[name]
+                value = self.named(value).to(kind) if isinstance(kind, tuple) and kind != value.kind else value
+                self.assigned(name, kind, value.text)
             case ast.Subscript():
                 self.writes(target)
                 to = self.expression(target)
@@ -568,7 +618,7 @@ class Printer:
             case ast.Return(value=value):
                 self.add(self.result(value) if value else "return")
             case ast.If(test=test, body=body, orelse=orelse):
-                given = self.expression(test).text
+                given = self.one(test).text
                 self.out.append(Statement(f"if ({given})", block=self.inner(body)))
                 if orelse:
                     self.out.append(Statement("else", block=self.inner(orelse)))
@@ -605,6 +655,8 @@ class Printer:
         else:
             value, parts = self.expression(node), []
             kind = value.kind
+            if isinstance(kind, Array):
+                raise TypeError("an array is returned")
         self.returned = joined(self.returned or kind, kind)
         if not parts and (kind == self.returned or not isinstance(kind, tuple)):
             return f"return {value.text}"
@@ -628,6 +680,8 @@ class Printer:
             case ast.Name(id=name), _:
                 of = self.expression(value)
                 if isinstance(of.kind, tuple) and name in self.listed:
+                    if self.stored[name] > 1 or self.depth or set(of.kind) != {"r"}:
+                        raise TypeError("a tuple with an element that a variable names is of floats, and assigned once")
                     parts = ", ".join(x.text for x in self.kept(of).parts)
                     self.array(name, Array("r", 1), [str(len(of.kind))], f"real {name}_[] = {{{parts}}}")
                 else:

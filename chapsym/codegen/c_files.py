@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
-from .c import Printer, Text, block, broken, c_type, is_external, number, printed, widened
+from .c import NotTranslatable, Printer, Text, block, broken, c_type, is_external, number, printed, widened
 from .kernels import Kernel
 from .source import Function, Program, Record
 
@@ -241,6 +241,9 @@ class Texts:
     def row(self, function: Function) -> str:
         """A row of the table: the name, the arguments, with * where it writes, and the results."""
         of = self.of[function]
+        returned = of.returned if isinstance(of.returned, tuple) else (of.returned,)
+        if of.returned is not None and not set(returned) <= {"b", "i", "r", "d"}:
+            raise NotTranslatable(f"{function.name}: what is exported returns numbers, not {c_type(of.returned)}")
         takes = " ".join(f"{of.names[x]}{'*' if x in of.written else ''}" for x in function.parameters)
         return f'    {{"{function.name}", "{takes}", "{"".join(of.returned or "")}", in_{function.name}}},\n'
 

@@ -17,6 +17,7 @@ class Loose:
     """
 
     __slots__ = ("high", "low")
+    __array_ufunc__ = None  # an array leaves its operations with a number to it
 
     def __init__(self, high: Any, low: Any = None) -> None:
         self.high, self.low = high, low
@@ -52,7 +53,10 @@ class Loose:
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> "Loose":
-        return self + -other
+        b = other if isinstance(other, Loose) else Loose(other)
+        if self.low is None or b.low is None:
+            return self + -b
+        return self._added(self._with(b, (pairs.two_sum, pairs.loose_add_float, pairs.loose_subtract)))
 
     def __rsub__(self, other: Any) -> "Loose":
         return -self + other

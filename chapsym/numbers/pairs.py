@@ -3,7 +3,7 @@
 x, x_ are the halves of x, and u = 2⁻⁵³.  Barring overflow and underflow
 
 - `two_sum`, `quick_two_sum` and `two_product` are exact (Knuth, Dekker).  Compiled, the product is one fused
-  multiply-add (`numbers.fused`): exact as well, so the bits are the same;
+  multiply-add: exact as well, so the bits are the same;
 - the operations on normalised pairs, |x_| ≤ ½ ulp(x), have proved relative errors.  [JMP] M. Joldes, J.-M. Muller,
   V. Popescu, ACM TOMS 44 (2017) 15res; [LLMPR] V. Lefèvre, N. Louvet, J.-M. Muller, J. Picot, L. Rideau, ACM TOMS 49
   (2023) 1, which has the root;

@@ -232,7 +232,7 @@ def pairs(a: float, b: float, c: float):
     root = square_root(dotted((x, u), (x, u)) * Loose(1.0, 0.4))
     n = (root - p[0]).normalised()
     x = n if c > 0.0 else p[2].normalised()
-    one = dotted((x, y), (1, u))
+    one = dotted((x, y), (Loose(1.0), u))
     found = p[1].high, p[2].low, p[3].high, p[3].low, p[4].low, p[5].high
     return *found, x.high, x.low, k.high, m.high, m.low, one.low, u.high
 """
@@ -348,9 +348,22 @@ def test_every_function_of_the_sample_is_called(both):
     assert {f"sample_{name}" for name in CALLS} == set(both[2].double) == set(both[2].single) | only
 
 
+USED = """
+class Pose(NamedTuple):
+    q: Four
+    size: float
+
+def filled(v):
+    v[0] = 1.0
+    return v[0], v[1]
+
+"""
+
+
 def translated(tmp_path, text):
-    program = written(tmp_path, HEAD + text)
-    return c_files.Texts(program, roots(program), roots(program)).text()
+    program = written(tmp_path, HEAD + USED + text)
+    texts = c_files.Texts(program, roots(program), roots(program))
+    return texts.text() + texts.exports()
 
 
 @pytest.mark.parametrize(
@@ -373,6 +386,13 @@ def translated(tmp_path, text):
         "with a:\n        pass\n    return a", "del a", "global a",
         "try:\n        a = 1.0\n    except ValueError:\n        a = 2.0\n    return a", "raise ValueError",
         "assert a > 0.0",
+        "t = a, 1.0, a\n    return t[0:3:2]", "t = a, 1.0, a\n    return t[n:3]",
+        "t = a, 1.0\n    if n > 1:\n        t = 1.0, a\n    return t[n]", "t = a, n\n    return t[n]",
+        "t = filled(v) if n > 1 else (a, a)\n    return t", "return a, (a, a)", "return Loose(a)", "return v",
+        "x = Loose(a) * n\n    return x.high", "x = Loose(a, 0.0) / n\n    return x.high", "return Loose(a).low",
+        "x = Normal(a)\n    return x.high", "return Loose(a) == Loose(a)", "return 1.0 if Loose(a) else 2.0",
+        "return max(Loose(a), 1.0).high", "return sqrt(Loose(a))", "return Pose((a, a, a, a)).size",
+        "return Pose(a, a).size", "if (a, a) > (1.0, a):\n        a = 1.0\n    return a",
         "import math\n    return a", "def inner():\n        return a\n    return a", "yield a",
         "a: float = 1.0\n    return a", "a = x = 1.0\n    return a",
         "x = v.copy()\n    return x[0]", "x = v[::2]\n    return x[0]", "x, y = a\n    return x",

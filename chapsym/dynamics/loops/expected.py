@@ -18,8 +18,9 @@ FOUND = 9
 UNIT = 2.0**-53
 #: By how much the errors of steps grow in a run, of most balls.
 GROWTH = 30.0
-#: The error of a step of |ω|h = 1 radian, of most balls; and what part of an accuracy a run aims at.
-UNIT_ERROR, AIM = 3e-9, 1.0
+#: The error of a step of |ω|h = 1 radian, of most balls; and what part of an accuracy a run aims at: with all of it
+#: some balls miss, and start anew, which costs more than shorter steps.
+UNIT_ERROR, AIM = 3e-9, 0.5
 #: The roundings of steps that go one way turn a ball as those of its parameters do, and so many times as far.
 TURNING = 3.0
 #: Of a ball of a larger condition the roundings of long steps are not known.

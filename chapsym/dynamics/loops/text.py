@@ -1,8 +1,9 @@
-"""What the loops are written in: scalar Python that runs as it is, and that codegen prints as C.
+"""What the loops are written in: Python on numbers, tuples and arrays that runs as it is, and that codegen prints as C.
 
 A function whose parameters are all annotated may be called from outside; the types of the others follow.  The names
 below say how many axes an array has, the last one contiguous; its elements are the numbers of the loops, float64 or
-float32.
+float32.  A vector is a tuple, several are a named tuple or a tuple of tuples; where one of two vectors is chosen, both
+are computed.  Double-double is in `numbers.loose`.
 """
 
 from collections.abc import Callable
