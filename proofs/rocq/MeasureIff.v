@@ -252,8 +252,21 @@ Proof. assert (P := one_plus u); apply vec_eq; unfold turned, add, scale, cross,
 
 (* The map backwards: by the root of (-K~, gamma~). *)
 Lemma turned_back u v : turned (opposite u) (turned u v) = v.
-Proof.
-assert (P := one_plus u); unfold opposite, turned, add, scale, cross, dot in *; apply vec_eq; cbn [c1 c2 c3] in *; field; nra.
+Proof.  (* As u x (u x (u x v)) = - |u|^2 u x v, what is left to ring has few letters: the coordinates would take it 25 s. *)
+set (n := dot u u); set (k := 2 / (1 + n)); set (a := cross u).
+assert (E : k * (1 + n) = 2) by (assert (P := one_plus u); unfold k, n; field; lra).
+assert (T : turned u v = add v (scale k (sub (a (a v)) (a v)))).
+{ assert (P := one_plus u); unfold k, n, a, turned, sub, add, scale, cross, dot in *; apply vec_eq; cbn [c1 c2 c3] in *; field; lra. }
+assert (B : forall w, turned (opposite u) w = add w (scale k (add (a (a w)) (a w)))).
+{ intros w; assert (P := one_plus u); unfold k, n, a, opposite, turned, add, scale, cross, dot in *.
+  apply vec_eq; cbn [c1 c2 c3] in *; field; nra. }
+assert (L : forall t p q r, a (add p (scale t (sub q r))) = add (a p) (scale t (sub (a q) (a r)))).
+{ intros; unfold a, sub, add, scale, cross; apply vec_eq; cbn [c1 c2 c3]; ring. }
+assert (N : forall w, a (a (a w)) = scale (- n) (a w)).
+{ intros; unfold n, a, scale, cross, dot; apply vec_eq; cbn [c1 c2 c3]; ring. }
+rewrite T, B, !L, !N; clear T B L N; clearbody k n a.
+transitivity (add v (scale (k * (2 - k * (1 + n))) (a (a v)))); [|rewrite E];
+  unfold sub, add, scale; apply vec_eq; cbn [c1 c2 c3]; ring.
 Qed.
 Lemma opposite_twice u : scale (-1) (scale (-1) u) = u.
 Proof. apply vec_eq; unfold scale; cbn [c1 c2 c3]; ring. Qed.

@@ -48,48 +48,51 @@ def test_the_proof_has_no_gap():
         assert not re.search(GAPS, text), path
 
 
+@pytest.fixture(scope="session")
+def accepted(tmp_path_factory):
+    """A copy of the proof that Rocq has judged, and what it said: the changed copies go on from its files."""
+    copy = shutil.copytree(FOLDER, tmp_path_factory.mktemp("measure") / "rocq")
+    return copy, judged(copy)
+
+
 @needs_libraries
-def test_rocq_accepts_the_theorem(tmp_path):
-    found = judged(tmp_path)
+def test_rocq_accepts_the_theorem(accepted):
+    _, found = accepted
     assert found.returncode == 0, found.stderr
     assert found.stdout.startswith("measure-iff is proved from the equation of a step")
 
 
 @needs_libraries
 def test_rocq_rejects_another_statement(tmp_path, thorough):
-    for change in CHANGES if thorough else ("two equal moments are enough", "the inverse rotation"):
-        found = judged(tmp_path / change.replace(" ", "-"), "Statement.v", *CHANGES[change])
+    for change in CHANGES if thorough else ("the inverse rotation",):
+        copy = shutil.copytree(FOLDER, tmp_path / change.replace(" ", "-"))
+        text = (copy / "Statement.v").read_text(encoding="utf-8")
+        old, new = CHANGES[change]
+        assert text.count(old) == 1
+        (copy / "Statement.v").write_text(text.replace(old, new), encoding="utf-8")
+        found = judged(copy)
         assert found.returncode != 0, found.stdout
         assert re.search(r'File "\./\w+\.v", line', found.stderr)
 
 
 @needs_libraries
-def test_rocq_rejects_a_gap(tmp_path):
-    found = judged(tmp_path, "Circle.v", "rewrite cos_neg, cos_PI, !sq; intros F; apply N; lra.\nQed.", "Admitted.")
+@pytest.mark.parametrize(
+    ("last", "said"),
+    [
+        ("Theorem measure_iff_holds : measure_iff. Proof. Admitted.", "rests on other axioms"),
+        ("Lemma gap : False. Admitted. Theorem measure_iff_holds : measure_iff. case gap. Qed.", "rests on other axioms"),
+        ("Definition measure_iff := True. Theorem measure_iff_holds : measure_iff. exact I. Qed.", "./Judged.v"),
+    ],
+)
+def test_rocq_rejects_a_gap_and_a_statement_that_is_not_the_pages(accepted, tmp_path, last, said):
+    """With another last file of the proof: what stands before it is as Rocq has compiled it."""
+    copy = shutil.copytree(accepted[0], tmp_path / "rocq")
+    (copy / "MeasureIff.v").write_text(f"Require Import Statement.\n{last}\n", encoding="utf-8")
+    found = judged(copy, "FILES=MeasureIff Judged")
     assert found.returncode != 0
-    assert "rests on other axioms" in found.stdout
+    assert said in found.stdout + found.stderr
 
 
-@needs_libraries
-def test_rocq_rejects_a_statement_that_is_not_the_pages(tmp_path):
-    page = (FOLDER / "Statement.v").read_text(encoding="utf-8")
-    own = page[page.index("Definition measure_iff") :]
-    found = judged(tmp_path, "Statement.v", *CHANGES["two equal moments are enough"], {"MeasureIff.v": own})
-    assert found.returncode != 0
-    assert 'File "./Judged.v", line' in found.stderr
-
-
-def judged(folder, name=None, old="", new="", before=()):
-    """What Rocq says of a copy of the proof, after one change, with more text before the theorem of a file."""
-    copy = shutil.copytree(FOLDER, folder / "rocq")
-    for other in before:
-        path = copy / other
-        path.write_text(
-            path.read_text(encoding="utf-8").replace("Theorem ", before[other] + "Theorem "), encoding="utf-8"
-        )
-    if name:
-        path = copy / name
-        text = path.read_text(encoding="utf-8")
-        assert text.count(old) == 1
-        path.write_text(text.replace(old, new), encoding="utf-8")
-    return subprocess.run(["make", "-s"], cwd=copy, capture_output=True, text=True)
+def judged(folder, *options):
+    """What Rocq says of a copy of the proof."""
+    return subprocess.run(["make", "-s", *options], cwd=folder, capture_output=True, text=True)
