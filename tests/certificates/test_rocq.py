@@ -123,6 +123,7 @@ def test_rocq_accepts_the_steps_and_rejects_a_digit_that_is_wrong(folder):
 
 
 @needs_interval
+@pytest.mark.thorough
 def test_rocq_rejects_a_bound_that_is_too_small(folder):
     text = written(folder, one_step())
     [radius] = re.findall(r"near (\S+) \(V [^()]*\) u /", text)

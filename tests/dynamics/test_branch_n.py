@@ -5,6 +5,7 @@ import warnings
 import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, offset, proven_branch
+from budget import slow
 
 import chapsym
 from chapsym import Ball, BallN, Status, skew, step_n
@@ -39,7 +40,7 @@ def test_the_branch_is_the_proven_one(n):
         assert np.abs(offset((K, gamma, J, D)) - proven_branch(K, gamma, J, D)).max() < 1e-11
 
 
-@pytest.mark.parametrize("n", [4, 5])
+@pytest.mark.parametrize("n", [4, *slow(5)])
 def test_past_the_fold_no_other_branch_is_taken(n):
     """Newton alone, whatever its corrections, would find another rotation for some of these."""
     rng = np.random.default_rng(5)

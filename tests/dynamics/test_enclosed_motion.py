@@ -117,13 +117,13 @@ def test_no_rotor_is_what_there_was_before():
 def test_many_digits_with_a_rotor_keep_its_integrals():
     """By the corrections that gain more bits each time; ⟨K,γ⟩, |K|² and ½⟨K - a, ω⟩ are those of the start."""
     start = (3, 1, 4), ("2/7", "3/7", "6/7"), ["0", "1/2"]
-    found = certified_motion(ExactBall((1, 2, 4), 3), *start, 600, rotor=A)
+    found = certified_motion(ExactBall((1, 2, 4), 3), *start, 300, rotor=A)
     assert found.stopped is None
-    with ctx.workprec(2200):
+    with ctx.workprec(1100):
         inside = exact.balls([F(x) for x in A])
         states = zip(found.angular_momentum, found.gamma, found.omega, strict=True)
         first, last = ([K @ g, K @ K, (K - inside) @ w] for K, g, w in states)
-        assert all(x.overlaps(y) and y.rad() < arb("1e-595") for x, y in zip(first, last, strict=True))
+        assert all(x.overlaps(y) and y.rad() < arb("1e-295") for x, y in zip(first, last, strict=True))
 
 
 def test_a_rotor_that_is_left_out_is_seen(monkeypatch):

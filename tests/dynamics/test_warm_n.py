@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, batch
+from budget import slow
 from plain import in_plain_python
 
 from chapsym import BallN, Status, StepNotTaken, step_n, substeps, trajectory_n
@@ -37,8 +38,11 @@ def asking(patch, *factors):
     patch.setattr(run_n, "limits", asked)
 
 
-@pytest.mark.parametrize("n", SIZES)
-@pytest.mark.parametrize(("order", "stubborn"), [(2, False), (2, True), (4, True)])
+@pytest.mark.parametrize(
+    ("n", "order", "stubborn"),
+    [(n, *way) for n in (3, 4) for way in ((2, False), (2, True), (4, True))] + [(5, 2, True), (8, 2, False)]
+    + slow((5, 2, False), (5, 4, True), (8, 2, True), (8, 4, True)),
+)  # fmt: skip
 def test_compiled_and_in_python_one_ball_and_a_batch_have_the_same_bits(n, order, stubborn, monkeypatch):
     """Two balls are stubborn: of some of their stages, or of all, the corrections are not as small as is asked."""
     ball, K, gamma = batch(n, 5, 0.1)

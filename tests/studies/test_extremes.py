@@ -23,7 +23,10 @@ PINS = json.loads((Path(__file__).parent / "extremes.json").read_text(encoding="
 #: How verdicts are pinned, a letter for each precision.
 LETTERS = {"within": "w", "refused": "r", "failed": "f"}
 #: Of these one row in three, but for thorough runs; the rows of each group, by their numbers.
-SLOW = {"runs", "fold search", "elliptic", "inertia", "fold", "order", "extrapolate", "rotation"}
+SLOW = {
+    "runs", "fold search", "elliptic", "inertia", "fold", "order", "extrapolate", "rotation", "D", "n = 4", "momentum",
+    "vertical", "directions",
+}  # fmt: skip
 TOGETHER = [group for group in study.GROUPS if group not in study.SHARED]
 GENERIC = State(states.J, states.D, states.K, states.G)
 HEAVIEST = "D = 1e15, momentum horizontal"
