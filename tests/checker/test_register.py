@@ -28,15 +28,15 @@ def samples():
 
 
 def test_the_register_is_accepted_where_there_is_only_python(tmp_path):
-    """Some of the files, and the counts; `make verify` judges all."""
-    names = [str(FOLDER / checker.file_name(id)) for id in SAMPLES]
+    """Two of the files, and the counts; `make verify` judges all."""
+    names = [str(FOLDER / checker.file_name(id)) for id in ("5.4", "prop-4")]
     run = subprocess.run(
         [sys.executable, "-I", "-S", str(CHECKER), "--json", *names], capture_output=True, text=True, cwd=tmp_path
     )
     assert run.returncode == 0, run.stderr
     verdicts = json.loads(run.stdout)["certificates"]
     assert all(one["accepted"] for one in verdicts)
-    assert verdicts[2]["statement"].startswith(
+    assert verdicts[1]["statement"].startswith(
         "Claim prop-4 (corrected).  parts of its formulas that are read: 4; parts in words: 2; ide"
     )
 

@@ -43,11 +43,11 @@ def test_all_kernels_compute_what_the_committed_certificates_decided():
 
 
 @every
-def test_a_sign_turned_in_a_text_is_refused(name):
+def test_a_sign_turned_in_a_text_is_refused(name, thorough):
     text = text_of(name)
     start = text.index("# intermediate" if "# intermediate" in text else "# outputs")
-    for found in re.finditer(r"(?<= )[+-](?= )", text[start:]):
-        at = start + found.start()
+    signs = [start + found.start() for found in re.finditer(r"(?<= )[+-](?= )", text[start:])]
+    for at in signs if thorough else signs[:: 1 + len(signs) // 12]:
         with pytest.raises(Rejected, match="computes in its result"):
             judge(name, text[:at] + {"+": "-", "-": "+"}[text[at]] + text[at + 1 :])
 
