@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,12 @@ STATED = (
 QUESTIONS = {"5.9-open": measure, "6-open": energy}
 
 
+@cache
+def exchanged():
+    """A fact that holds."""
+    return symmetries.renamed(symmetries.SWAP, -1)[0]
+
+
 @pytest.fixture
 def once(all_judged, uncertified, monkeypatch):
     """The questions rest on the lemmas and certificates as this run has judged them, without judging them again."""
@@ -30,7 +37,7 @@ def once(all_judged, uncertified, monkeypatch):
     for module in QUESTIONS.values():
         monkeypatch.setattr(module, "judged", all_judged.rests.__getitem__)
     monkeypatch.setattr(checker, "check", lambda data: all_judged.checked[data["digest"]])
-    monkeypatch.setattr(certified, "changed", lambda *_: symmetries.renamed(symmetries.SWAP, -1)[0])
+    monkeypatch.setattr(certified, "changed", lambda *_: exchanged())
 
 
 def proof_of(id):
