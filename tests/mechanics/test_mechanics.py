@@ -2,6 +2,7 @@
 
 import dataclasses
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -47,6 +48,12 @@ vx, vy, vz, va = map(dot, (x, y, z, a))
 FREE = (vx**2 + vy**2 + vz**2) / 2
 
 
+@cache
+def example(name):
+    """A system of the documentation, whose equations are derived once."""
+    return loaded(SYSTEMS / f"{name}.py")
+
+
 def particle(**changes):
     settings = {"constraints": [vz - y * vx], "start": {y: "3/10", vx: 1, vy: "1/2"}}
     return System("particle", (x, y, z), FREE, **settings | changes)
@@ -64,10 +71,10 @@ def test_the_examples_are_short_and_their_flags_are_known(name, growth, dimensio
     """(2, 3), (3, 5) of a sphere and (2, 3, 4) of a disc are in A. M. Bloch's book; the rest by numbers, below."""
     file = SYSTEMS / f"{name}.py"
     assert len(file.read_text(encoding="utf-8").splitlines()) <= 40
-    found = flag(loaded(file))
+    found = flag(example(name))
     assert (found.growth, found.dimension, found.functions) == (growth, dimension, 0)
     if name not in ("falling_disc", "rattleback", "snakeboard"):  # some seconds each
-        assert growth == ranks(loaded(file))
+        assert growth == ranks(example(name))
 
 
 @mpmath.workdps(40)
@@ -314,7 +321,7 @@ def test_a_flag_says_where_it_holds():
     ],
 )
 def test_the_methods_have_their_orders_and_keep_the_constraints(name, method):
-    system = loaded(SYSTEMS / f"{name}.py")
+    system = example(name)
     cell = measured(system, method, 40, float(Fraction(system.step)) / (4 if name == "falling_disc" else 1))
     expected = {"rk4": 4, "dla-left": 2 if name == "ball" else 1}.get(method, 2)
     assert cell.order == pytest.approx(expected, abs=0.15)
@@ -355,7 +362,7 @@ def reference(system, end):
 
 @pytest.mark.parametrize("name", ["sleigh", "snakeboard", "vertical_disc", *slow("suslov", "rattleback")])
 def test_runge_kutta_has_the_motion_that_scipy_has(name):
-    system = loaded(SYSTEMS / f"{name}.py")
+    system = example(name)
     h = float(Fraction(system.step)) / 10
     assert (
         np.abs(moved(system, "rk4", 100, h).final[: len(system.coordinates)] - reference(system, 100 * h)).max() < 1e-9
@@ -382,7 +389,7 @@ def test_the_time_of_a_place_is_when_it_is_there(method):
 
 @pytest.mark.parametrize("method", ANYWHERE)
 def test_c_and_python_take_the_same_steps(method):
-    system = loaded(SYSTEMS / "contact.py")
+    system = example("contact")
     in_c, in_python = (Runner(system, method, compiled).march(30, every=3) for compiled in (True, False))
     assert np.abs(in_c.place - in_python.place).max() < 1e-12
     assert np.abs(in_c.final - in_python.final).max() < 1e-12
@@ -423,7 +430,7 @@ def test_energy_is_kept_where_forces_do_no_work():
 
 @pytest.mark.parametrize("name", ["particle", "sleigh", "contact", "transmission", "vertical_disc", *slow("suslov")])
 def test_the_energy_is_decided_to_be_kept(name):
-    system = loaded(SYSTEMS / f"{name}.py")
+    system = example(name)
     assert system.keeps_energy
     assert conserved(system, system.energy).kept
     changed = conserved(system, system.energy + system.velocities[0])
@@ -450,7 +457,7 @@ def test_quantities_are_kept_or_not_at_an_exact_state():
 
 
 def test_the_ball_keeps_the_vertical_momentum_and_methods_show_their_range():
-    system = loaded(SYSTEMS / "ball.py")
+    system = example("ball")
     assert conserved(system, system.integrals["⟨K,γ⟩"]).kept
     ranges = {method: measured(system, method, 60).integrals for method in ("gni", "spark", "rk4")}
     assert max(ranges["gni"].values()) < 1e-12
@@ -477,7 +484,7 @@ def test_what_is_no_kanes_method_is_one_sentence():
 
 
 def test_half_the_step_tells_the_method_from_the_model():
-    system = loaded(SYSTEMS / "particle.py")
+    system = example("particle")
     drift = measured(system, "rk4", 5000, halve=True)
     assert drift.drift / drift.halved > 20
     wrong = dataclasses.replace(system, forces={x: vx / 1000})
@@ -487,7 +494,7 @@ def test_half_the_step_tells_the_method_from_the_model():
 
 def test_kanes_method_gives_the_accelerations_of_the_principle():
     """The Chaplygin sleigh in sympy.physics.mechanics."""
-    system = loaded(SYSTEMS / "sleigh.py")
+    system = example("sleigh")
     q = kane.dynamicsymbols("x y heading")
     u = kane.dynamicsymbols("u1:4")
     mass, inertia, ahead = sp.symbols("mass inertia ahead")
@@ -568,7 +575,7 @@ def test_equations_that_break_one_thing_are_refuted_at_an_exact_state():
 
 def test_the_ball_with_the_rule_of_the_paper_takes_the_steps_of_the_map():
     """From the Lagrangian and the constraint of Fedorov's paper, typed in: to 1e-13 what `chapsym.trajectory` has."""
-    system = loaded(SYSTEMS / "ball.py")
+    system = example("ball")
     motion = Runner(system, "own").march(60)
     quaternions = (motion.place - 0.025 * motion.velocity)[:, 2:]
     first, second = quaternions[:2]
@@ -590,7 +597,7 @@ def vertical(quaternion):
 @pytest.mark.parametrize("method", ANYWHERE)
 def test_what_is_reversible_returns(method):
     """The particle's energy is even in the velocities; that of the contact oscillator has ∂L/∂v beyond them."""
-    systems = [loaded(SYSTEMS / f"{name}.py") for name in ("particle", "contact")]
+    systems = [example(name) for name in ("particle", "contact")]
     even, odd = (measured(system, method, 10).returns for system in systems)
     if method in ("dla", "gni", "leapfrog", "spark", "midpoint"):
         assert even < 1e-12
@@ -672,7 +679,7 @@ def test_a_start_that_cannot_be_is_one_sentence(settings, said):
 def test_a_step_without_a_solution_says_which():
     """The disc falls flat, where its angles end."""
     with pytest.raises(NotSolved, match=r"dla-left: step \d+ of 1000 has no solution near the last one"):
-        moved(loaded(SYSTEMS / "falling_disc.py"), "dla-left", 1000)
+        moved(example("falling_disc"), "dla-left", 1000)
     loose = System("loose", (x, y, z), FREE, [vz - y * vx, 3 * vz - 3 * y * vx], start={vx: 1})
     with pytest.raises(NotSolved, match="as its equations are singular: constraints depend on each other, or the mass"):
         moved(loose, "dla", 1000)
