@@ -6,13 +6,12 @@ Each operation is true of all matrices for which the rules and the transposes of
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
-from fractions import Fraction
 from typing import Any
 
 from .interval import Rejected
 from .polynomial import Work
-from .trees import divisors, value
-from .words import Words
+from .trees import divisors, plain, value
+from .words import Number, Term, Words
 
 
 class Algebra:
@@ -22,6 +21,7 @@ class Algebra:
         self.work, self.letters, self.parameters = work, set(data["letters"]), data["parameters"]
         self.none = (0,) * len(self.parameters)
         self.divisors: set[str] = set()  # parameters by which something is divided, though it may not be seen any more
+        self.respected: list[Algebra] = []  # those whose rules have been seen to hold here, of the names of both
         self.names = {letter: self.word(letter) for letter in data["letters"]}
         for i, name in enumerate(self.parameters):
             self.names[name] = self.scalar(tuple(int(i == j) for j in range(len(self.parameters))))
@@ -30,16 +30,16 @@ class Algebra:
 
     def word(self, *letters: str) -> Words:
         """One word."""
-        return Words({(self.none, letters): Fraction(1)}, self.work)
+        return Words({(self.none, letters): 1}, self.work)
 
-    def scalar(self, exponents: tuple[int, ...], c: Fraction = Fraction(1)) -> Words:
+    def scalar(self, exponents: tuple[int, ...], c: Number = 1) -> Words:
         """A number times powers of the parameters."""
         return Words({(exponents, ()): c}, self.work)
 
     def read(self, tree: Any, names: Mapping[str, Words]) -> Words:
         """The sum of words that a tree is."""
         self.divisors |= self.among(names[name] for name in divisors(tree) & names.keys())
-        found: Words = value(tree, names, lambda x: self.scalar(self.none, x))
+        found: Words = value(tree, names, lambda x: self.scalar(self.none, plain(x)))
         return found
 
     def among(self, words: Iterable[Words]) -> set[str]:
@@ -56,10 +56,12 @@ class Algebra:
 
     def total(self, parts: Iterable[Words]) -> Words:
         """The sum, after the rules."""
-        result = Words({}, self.work)
+        terms: dict[Term, Number] = {}
         for part in parts:
-            result = result + part
-        return result.rewritten(self.rules)
+            self.work.spend(len(terms) + len(part.terms))
+            for term, c in part.terms.items():
+                terms[term] = terms.get(term, 0) + c
+        return Words(terms, self.work).rewritten(self.rules)
 
     def image(self, of: Words, letters: Callable[[str], Words], scalar: Callable[[tuple[int, ...]], Words]) -> Words:
         """`of` with other sums of words of this algebra in the place of its letters and of its parameters' powers."""
@@ -136,7 +138,7 @@ class Algebra:
     def _least(self, word: tuple[str, ...]) -> Words:
         """With the trace of a word: the first of its rotations and those of its transpose, 0 if it is its negative."""
         self.work.spend(len(word) * len(word))
-        signed = [(rotation, Fraction(1)) for rotation in rotations(word)]
+        signed: list[tuple[tuple[str, ...], Number]] = [(rotation, 1) for rotation in rotations(word)]
         if self.transposes.keys() >= set(word):
             turned = self.transposed(self.word(*word)).terms
             if len(turned) == 1:
@@ -145,7 +147,7 @@ class Algebra:
                     signed += [(rotation, sign) for rotation in rotations(other)]
         least = min(rotation for rotation, _ in signed)
         signs = {sign for rotation, sign in signed if rotation == least}
-        return self.scalar(self.none, sum(signs, Fraction(0))) * self.word(*least)
+        return self.scalar(self.none, sum(signs)) * self.word(*least)
 
 
 def all_or_none(letters: set[str], names: Iterable[str], where: str) -> bool:

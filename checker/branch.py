@@ -25,7 +25,7 @@ from typing import Any
 from .circle import Circle, direction
 from .document import check_rounded, decimals
 from .interval import Rejected
-from .linear import Matrix, Vector, cross, image, isolated, minus, solve, times, transposed, unit
+from .linear import Matrix, Vector, cross, image, isolated, minus, solve, times, transposed, units
 from .step import Pair, gibbs_vector, jacobian, residual, source, turned
 
 MOST_ARCS = 8_192
@@ -53,10 +53,11 @@ class Branch:
         check_rounded(start, given, digits, "u of branch")
         _check_meant(circle, circle.state(gammas[half]), given, digits)
         roots = {half: start}
-        for i in range(half + 1, 2 * half + 1):
-            roots[i] = _root(circle, gammas[i], roots[i - 1])
-        for i in range(half - 1, -1, -1):
-            roots[i] = _root(circle, gammas[i], roots[i + 1])
+        for way in (1, -1):
+            last = near = start
+            for i in range(half + way, half + way * (half + 1), way):
+                roots[i] = _root(circle, gammas[i], near)
+                near, last = minus(times(2, roots[i]), last), roots[i]
         arcs = zip(pairwise(ends), pairwise(roots[i] for i in range(2 * half + 1)), strict=True)
         branch = cls(circle, [_box(circle, first, last, pair) for (first, last), pair in arcs])
         if not _inside(branch.half_turned(roots[0]), branch.boxes[-1]):
@@ -120,7 +121,7 @@ def _box(circle: Circle, first: Fraction, last: Fraction, roots: tuple[Vector, V
     between = [x.hull(y) for x, y in zip(*roots, strict=True)]
     box = [x.wider(WIDER * max(y.width for y in between)) for x in between]
     slope = [[x.point() for x in row] for row in jacobian(circle.ball, middle, [x.point() for x in box])]
-    Y = [[x.point() for x in row] for row in solve(slope, [unit(i, s) for i in range(3)])]
+    Y = [[x.point() for x in row] for row in solve(slope, units(3, s))]
 
     def pulled(u: Vector) -> Vector:
         moved = source(circle.ball, whole, u, circle.state(tangent))

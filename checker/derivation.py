@@ -191,10 +191,13 @@ def _brought(of: Defined, algebra: Algebra, where: str) -> Words:
     """In another algebra, which has its letters and parameters and, for its own letters, the rules."""
     if of.algebra is algebra:
         return of.words
-    for name in of.algebra.names.keys() & algebra.names.keys():
-        if (name in of.algebra.letters) is not (name in algebra.letters):
-            raise Rejected(f"{where} has {name} as a number in one algebra and as a matrix in another")
-    _respects(of.algebra, of.algebra.names.keys() & algebra.names.keys(), algebra, algebra.names, where)
+    if of.algebra not in algebra.respected:
+        shared = of.algebra.names.keys() & algebra.names.keys()
+        for name in shared:
+            if (name in of.algebra.letters) is not (name in algebra.letters):
+                raise Rejected(f"{where} has {name} as a number in one algebra and as a matrix in another")
+        _respects(of.algebra, shared, algebra, algebra.names, where)
+        algebra.respected.append(of.algebra)
     return _image(of, algebra, algebra.names, where)
 
 

@@ -29,10 +29,10 @@ from typing import Any
 
 from .document import check_names, count, exact, listed
 from .interval import Interval, Rejected
-from .linear import Vector, cross, dot, plus, solve
+from .linear import Vector, cross, dot, plus, solve, units
 from .rolling import BITS, Flow, Rolling, number
 from .step import Ball
-from .taylor import Model, derivative
+from .taylor import Model, derivatives
 
 NAMES = (
     "format kind statement ball start varied radius symmetry periods time window section along bits order misses "
@@ -102,18 +102,19 @@ class Modified(Rolling):
     def densities(self, state: Sequence[Any]) -> tuple[Any, Any]:
         """12X₃(H), and 12 times the divergence of X₃."""
         K, gamma = state[:3], state[3:]
-        w, turns = self.spin(state), self.turning(state)
+        along = [[x for v in (K, gamma) for x in _crossed(v, j)] for j in range(3)]
+        w, duals = self.spin(state), derivatives(self.turning, state, along)
+        turns = [x.value for x in duals]
         eased, lift = self.inverse(gamma)
         spread = dot(eased, cross(gamma, turns)) * lift
         for j in range(3):
-            along = [x for v in (K, gamma) for x in _crossed(v, j)]
-            spread = spread + derivative(self.turning, state, along)[j]
+            spread = spread + duals[j].slopes[j]
         return dot(turns, cross(w, self.carried(w))), spread
 
 
 def _crossed(v: Sequence[Any], j: int) -> list[Any]:
     """v × e_j."""
-    found = [0 * v[0]] * 3
+    found: list[Any] = [0] * 3
     found[j - 2], found[j - 1] = v[j - 1], -v[j - 2]
     return found
 
@@ -185,15 +186,13 @@ class Orbit:
 
     def check_told_apart(self, box: Vector) -> None:
         """Raises Rejected unless the integrals and the two components are injective on a box."""
-        one, zero = box[0]._of(1), box[0]._of(0)
 
         def told(x: Sequence[Any]) -> list[Any]:
             K, gamma = x[:3], x[3:]
             return [dot(gamma, gamma), dot(K, K), dot(K, gamma), self.ball.energy(x), x[self.section], x[self.along]]
 
         try:
-            columns = [derivative(told, box, [one if i == j else zero for i in range(6)]) for j in range(6)]
-            solve(columns, [[x] for x in box])
+            solve([x.slopes for x in derivatives(told, box, units(6, box[0]))], [[x] for x in box])
         except Rejected:
             raise Rejected("the integrals and the two components are not proved to tell states apart") from None
 

@@ -44,7 +44,8 @@ class Interval:
         return Interval(-self.hi, -self.lo, self.bits)
 
     def __add__(self, other: Interval | int) -> Interval:
-        other = self._of(other)
+        if isinstance(other, int) or other.bits != self.bits:
+            other = self._of(other)
         return Interval(self.lo + other.lo, self.hi + other.hi, self.bits)
 
     def __sub__(self, other: Interval | int) -> Interval:
@@ -52,9 +53,14 @@ class Interval:
         return Interval(self.lo - other.hi, self.hi - other.lo, self.bits)
 
     def __mul__(self, other: Interval | int) -> Interval:
-        other = self._of(other)
-        ends = self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi
-        return Interval(min(ends) >> self.bits, -(-max(ends) >> self.bits), self.bits)
+        if isinstance(other, int):  # exactly
+            ends = self.lo * other, self.hi * other
+            return Interval(*(ends if other >= 0 else ends[::-1]), self.bits)
+        a, b, c, d, bits = self.lo, self.hi, other.lo, other.hi, self._of(other).bits
+        if a > 0 and c > 0:  # of most
+            return Interval(a * c >> bits, -(-b * d >> bits), bits)
+        ends = a * c, a * d, b * c, b * d
+        return Interval(min(ends) >> bits, -(-max(ends) >> bits), bits)
 
     def __truediv__(self, other: Interval | int) -> Interval:
         other = self._of(other)

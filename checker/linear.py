@@ -11,6 +11,9 @@ Vector = Sequence[Interval]
 #: What a product of two vectors is made of: integers, or intervals.
 N = TypeVar("N", int, Interval)
 Matrix = Sequence[Vector]
+#: Of Newton's iteration; and the power of 2 that the second derivative is taken for.
+MOST_ITERATIONS, CURVED = 20, 4
+NO_ROOT = "Newton's test proves no root near the numbers of the file"
 
 
 def dot(v: Sequence[N], w: Sequence[N]) -> N:
@@ -38,9 +41,9 @@ def times(s: Interval | int, v: Vector) -> Vector:
     return [s * x for x in v]
 
 
-def unit(i: int, one: Interval) -> Vector:
-    """The i-th of the three unit vectors, in intervals of the scale of `one`."""
-    return [one._of(int(i == j)) for j in range(3)]
+def units(n: int, like: Interval) -> Matrix:
+    """The unit vectors, in intervals of the scale of another."""
+    return [[like._of(int(i == j)) for j in range(n)] for i in range(n)]
 
 
 def transposed(matrix: Matrix) -> Matrix:
@@ -90,24 +93,22 @@ def isolated(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], 
     """
     root = _newton_step(residual, jacobian, [x.point() for x in box], box)
     if not all(x.inside(y) for x, y in zip(root, box, strict=True)):
-        raise Rejected("Newton's test proves no root near the numbers of the file")
+        raise Rejected(NO_ROOT)
     return root
 
 
 def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], centre: Vector) -> Vector:
-    """A box that contains one root of f near `centre`: `isolated` in a box that Newton's iteration finds.
+    """A box that contains one root of f near `centre`: `isolated` in a box about where Newton's iteration ends.
 
-    Again from the middle m of N: the root x has x - m = -A(x, m)⁻¹f(m) with A(x, m) in jacobian(N), which encloses it
-    anew; this is repeated while the box shrinks by half.
+    An iteration by d leaves an error of about d², which is no more than what parameters and rounding widen at the end.
     """
-    centre = [x.point() for x in _newton_step(residual, jacobian, centre, centre)]  # the test may start from any point
-    size = max(x.most for x in minus(_newton_step(residual, jacobian, centre, centre), centre))
-    root = isolated(residual, jacobian, [x.wider(2 * size + 8) for x in centre])
-    while True:
-        closer = _newton_step(residual, jacobian, [x.point() for x in root], root)
-        if 2 * max(x.width for x in closer) >= max(x.width for x in root):
-            return root
-        root = closer
+    for _ in range(MOST_ITERATIONS):
+        near = _newton_step(residual, jacobian, centre, centre)  # the test may start from any point
+        square = max(x.most for x in minus(near, centre)) ** 2 << CURVED >> near[0].bits
+        centre, width = [x.point() for x in near], max(x.width for x in near)
+        if square <= width:
+            return isolated(residual, jacobian, [x.wider(2 * (width + square) + 8) for x in centre])
+    raise Rejected(NO_ROOT)
 
 
 def _newton_step(

@@ -34,7 +34,7 @@ from .document import (
     scale,
 )
 from .interval import Interval, Rejected
-from .linear import Matrix, Vector, cross, determinant, dot, minus, newton, plus, solve, times, transposed, unit
+from .linear import Matrix, Vector, cross, determinant, dot, minus, newton, plus, solve, times, transposed, units
 from .step import Ball, Pair, check_small_branch, gibbs_vector, moved, tangents
 
 NAMES = "format kind statement ball integrals steps digits start orbit determinant unit_eigenvalue digest"
@@ -94,7 +94,7 @@ class Search:
         self.given = [decimals(data["start"][name], self.digits, name) for name in ("momentum", "gamma")]
         self.stated = {name: decimal(data[name], self.digits, name) for name in MULTIPLIERS if name in data}
         self.centre = [enclosed(x).point() for v in self.given for x in v]
-        self.units = [unit(i, self.size) for i in range(3)]
+        self.units = units(3, self.size)
 
     def after(self, x: Vector, vectors: list[Pair]) -> tuple[Vector, list[Pair], list[Vector]]:
         """G^q(x), the derivative applied to tangent vectors, and the Gibbs vectors of the steps."""

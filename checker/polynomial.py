@@ -80,7 +80,7 @@ class Polynomial:
         self.ring, self.terms, self.degree, self.bits = ring, terms, degree, bits
 
     def __add__(self, other: Polynomial) -> Polynomial:
-        small, large = sorted((self, other), key=lambda p: len(p.terms))
+        small, large = (self, other) if len(self.terms) <= len(other.terms) else (other, self)
         self.ring.work.spend(len(small.terms) + len(large.terms) * self._length() // 4)  # a term that is copied is less
         terms = dict(large.terms)
         for monomial, c in small.terms.items():
@@ -96,21 +96,27 @@ class Polynomial:
         return 1 + self.bits // 512
 
     def __mul__(self, other: Polynomial) -> Polynomial:
-        small, large = sorted((self.terms, other.terms), key=len)
+        small, large = self.terms, other.terms
+        if len(small) > len(large):
+            small, large = large, small
         # A product of long numbers is more work, as is one of monomials in many variables.
         price = 1 + (self.bits + other.bits) // 512 + len(self.ring.variables) // 64
         self.ring.work.spend(1 + len(small) * len(large) * price)
         terms: dict[int, int] = {}
-        so_far = terms.get
         for shift, c in small.items():
+            if not terms:
+                terms = {monomial + shift: c * d for monomial, d in large.items()}
+                so_far = terms.get
+                continue
             for monomial, d in large.items():
                 at = monomial + shift
                 terms[at] = so_far(at, 0) + c * d
             if len(terms) > MOST_TERMS:
                 raise Rejected("the certificate has a polynomial too large to be checked")
-        kept = {monomial: c for monomial, c in terms.items() if c}
+        if len(small) > 1:
+            terms = {monomial: c for monomial, c in terms.items() if c}
         bits = self.bits + other.bits + len(small).bit_length()
-        return Polynomial(self.ring, kept, self.degree + other.degree, bits)
+        return Polynomial(self.ring, terms, self.degree + other.degree, bits)
 
     def __pow__(self, power: int) -> Polynomial:
         result = self.ring.constant(1)
@@ -157,6 +163,8 @@ class Quotient:
         return result
 
     def __add__(self, other: Quotient) -> Quotient:
+        if (self.scale, self.factors) == (other.scale, other.factors):
+            return Quotient(self.numerator + other.numerator, self.scale, self.factors)
         scale, factors = lcm(self.scale, other.scale), _powers(max, self.factors, other.factors)
         return Quotient(self._over(scale, factors) + other._over(scale, factors), scale, factors)
 
@@ -188,4 +196,6 @@ class Quotient:
 
 def _powers(join: Callable[[int, int], int], a: dict[int, int], b: dict[int, int]) -> dict[int, int]:
     """The powers of the factors of two denominators, joined."""
+    if not a or not b:
+        return a or b
     return {i: join(a.get(i, 0), b.get(i, 0)) for i in (*a, *(i for i in b if i not in a))}

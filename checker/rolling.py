@@ -23,8 +23,8 @@ from typing import Any, Self
 
 from .document import MOST_STEPS
 from .interval import Interval, Rejected
-from .linear import cross, dot
-from .taylor import Model, derivative
+from .linear import cross, dot, units
+from .taylor import Model, derivatives
 
 #: A step is this part of where the series seems to end; its parts with one μ each, with so many bits; n = 2^ROOTS.
 SHARE, PARTS, BITS, ROOTS = 4, 4, 64, 12
@@ -76,9 +76,8 @@ class Rolling:
 
     def stretch(self, state: Sequence[Any]) -> list[list[Any]]:
         """The columns of a matrix that is the derivative of the field but for an antisymmetric one."""
-        one, zero, six = state[0]._of(1), state[0]._of(0), range(6)
-        units = [[one if i == j else zero for i in six] for j in six]
-        return [self.turned(state, derivative(self.spin, state, e)) for e in units]
+        spins = derivatives(self.spin, state, units(len(state), state[0]))
+        return [self.turned(state, w) for w in zip(*(x.slopes for x in spins), strict=True)]
 
     def energy(self, state: Sequence[Any]) -> Any:
         """2H."""

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .interval import Interval, Rejected
-from .linear import Matrix, Vector, cross, dot, minus, newton, plus, solve, times, transposed, unit
+from .linear import Matrix, Vector, cross, dot, minus, newton, plus, solve, times, transposed
 
 #: A tangent vector (d𝒦, dγ), or a state (𝒦, γ).
 Pair = tuple[Vector, Vector]
@@ -84,15 +84,15 @@ def residual(ball: Ball, state: Pair, u: Vector) -> Vector:
 
 
 def jacobian(ball: Ball, state: Pair, u: Vector) -> Matrix:
-    """F′(u): d ↦ Λd - D⟨γ, d⟩γ + d × Iu + u × Id - ⟨u, d⟩𝒦."""
+    """F′(u): d ↦ Λd - D⟨γ, d⟩γ + d × Iu + u × Id - ⟨u, d⟩𝒦; for d = e_i the products are e_i × (I - I_i)u."""
     momentum, gamma = state
-    inertial = [I * x for I, x in zip(ball.inertia, u, strict=True)]
     columns = []
-    for i in range(3):
-        e = unit(i, ball.D)
-        column = minus(times(ball.contact[i], e), times(ball.D * gamma[i], gamma))
-        column = plus(column, plus(cross(e, inertial), cross(u, times(ball.inertia[i], e))))
-        columns.append(minus(column, times(u[i], momentum)))
+    for i, own in enumerate(ball.inertia):
+        bent = [(I - own) * x for I, x in zip(ball.inertia, u, strict=True)]
+        column = plus(times(ball.D * gamma[i], gamma), times(u[i], momentum))
+        column[i] = column[i] - own - ball.D
+        column[i - 2], column[i - 1] = column[i - 2] + bent[i - 1], column[i - 1] - bent[i - 2]
+        columns.append([-x for x in column])
     return transposed(columns)
 
 

@@ -115,30 +115,32 @@ class Model:
 
 
 class Dual:
-    """value + slope·δ with δ² = 0: numbers, or models, with their derivative along one direction."""
+    """A number, or a model, with its derivatives along some directions; a constant has no slopes."""
 
-    __slots__ = ("slope", "value")
+    __slots__ = ("slopes", "value")
 
-    def __init__(self, value: Any, slope: Any):
-        self.value, self.slope = value, slope
+    def __init__(self, value: Any, slopes: Sequence[Any] = ()):
+        self.value, self.slopes = value, slopes
 
-    def _of(self, other: Any) -> Dual:
-        return other if isinstance(other, Dual) else Dual(other, 0)
+    def _times(self, factor: Any) -> list[Any]:
+        """The slopes, each multiplied."""
+        return [x * factor for x in self.slopes]
 
     def __neg__(self) -> Dual:
-        return Dual(-self.value, -self.slope)
+        return self * -1
 
     def __add__(self, other: Any) -> Dual:
-        other = self._of(other)
-        return Dual(self.value + other.value, self.slope + other.slope)
+        if not isinstance(other, Dual):
+            return Dual(self.value + other, self.slopes)
+        return Dual(self.value + other.value, _added(self.slopes, other.slopes))
 
     def __sub__(self, other: Any) -> Dual:
-        return self + -self._of(other)
+        return self + -other
 
     def __mul__(self, other: Any) -> Dual:
         if not isinstance(other, Dual):
-            return Dual(self.value * other, self.slope * other)
-        return Dual(self.value * other.value, self.value * other.slope + self.slope * other.value)
+            return Dual(self.value * other, self._times(other))
+        return Dual(self.value * other.value, _added(other._times(self.value), self._times(other.value)))
 
     __radd__, __rmul__ = __add__, __mul__
 
@@ -152,9 +154,17 @@ class Dual:
 
     def __rtruediv__(self, other: int) -> Dual:
         one = 1 / self.value
-        return Dual(one * other, -(one * one * self.slope * other))
+        return Dual(one * other, self._times(one * one * -other))
 
 
-def derivative(of: Callable[[Sequence[Any]], Sequence[Any]], at: Sequence[Any], along: Sequence[Any]) -> list[Any]:
-    """The derivative of a function of several numbers, along a direction."""
-    return [x.slope for x in of([Dual(x, y) for x, y in zip(at, along, strict=True)])]
+def _added(a: Sequence[Any], b: Sequence[Any]) -> Sequence[Any]:
+    """Slopes, where one of the two may be those of a constant."""
+    return [x + y for x, y in zip(a, b, strict=True)] if a and b else a or b
+
+
+def derivatives(
+    of: Callable[[Sequence[Any]], Sequence[Any]], at: Sequence[Any], along: Sequence[Sequence[Any]]
+) -> list[Dual]:
+    """What a function of several numbers gives, with its derivatives along some directions."""
+    found = of([Dual(x, slopes) for x, slopes in zip(at, zip(*along, strict=True), strict=True)])
+    return [x if x.slopes else Dual(x.value, [0 * x.value] * len(along)) for x in found]

@@ -19,6 +19,7 @@ from .trees import bounded
 MOST_LETTERS, MOST_WORDS, MOST_EXPONENT = 60, 20_000, 1_000
 #: The exponents of the parameters, and the letters.
 Term = tuple[tuple[int, ...], tuple[str, ...]]
+Number = Fraction | int
 
 
 class Words:
@@ -26,7 +27,7 @@ class Words:
 
     __slots__ = ("terms", "work")
 
-    def __init__(self, terms: Mapping[Term, Fraction], work: Work):
+    def __init__(self, terms: Mapping[Term, Number], work: Work):
         self.terms, self.work = {term: bounded(c) for term, c in terms.items() if c}, work
         if len(self.terms) > MOST_WORDS or any(
             len(word) > MOST_LETTERS or any(abs(e) > MOST_EXPONENT for e in exponents) for exponents, word in self.terms
@@ -37,7 +38,7 @@ class Words:
         self.work.spend(len(self.terms) + len(other.terms))
         terms = dict(self.terms)
         for term, c in other.terms.items():
-            terms[term] = terms.get(term, Fraction(0)) + c
+            terms[term] = terms.get(term, 0) + c
         return Words(terms, self.work)
 
     def __sub__(self, other: Words) -> Words:
@@ -45,11 +46,11 @@ class Words:
 
     def __mul__(self, other: Words) -> Words:
         self.work.spend(1 + len(self.terms) * len(other.terms) * (1 + len(next(iter(self.terms), ((), ()))[0]) // 8))
-        terms: dict[Term, Fraction] = {}
+        terms: dict[Term, Number] = {}
         for (a, left), c in self.terms.items():
             for (b, right), d in other.terms.items():
                 term = (tuple(map(add, a, b)), left + right)
-                terms[term] = terms.get(term, Fraction(0)) + c * d
+                terms[term] = terms.get(term, 0) + c * d
         return Words(terms, self.work)
 
     def __pow__(self, power: int) -> Words:
@@ -58,7 +59,7 @@ class Words:
             if len(self.terms) != 1 or any(word for _, word in self.terms):
                 raise Rejected("a statement about words divides by what is no product of parameters")
             [((exponents, word), c)] = self.terms.items()
-            base = Words({(tuple(-e for e in exponents), word): 1 / c}, self.work)
+            base = Words({(tuple(-e for e in exponents), word): Fraction(1) / c}, self.work)
         result = base
         for _ in range(abs(power) - 1):
             result = result * base
@@ -70,20 +71,20 @@ class Words:
 
     def rewritten(self, rules: Mapping[tuple[str, str], Words]) -> Words:
         """What is left of the sum when no rule applies any more."""
-        settled: dict[Term, Fraction] = {}
+        settled: dict[Term, Number] = {}
         pending = self.terms
         while pending:
-            following: dict[Term, Fraction] = {}
+            following: dict[Term, Number] = {}
             for (exponents, word), c in pending.items():
                 at = next((i for i, pair in enumerate(pairwise(word)) if pair in rules), None)
                 if at is None:
-                    settled[exponents, word] = settled.get((exponents, word), Fraction(0)) + c
+                    settled[exponents, word] = settled.get((exponents, word), 0) + c
                     continue
                 image = rules[word[at], word[at + 1]]
                 self.work.spend(4 * (1 + len(image.terms)) * (1 + (len(word) + len(exponents)) // 8))
                 for (more, middle), d in image.terms.items():
                     term = (tuple(map(add, exponents, more)), word[:at] + middle + word[at + 2 :])
-                    following[term] = following.get(term, Fraction(0)) + c * d
+                    following[term] = following.get(term, 0) + c * d
             pending = Words(following, self.work).terms
         return Words(settled, self.work)
 

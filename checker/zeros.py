@@ -13,9 +13,9 @@ from typing import Any
 from .document import count
 from .form import distinct, many, sized, text
 from .interval import Interval, Rejected
-from .linear import solve, transposed
+from .linear import solve, units
 from .polynomial import Work
-from .taylor import Dual, derivative
+from .taylor import Dual, derivatives
 from .trees import check_name, check_tree, rational, size, value
 
 NAMES = "role text point unknowns definitions equations nonzero radius"
@@ -60,17 +60,16 @@ def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: s
     bits = 64 + 2 * max(radius.denominator.bit_length(), *(x.denominator.bit_length() for x in point.values()))
     unknowns, parts = one["unknowns"], size([one["definitions"], one["equations"], one["nonzero"]])
     work.spend((len(unknowns) + 3) * parts * (1 + (bits + LARGE) // 64))
-    numbers = {name: Interval.enclosing(x, x, bits) for name, x in point.items()}
-    centre = [numbers[name] for name in unknowns]
+    numbers = {name: Dual(Interval.enclosing(x, x, bits)) for name, x in point.items()}
+    centre = [numbers[name].value for name in unknowns]
     box = [Interval.enclosing(point[name] - radius, point[name] + radius, bits) for name in unknowns]
 
     def trees(part: str) -> Callable[[Sequence[Any]], list[Any]]:
         def at(values: Sequence[Any]) -> list[Any]:
-            names = {**numbers, **dict(zip(unknowns, values, strict=True))}
-            known = {name: x if isinstance(x, Dual) else Dual(x, 0) for name, x in names.items()}
+            known = {**numbers, **dict(zip(unknowns, values, strict=True))}
 
             def number(x: Fraction) -> Dual:
-                return Dual(Interval.enclosing(x, x, bits), 0)
+                return Dual(Interval.enclosing(x, x, bits))
 
             for name, tree in one["definitions"]:
                 known[name] = value(tree, known, number)
@@ -79,12 +78,10 @@ def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: s
         return at
 
     equations = trees("equations")
-    zero = Interval(0, 0, bits)
-    units = [[zero + int(i == j) for j in range(len(unknowns))] for i in range(len(unknowns))]
-    slopes = transposed([[zero + x for x in derivative(equations, box, unit)] for unit in units])
-    found = solve(slopes, [[x.value] for x in equations(centre)])
+    rows = [x.slopes for x in derivatives(equations, box, units(len(unknowns), box[0]))]
+    found = solve(rows, [[x.value] for x in equations(list(map(Dual, centre)))])
     near = [x - s for x, (s,) in zip(centre, found, strict=True)]
     if not all(x.inside(y) for x, y in zip(near, box, strict=True)):
         raise Rejected(f"{where} is not proved to have one solution within its radius")
-    if not all(x.value.sign for x in trees("nonzero")(near)):
+    if not all(x.value.sign for x in trees("nonzero")(list(map(Dual, near)))):
         raise Rejected(f"{where} has something that is not proved to differ from 0 at the solution")
