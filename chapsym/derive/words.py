@@ -9,9 +9,10 @@ The rules must be confluent, otherwise the normal form would depend on the order
 "not zero" would mean nothing.  The constructor checks all critical pairs.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -197,9 +198,15 @@ class Traces:
         return bool(traced == 0)
 
 
-def _terms(expr: sp.Expr | int) -> Iterable[tuple[sp.Expr, Word]]:
+def _terms(expr: sp.Expr | int) -> Sequence[tuple[sp.Expr, Word]]:
     """The (coefficient, word) pairs of an expression."""
-    for term in sp.Add.make_args(sp.expand(unfolded(sp.sympify(expr, strict=True)))):
+    return _pairs(unfolded(sp.sympify(expr, strict=True)))
+
+
+@lru_cache(10_000)
+def _pairs(expr: sp.Expr) -> list[tuple[sp.Expr, Word]]:
+    found = []
+    for term in sp.Add.make_args(sp.expand(expr)):
         commuting, letters = term.args_cnc()
         word: list[sp.Symbol] = []
         for letter in letters:
@@ -209,7 +216,8 @@ def _terms(expr: sp.Expr | int) -> Iterable[tuple[sp.Expr, Word]]:
             word += [base] * int(power)
         coefficient = sp.Mul(*commuting)
         if coefficient != 0:
-            yield coefficient, tuple(word)
+            found.append((coefficient, tuple(word)))
+    return found
 
 
 def _rotations(word: Word) -> list[Word]:
@@ -229,7 +237,7 @@ def evaluate(expr: sp.Expr | int, values: Mapping[sp.Symbol, sp.Matrix | sp.Expr
     scalars = {symbol: value for symbol, value in values.items() if symbol not in matrices}
     parts = []
     for commuting, word in _terms(expr):
-        coefficient = commuting.subs(scalars, simultaneous=True)
+        coefficient = commuting.xreplace(scalars)
         product = matrices[word[0]] if word else sp.eye(max(matrix.rows for matrix in matrices.values()))
         for letter in word[1:]:
             product = product * matrices[letter]

@@ -5,13 +5,13 @@ Gröbner basis, each new element with its own cofactors (Buchberger's algorithm)
 Nothing rests on it: the checker multiplies out what is found here.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from operator import add, ge, sub
+from operator import sub
 from typing import Any
 
 import sympy as sp
-from sympy.polys.rings import PolyElement, PolyRing
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from chapsym.checker.matrices import Quotients
 from chapsym.checker.polynomial import FIELD, Quotient
@@ -19,39 +19,47 @@ from chapsym.checker.polynomial import FIELD, Quotient
 from .trees import factored
 
 Monomial = tuple[int, ...]
-Terms = dict[Monomial, Any]
+#: Exponents as one number, as the checker has them, and the coefficients.
+Packed = dict[int, Any]
 
 
 @dataclass(frozen=True)
 class Element:
     """A polynomial of the ideal with its cofactors, one for each relation."""
 
-    polynomial: PolyElement
-    cofactors: tuple[PolyElement, ...]
+    polynomial: fmpq_mpoly
+    cofactors: tuple[fmpq_mpoly, ...]
 
-    def less(self, factor: PolyElement, other: "Element") -> "Element":
+    @property
+    def lead(self) -> Monomial:
+        """The exponents of the leading term."""
+        return tuple(int(e) for e in self.polynomial.monoms()[0])
+
+    def less(self, factor: fmpq_mpoly, other: "Element") -> "Element":
         """self - factor · other."""
         cofactors = tuple(a - factor * b for a, b in zip(self.cofactors, other.cofactors, strict=True))
         return Element(self.polynomial - factor * other.polynomial, cofactors)
 
 
 class Ideal:
-    """The ideal of some relations in a polynomial ring over Q."""
+    """The ideal of some relations, {exponents: coefficient}, in a polynomial ring over Q."""
 
-    def __init__(self, ring: PolyRing, relations: Sequence[PolyElement]) -> None:
-        self.ring = ring
-        self._none = Element(ring.zero, (ring.zero,) * len(relations))
+    def __init__(self, names: Sequence[str], relations: Sequence[Mapping[Monomial, Any]]) -> None:
+        self._context = fmpq_mpoly_ctx.get(tuple(names), Ordering.degrevlex)
+        zero, one = self._context.constant(0), self._context.constant(1)
+        self._none = Element(zero, (zero,) * len(relations))
         self._basis: list[Element] = []
         self._pairs: list[tuple[Element, Element]] = []
         for i, relation in enumerate(relations):
             if relation:
-                ones = (ring.one if i == j else ring.zero for j in range(len(relations)))
-                self._extend(Element(relation, tuple(ones)))
+                ones = tuple(one if i == j else zero for j in range(len(relations)))
+                self._extend(Element(self._context.from_dict(dict(relation)), ones))
 
-    def cofactors(self, polynomial: Terms) -> tuple[PolyElement, ...] | None:
-        """Those of a polynomial, given as {exponents: coefficient}; None if it is not in the ideal."""
+    def cofactors(self, polynomial: Mapping[Monomial, Any]) -> tuple[fmpq_mpoly, ...] | None:
+        """Those of a polynomial; None if it is not in the ideal."""
+        packed = {_packed(m): fmpq(c) for m, c in polynomial.items()}
         while True:
-            remainder, quotients = self._divided(polynomial)
+            remainder, quotients = self._divided(packed)
             if not remainder:
                 total = self._none
                 for quotient, element in zip(quotients, self._basis, strict=True):
@@ -62,15 +70,14 @@ class Ideal:
 
     def _extend(self, new: Element) -> None:
         """With the pairs that matter: where leading monomials share no variable, the S-polynomial reduces to 0."""
-        lead = new.polynomial.leading_expv()
-        self._pairs += [(old, new) for old in self._basis if any(map(min, old.polynomial.leading_expv(), lead))]
+        self._pairs += [(old, new) for old in self._basis if any(map(min, old.lead, new.lead))]
         self._basis.append(new)
 
     def _completed_by_one(self) -> bool:
         """Adds the next element of the Gröbner basis; whether there was one."""
         while self._pairs:
             found = self._s_polynomial(*self._pairs.pop(0))
-            remainder, quotients = self._divided(dict(found.polynomial))
+            remainder, quotients = self._divided({_packed(m): c for m, c in found.polynomial.to_dict().items()})
             if remainder:
                 for quotient, element in zip(quotients, self._basis, strict=True):
                     found = found.less(quotient, element)
@@ -79,62 +86,70 @@ class Ideal:
         return False
 
     def _s_polynomial(self, a: Element, b: Element) -> Element:
-        one, two = a.polynomial.leading_expv(), b.polynomial.leading_expv()
-        common = tuple(map(max, one, two))
-        left = self.ring.from_dict({tuple(map(sub, common, one)): -1 / a.polynomial.LC})
-        right = self.ring.from_dict({tuple(map(sub, common, two)): 1 / b.polynomial.LC})
+        common = tuple(map(max, a.lead, b.lead))
+        left, right = (
+            self._context.from_dict({tuple(map(sub, common, one.lead)): sign / one.polynomial.leading_coefficient()})
+            for one, sign in ((a, -1), (b, 1))
+        )
         return self._none.less(left, a).less(right, b)
 
-    def _divided(self, polynomial: Terms) -> tuple[Terms, list[PolyElement]]:
+    def _divided(self, pending: Packed) -> tuple[Packed, list[fmpq_mpoly]]:
         """The remainder, and the quotient for each element of the basis."""
-        rules = [(e.polynomial.leading_expv(), e.polynomial.LC, e.polynomial.terms()) for e in self._basis]
-        quotients: list[Terms] = [{} for _ in rules]
-        pending, settled = dict(polynomial), dict[Monomial, Any]()
+        names = self._context.names()
+        borrows = sum(1 << FIELD * i + FIELD - 1 for i in range(len(names)))  # no exponent has this bit
+        rules = []
+        for element in self._basis:
+            lead, inverse = _packed(element.lead), 1 / element.polynomial.leading_coefficient()
+            rest = {_packed(m) - lead: -c * inverse for m, c in element.polynomial.to_dict().items()}
+            rules.append((lead, inverse, [(offset, times) for offset, times in rest.items() if offset]))
+        quotients: list[Packed] = [{} for _ in rules]
+        settled: Packed = {}
         while pending:
-            replaced: Terms = {}
+            replaced: Packed = {}
             for monomial, factor in pending.items():
-                found = next((i for i, rule in enumerate(rules) if all(map(ge, monomial, rule[0]))), None)
-                if found is None:
+                for (lead, inverse, terms), quotient in zip(rules, quotients, strict=True):
+                    if ((monomial | borrows) - lead) & borrows == borrows:
+                        quotient[monomial - lead] = quotient.get(monomial - lead, 0) + factor * inverse
+                        for offset, times in terms:
+                            replaced[monomial + offset] = replaced.get(monomial + offset, 0) + factor * times
+                        break
+                else:
                     settled[monomial] = settled.get(monomial, 0) + factor
-                    continue
-                lead, coefficient, terms = rules[found]
-                rest, factor = tuple(map(sub, monomial, lead)), factor / coefficient
-                quotients[found][rest] = quotients[found].get(rest, 0) + factor
-                for other, times in terms:
-                    if other != lead:
-                        to = tuple(map(add, rest, other))
-                        replaced[to] = replaced.get(to, 0) - factor * times
             pending = {monomial: factor for monomial, factor in replaced.items() if factor}
         remainder = {monomial: factor for monomial, factor in settled.items() if factor}
-        return remainder, [self.ring.from_dict({m: c for m, c in q.items() if c}) for q in quotients]
+        return remainder, [
+            self._context.from_dict({_exponents(m, len(names)): c for m, c in q.items() if c}) for q in quotients
+        ]
+
+
+def _packed(monomial: Sequence[int]) -> int:
+    return sum(int(e) << FIELD * i for i, e in enumerate(monomial))
+
+
+def _exponents(monomial: int, size: int) -> Monomial:
+    return tuple(monomial >> FIELD * i & 0xFFFF for i in range(size))
 
 
 def ideal(of: Quotients) -> Ideal:
     """The ideal of the relations of a ring of the checker."""
-    ring = PolyRing([sp.Symbol(name) for name in of.ring.variables], sp.QQ, sp.grevlex)
-    relations = [{m: c / r.scale for m, c in terms(r).items()} for r in of.relations]
-    return Ideal(ring, [ring.from_dict(r) for r in relations])
+    relations = [{m: fmpq(c, r.scale) for m, c in terms(r).items()} for r in of.relations]
+    return Ideal(of.ring.variables, relations)
 
 
-def terms(of: Quotient) -> Terms:
+def terms(of: Quotient) -> dict[Monomial, int]:
     """The numerator that the checker forms."""
-    shifts = [FIELD * i for i in range(len(of.numerator.ring.variables))]
-    return {tuple(m >> s & 0xFFFF for s in shifts): sp.QQ(c) for m, c in of.numerator.terms.items()}
+    size = len(of.numerator.ring.variables)
+    return {_exponents(m, size): c for m, c in of.numerator.terms.items()}
 
 
 def expression(of: Quotient) -> sp.Expr:
     """The numerator as an expression."""
     symbols = [sp.Symbol(name) for name in of.numerator.ring.variables]
-    return sp.Add(
-        *(
-            sp.Rational(int(c.numerator), int(c.denominator)) * sp.Mul(*map(sp.Pow, symbols, m))
-            for m, c in terms(of).items()
-        )
-    )
+    return sp.Add(*(c * sp.Mul(*map(sp.Pow, symbols, m)) for m, c in terms(of).items()))
 
 
 def trees(ideal: Ideal, difference: Quotient) -> list[Any] | None:
     """The cofactors of a numerator as the checker reads them; None if it is not in the ideal."""
     cofactors = ideal.cofactors(terms(difference))
     names = difference.numerator.ring.variables
-    return None if cofactors is None else [factored(cofactor, names) for cofactor in cofactors]
+    return None if cofactors is None else [factored(cofactor.to_dict(), names) for cofactor in cofactors]

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 import sympy as sp
 from commands import chapsym, refused
+from flint import Ordering, fmpq_mpoly_ctx
 
 from chapsym import checker, proofs
 from chapsym.checker import manifest
@@ -289,13 +290,12 @@ def test_an_identity_is_a_statement():
 
 
 def test_cofactors_make_a_polynomial_of_the_ideal_and_there_are_none_for_another():
-    ring = sp.ring("x y z", sp.QQ, sp.grevlex)[0]
-    relations = [ring.from_expr(e) for e in (x * y - z, y * z - x)]
-    ideal = Ideal(ring, relations)
-    wanted = ring.from_expr(sp.expand(x**2 - z**2))  # by the S-polynomial alone
-    cofactors = ideal.cofactors(dict(wanted))
-    assert sum((c * r for c, r in zip(cofactors, relations, strict=True)), ring.zero) == wanted
-    assert ideal.cofactors(dict(ring.from_expr(x + 1))) is None
+    a, b, c = fmpq_mpoly_ctx.get(("x", "y", "z"), Ordering.degrevlex).gens()
+    relations, wanted = (a * b - c, b * c - a), a**2 - c**2  # by the S-polynomial alone
+    ideal = Ideal("xyz", [relation.to_dict() for relation in relations])
+    cofactors = ideal.cofactors(wanted.to_dict())
+    assert sum(x * y for x, y in zip(cofactors, relations, strict=True)) == wanted
+    assert ideal.cofactors((a + 1).to_dict()) is None
 
 
 def test_points_are_on_the_relations_and_keep_what_is_known():
