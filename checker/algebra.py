@@ -58,9 +58,9 @@ class Algebra:
         """The sum, after the rules."""
         terms: dict[Term, Number] = {}
         for part in parts:
-            self.work.spend(len(terms) + len(part.terms))
             for term, c in part.terms.items():
                 terms[term] = terms.get(term, 0) + c
+            self.work.spend(len(terms))
         return Words(terms, self.work).rewritten(self.rules)
 
     def image(self, of: Words, letters: Callable[[str], Words], scalar: Callable[[tuple[int, ...]], Words]) -> Words:

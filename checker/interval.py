@@ -54,8 +54,8 @@ class Interval:
 
     def __mul__(self, other: Interval | int) -> Interval:
         if isinstance(other, int):  # exactly
-            ends = self.lo * other, self.hi * other
-            return Interval(*(ends if other >= 0 else ends[::-1]), self.bits)
+            low, high = (self.lo, self.hi) if other >= 0 else (self.hi, self.lo)
+            return Interval(low * other, high * other, self.bits)
         a, b, c, d, bits = self.lo, self.hi, other.lo, other.hi, self._of(other).bits
         if a > 0 and c > 0:  # of most
             return Interval(a * c >> bits, -(-b * d >> bits), bits)

@@ -341,21 +341,20 @@ def _parts(factors: Sequence[Polynomial]) -> list[Polynomial]:
 def _divided(a: Polynomial, b: Polynomial) -> Polynomial | None:
     """a/b, where b has no common divisor of its coefficients; None where b does not divide a."""
     borrows = sum(1 << FIELD * i + FIELD - 1 for i in range(len(a.ring.variables)))  # no exponent has this bit
-    lead, rest, quotient, bits = max(b.terms), dict(a.terms), dict[int, int](), 0
+    lead, rest, quotient = max(b.terms), dict(a.terms), a.ring.constant(0)
     while rest:
         first = max(rest)
         over, more = divmod(rest[first], b.terms[lead])
         if more or ((first | borrows) - lead) & borrows != borrows:
             return None
-        length = over.bit_length()
-        a.ring.work.spend(3 * len(b.terms) * (1 + (length + b.bits) // 512) + len(rest) // 4)
-        bits, quotient[first - lead] = max(bits, length), over
+        a.ring.work.spend(len(b.terms))
+        quotient = quotient + Polynomial(a.ring, {first - lead: over}, a.degree, over.bit_length())
         for monomial, c in b.terms.items():
             at = monomial + first - lead
             rest[at] = rest.get(at, 0) - over * c
             if not rest[at]:
                 del rest[at]
-    return Polynomial(a.ring, quotient, a.degree, bits)
+    return quotient
 
 
 def proportional(a: Polynomial, b: Polynomial) -> bool:

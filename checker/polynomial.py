@@ -80,7 +80,7 @@ class Polynomial:
         self.ring, self.terms, self.degree, self.bits = ring, terms, degree, bits
 
     def __add__(self, other: Polynomial) -> Polynomial:
-        small, large = (self, other) if len(self.terms) <= len(other.terms) else (other, self)
+        small, large = sorted((self, other), key=lambda p: len(p.terms))
         self.ring.work.spend(len(small.terms) + len(large.terms) * self._length() // 4)  # a term that is copied is less
         terms = dict(large.terms)
         for monomial, c in small.terms.items():
@@ -96,9 +96,7 @@ class Polynomial:
         return 1 + self.bits // 512
 
     def __mul__(self, other: Polynomial) -> Polynomial:
-        small, large = self.terms, other.terms
-        if len(small) > len(large):
-            small, large = large, small
+        small, large = sorted((self.terms, other.terms), key=len)
         # A product of long numbers is more work, as is one of monomials in many variables.
         price = 1 + (self.bits + other.bits) // 512 + len(self.ring.variables) // 64
         self.ring.work.spend(1 + len(small) * len(large) * price)
@@ -196,6 +194,6 @@ class Quotient:
 
 def _powers(join: Callable[[int, int], int], a: dict[int, int], b: dict[int, int]) -> dict[int, int]:
     """The powers of the factors of two denominators, joined."""
-    if not a or not b:
+    if not all((a, b)):
         return a or b
     return {i: join(a.get(i, 0), b.get(i, 0)) for i in (*a, *(i for i in b if i not in a))}

@@ -89,7 +89,7 @@ def jacobian(ball: Ball, state: Pair, u: Vector) -> Matrix:
     columns = []
     for i, own in enumerate(ball.inertia):
         bent = [(I - own) * x for I, x in zip(ball.inertia, u, strict=True)]
-        column = plus(times(ball.D * gamma[i], gamma), times(u[i], momentum))
+        column = [*plus(times(ball.D * gamma[i], gamma), times(u[i], momentum))]
         column[i] = column[i] - own - ball.D
         column[i - 2], column[i - 1] = column[i - 2] + bent[i - 1], column[i - 1] - bent[i - 2]
         columns.append([-x for x in column])

@@ -95,11 +95,9 @@ def value(tree: Any, names: Mapping[str, Any], number: Callable[[Fraction], Any]
 
 def _joined(operation: Callable[[Any, Any], Any], values: list[Any]) -> Any:
     """A long sum or product, in halves: so that no part of it is copied often."""
+    if len(values) < 3:
+        return bounded(operation(*values)) if len(values) > 1 else values[0]
     half = len(values) // 2
-    if not half:
-        return values[0]
-    if half == 1 and len(values) == 2:
-        return bounded(operation(*values))
     return bounded(operation(_joined(operation, values[:half]), _joined(operation, values[half:])))
 
 

@@ -138,4 +138,4 @@ def test_a_checker_with_one_thing_turned_round_is_seen(tmp_path, battery, thorou
 
 
 #: What is turned round without harm: all words that are left have the other sign.
-HARMLESS = {"settled[exponents, word] = settled.get((exponents, word), Fraction(0)) + c"}
+HARMLESS = {"settled[exponents, word] = settled.get((exponents, word), 0) + c"}
