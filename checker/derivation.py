@@ -24,18 +24,16 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from .algebra import Algebra, all_or_none, having
-from .document import check_names, count
-from .form import chosen, distinct, many, sized, text
+from .form import NUMBER, anything, check_shape, chosen, names, once, text, within
 from .interval import Rejected
 from .matrices import MOST_ROWS, Entry, Placed, Quotients, check_places, entry, placed, words_at
 from .polynomial import Quotient
-from .trees import check_name, check_tree, names_in
+from .trees import check_known, check_name, check_tree, names_in
 from .words import Matrix, Words
 
 #: Of a derivation.
 MOST_DEFINITIONS = 100
 PAIRS, LETTER, LETTERS = ("rate", "replaced"), ("gradient", "dual"), ("having", "lacking")
-OPERATIONS = ("written", *PAIRS, *LETTER, *LETTERS, "matrix", "entry")
 
 
 class Defined(NamedTuple):
@@ -53,51 +51,64 @@ def is_premise(one: dict[str, Any], names: Collection[str]) -> bool:
     return one["operation"] == "written" and names_in(one["of"]).isdisjoint(names)
 
 
+def check_definition(data: Any, where: str) -> None:
+    """Raises Rejected unless this is a step of a derivation."""
+    check_shape(data, DEFINITION, where)
+    check_shape(data["by"], BY[data["operation"]], f"by of {where}")
+
+
+PAIRS_OF_NAMES = [(check_name, check_tree)]
+#: What an operation is done by.
+BY = {
+    "written": (),
+    "rate": PAIRS_OF_NAMES,
+    "replaced": PAIRS_OF_NAMES,
+    "gradient": check_name,
+    "dual": check_name,
+    "having": names,
+    "lacking": names,
+    "matrix": ([(check_name, anything)], [[[check_tree]]]),
+    "entry": (range(MOST_ROWS + 1), range(MOST_ROWS + 1)),
+}
+DEFINITION = {
+    "name": check_name, "text": text, "algebra": NUMBER, "operation": tuple(BY), "of": check_tree, "by": anything,
+    "value?": check_tree,
+}  # fmt: skip
+
+
 def check_form(
-    data: Any, algebras: Sequence[Mapping[str, Any]], names: Sequence[Collection[str]]
+    data: Any, algebras: Sequence[Mapping[str, Any]], known: Sequence[Collection[str]]
 ) -> list[Collection[str]]:
-    """The form of a derivation in algebras that have been checked, with their names.
+    """Raises Rejected unless each step is made of what there is, in algebras with these names.
 
     Returns for each algebra the names that are defined and can be used there.
     """
-    if len(many(data, "the derivation")) > MOST_DEFINITIONS:
+    if len(data) > MOST_DEFINITIONS:
         raise Rejected(f"the derivation has more than {MOST_DEFINITIONS} definitions")
-    taken = set().union(*names)
+    once([one["name"] for one in data], "the derivation")
+    taken = set().union(*known)
     made: dict[str, dict[str, int]] = {"words": {}, "matrix": {}, "entry": {}}
     for i, one in enumerate(data):
-        where = f"definition {i}"
-        valued = isinstance(one, dict) and "value" in one
-        check_names(one, "name text algebra operation of by" + " value" * valued, where)
-        if valued:
-            check_tree(one["value"], names[count(one["algebra"], 0, len(algebras) - 1, where)], where)
-        check_name(one["name"], where)
+        where, here, operation = f"definition {i}", one["algebra"], one["operation"]
+        algebra = within(here, algebras, where)
         if one["name"] in taken:
             raise Rejected(f"{where} has a name that is taken")
-        taken.add(one["name"])
-        text(one["text"], where)
-        here = count(one["algebra"], 0, len(algebras) - 1, where)
-        chosen(one["operation"], OPERATIONS, f"the operation of {where}")
-        kind = one["operation"] if one["operation"] in made else "words"
-        if (algebras[here]["kind"] == "quotient") is (kind == "words"):
+        check_known([one.get("value", 0)], known[here], where)
+        kind = operation if operation in made else "words"
+        if (algebra["kind"] == "quotient") is (kind == "words"):
             raise Rejected(f"{where} is in an algebra of another kind than its operation")
-        trees, known = [one["of"]], {*names[here], *made["words"]}
-        if one["operation"] != "written":
+        trees = [one["of"]]
+        if operation != "written":
             chosen(one["of"], list(made["matrix" if kind == "entry" else "words"]), f"what {where} is made from")
             trees = []
         if kind == "matrix":
-            check_places(one["by"], algebras[made["words"][one["of"]]], algebras[here], where)
+            check_places(one["by"], algebras[made["words"][one["of"]]], algebra, where)
         elif kind == "entry":
-            sized(one["by"], 2, where)
-            for number in one["by"]:
-                count(number, 0, MOST_ROWS, where)
             if made["matrix"][one["of"]] != here:
                 raise Rejected(f"{where} is in another algebra than its matrix")
-        elif one["operation"] != "written":
-            trees += _check_by(one, algebras[made["words"][one["of"]]], where)
-        elif one["by"] != []:
-            raise Rejected(f"{where} is written and made by something")
-        for tree in trees:
-            check_tree(tree, known, where)
+        elif operation != "written":
+            trees = _check_by(one, algebras[made["words"][one["of"]]], where)
+        check_known(trees, {*known[here], *made["words"]}, where)
         made[kind][one["name"]] = here
     return [
         {name for name, there in made["entry"].items() if there == here} if one["kind"] == "quotient" else made["words"]
@@ -106,19 +117,17 @@ def check_form(
 
 
 def _check_by(one: dict[str, Any], source: Mapping[str, Any], where: str) -> list[Any]:
-    """The form of the other operand, about letters of the algebra of the first; returns the trees in it."""
-    names = [*source["letters"], *(source["parameters"] if one["operation"] == "replaced" else [])]
+    """That the other operand is of letters of the algebra of the first, each once; returns the trees in it."""
+    about = [*source["letters"], *(source["parameters"] if one["operation"] == "replaced" else [])]
     if one["operation"] in LETTER:
-        chosen(one["by"], names, f"the letter of {where}")
+        chosen(one["by"], about, f"the letter of {where}")
         return []
-    by = many(one["by"], where)
-    if one["operation"] in PAIRS:
-        for pair in by:
-            sized(pair, 2, where)
-    letters = distinct([pair[0] for pair in by] if one["operation"] in PAIRS else by, where)
-    if not letters or not letters <= set(names):
+    letters = [pair[0] for pair in one["by"]] if one["operation"] in PAIRS else one["by"]
+    names(letters, where)
+    check_known(letters, about, where)
+    if not letters:
         raise Rejected(f"{where} must be by names of the algebra that it is made from")
-    return [pair[1] for pair in by] if one["operation"] in PAIRS else []
+    return [pair[1] for pair in one["by"]] if one["operation"] in PAIRS else []
 
 
 def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotients]) -> dict[str, Made]:

@@ -3,7 +3,7 @@
 import hashlib
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -60,21 +60,14 @@ def digest(data: dict[str, Any]) -> str:
     return hashlib.sha256(json.dumps(rest, sort_keys=True, separators=(",", ":")).encode("ascii")).hexdigest()
 
 
-def check_names(data: Any, names: str, where: str) -> None:
+def check_names(data: Any, names: Iterable[str], where: str) -> None:
     """Raises Rejected unless `data` is an object with these names and no others."""
     if not isinstance(data, dict):
-        raise Rejected(f"{where} must be an object with the names {', '.join(names.split())}")
-    if other := sorted(set(data) ^ set(names.split())):
+        raise Rejected(f"{where} must be an object with the names {', '.join(names)}")
+    if other := sorted(set(data) ^ set(names)):
         raise Rejected(
             f"{where} {'has' if other[0] in data else 'lacks'} {other[0]!a:.60}, not exactly the names of its form"
         )
-
-
-def listed(data: Any, length: int, where: str) -> list[Any]:
-    """A list of this length."""
-    if not isinstance(data, list) or len(data) != length:
-        raise Rejected(f"{where} must be a list of {length}")
-    return data
 
 
 def count(value: Any, least: int, most: int, where: str) -> int:
@@ -103,9 +96,16 @@ def decimal(text: Any, digits: int, where: str) -> Fraction:
     return Fraction(text)
 
 
+def sized(data: Any, size: int, where: str) -> None:
+    """Raises Rejected unless this is a list of that length."""
+    if not isinstance(data, list) or len(data) != size:
+        raise Rejected(f"{where} must be a list of {size}")
+
+
 def decimals(data: Any, digits: int, where: str) -> list[Fraction]:
     """Three of them."""
-    return [decimal(x, digits, where) for x in listed(data, 3, where)]
+    sized(data, 3, where)
+    return [decimal(x, digits, where) for x in data]
 
 
 def check_rounded(true: Sequence[Interval], given: Sequence[Fraction], digits: int, where: str) -> None:

@@ -27,19 +27,23 @@ from functools import partial
 from math import ceil
 from typing import Any
 
-from .document import check_names, count, exact, listed
+from .document import exact
+from .form import HEAD, anything, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector, cross, dot, plus, solve, units
 from .rolling import BITS, Flow, Rolling, number
 from .step import Ball
 from .taylor import Model, derivatives
 
-NAMES = (
-    "format kind statement ball start varied radius symmetry periods time window section along bits order misses "
-    "energy density digest"
-)
 STATE = ("K1", "K2", "K3", "gamma1", "gamma2", "gamma3")
 SYMMETRIES = ([1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1])
+NUMBERS, PAIR = (exact,) * 3, (exact, exact)
+FORM = HEAD | {
+    "ball": {"J": NUMBERS, "D": exact}, "start": {"momentum": NUMBERS, "gamma": NUMBERS}, "varied": STATE[:3],
+    "radius": exact, "symmetry": anything, "periods": range(1, 3), "time": exact, "window": exact, "section": STATE,
+    "along": STATE, "bits": range(BITS, 4097), "order": range(8, 1025), "misses": (PAIR, PAIR), "energy": PAIR,
+    "density": PAIR,
+}  # fmt: skip
 INTEGRALS = {"energy": "the integral of X3(H)", "density": "the integral of the divergence of X3"}
 
 
@@ -56,27 +60,14 @@ def statement(data: dict[str, Any]) -> str:
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless all numbers are there, in their form."""
-    check_names(data, NAMES, "the certificate")
-    check_names(data["ball"], "J D", "ball")
-    check_names(data["start"], "momentum gamma", "start")
-    triples = data["ball"]["J"], data["start"]["momentum"], data["start"]["gamma"]
-    for x in [y for triple in triples for y in listed(triple, 3, "J, momentum or gamma")]:
-        exact(x, "a number of ball or start")
+    check_shape(data, FORM)
     for name in ("radius", "time", "window"):
         if exact(data[name], name) <= 0:
             raise Rejected(f"{name} must be positive")
-    exact(data["ball"]["D"], "D")
-    for pair in [*listed(data["misses"], 2, "misses"), data["energy"], data["density"]]:
-        for x in listed(pair, 2, "an enclosure: a centre and a radius"):
-            exact(x, "a number of an enclosure")
     if data["symmetry"] not in SYMMETRIES or not all(type(x) is int for x in data["symmetry"]):
         raise Rejected("symmetry must be the signs of a rotation by half a turn about an axis, or of none")
     if data["periods"] != 1 + (data["symmetry"] != [1, 1, 1]):
         raise Rejected("periods must be 1 where the symmetry is none, otherwise 2")
-    if data["varied"] not in STATE[:3] or data["section"] not in STATE or data["along"] not in STATE:
-        raise Rejected(f"varied must be one of {', '.join(STATE[:3])}, section and along of {', '.join(STATE)}")
-    count(data["bits"], BITS, 4096, "bits")
-    count(data["order"], 8, 1024, "order")
 
 
 class Modified(Rolling):

@@ -1,26 +1,78 @@
-"""The form of what is in a certificate: lists, texts and names that are not too long."""
+"""The form of what is in a certificate, said by shapes, which `check_shape` reads.
 
-from collections.abc import Sequence
+{"name": shape, "name?": shape}   an object with these names and no others; one with ? may be missing
+[shape]                           a list, not too long
+(shape, ...)                      a list of as many
+("word", ...)                     one of these words
+range(...)                        an integer in it
+a pattern                         a text that it is of
+a type                            something of it
+a function of data and a place    which raises Rejected itself
+"""
+
+import re
+from collections.abc import Collection, Sequence
 from typing import Any
 
+from .document import MOST_DIGITS, MOST_STEPS, check_names, count, sized
 from .interval import Rejected
-from .trees import check_name
+from .trees import check_known, check_name
 
 #: Of each list in a file, the letters of a text, and the names of an algebra.
 MOST, MOST_LETTERS, MOST_NAMES = 2_000, 4_000, 200
+#: Digits after the point, and steps; the number of something in a list.
+DIGITS, STEPS = range(1, MOST_DIGITS + 1), range(1, MOST_STEPS + 1)
+NUMBER = range(MOST)
+
+
+def check_shape(data: Any, shape: Any, where: str = "") -> None:
+    """Raises Rejected unless data have a shape."""
+    if isinstance(shape, dict):
+        there = data if isinstance(data, dict) else {}
+        wanted = {name.rstrip("?"): of for name, of in shape.items() if name[-1:] != "?" or name[:-1] in there}
+        check_names(data, wanted, where or "the certificate")
+        for name, of in wanted.items():
+            check_shape(data[name], of, f"{name} of {where}" if where else name)
+    elif isinstance(shape, list):
+        for i, one in enumerate(many(data, where)):
+            check_shape(one, *shape, f"{where} {i}")
+    elif isinstance(shape, tuple) and all(isinstance(one, str) for one in shape[:1] or [0]):
+        chosen(data, shape, where)
+    elif isinstance(shape, tuple):
+        sized(data, len(shape), where)
+        for one, of in zip(data, shape, strict=True):
+            check_shape(one, of, where)
+    elif isinstance(shape, range):
+        count(data, shape[0], shape[-1], where)
+    elif isinstance(shape, re.Pattern):
+        if not isinstance(data, str) or not shape.fullmatch(data):
+            raise Rejected(f"{where} must be a text such as {shape.pattern}")
+    elif isinstance(shape, type):
+        if type(data) is not shape:
+            raise Rejected(f"{where} must be of the kind {shape.__name__}")
+    else:
+        shape(data, where)
+
+
+def anything(data: Any, where: str) -> None:
+    """For what is looked at elsewhere."""
+
+
+#: What every certificate begins and ends with.
+HEAD = dict.fromkeys(("format", "kind", "statement", "digest"), anything)
 
 
 def many(data: Any, where: str) -> list[Any]:
     """A list, not too long."""
     if not isinstance(data, list) or len(data) > MOST:
-        raise Rejected(f"{where} must have a list of at most {MOST}")
+        raise Rejected(f"{where} must be a list of at most {MOST}")
     return data
 
 
 def text(data: Any, where: str) -> None:
     """Raises Rejected unless this is a text of one line, not too long."""
     if not isinstance(data, str) or not 0 < len(data) <= MOST_LETTERS or not data.isprintable():
-        raise Rejected(f"{where} must have a text of at most {MOST_LETTERS} letters, in one line")
+        raise Rejected(f"{where} must be a text of at most {MOST_LETTERS} letters, in one line")
 
 
 def chosen(data: Any, among: Sequence[str], where: str) -> None:
@@ -29,18 +81,30 @@ def chosen(data: Any, among: Sequence[str], where: str) -> None:
         raise Rejected(f"{where} must be one of: {', '.join(among)}")
 
 
-def distinct(data: Any, where: str) -> set[str]:
-    """The names of a list, each of which stands there once."""
+def names(data: Any, where: str) -> None:
+    """Raises Rejected unless these are names, not too many, each of which stands there once."""
     if len(many(data, where)) > MOST_NAMES:
         raise Rejected(f"{where} has more than {MOST_NAMES} names")
     for name in data:
         check_name(name, where)
+    once(data, where)
+
+
+def once(data: Collection[Any], where: str) -> None:
+    """Raises Rejected where something stands twice."""
     if len(set(data)) < len(data):
         raise Rejected(f"{where} has a name twice")
-    return set(data)
 
 
-def sized(data: Any, size: int, where: str) -> None:
-    """Raises Rejected unless this is a list of that length."""
-    if not isinstance(data, list) or len(data) != size:
-        raise Rejected(f"{where} must have a list of {size}")
+def within(number: int, of: Sequence[Any], where: str) -> Any:
+    """What has this number in a list."""
+    return of[count(number, 0, len(of) - 1, where)]
+
+
+def define(definitions: Sequence[Any], known: set[str], made: Collection[str], where: str) -> None:
+    """Adds names that are defined, each by those before, to those known; raises Rejected if one has a meaning."""
+    for name, tree in definitions:
+        if name in known or name in made:
+            raise Rejected(f"{where} defines a name that has a meaning")
+        check_known([tree], known, where)
+        known.add(name)

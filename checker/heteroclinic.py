@@ -21,14 +21,19 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from .document import MOST_DIGITS, check_names, check_rounded, check_work, count, decimal, exact, listed, scale
+from .document import check_rounded, check_work, decimal, exact, scale
+from .form import DIGITS, HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import newton
 from .step import Ball, check_small_branch
 
-NAMES = "format kind statement ball radius digits orbits digest"
 #: Steps of a half orbit; Newton's iterations to find the first.
 MOST_STEPS, FIRST = 10_000, 64
+ORBIT = {"start": exact, "steps": range(1, MOST_STEPS + 1), "end": exact}
+FORM = HEAD | {
+    "ball": {"J": (exact,) * 3, "D": exact, "height": exact}, "radius": exact, "digits": DIGITS,
+    "orbits": (ORBIT, ORBIT),
+}  # fmt: skip
 
 
 def statement(data: dict[str, Any]) -> str:
@@ -45,20 +50,11 @@ def statement(data: dict[str, Any]) -> str:
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless all numbers are there, in their form."""
-    check_names(data, NAMES, "the certificate")
-    check_names(data["ball"], "J D height", "ball")
-    for name in ("D", "height"):
-        exact(data["ball"][name], name)
-    for x in listed(data["ball"]["J"], 3, "J"):
-        exact(x, "J")
-    exact(data["radius"], "radius")
-    digits = count(data["digits"], 1, MOST_DIGITS, "digits")
-    for one in listed(data["orbits"], 2, "orbits"):
-        check_names(one, "start steps end", "an orbit")
+    check_shape(data, FORM)
+    for one in data["orbits"]:
         if not exact(one["start"], "start") > 0:
             raise Rejected("the start x = e^2u of an orbit must be positive")
-        count(one["steps"], 1, MOST_STEPS, "steps")
-        decimal(one["end"], digits, "end")
+        decimal(one["end"], data["digits"], "end")
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,42 @@ arithmetic alone (`>>` and `//` round down, also for negative numbers).  No floa
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import reduce
 from math import isqrt
+from operator import mul
+from typing import Any
 
 
 class Rejected(Exception):
     """The certificate proves nothing; the message says why in one sentence."""
 
 
-class Interval:
+class Arithmetic:
+    """What follows from + and * of numbers: the negative, differences, powers, integers on the left."""
+
+    __slots__ = ()
+
+    def __neg__(self) -> Any:
+        return self * -1
+
+    def __sub__(self, other: Any) -> Any:
+        return self + -other
+
+    def __rsub__(self, other: Any) -> Any:
+        return -self + other
+
+    def __radd__(self, other: Any) -> Any:
+        return self + other
+
+    def __rmul__(self, other: Any) -> Any:
+        return self * other
+
+    def __pow__(self, power: int) -> Any:
+        """For a power other than 0."""
+        return reduce(mul, [self if power > 0 else self.inverse()] * abs(power))
+
+
+class Interval(Arithmetic):
     """The real numbers from lo·2^-bits to hi·2^-bits; `lo`, `hi`, `bits` are integers."""
 
     __slots__ = ("bits", "hi", "lo")
@@ -39,9 +67,6 @@ class Interval:
         if other.bits != self.bits:
             raise TypeError("intervals of different scales")
         return other
-
-    def __neg__(self) -> Interval:
-        return Interval(-self.hi, -self.lo, self.bits)
 
     def __add__(self, other: Interval | int) -> Interval:
         if isinstance(other, int) or other.bits != self.bits:
@@ -68,12 +93,6 @@ class Interval:
             raise Rejected("a number that is divided by is not proved to differ from 0")
         pairs = [(x << self.bits, y) for x in (self.lo, self.hi) for y in (other.lo, other.hi)]
         return Interval(min(x // y for x, y in pairs), max(-(-x // y) for x, y in pairs), self.bits)
-
-    __radd__ = __add__
-    __rmul__ = __mul__
-
-    def __rsub__(self, other: int) -> Interval:
-        return -self + other
 
     def __rtruediv__(self, other: int) -> Interval:
         return self._of(other) / self

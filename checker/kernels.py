@@ -31,19 +31,19 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import derivation, letters
-from .document import Unreadable, check_names, count, read
-from .form import chosen, distinct, many, sized, text
+from .document import Unreadable, read
+from .form import anything, check_shape, names, text
 from .interval import Rejected
 from .letters import Letter
 from .matrices import Quotients
 from .polynomial import Quotient, Ring, Work
 from .rational import number_at, placed, rate, solved
-from .trees import check_tree, names_in, rational, value
+from .trees import check_known, check_tree, names_in, rational, value
 
 MANIFEST = "manifest.json"
-STEPS = ("at", "along", "solved", "entries")
 #: Bounds of a text and of its lines.
 MOST_LETTERS, MOST_LINES = 200_000, 5_000
+LINE = range(MOST_LINES + 1)
 #: Certificates by their names: the id of the claim, and the digest.
 Certificates = Mapping[str, Mapping[str, Any]]
 
@@ -62,8 +62,7 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
     for i, each in enumerate(differences(one, where)):
         carrier = row["carriers"][each.carrier]
         cofactors = dict(map(tuple, carrier.get("cofactors", []))).get(each.entry, [])
-        for tree in cofactors:
-            check_tree(tree, each.ring.names.keys(), where)
+        check_known(cofactors, each.ring.names, where)
         proved = len(cofactors) == len(each.ring.relations) and each.ring.vanishes(each.value, cofactors, where)
         if each.value.numerator.terms and not proved:
             said = carrier["statement"]
@@ -120,8 +119,7 @@ class Difference(NamedTuple):
 def carried(row: dict[str, Any], written: str, certificates: Certificates, where: str) -> Carried:
     """What a text computes, and what its carriers make; raises Rejected for what has no form."""
     function = straight_line(written, where)
-    for one in many(row["carriers"], where):
-        check_form(one, where)
+    check_shape(row["carriers"], [check_carrier_form], f"a carrier of {where}")
     inputs = [argument.arg for argument in function.args.args]
     if inputs != row["inputs"]:
         raise Rejected(f"{where} does not have the arguments {row['inputs']!a:.200}")
@@ -225,35 +223,37 @@ def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any
     return found
 
 
-def check_form(carrier: Any, where: str) -> None:
-    """Raises Rejected unless a carrier has its form."""
-    more = [name for name in ("cofactors", "point") if isinstance(carrier, dict) and name in carrier]
-    check_names(carrier, " ".join(["claim certificate statement side steps", *more]), f"a carrier of {where}")
-    if not isinstance(carrier.get("point", {}), dict):
+def check_step(data: Any, where: str) -> None:
+    """Raises Rejected unless this is a step of a carrier: its name, and what it is done by."""
+    check_shape(data, (tuple(BY), anything), where)
+    step, by = data
+    check_shape(by, BY[step], where)
+    for pairs in moves(step, by):
+        names([name for name, _ in pairs], where)
+
+
+def check_place(data: Any, where: str) -> None:
+    """Raises Rejected unless this is an object of values."""
+    if not isinstance(data, dict):
         raise Rejected(f"{where} has a point that is none")
-    for pair in many(carrier.get("cofactors", []), where):
-        sized(pair, 2, where)
-        count(pair[0], 0, MOST_LINES, where)
-        for tree in many(pair[1], where):
-            check_tree(tree, names_in(tree), where)
-    for name in ("claim", "certificate", "statement"):
-        text(carrier[name], f"a carrier of {where}")
-    chosen(carrier["side"], ("left", "right"), f"the side of a carrier of {where}")
-    for step in many(carrier["steps"], where):
-        sized(step, 2, f"a step of {where}")
-        chosen(step[0], STEPS, f"a step of {where}")
-        if step[0] == "solved":
-            check_form(step[1], where)
-        elif step[0] == "entries":
-            for number in many(step[1], where):
-                count(number, 0, MOST_LINES, where)
-        else:
-            for pairs in [step[1]] if step[0] == "at" else many(step[1], where):
-                for pair in many(pairs, where):
-                    sized(pair, 2, where)
-                distinct([name for name, _ in pairs], where)
-                for _, tree in pairs:
-                    check_tree(tree, names_in(tree), where)
+
+
+def check_carrier_form(data: Any, where: str) -> None:
+    """Raises Rejected unless this is a carrier."""
+    check_shape(data, CARRIER, where)
+
+
+PLACES = [(anything, check_tree)]
+BY = {"at": PLACES, "along": [PLACES], "solved": check_carrier_form, "entries": [LINE]}
+CARRIER = {
+    "claim": text, "certificate": text, "statement": text, "side": ("left", "right"), "steps": [check_step],
+    "cofactors?": [(LINE, [check_tree])], "point?": check_place,
+}  # fmt: skip
+
+
+def moves(step: str, by: Any) -> Sequence[Any]:
+    """The lists of names and trees of a step."""
+    return [by] if step == "at" else by if step == "along" else []
 
 
 def _statement(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> dict[str, Any]:
@@ -283,7 +283,7 @@ def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -
     for step, by in carrier["steps"]:
         if step == "solved":
             names |= _names(by, certificates, where)
-        for pairs in [by] if step == "at" else by if step == "along" else []:
+        for pairs in moves(step, by):
             names |= {name for name, _ in pairs}.union(*(names_in(tree) for _, tree in pairs))
     return names
 
@@ -339,7 +339,7 @@ def _check_moves(carrier: Mapping[str, Any], certificates: Certificates, where: 
     for step, by in carrier["steps"]:
         if step == "solved":
             variables |= _names(by, certificates, where)
-        for pairs in [by] if step == "at" else by if step == "along" else []:
+        for pairs in moves(step, by):
             if strange := [name for name, _ in pairs if name not in variables]:
                 raise Rejected(f"{where} moves {strange[0]!a:.40}, which is no variable of «{statement['text']}» there")
         if step == "at":

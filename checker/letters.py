@@ -10,15 +10,16 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from .form import chosen, distinct, many, sized, text
+from .form import anything, check_shape, names
 from .interval import Rejected
 from .polynomial import Quotient, Ring
 from .rational import rate, with_powers
-from .trees import check_tree, value
+from .trees import check_known, check_name, check_tree, value
 
 FUNCTIONS = ("sin", "cos", "sqrt", "pi")
 #: Where a text imports them from.
 MODULE = "chapsym.numbers.functions"
+LETTERS = [(check_name, FUNCTIONS, anything)]
 
 
 class Letter(NamedTuple):
@@ -31,18 +32,16 @@ class Letter(NamedTuple):
 
 def check_form(rows: Any, inputs: Sequence[str], where: str) -> list[str]:
     """The names of letters, [name, function, tree]; raises Rejected for what has not that form."""
+    check_shape(rows, LETTERS, f"a letter of {where}")
     known = list(inputs)
-    for row in many(rows, where):
-        sized(row, 3, f"a letter of {where}")
-        name, function, tree = row
-        text(name, f"a letter of {where}")
-        chosen(function, FUNCTIONS, f"a letter of {where}")
+    for name, _, tree in rows:
         try:
-            check_tree(tree, set(known), where)
+            check_tree(tree, where)
+            check_known([tree], known, where)
         except Rejected:
             raise Rejected(f"{where} has a letter {name!a:.40} of what is not made of names known there") from None
         known.append(name)
-    distinct(known, where)
+    names(known, where)
     return known[len(inputs) :]
 
 

@@ -21,7 +21,7 @@ def made(names: dict[str, str]) -> dict[str, Any]:
 
 def listed(data: Any, folder: Path) -> dict[Path, str]:
     """The files of a manifest, each with the name of its certificate; raises Rejected where the folder has others."""
-    check_names(data, "format kind files digest", "the manifest")
+    check_names(data, ("format", "kind", "files", "digest"), "the manifest")
     names = data["files"]
     if data["format"] != FORMAT or data["kind"] != KIND or not isinstance(names, dict) or not names:
         raise Rejected(f"not a manifest of format {FORMAT}")

@@ -13,10 +13,10 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from .algebra import Algebra, all_or_none
-from .form import distinct, many, sized
+from .form import check_shape, names, sized
 from .interval import Rejected
 from .polynomial import Quotient, Ring
-from .trees import check_tree, names_in, value
+from .trees import check_known, check_tree, names_in, value
 from .words import Matrix, Words
 
 Rows = list[list[Quotient]]
@@ -92,25 +92,18 @@ class Entry(NamedTuple):
 
 def check_places(by: Any, source: Mapping[str, Any], into: Mapping[str, Any], where: str) -> None:
     """The form of places, trees in the variables of a quotient ring for names of an algebra of words; of cofactors."""
-    sized(by, 2, where)
-    variables = set(into["variables"])
-    for pair in many(by[0], where):
-        sized(pair, 2, where)
-    names = distinct([pair[0] for pair in by[0]], where)
-    if not names <= {*source["letters"], *source["parameters"]}:
-        raise Rejected(f"{where} must have places of names of the algebra that it is made from")
+    named = [name for name, _ in by[0]]
+    names(named, where)
+    check_known(named, [*source["letters"], *source["parameters"]], where)
     for name, place in by[0]:
-        rows = many(place, where) if name in source["letters"] else [[place]]
-        lengths = {len(many(row, where)) for row in rows}
-        if len(lengths) != 1 or not 1 <= min(lengths) <= MOST_ROWS or len(rows) > MOST_ROWS:
+        rows = place if name in source["letters"] else [[place]]
+        check_shape(rows, [[check_tree]], where)
+        if not 1 <= min(map(len, rows), default=0) == max(map(len, rows)) <= MOST_ROWS or len(rows) > MOST_ROWS:
             raise Rejected(f"{where} has a matrix whose rows are not of one length, or more than {MOST_ROWS}")
-        for tree in (tree for row in rows for tree in row):
-            check_tree(tree, variables, where)
-    for rule in many(by[1], where):
-        for proof in many(rule, where):
-            sized(proof, len(into["relations"]), where)
-            for cofactor in proof:
-                check_tree(cofactor, variables, where)
+        check_known([tree for row in rows for tree in row], into["variables"], where)
+    for proof in (proof for rule in by[1] for proof in rule):
+        sized(proof, len(into["relations"]), where)
+        check_known(proof, into["variables"], where)
 
 
 def placed(words: Words, algebra: Algebra, into: Quotients, by: Sequence[Any], where: str) -> Placed:

@@ -8,7 +8,7 @@ from typing import Any
 from . import derivation
 from .algebra import Algebra
 from .derivation import Made
-from .form import many, sized, text
+from .form import check_shape
 from .formulas import (
     ROOT,
     WORDS,
@@ -29,7 +29,7 @@ from .formulas import (
 from .interval import Rejected
 from .matrices import Quotients, quotients
 from .polynomial import FIELD, Polynomial, Quotient, Ring
-from .trees import check_tree, names_in, value
+from .trees import check_known, check_tree, names_in, value
 from .words import Words
 
 #: Symbols of a glossary, and letters of each.
@@ -39,18 +39,15 @@ MOST_SYMBOLS, MOST_LETTERS = 100, 80
 def check_form(data: Any, names: Collection[str]) -> None:
     """Raises Rejected unless the glossary has each symbol once, with a meaning, and a value in these names."""
     seen = set()
-    for one in many(data, "the glossary"):
-        sized(one, 3, "the glossary")
-        for said in one[:2]:
-            text(said, "the glossary")
+    for one in data:
         if len(one[0]) > MOST_LETTERS or not is_symbol(one[0]):
             raise Rejected(f"the glossary has {one[0]!a:.60}, which is no symbol")
         seen.add(tuple(tokens(one[0])))
         rows = one[2] if rank_of(one[2]) == 2 else [one[2]] if rank_of(one[2]) == 1 else [[one[2]]]
-        if not all(isinstance(row, list) and row and len(row) == len(rows[0]) for row in rows) or not rows:
+        check_shape(rows, [[check_tree]], f"the glossary, in {one[0]},")
+        if not 1 <= min(map(len, rows)) == max(map(len, rows)):
             raise Rejected(f"the glossary has for {one[0]} rows of different lengths")
-        for tree in (tree for row in rows for tree in row):
-            check_tree(tree, names, f"the glossary, in {one[0]},")
+        check_known([tree for row in rows for tree in row], names, f"the glossary, in {one[0]},")
     plain = {tuple(token for token in symbol if token not in ("{", "}")) for symbol in seen}
     if len(plain) < len(data) or () in plain or len(data) > MOST_SYMBOLS:
         raise Rejected(f"the glossary has a symbol twice, or more than {MOST_SYMBOLS}")

@@ -32,12 +32,19 @@ from typing import Any
 
 from .branch import MOST_ARCS, Branch
 from .circle import Circle
-from .document import MOST_DIGITS, MOST_STEPS, check_names, check_rounded, count, decimal, decimals, exact, listed
+from .document import check_rounded, count, decimal, decimals, exact, sized
+from .form import DIGITS, HEAD, STEPS, anything, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector
 from .step import check_small_branch, gibbs_vector, turned
 
-NAMES = "format kind statement ball radius axes steps half_turns digits orbits digest"
+STEP = {"u": (exact,) * 3, "gamma": (exact,) * 3}
+ORBIT = {"start": anything, "steps": [STEP], "displacement": exact}
+FORM = HEAD | {
+    "ball": {"J": (exact,) * 3, "D": exact, "height": exact, "level": exact}, "radius": exact,
+    "axes": (range(1, 4),) * 3, "steps": STEPS, "half_turns": STEPS, "digits": DIGITS, "orbits": (ORBIT, ORBIT),
+    "branch?": {"arcs": range(2, MOST_ARCS + 1), "u": (exact,) * 3},
+}  # fmt: skip
 #: t = tan ½φ at the points with γ_a = 0 and γ_b = 0, the other one positive.
 ZEROS = {"a": Fraction(1), "b": Fraction(0)}
 
@@ -59,19 +66,13 @@ def statement(data: dict[str, Any]) -> str:
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless all numbers are there, in their form."""
-    check_names(data, NAMES + " branch" * ("branch" in data), "the certificate")
-    check_names(data["ball"], "J D height level", "ball")
-    for name in ("D", "height", "level"):
-        exact(data["ball"][name], name)
-    for x in listed(data["ball"]["J"], 3, "J"):
-        exact(x, "J")
-    exact(data["radius"], "radius")
-    if sorted(count(x, 1, 3, "an axis") for x in listed(data["axes"], 3, "axes")) != [1, 2, 3]:
+    check_shape(data, FORM)
+    if sorted(data["axes"]) != [1, 2, 3]:
         raise Rejected("axes must be 1, 2, 3 in some order")
     if "branch" in data:
-        check_names(data["branch"], "arcs u", "branch")
-        count(data["branch"]["arcs"], 2, MOST_ARCS, "arcs")
-        decimals(data["branch"]["u"], count(data["digits"], 1, MOST_DIGITS, "digits"), "u of branch")
+        decimals(data["branch"]["u"], data["digits"], "u of branch")
+    for given in data["orbits"]:
+        tangent(given["start"])
 
 
 def branch_of(circle: Circle, data: dict[str, Any]) -> Branch | None:
@@ -87,7 +88,6 @@ def orbit(circle: Circle, branch: Branch | None, start: Vector, steps: list[Any]
     gammas = [start]
     for number, given in enumerate(steps, 1):
         where = f"step {number}"
-        check_names(given, "u gamma", where)
         near = decimals(given["u"], digits, f"u of {where}")
         u = gibbs_vector(circle.ball, circle.state(gammas[-1]), [circle.number(x).point() for x in near])
         if branch is not None:
@@ -118,14 +118,12 @@ def half_turns(sines: list[Interval]) -> int:
 
 def check(data: dict[str, Any]) -> dict[str, str]:
     """Raises Rejected unless the two orbits prove the statement; returns what was found on the way, in words."""
-    digits, q = count(data["digits"], 1, MOST_DIGITS, "digits"), count(data["steps"], 1, MOST_STEPS, "steps")
+    digits, q = data["digits"], data["steps"]
     turns = count(data["half_turns"], 1, q, "half_turns")
+    for given in data["orbits"]:
+        sized(given["steps"], q, "the steps of an orbit")
     if len(data["ball"]["level"].partition(".")[2]) > digits:
         raise Rejected("the level has more decimals than the numbers that depend on it")
-    for given in listed(data["orbits"], 2, "orbits"):
-        check_names(given, "start steps displacement", "an orbit")
-        listed(given["steps"], q, "the steps of an orbit")
-        tangent(given["start"])
     circle = Circle(data)
     branch, found = branch_of(circle, data), set()
     for given in data["orbits"]:

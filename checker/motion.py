@@ -20,16 +20,21 @@ from math import ceil
 from typing import Any, NamedTuple
 
 from .attitude import Turning, rotation
-from .document import MOST_DIGITS, check_names, count, exact, listed
-from .form import MOST
+from .document import exact
+from .form import DIGITS, HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector, dot
 from .rolling import BITS, Flow, Rolling, number
 from .taylor import Model
 
-NAMES = "format kind statement ball start digits bits order frames digest"
 #: What a frame has, and how many numbers; `contact` where the ball has a radius.
 PARTS = {"gamma": 3, "angular_momentum": 3, "omega": 3, "attitude": 4, "contact": 2}
+NUMBERS, PAIR = (exact,) * 3, (exact, exact)
+START = {"attitude": (PAIR,) * 4, "momentum": (PAIR,) * 3}
+FORM = HEAD | {
+    "ball": {"J": NUMBERS, "D": exact, "radius?": exact, "rotor?": NUMBERS}, "digits": DIGITS,
+    "bits": range(BITS, 4097), "order": range(8, 1025),
+}  # fmt: skip
 
 
 def statement(data: dict[str, Any]) -> str:
@@ -49,52 +54,40 @@ def statement(data: dict[str, Any]) -> str:
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless all numbers are there, in their form, and the radii as small as the digits say."""
-    check_names(data, NAMES, "the certificate")
-    if not isinstance(data["ball"], dict):
-        raise Rejected("ball must be an object")
-    rolls = "radius" in data["ball"]
-    more = [name for name in ("radius", "rotor") if name in data["ball"]]
-    check_names(data["ball"], " ".join(["J D", *more]), "ball")
-    J = [exact(x, "a number of J") for x in listed(data["ball"]["J"], 3, "J")]
-    D = exact(data["ball"]["D"], "D")
+    rolls = isinstance(data.get("ball"), dict) and "radius" in data["ball"]
+    parts = {name: (PAIR,) * n for name, n in PARTS.items() if rolls or name != "contact"}
+    start = START | ({"position": PAIR} if rolls else {})
+    check_shape(data, FORM | {"start": start, "frames": [{"time": exact} | parts]})
+    J, D = [exact(x, "J") for x in data["ball"]["J"]], exact(data["ball"]["D"], "D")
     if min(*J, D) < 0 or min(sum(J) - x + D for x in J) <= 0:
         raise Rejected("J and D must not be negative, and the ball must resist every turn")
     size = exact(data["ball"].get("radius", "1"), "radius")
     if size <= 0:
         raise Rejected("radius must be positive")
-    check_names(data["start"], "attitude momentum position" if rolls else "attitude momentum", "start")
-    _pairs(data["start"]["attitude"], 4, "the attitude of the start")
-    rotor = [exact(x, "a number of the rotor") for x in listed(data["ball"].get("rotor", ["0"] * 3), 3, "rotor")]
-    K = _pairs(data["start"]["momentum"], 3, "the momentum of the start")
-    if [x for x, _ in K] == rotor:
+    pairs = {name: _fractions(data["start"][name]) for name in START}
+    for name, found in pairs.items():
+        _check_radii(name, found)
+    rotor = [exact(x, "rotor") for x in data["ball"].get("rotor", ["0"] * 3)]
+    if [x for x, _ in pairs["momentum"]] == rotor:
         raise Rejected("the momentum of the start is that of the rotor, or 0: a ball at rest stays where it is")
-    for x in listed(data["start"]["position"], 2, "position") if rolls else ():
-        exact(x, "a number of the position")
-    digits = count(data["digits"], 1, MOST_DIGITS, "digits")
-    count(data["bits"], BITS, 4096, "bits")
-    count(data["order"], 8, 1024, "order")
-    if not isinstance(data["frames"], list) or not 0 < len(data["frames"]) <= MOST:
-        raise Rejected(f"frames must be a list of 1 to {MOST}")
-    parts = {name: n for name, n in PARTS.items() if rolls or name != "contact"}
+    if not data["frames"]:
+        raise Rejected("frames must not be empty")
     for frame in data["frames"]:
-        check_names(frame, " ".join(["time", *parts]), "a frame")
-        for name, n in parts.items():
-            _check_claim(name, _pairs(frame[name], n, f"{name} of a frame"), Fraction(1, 10**digits), size)
+        for name in parts:
+            _check_claim(name, _fractions(frame[name]), Fraction(1, 10 ** data["digits"]), size)
     moments = [exact(frame["time"], "a time") for frame in data["frames"]]
     if moments[0] < 0 or any(x >= y for x, y in pairwise(moments)):
         raise Rejected("the times of the frames must be from 0 on, each later than the one before")
 
 
-def _pairs(data: Any, n: int, where: str) -> list[list[Fraction]]:
-    """So many of a centre and a radius."""
-    found = [[exact(x, where) for x in listed(pair, 2, where)] for pair in listed(data, n, where)]
-    if any(radius < 0 for _, radius in found):
-        raise Rejected(f"{where} has a negative radius")
-    return found
+def _check_radii(name: str, pairs: Sequence[Sequence[Fraction]]) -> None:
+    if any(radius < 0 for _, radius in pairs):
+        raise Rejected(f"{name} has a negative radius")
 
 
 def _check_claim(name: str, pairs: Sequence[Sequence[Fraction]], share: Fraction, radius: Fraction) -> None:
     """Raises Rejected unless the radii are this share, at most, and the attitude is the one of two that is meant."""
+    _check_radii(name, pairs)
     if name in ("angular_momentum", "omega"):
         size = max(abs(x) - off for x, off in pairs)  # no number that is meant is less
     else:

@@ -20,28 +20,22 @@ there on M: F depends to first order on the momentum integrals alone.
 from fractions import Fraction
 from typing import Any
 
-from .document import (
-    MOST_DIGITS,
-    MOST_STEPS,
-    check_names,
-    check_rounded,
-    check_work,
-    count,
-    decimal,
-    decimals,
-    exact,
-    listed,
-    scale,
-)
+from .document import check_rounded, check_work, decimal, decimals, exact, scale, sized
+from .form import DIGITS, HEAD, STEPS, check_shape
 from .interval import Interval, Rejected
 from .linear import Matrix, Vector, cross, determinant, dot, minus, newton, plus, solve, times, transposed, units
 from .step import Ball, Pair, check_small_branch, gibbs_vector, moved, tangents
 
-NAMES = "format kind statement ball integrals steps digits start orbit determinant unit_eigenvalue digest"
 ATTRACTING = " All its eigenvalues are inside the unit circle: the orbit attracts what starts near it on the level."
 #: Of W; "trace" only if the orbit is said to be attracting.
 MULTIPLIERS = ("determinant", "unit_eigenvalue", "trace")
 INTEGRALS = ("momentum.momentum", "momentum.gamma")
+NUMBERS = (exact,) * 3
+FORM = HEAD | {
+    "ball": {"J": NUMBERS, "D": exact}, "radius?": exact, "integrals": dict.fromkeys(INTEGRALS, exact), "steps": STEPS,
+    "digits": DIGITS, "start": {"momentum": NUMBERS, "gamma": NUMBERS}, "orbit": [{"u": NUMBERS}],
+    "determinant": exact, "unit_eigenvalue": exact, "trace?": exact,
+}  # fmt: skip
 
 
 def statement(data: dict[str, Any]) -> str:
@@ -59,12 +53,7 @@ def statement(data: dict[str, Any]) -> str:
 
 def check_form(data: dict[str, Any]) -> None:
     """Raises Rejected unless all numbers are there, in their form."""
-    check_names(data, " ".join([NAMES, *(name for name in ("trace", "radius") if name in data)]), "the certificate")
-    check_names(data["ball"], "J D", "ball")
-    check_names(data["integrals"], " ".join(INTEGRALS), "integrals")
-    check_names(data["start"], "momentum gamma", "start")
-    for x in [*listed(data["ball"]["J"], 3, "J"), data["ball"]["D"], *data["integrals"].values()]:
-        exact(x, "a number of ball or integrals")
+    check_shape(data, FORM)
     if exact(data.get("radius", "0"), "radius") < 0:
         raise Rejected("the radius must not be negative")
 
@@ -73,7 +62,8 @@ class Search:
     """The equations of the periodic orbit and their derivative, in intervals."""
 
     def __init__(self, data: dict[str, Any]):
-        self.digits, q = count(data["digits"], 1, MOST_DIGITS, "digits"), count(data["steps"], 1, MOST_STEPS, "steps")
+        self.digits, q = data["digits"], data["steps"]
+        sized(data["orbit"], q, "orbit")
         J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
         integrals = [Fraction(data["integrals"][name]) for name in INTEGRALS]
         bits = scale(self.digits, q, [*J, D, *integrals])
@@ -87,8 +77,7 @@ class Search:
         self.size, self.height = (Interval.enclosing(x - radius, x + radius, bits) for x in integrals)
         check_small_branch(self.ball, self.size.sqrt())
         self.gibbs = []
-        for i, given in enumerate(listed(data["orbit"], q, "orbit"), 1):
-            check_names(given, "u", f"step {i}")
+        for i, given in enumerate(data["orbit"], 1):
             self.gibbs.append(decimals(given["u"], self.digits, f"u of step {i}"))
         self.near = [[enclosed(x).point() for x in u] for u in self.gibbs]
         self.given = [decimals(data["start"][name], self.digits, name) for name in ("momentum", "gamma")]

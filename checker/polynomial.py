@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import gcd, lcm
 
-from .interval import Rejected
+from .interval import Arithmetic, Rejected
 
 #: The products of two terms, and other work, for one certificate; the terms, the degree, the bits of the coefficients
 #: of a polynomial.
@@ -67,7 +67,7 @@ class Ring:
         return Quotient(self.constant(x.numerator), x.denominator, {})
 
 
-class Polynomial:
+class Polynomial(Arithmetic):
     """A sum of terms: {monomial: coefficient}, none of them 0; `degree` and `bits` are bounds for them."""
 
     __slots__ = ("bits", "degree", "ring", "terms")
@@ -117,10 +117,8 @@ class Polynomial:
         return Polynomial(self.ring, terms, self.degree + other.degree, bits)
 
     def __pow__(self, power: int) -> Polynomial:
-        result = self.ring.constant(1)
-        for _ in range(power):
-            result = result * self
-        return result
+        found: Polynomial = super().__pow__(power) if power else self.ring.constant(1)
+        return found
 
     def times(self, n: int) -> Polynomial:
         """A multiple of it; n is not 0."""
@@ -142,7 +140,7 @@ class Polynomial:
         return content, parts if rest == {0: 1} else [*parts, Polynomial(self.ring, rest, self.degree, self.bits)]
 
 
-class Quotient:
+class Quotient(Arithmetic):
     """numerator / (scale · product of factor^power): scale is a positive integer, factors are numbers of the ring."""
 
     __slots__ = ("factors", "numerator", "scale")
@@ -166,8 +164,8 @@ class Quotient:
         scale, factors = lcm(self.scale, other.scale), _powers(max, self.factors, other.factors)
         return Quotient(self._over(scale, factors) + other._over(scale, factors), scale, factors)
 
-    def __sub__(self, other: Quotient) -> Quotient:
-        return self + Quotient(other.numerator.times(-1), other.scale, other.factors)
+    def __neg__(self) -> Quotient:
+        return Quotient(self.numerator.times(-1), self.scale, self.factors)
 
     def __mul__(self, other: Quotient) -> Quotient:
         factors = _powers(int.__add__, self.factors, other.factors)
@@ -175,10 +173,11 @@ class Quotient:
 
     def __pow__(self, power: int) -> Quotient:
         if power < 0:
-            return self._inverse() ** -power
+            return self.inverse() ** -power
         return Quotient(self.numerator**power, self.scale**power, {i: e * power for i, e in self.factors.items()})
 
-    def _inverse(self) -> Quotient:
+    def inverse(self) -> Quotient:
+        """1 over it."""
         if not self.numerator.terms:
             raise Rejected("a statement divides by 0")
         ring, above = self.numerator.ring, self.numerator.ring.constant(self.scale)

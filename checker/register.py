@@ -45,16 +45,13 @@ from typing import Any
 from . import derivation, meaning, roots, zeros
 from .algebra import Algebra, all_or_none
 from .derivation import Made
-from .document import check_names, count
-from .form import MOST, chosen, distinct, many, sized, text
+from .form import HEAD, MOST, NUMBER, anything, check_shape, define, names, once, sized, text, within
 from .interval import Rejected
 from .matrices import Quotients, quotients
 from .polynomial import Ring, Work
-from .trees import check_name, check_tree, names_in, rational, size, value
+from .trees import check_known, check_name, check_tree, names_in, rational, size, value
 from .words import Matrix, same, trace
 
-NAMES = "format kind statement claim verdict printed corrected glossary uses hypotheses algebras derivation "
-NAMES += "points statements comparisons counts zeros counterexamples rests sentences digest"
 _CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 _CERTIFICATE = re.compile(r"([\w.-]{1,40} )?[0-9a-f]{64}", re.ASCII)
 VERDICTS = ("holds", "corrected", "conditional", "refuted", "settled", "definition", "open")
@@ -128,201 +125,180 @@ def check_verdict(data: dict[str, Any]) -> None:
         raise Rejected("a correction is given where none is decided, or none where one is")
 
 
-def check_form(data: dict[str, Any]) -> None:
-    """Raises Rejected unless every part is there, in its form, and every number in its only form."""
-    with suppress(RecursionError):  # which is told of later
-        if len(json.dumps(data)) > MOST_OF_ALL:
-            raise Rejected(f"the certificate has more than {MOST_OF_ALL} letters")
-    check_names(data, NAMES, "the certificate")
-    parts = "hypotheses points statements comparisons counts zeros counterexamples rests sentences"
-    for name in parts.split():
-        many(data[name], name)
-    if not isinstance(data["claim"], str) or not _CLAIM.fullmatch(data["claim"]):
-        raise Rejected("claim must be the id of a claim, such as prop-4")
-    chosen(data["verdict"], VERDICTS, "the verdict")
-    for one in many(data["uses"], "uses"):
-        if not isinstance(one, str) or not _CLAIM.fullmatch(one) or one == data["claim"]:
-            raise Rejected("uses must be ids of other claims")
-    if len(set(data["uses"])) < len(data["uses"]):
-        raise Rejected("uses has a claim twice")
-    text(data["printed"], "printed")
-    if data["corrected"] is not None:
-        text(data["corrected"], "corrected")
-    algebras = [check_algebra(one, f"algebra {i}") for i, one in enumerate(many(data["algebras"], "algebras"))]
-    defined = derivation.check_form(data["derivation"], data["algebras"], algebras)
-    made = {one["name"] for one in data["derivation"]}
-    meaning.check_form(data["glossary"], made.union(*algebras))
-    for i, one in enumerate(data["points"]):
-        check_point(one, made, f"point {i}")
-    for i, one in enumerate(data["counterexamples"]):
-        where = f"counterexample {i}"
-        check_names(one, "point hypotheses refutes agrees", where)
-        check_point(one["point"], made, where)
-        known = made.union(one["point"])
-        for hypothesis in many(one["hypotheses"], where):
-            check_names(hypothesis, "text left right", where)
-            text(hypothesis["text"], where)
-            check_sides(hypothesis, known, where)
-        for name in ("refutes", "agrees"):
-            for number in many(one[name], where):
-                count(number, 0, len(data["statements"]) - 1, where)
-            if len(set(one[name])) < len(one[name]):
-                raise Rejected(f"{where} has a statement twice")
-    for i, one in enumerate(data["statements"]):
-        check_statement(one, algebras, defined, made, data, f"statement {i}")
-    for i, one in enumerate(data["comparisons"]):
-        fails = isinstance(one, dict) and "refuted" in one
-        check_names(one, "role text point relations" + " refuted" * fails, f"comparison {i}")
-        chosen(one["role"], ("printed",) if fails else ROLES, f"comparison {i}")
-        if fails and one["refuted"] is not True:
-            raise Rejected(f"comparison {i} is refuted or has no such name")
-        at = count(one["point"], 0, len(data["points"]) - 1, f"comparison {i}")
-        check_relations(one, data["points"][at], f"comparison {i}")
-    values = [derivation.valued(data["derivation"]).keys() & names for names in defined]
-    for i, one in enumerate(data["counts"]):
-        where = f"count {i}"
-        check_names(one, roots.NAMES, where)
-        if type(one["holds"]) is not bool:
-            raise Rejected(f"{where} must say whether it holds: true or false")
-        chosen(one["role"], ROLES if one["holds"] else ("printed",), f"the role of {where}")
-        check_relations(one, roots.NUMBERS, where)
-        roots.check_form(one, data["algebras"], data["points"], values, made, where)
-    for i, one in enumerate(data["zeros"]):
-        check_names(one, zeros.NAMES, f"zero {i}")
-        chosen(one["role"], ROLES, f"zero {i}")
-        zeros.check_form(one, data["points"], made, f"zero {i}")
-    known = set().union(*data["points"], *(one["point"] for one in data["counterexamples"]))
-    for i, one in enumerate(data["hypotheses"]):
-        check_names(one, "text relations", f"hypothesis {i}")
-        check_relations(one, known, f"hypothesis {i}")
-    for i, one in enumerate(data["rests"]):
-        where = f"what it rests on, {i},"
-        check_names(one, "role text certificate", where)
-        chosen(one["role"], ROLES, where)
-        text(one["text"], where)
-        if not isinstance(one["certificate"], str) or not _CERTIFICATE.fullmatch(one["certificate"]):
-            raise Rejected(f"{where} must be a digest, after an id if it is that of a claim")
-    for i, one in enumerate(data["sentences"]):
-        check_names(one, "role text", f"sentence {i}")
-        chosen(one["role"], SENTENCES, f"sentence {i}")
-        text(one["text"], f"sentence {i}")
+def check_corrected(data: Any, where: str) -> None:
+    """Raises Rejected unless this is a text, or nothing."""
+    if data is not None:
+        text(data, where)
 
 
-def check_algebra(data: Any, where: str) -> set[str]:
-    """The form of an algebra; returns its names."""
+def check_algebra(data: Any, where: str) -> None:
+    """Raises Rejected unless this is an algebra."""
     kind = data.get("kind") if isinstance(data, dict) else None
-    chosen(kind, ("quotient", "words", "traces"), f"the kind of {where}")
-    if kind == "quotient":
-        check_names(data, "kind variables relations", where)
-        names = distinct(data["variables"], where)
-        for relation in many(data["relations"], where):
-            check_tree(relation, names, f"a relation of {where}")
-        return names
-    check_names(data, "kind letters parameters transposes rules", where)
-    letters = distinct(data["letters"], where)
-    names = distinct([*data["letters"], *many(data["parameters"], where)], where)
-    for pair in many(data["transposes"], where):
-        sized(pair, 2, where)
-        if not isinstance(pair[0], str) or pair[0] not in letters:
-            raise Rejected(f"{where} has a transpose of what is no letter")
-        check_tree(pair[1], names, where)
-    if len({pair[0] for pair in data["transposes"]}) < len(data["transposes"]):
-        raise Rejected(f"{where} has a letter with two transposes")
-    for rule in many(data["rules"], where):
-        sized(rule, 3, where)
-        if not all(isinstance(letter, str) and letter in letters for letter in rule[:2]):
-            raise Rejected(f"a rule of {where} is not about two letters")
-        check_tree(rule[2], names, f"a rule of {where}")
-    if len({tuple(rule[:2]) for rule in data["rules"]}) < len(data["rules"]):
-        raise Rejected(f"{where} has two rules for one product")
-    return names
+    check_shape(kind, ("quotient", "words", "traces"), f"the kind of {where}")
+    check_shape(data, QUOTIENT if kind == "quotient" else WORDS, where)
 
 
-def check_point(data: Any, made: Collection[str], where: str) -> None:
-    """Raises Rejected unless names that the derivation does not make have values: numbers, or lists of rows."""
+def check_point(data: Any, where: str) -> None:
+    """Raises Rejected unless names have values: numbers, or lists of rows of them, of one length."""
     if not isinstance(data, dict) or len(data) > MOST:
         raise Rejected(f"{where} must be an object of values")
     for name, entry in data.items():
         check_name(name, where)
-        if name in made:
-            raise Rejected(f"{where} has a value for {name}, which the derivation makes")
-        if isinstance(entry, list):
-            check_matrix(entry, where)
-        else:
+        if not isinstance(entry, list):
             rational(entry, where)
+            continue
+        check_shape(entry, [[rational]], where)
+        if not 1 <= len(entry) <= MOST_ROWS or len(set(map(len, entry))) != 1 or not 1 <= len(entry[0]) <= MOST_ROWS:
+            raise Rejected(f"{where} has a matrix that is not of 1 to {MOST_ROWS} rows of one length up to {MOST_ROWS}")
 
 
-def check_matrix(rows: list[Any], where: str) -> None:
-    """Raises Rejected unless these are rows of numbers, of one length."""
-    if not all(isinstance(row, list) for row in rows) or not 1 <= len(rows) <= MOST_ROWS:
-        raise Rejected(f"{where} has a matrix that is no list of at most {MOST_ROWS} rows")
-    if len({len(row) for row in rows}) != 1 or not 1 <= len(rows[0]) <= MOST_ROWS:
-        raise Rejected(f"{where} has a matrix whose rows are not of one length from 1 to {MOST_ROWS}")
-    for row in rows:
-        for x in row:
-            rational(x, where)
+def check_statement(data: Any, where: str) -> None:
+    """Raises Rejected unless this is a statement, with what proves it or the number of what refutes it."""
+    refuted = isinstance(data, dict) and "refuted" in data
+    check_shape(data, STATEMENT | (REFUTED if refuted else PROVED), where)
+    check_shape(data["role"], ("printed",) if refuted else ROLES, f"the role of {where}")
 
 
-def check_sides(data: dict[str, Any], names: set[str], where: str) -> None:
-    """Raises Rejected unless left and right are trees, as many here as there."""
-    if not many(data["left"], where) or len(data["left"]) != len(many(data["right"], where)):
+def check_comparison(data: Any, where: str) -> None:
+    """Raises Rejected unless this is a comparison; only what is printed may be refuted."""
+    check_shape(data, SAID | {"point": NUMBER, "relations": RELATIONS, "refuted?": bool}, where)
+    if "refuted" in data:
+        check_shape(data["role"], ("printed",), f"the role of {where}, which is refuted,")
+        if not data["refuted"]:
+            raise Rejected(f"{where} is refuted or has no such name")
+
+
+SAID = {"role": ROLES, "text": text}
+SIDES = {"left": [check_tree], "right": [check_tree]}
+DEFINITIONS = [(check_name, check_tree)]
+RELATIONS = [(COMPARED, check_tree, check_tree)]
+QUOTIENT = {"kind": anything, "variables": names, "relations": [check_tree]}
+WORDS = {
+    "kind": anything, "letters": names, "parameters": names,
+    "transposes": [(check_name, check_tree)], "rules": [(check_name, check_name, check_tree)],
+}  # fmt: skip
+STATEMENT = SAID | SIDES | {"algebra": NUMBER, "definitions?": DEFINITIONS}
+REFUTED, PROVED = {"refuted": NUMBER}, {"point": NUMBER, "cofactors?": [[check_tree]]}
+EQUATIONS = SAID | {"point": NUMBER, "unknowns": names, "equations": [check_tree], "nonzero": [check_tree]}
+COUNT = EQUATIONS | {"algebra": NUMBER, "chart": [[rational]], "combinations": [[check_tree]], "relations": RELATIONS}
+FORM = HEAD | {
+    "claim": _CLAIM,
+    "verdict": VERDICTS,
+    "printed": text,
+    "corrected": check_corrected,
+    "glossary": [(text, text, anything)],
+    "uses": [_CLAIM],
+    "hypotheses": [{"text": text, "relations": RELATIONS}],
+    "algebras": [check_algebra],
+    "derivation": [derivation.check_definition],
+    "points": [check_point],
+    "statements": [check_statement],
+    "comparisons": [check_comparison],
+    "counts": [COUNT | {"holds": bool}],
+    "zeros": [EQUATIONS | {"definitions": DEFINITIONS, "radius": rational}],
+    "counterexamples": [
+        {"point": check_point, "hypotheses": [{"text": text} | SIDES], "refutes": [NUMBER], "agrees": [NUMBER]}
+    ],
+    "rests": [SAID | {"certificate": _CERTIFICATE}],
+    "sentences": [{"role": SENTENCES, "text": text}],
+}
+
+
+def check_form(data: dict[str, Any]) -> None:
+    """Raises Rejected unless every part is there, in its form, with names that are known there."""
+    with suppress(RecursionError):  # which is told of later
+        if len(json.dumps(data)) > MOST_OF_ALL:
+            raise Rejected(f"the certificate has more than {MOST_OF_ALL} letters")
+    check_shape(data, FORM)
+    if data["claim"] in data["uses"]:
+        raise Rejected("uses must be ids of other claims")
+    once(data["uses"], "uses")
+    algebras = [names_of(one, f"algebra {i}") for i, one in enumerate(data["algebras"])]
+    defined = derivation.check_form(data["derivation"], data["algebras"], algebras)
+    made = {one["name"] for one in data["derivation"]}
+    meaning.check_form(data["glossary"], made.union(*algebras))
+    points = [*data["points"], *(one["point"] for one in data["counterexamples"])]
+    if twice := made & set().union(*points):
+        raise Rejected(f"a point has a value for {min(twice)}, which the derivation makes")
+    for i, one in enumerate(data["counterexamples"]):
+        where = f"counterexample {i}"
+        for hypothesis in one["hypotheses"]:
+            check_sides(hypothesis, made.union(one["point"]), where)
+        for part in (one["refutes"], one["agrees"]):
+            for number in part:
+                within(number, data["statements"], where)
+            once(part, where)
+    for i, one in enumerate(data["statements"]):
+        check_names_of_statement(one, algebras, defined, made, data, f"statement {i}")
+    for i, one in enumerate(data["comparisons"]):
+        check_relations(one, within(one["point"], data["points"], f"comparison {i}"), f"comparison {i}")
+    values = [derivation.valued(data["derivation"]).keys() & own for own in defined]
+    for i, one in enumerate(data["counts"]):
+        where = f"count {i}"
+        if not one["holds"]:
+            check_shape(one["role"], ("printed",), f"the role of {where}")
+        check_relations(one, roots.NUMBERS, where)
+        roots.check_form(one, data["algebras"], data["points"], values, made, where)
+    for i, one in enumerate(data["zeros"]):
+        zeros.check_form(one, within(one["point"], data["points"], f"zero {i}"), made, f"zero {i}")
+    for i, one in enumerate(data["hypotheses"]):
+        check_relations(one, set().union(*points), f"hypothesis {i}")
+
+
+def names_of(data: dict[str, Any], where: str) -> set[str]:
+    """The names of an algebra; raises Rejected if it says something of others, or twice of one."""
+    if data["kind"] == "quotient":
+        check_known(data["relations"], data["variables"], f"a relation of {where}")
+        return set(data["variables"])
+    whole = [*data["letters"], *data["parameters"]]
+    names(whole, where)
+    about = [letter for letter, _ in data["transposes"]]
+    pairs = [(a, b) for a, b, _ in data["rules"]]
+    check_known([*about, *(letter for pair in pairs for letter in pair)], data["letters"], where)
+    check_known([image for *_, image in (*data["transposes"], *data["rules"])], whole, where)
+    for of in (about, pairs):
+        once(of, where)
+    return set(whole)
+
+
+def check_sides(data: dict[str, Any], known: Collection[str], where: str) -> None:
+    """Raises Rejected unless left and right are as many, in these names."""
+    if not data["left"] or len(data["left"]) != len(data["right"]):
         raise Rejected(f"{where} must have as many entries on the right as on the left, and one at least")
-    for tree in (*data["left"], *data["right"]):
-        check_tree(tree, names, where)
+    check_known([*data["left"], *data["right"]], known, where)
 
 
-def check_relations(data: dict[str, Any], names: Collection[str], where: str) -> None:
-    """Raises Rejected unless there are relations, each of two trees."""
-    text(data["text"], where)
-    if not many(data["relations"], where):
+def check_relations(data: dict[str, Any], known: Collection[str], where: str) -> None:
+    """Raises Rejected unless there are relations, in these names."""
+    if not data["relations"]:
         raise Rejected(f"{where} has no relation")
-    for relation in data["relations"]:
-        sized(relation, 3, where)
-        chosen(relation[0], COMPARED, f"a relation of {where}")
-        for tree in relation[1:]:
-            check_tree(tree, names, where)
+    check_known([tree for relation in data["relations"] for tree in relation[1:]], known, where)
 
 
-def check_statement(
-    one: Any,
-    algebras: list[set[str]],
-    defined: list[Collection[str]],
+def check_names_of_statement(
+    one: dict[str, Any],
+    algebras: Sequence[set[str]],
+    defined: Sequence[Collection[str]],
     made: Collection[str],
     data: dict[str, Any],
     where: str,
 ) -> None:
-    """The form of a statement, with what proves it or with the number of the counterexample that refutes it."""
-    names = "role text algebra left right " + "definitions " * (isinstance(one, dict) and "definitions" in one)
-    if isinstance(one, dict) and "refuted" in one:
-        check_names(one, names + "refuted", where)
-        count(one["refuted"], 0, len(data["counterexamples"]) - 1, where)
-        chosen(one["role"], ("printed",), f"the role of {where}, which is refuted,")
-    else:
-        words = isinstance(one, dict) and "cofactors" not in one
-        check_names(one, names + "point" + " cofactors" * (not words), where)
-        count(one["point"], 0, len(data["points"]) - 1, where)
-    chosen(one["role"], ROLES, where)
-    text(one["text"], where)
-    algebra = data["algebras"][count(one["algebra"], 0, len(algebras) - 1, where)]
+    """Raises Rejected unless a statement is about what there is, and has what its algebra needs."""
+    algebra, refuted = within(one["algebra"], data["algebras"], where), "refuted" in one
+    within(one["refuted" if refuted else "point"], data["counterexamples" if refuted else "points"], where)
     known = {*algebras[one["algebra"]], *defined[one["algebra"]]}
-    for definition in many(one.get("definitions", []), where):
-        sized(definition, 2, where)
-        check_name(definition[0], where)
-        if definition[0] in known or definition[0] in made:
-            raise Rejected(f"{where} defines a name that has a meaning")
-        check_tree(definition[1], known, where)
-        known.add(definition[0])
+    define(one.get("definitions", []), known, made, where)
     check_sides(one, known, where)
-    if "definitions" in one and algebra["kind"] != "quotient":
+    quotient = algebra["kind"] == "quotient"
+    if "definitions" in one and not quotient:
         raise Rejected(f"{where} has definitions, and is not one of a quotient")
-    if "refuted" not in one and ("cofactors" in one) != (algebra["kind"] == "quotient"):
+    if not refuted and ("cofactors" in one) != quotient:
         raise Rejected(f"{where} must have cofactors if it is one of a quotient, and none if it is one of words")
     if "cofactors" in one:
         sized(one["cofactors"], len(one["left"]), where)
         for cofactors in one["cofactors"]:
             sized(cofactors, len(algebra["relations"]), where)
-            for cofactor in cofactors:
-                check_tree(cofactor, set(algebra["variables"]), where)
+            check_known(cofactors, algebra["variables"], where)
 
 
 def check(data: dict[str, Any]) -> dict[str, str]:

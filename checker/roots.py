@@ -27,12 +27,11 @@ from math import gcd
 from typing import Any
 
 from .document import count
-from .form import distinct, many, sized
+from .form import check_shape, sized, within
 from .interval import Rejected
 from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
-from .trees import check_tree, names_in, rational, value
+from .trees import check_known, names_in, rational, value
 
-NAMES = "role text algebra point unknowns equations nonzero chart combinations relations holds"
 #: What is found: different solutions, and each as often as its multiplicity.
 NUMBERS = ("real", "complex", "real_with_multiplicity", "complex_with_multiplicity")
 MOST_UNKNOWNS = 5
@@ -48,30 +47,23 @@ def check_form(
     made: Collection[str],
     where: str,
 ) -> None:
-    """The form of a count, but for its role, text and relations.
+    """Raises Rejected unless a count is of what there is; its relations are looked at elsewhere.
 
     `defined` are the names with a value, by algebra, and `made` all that the derivation makes.
     """
-    unknowns = distinct(one["unknowns"], where)
-    size = count(len(unknowns), 2, MOST_UNKNOWNS, f"the number of unknowns of {where}")
-    algebra = algebras[count(one["algebra"], 0, len(algebras) - 1, where)]
-    point = points[count(one["point"], 0, len(points) - 1, where)]
+    unknowns, size = set(one["unknowns"]), len(one["unknowns"])
+    count(size, 2, MOST_UNKNOWNS, f"the number of unknowns of {where}")
+    algebra, point = within(one["algebra"], algebras, where), within(one["point"], points, where)
     numbers = {name for name, entry in point.items() if not isinstance(entry, list)}
     if algebra["kind"] != "quotient" or not set(algebra["variables"]) <= numbers | unknowns:
         raise Rejected(f"{where} must be in a quotient, with a number for every variable that is no unknown")
     if twice := numbers & unknowns | (numbers | unknowns).intersection(made):
         raise Rejected(f"{where} has two meanings for {min(twice)}")
-    for tree in (*many(one["equations"], where), *many(one["nonzero"], where)):
-        check_tree(tree, {*numbers, *unknowns, *defined[one["algebra"]]}, where)
-    sized(one["chart"], size, where)
-    for row in one["chart"]:
-        sized(row, size, where)
-        for x in row:
-            rational(x, where)
-    for combination in many(one["combinations"], where):
+    check_known([*one["equations"], *one["nonzero"]], {*numbers, *unknowns, *defined[one["algebra"]]}, where)
+    check_shape(one["chart"], ((rational,) * size,) * size, where)
+    for combination in one["combinations"]:
         sized(combination, len(one["equations"]), where)
-        for tree in combination:
-            check_tree(tree, _coordinates(size), where)
+        check_known(combination, _coordinates(size), where)
 
 
 def solutions(

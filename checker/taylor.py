@@ -8,16 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import reduce
 from itertools import accumulate
 from math import ceil
 from operator import add, mul
 from typing import Any
 
-from .interval import Interval, Rejected
+from .interval import Arithmetic, Interval, Rejected
 
 
-class Model:
+class Model(Arithmetic):
     """The functions with |x(s) - Σ c_k s^k·2^-bits| ≤ off·2^-bits for 0 ≤ s ≤ 1; a sum of n of them has n terms."""
 
     __slots__ = ("bits", "off", "size", "terms")
@@ -48,16 +47,10 @@ class Model:
     def _padded(self, length: int) -> list[int]:
         return [*self.terms, *[0] * (length - len(self.terms))]
 
-    def __neg__(self) -> Model:
-        return Model([-x for x in self.terms], self.off, self.bits)
-
     def __add__(self, other: Model | int) -> Model:
         other = self._of(other)
         n = max(len(self.terms), len(other.terms))
         return Model(list(map(add, self._padded(n), other._padded(n))), self.off + other.off, self.bits)
-
-    def __sub__(self, other: Model | int) -> Model:
-        return self + -self._of(other)
 
     def __mul__(self, other: Model | int) -> Model:
         other = self._of(other)
@@ -72,11 +65,6 @@ class Model:
             cut = sum(map(mul, map(abs, a[1:]), accumulate(map(abs, back))))
         cut += self.off * other.most + self.size * other.off
         return Model([x >> self.bits for x in products], n - (-cut >> self.bits), self.bits)
-
-    __radd__, __rmul__ = __add__, __mul__
-
-    def __rsub__(self, other: int) -> Model:
-        return -self + other
 
     def __rtruediv__(self, other: int) -> Model:
         """other/x = other·r/(1 - e) with any polynomial r and e = 1 - x·r: off from other·r by |r||e|/(1 - |e|)."""
@@ -114,7 +102,7 @@ class Model:
         return Model(self.terms, self.off + ceil(units), self.bits)
 
 
-class Dual:
+class Dual(Arithmetic):
     """A number, or a model, with its derivatives along some directions; a constant has no slopes."""
 
     __slots__ = ("slopes", "value")
@@ -126,31 +114,19 @@ class Dual:
         """The slopes, each multiplied."""
         return [x * factor for x in self.slopes]
 
-    def __neg__(self) -> Dual:
-        return self * -1
-
     def __add__(self, other: Any) -> Dual:
         if not isinstance(other, Dual):
             return Dual(self.value + other, self.slopes)
         return Dual(self.value + other.value, _added(self.slopes, other.slopes))
-
-    def __sub__(self, other: Any) -> Dual:
-        return self + -other
 
     def __mul__(self, other: Any) -> Dual:
         if not isinstance(other, Dual):
             return Dual(self.value * other, self._times(other))
         return Dual(self.value * other.value, _added(other._times(self.value), self._times(other.value)))
 
-    __radd__, __rmul__ = __add__, __mul__
-
-    def __rsub__(self, other: Any) -> Dual:
-        return -self + other
-
-    def __pow__(self, power: int) -> Dual:
-        """For a power other than 0."""
-        base = self if power > 0 else 1 / self
-        return reduce(mul, [base] * abs(power))
+    def inverse(self) -> Dual:
+        """1 over it."""
+        return 1 / self
 
     def __rtruediv__(self, other: int) -> Dual:
         one = 1 / self.value

@@ -7,7 +7,7 @@ order: they need not commute.
 """
 
 import re
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
 from operator import add, mul
 from typing import Any
@@ -61,14 +61,11 @@ def bounded(x: Any) -> Any:
     return x
 
 
-def check_tree(tree: Any, names: Collection[str], where: str, depth: int = 0) -> None:
-    """Raises Rejected unless `tree` is an expression in these names."""
-    if isinstance(tree, str) and tree in names:
-        return
+def check_tree(tree: Any, where: str, depth: int = 0) -> None:
+    """Raises Rejected unless `tree` is an expression."""
     if not isinstance(tree, list):
-        if isinstance(tree, str) and _is_name(tree):
-            raise Rejected(f"{where} has the name {tree!a:.40}, which is not among its variables")
-        rational(tree, where)
+        if not isinstance(tree, str) or not _is_name(tree):
+            rational(tree, where)
         return
     if depth >= MOST_DEPTH:
         raise Rejected(f"{where} is deeper than {MOST_DEPTH}")
@@ -79,7 +76,13 @@ def check_tree(tree: Any, names: Collection[str], where: str, depth: int = 0) ->
             raise Rejected(f"{where} has a power that is no integer from 1 to {MOST_POWER} or its negative")
         tree = tree[:2]
     for part in tree[1:]:
-        check_tree(part, names, where, depth + 1)
+        check_tree(part, where, depth + 1)
+
+
+def check_known(trees: Sequence[Any], names: Collection[str], where: str) -> None:
+    """Raises Rejected where expressions have other names than these."""
+    if other := sorted(name for name in names_in([0, *trees]) if name not in names):
+        raise Rejected(f"{where} has the name {other[0]!a:.40}, which is not among its variables")
 
 
 def value(tree: Any, names: Mapping[str, Any], number: Callable[[Fraction], Any]) -> Any:

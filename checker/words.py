@@ -11,7 +11,7 @@ from fractions import Fraction
 from itertools import pairwise
 from operator import add, mul
 
-from .interval import Rejected
+from .interval import Arithmetic, Rejected
 from .polynomial import Work
 from .trees import bounded
 
@@ -22,7 +22,7 @@ Term = tuple[tuple[int, ...], tuple[str, ...]]
 Number = Fraction | int
 
 
-class Words:
+class Words(Arithmetic):
     """A sum of terms {(exponents of the parameters, letters): coefficient}, none of them 0."""
 
     __slots__ = ("terms", "work")
@@ -41,8 +41,8 @@ class Words:
             terms[term] = terms.get(term, 0) + c
         return Words(terms, self.work)
 
-    def __sub__(self, other: Words) -> Words:
-        return self + Words({term: -c for term, c in other.terms.items()}, self.work)
+    def __neg__(self) -> Words:
+        return Words({term: -c for term, c in self.terms.items()}, self.work)
 
     def __mul__(self, other: Words) -> Words:
         self.work.spend(1 + len(self.terms) * len(other.terms) * (1 + len(next(iter(self.terms), ((), ()))[0]) // 8))
@@ -53,17 +53,12 @@ class Words:
                 terms[term] = terms.get(term, 0) + c * d
         return Words(terms, self.work)
 
-    def __pow__(self, power: int) -> Words:
-        base = self
-        if power < 0:
-            if len(self.terms) != 1 or any(word for _, word in self.terms):
-                raise Rejected("a statement about words divides by what is no product of parameters")
-            [((exponents, word), c)] = self.terms.items()
-            base = Words({(tuple(-e for e in exponents), word): Fraction(1) / c}, self.work)
-        result = base
-        for _ in range(abs(power) - 1):
-            result = result * base
-        return result
+    def inverse(self) -> Words:
+        """1 over it."""
+        if len(self.terms) != 1 or any(word for _, word in self.terms):
+            raise Rejected("a statement about words divides by what is no product of parameters")
+        [((exponents, word), c)] = self.terms.items()
+        return Words({(tuple(-e for e in exponents), word): Fraction(1) / c}, self.work)
 
     def letters(self) -> set[str]:
         """Those that occur."""
@@ -89,7 +84,7 @@ class Words:
         return Words(settled, self.work)
 
 
-class Matrix:
+class Matrix(Arithmetic):
     """A matrix of rational numbers; a number beside it stands for that multiple of the unit matrix."""
 
     __slots__ = ("rows",)
@@ -136,18 +131,9 @@ class Matrix:
         columns = list(zip(*other.rows, strict=True))
         return Matrix([[sum(map(mul, row, column), Fraction(0)) for column in columns] for row in self.rows])
 
-    __radd__ = __add__
-
-    def __rmul__(self, number: Fraction) -> Matrix:
-        return self * number
-
-    def __pow__(self, power: int) -> Matrix:
-        if power < 0:
-            raise Rejected("a matrix has a negative power")
-        result = self
-        for _ in range(power - 1):
-            result = result * self
-        return result
+    def inverse(self) -> Matrix:
+        """Not made."""
+        raise Rejected("a matrix has a negative power")
 
 
 def same(a: Matrix | Fraction, b: Matrix | Fraction) -> bool:

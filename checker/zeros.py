@@ -10,42 +10,30 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from .document import count
-from .form import distinct, many, sized, text
+from .form import define, sized
 from .interval import Interval, Rejected
 from .linear import solve, units
 from .polynomial import Work
 from .taylor import Dual, derivatives
-from .trees import check_name, check_tree, rational, size, value
+from .trees import check_known, size, value
 
-NAMES = "role text point unknowns definitions equations nonzero radius"
 #: Unknowns.
 MOST_UNKNOWNS = 20
 #: Bits before the point that a value may have.
 LARGE = 2000
 
 
-def check_form(one: dict[str, Any], points: Sequence[Mapping[str, Any]], made: Collection[str], where: str) -> None:
-    """Raises Rejected unless its parts are there and each name has a value; its names and its role are as they must."""
-    text(one["text"], where)
-    point = points[count(one["point"], 0, len(points) - 1, where)]
-    unknowns = distinct(one["unknowns"], where)
-    if not unknowns <= point.keys() or not 1 <= len(unknowns) <= MOST_UNKNOWNS:
+def check_form(one: dict[str, Any], point: Mapping[str, Any], made: Collection[str], where: str) -> None:
+    """Raises Rejected unless each name of a zero has a value, and there are as many equations as unknowns."""
+    if not set(one["unknowns"]) <= point.keys() or not 1 <= len(one["unknowns"]) <= MOST_UNKNOWNS:
         raise Rejected(f"{where} must have from 1 to {MOST_UNKNOWNS} unknowns, with values at its point")
     if any(isinstance(entry, list) for entry in point.values()):
         raise Rejected(f"{where} has a matrix where a number must stand")
     known = set(point)
-    for definition in many(one["definitions"], where):
-        sized(definition, 2, where)
-        check_name(definition[0], where)
-        if definition[0] in known or definition[0] in made:
-            raise Rejected(f"{where} defines a name that has a meaning")
-        check_tree(definition[1], known, where)
-        known.add(definition[0])
-    sized(one["equations"], len(unknowns), where)
-    for tree in (*one["equations"], *many(one["nonzero"], where)):
-        check_tree(tree, known, where)
-    if rational(one["radius"], where) <= 0:
+    define(one["definitions"], known, made, where)
+    sized(one["equations"], len(one["unknowns"]), where)
+    check_known([*one["equations"], *one["nonzero"]], known, where)
+    if Fraction(one["radius"]) <= 0:
         raise Rejected(f"{where} must have a radius above 0")
 
 
