@@ -30,12 +30,12 @@ def check_shape(data: Any, shape: Any, where: str = "") -> None:
     if isinstance(shape, dict):
         there = data if isinstance(data, dict) else {}
         wanted = {name.rstrip("?"): of for name, of in shape.items() if name[-1:] != "?" or name[:-1] in there}
-        check_names(data, wanted, where or "the certificate")
+        check_names(data, wanted, where if where else "the certificate")
         for name, of in wanted.items():
             check_shape(data[name], of, f"{name} of {where}" if where else name)
     elif isinstance(shape, list):
         for i, one in enumerate(many(data, where)):
-            check_shape(one, *shape, f"{where} {i}")
+            check_shape(one, shape[0], f"{where} {i}")
     elif isinstance(shape, tuple) and all(isinstance(one, str) for one in shape[:1] or [0]):
         chosen(data, shape, where)
     elif isinstance(shape, tuple):

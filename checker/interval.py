@@ -23,22 +23,22 @@ class Arithmetic:
 
     __slots__ = ()
 
-    def __neg__(self) -> Any:
+    def __neg__(self: Any) -> Any:
         return self * -1
 
-    def __sub__(self, other: Any) -> Any:
+    def __sub__(self: Any, other: Any) -> Any:
         return self + -other
 
-    def __rsub__(self, other: Any) -> Any:
+    def __rsub__(self: Any, other: Any) -> Any:
         return -self + other
 
-    def __radd__(self, other: Any) -> Any:
+    def __radd__(self: Any, other: Any) -> Any:
         return self + other
 
-    def __rmul__(self, other: Any) -> Any:
+    def __rmul__(self: Any, other: Any) -> Any:
         return self * other
 
-    def __pow__(self, power: int) -> Any:
+    def __pow__(self: Any, power: int) -> Any:
         """For a power other than 0."""
         return reduce(mul, [self if power > 0 else self.inverse()] * abs(power))
 

@@ -3,20 +3,18 @@
 from collections.abc import Callable, Sequence
 from functools import reduce
 from operator import add
-from typing import TypeVar
+from typing import Any
 
 from .interval import Interval, Rejected
 
 Vector = Sequence[Interval]
-#: What a product of two vectors is made of: integers, or intervals.
-N = TypeVar("N", int, Interval)
 Matrix = Sequence[Vector]
 #: Of Newton's iteration; and the power of 2 that the second derivative is taken for.
 MOST_ITERATIONS, CURVED = 20, 4
 NO_ROOT = "Newton's test proves no root near the numbers of the file"
 
 
-def dot(v: Sequence[N], w: Sequence[N]) -> N:
+def dot(v: Sequence[Any], w: Sequence[Any]) -> Any:
     """⟨v, w⟩."""
     return reduce(add, (x * y for x, y in zip(v, w, strict=True)))
 

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 from .algebra import Algebra, all_or_none
 from .form import check_shape, names, sized
 from .interval import Rejected
+from .linear import dot
 from .polynomial import Quotient, Ring
 from .trees import check_known, check_tree, names_in, value
 from .words import Matrix, Words
@@ -212,18 +213,9 @@ def _known(among: Mapping[str, Any], name: str, where: str) -> Any:
 def _product(a: Rows, b: Rows, where: str) -> Rows:
     if len(a[0]) != len(b):
         raise Rejected(f"{where} multiplies matrices whose sizes do not fit")
-    return [[_dot(row, column) for column in zip(*b, strict=True)] for row in a]
+    return [[dot(row, column) for column in zip(*b, strict=True)] for row in a]
 
 
 def _entries(a: Rows, b: Rows) -> list[tuple[Quotient, Quotient]]:
     """The entries of two matrices of one size, side by side."""
     return [pair for rows in zip(a, b, strict=True) for pair in zip(*rows, strict=True)]
-
-
-def _dot(row: Sequence[Quotient], column: Sequence[Quotient]) -> Quotient:
-    row[0].numerator.ring.work.spend(len(row))
-    products = [x * y for x, y in zip(row, column, strict=True)]
-    total = products[0]
-    for product in products[1:]:
-        total = total + product
-    return total

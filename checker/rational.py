@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 
 from .interval import Rejected
+from .linear import dot
 from .polynomial import FIELD, Polynomial, Quotient
 from .trees import bounded, rational
 
@@ -90,22 +91,25 @@ def solved(matrix: Sequence[Quotient], right: Sequence[Quotient], where: str) ->
     if not 1 <= n <= MOST_ROWS or len(matrix) != n * n:
         raise Rejected(f"{where} solves a system that is not of one to {MOST_ROWS} rows, as many as there are columns")
     rows = [list(matrix[n * i : n * i + n]) for i in range(n)]
-    whole = _determinant(rows)
+    one = matrix[0].numerator.ring.number(Fraction(1))
+    whole = determinant(rows, one)
     if not whole.numerator.terms:
         raise Rejected(f"{where} solves a system whose determinant is 0")
     found = []
     for j in range(n):
         with_right = [[*row[:j], b, *row[j + 1 :]] for row, b in zip(rows, right, strict=True)]
-        found.append(_determinant(with_right) * whole**-1)
+        found.append(determinant(with_right, one) * whole**-1)
     return found
 
 
-def _determinant(rows: Sequence[Sequence[Quotient]]) -> Quotient:
-    """By the first row."""
-    if len(rows) == 1:
-        return rows[0][0]
-    parts = [x * _determinant([[*row[:j], *row[j + 1 :]] for row in rows[1:]]) for j, x in enumerate(rows[0])]
-    result = parts[0]
-    for j, part in enumerate(parts[1:], start=1):
-        result = result - part if j % 2 else result + part
-    return result
+def determinant(rows: Sequence[Sequence[Quotient]], one: Quotient) -> Quotient:
+    """Up to its sign, which depends on the size alone."""
+    found: Quotient = dot(rows[-1], cofactors(rows[:-1], one)) if rows else one
+    return found
+
+
+def cofactors(rows: Sequence[Sequence[Quotient]], one: Quotient) -> list[Quotient]:
+    """Those of a row below these, up to one sign for all."""
+    left_out = [[[*row[:i], *row[i + 1 :]] for row in rows] for i in range(len(rows) + 1)]
+    minors = [determinant(minor, one) for minor in left_out]
+    return [-x if i % 2 else x for i, x in enumerate(minors)]

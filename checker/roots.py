@@ -22,14 +22,18 @@ must not vanish has, at that y, no common root with e.
 
 from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
+from functools import reduce
 from itertools import pairwise
 from math import gcd
+from operator import add, mul
 from typing import Any
 
 from .document import count
 from .form import check_shape, sized, within
 from .interval import Rejected
+from .linear import dot
 from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
+from .rational import cofactors, determinant
 from .trees import check_known, names_in, rational, value
 
 #: What is found: different solutions, and each as often as its multiplicity.
@@ -82,12 +86,12 @@ def solutions(
         if names_in(relation) <= known.keys() and value(relation, known, ring.number).numerator.terms:
             raise Rejected(f"{where} has a point at which a relation fails")
     chart = [[ring.number(Fraction(x)) for x in row] for row in one["chart"]]
-    if not _determinant(chart, ring).numerator.terms:
+    if not determinant(chart, ring.number(Fraction(1))).numerator.terms:
         raise Rejected(f"{where} has a chart that is not regular")
 
     def forms(y: Sequence[Quotient]) -> list[Quotient]:
         """The equations, and what must not vanish, where the unknowns are A y."""
-        names = known | {x: _dot(row, y, ring) for x, row in zip(one["unknowns"], chart, strict=True)}
+        names = known | {x: dot(row, y) for x, row in zip(one["unknowns"], chart, strict=True)}
         for name in set().union(*map(names_in, trees)) & values.keys():
             if missing := names_in(values[name]) - names.keys():
                 raise Rejected(f"{where} has no value for {min(missing)}")
@@ -99,7 +103,8 @@ def solutions(
     if ring.factors:  # 1/(1/x) would come out as x, which has a root where 1/x has no value
         raise Rejected(f"{where} divides by something that is no number")
     for combination in one["combinations"]:
-        found.append(_dot([value(tree, y, ring.number) for tree in combination], found[:last], ring))
+        factors = [value(tree, y, ring.number) for tree in combination]
+        found.append(reduce(add, map(mul, factors, found), ring.number(Fraction(0))))
     if any(f.factors or len({sum(_exponents(m, size)) for m in f.numerator.terms}) > 1 for f in found):
         raise Rejected(f"{where} has what is no homogeneous polynomial")
     combinations = [f.numerator for f in found[len(trees) :]]
@@ -107,12 +112,12 @@ def solutions(
         if not any(_is_power_at_infinity(combination, i, size) for combination in combinations):
             raise Rejected(f"{where} may have solutions with y0 = 0: no combination is a power of y{i} there")
     rows = [_row(combination, ring, where) for combination in combinations[: size - 1]]
-    cofactors = _cofactors(rows[:-1], ring)
-    e = _dense(_dot(rows[-1], cofactors, ring))
+    last_row = cofactors(rows[:-1], ring.number(Fraction(1)))
+    e = _dense(dot(rows[-1], last_row))
     if not e:
         raise Rejected(f"{where} has combinations with the determinant 0")
-    on_curve = list(map(_dense, forms([*cofactors, cofactors[0] * y[f"y{size - 1}"]])))
-    if len(_chain(e, _dense(cofactors[0]), work)[-1]) > 1:
+    on_curve = list(map(_dense, forms([*last_row, last_row[0] * y[f"y{size - 1}"]])))
+    if len(_chain(e, _dense(last_row[0]), work)[-1]) > 1:
         raise Rejected(f"{where} may have two solutions for one root")
     if any(_remainder(form, e, work) for form in on_curve[:last]):
         raise Rejected(f"{where} has a root that may be that of no solution")
@@ -145,24 +150,6 @@ def _row(form: Polynomial, ring: Ring, where: str) -> list[Quotient]:
             raise Rejected(f"{where} has one of the first combinations that is not linear")
         row[middle.index(1) + 1 if any(middle) else 0][power << FIELD * (size - 1)] = c
     return [Quotient(Polynomial(ring, terms, form.degree, form.bits), 1, {}) for terms in row]
-
-
-def _dot(row: Sequence[Quotient], column: Sequence[Quotient], ring: Ring) -> Quotient:
-    total = ring.number(Fraction(0))
-    for a, b in zip(row, column, strict=True):
-        total = total + a * b
-    return total
-
-
-def _determinant(rows: Sequence[Sequence[Quotient]], ring: Ring) -> Quotient:
-    """Up to its sign."""
-    return _dot(rows[-1], _cofactors(rows[:-1], ring), ring) if rows else ring.number(Fraction(1))
-
-
-def _cofactors(rows: Sequence[Sequence[Quotient]], ring: Ring) -> list[Quotient]:
-    """Those of a row below these, up to one sign for all."""
-    left_out = [[[*row[:i], *row[i + 1 :]] for row in rows] for i in range(len(rows) + 1)]
-    return [ring.number(Fraction((-1) ** i)) * _determinant(minor, ring) for i, minor in enumerate(left_out)]
 
 
 def _dense(of: Quotient) -> Dense:
