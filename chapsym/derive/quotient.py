@@ -8,14 +8,16 @@ is decided by division by a Gröbner basis, in exact arithmetic (python-flint be
 from collections.abc import Sequence
 from functools import cached_property
 from math import prod
-from operator import add, ge, sub
 from typing import Any
 
 import sympy as sp
-from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from sympy.polys.rings import PolyElement, PolyRing
 
 Monomial = tuple[int, ...]
+Terms = dict[Monomial, Any]
+#: The bits for an exponent, where a monomial is one integer.
+WIDE = 16
 
 
 class Quotient:
@@ -102,33 +104,58 @@ class Quotient:
         return of(expr)[0], divisors
 
     @cached_property
-    def _rules(self) -> list[tuple[Monomial, list[tuple[Monomial, Any]]]]:
-        """The leading monomial of each polynomial of the basis, and the terms that take its place."""
-        leads = [g.leading_expv() for g in self._basis]
-        return [
-            (lead, [(monomial, -factor / g.LC) for monomial, factor in g.terms() if monomial != lead])
-            for lead, g in zip(leads, self._basis, strict=True)
-        ]
+    def _division(self) -> "Division":
+        return Division([g.to_dict() for g in self._basis], [g.leading_expv() for g in self._basis], len(self.symbols))
 
     def _reduce(self, expr: sp.Expr) -> PolyElement:
         """The normal form of a polynomial."""
-        return self._ring.from_dict(self._rest(dict(self._ring.from_expr(expr))))
+        rest = self._rest(self._ring.from_expr(expr).to_dict())
+        return self._ring.from_dict({m: sp.QQ(int(c.p), int(c.q)) for m, c in rest.items()})
 
-    def _rest(self, pending: dict[Monomial, Any]) -> dict[Monomial, Any]:
-        """The same of its terms, which are replaced in any order: that by a Gröbner basis does not depend on it."""
-        zero = self._ring.domain.zero
-        settled: dict[Monomial, Any] = {}
+    def _rest(self, polynomial: Terms) -> Terms:
+        """The same of its terms; that by a Gröbner basis does not depend on their order."""
+        return self._division.divided(polynomial)[0]
+
+
+class Division:
+    """Division by polynomials {exponents: coefficient}, of each term by the first whose leading term divides it."""
+
+    def __init__(self, by: Sequence[Terms], leads: Sequence[Monomial], size: int) -> None:
+        self._size = size
+        self._borrows = sum(1 << WIDE * i + WIDE - 1 for i in range(size))  # no exponent has this bit
+        self._rules = []
+        for terms, lead in zip(by, leads, strict=True):
+            inverse, at = 1 / _rational(terms[lead]), _packed(lead)
+            rest = [(_packed(m) - at, -_rational(c) * inverse) for m, c in terms.items() if m != lead]
+            self._rules.append((at, inverse, rest))
+
+    def divided(self, polynomial: Terms) -> tuple[Terms, list[Terms]]:
+        """The remainder, and the quotient for each polynomial."""
+        quotients: list[dict[int, fmpq]] = [{} for _ in self._rules]
+        pending, settled = {_packed(m): _rational(c) for m, c in polynomial.items()}, dict[int, fmpq]()
         while pending:
-            replaced: dict[Monomial, Any] = {}
+            replaced: dict[int, fmpq] = {}
             for monomial, factor in pending.items():
-                found = next((rule for rule in self._rules if all(map(ge, monomial, rule[0]))), None)
-                if found is None:
-                    settled[monomial] = settled.get(monomial, zero) + factor
-                    continue
-                lead, terms = found
-                rest = tuple(map(sub, monomial, lead))
-                for other, times in terms:
-                    to = tuple(map(add, rest, other))
-                    replaced[to] = replaced.get(to, zero) + factor * times
+                for (lead, inverse, terms), quotient in zip(self._rules, quotients, strict=True):
+                    if ((monomial | self._borrows) - lead) & self._borrows == self._borrows:
+                        quotient[monomial - lead] = quotient.get(monomial - lead, 0) + factor * inverse
+                        for offset, times in terms:
+                            replaced[monomial + offset] = replaced.get(monomial + offset, 0) + factor * times
+                        break
+                else:
+                    settled[monomial] = settled.get(monomial, 0) + factor
             pending = {monomial: factor for monomial, factor in replaced.items() if factor}
-        return {monomial: factor for monomial, factor in settled.items() if factor}
+        return self._terms(settled), list(map(self._terms, quotients))
+
+    def _terms(self, packed: dict[int, fmpq]) -> Terms:
+        one = (1 << WIDE) - 1
+        return {tuple(m >> WIDE * i & one for i in range(self._size)): c for m, c in packed.items() if c}
+
+
+def _packed(monomial: Monomial) -> int:
+    return sum(int(e) << WIDE * i for i, e in enumerate(monomial))
+
+
+def _rational(c: Any) -> fmpq:
+    """A rational number of SymPy's domain, or one of python-flint."""
+    return c if isinstance(c, fmpq) else fmpq(int(c.numerator), int(c.denominator))

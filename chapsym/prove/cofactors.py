@@ -15,12 +15,9 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from chapsym.checker.matrices import Quotients
 from chapsym.checker.polynomial import FIELD, Quotient
+from chapsym.derive.quotient import Division, Monomial, Terms
 
 from .trees import factored
-
-Monomial = tuple[int, ...]
-#: Exponents as one number, as the checker has them, and the coefficients.
-Packed = dict[int, Any]
 
 
 @dataclass(frozen=True)
@@ -57,9 +54,8 @@ class Ideal:
 
     def cofactors(self, polynomial: Mapping[Monomial, Any]) -> tuple[fmpq_mpoly, ...] | None:
         """Those of a polynomial; None if it is not in the ideal."""
-        packed = {_packed(m): fmpq(c) for m, c in polynomial.items()}
         while True:
-            remainder, quotients = self._divided(packed)
+            remainder, quotients = self._divided(dict(polynomial))
             if not remainder:
                 total = self._none
                 for quotient, element in zip(quotients, self._basis, strict=True):
@@ -77,7 +73,7 @@ class Ideal:
         """Adds the next element of the Gröbner basis; whether there was one."""
         while self._pairs:
             found = self._s_polynomial(*self._pairs.pop(0))
-            remainder, quotients = self._divided({_packed(m): c for m, c in found.polynomial.to_dict().items()})
+            remainder, quotients = self._divided(found.polynomial.to_dict())
             if remainder:
                 for quotient, element in zip(quotients, self._basis, strict=True):
                     found = found.less(quotient, element)
@@ -93,41 +89,12 @@ class Ideal:
         )
         return self._none.less(left, a).less(right, b)
 
-    def _divided(self, pending: Packed) -> tuple[Packed, list[fmpq_mpoly]]:
+    def _divided(self, polynomial: Terms) -> tuple[Terms, list[fmpq_mpoly]]:
         """The remainder, and the quotient for each element of the basis."""
-        names = self._context.names()
-        borrows = sum(1 << FIELD * i + FIELD - 1 for i in range(len(names)))  # no exponent has this bit
-        rules = []
-        for element in self._basis:
-            lead, inverse = _packed(element.lead), 1 / element.polynomial.leading_coefficient()
-            rest = {_packed(m) - lead: -c * inverse for m, c in element.polynomial.to_dict().items()}
-            rules.append((lead, inverse, [(offset, times) for offset, times in rest.items() if offset]))
-        quotients: list[Packed] = [{} for _ in rules]
-        settled: Packed = {}
-        while pending:
-            replaced: Packed = {}
-            for monomial, factor in pending.items():
-                for (lead, inverse, terms), quotient in zip(rules, quotients, strict=True):
-                    if ((monomial | borrows) - lead) & borrows == borrows:
-                        quotient[monomial - lead] = quotient.get(monomial - lead, 0) + factor * inverse
-                        for offset, times in terms:
-                            replaced[monomial + offset] = replaced.get(monomial + offset, 0) + factor * times
-                        break
-                else:
-                    settled[monomial] = settled.get(monomial, 0) + factor
-            pending = {monomial: factor for monomial, factor in replaced.items() if factor}
-        remainder = {monomial: factor for monomial, factor in settled.items() if factor}
-        return remainder, [
-            self._context.from_dict({_exponents(m, len(names)): c for m, c in q.items() if c}) for q in quotients
-        ]
-
-
-def _packed(monomial: Sequence[int]) -> int:
-    return sum(int(e) << FIELD * i for i, e in enumerate(monomial))
-
-
-def _exponents(monomial: int, size: int) -> Monomial:
-    return tuple(monomial >> FIELD * i & 0xFFFF for i in range(size))
+        by = [element.polynomial.to_dict() for element in self._basis]
+        leads = [element.lead for element in self._basis]
+        remainder, quotients = Division(by, leads, len(self._context.names())).divided(polynomial)
+        return remainder, list(map(self._context.from_dict, quotients))
 
 
 def ideal(of: Quotients) -> Ideal:
@@ -139,7 +106,7 @@ def ideal(of: Quotients) -> Ideal:
 def terms(of: Quotient) -> dict[Monomial, int]:
     """The numerator that the checker forms."""
     size = len(of.numerator.ring.variables)
-    return {_exponents(m, size): c for m, c in of.numerator.terms.items()}
+    return {tuple(m >> FIELD * i & 0xFFFF for i in range(size)): c for m, c in of.numerator.terms.items()}
 
 
 def expression(of: Quotient) -> sp.Expr:
