@@ -5,9 +5,9 @@
 
 To be read in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map), then
 measure.py (with circle.py, branch.py), heteroclinic.py and orbit.py (what a certificate says and why it is proved);
-taylor.py (functions of the time), rolling.py (the continuous ball), drift.py, motion.py; document.py (the form of a
-file).  For the statements of the register: trees.py, polynomial.py, words.py, algebra.py, matrices.py, derivation.py
-(how what they are about is made), form.py, roots.py, register.py; shown.py prints what was judged.
+taylor.py (functions of the time), rolling.py (the continuous ball), drift.py, motion.py; document.py and form.py (the
+form of a file).  For the statements of the register: trees.py, polynomial.py, words.py, algebra.py, matrices.py,
+derivation.py (how what they are about is made), roots.py, register.py; shown.py prints what was judged.
 """
 
 from collections import Counter

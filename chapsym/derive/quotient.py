@@ -144,12 +144,12 @@ class Division:
                         break
                 else:
                     settled[monomial] = settled.get(monomial, 0) + factor
-            pending = {monomial: factor for monomial, factor in replaced.items() if factor}
+            pending = {monomial: factor for monomial, factor in replaced.items() if factor != 0}
         return self._terms(settled), list(map(self._terms, quotients))
 
     def _terms(self, packed: dict[int, fmpq]) -> Terms:
         one = (1 << WIDE) - 1
-        return {tuple(m >> WIDE * i & one for i in range(self._size)): c for m, c in packed.items() if c}
+        return {tuple(m >> WIDE * i & one for i in range(self._size)): c for m, c in packed.items() if c != 0}
 
 
 def _packed(monomial: Monomial) -> int:
