@@ -13,6 +13,7 @@ from .interval import Interval, Rejected
 FORMAT = "chapsym-certificate/1"
 #: Most digits and steps of a certificate: what a reader can wait for.
 MOST_DIGITS, MOST_STEPS = 2_000, 1_000
+DIGITS, STEPS = range(1, MOST_DIGITS + 1), range(1, MOST_STEPS + 1)
 #: The most steps · bits² of a certificate, and the bits below which a step is no cheaper: some minutes.
 MOST_WORK, LEAST_BITS = 20_000_000_000, 1_000
 #: Of a file.

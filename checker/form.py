@@ -14,14 +14,13 @@ import re
 from collections.abc import Collection, Sequence
 from typing import Any
 
-from .document import MOST_DIGITS, MOST_STEPS, check_names, count, sized
+from .document import check_names, count, sized
 from .interval import Rejected
 from .trees import check_known, check_name
 
 #: Of each list in a file, the letters of a text, and the names of an algebra.
 MOST, MOST_LETTERS, MOST_NAMES = 2_000, 4_000, 200
-#: Digits after the point, and steps; the number of something in a list.
-DIGITS, STEPS = range(1, MOST_DIGITS + 1), range(1, MOST_STEPS + 1)
+#: The number of something in a list.
 NUMBER = range(MOST)
 
 

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from .document import check_rounded, check_work, decimal, exact, scale
-from .form import DIGITS, HEAD, check_shape
+from .document import DIGITS, check_rounded, check_work, decimal, exact, scale
+from .form import HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import newton
 from .step import Ball, check_small_branch

@@ -32,8 +32,8 @@ from typing import Any
 
 from .branch import MOST_ARCS, Branch
 from .circle import Circle
-from .document import check_rounded, count, decimal, decimals, exact, sized
-from .form import DIGITS, HEAD, STEPS, anything, check_shape
+from .document import DIGITS, STEPS, check_rounded, count, decimal, decimals, exact, sized
+from .form import HEAD, anything, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector
 from .step import check_small_branch, gibbs_vector, turned

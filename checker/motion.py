@@ -20,8 +20,8 @@ from math import ceil
 from typing import Any, NamedTuple
 
 from .attitude import Turning, rotation
-from .document import exact
-from .form import DIGITS, HEAD, check_shape
+from .document import DIGITS, exact
+from .form import HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector, dot
 from .rolling import BITS, Flow, Rolling, number

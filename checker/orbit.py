@@ -20,8 +20,8 @@ there on M: F depends to first order on the momentum integrals alone.
 from fractions import Fraction
 from typing import Any
 
-from .document import check_rounded, check_work, decimal, decimals, exact, scale, sized
-from .form import DIGITS, HEAD, STEPS, check_shape
+from .document import DIGITS, STEPS, check_rounded, check_work, decimal, decimals, exact, scale, sized
+from .form import HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import Matrix, Vector, cross, determinant, dot, minus, newton, plus, solve, times, transposed, units
 from .step import Ball, Pair, check_small_branch, gibbs_vector, moved, tangents
