@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single
 
-from .ball import Ball, Floats, batch, numbers, unit_vertical
+from .ball import Ball, batch, numbers, unit_vertical
 from .errors import BadInput
 from .levels import dispatch
-from .levels.frames import Balls
+from .levels.frames import Balls, beyond_float64
 from .levels.start import exponent_of, fraction
 from .results import Step, in_given_axes
 
@@ -142,12 +142,3 @@ def unit_exactly(gamma: Sequence[Fraction], precision: Precision) -> None:
             f"gamma must be a unit vector to {precision.digits} digits, but |gamma|^2 is off 1 by {shown}; "
             "give it exactly, as rationals such as 2/7,3/7,6/7"
         )
-
-
-def beyond_float64(momentum: ArrayLike, shape: tuple[int, ...]) -> Floats | None:
-    """What a momentum of Fractions has beyond float64, (n, 3); None if there is nothing."""
-    given = np.asarray(momentum)
-    if given.dtype != object or not all(isinstance(x, Fraction) for x in given.flat):
-        return None
-    rest = np.array([float(x - Fraction(float(x))) for x in given.flat]).reshape(given.shape)
-    return np.broadcast_to(rest, (*shape, 3)).reshape(-1, 3)

@@ -16,8 +16,7 @@ from .attitudes import first_attitudes
 from .ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
 from .errors import BadInput
 from .levels import dispatch
-from .levels.frames import Balls, Frames
-from .map import beyond_float64
+from .levels.frames import Balls, Frames, beyond_float64
 from .results import Trajectory, finished, in_given_axes, of_balls
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.

@@ -5,8 +5,10 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..ball import Floats
 
@@ -28,6 +30,15 @@ class Balls:
     D: Floats
     radius: Floats
     rest: Floats | None = None
+
+
+def beyond_float64(momentum: ArrayLike, shape: tuple[int, ...]) -> Floats | None:
+    """What a momentum of Fractions has beyond float64, (n, 3); None if there is nothing."""
+    given = np.asarray(momentum)
+    if given.dtype != object or not all(isinstance(x, Fraction) for x in given.flat):
+        return None
+    rest = np.array([float(x - Fraction(float(x))) for x in given.flat]).reshape(given.shape)
+    return np.broadcast_to(rest, (*shape, 3)).reshape(-1, 3)
 
 
 @dataclass(frozen=True, eq=False)
