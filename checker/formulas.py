@@ -337,8 +337,6 @@ def _each(a: Value, of: Any) -> Value:
 
 
 def _sum(a: Value, b: Value) -> Value:
-    if a == (0, 0) or b == (0, 0):
-        return b if a == (0, 0) else a
     if a[0] != b[0]:
         raise NotRead("a number is added to a vector")
     if not a[0]:

@@ -1,5 +1,6 @@
 """Kernels of a register that is not of chapsym: a small one, made here, and that of the rolling disc."""
 
+import importlib
 import json
 import math
 import re
@@ -184,15 +185,14 @@ def test_what_is_equal_because_nothing_obeys_the_relations_is_refused(register, 
 def test_the_disc_takes_steps(monkeypatch):
     """The midpoint rule of its register: of order 2, its own inverse, at rest in steady motions."""
     monkeypatch.syspath_prepend(DISC.parent)
-    from rolling_disc.generated import TABLE, spin_rates
-
-    middle = implicit_step(TABLE["step_lack"], TABLE["step_slope"])
+    disc = importlib.import_module("rolling_disc.generated")
+    middle = implicit_step(disc.TABLE["step_lack"], disc.TABLE["step_slope"])
 
     def end(start, h, **options):
         return 2 * middle(start, start, [0.5], [9.81], [h], **options) - start
 
     def rates(x):
-        return np.array([x[1], *spin_rates(*x, 0.5, 9.81)])
+        return np.array([x[1], *disc.spin_rates(*x, 0.5, 9.81)])
 
     def runge_kutta(x, h):
         a = rates(x)

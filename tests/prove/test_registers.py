@@ -302,7 +302,7 @@ def test_the_worked_example_finds_what_is_false_in_the_documentation_of_sympy(di
     false = {"L-potential", "L-1", "L-2", "L-3", "L-a1", "L-a2", "L-a3"}
     assert {r["id"] for r in found if r["verdict"] == "corrected"} == false
     assert {r["verdict"] for r in found if r["id"] not in false} == {"holds"}
-    assert len(found) == 19
+    assert len(found) == 22
     for record in found:
         evidence = record["evidence"]
         assert all(control["rejected"] for control in evidence["controls"])

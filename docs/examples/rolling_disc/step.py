@@ -59,6 +59,6 @@ def steady(p: Proof) -> None:
     """The map rests where the disc moves steadily, for every h."""
     moving(p)
     p.assume("h is not 0", sp.Ne(h, 0))
-    p.infers("The end is the beginning where the middle is, as y = 2z - x.")
+    p.say("The end is the beginning where the middle is, as y = 2z - x.")
     p.printed(equal("the equations, with the beginning in the middle", lack(z, h), -h / 2 * rates()))
     p.control(equal("with the whole of h", lack(z, h), -h * rates()))
