@@ -268,6 +268,8 @@ class Printer:
             case ast.BoolOp(op=op, values=[first, *others]):
                 sign, level = ("&&", AND) if isinstance(op, ast.And) else ("||", OR)
                 parts = [self.one(first), *map(self.unhurried, others)]
+                if any(part.kind != "b" for part in parts):
+                    raise TypeError("what is joined is a number, which Python would return")
                 return Text(f" {sign} ".join(part.at(AND + 1) for part in parts), "b", level)
             case ast.IfExp(test=test, body=body, orelse=orelse):
                 given, before = self.one(test), self.temporaries
@@ -628,6 +630,13 @@ class Printer:
             case ast.For(target=target, iter=ast.Tuple(elts=rows), body=body, orelse=[]):  # C has no loop over rows
                 if any(isinstance(n, ast.Break | ast.Continue) for n in ast.walk(node)):
                     raise TypeError("a loop over rows is left")
+                read = {n.id for row in rows for n in ast.walk(row) if isinstance(n, ast.Name)}
+                if read & {
+                    n.id
+                    for n in ast.walk(ast.Module(body, []))
+                    if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
+                }:
+                    raise TypeError("a row is read after what it names has changed")
                 for row in rows:
                     self.assign(target, row)
                     for statement in body:
@@ -748,8 +757,10 @@ class Printer:
 
     def loop(self, name: str, over: str, nodes: Sequence[ast.expr], body: Sequence[ast.stmt]) -> None:
         """A loop over a range; its end is computed once, and its variable is known inside alone."""
-        if over not in ("range", "lanes"):
-            raise TypeError(f"a loop over {over}")
+        if over not in ("range", "lanes") or any(
+            isinstance(n, ast.Name) and n.id == name for x in nodes for n in ast.walk(x)
+        ):
+            raise TypeError(f"a loop over {over}, or its variable is in its bounds")
         bounds = [self.expression(x).text for x in nodes]
         start, end, step = {1: ["0", *bounds, "1"], 2: [*bounds, "1"], 3: bounds}[len(bounds)]
         name = name if name != "_" else f"i_{len(self.loops)}"

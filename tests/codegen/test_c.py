@@ -386,6 +386,8 @@ def translated(tmp_path, text):
         "with a:\n        pass\n    return a", "del a", "global a",
         "try:\n        a = 1.0\n    except ValueError:\n        a = 2.0\n    return a", "raise ValueError",
         "assert a > 0.0",
+        "return a and 1.0", "for n in range(n):\n        a += 1.0\n    return a",
+        "for x, y in ((a, 1.0), (2.0, a)):\n        a = x + y\n    return a",
         "t = a, 1.0, a\n    return t[0:3:2]", "t = a, 1.0, a\n    return t[n:3]",
         "t = a, 1.0\n    if n > 1:\n        t = 1.0, a\n    return t[n]", "t = a, n\n    return t[n]",
         "t = filled(v) if n > 1 else (a, a)\n    return t", "return a, (a, a)", "return Loose(a)", "return v",
