@@ -244,7 +244,7 @@ def _write_npz(stream: IO[bytes], data: "Dataset | Arrays") -> None:
 
 
 def _read_npz(path: Path) -> "Dataset":
-    with np.load(path, allow_pickle=False) as data:
+    with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
         arrays = {name: data[name] for name in data.files}
     if "chapsym" not in arrays:
         return _old(arrays)

@@ -77,7 +77,7 @@ class Store:
         """How many segments of a chunk are done, and the state after them; 0 and None if none is."""
         path, balls = mark_of(self.path, chunk), self.plan.chunks[chunk].stop - self.plan.chunks[chunk].start
         try:
-            with np.load(path, allow_pickle=False) as data:
+            with path.open("rb") as file, np.load(file, allow_pickle=False) as data:  # NumPy leaves a damaged one open
                 state = {name: data[name] for name in data.files}
             done = int(state.pop(DONE))
             if not 0 < done <= len(self.plan.segments) or any(array.shape[:1] != (balls,) for array in state.values()):
