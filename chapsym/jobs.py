@@ -121,7 +121,7 @@ class Here(Executor):
 
 
 class Pool:
-    """An executor with so many workers; each finds a next call when it has made one."""
+    """An executor with a number of workers, each of which finds a next call when it has made one."""
 
     lost: tuple[type[BaseException], ...] = ()
 
@@ -143,7 +143,7 @@ class Pool:
 
 @contextmanager
 def threads(count: int) -> Iterator[Pool]:
-    """So many threads; at the end, or after an error, those that run are waited for."""
+    """Threads; at the end, or after an error, those that run are waited for."""
     with ThreadPoolExecutor(count) if count > 1 else Here() as executor:
         try:
             yield Pool(executor, count)
@@ -153,7 +153,7 @@ def threads(count: int) -> Iterator[Pool]:
 
 @contextmanager
 def processes(count: int) -> Iterator[Pool]:
-    """So many processes; at the end, or after an error, those that run are ended.
+    """Processes; at the end, or after an error, those that run are ended.
 
     Raises BadInput if one was ended from outside and the chain of its call did not take that.
     """
@@ -253,7 +253,7 @@ def _client(address: str) -> Iterator[Any]:
         raise BadInput(f"{wrong}: {error}") from None
     levels = {logger: logger.level for logger in map(logging.getLogger, ("distributed", "distributed.client"))}
     for logger in levels:
-        logger.setLevel(logging.CRITICAL)  # what went wrong is told once, in a sentence
+        logger.setLevel(logging.CRITICAL)  # what went wrong is said once, in a sentence
     try:
         client = Client(address, timeout=REACHED, set_as_default=False)
     except (OSError, TimeoutError):
@@ -293,7 +293,7 @@ def held(path: Path, what: str) -> Iterator[None]:
 
 
 def claim(stream: IO[str], what: str, named: Path | None = None) -> None:
-    """Locks an open file until it is closed; raises BadInput if another process has, which the file `named` tells."""
+    """Locks an open file until it is closed; raises BadInput if another process has, which the file `named` names."""
     try:
         if fcntl is not None:
             fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)

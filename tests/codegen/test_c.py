@@ -357,6 +357,11 @@ def filled(v):
     v[0] = 1.0
     return v[0], v[1]
 
+def fresh(a):
+    x = np.zeros(2)
+    x[0] = a
+    return x
+
 """
 
 
@@ -404,6 +409,37 @@ def translated(tmp_path, text):
 def test_what_is_not_translated_names_its_function(body, tmp_path):
     with pytest.raises(NotTranslatable, match="sample_odd"):
         translated(tmp_path, f"def odd(a: float, n: int, v: Vector):\n    {body}\n")
+
+
+def test_an_array_of_a_function_is_not_returned(tmp_path):
+    """In C it would be gone."""
+    with pytest.raises(NotTranslatable, match="sample_fresh"):
+        translated(tmp_path, "def odd(a: float):\n    x = fresh(a)\n    return x[0]\n")
+
+
+def refused(name, texts, said):
+    """Of modules of a package `box`, by name: that the functions of one cannot be printed."""
+    program = Program({f"box.{module}": text for module, text in texts.items()}.__getitem__)
+    functions = [*program.module(f"box.{name}").functions.values()]
+    with pytest.raises(NotTranslatable, match=said):
+        c_files.Texts(program, functions, functions)
+
+
+def test_a_field_of_float32_holds_no_float64():
+    text = "from typing import NamedTuple\n\nclass One(NamedTuple):\n    size: float\n\n"
+    text += "def odd(v: Doubles):\n    x = One(v[0])\n    return x.size\n"
+    refused("sample", {"sample": text}, "the field size is of another kind")
+
+
+@pytest.mark.parametrize(
+    ("far", "near"), [("(v):\n    return v[0], v[1]", "far((a, a))[0]"), ("(x):\n    return 2.0 * x", "far(a)")]
+)
+def test_float32_takes_no_vector_and_no_single_result_from_float64(far, near):
+    texts = {
+        "branch": f"def far{far}\n",
+        "single_loop": f"from .branch import far\n\ndef near(a: float):\n    return {near}\n",
+    }
+    refused("single_loop", texts, "single_loop_near")
 
 
 def test_a_flipped_sign_in_a_loop_changes_the_text_and_is_told_by_the_check(copy):

@@ -3,6 +3,7 @@
 from fractions import Fraction as F
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -65,6 +66,16 @@ def test_the_form_follows_from_the_operands(monkeypatch):
         called.clear()
         what()
         assert called == expected
+
+
+def test_halves_may_be_arrays():
+    """Of a column each number has the bits that it has alone, whichever side the array is on."""
+    x, y, factor = np.array([0.3, -0.7, 1.1]), np.array([1e-18, 2e-17, -1e-17]), np.array([0.1, 0.2, 0.3])
+    for of in (lambda f, p: f * p, lambda f, p: p - f, lambda f, p: f - p, lambda f, p: f / p):
+        together = of(factor, Loose(x, y))
+        for i in range(3):
+            alone = of(float(factor[i]), Loose(float(x[i]), float(y[i])))
+            assert (together.high[i], together.low[i]) == (alone.high, alone.low)
 
 
 @given(numbers, numbers)

@@ -30,7 +30,7 @@ from .units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, TURNING
 class Quantity:
     """A key that measures something; `swept` says whether a range may stand there.
 
-    In the JSON Schema of pydantic it is told by name, `{"quantity": ..., ...}`; `schema.py` spells that out, once each.
+    In the JSON Schema of pydantic it has a name, `{"quantity": ..., ...}`; `schema.py` spells that out, once each.
     """
 
     def __init__(self, dimension: Dimension, *, swept: bool = True, positive: bool = False) -> None:

@@ -96,7 +96,7 @@ class Tally:
         return (balls.stop - balls.start) * frames * self.plan.task.every
 
     def kept(self, chunk: int, segments: int, state: State) -> None:
-        """So many segments of a chunk are done."""
+        """The number of segments of a chunk that are done."""
         with self._lock:
             self._done[chunk] = self.work(chunk, segments)
             self._failed[chunk] = int(np.count_nonzero(state["status"] != Status.TAKEN))

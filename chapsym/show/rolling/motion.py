@@ -203,8 +203,9 @@ def turns_between(
 
     attitude: (frames, 4).  seconds, steps: from frame to frame, (frames - 1,).  omega: in space, (frames, 3), or None.
     rolled: the way of the contact point from frame to frame in radii, or None.
-    One step of the map turns by less than half a turn.  Over several, ω tells the whole turns.  Without it a turn is
-    known as long as neither the attitude nor the way, which no ball rolls with less turning, show more than a quarter.
+    One step of the map turns by less than half a turn.  Over several, the whole turns follow from ω.  Without it a turn
+    is known as long as neither the attitude nor the way, which no ball rolls with less turning, show more than a
+    quarter.
     """
     turns = least_turns(attitude)
     if omega is not None and seconds is not None:
