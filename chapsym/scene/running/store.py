@@ -4,11 +4,12 @@ Beside the arrays the folder `.chapsym` has the lock and the marks: for each chu
 the state for the next, in one file.
 """
 
+import asyncio
 import errno
 import json
 import os
 import shutil
-import time
+import sys
 import tomllib
 import warnings
 import zipfile
@@ -31,6 +32,8 @@ from ..result.formats import attributes, check_ours, plain
 ELSE = "choose another name, or replace it with --fresh"
 #: The name of the count in a mark; the rest is the state.
 DONE = "segments_done"
+#: Seconds that Zarr may take, after an error, for what it writes at the same time.
+LONGEST_WRITE = 10.0
 
 
 class Store:
@@ -223,11 +226,8 @@ def created(path: Path, fill: Callable[[Path], object]) -> None:
                 if not path.exists():
                     raise
     finally:
-        for _ in range(20):  # after an error Zarr may still be writing into it
-            shutil.rmtree(beside, ignore_errors=True)
-            if not beside.exists():
-                break
-            time.sleep(0.05)
+        _wait_for_zarr()  # or what it still writes would make the folder anew
+        shutil.rmtree(beside, ignore_errors=True)
 
 
 def _discard(path: Path) -> None:
@@ -301,6 +301,24 @@ def _locked(path: Path) -> Iterator[None]:
         yield
 
 
+def _wait_for_zarr() -> None:
+    """Returns when Zarr has ended its writes: the first that fails is raised while others are on their way."""
+    if "zarr" not in sys.modules:
+        return
+    from zarr.core.sync import sync
+
+    async def ended() -> None:
+        own = "wait for zarr"
+        task = asyncio.current_task()
+        assert task is not None
+        task.set_name(own)  # two that wait do not wait for each other
+        if others := [one for one in asyncio.all_tasks() if one.get_name() != own]:
+            await asyncio.wait(others)
+
+    with suppress(TimeoutError):
+        sync(ended(), timeout=LONGEST_WRITE)
+
+
 @contextmanager
 def _refusals(path: Path, names: Iterable[str] = (), creating: bool = False) -> Iterator[None]:
     """Turns what the disk refuses inside into a SceneError of one sentence.
@@ -311,6 +329,7 @@ def _refusals(path: Path, names: Iterable[str] = (), creating: bool = False) -> 
     try:
         yield
     except (OSError, files.CannotWrite) as error:
+        _wait_for_zarr()
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
         causes = (error, error.__cause__, error.__context__)  # of a CannotWrite the error inside tells
         full = any(isinstance(e, OSError) and e.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) for e in causes)
