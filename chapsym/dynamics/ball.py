@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from math import isfinite
 from numbers import Number
@@ -97,8 +97,29 @@ def brief(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
+class Parameters:
+    """What balls of every dimension have: those with the same parameters are equal; a copy is checked anew."""
+
+    def _values(self) -> tuple[Asked, ...]:
+        return tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return all(
+            a is b or (a is not None and b is not None and np.array_equal(a, b))
+            for a, b in zip(self._values(), other._values(), strict=True)
+        )
+
+    def __hash__(self) -> int:
+        return hash(tuple(None if x is None else (x.shape, (x + 0.0).tobytes()) for x in self._values()))  # of -0, too
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), self._values()
+
+
 @dataclass(frozen=True, eq=False, init=False)
-class Ball:
+class Ball(Parameters):
     """A ball, or an array of balls, that rolls without slipping; balanced: its centre of mass is its centre.
 
     mass_tensor: J = (J1, J2, J3) of Sections 4 and 5, ∫ xᵢ² dm, shape (..., 3), in kg m²: the diagonal of the

@@ -1,12 +1,14 @@
 """Balls that exist, and those that do not."""
 
+import copy
+import pickle
 from fractions import Fraction
 
 import numpy as np
 import pytest
 from hypothesis import given
 
-from chapsym import BadInput, Ball, roll, testing
+from chapsym import BadInput, Ball, BallN, roll, testing
 
 
 def test_inertia_and_mass_tensor_are_two_ways_to_say_the_same():
@@ -53,6 +55,28 @@ def test_a_ball_that_cannot_be_is_refused(build, sentence):
 def test_every_inertia_of_a_body_is_taken(moments):
     ball = Ball.from_inertia(moments, D=1)
     assert np.abs(ball.inertia - moments).max() <= 4 * 2**-52 * moments.max()
+
+
+@pytest.mark.parametrize("kind", [Ball, BallN])
+def test_balls_with_the_same_parameters_are_equal_and_a_copy_is_as_good(kind):
+    """Also after pickle and deepcopy, whose arrays nobody may change."""
+    one, same, other = kind((1, 2, 4), 3), kind((1.0, 2, 4), 3), kind((1, 2, 4), 3, radius=0.1)
+    assert one == same
+    assert hash(one) == hash(same)
+    assert len({one, same, other}) == 2
+    assert one != other
+    assert one != kind((1, 2, 5), 3)
+    assert one != "a ball"
+    assert kind((0.0, 2, 4), 3) == kind((-0.0, 2, 4), 3)
+    assert len({kind((0.0, 2, 4), 3), kind((-0.0, 2, 4), 3)}) == 1
+    for copied in (pickle.loads(pickle.dumps(one)), copy.deepcopy(one)):
+        assert copied == one
+        assert not copied.mass_tensor.flags.writeable
+
+
+def test_a_copy_of_a_ball_keeps_its_axes():
+    ball = Ball.from_inertia([[3.0, 0.1, 0.0], [0.1, 4.0, 0.0], [0.0, 0.0, 5.0]], mass=1.0, radius=1.0)
+    assert copy.deepcopy(ball) == ball != ball.principal
 
 
 def test_a_ball_does_not_change_with_the_array_it_was_made_from():

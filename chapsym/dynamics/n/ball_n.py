@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats, common_shape, keep, largest_moment, numbers
+from ..ball import Floats, Parameters, common_shape, keep, largest_moment, numbers
 from ..errors import BadInput
 from . import so_n
 
@@ -18,7 +18,7 @@ AGREEMENT = 1e-9
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class BallN:
+class BallN(Parameters):
     """A ball in n ≥ 3 dimensions, or an array of such balls, that rolls without slipping on a hyperplane.
 
     mass_tensor: the diagonal of J = ∫ x xᵀ dm about the centre (Section 4), shape (..., n), in kg m².
