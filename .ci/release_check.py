@@ -57,7 +57,7 @@ def errata(root: Path) -> str:
             kept = (root / "docs" / "errata").with_suffix(suffix)
             new = Path(folder) / kept.name
             new.write_bytes(kept.read_bytes())  # the states of earlier releases are in the file
-            _run("the errata", root, sys.executable, "-m", "chapsym.cli", "report", "-o", str(new))
+            _run("the errata", root, sys.executable, "-m", "chapsym", "report", "-o", str(new))
             if new.read_bytes() != kept.read_bytes():
                 raise NotReady(f"docs/{kept.name} is not what the proofs give; run chapsym report -o docs/{kept.name}")
     return "the errata are fresh"
@@ -75,7 +75,7 @@ def packages(root: Path) -> str:
         constraints = str(root / "constraints.txt")
         _run("the installed wheel", root, python, "-m", "pip", "install", "--quiet", "-c", constraints, wheel)
         for command in ("codegen --check", "prove prop-4"):
-            _run("the installed wheel", Path(folder), python, "-m", "chapsym.cli", *command.split())
+            _run("the installed wheel", Path(folder), python, "-m", "chapsym", *command.split())
     return f"built, checked and installed: {', '.join(Path(name).name for name in built)}"
 
 

@@ -46,7 +46,7 @@ def _text(stream):
 
 def child(*arguments, **options):
     """The same in a process of its own."""
-    arguments = [sys.executable, "-m", "chapsym.cli", *map(str, arguments)]
+    arguments = [sys.executable, "-m", "chapsym", *map(str, arguments)]
     return subprocess.run(arguments, capture_output=True, text=True, check=False, **options)
 
 

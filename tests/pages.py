@@ -100,7 +100,7 @@ def run(line, folder):
         done = commands.chapsym(*words[1:], cwd=folder)
     else:
         python = shlex.quote(sys.executable)
-        ours = f'chapsym() {{ {python} -m chapsym.cli "$@"; }}\npython() {{ {python} "$@"; }}\n'
+        ours = f'chapsym() {{ {python} -m chapsym "$@"; }}\npython() {{ {python} "$@"; }}\n'
         script = f"set -o pipefail\n{ours}{line}"
         done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, cwd=folder, check=False)
     return done.stdout if done.returncode == 0 else done.stdout + done.stderr

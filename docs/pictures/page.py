@@ -14,7 +14,7 @@ SIZE, SHOWN = {"width": 1000, "height": 560}, 0.3
 
 with tempfile.TemporaryDirectory() as folder, sync_playwright() as driver:
     scene = DOCS / "scenes" / "bowling.toml"
-    subprocess.run([sys.executable, "-m", "chapsym.cli", "show", scene, "-o", folder], check=True)
+    subprocess.run([sys.executable, "-m", "chapsym", "show", scene, "-o", folder], check=True)
     flags = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
     page = driver.chromium.launch(executable_path=shutil.which("chromium"), args=flags).new_page(viewport=SIZE)
     page.emulate_media(reduced_motion="reduce")

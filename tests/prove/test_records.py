@@ -149,7 +149,7 @@ def test_workers_end_with_the_process_that_started_them(tmp_path):
         tmp_path, "import os, time, chapsym.prove.runner as runner",
         "runner.judge = lambda claim: os.write(1, b'.') and time.sleep(3600)",
     )  # fmt: skip
-    command = [sys.executable, "-m", "chapsym.cli", "prove", "prop-2", "4.3", "--jobs", "2"]
+    command = [sys.executable, "-m", "chapsym", "prove", "prop-2", "4.3", "--jobs", "2"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, env=env) as process:
         assert process.stdout.read(2) == b".."
         process.kill()
