@@ -143,6 +143,17 @@ class Trajectory:
     low: Trajectory | Any = None
     error: Asked = None
 
+    def __repr__(self) -> str:
+        balls = f"{self.status.size} balls" if self.status.shape else "1 ball"
+        end = f"{self.index[-1]} steps" + ("" if self.time_step is None else f" of {self.time_step:.6g} s")
+        kept = [name for name in FRAMES[1:] if getattr(self, name) is not None]
+        return f"<Trajectory of {balls}: {len(self.index)} frames in {end}; {', '.join(kept)}>"
+
+    @property
+    def t(self) -> Floats:
+        """`time`, as `solve_ivp` calls it."""
+        return self.time
+
     @property
     def time(self) -> Floats:
         """The time of each frame in seconds; raises BadInput if the run has no time step."""

@@ -186,14 +186,17 @@ class Enclosure(Precision):
 
 #: What users call the precisions that have no parameter.
 NAMED: dict[str, Precision] = {"single": Single(), "double": Double(), "double-double": DoubleDouble()}
-#: What they were called.
+#: What they were called; and NumPy's names of them.
 OLD = {"quad": "double-double"}
+OF_NUMPY = {"float32": "single", "float64": "double"}
 
 
 def new_name(name: Any) -> Any:
-    """The name of a precision, where an old one is given, which warns; all else as it is."""
+    """The name of a precision, where NumPy's, its type or an old name, which warns, is given; all else as it is."""
+    if isinstance(name, type | np.dtype) and name in (np.float32, np.float64):
+        name = np.dtype(name).name
     if not isinstance(name, str) or name not in OLD:
-        return name
+        return OF_NUMPY.get(name, name) if isinstance(name, str) else name
     renamed(f'precision "{name}"', f'"{OLD[name]}"')
     return OLD[name]
 

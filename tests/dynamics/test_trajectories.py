@@ -180,3 +180,17 @@ def test_a_momentum_beyond_every_range_beside_the_ball_has_no_rotation(moment, m
     run = chapsym.trajectory(Ball([tensor] * 9, 0), [momentum * GAMMA] * 9, GAMMA, 300, precision=precision)
     assert (run.status == Status.UNREACHABLE).all()
     assert (run.taken == 0).all()
+
+
+@pytest.mark.parametrize("name", ["float32", np.float32, np.dtype(np.float32)])
+def test_numpys_names_of_the_precisions_are_taken(name):
+    run = chapsym.trajectory(Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (0, 0, 1), 3, time_step=0.5, precision=name)
+    assert run.momentum.dtype == np.float32
+    with pytest.raises(BadInput, match="precision must be"):
+        chapsym.step(Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (0, 0, 1), precision=np.float16)
+
+
+def test_a_trajectory_is_shown_in_a_line():
+    run = chapsym.trajectory(Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (0, 0, 1), 3, time_step=0.5)
+    assert repr(run) == "<Trajectory of 1 ball: 4 frames in 3 steps of 0.5 s; momentum, gamma>"
+    assert run.t.tolist() == [0.0, 0.5, 1.0, 1.5]
