@@ -35,6 +35,11 @@ def matrix(q):
     return np.stack([kernels.rotate(q, e) for e in np.eye(3)], axis=-1)
 
 
+def test_angles_in_degrees_are_not_taken_for_radians():
+    with pytest.raises(SceneError, match=r'start\.rpy is in radians, and 90 is more than a turn; .* "90 deg"'):
+        members({"omega": [1, 2, 3], "rpy": [90.0, 0, 45.0]})
+
+
 def test_a_start_by_omega_is_that_of_roll_and_one_by_momentum_is_kept_to_the_bit():
     found = members({"omega": [3, -2, 1], "gamma": GAMMA})
     run = roll(Ball.from_inertia(BALL["inertia"], mass=2.0, radius=0.1), (3, -2, 1), 0.001, 10, gamma=GAMMA)

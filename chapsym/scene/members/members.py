@@ -339,7 +339,12 @@ def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats 
 def _attitude(start: StartTable, given: Given) -> Floats | None:
     """The unit quaternions from the body to space, (count, 4), scalar first; None where the start does not say them."""
     if start.rpy is not None:
-        roll, pitch, yaw = given.array(start.rpy, "start.rpy").T
+        roll, pitch, yaw = angles = given.array(start.rpy, "start.rpy").T
+        if (np.abs(angles) > 2 * np.pi).any():
+            most = angles.flat[int(np.abs(angles).argmax())]
+            raise BadInput(
+                f'start.rpy is in radians, and {most:g} is more than a turn; of degrees write "{most:g} deg"'
+            )
         return kernels.compose(_turn(yaw, 2), kernels.compose(_turn(pitch, 1), _turn(roll, 0)))
     key, scalar = ("attitude", "first") if start.quaternion_xyzw is None else ("quaternion_xyzw", "last")
     if getattr(start, key) is None:

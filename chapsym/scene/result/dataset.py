@@ -225,8 +225,9 @@ def _bodies(plan: Plan) -> dict[str, Labelled]:
 def provenance(plan: Plan) -> dict[str, Any]:
     """Where a result comes from: the scene, the plan, and the versions of what made it, as attributes."""
     balls = "1 ball" if len(plan.members) == 1 else f"{len(plan.members)} balls"
+    kind = "Chaplygin ball" if plan.task.chosen else "Discrete Chaplygin ball"
     found = {
-        "title": plan.title or f"Discrete Chaplygin ball: {balls}, {plan.model.name}",
+        "title": plan.title or f"{kind}: {balls}, {plan.model.name}",
         "chapsym_version": chapsym.__version__,
         "scene": plan.scene,
         "model": plan.model.name,
