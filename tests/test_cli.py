@@ -198,8 +198,23 @@ def test_codegen_judges_what_the_kernels_come_from(tmp_path):
     assert "comes from the claim gibbs-newton, which is not proved" in done.stderr
 
 
+def test_the_kernels_of_a_checkout_are_written_from_inside_it_only(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert "would be written anew: run it from there" in refused("codegen")
+
+
+def test_errors_name_the_command_whose_help_serves():
+    assert refused("certify", "motion", "--foo").endswith("No such option: --foo (see chapsym certify motion --help)")
+    assert "'.' is no result" in refused("show", ".")
+
+
+def test_a_claim_that_is_named_leads_to_its_parts():
+    assert "4.6 has parts that are judged apart: 4.6-body, 4.6-frame, 4.6-limit" in chapsym("prove", "4.6").stderr
+    assert "parts" not in chapsym("prove", "4.6-body").stderr
+
+
 def test_output_that_cannot_be_written_is_one_sentence():
-    command = [sys.executable, "-m", "chapsym.cli", *STEP]
+    command = [sys.executable, "-m", "chapsym", *STEP]
     with open("/dev/full", "w") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 2
@@ -211,7 +226,7 @@ def test_output_that_nobody_reads_ends_with_141():
     reader, writer = os.pipe()
     os.close(reader)
     done = subprocess.run(
-        [sys.executable, "-m", "chapsym.cli", *STEP], stdout=writer, stderr=subprocess.PIPE, text=True, check=False
+        [sys.executable, "-m", "chapsym", *STEP], stdout=writer, stderr=subprocess.PIPE, text=True, check=False
     )
     os.close(writer)
     assert (done.returncode, done.stderr) == (141, "")

@@ -61,7 +61,8 @@ def main() -> NoReturn:
             _abandon_output()
         raise
     except TyperException as error:
-        fail(f"{error.format_message()} (see chapsym --help)", 2)
+        place = getattr(getattr(error, "ctx", None), "command_path", "chapsym")
+        fail(f"{error.format_message()} (see {place} --help)", 2)
     except (KeyboardInterrupt, typer.Abort) as stop:
         if isinstance(stop.__cause__, EOFError):  # typer takes one for the end of an answer, and we ask nothing
             raise stop.__cause__ from None

@@ -56,6 +56,8 @@ def codegen(
         return
     if package.is_ours and not build.is_checkout(place):
         fail("this chapsym is an installed copy: generate in a source checkout; here only --check applies", 2)
+    if package.is_ours and not Path.cwd().is_relative_to(place.parent):
+        fail(f"the kernels of {place.parent} would be written anew: run it from there; here only --check applies", 2)
     try:
         package.check_names(trust or [])
     except ValueError as error:

@@ -83,6 +83,9 @@ def prove(
             if record["evidence"]["problems"]:
                 print(f"{'':18} its proof: {claims[record['id']].place}")
         print(tally(records))
+        for id in ids or []:
+            if parts := sorted(other for other in claims.keys() - set(ids or []) if other.startswith(f"{id}-")):
+                note(f"{id} has parts that are judged apart: {', '.join(parts)}")
     if certificates:
         note(f"certificates in {certificates}: {_carried(records)}")
     if failed:

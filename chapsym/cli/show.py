@@ -46,7 +46,7 @@ def show(
     if names and not FORMATS[form]:
         fail(f"--figures {names}: figures do not move; --format {form} draws the motion, so give svg, png or pdf", 2)
     # One for each result: a.csv and a.parquet are two.  A scene is known by its stem.
-    folder = output or result.with_name(f"{result.name.removesuffix('.toml')}-figures")
+    folder = output or result.parent / f"{result.name.removesuffix('.toml')}-figures"
     written, missing, so_far = _pictures(result, folder, form, ball, names, page)
     if as_json:
         files = [str(path) for path in written]
