@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.numbers import Enclosure
+from chapsym.numbers.precisions import MOST_BITS
 
 from .ball import Asked, Floats, batch, in_shape
 from .coefficients import COMPOSITIONS
@@ -93,7 +94,7 @@ def certify(
         raise BadInput(f"certify takes what `trajectory` and `roll` return, not {type(trajectory).__name__}")
     if trajectory.order not in COMPOSITIONS:
         raise BadInput(f"certify takes orders {', '.join(map(str, COMPOSITIONS))}: this is no orbit of the map")
-    bits = whole_number(bits, "bits", 2)
+    bits = whole_number(bits, "bits", 2, MOST_BITS)
     given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
     enclosed, selected = _orbit(trajectory, given, bits, progress)
     errors = {name: None if array is None else _errors(array, given[name], bits) for name, array in enclosed.items()}

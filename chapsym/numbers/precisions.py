@@ -37,9 +37,13 @@ def flint_bits(bits: int) -> Iterator[None]:
         yield
 
 
-def _whole(name: str, value: Any, least: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise ValueError(f"{name}(n) takes a whole number from {least} on, not {value!r}")
+#: Beyond these a run ends for want of memory, which nobody could catch.
+MOST_DIGITS, MOST_BITS = 1_000_000, 10_000_000
+
+
+def _whole(name: str, value: Any, least: int, most: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
+        raise ValueError(f"{name}(n) takes a whole number from {least} to {most}, not {value!r}")
 
 
 class Precision(ABC):
@@ -130,7 +134,7 @@ class Digits(Precision):
     guard: int = 15
 
     def __post_init__(self) -> None:
-        _whole("Digits", self.count, 1)
+        _whole("Digits", self.count, 1, MOST_DIGITS)
 
     @cached_property
     def context(self) -> Any:
@@ -161,7 +165,7 @@ class Enclosure(Precision):
     guard: int = 40
 
     def __post_init__(self) -> None:
-        _whole("Enclosure", self.bits, 2)
+        _whole("Enclosure", self.bits, 2, MOST_BITS)
 
     def number(self, value: Fraction) -> Any:
         from flint import arb, fmpq

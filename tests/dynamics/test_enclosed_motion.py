@@ -114,6 +114,13 @@ def test_no_rotor_is_what_there_was_before():
     assert certified_motion(*given, rotor=(0, 0, "0")).write() == certified_motion(*given).write()
 
 
+def test_numpys_integers_are_integers():
+    K = tuple(np.array([1, 2, 3]))
+    plain = certified_motion(ExactBall((1, 2, 4), 3), (1, 2, 3), (0, 0, 1), 1)
+    given = certified_motion(ExactBall(tuple(np.array([1, 2, 4])), np.int64(3)), K, (0, 0, 1), np.int32(1))
+    assert given.write() == plain.write()
+
+
 def test_many_digits_with_a_rotor_keep_its_integrals():
     """By the corrections that gain more bits each time; ⟨K,γ⟩, |K|² and ½⟨K - a, ω⟩ are those of the start."""
     start = (3, 1, 4), ("2/7", "3/7", "6/7"), ["0", "1/2"]

@@ -36,6 +36,11 @@ def test_the_integrals_drift_like_roundings(n, size):
     assert (run.momentum == -run.momentum.mT).all()
 
 
+def test_invariants_beyond_float64_are_refused():
+    with pytest.raises(BadInput, match="beyond the range of float64"):
+        invariants_n([[0, 1e300, 0], [-1e300, 0, 0], [0, 0, 0]], (0, 0, 1))
+
+
 @pytest.mark.parametrize("n", SIZES)
 def test_the_invariants_are_those_of_the_matrix(n):
     _, K, gamma = batch(n, 2, 1.0)

@@ -121,6 +121,13 @@ def test_precisions_make_and_write_numbers(precision):
         assert str(precision.write(precision.number(F(3, 2)))).startswith(("1.5", "[1.5"))
 
 
+@pytest.mark.parametrize(("kind", "least"), [(Digits, 1), (Enclosure, 2)])
+def test_more_digits_than_memory_holds_are_refused(kind, least):
+    for count in (least - 1, 10**9, 2.5, True):
+        with pytest.raises(ValueError, match=rf"{kind.__name__}\(n\) takes a whole number from {least} to"):
+            kind(count)
+
+
 @pytest.mark.parametrize("digits", range(12, 24))
 def test_no_number_of_digits_is_float64_in_disguise(digits):
     """The float64 start is unit to 1e-16 only, and its first correction is as small."""

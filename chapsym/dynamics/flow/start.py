@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from numbers import Rational
+from numbers import Integral, Rational
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -56,7 +56,8 @@ def exactly(value: Any, name: str) -> Fraction:
             raise BadInput(str(error)) from None
     try:
         if isinstance(value, Rational | Decimal | float) and not isinstance(value, bool):
-            return Fraction(value)
+            # NumPy's integers would stay inside.
+            return Fraction(int(value)) if isinstance(value, Integral) else Fraction(value)
     except (ValueError, OverflowError):
         raise BadInput(f"{name} must be finite, not {value}") from None
     if getattr(value, "size", None) == 1 and type(value) is not type(plain := value.item()):
