@@ -192,7 +192,7 @@ def _check_up(attitude: Sequence[Fraction], gamma: Sequence[Fraction]) -> None:
 def _ascending(times: Any) -> tuple[Fraction, ...]:
     from .flow.start import exactly, vector
 
-    if isinstance(times, str) or not hasattr(times, "__iter__"):
+    if isinstance(times, str) or not hasattr(times, "__iter__") or getattr(times, "ndim", 1) == 0:
         found: tuple[Fraction, ...] = (exactly(times, "times"),)
     elif isinstance(times, bytes | Mapping | Set) or not isinstance(times, Iterable):
         raise BadInput("times must be one or more numbers of seconds from 0 on, each later than the one before")

@@ -73,6 +73,10 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
     >>> print(root([1.0], [2], precision=Enclosure(90))[0].str(20))
     [1.4142135623730950488 +/- ...]
     """
+    for name, row in (("residual", residual), ("jacobian", jacobian), ("then", then)):
+        whole = isinstance(row, tuple) and len(row) == 3 and callable(row[0]) and isinstance(row[1], tuple) and row[1]
+        if not (whole or (row is None and name == "then")):
+            raise BadInput(f"{name} must be a row of a generated TABLE: (function, ((name, size), ...), shape)")
     groups = residual[1]
     size = groups[0][1]
     if jacobian[1] != groups:

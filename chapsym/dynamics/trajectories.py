@@ -118,7 +118,10 @@ def flag(value: bool, name: str) -> bool:
 
 def step_numbers(index: ArrayLike) -> np.ndarray:
     """Ascending whole numbers from 0 on as int64, (frames,); raises BadInput for anything else."""
-    given = np.asarray(index)
+    try:
+        given = np.asarray(index)
+    except ValueError:  # rows of different length
+        given = np.empty(0)
     if given.dtype.kind not in "iu" or given.ndim != 1 or not len(given):
         raise BadInput(f"index must be a list of whole numbers, at least one, not {index!r:.60}")
     if int(given[0]) < 0 or int(given.max()) > MOST_STEPS or (given[1:] <= given[:-1]).any():

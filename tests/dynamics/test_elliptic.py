@@ -11,7 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import chapsym
-from chapsym import BadInput, Ball, Curve, exact_top, increment, step_vertical, testing, trajectory
+from chapsym import BadInput, Ball, Curve, exact_top, increment, rotation_number, step_vertical, testing, trajectory
 from chapsym.dynamics import kernels
 from chapsym.dynamics.closed import jacobi
 from chapsym.dynamics.closed.elliptic import height_of
@@ -158,6 +158,9 @@ def test_the_derivative_of_the_height_is_its_derivative():
         (lambda: Curve.through(BALLS[0], (1e-9, 1, 0)).argument((0.6, 0, 0.8)), "not on this curve"),
         (lambda: Curve.through(BALLS[0], GAMMA).argument(-GAMMA), "another one"),
         (lambda: increment(Curve.through(BALLS[0], GAMMA), 50.0, 0.0), "take a smaller one"),
+        (lambda: increment((1, 2, 4), 0.1, 0.0), r"must be a chapsym\.Curve"),
+        (lambda: increment(Curve.through(BALLS[0], GAMMA), [0.1, 0.2], [1, 2, 3]), "do not broadcast"),
+        (lambda: rotation_number(BALLS[0], [0.1, 0.2], GAMMA), "of one height"),
         (lambda: exact_top(BALLS[1], (1, 0, 0), GAMMA), "must be along gamma"),
         (lambda: exact_top(BALLS[0], (0, 0, 0), GAMMA), "must not vanish"),
         (lambda: exact_top(BALLS[0], (50, 20, 30), GAMMA), "shorter time step"),

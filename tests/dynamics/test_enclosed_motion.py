@@ -204,6 +204,8 @@ BAD = [
     ({"times": (2, 1)}, "each later than the one before"),
     ({"times": -1}, "from 0 on"),
     ({"times": None}, "times must be a number"),
+    ({"times": np.ma.masked}, "times must be a number"),
+    ({"times": [[1], [2, 3]]}, "times 1 must be a number"),
     ({"rotor": (1, 2)}, "rotor must be 3 numbers"),
     ({"rotor": (1, 2, 3)}, "angular_momentum must not be that of the rotor"),
     ({"digits": 0}, "digits must be a whole number from 1"),

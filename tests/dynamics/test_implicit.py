@@ -143,6 +143,9 @@ def test_kernels_that_do_not_fit_are_refused(table):
         ((table["residual"], table["after"]), "must have the groups of residual"),
         ((table["residual"], table["residual"]), "must return 4 numbers for 2 unknowns"),
         ((table["residual"], table["residual_jacobian"], (square, GROUPS, ())), "must be among those of residual"),
+        ((1.5, table["residual_jacobian"]), "residual must be a row of a generated TABLE"),
+        ((table["residual"], [1]), "jacobian must be a row of a generated TABLE"),
+        ((table["residual"], table["residual_jacobian"], "3"), "then must be a row of a generated TABLE"),
     ):
         with pytest.raises(BadInput, match=said):
             implicit_step(*rows)

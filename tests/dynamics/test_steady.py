@@ -152,7 +152,7 @@ def test_there_is_no_tolerance():
             steady_frames(ball, momentum, GAMMA, [0, 1])
 
 
-@pytest.mark.parametrize("index", [[], [1.0], [[1]], [-1], [1, 1], [2, 1], [2**63 - 1]])
+@pytest.mark.parametrize("index", [[], [1.0], [[1]], [[1, 2], [3]], [-1], [1, 1], [2, 1], [2**63 - 1]])
 def test_step_numbers_ascend(index):
     with pytest.raises(BadInput, match="index must"):
         steady_frames(Ball((1, 1, 1), 3), (0.1, 0.2, 0.1), GAMMA, index)

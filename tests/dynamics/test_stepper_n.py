@@ -115,6 +115,7 @@ def test_nor_does_one_that_the_safe_way_refuses_below_the_bound(order, monkeypat
         (lambda s: s.restart(np.zeros((2, 4, 4)), (0, 0, 0, 1)), "a StepperN takes one ball, not a batch"),
         (lambda s: s.restart(np.zeros((4, 4)), (0, 0, 1, 1)), "gamma must be a unit vector"),
         (lambda s: StepperN(s.ball, s.momentum, s.gamma, order=5), "order must be one of 2, 4, 6, 8"),
+        (lambda s: StepperN(s.ball, s.momentum, s.gamma, contact=np.ones(2)), "contact must be True or False"),
         (lambda s: StepperN(BallN(np.ones(4), 1), s.momentum, s.gamma, contact=True), "needs the radius"),
     ],
 )

@@ -180,7 +180,12 @@ def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
     δu = Vh/(2(1 - Dl)), the rate of the continuous ball.  For D = 0 it does not depend on u (5.15-euler).
     Where the iteration leaves the branch, as it does beyond its fold, raises BadInput; in a batch that entry is NaN.
     """
-    h, start = np.broadcast_arrays(numbers(height, "height"), numbers(u, "u"))
+    if not isinstance(curve, Curve):
+        raise BadInput(f"curve must be a chapsym.Curve, not {type(curve).__name__}")
+    try:
+        h, start = np.broadcast_arrays(numbers(height, "height"), numbers(u, "u"))
+    except ValueError:
+        raise BadInput(f"height and u do not broadcast: {np.shape(height)}, {np.shape(u)}") from None
     half = np.asarray(curve.rate * h / (2.0 * curve.slack))
     settled, lost = np.zeros(half.shape, dtype=bool), np.zeros(half.shape, dtype=bool)
     for _ in range(MOST_CORRECTIONS):

@@ -157,6 +157,8 @@ def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
     that is not next to the separatrix.  For D = 0 every increment is the same, and this is one of them.
     Raises BadInput for a batch, a γ that the map fixes and a curve on the separatrix, and StepNotTaken.
     """
+    if numbers(height, "height").ndim:
+        raise BadInput("a rotation number is of one height, not of a batch")
     curve = Curve.through(ball, gamma)
     if curve.complement == 0.0:
         raise BadInput("on the separatrix there is no turn, so no rotation number")

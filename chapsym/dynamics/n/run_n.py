@@ -13,7 +13,7 @@ from ..ball import Floats, common_shape, is_followed, largest_moment, unit_verti
 from ..errors import BadInput, Status
 from ..levels.frames import Count, cores, share
 from ..loops import loop_n, rotation_n
-from ..trajectories import rolling_radius
+from ..trajectories import flag, rolling_radius
 from . import so_n
 from .ball_n import BallN, initial_attitudes, skew_matrices
 from .branch_n import small_rotation
@@ -76,7 +76,7 @@ def start(
     leading = [ball.mass_tensor.shape[:-1], ball.D.shape, radius, K.shape[:-2], g.shape[:-1]]
     shape = common_shape(leading, "ball (mass_tensor, D, radius), momentum and gamma")
     given = {"momentum": (K, 2), "gamma": (g, 1), "mass_tensor": (ball.mass_tensor, 1), "D": (ball.D, 0)}
-    if contact:
+    if flag(contact, "contact"):
         given["radius"] = rolling_radius(ball), 0
     count, state = int(np.prod(shape, dtype=np.int64)), {}
     for name, (x, axes) in given.items():

@@ -21,7 +21,7 @@ from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count
 from ..results import Step, Trajectory, finished, of_balls
 from ..stepper import UnderWay
-from ..trajectories import whole_number
+from ..trajectories import flag, whole_number
 from . import so_n
 from .ball_n import BallN, skew_matrices
 from .near_n import limits
@@ -134,7 +134,8 @@ class StepperN(UnderWay):
         contact: bool = False,
     ) -> None:  # fmt: skip
         self.ball, self.order, self._stages = ball, order, substeps(order)
-        self._follows, self._traced = bool(contact) or is_followed(attitude), bool(contact)
+        self._traced = flag(contact, "contact")
+        self._follows = self._traced or is_followed(attitude)
         self.restart(momentum, gamma, attitude)
 
     def restart(self, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = True) -> None:
