@@ -348,7 +348,8 @@ def unit_vertical(gamma: ArrayLike, n: int = 3) -> Floats:
     if n == 3 and is_vector(gamma) and is_unit(*gamma.tolist()):
         return gamma.copy()
     array = numbers(gamma, "gamma", n)
-    squared = (array * array).sum(axis=-1)
+    with np.errstate(over="ignore"):  # which is refused
+        squared = (array * array).sum(axis=-1)
     if in_single(gamma) and (np.abs(squared - 1) <= SINGLE_TOLERANCE).all():
         return array / np.sqrt(squared)[..., np.newaxis]
     off = np.abs(squared - 1)

@@ -317,6 +317,8 @@ def test_extremes_of_float64():
 
 
 def test_bad_input_is_refused():
+    with pytest.raises(BadInput, match="settle must be True or False"):
+        branches(Ball((1, 2, 4), 3), (1, 0, 0), (0, 0, 1), settle=np.ones(2))
     with pytest.raises(BadInput, match="gamma must be a unit vector"):
         branches(Ball((1, 2, 4), 3), (1, 0, 0), (0, 0, 2))
     with pytest.raises(BadInput, match="beyond the range of float64"):

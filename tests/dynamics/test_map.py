@@ -130,6 +130,7 @@ def test_the_branch_is_continuous_from_the_identity(state):
         ({"momentum": (10**400, 0, 0)}, "momentum is beyond the range of float64"),
         ({"ball": (1, 2, 4)}, "ball must be a chapsym.Ball, not tuple"),
         ({"momentum": (1j, 1, 2)}, "momentum must be real numbers"),
+        ({"gamma": (1e300, 1e300, 0)}, "gamma must be a unit vector"),
         ({"gamma": (0, 0, 1.001)}, "gamma must be a unit vector, but its length is 1.00"),
         ({"gamma": (0, 0, 0)}, "gamma must be a unit vector, but its length is 0; it is the vertical"),
         ({"momentum": np.zeros((2, 3)), "gamma": np.tile(GAMMA, (3, 1))}, "do not broadcast"),

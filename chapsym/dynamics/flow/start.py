@@ -60,7 +60,8 @@ def exactly(value: Any, name: str) -> Fraction:
             return Fraction(int(value)) if isinstance(value, Integral) else Fraction(value)
     except (ValueError, OverflowError):
         raise BadInput(f"{name} must be finite, not {value}") from None
-    if getattr(value, "size", None) == 1 and not np.ma.is_masked(value) and type(value) is not type(plain := value.item()):
+    one = getattr(value, "size", None) == 1 and not np.ma.is_masked(value)
+    if one and type(value) is not type(plain := value.item()):
         return exactly(plain, name)
     raise BadInput(f'{name} must be a number, or a text such as "0.1" or "2/7", not {brief(value)}')
 

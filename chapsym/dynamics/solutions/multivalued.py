@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from ..ball import Ball, Floats, batch, largest_moment, numbers, unit_vertical
 from ..errors import Status
 from ..map import step
+from ..trajectories import flag
 from .candidates import Candidates, candidates, quadrics
 from .continuation import Marchers, nonsingular
 
@@ -78,7 +79,7 @@ def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool 
     for first in range(0, n, CHUNK):
         part = slice(first, first + CHUNK)
         _solve(found, part, K[part], g[part], J[part], D[part])
-    if settle:
+    if flag(settle, "settle"):
         for i in np.flatnonzero(~found.complete):
             _settle(found, i, K[i], g[i], J[i], D[i])
     _mark_small(found, K, g, J, D)
