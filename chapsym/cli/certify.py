@@ -261,9 +261,10 @@ def motion(
     from chapsym.scene.members.exactly import exact_motion
     from chapsym.scene.result.proved import UNITS, proved_errors
 
-    for path in (output, certificate):
-        if path is not None:
-            files.check_destination(path)
+    for path in filter(None, (output, certificate)):
+        if path.resolve() in {other.resolve() for other in (scene, against) if other}:
+            fail(f"{path} is what is read: choose another name", 2)
+        files.check_destination(path)
     given = load(scene)
     start, times = exact_motion(given)
     if certificate is not None:
