@@ -2,12 +2,14 @@
 
 import subprocess
 import tempfile
+import textwrap
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib import animation
+from PIL import Image
 
 from chapsym import files
 from chapsym.dynamics import BadInput, kernels
@@ -21,12 +23,14 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 FORMATS = ("gif", "mp4")
-#: Pictures a second, and the most of them; a file of 2 MB or so.
+#: Pictures a second, and the most of them; a file of 1 MB or so.
 RATE, MOST = 20, 200
 #: Radians that a ball may turn from one picture to the next, if its eye is to follow.
 TURN = 0.6
 #: Pixels across the ball, and dots an inch.
 ACROSS, DPI = 220, 80
+#: Colours of a .gif.
+SHADES = 64
 #: Half the width of the lines between the octants of the ball, in radii.
 LINE = 0.022
 BLUE = np.array([0.25, 0.62, 0.92])
@@ -76,7 +80,7 @@ def save_motion(
 
 def _film(one: "Dataset", path: Path, form: str, progress: Callable[[int, int], None]) -> None:
     scene = _Scene(one)
-    writer = (animation.PillowWriter if form == "gif" else animation.FFMpegWriter)(fps=RATE)
+    writer = (_Gif if form == "gif" else animation.FFMpegWriter)(fps=RATE)
     try:
         with writer.saving(scene.figure, path, DPI):
             for i in range(len(scene.t)):
@@ -85,6 +89,17 @@ def _film(one: "Dataset", path: Path, form: str, progress: Callable[[int, int], 
                 progress(i + 1, len(scene.t))
     except (subprocess.CalledProcessError, BrokenPipeError) as error:
         raise BadInput(f"ffmpeg could not write the motion ({error}); a .gif needs none") from None
+
+
+class _Gif(animation.PillowWriter):
+    """All pictures in the colours of one of them: a third of the bytes."""
+
+    def finish(self) -> None:
+        """Writes the file."""
+        pictures = [picture.convert("RGB") for picture in self._frames]  # type: ignore[has-type]
+        colours = pictures[len(pictures) // 2].quantize(SHADES)
+        self._frames = [picture.quantize(palette=colours, dither=Image.Dither.NONE) for picture in pictures]
+        super().finish()
 
 
 class _Scene:
@@ -110,8 +125,9 @@ class _Scene:
         above = self.figure.add_axes((0.15, 0.42, 0.7, 0.47) if rolls else (0.1, 0.03, 0.8, 0.77))
         above.set(xlim=(-1.08, 1.08), ylim=(-1.08, 1.08), aspect="equal")
         above.set_axis_off()
-        self.figure.text(0.5, 0.97, reading.title(one)[:44], ha="center", va="top", parse_math=False, fontsize=11)
-        self.clock = self.figure.text(0.5, 0.925, "", ha="center", va="top", fontsize=10, color="0.35")
+        title = textwrap.fill(reading.title(one), 44, max_lines=2, placeholder=" …")
+        self.figure.text(0.5, 0.985, title, ha="center", va="top", parse_math=False, fontsize=11)
+        self.clock = self.figure.text(0.5, 0.915, "", ha="center", va="top", fontsize=10, color="0.35")
         self.view = View.towards_eye(EYE)
         self.inside, self.points = self.view.disc(ACROSS)
         turn = np.linspace(0.0, 2.0 * np.pi, 181)

@@ -16,7 +16,7 @@ from chapsym.accuracy.discretisation import discretisation
 from chapsym.dynamics import Ball, Status
 
 from ..members.members import Body, bodies
-from ..plan.models import Moving
+from ..plan.models import Chosen, Moving
 from ..plan.plan import Plan
 from ..read.errors import SceneError
 from ..read.outputs import OUTPUTS, labels
@@ -225,7 +225,7 @@ def _bodies(plan: Plan) -> dict[str, Labelled]:
 def provenance(plan: Plan) -> dict[str, Any]:
     """Where a result comes from: the scene, the plan, and the versions of what made it, as attributes."""
     balls = "1 ball" if len(plan.members) == 1 else f"{len(plan.members)} balls"
-    kind = "Chaplygin ball" if plan.task.chosen else "Discrete Chaplygin ball"
+    kind = "Chaplygin ball" if isinstance(plan.model, Moving | Chosen) else "Discrete Chaplygin ball"
     found = {
         "title": plan.title or f"{kind}: {balls}, {plan.model.name}",
         "chapsym_version": chapsym.__version__,
