@@ -11,7 +11,7 @@ project = "chapsym"
 author = copyright = "the chapsym developers"
 release = version = chapsym.__version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinxcontrib.bibtex", "extension"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "sphinxcontrib.bibtex", "extension"]
 exclude_patterns = ["_build"]
 myst_enable_extensions = ["deflist", "dollarmath"]
 smartquotes = False  # "..." is code more often than not
@@ -19,6 +19,7 @@ myst_heading_anchors = 3
 bibtex_bibfiles = ["references.bib"]
 bibtex_reference_style = "author_year"
 autodoc_typehints = "none"
+autosummary_generate = False
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
 
