@@ -1,1 +1,1 @@
-"""What is not in the wheel: studies for the note on the two open questions, and Chaplygin's theta functions."""
+"""What is not in the wheel: studies for the note on the two open questions, and the matrix of the extremes."""

@@ -239,9 +239,6 @@ def motion(
     certificate: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write there what the separate checker judges on its own.")
     ] = None,
-    by: Annotated[
-        str, typer.Option(metavar="ROUTE", help="taylor, or theta: in theta functions, with a checkout of chapsym.")
-    ] = "taylor",
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -271,7 +268,7 @@ def motion(
         check_start(start)
     result = None if against is None else _loaded(against, str(given.toml))
     with telling() as progress:
-        found = follow(start, times, digits, by=by, limit=limit, progress=progress)
+        found = follow(start, times, digits, limit=limit, progress=progress)
         if certificate is not None and found.stopped is None:
             write(certificate, certified(start, found, progress))
     written = found.write()

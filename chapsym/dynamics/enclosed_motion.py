@@ -1,7 +1,6 @@
 """The motion of the continuous ball with proved digits: from exact data, at the times that are asked for."""
 
 import math
-import pathlib
 import time as clock
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
@@ -23,15 +22,10 @@ PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
 GUARD, OF_TURNS = 24, 2
 #: The most digits, and the most bits that an attempt may have.
 MOST_DIGITS, MOST_BITS = 4_000, 2**20
-#: The two routes, and the bits with which it is seen whether there is the second.
-TAYLOR, THETA, SOLVED = "taylor", "theta", 400
 #: Bits by which a radius may grow when it is written: it and the middle are rounded, which adds .15 of it.
 ROUNDED = 0.25
 #: Bits beyond those that were missing, for the next attempt.
 MARGIN = 6
-
-#: Of a checkout: what is not in the wheel.
-RESEARCH = pathlib.Path(__file__).parents[2] / "research"
 
 
 @dataclass(frozen=True)
@@ -116,7 +110,6 @@ def certified_motion(
     *,
     attitude: Any = None,
     rotor: Any = (0, 0, 0),
-    by: str = TAYLOR,
     limit: float = 600.0,
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> CertifiedMotion:
@@ -131,20 +124,15 @@ def certified_motion(
     It and γ may differ by rounding, 1e-5 at most: then the attitude is taken.
     rotor: a in kg m²/s, the constant angular momentum of a rotor inside, in the axes of the body (lemmas
     `gyrostat-rotor`, `gyrostat-motion`); then K = B(γ)ω + a, and K ≠ a.
-    by: "taylor", or "theta": the solution in theta functions, which shares no step with it; only in a checkout, whose
-    `research/theta` has it.  The functions are of genus two (lemmas `chaplygin-reduction`, `chaplygin-separation`,
-    `chaplygin-theta`), and of genus one where D = 0 or K is vertical (`euler-top`); of a ball with three different
-    moments, without a rotor, in a motion that is neither steady nor on the separatrix.
     limit: seconds for all attempts.  progress: called with sentences.
 
     Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
     until the digits are there.  Where that cannot be within the limit, the times that were reached are returned, and
     `stopped` says why.  Raises BadInput for what is no motion.
     """
-    from chapsym import generated
     from chapsym.numbers import Digits
 
-    from .flow.start import Start, Turns, balls, fixed, parallel, upright, vector
+    from .flow.start import Start, Turns, balls, fixed, upright, vector
 
     exact = _exact_ball(ball)
     vertical = vector(gamma, "gamma")
@@ -158,14 +146,13 @@ def certified_motion(
     momentum, inside = vector(angular_momentum, "angular_momentum"), vector(rotor, "rotor")
     if any(inside) and momentum == inside:
         raise BadInput("angular_momentum must not be that of the rotor: then the ball is at rest, and stays there")
-    upwards = vertical if attitude is None else generated.rotation(*quaternion)[6:]
     moments: Any = exact.mass_tensor
     start = Start(
         moments if exact.diagonal else (), exact.D, turned, fixed(momentum), exact.radius,
-        rotor=tuple(map(Turns, inside)), vertical=parallel(momentum, upwards),
+        rotor=tuple(map(Turns, inside)),
         tensor=None if exact.diagonal else lambda: [balls(row) for row in moments],
     )  # fmt: skip
-    return follow(start, _ascending(times), digits, by=by, limit=limit, progress=progress)
+    return follow(start, _ascending(times), digits, limit=limit, progress=progress)
 
 
 def _exact_ball(ball: Any) -> ExactBall:
@@ -205,7 +192,7 @@ def _ascending(times: Any) -> tuple[Fraction, ...]:
 
 
 def follow(
-    start: Any, times: Sequence[Fraction], digits: int, *, by: str = TAYLOR, limit: float = 600.0,
+    start: Any, times: Sequence[Fraction], digits: int, *, limit: float = 600.0,
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> CertifiedMotion:  # fmt: skip
     """`certified_motion` from a `flow.start.Start`."""
@@ -215,12 +202,8 @@ def follow(
         raise BadInput(f"digits must be a whole number from 1 to {MOST_DIGITS}, not {digits!r}")
     if not (isinstance(limit, int | float) and limit > 0):
         raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
-    if by not in (TAYLOR, THETA):
-        raise BadInput(f'by must be "{TAYLOR}" or "{THETA}", not {by!r}')
-    search = _Search(start, tuple(times), digits, by, clock.monotonic() + limit, progress)
+    search = _Search(start, tuple(times), digits, clock.monotonic() + limit, progress)
     bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()
-    if by == THETA:
-        search.check_solved()
     why = None
     while why is None and not search.done:
         more = search.attempt(bits)
@@ -235,16 +218,6 @@ def follow(
     return search.found(why)
 
 
-def _in_theta_functions(start: Any) -> Any:
-    """The class that solves a motion in theta functions; raises BadInput where it is not."""
-    if not RESEARCH.is_dir():
-        raise BadInput("theta functions are in research/, which is not in the wheel; run this from a checkout")
-    from research.theta.motion import General
-    from research.theta.top import Top
-
-    return Top if start.vertical or not start.D else General
-
-
 class _TimeUp(Exception):
     """The limit is reached."""
 
@@ -253,12 +226,8 @@ class _Search:
     """Attempts with more and more bits; the frames of the best of them."""
 
     def __init__(
-        self, start: Any, times: tuple[Fraction, ...], digits: int, by: str, deadline: float,
-        progress: Callable[[str], None],
-    ) -> None:  # fmt: skip
-        from .flow.path import Path
-
-        self.by: Any = _in_theta_functions(start) if by == THETA else Path
+        self, start: Any, times: tuple[Fraction, ...], digits: int, deadline: float, progress: Callable[[str], None]
+    ) -> None:
         self.start, self.times, self.digits, self.deadline, self.progress = start, times, digits, deadline, progress
         self.frames: list[dict[str, tuple[Any, ...]]] = []
         self.kept = self.bits = self.steps = 0
@@ -290,21 +259,6 @@ class _Search:
             turns = fraction(omega) * self.times[-1]
         return max(exponent_of(turns), 0) if turns else 0
 
-    def check_solved(self) -> None:
-        """Raises BadInput where theta functions do not give the motion, or only with very many bits or terms."""
-        from flint import ctx
-
-        if any(map(any, self.start.rotor)):
-            raise BadInput("the solution in theta functions is of a ball without a rotor")
-        with ctx.workprec(SOLVED):
-            try:
-                self.start.path(SOLVED, self.by)
-            except TooWide:
-                raise BadInput(
-                    "this motion is not found by theta functions: they need three different moments, and a motion that "
-                    "is neither steady nor on the separatrix, nor very near to one that is"
-                ) from None
-
     def attempt(self, bits: int) -> int | None:
         """Follows the motion with so many bits; returns how many more are needed, or None: the time is up."""
         from flint import ctx
@@ -313,7 +267,7 @@ class _Search:
         frames: list[dict[str, tuple[Any, ...]]] = []
         with ctx.workprec(bits):
             try:
-                path = self.start.path(bits, self.by)
+                path = self.start.path(bits)
             except TooWide:
                 return bits
             path.tick = lambda: self._tell(path, bits)
@@ -331,8 +285,6 @@ class _Search:
                     frames.append(_signed(path.frame(end)))
                 except TooWide:
                     return self._more(path, bits)
-                except _TimeUp:
-                    return None
                 missing = max(missing, _missing(frames[-1], self.digits, self.start.radius))
                 kept = len(frames) if missing <= 0 else kept
                 if kept > self.kept:

@@ -1,4 +1,4 @@
-"""Chaplygin's solution of the continuous ball, as `certified_motion(by="theta")` takes it: lemmas of chapsym."""
+"""Chaplygin's solution of the continuous ball in theta functions: lemmas of chapsym."""
 
 import sympy as sp
 

@@ -77,11 +77,6 @@ def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
     return tuple(exactly(x, f"{name} {i}") for i, x in enumerate(listed, start=1))
 
 
-def parallel(v: Sequence[Fraction], w: Sequence[Fraction]) -> bool:
-    """Whether v × w = 0."""
-    return all(v[i - 2] * w[i - 1] == v[i - 1] * w[i - 2] for i in range(3))
-
-
 #: What turns no axes.
 NO_TURN = (1, 0, 0, 0)
 
@@ -138,7 +133,6 @@ class Start:
     precision that is set, and no mass_tensor.
     attitude: its quaternion of any length, in such balls.  momentum: K in principal axes, of their attitude and them.
     radius, position: exact, or None.  rotor: the angular momentum of a rotor, in the axes of the body; it is part of K.
-    vertical: whether K is known to be parallel to γ.
     """
 
     mass_tensor: Sequence[Fraction]
@@ -149,18 +143,16 @@ class Start:
     position: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
     rotor: Sequence[Turns] = NO_ROTOR
     tensor: Callable[[], Sequence[Balls]] | None = None
-    vertical: bool = False
 
-    def path(self, precision: int, by: Callable[..., Any] = Path) -> Any:
+    def path(self, precision: int) -> Path:
         """The motion at the start; to be called with that precision set.
 
-        by: `Path`, or a class with the same methods.  Raises TooWide where the precision does not tell three principal
-        moments apart, or not all that theta functions need.
+        Raises TooWide where the precision does not tell three principal moments apart.
         """
         axes = Principal(balls(self.mass_tensor)) if self.tensor is None else principal(self.tensor())
         a = unit(generated.compose(*unit(self.attitude()), *axes.turn))
         radius, rotor = None if self.radius is None else ball(self.radius), axes.inward(balls(self.rotor))
-        path = by(precision, axes.moments, ball(self.D), self.momentum(a, axes), a, radius, rotor)
+        path = Path(precision, axes.moments, ball(self.D), self.momentum(a, axes), a, radius, rotor)
         path.given = axes.given
         path.contact = (ball(self.position[0]), ball(self.position[1]))
         return path

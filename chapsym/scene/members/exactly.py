@@ -16,7 +16,6 @@ from chapsym.dynamics.flow.start import (
     Turns,
     ball,
     balls,
-    parallel,
     turning,
     upright,
 )
@@ -74,24 +73,8 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     place = tuple(x.rational for x in _numbers(told, "position")) if "position" in told else (Fraction(0), Fraction(0))
     if any(map(any, rotor)) and not any(map(any, _moving(told))):
         raise SceneError(f"{name}: without angular velocity the ball stays at rest, whatever the rotor")
-    vertical = tensor is None and not any(map(any, rotor)) and _is_vertical(told, moments, D)
-    start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, tensor, vertical)
+    start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, tensor)
     return start, _times(scene, data["run"])
-
-
-def _is_vertical(start: Mapping[str, Any], J: Sequence[Fraction], D: Fraction) -> bool:
-    """Whether K, Λω but for a part of γ, is seen to be parallel to γ: ω in the axes of the body, γ not by angles."""
-    if "omega" not in start or start.get("axes") == "space" or "rpy" in start:
-        return False
-    omega = _numbers(start, "omega")
-    quaternion = _quaternion(start)
-    up: Sequence[Fraction] = (Fraction(0), Fraction(0), Fraction(1))
-    if quaternion is not None:
-        up = generated.rotation(*quaternion)[6:]
-    elif "gamma" in start:
-        up = [x.rational for x in _numbers(start, "gamma")]
-    parts = ([getattr(x, name) for x in omega] for name in ("rational", "of_pi"))
-    return all(parallel([(sum(J) - j + D) * x for j, x in zip(J, part, strict=True)], up) for part in parts)
 
 
 def _moving(start: Mapping[str, Any]) -> tuple[Turns, ...]:
