@@ -1,114 +1,238 @@
-"""The errors of every generated kernel in ulps, beside its time: per kernel and per codegen pass."""
+"""The errors of every generated kernel in ulps, in sampled states of every stratum, and the time of a call.
 
-from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+An ulp is 2^-52 of the largest component of the exact output; of 𝒦, or of the level, where the kernel is a residual;
+and ⟨𝒦,γ⟩ is measured on the scale of 𝒦, whose own rounding moves it by as much.  The condition number κ is
+Σⱼ |∂f/∂xⱼ||xⱼ| in the largest component, relative to that size: rounding every argument by half an ulp moves the output
+by up to κ/2 ulps, so an error of a few κ is as good as one can ask.
+"""
 
-if TYPE_CHECKING:
-    from .search import Worst
+import json
+import math
+import time
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
 
-__all__ = ["Kernels", "Row", "measure_kernels"]
+import mpmath
+import numpy as np
+
+from chapsym import generated
+from chapsym.generated import TABLE
+from chapsym.studies.harness import Contender, interleaved
+
+from .states import CHANGES, DRAWN, arguments
+
+#: The errors are against so many digits.
+CONTEXT = mpmath.MPContext()
+CONTEXT.dps = 90
+ULP = 2.0**-52
+#: The relative change of an argument from which its derivative is taken: its error is of the same order.
+NUDGE = CONTEXT.mpf(10) ** -25
+SEED = 20071
+#: States of a stratum: quick and full; and those of the columns that are timed, few enough to stay in the cache.
+SAMPLED, TIMED = {True: 2, False: 40}, 1024
+MANIFEST = Path(generated.__file__).parent / "manifest.json"
+
+Kernel = Callable[..., Any]
+KERNELS: dict[str, Kernel] = {name: getattr(generated, name) for name in TABLE}
+Groups = dict[str, Sequence[Any]]
 
 
-@dataclass(frozen=True)
-class Row:
-    """One output of one text of a kernel.
+class View(NamedTuple):
+    """A part of a kernel's output that has a scale of its own, from the output and the arguments by group."""
+
+    values: Callable[[Sequence[Any], Groups], Sequence[Any]] = lambda output, groups: output
+    size: Callable[[Sequence[Any], Groups], Any] | None = None  # unless it is its own largest component
+
+
+def _largest(values: Sequence[Any], groups: Groups) -> Any:
+    return max(map(abs, values))
+
+
+def _vertical(output: Sequence[Any], groups: Groups) -> Sequence[Any]:
+    return [sum((a * b for a, b in zip(output, groups["gamma"], strict=True)), CONTEXT.mpf(0))]
+
+
+def _rolled(output: Sequence[Any], groups: Groups) -> Any:
+    state = ("rotation", "gamma", "mass_tensor", "D")
+    return max(map(abs, generated.momentum(*(x for name in state for x in groups[name]))))
+
+
+def _solved(output: Sequence[Any], groups: Groups) -> Any:
+    return max(map(abs, groups["half_momentum"])) * (1 + sum(x * x for x in groups["gibbs"]))
+
+
+def _part(first: int, last: int) -> View:
+    return View(lambda output, groups: output[first:last])
+
+
+VIEWS: dict[str, dict[str, View]] = {
+    "momentum": {"𝒦": View(), "⟨𝒦,γ⟩": View(_vertical, _largest)},
+    "contact_momentum": {"K": View(), "⟨K,γ⟩": View(_vertical, _largest)},
+    "residual": {"r": View(size=_rolled), "⟨r,γ⟩": View(_vertical, _rolled)},
+    "gibbs_residual": {"r": View(size=_solved), "⟨r,γ⟩": View(_vertical, _solved)},
+    "invariants": {"h": _part(0, 1), "n": _part(1, 2), "unit": _part(2, 3)},
+    "gibbs_newton": {"det": _part(0, 1), "N": _part(1, 4), "C": _part(4, 13)},
+    "vertical_level": {
+        "f": _part(0, 1)._replace(size=lambda output, groups: abs(groups["level"][0])), "fv": _part(1, 2),
+    },
+}  # fmt: skip
+
+
+class Worst(NamedTuple):
+    """An error that was met: in ulps, the condition number there, the stratum, and the arguments."""
+
+    ulps: float
+    condition: float
+    stratum: str
+    arguments: tuple[float, ...]
+
+    @property
+    def share(self) -> float:
+        """The error in units of what a rounding of the arguments by an ulp does, or of an ulp if that is more."""
+        return self.ulps / max(1.0, self.condition)
+
+    def as_json(self) -> dict[str, Any]:
+        """All of it, and its share; an error that is not finite is None."""
+        return {name: finite(x) for name, x in (self._asdict() | {"share": self.share}).items()}
+
+
+def finite(x: Any) -> Any:
+    """None for a number that JSON has not."""
+    return None if isinstance(x, float) and not math.isfinite(x) else x
+
+
+def grouped(kernel: str, arguments: Sequence[Any]) -> Groups:
+    """Flat arguments by group."""
+    rest = iter(arguments)
+    return {name: [next(rest) for _ in range(length)] for name, length in TABLE[kernel][1]}
+
+
+class Seen(NamedTuple):
+    """One view of an output: its values, and what its error is relative to."""
+
+    values: Sequence[Any]
+    size: Any
+
+
+def seen(kernel: str, function: Kernel, point: Sequence[Any], at: Sequence[Any] | None = None) -> dict[str, Seen]:
+    """The views of what a text of the kernel makes of a point, as mpf; `at`: the point as mpf, if it is of floats."""
+    result, groups = function(*point), grouped(kernel, point if at is None else at)
+    output = [CONTEXT.mpf(x) for x in (result if isinstance(result, tuple) else (result,))]
+    found = {}
+    for name, view in VIEWS.get(kernel, {"": View()}).items():
+        values = view.values(output, groups)
+        found[name] = Seen(values, view.size(output, groups) if view.size else max(map(abs, values)))
+    return found
+
+
+def errors(kernel: str, function: Kernel, stratum: str, given: Sequence[float]) -> dict[str, Worst]:
+    """The errors of a text of the kernel in floats at one point, by the view, against the kernel in mpmath."""
+    point = [CONTEXT.mpf(x) for x in given]
+    reference = KERNELS[kernel]
+    exact, found = seen(kernel, reference, point), seen(kernel, function, given, point)
+    moved = [seen(kernel, reference, [*point[:j], x * (1 + NUDGE), *point[j + 1 :]]) for j, x in enumerate(point) if x]
+    worst = {}
+    for name, (values, size) in exact.items():
+        changes = (sum(abs(other[name].values[i] - x) for other in moved) for i, x in enumerate(values))
+        condition = float(max(changes) / NUDGE / size) if size else 0.0
+        worst[name] = Worst(_off(found[name].values, values, size), condition, stratum, tuple(given))
+    return worst
+
+
+def _off(found: Sequence[Any], values: Sequence[Any], size: Any) -> float:
+    if not all(CONTEXT.isfinite(x) for x in found):
+        return math.inf
+    off = max(abs(a - b) for a, b in zip(found, values, strict=True))
+    return float(off / size) / ULP if size else (0.0 if off == 0 else math.inf)
+
+
+def sampled(kernel: str, function: Kernel, states: int) -> dict[str, list[Worst]]:
+    """The errors of a text of the kernel at so many seeded states of each stratum, by the view."""
+    found: dict[str, list[Worst]] = {}
+    for index, stratum in enumerate(CHANGES):
+        rng = np.random.default_rng([SEED, index])
+        for _ in range(states):
+            at = arguments(kernel, stratum, list(rng.uniform(size=DRAWN)))
+            for view, one in errors(kernel, function, stratum, at).items():
+                found.setdefault(view, []).append(one)
+    return found
+
+
+def nanoseconds(kernels: Sequence[str], rounds: int) -> dict[str, float]:
+    """The median time of each kernel for one of many generic states, in columns of NumPy, in nanoseconds."""
+    rng = np.random.default_rng(SEED)
+    drawn = [list(rng.uniform(size=DRAWN)) for _ in range(TIMED)]
+    contenders = []
+    for name in kernels:
+        columns = np.array([arguments(name, "generic", u) for u in drawn]).T.copy()
+        contenders.append(Contender(name, partial(KERNELS[name], *columns), TIMED, time.thread_time))
+    return {name: timing.median * 1e9 for name, timing in interleaved(contenders, rounds).items()}
+
+
+class Row(NamedTuple):
+    """One output of a kernel.
 
     kernel, output: the kernel, and the part of its output ("" for all of it) that the errors are of.
-    without: the codegen pass that the text goes without; "" for the text that is committed.
-    operations, nanoseconds: + - * / in the text, and the median time of a call in a compiled loop.
-    strata: the worst error of the sampled states of each stratum, in ulps.
-    worst, hardest: the state with the largest error, and that with the largest share of its condition number, with
-    what Hypothesis' search found.
+    operations, nanoseconds: + - * / in its text, and the median time for one of many states, in columns of NumPy.
+    strata: the worst error of the states of each stratum, in ulps.
+    worst, hardest: the state with the largest error, and that with the largest share of its condition number.
     """
 
     kernel: str
     output: str
-    without: str
     operations: int
     nanoseconds: float
     strata: dict[str, float]
-    worst: "Worst"
-    hardest: "Worst"
+    worst: Worst
+    hardest: Worst
 
 
-def measure_kernels(
-    quick: bool, progress: Callable[[str], None] = lambda text: None, kernels: Sequence[str] | None = None
-) -> list[Row]:
-    """Measures every kernel (or those named) with all passes, and without each pass that changes its text.
-
-    quick: few states and a short search, and the time of the committed text only.  Raises KeyError for a name that is
-    no kernel's, and ModuleNotFoundError where Hypothesis (the test extra) is not installed.
-    """
-    from chapsym.generated import TABLE
-
-    rows: list[Row] = []
-    for name in TABLE if kernels is None else kernels:
-        progress(name)
-        rows += _measured(name, quick)
-    return rows
+def measured(quick: bool, say: Callable[[str], None], kernels: Sequence[str]) -> Iterator[Row]:
+    """The rows of the kernels that are named."""
+    texts = json.loads(MANIFEST.read_text(encoding="utf-8"))["kernels"]
+    times = nanoseconds(kernels, 5 if quick else 31)
+    for name in kernels:
+        say(f"kernels: {name}")
+        for view, met in sampled(name, KERNELS[name], SAMPLED[quick]).items():
+            strata = {stratum: max(one.ulps for one in met if one.stratum == stratum) for stratum in CHANGES}
+            worst, hardest = max(met, key=lambda one: one.ulps), max(met, key=lambda one: one.share)
+            yield Row(name, view, texts[name]["operations"], times[name], strata, worst, hardest)
 
 
-def _measured(kernel: str, quick: bool) -> list[Row]:
-    from . import search, timing
-    from .texts import texts
-
-    found = texts(kernel)
-    timed = found[:1] if quick else found
-    times = timing.nanoseconds(timed, 5 if quick else 31, 20 if quick else 100)
-    times += [float("nan")] * (len(found) - len(timed))
-    reference = found[0].function
-    points = search.sampled(kernel, reference, 2 if quick else 40)
-    rows = []
-    for text, nanoseconds in zip(found, times, strict=True):
-        sampled = search.met(kernel, text.function, points)
-        climbed = search.searched(kernel, text.function, reference, 20 if quick else 300)
-        for view, met in sampled.items():
-            strata = {s: max(w.ulps for w in met if w.stratum == s) for s in dict.fromkeys(w.stratum for w in met)}
-            every = [*met, *climbed[view]]
-            largest, hardest = (search.worst(every, key) for key in (lambda w: w.ulps, lambda w: w.share))
-            rows.append(Row(kernel, view, text.without, text.operations, nanoseconds, strata, largest, hardest))
-    return rows
-
-
-@dataclass(frozen=True)
 class Kernels:
-    """The rows, as a section of the trade."""
+    """The section of the trade: every kernel, or those that are named."""
 
-    rows: list[Row]
-    title: str = "kernels: errors in ulps, and times"
+    title = "kernels: errors in ulps, and times"
+
+    def __init__(self, quick: bool, say: Callable[[str], None], kernels: Sequence[str] = tuple(TABLE)) -> None:
+        self.rows = list(measured(quick, say, kernels))
 
     def table(self) -> list[dict[str, Any]]:
         """The worst error, the condition number there, and the worst error in units of it, for each row."""
         return [
             {
-                "kernel": row.kernel, "output": row.output, "without": row.without or "-",
-                "operations": row.operations, "ns": row.nanoseconds, "worst ulps": row.worst.ulps,
-                "condition": row.worst.condition, "where": row.worst.stratum, "ulps / condition": row.hardest.share,
+                "kernel": row.kernel, "output": row.output, "operations": row.operations, "ns": row.nanoseconds,
+                "worst ulps": row.worst.ulps, "condition": row.worst.condition, "where": row.worst.stratum,
+                "ulps / condition": row.hardest.share,
             }
             for row in self.rows
         ]  # fmt: skip
 
     def sentences(self) -> list[str]:
         """What the columns are."""
-        return [
-            "errors against 60 digits; `without`: the codegen pass that the text goes without; times in a compiled loop"
-        ]
+        return ["errors against 90 digits; times for one of many states, in columns of NumPy"]
 
     def as_json(self) -> dict[str, Any]:
-        """All that was measured, as plain data; a time that was not taken, or an error that is not finite, is None."""
-        return {"title": self.title, "kernels": [_plain(asdict(row) | _worst(row)) for row in self.rows]}
-
-
-def _worst(row: Row) -> dict[str, Any]:
-    """The two states of a row, with their shares."""
-    return {name: asdict(one) | {"share": one.share} for name, one in vars(row).items() if name in ("worst", "hardest")}
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _plain(one) for key, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
-    finite = not isinstance(value, float) or value - value == 0.0
-    return value if finite else None
+        """All that was measured, as plain data; an error that is not finite is None."""
+        return {
+            "title": self.title,
+            "kernels": [
+                row._asdict() | {
+                    "strata": {name: finite(x) for name, x in row.strata.items()},
+                    "worst": row.worst.as_json(), "hardest": row.hardest.as_json(),
+                }
+                for row in self.rows
+            ],
+        }  # fmt: skip

@@ -7,19 +7,13 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+from benchmarks.kernels import Kernels
 from chapsym.studies.harness import NotComparable, machine
 
 from . import frontiers, requests
 from .frontier import Frontier, Point
 
 __all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "as_json", "measure", "missed"]
-
-
-def _kernels(quick: bool, say: Callable[[str], None]) -> Any:
-    from benchmarks import kernels
-
-    return kernels.Kernels(kernels.measure_kernels(quick, lambda name: say(f"kernels: {name}")))
-
 
 #: The sections that have a frontier, and all of them; each measures quickly or in full, and says what it does.
 DRAWN: dict[str, Callable[..., Any]] = {
@@ -30,7 +24,7 @@ DRAWN: dict[str, Callable[..., Any]] = {
     "n4": partial(frontiers.four, 1),
     "n4-batch": partial(frontiers.four, frontiers.BATCH_N),
 }
-SECTIONS = {**DRAWN, "requests": requests.measure, "kernels": _kernels}
+SECTIONS: dict[str, Callable[..., Any]] = {**DRAWN, "requests": requests.measure, "kernels": Kernels}
 
 
 def measure(section: str, quick: bool, say: Callable[[str], None] = lambda text: None) -> Any:

@@ -2,18 +2,16 @@
 
 import json
 import math
-import subprocess
-import sys
 
-import hypothesis
 import numpy as np
 import pytest
 from kernel_values import INDEPENDENT, MP, normalised
 
 from benchmarks import kernels
-from benchmarks.kernels import errors, search, states, texts, timing
+from benchmarks.kernels import states
+from chapsym.codegen import build, passes
 from chapsym.generated import TABLE
-from chapsym.studies.harness import compiler
+from chapsym.proofs.kernels import KERNELS
 
 POINTS = [np.random.default_rng([9, i]).uniform(size=states.DRAWN).tolist() for i in range(3)]
 #: Kernels that are what they say for a unit quaternion, or a unit γ, only; the test makes them unit to 60 digits.
@@ -22,7 +20,7 @@ UNIT = ("rotation", "gamma", "first", "second")
 
 def at(kernel, drawn, stratum="generic"):
     """Arguments of a kernel by group, in 60 digits, unit where they must be."""
-    groups = errors.grouped(kernel, [MP.mpf(x) for x in states.arguments(kernel, stratum, drawn)])
+    groups = kernels.grouped(kernel, [MP.mpf(x) for x in states.arguments(kernel, stratum, drawn)])
     return {name: normalised(list(v)) if name in UNIT else list(v) for name, v in groups.items()}
 
 
@@ -61,31 +59,29 @@ def test_a_wrong_reference_would_be_seen(monkeypatch):
 def test_an_ulp_is_an_ulp():
     """The measure on a kernel that is off by a known amount."""
     arguments = states.arguments("compose", "generic", POINTS[0])
-    function = TABLE["compose"][0]
-    truth = errors.exact("compose", function, arguments)
-    size = float(max(map(abs, truth.values[""])))
+    exact = TABLE["compose"][0](*map(kernels.CONTEXT.mpf, arguments))
+    size = max(map(abs, exact))
 
     def off(*a):
-        c0, c1, c2, c3 = (errors.CONTEXT.mpf(x) for x in function(*map(errors.CONTEXT.mpf, a)))
-        return c0 + 3.5 * 2.0**-52 * size, c1, c2, c3
+        return exact[0] + 3.5 * 2.0**-52 * size, *exact[1:]
 
-    assert errors.ulps("compose", off, arguments, truth)[""] == pytest.approx(3.5, rel=1e-9)
-    assert errors.ulps("compose", lambda *a: (math.nan,) * 4, arguments, truth)[""] == math.inf
+    assert kernels.errors("compose", off, "generic", arguments)[""].ulps == pytest.approx(3.5, rel=1e-9)
+    assert kernels.errors("compose", lambda *a: (math.nan,) * 4, "generic", arguments)[""].ulps == math.inf
 
 
 def test_the_condition_number_is_that_of_the_arguments():
     """⟨𝒦,γ⟩ of nearly orthogonal vectors: Σ 2|Kᵢγᵢ|/|⟨𝒦,γ⟩|."""
     arguments = [1.0, 1.0, 0.0, 0.6, -0.6 * (1 + 1e-9), 0.8]
-    truth = errors.exact("invariants", TABLE["invariants"][0], arguments)
-    assert truth.conditions["h"] == pytest.approx(2 * 1.2 / 0.6e-9, rel=1e-6)
-    assert truth.conditions["n"] == pytest.approx(2.0)
+    found = kernels.errors("invariants", TABLE["invariants"][0], "generic", arguments)
+    assert found["h"].condition == pytest.approx(2 * 1.2 / 0.6e-9, rel=1e-6)
+    assert found["n"].condition == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize("stratum", states.CHANGES)
 def test_every_stratum_makes_what_it_says(stratum):
     for drawn in (*POINTS, [0.0] * states.DRAWN, [1.0] * states.DRAWN):
         world = states.world_of(stratum, drawn)
-        assert abs(world.gamma @ world.gamma - 1) <= 4 * errors.ULP
+        assert abs(world.gamma @ world.gamma - 1) <= 4 * kernels.ULP
         assert (world.J >= 0).all()
         assert 0 < world.half <= np.pi / 2
     world = states.world_of(stratum, POINTS[1])
@@ -107,9 +103,7 @@ LIGHT = {"generic", "tiny", "D = 0", "γ on an axis", "near a half turn", "nearl
 
 @pytest.mark.parametrize("kernel", TABLE)
 def test_every_kernel_is_as_good_as_its_arguments(kernel):
-    function = TABLE[kernel][0]
-    met = search.met(kernel, function, search.sampled(kernel, function, 6))
-    for view, found in met.items():
+    for view, found in kernels.sampled(kernel, TABLE[kernel][0], 6).items():
         for one in found:
             if (kernel, view) not in BY_ROWS or one.stratum in LIGHT:
                 assert one.share <= SHARE, (view, one)
@@ -121,87 +115,33 @@ def test_every_kernel_is_as_good_as_its_arguments(kernel):
 )
 def test_without_its_steps_a_kernel_loses_the_vertical_part(kernel, view):
     """The control: the same polynomial by the entries of B(γ), which is the text without the pass `factored`."""
-    points = search.sampled(kernel, TABLE[kernel][0], 12)
-    old = search.met(kernel, texts.text(kernel, "factored").function, points)[view]
-    assert max(w.share for w in old) > 1e3
+    chosen = tuple(name for name in passes.PASSES if name != "factored")
+    scope = {}
+    exec(build.code(next(one for one in KERNELS if one.name == kernel), chosen), scope)
+    assert max(one.share for one in kernels.sampled(kernel, scope[kernel], 12)[view]) > 1e3
 
 
 def test_by_a_row_the_determinant_is_lost_and_by_the_vertical_it_is_not():
-    points = search.sampled("gibbs_newton", TABLE["gibbs_newton"][0], 12)
-    assert max(w.share for w in search.met("gibbs_newton", TABLE["gibbs_newton"][0], points)["det"]) > 1e3
-    assert max(w.share for w in search.met("gibbs_newton", TABLE["gibbs_newton_heavy"][0], points)["det"]) <= SHARE
-
-
-def test_the_search_climbs(monkeypatch):
-    """Onto a needle in the unit square, 1/distance: `target` reaches its very tip, samples do not come within 1e-4.
-
-    What Hypothesis draws depends on what modules are loaded; that it climbs does not: 6 of 6 seeds came to 6e5, their
-    samples alone to 3 to 45.
-    """
-    needle = (0.7, 0.31)
-    monkeypatch.setattr(search, "DRAWN", 2)
-    monkeypatch.setattr(search, "arguments", lambda kernel, stratum, drawn: list(drawn))
-    monkeypatch.setattr(search, "exact", lambda *_: errors.Exact({}, {}, {"": 1.0}))
-    monkeypatch.setattr(
-        search, "ulps",
-        lambda kernel, function, at, truth: {
-            "": 1 / (2.0**-20 + sum(abs(x - c) for x, c in zip(at, needle, strict=True)))
-        },
-    )  # fmt: skip
-
-    def best():
-        return max(w.share for w in search.searched("vertical_square", None, None, 600)[""])
-
-    climbed = best()
-    assert climbed == best()
-    assert climbed > 1e5
-    monkeypatch.setattr(hypothesis, "target", lambda *args, **kwargs: None)
-    assert best() < 1e4
+    worst = {
+        name: max(one.share for one in kernels.sampled("gibbs_newton", TABLE[name][0], 12)["det"])
+        for name in ("gibbs_newton", "gibbs_newton_heavy")
+    }
+    assert worst["gibbs_newton"] > 1e3
+    assert worst["gibbs_newton_heavy"] <= SHARE
 
 
 def test_measured_rows():
     seen = []
-    rows = kernels.measure_kernels(True, seen.append, ["energy", "momentum"])
-    assert seen == ["energy", "momentum"]
-    assert {(r.kernel, r.output) for r in rows} == {("energy", ""), ("momentum", "𝒦"), ("momentum", "⟨𝒦,γ⟩")}
-    committed = [r for r in rows if not r.without]
-    assert all(r.nanoseconds > 0 for r in committed)
-    assert {r.without for r in rows} >= {"", "common", "factored"}
-    for row in rows:
+    found = kernels.Kernels(True, seen.append, ["energy", "momentum"])
+    assert seen == ["kernels: energy", "kernels: momentum"]
+    assert [(r.kernel, r.output) for r in found.rows] == [("energy", ""), ("momentum", "𝒦"), ("momentum", "⟨𝒦,γ⟩")]
+    for row in found.rows:
+        assert row.nanoseconds > 0
         assert set(row.strata) == set(states.CHANGES)
-        assert row.worst.ulps >= max(row.strata.values())
+        assert row.worst.ulps == max(row.strata.values())
         assert row.hardest.share >= row.worst.share
-        found = errors.ulps(row.kernel, texts.text(row.kernel, row.without).function, row.worst.arguments,
-                            errors.exact(row.kernel, TABLE[row.kernel][0], row.worst.arguments))  # fmt: skip
-        assert found[row.output] == row.worst.ulps  # it can be replayed
-    plain = json.loads(json.dumps(kernels.Kernels(rows).as_json(), allow_nan=False))["kernels"]
+        again = kernels.errors(row.kernel, TABLE[row.kernel][0], row.worst.stratum, row.worst.arguments)
+        assert again[row.output] == row.worst  # it can be replayed
+    plain = json.loads(json.dumps(found.as_json(), allow_nan=False))["kernels"]
     assert plain[0]["worst"]["arguments"]
-    assert len(kernels.Kernels(rows).table()) == len(rows)
-
-
-def test_a_kernel_is_the_same_in_c():
-    """What is written alike in both languages, and nothing else, is translated."""
-    assert timing.in_c(
-        "def kernel(a, b):\n '''Doc.'''\n s = 2 / (a * a + b)\n return s, -s * (a - b)**2"
-    ).splitlines() == [
-        "static __attribute__((noinline)) void kernel(double a, double b, double *out, long apart) {",
-        "    const double s = 2 / (a * a + b);",
-        "    out[0 * apart] = s;",
-        "    out[1 * apart] = -s * pow(a - b, 2);",
-        "}",
-    ]
-    with pytest.raises(TypeError, match="bent has a statement that is no assignment"):
-        timing.in_c("def bent(a):\n '''Doc.'''\n if a: return a")
-
-
-@pytest.mark.skipif(compiler() is None, reason="no C compiler")
-def test_the_times_are_of_what_was_asked_for():
-    chosen = texts.texts("vertical_square")
-    assert chosen[0].without == ""
-    assert all(0 < ns < 1e6 for ns in timing.nanoseconds(chosen, 2, 2))
-
-
-def test_the_interface_loads_no_sympy_and_no_hypothesis():
-    program = "import sys, benchmarks.kernels; print({'sympy', 'hypothesis'} & set(sys.modules))"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "set()"
+    assert len(found.table()) == len(found.rows)
