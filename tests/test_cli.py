@@ -123,7 +123,7 @@ def test_help_shows_an_example_of_each_command():
     assert not [kind for kind in kinds if re.search("<[a-z]", chapsym("certify", kind, "-h").stdout)]
 
 
-@pytest.mark.parametrize("command", ["bench", "extremes", "study", "trade", "certify motion"])
+@pytest.mark.parametrize("command", ["bench", "extremes", "study", "trade"])
 def test_a_command_that_needs_a_checkout_says_so_in_its_help(command):
     assert "a checkout of chapsym" in " ".join(chapsym(*command.split(), "--help").stdout.split())
 

@@ -6,7 +6,7 @@ from typing import Any
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter
 
-from chapsym.renamed import in_words
+from chapsym.numbers import in_words
 from chapsym.show.drawing import style
 from chapsym.show.drawing.style import Picture
 

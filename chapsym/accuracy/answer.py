@@ -18,8 +18,7 @@ from chapsym.dynamics.ball import checked_before
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, weights
 from chapsym.dynamics.loops.double_double_long import FIRST
 from chapsym.dynamics.results import some_frames
-from chapsym.numbers import NAMED, Digits, Double, Single
-from chapsym.renamed import in_words
+from chapsym.numbers import NAMED, Digits, Double, Single, in_words
 
 from .composed import ATTEMPTS, LEAST_FINER, MARGIN, MOST_FINER
 from .methods import EXTRAPOLATED, STEADY, Method, checks, in_range, take

@@ -4,8 +4,6 @@ import io
 import logging
 import os
 import sys
-import warnings
-from collections.abc import Sequence
 from typing import Annotated, Any, NoReturn
 
 import typer
@@ -13,9 +11,8 @@ from typer.exceptions import TyperException
 
 import chapsym
 from chapsym.rationals import NotANumber
-from chapsym.renamed import Renamed, renamed
 
-from .output import fail, note, quiet
+from .output import fail, quiet
 
 app = typer.Typer(
     add_completion=False,
@@ -26,13 +23,6 @@ app = typer.Typer(
 
 
 INTERRUPTED = 130
-#: Options that were renamed, by subcommand: what each was called, and what it is called now.
-OLD = {
-    "step": {"--rung": "--precision"},
-    "branches": {"--rung": "--precision"},
-    "no-invariant-measure": {"--height": "--vertical-momentum"},
-    "periodic-orbit": {"--momentum-momentum": "--k-squared", "--momentum-gamma": "--vertical-momentum"},
-}
 
 
 def main() -> NoReturn:
@@ -47,11 +37,7 @@ def main() -> NoReturn:
     if len(sys.argv) == 1:
         sys.argv.append("--help")
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("default", Renamed)
-            warnings.showwarning = _one_line(warnings.showwarning)
-            arguments, command = _modernised(sys.argv[1:]), plain(typer.main.get_command(app))
-            status = command.main(arguments, prog_name="chapsym", standalone_mode=False)
+        status = plain(typer.main.get_command(app)).main(prog_name="chapsym", standalone_mode=False)
         sys.stdout.flush()
         if status == INTERRUPTED:
             fail("interrupted", INTERRUPTED)
@@ -75,26 +61,6 @@ def main() -> NoReturn:
     except _foreseen() as error:
         quiet()
         fail(str(error), 2)
-
-
-def _one_line(shown: Any) -> Any:
-    """Shows warnings as `shown` does, but those of old names each in one line."""
-    return lambda message, category, *where: (
-        note(str(message)) if issubclass(category, Renamed) else shown(message, category, *where)
-    )
-
-
-def _modernised(arguments: Sequence[str]) -> list[str]:
-    """The arguments with the new names of options; each old one warns."""
-    names = next((OLD[word] for word in arguments[:2] if word in OLD), {})
-    found = []
-    for word in arguments:
-        old, equals, value = word.partition("=")
-        if old in names:
-            renamed(old, names[old])
-            word = names[old] + equals + value
-        found.append(word)
-    return found
 
 
 def _foreseen() -> tuple[type[Exception], ...]:

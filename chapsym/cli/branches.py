@@ -17,7 +17,10 @@ def branches(
     momentum: Momentum,
     gamma: Gamma,
     digits: Annotated[int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits.")] = None,
-    precision: Annotated[str | None, typer.Option(metavar="NAME", help="double: IEEE float64, the default.")] = None,
+    precision: Annotated[
+        str | None,
+        typer.Option("--precision", "--rung", metavar="NAME", help="double: IEEE float64, the default."),
+    ] = None,
     ball: Bits = None,
     as_json: Json = False,
     **body: str | None,

@@ -144,13 +144,13 @@ def precision_from(
     """The precision that the options name; `known` are the names that the command takes."""
     if sum(x is not None for x in (digits, precision, ball)) > 1:
         fail("choose one of --digits, --precision and --ball", 2)
-    from chapsym.numbers import NAMED, Digits, Enclosure, new_name
+    from chapsym.numbers import NAMED, Digits, Enclosure, own_name
 
     if digits is not None:
         return Digits(digits)
     if ball is not None:
         return Enclosure(ball)
-    precision = new_name(precision)
+    precision = own_name(precision)
     if precision is not None and precision not in known:
         listed = " or ".join(filter(None, (", ".join(known[:-1]), known[-1])))
         fail(f"--precision {precision}: give {listed}, or for any number of digits --digits N or --ball BITS", 2)

@@ -32,7 +32,12 @@ def step(
     ] = None,
     precision: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help="single, double (the default) or double-double: 7, 16, 31 digits."),
+        typer.Option(
+            "--precision",
+            "--rung",
+            metavar="NAME",
+            help="single, double (the default) or double-double: 7, 16, 31 digits.",
+        ),
     ] = None,
     ball: Bits = None,
     as_json: Json = False,

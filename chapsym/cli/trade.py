@@ -8,8 +8,8 @@ from typing import Annotated, Any
 
 import typer
 
+from chapsym.numbers import in_words
 from chapsym.rationals import rationals
-from chapsym.renamed import in_words
 
 from . import measured
 from .app import app

@@ -16,8 +16,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from chapsym.renamed import renamed
-
 from .pair import Pair
 
 #: Significant digits of a double-double number in text: 2^-106 is 1.2e-32.
@@ -190,26 +188,27 @@ class Enclosure(Precision):
 
 #: What users call the precisions that have no parameter.
 NAMED: dict[str, Precision] = {"single": Single(), "double": Double(), "double-double": DoubleDouble()}
-#: What they were called; and NumPy's names of them.
-OLD = {"quad": "double-double"}
-OF_NUMPY = {"float32": "single", "float64": "double"}
+#: Other names of them: NumPy's, and an old one.
+OTHERS = {"float32": "single", "float64": "double", "quad": "double-double"}
 
 
-def new_name(name: Any) -> Any:
-    """The name of a precision, where NumPy's, its type or an old name, which warns, is given; all else as it is."""
+def own_name(name: Any) -> Any:
+    """The name of a precision where another, or NumPy's type, is given; all else as it is."""
     if isinstance(name, type | np.dtype) and name in (np.float32, np.float64):
         name = np.dtype(name).name
-    if not isinstance(name, str) or name not in OLD:
-        return OF_NUMPY.get(name, name) if isinstance(name, str) else name
-    renamed(f'precision "{name}"', f'"{OLD[name]}"')
-    return OLD[name]
+    return OTHERS.get(name, name) if isinstance(name, str) else name
+
+
+def in_words(identifier: str) -> str:
+    """What a reader sees for a precision of JSON: there "quad" is double-double, and "Ball" an enclosure."""
+    return identifier.replace("quad", "double-double").replace("Ball(", "Enclosure(")
 
 
 def named(precision: "str | Precision") -> Precision:
     """The precision that a user named; raises ValueError, one sentence, for anything else."""
     if isinstance(precision, Precision):
         return precision
-    precision = new_name(precision)
+    precision = own_name(precision)
     if isinstance(precision, str) and precision in NAMED:
         return NAMED[precision]
     told = '"single", "double", "double-double", chapsym.Digits(n) or chapsym.Enclosure(bits)'

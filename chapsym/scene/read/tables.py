@@ -16,7 +16,7 @@ from pydantic import (
 from pydantic_core import core_schema
 
 from chapsym.accuracy.motion import FINEST
-from chapsym.numbers import new_name
+from chapsym.numbers import own_name
 
 from .bodies import PRESETS
 from .errors import LIST, MATRIX, At
@@ -272,8 +272,8 @@ class RunTable(Table):
 
     @field_validator("precision", mode="before")
     @classmethod
-    def _new_name(cls, value: Any) -> Any:
-        return new_name(value)
+    def _own_name(cls, value: Any) -> Any:
+        return own_name(value)
 
     @model_validator(mode="after")
     def _steps_or_accuracy(self) -> Self:
