@@ -14,10 +14,11 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from chapsym import jobs
+from chapsym.dynamics import BadInput, StepNotTaken
 from chapsym.dynamics.levels.frames import cores
 
 from . import arrays, formulas, runs, states, steps
-from .judging import BUDGET, DOUBLE, FAILED, LEVELS, ORDER, Judge, Judged, Level, worst
+from .judging import BUDGET, DOUBLE, FAILED, LEVELS, ORDER, Judge, Judged, Level, refused, worst
 
 #: A condition at a precision, as JSON has it, but that numbers may be infinite.
 Cell = dict[str, Any]
@@ -46,18 +47,20 @@ def _of_each(judge: Callable[..., Judged], names: Sequence[str], items: Mapping[
 
 
 _STARTS = {name: [state] for name, state in states.STARTS.items()}
-_STEPS = {name: _each(steps.judge, items) for name, items in states.CONDITIONS.items()}
 _BATCHED = tuple(level for level in LEVELS if not level.guarded)
 _DOUBLE = (DOUBLE,)
+_TITLES = {
+    "momentum": "the size of the momentum", "rotation": "large rotations", "fold": "beside the fold of the branch",
+    "D": "D beside the inertia", "inertia": "the shape of the body",
+    "directions": "directions of γ and of the momentum",
+}  # fmt: skip
 
 #: The groups, in the order of the table.
 GROUPS = {
-    "momentum": Group("One step: the size of the momentum", _STEPS["momentum"]),
-    "rotation": Group("One step: large rotations", _STEPS["rotation"]),
-    "fold": Group("One step: beside the fold of the branch", _STEPS["fold"]),
-    "D": Group("One step: D beside the inertia", _STEPS["D"]),
-    "inertia": Group("One step: the shape of the body", _STEPS["inertia"]),
-    "directions": Group("One step: directions of γ and of the momentum", _STEPS["directions"]),
+    **{
+        name: Group(f"One step: {title}", _each(steps.judge, states.CONDITIONS[name]))
+        for name, title in _TITLES.items()
+    },
     "runs": Group("Ten steps of a trajectory, beside ten of the oracle", _each(runs.ten_steps, _STARTS)),
     "batch": Group(
         "The same in a batch of 4096", _each(partial(runs.ten_steps, balls=runs.BATCH), _STARTS), _BATCHED
@@ -95,14 +98,21 @@ GROUPS = {
 SHARED = ("runs", "batch", "reverse")
 
 
+def judged(judge: Judge, level: Level, quick: bool) -> Judged:
+    """What is judged; a refusal is one, and an exception that is none a failure, whatever it is."""
+    try:
+        return judge(level, quick)
+    except (BadInput, StepNotTaken) as refusal:
+        return refused(str(refusal))
+    except Exception as error:
+        return Judged(FAILED, reason=f"{type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}")
+
+
 def cell(group: str, condition: str, judges: Sequence[Judge], level: Level, quick: bool) -> Cell:
-    """The worst that is judged; an exception that is no refusal is a failure, whatever it is, and so is a warning."""
+    """The worst that is judged; a warning is a failure."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        try:
-            found = worst([judge(level, quick) for judge in judges])
-        except Exception as error:
-            found = Judged(FAILED, reason=f"{type(error).__name__}: {str(error).splitlines()[0] if str(error) else ''}")
+        found = worst([judged(judge, level, quick) for judge in judges])
     if said and found.verdict != FAILED:
         found = replace(found, verdict=FAILED, reason=f"it warns: {said[0].message}")
     return {"condition": condition, "group": group, "rung": level.key, **asdict(found)}

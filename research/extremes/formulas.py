@@ -14,7 +14,7 @@ from chapsym.dynamics import BadInput, Curve, exact_top, increment, kernels, tra
 from chapsym.dynamics.oracle import Oracle
 
 from . import states
-from .judging import BUDGET, Compared, Judged, Level, compared, mp, unless_refused, worst
+from .judging import BUDGET, Judged, Level, compared, mp, worst
 from .states import AXIS, FLAT, RATIOS, ROD, D, G, J, K
 from .truth import State, Vector, componentwise, scaled, unit_gamma
 
@@ -22,24 +22,35 @@ from .truth import State, Vector, componentwise, scaled, unit_gamma
 PARTS = (0.0, 0.3, 0.999999, 1.0, 1.7, 2.0, 3.1, 10.3)
 STEPS = 50
 
+Inputs = Sequence[Any]
 
-def moments(J: Sequence[Any], D: Any) -> list[Any]:
+
+def beside(
+    level: Level, name: str, found: Any, function: Callable[[Inputs], list[Any]], inputs: Inputs, *,
+    size: Any = None, times: int = 1, more: float = 0.0,
+) -> Judged:  # fmt: skip
+    """What was found beside a function of inputs, within 4(1 + κ + more)·times ulps."""
+    truth, kappa = componentwise(function, inputs)
+    return compared(level, kappa, name, np.atleast_1d(found), truth, times * BUDGET * (1 + kappa + more), size)
+
+
+def moments(J: Inputs, D: Any) -> list[Any]:
     """Λ's entries."""
     return [J[1] + J[2] + D, J[0] + J[2] + D, J[0] + J[1] + D]
 
 
-def angular_velocity(inputs: Sequence[Any]) -> list[Any]:
+def angular_velocity(inputs: Inputs) -> list[Any]:
     """ω of K = Λω - D⟨ω,γ⟩γ, by the linear equations; of K, γ, J and D."""
     g, D = mp.matrix(unit_gamma(inputs[3:6])), inputs[9]
     return list(mp.lu_solve(mp.diag(moments(inputs[6:9], D)) - D * g * g.T, mp.matrix(inputs[:3])))
 
 
-def energy(inputs: Sequence[Any]) -> list[Any]:
+def energy(inputs: Inputs) -> list[Any]:
     """½⟨K,ω⟩."""
     return [sum(k * w for k, w in zip(inputs[:3], angular_velocity(inputs), strict=True)) / 2]
 
 
-def contact_momentum(inputs: Sequence[Any]) -> list[Any]:
+def contact_momentum(inputs: Inputs) -> list[Any]:
     """K = Λω - D⟨ω,γ⟩γ, of ω, γ, J and D."""
     omega, g, D = inputs[:3], unit_gamma(inputs[3:6]), inputs[9]
     along = sum(a * b for a, b in zip(omega, g, strict=True))
@@ -54,9 +65,8 @@ def derived(item: tuple[str, State], level: Level, quick: bool) -> Judged:
     """A quantity of a state, whose vector is K, or ω."""
     quantity, state = item
     function = QUANTITIES[quantity]
-    exact, kappa = componentwise(function, (*state.K, *state.g, *state.J, state.D))
-    found = np.atleast_1d(getattr(kernels, function.__name__)(state.K, state.g, state.J, state.D))
-    return compared(level, kappa, Compared(quantity, list(found), exact, BUDGET * (1 + kappa)))
+    found = getattr(kernels, function.__name__)(state.K, state.g, state.J, state.D)
+    return beside(level, quantity, found, function, (*state.K, *state.g, *state.J, state.D))
 
 
 def _several(D: float, size: float = 1.0) -> list[State]:
@@ -65,17 +75,14 @@ def _several(D: float, size: float = 1.0) -> list[State]:
 
 
 DERIVED = {
-    "D = 3": _several(3.0),
-    "D = 0": _several(0.0),
-    "D = 1e6": _several(1e6),
-    "D = 1e12": _several(1e12),
+    **{f"D = {D}": _several(float(D)) for D in ("3", "0", "1e6", "1e12")},
     "momentum 1e-300": _several(3.0, 1e-150),
     "a rod 1e-6 from upright": [State(ROD, D, K, states.unit((1e-6, 0.0, 1.0)))],
     "ratios of 1e12": [State(RATIOS, 1.0, K, G)],
 }
 
 
-def parameters(inputs: Sequence[Any], axes: tuple[int, int, int]) -> dict[str, Any]:
+def parameters(inputs: Inputs, axes: tuple[int, int, int]) -> dict[str, Any]:
     """C_a, C_b, |C_c|, k, k', l and |V| of the curve through γ, from γ, J and D, on given axes."""
     g, all_moments = unit_gamma(inputs[0:3]), moments(inputs[3:6], inputs[6])
     La, Lb, Lc = (all_moments[i] for i in axes)
@@ -101,15 +108,13 @@ def the_curve(state: State, level: Level) -> Judged:
     curve = Curve.through(state.ball, state.g)
     found = {name: abs(getattr(curve, name)) for name in ("modulus", "complement", "level", "rate")}
     found |= {f"C_{axis}": abs(c) for axis, c in zip("abc", curve.amplitudes, strict=True)}
-
-    def judged(name: str, value: float) -> Judged:
-        truth, kappa = componentwise(lambda x: [parameters(x, curve.axes)[name]], _inputs(state))
-        return compared(level, kappa, Compared(name, [value], truth, BUDGET * (1 + kappa)))
-
-    return worst([judged(name, value) for name, value in found.items()])
+    return worst([
+        beside(level, name, value, lambda x, name=name: [parameters(x, curve.axes)[name]], _inputs(state))  # type: ignore[misc]
+        for name, value in found.items()
+    ])  # fmt: skip
 
 
-def _point(inputs: Sequence[Any], u: Any, curve: Curve) -> list[Any]:
+def _point(inputs: Inputs, u: Any, curve: Curve) -> list[Any]:
     """γ(u), with the signs and the axes of a curve."""
     values = parameters(inputs, curve.axes)
     point = [mp.zero] * 3
@@ -122,18 +127,16 @@ def _point(inputs: Sequence[Any], u: Any, curve: Curve) -> list[Any]:
 
 def the_points(state: State, level: Level) -> Judged:
     """γ(u), in ulps of 1, and `argument` of γ by its point."""
-    curve = Curve.through(state.ball, state.g)
+    curve, inputs = Curve.through(state.ball, state.g), _inputs(state)
     quarter = min(curve.period / 4, 40.0)
-    judged = []
-    for part in PARTS:
-        u = part * quarter
-        truth, kappa = componentwise(lambda x: _point(x[1:], x[0], curve), (u, *_inputs(state)))
-        judged.append(compared(level, kappa, Compared(f"γ({u:.3g})", curve.point(u), truth, BUDGET * (1 + kappa), 1)))
-    back, kappa = componentwise(lambda x: unit_gamma(x[:3]), _inputs(state))
+    judged = [
+        beside(level, f"γ({u:.3g})", curve.point(u), lambda x: _point(x[1:], x[0], curve), (u, *inputs), size=1)
+        for u in (part * quarter for part in PARTS)
+    ]
     # u has its own rounding, |u| ulps: γ moves with |dγ/du| ≤ 1 of it
-    promised = BUDGET * (1 + kappa + quarter)
     there = curve.point(curve.argument(state.g))
-    return worst([*judged, compared(level, kappa, Compared("γ(u(γ))", there, back, promised, 1))])
+    back = beside(level, "γ(u(γ))", there, lambda x: unit_gamma(x[:3]), inputs, size=1, more=quarter)
+    return worst([*judged, back])
 
 
 def the_increment(state: State, level: Level) -> Judged:
@@ -141,15 +144,14 @@ def the_increment(state: State, level: Level) -> Judged:
     height = float(np.dot(state.K, state.g))
     curve = Curve.through(state.ball, state.g)
     u = float(curve.argument(state.g))
-    found = curve.point(u + increment(curve, height, u))
 
-    def stepped(inputs: Sequence[Any]) -> list[Any]:
+    def stepped(inputs: Inputs) -> list[Any]:
         g = unit_gamma(inputs[1:4])
         step = Oracle(inputs[4:7], inputs[7], g, 80).step([inputs[0] * x for x in g])
         return [mp.make_mpf(x._mpf_) for x in step.gamma]
 
-    truth, kappa = componentwise(stepped, (height, *_inputs(state)))
-    return compared(level, kappa, Compared("γ(u + 2δu)", found, truth, BUDGET * (1 + kappa + abs(u)), 1))
+    found = curve.point(u + increment(curve, height, u))
+    return beside(level, "γ(u + 2δu)", found, stepped, (height, *_inputs(state)), size=1, more=abs(u))
 
 
 def the_exact_top(state: State, level: Level) -> Judged:
@@ -161,9 +163,9 @@ def the_exact_top(state: State, level: Level) -> Judged:
     try:
         curve = Curve.through(state.ball, state.g)
     except BadInput:  # it stays where it is
-        return compared(level, 1.0, Compared("K", found, unit_gamma(state.g), BUDGET * STEPS, 1))
+        return compared(level, 1.0, "K", found, unit_gamma(state.g), BUDGET * STEPS, 1)
 
-    def moved(x: Sequence[Any]) -> list[Any]:
+    def moved(x: Inputs) -> list[Any]:
         inputs = (*x[:6], mp.zero)
         values = parameters(inputs, curve.axes)
         g, (a, b, _) = unit_gamma(inputs[:3]), curve.axes
@@ -171,8 +173,7 @@ def the_exact_top(state: State, level: Level) -> Judged:
         sign = 1 if curve.rate > 0 else -1
         return _point(inputs, start + sign * values["rate"] * x[6] * STEPS, curve)
 
-    truth, kappa = componentwise(moved, (*state.g, *state.J, top.size))
-    return compared(level, kappa, Compared("K", found, truth, BUDGET * STEPS * (1 + kappa), 1))
+    return beside(level, "K", found, moved, (*state.g, *state.J, top.size), size=1, times=STEPS)
 
 
 ELLIPTIC: dict[str, Callable[[State, Level], Judged]] = {
@@ -185,7 +186,7 @@ def elliptic(item: tuple[str, State], level: Level, quick: bool) -> Judged:
     quantity, state = item
     tiny = min(x for x in state.g if x) < 1e-100  # there 1 - Λ_c l is 1e-300
     with mp.workdps(480 if tiny else 140):
-        return unless_refused(None, lambda: ELLIPTIC[quantity](state, level))
+        return ELLIPTIC[quantity](state, level)
 
 
 def through(g: Vector, J: Vector = J, D: float = D, size: float = 0.3) -> State:

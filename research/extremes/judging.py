@@ -3,12 +3,11 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any
 
 import flint
 import mpmath
 
-from chapsym.dynamics import BadInput, StepNotTaken
 from chapsym.numbers import Digits, Double, DoubleDouble, Enclosure, Pair, Precision, Single
 
 #: Everything is compared with so many digits.
@@ -87,16 +86,6 @@ def number(value: Any) -> Any:
     return mp.make_mpf(value._mpf_) if hasattr(value, "_mpf_") else mp.mpf(float(value))
 
 
-def radius(value: Any) -> Any:
-    """How far the number may be from the truth, by its own account: 0 unless it is an enclosure."""
-    return number(value.rad()) if isinstance(value, flint.arb) else mp.zero
-
-
-def finite(values: Iterable[Any]) -> bool:
-    """Whether all are numbers: no NaN, no infinity, no enclosure without bounds."""
-    return all(x.is_finite() if isinstance(x, flint.arb) else bool(mp.isfinite(number(x))) for x in values)
-
-
 def whole(found: Any, name: str) -> Any:
     """An array of a step or a run; with both halves of each number of double-double."""
     high = getattr(found, name)
@@ -124,7 +113,7 @@ class Judged:
     reason: str = ""
 
 
-#: Judges one thing at a precision, quickly or in full.
+#: Judges one thing at a precision, quickly or in full; what it raises of BadInput and StepNotTaken is a refusal.
 Judge = Callable[[Level, bool], Judged]
 
 
@@ -144,38 +133,20 @@ def refused(sentence: str, kappa: float | None = None) -> Judged:
     return Judged(verdict, condition_number=kappa, reason=sentence or "refused without a reason")
 
 
-def unless_refused(kappa: float | None, judge: Callable[[], Judged]) -> Judged:
-    """What `judge` finds, or the refusal that it meets."""
-    try:
-        return judge()
-    except (BadInput, StepNotTaken) as refusal:
-        return refused(str(refusal), kappa)
+def compared(
+    level: Level, kappa: float | None, name: str, found: Iterable[Any], truth: Sequence[Any], promised: float,
+    size: Any = None,
+) -> Judged:  # fmt: skip
+    """A vector beside the truth: an enclosure must contain it, and its radius is its error.
 
-
-class Compared(NamedTuple):
-    """A vector beside the truth, with the error that is promised in ulps of its size: its largest component."""
-
-    name: str
-    found: Iterable[Any]
-    truth: Sequence[Any]
-    promised: float
-    size: Any = None  # unless it is said
-
-
-def compared(level: Level, kappa: float | None, *vectors: Compared) -> Judged:
-    """Every vector beside its truth: an enclosure must contain it, and its radius is its error."""
-    return worst([_one(level, kappa, *vector) for vector in vectors])
-
-
-def _one(
-    level: Level, kappa: float | None, name: str, found: Iterable[Any], truth: Sequence[Any], promised: float, size: Any
-) -> Judged:
+    promised: in ulps of its size, which is its largest component unless it is said.
+    """
     found = [*found]
-    if not finite(found):
+    if not all(x.is_finite() if isinstance(x, flint.arb) else mp.isfinite(number(x)) for x in found):
         return Judged(FAILED, reason=f"{name} is not finite, and no reason is given")
     size = max((abs(x) for x in truth), default=mp.zero) if size is None else size
     away = [abs(number(x) - t) for x, t in zip(found, truth, strict=True)]
-    radii = [radius(x) for x in found]
+    radii = [number(x.rad()) if isinstance(x, flint.arb) else mp.zero for x in found]
     error, spacing = max([*away, *radii]), level.spacing(size)
     ulps = float(error / spacing) if spacing else 0.0 if error == 0 else float("inf")
     digits = float(-mp.log10(error / size)) if error and size else None
@@ -187,3 +158,11 @@ def _one(
     elif error > number(NO_DIGIT) * size and error > spacing:
         reason = f"no digit of {name} is right, as {promised:.3g} ulps are all that is promised"
     return Judged(FAILED if reason else WITHIN, ulps, promised, digits, kappa, reason)
+
+
+def state(
+    level: Level, kappa: float | None, found: Sequence[Any], exact: Sequence[Any], ulps: float, *more: Judged
+) -> Judged:
+    """𝒦 and γ beside the truth, with one promise, and what more is judged."""
+    momentum = compared(level, kappa, "the momentum", found[0], exact[0], ulps)
+    return worst([*more, momentum, compared(level, kappa, "gamma", found[1], exact[1], ulps, 1)])

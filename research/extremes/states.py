@@ -78,20 +78,15 @@ def tiny(size: float) -> list[State]:
     return [State(J, D, scaled(K, size), G), State(FLAT, 0.0, scaled(K, size), G)]
 
 
-def heavy(D: float) -> list[State]:
-    """A large D, with momenta in several directions."""
-    return [halfway(D=D), halfway(D=D, direction=G), halfway(D=D, g=AXIS)]
-
-
+TINY = ("1e-12", "1e-150", "1e-300", "subnormal, 5e-320")
+SIDES = {"before": 1, "beyond": -1}
+HEAVY = ("1e6", "1e12", "1e15")
 #: The states of a single step: by group and condition; those beside a fold are made for a precision when asked for.
 CONDITIONS: dict[str, dict[str, Sequence[State | Callable[[Level], State]]]] = {
     "momentum": {
         "generic": [halfway(), halfway((0.1, 0.5, 1.6), 0.7, (0.3, 0.2, -1.0))],
         "at rest": [State(J, D, (0.0, 0.0, 0.0), G)],
-        "1e-12": tiny(1e-12),
-        "1e-150": tiny(1e-150),
-        "1e-300": tiny(1e-300),
-        "subnormal, 5e-320": tiny(5e-320),
+        **{name: tiny(float(name.removeprefix("subnormal, "))) for name in TINY},
         "subnormal, 4e-313, D = 100": [State((1.0, 1.0, 1.0), 100.0, (4.4500984e-313, 0.0, 0.0), (1.0, 0.0, 0.0))],
         "components from 1 to 1e-300": [State(J, D, (0.5, 1e-150, 1e-300), G), State(J, D, (1e-300, 0.5, 0.0), AXIS)],
         "from 1e-12 of the fold to 0.999": [part(J, D, K, G, share) for share in SWEEP],
@@ -107,24 +102,23 @@ CONDITIONS: dict[str, dict[str, Sequence[State | Callable[[Level], State]]]] = {
         "by π, to rounding": [turned(0.0)],
     },
     "fold": {
-        "1e-8 before it": [partial(beside_fold, 1e-8)],
-        "1e-8 beyond it": [partial(beside_fold, -1e-8)],
-        "1e-12 before it": [partial(beside_fold, 1e-12)],
-        "1e-12 beyond it": [partial(beside_fold, -1e-12)],
-        "one ulp before it": [partial(next_to_fold, -1)],
-        "one ulp beyond it": [partial(next_to_fold, 1)],
+        **{
+            f"{off} {where} it": [partial(beside_fold, side * float(off))]
+            for off in ("1e-8", "1e-12")
+            for where, side in SIDES.items()
+        },
+        **{f"one ulp {where} it": [partial(next_to_fold, -side)] for where, side in SIDES.items()},
         "twice as far": [partial(beside_fold, -1.0)],
         "more than any rotation has": [State(J, D, scaled(K, 1e3), G, -1e3), State(J, D, scaled(K, 1e300), G, -1e3)],
     },
     "D": {
         "D = 0": [halfway(D=0.0), halfway(D=0.0, direction=G)],
         "D = 1e-12": [halfway(D=1e-12), halfway(D=1e-12, direction=G)],
-        "D = 1e6": heavy(1e6),
-        "D = 1e12": heavy(1e12),
-        "D = 1e15": heavy(1e15),
-        "D = 1e6, momentum horizontal": [halfway(D=1e6, direction=ACROSS)],
-        "D = 1e12, momentum horizontal": [halfway(D=1e12, direction=ACROSS)],
-        "D = 1e15, momentum horizontal": [halfway(D=1e15, direction=ACROSS)],
+        **{
+            f"D = {D}": [halfway(D=float(D)), halfway(D=float(D), direction=G), halfway(D=float(D), g=AXIS)]
+            for D in HEAVY
+        },
+        **{f"D = {D}, momentum horizontal": [halfway(D=float(D), direction=ACROSS)] for D in HEAVY},
     },
     "inertia": {
         "one ulp apart": [halfway((1.0, 1 + 2.0**-52, 1 + 2.0**-51)), halfway((1.0, 1.0, 1 + 5 * 2.0**-52), 0.0)],
@@ -135,9 +129,10 @@ CONDITIONS: dict[str, dict[str, Sequence[State | Callable[[Level], State]]]] = {
         "a rod upright: no inertia about the vertical": [State(ROD, D, (0.1, 0.0, 0.0), AXIS)],
         "a rod 1e-6 from upright": [halfway(ROD, g=unit((1e-6, 0.0, 1.0)))],
         "ratios of 1e12": [halfway((1e-12, 1.0, 1.0)), halfway(RATIOS, 1.0), halfway((1.0, 1e-12, 1e-12), 0.0)],
-        "a ball of size 1e-150": [halfway(scaled(J, 1e-150), 3e-150)],
-        "a ball of size 1e150": [halfway(scaled(J, 1e150), 3e150)],
-        "a ball of size 1e-300": [halfway(scaled(J, 1e-300), 3e-300)],
+        **{
+            f"a ball of size {size}": [halfway(scaled(J, float(size)), 3 * float(size))]
+            for size in ("1e-150", "1e150", "1e-300")
+        },
         "a ball of size 1e300": [State(scaled(J, 1e300), 3e300, scaled(K, 1e300), G)],
     },
     "directions": {
@@ -188,11 +183,8 @@ VERTICAL = {
 #: Balls and directions whose folds are searched for, and by how much the momentum that is given is larger.
 FOLDS = {
     "generic": [(State(J, D, K, G), 1.0)],
-    "momentum 1e-300": [(State(J, D, K, G), 1e-300)],
-    "momentum 1e300": [(State(J, D, K, G), 1e300)],
-    "D = 0": [(State(J, 0.0, K, G), 1.0)],
-    "D = 1e3": [(State(J, 1e3, K, G), 1.0)],
-    "D = 1e6": [(State(J, 1e6, K, G), 1.0)],
+    **{f"momentum {size}": [(State(J, D, K, G), float(size))] for size in ("1e-300", "1e300")},
+    **{f"D = {D}": [(State(J, float(D), K, G), 1.0)] for D in ("0", "1e3", "1e6")},
     "a flat body": [(State(FLAT, D, K, G), 1.0)],
     "γ along an axis": [(State(J, D, K, AXIS), 1.0)],
     "momentum and γ along an axis": [(State(J, D, AXIS, AXIS), 1.0)],
@@ -203,19 +195,17 @@ K4, G4, J4 = (0.3, -0.2, 0.5, 0.1, 0.4, -0.25), (0.1, 0.1, 0.7, 0.7), (1.0, 2.0,
 AXIS4, PLANE4 = (0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0, 0.4, 0.0, 0.0)
 FOUR = {
     "generic": [State(J4, D, K4, G4)],
-    "momentum 1e-12": [State(J4, D, scaled(K4, 1e-12), G4)],
-    "momentum 1e-300": [State(J4, D, scaled(K4, 1e-300), G4)],
-    "momentum 5e-320": [State(J4, D, scaled(K4, 5e-320), G4)],
+    **{f"momentum {size}": [State(J4, D, scaled(K4, float(size)), G4)] for size in ("1e-12", "1e-300", "5e-320")},
     "at rest": [State(J4, D, (0.0,) * 6, G4)],
-    "D = 0": [State(J4, 0.0, K4, G4)],
-    "D = 1e6": [State(J4, 1e6, K4, G4)],
-    "D = 1e12": [State(J4, 1e12, K4, G4)],
+    **{f"D = {D}": [State(J4, float(D), K4, G4)] for D in ("0", "1e6", "1e12")},
     "J equal": [State((1.0,) * 4, D, K4, G4)],
     "J 1e-15 apart": [State((1.0, 1 + 1e-15, 1 - 1e-15, 1.0), D, K4, G4)],
     "a flat body, one J = 0": [State((1.0, 0.0, 0.5, 3.0), D, K4, G4)],
     "ratios of 1e12": [State((1e-12, 1.0, 1e-6, 3.0), D, K4, G4)],
     "γ along an axis": [State(J4, D, K4, AXIS4)],
     "one plane only": [State(J4, D, PLANE4, G4), State(J4, D, PLANE4, AXIS4)],
-    "a body of size 1e-150": [State(scaled(J4, 1e-150), 3e-150, scaled(K4, 1e-150), G4)],
-    "a body of size 1e150": [State(scaled(J4, 1e150), 3e150, scaled(K4, 1e150), G4)],
+    **{
+        f"a body of size {size}": [State(scaled(J4, float(size)), 3 * float(size), scaled(K4, float(size)), G4)]
+        for size in ("1e-150", "1e150")
+    },
 }

@@ -141,7 +141,7 @@ def test_a_refusal_without_a_sentence_an_error_a_warning_and_a_nan_fail():
 
     assert judged(warns)["reason"] == "it warns: overflow"
     exact = [mp.mpf(1), mp.mpf(2)]
-    nothing = judging.compared(DOUBLE, None, judging.Compared("x", [1.0, float("nan")], exact, 4))
+    nothing = judging.compared(DOUBLE, None, "x", [1.0, float("nan")], exact, 4)
     assert "not finite" in nothing.reason
     assert judged(lambda: nothing)["verdict"] == "failed"
 
@@ -155,13 +155,13 @@ def test_the_worst_counts():
 def test_ulps_are_those_of_the_precision_and_a_promise_of_no_digit_is_none():
     one = [mp.mpf(1)]
     for precision, step in zip(LEVELS[:3], (2.0**-23, 2.0**-52, 2.0**-104), strict=True):
-        found = judging.compared(precision, None, judging.Compared("x", [one[0] + 3 * mp.mpf(step)], one, 4))
+        found = judging.compared(precision, None, "x", [one[0] + 3 * mp.mpf(step)], one, 4)
         assert found.ulps == 3
         assert found.verdict == "within"
-    tiny = judging.compared(DOUBLE, None, judging.Compared("x", [1e-320], [mp.mpf(float("1e-320")) * 1.0001], 4))
+    tiny = judging.compared(DOUBLE, None, "x", [1e-320], [mp.mpf(float("1e-320")) * 1.0001], 4)
     assert tiny.ulps < 1  # below the normal numbers an ulp is the least number
     for x, verdict in ((1.5, "failed"), (1.05, "within")):
-        assert judging.compared(DOUBLE, None, judging.Compared("x", [x], [mp.mpf(1)], 1e20)).verdict == verdict
+        assert judging.compared(DOUBLE, None, "x", [x], [mp.mpf(1)], 1e20).verdict == verdict
 
 
 def test_kappa_is_that_of_check():
@@ -255,12 +255,11 @@ def test_a_fold_that_is_a_little_off_fails(monkeypatch):
 
 
 def test_a_refused_input_that_is_taken_fails():
-    assert arrays.refusal(lambda level: None, DOUBLE, True).verdict == "failed"
-
     def refuses(level):
         raise BadInput("momentum must be finite, but it is nan")
 
-    assert arrays.refusal(refuses, DOUBLE, True).verdict == "refused"
+    for attempt, verdict in ((lambda level: None, "failed"), (refuses, "refused")):
+        assert judged(lambda attempt=attempt: arrays.refusal(attempt, DOUBLE, True))["verdict"] == verdict
 
 
 def test_other_bits_and_a_changed_array_fail():
