@@ -45,11 +45,6 @@ class Outcome:
     seconds: float = math.inf
 
     @property
-    def hit(self) -> bool:
-        """Whether the true error is within the accuracy."""
-        return self.error <= self.request.accuracy
-
-    @property
     def costs(self) -> tuple[float, float]:
         """Seconds of the processor for what was delivered, with its verification, and for everything."""
         if isinstance(self.answer, str):
@@ -73,9 +68,9 @@ def _named(method: Method, steps: int) -> str:
     return f"{method.label}, order {method.order}, {steps}"
 
 
-def drawn(count: int, seed: int = SEED, quick: bool = False) -> Iterator[Request]:
+def drawn(count: int, quick: bool) -> Iterator[Request]:
     """Random requests: 0.3 to 6 rad/s, 1 to 1000 s (20 s for a look), 1e-3 to 1e-12 or finer; conditions up to 100."""
-    random = np.random.default_rng(seed)
+    random = np.random.default_rng(SEED)
     for _ in range(count):
         ball, omega, gamma = problems.rolling(random)
         K = kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
@@ -115,21 +110,13 @@ def best_choice(request: Request, exact: np.ndarray, dearest: float) -> tuple[st
     return min(((one.name, one.median) for one in times), key=lambda one: one[1], default=("none", math.inf))
 
 
-@dataclass(frozen=True)
 class Outcomes:
-    """The outcomes of random requests."""
+    """The outcomes of random requests, of which some are met: their true error is within the accuracy."""
 
-    outcomes: list[Outcome]
-
-    @property
-    def hits(self) -> int:
-        """How many were met."""
-        return sum(one.hit for one in self.outcomes)
-
-    @property
-    def title(self) -> str:
-        """The title of the table."""
-        return f"random requests: {self.hits} of {len(self.outcomes)} met"
+    def __init__(self, outcomes: list[Outcome]) -> None:
+        self.outcomes = outcomes
+        self.hits = sum(one.error <= one.request.accuracy for one in outcomes)
+        self.title = f"random requests: {self.hits} of {len(outcomes)} met"
 
     def table(self) -> list[dict[str, Any]]:
         """A row for each request."""
@@ -156,11 +143,10 @@ class Outcomes:
         return found | {"requests": rows, "notes": self.sentences()}
 
 
-def measure(quick: bool, say: Callable[[str], None] = lambda text: None, seed: int = SEED, count: int = 0) -> Outcomes:
+def measure(quick: bool, say: Callable[[str], None] = lambda text: None, count: int = 0) -> Outcomes:
     """The outcomes of random requests: 5 short ones for a look, or 50."""
-    wanted = count or (QUICK if quick else COUNT)
-    found = []
-    for i, request in enumerate(drawn(wanted, seed, quick)):
+    wanted, found = count or (QUICK if quick else COUNT), []
+    for i, request in enumerate(drawn(wanted, quick)):
         say(f"request {i + 1} of {wanted}: {request.accuracy:.1g} after {request.time:.3g} s")
         found.append(judge(request))
     return Outcomes(found)
