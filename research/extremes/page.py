@@ -1,11 +1,11 @@
-"""The page of the extremes: the matrix of conditions and precisions as one HTML file that opens from disk."""
+"""The matrix of conditions and precisions as tables, and as one HTML file that opens from disk."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from chapsym.report.page import style, templates
+from chapsym.cli.measured import Table
 
 from .judging import LEVELS
 
@@ -19,67 +19,70 @@ HERE = Path(__file__).parent
 _LEVELS = {level.key: level for level in LEVELS}
 
 
-def html(matrix: Mapping[str, Any], versions: Mapping[str, str], machine: str, date: str | None = None) -> str:
-    """The whole page of the JSON object of `chapsym extremes`; the same input gives the same bytes."""
-    found = templates(HERE)
-    found.globals |= {"VERDICTS": VERDICTS, "shown": shown, "told": told, "heat": heat}
-    said = {"matrix": matrix, "groups": groups(matrix), "versions": versions, "machine": machine, "date": date}
-    return found.get_template("page.html").render(style=style(HERE / "page.css"), **said)
+class Shown(str):
+    """The text of a cell, with its verdict, and what it says when it is pointed at."""
+
+    verdict: str
+    told: str
 
 
-def groups(matrix: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Each group with its precisions and rows, a row with its cells by precision, and why cells are not within."""
-    found = []
-    for name, those in groupby(matrix["cells"], lambda cell: cell["group"]):
-        cells = list(those)
-        names = list(map(precision, cells))
-        rows = [
-            (title, {precision(c): c for c in row}) for title, row in groupby(cells, lambda cell: cell["condition"])
-        ]
-        precisions = [level.name for level in LEVELS if level.name in names]
-        title = matrix["groups"][name]
-        found.append({"name": name, "title": title, "precisions": precisions, "rows": rows, "reasons": reasons(cells)})
+def shown(cell: Mapping[str, Any]) -> Shown:
+    """The sign of a cell, and the correct digits if it is within, at most those of its numbers."""
+    level, (sign, _), digits = _LEVELS[cell["rung"]], VERDICTS[cell["verdict"]], cell["digits"]
+    if cell["verdict"] == "within":
+        sign += " exact" if digits is None else f" {min(digits, level.digits):.1f}"
+    told = [f"{level.name}: {cell['verdict']}"]
+    if cell["ulps"] is not None:
+        told.append(f"error {cell['ulps']:.3g} ulps of {cell['promised']:.3g} promised")
+    if cell["condition_number"] is not None:
+        told.append(f"condition number {cell['condition_number']:.3g}")
+    found = Shown(sign)
+    found.verdict, found.told = cell["verdict"], "; ".join(filter(None, [*told, cell["reason"]]))
     return found
 
 
-def precision(cell: Mapping[str, Any]) -> str:
-    """What a reader calls the precision of a cell."""
-    return _LEVELS[cell["rung"]].name
+def about(matrix: Mapping[str, Any]) -> str:
+    """What the cells say, and how many say what."""
+    signs = "; ".join(f"{sign} {verdict}: {meaning}" for verdict, (sign, meaning) in VERDICTS.items())
+    counted = ", ".join(f"{count} {verdict}" for verdict, count in matrix["counts"].items())
+    return (
+        "Every precision level under hard conditions, against references that share no formula with what they judge. "
+        f"{sum(matrix['counts'].values())} cells: {counted}. {signs[0].upper()}{signs[1:]}."
+    )
 
 
-def reasons(cells: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
+def tables(matrix: Mapping[str, Any]) -> list[Table]:
+    """A table for each group of conditions, with the sentences of what is not within."""
+    found = []
+    for name, those in groupby(matrix["cells"], lambda cell: cell["group"]):
+        cells = list(those)
+        there = {cell["rung"] for cell in cells}
+        none = {level.name: "·" for level in LEVELS if level.key in there}
+        rows = [
+            {"condition": condition, **none, **{_LEVELS[cell["rung"]].name: shown(cell) for cell in row}}
+            for condition, row in groupby(cells, lambda cell: cell["condition"])
+        ]
+        found.append(Table(f"{name}: {matrix['groups'][name]}", rows, reasons(cells)))
+    return found
+
+
+def reasons(cells: Sequence[Mapping[str, Any]]) -> list[str]:
     """Why cells are not within: each sentence once, with the conditions and the precisions that it is about."""
     merged: dict[tuple[str, str], dict[str, list[str]]] = {}
     for cell in cells:
         if cell["verdict"] != "within":
-            about = merged.setdefault((cell["verdict"], cell["reason"].removeprefix("step 0: ")), {})
-            about.setdefault(cell["condition"], []).append(precision(cell))
-    return [
-        {"verdict": verdict, "reason": reason, "about": [(name, ", ".join(those)) for name, those in about.items()]}
-        for (verdict, reason), about in merged.items()
-    ]
+            of = merged.setdefault((cell["verdict"], cell["reason"].removeprefix("step 0: ")), {})
+            of.setdefault(cell["condition"], []).append(_LEVELS[cell["rung"]].name)
+    found = []
+    for (verdict, reason), of in merged.items():
+        named = "; ".join(f"{condition} ({', '.join(those)})" for condition, those in of.items())
+        found.append(f"{VERDICTS[verdict][0]} {named}: {reason}")
+    return found
 
 
-def shown(cell: Mapping[str, Any]) -> str:
-    """The text of a cell: its sign, and the correct digits if it is within, at most those of its numbers."""
-    sign = VERDICTS[cell["verdict"]][0]
-    if cell["verdict"] != "within":
-        return sign
-    digits = cell["digits"]
-    return f"{sign} exact" if digits is None else f"{sign} {min(digits, _LEVELS[cell['rung']].digits):.1f}"
+def html(matrix: Mapping[str, Any], versions: Mapping[str, str], machine: str) -> str:
+    """The whole page of the JSON object of `chapsym extremes`; the same input gives the same bytes."""
+    from chapsym.report.page import style, templates
 
-
-def told(cell: Mapping[str, Any]) -> str:
-    """What a cell says when it is pointed at."""
-    said = [f"{precision(cell)}: {cell['verdict']}"]
-    if cell["ulps"] is not None:
-        said.append(f"error {cell['ulps']:.3g} ulps of {cell['promised']:.3g} promised")
-    if cell["condition_number"] is not None:
-        said.append(f"condition number {cell['condition_number']:.3g}")
-    return "; ".join([*said, *([cell["reason"]] if cell["reason"] else [])])
-
-
-def heat(cell: Mapping[str, Any]) -> int:
-    """How much of the promise is used up, in percent, from 12 on, so that a colour is seen."""
-    share = cell["ulps"] / cell["promised"] if cell["ulps"] is not None and cell["promised"] else 0.0
-    return round(12 + 48 * min(1.0, share) ** 0.5) if cell["verdict"] == "within" else 30
+    said = {"about": about(matrix), "tables": tables(matrix), "versions": versions, "machine": machine, "date": None}
+    return templates(HERE).get_template("page.html").render(style=style(HERE / "page.css"), **said)
