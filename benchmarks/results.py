@@ -1,6 +1,6 @@
 """What a section of the benchmarks found: a table, the figures to reach, and the lines of a figure."""
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from chapsym.studies.harness import Timing
@@ -21,6 +21,22 @@ class Result:
     curves: list["Curve"] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
 
+    def table(self) -> list[dict[str, Any]]:
+        """The rows."""
+        return self.rows
+
+    def sentences(self) -> list[str]:
+        """The figures to reach, the peers that are missing, the notes."""
+        reach = [
+            f"{one.what}: {one.value:.3g} (wanted: {one.bound}): {'reached' if one.met else 'NOT reached'}"
+            for one in self.reach
+        ]
+        return [*reach, *(f"{name}: {reason}" for name, reason in self.missing.items()), *self.notes]
+
+    def as_json(self) -> dict[str, Any]:
+        """All of it, as plain data."""
+        return asdict(self) | {"reach": [asdict(one) | {"met": one.met} for one in self.reach]}
+
 
 @dataclass(frozen=True)
 class Reached:
@@ -35,6 +51,11 @@ class Reached:
     def met(self) -> bool:
         """Whether it was reached in this run."""
         return self.value >= self.wanted if self.at_least else self.value <= self.wanted
+
+    @property
+    def bound(self) -> str:
+        """What is wanted, in words."""
+        return f"{'at least' if self.at_least else 'at most'} {self.wanted:.3g}"
 
 
 @dataclass(frozen=True)

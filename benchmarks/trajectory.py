@@ -55,8 +55,8 @@ def agreement(sides: dict[str, Callable[[], Any]], momentum: np.ndarray, bound: 
     return differences
 
 
-#: A ball and its start: J, D, 𝒦, γ.
-Start = tuple[np.ndarray, float, np.ndarray, np.ndarray]
+#: A ball and its start: J, D, 𝒦, γ, in exact numbers or floats.
+Start = tuple[Any, Any, Any, Any]
 
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None, own: Start | None = None) -> Result:
@@ -65,8 +65,10 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None, ow
     rows: list[dict[str, Any]] = []
     reach: list[Reached] = []
     starts = [(MASS_TENSOR, D, epsilon * MOMENTUM, GAMMA) for epsilon in EPSILONS] if own is None else [own]
-    for J, contact, K, g in starts:
+    for tensor, contact, *vectors in starts:
+        J, K, g = (np.array(x, dtype=float) for x in (tensor, *vectors))
         epsilon = float(np.linalg.norm(K))
+        contact = float(contact)
         differ = agreement(
             {name: partial(side, K, g, J, contact, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT
         )

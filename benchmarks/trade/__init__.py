@@ -1,21 +1,20 @@
-"""`chapsym trade`: what speed costs in accuracy, measured, and whether the chooser meets what is asked of it.
-
-A section is measured to an object with a `title`, the rows of a `table()`, `sentences()` under it, and `as_json()`.
-"""
+"""`chapsym trade`: what speed costs in accuracy, measured, and whether the chooser meets what is asked of it."""
 
 from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 from benchmarks.kernels import Kernels
-from chapsym.studies.harness import NotComparable, machine
+from chapsym.studies.harness import NotComparable
 
 from . import frontiers, requests
 from .frontier import Frontier, Point
 
-__all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "as_json", "measure", "missed"]
+__all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "draw", "missed", "run"]
 
-#: The sections that have a frontier, and all of them; each measures quickly or in full, and says what it does.
+NAME, TITLE = "trade", "Speed against accuracy"
+ABOUT = "Time of the processor against correct digits, for every precision level, order and length of step."
+#: The sections that have a frontier, which are measured by default, and all of them.
 DRAWN: dict[str, Callable[..., Any]] = {
     "rounding": frontiers.rounding,
     "contact": partial(frontiers.one_ball, "contact"),
@@ -24,12 +23,20 @@ DRAWN: dict[str, Callable[..., Any]] = {
     "n4": partial(frontiers.four, 1),
     "n4-batch": partial(frontiers.four, frontiers.BATCH_N),
 }
+DEFAULT = tuple(DRAWN)
 SECTIONS: dict[str, Callable[..., Any]] = {**DRAWN, "requests": requests.measure, "kernels": Kernels}
 
 
-def measure(section: str, quick: bool, say: Callable[[str], None] = lambda text: None) -> Any:
+def run(section: str, quick: bool, say: Callable[[str], None] = lambda text: None) -> Any:
     """Measures a section; raises NotComparable where a reference is not confirmed."""
     return SECTIONS[section](quick, say)
+
+
+def draw(found: dict[str, Frontier]) -> Any:
+    """A figure with a panel for each section."""
+    from . import figure
+
+    return figure.draw(found)
 
 
 def missed(found: dict[str, Any]) -> str | None:
@@ -38,8 +45,3 @@ def missed(found: dict[str, Any]) -> str | None:
         if isinstance(one, requests.Outcomes) and one.hits < len(one.outcomes):
             return f"{len(one.outcomes) - one.hits} of {len(one.outcomes)} requests were not met"
     return None
-
-
-def as_json(found: dict[str, Any], quick: bool) -> dict[str, Any]:
-    """The machine and all that was measured, as plain data."""
-    return {"machine": machine(), "quick": quick, "sections": {name: one.as_json() for name, one in found.items()}}

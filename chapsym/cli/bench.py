@@ -1,7 +1,7 @@
 """chapsym bench: what the map costs, beside what a user would take instead."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -46,9 +46,15 @@ def bench(
     """
     from chapsym.studies.harness import in_checkout
 
-    own = None
+    command = in_checkout("benchmarks", "command")
+    own: dict[str, Any] = {}
     if momentum is not None or any(value is not None for value in body.values()):
         if momentum is None:
             fail("--momentum K1,K2,K3 goes with a ball of your own", 2)
-        own = *ball_from(body), rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
-    in_checkout("benchmarks", "command").measure(sections or [], quick, output, as_json, own)
+        J, D = ball_from(body)
+        K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
+        sections = sections or ["trajectory"]
+        if sections != ["trajectory"]:
+            fail("a ball of your own goes with the section trajectory alone", 2)
+        own["own"] = J, D, K, g
+    command.measure(sections or [], quick, output, as_json, **own)

@@ -8,16 +8,11 @@ from typing import Annotated, Any
 
 import typer
 
-from chapsym.numbers import in_words
 from chapsym.rationals import rationals
 
-from . import measured
 from .app import app
 from .options import BALL, Json, ball_from, contact_from, tensor_from, with_options
-from .output import check_figure, check_known, console_for, fail, print_json, quiet, say
-
-ABOUT = "Time of the processor against correct digits, for every precision level, order and length of step."
-
+from .output import fail, print_json, quiet, say
 
 #: The ball and its start, which a scene has, too.
 BALL_AND_START = BALL | {
@@ -64,12 +59,17 @@ def trade(
 
     Example: chapsym trade --accuracy 1e-8 --time 1000
     """
+    from chapsym.studies.harness import in_checkout
+
     given = {name: value for name, value in told.items() if value is not None}
     first = next((f"--{'D' if name == 'contact' else name.replace('_', '-')}" for name in given), None)
     if accuracy is None:
         if first or of or time is not None:
             fail(f"{first or ('--of' if of else '--time')} goes with --accuracy", 2)
-        _study(what or [], quick, output, as_json)
+        command, study = in_checkout("benchmarks", "command"), in_checkout("benchmarks", "trade")
+        found = command.measure(what or [], quick, output, as_json, study, " (a scene goes with --accuracy)")
+        if missed := study.missed(found):
+            fail(missed, 1)
         return
     if len(what or []) > 1:
         fail("--accuracy takes one scene at most", 2)
@@ -219,43 +219,3 @@ def _to_estimate(name: str, values: list[Any], of: str, estimate: float) -> str:
     size = max(abs(Decimal(x)) for x in values) if name == "angular_momentum" else Decimal(1)
     error = Decimal(estimate) * size
     return "  ".join(f"{Decimal(x):.{max(0, -error.adjusted())}f}" if error else str(x) for x in values)
-
-
-def _study(wanted: list[str], quick: bool, output: Path | None, as_json: bool) -> None:
-    from chapsym.studies.harness import NotComparable, in_checkout
-
-    study = in_checkout("benchmarks", "trade")
-    sections = list(dict.fromkeys(wanted or study.DRAWN))
-    check_known("section", sections, study.SECTIONS, " (a scene goes with --accuracy)")
-    page = measured.is_page(output)
-    if output is not None and not page:
-        check_figure(output, sections, study.DRAWN)
-    found: dict[str, Any] = {}
-    for name in sections:
-        try:
-            found[name] = study.measure(name, quick, say)
-        except NotComparable as error:
-            quiet()
-            fail(f"trade {name}: {error}", 1)
-    quiet()
-    tables = [measured.Table(one.title, one.table(), [*map(in_words, one.sentences())]) for one in found.values()]
-    if output is not None and page:
-        measured.write(output, "Speed against accuracy", ABOUT, tables, _shown)
-    elif output is not None:
-        from chapsym.studies.figures import save_figure
-
-        draw = in_checkout("benchmarks", "trade.figure").draw
-        save_figure(draw, {name: found[name] for name in study.DRAWN if name in found}, output)
-    if as_json:
-        print_json(study.as_json(found, quick))
-    else:
-        console = console_for(120)
-        measured.show(console, tables, _shown)
-        machine = study.as_json({}, quick)["machine"]
-        console.print(f"{machine['cpu']}; {machine['cores']} cores; {machine['system']}; {machine['python']}")
-    if missed := study.missed(found):
-        fail(missed, 1)
-
-
-def _shown(value: Any) -> str:
-    return f"{value:.3g}" if isinstance(value, float) else in_words(str(value))

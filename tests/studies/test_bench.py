@@ -11,6 +11,7 @@ import benchmarks
 from benchmarks import (
     batch,
     calls,
+    command,
     continuous,
     dimensions,
     figure,
@@ -71,7 +72,8 @@ def test_a_ball_of_ones_own_is_measured(monkeypatch):
     ball = "--mass-tensor", "1,2,4", "--D", "3"
     assert answer("bench", *ball, "--momentum", "1/10,-1/20,3/40")["sections"]["trajectory"]["rows"]
     J, D, K, g = seen[0]
-    assert (J.tolist(), D, K.tolist(), g.tolist()) == ([1, 2, 4], 3.0, [0.1, -0.05, 0.075], [2 / 7, 3 / 7, 6 / 7])
+    found = [[float(x) for x in v] for v in (J, K, g)]
+    assert (found, D) == ([[1, 2, 4], [0.1, -0.05, 0.075], [2 / 7, 3 / 7, 6 / 7]], 3)
     assert refused("bench", *ball) == "--momentum K1,K2,K3 goes with a ball of your own"
     several = refused("bench", "batch", *ball, "--momentum", "1,0,0")
     assert several == "a ball of your own goes with the section trajectory alone"
@@ -236,7 +238,7 @@ def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
         monkeypatch.setattr(long, "QUICK", (2000, 2))
     said = []
     found = benchmarks.run(section, True, said.append)
-    data = json.loads(json.dumps(benchmarks.as_json({section: found}, True), allow_nan=False))
+    data = json.loads(json.dumps(command.plain({section: found}, True), allow_nan=False))
     assert set(data) == {"machine", "quick", "sections"}
     assert {"cpu", "cores", "compiler", "versions"} <= set(data["machine"])
     assert {"numpy", "heyoka"} <= set(data["machine"]["versions"])
@@ -331,13 +333,13 @@ def test_a_wheel_has_no_benchmarks_and_no_research_and_says_so(monkeypatch, tmp_
     """As seen by the commands that run them; a folder beside the wheel that has the name is not taken for ours."""
     (tmp_path / "benchmarks").mkdir()
     monkeypatch.setattr(harness, "BENCHMARKS", tmp_path / "benchmarks")
-    for folder, command in (
+    for folder, asked in (
         ("benchmarks", ["bench", "trajectory"]),
         ("benchmarks", ["trade", "contact", "--quick"]),
         ("research", ["extremes", "--quick"]),
         ("research", ["study", "chaos", "--quick"]),
     ):
-        assert refused(*command) == f"{folder}/ is not in the wheel; run this from a checkout"
+        assert refused(*asked) == f"{folder}/ is not in the wheel; run this from a checkout"
 
 
 def test_the_command_prints_json_or_a_table(monkeypatch):
