@@ -9,7 +9,7 @@ import numpy as np
 from chapsym.studies.harness import Contender, available_cores, cores, interleaved
 
 from . import peers
-from .results import Reached, Result, ratio_columns
+from .results import Reached, Result, beside
 from .trajectory import CHAPSYM, agreement, with_chapsym
 
 EPSILON = 0.05
@@ -47,11 +47,8 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
     ]
     timings = interleaved(contenders, rounds, lambda done: on_round(f"{balls} balls: round {done} of {rounds}"))
     home = timings[f"{CHAPSYM}, 1 core"]
-    rows = [
-        {"name": title, "ns a ball and step": timing.median * 1e9, **ratio_columns(timing, home, CHAPSYM)}
-        | {"differs by": differ[kinds[title][0]]}
-        for title, timing in timings.items()
-    ]
+    apart = {title: differ[name] for title, (name, *_) in kinds.items()}
+    rows = beside(timings, home.name, "ns a ball and step", {}, apart, CHAPSYM)
     reach = [Reached(f"{COLUMNS} / chapsym", timings[f"{COLUMNS}, 1 core"].ratio_to(home)[0], 15, True)]
     if TWO not in timings:
         return Result(f"a batch of {balls} balls", rows, {"two cores": "this process may use one core only"}, reach)

@@ -11,7 +11,7 @@ import numpy as np
 import chapsym
 from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
 
-from .results import Reached, Result, ratio_columns
+from .results import Reached, Result, beside
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
 #: |𝒦|, and the radius.
@@ -77,11 +77,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
         compare(steps, contact)
         with cores(1):
             timings = interleaved([repeated(*side, seconds) for side in sides(steps, contact).items()], rounds)
-        rows += [
-            {"name": name, "steps": steps, "contact": contact, "µs a call": timing.median * 1e6}
-            | ratio_columns(timing, timings[PLAIN], PLAIN)
-            for name, timing in timings.items()
-        ]
+        rows += beside(timings, PLAIN, "µs a call", {"steps": steps, "contact": contact})
         if wanted:
             reach.append(Reached(f"µs of {STEPPER}, {setting}", timings[STEPPER].median * 1e6, wanted, False))
     return Result("short calls, one core", rows, {}, reach)

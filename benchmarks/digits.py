@@ -8,10 +8,10 @@ import numpy as np
 from mpmath import mp, mpf
 
 import chapsym
-from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
+from chapsym.studies.harness import NotComparable
 
 from .peers import MOST, SETTLED, moments_of, newton_in_u, turned
-from .results import Reached, Result, ratio_columns
+from .results import Reached, Result, beside, timed
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
 #: Decimals, and what a step is to cost at most in ms: a fifth of what it did on Python's integers.
@@ -62,19 +62,11 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
     steps, rounds = 20, 3 if quick else 15
     rows, reach = [], []
     for digits, wanted in DIGITS.items():
-        on_round(f"{digits} digits")
-        last = difference(digits, steps)
         sides = {CHAPSYM: with_chapsym, PEER: with_mpmath}
-        with cores(1):
-            timings = interleaved(
-                [Contender(name, partial(side, digits, steps), steps) for name, side in sides.items()], rounds
-            )
-        rows += [
-            {"name": name, "digits": digits, "ms a step": timing.median * 1e3}
-            | ratio_columns(timing, timings[PEER], "mpmath")
-            | {"differs by, in the last digit": last}
-            for name, timing in timings.items()
-        ]
+        runs = {name: (partial(side, digits, steps), steps) for name, side in sides.items()}
+        timings = timed(runs, rounds, on_round, f"{digits} digits")
+        columns = {"digits": digits, "differs by, in the last digit": difference(digits, steps)}
+        rows += beside(timings, PEER, "ms a step", columns, label="mpmath")
         if wanted:
             reach.append(Reached(f"ms a step of Digits({digits})", timings[CHAPSYM].median * 1e3, wanted, False))
     return Result("many digits, one core", rows, {}, reach)

@@ -1,6 +1,5 @@
 """n dimensions: a trajectory beside the same steps, each continued from the identity, as they are above the bound."""
 
-import time
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -10,9 +9,9 @@ import numpy as np
 import chapsym
 from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.branch_n import small_rotation
-from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
+from chapsym.studies.harness import NotComparable
 
-from .results import Reached, Result, ratio_columns
+from .results import Reached, Result, beside, timed
 
 CONTINUED = "continued"
 #: Of the first n: the moments of the ball; the momentum below the diagonal, row by row, and γ are of this kind, too.
@@ -55,31 +54,20 @@ def continued(n: int, steps: int, balls: int = 1) -> np.ndarray:
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times one ball, one with its contact point, and a batch, on one core; the ends are compared before."""
-    rounds, rows = 3 if quick else 9, []
+    rounds, rows = 3 if quick else 9, list[dict[str, Any]]()
     steps = STEPS // 10 if quick else STEPS
     for n in (4,) if quick else (3, 4, 5, 6, 8):
         apart = float(np.abs(trajectory(n, FEW) - continued(n, FEW)).max() / EPSILON)
         if not apart <= ROUNDING:
             raise NotComparable(f"n = {n}: the trajectory differs from its steps, continued, by {apart:.1e}")
-        sides: dict[str, tuple[Callable[..., Any], int, int]] = {
-            "one ball": (trajectory, 1, steps),
-            "one ball, contact": (partial(trajectory, contact=True), 1, steps),
-            f"one ball, {CONTINUED}": (continued, 1, FEW),
-            f"{BATCH} balls": (trajectory, BATCH, steps // 10),
-            f"{BATCH} balls, {CONTINUED}": (continued, BATCH, FEW // 10),
-        }
-        with cores(1):
-            timed = interleaved(
-                [Contender(name, partial(side, n, many, balls), many * balls, time.thread_time)
-                 for name, (side, balls, many) in sides.items()],
-                rounds, lambda done, n=n: on_round(f"n = {n}: round {done}"),  # type: ignore[misc]
-            )  # fmt: skip
-        for name, (_, balls, _) in sides.items():
-            beside = timed[f"one ball, {CONTINUED}" if balls == 1 else f"{BATCH} balls, {CONTINUED}"]
-            rows.append({
-                "n": n, "name": name, "µs a ball and step": timed[name].median * 1e6,
-                **ratio_columns(timed[name], beside, CONTINUED), "differs by": apart,
-            })  # fmt: skip
+        for setting, balls, many in (("one ball", 1, 1), (f"{BATCH} balls", BATCH, 10)):
+            sides: dict[str, Callable[..., Any]] = {setting: partial(trajectory, n, steps // many, balls)}
+            if balls == 1:
+                sides[f"{setting}, contact"] = partial(trajectory, n, steps, contact=True)
+            runs = {name: (run, steps // many * balls) for name, run in sides.items()}
+            runs[home := f"{setting}, {CONTINUED}"] = partial(continued, n, FEW // many, balls), FEW // many * balls
+            timings = timed(runs, rounds, on_round, f"n = {n}, {setting}")
+            rows += beside(timings, home, "µs a ball and step", {"n": n}, apart, CONTINUED)
     four = next(row for row in rows if row["n"] == 4 and row["name"] == "one ball")
     reach = [Reached("n = 4, one ball, µs a step", four["µs a ball and step"], WANTED, False)]
     return Result("n dimensions, one core", rows, reach=reach)

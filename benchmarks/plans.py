@@ -1,6 +1,5 @@
 """What each reduction saves: its time beside that of the full model, for every frame and for a few far ones."""
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -10,9 +9,9 @@ import numpy as np
 
 import chapsym
 from chapsym.dynamics import TopMotion
-from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
+from chapsym.studies.harness import NotComparable
 
-from .results import Reached, Result, ratio_columns
+from .results import Reached, Result, ratio_columns, timed
 
 FULL = "full model"
 MOMENTUM, GAMMA = np.array((6.0, -2.0, 3.0)) / 7, np.array((2.0, 3.0, 6.0)) / 7
@@ -92,13 +91,8 @@ def _row(pair: Pair, steps: int, every: int, rounds: int, on_round: Callable[[st
     apart = float(np.abs(ends[0] - ends[1]).max() / EPSILON)
     if not apart <= ROUNDING * steps**1.5:
         raise NotComparable(f"{pair.name} differs from the full model by {apart:.1e} after {steps} steps")
-    with cores(1):
-        timed = interleaved(
-            [Contender(name, partial(side, steps, every), 1, time.thread_time)
-             for name, side in (("reduced", pair.reduced), (FULL, pair.full))],
-            rounds, lambda done: on_round(f"{pair.name}: round {done} of {rounds}"),
-        )  # fmt: skip
-    reduced, full = timed["reduced"], timed[FULL]
+    sides = {name: (partial(side, steps, every), 1) for name, side in (("reduced", pair.reduced), (FULL, pair.full))}
+    reduced, full = timed(sides, rounds, on_round, pair.name).values()
     return {
         "name": pair.name, "steps": steps, "frames": steps // every + 1, "ms": reduced.median * 1e3,
         f"{FULL}, ms": full.median * 1e3, **ratio_columns(reduced, full, FULL), "differs by": apart,

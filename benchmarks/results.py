@@ -1,9 +1,14 @@
 """What a section of the benchmarks found: a table, the figures to reach, and the lines of a figure."""
 
+import time
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from chapsym.studies.harness import Timing
+from chapsym.studies.harness import Contender, Timing, cores, interleaved
+
+#: A unit of time, of seconds.
+UNITS = {"ns": 1e9, "µs": 1e6, "ms": 1e3}
 
 
 @dataclass(frozen=True)
@@ -72,3 +77,34 @@ def ratio_columns(timing: Timing, reference: Timing, label: str) -> dict[str, An
     """The columns of a table that compare a side with the reference."""
     middle, lower, upper = timing.ratio_to(reference)
     return {f"to {label}": middle, "quartiles": [lower, upper]}
+
+
+def timed(
+    sides: Mapping[str, tuple[Callable[[], Any], int]], rounds: int, say: Callable[[str], None], what: str
+) -> dict[str, Timing]:
+    """Times sides, each with the units of its work, together on one core; `what`: of them, for the progress."""
+    contenders = [Contender(name, run, work, time.thread_time) for name, (run, work) in sides.items()]
+    with cores(1):
+        return interleaved(contenders, rounds, lambda done: say(f"{what}: round {done} of {rounds}"))
+
+
+def beside(
+    timings: Mapping[str, Timing],
+    home: str,
+    unit: str,
+    columns: Mapping[str, Any],
+    differs: Any = None,
+    label: str = "",
+) -> list[dict[str, Any]]:
+    """The rows of a table: each side's time in a unit, and its ratio to one of them.
+
+    differs: by how much the sides differ, all or each by its name.  label: what the table calls `home`.
+    """
+    rows = []
+    for name, timing in timings.items():
+        row = {"name": name, **columns, unit: timing.median * UNITS[unit.split()[0]]}
+        row |= ratio_columns(timing, timings[home], label or home)
+        if differs is not None:
+            row["differs by"] = differs[name] if isinstance(differs, Mapping) else differs
+        rows.append(row)
+    return rows

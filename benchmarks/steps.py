@@ -6,10 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 import chapsym
-from chapsym.studies.harness import Contender, cores, interleaved
 
 from .batch import SEED
-from .results import Reached, Result
+from .results import Reached, Result, timed
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
 
@@ -48,13 +47,12 @@ def rolling(case: Case, steps: int) -> Callable[[], chapsym.Trajectory]:
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """Times every case, all of them interleaved."""
     work, rounds = (50_000, 3) if quick else (1_000_000, 21)
-    contenders = []
+    sides = {}
     for case in CASES + BEYOND:
         stages = len(chapsym.substeps(case.order))
         steps = max(EVERY, work // max(case.balls, 40) // stages)
-        contenders.append(Contender(str(case), rolling(case, steps), steps * stages * case.balls))
-    with cores(1):
-        timings = interleaved(contenders, rounds, lambda done: on_round(f"steps: round {done} of {rounds}"))
+        sides[str(case)] = rolling(case, steps), steps * stages * case.balls
+    timings = timed(sides, rounds, on_round, "steps")
     rows = [
         {"|𝒦|": case.epsilon, "order": case.order, "balls": case.balls, "contact": case.contact}
         | {"ns a ball and step": timings[str(case)].median * 1e9}

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 import chapsym
-from chapsym.studies.harness import Contender, NotComparable, available_cores, cores, interleaved
+from chapsym.studies.harness import NotComparable, available_cores
 
 from . import peers
-from .results import Reached, Result, ratio_columns
+from .results import Reached, Result, beside, timed
 
 #: The ball of the measurements in the project's notes, and a generic state of it: 𝒦/ε and γ.
 MASS_TENSOR, D = np.array((0.1, 0.5, 1.6)), 0.7
@@ -72,21 +72,10 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None, ow
         differ = agreement(
             {name: partial(side, K, g, J, contact, COMPARED) for name, (side, _) in SIDES.items()}, K, AGREEMENT
         )
-        with cores(1):
-            contenders = [
-                Contender(name, partial(side, K, g, J, contact, count), count)
-                for name, (side, share) in SIDES.items()
-                if (count := max(20, steps // share))
-            ]
-            timings = interleaved(
-                contenders, rounds, lambda done: on_round(f"one trajectory: round {done} of {rounds}")
-            )
-        rows += [
-            {"name": name, "ε": epsilon, "ns a step": timing.median * 1e9}
-            | ratio_columns(timing, timings[CHAPSYM], CHAPSYM)
-            | {"differs by": differ[name]}
-            for name, timing in timings.items()
-        ]
+        counts = {name: max(20, steps // share) for name, (_, share) in SIDES.items()}
+        sides = {name: (partial(SIDES[name][0], K, g, J, contact, count), count) for name, count in counts.items()}
+        timings = timed(sides, rounds, on_round, "one trajectory")
+        rows += beside(timings, CHAPSYM, "ns a step", {"ε": epsilon}, differ)
         if own is None and not reach:
             ratio, *_ = timings[ARRAYS].ratio_to(timings[CHAPSYM])
             reach.append(Reached("NumPy arrays of 3 / chapsym", ratio, 1000, True))
