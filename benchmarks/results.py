@@ -1,6 +1,5 @@
 """What a section of the benchmarks found: a table, the figures to reach, and the lines of a figure."""
 
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
@@ -83,7 +82,7 @@ def timed(
     sides: Mapping[str, tuple[Callable[[], Any], int]], rounds: int, say: Callable[[str], None], what: str
 ) -> dict[str, Timing]:
     """Times sides, each with the units of its work, together on one core; `what`: of them, for the progress."""
-    contenders = [Contender(name, run, work, time.thread_time) for name, (run, work) in sides.items()]
+    contenders = [Contender(name, run, work) for name, (run, work) in sides.items()]
     with cores(1):
         return interleaved(contenders, rounds, lambda done: say(f"{what}: round {done} of {rounds}"))
 
