@@ -230,6 +230,7 @@ class Kernels:
             "title": self.title,
             "kernels": [
                 row._asdict() | {
+                    "without": "",  # once the codegen pass that a text went without
                     "strata": {name: finite(x) for name, x in row.strata.items()},
                     "worst": row.worst.as_json(), "hardest": row.hardest.as_json(),
                 }

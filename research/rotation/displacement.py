@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import acb, arb, ctx
 
 from .circle import Level, middle, number
 from .plateau import resonance, solved, symmetric_starts, text
@@ -40,15 +40,9 @@ def starts(level: Level, samples: int) -> list[Any]:
 def spectrum(values: Sequence[Any]) -> list[tuple[Any, Any]]:
     """(c_j, s_j), j = 0, ..., n/2 of Σ c_j cos 2πji/n + s_j sin 2πji/n."""
     n = len(values)
-    cosine = [middle(x) for x in (arb.cos_pi_fmpq(fmpq(2 * i, n)) for i in range(n))]
-    sine = [middle(x) for x in (arb.sin_pi_fmpq(fmpq(2 * i, n)) for i in range(n))]
-    found = []
-    for j in range(n // 2 + 1):
-        size = arb(1) / n if j in (0, n // 2) else arb(2) / n
-        c = sum(x * cosine[i * j % n] for i, x in enumerate(values))
-        s = sum(x * sine[i * j % n] for i, x in enumerate(values))
-        found.append((middle(c * size), middle(s * size)))
-    return found
+    sizes = [arb(1) / n if j in (0, n // 2) else arb(2) / n for j in range(n // 2 + 1)]
+    whole = acb.dft([acb(x) for x in values])
+    return [(middle(x.real * size), middle(-x.imag * size)) for x, size in zip(whole, sizes, strict=False)]
 
 
 def displacement(
