@@ -11,10 +11,10 @@ import numpy as np
 
 import chapsym
 from chapsym import generated
-from chapsym.studies.harness import Contender, cores, installed, interleaved
+from chapsym.studies.harness import installed
 
 from . import continuous
-from .results import Curve, Reached, Result
+from .results import Curve, Reached, Result, timed
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
 END = 100.0
@@ -112,20 +112,19 @@ def integrals(y: np.ndarray) -> np.ndarray:
 
 def swept(sweep: list[Method], exact: np.ndarray, rounds: int, on_round: Callable[[str], None]) -> Points:
     """Every control of every method, interleaved on one core; a step that is too long to be taken is left out."""
-    contenders, runs = [], []
+    sides, ends = {}, {}
     for method, control in [(one, control) for one in sweep for control in one.controls]:
         run = partial(method.peer, STATE, END, control)
         with suppress(chapsym.StepNotTaken):
             if np.isfinite(end := run()).all():  # a batch does not raise
-                runs.append((method.name, control, end))
-                contenders.append(Contender(f"{method.name} at {control:g}", run, method.balls))
-    with cores(1):
-        timed = interleaved(contenders, rounds, lambda done: on_round(f"work-precision: round {done} of {rounds}"))
+                side = f"{method.name} at {control:g}"
+                sides[side], ends[side] = (run, method.balls), (method.name, control, end)
+    timings = timed(sides, rounds, on_round, "work-precision")
     points: Points = {method.name: [] for method in sweep}
-    for name, control, end in runs:
+    for side, (name, control, end) in ends.items():
         height, square, energy = map(float, abs(integrals(end) / integrals(STATE) - 1))
-        error, seconds = float(abs(end - exact).max()), timed[f"{name} at {control:g}"].median
-        points[name].append(Point(control, seconds, error, (height, square, energy)))
+        error = float(abs(end - exact).max())
+        points[name].append(Point(control, timings[side].median, error, (height, square, energy)))
     return points
 
 
