@@ -11,8 +11,8 @@ from .app import app
 from .options import Json
 from .output import check_known, print_json, progress_bar
 
-#: The packages of research, in a checkout, that offer study(quick, run), run as `run_units`, sentences(found)
-#: and save_figures(found, folder).
+#: The packages of research, in a checkout, that offer study(quick, run), run as `run_units`, sentences(found), and
+#: DRAWN, what draws each figure.
 STUDIES = ("rotation", "energy", "chaos")
 
 
@@ -64,8 +64,9 @@ def study(
 def _write(module: Any, name: str, found: dict[str, Any], folder: Path) -> list[Path]:
     """The data as JSON and the figures, each whole."""
     from chapsym import files
+    from chapsym.studies import figures
 
     data = folder / f"{name}.json"
     text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
     files.write_whole(data, lambda stream: stream.write(text.encode()))
-    return [data, *module.save_figures(found, folder)]
+    return [data, *figures.save_figures(module.__name__, module.DRAWN, found, folder)]

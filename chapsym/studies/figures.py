@@ -1,6 +1,7 @@
 """The figures of the studies, in the style of `chapsym show`."""
 
 from collections.abc import Callable, Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +20,15 @@ def save_figure(draw: Draw, found: dict[str, Any], path: Path) -> None:
     files.write_whole(path, lambda stream: write(figure, stream, path.suffix[1:]))
 
 
-def save_figures(draw: Mapping[str, Draw], found: dict[str, Any], folder: Path) -> list[Path]:
-    """The figures of a study by the names of their files; raises BadInput where the folder cannot be written to."""
+def save_figures(package: str, drawn: Mapping[str, str], found: dict[str, Any], folder: Path) -> list[Path]:
+    """The figures of a study by the names of their files; raises BadInput where the folder cannot be written to.
+
+    drawn: what draws each, a function in a module of the study's package, "module:function".
+    """
     try:
-        for name, one in draw.items():
-            save_figure(one, found, folder / name)
+        for name, where in drawn.items():
+            module, _, function = where.partition(":")
+            save_figure(getattr(import_module(f"{package}.{module}"), function), found, folder / name)
     except files.CannotWrite as error:
         raise BadInput(str(error)) from None
-    return [folder / name for name in draw]
+    return [folder / name for name in drawn]

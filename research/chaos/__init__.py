@@ -4,7 +4,6 @@
 """
 
 from itertools import product
-from pathlib import Path
 from typing import Any
 
 from chapsym.studies.units import Run, Unit, run_units
@@ -20,6 +19,7 @@ CAPTIONS = {
     "section.svg": "Poincaré sections of the map, J = (0, 1, 3), D = 1, on K₂ = 0: at ε = 0.9 invariant curves and "
     "islands, at ε = 2 a chaotic layer (red) between them.",
 }
+DRAWN = {"chaos.svg": "figure:draw_shares", "section.svg": "figure:draw_section"}
 
 HERE = "research.chaos.orbits:"
 SEED = 7
@@ -95,12 +95,3 @@ def sentences(found: dict[str, Any]) -> list[str]:
             f"phase volume: the average of log |det| on chaotic orbits, over all of them: {wild[0]:.1e} ± {wild[1]:.1e}"
         )
     return told
-
-
-def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
-    """chaos.svg, the shares, and section.svg, the pictures."""
-    from chapsym.studies import figures
-
-    from .figure import draw_section, draw_shares
-
-    return figures.save_figures({"chaos.svg": draw_shares, "section.svg": draw_section}, found, folder)

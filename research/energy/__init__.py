@@ -5,7 +5,6 @@ Of D = 0 the map keeps H itself, to rounding, and of a vertical momentum, too: t
 H = energy/ε² is 2.5 as corrected of K = 𝒦/ε; all ranges are relative to H.
 """
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,7 @@ CAPTIONS = {
     "islands.svg": "In a resonance the energy swings as a pendulum does, and does not drift: the section K₂ = 0 near "
     "the widest resonance of three balls (orange: starts inside the predicted separatrix).",
 }
+DRAWN = {"energy.svg": "figure:draw_amplitudes", "islands.svg": "figure:draw_islands"}
 
 HERE = "research.energy.amplitude:"
 SEED = 44
@@ -170,12 +170,3 @@ def sentences(found: dict[str, Any]) -> list[str]:
             f"{last['change']:.5e} ε², the integral of X₃(H) is {max(r['loop'], key=abs):.4e}"
         )
     return told
-
-
-def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
-    """energy.svg and islands.svg."""
-    from chapsym.studies import figures
-
-    from .figure import draw_amplitudes, draw_islands
-
-    return figures.save_figures({"energy.svg": draw_amplitudes, "islands.svg": draw_islands}, found, folder)

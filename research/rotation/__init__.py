@@ -3,7 +3,6 @@
 All in half turns of a circle (π in the amplitude, 2K in u), with which the map commutes.
 """
 
-from pathlib import Path
 from typing import Any
 
 from chapsym.studies.harness import machine
@@ -12,7 +11,7 @@ from chapsym.studies.units import Run, run_units
 from .plan import units
 from .words import sentences
 
-__all__ = ["CAPTIONS", "TITLE", "save_figures", "sentences", "study"]
+__all__ = ["CAPTIONS", "DRAWN", "TITLE", "sentences", "study"]
 
 TITLE = "The rotation number of the reduced map, and its mode locking"
 #: What each figure shows, in the order in which they are shown.
@@ -27,6 +26,11 @@ CAPTIONS = {
     "rotation-numbers.svg": "Digits of the weighted Birkhoff average against steps, and the rotation number over "
     "levels and heights.",
 }
+DRAWN = {
+    "rotation-staircase.svg": "drawn_plateaus:staircase", "rotation-displacement.svg": "drawn_circle:displacement",
+    "rotation-widths.svg": "drawn_plateaus:widths", "rotation-digits.svg": "drawn_plateaus:digits",
+    "rotation-numbers.svg": "drawn_circle:numbers",
+}  # fmt: skip
 
 
 def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
@@ -35,18 +39,6 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
     results = iter(run([unit for section in planned.values() for unit in section]))
     found: dict[str, Any] = {name: [next(results) for _ in section] for name, section in planned.items()}
     return assembled(found, quick)
-
-
-def save_figures(found: dict[str, Any], folder: Path) -> list[Path]:
-    """Those of `CAPTIONS`."""
-    from chapsym.studies import figures
-
-    from .drawn_circle import displacement, numbers
-    from .drawn_plateaus import digits, staircase, widths
-
-    return figures.save_figures(
-        dict(zip(CAPTIONS, (staircase, displacement, widths, digits, numbers), strict=True)), found, folder
-    )
 
 
 def assembled(found: dict[str, Any], quick: bool) -> dict[str, Any]:

@@ -41,6 +41,14 @@ def real(x: Any) -> Any:
     return middle(x.real)
 
 
+def circle(moments: Sequence[Any], l: Any) -> tuple[tuple[Any, Any, Any], Any]:
+    """C_a², C_b², C_c² of (5.8) as corrected, and the parameter k², of levels l; numbers or arrays."""
+    La, Lb, Lc = moments
+    low, high = 1 - Lc * l, La * l - 1
+    squares = -La * low / (Lc - La), -Lb * low / (Lc - Lb), -Lc * high / (Lc - La)
+    return squares, (squares[1] - squares[0]) / squares[2]
+
+
 class Level:
     """γ = (C_a cn u, C_b sn u, C_c dn u), the circle ⟨γ,Λ⁻¹γ⟩ = l around the axis c, and G_h on it.
 
@@ -57,9 +65,8 @@ class Level:
         a, b, c = sorted(range(3), key=lambda i: -float(moments[i]))
         if not self.l > 1 / moments[b]:
             a, c = c, a
-        La, Lb, Lc = self.moments = moments[a], moments[b], moments[c]
-        low, high = 1 - Lc * self.l, La * self.l - 1
-        squares = -La * low / (Lc - La), -Lb * low / (Lc - Lb), -Lc * high / (Lc - La)
+        La, _, Lc = self.moments = moments[a], moments[b], moments[c]
+        squares, parameter = circle(self.moments, self.l)
         if not all(x > 0 for x in squares):
             raise BadInput(f"the level {float(self.l):.6g} is no circle around an axis")
         self.axes = a, b, c
@@ -68,7 +75,7 @@ class Level:
         parity = 1 if (b - a) % 3 == 1 else -1
         sense = parity if float(La) < float(Lc) else -parity
         self.amplitudes = Ca, sense * Cb, Cc
-        self.m = middle((squares[1] - squares[0]) / squares[2])
+        self.m = middle(parameter)
         if not 0 < self.m < 1:
             raise BadInput(f"the level {float(self.l):.6g} is the separatrix, or two moments are equal")
         self.K = real(acb(self.m).elliptic_k())

@@ -9,6 +9,8 @@ from chapsym.dynamics import BadInput
 from chapsym.dynamics.ball import Floats
 from chapsym.generated import gibbs_newton, turn
 
+from .circle import circle
+
 #: Newton rounds from u = 0, inside the bound of lemma `small-branch`.
 ROUNDS = 7
 #: Phases at which a displacement is sampled, for each of q pieces; halvings of an interval of levels.
@@ -24,15 +26,12 @@ class Levels:
         moments = J.sum() - J + self.D
         order = np.argsort(-moments)
         self.axes = tuple(int(i) for i in order)
-        La, Lb, Lc = moments[order]
         level = np.atleast_1d(np.asarray(l, dtype=float))
-        if not ((level > 1 / Lb) & (level < 1 / Lc)).all():
+        if not ((level > 1 / moments[order[1]]) & (level < 1 / moments[order[2]])).all():
             raise BadInput("the levels must lie around the outer axis")
-        low, high = 1 - Lc * level, La * level - 1
-        squares = -La * low / (Lc - La), -Lb * low / (Lc - Lb), -Lc * high / (Lc - La)
+        squares, self.m = circle(moments[order], level)
         sense = -1.0 if (self.axes[1] - self.axes[0]) % 3 == 1 else 1.0
         self.sizes = np.sqrt(squares[0]), sense * np.sqrt(squares[1]), np.sqrt(squares[2])
-        self.m = (squares[1] - squares[0]) / squares[2]
 
     def angles(self, phase: Any, steps: int) -> Floats:
         """φ~ - φ of successive steps from phases that go with the levels, (steps, n)."""

@@ -7,6 +7,7 @@ import pytest
 
 import chapsym
 from chapsym.dynamics.loops import loop, tangent
+from chapsym.studies import figures
 from research import chaos
 from research.chaos.orbits import LIMIT, follow_orbits, picture, sample, slab, starts
 from research.energy.continuous import Level
@@ -131,9 +132,11 @@ def test_sentences_and_figures(tmp_path, monkeypatch, thorough):
     found = chaos.study(quick=True)
     json.dumps(found, allow_nan=False)
     assert "integrable: 0 of" in chaos.sentences(found)[0]
-    first = [path.read_bytes() for path in chaos.save_figures(found, tmp_path)]
+    first = [path.read_bytes() for path in figures.save_figures("research.chaos", chaos.DRAWN, found, tmp_path)]
     if thorough:  # the same of every figure of results is seen in tests/report/test_figures.py
-        assert first == [path.read_bytes() for path in chaos.save_figures(found, tmp_path)]
+        assert first == [
+            path.read_bytes() for path in figures.save_figures("research.chaos", chaos.DRAWN, found, tmp_path)
+        ]
 
 
 def small_units(quick, all_units=chaos._units):

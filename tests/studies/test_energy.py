@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import chapsym
+from chapsym.studies import figures
 from research import energy
 from research.energy.amplitude import amplitude, drift, loop_change
 from research.energy.continuous import Level
@@ -125,9 +126,11 @@ def test_sentences_and_figures(tmp_path, monkeypatch, thorough):
     json.dumps(found, allow_nan=False)
     text = " ".join(energy.sentences(found))
     assert "T = 24.64334" in text
-    first = [path.read_bytes() for path in energy.save_figures(found, tmp_path)]
+    first = [path.read_bytes() for path in figures.save_figures("research.energy", energy.DRAWN, found, tmp_path)]
     if thorough:  # the same of every figure of results is seen in tests/report/test_figures.py
-        assert first == [path.read_bytes() for path in energy.save_figures(found, tmp_path)]
+        assert first == [
+            path.read_bytes() for path in figures.save_figures("research.energy", energy.DRAWN, found, tmp_path)
+        ]
     assert all(b"<svg" in one for one in first)
 
 

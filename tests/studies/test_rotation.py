@@ -12,6 +12,7 @@ import chapsym
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.closed.elliptic import Curve, increment
 from chapsym.dynamics.closed.vertical import step_vertical
+from chapsym.studies import figures
 from research import rotation
 from research.rotation import average, digits, displacement, plateau, staircase
 from research.rotation.circle import Level, number
@@ -272,16 +273,18 @@ def small_arguments(unit):
 
 def test_the_figures_are_drawn_the_same_twice(small, tmp_path, thorough):
     small = json.loads(json.dumps(small, allow_nan=False))
-    written = rotation.save_figures(small, tmp_path)
+    written = figures.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
     assert [x.name for x in written] == [
         f"rotation-{x}.svg" for x in ("staircase", "displacement", "widths", "digits", "numbers")
     ]
     assert all(x.read_bytes().startswith(b"<?xml") for x in written)
     first = [x.read_bytes() for x in written]
     if thorough:  # the same of every figure of results is seen in tests/report/test_figures.py
-        assert [x.read_bytes() for x in rotation.save_figures(small, tmp_path)] == first
+        assert [
+            x.read_bytes() for x in figures.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
+        ] == first
     with pytest.raises(BadInput, match="does not exist"):
-        rotation.save_figures(small, tmp_path / "nowhere")
+        figures.save_figures("research.rotation", rotation.DRAWN, small, tmp_path / "nowhere")
 
 
 def test_the_sentences_say_what_locks(small):
