@@ -56,7 +56,9 @@ def no_invariant_measure(
     mass_tensor: MassTensor = None,
     inertia: Inertia = None,
     contact: Contact = None,
-    vertical_momentum: Annotated[str, typer.Option(metavar="H", help="h of G_h: the momentum is h gamma.")] = "12/5",
+    vertical_momentum: Annotated[
+        str, typer.Option("--vertical-momentum", "--height", metavar="H", help="h of G_h: the momentum is h gamma.")
+    ] = "12/5",
     steps: Annotated[int | None, typer.Option(metavar="Q", help="Steps; the fewest possible, odd.")] = None,
     turns: Annotated[int | None, typer.Option(metavar="P", help="Half turns in them; 1.")] = None,
     level: Annotated[str | None, typer.Option(metavar="L", help="The level; found by default.")] = None,
@@ -126,8 +128,11 @@ def periodic_orbit(
     mass_tensor: MassTensor = None,
     inertia: Inertia = None,
     contact: Contact = None,
-    k_squared: Annotated[str, typer.Option(metavar="KK", help="|K|^2.")] = "15/2",
-    vertical_momentum: Annotated[str | None, typer.Option(metavar="H", help="<K, gamma>; found by default.")] = None,
+    k_squared: Annotated[str, typer.Option("--k-squared", "--momentum-momentum", metavar="KK", help="|K|^2.")] = "15/2",
+    vertical_momentum: Annotated[
+        str | None,
+        typer.Option("--vertical-momentum", "--momentum-gamma", metavar="H", help="<K, gamma>; found by default."),
+    ] = None,
     steps: Annotated[int, typer.Option(metavar="Q", help="Steps after which the orbit is back.")] = 20,
     attracting: Annotated[bool, typer.Option("--attracting", help="It must attract the orbits near it.")] = False,
     digits: Digits = None,
