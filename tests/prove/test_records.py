@@ -104,7 +104,7 @@ class A:
             except ValueError:
                 import chapsym.extras
             finally:
-                import chapsym.renamed
+                import chapsym.rationals
         match x:
             case 1:
                 import chapsym.sources
@@ -113,7 +113,7 @@ class A:
 
 def test_an_import_counts_wherever_it_stands(monkeypatch):
     monkeypatch.setattr(sources, "source", lambda module: PLACES)
-    told = "rationals", "files", "checker", "checker.branch", "workers", "extras", "renamed", "sources"
+    told = "rationals", "files", "checker", "checker.branch", "workers", "extras", "sources"
     assert set(sources.imports.__wrapped__("chapsym.prove")) == {f"chapsym.{name}" for name in told}
 
 
