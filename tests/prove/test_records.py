@@ -104,7 +104,7 @@ class A:
             except ValueError:
                 import chapsym.extras
             finally:
-                import chapsym.rationals
+                import chapsym.jobs
         match x:
             case 1:
                 import chapsym.sources
@@ -113,7 +113,7 @@ class A:
 
 def test_an_import_counts_wherever_it_stands(monkeypatch):
     monkeypatch.setattr(sources, "source", lambda module: PLACES)
-    told = "rationals", "files", "checker", "checker.branch", "workers", "extras", "sources"
+    told = "rationals", "files", "checker", "checker.branch", "workers", "extras", "jobs", "sources"
     assert set(sources.imports.__wrapped__("chapsym.prove")) == {f"chapsym.{name}" for name in told}
 
 
