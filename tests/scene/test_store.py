@@ -110,7 +110,7 @@ def test_a_run_that_is_killed_goes_on_and_has_the_same_bits(whole, tmp_path, see
         pytest.skip("one seed does; make thorough takes more")
     chance = random.Random(seed)
     states = set()
-    for attempt in range(4):
+    for attempt in range(4 if thorough else 2):
         before = marked(path)
         with child(path, 0.03, most=4) as running:
             if attempt:  # later ones after they have done something; the first while it makes the store, or soon after
