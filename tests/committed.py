@@ -15,12 +15,7 @@ class Committed(NamedTuple):
     verdict: Verdict = Verdict.HOLDS
 
 
-def judged_as(certificates):
-    """The claims by the data of their certificates."""
-    return {data["claim"]: Committed(data) for data in certificates}
-
-
 def committed():
     """The claims by the certificates that are committed: other tests prove them, and compare these."""
     files = (Path(build.__file__).parents[2] / "proofs/certificates/register").glob("*.json")
-    return judged_as(map(checker.read, files))
+    return {data["claim"]: Committed(data) for data in map(checker.read, files)}

@@ -1,6 +1,7 @@
 """What the files of a package import, lazily or not."""
 
 import ast
+from functools import cache
 
 
 def modules(folder, name):
@@ -12,13 +13,19 @@ def modules(folder, name):
     return found
 
 
+@cache
+def statements(text):
+    """The imports of a file, wherever they stand."""
+    return [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Import | ast.ImportFrom)]
+
+
 def imported(name, path, known):
     """The modules that a file imports; `from . import x` imports x where that is one of them, else the package."""
     package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in statements(path.read_text(encoding="utf-8")):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
+        else:
             base = ".".join([*package[: len(package) - node.level + 1], *filter(None, [node.module])])
             module = base if node.level else node.module
             yield from (x if (x := f"{module}.{alias.name}") in known else module for alias in node.names)

@@ -53,7 +53,9 @@ def check_status(path):
     return command("certify", "check", path).returncode
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)
+@pytest.mark.parametrize(
+    "path", [pytest.param(p, marks=pytest.mark.thorough if "giant" in p.stem else (), id=p.stem) for p in FILES]
+)
 def test_the_shipped_files_are_accepted_with_the_standard_library_alone(path):
     done = subprocess.run(
         [sys.executable, "-S", "-I", "checker", str(path)], cwd=ROOT, capture_output=True, timeout=200, check=False

@@ -13,6 +13,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sp
+from commands import answer
 
 from chapsym import generated
 from chapsym.codegen import build, printer, values
@@ -22,7 +23,9 @@ x, y = sp.symbols("x y")
 
 
 def test_what_is_committed_is_what_is_derived():
+    """By the certificates that are committed, which a test of them compares with what is proved now."""
     assert build.ours().check(build.folder()) == []
+    assert answer("codegen", "--check")["kept"] is True
 
 
 def test_a_checkout_is_told_from_a_copy(copy):
