@@ -260,8 +260,8 @@ def test_what_float64_does_not_settle_is_counted_exactly():
     assert branches(Ball((1, 1, 1), 5), (0, 0, 0), gamma).complete == np.False_
 
 
-def test_near_a_fold_two_rotations_meet():
-    ball, K, gamma = seeded(20, 1.0)
+def test_near_a_fold_two_rotations_meet(thorough):
+    ball, K, gamma = seeded(20 if thorough else 6, 1.0)
     top = fold(ball, K, gamma).reach[:, np.newaxis]
     for near in (1e-4, 1e-8, 1e-12):
         below, above = (branches(ball, top * (1 + s * near) * K, gamma) for s in (-1, 1))

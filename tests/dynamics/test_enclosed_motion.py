@@ -23,7 +23,7 @@ from chapsym.dynamics.flow import start as exact
 
 def test_random_motions_are_contained(thorough):
     rng = random.Random(20)
-    for _ in range(1000 if thorough else 5):
+    for _ in range(1000 if thorough else 3):
         case, times = random_case(rng), [F(rng.randint(1, 9), 7), F(2)]
         found = follow(started(*case), times, 15)
         assert found.stopped is None
@@ -34,7 +34,7 @@ def test_random_motions_are_contained(thorough):
 def test_random_motions_with_a_rotor_are_contained(thorough):
     """The rotor's angular momentum is from a thousandth of the others to thirty times them."""
     rng = random.Random(21)
-    for _ in range(200 if thorough else 5):
+    for _ in range(200 if thorough else 4):
         times, size = [F(rng.randint(1, 9), 7), F(2)], F(10) ** rng.choice((-3, -1, 0, 1))
         case = (*random_case(rng), [size * F(rng.randint(-99, 99), 33) for _ in range(3)])
         found = follow(started(*case), times, 15)
@@ -124,13 +124,13 @@ def test_numpys_integers_are_integers():
 def test_many_digits_with_a_rotor_keep_its_integrals():
     """By the corrections that gain more bits each time; ⟨K,γ⟩, |K|² and ½⟨K - a, ω⟩ are those of the start."""
     start = (3, 1, 4), ("2/7", "3/7", "6/7"), ["0", "1/2"]
-    found = certified_motion(ExactBall((1, 2, 4), 3), *start, 300, rotor=A)
+    found = certified_motion(ExactBall((1, 2, 4), 3), *start, 200, rotor=A)
     assert found.stopped is None
-    with ctx.workprec(1100):
+    with ctx.workprec(800):
         inside = exact.balls([F(x) for x in A])
         states = zip(found.angular_momentum, found.gamma, found.omega, strict=True)
         first, last = ([K @ g, K @ K, (K - inside) @ w] for K, g, w in states)
-        assert all(x.overlaps(y) and y.rad() < arb("1e-295") for x, y in zip(first, last, strict=True))
+        assert all(x.overlaps(y) and y.rad() < arb("1e-195") for x, y in zip(first, last, strict=True))
 
 
 def test_a_rotor_that_is_left_out_is_seen(monkeypatch):

@@ -21,7 +21,7 @@ K = np.array([1, -0.5, 0.75])
 
 
 @given(testing.states())
-@examples(25)
+@examples(15, 25)
 def test_a_step_agrees_with_the_matrix_equation(state):
     """Within the budget that `chapsym check` states."""
     ball, momentum, gamma = state
@@ -98,7 +98,7 @@ def test_no_rotation_exceeds_the_largest_momentum(q, ball, gamma):
 
 
 @given(testing.states(fraction=(0.0, 0.95)))
-@examples(8, 15)
+@examples(5, 15)
 def test_the_branch_is_continuous_from_the_identity(state):
     """Followed in 200 small steps by plain Newton, the curve arrives at the same rotation."""
     ball, momentum, gamma = state

@@ -69,11 +69,11 @@ def test_a_root_is_proved_only_up_to_what_its_corrections_leave():
     assert not path.proved(u, 1.01 * most, *numbers)
 
 
-def test_how_far_the_straight_path_reaches():
-    """Of 300 seeded states at a fraction of their fold: as measured, so that a check that says no too often is seen."""
+def test_how_far_the_straight_path_reaches(thorough):
+    """Of seeded states at a fraction of their fold: as measured, so that a check that says no too often is seen."""
     draw, proved = np.random.default_rng(5), {0.6: 0, 0.8: 0, 0.9: 0}
-    count = 0
-    while count < 300:
+    count, states = 0, 300 if thorough else 100
+    while count < states:
         J, D = draw.uniform(0.2, 3, 3), draw.choice([0.0, 3.0])
         K, g = draw.normal(size=(2, 3))
         ball, g = Ball(J, D), g / np.linalg.norm(g)
@@ -86,9 +86,8 @@ def test_how_far_the_straight_path_reaches():
             state = ball, fraction * reach * K, g
             numbers = of(state)
             proved[fraction] += numbers is None or path.search_on_path(continued(state)[1], *numbers)[0]
-    assert proved[0.6] >= 299
-    assert proved[0.8] >= 290
-    assert proved[0.9] >= 265
+    for fraction, least in zip(proved, (299, 290, 265) if thorough else (99, 96, 87), strict=True):
+        assert proved[fraction] >= least
 
 
 def test_where_the_path_joins_its_inequality_holds():
