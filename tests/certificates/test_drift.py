@@ -116,7 +116,7 @@ def test_a_start_that_does_not_close_is_not_proved():
     orbit = orbit_of(certificate(FILES[0]))
     varied = tuple(x + 10 * orbit.radius * (i == orbit.varied) for i, x in enumerate(orbit.momentum))
     with pytest.raises(NotEnclosed, match="between the two ends"):
-        drift.enclose(replace(orbit, momentum=varied), 192, 52)
+        drift.enclose(replace(orbit, momentum=varied), 128, 36)
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)

@@ -111,6 +111,7 @@ def lines(text, start):
 
 
 @needs_interval
+@pytest.mark.thorough  # by `make rocq` what is committed is accepted, and the theorem has its numbers by a test above
 def test_rocq_accepts_the_steps_and_rejects_a_digit_that_is_wrong(folder):
     text = written(folder, one_step())
     assert text.count("0.86047467164837169771)") == 1

@@ -65,7 +65,13 @@ def test_a_sign_turned_in_what_a_claim_decided_is_refused(name):
             judge(name, text_of(name), certificates={**CERTIFICATES, name_of: data})
 
 
-@pytest.mark.parametrize("kernel", KERNELS, ids=lambda k: k.name)
+#: Of which one takes as long as all others: the others are refused by the same comparison.
+LONG = ("gibbs_newton", "gibbs_newton_heavy", "gibbs_symmetric")
+
+
+@pytest.mark.parametrize(
+    "kernel", [pytest.param(k, marks=pytest.mark.thorough if k.name in LONG else (), id=k.name) for k in KERNELS]
+)
 def test_a_sign_turned_in_a_derivation_is_refused(kernel):
     package = build.ours()
     first, *rest = kernel.expressions
