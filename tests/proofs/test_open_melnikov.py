@@ -37,7 +37,7 @@ class Ball:
         ends = [self.gain(self.h * (gamma + sign * size * e), gamma) for sign in (1, -1)]
         return (ends[0] - ends[1]) / (2 * size)
 
-    def integral(self, e, last, steps=3000):
+    def integral(self, e, last, steps=1200):
         """∫ of that from -last to last, e' = e × ω from t = 0, by Runge and Kutta, and by Simpson's rule."""
         weights = np.full(steps + 1, 2.0)
         weights[1::2], weights[[0, -1]] = 4, 1
