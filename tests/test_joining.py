@@ -15,15 +15,6 @@ CONTRIBUTING = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 TARGETS = re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
 
 
-def test_every_task_names_files_that_are_there_and_commands_to_run():
-    tasks = re.findall(r"^## ([^\n]*)\n(.*?)(?=^## |\Z)", CONTRIBUTING, re.MULTILINE | re.DOTALL)
-    assert {"A formula", "A precision level", "An output of scenes", "A claim", "A figure", "A fix"} <= dict(
-        tasks
-    ).keys()
-    for name, text in tasks:
-        assert re.search(r"^ {4,}(\.venv/bin/|make )", text, re.MULTILINE), name
-
-
 def test_every_file_that_is_named_exists():
     named = re.findall(r"`([\w./-]+(?:/|\.\w+))`", CONTRIBUTING)
     named += re.findall(r"(?<=[ =])(?:tests|docs)/[\w/.]*[\w/]", CONTRIBUTING)
@@ -37,13 +28,6 @@ def test_every_make_target_and_command_that_is_named_exists():
         assert commands.chapsym(name, "--help").returncode == 0, name
 
 
-def test_the_hook_is_the_lint_of_ci():
-    (repo,) = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text(encoding="utf-8"))["repos"]
-    assert repo["repo"] == "local"  # nothing is fetched
-    assert [hook["entry"] for hook in repo["hooks"]] == ["make lint"]
-    assert "make lint" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
-
-
 @pytest.mark.parametrize(
     "path", sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("[!c]*.yml")), ids=lambda path: path.stem
 )
@@ -55,15 +39,6 @@ def test_an_issue_template_asks_for_something_and_has_no_id_twice(path):
     assert len(set(ids)) == len(ids)
     assert any(part.get("validations", {}).get("required") for part in form["body"])
     assert all(part["attributes"]["label"] for part in form["body"])
-
-
-def test_nobody_is_invented():
-    assert "**not set yet.**" in (ROOT / "CODE_OF_CONDUCT.md").read_text(encoding="utf-8")
-    head = yaml.safe_load((ROOT / "paper.md").read_text(encoding="utf-8").split("---")[1])
-    assert head["authors"] == [{"name": "The chapsym developers", "affiliation": 1}]
-    assert all(one["name"].startswith("Empty: ") for one in head["affiliations"])
-    for name in ("CITATION.cff", "paper.md", "CODE_OF_CONDUCT.md", "CONTRIBUTING.md", "CHANGELOG.md"):
-        assert not re.search(r"orcid|zenodo|@\w+\.\w", (ROOT / name).read_text(encoding="utf-8"), re.IGNORECASE), name
 
 
 def test_the_paper_has_its_sections_and_its_references():
