@@ -70,4 +70,5 @@ def refused(*arguments, run=chapsym, status=2, **options):
 def changed(folder, *lines):
     """The environment of a child that runs these lines before anything else, and has no records yet."""
     (folder / "sitecustomize.py").write_text("\n".join(lines))
-    return {**os.environ, "PYTHONPATH": str(folder), "CHAPSYM_RECORDS": str(folder / "none.jsonl")}
+    path = os.pathsep.join([str(folder), *filter(None, [os.environ.get("PYTHONPATH")])])
+    return {**os.environ, "PYTHONPATH": path, "CHAPSYM_RECORDS": str(folder / "none.jsonl")}
