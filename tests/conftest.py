@@ -20,7 +20,7 @@ settings.register_profile(
 )  # fmt: skip
 LARGE = (
     f"random seeds, {THOROUGH} times the examples of each property, slow cells of the extremes, slips judged by more "
-    "claims, more processes, more scenes"
+    "claims, more processes, scenes and states"
 )
 settings.register_profile("thorough", settings.get_profile("same"), max_examples=THOROUGH * EXAMPLES, derandomize=False)
 
