@@ -143,6 +143,9 @@ def _tell(
         fail(f"no ball got to the end: {stopped(data)}; the frames before are in {destination}", 2)
     if failed:
         note(f"stopped early: {stopped(data)}")
+    if outcome.damaged:
+        more = f" and {len(outcome.damaged) - 1} more" if len(outcome.damaged) > 1 else ""
+        note(f"{destination}: {outcome.damaged[0]}{more} had been lost or damaged; these balls were computed anew")
     if outcome.lost:
         (first, last), why = next(iter(outcome.lost.items()))
         if last - first == balls:

@@ -175,7 +175,7 @@ def _save_zarr(dataset: "Dataset", path: Path) -> None:
         whole = whole.chunk({dim: max(lengths) for dim, lengths in whole.chunks.items()})
 
     def fill(place: Path) -> None:
-        whole.to_zarr(place, zarr_format=3, consolidated=False)
+        store.write(whole, place)
         store.consolidate(place)
 
     store.created(path, fill)

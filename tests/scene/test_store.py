@@ -26,7 +26,7 @@ from chapsym.scene import SceneError
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.plan import plan_from
 from chapsym.scene.result import dataset
-from chapsym.scene.result.formats import check_ours
+from chapsym.scene.result.formats import check_ours, load
 from chapsym.scene.result.summary import far
 from chapsym.scene.running import store as stores
 from chapsym.scene.running import sweep
@@ -102,6 +102,50 @@ def test_a_store_has_the_bits_of_the_run_in_memory_and_is_left_alone(whole, tmp_
     assert again.nothing_to_do
     assert again.failed == outcome.failed
     assert {p: p.stat().st_mtime_ns for p in path.rglob("*")} == before
+
+
+def cut(chunk):
+    chunk.write_bytes(chunk.read_bytes()[: chunk.stat().st_size // 2])
+
+
+def turned(chunk):
+    content = bytearray(chunk.read_bytes())
+    content[len(content) // 2] ^= 1
+    chunk.write_bytes(content)
+
+
+@pytest.mark.parametrize("damage", [cut, turned, Path.unlink])
+@pytest.mark.parametrize("name", ["gamma", "taken", "mass_tensor"])
+@pytest.mark.parametrize("after", [UNITS, 7])
+def test_a_chunk_that_is_lost_or_damaged_is_found_and_computed_anew(whole, path, monkeypatch, damage, name, after):
+    interrupted(path, monkeypatch, after)
+    chunks = sorted(file for file in (path / name / "c").rglob("*") if file.is_file())
+    damage(chunks[0])
+    of_the_run = name != "mass_tensor"
+    if after == UNITS or damage is not Path.unlink:
+        with pytest.raises(SceneError, match=f"{name}/c/0.* is (missing|damaged): chapsym run of the same scene"):
+            load(path)[name].load()
+    outcome = sweep.run_to_store(plan(), path)
+    assert outcome.complete
+    assert list(outcome.damaged) == [str(chunks[0].relative_to(path))] * of_the_run
+    equal_to_the_bit(opened(path), whole)
+    equal_to_the_bit(load(path), whole)
+    assert sweep.run_to_store(plan(), path).nothing_to_do
+
+
+def test_a_complete_store_that_is_mended_may_be_interrupted(whole, path, monkeypatch):
+    sweep.run_to_store(plan(), path)
+    (path / "gamma/c/2/3/0").unlink()
+    interrupted(path, monkeypatch, 1)
+    assert not opened(path).attrs["complete"]
+    assert sweep.run_to_store(plan(), path).complete
+    equal_to_the_bit(opened(path), whole)
+
+
+def test_a_copy_that_another_program_writes_is_read(whole, path, tmp_path):
+    sweep.run_to_store(plan(), path)
+    load(path).load().to_zarr(tmp_path / "copy.zarr")
+    equal_to_the_bit(load(tmp_path / "copy.zarr"), whole)
 
 
 @pytest.mark.parametrize("seed", [1, 2])

@@ -183,14 +183,17 @@ def _write_csv(stream: IO[bytes], data: "Dataset | Arrays") -> None:
 def _read_zarr(path: Path) -> "Dataset":
     import xarray
 
+    from .chunks import CheckedStore
+
     check_ours(path)
     with warnings.catch_warnings():  # of a group that lacks what it should have, which is told in a sentence
         warnings.filterwarnings("ignore", message="Failed to open Zarr store with consolidated metadata")
-        data = xarray.open_zarr(path)
+        data = xarray.open_zarr(CheckedStore(path, read_only=True))
     for one in data.variables.values():
         # Older versions of Zarr and xarray would write texts to other formats in NumPy's own type, which none takes.
         if getattr(one.encoding.get("dtype"), "kind", "") == "T":
             del one.encoding["dtype"]
+        one.encoding.pop("compressors", None)  # a copy that xarray makes leaves chunks of missing values out
     return data
 
 

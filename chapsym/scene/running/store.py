@@ -15,8 +15,9 @@ import warnings
 import zipfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
+from functools import cached_property
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -28,6 +29,9 @@ from ..read.errors import SceneError
 from ..read.task import Columns
 from ..result.dataset import OUTCOME, build, layout, provenance, sizes
 from ..result.formats import attributes, check_ours, plain
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 ELSE = "choose another name, or replace it with --fresh"
 #: The name of the count in a mark; the rest is the state.
@@ -45,6 +49,8 @@ class Store:
 
     def __init__(self, path: Path, plan: Plan) -> None:
         self.path, self.plan = path, plan
+        #: Of each chunk of balls that is computed anew, the first Zarr chunk that was missing or damaged.
+        self.damaged: list[str] = []
 
     @classmethod
     @contextmanager
@@ -69,12 +75,20 @@ class Store:
         with _locked(path):
             for left in path.rglob("*.partial"):  # chunks that a killed process has left half written
                 left.unlink(missing_ok=True)
+            store._mend()
             yield store
 
     @property
-    def complete(self) -> bool:
-        """Whether every unit is there."""
+    def _says_complete(self) -> bool:
         return bool(attributes(self.path).get("complete"))
+
+    @cached_property
+    def complete(self) -> bool:
+        """Whether, when the store was opened, every unit was there as it was written."""
+        all_segments = len(self.plan.segments)
+        return self._says_complete and not (
+            any(self._damage(chunk, all_segments) for chunk in range(len(self.plan.chunks))) or self._lost_coordinates()
+        )
 
     def start(self, chunk: int) -> tuple[int, State | None]:
         """How many segments of a chunk are done, and the state after them; 0 and None if none is."""
@@ -91,7 +105,57 @@ class Store:
         except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
             mended = "delete it, and the same command computes its balls anew and keeps the others"
             raise SceneError(f"{path} is damaged; {mended}") from None
+        if found := self._damage(chunk, done):
+            self.damaged.append(found)
+            return 0, None
         return done, state
+
+    def _damage(self, chunk: int, done: int) -> str | None:
+        """A Zarr chunk of the first segments of a chunk of balls that is missing or damaged, if one is."""
+        from ..result.chunks import is_sound
+
+        for name, one in layout(self.plan).items():
+            for segment in range(done if "frame" in one.dims else 1):
+                where = {"ball": chunk, "frame": segment}
+                key = "/".join([name, "c", *(str(where.get(dim, 0)) for dim in one.dims)])
+                if not is_sound(self.path / key):
+                    return key
+        return None
+
+    def _lost_coordinates(self) -> list[str]:
+        """Names of what does not come from the run, and is damaged."""
+        import zarr
+
+        from ..result.chunks import is_sound
+
+        def is_lost(folder: Path) -> bool:
+            array: Any = zarr.open_array(folder, mode="r")
+            written = [file for file in folder.rglob("*") if file.is_file() and file.name != "zarr.json"]
+            return len(written) < array.nchunks or not all(map(is_sound, written))
+
+        with _refusals(self.path):
+            arrays = {file.parent.name: file.parent for file in self.path.glob("*/zarr.json")}
+            return [name for name, folder in arrays.items() if name not in layout(self.plan) and is_lost(folder)]
+
+    def _mend(self) -> None:
+        """Writes coordinates that are damaged anew; a store that says wrongly that it is complete says so no more."""
+        import zarr
+
+        with _refusals(self.path):
+            group: Any = zarr.open_group(self.path, mode="r+", use_consolidated=False)
+            if lost := self._lost_coordinates():
+                whole = _unwritten(self.plan)
+                for name in lost:
+                    group[name][...] = whole[name].values
+            if not self._says_complete:
+                return
+            for chunk, balls in enumerate(self.plan.chunks):
+                if found := self._damage(chunk, len(self.plan.segments)):
+                    self.damaged.append(found)
+                    continue
+                state = {name: group[name][balls] for name in OUTCOME if name in group}
+                self._put_mark(chunk, len(self.plan.segments), state)
+            self._say(complete=False)
 
     def write(self, chunk: int, segment: int, columns: Columns) -> None:
         """Writes the values of a unit."""
@@ -103,18 +167,24 @@ class Store:
         That changes from segment to segment, so only the process that holds the lock writes it: a worker may be late.
         """
         write_region(self.path, self.plan, chunk, segment, {name: state[name] for name in OUTCOME if name in state})
-        data: dict[str, Any] = {DONE: np.array(segment + 1), **state}
         with _refusals(self.path, layout(self.plan)):
-            files.write_whole(mark_of(self.path, chunk), lambda stream: np.savez(stream, **data))
+            self._put_mark(chunk, segment + 1, state)
+
+    def _put_mark(self, chunk: int, done: int, state: State) -> None:
+        data: dict[str, Any] = {DONE: np.array(done), **state}
+        files.write_whole(mark_of(self.path, chunk), lambda stream: np.savez(stream, **data))
 
     def finish(self) -> None:
         """Says that all is there; the marks go."""
         with _refusals(self.path):
-            document = json.loads((self.path / "zarr.json").read_text(encoding="utf-8"))
-            document["attributes"]["complete"] = True
-            text = json.dumps(document, indent=2).encode()
-            files.write_whole(self.path / "zarr.json", lambda stream: stream.write(text))
+            self._say(complete=True)
             shutil.rmtree(folder_of(self.path), ignore_errors=True)
+
+    def _say(self, complete: bool) -> None:
+        document = json.loads((self.path / "zarr.json").read_text(encoding="utf-8"))
+        document["attributes"]["complete"] = complete
+        text = json.dumps(document, indent=2).encode()
+        files.write_whole(self.path / "zarr.json", lambda stream: stream.write(text))
 
 
 def folder_of(store: Path) -> Path:
@@ -142,7 +212,8 @@ def write_region(path: Path, plan: Plan, chunk: int, segment: int, values: Colum
             (path / "zarr.json").stat()
             raise SceneError(f"{path} is damaged, or is being deleted; replace it with --fresh") from None
         for name, one in variables.items():
-            arrays[name][tuple(where.get(dim, slice(None)) for dim in one.dims)] = np.asarray(values[name], one.dtype)
+            written = arrays[name].with_config({"write_empty_chunks": True})
+            written[tuple(where.get(dim, slice(None)) for dim in one.dims)] = np.asarray(values[name], one.dtype)
         (path / "zarr.json").stat()  # of a store that was deleted since, Zarr has made these folders anew
 
 
@@ -256,21 +327,35 @@ def _alive(pid: int) -> bool:
 
 def _fill(path: Path, plan: Plan) -> None:
     """The group with all metadata and coordinates; of the values only that there are none yet."""
-    variables, length = layout(plan), sizes(plan)
-    none: Columns = {
-        name: np.broadcast_to(np.array(one.missing, one.dtype), [length[dim] for dim in one.dims])
-        for name, one in variables.items()
-    }
-    whole = build(plan, none, none).assign_attrs(complete=False)
-    whole.drop_vars(variables).to_zarr(path, zarr_format=3, consolidated=False)
+    write(_unwritten(plan).drop_vars(layout(plan)), path)
     _add_arrays(path, plan)
     consolidate(path)
     folder_of(path).mkdir()
 
 
+def _unwritten(plan: Plan) -> "Dataset":
+    """The result without a value that is computed."""
+    length = sizes(plan)
+    none: Columns = {
+        name: np.broadcast_to(np.array(one.missing, one.dtype), [length[dim] for dim in one.dims])
+        for name, one in layout(plan).items()
+    }
+    return build(plan, none, none).assign_attrs(complete=False)
+
+
+def write(data: "Dataset", path: Path) -> None:
+    """Writes a new group, its chunks with their checksums."""
+    from ..result.chunks import COMPRESSORS
+
+    encoding = {name: {"compressors": COMPRESSORS} for name in data.variables}
+    data.to_zarr(path, zarr_format=3, consolidated=False, encoding=encoding, write_empty_chunks=True)
+
+
 def _add_arrays(path: Path, plan: Plan) -> None:
     """The variables, without values, each unit a chunk; Zarr's chunks are regular, and only the last is shorter."""
     import zarr
+
+    from ..result.chunks import COMPRESSORS
 
     length, units = sizes(plan), {"ball": plan.chunks[0].stop, "frame": plan.segments[0].stop}
     group = zarr.open_group(path, mode="r+", use_consolidated=False)
@@ -279,7 +364,7 @@ def _add_arrays(path: Path, plan: Plan) -> None:
         chunks = tuple(units.get(dim, length[dim]) for dim in one.dims)
         group.create_array(
             name, shape=shape, chunks=chunks, dtype=one.dtype, fill_value=one.missing, dimension_names=one.dims,
-            attributes=plain(one.attrs),
+            attributes=plain(one.attrs), compressors=COMPRESSORS,
         )  # fmt: skip
 
 

@@ -46,12 +46,13 @@ class NoAnswer(Exception):
 class Outcome:
     """failed: balls that stopped early.  lost: why chunks of balls could not be run, by their balls.
 
-    complete: whether all is there; nothing_to_do: whether it was before.
+    complete: whether all is there; nothing_to_do: whether it was before.  damaged: chunks that were missing or damaged.
     """
 
     failed: int
     lost: dict[tuple[int, int], str] = field(default_factory=dict)
     nothing_to_do: bool = False
+    damaged: tuple[str, ...] = ()
 
     @property
     def complete(self) -> bool:
@@ -191,7 +192,8 @@ def run_to_store(
         lost = _missing(plan, store, tally, scheduler)
         if not lost:
             store.finish()
-        return Outcome(tally.progress.failed, {(plan.chunks[i].start, plan.chunks[i].stop): lost[i] for i in lost})
+        of_balls = {(plan.chunks[i].start, plan.chunks[i].stop): lost[i] for i in lost}
+        return Outcome(tally.progress.failed, of_balls, damaged=tuple(store.damaged))
 
 
 def answering(plan: Plan, progress: Callable[[str], None]) -> tuple[Plan, list[Accurate]]:
