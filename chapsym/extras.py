@@ -4,7 +4,10 @@ from importlib.util import find_spec
 
 #: extra: what needs it, and the packages that it is made of; a test compares them with the project's metadata.
 EXTRAS = {
-    "scenes": ("scenes and their results need", ("pydantic", "pint", "xarray", "zarr", "google_crc32c", "h5netcdf", "h5py", "pyarrow")),
+    "scenes": (
+        "scenes and their results need",
+        ("pydantic", "pint", "xarray", "zarr", "google_crc32c", "h5netcdf", "h5py", "pyarrow"),
+    ),
     "figures": ("figures and rolling pages need", ("matplotlib", "jinja2")),
     "cluster": ("a Dask cluster needs", ("distributed",)),
     "report": ("the pages of a report need", ("jinja2", "latex2mathml")),

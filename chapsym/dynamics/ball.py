@@ -174,8 +174,10 @@ class Ball(Parameters):
         """A ball with an inertia tensor or principal moments (kg m²), and its mass (kg) and radius (m), or D.
 
         inertia: a symmetric tensor (3, 3), or one for each ball, (..., 3, 3): it is diagonalised, its `axes` are kept,
-        and all vectors and attitudes, given or returned, are in the axes in which it is given.  Or principal moments
-        I1 = J2 + J3, ..., (3,), or a row for each ball, (..., 3), where that is not symmetric and 3 x 3.
+        and all vectors and attitudes, given or returned, are in the axes in which it is given.  Beside its diagonal it
+        has -∫xy dm, ..., as ixy, ... of URDF, SDF and MJCF; SolidWorks shows both signs, and calls this one negative.
+        Or principal moments I1 = J2 + J3, ..., (3,), or a row for each ball, (..., 3), where that is not symmetric and
+        3 x 3.
         batch: whether inertia is rows of principal moments, also where it is symmetric and 3 x 3.
 
         Raises BadInput for an inertia that no body has, and as `Ball`.

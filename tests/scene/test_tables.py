@@ -233,7 +233,7 @@ def test_a_refusal_of_a_ball_tells_its_line(write):
         "[[ball]]\npreset = 'shell'\nmass = 1\nradius = 1\n\n[[ball]]\npreset = 'shell'\nmass = 1\nradius = -1\n"
         "[start]\nomega = [1, 2, 3]\n[run]\ntime_step = 1\nsteps = 1\n"
     )
-    with refused(f"{path}, line 6: ball 2: mass and radius must be positive"):
+    with refused(f"{path}, line 9: ball.radius of ball 2: mass and radius must be positive"):
         expand(scene.load(path))
 
 
@@ -346,3 +346,60 @@ def test_more_digits_than_float64_has_are_written(write, tmp_path):
         assert abs(high + low - place - exact[-1, axis]) < 1e-32
         assert float(high + low) == high
     assert abs(data["momentum_low"][-1]).max() > 0
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("inertia=[0,0,0]\nmass=0.1\nradius=0.03", "line 2: ball.inertia of ball: its moments of inertia are 0"),
+        ("mass=0.37\nradius=0.1\ninertia=[0.064,0.064,0.064]", "line 4: ball.inertia of ball: some of its mass is out"),
+        (
+            "mass=0.3\nradius=0.05\ninertia=[[1.15e-4,5.2e-5,2.5e-5],[5.2e-5,1.53e-4,3.4e-5],[2.5e-5,3.4e-5,1.9e-4]]",
+            "line 4: ball.inertia of ball: no body has the inertia (7.8627e-05, 0.000147497, 0.000231876)",
+        ),
+        (
+            "mass=1\nradius=0.1\ninertia=[1e-6,1e-6,1e-6]",
+            "line 4: ball.inertia of ball: its moments of inertia are 1/4000 of the 0.004 kg m² of a homogeneous ball: "
+            "its radius of gyration is 1 mm, and its radius is 100 mm; did you mean other units?",
+        ),
+        (
+            "mass=6\nradius=0.1\ninertia=[1.17e-5,1.9e-5,1.9e-5]",
+            "line 4: ball.inertia of ball: its moments of inertia are",
+        ),
+        ("preset='shell'\nradius=0.1\nmass=-1", "line 4: ball.mass of ball: mass and radius must be positive"),
+        ("inertia=[1,1,1]\nradius=0.1\nD=-1", "line 4: ball.D of ball: D = m ρ² must not be negative"),
+        (
+            "inertia=[0.03,0.03,0.03]\nmass=7\nradius=0.1\ncenter_of_mass=[0,'1 mm',0]",
+            "line 5: ball.center_of_mass is 1 mm off the centre of the ball, and the ball of chapsym is balanced: with "
+            "such an offset the weight speeds the ball up and slows it down, by up to g offset/radius = 0.098 m/s²",
+        ),
+    ],
+)
+def test_what_no_ball_has_is_refused_at_the_key_that_says_it(write, body, said):
+    path = write(f"[ball]\n{body}\n[start]\nomega=[3,-2,1]\n[run]\ntime=1.0\ntime_step=0.1\n")
+    with refused(f"{path}, {said}"):
+        expand(scene.load(path))
+
+
+def test_a_centre_of_mass_in_the_middle_and_a_gyration_of_a_thirtieth_are_taken():
+    ball = {"inertia": [5e-6] * 3, "mass": 1, "radius": 0.1, "center_of_mass": [0, 0, 0.0]}
+    assert len(expand(checked({"ball": ball, "start": {"omega": [1, 2, 3]}, "run": {"time": 1.0}}))) == 1
+
+
+@pytest.mark.parametrize(
+    ("inertia", "said"),
+    [
+        ({"ixx": 1, "iyy": 1, "izz": 1}, "ball.inertia: write the tensor as rows: [[ixx, ixy, ixz], [ixy, iyy, iyz], "),
+        (
+            [1, 0, 0, 1, 0, 1],
+            "ball.inertia must have 3 numbers, or 3 rows of 3: six have two orders (URDF and SDF: ixx",
+        ),
+        ("0.006 0.007 0.009", "ball.inertia must be a list of numbers in brackets: [0.006, 0.007, 0.009]"),
+        ({"linspace": [1, 2, 3]}, "ball.inertia: a range stands in the place of one number"),
+    ],
+)
+def test_a_tensor_as_other_formats_write_it_is_answered_with_the_rows(inertia, said):
+    with refused(said):
+        checked(
+            {"ball": {"inertia": inertia, "mass": 2, "radius": 0.1}, "start": {"omega": [1, 2, 3]}, "run": {"time": 1}}
+        )

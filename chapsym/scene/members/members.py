@@ -22,7 +22,7 @@ from chapsym.dynamics.principal_axes import (
 )
 
 from ..read.bodies import PRESETS, check_inside
-from ..read.errors import SceneError, place
+from ..read.errors import Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene
 from ..read.tables import ATTITUDES, BallTable, StartTable, units_of
@@ -188,10 +188,17 @@ class Body:
         except BadInput as error:
             first, why = _first_refused(made, 0, count) or (0, error)
             told = ", ".join(f"{key} = {array[first]:.6g}" for key, array in list(values.items())[:4])
-            raise SceneError(f"{self._place()}{names[first]}{f' ({told})' if told else ''}: {why}") from None
+            of = f"{names[first]}{f' ({told})' if told else ''}: {why}"
+            if not isinstance(why, Misfit):
+                raise SceneError(f"{self._place()}{of}") from None
+            key, where = f"{why.table}.{why.key}", self._place(why.table, why.key)
+            raise SceneError(f"{where}{key} of {of}" if where else f"{of} ({key})") from None
 
-    def _place(self) -> str:
-        where = place(self.scene.name, self.scene.toml, ("ball", self.index))
+    def _place(self, table: str = "ball", *key: str) -> str:
+        """The file, and the line on which a key of the ball or of its start stands."""
+        own = ("ball", self.index) if isinstance(self.scene._data.get("ball"), list) else ("ball",)
+        path = (*own, *key) if table == "ball" else (*own, table, *key) if self.ball.start else (table, *key)
+        where = place(self.scene.name, self.scene.toml, path)
         return f"{where}: " if where else ""
 
 
@@ -293,34 +300,48 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
     """The balls, and what turns their principal axes to those of the table, if these are others."""
     told, contact = _sizes(table, given)
     axes = None
-    if table.mass_tensor is not None:
-        tensor = given.array(table.mass_tensor, "ball.mass_tensor")
-    elif table.preset is not None:
-        tensor = PRESETS[table.preset].tensor(told)
-    else:
-        inertia = given.array(table.inertia, "ball.inertia")
-        tensor = mass_tensor_of(inertia) if inertia.ndim == 2 else from_inertia_tensor(inertia)
-    if tensor.ndim == 3:
-        tensor, axes = principal(numbers(tensor, "inertia"))
-    if "mass" in told:
-        check_inside(tensor, told["mass"], told["radius"])
-    return Ball(tensor, contact, told.get("radius")), axes
+    (shape,) = table.given("mass_tensor", "inertia", "preset")
+    with said_by("ball", shape):
+        if table.mass_tensor is not None:
+            tensor = given.array(table.mass_tensor, "ball.mass_tensor")
+        elif table.preset is not None:
+            tensor = PRESETS[table.preset].tensor(told)
+        else:
+            inertia = given.array(table.inertia, "ball.inertia")
+            tensor = mass_tensor_of(inertia) if inertia.ndim == 2 else from_inertia_tensor(inertia)
+        if tensor.ndim == 3:
+            tensor, axes = principal(numbers(tensor, "inertia"))
+        if "mass" in told:
+            check_inside(tensor, told["mass"], told["radius"])
+    with said_by("ball", _no_size(told) or shape):
+        return Ball(tensor, contact, told.get("radius")), axes
 
 
 def _sizes(table: BallTable, given: Given) -> tuple[dict[str, Floats], Floats]:
     """The masses and lengths of a table that are given, as arrays, and D."""
     keys = ("mass", "radius", "D", *(key for preset in PRESETS.values() for key in preset.keys))
     told = {key: given.array(value, f"ball.{key}") for key in keys if (value := getattr(table, key)) is not None}
-    return told, np.asarray(contact_term(told.get("mass"), told.get("radius"), told.get("D")))
+    with said_by("ball", _no_size(told) or ("D" if "D" in told else "mass")):
+        return told, np.asarray(contact_term(told.get("mass"), told.get("radius"), told.get("D")))
+
+
+def _no_size(told: Mapping[str, Floats]) -> str | None:
+    """The key of a size that no ball has, if there is one."""
+    bad = {"mass": np.less_equal, "radius": np.less_equal, "D": np.less}
+    return next((key for key, fails in bad.items() if key in told and fails(told[key], 0).any()), None)
 
 
 def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats | None, Floats, bool]:
     """γ, the attitude if it is given, 𝒦 (or its direction) or ω, in the axes of the table, and whether it is 𝒦."""
-    attitude = _attitude(start, given)
+    turned = start.given("gamma", *ATTITUDES)
+    with said_by("start", turned[0] if turned else "gamma"):
+        attitude = _attitude(start, given)
     if attitude is not None:
         gamma = kernels.rotate(inverse(attitude), np.array([0.0, 0.0, 1.0]))
     else:
-        gamma = given.unit(start.gamma or (0.0, 0.0, 1.0), "start.gamma")
+        with said_by("start", "gamma"):
+            gamma = given.unit(start.gamma or (0.0, 0.0, 1.0), "start.gamma")
+            unit_vertical(gamma)
     body_to_space = attitude if attitude is not None else attitude_with(unit_vertical(gamma))
     if start.vertical_momentum is not None:
         return gamma, attitude, gamma, True
@@ -330,7 +351,7 @@ def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats 
     key = "omega" if start.momentum is None else "momentum"
     motion = given.array(getattr(start, key), f"start.{key}")
     if motion.shape[-1] != 3 or motion.ndim != 2:
-        raise BadInput(f"start.{key} must be three numbers for a ball in three dimensions")
+        raise Misfit(f"start.{key} must be three numbers for a ball in three dimensions", "start", key)
     if start.axes == "space":
         motion = kernels.rotate(inverse(body_to_space), motion)
     return gamma, attitude, motion, key == "momentum"

@@ -14,6 +14,8 @@ from chapsym.dynamics.ball import Floats
 
 #: How far mass may seem to be outside of the ball by rounding: that of a shell is at its radius.
 ROUNDING = 1e-12
+#: The least part of the moments of a homogeneous ball that is believed: they would be of a fiftieth of the radius.
+LEAST = 1e-3
 
 
 @dataclass(frozen=True)
@@ -109,9 +111,33 @@ def _check(holds: np.ndarray | np.bool_, sentence: str) -> None:
         raise BadInput(sentence)
 
 
+def unbalanced(what: str, offset: float | None, radius: float | None) -> str:
+    """Why a centre of mass off the centre is refused: what the model would leave out, by the weight alone, m g a."""
+    cost = "" if not (offset and radius) else f", by up to g offset/radius = {9.81 * offset / radius:.2g} m/s²"
+    size = "not 0" if offset is None else f"{1e3 * offset:.3g} mm off the centre of the ball"
+    return (
+        f"{what} is {size}, and the ball of chapsym is balanced: with such an offset the weight speeds the ball up and "
+        f"slows it down{cost}, which no result here would have; leave it out to roll the balanced ball"
+    )
+
+
 def check_inside(mass_tensor: Floats, mass: Floats, radius: Floats) -> None:
-    """Raises BadInput if mass is outside of the ball: then ∫r²dm = tr J is more than m ρ²."""
-    trace, most = np.broadcast_arrays(mass_tensor.sum(axis=-1), mass * radius**2)
+    """Raises BadInput if mass is outside of the ball, or all of it next to the centre: ∫r²dm = tr J and m ρ² say so.
+
+    Of a homogeneous ball in n dimensions tr J is n/(n+2) m ρ².
+    """
+    trace, most, m, rho = np.broadcast_arrays(mass_tensor.sum(axis=-1), mass * radius**2, mass, radius)
+    n = mass_tensor.shape[-1]
+    even = n * most / (n + 2)
+    if (low := trace < LEAST * even).any():
+        found, wanted = ((n - 1) / n * part[low].flat[0] for part in (trace, even))
+        told = f"{wanted:.3g} kg m² of a homogeneous ball"
+        told = f"1/{wanted / found:.0f} of the {told}" if found else f"0, not the {told}"
+        lengths = f"{1e3 * np.sqrt(found / m[low].flat[0]):.2g} mm, and its radius is {1e3 * rho[low].flat[0]:.4g} mm"
+        raise BadInput(
+            f"its moments of inertia are {told}: its radius of gyration is {lengths}; "
+            "did you mean other units? (for such a body give D = mass radius² in the place of mass)"
+        )
     outside = trace > most * (1 + ROUNDING)
     if outside.any():
         raise BadInput(

@@ -3,7 +3,8 @@
 import re
 import tomllib
 from bisect import bisect_left
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from difflib import get_close_matches
 from itertools import islice
 from typing import Any
@@ -33,6 +34,25 @@ class At(ValueError):
     def __init__(self, sentence: str, *path: str | int) -> None:
         super().__init__(sentence)
         self.path = path
+
+
+class Misfit(BadInput):
+    """What a ball cannot have, and the key that says it: its table, "ball" or "start", and its name."""
+
+    def __init__(self, sentence: str, table: str, key: str) -> None:
+        super().__init__(sentence)
+        self.table, self.key = table, key
+
+
+@contextmanager
+def said_by(table: str, key: str) -> Iterator[None]:
+    """What is refused inside is refused for this key."""
+    try:
+        yield
+    except Misfit:
+        raise
+    except BadInput as error:
+        raise Misfit(str(error), table, key) from None
 
 
 def place(name: str, text: str | None, path: Path) -> str:

@@ -1,5 +1,7 @@
 """The keys and tables of a scene file, as pydantic checks them; what they mean together is checked in `scene.py`."""
 
+import math
+import re
 from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import (
@@ -18,10 +20,10 @@ from pydantic_core import core_schema
 from chapsym.accuracy.motion import FINEST
 from chapsym.numbers import own_name
 
-from .bodies import PRESETS
+from .bodies import PRESETS, unbalanced
 from .errors import LIST, MATRIX, At
 from .outputs import OUTPUTS
-from .ranges import Value, value
+from .ranges import Range, Value, value
 from .units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, TURNING, Dimension, has_unit, number
 
 # The types of the keys: numbers with a dimension, and lists of them.
@@ -84,9 +86,16 @@ def _shape(given: Any) -> str:
     return MATRIX if isinstance(given, list | tuple) and given and isinstance(given[0], list | tuple) else LIST
 
 
+#: How the six numbers of a tensor are called.
+_OF_A_TENSOR = re.compile("i?(xx|yy|zz|xy|xz|yz)", re.IGNORECASE)
+ROWS = "write the tensor as rows: [[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]]"
+
+
 def _listed(given: Any) -> Any:
     """A list as it is; a range in the place of a whole list is a frequent slip."""
     if isinstance(given, dict):
+        if any(_OF_A_TENSOR.fullmatch(str(key)) for key in given):
+            raise ValueError(ROWS)
         raise ValueError("a range stands in the place of one number, not of a list: [{ linspace = [a, b, n] }, 0, 0]")
     return given
 
@@ -95,9 +104,25 @@ Vector = BeforeValidator(_listed)
 Moments3 = Annotated[tuple[Moment, Moment, Moment], Vector]
 MomentsN = Annotated[tuple[Moment, ...], Field(min_length=3), Vector]
 PureN = Annotated[tuple[Pure, ...], Field(min_length=3), Vector]
+
+
+def _of_three(given: Any) -> Any:
+    """Three numbers or rows; six have several orders, and numbers in a text are those of a file of a robot."""
+    if isinstance(given, list | tuple) and len(given) == 6:
+        raise ValueError(
+            "it must have 3 numbers, or 3 rows of 3: six have two orders (URDF and SDF: ixx ixy ixz iyy iyz izz; MJCF: "
+            f"xx yy zz xy xz yz); {ROWS}"
+        )
+    if isinstance(given, str) and len(given.split()) > 1:
+        numbers = ", ".join(given.replace(",", " ").split())
+        raise ValueError(f"it must be a list of numbers in brackets: [{numbers[:60]}]")
+    return given
+
+
 Inertia = Annotated[
-    Annotated[Moments3, Tag(LIST)] | Annotated[tuple[Moments3, Moments3, Moments3], Tag(MATRIX)], Discriminator(_shape)
-]
+    Annotated[Moments3, Tag(LIST)] | Annotated[tuple[Moments3, Moments3, Moments3], Tag(MATRIX)],
+    Discriminator(_shape), BeforeValidator(_of_three),
+]  # fmt: skip
 Momentum = Annotated[
     Annotated[Moments3, Tag(LIST)] | Annotated[tuple[MomentsN, ...], Field(min_length=4), Tag(MATRIX)],
     Discriminator(_shape),
@@ -193,11 +218,16 @@ class BallTable(Table):
     name: Line | None = Field(None, min_length=1, max_length=80, description="Of the ball, in results and errors.")
     mass_tensor: MomentsN | None = Field(None, description="J = ∫x²dm, ∫y²dm, ∫z²dm; n numbers in n dimensions.")
     inertia: Inertia | None = Field(
-        None, description="Principal moments of inertia about the centre, or the symmetric 3×3 tensor."
+        None,
+        description="Principal moments of inertia about the centre, or the symmetric 3×3 tensor: beside its diagonal "
+        "stand -∫xy dm, ..., as ixy, ... of URDF, SDF and MJCF.",
     )
     preset: Literal[*PRESETS] | None = Field(None, description="A body whose moments are known.")  # type: ignore[valid-type]
     mass: Mass | None = Field(None, description="Of the whole ball.")
     radius: Length | None = Field(None, description="Of the ball.")
+    center_of_mass: Lengths3 | None = Field(
+        None, description="From the centre of the ball, which it must be: the ball is balanced."
+    )
     D: Moment | None = Field(None, description="m ρ², in the place of mass; 0 for a top.")
     thickness: Length | None = Field(None, description="Of the shell; thin by default. Presets shell and dumbbell.")
     point_mass: Mass | None = Field(None, description="Each of the two masses of a dumbbell.")
@@ -209,6 +239,16 @@ class BallTable(Table):
         None, description="Angular momentum of a rotor inside, constant in the body's axes. For certify motion alone."
     )
     start: StartTable | None = Field(None, description="Its own start, in the place of [start].")
+
+    @model_validator(mode="after")
+    def _balanced(self) -> Self:
+        if self.center_of_mass is not None and any(self.center_of_mass):
+            offset = (
+                None if any(isinstance(x, Range) for x in self.center_of_mass) else math.hypot(*self.center_of_mass)
+            )
+            radius = self.radius if isinstance(self.radius, float) else None
+            raise At(unbalanced("ball.center_of_mass", offset, radius), "center_of_mass")
+        return self
 
     @model_validator(mode="after")
     def _one_body(self) -> Self:

@@ -172,7 +172,9 @@ def sentence(data: "Dataset | Arrays") -> tuple[str, str] | None:
         return None
     balls, unit = data.sizes["ball"], " m" if found["of"] == "contact" else ""
     error = "an error that is not known" if found["error"] is None else f"an estimated {found['error']:.1e}{unit}"
-    about = f"of the ball to {error}" if balls == 1 else f"of the balls to {error}, the worst of {balls}"
+    about = (
+        f"of the balanced ball to {error}" if balls == 1 else f"of the balanced balls to {error}, the worst of {balls}"
+    )
     more = f"; {found['worse']} of them are not within it" if found["worse"] and balls > 1 else ""
     asked = f"{'not the ' if found['worse'] and balls == 1 else ''}{found['accuracy']:g} asked for{more}"
     return "motion", f"{about} ({asked})" + _how(*(found[name] for name in _CHOSEN if name in found))
