@@ -16,7 +16,14 @@ if TYPE_CHECKING:
 @app.command()
 def judge(
     results: Annotated[list[Path], typer.Argument(metavar="RESULT.csv ...", help="Of one engine, each with its step.")],
-    against: Annotated[Path, typer.Option(metavar="CASE.json", help="A case of benchmarks/rolling/data.")],
+    against: Annotated[
+        Path | None,
+        typer.Option(metavar="CASE", help="A .json of benchmarks/rolling/data, or a scene, .toml, with its start."),
+    ] = None,
+    body: Annotated[
+        Path | None,
+        typer.Option(metavar="BODY", help="A ball, .toml, .urdf, .sdf or .xml, that starts as the first row does."),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="The curves: .svg, .png, .pdf, or a page: .html."),
@@ -26,14 +33,29 @@ def judge(
     """Judge an engine: how far its ball is from where a ball that rolls without slipping is.
 
     The columns are time, x, y, z, qw, qx, qy, qz and, for energy and momentum, vx, vy, vz, wx, wy, wz: m, s, rad, z up.
-    Three files or more, with steps in one ratio, tell the order, and what no step takes away.
+    Three files or more, with steps in one ratio, tell the order, and what no step takes away.  Other names of columns,
+    and the form t x y z qx qy qz qw without names, are known.  Where the first row is in another convention than the
+    motion (quaternion, axes, units), that is said, and there is no verdict.
 
-    Example: chapsym judge mine.csv --against benchmarks/rolling/data/robot.json
+    Example: chapsym judge mine.csv --body mine.urdf
     """
-    from chapsym.studies.judge import convergence, departure, read_case, read_trajectory, sentence
+    from chapsym.studies.comparable import case_of_body, check_start
+    from chapsym.studies.judge import case_of_scene, convergence, departure, read_case, sentence
+    from chapsym.studies.judge_tables import read_table
 
-    case = read_case(against)
-    runs = [read_trajectory(file, case.time) for file in results]
+    if (against is None) == (body is None):
+        fail("give either --against, a case or a scene, or --body, a ball that starts as the first row does", 2)
+    if body is not None:
+        tables = [read_table(file).from_zero() for file in results]
+        case = case_of_body(body, min(tables, key=lambda table: len(table.times)))
+    else:
+        assert against is not None
+        case = case_of_scene(against) if against.suffix == ".toml" else read_case(against)
+        tables = [read_table(file) for file in results]
+    runs = [table.at(case.time) for table in tables]
+    if against is not None:
+        for run in runs:
+            check_start(case, run)
     found = [departure(case, run) for run in runs]
     known: dict[str, Convergence] = {}
     if len(runs) > 2:

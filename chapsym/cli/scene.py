@@ -29,6 +29,10 @@ def new(
     example: Annotated[
         str, typer.Option(metavar="NAME", help="Which: bowling, four, robot, spread or vertical.")
     ] = "bowling",
+    from_: Annotated[
+        Path | None,
+        typer.Option("--from", metavar="ROBOT", help="Its ball: a .urdf, a .sdf or MuJoCo's .xml, with one sphere."),
+    ] = None,
     schema: Annotated[bool, typer.Option(help="Write the schema for editors beside it, and name it.")] = True,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
 ) -> None:
@@ -38,7 +42,7 @@ def new(
     """
     from chapsym.scene.read import schema as examples
 
-    text = examples.example(example)
+    text = examples.example(example) if from_ is None else examples.of_robot(from_)
     if file.suffix != ".toml":
         fail(f"{str(file)!r}: a scene must end in .toml", 2)
     if (file.exists() or file.is_symlink()) and not force:

@@ -1,7 +1,6 @@
 """How far an engine's trajectory is from a motion that is certified (benchmarks/rolling)."""
 
 import json
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -13,6 +12,13 @@ import numpy as np
 
 from chapsym.dynamics.errors import BadInput
 
+from .judge_tables import MORE, NEEDED, Trajectory, in_space, read_trajectory
+
+__all__ = [
+    "LIMITS", "MORE", "NEEDED", "UNITS", "Case", "Convergence", "Departure", "Trajectory", "angle", "case_of_scene",
+    "certified", "convergence", "departure", "in_space", "limit_of", "read_case", "read_trajectory", "sentence",
+]  # fmt: skip
+
 # The truth: a certified motion, from the file that `benchmarks/rolling` holds of it.
 
 
@@ -20,7 +26,7 @@ from chapsym.dynamics.errors import BadInput
 class Case:
     """The truth at the frames, in float64.
 
-    mass in kg, radius in m, inertia: the principal moments about the centre in kg m², (3,).
+    mass in kg, radius in m, inertia: the principal moments about the centre in kg m², (3,), or the tensor, (3, 3).
     time in s, (frames,).  path: the point of contact in m, (frames, 2).  attitude: unit quaternions, scalar first, from
     the axes of the body to space, (frames, 4).  omega: rad/s in space, (frames, 3).
     """
@@ -39,6 +45,8 @@ def read_case(file: Path) -> Case:
     """Raises BadInput, one sentence, for a file that is none."""
     try:
         data = json.loads(file.read_text(encoding="utf-8"))
+        if isinstance(data, dict) and "frames" in data and "ball" not in data:
+            raise BadInput(f"{file} does not say of which ball it is: give the scene, --against SCENE.toml")
         ball, frames = data["ball"], data["frames"]
         mass, radius, *inertia = (float(Fraction(x)) for x in (ball["mass"], ball["radius"], *ball["inertia"]))
         time = np.array([float(Fraction(frame["time"])) for frame in frames])
@@ -55,114 +63,48 @@ def read_case(file: Path) -> Case:
         return Case(str(data["case"]), mass, radius, np.array(inertia), time, path, attitude, in_space(attitude, omega))
     except OSError as error:
         raise BadInput(f"{file} cannot be read: {error.strerror or error}") from None
+    except BadInput:
+        raise
     except (ValueError, KeyError, TypeError, IndexError, ArithmeticError, RecursionError):
         raise BadInput(f"{file} is no case: it must be a file of benchmarks/rolling/data that ends in .json") from None
 
 
-def in_space(attitude: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    """Vectors of the body, (..., 3), turned by unit quaternions, (..., 4)."""
-    from chapsym import generated
-
-    rows = np.stack(np.broadcast_arrays(*generated.rotation(*np.moveaxis(attitude, -1, 0))), axis=-1)
-    return np.einsum("...ij,...j->...i", rows.reshape(*attitude.shape[:-1], 3, 3), vector)
+#: Digits that are proved of a case that is made for a judgement.
+DIGITS = 12
 
 
-# What an engine wrote: a CSV file with a row for each time, in m, s and rad, z up.
+def case_of_scene(file: Path, limit: float = 600.0) -> Case:
+    """The certified motion of the one ball of a scene, at its frames."""
+    from chapsym.scene import load
+    from chapsym.scene.members.exactly import exact_motion
 
-NEEDED = ("time", "x", "y", "z", "qw", "qx", "qy", "qz")
-MORE = ("vx", "vy", "vz", "wx", "wy", "wz")
-#: Numbers from here on are of no ball.
-LARGEST = 1e100
-#: Two times are the same, if they differ by less than this part of the last.
-SAME_TIME = 1e-9
-
-
-@dataclass(frozen=True, eq=False)
-class Trajectory:
-    """The rows of a file at the frames of a case.
-
-    centre in m, (frames, 3).  attitude: unit quaternions, (frames, 4).  velocity of the centre in m/s and omega in
-    rad/s, in space, (frames, 3), or None.  step: that of the engine in s, from a line "# time_step = 0.001", or None.
-    """
-
-    file: str
-    centre: np.ndarray
-    attitude: np.ndarray
-    velocity: np.ndarray | None
-    omega: np.ndarray | None
-    step: float | None
+    scene = load(file)
+    start, times = exact_motion(scene)
+    return certified(file.stem, scene, start, times, limit)
 
 
-def read_trajectory(file: Path, times: np.ndarray) -> Trajectory:
-    """The rows at `times`; other rows are left out.  Raises BadInput, one sentence, where there are none for one."""
-    try:
-        lines = file.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{file} cannot be read: {getattr(error, 'strerror', None) or 'it is no text'}") from None
-    names, rows = _table(file, [line for line in lines if line.strip() and not line.startswith("#")])
-    columns = {name: rows[:, i] for i, name in enumerate(names)}
-    at = _places(file, columns["time"], times)
-    found = {name: column[at] for name, column in columns.items()}
-    attitude = np.stack([found[name] for name in NEEDED[4:]], axis=-1)
-    length = np.linalg.norm(attitude, axis=-1, keepdims=True)
-    if not (abs(length - 1) < 1e-3).all():
-        worst = np.abs(length - 1).argmax()
-        raise BadInput(f"{file}: the quaternion at {times[worst]:g} s has the length {length[worst, 0]:.6g}, not 1")
-    velocity, omega = (
-        np.stack([found[name] for name in part], axis=-1) if set(part) <= found.keys() else None
-        for part in (MORE[:3], MORE[3:])
-    )  # fmt: skip
-    centre = np.stack([found[name] for name in NEEDED[1:4]], axis=-1)
-    return Trajectory(str(file), centre, attitude / length, velocity, omega, _step(file, lines))
+def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], limit: float = 600.0) -> Case:
+    """The certified motion from an exact start of a scene, at these times; raises BadInput where it is not reached."""
+    from chapsym.dynamics.enclosed_motion import follow
+    from chapsym.dynamics.principal_axes import from_principal
+    from chapsym.scene.members.members import expand, one_ball
 
-
-def _table(file: Path, lines: list[str]) -> tuple[list[str], np.ndarray]:
-    names = [name.strip().strip('"') for name in (lines[0].split(",") if lines else [])]
-    if missing := [name for name in NEEDED if name not in names]:
-        raise BadInput(f"{file} has no column {missing[0]}: its first row must name {','.join((*NEEDED, *MORE))}")
-    if twice := [name for name in names if names.count(name) > 1]:
-        raise BadInput(f"{file} has the column {twice[0]} twice")
-    rows = []
-    for i, line in enumerate(lines[1:], 1):
-        try:
-            numbers = [float(x) for x in line.split(",")]
-        except ValueError:
-            numbers = []
-        if len(numbers) != len(names) or not (np.abs(numbers) < LARGEST).all():
-            raise BadInput(f"{file}: row {i} must have {len(names)} numbers, separated by commas, below {LARGEST:g}")
-        rows.append(numbers)
-    return names, np.array(rows).reshape(-1, len(names))
-
-
-def _places(file: Path, given: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """The row of each time: the engine is not interpolated."""
-    if not given.size:
-        raise BadInput(f"{file} has no rows")
-    near = SAME_TIME * max(times[-1], 1.0)
-    at = np.array([np.abs(given - time).argmin() for time in times])
-    off = np.abs(given[at] - times) > near
-    if off.any():
-        raise BadInput(
-            f"{file} has no row at {times[off][0]:g} s: it must have one at each time of the case, every "
-            f"{times[1] - times[0]:g} s to {times[-1]:g} s"
-        )
-    several = np.array([(np.abs(given - time) <= near).sum() > 1 for time in times])
-    if several.any():
-        raise BadInput(f"{file} has two rows at {times[several][0]:g} s")
-    return at
-
-
-def _step(file: Path, lines: list[str]) -> float | None:
-    for line in lines:
-        if found := re.fullmatch(r"#\s*time_step\s*=\s*(\S+)\s*", line):
-            try:
-                step = float(found[1])
-            except ValueError:
-                step = 0.0
-            if not 0 < step < np.inf:
-                raise BadInput(f"{file}: time_step must be a positive number of seconds, not {found[1]}")
-            return step
-    return None
+    if start.radius is None:
+        raise BadInput(f"{name}: the contact point needs the radius: give the ball its mass and radius")
+    members = expand(scene)
+    moments = one_ball(members, 0).inertia
+    if members.axes is not None:
+        turn = from_principal(members.axes, np.eye(3)).T
+        moments = turn * moments @ turn.T
+    found = follow(start, times, DIGITS, limit=limit)
+    if found.stopped:
+        raise BadInput(f"{name}: the motion is certified to {float(found.times[-1]):g} s only: {found.stopped}")
+    parts: list[Any] = [found.contact, found.attitude, found.omega]
+    path, attitude, omega = (np.array([[float(x.mid()) for x in row] for row in part]) for part in parts)
+    attitude /= np.linalg.norm(attitude, axis=-1, keepdims=True)
+    time = np.array([float(at) for at in times])
+    mass, radius = float(start.D / start.radius**2), float(start.radius)
+    return Case(name, mass, radius, moments, time, path, attitude, in_space(attitude, omega))
 
 
 # How far one trajectory is from the truth, at each frame.
@@ -242,7 +184,8 @@ def _carried(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The kinetic energy, J, and the momentum about the point of contact, kg m²/s in space."""
     back = attitude * np.array([1, -1, -1, -1])
-    turning = case.inertia * in_space(back, omega)
+    turning = in_space(back, omega)
+    turning = case.inertia * turning if case.inertia.ndim == 1 else np.einsum("ij,fj->fi", case.inertia, turning)
     spin = in_space(attitude, turning)
     energy = (case.mass * (velocity**2).sum(axis=-1) + (omega * spin).sum(axis=-1)) / 2
     return energy, spin + case.mass * case.radius * np.cross([0, 0, 1], velocity)

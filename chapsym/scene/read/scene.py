@@ -14,6 +14,7 @@ from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model
 
 from chapsym.accuracy.motion import DEFAULT
 
+from . import robots
 from .errors import At, SceneError, described
 from .ranges import ranges_in
 from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table
@@ -150,8 +151,29 @@ class Scene(Table):
 
 def load(path: Path) -> Scene:
     """Reads a scene file; raises SceneError with the file, the line, the key and what would be right."""
+    if path.suffix in robots.SUFFIXES:
+        robots.table(path)
+        raise SceneError(
+            f"{path} has a ball and no start: chapsym scene new ball.toml --from {path} makes a scene of it"
+        )
     text = _text(path)
     return checked(_parsed(text, path), str(path), text)
+
+
+def ball_table(path: Path) -> dict[str, Any]:
+    """[ball] of a scene file, or of a robot's (URDF, SDF, MJCF), its numbers as they are written."""
+    if path.suffix in robots.SUFFIXES:
+        return robots.table(path)
+    data = tomllib.loads(load(path).toml or "", parse_float=lambda text: text.replace("_", ""))["ball"]
+    if isinstance(data, list) and len(data) > 1:
+        raise SceneError(f"{path} has {len(data)} balls: one is needed")
+    return {key: value for key, value in (data[0] if isinstance(data, list) else data).items() if key != "start"}
+
+
+def written(name: str, table: dict[str, Any]) -> str:
+    """A table in TOML, of texts, whole numbers and lists of them."""
+    rows = (f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in table.items())
+    return "\n".join([f"[{name}]", *rows, ""])
 
 
 def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:

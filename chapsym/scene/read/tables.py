@@ -243,9 +243,8 @@ class BallTable(Table):
     @model_validator(mode="after")
     def _balanced(self) -> Self:
         if self.center_of_mass is not None and any(self.center_of_mass):
-            offset = (
-                None if any(isinstance(x, Range) for x in self.center_of_mass) else math.hypot(*self.center_of_mass)
-            )
+            known = [x for x in self.center_of_mass if not isinstance(x, Range)]
+            offset = math.hypot(*known) if len(known) == 3 else None
             radius = self.radius if isinstance(self.radius, float) else None
             raise At(unbalanced("ball.center_of_mass", offset, radius), "center_of_mass")
         return self

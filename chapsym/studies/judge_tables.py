@@ -1,0 +1,196 @@
+"""The trajectory of an engine or a tracker: a table of text with a row for each time, in m, s and rad, z up."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+
+from chapsym.dynamics.errors import BadInput
+
+NEEDED = ("time", "x", "y", "z", "qw", "qx", "qy", "qz")
+MORE = ("vx", "vy", "vz", "wx", "wy", "wz")
+#: The columns of a table without names: TUM, as trackers write it.
+TUM = ("time", "x", "y", "z", "qx", "qy", "qz", "qw")
+#: Numbers from here on are of no ball.
+LARGEST = 1e100
+#: Two times are the same, if they differ by less than this part of the last.
+SAME_TIME = 1e-9
+#: What engines call a part, before its component, words in lower case; "angular velocity" is sought before "velocity".
+CALLED = {
+    "w": r"w|omega|ang ?vel|angular|angular velocity",
+    "": r"p|pos|position|translation|com|cent(?:er|re)",
+    "q": r"q|quat|quaternion|orientation|rot|rotation|attitude",
+    "v": r"v|vel|velocity|lin ?vel|linear|linear velocity",
+}
+_TIME = re.compile(r"t|time|timestamp|stamp|sim time|(?:time |t )?s(?:ec(?:onds)?)?")
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """The rows of a file at the frames of a case.
+
+    centre in m, (frames, 3).  attitude: unit quaternions, (frames, 4).  velocity of the centre in m/s and omega in
+    rad/s, in space, (frames, 3), or None.  step: that of the engine in s, from a line "# time_step = 0.001", or None.
+    digit: a unit of the last digit in the columns of each of them, by name.
+    """
+
+    file: str
+    centre: np.ndarray
+    attitude: np.ndarray
+    velocity: np.ndarray | None
+    omega: np.ndarray | None
+    step: float | None
+    digit: Mapping[str, float] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """The columns of a file by the names of `NEEDED` and `MORE`, the texts of the times, and the digits as above."""
+
+    file: Path
+    columns: Mapping[str, np.ndarray]
+    times: Sequence[str]
+    step: float | None
+    digit: Mapping[str, float]
+
+    def from_zero(self) -> "Table":
+        """With times from the first row on, and these exactly."""
+        exact = self.exact_times()
+        return replace(self, columns={**self.columns, "time": np.array([float(at) for at in exact])})
+
+    def exact_times(self) -> list[Fraction]:
+        """The times since the first row, as they are written."""
+        found = [Fraction(text) for text in self.times]
+        return [at - found[0] for at in found]
+
+    def at(self, times: np.ndarray) -> Trajectory:
+        """The rows at `times`; other rows are left out.  Raises BadInput, one sentence, where one has none."""
+        at = _places(self.file, self.columns["time"], times)
+        found = {name: column[at] for name, column in self.columns.items()}
+        attitude = np.stack([found[name] for name in NEEDED[4:]], axis=-1)
+        length = np.linalg.norm(attitude, axis=-1, keepdims=True)
+        if not (abs(length - 1) < 1e-3).all():
+            worst = np.abs(length - 1).argmax()
+            told = f"the quaternion at {times[worst]:g} s has the length {length[worst, 0]:.6g}, not 1"
+            raise BadInput(f"{self.file}: {told}")
+        velocity, omega = (
+            np.stack([found[name] for name in part], axis=-1) if set(part) <= found.keys() else None
+            for part in (MORE[:3], MORE[3:])
+        )  # fmt: skip
+        centre = np.stack([found[name] for name in NEEDED[1:4]], axis=-1)
+        return Trajectory(str(self.file), centre, attitude / length, velocity, omega, self.step, self.digit)
+
+
+def read_trajectory(file: Path, times: np.ndarray) -> Trajectory:
+    """The rows of a file at `times`, as `Table.at`."""
+    return read_table(file).at(times)
+
+
+def read_table(file: Path) -> Table:
+    """A file with commas, semicolons, tabs or spaces; raises BadInput, one sentence, for what is no trajectory."""
+    try:
+        lines = file.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadInput(f"{file} cannot be read: {getattr(error, 'strerror', None) or 'it is no text'}") from None
+    rows = [line for line in lines if line.strip() and not line.startswith("#")]
+    if len(rows) > 1 and not any(map(_is_number, _cells(rows[1]))):  # after a title
+        rows = rows[1:]
+    names = [_name(cell) for cell in _cells(rows[0])] if rows else []
+    if rows and len(names) == len(TUM) and all(map(_is_number, _cells(rows[0]))):
+        names, rows = list(TUM), ["", *rows]
+    if missing := [name for name in NEEDED if name not in names]:
+        raise BadInput(f"{file} has no column {missing[0]}: its first row must name {','.join((*NEEDED, *MORE))}")
+    if twice := [name for name in names if name in (*NEEDED, *MORE) and names.count(name) > 1]:
+        raise BadInput(f"{file} has the column {twice[0]} twice")
+    numbers = []
+    for i, line in enumerate(rows[1:], 1):
+        try:
+            numbers.append([float(x) for x in _cells(line)])
+        except ValueError:
+            numbers.append([])
+        if len(numbers[-1]) != len(names) or not (np.abs(numbers[-1]) < LARGEST).all():
+            raise BadInput(f"{file}: row {i} must have {len(names)} numbers, separated by commas, below {LARGEST:g}")
+    array = np.array(numbers).reshape(-1, len(names))
+    texts = [_cells(line) for line in rows[1:]]
+    # A column that ends in 0 at the start may have more digits later.
+    units = {name: min(map(_unit, column)) for name, column in zip(names, zip(*texts, strict=True), strict=False)}
+    parts = {"centre": NEEDED[1:4], "attitude": NEEDED[4:], "velocity": MORE[:3], "omega": MORE[3:]}
+    digit = {part: max((units.get(name, 0.0) for name in some), default=0.0) for part, some in parts.items()}
+    columns = {name: array[:, i] for i, name in enumerate(names)}
+    where = names.index("time")
+    return Table(file, columns, [row[where].strip() for row in texts], _step(file, lines), digit)
+
+
+def _cells(line: str) -> list[str]:
+    return next((line.split(mark) for mark in (",", ";", "\t") if mark in line), line.split())
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return float(text) == float(text)
+    except ValueError:
+        return False
+
+
+def _name(cell: str) -> str:
+    """The name of a column here; its own, where it is none of an engine."""
+    own = cell.strip().strip('"').strip()
+    words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", re.sub(r"\[[^\]]*\]|\([^)]*\)", "", own))
+    words = re.sub(r"[\W_]+", " ", words).strip().lower()
+    if words in (*NEEDED, *MORE) or _TIME.fullmatch(words):
+        return words if words in (*NEEDED, *MORE) else "time"
+    for short, called in CALLED.items():
+        if found := re.fullmatch(rf"(?:.* )?(?:{called}) ?([{'w' if short == 'q' else ''}xyz])", words):
+            return short + found[1]
+    return own
+
+
+def _unit(text: str) -> float:
+    """A unit of the last digit of a number as it is written."""
+    mantissa, _, exponent = text.strip().lower().partition("e")
+    return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+
+
+def _places(file: Path, given: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """The row of each time: the engine is not interpolated."""
+    if not given.size:
+        raise BadInput(f"{file} has no rows")
+    near = SAME_TIME * max(times[-1], 1.0)
+    at = np.array([np.abs(given - time).argmin() for time in times])
+    off = np.abs(given[at] - times) > near
+    if off.all():
+        begins = f"its times begin at {given[0]:.10g} s, and those of the case at {times[0]:g} s"
+        raise BadInput(f"{file} has no row at {times[0]:g} s: {begins}")
+    if off.any():
+        raise BadInput(
+            f"{file} has no row at {times[off][0]:g} s: it must have one at each time of the case, every "
+            f"{times[1] - times[0]:g} s to {times[-1]:g} s"
+        )
+    several = np.array([(np.abs(given - time) <= near).sum() > 1 for time in times])
+    if several.any():
+        raise BadInput(f"{file} has two rows at {times[several][0]:g} s")
+    return at
+
+
+def _step(file: Path, lines: list[str]) -> float | None:
+    for line in lines:
+        if found := re.fullmatch(r"#\s*time_step\s*=\s*(\S+)\s*", line):
+            try:
+                step = float(found[1])
+            except ValueError:
+                step = 0.0
+            if not 0 < step < np.inf:
+                raise BadInput(f"{file}: time_step must be a positive number of seconds, not {found[1]}")
+            return step
+    return None
+
+
+def in_space(attitude: np.ndarray, vector: np.ndarray) -> np.ndarray:
+    """Vectors of the body, (..., 3), turned by unit quaternions, (..., 4)."""
+    from chapsym import generated
+
+    rows = np.stack(np.broadcast_arrays(*generated.rotation(*np.moveaxis(attitude, -1, 0))), axis=-1)
+    return np.einsum("...ij,...j->...i", rows.reshape(*attitude.shape[:-1], 3, 3), vector)

@@ -1,0 +1,130 @@
+"""The ball of a URDF, an SDF or an MJCF: one tensor of three formats, its numbers as written, and what is refused."""
+
+import json
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from commands import chapsym, refused
+
+from chapsym.scene import SceneError, load
+from chapsym.scene.members.exactly import exact_motion
+from chapsym.scene.members.members import expand
+from chapsym.scene.read.robots import table
+
+URDF = """<?xml version="1.0"?>
+<robot name="r"><link name="floor"/><link name="ball">
+ <inertial>
+  <origin xyz="0 0 0" rpy="0 0 0"/>
+  <mass value="1.9"/>
+  <inertia ixx="0.0046" ixy="0.0001" ixz="-2e-4" iyy="0.0061" iyz="3E-4" izz="0.0083"/>
+ </inertial>
+ <collision><geometry><sphere radius="0.105"/></geometry></collision>
+</link></robot>"""
+SDF = """<sdf version="1.9"><world name="w"><model name="m"><link name="ball">
+ <inertial><pose>0 0 0 0 0 0</pose><mass>1.9</mass>
+  <inertia><ixx>0.0046</ixx><ixy>0.0001</ixy><ixz>-2e-4</ixz><iyy>0.0061</iyy><iyz>3E-4</iyz><izz>0.0083</izz></inertia>
+ </inertial>
+ <collision name="c"><geometry><sphere><radius> 0.105 </radius></sphere></geometry></collision>
+</link></model></world></sdf>"""
+MJCF = """<mujoco><worldbody><geom type="plane" size="1 1 1"/><body name="ball" pos="0 0 1">
+ <inertial pos="0 0 0" mass="1.9" fullinertia="0.0046 0.0061 0.0083 0.0001 -2e-4 3E-4"/>
+ <geom size="0.105"/><freejoint/>
+</body></worldbody></mujoco>"""
+#: In all three ixy is an entry of the tensor, -∫xy dm.
+ROWS = [["0.0046", "0.0001", "-2e-4"], ["0.0001", "0.0061", "3E-4"], ["-2e-4", "3E-4", "0.0083"]]
+
+
+@pytest.fixture
+def put(tmp_path):
+    def written(text, suffix=".urdf"):
+        path = tmp_path / f"ball{suffix}"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return written
+
+
+@pytest.mark.parametrize(("text", "suffix"), [(URDF, ".urdf"), (SDF, ".sdf"), (MJCF, ".xml")])
+def test_three_formats_say_one_ball_in_the_texts_of_the_file(put, text, suffix):
+    assert table(put(text, suffix)) == {"name": "ball", "inertia": ROWS, "mass": "1.9", "radius": "0.105"}
+
+
+def test_a_scene_of_it_has_its_numbers_exactly(put, tmp_path):
+    scene = tmp_path / "ball.toml"
+    assert "wrote" in chapsym("scene", "new", scene, "--from", put(URDF), "--no-schema").stdout
+    start, _ = exact_motion(load(scene))
+    assert (start.D, start.radius) == (Fraction("1.9") * Fraction("0.105") ** 2, Fraction("0.105"))
+    expected = np.linalg.eigvalsh(np.array(ROWS, dtype=float))
+    np.testing.assert_allclose(sorted(expand(load(scene)).ball.inertia[0]), expected, rtol=1e-14)
+    assert "has a ball and no start: chapsym scene new" in refused("run", put(URDF), "-o", tmp_path / "x.csv")
+
+
+@pytest.mark.parametrize(
+    ("text", "suffix"),
+    [
+        (URDF.replace('rpy="0 0 0"', 'rpy="0.3 -0.2 1.1"'), ".urdf"),
+        (SDF.replace("0 0 0 0 0 0", "0 0 0 0.3 -0.2 1.1"), ".sdf"),
+        (MJCF.replace('pos="0 0 0" mass', 'pos="0 0 0" quat="2 1 -1 3" mass'), ".xml"),
+    ],
+)
+def test_a_turned_inertial_frame_turns_the_tensor(put, text, suffix):
+    from scipy.spatial.transform import Rotation
+
+    turn = Rotation.from_quat([1, -1, 3, 2]) if suffix == ".xml" else Rotation.from_euler("xyz", [0.3, -0.2, 1.1])
+    found = np.array([[float(Fraction(x)) for x in row] for row in table(put(text, suffix))["inertia"]])
+    r = turn.as_matrix()
+    np.testing.assert_allclose(found, r @ np.array(ROWS, dtype=float) @ r.T, atol=1e-17)
+
+
+def test_a_geom_with_a_mass_is_homogeneous_as_mujoco_makes_it(put):
+    text = '<mujoco><worldbody><body><geom type="sphere" size="0.1" mass="0.5"/></body></worldbody></mujoco>'
+    assert table(put(text, ".xml")) == {"preset": "homogeneous", "mass": "0.5", "radius": "0.1"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (
+            'xyz="0 0 0"',
+            'xyz="0 0.001 0"',
+            ", line 3: the centre of mass of <inertial> is 1 mm off the centre of the ball",
+        ),
+        ('<mass value="1.9"/>', "", ", line 3: <inertial> has no mass"),
+        ('ixz="-2e-4"', "", ", line 6: <inertia> has no ixz"),
+        ('"0.0046"', '"${ixx}"', ", line 6: <inertia>: '${ixx}' is not a number"),
+        ("<robot ", "<!DOCTYPE r [<!ENTITY a 'b'>]><robot ", ", line 2: a DOCTYPE is not read"),
+        ("</robot>", "", ", line 9: this is not XML: no element found"),
+        (
+            '<sphere radius="0.105"/>',
+            "<box/>",
+            ": the ball is the <link> with a sphere to roll on, and this file has none",
+        ),
+        (
+            '<link name="floor"/>',
+            "<link name='b'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>",
+            "this file has 2 with one (b, ball)",
+        ),
+        ("robot", "html", ", line 2: <html> is not <robot> (URDF), <sdf> or <mujoco> (MJCF)"),
+    ],
+)
+def test_what_is_no_ball_is_refused_with_its_line(put, old, new, said):
+    with pytest.raises(SceneError) as caught:
+        table(put(URDF.replace(old, new)))
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("inertia", "said"),
+    [
+        ([0.0] * 3, "its moments of inertia are 0"),
+        ([4.6e-7, 6.1e-7, 8.3e-7], "its moments of inertia are 1/1"),
+    ],
+)
+def test_moments_that_are_none_or_in_other_units_are_refused_by_the_scene(put, tmp_path, inertia, said):
+    text = MJCF.replace("fullinertia=", f'diaginertia="{" ".join(map(json.dumps, inertia))}" a=')
+    scene = tmp_path / "ball.toml"
+    chapsym("scene", "new", scene, "--from", put(text, ".xml"), "--no-schema")
+    with pytest.raises(SceneError, match=rf"line 4: ball\.inertia of ball: {said}"):
+        expand(load(scene))

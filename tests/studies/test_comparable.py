@@ -1,0 +1,142 @@
+"""No verdict on an engine where the file is written in another convention; a ball of one's own from the first row."""
+
+import csv
+
+import numpy as np
+import pytest
+from commands import answer, refused
+
+from benchmarks.rolling.make import CASES, DATA
+from chapsym.studies.comparable import case_of_body
+from chapsym.studies.judge import read_case
+from chapsym.studies.judge_tables import NEEDED, TUM, read_table
+
+FILE = DATA / "robot.json"
+BODY = """<robot name="r"><link name="ball">
+ <inertial><mass value="1.9"/><inertia ixx="0.0046" ixy="0" ixz="0" iyy="0.0061" iyz="0" izz="0.0083"/></inertial>
+ <collision><geometry><sphere radius="0.105"/></geometry></collision></link></robot>"""
+Q, P, V, W = NEEDED[4:], NEEDED[1:4], ("vx", "vy", "vz"), ("wx", "wy", "wz")
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """The certified motion, of 2 seconds."""
+    lines = [line for line in FILE.with_suffix(".csv").read_text("utf-8").splitlines() if not line.startswith("#")]
+    table = list(csv.DictReader(lines))[:9]
+    return {name: np.array([float(row[name]) for row in table]) for name in table[0]}
+
+
+@pytest.fixture(scope="module")
+def body(tmp_path_factory):
+    path = tmp_path_factory.mktemp("body") / "robot.urdf"
+    path.write_text(BODY, encoding="utf-8")
+    return path
+
+
+def write(folder, rows, head=None, mark=","):
+    path = folder / "run.csv"
+    lines = [mark.join(map(repr, map(float, row))) for row in zip(*rows.values(), strict=True)]
+    path.write_text("\n".join([*([mark.join(rows)] if head is None else head), *lines]) + "\n", encoding="utf-8")
+    return path
+
+
+def with_parts(rows, names, values):
+    return rows | dict(zip(names, values, strict=True))
+
+
+def of_body(rows):
+    w, u, omega = rows["qw"], np.stack([rows[x] for x in Q[1:]]), np.stack([rows[x] for x in W])
+    back = 2 * (u * omega).sum(0) * u + (2 * w**2 - 1) * omega - 2 * w * np.cross(u, omega, axis=0)
+    return with_parts(rows, W, back)
+
+
+def y_up(rows):
+    for names in (P, V, W):
+        x, y, z = (rows[name] for name in names)
+        rows = with_parts(rows, names, (x, z, -y))
+    return rows
+
+
+#: What each file does otherwise, and what is said of it.
+OTHERWISE = {
+    "last": (lambda r: with_parts(r, Q, [r[x] for x in (*Q[1:], "qw")]), "the scalar last, in the column qz"),
+    "taken for last": (lambda r: with_parts(r, Q, [r[x] for x in ("qz", *Q[:3])]), "the scalar in the column qx"),
+    "conjugate": (lambda r: with_parts(r, Q[1:], [-r[x] for x in Q[1:]]), "turns space to body"),
+    "of the body": (of_body, "its angular velocity is in the axes of the body"),
+    "degrees": (lambda r: with_parts(r, W, [np.degrees(r[x]) for x in W]), "is in degrees per second"),
+    "mm": (lambda r: with_parts(r, P, [1000 * r[x] for x in P]), "its lengths are in mm: divide them by 1000"),
+    "y up": (y_up, "its y is up, and not z"),
+}
+
+
+@pytest.mark.parametrize("name", OTHERWISE)
+@pytest.mark.parametrize("own", [False, True])
+def test_another_convention_is_named_and_there_is_no_verdict(rows, body, tmp_path, name, own):
+    change, said = OTHERWISE[name]
+    file = write(tmp_path, change(rows))
+    case = body if own else short(tmp_path, rows)
+    told = refused("judge", file, "--body" if own else "--against", case)
+    assert f"{file} cannot be judged as it is written: " in told
+    assert said in told
+    assert ";" not in told, "one thing only is otherwise"
+
+
+def short(folder, rows):
+    """The case, of the times of the rows."""
+    import json
+
+    data = json.loads(FILE.read_text("utf-8"))
+    data["frames"] = data["frames"][: len(rows["time"])]
+    path = folder / "robot.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    return path
+
+
+def test_a_path_that_begins_elsewhere_and_a_start_that_is_another_are_said(rows, tmp_path):
+    case = short(tmp_path, rows)
+    assert "its path begins (5, 0) m from that of robot" in refused(
+        "judge", write(tmp_path, rows | {"x": rows["x"] + 5}), "--against", case
+    )
+    told = refused("judge", write(tmp_path, rows | {"wx": rows["wx"] * 1.01}), "--against", case)
+    assert "its first row is not the start of robot (omega 0.209 rad/s): no verdict on the engine" in told
+    rounded = {name: np.round(column, 3) for name, column in rows.items()}
+    assert (
+        answer("judge", write(tmp_path, rounded), "--against", case)["results"][0]["departure"]["path"]["greatest"]
+        < 1e-3
+    )
+
+
+def test_a_ball_of_ones_own_has_the_motion_that_the_case_has(rows, body, tmp_path):
+    later = rows | {"time": rows["time"] + 1708447572.25}
+    made, case = case_of_body(body, read_table(write(tmp_path, later))), read_case(FILE)
+    n = len(rows["time"])
+    np.testing.assert_array_equal(made.time, case.time[:n])
+    for name in ("path", "omega"):
+        np.testing.assert_allclose(getattr(made, name), getattr(case, name)[:n], atol=1e-10)
+    found = answer("judge", write(tmp_path, rows), "--body", body)
+    assert found["case"] == "robot"
+    assert found["results"][0]["departure"]["attitude"]["departs"] is None
+    slow = with_parts(rows, (*V, *W), [rows[x] * (0.5 if x in W else 1.0) for x in (*V, *W)])
+    assert "its ball slides at the start" in refused("judge", write(tmp_path, slow), "--body", body)
+    assert "subtract 0.2 from z" in refused("judge", write(tmp_path, rows | {"z": rows["z"] + 0.2}), "--body", body)
+    assert "give either --against" in refused("judge", write(tmp_path, rows))
+
+
+def test_a_scene_is_a_case(rows, tmp_path):
+    scene = (CASES / "robot.toml").read_text("utf-8")
+    path = tmp_path / "mine.toml"
+    path.write_text(scene.replace("time = 10", "time = 2").replace("frames = 40", "frames = 8"), encoding="utf-8")
+    found = answer("judge", write(tmp_path, rows), "--against", path)["results"][0]["departure"]
+    assert found["path"]["greatest"] < 1e-12
+    assert found["momentum"]["greatest"] < 1e-10
+
+
+def test_tables_of_trackers_and_other_engines_are_read(rows, tmp_path):
+    tum = write(tmp_path, {name: rows[name] for name in TUM}, head=["# a tracker"], mark=" ")
+    np.testing.assert_array_equal(read_table(tum).columns["qw"], rows["qw"])
+    names = ["Time [s]", "position.x", "posY", "pos_z", "orientation.w", "quat_x", "qy", "rotation z"]
+    names += ["linear_velocity.x", "v_y", "velZ", "angular_velocity_x", "omega_y", "wz (rad/s)"]
+    head = ["a title", ";".join(names)]
+    table = read_table(write(tmp_path, rows, head=head, mark=";"))
+    assert set(table.columns) == set(rows)
+    np.testing.assert_array_equal(table.columns["vz"], rows["vz"])
