@@ -296,10 +296,13 @@ def largest_moment(tensor: Floats, D: Floats) -> Floats:
     return np.asarray(np.sort(tensor, axis=-1)[..., -2:].sum(axis=-1) + D)
 
 
-def mass_tensor_of(inertia: ArrayLike) -> Floats:
-    """J from the principal moments of inertia; raises BadInput if no body has them."""
+def mass_tensor_of(inertia: ArrayLike, rounding: float = 0.0) -> Floats:
+    """J from the principal moments of inertia; raises BadInput if no body has them.
+
+    rounding: by how much a moment J that was rounded may be below 0: it is 0 then.
+    """
     moments = numbers(inertia, "inertia", 3)
-    tensor = _rounded_tensor(moments)
+    tensor = _rounded_tensor(moments, rounding)
     bad = ((moments < 0) | (tensor < 0)).any(axis=-1)
     if not bad.any():
         return tensor
@@ -313,11 +316,11 @@ def mass_tensor_of(inertia: ArrayLike) -> Floats:
     raise BadInput(f"{error}; if it is a tensor, it must be symmetric, but it differs from its transpose by {off:.3g}")
 
 
-def _rounded_tensor(moments: Floats) -> Floats:
+def _rounded_tensor(moments: Floats, least: float = 0.0) -> Floats:
     """J from principal moments, where what is below 0 by a rounding is 0."""
     with np.errstate(over="ignore"):
         tensor = (moments / 2).sum(axis=-1, keepdims=True) - moments
-    rounding = 4 * np.finfo(np.float64).eps * np.abs(moments).max(axis=-1, keepdims=True)
+    rounding = np.maximum(4 * np.finfo(np.float64).eps * np.abs(moments).max(axis=-1, keepdims=True), least)
     return np.where(np.abs(tensor) <= rounding, np.maximum(tensor, 0.0), tensor)
 
 

@@ -41,16 +41,17 @@ def from_inertia_tensor(inertia: Floats) -> Floats:
     return tensor
 
 
-def principal(tensor: Floats) -> tuple[Floats, Floats | None]:
+def principal(tensor: Floats, least: float = 0.0) -> tuple[Floats, Floats | None]:
     """The principal moments of ∫xxᵀdm, (..., 3), and unit quaternions (..., 4) that turn principal to given axes.
 
     The axes are right-handed, in the order and with the signs that are nearest to the given axes; None where the tensor
-    is diagonal.  Moments that are negative by rounding are 0.  Raises BadInput where one is negative by more.
+    is diagonal.  Moments that are negative by rounding, at least `least`, are 0.  Raises BadInput where one is negative
+    by more.
     """
     diagonal = np.diagonal(tensor, axis1=-2, axis2=-1)
     off = np.abs(tensor - diagonal[..., np.newaxis] * np.eye(3)).max(axis=(-2, -1)) > 0
     if not off.any():
-        return _of_a_body(diagonal), None
+        return _of_a_body(diagonal, least), None
     moments, axes = np.linalg.eigh(tensor)
     orders = np.array([[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]])
     nearness = np.abs(axes[..., np.arange(3), orders]).sum(axis=-1)  # of each order: Σ |Qᵢ,order(i)|
@@ -63,13 +64,13 @@ def principal(tensor: Floats) -> tuple[Floats, Floats | None]:
     axes = axes * np.where(weakest & mirrored, -1.0, 1.0)[..., np.newaxis, :]
     moments = np.where(off[..., np.newaxis], moments, diagonal)
     axes = np.where(off[..., np.newaxis, np.newaxis], axes, np.eye(3))
-    return _of_a_body(moments), quaternions(axes)
+    return _of_a_body(moments, least), quaternions(axes)
 
 
-def _of_a_body(moments: Floats) -> Floats:
+def _of_a_body(moments: Floats, least: float) -> Floats:
     """Principal moments of ∫xxᵀdm, with 0 for what is negative by rounding; raises BadInput where it is by more."""
     largest = np.abs(moments).max(axis=-1, keepdims=True)
-    rounding = 16 * np.finfo(np.float64).eps * largest
+    rounding = np.maximum(16 * np.finfo(np.float64).eps * largest, least)
     bad = (moments <= -rounding).any(axis=-1) & (moments < 0).any(axis=-1)
     if bad.any():
         found = moments[bad][0].sum() - moments[bad][0]

@@ -8,6 +8,8 @@ from hypothesis import strategies as st
 from chapsym import BadInput
 from chapsym.dynamics import kernels
 from chapsym.dynamics.principal_axes import from_inertia_tensor, principal
+from chapsym.scene import checked
+from chapsym.scene.members.members import expand
 from chapsym.scene.read.bodies import PRESETS, check_inside
 
 EPS = np.finfo(np.float64).eps
@@ -164,3 +166,24 @@ def test_an_inertia_tensor_must_be_symmetric():
     I[0, 0, 1] = 0.2
     with pytest.raises(BadInput, match=r"inertia must be symmetric, but it differs from its transpose by 0\.1 kg m²"):
         from_inertia_tensor(I)
+
+
+@pytest.mark.parametrize(
+    ("inertia", "taken"),
+    [
+        ([0.00123, 0.00134, 0.00258], True),  # a thin disc, whose third moment is the sum of the others, rounded
+        ([0.00123, 0.00134, 0.00262], False),
+        ([0.001230000001, 0.001340000001, 0.00258], False),  # its digits say more
+        ([[0.00123, 0.0, 0.0], [0.0, 0.00134, 1e-5], [0.0, 1e-5, 0.00258]], True),
+        ([0.1, 0.2, 0.4], False),  # a digit is no excuse for an eighth
+        ([1.0, 2.0, 4.0], False),
+    ],
+)
+def test_the_digits_of_an_inertia_say_what_rounding_may_have_done(inertia, taken):
+    ball = {"inertia": inertia, "D": 1}
+    scene = checked({"ball": ball, "start": {"omega": [1, 2, 3]}, "run": {"time": 1.0}})
+    if taken:
+        assert expand(scene).ball.mass_tensor.min() == 0.0
+    else:
+        with pytest.raises(BadInput, match="no body has the inertia"):
+            expand(scene)

@@ -21,7 +21,7 @@ from chapsym.dynamics.principal_axes import (
     to_principal,
 )
 
-from ..read.bodies import PRESETS, check_inside
+from ..read.bodies import PRESETS, check_inside, rounded_by
 from ..read.errors import Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene
@@ -299,7 +299,7 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
 def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
     """The balls, and what turns their principal axes to those of the table, if these are others."""
     told, contact = _sizes(table, given)
-    axes = None
+    axes, least = None, 0.0
     (shape,) = table.given("mass_tensor", "inertia", "preset")
     with said_by("ball", shape):
         if table.mass_tensor is not None:
@@ -308,9 +308,10 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
             tensor = PRESETS[table.preset].tensor(told)
         else:
             inertia = given.array(table.inertia, "ball.inertia")
-            tensor = mass_tensor_of(inertia) if inertia.ndim == 2 else from_inertia_tensor(inertia)
+            least = rounded_by(table.inertia)
+            tensor = mass_tensor_of(inertia, least) if inertia.ndim == 2 else from_inertia_tensor(inertia)
         if tensor.ndim == 3:
-            tensor, axes = principal(numbers(tensor, "inertia"))
+            tensor, axes = principal(numbers(tensor, "inertia"), least)
         if "mass" in told:
             check_inside(tensor, told["mass"], told["radius"])
     with said_by("ball", _no_size(told) or shape):

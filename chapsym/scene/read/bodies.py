@@ -6,6 +6,8 @@ diagonal in the axes that the user gave, else (..., 3, 3).  Every centre of mass
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
+from typing import Any
 
 import numpy as np
 
@@ -109,6 +111,20 @@ def _isotropic(moment: Floats) -> Floats:
 def _check(holds: np.ndarray | np.bool_, sentence: str) -> None:
     if not np.all(holds):
         raise BadInput(sentence)
+
+
+def rounded_by(inertia: Any) -> float:
+    """How much of a moment of ∫xxᵀdm the rounding of an inertia to its digits may be; 0 where it is of whole numbers.
+
+    Each entry is off by half a unit of its last digit: of principal moments J by ¾ of a unit; of a tensor ½ tr I by ¾
+    and I by 3/2 of one.  At most a hundredth of the largest is believed.
+    """
+    numbers = np.array(inertia, dtype=object).ravel()
+    if not all(isinstance(x, float) for x in numbers):
+        return 0.0
+    digits = [Decimal(repr(x)).normalize().as_tuple().exponent for x in numbers if x != round(x)]
+    unit = 10.0 ** min(map(int, digits), default=-400)
+    return min((0.75 if len(numbers) == 3 else 2.25) * unit, 0.01 * max(abs(numbers)))
 
 
 def unbalanced(what: str, offset: float | None, radius: float | None) -> str:

@@ -220,7 +220,7 @@ def _read_csv(path: Path) -> "Dataset":
     lines = 0
     with path.open(encoding="utf-8", newline="") as stream:
         if not (line := stream.readline()).startswith("# "):
-            if "step" not in line.rstrip().replace('"', "").split(","):
+            if line.strip() and "step" not in line.rstrip().replace('"', "").split(","):
                 told = "it has no column step; chapsym judge reads the trajectory of another program"
                 raise SceneError(f"{path} was not written by chapsym: {told}")
             return _old(_columns(csv.read_csv(path)))
