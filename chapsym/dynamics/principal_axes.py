@@ -15,6 +15,8 @@ Floats = NDArray[np.float64]
 
 #: By how much, relatively, a symmetric tensor may differ from its transpose.
 ASYMMETRY = 1e-12
+#: Of Jacobi's rotations: each squares what is beside the diagonal, at least.
+SWEEPS = 7
 
 
 def asymmetry(tensor: Floats) -> Floats:
@@ -52,7 +54,7 @@ def principal(tensor: Floats, least: float = 0.0) -> tuple[Floats, Floats | None
     off = np.abs(tensor - diagonal[..., np.newaxis] * np.eye(3)).max(axis=(-2, -1)) > 0
     if not off.any():
         return _of_a_body(diagonal, least), None
-    moments, axes = np.linalg.eigh(tensor)
+    moments, axes = _eigen(tensor)
     orders = np.array([[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]])
     nearness = np.abs(axes[..., np.arange(3), orders]).sum(axis=-1)  # of each order: Σ |Qᵢ,order(i)|
     order = orders[nearness.argmax(axis=-1)]
@@ -60,11 +62,33 @@ def principal(tensor: Floats, least: float = 0.0) -> tuple[Floats, Floats | None
     along = np.diagonal(axes, axis1=-2, axis2=-1)
     axes = axes * np.where(along < 0, -1.0, 1.0)[..., np.newaxis, :]
     weakest = np.arange(3) == np.abs(along).argmin(axis=-1)[..., np.newaxis]
-    mirrored = (np.linalg.det(axes) < 0)[..., np.newaxis]
+    first, second, third = (axes[..., :, i] for i in range(3))
+    mirrored = (np.cross(first, second) * third).sum(axis=-1, keepdims=True) < 0
     axes = axes * np.where(weakest & mirrored, -1.0, 1.0)[..., np.newaxis, :]
     moments = np.where(off[..., np.newaxis], moments, diagonal)
     axes = np.where(off[..., np.newaxis, np.newaxis], axes, np.eye(3))
     return _of_a_body(moments, least), quaternions(axes)
+
+
+def _eigen(tensor: Floats) -> tuple[Floats, Floats]:
+    """Eigenvalues (..., 3) and eigenvectors, as columns (..., 3, 3), of symmetric tensors, by Jacobi's rotations.
+
+    In sums, products, quotients and roots, which every processor rounds alike; LAPACK's order depends on it.
+    """
+    exponent = np.frexp(np.abs(tensor).max(axis=(-2, -1), keepdims=True))[1]
+    a = np.ldexp(tensor, -exponent)
+    axes = np.broadcast_to(np.eye(3), tensor.shape).copy()
+    for p, q in ((0, 1), (0, 2), (1, 2)) * SWEEPS:
+        off = a[..., p, q]
+        with np.errstate(all="ignore"):  # of 0, or nearly: no rotation
+            slope = (a[..., q, q] - a[..., p, p]) / (2 * off)
+            tan = np.where(slope < 0, -1.0, 1.0) / (np.abs(slope) + np.sqrt(slope * slope + 1))
+        tan = np.where(off == 0, 0.0, tan)[..., np.newaxis]
+        cos = 1 / np.sqrt(tan * tan + 1)
+        for columns in (a, a.swapaxes(-1, -2), axes):
+            one, other = columns[..., p].copy(), columns[..., q].copy()
+            columns[..., p], columns[..., q] = cos * (one - tan * other), cos * (other + tan * one)
+    return np.ldexp(np.diagonal(a, axis1=-2, axis2=-1), exponent[..., 0]), axes
 
 
 def _of_a_body(moments: Floats, least: float) -> Floats:

@@ -1,6 +1,9 @@
 """The extrapolated rotation: its weights, its order, its integrals, and what it refuses."""
 
 import math
+import os
+import subprocess
+import sys
 from fractions import Fraction
 
 import numpy as np
@@ -326,3 +329,24 @@ def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch():
 def test_bad_input_gets_one_sentence(args, kwargs, words):
     with pytest.raises(chapsym.BadInput, match=words):
         chapsym.extrapolate(BALL, K, GAMMA, *args, **kwargs)
+
+
+BITS = """
+import hashlib, numpy as np, chapsym
+ball = chapsym.Ball.from_inertia([[3, 0.1, 0.2], [0.1, 3.3, 0.05], [0.2, 0.05, 4]], D=2.0)
+K = np.random.default_rng(1).normal(size=(20, 3))
+found = [ball.axes, chapsym.roll(ball, K[0], 0.01, 60).momentum, chapsym.roll(ball, K, 0.01, 10).gamma]
+print(hashlib.sha256(b"".join(np.ascontiguousarray(x).tobytes() for x in found)).hexdigest())
+"""
+
+
+def test_the_bits_of_a_motion_do_not_depend_on_what_blas_the_processor_gets():
+    """OpenBLAS has other kernels for other processors; where NumPy has another BLAS, the names change nothing."""
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", BITS], env=os.environ | {"OPENBLAS_CORETYPE": name}, capture_output=True, text=True,
+            check=True,
+        ).stdout
+        for name in ("Haswell", "Prescott", "SkylakeX", "Nehalem")
+    }  # fmt: skip
+    assert len(found) == 1

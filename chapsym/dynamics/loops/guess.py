@@ -31,8 +31,33 @@ def middles(columns: int) -> Floats:
     return out
 
 
+def _powers(x: Floats, most: int) -> list[Floats]:
+    """x⁰, x, x², ... by products, which every processor rounds alike; NumPy's power does not."""
+    return list(np.cumprod([np.ones_like(x), *[x] * most], axis=0))
+
+
 def _moments(t: Floats, e: Floats) -> Floats:
-    return np.array([DECAY ** (i + 2 * j) * t**i * e ** (2 * j) for i, j in POWERS])
+    of_t, of_e = _powers(t, DEGREE), _powers(e * e, DEGREE // 2)
+    return np.array([DECAY ** (i + 2 * j) * of_t[i] * of_e[j] for i, j in POWERS])
+
+
+def _moderate(matrix: Floats, wanted: Floats) -> Floats:
+    """Weights of the columns for the wanted one, as nearly as SMALL times the weights allow, in least squares.
+
+    By Gram and Schmidt, column by column: LAPACK's order depends on the processor, and a run would with it.
+    """
+    n = matrix.shape[1]
+    a = np.column_stack([np.vstack([matrix, SMALL * np.eye(n)]), np.concatenate([wanted, np.zeros(n)])])
+    r = np.zeros((n, n + 1))
+    for k in range(n):
+        r[k, k] = np.sqrt((a[:, k] * a[:, k]).sum())
+        unit = a[:, k : k + 1] / r[k, k]
+        r[k, k + 1 :] = (unit * a[:, k + 1 :]).sum(axis=0)
+        a[:, k + 1 :] -= unit * r[k, k + 1 :]
+    weights = np.zeros(n)
+    for k in range(n - 1, -1, -1):
+        weights[k] = (r[k, n] - (r[k, k + 1 : n] * weights[k + 1 :]).sum()) / r[k, k]
+    return weights
 
 
 def _weights(known: Floats, wanted: Floats) -> Floats:
@@ -43,9 +68,7 @@ def _weights(known: Floats, wanted: Floats) -> Floats:
     """
     start = [[factorial(k) * DECAY**k if power == (k, 0) else 0.0 for power in POWERS] for k in range(DERIVATIVES)]
     matrix = np.hstack([np.transpose(start), _moments(*known.T)])
-    size = matrix.shape[1]
-    padded = np.concatenate([_moments(*wanted[:, np.newaxis])[:, 0], np.zeros(size)])
-    return np.linalg.lstsq(np.vstack([matrix, SMALL * np.eye(size)]), padded, rcond=None)[0]
+    return _moderate(matrix, _moments(*wanted[:, np.newaxis])[:, 0])
 
 
 @cache
@@ -82,13 +105,14 @@ def _stage_moments(c: Floats) -> Floats:
     words in X₁ and X₃ up to the middle, times powers of c².  That of X₁ is t, that of X₃ is the sum of the c³, and
     that of X₁X₃ has each c³ times the t of its middle; by shuffles the others are products of these.
     """
-    start, cube = np.cumsum(c) - c, c**3
+    start, cube = np.cumsum(c) - c, c * c * c
     t = start + c / 2
     sums = np.cumsum(cube) - cube / 2
     ordered = np.cumsum(t * cube) - t * cube + (start + c / 4) * cube / 2
     e = c * c
     one = np.ones_like(c)
-    return np.stack([one, t, t**2, e, t**3, t * e, sums, t**4, t**2 * e, e * e, t * sums, ordered], axis=1)
+    t2 = t * t
+    return np.stack([one, t, t2, e, t2 * t, t * e, sums, t2 * t2, t2 * e, e * e, t * sums, ordered], axis=1)
 
 
 def _stage_guess(c: Floats) -> Floats:
@@ -97,8 +121,7 @@ def _stage_guess(c: Floats) -> Floats:
     moments = _stage_moments(c)[:, : max((n for n in COUNTS if n <= known), default=0)]
     if not known:
         return np.zeros(0)
-    short = np.concatenate([moments[-1], np.zeros(known)])
-    return np.linalg.lstsq(np.vstack([moments[:-1].T, SMALL * np.eye(known)]), short, rcond=None)[0] * c[-1] / c[:-1]
+    return _moderate(moments[:-1].T, moments[-1]) * c[-1] / c[:-1]
 
 
 #: The polynomial through the last 8 values, at the next: the oldest first.
