@@ -161,6 +161,10 @@ def far(data: "Dataset | Arrays") -> dict[str, Any]:
 _CHOSEN = ("order", "substeps")
 
 
+#: Of which model an error is: that of the model itself nobody estimates.
+MODEL = "balanced, without slip"
+
+
 def sentence(data: "Dataset | Arrays") -> tuple[str, str] | None:
     """The same for a reader: a key and a text; None if nothing is known."""
     map_, found = _map(data), far(data).get("motion")
@@ -172,12 +176,11 @@ def sentence(data: "Dataset | Arrays") -> tuple[str, str] | None:
         return None
     balls, unit = data.sizes["ball"], " m" if found["of"] == "contact" else ""
     error = "an error that is not known" if found["error"] is None else f"an estimated {found['error']:.1e}{unit}"
-    about = (
-        f"of the balanced ball to {error}" if balls == 1 else f"of the balanced balls to {error}, the worst of {balls}"
-    )
+    about = f"of the ball to {error}" if balls == 1 else f"of the balls to {error}, the worst of {balls}"
     more = f"; {found['worse']} of them are not within it" if found["worse"] and balls > 1 else ""
     asked = f"{'not the ' if found['worse'] and balls == 1 else ''}{found['accuracy']:g} asked for{more}"
-    return "motion", f"{about} ({asked})" + _how(*(found[name] for name in _CHOSEN if name in found))
+    how = _how(*(found[name] for name in _CHOSEN if name in found))
+    return "motion", f"{about} ({asked}){how}{';' if how else ':'} {MODEL}"
 
 
 def _how(order: tuple[int, int] = (0, 0), substeps: tuple[int, int] | None = None) -> str:
