@@ -116,3 +116,22 @@ def test_every_scene_gives_the_motion(thorough):
         pytest.skip("some do; make thorough takes all")
     off = [row.line() for row in map(judge, motion_judge.names()) if not row.worst <= DEFAULT]
     assert off == [], "\n".join(["", motion_judge.HEAD, *off])
+
+
+@pytest.mark.parametrize("outputs", [["momentum", "gamma", "omega"], ["vertical_momentum", "momentum_squared"]])
+def test_a_state_has_one_momentum_however_often_it_is_written_down(outputs):
+    scene = {
+        "ball": {"inertia": [0.006, 0.007, 0.009], "mass": 2.0, "radius": 0.1},
+        "start": {"omega": [3, -2, 1], "gamma": ["2/7", "3/7", "6/7"]},
+    }
+    found = [
+        chapsym.run_scene(scene | {"run": {"time": 1.0, "outputs": outputs, **run}}).dataset.isel(frame=-1)
+        for run in ({"time_step": 0.1}, {"time_step": 0.01}, {"frames": 4})
+    ]
+    for name in outputs:
+        assert len({one[name].attrs["units"] for one in found}) == 1
+        for one in found[1:]:
+            np.testing.assert_allclose(one[name], found[0][name], rtol=1e-6)
+    if "momentum" in outputs:
+        assert found[0]["momentum"].attrs["units"] == "kg m2 s-1"
+        np.testing.assert_allclose(found[0]["momentum"].values[0], [0.08638, -0.00467, 0.04276], atol=5e-6)

@@ -479,11 +479,11 @@ class Moving(Model):
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
     ) -> tuple[Columns, State]:
-        """All frames; the momentum is 𝒦 = εK, or K where there is no ε."""
+        """All frames; the momentum is K."""
         problem = self._problem(members, task, needed)
         found = moved(problem, lambda balls: progress(int(balls * task.steps)))
         columns = {
-            "momentum": found.angular_momentum * task.scale, "gamma": found.gamma, "attitude": found.attitude,
+            "momentum": found.angular_momentum, "gamma": found.gamma, "attitude": found.attitude,
             "contact": found.contact,
         }  # fmt: skip
         if found.contact is not None and members.place is not None:

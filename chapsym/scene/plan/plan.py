@@ -203,7 +203,7 @@ def _derived(name: str, members: Members, task: Task, columns: Columns) -> np.nd
 def _value(name: str, members: Members, task: Task, columns: Columns) -> Floats:
     """A column, K, or what is derived of these; what enters with D alone may not be there, and be anything."""
     if name == K:
-        return columns["momentum"] / task.scale
+        return columns["momentum"] / task.kept_scale
     one = OUTPUTS[name]
     if one.derive is None:
         return columns[name]

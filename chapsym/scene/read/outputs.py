@@ -13,7 +13,7 @@ K = "angular_momentum"
 
 @dataclass(frozen=True)
 class Output:
-    """long_name, units (in n dimensions): as files tell them; `chosen` has both where the steps are chosen.
+    """long_name, units (in n dimensions): as files tell them of the map; `chosen` has both of the motion.
 
     dims: beside ball and frame; dims_n: the same in more than three dimensions, None where it is not known there.
     derive: its values from J, D and what it `needs`, other outputs or `K`; of these, `with_D` enter with D alone.
@@ -42,7 +42,7 @@ class Output:
         return prod(len(labels(n)[dim]) for dim in self.dims_in(n))
 
     def attrs(self, n: int, chosen: bool) -> dict[str, str]:
-        """Its units and its name in a result; whether the steps were chosen for an accuracy."""
+        """Its units and its name in a result; whether it is of the motion, whose steps are chosen for an accuracy."""
         if chosen and self.chosen is not None:
             return dict(zip(("long_name", "units"), self.chosen, strict=True))
         return {"units": self.units if isinstance(self.units, str) else self.units(n), "long_name": self.long_name}

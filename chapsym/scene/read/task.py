@@ -39,7 +39,7 @@ class Task:
 
     @property
     def chosen(self) -> bool:
-        """Whether there is no ε: momenta are K itself, and frames have times only."""
+        """Whether there is no ε: frames have times only."""
         return self.accuracy is not None and self.time_step is None
 
     @property
@@ -62,5 +62,10 @@ class Task:
 
     @property
     def scale(self) -> float:
-        """What divides the momentum to give K: ε, or 1 where the momentum is K itself."""
+        """What divides the momentum of a start to give K: ε, or 1 where it is K itself."""
         return 1.0 if self.chosen or self.time_step is None else self.time_step
+
+    @property
+    def kept_scale(self) -> float:
+        """What divides the momentum that is kept to give K: that of the motion is K, that of the map 𝒦 = εK."""
+        return 1.0 if self.accuracy is not None else self.scale

@@ -125,7 +125,7 @@ def layout(plan: Plan) -> dict[str, Variable]:
     for name in plan.task.outputs:
         one = OUTPUTS[name]
         where = ("ball",) if one.per_ball else ("ball", "frame")
-        found[name] = Variable((*where, *one.dims_in(n)), one.attrs(n, plan.task.chosen))
+        found[name] = Variable((*where, *one.dims_in(n)), one.attrs(n, plan.task.accuracy is not None))
         if plan.doubled and one.derive is None:
             beyond = {"long_name": f"{found[name].attrs['long_name']}: what it has beyond float64"}
             found[f"{name}_low"] = Variable(found[name].dims, {**found[name].attrs, **beyond})
