@@ -54,6 +54,24 @@ class WithLinks(sdist):
             copy.symlink_to(link.readlink())
 
 
+#: What of the package is a link to another place of the repository; without links it is a text that names the place.
+LINKS = (
+    "chapsym/checker", "chapsym/generated", "chapsym/proofs", "chapsym/scene/examples",
+    "chapsym/report/templates/symbols.md",
+)  # fmt: skip
+
+
+def is_whole(link: Path) -> bool:
+    """Whether a link was made, or what it leads to was copied."""
+    return link.is_dir() or (link.is_file() and not link.read_text(encoding="utf-8").startswith("../"))
+
+
+if absent := [link for link in LINKS if not is_whole(Path(link))]:
+    sys.exit(
+        f"{absent[0]} is not what it should lead to: this source tree was unpacked, or checked out, without its "
+        "symbolic links, and chapsym would be installed without its kernels; unpack the .tar.gz, or clone with "
+        "git -c core.symlinks=true"
+    )
 is_plain = bool(os.environ.get("CHAPSYM_WITHOUT_C"))
 setup(
     cmdclass={"build_ext": WithAnyCompiler, "sdist": WithLinks},

@@ -229,3 +229,20 @@ def test_the_lowest_versions_that_ci_runs_are_those_that_are_allowed():
             name, bound = re.match(r"([\w.-]+)>=([\d.]+)", one).groups()
             assert re.fullmatch(rf"{re.escape(bound)}(\.0)*", pinned[normal(name)]), one
     assert not [line for line in lines if "://" in line]
+
+
+def test_a_source_tree_without_its_links_is_not_built(tmp_path):
+    links = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "chapsym").rglob("*") if path.is_symlink())
+    (tmp_path / "setup.py").write_text((ROOT / "setup.py").read_text("utf-8"), encoding="utf-8")
+    for link in links:
+        (tmp_path / link).mkdir(parents=True)
+    for link in links:
+        (tmp_path / link).rmdir()
+        (tmp_path / link).write_text("../generated", encoding="utf-8")  # as a checkout without links has it
+        done = subprocess.run(
+            [sys.executable, "setup.py", "--version"], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 1
+        assert f"{link} is not what it should lead to: this source tree was" in done.stderr
+        (tmp_path / link).unlink()
+        (tmp_path / link).mkdir()
