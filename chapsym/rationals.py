@@ -2,7 +2,10 @@
 
 import re
 from collections.abc import Sequence
+from decimal import Decimal
 from fractions import Fraction
+from numbers import Integral, Rational
+from typing import Any
 
 _FORM = re.compile(r"[+-]?(\d+/\d+|(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,4})?)", re.ASCII)
 
@@ -37,3 +40,15 @@ def mass_tensor_from(inertia: Sequence[Fraction]) -> tuple[Fraction, ...]:
     """J1, J2, J3 from the principal moments I1 = J2 + J3, ..., exactly."""
     half = sum(inertia, Fraction(0)) / 2
     return tuple(half - moment for moment in inertia)
+
+
+def exact_fraction(x: Any) -> Fraction:
+    """A number as it is: a Fraction, a Decimal, one of SymPy's rationals or of mpmath's floats; else its float64."""
+    if isinstance(x, Integral):  # those of NumPy would stay inside
+        return Fraction(int(x))
+    if isinstance(x, Rational | Decimal):
+        return Fraction(x)
+    if hasattr(x, "_mpf_"):
+        sign, mantissa, exponent, _ = x._mpf_
+        return (-1) ** sign * Fraction(int(mantissa)) * Fraction(2) ** exponent
+    return Fraction(float(x))

@@ -12,6 +12,8 @@ from typing import Any, Self, TypeGuard
 import numpy as np
 from numpy.typing import ArrayLike
 
+from chapsym.rationals import exact_fraction
+
 from . import principal_axes
 from .errors import BadInput
 from .principal_axes import Floats
@@ -80,6 +82,12 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
     return floats
 
 
+def exact_array(value: ArrayLike) -> np.ndarray:
+    """Numbers as Fractions: those of Fractions, Decimals, mpmath and SymPy as they are, floats as the binary ones."""
+    found = np.asarray(value, dtype=object)
+    return np.array([exact_fraction(x) for x in found.flat], dtype=object).reshape(found.shape)
+
+
 def _has_mask(value: Any) -> bool:
     """Whether any entry is masked, in lists of arrays, too, of which NumPy forgets the masks."""
     if isinstance(value, list | tuple):
@@ -112,7 +120,7 @@ class Parameters:
         )
 
     def __hash__(self) -> int:
-        return hash(tuple(None if x is None else (x.shape, (x + 0.0).tobytes()) for x in self._values()))  # of -0, too
+        return hash(tuple(None if x is None else (x.shape, *x.ravel().tolist()) for x in self._values()))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._values()
@@ -128,6 +136,7 @@ class Ball(Parameters):
     radius: ρ in m; needed for the trace of the contact point only.
     axes: unit quaternions, (..., 4), that turn the principal axes of the body, in which J is, to the axes in which
     vectors and attitudes are given and returned (`from_inertia` finds them); None where these are the same.
+    Fractions, Decimals and numbers of mpmath and SymPy are kept as they are for `Digits` and `Enclosure`.
 
     Raises BadInput for a mass moment below 0, a D below 0, or a momentum operator that is singular.
     """
@@ -165,6 +174,9 @@ class Ball(Parameters):
         if rho is not None and not (rho > 0).all():
             raise BadInput(f"radius must be positive, but it is {rho.min():g}")
         keep(self, mass_tensor=tensor, D=contact, radius=rho, axes=turn)
+        given = (mass_tensor, D, radius)
+        if axes is None and any(np.asarray(x).dtype == object for x in given if x is not None):
+            object.__setattr__(self, "_given", tuple(None if x is None else exact_array(x) for x in given))
 
     @classmethod
     def from_inertia(
@@ -184,7 +196,11 @@ class Ball(Parameters):
         """
         contact, given = contact_term(mass, radius, D), numbers(inertia, "inertia")
         if batch or not principal_axes.is_tensor(given):
-            return cls(mass_tensor_of(given), contact, radius)
+            tensor = mass_tensor_of(given)
+            if np.asarray(inertia).dtype == object:
+                moments = exact_array(inertia)
+                return cls(moments.sum(axis=-1, keepdims=True) / 2 - moments, contact, radius)
+            return cls(tensor, contact, radius)
         try:
             tensor, axes = principal_axes.principal(principal_axes.from_inertia_tensor(given))
         except BadInput as error:
@@ -208,6 +224,15 @@ class Ball(Parameters):
     def inertia(self) -> Floats:
         """The principal moments of inertia about the centre, (J2 + J3, J1 + J3, J1 + J2)."""
         return inertia_of(self.mass_tensor)
+
+    @property
+    def exact(self) -> tuple[Any, Any, Any]:
+        """J, D and the radius as they were given: arrays of Fractions where they were exact numbers, else floats."""
+        found: tuple[Any, Any, Any] = self.__dict__.get("_given", (self.mass_tensor, self.D, self.radius))
+        return found
+
+    def _values(self) -> tuple[Asked, ...]:
+        return *self.exact, self.axes
 
     @cached_property
     def is_one(self) -> bool:
@@ -340,6 +365,8 @@ def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike 
         contact = m * rho * rho
     if (contact < SMALLEST).any():
         raise BadInput("D = m ρ² is below the range of float64, about 2.2e-308; take other units")
+    if any(np.asarray(x).dtype == object for x in (mass, radius)):
+        return exact_array(mass) * exact_array(radius) * exact_array(radius)
     return contact
 
 

@@ -161,7 +161,7 @@ def _exact_ball(ball: Any) -> ExactBall:
     one = in_principal_axes(ball)
     if one.mass_tensor.ndim != 1 or one.D.ndim or (one.radius is not None and one.radius.ndim):
         raise BadInput("certified_motion takes one ball, not a batch")
-    return ExactBall(one.mass_tensor, one.D, one.radius)
+    return ExactBall(*one.exact)
 
 
 def _check_up(attitude: Sequence[Fraction], gamma: Sequence[Fraction]) -> None:

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single
+from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Enclosure, Pair, Precision, Single
 
 from .ball import Ball, batch, numbers, unit_vertical
 from .errors import BadInput
 from .levels import dispatch
-from .levels.frames import Balls, beyond_float64
+from .levels.frames import Balls, beyond_float64, given_exactly
 from .levels.start import exponent_of, fraction
 from .results import Step, in_given_axes
 
@@ -35,7 +35,8 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | 
     Both broadcast with each other and with the balls.  Of a ball with axes they, and what is
     returned, are in these.
     precision: "single", "double", "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
-    Floats that are given are taken as exact at every precision, but γ is divided by its length on all but "double".
+    Floats that are given are taken as exact at every precision, and on `Digits` and `Enclosure` so are Fractions,
+    Decimals and numbers of mpmath and SymPy, of the ball, too; but γ is divided by its length on all but "double".
 
     One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
     Raises BadInput for shapes, NaN, infinities, and a gamma that is not unit.
@@ -58,6 +59,8 @@ def composed(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int, prec
     """One step of the composition of any order."""
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     balls = Balls(K, g, J, D, np.zeros(len(D)), beyond_float64(momentum, shape))
+    if isinstance(precision, Digits | Enclosure):
+        balls = given_exactly(ball, momentum, gamma, balls, shape)
     return dispatch.step(precision, shape, balls, order)
 
 

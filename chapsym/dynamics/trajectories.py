@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import Precision
+from chapsym.numbers import Digits, Enclosure, Precision
 
 from .attitudes import first_attitudes
 from .ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
 from .errors import BadInput
 from .levels import dispatch
-from .levels.frames import Balls, Frames, beyond_float64
+from .levels.frames import Balls, Frames, beyond_float64, given_exactly
 from .results import Trajectory, finished, in_given_axes, of_balls
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
@@ -75,6 +75,8 @@ def trajectory(
     with_body = flag(contact, "contact") or is_followed(attitude)
     radius = np.broadcast_to(rolling_radius(ball) if contact else 0.0, shape).reshape(-1)
     balls = Balls(K, g, J, D, radius, beyond_float64(momentum, shape))
+    if isinstance(precision, Digits | Enclosure):
+        balls = given_exactly(ball, momentum, gamma, balls, shape)
     first = first_attitudes(attitude, g, shape) if with_body else None
     frame = dispatch.begun(precision, balls, steps // every + 1, first, isinstance(attitude, bool | np.bool_))
     dispatch.run(precision, balls, steps, every, frame, order, threads, progress)

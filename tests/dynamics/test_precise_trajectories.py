@@ -3,6 +3,7 @@
 import re
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from decimal import Decimal
 from fractions import Fraction as F
 from functools import partial
 
@@ -10,6 +11,7 @@ import flint
 import mpmath
 import numpy as np
 import pytest
+import sympy
 from budget import examples
 from hypothesis import assume, given
 from orbits import context, from_quaternion, orbit
@@ -20,7 +22,9 @@ from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.levels import balls, proved_root
 from chapsym.dynamics.loops.branch import small_rotation
+from chapsym.dynamics.map import exact_step
 from chapsym.numbers import Digits, Enclosure
+from chapsym.rationals import exact_fraction
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 DIRECTION = np.array([4, -2, 3]) / np.sqrt(29)
@@ -297,3 +301,34 @@ def test_few_bits_of_a_heavy_ball_get_as_many_guards_as_they_need():
     many = chapsym.trajectory(ball, K, gamma, 2, order=8, precision=Enclosure(300))
     for one, other in zip(few.momentum[-1], many.momentum[-1], strict=True):
         assert one.contains(other)
+
+
+MADE = {
+    "Fraction": lambda x: x,
+    "Decimal": lambda x: Decimal(x.numerator) / Decimal(x.denominator),
+    "mpf": lambda x: mpmath.mpf(x.numerator) / x.denominator,
+    "sympy": lambda x: sympy.Rational(x.numerator, x.denominator),
+}
+
+
+@pytest.mark.parametrize("kind", MADE)
+def test_exact_numbers_reach_digits_and_enclosures_as_they_are(kind):
+    texts = "1/3 2/7 5/3", "3/7", "1/3 -1/7 3/11", "2/7 3/7 6/7"
+    with mpmath.workdps(70):
+        J, D, K, g = ([MADE[kind](F(x)) for x in some.split()] for some in texts)
+    exact = [[exact_fraction(x) for x in some] for some in (J, K, g)]
+    assert exact[0][0] != F(1 / 3)
+    digits = Digits(25 if kind == "Decimal" else 60)
+    wanted = exact_step(exact[0], exact_fraction(D[0]), exact[1], exact[2], digits).momentum
+    ball = chapsym.Ball(J, D[0])
+    first = chapsym.step(ball, K, g, precision=digits).momentum
+    last = chapsym.trajectory(ball, K, g, 1, precision=digits).momentum[1]
+    assert first.tolist() == last.tolist() == wanted.tolist()
+    enclosed = chapsym.step(ball, K, g, precision=Enclosure(60)).momentum
+    with flint.ctx.workprec(400):
+        for x, y in zip(enclosed, wanted, strict=True):
+            assert x.overlaps(flint.arb(flint.fmpq(*exact_fraction(y).as_integer_ratio())))
+            assert x.rad() < 1e-15
+    moments = [MADE[kind](F(x)) for x in ("1/2", "2/3", "3/4")]
+    half = sum(map(exact_fraction, moments)) / 2
+    assert chapsym.Ball.from_inertia(moments, D=1).exact[0].tolist() == [half - exact_fraction(x) for x in moments]

@@ -4,14 +4,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from numbers import Integral, Rational
+from numbers import Rational
 from typing import Any, NamedTuple
 
 import numpy as np
 from flint import acb_mat, arb, fmpq
 
 from chapsym import generated
-from chapsym.rationals import NotANumber, rational
+from chapsym.rationals import NotANumber, exact_fraction, rational
 
 from ..ball import brief
 from ..errors import BadInput, TooWide
@@ -55,9 +55,8 @@ def exactly(value: Any, name: str) -> Fraction:
         except NotANumber as error:
             raise BadInput(str(error)) from None
     try:
-        if isinstance(value, Rational | Decimal | float) and not isinstance(value, bool):
-            # NumPy's integers would stay inside.
-            return Fraction(int(value)) if isinstance(value, Integral) else Fraction(value)
+        if (isinstance(value, Rational | Decimal | float) and not isinstance(value, bool)) or hasattr(value, "_mpf_"):
+            return exact_fraction(value)
     except (ValueError, OverflowError):
         raise BadInput(f"{name} must be finite, not {value}") from None
     one = getattr(value, "size", None) == 1 and not np.ma.is_masked(value)

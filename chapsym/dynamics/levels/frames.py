@@ -6,11 +6,12 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats
+from ..ball import Ball, Floats, exact_array
 
 #: The work of each thread comes in about so many parts, so that none is idle for long at the end.
 SHARES = 16
@@ -39,6 +40,23 @@ def beyond_float64(momentum: ArrayLike, shape: tuple[int, ...]) -> Floats | None
         return None
     rest = np.array([float(x - Fraction(float(x))) for x in given.flat]).reshape(given.shape)
     return np.broadcast_to(rest, (*shape, 3)).reshape(-1, 3)
+
+
+def exactly(given: ArrayLike, floats: Floats, shape: tuple[int, ...]) -> Any:
+    """What was given, as Fractions in the shape of the floats, where it is of exact numbers; else the floats."""
+    array = np.asarray(given)
+    if array.dtype != object:
+        return floats
+    return np.broadcast_to(exact_array(array), (*shape, *floats.shape[1:])).reshape(floats.shape)
+
+
+def given_exactly(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, balls: Balls, shape: tuple[int, ...]) -> Balls:
+    """The balls of a run on Digits or Enclosure, with every number as it was given."""
+    tensor, contact, _ = ball.exact
+    return Balls(
+        exactly(momentum, balls.momentum, shape), exactly(gamma, balls.gamma, shape),
+        exactly(tensor, balls.mass_tensor, shape), exactly(contact, balls.D, shape), balls.radius,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)

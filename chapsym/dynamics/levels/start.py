@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from chapsym.rationals import exact_fraction
+
 from ..errors import Status, StepNotTaken
 from ..failure import explain
 from ..loops import branch, vectors
@@ -72,10 +74,7 @@ def fraction(x: Any) -> Fraction:
     if hasattr(x, "mid"):
         man, exp = x.mid().man_exp()
         return Fraction(int(man)) * Fraction(2) ** int(exp)
-    if hasattr(x, "_mpf_"):
-        sign, man, exp, _ = x._mpf_
-        return (-1) ** sign * Fraction(int(man)) * Fraction(2) ** exp
-    return Fraction(float(x))
+    return exact_fraction(x)
 
 
 def least(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any, Any]:

@@ -124,7 +124,8 @@ def rounded_by(inertia: Any) -> float:
         return 0.0
     digits = [Decimal(repr(x)).normalize().as_tuple().exponent for x in numbers if x != round(x)]
     unit = 10.0 ** min(map(int, digits), default=-400)
-    return float(min((0.75 if len(numbers) == 3 else 2.25) * unit, 0.01 * max(abs(numbers))))
+    largest = float(np.abs(numbers.astype(np.float64)).max())
+    return min((0.75 if len(numbers) == 3 else 2.25) * unit, 0.01 * largest)
 
 
 def unbalanced(what: str, offset: float | None, radius: float | None) -> str:
