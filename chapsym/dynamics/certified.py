@@ -17,6 +17,7 @@ from .coefficients import COMPOSITIONS
 from .errors import BadInput, Status
 from .levels import dispatch, high
 from .levels.frames import Balls
+from .levels.frames import exactly as exact_numbers
 from .levels.start import fraction
 from .results import Trajectory
 from .trajectories import whole_number
@@ -118,6 +119,8 @@ def _orbit(
     every = int(index[1] - index[0]) if count > 1 else 1
     start = [np.asarray(getattr(trajectory, name)[..., 0, :], dtype=float) for name in ("momentum", "gamma")]
     shape, (_, _, J, D) = batch(trajectory.ball, *start)
+    if trajectory.momentum.dtype == object:  # of Digits or Enclosure: its ball is that which was given
+        J, D = (exact_numbers(x, y, shape) for x, y in zip(trajectory.ball.exact[:2], (J, D), strict=True))
     first: dict[str, Any] = {
         name: None if array is None else array[..., 0, :].reshape(len(D), array.shape[-1])
         for name, array in given.items()

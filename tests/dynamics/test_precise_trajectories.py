@@ -324,6 +324,8 @@ def test_exact_numbers_reach_digits_and_enclosures_as_they_are(kind):
     first = chapsym.step(ball, K, g, precision=digits).momentum
     last = chapsym.trajectory(ball, K, g, 1, precision=digits).momentum[1]
     assert first.tolist() == last.tolist() == wanted.tolist()
+    orbit = chapsym.certify(chapsym.trajectory(ball, K, g, 1, precision=digits), bits=128)
+    assert max(orbit.momentum_error) < max(10.0 ** (2 - digits.count), 1e-38)
     enclosed = chapsym.step(ball, K, g, precision=Enclosure(60)).momentum
     with flint.ctx.workprec(400):
         for x, y in zip(enclosed, wanted, strict=True):
