@@ -94,7 +94,7 @@ def short(folder, rows):
 
 def test_a_path_that_begins_elsewhere_and_a_start_that_is_another_are_said(rows, tmp_path):
     case = short(tmp_path, rows)
-    assert "its path begins (5, 0) m from that of robot" in refused(
+    assert "its centre is (5, 0, 0) m from there: subtract this" in refused(
         "judge", write(tmp_path, rows | {"x": rows["x"] + 5}), "--against", case
     )
     told = refused("judge", write(tmp_path, rows | {"wx": rows["wx"] * 1.01}), "--against", case)
@@ -117,8 +117,12 @@ def test_a_ball_of_ones_own_has_the_motion_that_the_case_has(rows, body, tmp_pat
     assert found["case"] == "robot"
     assert found["results"][0]["departure"]["attitude"]["departs"] is None
     slow = with_parts(rows, (*V, *W), [rows[x] * (0.5 if x in W else 1.0) for x in (*V, *W)])
-    assert "its ball slides at the start" in refused("judge", write(tmp_path, slow), "--body", body)
-    assert "subtract 0.2 from z" in refused("judge", write(tmp_path, rows | {"z": rows["z"] + 0.2}), "--body", body)
+    assert "its first row is not the start of a ball that rolls (velocity " in refused(
+        "judge", write(tmp_path, slow), "--body", body
+    )
+    assert "its centre is (0, 0, 0.2) m from there: subtract this" in refused(
+        "judge", write(tmp_path, rows | {"z": rows["z"] + 0.2}), "--body", body
+    )
     assert "give either --against" in refused("judge", write(tmp_path, rows))
 
 

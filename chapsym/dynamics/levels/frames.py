@@ -34,10 +34,10 @@ class Balls:
 
 
 def beyond_float64(momentum: ArrayLike, shape: tuple[int, ...]) -> Floats | None:
-    """What a momentum of Fractions has beyond float64, (n, 3); None if there is nothing."""
-    given = np.asarray(momentum)
-    if given.dtype != object or not all(isinstance(x, Fraction) for x in given.flat):
+    """What a momentum of exact numbers has beyond float64, (n, 3); None if there is nothing."""
+    if np.asarray(momentum).dtype != object:
         return None
+    given = exact_array(momentum)
     rest = np.array([float(x - Fraction(float(x))) for x in given.flat]).reshape(given.shape)
     return np.broadcast_to(rest, (*shape, 3)).reshape(-1, 3)
 
