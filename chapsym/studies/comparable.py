@@ -70,6 +70,8 @@ def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
     for (frame, upturn), order, sense, unit, speed, rate, body in product(
         axes, ORDERS, SENSES, UNITS, (False, True), TURNING, (False, True)
     ):
+        if speed and unit is PLAIN:
+            continue
         attitude = upturn[1](sense[1](order[1](run.attitude)))
         velocity, omega = run.velocity, run.omega
         if velocity is not None:
