@@ -82,7 +82,9 @@ class _Reader:
     def _tree(self) -> Element:
         """The root; entities, which may grow without bound or read other files, are refused with their declarations."""
         try:
-            content = self.path.read_bytes() if self.path.stat().st_size <= MOST_BYTES else b""
+            if self.path.is_fifo() or self.path.stat().st_size > MOST_BYTES:
+                raise SceneError(f"{self.path} is a pipe, or has more than {MOST_BYTES} bytes: it is no robot's file")
+            content = self.path.read_bytes()
         except OSError as error:
             raise SceneError(f"{self.path} cannot be read: {error.strerror or error}") from None
         open_: list[Element] = [Element("", {}, 0)]
@@ -146,8 +148,9 @@ class _Reader:
         if self.kind == "mjcf":
             geoms = [one for one in body.children if one.tag == "geom"]
             for one in geoms:
-                if one.attributes.get("type", "sphere") == "sphere" and "size" in one.attributes:
-                    return one.attributes["size"].split()[0], self._pose(one).place
+                size = one.attributes.get("size", "").split()
+                if one.attributes.get("type", "sphere") == "sphere" and size:
+                    return size[0], self._pose(one).place
             return None
         for tag in ("collision", "visual"):
             for shape in (one for one in body.children if one.tag == tag):
