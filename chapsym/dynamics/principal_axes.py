@@ -17,6 +17,8 @@ Floats = NDArray[np.float64]
 ASYMMETRY = 1e-12
 #: Of Jacobi's rotations: each squares what is beside the diagonal, at least.
 SWEEPS = 7
+#: Orders of the axes that are equally near but for rounding: the first is taken.
+TIED = 1e-12
 
 
 def asymmetry(tensor: Floats) -> Floats:
@@ -57,7 +59,7 @@ def principal(tensor: Floats, least: float = 0.0) -> tuple[Floats, Floats | None
     moments, axes = _eigen(tensor)
     orders = np.array([[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]])
     nearness = np.abs(axes[..., np.arange(3), orders]).sum(axis=-1)  # of each order: Σ |Qᵢ,order(i)|
-    order = orders[nearness.argmax(axis=-1)]
+    order = orders[(nearness >= nearness.max(axis=-1, keepdims=True) - TIED).argmax(axis=-1)]
     moments, axes = np.take_along_axis(moments, order, -1), np.take_along_axis(axes, order[..., np.newaxis, :], -1)
     along = np.diagonal(axes, axis1=-2, axis2=-1)
     axes = axes * np.where(along < 0, -1.0, 1.0)[..., np.newaxis, :]
@@ -71,7 +73,7 @@ def principal(tensor: Floats, least: float = 0.0) -> tuple[Floats, Floats | None
 
 
 def _eigen(tensor: Floats) -> tuple[Floats, Floats]:
-    """Eigenvalues (..., 3) and eigenvectors, as columns (..., 3, 3), of symmetric tensors, by Jacobi's rotations.
+    """Ascending eigenvalues, and eigenvectors as columns, of symmetric tensors (..., 3, 3), by Jacobi's rotations.
 
     In sums, products, quotients and roots, which every processor rounds alike; LAPACK's order depends on it.
     """
@@ -88,7 +90,9 @@ def _eigen(tensor: Floats) -> tuple[Floats, Floats]:
         for columns in (a, a.swapaxes(-1, -2), axes):
             one, other = columns[..., p].copy(), columns[..., q].copy()
             columns[..., p], columns[..., q] = cos * (one - tan * other), cos * (other + tan * one)
-    return np.ldexp(np.diagonal(a, axis1=-2, axis2=-1), exponent[..., 0]), axes
+    found = np.ldexp(np.diagonal(a, axis1=-2, axis2=-1), exponent[..., 0])
+    order = np.argsort(found, axis=-1, stable=True)
+    return np.take_along_axis(found, order, -1), np.take_along_axis(axes, order[..., np.newaxis, :], -1)
 
 
 def _of_a_body(moments: Floats, least: float) -> Floats:
