@@ -42,6 +42,11 @@ class Algebra:
         found: Words = value(tree, names, lambda x: self.scalar(self.none, plain(x)))
         return found
 
+    def about(self, names: Collection[str], where: str) -> tuple[list[tuple[str, str, Words]], list[tuple[str, Words]]]:
+        """The rules and the transposes of letters that are named; none may be of some of them and of others."""
+        rules = [(a, b, c) for (a, b), c in self.rules.items() if all_or_none({a, b, *c.letters()}, names, where)]
+        return rules, [(x, t) for x, t in self.transposes.items() if all_or_none({x, *t.letters()}, names, where)]
+
     def among(self, words: Iterable[Words]) -> set[str]:
         """The parameters that occur in some words."""
         found = (zip(self.parameters, exponents, strict=True) for one in words for exponents, _ in one.terms)

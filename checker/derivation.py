@@ -19,15 +19,16 @@ that has the letters and, for them, the rules.  What the texts say is not judged
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from .algebra import Algebra, all_or_none, having
+from .algebra import Algebra, having
 from .form import NUMBER, anything, check_shape, chosen, names, once, text, within
 from .interval import Rejected
-from .matrices import MOST_ROWS, Entry, Placed, Quotients, check_places, entry, placed, words_at
+from .matrices import MOST_ROWS, Entry, Quotients, Rows, check_places, entry, placed, words_at
 from .polynomial import Quotient
+from .rational import number_at
 from .trees import check_known, check_name, check_tree, names_in
 from .words import Matrix, Words
 
@@ -43,7 +44,7 @@ class Defined(NamedTuple):
     algebra: Algebra
 
 
-Made = Defined | Placed | Entry
+Made = Defined | Rows | Entry
 
 
 def is_premise(one: dict[str, Any], names: Collection[str]) -> bool:
@@ -143,7 +144,7 @@ def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotient
             found[one["name"]] = Defined(words, algebra)
         elif isinstance(of, Defined):
             found[one["name"]] = placed(of.words, of.algebra, algebra, one["by"], where)
-        elif isinstance(of, Placed):
+        elif isinstance(of, list):
             made = entry(of, one["by"], where)
             if "value" in one and (made.value - algebra.read(one["value"])).numerator.terms:
                 raise Rejected(f"{where} has another value than it says")
@@ -192,7 +193,7 @@ def at(of: Made, point: Mapping[str, Fraction | Matrix], where: str) -> Fraction
     if isinstance(of, Defined):
         return words_at(of.words, of.algebra, point, where)
     if isinstance(of, Entry):
-        return of.at(point, where)
+        return number_at(of.value, point, where)
     raise Rejected(f"{where} has a matrix where an entry must stand")
 
 
@@ -266,40 +267,30 @@ def _respects(
     def image(words: Words) -> Words:
         return _image(Defined(words, source), algebra, images, where)
 
-    def difference(made: Words, claimed: Words) -> bool:
-        return bool(algebra.total([made - claimed]).terms)
-
-    def product(a: str, b: str, c: Words) -> bool:
-        return difference(image(source.names[a]) * image(source.names[b]), image(c))
-
-    def transpose(letter: str, t: Words) -> bool:
-        return difference(image(t), algebra.transposed(image(source.names[letter])))
-
-    _each_rule(source, names, product, where)
-    _each_transpose(source, names, transpose, where)
+    rules, transposes = source.about(names, where)
+    _check_equal(
+        [(RULE.format(a, b), image(source.names[a]) * image(source.names[b]), image(c)) for a, b, c in rules]
+        + [(TURNED.format(x), image(t), algebra.transposed(image(source.names[x]))) for x, t in transposes],
+        algebra, where,
+    )  # fmt: skip
 
 
 def _respects_as_rates(algebra: Algebra, rates: Mapping[str, Words], where: str) -> None:
     """Raises Rejected unless Leibniz' rule respects the rules and transposes among the letters that have rates."""
-
-    def difference(made: Words, claimed: Words) -> bool:
-        return bool(algebra.total([made - algebra.rate(claimed, rates)]).terms)
-
-    def product(a: str, b: str, c: Words) -> bool:
-        return difference(rates[a] * algebra.word(b) + algebra.word(a) * rates[b], c)
-
-    _each_rule(algebra, rates.keys(), product, where)
-    _each_transpose(algebra, rates.keys(), lambda x, t: difference(algebra.transposed(rates[x]), t), where)
+    rules, transposes = algebra.about(rates.keys(), where)
+    products = [rates[a] * algebra.word(b) + algebra.word(a) * rates[b] for a, b, _ in rules]
+    _check_equal(
+        [(RULE.format(a, b), made, algebra.rate(c, rates)) for (a, b, c), made in zip(rules, products, strict=True)]
+        + [(TURNED.format(x), algebra.transposed(rates[x]), algebra.rate(t, rates)) for x, t in transposes],
+        algebra, where,
+    )  # fmt: skip
 
 
-def _each_rule(algebra: Algebra, names: Collection[str], fails: Callable[[str, str, Words], bool], where: str) -> None:
-    """Of the rules about the letters that are named; none may be about some of them and others."""
-    for (a, b), c in algebra.rules.items():
-        if all_or_none({a, b, *c.letters()}, names, where) and fails(a, b, c):
-            raise Rejected(f"{where} does not respect the rule for {a} {b}")
+RULE, TURNED = "respect the rule for {} {}", "do to the transpose of {0} what it does to {0}"
 
 
-def _each_transpose(algebra: Algebra, names: Collection[str], fails: Callable[[str, Words], bool], where: str) -> None:
-    for letter, transpose in algebra.transposes.items():
-        if all_or_none({letter, *transpose.letters()}, names, where) and fails(letter, transpose):
-            raise Rejected(f"{where} does not do to the transpose of {letter} what it does to {letter}")
+def _check_equal(pairs: Sequence[tuple[str, Words, Words]], algebra: Algebra, where: str) -> None:
+    """Raises Rejected unless what is made is what is claimed."""
+    for what, made, claimed in pairs:
+        if algebra.total([made - claimed]).terms:
+            raise Rejected(f"{where} does not {what}")

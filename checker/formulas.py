@@ -2,19 +2,23 @@ r"""Formulas in TeX, read by a glossary: so that what is printed is what was dec
 
 A glossary is a list of [symbol, meaning, value].  A symbol is any piece of TeX, such as K, \tilde\gamma or R_{k+1}; the
 longest that fits is taken.  A value is a tree, or a list of trees (a vector), or of such lists (a matrix), in the names
-of an algebra.  A formula is parts between commas, semicolons and colons; a part is expressions with = or \equiv between
-them.  A part with words is not read; one with a symbol that has no value raises NotRead.  An expression has
+of an algebra.  A formula is parts between commas, semicolons, colons and wide spaces; a part is expressions with = or
+\equiv between them, or two with \ne, <, >, \le or \ge.  Before \to and \mapsto stands one symbol, whose value is what
+it tends to.  A part with words is not read; one with a symbol that has no value raises NotRead.  An expression has
 
     a + b   a - b   \pm a   a b   \frac ab   a^n   a^T   ( )   [a, b] = ab - ba   \langle a, b \rangle
-    a \times b   a \wedge b = a b^T - b a^T   \sqrt a   \mathrm{diag}(a, b, c)   (a, b, c)^T
+    a \times b   a \wedge b = a b^T - b a^T   \sqrt a   \mathrm{diag}(a, b, c)   (a, b, c)^T   a matrix as pmatrix
+    \mathrm{tr} a and \langle a, b \rangle = \mathrm{tr} b a^T in an algebra of traces
 
 The value of 0 is what vanishes by a premise: a = b may then say that a - b is that, or its negative.  An equation
-with a root is squared: so it may be refuted, and is proved only where \pm stands before the root.  In an
-algebra of words a^T is made by the transposes of the letters; b of a \wedge b may be printed as its transpose.
+with a root is squared: so it may be refuted, and is proved only where \pm stands before the root, or where it is all
+of one side and the other is positive by a hypothesis.  In an algebra of words a^T is made by the transposes of the
+letters; b of a \wedge b may be printed as its transpose.  In one of traces each term of both sides has one trace, and
+else numbers and parameters; a symbol may have the value {"trace": tree}.
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -23,8 +27,8 @@ from .trees import names_in
 Tree = Any
 #: A tree, a vector or a matrix of trees, and which of these it is: 0, 1 or 2.
 Value = tuple[int, Any]
-#: The name of a root, and the token of words: no certificate can have these.
-ROOT, WORDS = "\x00root", "\x00"
+#: The name of a root, that of a trace, and the token of words: no certificate can have these.
+ROOT, TRACE, WORDS = "\x00root", " trace ", "\x00"
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[^\s\\]|\\$", re.ASCII)
 #: What may be a symbol: a letter or a command first, or brackets around what is left out.
 _SYMBOL = re.compile(r"\\?[A-Za-z][^=,;:]*|\([^=,;:]*\\dots[^=,;:]*\).*|0|\\dots", re.ASCII)
@@ -33,7 +37,14 @@ _ACCENTS = {"\\mathcal", "\\mathbf", "\\mathrm", "\\mathbb", "\\vec", "\\tilde",
 #: Of what is read for one equation: the parts of trees that are made, and brackets in brackets.
 MOST_PARTS, MOST_BRACKETS = 200_000, 30
 #: What says nothing: spaces, and sizes of brackets.
-_SILENT = {"\\,", "\\;", "\\!", "\\ ", "\\quad", "\\qquad", "\\bigl", "\\bigr", "\\left", "\\right", "~"}
+_SILENT = {"\\,", "\\;", "\\!", "\\ ", "\\bigl", "\\bigr", "\\left", "\\right", "~"}
+#: What stands between parts, and between the sides of a part.
+_BETWEEN = {",", ";", ":", "\\quad", "\\qquad"}
+LIMITS = ("\\to", "\\mapsto")
+RELATIONS = dict.fromkeys(("=", "\\equiv", *LIMITS), "=") | {
+    "\\ne": "!=", "<": "<", "\\le": "<=", ">": ">", "\\ge": ">=",
+}  # fmt: skip
+_SIGNS = ("+", "-", "\\pm")
 _CLOSES = {"(": ")", "[": "]", "{": "}", "\\langle": "\\rangle"}
 
 
@@ -48,7 +59,7 @@ def tokens(formula: str) -> list[str]:
 
 
 def parts(formula: str) -> list[list[str]]:
-    """The parts between commas, semicolons and colons outside of brackets."""
+    """The parts between commas, semicolons, colons and wide spaces outside of brackets."""
     found: list[list[str]] = [[]]
     inside: list[str] = []
     for token in tokens(formula):
@@ -56,25 +67,36 @@ def parts(formula: str) -> list[list[str]]:
             inside.append(_CLOSES[token])
         elif inside and token == inside[-1]:
             inside.pop()
-        if token in (",", ";", ":") and not inside:
+        if token in _BETWEEN and not inside:
             found.append([])
         else:
             found[-1].append(token)
     return [part for part in found if part]
 
 
-def equations(part: Sequence[str], reader: "Reader") -> list[tuple[Value, Value]]:
-    """The equations of a part, a = b = c as two; raises NotRead."""
-    if "=" not in part and "\\equiv" not in part:
-        raise NotRead("it has no equation")
-    sides: list[list[str]] = [[]]
-    for token in part:
-        if token in ("=", "\\equiv"):
-            sides.append([])
-        else:
-            sides[-1].append(token)
+def relations(part: Sequence[str], reader: "Reader") -> list[tuple[str, Value, Value]]:
+    """The relations of a part, a = b = c as two, and > and >= turned round; raises NotRead."""
+    between = [token for token in part if token in RELATIONS]
+    kinds = [RELATIONS[token] for token in between]
+    if not kinds or (len(kinds) > 1 and {*kinds} != {"="}):
+        raise NotRead("it is neither an equation nor one relation")
+    sides = _split(part, RELATIONS)
     values = [reader.read(side) for side in sides]
-    return list(pairwise(values))
+    if any(token in LIMITS and tuple(side) not in reader.values for token, side in zip(between, sides, strict=False)):
+        raise NotRead("what tends to something is no symbol")
+    pairs = zip(kinds, pairwise(values), strict=True)
+    return [(kind.replace(">", "<"), *(pair[::-1] if ">" in kind else pair)) for kind, pair in pairs]
+
+
+def _split(tokens: Sequence[str], between: Collection[str]) -> list[list[str]]:
+    """What stands between some tokens."""
+    found: list[list[str]] = [[]]
+    for token in tokens:
+        if token in between:
+            found.append([])
+        else:
+            found[-1].append(token)
+    return found
 
 
 def is_symbol(symbol: str) -> bool:
@@ -90,8 +112,18 @@ def is_symbol(symbol: str) -> bool:
 class Reader:
     """Reads expressions in the values of a glossary."""
 
-    def __init__(self, glossary: Sequence[Sequence[Any]], transposes: Mapping[str, Tree] | None = None):
+    def __init__(
+        self,
+        glossary: Sequence[Sequence[Any]],
+        transposes: Mapping[str, Tree] | None = None,
+        numbers: Collection[str] | None = None,
+    ):
+        self.traces: list[Tree] = []  # of what the traces are
+        self.numbers = numbers  # the parameters, where all is of traces
         values = {tuple(tokens(symbol)): (rank_of(value), value) for symbol, _, value in glossary}
+        for symbol in [symbol for symbol, (_, value) in values.items() if isinstance(value, dict)]:
+            _, value = values.pop(symbol)  # a number, in an algebra of traces only
+            values |= {symbol: self._trace((0, value["trace"]))} if numbers is not None else {}
         _, self.zero = values.pop(("0",), (0, 0))  # what vanishes by a premise
         self.values = dict(sorted(values.items(), key=lambda item: -len(item[0])))
         self._symbols: dict[str, list[tuple[str, ...]]] = {}
@@ -107,10 +139,32 @@ class Reader:
     def read(self, side: Sequence[str]) -> Value:
         """The value of an expression; raises NotRead."""
         self._left = [*side]
-        found = self._sum()
-        if self._left:
-            raise NotRead(f"{self._left[0]} is not read")
+        found = self._whole()
+        if self.numbers is not None:
+            return 0, self._traced(_number(found)[1])
         return found
+
+    def _trace(self, of: Value) -> Value:
+        """A name for the trace of something."""
+        if TRACE in str(of) or self.numbers is None:
+            raise NotRead("a trace stands where none can be")
+        self.traces.append(_number(of)[1])
+        return 0, f"{TRACE}{len(self.traces) - 1}"
+
+    def _traced(self, tree: Tree) -> Tree:
+        """Of what a sum is the trace."""
+        if tree == 0:
+            return 0
+        if isinstance(tree, str) and tree.startswith(TRACE):
+            return self.traces[int(tree[len(TRACE) :])]
+        if isinstance(tree, list) and tree[0] == "+":
+            return plus(*map(self._traced, tree[1:]))
+        factors = tree[1:] if isinstance(tree, list) and tree[0] == "*" else []
+        inside = [factor for factor in factors if TRACE in str(factor)]
+        others = [factor for factor in factors if TRACE not in str(factor)]
+        if len(inside) != 1 or not names_in([0, *others]) <= set(self.numbers or ()):
+            raise NotRead("a term is no trace")
+        return times(*others, self._traced(inside[0]))
 
     def _next(self) -> str:
         return self._left[0] if self._left else ""
@@ -120,10 +174,20 @@ class Reader:
             raise NotRead(f"{token} is missing")
         self._left.pop(0)
 
+    def _whole(self) -> Value:
+        """All that is left."""
+        found = self._sum()
+        if self._left:
+            raise NotRead(f"{self._left[0]} is not read")
+        return found
+
     def _sum(self) -> Value:
+        self._depth += 1
+        if self._depth > MOST_BRACKETS:
+            raise NotRead("it has too many brackets in brackets")
         total: Value | None = None
-        while total is None or self._next() in ("+", "-", "\\pm"):
-            sign = self._left.pop(0) if self._next() in ("+", "-", "\\pm") else "+"
+        while total is None or self._next() in _SIGNS:
+            sign = self._left.pop(0) if self._next() in _SIGNS else "+"
             before = self.root
             term = self._product()
             if sign == "-":
@@ -133,6 +197,7 @@ class Reader:
                     raise NotRead("± stands before no root")
                 self.both = True
             total = term if total is None else _sum(total, term)
+        self._depth -= 1
         return self._counted(total)
 
     def _counted(self, of: Value) -> Value:
@@ -160,7 +225,7 @@ class Reader:
 
     def _juxtaposed(self) -> Value:
         found = self._power()
-        while self._next() not in ("", "+", "-", "\\pm", "\\times", "\\wedge", ",", *_CLOSES.values()):
+        while self._next() not in ("", *_SIGNS, "\\times", "\\wedge", ",", *_CLOSES.values()):
             found = self._counted(self._times(found, self._power()))
         return found
 
@@ -201,13 +266,7 @@ class Reader:
 
     def _inside(self, argument: list[str]) -> Value:
         outside, self._left = self._left, argument
-        self._depth += 1
-        if self._depth > MOST_BRACKETS:
-            raise NotRead("it has too many brackets in brackets")
-        found = self._sum()
-        self._depth -= 1
-        if self._left:
-            raise NotRead(f"{self._left[0]} is not read")
+        found = self._whole()
         self._left = outside
         return found
 
@@ -235,13 +294,31 @@ class Reader:
             self._left = self._left[6:]
             entries = [_number(entry)[1] for entry in self._list("(")]
             return 2, [[x if i == j else 0 for j in range(len(entries))] for i, x in enumerate(entries)]
+        if token == "\\mathrm" and self._left[:4] == [*"{tr}"]:
+            self._left = self._left[4:]
+            return self._trace(self._power())
+        if token == "\\begin" and self._left[:9] == [*"{pmatrix}"]:
+            return self._matrix()
         if token in _CLOSES:
             self._left.insert(0, token)
             return self._bracket(token)
         raise NotRead(f"{token or 'an end'} has no value")
 
+    def _matrix(self) -> Value:
+        """Rows between \\\\, and entries between &."""
+        end = self._left.index("\\end") if "\\end" in self._left else len(self._left)
+        cells, self._left = self._left[9:end], self._left[end:]
+        for token in ("\\end", *"{pmatrix}"):
+            self._take(token)
+        rows = [_split(row, "&") for row in _split(cells, ("\\\\",))]
+        if len({*map(len, rows)}) > 1:
+            raise NotRead("a matrix has rows of different lengths")
+        return 2, [[_number(self._inside(cell))[1] for cell in row] for row in rows]
+
     def _bracket(self, token: str) -> Value:
         inside = self._list(token)
+        if token == "\\langle" and self.numbers is not None and len(inside) == 2:
+            return self._trace(self._times(inside[1], self._transposed(inside[0])))
         if token == "\\langle":
             if [rank for rank, _ in inside] != [1, 1] or len(inside[0][1]) != len(inside[1][1]):
                 raise NotRead("a product of vectors has not two vectors of one length")
@@ -259,15 +336,11 @@ class Reader:
 
     def _list(self, token: str) -> list[Value]:
         self._take(token)
-        self._depth += 1
-        if self._depth > MOST_BRACKETS:
-            raise NotRead("it has too many brackets in brackets")
         found = [self._sum()]
         while self._next() == ",":
             self._left.pop(0)
             found.append(self._sum())
         self._take(_CLOSES[token])
-        self._depth -= 1
         return found
 
     def _times(self, a: Value, b: Value) -> Value:

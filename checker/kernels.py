@@ -63,7 +63,9 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
         carrier = row["carriers"][each.carrier]
         cofactors = dict(map(tuple, carrier.get("cofactors", []))).get(each.entry, [])
         check_known(cofactors, each.ring.names, where)
-        proved = len(cofactors) == len(each.ring.relations) and each.ring.vanishes(each.value, cofactors, where)
+        proved = len(cofactors) == len(each.ring.relations) and each.ring.vanishes(
+            each.value.numerator, cofactors, where
+        )
         if each.value.numerator.terms and not proved:
             said = carrier["statement"]
             raise Rejected(f"{where} computes in its result {i} something else than «{said}» says")
@@ -232,12 +234,6 @@ def check_step(data: Any, where: str) -> None:
         names([name for name, _ in pairs], where)
 
 
-def check_place(data: Any, where: str) -> None:
-    """Raises Rejected unless this is an object of values."""
-    if not isinstance(data, dict):
-        raise Rejected(f"{where} has a point that is none")
-
-
 def check_carrier_form(data: Any, where: str) -> None:
     """Raises Rejected unless this is a carrier."""
     check_shape(data, CARRIER, where)
@@ -247,7 +243,7 @@ PLACES = [(anything, check_tree)]
 BY = {"at": PLACES, "along": [PLACES], "solved": check_carrier_form, "entries": [LINE]}
 CARRIER = {
     "claim": text, "certificate": text, "statement": text, "side": ("left", "right"), "steps": [check_step],
-    "cofactors?": [(LINE, [check_tree])], "point?": check_place,
+    "cofactors?": [(LINE, [check_tree])], "point?": dict,
 }  # fmt: skip
 
 
@@ -256,8 +252,8 @@ def moves(step: str, by: Any) -> Sequence[Any]:
     return [by] if step == "at" else by if step == "along" else []
 
 
-def _statement(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> dict[str, Any]:
-    """The one statement that a carrier names, if it is proved and says something."""
+def _statement(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> tuple[Any, Mapping[str, Any]]:
+    """The one statement that a carrier names, if it is proved and says something, and its certificate."""
     claim, said = carrier["claim"], carrier["statement"]
     data = certificates.get(f"{claim} {carrier['certificate']}")
     if data is None:
@@ -272,31 +268,37 @@ def _statement(carrier: Mapping[str, Any], certificates: Certificates, where: st
         raise Rejected(f"{where} is carried by «{said}», which has one expression on both sides and decides nothing")
     if data["algebras"][statement["algebra"]]["kind"] != "quotient":
         raise Rejected(f"{where} is carried by «{said}», which is about words, and a kernel is about numbers")
-    return dict(statement)
+    return statement, data
 
 
 def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> set[str]:
-    """The variables that a carrier needs."""
-    statement = _statement(carrier, certificates, where)
-    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
-    names = set(data["algebras"][statement["algebra"]]["variables"])
+    """The variables that a carrier needs; raises Rejected where one that is placed or moved is none there.
+
+    Nothing would be done to such a name.
+    """
+    statement, data = _statement(carrier, certificates, where)
+    variables = set(data["algebras"][statement["algebra"]]["variables"])
+    found = set(variables)
     for step, by in carrier["steps"]:
         if step == "solved":
-            names |= _names(by, certificates, where)
+            variables |= _names(by, certificates, where)
+        found |= variables
         for pairs in moves(step, by):
-            names |= {name for name, _ in pairs}.union(*(names_in(tree) for _, tree in pairs))
-    return names
+            if strange := [name for name, _ in pairs if name not in variables]:
+                raise Rejected(f"{where} moves {strange[0]!a:.40}, which is no variable of «{statement['text']}» there")
+            found = found.union(*(names_in(tree) for _, tree in pairs))
+        if step == "at":
+            variables = (variables - {name for name, _ in by}).union(*(names_in(tree) for _, tree in by))
+    return found
 
 
 def entries(
     carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, where: str, adjoined: Sequence[Letter] = ()
 ) -> tuple[list[Quotient], list[Quotient]]:
     """What a carrier makes, in the variables of the ring, and the relations that hold there."""
-    statement = _statement(carrier, certificates, where)
-    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
+    statement, data = _statement(carrier, certificates, where)
     # A name of an argument or of a letter that the certificate derives, or does not know, is none of the statement's.
     names = {name: ring.names()[name] for name in data["algebras"][statement["algebra"]]["variables"]}
-    _check_moves(carrier, certificates, where)
     steps = list(carrier["steps"])
     kinds = [step for step, _ in steps]
     if adjoined and "along" in kinds and "at" in kinds[kinds.index("along") :]:
@@ -319,48 +321,32 @@ def entries(
             matrix, others = entries(by, certificates, ring, where, adjoined)
             found, relations = solved(matrix, found, where), [*relations, *others]
         else:
-            moves = [{name: value(tree, ring.names(), ring.number) for name, tree in pairs}
-                     for pairs in ([by] if step == "at" else by)]  # fmt: skip
+            images = [
+                {name: value(tree, ring.names(), ring.number) for name, tree in pairs} for pairs in moves(step, by)
+            ]
             if step == "at":
-                found, relations = ([placed(x, moves[0]) for x in group] for group in (found, relations))
+                found, relations = ([placed(x, images[0]) for x in group] for group in (found, relations))
                 continue
-            if any(rate(relation, move).numerator.terms for relation in relations for move in moves):
+            if any(rate(relation, image).numerator.terms for relation in relations for image in images):
                 raise Rejected(f"{where} is differentiated along what leaves a relation of «{statement['text']}»")
-            letters.check_moves(adjoined, moves, where)
-            found = [rate(x, move) for x in found for move in moves]
+            letters.check_moves(adjoined, images, where)
+            found = [rate(x, image) for x in found for image in images]
     return found, relations
-
-
-def _check_moves(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> None:
-    """Raises Rejected if what is placed or moved is no variable there: nothing would be done then."""
-    statement = _statement(carrier, certificates, where)
-    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
-    variables = set(data["algebras"][statement["algebra"]]["variables"])
-    for step, by in carrier["steps"]:
-        if step == "solved":
-            variables |= _names(by, certificates, where)
-        for pairs in moves(step, by):
-            if strange := [name for name, _ in pairs if name not in variables]:
-                raise Rejected(f"{where} moves {strange[0]!a:.40}, which is no variable of «{statement['text']}» there")
-        if step == "at":
-            variables = (variables - {name for name, _ in by}).union(*(names_in(tree) for _, tree in by))
 
 
 def check_carrier(
     carrier: Mapping[str, Any], certificates: Certificates, point: Mapping[str, Fraction], where: str
 ) -> None:
     """Raises Rejected if the statement of a carrier, or a step from it, divides by 0 at a point of what it makes."""
-    statement = _statement(carrier, certificates, where)
-    data = certificates[f"{carrier['claim']} {carrier['certificate']}"]
+    statement, data = _statement(carrier, certificates, where)
     names = dict(point)
     try:
         for step, by in reversed(carrier["steps"]):
             if step == "solved":
                 check_carrier(by, certificates, names, where)
-            elif step != "entries":
-                for pairs in [by] if step == "at" else by:
-                    images = {name: value(tree, names, Fraction) for name, tree in pairs}
-                    names |= images if step == "at" else {}
+            for pairs in moves(step, by):
+                images = {name: value(tree, names, Fraction) for name, tree in pairs}
+                names |= images if step == "at" else {}
         for name, tree in (*derivation.valued(data["derivation"]).items(), *statement.get("definitions", [])):
             if names_in(tree) <= names.keys():
                 names[name] = value(tree, names, Fraction)

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
+from heapq import heapify, heappop, heappush
 from typing import Any
 
 from . import derivation
@@ -17,20 +18,19 @@ from .formulas import (
     Tree,
     Value,
     entries,
-    equations,
     is_symbol,
     parts,
     plus,
     rank_of,
+    relations,
     times,
     tokens,
     transposed,
 )
 from .interval import Rejected
-from .matrices import Quotients, quotients
+from .matrices import Entry, Quotients, quotients
 from .polynomial import FIELD, Polynomial, Quotient, Ring
 from .trees import check_known, check_tree, names_in, value
-from .words import Words
 
 #: Symbols of a glossary, and letters of each.
 MOST_SYMBOLS, MOST_LETTERS = 100, 80
@@ -43,7 +43,11 @@ def check_form(data: Any, names: Collection[str]) -> None:
         if len(one[0]) > MOST_LETTERS or not is_symbol(one[0]):
             raise Rejected(f"the glossary has {one[0]!a:.60}, which is no symbol")
         seen.add(tuple(tokens(one[0])))
-        rows = one[2] if rank_of(one[2]) == 2 else [one[2]] if rank_of(one[2]) == 1 else [[one[2]]]
+        of, rank = one[2], rank_of(one[2])
+        if isinstance(of, dict) and one[0] != "0":
+            check_shape(of, {"trace": check_tree}, f"the glossary, in {one[0]},")
+            of = of["trace"]
+        rows = of if rank == 2 else [of] if rank == 1 else [[of]]
         check_shape(rows, [[check_tree]], f"the glossary, in {one[0]},")
         if not 1 <= min(map(len, rows)) == max(map(len, rows)):
             raise Rejected(f"the glossary has for {one[0]} rows of different lengths")
@@ -58,86 +62,115 @@ def check_form(data: Any, names: Collection[str]) -> None:
 
 def read(data: Mapping[str, Any]) -> tuple[int, int]:
     """How many parts of the formulas of a claim the glossary reads, and how many are in words."""
-    counts = [WORDS in part for _, part in printed_parts(data)]
+    formulas = [data["printed"], data["corrected"] or ""] if data["glossary"] else []
+    counts = [WORDS in part for formula in formulas for part in parts(formula)]
     return counts.count(False), counts.count(True)
 
 
-def printed_parts(data: Mapping[str, Any]) -> list[tuple[str, list[str]]]:
-    """The parts of what is printed and of what is corrected, each with its role; none where there is no glossary."""
-    if not data["glossary"]:
-        return []
-    formulas = {"printed": data["printed"], "corrected": data["corrected"] or ""}
-    return [(role, part) for role, formula in formulas.items() for part in parts(formula)]
+def check(data: Mapping[str, Any], among: "Sequence[Comparer]") -> dict[str, int]:
+    """Raises Rejected unless the formulas of a claim, where they are read, are what is decided, and nothing else.
 
-
-def check(data: Mapping[str, Any], algebras: Sequence[Algebra | Quotients], defined: Mapping[str, Made]) -> int:
-    """Raises Rejected unless each equation of a part that is not in words is a statement of that role, or an identity.
-
-    Where no part is in words, what is printed is false only by statements that it has, and each of these that is
-    refuted is one of its equations.  Of each role one statement at least is an equation of its formula.  Returns how
-    many parts hold by the glossary alone.
+    Each part that is not in words is something decided of its role, or an identity by the glossary alone; none says
+    what another one says.  What is decided and no part says is marked as said in words; of this there is no more than
+    the formula has parts in words.  What is refuted, if anything, is among what is said.  Returns how many parts are
+    identities, and what is left to words.
     """
-    alone = 0
-    found: dict[str, set[int]] = {"printed": set(), "corrected": set()}
-    all_parts = printed_parts(data)
-    for role, part in all_parts:
+    alone = left = read = 0
+    for role in ("printed", "corrected") if data["glossary"] else ():
+        all_parts = parts(data[role] or "")
+        plain = [part for part in all_parts if WORDS not in part]
+        decided, found, identities = said(role, data, among)
+        unsaid = {i for i in range(len(decided)) if i not in found}
+        if wrong := unsaid ^ {i for i, one in enumerate(decided) if one.get("words")}:
+            does = "says in words" if unsaid < unsaid | wrong else "does not say"
+            raise Rejected(
+                f"the {role} formula is not one that {does} what is decided: {decided[min(wrong)]['text']:.100}"
+            )
+        false = {i for i, one in enumerate(decided) if is_false(one)}
+        if plain and decided and not (found & false if false else found):
+            raise Rejected(f"no part of the {role} formula is what is {'refuted' if false else 'decided'}")
+        if plain and len(unsaid) > len(all_parts) - len(plain):
+            raise Rejected(f"the {role} formula has fewer parts in words than what they say")
+        alone, left, read = alone + identities, left + len(unsaid), read + len(found)
+    if data["glossary"] and not read and data["verdict"] != "definition":
+        raise Rejected("no part of a formula is what is decided")
+    return {"true by the glossary alone": alone, "said by words of a formula": left}
+
+
+def said(role: str, data: Mapping[str, Any], among: "Sequence[Comparer]") -> tuple[list[Any], set[int], int]:
+    """What is decided of a role, which of it its formula says, and how many of its parts are identities."""
+    decided = [one for name in DECIDED for one in data[name] if one["role"] == role]
+    found, alone, before = set[int](), 0, list[Sequence[str]]()
+    if data[role] is not None and not parts(data[role]):
+        raise Rejected(f"the {role} formula has no part")
+    for part in parts(data[role] or ""):
         if WORDS in part:
-            if "=" in part or "\\equiv" in part:
+            if any(token in part for token in ("=", "\\equiv", "\\to")):
                 raise Rejected(f"the {role} formula has an equation and words in one part")
             continue
-        why, read = "nothing of that role is decided", None
-        stated = {i: one for i, one in enumerate(data["statements"]) if one["role"] == role}
-        for kind in dict.fromkeys(one["algebra"] for one in stated.values()):
-            among = {i: one for i, one in stated.items() if one["algebra"] == kind}
-            try:
-                each = _read(part, among, data, kind, algebras[kind], defined)
-                read = set().union(*each)
-                break
-            except (NotRead, RecursionError) as error:
-                why = "it is too deep" if isinstance(error, RecursionError) else str(error)
-        if read is None:
-            raise Rejected(f"the {role} formula {''.join(part):.80} is not read: {why}")
+        read = _part(part, role, decided, data, among)
+        if part in before or read & found:
+            raise Rejected(f"a part of the {role} formula, {''.join(part):.80}, says what another part says")
+        before.append(part)
+        found |= read
         alone += not read
-        found[role] |= read
-    if not data["glossary"]:
-        return alone
-    words = any(WORDS in part for role, part in all_parts if role == "printed")
-    refuted = {i for i, one in enumerate(data["statements"]) if "refuted" in one}
-    others = [one for one in (*data["comparisons"], *data["counts"]) if "refuted" in one or one.get("holds") is False]
-    others += [one for one in data["sentences"] if one["role"] == "printed" and one["text"].startswith("false: ")]
-    if not words and (others or not refuted <= found["printed"]):
-        raise Rejected("something printed is false that the printed formula does not have")
-    for role, formula in (("printed", data["printed"]), ("corrected", data["corrected"])):
-        if formula is not None and not any(one == role for one, _ in all_parts):
-            raise Rejected(f"the {role} formula has no part")
-        if not found[role] and any(one == role and WORDS not in part for one, part in all_parts):
-            raise Rejected(f"no part of the {role} formula is a statement that is decided")
-    if (
-        refuted
-        and not refuted & found["printed"]
-        and any(WORDS not in part for role, part in all_parts if role == "printed")
-    ):
-        raise Rejected("no part of the printed formula is a statement that is refuted")
-    return alone
+    return decided, found, alone
+
+
+#: What may be decided of a formula.
+DECIDED = ("statements", "comparisons", "counts", "zeros", "rests", "sentences")
+
+
+def is_false(one: Mapping[str, Any]) -> bool:
+    """Whether something that is decided, or a sentence, says that what is printed is false."""
+    sentence = (
+        one.keys() <= {"role", "text", "words"} and one["role"] == "printed" and one["text"].startswith("false: ")
+    )
+    return "refuted" in one or one.get("holds") is False or sentence
+
+
+def _part(
+    part: Sequence[str], role: str, decided: Sequence[Any], data: Mapping[str, Any], among: "Sequence[Comparer]"
+) -> set[int]:
+    """Which of what is decided a part says, all in one algebra or without; raises Rejected if it is not read."""
+    why = ""
+    stated = {i: one for i, one in enumerate(decided) if "left" in one}
+    inferred = any(one["role"] == "inference" for one in data["sentences"])  # from a point to what is said in general
+    compared = {i: one for i, one in enumerate(decided) if "relations" in one and (inferred or is_false(one))}
+    for kind in (*(dict.fromkeys(one["algebra"] for one in stated.values()) or range(len(among))), None):
+        own = {i: one for i, one in stated.items() if one["algebra"] == kind}
+        try:
+            return _compared(part, compared, data) if kind is None else _read(part, own, data, kind, among[kind])
+        except NotRead as error:
+            why = why or str(error)
+        except RecursionError:
+            why = "it is too deep"
+    raise Rejected(f"the {role} formula {''.join(part):.80} is not read: {why}")
+
+
+def _compared(part: Sequence[str], among: Mapping[int, Any], data: Mapping[str, Any]) -> set[int]:
+    """The comparisons, and numbers of solutions, that are the relation of a part, in the same trees."""
+    said = [[kind, left, right] for kind, (_, left), (_, right) in relations(part, Reader(data["glossary"]))]
+    found = {i for i, one in among.items() if one["relations"] == said}
+    if not found:
+        raise NotRead("it is not what was decided")
+    return found
 
 
 def _read(
-    part: Sequence[str],
-    among: Mapping[int, Any],
-    data: Mapping[str, Any],
-    kind: int,
-    algebra: Algebra | Quotients,
-    made: Mapping[str, Made],
-) -> list[set[int]]:
+    part: Sequence[str], among: Mapping[int, Any], data: Mapping[str, Any], kind: int, of: "Comparer"
+) -> set[int]:
     """The statements that the equations of a part are, in one algebra; raises NotRead if one is none of them."""
-    if data["algebras"][kind]["kind"] == "traces":
-        raise NotRead("it is decided of traces")
-    if isinstance(algebra, Quotients):  # only entries of this ring
-        own = {one["name"] for one in data["derivation"] if one["algebra"] == kind and one["operation"] == "entry"}
-        made = {name: of for name, of in made.items() if name in own}
-    reader = Reader(data["glossary"], _transposes(data["algebras"][kind]))
-    sides = equations(part, reader)
-    return [_statements(pair, among, algebra, made, reader, data["counterexamples"]) for pair in sides]
+    algebra = data["algebras"][kind]
+    reader = Reader(
+        data["glossary"], _transposes(algebra), algebra["parameters"] if algebra["kind"] == "traces" else None
+    )
+    found: set[int] = set()
+    for relation, left, right in relations(part, reader):
+        if relation != "=":
+            raise NotRead("it is not what was decided")
+        found |= _statements((left, right), among, of, reader, data)
+    return found
 
 
 def _transposes(algebra: Mapping[str, Any]) -> dict[str, Tree] | None:
@@ -148,12 +181,7 @@ def _transposes(algebra: Mapping[str, Any]) -> dict[str, Tree] | None:
 
 
 def _statements(
-    pair: tuple[Value, Value],
-    among: Mapping[int, Any],
-    algebra: Algebra | Quotients,
-    made: Mapping[str, Made],
-    reader: Reader,
-    examples: Sequence[Mapping[str, Any]],
+    pair: tuple[Value, Value], among: Mapping[int, Any], of: "Comparer", reader: Reader, data: Mapping[str, Any]
 ) -> set[int]:
     """Which statements an equation is, entry by entry; raises NotRead if it is none, and no identity.
 
@@ -173,31 +201,44 @@ def _statements(
     if lefts == rights:
         return set()
     names = names_in([0, *lefts, *rights, *zeros, reader.root or 0])
-    if names - algebra.names.keys() - made.keys() or (reader.root is not None and names & made.keys()):
+    if not names <= of.names:
         raise NotRead("the glossary gives a symbol a value of another algebra")
-    if isinstance(algebra, Algebra) and reader.root is not None:
-        raise NotRead("a root is of no words")
-    of: Any = _InWords(algebra, made) if isinstance(algebra, Algebra) else _InRing(algebra, made, reader)
+    if reader.root is not None:
+        positive = [of[2:] for one in data["hypotheses"] for of in one["relations"] if of[:2] == ["<", 0]]
+        if not (reader.both or (lefts == [ROOT] and rights in positive) or (rights == [ROOT] and lefts in positive)):
+            among = {i: one for i, one in among.items() if "refuted" in one}  # a² = b² is true where a = -b is
+        of, among = of.rooted(names, among, reader.root)
     among = {i: one for i, one in among.items() if len(one["left"]) == most and one["left"] != one["right"]}
-    if reader.root is not None:  # whose ring has no entries of derivations
-        among = {
-            i: one for i, one in among.items() if made.keys().isdisjoint(names_in([0, *one["left"], *one["right"]]))
-        }
-    among = {i: one for i, one in among.items() if _is_nothing(zeros, one, examples)}
+    among = {i: one for i, one in among.items() if _is_nothing(zeros, one, data["counterexamples"])}
     sides = list(zip(lefts, rights, strict=True))
-    said = of.differences(sides)
-    if reader.root is None and not any(x.terms for x in said):
+    said, found = of.differences(sides), _saying(sides, among, of)
+    if reader.root is None and not any(x.terms for x in said[0]):
+        if any(x.terms for x in of.differences(sides, folded=True)[0]):
+            return found
         left = of.differences([(a, 0) for a in lefts])
-        return {i for i, one in among.items() if of.is_said(said, one) and of.is_side(left, one)}
-    found = {i for i, one in among.items() if of.is_said(said, one)}
+        if any(x.terms for x in left[0]):
+            return {i for i in found if of.is_side(left, among[i])}
+        # 0 = 0 is many statements
+        return {i for i in found if (lefts, rights) == (among[i]["left"], among[i]["right"])}
     for more in _vanishing(zeros, reader):
         nothing = of.differences([(z, 0) for z in more])
         for sign in (1, -1):
-            said = of.differences([(plus(a, times(sign, z)), b) for (a, b), z in zip(sides, more, strict=True)])
-            found |= {i for i, one in among.items() if of.is_said(said, one) and of.is_side(nothing, one)}
+            with_it = [(plus(a, times(sign, z)), b) for (a, b), z in zip(sides, more, strict=True)]
+            found |= {i for i in _saying(with_it, among, of) if of.is_side(nothing, among[i])}
     if not found:
         raise NotRead("it is not what was decided")
     return found
+
+
+def _saying(sides: Sequence[tuple[Tree, Tree]], among: Mapping[int, Any], of: "Comparer") -> set[int]:
+    """The statements with the same differences: where these are 0, before what derivations make is put in, too."""
+    said, made = of.differences(sides), of.differences(sides, folded=True)
+    found = {i for i, one in among.items() if of.is_said(said, one)}
+    if any(x.terms for x in said[0]):
+        return found
+    if any(x.terms for x in made[0]):
+        return {i for i in found if of.is_said(made, among[i], folded=True)}
+    return {i for i in found if not any(x.terms for x in of.stated(among[i], folded=True)[0])}
 
 
 def _vanishing(zeros: list[Tree], reader: Reader) -> list[list[Tree]]:
@@ -213,55 +254,87 @@ def _is_nothing(zeros: list[Tree], one: Mapping[str, Any], examples: Sequence[Ma
     if "refuted" not in one:
         return True
     point = {name: x for name, x in examples[one["refuted"]]["point"].items() if not isinstance(x, list)}
-    trees = [z for z in zeros if z != 0]
-    if not names_in([0, *trees]) <= point.keys():
-        return True
     numbers = {name: Fraction(x) for name, x in point.items()}
     try:
-        return all(value(tree, numbers, Fraction) == 0 for tree in trees)
+        return all(value(tree, numbers, Fraction) == 0 for tree in zeros)
+    except ValueError:  # a name without a value
+        return True
     except ZeroDivisionError:
         return False
 
 
-class _InWords:
-    """Compares differences of words, by the rules."""
-
-    def __init__(self, algebra: Algebra, made: Mapping[str, Made]):
-        self.algebra, self.made = algebra, made
-
-    def differences(self, sides: Sequence[tuple[Tree, Tree]]) -> list[Words]:
-        """Left - right, by the rules."""
-        of = derivation.named([tree for pair in sides for tree in pair], self.algebra, self.made, "a formula")
-        return [self.algebra.total([self.algebra.read(a, of) - self.algebra.read(b, of)]) for a, b in sides]
-
-    def is_said(self, said: list[Words], one: Mapping[str, Any]) -> bool:
-        """Whether differences are those of a statement, or their negatives."""
-        return _alike(said, self.differences(list(zip(one["left"], one["right"], strict=True))))
-
-    def is_side(self, said: list[Words], one: Mapping[str, Any]) -> bool:
-        """Whether this is a side of a statement, or its negative."""
-        return any(_alike(said, self.differences([(x, 0) for x in one[side]])) for side in ("left", "right"))
+#: Differences of the sides of equations, and what these divide by.
+Differences = tuple[list[Any], list[Polynomial]]
 
 
-def _alike(said: list[Words], decided: list[Words]) -> bool:
-    pairs = list(zip(said, decided, strict=True))
-    return all(x.terms == y.terms for x, y in pairs) or all(not (x + y).terms for x, y in pairs)
+class Comparer:
+    """Compares differences of words, by the rules; or their traces."""
+
+    def __init__(self, algebra: Algebra, made: Mapping[str, Made], traces: bool):
+        self.algebra, self.made, self._settled = algebra, made, algebra.traced if traces else lambda x: x
+        self.names = {*algebra.names, *made}  # which an equation may have
+        self._known: dict[str, Differences] = {}
+
+    def rooted(self, names: set[str], among: Mapping[int, Any], root: Tree) -> "tuple[Comparer, Mapping[int, Any]]":
+        """What compares equations with a root, and the statements with which it does."""
+        raise NotRead("a root is of no words")
+
+    def differences(
+        self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any] = (), folded: bool = False
+    ) -> Differences:
+        """Left - right; `local`: names for parts, with their trees; `folded`: what derivations make as letters."""
+        if (text := repr((sides, local, folded))) not in self._known:
+            self._known[text] = self._differences(sides, local, folded)
+        return self._known[text]
+
+    def _differences(self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any], folded: bool) -> Differences:
+        algebra = self.algebra
+        of = dict(algebra.names) | {name: algebra.word(name) for name in self.made}
+        if not folded:
+            of = derivation.named([tree for pair in sides for tree in pair], algebra, self.made, "what is said")
+        found = [algebra.total([algebra.read(a, of) - algebra.read(b, of)]) for a, b in sides]
+        return [self._settled(x) for x in found], []
+
+    def stated(self, one: Mapping[str, Any], side: str = "", folded: bool = False) -> Differences:
+        """Those of a statement, or of a side of it and 0."""
+        sides = [(x, 0) for x in one[side]] if side else list(zip(one["left"], one["right"], strict=True))
+        return self.differences(sides, one.get("definitions", ()), folded)
+
+    def is_said(self, said: Differences, one: Mapping[str, Any], folded: bool = False) -> bool:
+        """Whether differences are those of a statement, or say the same."""
+        return self.alike(said, self.stated(one, folded=folded))
+
+    def is_side(self, said: Differences, one: Mapping[str, Any]) -> bool:
+        """Whether this is a side of a statement, or a multiple of it."""
+        return any(self.alike(said, self.stated(one, side)) for side in ("left", "right"))
+
+    def alike(self, said: Differences, decided: Differences) -> bool:
+        """Whether differences are equal, or negatives of each other."""
+        pairs = list(zip(said[0], decided[0], strict=True))
+        return all(x.terms == y.terms for x, y in pairs) or all(not (x + y).terms for x, y in pairs)
 
 
-class _InRing:
+class _InRing(Comparer):
     """Compares numerators of differences; those of equations with a root after squaring.
 
     Of each numerator what its own equation divides by may be left out, and of a statement what the formula divides by:
     the formula is said where that is not 0.
     """
 
-    def __init__(self, ring: Quotients, made: Mapping[str, Made], reader: Reader):
-        self.ring = ring if reader.root is None else _with_root(ring)
-        self.made, self.reader = made, reader
-        self.divisors: list[Polynomial] = []  # by which what was read last divides
+    def __init__(self, ring: Quotients, made: Mapping[str, Made], root: Tree | None = None):
+        self.ring, self.made, self.root = ring, made, root
+        self.names, self._known = {*ring.ring.variables, *made, ROOT}, {}
 
-    def differences(self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any] = ()) -> list[Polynomial]:
-        """The numerators of left - right; `local`: names for parts, with their trees."""
+    def rooted(self, names: set[str], among: Mapping[int, Any], root: Tree) -> "tuple[Comparer, Mapping[int, Any]]":
+        """What compares equations with a root, and the statements with which it does."""
+        made = self.made.keys()
+        if names & made:
+            raise NotRead("the glossary gives a symbol a value of another algebra")
+        among = {i: one for i, one in among.items() if made.isdisjoint(names_in([0, *one["left"], *one["right"]]))}
+        ring = Ring([*self.ring.ring.variables, ROOT], self.ring.ring.work)
+        return _InRing(quotients({"relations": []}, ring), {}, root), among
+
+    def _differences(self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any], folded: bool) -> Differences:
         trees = [*(tree for pair in sides for tree in pair), *(tree for _, tree in local)]
         ring = self.ring.ring
         ring.used.clear()
@@ -269,33 +342,30 @@ class _InRing:
         for name, tree in local:
             names[name] = self.ring.read(tree, names)
         found = [self.ring.read(a, names) - self.ring.read(b, names) for a, b in sides]
-        numerators = [_squared(x, self.ring, self.reader.root) for x in found]
-        self.divisors = [ring.factors[i] for i in sorted(ring.used)]
-        return numerators
+        numerators = [_squared(x, self.ring, self.root) for x in found]
+        return numerators, [ring.factors[i] for i in sorted(ring.used)]
 
-    def is_said(self, said: list[Polynomial], one: Mapping[str, Any]) -> bool:
-        """Whether numerators are multiples of those of a statement."""
-        if self.reader.root is not None and not self.reader.both and "refuted" not in one:
-            return False  # the square of an equation is true where its negative is
-        return self._alike(said, list(zip(one["left"], one["right"], strict=True)), one)
-
-    def is_side(self, said: list[Polynomial], one: Mapping[str, Any]) -> bool:
-        """Whether this is a side of a statement, or a multiple of it."""
-        return any(self._alike(said, [(x, 0) for x in one[side]], one) for side in ("left", "right"))
-
-    def _alike(self, said: list[Polynomial], sides: Sequence[tuple[Tree, Tree]], one: Mapping[str, Any]) -> bool:
-        divisors = self.divisors
-        decided = self.differences(sides, one.get("definitions", []))
-        more, self.divisors = [*self.divisors, *divisors], divisors
-        if all(map(proportional, said, decided)):
+    def alike(self, said: Differences, decided: Differences) -> bool:
+        """Whether numerators are multiples of each other."""
+        if all(map(proportional, said[0], decided[0])):
             return True
-        mine, theirs = _parts(divisors), _parts(more)
-        return all(proportional(_without(a, mine), _without(b, theirs)) for a, b in zip(said, decided, strict=True))
+        mine, theirs = _parts(said[1]), _parts([*decided[1], *said[1]])
+        return all(
+            proportional(_without(a, mine), _without(b, theirs)) for a, b in zip(said[0], decided[0], strict=True)
+        )
 
 
-def _with_root(ring: Quotients) -> Quotients:
-    """The ring with a variable for a root, without its relations."""
-    return quotients({"relations": []}, Ring([*ring.ring.variables, ROOT], ring.ring.work))
+def comparers(
+    data: Mapping[str, Any], algebras: Sequence[Algebra | Quotients], made: Mapping[str, Made]
+) -> list[Comparer]:
+    """What compares equations, in each algebra."""
+    own = [{one["name"] for one in data["derivation"] if one["algebra"] == i} for i in range(len(algebras))]
+    return [
+        Comparer(algebra, made, data["algebras"][i]["kind"] == "traces")
+        if isinstance(algebra, Algebra)
+        else _InRing(algebra, {name: of for name, of in made.items() if name in own[i] and isinstance(of, Entry)})
+        for i, algebra in enumerate(algebras)
+    ]
 
 
 def _squared(of: Quotient, ring: Quotients, under: Tree | None) -> Polynomial:
@@ -338,20 +408,26 @@ def _parts(factors: Sequence[Polynomial]) -> list[Polynomial]:
 def _divided(a: Polynomial, b: Polynomial) -> Polynomial | None:
     """a/b, where b has no common divisor of its coefficients; None where b does not divide a."""
     borrows = sum(1 << FIELD * i + FIELD - 1 for i in range(len(a.ring.variables)))  # no exponent has this bit
-    lead, rest, quotient = max(b.terms), dict(a.terms), a.ring.constant(0)
+    lead, rest, quotient = max(b.terms), dict(a.terms), dict[int, int]()
+    order = [-monomial for monomial in rest]
+    heapify(order)
     while rest:
-        first = max(rest)
+        first = -heappop(order)
+        if first not in rest:
+            continue
         over, more = divmod(rest[first], b.terms[lead])
         if more or ((first | borrows) - lead) & borrows != borrows:
             return None
         a.ring.work.spend(len(b.terms))
-        quotient = quotient + Polynomial(a.ring, {first - lead: over}, a.degree, over.bit_length())
+        quotient[first - lead] = over
         for monomial, c in b.terms.items():
             at = monomial + first - lead
+            if at not in rest:
+                heappush(order, -at)
             rest[at] = rest.get(at, 0) - over * c
             if not rest[at]:
                 del rest[at]
-    return quotient
+    return Polynomial(a.ring, quotient, a.degree, max(map(int.bit_length, quotient.values())))
 
 
 def proportional(a: Polynomial, b: Polynomial) -> bool:

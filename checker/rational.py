@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from typing import Any
 
 from .interval import Rejected
 from .linear import dot
@@ -14,7 +15,7 @@ from .trees import bounded, rational
 MOST_ROWS = 4
 
 
-def number_at(x: Quotient, point: Mapping[str, Fraction], where: str) -> Fraction:
+def number_at(x: Quotient, point: Mapping[str, Any], where: str) -> Fraction:
     """A rational function at a point; raises Rejected where it has no value, or the point has none for a variable."""
     ring = x.numerator.ring
 

@@ -48,7 +48,7 @@ from .derivation import Made
 from .form import HEAD, MOST, NUMBER, anything, check_shape, define, names, once, sized, text, within
 from .interval import Rejected
 from .matrices import Quotients, quotients
-from .polynomial import Ring, Work
+from .polynomial import Polynomial, Ring, Work
 from .trees import check_known, check_name, check_tree, names_in, rational, size, value
 from .words import Matrix, same, trace
 
@@ -69,7 +69,7 @@ def statement(data: dict[str, Any]) -> str:
     """What was checked, counted, and what was not."""
     proved = [one for one in data["statements"] if "refuted" not in one]
     words = sum(data["algebras"][one["algebra"]]["kind"] != "quotient" for one in proved)
-    failing = sum("refuted" in one or one.get("holds") is False for one in said(data))
+    failing = sum(map(meaning.is_false, said(data)))
     about = [[*one["left"], *one["right"]] for one in proved] + [one["equations"] for one in data["counts"]]
     names = {one["name"] for one in data["derivation"]}
     read, unread = meaning.read(data)
@@ -107,8 +107,7 @@ def check_verdict(data: dict[str, Any]) -> None:
     """Raises Rejected unless what is decided gives the verdict, in so far as it is no sentence."""
     decided = [*said(data), *data["rests"], *data["sentences"]]
     roles = {one["role"] for one in decided}
-    false = any(one.get("refuted") is not None or one.get("holds") is False for one in said(data))
-    false |= any(one["role"] == "printed" and one["text"].startswith("false: ") for one in data["sentences"])
+    false = any(map(meaning.is_false, decided))
     kind = "conditional" if "under" in roles else "corrected" if "corrected" in roles else "refuted"
     given = kind if false else "holds" if roles & {"printed"} else "definition"
     if data["verdict"] not in ("open", given) and (false or data["verdict"] not in ("settled", "definition")):
@@ -168,7 +167,7 @@ def check_comparison(data: Any, where: str) -> None:
             raise Rejected(f"{where} is refuted or has no such name")
 
 
-SAID = {"role": ROLES, "text": text}
+SAID = {"role": ROLES, "text": text, "words?": bool}
 SIDES = {"left": [check_tree], "right": [check_tree]}
 DEFINITIONS = [(check_name, check_tree)]
 RELATIONS = [(COMPARED, check_tree, check_tree)]
@@ -200,7 +199,7 @@ FORM = HEAD | {
         {"point": check_point, "hypotheses": [{"text": text} | SIDES], "refutes": [NUMBER], "agrees": [NUMBER]}
     ],
     "rests": [SAID | {"certificate": _CERTIFICATE}],
-    "sentences": [{"role": SENTENCES, "text": text}],
+    "sentences": [{"role": SENTENCES, "text": text, "words?": bool}],
 }
 
 
@@ -216,7 +215,8 @@ def check_form(data: dict[str, Any]) -> None:
     algebras = [names_of(one, f"algebra {i}") for i, one in enumerate(data["algebras"])]
     defined = derivation.check_form(data["derivation"], data["algebras"], algebras)
     made = {one["name"] for one in data["derivation"]}
-    meaning.check_form(data["glossary"], made.union(*algebras))
+    numbers = set().union(roots.NUMBERS if data["counts"] else (), *data["points"])
+    meaning.check_form(data["glossary"], made.union(numbers, *algebras))
     points = [*data["points"], *(one["point"] for one in data["counterexamples"])]
     if twice := made & set().union(*points):
         raise Rejected(f"a point has a value for {min(twice)}, which the derivation makes")
@@ -306,12 +306,8 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     check_verdict(data)
     work = Work()
     work.spend(evaluations(data))
-    algebras = [
-        quotients(one, Ring(one["variables"], work)) if one["kind"] == "quotient" else Algebra(one, work)
-        for one in data["algebras"]
-    ]
-    defined = derivation.values(data["derivation"], algebras)
-    alone = meaning.check(data, algebras, defined)
+    algebras, defined, deciding = read(data, work)
+    formulas = meaning.check(data, deciding)
     points = [entries(one) for one in data["points"]]
     for i, one in enumerate(data["algebras"]):
         if one["kind"] != "quotient":
@@ -321,12 +317,12 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         if "refuted" in one:
             continue
         algebra, point, where = data["algebras"][one["algebra"]], points[one["point"]], f"statement {i}"
-        decided_in = algebras[one["algebra"]]
+        decided_in, (differences, _) = algebras[one["algebra"]], deciding[one["algebra"]].stated(one)
         if isinstance(decided_in, Quotients):
-            if check_identity(one, decided_in, defined, where):
+            if check_identity(differences, one["cofactors"], decided_in, where):
                 supposed.add(i)
-        else:
-            check_words(one, decided_in, algebra["kind"] == "traces", defined, where)
+        elif any(x.terms for x in differences):
+            raise Rejected(f"{where} is not proved: left - right does not become 0 by the rules")
         check_hypotheses(algebra, point, where, whole=True)
         if not holds(one, algebra, point, defined, where):
             raise Rejected(f"{where} fails at its point")
@@ -359,10 +355,21 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         if i not in data["counterexamples"][data["statements"][i]["refuted"]]["refutes"]:
             raise Rejected(f"statement {i} is not refuted by its counterexample")
     roles = [one["role"] for one in said(data)]
-    failing = sum("refuted" in one or one.get("holds") is False for one in said(data))
+    failing = sum(map(meaning.is_false, said(data)))
     counted = {role: roles.count(role) for role in ROLES} | {"refuted": failing}
-    counted["true by the glossary alone"] = alone
-    return {name: str(number) for name, number in counted.items() if number}
+    return {name: str(number) for name, number in (counted | formulas).items() if number}
+
+
+def read(
+    data: Mapping[str, Any], work: Work
+) -> tuple[list[Algebra | Quotients], dict[str, Made], list[meaning.Comparer]]:
+    """The algebras of a certificate, what is defined in them, and what compares their equations."""
+    algebras = [
+        quotients(one, Ring(one["variables"], work)) if one["kind"] == "quotient" else Algebra(one, work)
+        for one in data["algebras"]
+    ]
+    defined = derivation.values(data["derivation"], algebras)
+    return algebras, defined, meaning.comparers(data, algebras, defined)
 
 
 def evaluations(data: dict[str, Any]) -> int:
@@ -377,29 +384,12 @@ def evaluations(data: dict[str, Any]) -> int:
     return total
 
 
-def check_identity(one: dict[str, Any], ring: Quotients, defined: Mapping[str, Made], where: str) -> bool:
-    """The numerator of left - right is Σ cofactor · relation; returns whether each is but one of the relations."""
-    supposed = []
-    names = derivation.entries(
-        [*one["left"], *one["right"], *(tree for _, tree in one.get("definitions", []))], defined
-    )
-    for name, tree in one.get("definitions", []):
-        names[name] = ring.read(tree, names)
-    for left, right, cofactors in zip(one["left"], one["right"], one["cofactors"], strict=True):
-        difference = ring.read(left, names) - ring.read(right, names)
-        if not ring.vanishes(difference, cofactors, where):
+def check_identity(numerators: Sequence[Polynomial], cofactors: Sequence[Any], ring: Quotients, where: str) -> bool:
+    """Each numerator of left - right is Σ cofactor · relation; returns whether each is but one of the relations."""
+    for numerator, own in zip(numerators, cofactors, strict=True):
+        if not ring.vanishes(numerator, own, where):
             raise Rejected(f"{where} is not proved: its cofactors do not make left - right from the relations")
-        supposed.append(any(meaning.proportional(difference.numerator, x.numerator) for x in ring.relations))
-    return all(supposed)
-
-
-def check_words(one: dict[str, Any], algebra: Algebra, traces: bool, defined: Mapping[str, Made], where: str) -> None:
-    """left - right becomes 0 by the rules, or its trace does."""
-    names = derivation.named([*one["left"], *one["right"]], algebra, defined, where)
-    for left, right in zip(one["left"], one["right"], strict=True):
-        difference = algebra.total([algebra.read(left, names) - algebra.read(right, names)])
-        if (algebra.traced(difference) if traces else difference).terms:
-            raise Rejected(f"{where} is not proved: left - right does not become 0 by the rules")
+    return all(any(meaning.proportional(a, x.numerator) for x in ring.relations) for a in numerators)
 
 
 def entries(data: dict[str, Any]) -> dict[str, Value]:

@@ -69,7 +69,8 @@ def lines(data: dict[str, Any], parts: bool = True) -> Iterator[str]:
         algebra = data["algebras"][one["algebra"]]
         traces = "the traces of " if algebra["kind"] == "traces" else ""
         false = f", not all of these, at counterexample {one['refuted']}" if "refuted" in one else ""
-        yield f"{one['role']}: {one['text']}    [in algebra {one['algebra']}{false}]"
+        words = ", which only words of the formula say" if one.get("words") else ""
+        yield f"{one['role']}: {one['text']}    [in algebra {one['algebra']}{false}{words}]"
         definitions = one.get("definitions", ())
         if definitions and not parts:
             yield f"    with {len(definitions)} names for parts, which checker --show prints"

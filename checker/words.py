@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import reduce
 from itertools import pairwise
 from operator import add, mul
+from typing import Any
 
 from .interval import Arithmetic, Rejected
 from .polynomial import Work
@@ -85,11 +87,11 @@ class Words(Arithmetic):
 
 
 class Matrix(Arithmetic):
-    """A matrix of rational numbers; a number beside it stands for that multiple of the unit matrix."""
+    """A matrix of numbers, or of quotients; a number beside it stands for that multiple of the unit matrix."""
 
     __slots__ = ("rows",)
 
-    def __init__(self, rows: list[list[Fraction]]):
+    def __init__(self, rows: list[list[Any]]):
         self.rows = [[bounded(x) for x in row] for row in rows]
 
     @property
@@ -106,16 +108,19 @@ class Matrix(Arithmetic):
         """Whether all entries are 0."""
         return not any(map(any, self.rows))
 
-    def _as_matrix(self, other: Matrix | Fraction) -> Matrix:
+    def _as_matrix(self, other: Any) -> Matrix:
         """A number as a matrix of the same size."""
         if isinstance(other, Matrix):
             return other
         n, columns = self.shape
         if n != columns:
             raise Rejected("a number is added to a matrix that is not square")
-        return Matrix([[other if i == j else Fraction(0) for j in range(n)] for i in range(n)])
+        return Matrix([[other if i == j else other - other for j in range(n)] for i in range(n)])
 
-    def __add__(self, other: Matrix | Fraction) -> Matrix:
+    def __neg__(self) -> Matrix:
+        return Matrix([[-x for x in row] for row in self.rows])
+
+    def __add__(self, other: Any) -> Matrix:
         if other == 0:
             return self
         other = self._as_matrix(other)
@@ -123,13 +128,13 @@ class Matrix(Arithmetic):
             raise Rejected("matrices of different sizes are added")
         return Matrix([list(map(add, a, b)) for a, b in zip(self.rows, other.rows, strict=True)])
 
-    def __mul__(self, other: Matrix | Fraction) -> Matrix:
+    def __mul__(self, other: Any) -> Matrix:
         if not isinstance(other, Matrix):
             return Matrix([[x * other for x in row] for row in self.rows])
         if self.shape[1] != other.shape[0]:
             raise Rejected("matrices are multiplied whose sizes do not fit")
         columns = list(zip(*other.rows, strict=True))
-        return Matrix([[sum(map(mul, row, column), Fraction(0)) for column in columns] for row in self.rows])
+        return Matrix([[reduce(add, map(mul, row, column)) for column in columns] for row in self.rows])
 
     def inverse(self) -> Matrix:
         """Not made."""

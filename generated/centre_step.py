@@ -2,7 +2,7 @@
 
 Proved by: 4.9.  Operations: 14.  SymPy 1.14.0.
 Expression: sha256 b2ddfda83f23efc81a6081421999a6692502be23b8b84c91933ae8d83e98dd7d.
-Certificate of 4.9: sha256 f789bbae6e896151be8c34281518c6cfc6cc99686017aaf59fe3d3f398ddefe0.
+Certificate of 4.9: sha256 207623113b3af81fb483a06fff4056b43125216711ddbd216d8f456c1fe14577.
 """
 
 

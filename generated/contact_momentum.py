@@ -2,7 +2,7 @@
 
 Proved by: 5.2-limit.  Operations: 30.  SymPy 1.14.0.
 Expression: sha256 8364d39ba783995bbec5d72ea1b61a921649cb00dcfb7b206e3b346ce4bdfbd6.
-Certificate of 5.2-limit: sha256 e019beef5e26102dc28f9c69b18635f5b453813212959012ba726c2b0e4b0bb7.
+Certificate of 5.2-limit: sha256 103e5e52e3c8ae0978dde988ed08fef471ad1e8020cba9f98f2af15b0ec5ba78.
 """
 
 

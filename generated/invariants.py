@@ -2,7 +2,7 @@
 
 Proved by: 5.3-integrals.  Operations: 15.  SymPy 1.14.0.
 Expression: sha256 501e078b24c674f9edbb37ed6e8457d6b5da2c6ecd1fe28cfbe3588c521326bf.
-Certificate of 5.3-integrals: sha256 f948e387b9753adfef2a9b33c465168a19c00dcfeb8cfe45d8fda8912cb349e3.
+Certificate of 5.3-integrals: sha256 f7d01888ece4ffb99451b34d54eddbe31fc0acd6eadffb446d24c0d4b275cca1.
 """
 
 

@@ -2,7 +2,7 @@
 
 Proved by: 5.1.  Operations: 35.  SymPy 1.14.0.
 Expression: sha256 ca0961cd87d6a1f3573cea2f4b644f0ac063985ce1349f384d79a2091784e601.
-Certificate of 5.1: sha256 133bf51a8c9589acea1dcb98023dd6254d69a8241aef0e2a03528bdd17f39cc4.
+Certificate of 5.1: sha256 64f49fa9619a0f7315e5fd081d8836e3cca188cf86b64909c1a70aff37aa5e38.
 """
 
 

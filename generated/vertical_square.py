@@ -2,7 +2,7 @@
 
 Proved by: prop-3.  Operations: 11.  SymPy 1.14.0.
 Expression: sha256 85f54a4c249d7c5794e172ecaaefd732ed5e0522c8b8f15505d392911fc800e4.
-Certificate of prop-3: sha256 6e26ee79d4a9d21515eef245f5a9adc32354a9e29428f72e30ded33e3dfae217.
+Certificate of prop-3: sha256 aae75f35cece04b862b233cdba93477655098e2f2348dec3efeed602920963ab.
 """
 
 

@@ -23,6 +23,9 @@ SCALARS = {
     **{"moment": "6", "stretch": "2", "n1": "1/3", "n2": "-2/3", "n3": "2/3", "speed": "3", "across": "5"},
     **{"sh": "4/5", "ch": "3/5", "dh": "4/5", "root": "15/16", "epsilon": "1/3", "e": "9/16"},
     **{"z": "2", "P0": "1/2", "P1": "1/3", "A1": "1/5", "A2": "-2", "M1": "3", "M2": "-5"},
+    # A curve with rational amplitudes, and an argument of it.
+    **{"l1": "3", "l2": "243/193", "l3": "1", "lv": "457/507", "kk": "7/18", "size1": "5/13", "size2": "9/13"},
+    **{"size3": "12/13", "sn1": "4/5", "cn1": "3/5", "dn1": "13/15"},
     **{"b": "1/3", "alpha": "1/2", "beta": "2/3", "mu": "3/5", "x": "1/7"},
     **{"y": "4/9", "w": "1/2", "Dscr": "5/6", "G": "2", "lam": "1/3", "C1": "1/2", "C2": "2/3", "C3": "3/4"},
 }
@@ -49,6 +52,8 @@ def scalars() -> dict[str, sp.Rational]:
     twice = _elliptic_sum(k2, (sn, cn, dn), (sn, cn, dn))
     table |= dict(zip(("sm", "cm", "dm"), twice, strict=True))
     table |= dict(zip(("s", "c", "d"), _elliptic_sum(k2, twice, (sn, cn, dn)), strict=True))
+    other = tuple(table[name] for name in ("sn1", "cn1", "dn1"))
+    table |= dict(zip(("sn2", "cn2", "dn2"), _elliptic_sum(table["kk"], other, other), strict=True))
     table["p"], table["q"] = 1 / sn**2 - (1 + k2) / 3, -2 * cn * dn / sn**3  # Weierstrass' function and derivative
     return table
 

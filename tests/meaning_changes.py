@@ -34,6 +34,32 @@ def renamed(tree, names):
     return [renamed(part, names) for part in tree] if isinstance(tree, list) else names.get(tree, tree)
 
 
+def printed(old, new):
+    """Another printed formula: `old` must be in it."""
+    return _replaced("printed", old, new)
+
+
+def corrected(old, new):
+    return _replaced("corrected", old, new)
+
+
+def _replaced(role, old, new):
+    def change(data):
+        assert old in data[role], (old, data[role])
+        data[role] = data[role].replace(old, new, 1)
+
+    return change
+
+
+def without(part):
+    """All that is said of one part, a list of the certificate, but for what has another text."""
+    return lambda data: data.update({part: []})
+
+
+def not_inferred(data):
+    data["sentences"] = [one for one in data["sentences"] if one["role"] != "inference"]
+
+
 def exchanged(data):
     """The statements in other letters than the glossary."""
     names = {"g1": "g2", "g2": "g1"}
@@ -140,3 +166,110 @@ FORGED = {
     "traces for matrices": ("2.10", traced),
     "the velocity at the contact is not 0": ("2.1", lambda d: d["counterexamples"][0]["point"].update(v1=2)),
 }  # fmt: skip
+
+FORGED |= {
+    # Several parts: each is decided, each that is decided is there, none twice.
+    "a part is dropped": ("2.3", printed(r",\ \dot\gamma = \gamma\times\omega", "")),
+    "a part is dropped with a word left": ("2.7-integrals", printed(r"\langle\omega,\Lambda\omega\rangle = l,\ ", "")),
+    "a part in place of another": ("2.3", printed(r"\dot\gamma = \gamma\times\omega", r"\dot K = K\times\omega")),
+    "a part in place of another, turned round": (
+        "2.3",
+        printed(r"\dot\gamma = \gamma\times\omega", r"K\times\omega = \dot K"),
+    ),
+    "a part is dropped, with words": ("4.13-limit", printed(r"\mathcal K/\varepsilon \to \mathbf K,\ ", "")),
+    "an equation is dropped, with words": ("2.9", printed(r"v_C + \rho\,\omega\gamma = 0,\ ", "")),
+    "what is said in words, too": ("2.4", lambda d: d["statements"][0].update(words=True)),
+    "more in words than there are": ("prop-4", lambda d: [one.update(words=True) for one in d["statements"]]),
+    "one more part that says the same": ("2.3", with_part(r"K\times\omega = \dot K")),
+    "an identity twice": ("2.12", with_part(r"\dot\Gamma + [\omega, \Gamma] = 0")),
+    "a part twice": ("2.3", lambda d: d.update(printed=d["printed"] + ", " + d["printed"])),
+    "a part is said with a factor": (
+        "2.7-vertical",
+        printed(r"\langle\omega,\gamma\rangle = \tfrac lh", r"2K = 2h\gamma"),
+    ),
+    "a number for a matrix": ("2.15", value_of("H", lambda v: v["trace"])),
+    "a trace of numbers": ("5.8", value_of("l", lambda v: {"trace": v})),
+    "what vanishes is a trace": ("2.11", value_of("0", lambda v: {"trace": v})),
+    "a value of another form": ("2.15", value_of("H", lambda v: {"trace": v["trace"], "D": 1})),
+    "a part in place of one of four": (
+        "4.14",
+        printed(r"M_k = J\Omega_{k-1}-\Omega_{k-1}^TJ", r"M_k = \Omega_kJ-J\Omega_k^T"),
+    ),
+    "a part that was not decided": ("4.14", with_part(r"M_k = M_{k-1}")),
+    "a part that was not decided, in words only": ("prop-3", printed("= l", r"= l,\ \Lambda\gamma = 0")),
+    "parts side by side": ("5.7", printed(r"= 1,\ ", r"= 1\ ")),
+    "a wide space in brackets": ("2.3", printed(r"K\times\omega", r"(K\qquad\times\omega)")),
+    "a wide space in an equation": ("2.3", printed(r"K\times\omega", r"K\qquad\times\omega")),
+    "what is corrected lacks a part": (
+        "prop-4",
+        lambda d: d.update(corrected=d["corrected"].rpartition(r",\ \text")[0].rpartition(r",\ \sigma")[0]),
+    ),
+    # A matrix by its entries.
+    "the sign of an entry": ("5.1", printed("q_0^2+q_1^2-q_2^2-q_3^2", "q_0^2+q_1^2-q_2^2+q_3^2")),
+    "two entries exchanged": (
+        "5.1",
+        printed("2(q_1q_2-q_3q_0) & 2(q_1q_3+q_2q_0)", "2(q_1q_3+q_2q_0) & 2(q_1q_2-q_3q_0)"),
+    ),
+    "an entry is missing": ("5.1", printed(" & 2(q_1q_3+q_2q_0)", "")),
+    "a row is missing": ("5.1", printed(r"2(q_2q_3-q_0q_1)\\", "2(q_2q_3-q_0q_1) & ")),
+    "a matrix without its end": ("5.1", printed(r"\end{pmatrix}", "")),
+    "a matrix of other brackets": ("5.1", printed("{pmatrix}", "{matrix}")),
+    "another entry": ("5.1", corrected("_{32}", "_{23}")),
+    # Relations between numbers.
+    "another bound": ("5.3-at-most-4", printed(r"\le4", r"\le3")),
+    "a bound on the other side": ("5.3-at-most-4", printed(r"\le4", r"\ge4")),
+    "a bound that is not reached": ("5.3-at-most-4", printed(r"\le4", "<4")),
+    "a bound as an equation": ("5.3-at-least-2", printed(r"\ge2", "=2")),
+    "two bounds": ("5.3-at-least-2", printed(r"N\ge2", r"8\ge N\ge2")),
+    "equal for different": ("5.3-energy", printed(r"\ne", "=")),
+    "less for different": ("5.3-energy", printed(r"\ne", "<")),
+    "the same number twice": ("5.3-energy", printed("E_{k+1}", "E_k")),
+    "of one point for all without a word": ("5.3-energy", not_inferred),
+    "another number in the glossary": ("5.3-energy", value_of("E_k", lambda v: ["+", v, 1])),
+    # What something tends to.
+    "the sign of a limit": ("4.13-limit", printed(r"+D(\Gamma\omega+", r"-D(\Gamma\omega+")),
+    "a limit of an expression": ("4.13-limit", printed(r"\mathcal K/\varepsilon \to", r"2\mathbf K \to 2")),
+    "another order": ("5.2-expansion", printed(r"O(\varepsilon^3)", r"O(\varepsilon^2)")),
+    "ω for εω": ("4.9-limit", corrected(r"\varepsilon\omega", r"\omega")),
+    "εω as printed": ("4.9-limit", printed(r"+ \omega", r"+ \varepsilon\omega")),
+    # Roots.
+    "a negative root": ("5.8", printed(r"C_1 = ", r"-C_1 = ")),
+    "a root of what is not known to be positive": (
+        "5.8",
+        lambda d: d.update(hypotheses=[one for one in d["hypotheses"] if "size" not in str(one)]),
+    ),
+    "a positive root between": ("5.8", printed(r"}},\ C_2", r"}} = -C_1,\ C_2")),
+    "another letter for an amplitude": ("5.8", printed("C_2 = ", "C_1 = ")),
+    "one sign of a root": ("5.14", corrected(r"\pm", "")),
+    # Traces.
+    "no trace": ("prop-2", printed(r"\mathrm{tr}\,\mathcal K_k^s = \mathrm{tr}\,", r"\mathcal K_k^s = ")),
+    "one trace": ("prop-2", printed(r"\mathrm{tr}\,\mathcal K_k^s", r"\mathcal K_k^s")),
+    "a product of traces": (
+        "prop-2",
+        printed(r"\mathrm{tr}(\mathcal K_k^s\Gamma_k^l)", r"\mathrm{tr}\mathcal K_k^s\mathrm{tr}\Gamma_k^l"),
+    ),
+    "a trace of a trace": (
+        "prop-2",
+        printed(r"\mathrm{tr}(\mathcal K_k^s\Gamma_k^l)", r"\mathrm{tr}(\mathrm{tr}\mathcal K_k^s\Gamma_k^l)"),
+    ),
+    "a matrix beside a trace": (
+        "prop-2",
+        printed(r"\mathrm{tr}(\mathcal K_k^s\Gamma_k^l)", r"\mathcal K_k^s\mathrm{tr}\Gamma_k^l"),
+    ),
+    "a factor of a trace": ("2.15", printed(r"\tfrac14", r"\tfrac12")),
+    "the square of a trace": (
+        "2.15",
+        printed(r"\mathrm{tr}(\omega\,\mathcal A\omega)", r"\mathrm{tr}(\omega\,\mathcal A\omega)^2"),
+    ),
+    "a symbol that is 0": ("2.15", printed("H = ", "H = 0, H = ")),
+    "another factor of a product of vectors": (
+        "4.9",
+        printed(r"\langle\vec\gamma,\Delta r_k\rangle", r"\langle\vec\gamma,\vec\gamma\rangle"),
+    ),
+    # What vanishes, and what derivations make.
+    "another factor of what vanishes": ("2.2", printed(r"\tfrac DF", r"\tfrac{2D}F")),
+    "the definition of F": ("2.2", value_of("F", lambda v: ["*", 2, v])),
+    "a definition with another sign": ("4.8", printed("R_k^T", "-R_k^T")),
+    "a definition without one of its symbols": ("4.8", printed(r",\ \gamma_k", r",\ \gamma_k + \gamma_k")),
+    "all in words": ("prop-3", lambda d: d.update(printed=r"\text{so}")),
+}

@@ -176,6 +176,8 @@ READ = {
     "2(a + b, bc, -s)^T": [10, 30, -14],
     r"[a + b]\,\bigl(a - b\bigr)": -5,
     r"\langle x,\tilde x\rangle^2 x": [9, -18, 36],
+    r"\begin{pmatrix}a & -b\\ 2c & s\end{pmatrix}": [[2, -3], [10, 7]],
+    r"\begin{pmatrix}a & b & c\end{pmatrix} x": [2 - 6 + 20],
 }  # fmt: skip
 
 
@@ -202,7 +204,37 @@ UNREAD = [
     r"(a, b)^T\times x = x",
     r"a\times x = x",
     r"(a, x, b)^T = x",
+    r"\begin{pmatrix}a & b\\ c\end{pmatrix} = A",
+    r"\begin{pmatrix}a & x\end{pmatrix} = A",
+    r"\begin{pmatrix}a & b = A",
+    r"\begin{matrix}a & b\end{matrix} = A",
+    r"\begin{pmatrix}a + & b\end{pmatrix} = A",
+    "a < b < c",
+    r"a = b \ne c",
+    r"2a \to b",
+    r"\mathrm{tr}A = a",
+    "t = a",
 ]
+
+#: Relations, and their sides.
+RELATED = {
+    "a < b": ("<", "a", "b"), "a > b": ("<", "b", "a"), r"a \le b": ("<=", "a", "b"), r"a \ge b": ("<=", "b", "a"),
+    r"a \ne b": ("!=", "a", "b"), r"a \to b": ("=", "a", "b"), r"a \mapsto b": ("=", "a", "b"),
+}  # fmt: skip
+
+#: Of what sums of traces are the trace, and what is none.
+TRACES = {
+    r"\mathrm{tr} A": "A",
+    r"-m\,\mathrm{tr}(Av) + \mathrm{tr} B": ["+", ["*", -1, "m", ["*", "A", "v"]], ["*", "A", "B"]],
+    r"\langle v, w\rangle": ["*", "w", "v^T"],
+    r"2(t - \mathrm{tr} A)": ["*", 2, ["+", "w", ["*", -1, "A"]]],
+    "0": 0,
+}
+NO_TRACES = [
+    "A", "1", r"\mathrm{tr} A + 1", r"\mathrm{tr} A + A", r"\mathrm{tr} A\,\mathrm{tr} B", r"(\mathrm{tr} A)^2", "t^2",
+    r"A\,\mathrm{tr} A", "tA", "tt", r"\mathrm{tr} t", r"\mathrm{tr}(A + \mathrm{tr} B)", r"\frac1{\mathrm{tr} A}",
+    r"\langle v, t\rangle", r"\langle v, w, w\rangle", r"\mathrm{tr} A (m + B)",
+]  # fmt: skip
 
 
 def reading(module):
@@ -210,19 +242,19 @@ def reading(module):
     value = import_module(f"{module.__package__}.trees").value
     for formula, meant in READ.items():
         [part] = module.parts(f"{formula} = s")
-        [(left, right)] = module.equations(part, module.Reader(GLOSSARY))
+        [(_, left, right)] = module.relations(part, module.Reader(GLOSSARY))
         assert (numbers(left, value), numbers(right, value)) == (meant, 7), formula
     for formula in UNREAD:
         [part] = module.parts(formula)
         said = ""
         try:
-            module.equations(part, module.Reader(GLOSSARY))
+            module.relations(part, module.Reader(GLOSSARY))
         except module.NotRead as error:
             said = str(error)
         assert 5 < len(said) < 100, formula
     formula = r"a = b \equiv c,\ \langle x, x\rangle = s;\quad \text{for all } a: a = b"
     assert len(module.parts(formula)) == 4
-    assert len(module.equations(module.parts(formula)[0], module.Reader(GLOSSARY))) == 2
+    assert len(module.relations(module.parts(formula)[0], module.Reader(GLOSSARY))) == 2
     glossary = [["A", "", "A"], ["B", "", ["*", "A", "B"]], ["v", "", "v"], ["w", "", "w"], ["m", "", "m"]]
     transposes = {"A": "A^T", "A^T": "A", "B": ["*", -1, "B"], "v": "v^T", "v^T": "v", "w": "w^T", "w^T": "w", "m": "m"}
     wedge = ["+", ["*", "v", "w^T"], ["*", -1, ["*", "w", "v^T"]]]
@@ -234,5 +266,32 @@ def reading(module):
         r"v\wedge w + A^T": ["+", wedge, "A^T"],
     }.items():
         [part] = module.parts(f"{formula} = A")
-        [(left, _)] = module.equations(part, module.Reader(glossary, transposes))
+        [(_, left, _)] = module.relations(part, module.Reader(glossary, transposes))
         assert left == (0, tree), formula
+    for formula, sides in RELATED.items():
+        [(kind, (_, left), (_, right))] = module.relations(module.parts(formula)[0], module.Reader(GLOSSARY))
+        assert (kind, left, right) == sides
+    assert [len(module.parts(f"a = b{between} b = c")) for between in (r"\quad", r"\qquad", r"\,", r"(\quad)")] == [
+        2,
+        2,
+        1,
+        1,
+    ]
+    glossary.append(["t", "", {"trace": "w"}])
+    for formula in (*TRACES, *NO_TRACES):
+        found = None
+        try:
+            [(_, (_, found), _)] = module.relations(
+                module.parts(f"{formula} = t")[0], module.Reader(glossary, transposes, ["m"])
+            )
+        except module.NotRead:
+            assert formula in NO_TRACES, formula
+        assert flat(found) == flat(TRACES.get(formula)), formula
+
+
+def flat(tree):
+    """Products of products as one."""
+    if not isinstance(tree, list):
+        return tree
+    parts = [flat(part) for part in tree[1:]]
+    return [tree[0], *(y for x in parts for y in (x[1:] if isinstance(x, list) and x[0] == tree[0] == "*" else [x]))]

@@ -91,9 +91,9 @@ def momentum() -> Remainder:
     return expand_words(ball.momentum(), STEP)
 
 
-def transport(tensor: sp.Symbol) -> Remainder:
+def transport(name: str, tensor: sp.Expr) -> Remainder:
     """(Ωᵀ T Ω - T)/ε for every n: the limit is Ṫ of a tensor that is fixed in space (2.12)."""
-    moved = written(f"moved_{tensor}", f"Ωᵀ {tensor} Ω - {tensor}", ball.carried(tensor) - tensor, ball.ALGEBRA)
+    moved = written(f"moved_{name}", f"Ωᵀ {name} Ω - {name}", ball.carried(tensor) - tensor, ball.ALGEBRA)
     return expand_words(moved, STEP)
 
 

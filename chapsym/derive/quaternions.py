@@ -32,7 +32,7 @@ BOTH_TURN = Turning(
 )
 
 other = sp.Matrix(sp.symbols("a1:4"))
-RING = Quotient((three.q0, *three.q, *omega, *other))
+RING = Quotient((three.q0, *three.q, *omega, *other, sp.Symbol("epsilon")))
 
 
 def left(scalar: sp.Expr, vector: sp.Matrix) -> sp.Matrix:

@@ -13,7 +13,7 @@ from typing import Any
 import sympy as sp
 
 from chapsym import checker, files
-from chapsym.checker import derivation, formulas, register, shown
+from chapsym.checker import derivation, formulas, meaning, register, shown
 from chapsym.checker.algebra import Algebra
 from chapsym.checker.matrices import Quotients, quotients
 from chapsym.checker.polynomial import Ring, Work
@@ -30,6 +30,8 @@ from .polynomials import Identity
 from .statements import Comparison, Count, Equation, Point, Rest, Statement, Zero
 from .trees import NotAlgebra, nested, number, shared, tree
 
+#: The trace of words, as the value of a symbol.
+TRACE = sp.Function("tr")
 #: Letters of a judged formula in a record.
 LONGEST = 400
 
@@ -61,6 +63,10 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
         "counterexamples": made.counterexamples,
         "rests": made.rests, "sentences": made.sentences,
     }  # fmt: skip
+    for role in ("printed", "corrected") if data["glossary"] else ():
+        decided, found, _ = meaning.said(role, data, register.read(data, Work())[2])
+        for i, one in enumerate(decided):
+            one |= {} if i in found else {"words": True}
     try:
         checker.check(_sealed(data))
     except register.Undecided:  # SymPy decided it, and the data do not show how
@@ -78,24 +84,29 @@ def _sealed(data: dict[str, Any]) -> dict[str, Any]:
 def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
     """The symbols that the formulas have, and what vanishes, as data."""
     whole = []
-    for symbol, (value, meaning) in proof.glossary.items():
+    for symbol, (value, what) in proof.glossary.items():
         try:
-            whole.append([symbol, meaning, _value(value)])
+            whole.append([symbol, what, _value(value)])
         except NotAlgebra as error:
             raise checker.Rejected(f"the value of {symbol} cannot be given to the checker: {error}") from None
     names = names_in(
         [0, *(tree for _, _, value in whole for tree in formulas.entries((formulas.rank_of(value), value)))]
     )
     turned = {name: f"{name}^T" for name in names}  # only which symbols are read is asked
-    reader = formulas.Reader(whole, turned | {image: name for name, image in turned.items()})
+    transposes, used = turned | {image: name for name, image in turned.items()}, set()
     for part in formulas.parts(f"{printed}, {proof.corrected_text or ''}"):
-        with suppress(formulas.NotRead):
-            formulas.equations(part, reader)
-    return [one for one in whole if one[0] == "0" or tuple(formulas.tokens(one[0])) in reader.used]
+        for numbers in (None, names):  # traces or not
+            reader = formulas.Reader(whole, transposes, numbers)
+            with suppress(formulas.NotRead):
+                formulas.relations(part, reader)
+            used |= reader.used
+    return [one for one in whole if one[0] == "0" or tuple(formulas.tokens(one[0])) in used]
 
 
 def _value(of: Any) -> Any:
-    """A number, a column or a matrix as trees."""
+    """A number, a column, a matrix, or the trace of a word, as trees."""
+    if isinstance(of, TRACE):
+        return {"trace": tree(of.args[0])}
     if not isinstance(of, sp.MatrixBase):
         return tree(of)
     return [tree(x) for x in of] if of.cols == 1 else [[tree(x) for x in row] for row in of.tolist()]

@@ -12,6 +12,7 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, K, gamma, hat
 from chapsym.derive.words import evaluate
 from chapsym.proofs import glossary
+from chapsym.proofs.glossary import Symbols
 from chapsym.proofs.paper.s2_continuous import BALL, SPIN, UNIT, unit_vertical
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, main, rational_point
 
@@ -97,24 +98,38 @@ def vector_equations(p: Proof) -> None:
 )
 def closed_system(p: Proof) -> None:
     """The equations for ω, γ follow from (2.3) and K = Λω - D⟨ω,γ⟩γ."""
-    p.infers("B(γ) = ∂K/∂ω is regular, so (2.2) is the only ω̇ with which K̇ = K×ω.")
-    p.assume("J_i + J_j > 0, D ≥ 0, so that Λ is regular and F > 0 (2.13)", *three.MOMENTS)
-    p.say(
-        "Put ω̇ from (2.2) into K̇ = ∂K/∂ω ω̇ + ∂K/∂γ (γ×ω); it must be K×ω. B(γ) = ∂K/∂ω is invertible, so ω̇ is unique."
+    p.say("For any ω̇, K̇ - K×ω times a regular matrix is what (2.2) says to vanish, with K̇ = ∂K/∂ω ω̇ + ∂K/∂γ (γ×ω).")
+    p.say("Λ has letters for its entries; F = 1 - D⟨γ,Λ⁻¹γ⟩ (2.2-F).")
+    lam = sp.diag(*sp.symbols("L1:4"))
+    factor, free = 1 - D * gamma.dot(lam.inv() * gamma), Quotient((*alpha, *omega, *gamma, *lam.diagonal(), D))
+    p.assume("Λ is positive, D ≥ 0 and F > 0 (2.13)", *(x > 0 for x in lam.diagonal()), D >= 0, factor > 0)
+    momentum, gyration = lam * omega - D * omega.dot(gamma) * gamma, (lam * omega).cross(omega)
+    upright = sp.eye(3) + D / factor * gamma * gamma.T * lam.inv()
+    vanishing = upright * (along(momentum) - momentum.cross(omega))
+    p.reads(
+        glossary.ball()
+        | {
+            r"\Lambda": (lam, "Λ, diagonal (2.2)"),
+            "F": (factor, "1 - D⟨γ,Λ⁻¹γ⟩ (2.2-F)"),
+            r"\dot\omega": (alpha, "its rate"),
+            "0": (vanishing, "(1 + (D/F)γγᵀΛ⁻¹)(K̇ - K×ω), where K = Λω - D⟨ω,γ⟩γ and K̇ = K×ω (2.3)"),
+        }
     )
-    acceleration = dict(zip(alpha, solved_acceleration(), strict=True))
-    rate = along(momentum()).subs(acceleration, simultaneous=True)
-    p.printed(equation("K̇ = K×ω", rate, momentum().cross(omega)))
-    p.lemma(equation("det B(γ) = det Λ · F", momentum().jacobian(omega).det(), three.lam().det() * rolling_factor()))
-    wrong = dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True))
-    rate = along(momentum()).subs(wrong, simultaneous=True)
-    p.control(equation("K̇ = K×ω without the last term", rate, momentum().cross(omega)))
+
+    def said(text: str, size: sp.Expr) -> Equation:
+        lift = size * (lam.inv() * gamma).dot(gyration) * gamma
+        return equation(text, lam * alpha - gyration - lift, vanishing, free)
+
+    p.printed(said("(2.2), left - right = (1 + (D/F)γγᵀΛ⁻¹)(K̇ - K×ω)", D / factor))
+    p.lemma(equation("det(1 + (D/F)γγᵀΛ⁻¹) = 1/F", upright.det(), 1 / factor, free))
+    p.control(said("the same without the last term", sp.S.Zero))
 
 
 @claim(
     "2.4",
-    r"\langle\gamma,\gamma\rangle,\ \langle K,\gamma\rangle\equiv\langle J\omega,\gamma\rangle = h,\ "
-    r"\langle K,K\rangle = n,\ \langle K,\omega\rangle = l \text{ are four independent integrals}",
+    r"\langle\gamma,\gamma\rangle = 1,\ \langle K,\gamma\rangle\equiv\langle J\omega,\gamma\rangle = h,\ "
+    r"\langle K,K\rangle = n,\ \langle K,\omega\rangle = l:\ \langle\gamma,\dot\gamma\rangle = 0,\ \dot h = 0,\ \dot n = 0,\ "
+    r"\dot l = 0,\ \text{and they are independent}",
     ["2.3", "2.2"],
 )
 def four_integrals(p: Proof) -> None:
@@ -125,20 +140,28 @@ def four_integrals(p: Proof) -> None:
     p.assume("J of Section 2 is the inertia tensor, Λ - D")
     central = three.lam() - D * sp.eye(3)
     k = momentum()
-    p.say("Along (2.3) the first three are constant because ⟨x×ω, y⟩ + ⟨x, y×ω⟩ = 0.")
-    rates = [
-        ("⟨γ,γ⟩", 2 * gamma.dot(gamma.cross(omega))),
-        ("⟨K,γ⟩", K.cross(omega).dot(gamma) + K.dot(gamma.cross(omega))),
-        ("⟨K,K⟩", 2 * K.dot(K.cross(omega))),
-    ]
-    p.printed(*(equation(f"d/dt {name} = 0", value, 0) for name, value in rates))
-    p.printed(equation("⟨K,γ⟩ = ⟨Jω,γ⟩", k.dot(gamma), (central * omega).dot(gamma)))
-    energy = k.dot(omega)
+    functions = sp.Matrix([gamma.dot(gamma), k.dot(gamma), k.dot(k), k.dot(omega)])
+    power = along(functions)
     acceleration = dict(zip(alpha, solved_acceleration(), strict=True))
-    power = along(sp.Matrix([energy]))[0]
-    p.printed(equation("d/dt ⟨K,ω⟩ = 0", power.subs(acceleration, simultaneous=True), 0))
+    fixed = [K.cross(omega).dot(gamma) + K.dot(VERTICAL_RATE), 2 * K.dot(K.cross(omega))]  # with K̇ = K×ω
+    rates = [sp.S.Zero, *fixed, power[3].subs(acceleration, simultaneous=True)]
+    p.reads(
+        glossary.classical()
+        | {
+            "K": (k, "Λω - D⟨ω,γ⟩γ, the momentum about the point of contact (2.3)"),
+            r"\dot\gamma": (VERTICAL_RATE, "γ×ω (2.3)"),
+            **{name: (functions[i], f"the integral {name}") for i, name in enumerate("hnl", start=1)},
+            **{
+                rf"\dot {name}": (rates[i], "its rate, by K̇ and γ̇ (2.3), or by ω̇ (2.2)")
+                for i, name in enumerate("hnl", start=1)
+            },
+        }
+    )
+    p.printed(equation("⟨γ,γ⟩ = 1", gamma.dot(gamma), 1), equation("⟨γ,γ̇⟩ = 0", gamma.dot(VERTICAL_RATE), 0))
+    p.printed(equation("⟨K,γ⟩ = ⟨Jω,γ⟩", k.dot(gamma), (central * omega).dot(gamma)))
+    for name, value in zip(("⟨K,γ⟩", "⟨K,K⟩", "⟨K,ω⟩"), rates[1:], strict=True):
+        p.printed(equation(f"d/dt {name} = 0", value, 0))
     p.say("Independent: their gradients have rank 4 at a rational point, hence on an open dense set.")
-    functions = sp.Matrix([gamma.dot(gamma), k.dot(gamma), k.dot(k), energy])
     gradients = functions.jacobian([*omega, *gamma])
     at = {**BALL, **UNIT, **SPIN}
     p.lemma(Comparison(f"a minor is not 0 at {BALL}, γ = (2/7,3/7,6/7), ω = (1,-1,2)",
@@ -151,7 +174,7 @@ def four_integrals(p: Proof) -> None:
                      Quotient((size, *gamma))))  # fmt: skip
     resting = gradients[2:, :].subs(dict.fromkeys(omega, 0))
     p.lemma(equation("∇⟨K,K⟩ = ∇⟨K,ω⟩ = 0 where ω = 0", resting.reshape(12, 1), sp.zeros(12, 1)))
-    p.control(equation("d/dt ⟨K,ω⟩ = 0 for Λω̇ = Λω×ω", power.subs(
+    p.control(equation("d/dt ⟨K,ω⟩ = 0 for Λω̇ = Λω×ω", power[3].subs(
         dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True)), simultaneous=True), 0))  # fmt: skip
     p.control(equation("⟨K,γ⟩ = ⟨Λω,γ⟩", k.dot(gamma), (three.lam() * omega).dot(gamma)))
 
@@ -211,9 +234,20 @@ VERTICAL = Quotient((s, *gamma, J1, J2, J3, D), [three.UNIT_VERTICAL])
 
 
 def vertical_values() -> tuple[sp.Expr, sp.Expr]:
-    """h and l = ⟨K,ω⟩ on Λω = sγ."""
-    height = at_vertical(momentum()).dot(gamma)
-    return height, height * at_vertical(omega).dot(gamma)
+    """h and l = h⟨ω,γ⟩ on Λω = sγ."""
+    level = gamma.dot(inverse_inertia() * gamma)
+    height = s * (1 - D * level)
+    return height, height * s * level
+
+
+def vertical_symbols() -> Symbols:
+    """The ball where K = hγ."""
+    height, power = vertical_values()
+    return glossary.classical() | {
+        r"\omega": (at_vertical(omega), "sΛ⁻¹γ, s = h + D⟨ω,γ⟩, as K = hγ is Λω = sγ"),
+        "h": (height, "s(1 - D⟨γ,Λ⁻¹γ⟩), with which K = hγ (2.7-vertical)"),
+        "l": (power, "h⟨ω,γ⟩, which is ⟨K,ω⟩ (2.7-vertical)"),
+    }
 
 
 @claim(
@@ -223,11 +257,14 @@ def vertical_values() -> tuple[sp.Expr, sp.Expr]:
 )
 def vertical_momentum(p: Proof) -> None:
     """What K = hγ makes of ω."""
-    height, power = vertical_values()
+    height, _ = vertical_values()
+    vector = at_vertical(momentum())
+    power = vector.dot(at_vertical(omega))
     p.assume("h ≠ 0", sp.Ne(height, 0))
     p.assume("l = ⟨K,ω⟩ as in (2.4)")
+    p.reads(vertical_symbols() | {"K": (vector, "Λω - D⟨ω,γ⟩γ (2.3)"), "l": (power, "⟨K,ω⟩ (2.4)")})
     p.printed(
-        equation("Λω = sγ makes K = hγ", at_vertical(momentum()), height * gamma, VERTICAL),
+        equation("Λω = sγ makes K = hγ", vector, height * gamma, VERTICAL),
         equation("⟨ω,γ⟩ = l/h", at_vertical(omega).dot(gamma), power / height, VERTICAL),
         equation("Λω = ((h²+Dl)/h)γ", s * gamma, (height**2 + D * power) / height * gamma, VERTICAL),
     )
@@ -238,15 +275,17 @@ def vertical_momentum(p: Proof) -> None:
 def euler_top(p: Proof) -> None:
     """For vertical momentum the equations are those of the Euler top."""
     p.infers("K = hγ stays, as K and γ have one equation and its solutions are unique.")
-    lifted = (inverse_inertia() * gamma).dot((three.lam() * omega).cross(omega))
-    p.printed(equation("⟨Λ⁻¹γ, Λω×ω⟩ = 0, so that (2.2) is (2.7)", at_vertical(lifted), 0, VERTICAL))
+    faster, gyration = (at_vertical(of) for of in (solved_acceleration(), (three.lam() * omega).cross(omega)))
+    p.reads(vertical_symbols() | {r"\dot\omega": (faster, "its rate by (2.2)")})
+    p.printed(equation("Λω̇ = Λω×ω for the ω̇ of (2.2)", three.lam() * faster, gyration, VERTICAL))
     p.say("K = hγ stays: K and γ have the same equation (2.3).")
-    p.control(equation("the same for any ω", lifted, 0))
+    whole = three.lam() * solved_acceleration()
+    p.control(equation("the same for any ω", whole, (three.lam() * omega).cross(omega)))
 
 
 @claim(
     "2.7-integrals",
-    r"\langle\omega,\Lambda\omega\rangle = l,\ \langle\Lambda\omega,\Lambda\omega\rangle = k^2 \text{ with the } l \text{ of (2.4)}",
+    r"\langle\omega,\Lambda\omega\rangle = l,\ \langle\Lambda\omega,\Lambda\omega\rangle = k^2,\ l \text{ that of (2.4)}",
     ["2.7-vertical"],
 )
 def top_integrals(p: Proof) -> None:
@@ -254,10 +293,9 @@ def top_integrals(p: Proof) -> None:
     p.slips("reading")
     height, power = vertical_values()
     p.assume("h ≠ 0", sp.Ne(height, 0))
-    spin, body = at_vertical(omega), s * gamma
-    p.lemma(
-        equation("|Λω|² = ((h²+Dl)/h)², a constant", body.dot(body), ((height**2 + D * power) / height) ** 2, VERTICAL)
-    )
+    spin, body, size = at_vertical(omega), s * gamma, (height**2 + D * power) / height
+    p.reads(vertical_symbols() | {"k": (size, "(h² + Dl)/h, a constant")})
+    p.printed(equation("|Λω|² = ((h²+Dl)/h)²", body.dot(body), size**2, VERTICAL))
     p.printed(equation("⟨ω,Λω⟩ = l", spin.dot(body), power, VERTICAL))
     p.corrected(
         r"\langle\omega,\Lambda\omega\rangle = \frac{(h^2+Dl)\,l}{h^2}",

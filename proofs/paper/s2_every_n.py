@@ -73,9 +73,11 @@ def rolling_condition(p: Proof) -> None:
     p.slips("convention", "2.1")
     p.say("The point of contact is P = C - ργ, and the material point there has the velocity v + ω(P - C).")
     slip, below = (touching(name, where) for name, where in (("slip", -rho * gamma), ("slip_below", rho * gamma)))
+    p.reads(motion_symbols() | {"0": (slip, "the velocity of the point of the ball at P = C - ργ, by the derivation")})
     p.printed(equation("v + ρωγ = the velocity of P", motion.v + rho * omega * gamma, slip))
     p.corrected(
-        r"v_C + \rho\,\omega\gamma = 0,\ \gamma \text{ directed downwards, from } C \text{ to } H",
+        r"v_C - \rho\,\omega\gamma = 0,\ \text{or as printed with } \gamma \text{ directed downwards, from } C \text{ to } H",
+        equation("v - ρωγ = the velocity of P", motion.v - rho * omega * gamma, slip),
         equation("v + ρωγ = v + ω(P - C) for P = C + ργ", motion.v + rho * omega * gamma, below),
     )
     p.say("Everything after (2.9) uses the sign as printed, hence γ downwards; D and Γ do not see the difference.")
@@ -120,12 +122,9 @@ def equations_of_motion(p: Proof) -> None:
     p.show("0", principle)
     momentum = J * omega + omega * J
     balance = rate(momentum) + commutator(omega, momentum)
-    force = motion.inertial_force()
-    moment = rho * ALGEBRA.wedge(force, gamma)
-    p.printed(
-        equation("Ṁ + [ω,M] - ρF∧γ, F = m(v̇ + ωv), is the principle", balance - moment, principle),
-        equation("γ̇ + ωγ = 0 for γ = R⁻¹γ⃗", rate(gamma) + omega * gamma, 0),
-    )
+    moment = rho * ALGEBRA.wedge(motion.m * (motion.a + omega * motion.v), gamma)
+    p.printed(equation("Ṁ + [ω,M] - ρF∧γ, F = m(v̇ + ωv), is the principle", balance - moment, principle))
+    p.lemma(equation("γ̇ + ωγ = 0 for γ = R⁻¹γ⃗", rate(gamma) + omega * gamma, 0))
     p.control(equation("with +ρF∧γ on the left", balance + moment, principle))
     p.control(equation("with [M,ω]", rate(momentum) - commutator(omega, momentum) - moment, principle))
 
@@ -193,41 +192,63 @@ def conservation(p: Proof) -> None:
         equation(
             "K̇ + [ω,K] is the principle", moving("K_here", momentum) + commutator(omega, momentum), motion.eliminated()
         ),
-        equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), 0),
     )
+    p.lemma(equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), 0))
     p.control(equation("K̇ - [ω,K] is the principle", rate(momentum) - commutator(omega, momentum), motion.eliminated()))
     wrong = J * omega + omega * J - D * (Gamma * omega + omega * Gamma)
     p.control(equation("the same with -D in K", rate(wrong) + commutator(omega, wrong), motion.eliminated()))
 
 
-@claim("2.14", r"\mathrm{tr}\,\mathbf K^s,\ \mathrm{tr}(\mathbf K^s\Gamma^l),\ \mathrm{tr}\,\Gamma = 1", ["2.12"])
+@claim(
+    "2.14",
+    r"\mathrm{tr}\,\tfrac d{dt}\mathbf K^s = 0,\ \mathrm{tr}\,\tfrac d{dt}(\mathbf K^s\Gamma^l) = 0,\ "
+    r"\mathrm{tr}\,\Gamma \text{ stays 1, for all even } s \text{ and natural } l",
+    ["2.12"],
+)
 def trace_integrals(p: Proof) -> None:
     """The trace integrals of the continuous ball, for every n, s and l."""
-    p.infers("The derivation rule, which is decided for the exponents shown, gives every s and l.")
-    rates = {**motion.RATES, K: -commutator(omega, K)}
+    p.infers("The derivation rule, which is decided for any two matrices, gives every s and l, by induction.")
     X, Y = sp.symbols("X Y", commutative=False)
     algebra = type(ALGEBRA)({**ALGEBRA.transposes, X: X, Y: Y}, ALGEBRA.rules)
     p.say("By (2.12) the rate of K and of Γ is -[ω, ·], and the commutator is a derivation:")
     by_parts = commutator(omega, X) * Y + X * commutator(omega, Y)
     p.lemma(Equation("[ω,X]Y + X[ω,Y] = [ω,XY]", by_parts, commutator(omega, X * Y), algebra))
     p.lemma(Equation("tr [ω,X] = 0", commutator(omega, X), 0, Traces(algebra)))
-    p.say("so that d/dt tr(K^sΓ^l) = -tr[ω, K^sΓ^l] = 0 for all s, l. The first of them, by Leibniz' rule:")
-    for s, l in [(2, 0), (2, 1), (2, 2), (4, 1)]:
-        p.printed(equation(f"d/dt tr K^{s}Γ^{l} = 0", moving(f"K{s}_Gamma{l}", K**s * Gamma**l, rates), 0, TRACES))
-    p.printed(equation("d/dt tr Γ = 0", moving("Gamma_alone", Gamma, rates), 0, TRACES))
-    p.control(equation("d/dt tr K²J = 0", rate(K * K * J, rates), 0, TRACES))
+    p.say("so that the rate of K^s is -[ω, K^s], that of Γ^l is -[ω, Γ^l], and d/dt tr(K^sΓ^l) = 0, by Leibniz' rule:")
+    rates = {**motion.RATES, **{x: -commutator(omega, x) for x in (K, X, Y)}}
+    traces = Traces(algebra)
+    power, product = (moving(name, of, rates, algebra) for name, of in (("power", X), ("product", X * Y)))
+    p.reads(
+        {
+            r"\tfrac d{dt}\mathbf K^s": (power, "that of any X with the rate -[ω, X], by the derivation"),
+            r"\tfrac d{dt}(\mathbf K^s\Gamma^l)": (product, "that of any XY with such rates, by the derivation"),
+        }
+    )
+    p.printed(
+        equation("d/dt tr X = 0", power, 0, traces),
+        equation("d/dt tr XY = 0", product, 0, traces),
+        equation("d/dt tr Γ = 0", moving("Gamma_alone", Gamma, rates, algebra), 0, traces),
+    )
+    p.control(equation("d/dt tr K²J = 0", rate(K * K * J, rates), 0, traces))
     opposite = {**rates, K: commutator(omega, K)}
-    p.control(equation("d/dt tr K²Γ = 0 with K̇ = +[ω,K]", rate(K * K * Gamma, opposite), 0, TRACES))
+    p.control(equation("d/dt tr K²Γ = 0 with K̇ = +[ω,K]", rate(K * K * Gamma, opposite), 0, traces))
 
 
-@claim("2.15", r"H = -\tfrac14\mathrm{tr}(\omega\,\mathcal A\omega) \text{ is an integral}", ["2.12"])
+@claim("2.15", r"H = -\tfrac14\mathrm{tr}(\omega\,\mathcal A\omega),\ \text{an integral}", ["2.12"])
 def energy_integral(p: Proof) -> None:
     """The energy integral is the kinetic energy, for every n."""
     momentum = motion.contact_momentum()
     energy = -omega * momentum / 4
     velocity = motion.rolling_velocity()
     kinetic = omega * J * ALGEBRA.transpose(omega) / 2 + D / rho**2 * velocity * ALGEBRA.transpose(velocity) / 2
-    p.lemma(equation("H = ½ tr(Ṙ J Ṙᵀ) + ½ m|v|² on v = -ρωγ", energy, kinetic, TRACES))
+    p.reads(
+        motion_symbols()
+        | {
+            "H": (sp.Function("tr")(kinetic), "the kinetic energy, ½ tr(Ṙ J Ṙᵀ) + ½ m|v|² on v = -ρωγ"),
+            r"\mathcal A\omega": (momentum, "K (2.13)"),
+        }
+    )
+    p.printed(equation("H = ½ tr(Ṙ J Ṙᵀ) + ½ m|v|² on v = -ρωγ", energy, kinetic, TRACES))
     p.say("dH/dt = -½ tr(ω(K̇ + [ω,K])): the principle times the velocity, so it vanishes along every motion.")
     power = -omega * motion.eliminated() / 2
     p.printed(equation("dH/dt = -½ tr(ω·(principle))", moving("energy", energy), power, TRACES))

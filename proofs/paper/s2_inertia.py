@@ -15,6 +15,7 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import hat
 from chapsym.derive.words import Traces, WordAlgebra, evaluate, matrix_symbols
 from chapsym.proofs import second_routes
+from chapsym.proofs.paper.s2_every_n import motion_symbols
 from chapsym.proofs.second_routes import Array
 from chapsym.prove import Comparison, Equation, Identity, Proof, claim, equations, main, rational_point
 from chapsym.prove.polynomials import parameters
@@ -38,8 +39,8 @@ def pairing(x: sp.Expr, y: sp.Expr) -> sp.Expr:
 
 @claim(
     "2.13",
-    r"\mathbf K = J\omega+\omega J+D(\Gamma\omega+\omega\Gamma)\in so^*(m),\ "
-    r"\text{the operator } \mathcal A: \omega\mapsto\mathbf K \text{ is nondegenerate}",
+    r"\mathbf K = J\omega+\omega J+D(\Gamma\omega+\omega\Gamma),\ \mathbf K \text{ in } so^*(m):\ "
+    r"\mathcal A\omega \ne 0,\ \text{the operator } \mathcal A \text{ from } \omega \text{ to } \mathbf K \text{ is nondegenerate}",
     ["2.12"],
 )
 def inertia_operator(p: Proof) -> None:
@@ -50,6 +51,13 @@ def inertia_operator(p: Proof) -> None:
     p.slips("reading")
     p.say("K is the momentum about the point of contact P: M about the centre C, and mv ∧ (C - P) with C - P = -ργ and")
     p.say("v = -ρωγ; it is in so*(n), not so*(m).")
+    p.reads(
+        motion_symbols()
+        | {
+            r"\mathbf K": (motion.contact_momentum(), "M about C and mv∧(C - P), about the point of contact P"),
+            r"\mathcal A\omega": (applied(omega), "Jω + ωJ + D(Γω + ωΓ), for any ω"),
+        }
+    )
     p.printed(equation("K = Jω + ωJ + D(Γω + ωΓ)", applied(omega), motion.contact_momentum()))
     p.say("⟨ω, 𝒜ω⟩ for every n, and entry by entry (n = 5: the sum over i, j is symmetric for every n):")
     size, mass = 5, sp.symbols("J1:6")
@@ -180,7 +188,7 @@ def exact_divergence(n: int, rates: int = 1) -> list[Identity]:
 
 @claim(
     "2.15-so3",
-    r"\omega_{ij} = \varepsilon_{ijk}\omega_k,\ \mathbf K_{ij} = \varepsilon_{ijk}K_k: "
+    r"\omega_{ij} = \varepsilon_{ijk}\omega_k,\ \mathbf K_{ij} = \varepsilon_{ijk}K_k:\ "
     r"\text{(2.14), (2.15) and the measure become (2.4) and (2.6)}",
     ["2.12", "2.15", "2.15-measure", "2.3"],
 )
@@ -192,10 +200,11 @@ def isomorphism(p: Proof) -> None:
     ring = Quotient((*three.K, *spin, *three.gamma, three.J1, three.J2, three.J3, three.D), [three.UNIT_VERTICAL])
     vertical = three.gamma * three.gamma.T
 
-    def carried(name: str, sign: int) -> list[Equation]:
-        """(2.12) under A = sign·(v×), as vector equations, and -¼ tr(ω𝒜ω)."""
+    def carried(sign: int) -> list[Equation]:
+        """(2.12) under A = sign·(v×), as vector equations."""
         turn, tensor = sign * hat(spin), sign * hat(three.K)
         swept = -(turn * tensor - tensor * turn)
+        name = f"ω_ij = {'-' * (sign > 0)}ε_ijk ω_k"
         return [
             Equation(f"{name}: K̇ = -[ω,K] is K̇ = K×ω", swept, sign * hat(three.K.cross(spin)), ring),
             Equation(f"{name}: γ̇ = -ωγ is γ̇ = γ×ω", -turn * three.gamma, three.gamma.cross(spin), ring),
@@ -204,11 +213,23 @@ def isomorphism(p: Proof) -> None:
     momentum = sp.Matrix(continuous.momentum())
     values = {motion.J: three.J, motion.Gamma: vertical, motion.D: three.D, motion.omega: hat(spin)}
     energy = -(hat(spin) * evaluate(motion.contact_momentum(), values)).trace() / 4
-    p.printed(*carried("ω_ij = ε_ijk ω_k", -1))
+    p.say("The matrix A of a vector v with which (2.12) is (2.3) has Ax = v×x:")
+    p.lemma(*carried(1))
+    p.control(*carried(-1))
+    letters = {r"\omega_": (spin, r"\omega_k", "ω"), r"\mathbf K_": (three.K, "K_k", "K")}
+    p.reads({"H": (energy, "-¼ tr(ω𝒜ω) (2.15)"), "l": (momentum.dot(spin), "⟨K,ω⟩ (2.4)")})
+    for matrix, (vector, index, name) in letters.items():
+        whole = -hat(vector)
+        p.reads(
+            {
+                f"{matrix}{{ij}}": (hat(vector), f"the matrix of the vector {name} with which (2.12) is (2.3)"),
+                rf"\varepsilon_{{ijk}}{index}": (whole, f"Σ_k ε_ijk {name}_k: in row 1, column 2 it is {name}_3"),
+            }
+        )
+        p.printed(Equation(f"{name}_ij = ε_ijk {name}_k", hat(vector), whole, ring))
     p.printed(Equation("H of (2.15) is l of (2.4)", energy, momentum.dot(spin), ring))
     p.corrected(
         r"\omega_{ij} = -\varepsilon_{ijk}\omega_k,\ \mathbf K_{ij} = -\varepsilon_{ijk}K_k,\ H = \tfrac12l",
-        *carried("ω_ij = -ε_ijk ω_k", +1),
         Equation("H of (2.15) is ½ l", energy, momentum.dot(spin) / 2, ring),
     )
     tensor = hat(three.K)

@@ -3,9 +3,9 @@
 import sympy as sp
 
 from chapsym.derive import ball, limits, motion, principle, three
-from chapsym.derive.derivation import written
+from chapsym.derive.derivation import replaced, written
 from chapsym.derive.principle import ALGEBRA, R0, R0T, R1, R1T, RT, D, J, R, gamma, gammaT, m, rho
-from chapsym.derive.words import Traces, matrix_symbols, unfolded
+from chapsym.derive.words import Traces, WordAlgebra, unfolded
 from chapsym.proofs.paper.s4_limits import exact_order
 from chapsym.proofs.paper.s4_principle import TURN_1, TURN_2, equation, path_point, step_symbols
 from chapsym.prove import Comparison, Equation, Point, Proof, claim, main
@@ -24,14 +24,15 @@ def spatial_rotation(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 
 @claim(
     "4.9",
-    r"\Delta r_k + \frac\rho2(\bar\Omega_k - \bar\Omega_k^T)\vec\gamma = 0 "
-    r"\text{ is horizontal, admits }(q,q)\text{ and tends to (4.2)}",
+    r"\Delta r_k + \frac\rho2(\bar\Omega_k - \bar\Omega_k^T)\vec\gamma = 0,\ \langle\vec\gamma,\Delta r_k\rangle = 0,\ "
+    r"\text{admits }(q,q),\ \text{and tends to (4.2)}",
 )
 def chosen_constraint(p: Proof) -> None:
     """The chosen discrete constraint: horizontal, consistent on the diagonal, of second order."""
     p.assume("(4.2) and (4.9) share the direction of γ; with γ upwards both need ρ → -ρ (see 2.1)")
     p.assume("Ω̄ = exp(ε ω̄) with ω̄ skew")
     rotational = unfolded(principle.turning_step())
+    p.reads(step_symbols() | {r"\Delta r_k": (-principle.turning_step(), "as (4.9) says, by the derivation")})
     p.say("Δr is minus the rotational part of the constraint; its vertical component is γᵀΔr = tr(Δr γᵀ).")
     diagonal = rotational.subs({R1: R, R1T: RT})
     limit = limits.constraint()
@@ -57,7 +58,7 @@ def chosen_constraint(p: Proof) -> None:
 
 @claim(
     "4.9-naive",
-    r"\Delta r_k + \rho\,\bar\Omega_k\bar\gamma = 0 \text{ imitates the form of (2.9) and allows } \Delta r_k"
+    r"\Delta r_k + \rho\,\bar\Omega_k\bar\gamma = 0,\ \text{which imitates the form of (2.9) and allows } \Delta r_k"
     r"\text{ that are not horizontal}",
 )
 def naive_constraint(p: Proof) -> None:
@@ -66,10 +67,19 @@ def naive_constraint(p: Proof) -> None:
         "That the formula imitates (2.9) is seen from the two; that it allows what is not horizontal, from one example."
     )
     p.say("Its form is that of (2.9), v + ρωγ = 0: Δr stands for v and Ω̄ = R_{k+1}R_kᵀ for ω.")
-    dr = matrix_symbols("dr")[0]
-    rolling = motion.v - motion.rolling_velocity()
-    imitated = rolling.xreplace({motion.v: dr, motion.omega: R1 * RT, motion.gamma: gamma, motion.rho: rho})
-    p.printed(equation("(2.9) with Δr for v and Ω̄ for ω = Δr + ρΩ̄γ", imitated, dr + rho * R1 * RT * gamma))
+    form = written(
+        "rolling_form", "v + ρωγ, which vanishes (2.9)", motion.v - motion.rolling_velocity(), WordAlgebra({})
+    )
+    step = {motion.v: principle.r1 - principle.r, motion.omega: R1 * RT}
+    imitated = replaced("imitated", "Δr_k for v and Ω̄_k for ω", form, step, ALGEBRA)
+    p.reads(
+        step_symbols()
+        | {
+            r"\bar\gamma": (gamma, "the vertical unit vector in space (4.2)"),
+            "0": (imitated, "(2.9) with Δr_k for v and Ω̄_k for ω, by the derivation"),
+        }
+    )
+    p.printed(equation("Δr + ρΩ̄γ = (2.9) with Δr for v and Ω̄ for ω", step[motion.v] + rho * R1 * RT * gamma, imitated))
     p.say("Its vertical component is -ρ γᵀΩ̄γ; n = 3, Ω̄ by Euler parameters:")
     naive = -rho * R1 * RT * gamma
     shift = -rho * sp.Matrix(three.rotation()) * three.gamma
@@ -104,6 +114,14 @@ def rotation_limit(p: Proof) -> None:
     p.show("Ω̄", f"{unfolded(zeroth)} + ({unfolded(first)})·ε + ...")
     p.say("As a statement about the limit: Ω̄ = 1 + (first order) + O(ε²), where the first order is εω, not ω.")
     e = sp.Symbol("e")  # the value of ε, a parameter of the words
+    p.reads(
+        {
+            r"\bar\Omega_k": (zeroth + e * first, "its terms up to the order ε, by the derivation"),
+            r"\mathbf I": (sp.S.One, "the unit matrix"),
+            r"\omega": (spin, "the skew ω of Ω̄_k = exp(εω)"),
+            r"\varepsilon": (e, "ε"),
+        }
+    )
     p.printed(Equation("the part of Ω̄ up to order 1 = 1 + ω", zeroth + e * first, 1 + spin, algebra))
     p.corrected(
         r"\bar\Omega_k \mapsto \mathbf I + \varepsilon\omega",
@@ -171,13 +189,11 @@ def torque(p: Proof) -> None:
         return m * rho / 2 * (x * GAMMA + GAMMA * x)
 
     printed = -both_sides(NOW) + both_sides(NOW_T) + both_sides(BEFORE) - both_sides(BEFORE_T)
-    force = RT * principle.rolling_reaction()
-    derived = ALGEBRA.wedge(force, RT * gamma)
-    p.reads(
-        step_symbols()
-        | {r"\vec F^k": (m * rho / 2 * (BEFORE - BEFORE_T - NOW + NOW_T) * RT * gamma, "as corrected (4.9-F)")}
-    )
-    p.printed(equation("the printed torque = Fγᵀ - γFᵀ", printed, derived))
+    force = m * rho / 2 * (BEFORE - BEFORE_T - NOW + NOW_T) * RT * gamma
+    p.reads(step_symbols() | {r"\vec F^k": (force, "as corrected (4.9-F)")})
+    p.printed(equation("the printed torque = Fγᵀ - γFᵀ", printed, ALGEBRA.wedge(force, RT * gamma)))
+    derived = ALGEBRA.wedge(RT * principle.rolling_reaction(), RT * gamma)
+    p.lemma(equation("the printed torque is that of the F that is derived", printed, derived))
     wrong = -m * rho / 2 * ((NOW - NOW_T) + (BEFORE - BEFORE_T)) * RT * gamma
     p.control(equation("the printed torque = Fγᵀ - γFᵀ with the printed F", printed, ALGEBRA.wedge(wrong, RT * gamma)))
 

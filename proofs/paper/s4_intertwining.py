@@ -64,9 +64,9 @@ def intertwining(p: Proof) -> None:
         equation("the relation for 𝒦_k, every n", after, ball.carried(momentum)),
     )
     p.say("For n = 3 the same with the matrix of Euler parameters, modulo |q|² + q₀² = 1:")
-    p.printed(Equation("the relation for 𝒦_{k-1}, n = 3, nine entries", entries(before), entries(momentum), three.RING))
+    p.lemma(Equation("the relation for 𝒦_{k-1}, n = 3, nine entries", entries(before), entries(momentum), three.RING))
     carried = entries(ball.carried(momentum))
-    p.printed(Equation("the relation for 𝒦_k, n = 3, nine entries", entries(after), carried, three.RING))
+    p.lemma(Equation("the relation for 𝒦_k, n = 3, nine entries", entries(after), carried, three.RING))
     wrong_before, wrong_after = printed_relations(sign=-1)
     p.control(equation("the relation for 𝒦_{k-1} with Γ_{k-1} - Γ_k", wrong_before, momentum))
     p.control(equation("the relation for 𝒦_k with Γ_{k-1} - Γ_k", wrong_after, ball.carried(momentum)))

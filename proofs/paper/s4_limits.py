@@ -3,9 +3,10 @@
 import sympy as sp
 
 from chapsym.derive import ball, limits
-from chapsym.derive.ball import ALGEBRA, D, Gamma, J, K, omega
+from chapsym.derive.ball import ALGEBRA, D, Gamma, J, omega
 from chapsym.derive.words import unfolded
 from chapsym.proofs.examples import EXAMPLES
+from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Comparison, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)
@@ -14,6 +15,16 @@ equation = equations(ALGEBRA)
 def commutator(a: sp.Expr, b: sp.Expr) -> sp.Expr:
     """[a, b]."""
     return a * b - b * a
+
+
+def symbols() -> Symbols:
+    """The continuous ball, in the letters of one step."""
+    return {
+        "J": (J, "the mass tensor, diagonal (4.1)"),
+        "D": (D, "mρ² (4.13)"),
+        r"\omega": (omega, "the skew ω of the step exp(εω)"),
+        r"\Gamma": (Gamma, "γγᵀ (2.12)"),
+    }
 
 
 def show(p: Proof, name: str, remainder: limits.Remainder) -> None:
@@ -37,7 +48,7 @@ def exact_order(name: str, remainder: limits.Remainder, order: int = 1, less: in
 
 @claim(
     "4.6-limit",
-    r"\Omega_k\mapsto I+\varepsilon\omega:\ M_k \text{ transforms to } M = J\omega+\omega J",
+    r"\text{for } \Omega_k\mapsto I+\varepsilon\omega:\ M_k \text{ transforms to } M,\ M = J\omega+\omega J",
     uses=["4.7"],
 )
 def centre_limit(p: Proof) -> None:
@@ -45,6 +56,7 @@ def centre_limit(p: Proof) -> None:
     p.assume("Ω_k = exp(ε ω) with ω skew: Ω = 1 + εω + O(ε²)")
     p.assume("read as M/ε, as the paper itself writes for 𝒦 after (4.13): M alone tends to 0")
     m = limits.centre_momentum()
+    p.reads(symbols() | {"M": (m.limit, "what M_k/ε tends to, by the derivation")})
     show(p, "M/ε", m)
     p.lemma(equation("M has no part without ε", m.constant, 0))
     p.printed(equation("M/ε → Jω + ωJ", m.limit, J * omega + omega * J))
@@ -55,8 +67,8 @@ def centre_limit(p: Proof) -> None:
 
 @claim(
     "4.13-limit",
-    r"\mathcal K/\varepsilon \to \mathbf K = J\omega+\omega J+D(\Gamma\omega+\omega\Gamma), "
-    r"\text{ and (4.12) transforms to } \dot{\mathbf K}+[\omega,\mathbf K]=0,\ \dot\Gamma+[\omega,\Gamma]=0",
+    r"\mathcal K/\varepsilon \to \mathbf K,\ \mathbf K = J\omega+\omega J+D(\Gamma\omega+\omega\Gamma),\ "
+    r"\text{and (4.12) transforms to}:\ \dot{\mathbf K}+[\omega,\mathbf K]=0,\ \dot\Gamma+[\omega,\Gamma]=0",
     uses=["prop-1"],
 )
 def momentum_limit(p: Proof) -> None:
@@ -69,18 +81,28 @@ def momentum_limit(p: Proof) -> None:
     p.printed(equation("𝒦/ε → Jω + ωJ + D(Γω + ωΓ)", momentum.limit, centre + contact))
     p.lemma(exact_order("the remainder of 𝒦/ε", momentum))
     p.lemma(equation("its leading term is ½[ω², J], without D", momentum.leading, commutator(omega**2, J) / 2))
-    for name, tensor in [("𝒦", K), ("Γ", Gamma)]:
-        moved = limits.transport(tensor)
+    whole = centre + contact
+    moving = {name: limits.transport(name, tensor) for name, tensor in (("K_contact", whole), ("Gamma", Gamma))}
+    p.reads(
+        symbols()
+        | {
+            r"\mathcal K/\varepsilon": (momentum.limit, "what it tends to, by the derivation"),
+            r"\mathbf K": (whole, "Jω + ωJ + D(Γω + ωΓ) (2.13)"),
+            r"\dot{\mathbf K}": (moving["K_contact"].limit, "what (ΩᵀKΩ - K)/ε tends to (4.12), by the derivation"),
+            r"\dot\Gamma": (moving["Gamma"].limit, "what (ΩᵀΓΩ - Γ)/ε tends to (4.12), by the derivation"),
+        }
+    )
+    for name, tensor, moved in (("K", whole, moving["K_contact"]), ("Γ", Gamma, moving["Gamma"])):
         show(p, f"(Ωᵀ{name}Ω - {name})/ε", moved)
         turned = commutator(omega, tensor)
         p.lemma(equation(f"Ωᵀ{name}Ω - {name} has no part without ε", moved.constant, 0))
-        p.printed(equation(f"(Ωᵀ{name}Ω - {name})/ε → -[ω, {name}]", moved.limit, -turned))
+        p.printed(equation(f"(Ωᵀ{name}Ω - {name})/ε + [ω, {name}] → 0", moved.limit + turned, 0))
         p.lemma(exact_order("its remainder", moved))
         p.lemma(equation(f"its leading term is ½[ω, [ω, {name}]]", moved.leading, commutator(omega, turned) / 2))
     p.control(
         equation("𝒦/ε → Jω + ωJ - D(Γω + ωΓ)", momentum.limit, centre - contact),
         equation("𝒦/ε → the same with D/2", momentum.limit, centre + contact / 2),
-        equation("𝒦̇ = +[ω, 𝒦]", limits.transport(K).limit, commutator(omega, K)),
+        equation("K̇ = +[ω, K]", moving["K_contact"].limit, commutator(omega, whole)),
         equation("the leading remainder is 0", ball.ALGEBRA.normal(momentum.leading), 0),
     )
 

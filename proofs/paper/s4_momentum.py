@@ -23,10 +23,15 @@ def printed_forms() -> tuple[sp.Expr, sp.Expr]:
     return first, second
 
 
-def in_attitudes(form: sp.Expr) -> sp.Expr:
-    """Words in Ω_k and Γ_k by Ω_k = R_kᵀR_{k+1} and γ_k = R_kᵀγ⃗."""
-    R, RT, R1, R1T = principle.R, principle.RT, principle.R1, principle.R1T
+def in_attitudes(form: sp.Expr, now: bool = True) -> sp.Expr:
+    """Words in Ω_k and Γ_k by Ω_k = R_kᵀR_{k+1} and γ_k = R_kᵀγ⃗; or those of the step before."""
+    attitudes = (principle.R, principle.R1) if now else (principle.R0, principle.R)
+    (R, RT), (R1, R1T) = ((at, principle.ALGEBRA.transpose(at)) for at in attitudes)
     return form.xreplace({Omega: RT * R1, OmegaT: R1T * R, Gamma: RT * principle.gamma * principle.gammaT * R})
+
+
+#: What vanishes along every path.
+BALANCE = {"0": (ball.body_balance(), "the principle in the body, on the discrete constraint, by the derivation")}
 
 
 @claim(
@@ -46,15 +51,15 @@ def compact_form(p: Proof) -> None:
         | {
             r"\mathcal K_k": (ball.momentum_in_space(now=True), "𝒦 of the step k, by the derivation"),
             r"\mathcal K_{k-1}": (ball.momentum_in_space(now=False), "that of the step k-1"),
-            "0": (ball.body_balance(), "the principle in the body, on the discrete constraint, by the derivation"),
         }
+        | BALANCE
     )
     p.say("The balance splits into a part with R_{k+1} and a part with R_{k-1}. In the symbols of their own steps:")
     now, before = ball.split_balance()
     p.show("part of the step k", now)
     p.show("part of the step k-1", before)
     first, second = printed_forms()
-    p.printed(
+    p.lemma(
         equation("(4.13), first form = the part of the step k", first, now),
         equation("(4.13), second form = the part of the step k", second, now),
         equation("the part of the step k-1 = -Ωᵀ𝒦_{k-1}Ω", before, -ball.carried(now)),
@@ -103,19 +108,23 @@ def compact_form(p: Proof) -> None:
 )
 def inside_the_proof(p: Proof) -> None:
     """The display inside the proof of Proposition 1."""
+    p.reads(step_symbols() | BALANCE)
+    p.say("Left - right is the balance, in the attitudes; in the symbols of its own step each side is one part of it:")
     now, before = ball.split_balance()
     centre = Omega * J - J * OmegaT
     left = centre + D / 2 * (Omega * Gamma + Gamma * Omega) - D / 2 * (OmegaT * Gamma + Gamma * OmegaT)
 
-    def right(text: str, sign: int) -> Equation:
+    def right(sign: int = 1) -> sp.Expr:
         lifted = Gamma * Omega + OmegaT * Gamma * Omega**2 - sign * (OmegaT**2 * Gamma * Omega + OmegaT * Gamma)
-        return equation(text, ball.carried(centre) + D / 2 * lifted, -before)
+        return ball.carried(centre) + D / 2 * lifted
 
-    p.printed(
+    both = in_attitudes(left) - in_attitudes(right(), now=False)
+    p.printed(Equation("left - right = the balance in the body", both, ball.body_balance(), ball.BOTH))
+    p.lemma(
         equation("the left side = the part of the balance that belongs to the step k", left, now),
-        right("the right side = minus the part that belongs to the step k-1", +1),
+        equation("the right side = minus the part that belongs to the step k-1", right(), -before),
     )
-    p.control(right("the right side with its last bracket added", -1))
+    p.control(equation("the right side with its last bracket added", right(-1), -before))
 
 
 @claim(
@@ -126,14 +135,30 @@ def inside_the_proof(p: Proof) -> None:
 )
 def discrete_euler_top(p: Proof) -> None:
     """The discrete Euler top is the case D = 0, with its intertwining relations."""
-    parts = zip(("top_now", "top_before"), ball.split_balance(), strict=True)
-    now, before = (replaced(name, "for D = 0", part, {D: sp.S.Zero}, ball.BOTH) for name, part in parts)
-    centre = Omega * J - J * OmegaT
-    p.printed(
-        equation("𝒦 at D = 0 is M_k = ΩJ - JΩᵀ", now, centre),
-        equation("the balance at D = 0 is M_k = ΩᵀM_{k-1}Ω", -before, ball.carried(centre)),
-        equation("Ωᵀ(ΩJ - JΩᵀ)Ω = JΩ - ΩᵀJ", ball.carried(centre), J * Omega - OmegaT * J),
+
+    def without(name: str, of: sp.Symbol) -> sp.Symbol:
+        return replaced(name, "for D = 0", of, {D: sp.S.Zero}, ball.BOTH)
+
+    balance = without("top_balance", ball.body_balance())
+    now, before = (without(f"top_{i}", ball.momentum_in_space(now=not i)) for i in range(2))
+    p.reads(
+        step_symbols()
+        | {
+            "M_k": (now, "𝒦_k for D = 0, by the derivation"),
+            "M_{k-1}": (before, "𝒦_(k-1) for D = 0, by the derivation"),
+            "0": (balance, "the principle in the body for D = 0, by the derivation"),
+        }
     )
+    centre, swapped = Omega * J - J * OmegaT, J * Omega - OmegaT * J
+    step, back = principle.R0T * principle.R, principle.RT * principle.R0
+    own = equations(ball.BOTH)
+    p.printed(
+        own("M_k - Ω_{k-1}ᵀM_{k-1}Ω_{k-1} is the balance at D = 0", now - back * before * step, balance),
+        own("𝒦_k at D = 0 is M_k = Ω_kJ - JΩ_kᵀ", now, in_attitudes(centre)),
+        own("𝒦_{k-1} at D = 0 is M_{k-1}, that a step before", before, in_attitudes(centre, now=False)),
+        own("M_k - (JΩ_{k-1} - Ω_{k-1}ᵀJ) is the balance", now - in_attitudes(swapped, now=False), balance),
+    )
+    p.lemma(equation("Ωᵀ(ΩJ - JΩᵀ)Ω = JΩ - ΩᵀJ", ball.carried(centre), swapped))
     p.control(equation("Ωᵀ(ΩJ - JΩᵀ)Ω = ΩJ - JΩᵀ", ball.carried(centre), centre))
 
 
@@ -166,15 +191,14 @@ def several_solutions(p: Proof) -> None:
 
 @claim(
     "prop-2",
-    r"\mathrm{tr}\,\mathcal K^s,\ \mathrm{tr}(\mathcal K^s\Gamma^l),\ \mathrm{tr}\,\Gamma = 1 "
-    r"\text{ are preserved by every branch},\ s = 2,4,\dots,\ l\in\mathbb N",
+    r"\mathrm{tr}\,\mathcal K_k^s = \mathrm{tr}\,\mathcal K_{k-1}^s,\ "
+    r"\mathrm{tr}(\mathcal K_k^s\Gamma_k^l) = \mathrm{tr}(\mathcal K_{k-1}^s\Gamma_{k-1}^l),\ "
+    r"\mathrm{tr}\,\Gamma \text{ stays 1, for every branch and all even } s \text{ and natural } l",
     uses=["prop-1"],
 )
 def trace_integrals(p: Proof) -> None:
     """The trace integrals, for every n, every s and l, and whatever the branch."""
-    p.infers(
-        "By induction on the exponents, for every s and l; decided for those shown. Odd powers of a skew matrix have the trace 0."
-    )
+    p.infers("By induction on the exponents, for every s and l. Odd powers of a skew matrix have the trace 0.")
     X, XT, Y, YT = matrix_symbols("X X^T Y Y^T")
     algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X, Y: YT, YT: Y}, ALGEBRA.rules)
 
@@ -188,11 +212,19 @@ def trace_integrals(p: Proof) -> None:
     p.lemma(equation("it fixes the identity", carried(sp.S.One), 1, algebra))
     p.say("By induction (𝒦_k)^s(Γ_k)^l = Ωᵀ(𝒦_{k-1})^s(Γ_{k-1})^lΩ for all s, l; and the trace does not see Ω:")
     traces = Traces(algebra)
-    p.lemma(equation("tr ΩᵀXΩ = tr X", carried(X), X, traces))
-    for s, l in [(2, 0), (2, 1), (2, 2), (4, 0), (4, 1), (6, 3)]:
-        word = carried(K) ** s * carried(Gamma) ** l
-        p.printed(equation(f"tr 𝒦^{s}Γ^{l}", word, K**s * Gamma**l, traces))
-    p.printed(equation("tr Γ", carried(Gamma), Gamma, traces))
+    p.reads(
+        {
+            r"\mathcal K_{k-1}^s": (X, "any matrix in its place"),
+            r"\mathcal K_k^s": (carried(X), "Ωᵀ𝒦_(k-1)^sΩ, as carrying is multiplicative"),
+            r"\Gamma_{k-1}^l": (Y, "any matrix in its place"),
+            r"\Gamma_k^l": (carried(Y), "ΩᵀΓ_(k-1)^lΩ, as carrying is multiplicative"),
+        }
+    )
+    p.printed(
+        equation("tr ΩᵀXΩ = tr X", carried(X), X, traces),
+        equation("tr (ΩᵀXΩ ΩᵀYΩ) = tr XY", carried(X) * carried(Y), X * Y, traces),
+        equation("tr Γ", carried(Gamma), Gamma, traces),
+    )
     p.say("tr Γ = |γ|² = 1 by the choice of γ. Odd s give 0, as 𝒦 is skew and Γ symmetric, for l = 0:")
     p.lemma(equation("tr 𝒦³ = 0", K**3, 0, traces))
     p.control(equation("tr 𝒦²Γ with Γ_k = ΩΓΩᵀ", carried(K) ** 2 * Omega * Gamma * OmegaT, K**2 * Gamma, traces))

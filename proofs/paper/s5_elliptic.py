@@ -1,9 +1,13 @@
 """Section 5: the invariant curve in Jacobi's functions, and the symmetric form on it (5.7 to 5.13)."""
 
+from itertools import chain
+
 import sympy as sp
 
 from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, Jacobi, U, k2, l
+from chapsym.derive.quotient import Quotient
+from chapsym.proofs.examples import EXAMPLES
 from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Equation, Proof, claim, equations, main, rational_point
 
@@ -67,11 +71,41 @@ def printed_squares(sign: int = 1) -> list[sp.Expr]:
     ]
 
 
-def on_level(text: str, squares: list[sp.Expr]) -> Equation:
-    """|γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l at sn = 0, and the second by the first at sn² = 1."""
-    first, second, third = squares
-    left = [first + third, first / L1 + third / L3, second / L2 + (1 - second) / L3]
-    return equation(text, left, [1, l, l])
+#: Letters for a curve on which the amplitudes are rational, too: they have an example of their own.
+ROOTED = dict(zip((L1, L2, L3, l, k2, C1, C2, C3), sp.symbols("l1:4 lv kk size1:4"), strict=True)) | dict(
+    zip((*HALF, *MEAN), sp.symbols("sn1 cn1 dn1 sn2 cn2 dn2"), strict=True)
+)
+#: The amplitudes of γ = (C1 cn, C2 sn, C3 dn): |γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l at sn = 0, the second by the first at
+#: sn² = 1, where C3² dn² = 1 - C2², and k² by the first.
+AMPLITUDES = [
+    C1**2 + C3**2 - 1,
+    L3 * C1**2 + L1 * C3**2 - l * L1 * L3,
+    L3 * C2**2 + L2 * (1 - C2**2) - l * L2 * L3,
+    C2**2 - C1**2 - k2 * C3**2,
+]
+#: And what the paper assumes.
+POSITIVE = [relation.xreplace(ROOTED) for relation in (*elliptic.ORDER, C1 > 0, C2 > 0, C3 > 0)]
+
+
+def rooted(text: str, left: list[sp.Expr], right: list[sp.Expr], last: int = 3, *arguments: Jacobi) -> Equation:
+    """An equation where the first of these relations hold, in those letters."""
+    relations = [*AMPLITUDES[:last], *chain(*(x.relations() for x in arguments))]
+
+    def letters(of: list[sp.Expr]) -> list[sp.Expr]:
+        return [sp.sympify(x).xreplace(ROOTED) for x in of]
+
+    return Equation(text, letters(left), letters(right), Quotient(tuple(ROOTED.values()), letters(relations)))
+
+
+def amplitude_symbols() -> Symbols:
+    """Λ, the level and the amplitudes, which are positive."""
+    return {
+        **{rf"\Lambda_{i + 1}": (ROOTED[x], "an entry of Λ (5.2)") for i, x in enumerate(LAMBDA)},
+        "l": (ROOTED[l], "the level ⟨γ, Λ⁻¹γ⟩ (5.5)"),
+        **{
+            f"C_{i + 1}": (ROOTED[c], f"the amplitude of γ_{i + 1} (5.7), positive") for i, c in enumerate((C1, C2, C3))
+        },
+    }
 
 
 @claim(
@@ -83,25 +117,26 @@ def on_level(text: str, squares: list[sp.Expr]) -> Equation:
 )
 def amplitudes(p: Proof) -> None:
     """The amplitudes: the sign under the root of C3 is misprinted."""
-    p.infers(
-        "Both equations for every u are linear in C₁², C₂², C₃² and fix them; the roots are taken with the positive sign."
-    )
+    p.infers("Both equations for every u are linear in C₁², C₂², C₃² and fix them.")
     p.slips("typo")
-    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3, so that Λ1 l > 1 and the printed C3 is imaginary", *elliptic.ORDER)
+    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3, so that Λ1 l > 1 and the printed C3 is imaginary; C1, C2, C3 > 0", *POSITIVE)
     p.say(
         "|γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l for γ = (C1 cn, C2 sn, C3 dn) and every u determine the squares.  sn = 0 gives two",
         "equations for C1² and C3²; sn² = 1, where C3² dn² = 1 - C2² by the first, gives one for C2²:",
     )
     for name, square in zip(("C1²", "C2²", "C3²"), elliptic.squared_amplitudes(), strict=True):
         p.show(name, square)
-    p.printed(on_level("the printed squares solve them", printed_squares()))
+    p.reads(amplitude_symbols())
+    for i, (c, square) in enumerate(zip((C1, C2, C3), printed_squares(), strict=True)):
+        p.printed(rooted(f"C{i + 1}² as printed", [c**2], [square]))
     p.corrected(
         r"C_3 = \sqrt{\tfrac{\Lambda_3(\Lambda_1l-1)}{\Lambda_1-\Lambda_3}}",
-        on_level("the squares with Λ1 l - 1 in C3 solve them", printed_squares(-1)),
-        equation("they are those that solve for them", printed_squares(-1), elliptic.squared_amplitudes()),
+        rooted("C3² with Λ1 l - 1", [C3**2], printed_squares(-1)[2:]),
     )
-    p.counterexample(rational_point(BALL))
-    p.control(on_level("the squares with C1, C2 exchanged", [printed_squares(-1)[i] for i in (1, 0, 2)]))
+    p.lemma(equation("the squares are those that solve for them", printed_squares(-1), elliptic.squared_amplitudes()))
+    curve = rooted("they are on the curve", AMPLITUDES, [sp.S.Zero] * 4)
+    p.counterexample(rational_point({x: EXAMPLES.numbers[x] for x in ROOTED.values()}, [curve]))
+    p.control(rooted("the squares with C1, C2 exchanged", [C2**2, C1**2], printed_squares()[:2]))
 
 
 @claim(
@@ -132,7 +167,9 @@ def modulus(p: Proof) -> None:
 
 @claim(
     "5.7",
-    r"\gamma_1 = C_1\,\mathrm{cn}(u|k),\ \gamma_2 = C_2\,\mathrm{sn}(u|k),\ \gamma_3 = C_3\,\mathrm{dn}(u|k)",
+    r"\gamma_1 = C_1\,\mathrm{cn}(u|k),\ \gamma_2 = C_2\,\mathrm{sn}(u|k),\ \gamma_3 = C_3\,\mathrm{dn}(u|k):\ "
+    r"\gamma_1^2+\gamma_2^2+\gamma_3^2 = 1,\ "
+    r"\Lambda_1^{-1}\gamma_1^2+\Lambda_2^{-1}\gamma_2^2+\Lambda_3^{-1}\gamma_3^2 = l",
     uses=["5.8", "5.8-modulus"],
 )
 def parameterisation(p: Proof) -> None:
@@ -141,17 +178,20 @@ def parameterisation(p: Proof) -> None:
         "Both equations hold for every u, so the printed γ is on the curve; that it goes through a whole component is not decided."
     )
     p.assume("C3 with the correction of (5.8)")
-    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
-    modulus = elliptic.squared_modulus()
-    squares = [a * f**2 for a, f in zip(elliptic.squared_amplitudes(), (U.cn, U.sn, U.dn), strict=True)]
-    replaced = [sp.sympify(s).subs(U.dn**2, 1 - modulus * U.sn**2).subs(U.cn**2, 1 - U.sn**2) for s in squares]
-    inverse = [s / lam for s, lam in zip(replaced, LAMBDA, strict=True)]
-    p.printed(
-        equation("|γ|² = 1", sum(replaced), 1),
-        equation("⟨γ,Λ⁻¹γ⟩ = l", sum(inverse), l),
+    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3; C1, C2, C3 > 0", *POSITIVE)
+    vector = [C1 * HALF.cn, C2 * HALF.sn, C3 * HALF.dn]
+    p.reads(
+        amplitude_symbols()
+        | {rf"\gamma_{i + 1}": (x.xreplace(ROOTED), "as it is printed (5.7)") for i, x in enumerate(vector)}
+        | {rf"\mathrm{{{name}}}(u|k)": (ROOTED[x], f"{name} u") for name, x in HALF._asdict().items()}
     )
-    wrong = [replaced[0], replaced[1], -replaced[2]]
-    p.control(equation("|γ|² = 1 with the printed C3", sum(wrong), 1))
+    squares, inverse = [x**2 for x in vector], [x**2 / lam for x, lam in zip(vector, LAMBDA, strict=True)]
+
+    def on_curve(text: str, left: list[sp.Expr], to: sp.Expr) -> Equation:
+        return rooted(text, [sum(left)], [to], 4, HALF)
+
+    p.printed(on_curve("|γ|² = 1", squares, sp.S.One), on_curve("⟨γ,Λ⁻¹γ⟩ = l", inverse, l))
+    p.control(on_curve("|γ|² = 1 with the printed C3", [squares[0], squares[1], -squares[2]], sp.S.One))
 
 
 def pair() -> tuple[list[sp.Expr], list[sp.Expr]]:
@@ -239,33 +279,43 @@ def _addition(p: Proof) -> None:
 )
 def increment_and_kappa(p: Proof) -> None:
     """What (5.10) says of the increment, in each of its three components."""
-    p.assume("sn δu, cn δu, dn δu and V are not 0", *(sp.Ne(x, 0) for x in (*HALF, V)))
-    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3, and 0 < k² < 1", *elliptic.ORDER, *elliptic.MODULUS)
+    p.assume("sn δu, cn δu and dn δu are not 0", *(sp.Ne(ROOTED[x], 0) for x in HALF))
+    p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3; C1, C2, C3 > 0", *POSITIVE)
     p.assume("the sign of V is that of -C1 C2 C3, which the printed V² leaves open")
     now, after = pair()
     total = [a + b for a, b in zip(now, after, strict=True)]
     scaled = [t / lam for t, lam in zip(total, LAMBDA, strict=True)]
     product = sp.Matrix(total).cross(sp.Matrix(scaled))
-    ratio = HALF.cn * HALF.dn / HALF.sn
-    squares = dict(zip((C1, C2, C3), elliptic.squared_amplitudes(), strict=True))
-    printed = (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3)
+    ratio, printed = HALF.cn * HALF.dn / HALF.sn, (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3)
     factors = [
         -C2 * C3 / C1 * (L2 - L3) / (L2 * L3),
         -C1 * C3 / C2 * (L1 - L3) / (L1 * L3),
         -C1 * C2 / (C3 * k2) * (L1 - L2) / (L1 * L2),
     ]
-    for i, factor in enumerate(factors):
-        p.say(f"Component {i + 1} of (5.10) at ϰ = 2𝒟 sn δu/(V cn δu dn δu) with V = {factor}:")
-        right = elliptic.denominator() / (2 * factor * ratio) * product[i]
-        p.printed(Equation(f"component {i + 1} of γ~ - γ = (ϰ/4)s×Λ⁻¹s", after[i] - now[i], right, TWO))
-    free = elliptic.ring()
-    modulus = elliptic.squared_modulus()
-    for i, factor in enumerate(factors):
-        squared = sp.expand(factor**2).subs({c**2: value for c, value in squares.items()}).subs(k2, modulus)
-        p.printed(Equation(f"the square of the V of component {i + 1} is V² as printed", squared, printed, free))
-    wrong = elliptic.denominator() / (2 * -factors[0] * ratio) * product[0]
-    p.control(Equation("component 1 with -V", after[0] - now[0], wrong, TWO))
-    p.control(Equation("V² with Λ1 - Λ3", printed * (L1 - L3) / (L2 - L3), printed, free))
+    kappas = [4 * (after[i] - now[i]) / product[i] for i in range(3)]
+
+    def said(i: int, factor: sp.Expr) -> Equation:
+        text = f"2𝒟/ϰ = V cn δu dn δu/sn δu for the ϰ of component {i + 1} of γ~ - γ = (ϰ/4)s×Λ⁻¹s, and its V"
+        return rooted(text, [2 * elliptic.denominator() / kappas[i]], [factor * ratio], 0, MEAN, HALF)
+
+    p.say("Each component of (5.10) gives ϰ by itself; V is for them", *(f"    {factor}" for factor in factors))
+    p.reads(
+        amplitude_symbols()
+        | {name: (value.xreplace(ROOTED), meaning) for name, (value, meaning) in functions(HALF, r"\delta u").items()}
+        | {
+            r"\mathcal D": (elliptic.denominator().xreplace(ROOTED), "1 - k² sn²ū sn²δu (5.13)"),
+            r"\varkappa": (kappas[0].xreplace(ROOTED), "that of the first component of (5.10), by (5.13 as corrected)"),
+            "V": (factors[0].xreplace(ROOTED), "-(C₂C₃/C₁)(1/Λ₃ - 1/Λ₂)"),
+        }
+    )
+    first, *others = (said(i, factor) for i, factor in enumerate(factors))
+    p.printed(first, rooted("V² as printed", [factors[0] ** 2], [printed]))
+    p.lemma(*others)
+    p.lemma(
+        *(rooted(f"the V of component {i} is that of component 1", [factors[i - 1]], [factors[0]], 4) for i in (2, 3))
+    )
+    p.control(said(0, -factors[0]))
+    p.control(rooted("V² with Λ1 - Λ3", [factors[0] ** 2], [printed * (L1 - L3) / (L2 - L3)]))
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ from chapsym.derive import elliptic
 from chapsym.derive.elliptic import HALF, L1, L2, L3, LAMBDA, MEAN, U, k2, l
 from chapsym.derive.quotient import Quotient
 from chapsym.proofs import second_routes
+from chapsym.proofs.glossary import Symbols
 from chapsym.proofs.paper.s5_elliptic import (
     ARGUMENT,
     BALL,
@@ -251,6 +252,18 @@ def true_relation(contact: sp.Expr = D, root: sp.Expr = V) -> sp.Expr:
 INVERSE, W, SECOND = 1 - D * level / SCALE, V * w / y, G * SCALE / y - V**2 * e / y
 
 
+def part_symbols() -> Symbols:
+    """What the relation is made of."""
+    return {
+        r"\mathcal D": (SCALE, "1 - k² sn²ū sn²δu (5.13)"),
+        "G": (G, "of (5.14-G) as corrected"),
+        "V": (V, "of (5.13-V)"),
+        "w": (w, "sn cn dn of δu"),
+        "D": (D, "mρ²"),
+        "d": (D, "D, the only thing that (5.11) can make it"),
+    }
+
+
 def step_point(mean: str = "12/13") -> Point:
     """The curve of `curve_point`, sn δu = 4/5, sn ū, and the D that makes T = 0: 4.78 at 12/13, that of a ball of matter."""
     point = {**BALL, **SQUARE, **dict(zip(HALF, ARGUMENT, strict=True)), MEAN.sn: mean}
@@ -272,16 +285,10 @@ def step_point(mean: str = "12/13") -> Point:
     return replace(found, values={**made_of, **found.values})
 
 
-def from_prop_4() -> list[Equation]:
-    """What ϰ = 2σ/(1 + root), root² = 1 - σ²Π2, is in W = 2𝒟/ϰ."""
-    root, first, second = sp.symbols("root P1 P2")
-    sigma = 1 / (1 - D * first)
-    W = 2 * SCALE * (1 + root) / (2 * sigma)
-    equal = equations(Quotient((root, SCALE, D, first, second), [(root**2 - 1) * (1 - D * first) ** 2 + second]))
-    return [
-        equal("σW/𝒟 - 1 is the root", sigma * W / SCALE - 1, root),
-        equal("(W - 𝒟/σ)² = 𝒟²(1/σ² - Π2)", (W - SCALE / sigma) ** 2, SCALE**2 * (1 / sigma**2 - second)),
-    ]
+#: What ϰ = 2σ/(1 + root), root² = 1 - σ²Π2 and 1/σ = 1 - DΠ1 say (prop-4), for any Π1 and Π2.
+ROOT, FIRST, OTHER = sp.symbols("root P1 P2")
+BY_PROP_4 = Quotient((ROOT, SCALE, D, FIRST, OTHER, *HALF), [(ROOT**2 - 1) * (1 - D * FIRST) ** 2 + OTHER])
+by_prop_4 = equations(BY_PROP_4)
 
 
 #: The constant of (5.14) and (5.15), which the paper does not say.
@@ -314,27 +321,48 @@ def before_squaring(p: Proof) -> None:
     """The relation before squaring: d stands for D (h = 1), its factor ½ must be 1, and σ² is missing under the root."""
     p.infers("The corrected equation, with one of the two signs, is equivalent to T = 0, and by prop-4 to the map.")
     p.slips("serious", "prop-4")
-    p.assume("sn δu, 𝒟 and 1 - DΠ1 do not vanish", *(sp.Ne(x, 0) for x in (y, SCALE, INVERSE)))
+    p.assume("sn δu, 𝒟 and 1 - DΠ1 do not vanish", *(sp.Ne(x, 0) for x in (HALF.sn, SCALE, 1 - D * FIRST)))
     p.assume("h = 1 (5.12-scaling); d is D, the only thing (5.11) can make it")
-    half = 1 - D / 2 * level / SCALE
     p.say("With 1/σ = 1 - DΠ1 (5.11) and 2𝒟/ϰ = V cn dn/sn =: W, prop-4 reads ±√(1 - σ²Π2) = σW/𝒟 - 1. Squared:")
-    squared = half**2 * (SCALE**2 - SECOND)
-    p.printed(part("(1-(D/2)Π1)²(𝒟² - Π2𝒟²) = (V cn dn/sn δu - 𝒟(1-(D/2)Π1))²", squared, (W - SCALE * half) ** 2))
+    inverse, half = 1 - D * FIRST, 1 - D / 2 * FIRST
+    ratio = SCALE * (1 + ROOT) * inverse
+    p.reads(
+        {name: part_symbols()[name] for name in (r"\mathcal D", "D", "d")}
+        | {
+            r"\Pi_1": (FIRST, "¼⟨s,Λ⁻¹s⟩, s = γ~ + γ (5.14-Pi1)"),
+            r"\Pi_2": (OTHER, "¼⟨s,Λ⁻²s⟩ (5.14-Pi2)"),
+            **{rf"\mathrm{{{name}}}\delta u": (x, f"{name} δu (5.7)") for name, x in HALF._asdict().items()},
+            "V": (
+                ratio * HALF.sn / (HALF.cn * HALF.dn),
+                "W sn/(cn dn) of δu, W = 2𝒟/ϰ (5.13-V), 2/ϰ = (1 + root)/σ (prop-4)",
+            ),
+        }
+    )
+    p.printed(
+        by_prop_4(
+            "(1-(D/2)Π1)²(𝒟² - Π2𝒟²) = (V cn dn/sn δu - 𝒟(1-(D/2)Π1))²",
+            half**2 * (SCALE**2 - OTHER * SCALE**2), (ratio - SCALE * half) ** 2,
+        )
+    )  # fmt: skip
     p.corrected(
         r"\pm\sqrt{(1-D\Pi_1)^2\mathcal D^2-\Pi_2\mathcal D^2} = V\tfrac{\mathrm{cn}\delta u\,\mathrm{dn}\delta u}"
         r"{\mathrm{sn}\delta u} - \mathcal D(1-D\Pi_1)",
-        part(
-            "(V cn dn/sn δu - 𝒟(1-DΠ1))² - (1-DΠ1)²𝒟² + Π2𝒟² = T/sn²δu",
-            (W - SCALE * INVERSE) ** 2 - INVERSE**2 * SCALE**2 + SECOND,
-            true_relation() / y,
+        by_prop_4(
+            "(1-DΠ1)²𝒟² - Π2𝒟² = (V cn dn/sn δu - 𝒟(1-DΠ1))²",
+            inverse**2 * SCALE**2 - OTHER * SCALE**2, (ratio - SCALE * inverse) ** 2,
         ),
-    )
-    p.say("What prop-4 says, put in, before and after the squaring, for any Π1 and Π2:")
-    p.lemma(*from_prop_4())
+    )  # fmt: skip
+    squared, half = (W - SCALE * INVERSE) ** 2 - INVERSE**2 * SCALE**2 + SECOND, 1 - D / 2 * level / SCALE
+    p.lemma(part("(V cn dn/sn δu - 𝒟(1-DΠ1))² - (1-DΠ1)²𝒟² + Π2𝒟² = T/sn²δu", squared, true_relation() / y))
+    p.lemma(by_prop_4("σW/𝒟 - 1 is the root", ratio / (inverse * SCALE) - 1, ROOT))
     p.say("Nor does any other constant in the place of d, at two steps of this curve with different ū and D:")
     other = 1 - CONSTANT / 2 * level / SCALE
     p.lemma(*no_constant(other**2 * (SCALE**2 - SECOND) - (W - SCALE * other) ** 2))
-    p.counterexample(step_point())
+    step = step_point()
+    at = {ROOT: W / (INVERSE * SCALE) - 1, FIRST: level / SCALE, OTHER: SECOND / SCALE**2}
+    at = {x: sp.cancel(value.subs(step.exact)) for x, value in at.items()} | {x: step.exact[x] for x in (SCALE, D)}
+    at |= {x: sp.Rational(value) for x, value in zip(HALF, ARGUMENT, strict=True)}
+    p.counterexample(replace(step, exact=at, hypotheses=[by_prop_4("root² = 1 - σ²Π2", BY_PROP_4.relations[0], 0)]))
     p.control(part("the same with D/2", (W - SCALE * half) ** 2 - half**2 * SCALE**2 + SECOND, true_relation() / y))
 
 
@@ -357,17 +385,30 @@ def relation_for_the_increment(p: Proof) -> None:
     inside = G * SCALE - V**2 * e
     printed = -(CONSTANT**2) / 4 * level**2 / SCALE**2 * inside
     printed += CONSTANT * level / SCALE * (inside - V * w * SCALE) + SCALE * (2 * V * w - G)
-    p.printed(part("the printed relation, d = D", printed.subs(CONSTANT, D), 0 * w))
+    slope = sp.Symbol("mu")
+    whole = equations(Quotient((*PARTS.symbols, slope), PARTS.relations))
+    p.reads(
+        part_symbols()
+        | {
+            r"\mu": (slope, "(1 - Λ₃l)/(Λ₂ - Λ₃) (5.14-Pi1)"),
+            "l": (level + slope * y, "λ + μ sn²δu, λ the l - μ sn²δu of (5.14-Pi1)"),
+            r"\mathrm{sn}^2": (y, "sn²δu"),
+            r"\mathrm{sn}^2\delta u": (y, "sn²δu"),
+            r"\mathrm{cn}^2\mathrm{dn}^2": (e, "cn²δu dn²δu"),
+            "0": (statement / factor, "((2σ/ϰ-1)² - (1-σ²Π2))·𝒟² sn²δu/σ², which vanishes (prop-4 as corrected)"),
+        }
+    )
+    p.printed(whole("the printed relation, d = D", printed.subs(CONSTANT, D), 0 * w))
     p.lemma(*no_constant(printed))
     p.corrected(
-        r"G\,\mathcal D = 2Vw\,(\mathcal D - D(l-\mu\,\mathrm{sn}^2\delta u)),\text{ that is }"
-        r"1-k^2\mathrm{sn}^2\bar u\,\mathrm{sn}^2\delta u = \frac{2VwD(l-\mu\,\mathrm{sn}^2\delta u)}{2Vw-G}",
-        part(
-            "(2σ/ϰ-1)² - (1-σ²Π2) = T·σ²/(𝒟² sn²δu), T = G𝒟 - 2Vw(𝒟 - D(l-μ sn²δu))",
-            statement,
-            factor * true_relation(),
+        r"G\,\mathcal D = 2Vw\,(\mathcal D - D(l-\mu\,\mathrm{sn}^2\delta u)),\ \text{which is linear in }\mathrm{sn}^2\bar u",
+        whole(
+            "T = ((2σ/ϰ-1)² - (1-σ²Π2))·𝒟² sn²δu/σ², T = G𝒟 - 2Vw(𝒟 - D(l-μ sn²δu))",
+            true_relation(),
+            statement / factor,
         ),
     )
+    p.say("𝒟 is 1 - k² sn²ū sn²δu: so T = 0 says that it is 2VwD(l - μ sn²δu)/(2Vw - G).")
     p.say("So T = 0 is equivalent to the map, for both signs of the root. It is linear in sn²ū: the increment fixes")
     p.say("sn²ū by an explicit formula, and ū ↦ δu is the inverse of that function. It depends on u through D only.")
     p.counterexample(step_point())
@@ -388,14 +429,15 @@ def relation_for_the_increment(p: Proof) -> None:
     p.control(second_routes.mutated("with 2D in σ at every step with 𝒦 = γ", wrong))
 
 
-@claim("5.15-euler", r"d = 0:\ \text{the increment does not depend on } u", uses=["5.15"])
+@claim("5.15-euler", r"d = 0:\ G = 2Vw,\ \text{so that the increment does not depend on } u", uses=["5.15"])
 def euler_increment(p: Proof) -> None:
     """Without rolling the increment is constant."""
     p.infers("𝒟 is not 0, so the increment solves G = 2Vw, in which ū does not occur.")
     p.assume("𝒟 ≠ 0", sp.Ne(SCALE, 0))
     p.assume("(5.15) as corrected")
-    factored = SCALE * (G - 2 * V * w)
-    p.printed(part("T at D = 0 is 𝒟(G - 2Vw), and ū is in 𝒟 only", true_relation(contact=sp.S.Zero), factored))
+    factored, without = SCALE * (G - 2 * V * w), true_relation(contact=sp.S.Zero)
+    p.reads(part_symbols() | {"d": (sp.S.Zero, "D, in this case"), "0": (without / SCALE, "T/𝒟 for D = 0 (5.15)")})
+    p.printed(part("T/𝒟 at D = 0 is G - 2Vw, and ū is in 𝒟 only", without / SCALE, factored / SCALE))
     p.control(part("the same for any D", true_relation(), factored))
 
 
@@ -448,15 +490,25 @@ equation = equations(WEIERSTRASS)
 def weierstrass_form(p: Proof) -> None:
     """Jacobi's functions by Weierstrass' ones, with e1 - e3 = 1."""
     square, cosine, delta = 1 / (P - E3), (P - E1) / (P - E3), (P - E2) / (P - E3)
+    p.reads(
+        {
+            "k^2": (k2, "the square of the modulus (5.8)"),
+            "p": (P, "Weierstrass' function of δu"),
+            **{f"e_{i + 1}": (x, "a root of (p-e₁)(p-e₂)(p-e₃); their sum is 0") for i, x in enumerate((E1, E2, E3))},
+            r"\mathrm{sn}^2": (square, "1/(p - e₃), which solves (d sn²/du)² = 4 sn² cn² dn²"),
+            r"\mathrm{cn}^2": (1 - square, "1 - sn²"),
+            r"\mathrm{dn}^2": (1 - k2 * square, "1 - k² sn²"),
+        }
+    )
+    p.lemma(equation("e1 + e2 + e3 = 0", E1 + E2 + E3, 0))
     p.printed(
-        equation("e1 + e2 + e3 = 0", E1 + E2 + E3, 0),
         equation("cn² = 1 - sn²", cosine, 1 - square),
         equation("dn² = 1 - k² sn²", delta, 1 - k2 * square),
     )
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("and d/du sn² = 2 sn cn dn agrees with dp/du = q: (2 sn cn dn)² = (dsn²/dp)² q².")
     rate = sp.diff(square, P)
-    p.printed(equation("4 sn² cn² dn² = (d sn²/dp)² q²", 4 * square * cosine * delta, rate**2 * Q**2))
+    p.lemma(equation("4 sn² cn² dn² = (d sn²/dp)² q²", 4 * square * cosine * delta, rate**2 * Q**2))
     p.control(equation("dn² = 1 - sn²", delta, 1 - square))
 
 

@@ -33,9 +33,9 @@ REGULAR = "Λ1, Λ2, Λ3 are different, and l is none of 1/Λ1, 1/Λ2, 1/Λ3"
 
 @claim(
     "5.6-curve",
-    r"\mathcal E = \{|\gamma|^2=1,\ \langle\gamma,\Lambda^{-1}\gamma\rangle=l\} \text{ covers } "
-    r"\mathcal E_0 = \{w^2 = -(z-\Lambda_1^{-1})(z-\Lambda_2^{-1})(z-\Lambda_3^{-1})(z-l)\}"
-    r"\text{ 4-fold, unramified}",
+    r"\text{the curve } \mathcal E:\ \gamma_1^2+\gamma_2^2+\gamma_3^2 = 1,\ "
+    r"\Lambda_1^{-1}\gamma_1^2+\Lambda_2^{-1}\gamma_2^2+\Lambda_3^{-1}\gamma_3^2 = l,\ \text{covers the curve } \mathcal E_0:\ "
+    r"w^2 = -(z-\Lambda_1^{-1})(z-\Lambda_2^{-1})(z-\Lambda_3^{-1})(z-l),\ \text{4-fold, unramified}",
     ["prop-3", "5.8-modulus"],
 )
 def invariant_curve(p: Proof) -> None:
@@ -56,12 +56,21 @@ def invariant_curve(p: Proof) -> None:
         "On the curve the squares γ_i² lie on a line; z on it is chosen so that γ_i² = 0 at z = 1/Λ_i and ∞ at z = l:"
     )
     p.show("γ₁²", squares[0])
-    p.lemma(Equation("|γ|² = 1 for every z", sum(squares), 1, ring))
-    p.lemma(Equation("⟨γ,Λ⁻¹γ⟩ = l for every z", sum(s * a for s, a in zip(squares, roots, strict=True)), l, ring))
+    p.printed(Equation("|γ|² = 1 for every z", sum(squares), 1, ring))
+    p.printed(Equation("⟨γ,Λ⁻¹γ⟩ = l for every z", sum(s * a for s, a in zip(squares, roots, strict=True)), l, ring))
     scale = (roots[0] - roots[1]) * (roots[1] - roots[2]) * (roots[2] - roots[0]) / sp.prod(l - a for a in roots)
     p.say("w = γ₁γ₂γ₃ (z - l)² Π_{i<j}(1/Λ_i - 1/Λ_j)/Π(l - 1/Λ_i) is real where γ is, and")
     quartic = -sp.prod(z - a for a in roots) * (z - l)
     whole = sp.prod(squares) * (z - l) ** 4 * scale**2
+    p.reads(
+        {rf"\Lambda_{i + 1}": (lam, "an entry of Λ (5.2)") for i, lam in enumerate(LAMBDA)}
+        | {rf"\gamma_{i + 1}^2": (of, "its square on the curve, as a function of z") for i, of in enumerate(squares)}
+        | {
+            "l": (l, "the level (5.5)"),
+            "z": (z, "a coordinate of the line on which the squares are"),
+            "w^2": (whole, "the square of γ₁γ₂γ₃ (z - l)² Π_{i<j}(1/Λ_i - 1/Λ_j)/Π(l - 1/Λ_i)"),
+        }
+    )
     p.printed(Equation("w² = -(z-1/Λ1)(z-1/Λ2)(z-1/Λ3)(z-l)", whole, quartic, ring))
     p.say(
         "A point (z, w) fixes γ_i² and γ₁γ₂γ₃: four γ, from one by changing two of the four signs of (1, γ₁, γ₂, γ₃) in P³.",
@@ -69,8 +78,8 @@ def invariant_curve(p: Proof) -> None:
         "No two of γ₁², γ₂², γ₃² vanish at one z: γ_i² does at z = 1/Λ_i alone, where γ_j² is a product of differences",
     )
     pairs = [(i, j, 3 - i - j) for i in range(3) for j in range(3) if i != j]
-    p.printed(Equation("γ_j² = (l - 1/Λ_k)/(1/Λ_j - 1/Λ_k) at z = 1/Λ_i", [squares[j].subs(z, roots[i]) for i, j, _ in pairs],
-                       [(l - roots[k]) / (roots[j] - roots[k]) for _, j, k in pairs], ring))  # fmt: skip
+    p.lemma(Equation("γ_j² = (l - 1/Λ_k)/(1/Λ_j - 1/Λ_k) at z = 1/Λ_i", [squares[j].subs(z, roots[i]) for i, j, _ in pairs],
+                     [(l - roots[k]) / (roots[j] - roots[k]) for _, j, k in pairs], ring))  # fmt: skip
     p.say(
         "and two of them do not vanish at infinity (z = l), where each γ_i² has a simple pole with a non-zero coefficient:"
     )

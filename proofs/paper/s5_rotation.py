@@ -29,7 +29,10 @@ def printed_rotation() -> sp.Matrix:
 
 @claim(
     "5.1",
-    r"\Omega_{32} = -2(q_2q_3 - q_0q_1), \text{ and the eight other entries of (5.1)}",
+    r"\Omega = \begin{pmatrix}"
+    r"q_0^2+q_1^2-q_2^2-q_3^2 & 2(q_1q_2-q_3q_0) & 2(q_1q_3+q_2q_0)\\"
+    r"2(q_1q_2+q_3q_0) & q_0^2+q_2^2-q_1^2-q_3^2 & 2(q_2q_3-q_0q_1)\\"
+    r"2(q_1q_3-q_2q_0) & -2(q_2q_3-q_0q_1) & q_0^2+q_3^2-q_1^2-q_2^2\end{pmatrix}",
 )
 def rotation_matrix(p: Proof) -> None:
     """The rotation matrix, entry by entry: the entry (3,2) is misprinted."""
@@ -60,13 +63,22 @@ def rotation_matrix(p: Proof) -> None:
     def turns(text: str, matrix: sp.Matrix) -> Equation:
         return Equation(text, [sp.S.Zero, *(matrix * x)], list(turned), Quotient((*x, *RING.symbols)))
 
+    entry = quaternions.on_vectors(quaternions.turned()[0])[1][3]
+    p.reads(
+        {f"q_{i}": (part, "an Euler parameter (5.1)") for i, part in enumerate((q0, *q))}
+        | {
+            r"\Omega": (rotation, "x ↦ q x q̄, read off on the basis"),
+            r"\Omega_{32}": (entry, "the third component of q e₂ q̄, by the derivation"),
+        }
+    )
     p.printed(equation("(5.1), nine entries", printed, rotation))
     corrected = printed.copy()
     corrected[2, 1] = 2 * (q2 * q3 + q0 * q1)
     p.corrected(
         r"\Omega_{32} = 2(q_2q_3 + q_0q_1)",
-        turns("(5.1) with the entry (3,2) mended: Ωx = q x q̄ for every x", corrected),
+        Equation("(q e₂ q̄)₃ = 2(q₂q₃ + q₀q₁)", entry, corrected[2, 1], quaternions.RING),
     )
+    p.lemma(turns("(5.1) with the entry (3,2) mended: Ωx = q x q̄ for every x", corrected))
     p.counterexample(
         rational_point(UNIT | dict(zip(x, (1, 2, 3), strict=True)), [equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1)])
     )
@@ -229,11 +241,22 @@ def parameter_expansion(p: Proof) -> None:
     )
     constant, terms = quaternions.expansion()
     vector, scalar = quaternions.remainders()
-    zero, square = sp.zeros(3, 1), omega.dot(omega)
+    zero, square, small = sp.zeros(3, 1), omega.dot(omega), sp.Symbol("epsilon")
+    series = [small * terms[0][i] + small**2 * terms[1][i] for i in range(1, 4)]
+    p.reads(
+        {
+            r"\omega": (omega, "the angular velocity: the rotation is exp(εω)"),
+            r"\varepsilon": (small, "ε"),
+            r"\mathbf q": (sp.Matrix(series), "its terms in ε and ε², as q → 0, by the derivation"),
+            "q_0": (1 + small * terms[0][0], "its terms up to ε, as q₀ → 1, by the derivation"),
+            r"O(\varepsilon^3)": (zero, "no term in 1, ε and ε²"),
+            r"O(\varepsilon^2)": (sp.S.Zero, "no term in 1 and ε"),
+        }
+    )
+    p.lemma(words("q₀ → 1, and q → 0", constant, 1), ring("q/ε → ω/2", vector.limit, omega / 2))
     p.printed(
-        words("q₀ → 1, and q → 0", constant, 1),
-        ring("q/ε → ω/2", vector.limit, omega / 2),
-        ring("q has no term in ε², and q₀ none in ε", [*terms[1][1:], terms[0][0]], [*zero, 0]),
+        ring("q is (ε/2)ω but for terms in ε³", series, small / 2 * omega),
+        ring("q₀ is 1 but for terms in ε²", 1 + small * terms[0][0], 1),
     )
     p.lemma(exact_order("q - εω/2", vector, 3, less=1), exact_order("q₀ - 1", scalar, 2))
     p.lemma(ring("the leading term of q is -|ω|²ω/48", vector.leading, -square / 48 * omega))
@@ -251,8 +274,8 @@ def parameter_expansion(p: Proof) -> None:
 
 @claim(
     "5.2-limit",
-    r"\tfrac1\varepsilon\vec{\mathcal K} = \Lambda\omega - D\langle\gamma,\omega\rangle\gamma"
-    r"\text{ up to terms of order }\varepsilon,\ \Lambda = \mathrm{diag}(J_2+J_3+D, J_1+J_3+D, J_1+J_2+D)",
+    r"\tfrac1\varepsilon\vec{\mathcal K} = \Lambda\omega - D\langle\gamma,\omega\rangle\gamma,\ "
+    r"\text{up to terms of order }\varepsilon,\ \Lambda = \mathrm{diag}(J_2+J_3+D, J_1+J_3+D, J_1+J_2+D)",
     uses=["5.2", "5.2-expansion"],
 )
 def vector_limit(p: Proof) -> None:
@@ -260,6 +283,13 @@ def vector_limit(p: Proof) -> None:
     p.assume("|γ| = 1; the rotation of the step is exp(ε ω)")
     words = limits.momentum()
     limit = limits.in_vectors("K", words)
+    p.reads(
+        glossary.ball()
+        | {
+            **{f"J_{i + 1}": (x, "an entry of the mass tensor (5.2)") for i, x in enumerate((J1, J2, J3))},
+            r"\tfrac1\varepsilon\vec{\mathcal K}": (limit.limit, "without its terms in ε, by the derivation"),
+        }
+    )
     p.show("limit", limit.limit)
     p.show(f"leading remainder, order {limit.order}", limit.leading)
     p.lemma(Equation("𝒦 has no part without ε", words.constant, 0, ball.ALGEBRA))
@@ -303,7 +333,7 @@ def vector_form(p: Proof) -> None:
     p.lemma(Equation("Ωᵀx = x + (Ω - (q₀² + |q|²))ᵀx, here of 𝒦⃗", three.transported(K), rotation.T * K, ring))
     p.say("γ_k = Ωᵀγ_{k-1} is (4.11).")
     p.assume("in the limit the rotation of the step is exp(ε ω)")
-    words = limits.transport(ball.K)
+    words = limits.transport("K", ball.K)
     limit = limits.in_vectors("moved", words)
     p.lemma(Equation("Ωᵀ𝒦Ω - 𝒦 has no part without ε", words.constant, 0, ball.ALGEBRA))
     p.show(f"(Ωᵀ𝒦⃗ - 𝒦⃗)/ε, leading remainder of order {limit.order}", limit.leading)
@@ -316,7 +346,7 @@ def vector_form(p: Proof) -> None:
 
 @claim(
     "5.3-integrals",
-    r"\text{two independent integrals } \langle\mathcal K,\gamma\rangle = h,\ \langle\mathcal K,\mathcal K\rangle = n",
+    r"\langle\mathcal K,\gamma\rangle = h,\ \langle\mathcal K,\mathcal K\rangle = n,\ \text{two integrals that are independent}",
     uses=["5.3"],
 )
 def vector_integrals(p: Proof) -> None:
@@ -328,8 +358,16 @@ def vector_integrals(p: Proof) -> None:
     p.printed(
         Equation("⟨Ωᵀ𝒦, Ωᵀγ⟩ = ⟨𝒦, γ⟩", moved.dot(vertical), K.dot(gamma), ring),
         Equation("⟨Ωᵀ𝒦, Ωᵀ𝒦⟩ = ⟨𝒦, 𝒦⟩", moved.dot(moved), K.dot(K), ring),
-        Equation("|Ωᵀγ| = |γ|", vertical.dot(vertical), gamma.dot(gamma), ring),
     )
+    p.reads(
+        {
+            r"\mathcal K": (moved, "Ωᵀ𝒦, after a step (5.3)"),
+            r"\gamma": (vertical, "Ωᵀγ, after a step (5.3)"),
+            "h": (K.dot(gamma), "⟨𝒦,γ⟩ before the step"),
+            "n": (K.dot(K), "⟨𝒦,𝒦⟩ before the step"),
+        }
+    )
+    p.lemma(Equation("|Ωᵀγ| = |γ|", vertical.dot(vertical), gamma.dot(gamma), ring))
     p.say("Only ΩᵀΩ = 1 is used: the branch of Ω does not matter.")
     gradients = sp.Matrix([K.dot(gamma), K.dot(K), gamma.dot(gamma)]).jacobian(sp.Matrix([*K, *gamma]))
     at = three.placed((K, (1, "-1/2", "3/4")), (gamma, ("2/7", "3/7", "6/7")))
@@ -347,7 +385,7 @@ def vector_integrals(p: Proof) -> None:
     p.control(Equation("⟨Ωᵀ𝒦, Ωγ⟩ = ⟨𝒦, γ⟩", moved.dot(rotation * gamma), K.dot(gamma), ring))
 
 
-@claim("5.3-energy", r"\text{the energy integral (2.5) is not preserved}", uses=["5.3", "2.5"])
+@claim("5.3-energy", r"\text{the energy integral (2.5) is not preserved}:\ E_k \ne E_{k+1}", uses=["5.3", "2.5"])
 def energy_changes(p: Proof) -> None:
     """One exact step that changes the energy, (2.5) as corrected; as printed it changes, too."""
     p.infers("Not preserved: one step at which it changes is enough.")
@@ -356,25 +394,31 @@ def energy_changes(p: Proof) -> None:
     inverse, factor = three.lam().inv(), continuous.rolling_factor()
     quadratic, lifted = K.dot(inverse * K), D * gamma.dot(inverse * K) ** 2 / factor
 
-    def changes(name: str, energy: sp.Expr, at: dict) -> Comparison:
-        """That the energy is not the same before and after the step of the Euler parameters."""
+    def ends(energy: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        """The energy before and after the step of the Euler parameters."""
         before = energy.subs(three.placed((K, momentum)), simultaneous=True)
-        after = energy.subs(three.placed((K, turn * momentum), (gamma, turn * gamma)), simultaneous=True)
-        units = [sp.Eq(three.UNIT_QUATERNION, 0), sp.Eq(three.UNIT_VERTICAL, 0)]
-        return Comparison(name, [*units, sp.Ne(before, after)], at)
+        return before, energy.subs(three.placed((K, turn * momentum), (gamma, turn * gamma)), simultaneous=True)
+
+    def changes(name: str, energy: sp.Expr, at: dict) -> Comparison:
+        """That the energy is not the same before and after the step."""
+        return Comparison(name, [sp.Ne(*ends(energy))], at)
 
     ball = {J1: 1, J2: 2, J3: 4, D: 8}
     state = three.placed((gamma, map(sp.Rational, ("2/7", "3/7", "6/7")))) | UNIT | ball
     state = {symbol: sp.Rational(value) for symbol, value in state.items()}
     p.say("J = (1, 2, 4), D = 8, γ = (2, 3, 6)/7, Ω by (4, 2, 1, 2)/5; 𝒦 and γ after the step are Ωᵀ𝒦 and Ωᵀγ.")
-    for name, sign in (("as corrected", 1), ("as printed", -1)):
-        p.printed(changes(f"(2.5) {name} changes in that step", quadratic + sign * lifted, state))
+    units = [sp.Eq(three.UNIT_QUATERNION, 0), sp.Eq(three.UNIT_VERTICAL, 0)]
+    p.lemma(Comparison("|γ| = 1 and |(q₀, q)| = 1 there", units, state))
+    for symbol, value, when in zip(("E_k", "E_{k+1}"), ends(quadratic + lifted), ("before", "after"), strict=True):
+        p.reads({symbol: (value, f"(2.5) as corrected, {when} the step")})
+    p.printed(changes("(2.5) as corrected changes in that step", quadratic + lifted, state))
+    p.lemma(changes("(2.5) as printed changes in that step", quadratic - lifted, state))
     p.lemma(
         Equation("(2.5) as corrected is twice the energy", quadratic + lifted, 2 * continuous.energy(), limits.RING)
     )
     here = momentum.xreplace(state)
-    ends = {"J": "(1, 2, 4)", "D": "8", "γ": "(2, 3, 6)/7", "q₀, q": "(4, 2, 1, 2)/5", "𝒦": str(list(here))}
-    p.witness("generic", ends, Fact("|γ| = 1", gamma.dot(gamma).xreplace(state) == 1))
+    shown = {"J": "(1, 2, 4)", "D": "8", "γ": "(2, 3, 6)/7", "q₀, q": "(4, 2, 1, 2)/5", "𝒦": str(list(here))}
+    p.witness("generic", shown, Fact("|γ| = 1", gamma.dot(gamma).xreplace(state) == 1))
     p.say(
         "It may be kept in a step: a turn about an axis of the body that is vertical, or vertical momentum (6-vertical-energy)."
     )

@@ -44,6 +44,7 @@ SIGN = "Euler parameters that differ by a sign are one solution; q₀ ≥ 0, so 
 FINITE = "the solutions are finitely many, complex ones with them"
 UNEQUAL = [sp.Ne(a, b) for a, b in ((three.J1, three.J2), (three.J2, three.J3), (three.J3, three.J1))]
 NUMBER = "the number of real q with 𝒦 = K"
+COUNTED = {"N": (REAL, "the number of real q with 𝒦(q, γ) = 𝒦, Euler parameters that differ by a sign as one")}
 
 
 def count(
@@ -87,7 +88,8 @@ def isotropic_points() -> tuple[Quotient, list[sp.Expr]]:
 
 @claim(
     "5.3-at-most-4",
-    r"\text{for real } \mathcal K, \gamma \text{ the equations (5.2) have at most 4 real solutions } \mathbf q",
+    r"\text{for real } \mathcal K \text{ and } \gamma:\ N\le4,\ N \text{ the number of the real solutions } \mathbf q "
+    r"\text{ of the equations (5.2)}",
     uses=["5.2"],
 )
 def upper_bound(p: Proof) -> None:
@@ -100,6 +102,7 @@ def upper_bound(p: Proof) -> None:
     p.assume(FINITE)
     p.assume("J1, J2, J3 differ", *UNEQUAL)
     p.say("𝒦(q, γ) - 𝒦(q₀² + |q|²) = 0 are three quadrics in P³: at most 8 points if finitely many (Bézout).")
+    p.reads(COUNTED)
     p.printed(count(NUMBER, STRONG, ROLLING[8], REAL <= 4))
     points, isotropic = isotropic_points()
     spin = sp.Matrix(isotropic[1:])
@@ -108,8 +111,8 @@ def upper_bound(p: Proof) -> None:
     p.say("At D = 0 four of the 8 points are on q₀² + |q|² = 0 whatever 𝒦 is, hence not real:")
     p.say("q_i² = Λ_jΛ_k(Λ_k - Λ_j), q₀ = -q₁q₂q₃/(Λ₁Λ₂Λ₃); different Λ's give four of them up to sign.")
     p.corrected(
-        r"\text{if } J_1, J_2, J_3 \text{ differ and the solutions are finitely many, complex ones with them: "
-        r"at most 8 real solutions, and at most 4 if } D = 0",
+        r"\text{if the three } J_i \text{ differ and the solutions are finitely many, complex ones with them: "
+        r"at most 8 real solutions, and at most 4 where } D \text{ is 0}",
         homogeneous("the three equations are homogeneous of degree 2"),
         Equation("D = 0: 2(q₀Λq + q×Λq) = 0 at those points", flat, [sp.S.Zero] * 3, points),
         Equation("and q₀² + |q|² = 0", isotropic[0] ** 2 + spin.dot(spin), 0, points),
@@ -138,7 +141,8 @@ def upper_bound(p: Proof) -> None:
 
 @claim(
     "5.3-at-least-2",
-    r"\text{for real } \mathcal K, \gamma \text{ the equations (5.2) have at least 2 real solutions } \mathbf q",
+    r"\text{for real } \mathcal K \text{ and } \gamma:\ N\ge2,\ N \text{ the number of the real solutions } \mathbf q "
+    r"\text{ of the equations (5.2)}",
     uses=["5.2", "5.3-at-most-4"],
 )
 def lower_bound(p: Proof) -> None:
@@ -162,6 +166,7 @@ def lower_bound(p: Proof) -> None:
             at,
         )
     )
+    p.reads(COUNTED)
     p.printed(count(NUMBER, 7, large, REAL >= 2))
     p.say("It happens on orbits with D > 0: one step after a state that has a rotation, there may be none.")
     p.say("J = (1, 2, 3), D = 7, γ = (1, 2, 2)/3, Euler parameters ~ (4, 2, 4, -1):")

@@ -70,10 +70,8 @@ def sum_and_difference(p: Proof) -> None:
     """Sum and difference of consecutive verticals."""
     p.reads(vertical_symbols())
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
-    p.printed(
-        equation("γ~ + γ = (4q₀/σ)Λq", total(), 4 * q0 / sigma * vertical.lam() * q),
-        equation("γ~ - γ = (4/σ)Λq×q", difference(), 4 / sigma * (vertical.lam() * q).cross(q)),
-    )
+    p.lemma(equation("γ~ + γ = (4q₀/σ)Λq", total(), 4 * q0 / sigma * vertical.lam() * q))
+    p.printed(equation("γ~ - γ = (4/σ)Λq×q", difference(), 4 / sigma * (vertical.lam() * q).cross(q)))
     p.control(equation("γ~ - γ = (4/σ)q×Λq", difference(), 4 / sigma * q.cross(vertical.lam() * q)))
 
 

@@ -178,7 +178,7 @@ def consecutive_verticals(p: Proof) -> None:
 
 @claim(
     "prop-3",
-    r"\langle\gamma,\Lambda^{-1}\gamma\rangle = l \text{ is an integral of every branch of }\mathcal G_h",
+    r"\langle\gamma,\Lambda^{-1}\gamma\rangle = l,\ \text{an integral of every branch of }\mathcal G_h",
     uses=["5.4", "5.6", "5.3"],
 )
 def quadratic_integral(p: Proof) -> None:
@@ -189,6 +189,13 @@ def quadratic_integral(p: Proof) -> None:
     inverse = vertical.lam().inv()
     now, after = vertical.gamma_now(), vertical.gamma_next()
     p.say("σ ≠ 0: both verticals are functions of q, σ on |q|² + q₀² = 1, |γ| = 1; no branch is chosen.")
+    p.reads(
+        {
+            r"\Lambda": (vertical.lam(), "diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D), J the mass tensor (5.2)"),
+            r"\gamma": (after, "γ_(k+1), after a step (5.6 as corrected)"),
+            "l": (now.dot(inverse * now), "⟨γ_k,Λ⁻¹γ_k⟩, before the step (5.6)"),
+        }
+    )
     p.printed(equation("⟨γ_k, Λ⁻¹γ_k⟩ = ⟨γ_{k+1}, Λ⁻¹γ_{k+1}⟩", now.dot(inverse * now), after.dot(inverse * after)))
     any_inertia = Quotient((*gamma, *vertical.INERTIA), [])
     p.lemma(Equation("⟨γ, adj(Λ)γ⟩ = det(Λ)⟨γ, Λ⁻¹γ⟩", [vertical.weighted_square()],

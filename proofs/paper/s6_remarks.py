@@ -13,7 +13,7 @@ from chapsym.prove import Equation, Proof, claim, main
 
 @claim(
     "6-vertical-energy",
-    r"\text{in the case } \mathcal K\parallel\gamma \text{ the energy is preserved}",
+    r"\text{in the case } \mathcal K\parallel\gamma \text{ the energy is preserved}:\ E_{k+1} = E_k",
     ["prop-3", "2.5"],
 )
 def vertical_energy(p: Proof) -> None:
@@ -36,7 +36,11 @@ def vertical_energy(p: Proof) -> None:
     )
     inverse = vertical.lam().inv()
     now, after = (x.dot(inverse * x) for x in (vertical.gamma_now(), vertical.gamma_next()))
-    p.printed(Equation("l at γ~ is l at γ, for every branch: so is h²l/(1 - Dl)", after, now, RING))
+    at = Quotient((h, *RING.symbols), RING.relations)
+    before, later = (h**2 * level / (1 - D * level) for level in (now, after))
+    meaning = "h²l/(1 - Dl), ⟨𝒦,ω⟩ for 𝒦 = hγ"
+    p.reads({"E_k": (before, f"{meaning}, before a step"), "E_{k+1}": (later, f"{meaning}, after it")})
+    p.printed(Equation("h²l/(1 - Dl) at γ~ is that at γ, for every branch", later, before, at))
     p.control(Equation("𝒦 = hγ: ⟨𝒦,ω⟩ = h²l", energy, h**2 * form, ring))
     wrong = vertical.gamma_next().dot(vertical.lam() * vertical.gamma_next())
     p.control(Equation("⟨γ,Λγ⟩ is kept", wrong, vertical.gamma_now().dot(vertical.lam() * vertical.gamma_now()), RING))

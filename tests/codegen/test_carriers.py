@@ -144,7 +144,7 @@ def test_a_linear_system_is_solved():
         (dict.fromkeys(INPUTS, 0), "divides by 0 at its point"),
         ({"K1": 1, "K2": 1, "g1": 1}, "no value for g2"),
         (dict.fromkeys(INPUTS, 1.0), "neither an integer nor a quotient"),
-        ([], "a point that is none"),
+        ([], "point of a carrier of solved 0 must be of the kind dict"),
     ):
         with pytest.raises(Rejected, match=said):
             judge("solved", right_, {"inputs": INPUTS, "carriers": [carrier | {"point": point}]}, SOLVED)
