@@ -24,7 +24,9 @@ def lab(
     length: Annotated[
         float | None, typer.Option(metavar="TIME", min=0, help="Of a step; that of each system by default.")
     ] = None,
-    flags: Annotated[bool, typer.Option(help="Also decide if constraints are integrable, integrals kept.")] = True,
+    flags: Annotated[
+        bool, typer.Option(help="Also decide exactly what can be: constraints, integrals, methods.")
+    ] = True,
     halve: Annotated[bool, typer.Option(help="Also run with half the step: is a drift of the method?")] = False,
     output: Annotated[
         Path | None,
@@ -65,7 +67,7 @@ def lab(
             for name in methods if method or system.discrete else [one for one in methods if one != "own"]:
                 cell = next((c for c in done if (c["key"], c["method"], c["steps"]) == (key, name, steps)), None)
                 if cell is None:
-                    cell = {"key": key, **measured(system, name, steps, length, halve).data()}
+                    cell = {"key": key, **measured(system, name, steps, length, halve, flags).data()}
                     done.append(cell)
                 if not as_json:
                     print(_row(cell))

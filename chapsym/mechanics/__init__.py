@@ -15,9 +15,10 @@ from .lab import Cell, measured
 from .methods import METHODS, Method, Scheme
 from .motion import Motion, NotSolved, Runner, moved
 from .system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
+from .verdicts import Verdict, verdicts
 
 __all__ = [
     "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Conservation", "Discrete", "Flag", "Method", "Motion",
-    "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "after", "agree", "conserved", "dot", "flag",
-    "in_symbols", "loaded", "measured", "moved", "of_kane", "rate",
+    "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "Verdict", "after", "agree", "conserved", "dot",
+    "flag", "in_symbols", "loaded", "measured", "moved", "of_kane", "rate", "verdicts",
 ]  # fmt: skip

@@ -37,6 +37,7 @@ class Letters:
     def __init__(self, reserved: Iterable[sp.Symbol] = (), plain: bool = False) -> None:
         self._taken, self._plain = {x.name for x in reserved}, plain
         self._of: dict[sp.Expr, sp.Symbol] = {}
+        self._read: dict[sp.Expr, sp.Expr] = {}
 
     @property
     def meanings(self) -> dict[sp.Symbol, sp.Expr]:
@@ -46,6 +47,11 @@ class Letters:
     def into(self, expr: Any) -> sp.Expr:
         """An expression with letters in the place of its functions; raises BadSystem for others than these."""
         expr = sp.sympify(expr, strict=True)  # a text is not evaluated
+        if expr not in self._read:
+            self._read[expr] = self._made(expr)
+        return self._read[expr]
+
+    def _made(self, expr: sp.Expr) -> sp.Expr:
         if expr.is_Symbol or expr.is_Rational:
             return expr
         if expr is sp.pi:

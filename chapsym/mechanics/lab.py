@@ -12,6 +12,7 @@ import sympy as sp
 from .methods import Scheme, _Parts
 from .motion import Motion, NotSolved, Runner
 from .system import System, number
+from .verdicts import Verdict, verdicts
 
 #: Of all steps, the part at each end whose means are compared; and how many points of the energy a cell keeps.
 END, KEPT = 10, 240
@@ -60,6 +61,8 @@ class Cell:
         Why there are no figures: the step that has no solution.
     curve : list of [float, float]
         Time and energy.
+    verdicts : dict of str to Verdict
+        What `verdicts` decides, where it was asked for.
     """
 
     system: str
@@ -79,6 +82,7 @@ class Cell:
     microseconds: float = math.nan
     failed: str | None = None
     curve: tuple[tuple[float, float], ...] = ()
+    verdicts: dict[str, Verdict] = field(default_factory=dict)
 
     def data(self) -> dict[str, Any]:
         """As JSON, which has no NaN."""
@@ -89,11 +93,24 @@ class Cell:
         """From that."""
         curve = tuple((float(t), float(e)) for t, e in data["curve"])
         figures = ("energy", "oscillation", "drift", "constraint", "places", "microseconds")
-        return cls(**{**data, "curve": curve, **{k: math.nan if data[k] is None else data[k] for k in figures}})
+        decided = {name: Verdict(**one) for name, one in data.get("verdicts", {}).items()}
+        return cls(
+            **{
+                **data,
+                "curve": curve,
+                "verdicts": decided,
+                **{k: math.nan if data[k] is None else data[k] for k in figures},
+            }
+        )
 
 
 def measured(
-    system: System, method: str, steps: int = 100_000, length: float | None = None, halve: bool = False
+    system: System,
+    method: str,
+    steps: int = 100_000,
+    length: float | None = None,
+    halve: bool = False,
+    decide: bool = False,
 ) -> Cell:
     """What a method makes of a system.
 
@@ -107,6 +124,8 @@ def measured(
         Of a step; that of the system by default.
     halve : bool
         Whether the drift is measured with steps of half the length, too.
+    decide : bool
+        Whether what can be is decided exactly, too.
 
     Returns
     -------
@@ -126,6 +145,8 @@ def measured(
     runner = Runner(system, method)
     h = runner.length if length is None else number(length, "the length of a step")
     first = Cell(system.name, method, steps, h, kept=keeps(system, runner.scheme))
+    if decide:
+        first = replace(first, verdicts=verdicts(system, runner.scheme))
     try:
         runner.march(1, h)  # what is compiled once
         motion = runner.march(steps, h, -(-steps // MOST))

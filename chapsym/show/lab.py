@@ -26,7 +26,7 @@ th:first-child, td:first-child {{ text-align: left; }}
 of the first. Constraint: the largest |A v + b| of the constraints on velocities; proved 0 where an equation of the
 method says so. Places: the largest value of the holonomic constraints. Order: of the error of the place when the
 steps are halved; - where rounding hides it. Returns: how far the place is from its start after 100 steps, the
-velocities turned round, and 100 steps. All but what is proved is measured.</p>
+velocities turned round, and 100 steps. Proved and false are exact; all else is measured.</p>
 {systems}
 </html>
 """
@@ -51,7 +51,7 @@ def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constrai
         rows = "".join(_row(cell, titles[cell["method"]]) for cell in own)
         said = f"<p>{escape(constraints[name])}.</p>" if name in constraints else ""
         head = f"<tr>{''.join(f'<th>{name}' for name in COLUMNS)}</tr>"
-        parts.append(f"<h2>{escape(name)}</h2>{said}<table>{head}{rows}</table>{_curves(own)}")
+        parts.append(f"<h2>{escape(name)}</h2>{said}<table>{head}{rows}</table>{_verdicts(own)}{_curves(own)}")
     return PAGE.format(systems="\n".join(parts))
 
 
@@ -68,6 +68,7 @@ def figures(cell: Mapping[str, Any]) -> list[str]:
     if cell["halved"] is not None:
         times = abs(cell["drift"] / cell["halved"]) if cell["halved"] else math.inf
         more.append(f"with half the step: {cell['halved']:+.1e}, {times:.1f} times less")
+    more += [f"{verdict}: {', '.join(of)}" for verdict, of in decided(cell).items() if of]
     return [
         of("order", ".2f"),
         of("energy", ".6g"),
@@ -79,6 +80,29 @@ def figures(cell: Mapping[str, Any]) -> list[str]:
         of("microseconds", ".2f"),
         "; ".join(more),
     ]
+
+
+def decided(cell: Mapping[str, Any]) -> dict[str, list[str]]:
+    """What is proved of a cell, with its order; what is false, with the power of the step; what is neither."""
+    found: dict[str, list[str]] = {"proved": [], "false": [], "not decided": []}
+    for name, one in cell.get("verdicts", {}).items():
+        if one["verdict"] == "measured":
+            found["not decided"].append(f"{name} ({one['said']})" if name == "order" else name)
+        else:
+            shown = {"proved": one["said"], "false": one["said"].rpartition(" ")[2]}[one["verdict"]]
+            found[one["verdict"]].append(f"{name} {shown}".rstrip())
+    return found
+
+
+def _verdicts(cells: Sequence[Mapping[str, Any]]) -> str:
+    """The verdicts of methods, with the exact states where they are false."""
+    lines = []
+    for cell in cells:
+        for name, one in cell.get("verdicts", {}).items():
+            at = ", ".join(f"{x} = {v}" for x, v in one["point"].items())
+            said = " ".join(filter(None, (one["verdict"], one["said"], at and f"from {at}")))
+            lines.append("<li>" + escape(f"{cell['method']}: {name}: {said}"))
+    return f"<details><summary>Exact verdicts</summary><ul>{''.join(lines)}</ul></details>" if lines else ""
 
 
 def _row(cell: Mapping[str, Any], title: str) -> str:

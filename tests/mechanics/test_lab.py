@@ -35,6 +35,20 @@ def test_a_table_with_verdicts_and_figures():
     assert last.split()[1].startswith("4.0")
 
 
+def test_exact_verdicts_are_in_the_table_in_json_and_on_the_page(tmp_path):
+    out = tmp_path / "lab.html"
+    done = chapsym("lab", SYSTEMS / "contact.py", "--method", "gni", "--steps", 20, "-o", out)
+    assert "proved: order 2, self-adjoint; false: reversible h^3, keeps the energy h^2" in done.stdout
+    (cell,) = answer("lab", SYSTEMS / "contact.py", "--method", "gni", "--steps", 20)["cells"]
+    assert cell["verdicts"]["order"] == {"verdict": "proved", "said": "2", "point": {}}
+    wrong = cell["verdicts"]["reversible"]
+    assert wrong["verdict"] == "false"
+    assert set(wrong["point"]) == {"x", "y", "z", "x_dot", "y_dot", "z_dot"}
+    assert f"<li>gni: reversible: false {wrong['said']} from x = 1" in out.read_text(encoding="utf-8")
+    plain = answer("lab", SYSTEMS / "contact.py", "--method", "gni", "--steps", 20, "--no-flags")
+    assert plain["cells"][0]["verdicts"] == {}
+
+
 def test_json_is_gone_on_with(tmp_path):
     out = tmp_path / "lab.json"
     options = ["--steps", 300, "-o", out, "--json", FILE]

@@ -1,0 +1,252 @@
+"""Steps of a method, and the exact motion, as power series in the length of a step from an exact state.
+
+All coefficients are rational numbers.  A state has its angles at 0, where sines and cosines of series are rational.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import cached_property, reduce
+from operator import add, mul
+from typing import Any
+
+import sympy as sp
+from flint import ctx, fmpq, fmpq_mat, fmpq_series
+
+from chapsym.prove import Examples
+from chapsym.prove.points import candidates
+
+from .methods import Scheme
+from .system import STEP, System, rational
+
+#: Numbers for coordinates that holonomic constraints bind: those of a quaternion, to begin with.
+UNIT = ("1/5", "2/5", "4/5", "2/5")
+
+Series = Any  # python-flint has no types
+State = list[Series]
+
+
+class Undecided(ArithmeticError):
+    """What exact series do not decide; the message says why."""
+
+
+@contextmanager
+def terms(count: int) -> Iterator[None]:
+    """Series have this number of terms."""
+    before, ctx.cap = ctx.cap, count
+    try:
+        yield
+    finally:
+        ctx.cap = before
+
+
+def evaluated(expressions: Iterable[sp.Expr], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:
+    """Expressions in any numbers: fractions, series, those of a finite field."""
+    known = dict(values)
+
+    def of(expr: sp.Expr) -> Any:
+        if expr not in known:
+            known[expr] = made(expr)
+        return known[expr]
+
+    def made(expr: sp.Expr) -> Any:
+        if expr.is_Rational:
+            return number(expr.p, 1) / number(expr.q, 1)
+        if isinstance(expr, sp.Add | sp.Mul):
+            return reduce(add if isinstance(expr, sp.Add) else mul, map(of, expr.args))
+        if isinstance(expr, sp.Pow) and expr.exp.is_Rational and expr.exp.q <= 2:
+            base, power = of(expr.base), abs(expr.exp.p)
+            whole = (base if expr.exp.q == 1 else _root(base)) ** power
+            return 1 / whole if expr.exp.p < 0 else whole
+        if isinstance(expr, sp.sin | sp.cos | sp.tan):
+            return getattr(series(of(expr.args[0])), expr.func.__name__)()
+        raise Undecided(f"{expr!s:.60} has no exact series")
+
+    try:
+        return [of(e) for e in expressions]
+    except ZeroDivisionError:
+        raise Undecided("an expression divides by 0 at the exact state") from None
+    except ValueError:
+        raise Undecided("an expression has no rational series at the exact state") from None
+
+
+def series(x: Any) -> Series:
+    """A number as a series."""
+    return x if isinstance(x, fmpq_series) else fmpq_series([x])
+
+
+def _root(x: Series) -> Series:
+    return (series(x) / series(x)[0]).sqrt() * series(x)[0].sqrt()
+
+
+class Exact:
+    """A system with its numbers, and its motion as series."""
+
+    def __init__(self, system: System) -> None:
+        self.system, self.n, self.m = system, len(system.coordinates), system.rows.rows
+        self.numbers = {x: rational(v, f"{system.name}: the parameter {x}") for x, v in system.parameters.items()}
+        self._moved: dict[tuple[Any, ...], tuple[State, list[Series]]] = {}
+        matrix, right = system.equations
+        self._linear, self._right = self.read(matrix), self.read(right)
+        self.symbols = (*system.coordinates, *system.velocities)
+
+    def read(self, expressions: Iterable[Any]) -> list[sp.Expr]:
+        """Expressions with the numbers of the parameters; raises Undecided for floats."""
+        found = [sp.sympify(e).xreplace(self.numbers) for e in expressions]
+        if any(e.has(sp.Float) for e in found):
+            raise Undecided("there are floats")
+        return found
+
+    def at(self, expressions: Iterable[Any], state: Sequence[Series]) -> list[Series]:
+        """Expressions of coordinates, and of velocities, at a state (of coordinates alone, too)."""
+        return evaluated(self.read(expressions), dict(zip(self.symbols, state, strict=False)))
+
+    @cached_property
+    def state(self) -> State:
+        """Exact coordinates and velocities that obey the constraints, with angles at 0."""
+        system = self.system
+        everything = (system.lagrangian, *system.constraints, *system.holonomic, *system.forces.values())
+        functions = set().union(*(e.atoms(sp.sin, sp.cos, sp.tan) for e in everything))
+        angles = set().union(*(e.free_symbols for e in functions)) & set(system.coordinates)
+        kept = self.read(e.xreplace(dict.fromkeys(angles, sp.S.Zero)) for e in system.holonomic)
+        table = {x: sp.Rational(i + 2, i % 3 + 2) for i, x in enumerate(system.coordinates)}
+        related = [x for x in system.coordinates if any(e.has(x) for e in kept)]
+        table |= {x: sp.Rational(UNIT[i % 4]) for i, x in enumerate(related)}
+        try:
+            free = [x for x in system.coordinates if x not in angles]
+            place = next(candidates(free, kept, Examples(numbers=table)))
+        except (StopIteration, ArithmeticError, sp.PolynomialError):
+            raise Undecided("no exact state is found") from None
+        q = [fmpq(place[x].p, place[x].q) if x in place else fmpq(0) for x in system.coordinates]
+        v = [fmpq(2 * i + 3, i + 2) for i in range(self.n)]
+        return [_at(x, 0) for x in self.velocities([*q, *self.at(system.momenta, [*q, *v])])[0]]
+
+    def solved(self, place: State, right: Sequence[Series]) -> list[Series]:
+        """[M, -Aᵀ; A, 0] x = right at a place."""
+        size = self.n + self.m
+        entries = self.at(self._linear, place)
+        rows = [entries[size * i : size * (i + 1)] for i in range(size)]
+        slope = inverse(fmpq_mat([[_at(x, 0) for x in row] for row in rows]))
+        found: list[Series] = [fmpq_series([0])] * size
+        for _ in range(ctx.cap):
+            short = [
+                sum((a * x for a, x in zip(row, found, strict=True)), -r) for row, r in zip(rows, right, strict=True)
+            ]
+            found = _less(found, slope, short)
+        return found
+
+    def moved(self, state: Sequence[fmpq]) -> tuple[State, list[Series]]:
+        """The exact motion from a state over the time of a step, and its multipliers."""
+        key = ctx.cap, *map(str, state)
+        if key not in self._moved:
+            now, rates = [series(x) for x in state], list[Series]()
+            for _ in range(ctx.cap):
+                rates = self.solved(now[: self.n], self.at(self._right, now))
+                v = [x + rate.integral() for x, rate in zip(state[self.n :], rates, strict=False)]
+                now = [*(x + u.integral() for x, u in zip(state, v, strict=False)), *v]
+            self._moved[key] = now, rates[self.n :]
+        return self._moved[key]
+
+    def velocities(self, state: Sequence[Series], has_momenta: bool = True) -> tuple[State, list[Series]]:
+        """Place and velocity v of a place and momenta p, and c, with p = ∂L/∂v + Aᵀc and A v + b = 0."""
+        place, momenta = list(state[: self.n]), state[self.n :]
+        if not has_momenta:
+            return list(state), []
+        at_rest = self.at(self.system.momenta, [*place, *([fmpq(0)] * self.n)])
+        right = [p - b for p, b in zip(momenta, at_rest, strict=True)]
+        found = self.solved(place, [*right, *(-b for b in self.at(self.system.offsets, place))])
+        return [*place, *found[: self.n]], [-x for x in found[self.n :]]
+
+
+class Stepped:
+    """The steps of a method as series."""
+
+    def __init__(self, exact: Exact, scheme: Scheme) -> None:
+        self.exact, self.scheme = exact, scheme
+        self.residual, self.after = exact.read(scheme.residual), exact.read(scheme.after)
+        self.seen = exact.read((*scheme.place, *scheme.velocity))
+        self.has_momenta = scheme.state[exact.n] not in exact.system.velocities
+
+    def start(self, state: State) -> State:
+        """The state of the method."""
+        return list(map(series, self.exact.at(self.scheme.start, state)))
+
+    def guess(self, state: State) -> State:
+        """A first guess of the unknowns."""
+        return list(map(series, self.exact.at(self.scheme.guess, state)))
+
+    def of(self, expressions: Sequence[sp.Expr], state: State, unknowns: State, length: Series) -> list[Series]:
+        """Expressions of the method."""
+        symbols = (*self.scheme.state, *self.scheme.unknowns, STEP)
+        return evaluated(expressions, dict(zip(symbols, (*state, *unknowns, length), strict=True)))
+
+    def slopes(self, state: State, unknowns: State, length: Series, along: Sequence[State]) -> list[list[fmpq]]:
+        """The derivatives of the equations along directions of state and unknowns, at the start of the series.
+
+        Of an equation that a step multiplies, the next coefficient: `shift` says which are such.
+        """
+        small, size = fmpq_series([0, 0, 1]), len(unknowns)
+        first, found = self.of(self.residual, state, unknowns, length), []
+        for direction in along:
+            moved = [x + small * d if d != 0 else x for x, d in zip([*state, *unknowns], direction, strict=True)]
+            other = self.of(self.residual, moved[:-size], moved[-size:], length)
+            found.append([a - b for a, b in zip(other, first, strict=True)])
+        self.shift = [0 if any(_at(column[i], 2) != 0 for column in found) else 1 for i in range(size)]
+        return [[_at(column[i], 2 + self.shift[i]) for column in found] for i in range(size)]
+
+    def solved(self, state: State, unknowns: State, length: Series) -> State:
+        """The unknowns of a step near a guess."""
+        size, before = len(unknowns), len(state)
+        units = [[fmpq(i == before + j) for i in range(before + size)] for j in range(size)]
+        slope = inverse(fmpq_mat(self.slopes(state, unknowns, length, units)))
+        for _ in range(ctx.cap + 1):
+            left = self.of(self.residual, state, unknowns, length)
+            if any(s and _at(x, 0) != 0 for x, s in zip(left, self.shift, strict=True)):
+                raise Undecided("the equations of a step have no solution near the exact state")
+            short = [
+                fmpq_series([_at(x, k + s) for k in range(ctx.cap - s)]) for x, s in zip(left, self.shift, strict=True)
+            ]
+            unknowns = _less(unknowns, slope, short)
+        if any(_at(x, k) != 0 for x in self.of(self.residual, state, unknowns, length) for k in range(ctx.cap - 1)):
+            raise Undecided("the equations of a step are not solved near the exact state")
+        return unknowns
+
+    def step(self, state: State, unknowns: State, length: Series) -> tuple[State, State]:
+        """The state after a step, and its unknowns."""
+        unknowns = self.solved(state, unknowns, length)
+        rates = [self.of(self.after, state, unknowns, length)]
+        if not self.scheme.stages:
+            return rates[0], unknowns
+        at, now = state, unknowns
+        for row in self.scheme.stages:
+            at = [
+                x + length * sum((fmpq(a.p, a.q) * rate[i] for a, rate in zip(row, rates, strict=True)), fmpq(0))
+                for i, x in enumerate(state)
+            ]
+            if row is not self.scheme.stages[-1]:
+                now = self.solved(at, now, length)
+                rates.append(self.of(self.after, at, now, length))
+        return at, unknowns
+
+
+def _at(x: Any, k: int) -> fmpq:
+    """The coefficient of the power k."""
+    if isinstance(x, fmpq_series):
+        return x[k]
+    return x if k == 0 else fmpq(0)
+
+
+def inverse(matrix: fmpq_mat) -> fmpq_mat:
+    """The inverse; raises Undecided where there is none."""
+    try:
+        return matrix.inv()
+    except ZeroDivisionError:
+        raise Undecided("the equations are singular at the exact state") from None
+
+
+def _less(found: State, inverse: fmpq_mat, short: Sequence[Series]) -> State:
+    """x - J⁻¹ r."""
+    size = len(found)
+    return [
+        x - sum((inverse[i, j] * short[j] for j in range(size) if inverse[i, j] != 0), fmpq_series([0]))
+        for i, x in enumerate(found)
+    ]

@@ -1,0 +1,527 @@
+"""What a method does to a system, decided: its order, whether its steps return, what it keeps; proved, or refuted.
+
+A statement is refuted by the series of a step in its length h from an exact state (`series`): where a coefficient is
+not 0 there, the statement is wrong for all small h.  It is proved by equations: what should vanish is a combination,
+with rational numbers and perhaps with unknowns as factors, of what the method, the constraints and the motion set to 0.
+What is neither stays measured.
+
+Momenta of a method count up to the reactions Aᵀc, which constraints determine: the velocity v of a state (q, p) is that
+with p = ∂L/∂v + Aᵀc and A v + b = 0.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from itertools import islice, product
+from typing import Any
+
+import sympy as sp
+from flint import fmpq, fmpq_mat, fmpq_series, nmod, nmod_mat
+
+from chapsym.derive import Quotient
+
+from .algebra import Letters
+from .methods import Scheme
+from .series import Exact, Series, State, Stepped, Undecided, _at, evaluated, inverse, terms
+from .system import STEP, BadSystem, System, rate
+
+#: A prime in which combinations are looked for, and the largest denominator and numerator of their factors.
+PRIME, BELOW, ABOVE = 2**61 - 1, 24, 10_000
+#: The most operations in the expressions of a proof, and equations that are combined: what needs more stays measured.
+MOST_OPERATIONS, MOST_KNOWN = 60_000, 400
+MOST_CHOICES = 64
+#: How many coefficients of a series are looked at, for methods with equations of a step and for explicit ones, whose
+#: order is higher; and terms beyond, as the last are not those of a step.
+LOOKED, LOOKED_FURTHER, BEYOND = 6, 7, 2
+
+
+#: Symbols, and their numbers at the exact state.
+Named = tuple[Any, list[fmpq]]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Of a property of a method on a system.
+
+    Attributes
+    ----------
+    verdict : str
+        "proved", "false" or "measured", where neither is decided: the figure of the lab is all there is.
+    said : str
+        The order that is proved, what is wrong and where, or what is not decided.
+    point : mapping of str to str
+        The exact coordinates and velocities where it is false.
+    """
+
+    verdict: str
+    said: str = ""
+    point: Mapping[str, str] = field(default_factory=dict)
+
+
+def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
+    """What is decided of a method on a system, with its numbers.
+
+    Parameters
+    ----------
+    system : System
+    scheme : Scheme
+        As `METHODS[name].scheme(system)` is one.
+
+    Returns
+    -------
+    dict
+        {"order", "self-adjoint", "reversible", and "keeps " with the name of what the exact motion keeps: Verdict}.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> from chapsym.mechanics import METHODS, System, dot, verdicts
+    >>> x, y, z = symbols("x y z")
+    >>> particle = System("particle", (x, y, z), sum(dot(q) ** 2 for q in (x, y, z)) / 2, [dot(z) - y * dot(x)])
+    >>> found = verdicts(particle, METHODS["dla"].scheme(particle))
+    >>> found["order"].said, found["self-adjoint"].verdict, found["keeps the energy"].verdict
+    ('2', 'proved', 'false')
+    """
+    quantities = _quantities(system)
+    names = ["order", "self-adjoint", "reversible", *(f"keeps {name}" for name in quantities)]
+    looked = LOOKED_FURTHER if scheme.stages else LOOKED
+    with terms(looked + BEYOND):
+        try:
+            judged = _Judged(_exact(system), scheme, looked)
+        except (Undecided, BadSystem) as error:
+            return dict.fromkeys(names, Verdict("measured", str(error)))
+        adjoint = _decided(judged.returns, -1)
+        found = [_decided(judged.order, adjoint.verdict == "proved"), adjoint, _decided(judged.returns, 1)]
+        found += [_decided(judged.keeps, quantity) for quantity in quantities.values()]
+    return dict(zip(names, found, strict=True))
+
+
+def _decided(judge: Callable[[Any], Verdict], of: Any) -> Verdict:
+    try:
+        return judge(of)
+    except (Undecided, BadSystem) as error:
+        return Verdict("measured", str(error))
+
+
+@lru_cache(maxsize=1)
+def _exact(system: System) -> Exact:
+    """A system whose motion all methods share."""
+    return Exact(system)
+
+
+def _quantities(system: System) -> dict[str, sp.Expr]:
+    """What the exact motion may keep: the energy, momenta along which nothing pushes, and what the system names."""
+    found = {"the energy": system.energy} if system.keeps_energy else {}
+    for i, (x, p) in enumerate(zip(system.coordinates, system.momenta, strict=True)):
+        if system.push[i] == 0 and not any(system.rows[:, i]):
+            found[f"the momentum of {x}"] = p
+    return found | dict(system.integrals)
+
+
+class _Judged:
+    """A method on a system, with a step in symbols and as series from an exact state."""
+
+    def __init__(self, exact: Exact, scheme: Scheme, looked: int) -> None:
+        self.system, self.scheme, self.exact, self.looked = exact.system, scheme, exact, looked
+        self.n, self.state = exact.n, exact.state
+        self.h: Series = fmpq_series([0, 1])
+        self.stepped = Stepped(exact, scheme)
+        self.blocks: dict[str, list[int]] = {}
+        for i, x in enumerate(scheme.unknowns):
+            self.blocks.setdefault(x.name.rsplit(" ", 1)[0], []).append(i)
+        self.reacting = [scheme.unknowns[i] for i in self.blocks.get("lam", [])]
+        rows = self.system.rows.T * sp.Matrix(self.reacting) if self.reacting else sp.zeros(self.n, 1)
+        #: Momenta after the reaction at the place, by the state and the first multipliers.
+        self.kicked = [*scheme.state[: self.n], *(p + x for p, x in zip(scheme.state[self.n :], rows, strict=True))]
+
+    @cached_property
+    def forth(self) -> tuple[State, State, State, State]:
+        """A state of the method and the next one, their unknowns."""
+        first = self.stepped.start(self.state)
+        there, z = self.stepped.step(first, self.stepped.guess(self.state), self.h)
+        return first, there, z, self.stepped.solved(there, z, self.h)
+
+    def wrong(self, what: str, *pairs: tuple[str, Series, Any]) -> Verdict | None:
+        """Where the first of some series differ, if they do."""
+        for k in range(self.looked):
+            for name, one, other in pairs:
+                if (by := _at(one, k) - _at(other, k)) != 0:
+                    point = {str(x): str(v) for x, v in zip(self.exact.symbols, self.state, strict=True)}
+                    return Verdict("false", f"{what} {name} by {by} h^{k}", point)
+        return None
+
+    def order(self, adjoint: bool) -> Verdict:
+        """That of the local error, of place and velocity, less one; false where a step does not follow the motion."""
+        final = self.after(self.state, self.reactions)[0]
+        pairs = list(zip(map(str, self.exact.symbols), final, self.exact.moved(self.state)[0], strict=True))
+        looked = 4 if self.reactions else self.looked  # c₃ is not known
+        most = next((k - 1 for k in range(looked) if any(_at(x, k) != _at(y, k) for _, x, y in pairs)), self.looked)
+        if most < 1 and (wrong := self.wrong("a step of the exact motion differs in", *pairs)):
+            return wrong
+        least = self.least_order(adjoint)
+        if least == most:
+            return Verdict("proved", str(least))
+        bounds = [f"at least {least}"] * (least > 0) + [f"at most {most}"] * (most < self.looked)
+        return Verdict("measured", ", ".join(bounds))
+
+    def reacted(self, state: State, reaction: Sequence[Series]) -> State:
+        """The state of the method at a place and velocity, with momenta that have Aᵀc more."""
+        start = self.stepped.start(state)
+        of = dict(zip((*self.scheme.state, *self.reacting), (*start, *reaction), strict=False))
+        return evaluated(self.exact.read(self.kicked), of) if reaction else start
+
+    def after(self, state: State, reaction: Sequence[Series]) -> tuple[State, list[Series]]:
+        """Place and velocity after a step from that state, and the c of the next one."""
+        final, _ = self.stepped.step(self.reacted(state, reaction), self.stepped.guess(self.state), self.h)
+        return self.exact.velocities(final, self.stepped.has_momenta)
+
+    @cached_property
+    def reactions(self) -> list[Series]:
+        """The c = h c₁ + h² c₂ of momenta that move on smoothly, without oscillations from step to step.
+
+        If momenta have Aᵀc more, the next have Aᵀκc more; where κ is not 1, c(x(h)) = κ c(x) + ... determines c.
+        """
+        m = self.exact.m
+        if not self.stepped.has_momenta or not m:
+            return []
+        if not self.reacting:
+            raise Undecided("no multipliers of the reaction are found")
+        units = [[fmpq(i == j) for i in range(m)] for j in range(m)]
+        none, small = [fmpq(0)] * m, self.h**3
+        bare = self.after(self.state, none)[1]
+        kept = [[_at(x, 0) for x in self.after(self.state, one)[1]] for one in units]
+        left = inverse(fmpq_mat([[(i == j) - kept[j][i] for j in range(m)] for i in range(m)]))
+        rates = [x.derivative()[0] for x in self.exact.moved(self.state)[0]]
+        later = self.after([x + small * r for x, r in zip(self.state, rates, strict=True)], none)[1]
+
+        def settled(of: Sequence[fmpq]) -> list[fmpq]:
+            return [sum((left[i, j] * x for j, x in enumerate(of)), fmpq(0)) for i in range(m)]
+
+        first = settled([_at(x, 1) for x in bare])
+        turning = settled([_at(x, 4) - _at(y, 4) for x, y in zip(later, bare, strict=True)])  # the rate of c₁
+        normal = self.after(self.state, [self.h * x for x in first])[1]
+        second = settled([_at(x, 2) - r for x, r in zip(normal, turning, strict=True)])
+        return [self.h * x + self.h**2 * y for x, y in zip(first, second, strict=True)]
+
+    def least_order(self, adjoint: bool) -> int:
+        """What is proved: for an explicit method by its tableau, else by the first coefficient, and symmetry."""
+        if not self.is_consistent():
+            return 0
+        if self.scheme.stages:
+            return _of_tableau(self.scheme.stages)
+        return 2 if adjoint else 1
+
+    def is_consistent(self) -> bool:
+        """Whether the equations are those of the motion in their first powers of h, at any state.
+
+        Unknowns begin as velocities, accelerations or reactions.  What they change by is guessed at the exact state: a
+        sum of halves of the vectors that `vectors` lists; and so are the momenta that move on smoothly.
+        """
+        scheme, n, system = self.scheme, self.n, self.system
+        start = self.reacted(self.state, self.reactions)
+        unknowns = self.stepped.solved(start, self.stepped.guess(self.state), self.h)
+        shift, (known, changes, forces) = self.stepped.shift, self.vectors
+        v, put, is_moving = sp.Matrix(system.velocities), dict[sp.Symbol, sp.Expr](), False
+        for block in self.blocks.values():
+            begin, then = ([_at(unknowns[i], k) for i in block] for k in (0, 1))
+            if len(block) == n and begin == self.state[n:]:
+                is_moving, found, change = True, v, _guessed(then, changes)
+            else:
+                found, change = _guessed(begin, changes[:1] if len(block) == n else forces[:2]), sp.zeros(len(block), 1)
+                if found is not None and not any(found):
+                    change = _guessed(then, forces)
+            if found is None or change is None:
+                return False
+            put |= {scheme.unknowns[i]: x + STEP * y for i, x, y in zip(block, found, change, strict=True)}
+        p, goal = v, changes[0][0]
+        if self.stepped.has_momenta:
+            held = sp.zeros(n, 1)
+            if self.reactions:
+                if (smooth := _guessed([_at(x, 1) for x in self.reactions], forces)) is None:
+                    return False
+                held = system.rows.T * smooth
+            p = sp.Matrix(system.momenta) + STEP * held
+            goal = rate(sp.Matrix(system.momenta), system.coordinates) + system.mass * goal + held
+            put |= dict(zip(scheme.state[n:], p, strict=True))
+        residual, after = replaced(scheme.residual, put), replaced(scheme.after, put)
+        if scheme.stages:
+            return after == [*v, *goal] and self.spanned(residual, known)
+        powers = zip(coefficients(residual), shift, strict=True)
+        aims = [x for found, late in powers for x in found[: 2 + late if is_moving else 1]]
+        first_ones = (*system.coordinates, *replaced(p, {STEP: sp.S.Zero}))
+        for (first, second, _), before, further in zip(coefficients(after), first_ones, (*v, *goal), strict=True):
+            aims += [first - before, second - further]
+        return self.spanned(aims, known)
+
+    @cached_property
+    def vectors(self) -> tuple[list[sp.Expr], list[Named], list[Named]]:
+        """What is 0; and what velocities and momenta may change by, as symbols and at the exact state.
+
+        Those are accelerations a; the rest r of the rate of ∂L/∂v without mass, M r = d/dt ∂L/∂v - M a; accelerations e
+        of fixed mass and constraints, M e - Aᵀκ = ∂L/∂q + F, A e = 0; and the reactions λ and κ.
+        """
+        exact, n, m, system = self.exact, self.n, self.exact.m, self.system
+        a, rest, e = (sp.Matrix(sp.symbols(f"{x}:{n}")) for x in ("acceleration", "rest", "easy"))
+        lam, kappa = (sp.Matrix(m, 1, sp.symbols(f"{x}:{m}")) for x in ("reaction", "kappa"))
+        (matrix, right), leaning = system.equations, rate(sp.Matrix(system.momenta), system.coordinates)
+        easy = [*system.push, *[sp.S.Zero] * m]
+        known = [*(matrix * sp.Matrix([*a, *lam]) - right), *(matrix * sp.Matrix([*e, *kappa]) - sp.Matrix(easy))]
+        known += [*(system.mass * rest - leaning), *self.always]
+        if self.stepped.has_momenta:
+            known += system.rows * sp.Matrix(system.velocities) + system.offsets
+        state, size = self.state, n + m
+        mass = fmpq_mat(n, n, [_at(x, 0) for x in exact.at(system.mass, state)])
+        lean = inverse(mass) * fmpq_mat(n, 1, [_at(x, 0) for x in exact.at(leaning, state)])
+        true, light = ([_at(x, 0) for x in exact.solved(state[:n], exact.at(of, state))] for of in (right, easy))
+        changes = [(a, true[:n]), (rest, lean.entries()), (e, light[:n])]
+        parts = []
+        for symbols, numbers in ((lam, true[n:size]), (kappa, light[n:size])):
+            for on in (slice(0, m - len(system.holonomic)), slice(m - len(system.holonomic), m)):
+                part = sp.zeros(m, 1)
+                part[on, 0] = symbols[on, 0]
+                parts.append((part, [x if e != 0 else fmpq(0) for x, e in zip(numbers, part, strict=True)]))
+        return known, changes, parts
+
+    def returns(self, back: int) -> Verdict:
+        """Whether a step forth and one back return: with the velocities turned, or, where `back` is -1, of length -h.
+
+        Momenta are those before the reaction, or those after it.
+        """
+        stepped, scheme, n, h = self.stepped, self.scheme, self.n, self.h
+        first, there, z, then = self.forth
+        rest = [-x for x in scheme.state[n:]]
+        if stepped.has_momenta:  # of -v
+            at_rest = self.system.momenta.xreplace(dict.fromkeys(self.system.velocities, sp.S.Zero))
+            rest = [2 * b + p for b, p in zip(at_rest, rest, strict=True)]
+        turned = self.exact.read([*scheme.state[:n], *rest] if back > 0 else scheme.state)
+        around = stepped.guess([*self.state[:n], *(-back * x for x in self.state[n:])])
+        wrong = None
+        for part in (scheme.state, self.kicked) if stepped.has_momenta and self.reacting else (scheme.state,):
+            begin, end = (stepped.of(self.exact.read(part), at, of, h) for at, of in ((first, z), (there, then)))
+            final, other = stepped.step(stepped.of(turned, end, z, h), around, h * back)
+            final = stepped.of(turned, final, z, h)
+            if not any(_at(x, k) != _at(y, k) for x, y in zip(final, begin, strict=True) for k in range(self.looked)):
+                return self._proved(self.is_returning(back, part, turned, other))
+            if (part is self.kicked) is scheme.reflects:
+                reached, _ = self.exact.velocities(final, stepped.has_momenta)
+                named = zip(map(str, self.exact.symbols), reached, self.state, strict=True)
+                wrong = self.wrong("a step forth and back misses", *named)
+        return wrong or self._proved(False)
+
+    @staticmethod
+    def _proved(is_proved: bool) -> Verdict:
+        return Verdict("proved") if is_proved else Verdict("measured", "no difference is found")
+
+    def is_returning(self, back: int, part: Sequence[sp.Expr], turned: Sequence[sp.Expr], other: State) -> bool:
+        """Whether that is proved: the step back has the unknowns of the step forth, in another order and with signs."""
+        scheme, (_, _, z, then) = self.scheme, self.forth
+        symbols, (there, next_, links) = list(scheme.unknowns), self.next_state
+        known, sources = [*scheme.residual, *links, *self.always], [(z, symbols)]
+        if part is self.kicked:
+            known += self._with(scheme.residual, there, next_)
+            sources.append((then, next_))
+        could = [([of[i] for i in one], [by[i] for i in one]) for of, by in sources for one in self.blocks.values()]
+        if not self.stepped.has_momenta:
+            could.append((list(self.state[self.n :]), list(self.system.velocities)))
+
+        def same(block: Sequence[int], of: Sequence[Any], sign: int) -> bool:
+            pairs = [(other[i], x) for i, x in zip(block, of, strict=True)]
+            return all(_at(x, k) == sign * _at(y, k) for x, y in pairs for k in range(self.looked - 1))
+
+        choices = [
+            [[sign * x for x in by] for of, by in could for sign in (1, -1) if len(of) == len(b) and same(b, of, sign)]
+            for b in self.blocks.values()
+        ]
+        begin, end = self._with(part, scheme.state, symbols), self._with(part, there, next_)
+        around = self._with(turned, end, symbols)
+        for choice in islice(product(*choices), MOST_CHOICES):
+            unknowns = [x for block in choice for x in block]
+            final = self._with(turned, self._with(scheme.after, around, unknowns, back), unknowns)
+            missed = [x - y for x, y in zip(final, begin, strict=True)]
+            if self.spanned([*self._with(scheme.residual, around, unknowns, back), *missed], known):
+                return True
+        return False
+
+    def _with(
+        self, expressions: Sequence[sp.Expr], state: Sequence[Any], unknowns: Sequence[Any], back: int = 1
+    ) -> list[sp.Expr]:
+        symbols = (*self.scheme.state, *self.scheme.unknowns, STEP)
+        return replaced(expressions, dict(zip(symbols, (*state, *unknowns, STEP * back), strict=True)))
+
+    def keeps(self, quantity: sp.Expr) -> Verdict:
+        """Whether a quantity of place and velocity is the same where the method looks at a step and at the next."""
+        stepped, (first, there, z, then) = self.stepped, self.forth
+        seen = [stepped.of(stepped.seen, at, of, self.h) for at, of in ((first, z), (there, then))]
+        before, after, moved = (self.exact.at([quantity], x)[0] for x in (*seen, self.exact.moved(self.state)[0]))
+        if self.wrong("", ("", moved, _at(moved, 0))):
+            return Verdict("measured", "the exact motion does not keep it")
+        wrong = self.wrong("it changes", ("in a step", after, before))
+        return wrong or self._proved(self.is_kept(quantity))
+
+    def is_kept(self, quantity: sp.Expr) -> bool:
+        """Whether that is proved: by the equations of two steps, also times an unknown or a momentum."""
+        scheme, symbols = self.scheme, self.exact.symbols
+        if scheme.stages:  # what is linear is kept by such a method if its rate is 0
+            slope = [sp.diff(quantity, x) for x in symbols]
+            flow = sum((e * x for e, x in zip(slope, scheme.after, strict=True)), sp.S.Zero)
+            return not any(e.free_symbols & set(symbols) for e in slope) and self.spanned([flow], scheme.residual)
+        there, next_, links = self.next_state
+        known = [*scheme.residual, *links, *self._with(scheme.residual, there, next_), *self.always]
+        first = replaced([quantity], dict(zip(symbols, (*scheme.place, *scheme.velocity), strict=True)))
+        aim = [self._with(first, there, next_)[0] - first[0]]
+        known += [STEP * e for e in known]
+        if self.spanned(aim, known):
+            return True
+        factors = [sp.S.One, *scheme.unknowns, *next_, *scheme.state[self.n :], *there[self.n :]]
+        few = len(factors) * len(known) <= MOST_KNOWN
+        return few and self.spanned(aim, [f * e for f in factors for e in known])
+
+    @cached_property
+    def next_state(self) -> tuple[list[sp.Expr], list[sp.Symbol], list[sp.Expr]]:
+        """The state after a step, the unknowns of the next, and what symbols for its momenta set to 0."""
+        scheme, n = self.scheme, self.n
+        place, rest, links = list(scheme.after[:n]), list(scheme.after[n:]), []
+        if self.stepped.has_momenta:
+            names = [sp.Symbol(f"{x.name} next") for x in scheme.state[n:]]
+            links, rest = [x - e for x, e in zip(names, rest, strict=True)], names
+        return [*place, *rest], [sp.Symbol(f"{x.name} next") for x in scheme.unknowns], links
+
+    @cached_property
+    def always(self) -> list[sp.Expr]:
+        """Of the constraints on places, and on velocities of a state, those that the equations set to 0 at the end."""
+        system, (there, _, links) = self.system, self.next_state
+        found = list(system.holonomic)
+        if not self.stepped.has_momenta:
+            found += system.rows * sp.Matrix(system.velocities) + system.offsets
+        after = dict(zip(self.scheme.state, there, strict=True))
+        known = [*self.scheme.residual, *links]
+        return [] if self.scheme.stages else [e for e in found if self.spanned(replaced([e], after), known)]
+
+    def spanned(self, aims: Iterable[sp.Expr], known: Iterable[sp.Expr]) -> bool:
+        """Whether each of some expressions is a combination of known ones, with rational numbers."""
+        letters = Letters(plain=True)
+        one, other = (list(map(letters.into, replaced(part, self.exact.numbers))) for part in (aims, known))
+        return _spanned(one, other)
+
+
+def _spanned(aims: Sequence[sp.Expr], known: Sequence[sp.Expr]) -> bool:
+    """Combinations are found at random points in a finite field, and proved as identities in all symbols."""
+    if not (aims := [e for e in aims if e != 0]):
+        return True
+    symbols = sorted(set().union(*(e.free_symbols for e in (*aims, *known))), key=str)
+    if len(known) > MOST_KNOWN or _size([*aims, *known]) > MOST_OPERATIONS:
+        raise Undecided("it has more operations than a proof may have")
+    ring = Quotient(symbols, [])
+    table = []
+    for i in range(len(known) + 4):
+        point = {x: nmod(pow(7 + 2 * j, 3 * i + 5, PRIME) * (i + j + 1), PRIME) for j, x in enumerate(symbols)}
+        table.append(evaluated([*known, *aims], point, lambda p, q: nmod(int(p), PRIME) / nmod(int(q), PRIME)))
+    count = len(known)
+    reduced, rank = nmod_mat([[int(x) for x in row] for row in table], PRIME).rref()
+    bound = [next(j for j in range(count + len(aims)) if int(reduced[i, j])) for i in range(rank)]
+    if any(j >= count for j in bound):
+        return False
+    for k, aim in enumerate(aims):
+        factors = [_small(int(reduced[i, count + k])) for i in range(rank)]
+        if None in factors:
+            return False
+        try:
+            if not ring.is_zero(aim - sum((f * known[j] for f, j in zip(factors, bound, strict=True)), sp.S.Zero)):
+                return False
+        except ZeroDivisionError:
+            raise Undecided("an equation divides by 0") from None
+    return True
+
+
+def _small(x: int) -> sp.Rational | None:
+    """The fraction of small numbers that is x in the finite field."""
+    for below in range(1, BELOW + 1):
+        above = x * below % PRIME
+        above = above - PRIME if above > PRIME // 2 else above
+        if abs(above) <= ABOVE:
+            return sp.Rational(above, below)
+    return None
+
+
+def replaced(expressions: Iterable[sp.Expr], put: Mapping[sp.Symbol, Any]) -> list[sp.Expr]:
+    """Expressions with others in the place of symbols, and sines and cosines of expanded sums; shared parts once."""
+    known: dict[sp.Expr, sp.Expr] = dict(put)
+
+    def of(expr: sp.Expr) -> sp.Expr:
+        if expr not in known:
+            made = [of(x) for x in expr.args]
+            if isinstance(expr, sp.sin | sp.cos | sp.tan):
+                made = [sp.expand(made[0])]
+            known[expr] = expr.func(*made) if made else expr
+        return known[expr]
+
+    return [of(sp.sympify(e)) for e in expressions]
+
+
+def coefficients(expressions: Iterable[sp.Expr]) -> list[tuple[sp.Expr, sp.Expr, sp.Expr]]:
+    """Those of 1, h and h² of expressions in the length of a step; of shared parts once."""
+    zero = sp.S.Zero
+    known: dict[sp.Expr, tuple[Any, Any, Any]] = {STEP: (zero, sp.S.One, zero)}
+
+    def of(expr: sp.Expr) -> tuple[Any, Any, Any]:
+        if expr not in known:
+            known[expr] = made(expr) if expr.args else (expr, zero, zero)
+        return known[expr]
+
+    def made(expr: sp.Expr) -> tuple[Any, Any, Any]:
+        parts = [of(x) for x in expr.args]
+        if isinstance(expr, sp.Add):
+            a, b, c = (sp.Add(*some) for some in zip(*parts, strict=True))
+            return a, b, c
+        a, b, c = parts[0]
+        if isinstance(expr, sp.Mul):
+            for d, e, f in parts[1:]:
+                a, b, c = a * d, a * e + b * d, a * f + b * e + c * d
+            return a, b, c
+        if isinstance(expr, sp.Pow):
+            first, second = expr.exp * a ** (expr.exp - 1), expr.exp * (expr.exp - 1) / 2 * a ** (expr.exp - 2)
+        elif isinstance(expr, sp.sin | sp.cos | sp.tan):
+            first = expr.func(_ANY).diff(_ANY).xreplace({_ANY: a})
+            second = expr.func(_ANY).diff(_ANY, 2).xreplace({_ANY: a}) / 2
+        else:
+            raise Undecided(f"{expr!s:.60} has no exact series")
+        return expr.func(a, *expr.args[1:]), first * b, first * c + (second * b**2 if b != 0 else 0)
+
+    return [of(e) for e in expressions]
+
+
+_ANY = sp.Symbol("any")
+
+
+def _size(expressions: Iterable[sp.Expr]) -> int:
+    """How many different parts expressions have."""
+    seen, left = set[sp.Expr](), list(expressions)
+    while left:
+        if (expr := left.pop()) not in seen:
+            seen.add(expr)
+            left += expr.args
+    return len(seen)
+
+
+def _guessed(x: Sequence[fmpq], of: Sequence[Named]) -> Any:
+    """The sum of halves of vectors of symbols that has some numbers where these have theirs; None if there is none."""
+    for backwards in product((0, 1, -1, 2, -2), repeat=len(of)):
+        halves = backwards[::-1]  # of the first first
+        if all(2 * y == sum(k * v[i] for k, (_, v) in zip(halves, of, strict=True)) for i, y in enumerate(x)):
+            return sum((k * symbols / 2 for k, (symbols, _) in zip(halves, of, strict=True)), sp.zeros(len(x), 1))
+    return None
+
+
+def _of_tableau(stages: Sequence[Sequence[sp.Rational]]) -> int:
+    """The order of an explicit Runge-Kutta method, by the conditions of rooted trees, up to 4."""
+    size = len(stages)
+    A = sp.Matrix(size, size, lambda i, j: stages[i - 1][j] if i > 0 and j < i else sp.S.Zero)
+    b, one = sp.Matrix([list(stages[-1])]), sp.ones(size, 1)
+    c = A * one
+    squared, cubed = c.applyfunc(lambda x: x**2), c.applyfunc(lambda x: x**3)
+    mixed = (A * c).multiply_elementwise(c)
+    conditions = [
+        [(one, 1)], [(c, 2)], [(squared, 3), (A * c, 6)], [(cubed, 4), (mixed, 8), (A * squared, 12), (A * A * c, 24)]
+    ]  # fmt: skip
+    holds = [all((b * weight)[0] * count == 1 for weight, count in row) for row in conditions]
+    return next((i for i, good in enumerate(holds) if not good), len(holds))

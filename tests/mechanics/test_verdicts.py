@@ -1,0 +1,181 @@
+"""Exact verdicts on methods: what is known of them, controls that lose a verdict, and steps in floats."""
+
+import dataclasses
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from chapsym.mechanics import METHODS, Runner, System, dot, loaded, verdicts
+from chapsym.mechanics.system import STEP
+
+SYSTEMS = Path(__file__).parents[2] / "docs/examples/systems"
+ANYWHERE = [name for name in METHODS if name != "own"]
+SYMMETRIC = ["dla", "gni", "leapfrog", "spark", "midpoint"]
+x, y, z, a = sp.symbols("x y z a")
+vx, vy, vz, va = map(dot, (x, y, z, a))
+
+
+@cache
+def example(name):
+    return loaded(SYSTEMS / f"{name}.py")
+
+
+@cache
+def judged(name, method):
+    return verdicts(example(name), METHODS[method].scheme(example(name)))
+
+
+def proved(found):
+    return [name for name, one in found.items() if one.verdict == "proved"]
+
+
+@pytest.mark.parametrize(
+    ("name", "method"),
+    [
+        *((name, method) for name in ("particle", "contact", "sleigh", "vertical_disc", "snakeboard", "transmission")
+          for method in ANYWHERE),
+        ("suslov", "dla"), ("veselova", "gni"), ("ball", "leapfrog"), ("falling_disc", "spark"),
+        ("rattleback", "dla-left"),
+    ],
+)  # fmt: skip
+def test_the_orders_are_proved_and_what_is_reversible(name, method):
+    """Of the contact oscillator as Modin and Verdier say: methods on momenta do not return, though self-adjoint."""
+    found = judged(name, method)
+    order = {"rk4": "4", "dla-left": "1"}.get(method, "2")
+    assert (found["order"].verdict, found["order"].said) == ("proved", order)
+    assert found["self-adjoint"].verdict == ("proved" if method in SYMMETRIC else "false")
+    returns = method in (["midpoint"] if name == "contact" else SYMMETRIC)
+    assert found["reversible"].verdict == ("proved" if returns else "false")
+    assert all((one.point != {}) is (one.verdict == "false") for one in found.values())
+
+
+@pytest.mark.parametrize("method", ANYWHERE)
+@pytest.mark.parametrize("row", [0, 1, -1])
+def test_a_method_with_a_changed_coefficient_loses_its_verdicts(method, row):
+    """Something of the size of the step, or of its square, in an equation of momenta, or in the last one."""
+    system = example("particle")
+    right = METHODS[method].scheme(system)
+    x0, y0, *_ = system.coordinates
+    of_rates = method in ("midpoint", "rk4")
+    for power in (1, 2):
+        residual = list(right.residual)
+        residual[row] += STEP ** (power - of_rates) * (x0 + 2 * y0) / 7
+        found = verdicts(system, dataclasses.replace(right, residual=residual))
+        along = row == -1 and not of_rates  # velocities that are off along the reaction cost an order less
+        least = power if along else power - 1
+        order = found["order"]
+        assert order.verdict != "proved" or int(order.said) <= min(least, 2)
+        assert "at least" not in order.said or int(order.said[9]) <= least
+        even = (method, power, row) == ("gni", 2, -1)  # at the place of the reaction, which a step back has, too
+        assert (found["self-adjoint"].verdict == "proved") is even
+
+
+def test_signs_and_ends_that_are_changed_are_seen():
+    system = example("particle")
+    dla, spark, gni = (METHODS[name].scheme(system) for name in ("dla", "spark", "gni"))
+    u = dla.unknowns[:3]
+    row = u[2] - (y + STEP * u[1] / 3) * u[0]  # the constraint after a third of the step
+    found = verdicts(system, dataclasses.replace(dla, residual=[*dla.residual[:-1], row]))
+    assert not proved(found)
+    assert found["order"].said == "at most 1"
+    for scheme in (spark, gni):
+        turned = [e.xreplace({STEP: 2 * STEP}) if i == 0 else e for i, e in enumerate(scheme.residual)]
+        assert not proved(verdicts(system, dataclasses.replace(scheme, residual=turned)))
+    after = [*dla.after[:-1], dla.after[-1] + STEP * x]
+    assert "order" not in proved(verdicts(system, dataclasses.replace(dla, after=after)))
+
+
+@pytest.mark.parametrize(("i", "j", "order"), [(3, 0, 0), (2, 2, 1), (0, 0, 1), (1, 0, 1)])
+def test_a_tableau_with_another_number_has_the_order_of_its_conditions(i, j, order):
+    system = example("contact")
+    right = METHODS["rk4"].scheme(system)
+    stages = [list(row) for row in right.stages]
+    stages[i][j] -= sp.Rational(1, 100)
+    found = verdicts(system, dataclasses.replace(right, stages=stages))["order"]
+    assert (found.verdict, found.said) == ("proved", str(order)) if order else found.verdict == "false"
+
+
+def test_momenta_are_kept_by_the_equations_and_not_by_changed_ones():
+    for method in ANYWHERE:
+        system, found = example("vertical_disc"), judged("vertical_disc", method)
+        assert found["keeps the momentum of heading"].verdict == "proved"
+        assert found["keeps the energy"].verdict == "false"
+        right = METHODS[method].scheme(system)
+        row = 12 if method == "spark" else 2  # of the velocity at the end
+        residual = [e + STEP**3 * system.coordinates[1] if i == row else e for i, e in enumerate(right.residual)]
+        changed = verdicts(system, dataclasses.replace(right, residual=residual))
+        assert changed["keeps the momentum of heading"].verdict == "false"
+
+
+def test_a_quadratic_momentum_is_proved_by_factors():
+    """The midpoint rule keeps the energy of an oscillator, and that of a wrong frequency it does not."""
+    energy, other = (vx**2 + x**2) / 2, (vx**2 + 2 * x**2) / 2
+    system = System("spring", (x, y), (vx**2 + vy**2 - x**2) / 2, integrals={"E": energy, "other": other})
+    found = verdicts(system, METHODS["midpoint"].scheme(system))
+    assert [found[name].verdict for name in ("keeps E", "keeps the momentum of y", "keeps other")] == [
+        "proved", "proved", "measured",
+    ]  # fmt: skip
+    assert found["keeps other"].said == "the exact motion does not keep it"
+    assert verdicts(system, METHODS["rk4"].scheme(system))["keeps E"].verdict == "false"
+
+
+@pytest.mark.parametrize(
+    ("name", "method"), [("contact", "gni"), ("contact", "dla"), ("particle", "rk4"), ("sleigh", "dla-left")]
+)
+def test_steps_in_floats_miss_by_what_the_series_say(name, method):
+    """The exact states of false verdicts, in the kernels that the lab runs."""
+    system, found = example(name), judged(name, method)
+    for what in ("keeps the energy", "reversible"):
+        verdict = found[what]
+        of, by, power = verdict.said.rsplit(" ", 2)
+        expected, k = float(sp.Rational(by)), int(power[2:])
+        runner = Runner(system, method, compiled=False)
+        h = {2: 1e-4, 3: 1e-3}.get(k, 2e-2)
+        state = np.array([float(sp.Rational(verdict.point[str(s)])) for s in (*system.coordinates, *system.velocities)])
+        n = len(system.coordinates)
+        first = runner._numbers(runner.scheme.start, state[:n], state[n:])
+        runner.system = dataclasses.replace(
+            system, start=dict(zip((*system.coordinates, *system.velocities), map(float, state), strict=True))
+        )
+        if what == "reversible":
+            there = runner.march(1, h, start=first).final
+            back = runner.march(1, h, start=runner.turned(there, h)).final
+            if runner.scheme.reflects:
+                back = runner.turned(back, h)
+                reached = [*back[:n], *runner.march(1, h, start=back).velocity[0]]
+            else:
+                reached = runner.velocities(back)
+                reached = [*reached[0], *-projected(system, *reached)]
+            i = list(map(str, (*system.coordinates, *system.velocities))).index(of.split()[-2])
+            missed = reached[i] - state[i]
+        else:
+            missed = np.diff(runner.march(2, h, start=first).energy)[0]
+        assert missed / h**k == pytest.approx(expected, rel=0.15)
+
+
+def projected(system, q, v):
+    """Of velocities those that obey the constraints, with a momentum that is the same but for the reaction."""
+    numbers = dict(zip(system.parameters, system.numbers, strict=True))
+    place = dict(zip(system.coordinates, q, strict=True)) | numbers
+    mass = np.array(system.mass.xreplace(place), float)
+    rows = np.array(system.rows.xreplace(place), float)
+    inverse = np.linalg.inv(mass)
+    return v - inverse @ rows.T @ np.linalg.solve(rows @ inverse @ rows.T, rows @ v)
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"lagrangian": (vx**2 + vy**2) / 2 - sp.cos(y / 3 + sp.S.Half)}, "no rational series"),
+        ({"lagrangian": (vx**2 + vy**2) / 2 - 0.25 * y}, "floats"),
+        ({"lagrangian": vx**2 / 2}, "singular"),
+    ],
+)
+def test_what_is_not_decided_stays_measured_and_says_why(settings, said):
+    system = System("one", (x, y), constraints=[vy - x * vx], **settings)
+    found = verdicts(system, METHODS["dla"].scheme(system))
+    assert {one.verdict for one in found.values()} == {"measured"}
+    assert any(said in one.said for one in found.values())
