@@ -108,7 +108,7 @@ class Exact:
         functions = set().union(*(e.atoms(sp.sin, sp.cos, sp.tan) for e in everything))
         angles = set().union(*(e.free_symbols for e in functions)) & set(system.coordinates)
         kept = self.read(e.xreplace(dict.fromkeys(angles, sp.S.Zero)) for e in system.holonomic)
-        table = {x: sp.Rational(i + 2, i % 3 + 2) for i, x in enumerate(system.coordinates)}
+        table = {x: sp.Rational(i + 4, i + 3) for i, x in enumerate(system.coordinates)}
         related = [x for x in system.coordinates if any(e.has(x) for e in kept)]
         table |= {x: sp.Rational(UNIT[i % 4]) for i, x in enumerate(related)}
         try:

@@ -44,7 +44,7 @@ def test_exact_verdicts_are_in_the_table_in_json_and_on_the_page(tmp_path):
     wrong = cell["verdicts"]["reversible"]
     assert wrong["verdict"] == "false"
     assert set(wrong["point"]) == {"x", "y", "z", "x_dot", "y_dot", "z_dot"}
-    assert f"<li>gni: reversible: false {wrong['said']} from x = 1" in out.read_text(encoding="utf-8")
+    assert f"<li>gni: reversible: false {wrong['said']} from x = 4/3" in out.read_text(encoding="utf-8")
     plain = answer("lab", SYSTEMS / "contact.py", "--method", "gni", "--steps", 20, "--no-flags")
     assert plain["cells"][0]["verdicts"] == {}
 
