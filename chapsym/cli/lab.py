@@ -91,10 +91,10 @@ def lab(
 
 
 def _row(cell: dict[str, Any]) -> str:
-    from chapsym.show.lab import COLUMNS, figures
+    from chapsym.show.lab import COLUMNS, decided, figures
 
     if cell["failed"]:
-        return f"  {cell['method']:>9}  {cell['failed']}"
+        return "; ".join([f"  {cell['method']:>9}  {cell['failed']}", *decided(cell)])
     *shown, rest = figures(cell)
     row = "".join(f"  {one:>{width}}" for one, width in zip((cell["method"], *shown), COLUMNS.values(), strict=True))
     return row + (f"  {rest}" if rest else "")

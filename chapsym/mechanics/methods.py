@@ -57,6 +57,16 @@ class Scheme:
     reflects: bool = False
     stages: Sequence[Sequence[sp.Rational]] = ()
 
+    def step(self, state: Any, first: Any, length: Any, rates: Callable[[Any], Any], number: Any) -> Any:
+        """The next state in any numbers, by `after` at the state and, of an explicit method, what it is at others."""
+        known, at = [first], first
+        for row in self.stages:
+            weights = list(map(number, row))
+            at = [x + length * sum(a * k[i] for a, k in zip(weights, known, strict=True)) for i, x in enumerate(state)]
+            if row is not self.stages[-1]:
+                known.append(rates(at))
+        return at
+
 
 @dataclass(frozen=True)
 class Method:

@@ -393,21 +393,18 @@ def _in_python(
             before = largest
         return False
 
+    def rates(at: Any) -> np.ndarray:
+        if not solved(at):
+            raise NotSolved
+        return of("after", at)
+
     for i in range(steps):
         if not solved(state):
             return i
         if i % every == 0:
             recorded[i // every] = of("seen", state)
-        if not stages:
-            state[:] = of("after", state)
-            continue
-        rates = [of("after", state)]
-        for row in stages:
-            at = state + fixed[-1] * sum(float(a) * k for a, k in zip(row, rates, strict=True))
-            if row is stages[-1]:
-                state[:] = at
-            elif solved(at):
-                rates.append(of("after", at))
-            else:
-                return i
+        try:
+            state[:] = runner.scheme.step(state, of("after", state), fixed[-1], rates, float)
+        except NotSolved:
+            return i
     return steps

@@ -11,6 +11,7 @@ from typing import Any
 
 import sympy as sp
 from flint import ctx, fmpq, fmpq_mat, fmpq_series
+from flint.utils.flint_exceptions import DomainError
 
 from chapsym.prove import Examples
 from chapsym.prove.points import candidates
@@ -65,7 +66,7 @@ def evaluated(expressions: Iterable[sp.Expr], values: Mapping[sp.Symbol, Any], n
         return [of(e) for e in expressions]
     except ZeroDivisionError:
         raise Undecided("an expression divides by 0 at the exact state") from None
-    except ValueError:
+    except (ValueError, DomainError):
         raise Undecided("an expression has no rational series at the exact state") from None
 
 
@@ -166,46 +167,33 @@ class Stepped:
         self.seen = exact.read((*scheme.place, *scheme.velocity))
         self.has_momenta = scheme.state[exact.n] not in exact.system.velocities
 
-    def start(self, state: State) -> State:
-        """The state of the method."""
-        return list(map(series, self.exact.at(self.scheme.start, state)))
-
-    def guess(self, state: State) -> State:
-        """A first guess of the unknowns."""
-        return list(map(series, self.exact.at(self.scheme.guess, state)))
+    def first(self, state: State) -> tuple[State, State]:
+        """The state of the method, and a first guess of the unknowns."""
+        start, guess = (self.exact.at(part, state) for part in (self.scheme.start, self.scheme.guess))
+        return list(map(series, start)), list(map(series, guess))
 
     def of(self, expressions: Sequence[sp.Expr], state: State, unknowns: State, length: Series) -> list[Series]:
         """Expressions of the method."""
         symbols = (*self.scheme.state, *self.scheme.unknowns, STEP)
         return evaluated(expressions, dict(zip(symbols, (*state, *unknowns, length), strict=True)))
 
-    def slopes(self, state: State, unknowns: State, length: Series, along: Sequence[State]) -> list[list[fmpq]]:
-        """The derivatives of the equations along directions of state and unknowns, at the start of the series.
-
-        Of an equation that a step multiplies, the next coefficient: `shift` says which are such.
-        """
-        small, size = fmpq_series([0, 0, 1]), len(unknowns)
-        first, found = self.of(self.residual, state, unknowns, length), []
-        for direction in along:
-            moved = [x + small * d if d != 0 else x for x, d in zip([*state, *unknowns], direction, strict=True)]
-            other = self.of(self.residual, moved[:-size], moved[-size:], length)
-            found.append([a - b for a, b in zip(other, first, strict=True)])
-        self.shift = [0 if any(_at(column[i], 2) != 0 for column in found) else 1 for i in range(size)]
-        return [[_at(column[i], 2 + self.shift[i]) for column in found] for i in range(size)]
-
     def solved(self, state: State, unknowns: State, length: Series) -> State:
-        """The unknowns of a step near a guess."""
-        size, before = len(unknowns), len(state)
-        units = [[fmpq(i == before + j) for i in range(before + size)] for j in range(size)]
-        slope = inverse(fmpq_mat(self.slopes(state, unknowns, length, units)))
+        """The unknowns of a step near a guess.
+
+        `shift` says which equations a step multiplies: of these the next coefficients count.
+        """
+        size, small, columns = len(unknowns), fmpq_series([0, 0, 1]), []
+        first = self.of(self.residual, state, unknowns, length)
+        for j in range(size):
+            other = [x + small if i == j else x for i, x in enumerate(unknowns)]
+            columns.append([a - b for a, b in zip(self.of(self.residual, state, other, length), first, strict=True)])
+        self.shift = [0 if any(_at(column[i], 2) != 0 for column in columns) else 1 for i in range(size)]
+        slope = inverse(fmpq_mat([[_at(column[i], 2 + s) for column in columns] for i, s in enumerate(self.shift)]))
         for _ in range(ctx.cap + 1):
-            left = self.of(self.residual, state, unknowns, length)
-            if any(s and _at(x, 0) != 0 for x, s in zip(left, self.shift, strict=True)):
-                raise Undecided("the equations of a step have no solution near the exact state")
-            short = [
-                fmpq_series([_at(x, k + s) for k in range(ctx.cap - s)]) for x, s in zip(left, self.shift, strict=True)
-            ]
-            unknowns = _less(unknowns, slope, short)
+            left = list(zip(self.of(self.residual, state, unknowns, length), self.shift, strict=True))
+            unknowns = _less(
+                unknowns, slope, [fmpq_series([_at(x, k + s) for k in range(ctx.cap - s)]) for x, s in left]
+            )
         if any(_at(x, k) != 0 for x in self.of(self.residual, state, unknowns, length) for k in range(ctx.cap - 1)):
             raise Undecided("the equations of a step are not solved near the exact state")
         return unknowns
@@ -213,19 +201,12 @@ class Stepped:
     def step(self, state: State, unknowns: State, length: Series) -> tuple[State, State]:
         """The state after a step, and its unknowns."""
         unknowns = self.solved(state, unknowns, length)
-        rates = [self.of(self.after, state, unknowns, length)]
-        if not self.scheme.stages:
-            return rates[0], unknowns
-        at, now = state, unknowns
-        for row in self.scheme.stages:
-            at = [
-                x + length * sum((fmpq(a.p, a.q) * rate[i] for a, rate in zip(row, rates, strict=True)), fmpq(0))
-                for i, x in enumerate(state)
-            ]
-            if row is not self.scheme.stages[-1]:
-                now = self.solved(at, now, length)
-                rates.append(self.of(self.after, at, now, length))
-        return at, unknowns
+
+        def rates(at: State) -> State:
+            return self.of(self.after, at, self.solved(at, unknowns, length), length)
+
+        first = self.of(self.after, state, unknowns, length)
+        return self.scheme.step(state, first, length, rates, lambda a: fmpq(a.p, a.q)), unknowns
 
 
 def _at(x: Any, k: int) -> fmpq:

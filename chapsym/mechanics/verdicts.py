@@ -137,8 +137,8 @@ class _Judged:
     @cached_property
     def forth(self) -> tuple[State, State, State, State]:
         """A state of the method and the next one, their unknowns."""
-        first = self.stepped.start(self.state)
-        there, z = self.stepped.step(first, self.stepped.guess(self.state), self.h)
+        first, guess = self.stepped.first(self.state)
+        there, z = self.stepped.step(first, guess, self.h)
         return first, there, z, self.stepped.solved(there, z, self.h)
 
     def wrong(self, what: str, *pairs: tuple[str, Series, Any]) -> Verdict | None:
@@ -166,13 +166,13 @@ class _Judged:
 
     def reacted(self, state: State, reaction: Sequence[Series]) -> State:
         """The state of the method at a place and velocity, with momenta that have Aᵀc more."""
-        start = self.stepped.start(state)
+        start, _ = self.stepped.first(state)
         of = dict(zip((*self.scheme.state, *self.reacting), (*start, *reaction), strict=False))
         return evaluated(self.exact.read(self.kicked), of) if reaction else start
 
     def after(self, state: State, reaction: Sequence[Series]) -> tuple[State, list[Series]]:
         """Place and velocity after a step from that state, and the c of the next one."""
-        final, _ = self.stepped.step(self.reacted(state, reaction), self.stepped.guess(self.state), self.h)
+        final, _ = self.stepped.step(self.reacted(state, reaction), self.stepped.first(self.state)[1], self.h)
         return self.exact.velocities(final, self.stepped.has_momenta)
 
     @cached_property
@@ -219,7 +219,7 @@ class _Judged:
         """
         scheme, n, system = self.scheme, self.n, self.system
         start = self.reacted(self.state, self.reactions)
-        unknowns = self.stepped.solved(start, self.stepped.guess(self.state), self.h)
+        unknowns = self.stepped.solved(start, self.stepped.first(self.state)[1], self.h)
         shift, (known, changes, forces) = self.stepped.shift, self.vectors
         v, put, is_moving = sp.Matrix(system.velocities), dict[sp.Symbol, sp.Expr](), False
         for block in self.blocks.values():
@@ -294,7 +294,7 @@ class _Judged:
             at_rest = self.system.momenta.xreplace(dict.fromkeys(self.system.velocities, sp.S.Zero))
             rest = [2 * b + p for b, p in zip(at_rest, rest, strict=True)]
         turned = self.exact.read([*scheme.state[:n], *rest] if back > 0 else scheme.state)
-        around = stepped.guess([*self.state[:n], *(-back * x for x in self.state[n:])])
+        _, around = stepped.first([*self.state[:n], *(-back * x for x in self.state[n:])])
         wrong = None
         for part in (scheme.state, self.kicked) if stepped.has_momenta and self.reacting else (scheme.state,):
             begin, end = (stepped.of(self.exact.read(part), at, of, h) for at, of in ((first, z), (there, then)))

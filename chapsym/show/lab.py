@@ -68,7 +68,7 @@ def figures(cell: Mapping[str, Any]) -> list[str]:
     if cell["halved"] is not None:
         times = abs(cell["drift"] / cell["halved"]) if cell["halved"] else math.inf
         more.append(f"with half the step: {cell['halved']:+.1e}, {times:.1f} times less")
-    more += [f"{verdict}: {', '.join(of)}" for verdict, of in decided(cell).items() if of]
+    more += decided(cell)
     return [
         of("order", ".2f"),
         of("energy", ".6g"),
@@ -82,7 +82,7 @@ def figures(cell: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def decided(cell: Mapping[str, Any]) -> dict[str, list[str]]:
+def decided(cell: Mapping[str, Any]) -> list[str]:
     """What is proved of a cell, with its order; what is false, with the power of the step; what is neither."""
     found: dict[str, list[str]] = {"proved": [], "false": [], "not decided": []}
     for name, one in cell.get("verdicts", {}).items():
@@ -91,7 +91,7 @@ def decided(cell: Mapping[str, Any]) -> dict[str, list[str]]:
         else:
             shown = {"proved": one["said"], "false": one["said"].rpartition(" ")[2]}[one["verdict"]]
             found[one["verdict"]].append(f"{name} {shown}".rstrip())
-    return found
+    return [f"{verdict}: {', '.join(of)}" for verdict, of in found.items() if of]
 
 
 def _verdicts(cells: Sequence[Mapping[str, Any]]) -> str:
