@@ -1,9 +1,9 @@
 """Steps of a method, and the exact motion, as power series in the length of a step from an exact state.
 
-All coefficients are rational numbers.  A state has its angles at 0, where sines and cosines of series are rational.
+All coefficients are rational numbers.  A state has its angles at 0, or where their sines and cosines are rational.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property, reduce
 from operator import add, mul
@@ -21,6 +21,8 @@ from .system import STEP, System, rational
 
 #: Numbers for coordinates that holonomic constraints bind: those of a quaternion, to begin with.
 UNIT = ("1/5", "2/5", "4/5", "2/5")
+#: Cosines and sines of angles, which are taken in turn.
+TURNS = ((3, 4, 5), (12, 5, 13), (8, 15, 17))
 
 Series = Any  # python-flint has no types
 State = list[Series]
@@ -75,6 +77,23 @@ def series(x: Any) -> Series:
     return x if isinstance(x, fmpq_series) else fmpq_series([x])
 
 
+def replaced(
+    expressions: Iterable[Any], put: Mapping[sp.Symbol, Any], turned: Callable[[sp.Expr], sp.Expr] = lambda wave: wave
+) -> list[sp.Expr]:
+    """Expressions with others in the place of symbols, and sines and cosines of expanded sums; shared parts once."""
+    known: dict[sp.Expr, sp.Expr] = dict(put)
+
+    def of(expr: sp.Expr) -> sp.Expr:
+        if expr not in known:
+            made = [of(x) for x in expr.args]
+            is_wave = isinstance(expr, sp.sin | sp.cos | sp.tan)
+            new = expr.func(*map(sp.expand, made) if is_wave else made) if made else expr
+            known[expr] = turned(new) if isinstance(new, sp.sin | sp.cos | sp.tan) else new
+        return known[expr]
+
+    return [of(sp.sympify(e)) for e in expressions]
+
+
 def _root(x: Series) -> Series:
     return (series(x) / series(x)[0]).sqrt() * series(x)[0].sqrt()
 
@@ -86,29 +105,62 @@ class Exact:
         self.system, self.n, self.m = system, len(system.coordinates), system.rows.rows
         self.numbers = {x: rational(v, f"{system.name}: the parameter {x}") for x, v in system.parameters.items()}
         self._moved: dict[tuple[Any, ...], tuple[State, list[Series]]] = {}
+        self.turns = {x: TURNS[i % len(TURNS)] for i, x in enumerate(self._turning())}
         matrix, right = system.equations
         self._linear, self._right = self.read(matrix), self.read(right)
         self.symbols = (*system.coordinates, *system.velocities)
 
     def read(self, expressions: Iterable[Any]) -> list[sp.Expr]:
         """Expressions with the numbers of the parameters; raises Undecided for floats."""
-        found = [sp.sympify(e).xreplace(self.numbers) for e in expressions]
+        found = replaced(expressions, self.numbers, self._turned)
         if any(e.has(sp.Float) for e in found):
             raise Undecided("there are floats")
         return found
 
+    def _turning(self) -> list[sp.Symbol]:
+        """Angles that are turned: those of which there are sines and cosines alone, not in roots."""
+        system = self.system
+        own = [] if system.discrete is None else [system.discrete.lagrangian, *system.discrete.constraints]
+        parts = (*system.constraints, *system.holonomic, *system.forces.values(), *system.integrals.values(), *own)
+        everything = sp.Tuple(system.lagrangian, *parts)
+        waves = everything.atoms(sp.sin, sp.cos, sp.tan)
+        bare = everything.xreplace(dict.fromkeys(waves, sp.S.One)).free_symbols
+        rooted = (e for e in everything.atoms(sp.Pow) if not e.exp.is_Integer)
+        self.angles = set().union(*(e.free_symbols for e in waves)) & set(system.coordinates)
+        return sorted(self.angles - bare.union(*(e.free_symbols for e in rooted)), key=str)
+
+    def _turned(self, wave: sp.Expr) -> sp.Expr:
+        """A sine or cosine of turned angles, by those of the angles from there."""
+        (of,) = wave.args
+        turn = sp.expand(sp.prod(((a + b * sp.I) / c) ** of.coeff(x) for x, (a, b, c) in self.turns.items()))
+        if turn == 1:
+            return wave
+        c, s = turn.as_real_imag()
+        if not c.is_Rational:
+            raise Undecided("an angle that is a part of a coordinate has no exact series")
+        sine, cosine = sp.sin(of) * c + sp.cos(of) * s, sp.cos(of) * c - sp.sin(of) * s
+        return {sp.sin: sine, sp.cos: cosine, sp.tan: sine / cosine}[wave.func]
+
+    @property
+    def shown(self) -> dict[str, str]:
+        """The exact state as text, with sines and cosines of turned angles."""
+        found = {str(x): str(v) for x, v in zip(self.symbols, self.state, strict=True) if x not in self.turns}
+        for x, (a, b, c) in self.turns.items():
+            found |= {f"sin({x})": f"{b}/{c}", f"cos({x})": f"{a}/{c}"}
+        return found
+
     def at(self, expressions: Iterable[Any], state: Sequence[Series]) -> list[Series]:
         """Expressions of coordinates, and of velocities, at a state (of coordinates alone, too)."""
-        return evaluated(self.read(expressions), dict(zip(self.symbols, state, strict=False)))
+        return self._at(self.read(expressions), state)
+
+    def _at(self, expressions: Sequence[sp.Expr], state: Sequence[Series]) -> list[Series]:
+        return evaluated(expressions, dict(zip(self.symbols, state, strict=False)))
 
     @cached_property
     def state(self) -> State:
-        """Exact coordinates and velocities that obey the constraints, with angles at 0."""
-        system = self.system
-        everything = (system.lagrangian, *system.constraints, *system.holonomic, *system.forces.values())
-        functions = set().union(*(e.atoms(sp.sin, sp.cos, sp.tan) for e in everything))
-        angles = set().union(*(e.free_symbols for e in functions)) & set(system.coordinates)
-        kept = self.read(e.xreplace(dict.fromkeys(angles, sp.S.Zero)) for e in system.holonomic)
+        """Exact coordinates and velocities that obey the constraints, with angles at 0 from where they are turned."""
+        system, angles = self.system, self.angles
+        kept = [e.xreplace(dict.fromkeys(angles, sp.S.Zero)) for e in self.read(system.holonomic)]
         table = {x: sp.Rational(i + 4, i + 3) for i, x in enumerate(system.coordinates)}
         related = [x for x in system.coordinates if any(e.has(x) for e in kept)]
         table |= {x: sp.Rational(UNIT[i % 4]) for i, x in enumerate(related)}
@@ -124,7 +176,7 @@ class Exact:
     def solved(self, place: State, right: Sequence[Series]) -> list[Series]:
         """[M, -Aᵀ; A, 0] x = right at a place."""
         size = self.n + self.m
-        entries = self.at(self._linear, place)
+        entries = self._at(self._linear, place)
         rows = [entries[size * i : size * (i + 1)] for i in range(size)]
         slope = inverse(fmpq_mat([[_at(x, 0) for x in row] for row in rows]))
         found: list[Series] = [fmpq_series([0])] * size
@@ -141,7 +193,7 @@ class Exact:
         if key not in self._moved:
             now, rates = [series(x) for x in state], list[Series]()
             for _ in range(ctx.cap):
-                rates = self.solved(now[: self.n], self.at(self._right, now))
+                rates = self.solved(now[: self.n], self._at(self._right, now))
                 v = [x + rate.integral() for x, rate in zip(state[self.n :], rates, strict=False)]
                 now = [*(x + u.integral() for x, u in zip(state, v, strict=False)), *v]
             self._moved[key] = now, rates[self.n :]

@@ -22,13 +22,13 @@ from chapsym.derive import Quotient
 
 from .algebra import Letters
 from .methods import Scheme
-from .series import Exact, Series, State, Stepped, Undecided, _at, evaluated, inverse, terms
+from .series import Exact, Series, State, Stepped, Undecided, _at, evaluated, inverse, replaced, terms
 from .system import STEP, BadSystem, System, rate
 
 #: A prime in which combinations are looked for, and the largest denominator and numerator of their factors.
 PRIME, BELOW, ABOVE = 2**61 - 1, 24, 10_000
 #: The most operations in the expressions of a proof, and equations that are combined: what needs more stays measured.
-MOST_OPERATIONS, MOST_KNOWN = 60_000, 400
+MOST_OPERATIONS, MOST_KNOWN = 100_000, 400
 MOST_CHOICES = 64
 #: How many coefficients of a series are looked at, for methods with equations of a step and for explicit ones, whose
 #: order is higher; and terms beyond, as the last are not those of a step.
@@ -125,6 +125,8 @@ class _Judged:
         self.system, self.scheme, self.exact, self.looked = exact.system, scheme, exact, looked
         self.n, self.state = exact.n, exact.state
         self.h: Series = fmpq_series([0, 1])
+        if _size(scheme.residual) * len(scheme.unknowns) > MOST_OPERATIONS:
+            raise Undecided("a step has more operations than its series may have")
         self.stepped = Stepped(exact, scheme)
         self.blocks: dict[str, list[int]] = {}
         for i, x in enumerate(scheme.unknowns):
@@ -146,8 +148,7 @@ class _Judged:
         for k in range(self.looked):
             for name, one, other in pairs:
                 if (by := _at(one, k) - _at(other, k)) != 0:
-                    point = {str(x): str(v) for x, v in zip(self.exact.symbols, self.state, strict=True)}
-                    return Verdict("false", f"{what} {name} by {by} h^{k}", point)
+                    return Verdict("false", f"{what} {name} by {by} h^{k}", self.exact.shown)
         return None
 
     def order(self, adjoint: bool) -> Verdict:
@@ -222,14 +223,16 @@ class _Judged:
         unknowns = self.stepped.solved(start, self.stepped.first(self.state)[1], self.h)
         shift, (known, changes, forces) = self.stepped.shift, self.vectors
         v, put, is_moving = sp.Matrix(system.velocities), dict[sp.Symbol, sp.Expr](), False
-        for block in self.blocks.values():
+        for name, block in self.blocks.items():
             begin, then = ([_at(unknowns[i], k) for i in block] for k in (0, 1))
-            if len(block) == n and begin == self.state[n:]:
-                is_moving, found, change = True, v, _guessed(then, changes)
+            found, change = v, sp.zeros(len(block), 1)
+            if name in ("lam", "mu"):
+                found = _guessed(begin, forces[:2])
+                change = change if found is None or any(found) else _guessed(then, forces)
+            elif begin == self.state[n:]:
+                is_moving, change = True, _guessed(then, changes)
             else:
-                found, change = _guessed(begin, changes[:1] if len(block) == n else forces[:2]), sp.zeros(len(block), 1)
-                if found is not None and not any(found):
-                    change = _guessed(then, forces)
+                found = _guessed(begin, changes[:1])
             if found is None or change is None:
                 return False
             put |= {scheme.unknowns[i]: x + STEP * y for i, x, y in zip(block, found, change, strict=True)}
@@ -302,7 +305,7 @@ class _Judged:
             final = stepped.of(turned, final, z, h)
             if not any(_at(x, k) != _at(y, k) for x, y in zip(final, begin, strict=True) for k in range(self.looked)):
                 return self._proved(self.is_returning(back, part, turned, other))
-            if (part is self.kicked) is scheme.reflects:
+            if (part is self.kicked) is (scheme.reflects and bool(self.reacting)):
                 reached, _ = self.exact.velocities(final, stepped.has_momenta)
                 named = zip(map(str, self.exact.symbols), reached, self.state, strict=True)
                 wrong = self.wrong("a step forth and back misses", *named)
@@ -317,7 +320,7 @@ class _Judged:
         scheme, (_, _, z, then) = self.scheme, self.forth
         symbols, (there, next_, links) = list(scheme.unknowns), self.next_state
         known, sources = [*scheme.residual, *links, *self.always], [(z, symbols)]
-        if part is self.kicked:
+        if part is self.kicked or not self.reacting:
             known += self._with(scheme.residual, there, next_)
             sources.append((then, next_))
         could = [([of[i] for i in one], [by[i] for i in one]) for of, by in sources for one in self.blocks.values()]
@@ -441,21 +444,6 @@ def _small(x: int) -> sp.Rational | None:
         if abs(above) <= ABOVE:
             return sp.Rational(above, below)
     return None
-
-
-def replaced(expressions: Iterable[sp.Expr], put: Mapping[sp.Symbol, Any]) -> list[sp.Expr]:
-    """Expressions with others in the place of symbols, and sines and cosines of expanded sums; shared parts once."""
-    known: dict[sp.Expr, sp.Expr] = dict(put)
-
-    def of(expr: sp.Expr) -> sp.Expr:
-        if expr not in known:
-            made = [of(x) for x in expr.args]
-            if isinstance(expr, sp.sin | sp.cos | sp.tan):
-                made = [sp.expand(made[0])]
-            known[expr] = expr.func(*made) if made else expr
-        return known[expr]
-
-    return [of(sp.sympify(e)) for e in expressions]
 
 
 def coefficients(expressions: Iterable[sp.Expr]) -> list[tuple[sp.Expr, sp.Expr, sp.Expr]]:
