@@ -11,11 +11,11 @@
 from .attitude import Quaternion, Turned
 from .brackets import Flag, flag
 from .equations import Agreement, Conservation, agree, conserved, in_symbols, of_kane
+from .judged import Verdict, verdicts
 from .lab import Cell, measured
 from .methods import METHODS, Method, Scheme
 from .motion import Motion, NotSolved, Runner, moved
 from .system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
-from .verdicts import Verdict, verdicts
 
 __all__ = [
     "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Conservation", "Discrete", "Flag", "Method", "Motion",

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from .judged import Verdict, verdicts
 from .methods import Scheme, _Parts
 from .motion import Motion, NotSolved, Runner
 from .system import System, number
-from .verdicts import Verdict, verdicts
 
 #: Of all steps, the part at each end whose means are compared; and how many points of the energy a cell keeps.
 END, KEPT = 10, 240

@@ -85,6 +85,18 @@ def test_systems_without_constraints_and_with_friction_are_judged(method):
         assert found["reversible"].verdict == ("proved" if system is double and method in SYMMETRIC else "false")
 
 
+def test_names_of_coordinates_are_none_of_a_proof():
+    """A pendulum whose angle is called as a letter is, and a coordinate as an acceleration in another text."""
+    for name in ("l0", "acceleration0", "u0", "p0_next"):
+        angle, other = sp.symbols((name, "l1"))
+        system = System("named", (angle, other), dot(angle) ** 2 / 2 + dot(other) ** 2 / 2 + other * sp.cos(angle))
+        right = METHODS["dla"].scheme(system)
+        assert verdicts(system, right)["order"].said == "2"
+        turned = [e.xreplace({sp.cos(angle + STEP * right.unknowns[0] / 2): angle}) for e in right.residual]
+        assert turned != list(right.residual)
+        assert not proved(verdicts(system, dataclasses.replace(right, residual=turned)))
+
+
 def test_signs_and_ends_that_are_changed_are_seen():
     system = example("particle")
     dla, spark, gni = (METHODS[name].scheme(system) for name in ("dla", "spark", "gni"))

@@ -264,8 +264,12 @@ class _Judged:
         of fixed mass and constraints, M e - Aᵀκ = ∂L/∂q + F, A e = 0; and the reactions λ and κ.
         """
         exact, n, m, system = self.exact, self.n, self.exact.m, self.system
-        a, rest, e = (sp.Matrix(sp.symbols(f"{x}:{n}")) for x in ("acceleration", "rest", "easy"))
-        lam, kappa = (sp.Matrix(m, 1, sp.symbols(f"{x}:{m}")) for x in ("reaction", "kappa"))
+
+        def named(name: str, size: int) -> sp.Matrix:
+            return sp.Matrix(size, 1, [sp.Symbol(f"{name} {i}") for i in range(size)])  # which no coordinate is called
+
+        a, rest, e = (named(x, n) for x in ("acceleration", "rest", "easy"))
+        lam, kappa = (named(x, m) for x in ("reaction", "kappa"))
         (matrix, right), leaning = system.equations, rate(sp.Matrix(system.momenta), system.coordinates)
         easy = [*system.push, *[sp.S.Zero] * m]
         known = [*(matrix * sp.Matrix([*a, *lam]) - right), *(matrix * sp.Matrix([*e, *kappa]) - sp.Matrix(easy))]
@@ -402,9 +406,9 @@ class _Judged:
 
     def spanned(self, aims: Iterable[sp.Expr], known: Iterable[sp.Expr]) -> bool:
         """Whether each of some expressions is a combination of known ones, with rational numbers."""
-        letters = Letters(plain=True)
-        one, other = (list(map(letters.into, replaced(part, self.exact.numbers))) for part in (aims, known))
-        return _spanned(one, other)
+        one, other = (replaced(part, self.exact.numbers) for part in (aims, known))
+        letters = Letters(set().union(*(e.free_symbols for e in (*one, *other))), plain=True)
+        return _spanned(list(map(letters.into, one)), list(map(letters.into, other)))
 
 
 def _spanned(aims: Sequence[sp.Expr], known: Sequence[sp.Expr]) -> bool:
