@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+
+from chapsym import generated
 
 from . import kernels
 from .ball import SINGLE_TOLERANCE, UNIT_TOLERANCE, Floats, in_single, numbers
@@ -15,6 +19,14 @@ from .errors import BadInput
 AGREEMENT = 1e-9
 #: The same for an attitude that is given in float32, up to 10⁶ steps of it.
 SINGLE_AGREEMENT = 1e-4
+
+
+def roll_pitch_yaw(halves: Sequence[tuple[Any, Any]]) -> tuple[Any, ...]:
+    """The quaternion of Rz(yaw) Ry(pitch) Rx(roll), from cosines and sines of half the angles, numbers or arrays."""
+    roll, pitch, yaw = halves
+    about_y = generated.compose(pitch[0], 0, pitch[1], 0, *roll, 0, 0)
+    found: tuple[Any, ...] = generated.compose(yaw[0], 0, 0, yaw[1], *about_y)
+    return found
 
 
 def attitude_with(gamma: Floats) -> Floats:

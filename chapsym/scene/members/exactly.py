@@ -3,11 +3,12 @@
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from chapsym import generated
+from chapsym.dynamics.attitudes import roll_pitch_yaw
 from chapsym.dynamics.flow.start import (
     NO_ROTOR,
     Balls,
@@ -26,7 +27,7 @@ from chapsym.rationals import mass_tensor_from
 from ..read.bodies import PRESETS
 from ..read.errors import SceneError
 from ..read.scene import Scene
-from ..read.tables import DIMENSIONS
+from ..read.tables import DIMENSIONS, SCALAR_FIRST
 from ..read.units import MOMENT, RATE, Dimension, exact_number
 from .members import expand
 
@@ -135,31 +136,15 @@ def _exactly(table: Mapping[str, Any], key: str) -> Any:
 
 
 def _attitude(start: Mapping[str, Any]) -> Callable[[], Balls]:
-    """The quaternion in balls."""
+    """The quaternion in balls, of any length where it is given."""
     if "rpy" in start:
         angles = _numbers(start, "rpy")
-        return lambda: _turned([ball(x) / 2 for x in angles])
-    quaternion = _quaternion(start)
-    if quaternion is not None:
-        return lambda: balls(quaternion)
-    return upright(_numbers(start, "gamma") if "gamma" in start else (Fraction(0), Fraction(0), Fraction(1)))
-
-
-def _quaternion(start: Mapping[str, Any]) -> list[Fraction] | None:
-    """Of any length, scalar first, if there is one."""
-    for key, order in (("attitude", (0, 1, 2, 3)), ("quaternion_xyzw", (3, 0, 1, 2))):
+        return lambda: unit(roll_pitch_yaw([(half.cos(), half.sin()) for half in (ball(x) / 2 for x in angles)]))
+    for key, order in SCALAR_FIRST.items():
         if key in start:
             given = _numbers(start, key)
-            return [given[i].rational for i in order]
-    return None
-
-
-def _turned(halves: Sequence[Any]) -> Balls:
-    """Rz(yaw) Ry(pitch) Rx(roll), from half the angles."""
-    roll, pitch, yaw = ((x.cos(), x.sin()) for x in halves)
-    about_z, about_y = (yaw[0], 0, 0, yaw[1]), (pitch[0], 0, pitch[1], 0)
-    found: Balls = unit(generated.compose(*about_z, *generated.compose(*about_y, roll[0], roll[1], 0, 0)))
-    return found
+            return partial(balls, [given[i].rational for i in order])
+    return upright(_numbers(start, "gamma") if "gamma" in start else (Fraction(0), Fraction(0), Fraction(1)))
 
 
 def _rolling(

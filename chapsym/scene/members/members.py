@@ -9,7 +9,7 @@ from typing import Any, Self
 import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, BallN, kernels
-from chapsym.dynamics.attitudes import attitude_with
+from chapsym.dynamics.attitudes import attitude_with, roll_pitch_yaw
 from chapsym.dynamics.ball import SMALLEST, UNIT_TOLERANCE, Floats, contact_term, mass_tensor_of, numbers, unit_vertical
 from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.ball_n import skew_matrices
@@ -25,7 +25,7 @@ from ..read.bodies import PRESETS, check_inside, rounded_by
 from ..read.errors import Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene
-from ..read.tables import ATTITUDES, BallTable, StartTable, units_of
+from ..read.tables import ATTITUDES, SCALAR_FIRST, BallTable, StartTable, units_of
 
 #: What is this near to a unit vector was meant to be one, and is divided by its length.
 ROUNDED = 1e-6
@@ -191,10 +191,10 @@ class Body:
             of = f"{names[first]}{f' ({told})' if told else ''}: {why}"
             if not isinstance(why, Misfit):
                 raise SceneError(f"{self._place()}{of}") from None
-            key, where = f"{why.table}.{why.key}", self._place(why.table, why.key)
+            key, where = ".".join(map(str, why.path)), self._place(*why.path)
             raise SceneError(f"{where}{key} of {of}" if where else f"{of} ({key})") from None
 
-    def _place(self, table: str = "ball", *key: str) -> str:
+    def _place(self, table: str | int = "ball", *key: str | int) -> str:
         """The file, and the line on which a key of the ball or of its start stands."""
         own = ("ball", self.index) if isinstance(self.scene._data.get("ball"), list) else ("ball",)
         path = (*own, *key) if table == "ball" else (*own, table, *key) if self.ball.start else (table, *key)
@@ -361,28 +361,22 @@ def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats 
 def _attitude(start: StartTable, given: Given) -> Floats | None:
     """The unit quaternions from the body to space, (count, 4), scalar first; None where the start does not say them."""
     if start.rpy is not None:
-        roll, pitch, yaw = angles = given.array(start.rpy, "start.rpy").T
+        angles = given.array(start.rpy, "start.rpy").T
         if (np.abs(angles) > 2 * np.pi).any():
             most = angles.flat[int(np.abs(angles).argmax())]
             raise BadInput(
                 f'start.rpy is in radians, and {most:g} is more than a turn; of degrees write "{most:g} deg"'
             )
-        return kernels.compose(_turn(yaw, 2), kernels.compose(_turn(pitch, 1), _turn(roll, 0)))
-    key, scalar = ("attitude", "first") if start.quaternion_xyzw is None else ("quaternion_xyzw", "last")
-    if getattr(start, key) is None:
+        return np.stack(roll_pitch_yaw(list(zip(np.cos(angles / 2), np.sin(angles / 2), strict=True))), axis=-1)
+    key = next(iter(start.given(*SCALAR_FIRST)), None)
+    if key is None:
         return None
     attitude = given.unit(getattr(start, key), f"start.{key}")
     length = np.sqrt((attitude * attitude).sum(axis=-1, keepdims=True))
     if (np.abs(length - 1) > UNIT_TOLERANCE).any():
+        scalar = "first" if key == "attitude" else "last"
         raise BadInput(f"{key} must be a unit quaternion (scalar {scalar}), but its length is {length.max():.9g}")
-    return (attitude if scalar == "first" else np.roll(attitude, 1, axis=-1)) / length
-
-
-def _turn(angle: Floats, axis: int) -> Floats:
-    """The unit quaternions (count, 4) of rotations by angles (count,) in radians about one axis."""
-    found = np.zeros((len(angle), 4))
-    found[:, 0], found[:, 1 + axis] = np.cos(angle / 2), np.sin(angle / 2)
-    return found
+    return (attitude / length)[:, SCALAR_FIRST[key]]
 
 
 def _rolling(start: StartTable, given: Given, ball: Ball) -> Floats:

@@ -203,7 +203,7 @@ def _derived(name: str, members: Members, task: Task, columns: Columns) -> np.nd
 def _value(name: str, members: Members, task: Task, columns: Columns) -> Floats:
     """A column, K, or what is derived of these; what enters with D alone may not be there, and be anything."""
     if name == K:
-        return columns["momentum"] / task.kept_scale
+        return columns["momentum"] / (task.scale if task.accuracy is None else 1.0)  # of the motion K itself is kept
     one = OUTPUTS[name]
     if one.derive is None:
         return columns[name]

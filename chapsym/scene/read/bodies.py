@@ -22,9 +22,8 @@ LEAST = 1e-3
 
 @dataclass(frozen=True)
 class Preset:
-    """about: what the body is.  required, optional: its keys beside mass and radius.  tensor: its ∫xxᵀdm."""
+    """required, optional: its keys beside mass and radius.  tensor: its ∫xxᵀdm."""
 
-    about: str
     required: tuple[str, ...]
     optional: tuple[str, ...]
     tensor: Callable[[Mapping[str, Floats]], Floats]
@@ -93,15 +92,11 @@ def bowling(given: Mapping[str, Floats]) -> Floats:
 
 
 PRESETS: dict[str, Preset] = {
-    "homogeneous": Preset("a ball of one material", (), (), homogeneous),
-    "shell": Preset("a hollow shell, thin without thickness", (), ("thickness",), shell),
-    "dumbbell": Preset(
-        "two point masses in a shell", ("point_mass", "separation"), ("thickness",), dumbbell
-    ),
-    "bowling": Preset(
-        "a ball with an off-core weight block", ("block_mass", "block_size", "block_offset"), (), bowling
-    ),
-}  # fmt: skip
+    "homogeneous": Preset((), (), homogeneous),
+    "shell": Preset((), ("thickness",), shell),
+    "dumbbell": Preset(("point_mass", "separation"), ("thickness",), dumbbell),
+    "bowling": Preset(("block_mass", "block_size", "block_offset"), (), bowling),
+}
 
 
 def _isotropic(moment: Floats) -> Floats:

@@ -28,20 +28,15 @@ class SceneError(BadInput):
     """The scene cannot be run as it is written."""
 
 
-class At(ValueError):
-    """A problem of several keys: a whole sentence, and where in the table that is checked it stands."""
+class Misfit(BadInput):
+    """What does not fit, a whole sentence, and the keys to where it stands in the table that is checked, or the scene.
+
+    Of a ball that cannot be these are its table, "ball" or "start", and the name of the key.
+    """
 
     def __init__(self, sentence: str, *path: str | int) -> None:
         super().__init__(sentence)
         self.path = path
-
-
-class Misfit(BadInput):
-    """What a ball cannot have, and the key that says it: its table, "ball" or "start", and its name."""
-
-    def __init__(self, sentence: str, table: str, key: str) -> None:
-        super().__init__(sentence)
-        self.table, self.key = table, key
 
 
 @contextmanager
@@ -109,7 +104,7 @@ def _key(path: Path) -> str:
 def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
     """One problem: its key and what would be right."""
     path, limits = _path(error), error.get("ctx", {})
-    if isinstance(limits.get("error"), At):
+    if isinstance(limits.get("error"), Misfit):
         return str(limits["error"])
     key = _key(path) or "the scene"
     if error["type"] == "extra_forbidden":

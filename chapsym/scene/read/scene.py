@@ -15,7 +15,7 @@ from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model
 from chapsym.accuracy.motion import DEFAULT
 
 from . import robots
-from .errors import At, SceneError, described
+from .errors import Misfit, SceneError, described
 from .ranges import ranges_in
 from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table
 from .task import Task
@@ -109,12 +109,12 @@ class Scene(Table):
         drawn = False
         for i, ball in enumerate(self.ball):
             if ball.start is None and self.start is None:
-                raise At("start is missing: give [start], or each ball its own start = { ... }", "ball", i)
+                raise Misfit("start is missing: give [start], or each ball its own start = { ... }", "ball", i)
             if names.count(ball.name or "") > 1:
-                raise At(f"two balls have the name {ball.name!r}", "ball", i, "name")
+                raise Misfit(f"two balls have the name {ball.name!r}", "ball", i, "name")
             drawn |= self._check_ball(i, ball)
         if self.sweep.samples is not None and not drawn:
-            raise At(
+            raise Misfit(
                 "sweep.samples goes with a range that is drawn, random or normal: there is none", "sweep", "samples"
             )
         return self
@@ -128,15 +128,15 @@ class Scene(Table):
         of_one_step = motion.endswith("momentum")
         if run.accuracy is not None and of_one_step:
             told = "run.accuracy needs start.omega, in rad/s: it is a motion in time that is approximated"
-            raise At(told, *path, motion)
+            raise Misfit(told, *path, motion)
         if run.time_step is None and run.time is None and not of_one_step:
-            raise At(f"start.{motion} needs run.time_step, in seconds, or run.time", *path, motion)
+            raise Misfit(f"start.{motion} needs run.time_step, in seconds, or run.time", *path, motion)
         if run.time_step is None and run.time is not None and self.maps:
-            raise At("run.time needs run.time_step: the map has steps of one length", "run", "time")
+            raise Misfit("run.time needs run.time_step: the map has steps of one length", "run", "time")
         if start.velocity is not None and ball.radius is None:
-            raise At("start.velocity needs ball.radius: the ball rolls without slipping", *path, "velocity")
+            raise Misfit("start.velocity needs ball.radius: the ball rolls without slipping", *path, "velocity")
         if "contact" in run.names() and ball.radius is None:
-            raise At("the contact point needs the radius: give the ball its radius", "ball", i)
+            raise Misfit("the contact point needs the radius: give the ball its radius", "ball", i)
         drawn = {
             key: one
             for name, table in (("ball", ball), ("start", start))
@@ -145,7 +145,7 @@ class Scene(Table):
             if one.drawn
         }
         if drawn and self.sweep.samples is None:
-            raise At(f"{next(iter(drawn))} is drawn: say how often, as samples = 100 under [sweep]", "ball", i)
+            raise Misfit(f"{next(iter(drawn))} is drawn: say how often, as samples = 100 under [sweep]", "ball", i)
         return bool(drawn)
 
 

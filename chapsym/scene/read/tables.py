@@ -21,7 +21,7 @@ from chapsym.accuracy.motion import FINEST
 from chapsym.numbers import own_name
 
 from .bodies import PRESETS, unbalanced
-from .errors import LIST, MATRIX, At
+from .errors import LIST, MATRIX, Misfit
 from .outputs import OUTPUTS
 from .ranges import Range, Value, value
 from .units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, TURNING, Dimension, has_unit, number
@@ -157,8 +157,10 @@ OF_THE_MAP = frozenset({"phase", "rotation_number"})
 Output = Literal[*OUTPUTS]  # type: ignore[valid-type]
 
 
-#: The keys of [start] that say how the body is turned.
-ATTITUDES = ("attitude", "quaternion_xyzw", "rpy")
+#: The keys of [start] that are quaternions, and where in them the scalar and the vector stand.
+SCALAR_FIRST = {"attitude": (0, 1, 2, 3), "quaternion_xyzw": (3, 0, 1, 2)}
+#: Those that say how the body is turned.
+ATTITUDES = (*SCALAR_FIRST, "rpy")
 
 
 class Table(BaseModel):
@@ -173,7 +175,7 @@ class Table(BaseModel):
 
 def _one_of(told: list[str], table: str, names: str) -> None:
     if len(told) != 1:
-        raise At(f"{table}: give either {names}" + (f", not {' and '.join(told)}" if told else ""), *told[1:2])
+        raise Misfit(f"{table}: give either {names}" + (f", not {' and '.join(told)}" if told else ""), *told[1:2])
 
 
 class StartTable(Table):
@@ -203,12 +205,12 @@ class StartTable(Table):
         motions = ("momentum", "vertical_momentum", "omega", "velocity")
         _one_of(self.given(*motions), "start", "momentum, omega or velocity (or vertical_momentum)")
         if self.spin is not None and self.velocity is None:
-            raise At("start.spin goes with start.velocity; omega holds the spin, too", "spin")
+            raise Misfit("start.spin goes with start.velocity; omega holds the spin, too", "spin")
         if self.momentum is None and self.omega is None and "axes" in self.model_fields_set:
-            raise At("start.axes goes with start.omega or start.momentum", "axes")
+            raise Misfit("start.axes goes with start.omega or start.momentum", "axes")
         if len(told := self.given("gamma", *ATTITUDES)) > 1:
             names = "gamma or attitude, which turns gamma to (0, 0, 1) (or quaternion_xyzw, or rpy)"
-            raise At(f"start: give either {names}, not {' and '.join(told)}", told[1])
+            raise Misfit(f"start: give either {names}, not {' and '.join(told)}", told[1])
         return self
 
 
@@ -246,7 +248,7 @@ class BallTable(Table):
             known = [x for x in self.center_of_mass if not isinstance(x, Range)]
             offset = math.hypot(*known) if len(known) == 3 else None
             radius = self.radius if isinstance(self.radius, float) else None
-            raise At(unbalanced("ball.center_of_mass", offset, radius), "center_of_mass")
+            raise Misfit(unbalanced("ball.center_of_mass", offset, radius), "center_of_mass")
         return self
 
     @model_validator(mode="after")
@@ -258,26 +260,26 @@ class BallTable(Table):
             told_n = (
                 f"ball.mass_tensor has {len(self.mass_tensor)} numbers, and {MOST_DIMENSIONS} dimensions are the most"
             )
-            raise At(f"{told_n}: a step of more takes a second and longer", "mass_tensor")
+            raise Misfit(f"{told_n}: a step of more takes a second and longer", "mass_tensor")
         if self.preset is None:
             if told:
-                raise At(f"ball.{told[0]} goes with ball.preset", told[0])
+                raise Misfit(f"ball.{told[0]} goes with ball.preset", told[0])
             return self._with_contact()
         preset = PRESETS[self.preset]
         if wrong := [key for key in told if key not in preset.keys]:
-            raise At(f"ball.{wrong[0]} does not go with the preset {self.preset}", wrong[0])
+            raise Misfit(f"ball.{wrong[0]} does not go with the preset {self.preset}", wrong[0])
         if missing := [key for key in ("mass", "radius", *preset.required) if getattr(self, key) is None]:
-            raise At(f"ball.{missing[0]} is missing: the preset {self.preset} needs it", "preset")
+            raise Misfit(f"ball.{missing[0]} is missing: the preset {self.preset} needs it", "preset")
         return self._with_contact()
 
     def _with_contact(self) -> Self:
         if self.D is not None and self.mass is not None:
-            raise At("ball: give either D or mass and radius, not both D and mass", "D")
+            raise Misfit("ball: give either D or mass and radius, not both D and mass", "D")
         if self.D is None and (self.mass is None or self.radius is None):
             missing = "mass" if self.mass is None else "radius"
             other = "radius" if missing == "mass" else "mass"
             has_other = getattr(self, other) is not None
-            raise At(f"ball.{missing} is missing: give {'it' if has_other else 'mass and radius'}, or D")
+            raise Misfit(f"ball.{missing} is missing: give {'it' if has_other else 'mass and radius'}, or D")
         return self
 
 
@@ -317,26 +319,26 @@ class RunTable(Table):
     @model_validator(mode="after")
     def _steps_or_accuracy(self) -> Self:
         if self.outputs is not None and len(set(self.outputs)) < len(self.outputs):
-            raise At("run.outputs names an output twice", "outputs")
+            raise Misfit("run.outputs names an output twice", "outputs")
         if self.outputs == ():
-            raise At(f"run.outputs is empty: choose of {', '.join(OUTPUTS)}", "outputs")
+            raise Misfit(f"run.outputs is empty: choose of {', '.join(OUTPUTS)}", "outputs")
         if self.accuracy is not None:
             self._check_accuracy()
         elif told := self.given("limit", "of"):
-            raise At(f"run.{told[0]} goes with run.accuracy", told[0])
+            raise Misfit(f"run.{told[0]} goes with run.accuracy", told[0])
         if self.proved and (key := self.of_the_map()) is not None:
-            raise At(f"run.proved is of the motion, and run.{key} of the map: leave out one of them", "proved")
+            raise Misfit(f"run.proved is of the motion, and run.{key} of the map: leave out one of them", "proved")
         if self.every is not None and self.frames is not None:
-            raise At("run: give either every or frames", "frames")
+            raise Misfit("run: give either every or frames", "frames")
         if self.steps is None and self.time is None:
-            raise At("run.steps is missing (or give run.time)")
+            raise Misfit("run.steps is missing (or give run.time)")
         if self.steps is not None and self.time is not None:
-            raise At("run: give either steps or time", "time")
+            raise Misfit("run: give either steps or time", "time")
         if self.time_step is None and self.time is not None:
             if self.every is not None:
-                raise At("run.every needs run.time_step: without, give run.frames", "every")
+                raise Misfit("run.every needs run.time_step: without, give run.frames", "every")
             if self.frames is not None and self.frames > MOST_FRAMES:
-                raise At(f"run.frames is more than {MOST_FRAMES}", "frames")
+                raise Misfit(f"run.frames is more than {MOST_FRAMES}", "frames")
         self.counts()
         return self
 
@@ -349,15 +351,15 @@ class RunTable(Table):
 
     def _check_accuracy(self) -> None:
         if (key := self.of_the_map()) is not None:
-            raise At(f"run.accuracy is of the motion, and run.{key} of the map: leave out one of them", key)
+            raise Misfit(f"run.accuracy is of the motion, and run.{key} of the map: leave out one of them", key)
         if self.time is None and self.time_step is None:
-            raise At("run.accuracy needs run.time, in seconds", "accuracy")
+            raise Misfit("run.accuracy needs run.time, in seconds", "accuracy")
         if self.time_step is not None and self.accuracy is not None and self.accuracy < FINEST:
             told = f"run.accuracy below {FINEST:g} takes more digits than float64 has: give run.time and run.frames"
-            raise At(f"{told} without run.time_step", "accuracy")
+            raise Misfit(f"{told} without run.time_step", "accuracy")
         if isinstance(self.accuracy, Metres) and self.accurate_of() == "state":
             told = 'of the state it is relative; a length goes with of = "contact"'
-            raise At(f"run.accuracy has a unit, but {told}", "accuracy")
+            raise Misfit(f"run.accuracy has a unit, but {told}", "accuracy")
 
     def _counted(self) -> tuple[int, int]:
         """The steps, and how many between two frames; raises where they are not whole."""
@@ -367,25 +369,25 @@ class RunTable(Table):
             assert step is not None
             ratio = time / step
             if not ratio < MOST_STEPS:
-                raise At(f"run.time is {ratio:.3g} time steps, more than anybody waits for", "time")
+                raise Misfit(f"run.time is {ratio:.3g} time steps, more than anybody waits for", "time")
             steps = round(ratio)
             if abs(ratio - steps) > 4 * 2.0**-52 * ratio:  # time, time_step and their ratio are rounded
                 whole = max(steps, 1)
-                raise At(
+                raise Misfit(
                     f"run.time is {ratio:.9g} time steps, which is no whole number: take time = {whole * step:.9g} or "
                     f"time_step = {time / whole!r}", "time",
                 )  # fmt: skip
         if not steps < MOST_STEPS:
-            raise At(f"run.steps is {float(min(steps, 10**300)):.3g}, more than anybody waits for", "steps")
+            raise Misfit(f"run.steps is {float(min(steps, 10**300)):.3g}, more than anybody waits for", "steps")
         frames = self.frames if self.frames is not None else steps // (self.every or 1)
         if frames > MOST_FRAMES:
-            raise At(f"run keeps {frames} frames of a ball, and {MOST_FRAMES} are the most: give every or frames")
+            raise Misfit(f"run keeps {frames} frames of a ball, and {MOST_FRAMES} are the most: give every or frames")
         if self.frames is None:
             return steps, self.every or 1
         if steps % self.frames:
             near = [n for n in range(self.frames, 0, -1) if steps % n == 0][:1] if self.frames < 10**6 else []
             told = f"; {near[0]} do" if near else ""
-            raise At(f"run.frames: {steps} steps do not divide into {self.frames} equal parts{told}", "frames")
+            raise Misfit(f"run.frames: {steps} steps do not divide into {self.frames} equal parts{told}", "frames")
         return steps, max(steps // self.frames, 1)
 
     def counts(self) -> tuple[int, int]:

@@ -64,8 +64,3 @@ class Task:
     def scale(self) -> float:
         """What divides the momentum of a start to give K: ε, or 1 where it is K itself."""
         return 1.0 if self.chosen or self.time_step is None else self.time_step
-
-    @property
-    def kept_scale(self) -> float:
-        """What divides the momentum that is kept to give K: that of the motion is K, that of the map 𝒦 = εK."""
-        return 1.0 if self.accuracy is not None else self.scale
