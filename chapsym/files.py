@@ -45,6 +45,11 @@ def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
             temporary.unlink(missing_ok=True)
 
 
+def write_text(path: Path, text: str) -> None:
+    """Replaces the file by a text in UTF-8, as `write_whole` does."""
+    write_whole(path, lambda stream: stream.write(text.encode()))
+
+
 def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)

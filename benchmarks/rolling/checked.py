@@ -72,7 +72,7 @@ def main(names: list[str]) -> None:
             print(rows[-1], end="", file=sys.stderr)
     if not names:
         text = HEAD.format(radians=RADIANS, digits=DIGITS) + "".join(rows)
-        files.write_whole(OUTPUT, lambda stream: stream.write(text.encode()))
+        files.write_text(OUTPUT, text)
 
 
 if __name__ == "__main__":

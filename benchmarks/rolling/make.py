@@ -85,7 +85,7 @@ def main(names: list[str]) -> None:
 
 
 def keep(path: Path, written: str) -> None:
-    files.write_whole(path, lambda stream: stream.write(written.encode()))
+    files.write_text(path, written)
 
 
 if __name__ == "__main__":

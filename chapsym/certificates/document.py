@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from chapsym import checker
-from chapsym.files import write_whole
+from chapsym.files import write_text
 
 from .balls import NotProved, shortest
 
@@ -65,4 +65,4 @@ def text(document: dict[str, Any]) -> str:
 
 def write(path: Path, document: dict[str, Any]) -> None:
     """Writes the file whole; raises `chapsym.files.CannotWrite`."""
-    write_whole(path, lambda stream: stream.write(text(document).encode()))
+    write_text(path, text(document))

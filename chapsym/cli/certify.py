@@ -2,7 +2,7 @@
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from decimal import ROUND_CEILING, Context
 from fractions import Fraction
 from functools import partial
@@ -15,7 +15,7 @@ import typer
 from chapsym.rationals import rational, rationals
 
 from .app import app
-from .options import Contact, Inertia, Json, MassTensor, ball_from
+from .options import BALL, Json, ball_from, with_options
 from .output import counted, fail, print_json, telling
 
 certify = typer.Typer(
@@ -27,6 +27,9 @@ certify = typer.Typer(
 )
 app.add_typer(certify, name="certify")
 
+#: The options of a ball without its mass and radius.
+BODY = {name: BALL[name] for name in ("mass_tensor", "inertia", "contact")}
+
 Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the certificate there.")]
 
 Digits = Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")]
@@ -35,15 +38,13 @@ Radius = Annotated[
 ]
 
 
-def _ball(
-    mass_tensor: str | None, inertia: str | None, contact: str | None, D: str, J: str = "1,2,4"
-) -> tuple[Any, Any]:
+def _ball(given: Mapping[str, str | None], D: str, J: str = "1,2,4") -> tuple[Any, Any]:
     """J and D as they are given; by default those of the command."""
-    if mass_tensor is inertia is contact is None:
-        mass_tensor, contact = J, D
-    if contact is None:
+    if all(value is None for value in given.values()):
+        given = {"mass_tensor": J, "contact": D}
+    if given.get("contact") is None:
         fail("D is missing: give --D", 2)
-    return ball_from({"mass_tensor": mass_tensor, "inertia": inertia, "contact": contact})
+    return ball_from(given)
 
 
 def _optional(text: str | None, name: str) -> Fraction | None:
@@ -52,10 +53,8 @@ def _optional(text: str | None, name: str) -> Fraction | None:
 
 
 @certify.command("no-invariant-measure")
+@with_options(BODY)
 def no_invariant_measure(
-    mass_tensor: MassTensor = None,
-    inertia: Inertia = None,
-    contact: Contact = None,
     vertical_momentum: Annotated[
         str, typer.Option("--vertical-momentum", "--height", metavar="H", help="h of G_h: the momentum is h gamma.")
     ] = "12/5",
@@ -66,6 +65,7 @@ def no_invariant_measure(
     radius: Radius = None,
     output: Output = None,
     as_json: Json = False,
+    **body: str | None,
 ) -> None:
     """Certify that the reduced map preserves no measure with a positive continuous density.
 
@@ -75,7 +75,7 @@ def no_invariant_measure(
 
     Example: chapsym certify no-invariant-measure --mass-tensor 1,2,4 --D 7 --steps 21 -o real-ball.json
     """
-    J, D = _ball(mass_tensor, inertia, contact, "1")
+    J, D = _ball(body, "1")
     h = rational(vertical_momentum, "--vertical-momentum")
     at, within = _optional(level, "--level"), _optional(radius, "--radius")
     from chapsym.certificates import measure
@@ -89,10 +89,8 @@ def no_invariant_measure(
 
 
 @certify.command("heteroclinic")
+@with_options(BODY)
 def heteroclinic(
-    mass_tensor: MassTensor = None,
-    inertia: Inertia = None,
-    contact: Contact = None,
     vertical_momentum: Annotated[str, typer.Option(metavar="H", help="h of G_h: the momentum is h gamma.")] = "22/5",
     starts: Annotated[
         str | None, typer.Option(metavar="X1,X2", help="Two starts x = e^2u; 1 and about the middle of a step.")
@@ -101,6 +99,7 @@ def heteroclinic(
     radius: Radius = None,
     output: Output = None,
     as_json: Json = False,
+    **body: str | None,
 ) -> None:
     """Certify that orbits of the reduced map between the unstable rotations do not fit at their ends.
 
@@ -109,7 +108,7 @@ def heteroclinic(
 
     Example: chapsym certify heteroclinic --mass-tensor 1,8,12 --D 22 --vertical-momentum 8 -o ends.json
     """
-    J, D = _ball(mass_tensor, inertia, contact, "1/2", "1,4,8")
+    J, D = _ball(body, "1/2", "1,4,8")
     h = rational(vertical_momentum, "--vertical-momentum")
     within = _optional(radius, "--radius")
     from chapsym.certificates import heteroclinic as search
@@ -124,10 +123,8 @@ def heteroclinic(
 
 
 @certify.command("periodic-orbit")
+@with_options(BODY)
 def periodic_orbit(
-    mass_tensor: MassTensor = None,
-    inertia: Inertia = None,
-    contact: Contact = None,
     k_squared: Annotated[str, typer.Option("--k-squared", "--momentum-momentum", metavar="KK", help="|K|^2.")] = "15/2",
     vertical_momentum: Annotated[
         str | None,
@@ -139,6 +136,7 @@ def periodic_orbit(
     radius: Radius = None,
     output: Output = None,
     as_json: Json = False,
+    **body: str | None,
 ) -> None:
     """Certify a periodic orbit, K not parallel to gamma, that contracts volumes: no density near it is invariant.
 
@@ -147,7 +145,7 @@ def periodic_orbit(
 
     Example: chapsym certify periodic-orbit --mass-tensor 1,2,4 --D 1 --steps 26 --attracting -o attracting.json
     """
-    J, D = _ball(mass_tensor, inertia, contact, "2")
+    J, D = _ball(body, "2")
     KK = rational(k_squared, "--k-squared")
     Kg = _optional(vertical_momentum, "--vertical-momentum")
     within = _optional(radius, "--radius")
@@ -158,10 +156,8 @@ def periodic_orbit(
 
 
 @certify.command("energy-drift")
+@with_options(BODY)
 def energy_drift(
-    mass_tensor: MassTensor = None,
-    inertia: Inertia = None,
-    contact: Contact = None,
     momentum: Annotated[str, typer.Option(metavar="K1,K2,K3", help="The start, near a closed orbit.")] = "1,2,3.42454",
     gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, rational.")] = "3/7,6/7,2/7",
     symmetry: Annotated[str, typer.Option(metavar="S1,S2,S3", help="Signs: how the orbit is back.")] = "-1,-1,1",
@@ -172,6 +168,7 @@ def energy_drift(
     digits: Annotated[int, typer.Option(metavar="N", min=12, max=200, help="Its decimals.")] = 20,
     output: Output = None,
     as_json: Json = False,
+    **body: str | None,
 ) -> None:
     """Certify a closed orbit of the continuous ball on which the energy of the map drifts.
 
@@ -179,7 +176,7 @@ def energy_drift(
 
     Example: chapsym certify energy-drift -o drift.json
     """
-    J, D = _ball(mass_tensor, inertia, contact, "1")
+    J, D = _ball(body, "1")
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     signs, end = rationals(symmetry, "--symmetry", 3), rational(time, "--time")
     from chapsym.certificates.drift_search import energy_drift as search
@@ -229,7 +226,7 @@ def manifest_of(
     if not names:
         fail(f"{folder} has no certificates", 2)
     text = json.dumps(manifest.made(names), indent=1) + "\n"
-    files.write_whole(path, lambda stream: stream.write(text.encode()))
+    files.write_text(path, text)
     print(f"wrote {path}: {len(names)} certificates")
 
 

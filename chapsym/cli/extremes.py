@@ -52,7 +52,7 @@ def extremes(
     elif output is not None:
         here = machine()
         text = page.html(matrix, here["versions"], f"{here['cpu']}, {here['cores']} cores, {here['python']}")
-        files.write_whole(output, lambda stream: stream.write(text.encode()))
+        files.write_text(output, text)
     if as_json:
         print_json(matrix)
     else:

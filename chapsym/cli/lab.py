@@ -40,6 +40,7 @@ def lab(
 
     A file of a system is Python, and is run. Example: chapsym lab docs/examples/systems -o systems.html
     """
+    from chapsym.files import write_text
     from chapsym.mechanics import METHODS, BadSystem, loaded, measured
     from chapsym.show.lab import COLUMNS
 
@@ -72,14 +73,14 @@ def lab(
                 if not as_json:
                     print(_row(cell))
                 if output is not None and output.suffix == ".json":
-                    _write(output, json.dumps({"cells": done}, allow_nan=False))
+                    write_text(output, json.dumps({"cells": done}, allow_nan=False))
         except BadSystem as error:
             wrong.append(str(error))
     shown = [cell for cell in done if cell["key"] in keys and cell["method"] in methods and cell["steps"] == steps]
     if output is not None and output.suffix == ".html" and shown:
         from chapsym.show.lab import page
 
-        _write(output, page(shown, {name: m.title for name, m in METHODS.items()}, constraints))
+        write_text(output, page(shown, {name: m.title for name, m in METHODS.items()}, constraints))
     if as_json and shown:
         print_json({"constraints": constraints, "cells": shown})
     elif output is not None and shown:
@@ -142,9 +143,3 @@ def _files(places: list[Path]) -> list[Path]:
     if not found:
         fail(f"{places[0]} has no file of a system", 2)
     return found
-
-
-def _write(output: Path, text: str) -> None:
-    from chapsym.files import write_whole
-
-    write_whole(output, lambda stream: stream.write(text.encode()))

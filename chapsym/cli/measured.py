@@ -43,7 +43,7 @@ def write(output: Path, title: str, about: str, tables: Sequence[Table], shown: 
         lines += ["", f"## {_text(table.title)}", "", *_rows(table.rows, shown)]
         lines += ["", *(f"- {_text(sentence)}" for sentence in table.sentences)] if table.sentences else []
     text = "\n".join(lines) + "\n"
-    files.write_whole(output, lambda stream: stream.write(text.encode()))
+    files.write_text(output, text)
 
 
 def show(console: Any, tables: Sequence[Table], shown: Callable[[Any], Any]) -> None:

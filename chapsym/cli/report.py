@@ -61,7 +61,7 @@ def report(
         for record in found:
             record["evidence"]["section"] = sections[record["id"]]
     text = reports.WRITERS[output.suffix](found, _versions(), earlier, source)
-    files.write_whole(output, lambda stream: stream.write(text.encode()))
+    files.write_text(output, text)
     if as_json:
         print_json({"file": str(output), "counts": reports.counts(found), "claims": len(found)})
     else:
@@ -98,7 +98,7 @@ def _open_questions(
     found = records_of(wanted, kept, kept_in)
     evidence = [one for name in STUDIES if (one := _evidence(name, folder)) is not None]
     text = questions.html(found, _certificates(), evidence, _versions())
-    files.write_whole(output, lambda stream: stream.write(text.encode()))
+    files.write_text(output, text)
     verdicts = {record["id"]: record["verdict"] for record in found if record["id"] in questions.QUESTIONS}
     if as_json:
         print_json({"file": str(output), "verdicts": verdicts, "studies": [one.name for one in evidence]})

@@ -1,7 +1,7 @@
 """chapsym scene: a new scene file, what is in one, and its schema."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -40,6 +40,7 @@ def new(
 
     Example: chapsym scene new my-ball.toml --example robot
     """
+    from chapsym.files import write_text
     from chapsym.scene.read import schema as examples
 
     text = examples.example(example) if from_ is None else examples.of_robot(from_)
@@ -48,9 +49,9 @@ def new(
     if (file.exists() or file.is_symlink()) and not force:
         fail(f"{file} is there already: choose another name, or --force to replace it", 2)
     beside = file.parent / examples.FILE
-    _write(file, (examples.SCHEMA_LINE if schema else "") + text)
+    write_text(file, (examples.SCHEMA_LINE if schema else "") + text)
     if schema:
-        _write(beside, _schema_text())
+        write_text(beside, _schema_text())
     print(f"wrote {file}" + (f", and {beside} for editors" if schema else ""))
 
 
@@ -62,12 +63,13 @@ def schema(
 
     Example: chapsym scene schema -o chapsym-scene.schema.json
     """
-    if output is None:
-        from chapsym.scene.read.schema import schema as described
+    from chapsym.files import write_text
+    from chapsym.scene.read.schema import schema as described
 
+    if output is None:
         print(json_text(described(), indent=1))
         return
-    _write(output, _schema_text())
+    write_text(output, _schema_text())
     print(f"wrote {output}")
 
 
@@ -113,9 +115,3 @@ def _schema_text() -> str:
     from chapsym.scene.read.schema import schema
 
     return json.dumps(schema(), indent=1, ensure_ascii=False) + "\n"
-
-
-def _write(path: Path, text: str) -> Any:
-    from chapsym import files
-
-    return files.write_whole(path, lambda stream: stream.write(text.encode()))

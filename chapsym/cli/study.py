@@ -68,5 +68,5 @@ def _write(module: Any, name: str, found: dict[str, Any], folder: Path) -> list[
 
     data = folder / f"{name}.json"
     text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
-    files.write_whole(data, lambda stream: stream.write(text.encode()))
+    files.write_text(data, text)
     return [data, *figures.save_figures(module.__name__, module.DRAWN, found, folder)]

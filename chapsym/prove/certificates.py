@@ -159,7 +159,7 @@ def write(data: dict[str, Any], folder: Path) -> None:
         else:
             lines.append(f"{json.dumps(name)}: {json.dumps(part, ensure_ascii=False)}")
     text = "{\n" + ",\n".join(lines) + "\n}\n"
-    files.write_whole(folder / checker.file_name(data["claim"]), lambda stream: stream.write(text.encode()))
+    files.write_text(folder / checker.file_name(data["claim"]), text)
 
 
 class _Maker:

@@ -29,7 +29,7 @@ def save(
         return save_figure(draw, data, output)
     with styled():
         page = _page(case, runs, found, known, draw(data).svg())
-    files.write_whole(output, lambda stream: stream.write(page.encode()))
+    files.write_text(output, page)
 
 
 def draw(data: Mapping[str, Any]) -> Picture:

@@ -183,8 +183,7 @@ class Store:
     def _say(self, complete: bool) -> None:
         document = json.loads((self.path / "zarr.json").read_text(encoding="utf-8"))
         document["attributes"]["complete"] = complete
-        text = json.dumps(document, indent=2).encode()
-        files.write_whole(self.path / "zarr.json", lambda stream: stream.write(text))
+        files.write_text(self.path / "zarr.json", json.dumps(document, indent=2))
 
 
 def folder_of(store: Path) -> Path:

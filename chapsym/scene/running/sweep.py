@@ -77,14 +77,10 @@ class Stopped(Exception):
     """Raised inside a unit of work when the run is to stop."""
 
 
-def silent(progress: Progress) -> None:
-    """Reports nothing."""
-
-
 class Tally:
     """Adds up the work of units that run side by side."""
 
-    def __init__(self, plan: Plan, report: Report = silent) -> None:
+    def __init__(self, plan: Plan, report: Report = lambda progress: None) -> None:
         self.plan, self.report, self.stopped = plan, report, False
         self._lock, self._told = threading.Lock(), 0.0
         self._done: dict[int, int] = {}
@@ -159,12 +155,12 @@ class Memory:
         self.write(chunk, segment, {name: state[name] for name in OUTCOME if name in state})
 
 
-def run_in_memory(plan: Plan, report: Report = silent) -> "Dataset":
+def run_in_memory(plan: Plan, report: Report = lambda progress: None) -> "Dataset":
     """The same as `run`, as a Dataset (`dataset.build`)."""
     return with_clock(run(plan, report).dataset())
 
 
-def run(plan: Plan, report: Report = silent) -> Arrays:
+def run(plan: Plan, report: Report = lambda progress: None) -> Arrays:
     """Runs a plan on all cores; the result as plain arrays (`dataset.arrays`).
 
     Balls that stopped early are NaN from there on, with their `status`.  Raises BadInput where a unit has no answer.
@@ -176,7 +172,7 @@ def run(plan: Plan, report: Report = silent) -> Arrays:
 
 
 def run_to_store(
-    plan: Plan, path: Path, scheduler: str | None = None, fresh: bool = False, report: Report = silent
+    plan: Plan, path: Path, scheduler: str | None = None, fresh: bool = False, report: Report = lambda progress: None
 ) -> Outcome:
     """Runs a plan into a Zarr store, or goes on with one that was left; the bits do not depend on the interruptions.
 

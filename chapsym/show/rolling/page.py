@@ -48,7 +48,7 @@ def write_page(dataset: Dataset, path: str | Path, *, balls: Sequence[str | int]
     """
     text = html(dataset, balls=balls)
     try:
-        files.write_whole(Path(path), lambda stream: stream.write(text.encode()))
+        files.write_text(Path(path), text)
     except files.CannotWrite as error:
         raise BadInput(str(error)) from None
 
