@@ -8,7 +8,7 @@ import typer
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import BALL, Json, ball_from, with_options
+from .options import BALL, Json, argument, ball_from, takes, with_options, writes
 from .output import fail
 
 
@@ -17,21 +17,15 @@ from .output import fail
 def bench(
     sections: Annotated[
         list[str] | None,
-        typer.Argument(
-            metavar="[SECTION]...",
-            help="goals, trajectory, batch, steps, calls, plans, dimensions, digits, memory, work-precision, long; "
-            "all.",
+        argument(
+            "[SECTION]...",
+            "goals, trajectory, batch, steps, calls, plans, dimensions, digits, memory, work-precision, long; all.",
         ),
     ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Smaller sizes and fewer rounds: seconds.")] = False,
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="A figure (.svg, .png, .pdf) or a page (.md)."),
-    ] = None,
-    momentum: Annotated[
-        str | None, typer.Option(metavar="K1,K2,K3", help="The discrete momentum of a ball of your own.")
-    ] = None,
-    gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="Its unit vertical, upwards.")] = "2/7,3/7,6/7",
+    output: Annotated[Path | None, writes("FILE", "A figure (.svg, .png, .pdf) or a page (.md).")] = None,
+    momentum: Annotated[str | None, takes("K1,K2,K3", "The discrete momentum of a ball of your own.")] = None,
+    gamma: Annotated[str, takes("G1,G2,G3", "Its unit vertical, upwards.")] = "2/7,3/7,6/7",
     as_json: Json = False,
     **body: str | None,
 ) -> None:

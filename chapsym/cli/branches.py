@@ -2,12 +2,10 @@
 
 from typing import Annotated
 
-import typer
-
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import BALL, Bits, Gamma, Json, Momentum, ball_from, precision_from, with_options
+from .options import BALL, Bits, Gamma, Json, Momentum, ball_from, precision_from, takes, with_options
 from .output import print_json
 
 
@@ -16,10 +14,9 @@ from .output import print_json
 def branches(
     momentum: Momentum,
     gamma: Gamma,
-    digits: Annotated[int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits.")] = None,
+    digits: Annotated[int | None, takes("N", "Significant digits.", min=1, max=100_000)] = None,
     precision: Annotated[
-        str | None,
-        typer.Option("--precision", "--rung", metavar="NAME", help="double: IEEE float64, the default."),
+        str | None, takes("NAME", "double: IEEE float64, the default.", "--precision", "--rung")
     ] = None,
     ball: Bits = None,
     as_json: Json = False,

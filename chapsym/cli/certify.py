@@ -15,7 +15,7 @@ import typer
 from chapsym.rationals import rational, rationals
 
 from .app import app
-from .options import BALL, Json, ball_from, with_options
+from .options import BALL, Json, argument, ball_from, takes, with_options, writes
 from .output import counted, fail, print_json, telling
 
 certify = typer.Typer(
@@ -30,12 +30,10 @@ app.add_typer(certify, name="certify")
 #: The options of a ball without its mass and radius.
 BODY = {name: BALL[name] for name in ("mass_tensor", "inertia", "contact")}
 
-Output = Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the certificate there.")]
+Output = Annotated[Path | None, writes("FILE", "Write the certificate there.")]
 
-Digits = Annotated[int | None, typer.Option(metavar="N", help="Decimals; as many as needed by default.")]
-Radius = Annotated[
-    str | None, typer.Option(metavar="R", help="How far parameters may be off; the largest power of 10.")
-]
+Digits = Annotated[int | None, takes("N", "Decimals; as many as needed by default.")]
+Radius = Annotated[str | None, takes("R", "How far parameters may be off; the largest power of 10.")]
 
 
 def _ball(given: Mapping[str, str | None], D: str, J: str = "1,2,4") -> tuple[Any, Any]:
@@ -56,11 +54,11 @@ def _optional(text: str | None, name: str) -> Fraction | None:
 @with_options(BODY)
 def no_invariant_measure(
     vertical_momentum: Annotated[
-        str, typer.Option("--vertical-momentum", "--height", metavar="H", help="h of G_h: the momentum is h gamma.")
+        str, takes("H", "h of G_h: the momentum is h gamma.", "--vertical-momentum", "--height")
     ] = "12/5",
-    steps: Annotated[int | None, typer.Option(metavar="Q", help="Steps; the fewest possible, odd.")] = None,
-    turns: Annotated[int | None, typer.Option(metavar="P", help="Half turns in them; 1.")] = None,
-    level: Annotated[str | None, typer.Option(metavar="L", help="The level; found by default.")] = None,
+    steps: Annotated[int | None, takes("Q", "Steps; the fewest possible, odd.")] = None,
+    turns: Annotated[int | None, takes("P", "Half turns in them; 1.")] = None,
+    level: Annotated[str | None, takes("L", "The level; found by default.")] = None,
     digits: Digits = None,
     radius: Radius = None,
     output: Output = None,
@@ -91,10 +89,8 @@ def no_invariant_measure(
 @certify.command("heteroclinic")
 @with_options(BODY)
 def heteroclinic(
-    vertical_momentum: Annotated[str, typer.Option(metavar="H", help="h of G_h: the momentum is h gamma.")] = "22/5",
-    starts: Annotated[
-        str | None, typer.Option(metavar="X1,X2", help="Two starts x = e^2u; 1 and about the middle of a step.")
-    ] = None,
+    vertical_momentum: Annotated[str, takes("H", "h of G_h: the momentum is h gamma.")] = "22/5",
+    starts: Annotated[str | None, takes("X1,X2", "Two starts x = e^2u; 1 and about the middle of a step.")] = None,
     digits: Digits = None,
     radius: Radius = None,
     output: Output = None,
@@ -125,12 +121,11 @@ def heteroclinic(
 @certify.command("periodic-orbit")
 @with_options(BODY)
 def periodic_orbit(
-    k_squared: Annotated[str, typer.Option("--k-squared", "--momentum-momentum", metavar="KK", help="|K|^2.")] = "15/2",
+    k_squared: Annotated[str, takes("KK", "|K|^2.", "--k-squared", "--momentum-momentum")] = "15/2",
     vertical_momentum: Annotated[
-        str | None,
-        typer.Option("--vertical-momentum", "--momentum-gamma", metavar="H", help="<K, gamma>; found by default."),
+        str | None, takes("H", "<K, gamma>; found by default.", "--vertical-momentum", "--momentum-gamma")
     ] = None,
-    steps: Annotated[int, typer.Option(metavar="Q", help="Steps after which the orbit is back.")] = 20,
+    steps: Annotated[int, takes("Q", "Steps after which the orbit is back.")] = 20,
     attracting: Annotated[bool, typer.Option("--attracting", help="It must attract the orbits near it.")] = False,
     digits: Digits = None,
     radius: Radius = None,
@@ -158,14 +153,12 @@ def periodic_orbit(
 @certify.command("energy-drift")
 @with_options(BODY)
 def energy_drift(
-    momentum: Annotated[str, typer.Option(metavar="K1,K2,K3", help="The start, near a closed orbit.")] = "1,2,3.42454",
-    gamma: Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, rational.")] = "3/7,6/7,2/7",
-    symmetry: Annotated[str, typer.Option(metavar="S1,S2,S3", help="Signs: how the orbit is back.")] = "-1,-1,1",
-    time: Annotated[str, typer.Option(metavar="T", help="When it is back.")] = "8.5478",
-    vary: Annotated[
-        int, typer.Option(metavar="N", min=1, max=3, help="The component of the momentum that is adjusted.")
-    ] = 3,
-    digits: Annotated[int, typer.Option(metavar="N", min=12, max=200, help="Its decimals.")] = 20,
+    momentum: Annotated[str, takes("K1,K2,K3", "The start, near a closed orbit.")] = "1,2,3.42454",
+    gamma: Annotated[str, takes("G1,G2,G3", "The unit vertical, rational.")] = "3/7,6/7,2/7",
+    symmetry: Annotated[str, takes("S1,S2,S3", "Signs: how the orbit is back.")] = "-1,-1,1",
+    time: Annotated[str, takes("T", "When it is back.")] = "8.5478",
+    vary: Annotated[int, takes("N", "The component of the momentum that is adjusted.", min=1, max=3)] = 3,
+    digits: Annotated[int, takes("N", "Its decimals.", min=12, max=200)] = 20,
     output: Output = None,
     as_json: Json = False,
     **body: str | None,
@@ -187,10 +180,8 @@ def energy_drift(
 
 @certify.command()
 def check(
-    files: Annotated[list[Path] | None, typer.Argument(metavar="FILE...", help="Certificates.")] = None,
-    manifest: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Check all that a manifest lists; none may be missing.")
-    ] = None,
+    files: Annotated[list[Path] | None, argument("FILE...", "Certificates.")] = None,
+    manifest: Annotated[Path | None, takes("FILE", "Check all that a manifest lists; none may be missing.")] = None,
 ) -> None:
     """Check certificates: exit status 0 accepted, 1 rejected, 2 unreadable.
 
@@ -206,7 +197,7 @@ def check(
 
 @certify.command("manifest")
 def manifest_of(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Certificates, in this folder and those below.")],
+    folder: Annotated[Path, argument("DIR", "Certificates, in this folder and those below.")],
 ) -> None:
     """Write DIR/manifest.json, which lists all certificates of a folder: one that is missing later is seen.
 
@@ -232,14 +223,12 @@ def manifest_of(
 
 @certify.command()
 def motion(
-    scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="One ball, and how it starts.")],
-    digits: Annotated[int, typer.Option(metavar="N", help="How many digits of every number are proved.")] = 20,
-    limit: Annotated[float, typer.Option(metavar="S", help="Seconds after which what is proved is given.")] = 600.0,
-    against: Annotated[
-        Path | None, typer.Option(metavar="RESULT", help="A result of the scene: a bound of its error is proved.")
-    ] = None,
+    scene: Annotated[Path, argument("SCENE.toml", "One ball, and how it starts.")],
+    digits: Annotated[int, takes("N", "How many digits of every number are proved.")] = 20,
+    limit: Annotated[float, takes("S", "Seconds after which what is proved is given.")] = 600.0,
+    against: Annotated[Path | None, takes("RESULT", "A result of the scene: a bound of its error is proved.")] = None,
     certificate: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write there what the separate checker judges on its own.")
+        Path | None, takes("FILE", "Write there what the separate checker judges on its own.")
     ] = None,
     output: Output = None,
     as_json: Json = False,

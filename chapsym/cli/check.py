@@ -3,11 +3,9 @@
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 from . import measured
 from .app import app
-from .options import Json
+from .options import Json, takes, writes
 from .output import console_for, fail, print_json, print_table, progress_bar
 
 TITLE = "float64 against mpmath: worst error in ulps"
@@ -19,12 +17,10 @@ ABOUT = (
 
 @app.command()
 def check(
-    states: Annotated[int, typer.Option(metavar="N", min=1, help="States of each stratum.")] = 20,
-    steps: Annotated[int, typer.Option(metavar="N", min=1000, help="Steps of the trajectory.")] = 100_000,
-    seed: Annotated[int, typer.Option(metavar="N", min=0, help="Seed of the states.")] = 20071,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="PAGE", help="A page, .md, of the table.")
-    ] = None,
+    states: Annotated[int, takes("N", "States of each stratum.", min=1)] = 20,
+    steps: Annotated[int, takes("N", "Steps of the trajectory.", min=1000)] = 100_000,
+    seed: Annotated[int, takes("N", "Seed of the states.", min=0)] = 20071,
+    output: Annotated[Path | None, writes("PAGE", "A page, .md, of the table.")] = None,
     as_json: Json = False,
 ) -> None:
     """Check the float64 map against an independent mpmath solution of the matrix equation (4.13).

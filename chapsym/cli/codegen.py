@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from .app import app
-from .options import Json, Own
+from .options import Json, Own, takes
 from .output import fail, print_json
 from .prove import register_from
 
@@ -15,8 +15,7 @@ from .prove import register_from
 def codegen(
     check: Annotated[bool, typer.Option("--check", help="Compare with a fresh build; write nothing.")] = False,
     trust: Annotated[
-        list[str] | None,
-        typer.Option(metavar="KERNEL", help="Accept the new value of a kernel (or 'all') as its fingerprint."),
+        list[str] | None, takes("KERNEL", "Accept the new value of a kernel (or 'all') as its fingerprint.")
     ] = None,
     own: Own = None,
     as_json: Json = False,

@@ -7,7 +7,7 @@ import typer
 
 from . import measured
 from .app import app
-from .options import Json
+from .options import Json, argument, writes
 from .output import check_known, console_for, fail, print_json, progress_bar
 
 #: How the signs of the verdicts look on a terminal; they read without colour.
@@ -16,13 +16,9 @@ COLOURS = {"✓": "green", "–": "cyan", "✗": "bold red"}
 
 @app.command()
 def extremes(
-    groups: Annotated[
-        list[str] | None, typer.Argument(metavar="[GROUP]...", help="Groups of conditions; all by default.")
-    ] = None,
+    groups: Annotated[list[str] | None, argument("[GROUP]...", "Groups of conditions; all by default.")] = None,
     quick: Annotated[bool, typer.Option("--quick", help="Short runs and small batches.")] = False,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="PAGE", help="A page: .html, that opens from disk, or .md.")
-    ] = None,
+    output: Annotated[Path | None, writes("PAGE", "A page: .html, that opens from disk, or .md.")] = None,
     as_json: Json = False,
 ) -> None:
     """Judge every precision at the extremes: tiny momenta, folds, rotations by π, D up to 1e15, odd bodies and arrays.

@@ -3,10 +3,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from .app import app
-from .options import Json
+from .options import Json, argument, takes, writes
 from .output import fail, print_json
 
 if TYPE_CHECKING:
@@ -15,19 +13,14 @@ if TYPE_CHECKING:
 
 @app.command()
 def judge(
-    results: Annotated[list[Path], typer.Argument(metavar="RESULT.csv ...", help="Of one engine, each with its step.")],
+    results: Annotated[list[Path], argument("RESULT.csv ...", "Of one engine, each with its step.")],
     against: Annotated[
-        Path | None,
-        typer.Option(metavar="CASE", help="A .json of benchmarks/rolling/data, or a scene, .toml, with its start."),
+        Path | None, takes("CASE", "A .json of benchmarks/rolling/data, or a scene, .toml, with its start.")
     ] = None,
     body: Annotated[
-        Path | None,
-        typer.Option(metavar="BODY", help="A ball, .toml, .urdf, .sdf or .xml, that starts as the first row does."),
+        Path | None, takes("BODY", "A ball, .toml, .urdf, .sdf or .xml, that starts as the first row does.")
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="The curves: .svg, .png, .pdf, or a page: .html."),
-    ] = None,
+    output: Annotated[Path | None, writes("FILE", "The curves: .svg, .png, .pdf, or a page: .html.")] = None,
     as_json: Json = False,
 ) -> None:
     """Judge an engine: how far its ball is from where a ball that rolls without slipping is.

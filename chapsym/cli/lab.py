@@ -7,32 +7,22 @@ from typing import Annotated, Any
 import typer
 
 from .app import app
-from .options import Json
+from .options import Json, argument, takes
 from .output import fail, note, print_json
 
 
 @app.command()
 def lab(
-    files: Annotated[
-        list[Path],
-        typer.Argument(metavar="FILE...", help="Files of systems, SYSTEM = System(...), or folders of them."),
-    ],
-    method: Annotated[
-        list[str] | None, typer.Option(metavar="NAME", help="A method; may be given more than once; all by default.")
-    ] = None,
-    steps: Annotated[int, typer.Option(metavar="N", min=1, max=100_000_000, help="Steps of each run.")] = 100_000,
-    length: Annotated[
-        float | None, typer.Option(metavar="TIME", min=0, help="Of a step; that of each system by default.")
-    ] = None,
+    files: Annotated[list[Path], argument("FILE...", "Files of systems, SYSTEM = System(...), or folders of them.")],
+    method: Annotated[list[str] | None, takes("NAME", "A method; may be given more than once; all by default.")] = None,
+    steps: Annotated[int, takes("N", "Steps of each run.", min=1, max=100_000_000)] = 100_000,
+    length: Annotated[float | None, takes("TIME", "Of a step; that of each system by default.", min=0)] = None,
     flags: Annotated[
         bool, typer.Option(help="Also decide exactly what can be: constraints, integrals, methods.")
     ] = True,
     halve: Annotated[bool, typer.Option(help="Also run with half the step: is a drift of the method?")] = False,
     output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output", "-o", metavar="FILE", help="A .json, which is gone on with if it is there; or an .html."
-        ),
+        Path | None, takes("FILE", "A .json, which is gone on with if it is there; or an .html.", "--output", "-o")
     ] = None,
     as_json: Json = False,
 ) -> None:

@@ -17,53 +17,57 @@ if TYPE_CHECKING:
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
+
+def takes(metavar: str, help: str, *names: str, min: float | None = None, max: float | None = None) -> Any:
+    """An option with a value: what stands for that in the help, and its line there."""
+    return typer.Option(*names, metavar=metavar, help=help, min=min, max=max)
+
+
+def writes(metavar: str, help: str) -> Any:
+    """The option of where the output goes."""
+    return takes(metavar, help, "-o", "--output")
+
+
+def argument(metavar: str, help: str) -> Any:
+    """An argument, the same way."""
+    return typer.Argument(metavar=metavar, help=help)
+
+
 #: By how much, relatively, a symmetric tensor may differ from its transpose, as in scenes.
 ASYMMETRY = Fraction(1, 10**12)
 
 Records = Annotated[
-    Path | None,
-    typer.Option(
-        "--records",
-        metavar="FILE",
-        help="The JSON Lines file of verdicts; in the user's cache by default.",
-    ),
+    Path | None, takes("FILE", "The JSON Lines file of verdicts; in the user's cache by default.", "--records")
 ]
 
 Own = Annotated[
     str | None,
-    typer.Option(
+    takes(
+        "FOLDER",
+        "Claims of your own: a folder of Python scripts, one script, or a package. It is code, and it is run.",
         "--register",
-        metavar="FOLDER",
-        help="Claims of your own: a folder of Python scripts, one script, or a package. It is code, and it is run.",
     ),
 ]
 
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output.")]
 
-MassTensor = Annotated[
-    str | None, typer.Option("--mass-tensor", metavar="J1,J2,J3", help="J: second moments of mass (pseudo-inertia).")
-]
+Momentum = Annotated[str, takes("K1,K2,K3", "The discrete momentum.")]
 
-Inertia = Annotated[
-    str | None,
-    typer.Option(metavar="I1,I2,I3", help="Or principal moments, I1 = J2 + J3; or a tensor: I11,I12,I13;I21,...;I33."),
-]
+Gamma = Annotated[str, takes("G1,G2,G3", "The unit vertical, upwards, in the body.")]
 
-Contact = Annotated[str | None, typer.Option("--D", metavar="D", help="D = m rho^2.")]
-
-Mass = Annotated[str | None, typer.Option(metavar="M", help="Mass, with --radius, instead of --D.")]
-
-Radius = Annotated[str | None, typer.Option(metavar="RHO", help="Radius.")]
-
-Momentum = Annotated[str, typer.Option(metavar="K1,K2,K3", help="The discrete momentum.")]
-
-Gamma = Annotated[str, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")]
-
-Bits = Annotated[int | None, typer.Option(metavar="BITS", min=2, max=1_000_000, help="Bits of an Arb enclosure.")]
+Bits = Annotated[int | None, takes("BITS", "Bits of an Arb enclosure.", min=2, max=1_000_000)]
 
 
 #: The options of a ball, by parameter.
-BALL = {"mass_tensor": MassTensor, "inertia": Inertia, "contact": Contact, "mass": Mass, "radius": Radius}
+BALL = {
+    "mass_tensor": Annotated[str | None, takes("J1,J2,J3", "J: second moments of mass (pseudo-inertia).")],
+    "inertia": Annotated[
+        str | None, takes("I1,I2,I3", "Or principal moments, I1 = J2 + J3; or a tensor: I11,I12,I13;I21,...;I33.")
+    ],
+    "contact": Annotated[str | None, takes("D", "D = m rho^2.", "--D")],
+    "mass": Annotated[str | None, takes("M", "Mass, with --radius, instead of --D.")],
+    "radius": Annotated[str | None, takes("RHO", "Radius.")],
+}
 
 
 def with_options(options: Mapping[str, Any]) -> Callable[[Command], Command]:

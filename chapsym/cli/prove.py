@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .app import app
-from .options import Json, Own, Records
+from .options import Json, Own, Records, argument, takes
 from .output import counted, fail, note, print_json, progress_bar
 
 if TYPE_CHECKING:
@@ -19,25 +19,18 @@ if TYPE_CHECKING:
 
 @app.command()
 def prove(
-    ids: Annotated[list[str] | None, typer.Argument(metavar="[ID ...]", help="Claims; all if none is named.")] = None,
+    ids: Annotated[list[str] | None, argument("[ID ...]", "Claims; all if none is named.")] = None,
     as_json: Json = False,
     listing: Annotated[bool, typer.Option("--list", help="List the claims that have a proof.")] = False,
     explain: Annotated[bool, typer.Option("--explain", help="Print the whole argument.")] = False,
-    jobs: Annotated[
-        int | None, typer.Option(metavar="N", min=1, help="Processes; one for each core by default.")
-    ] = None,
+    jobs: Annotated[int | None, takes("N", "Processes; one for each core by default.", min=1)] = None,
     certificates: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="DIR", help="Write what was decided as ID.json, for the checker; lemmas, too, if no ID is named."
-        ),
+        Path | None, takes("DIR", "Write what was decided as ID.json, for the checker; lemmas, too, if no ID is named.")
     ] = None,
     own: Own = None,
     rocq: Annotated[
         Path | None,
-        typer.Option(
-            metavar="DIR", help="Write the same as theorems of Rocq (Coq 8.16), with a Makefile that has them judged."
-        ),
+        takes("DIR", "Write the same as theorems of Rocq (Coq 8.16), with a Makefile that has them judged."),
     ] = None,
     kept_in: Records = None,
 ) -> None:

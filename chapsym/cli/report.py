@@ -10,7 +10,7 @@ import typer
 import chapsym
 
 from .app import app
-from .options import Json, Own, Records
+from .options import Json, Own, Records, takes, writes
 from .output import fail, print_json
 from .prove import all_claims, kept_records, records_of, register_from, tally
 from .study import STUDIES
@@ -18,16 +18,12 @@ from .study import STUDIES
 
 @app.command()
 def report(
-    output: Annotated[
-        Path,
-        typer.Option(
-            "-o", "--output", metavar="FILE", help="A page (.html), or the list of errata (.md, .tex, .json)."
-        ),
-    ] = Path("chapsym-report.html"),
+    output: Annotated[Path, writes("FILE", "A page (.html), or the list of errata (.md, .tex, .json).")] = Path(
+        "chapsym-report.html"
+    ),
     fresh: Annotated[bool, typer.Option("--fresh", help="Prove every claim again.")] = False,
     studies: Annotated[
-        Path | None,
-        typer.Option("--open", metavar="DIR", help="The page of the open questions, with the studies in DIR."),
+        Path | None, takes("DIR", "The page of the open questions, with the studies in DIR.", "--open")
     ] = None,
     as_json: Json = False,
     own: Own = None,

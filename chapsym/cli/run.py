@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .app import INTERRUPTED, app
-from .options import Json
+from .options import Json, argument, takes, writes
 from .output import counted, fail, note, print_json
 
 if TYPE_CHECKING:
@@ -25,10 +25,10 @@ OUT = "A .zarr, which can be resumed; or .nc, .parquet, .csv, .npz."
 
 @app.command()
 def run(
-    scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="What to roll.")],
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="OUT", help=OUT)] = None,
+    scene: Annotated[Path, argument("SCENE.toml", "What to roll.")],
+    output: Annotated[Path | None, writes("OUT", OUT)] = None,
     scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler, such as tcp://host:8786, for a .zarr.")
+        str | None, takes("ADDRESS", "A Dask scheduler, such as tcp://host:8786, for a .zarr.")
     ] = None,
     fresh: Annotated[bool, typer.Option("--fresh", help="Begin a .zarr anew, whatever result it holds.")] = False,
     as_json: Json = False,

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from .app import app
-from .options import Json
+from .options import Json, argument, takes, writes
 from .output import fail, json_text, print_json
 
 scenes = typer.Typer()
@@ -25,13 +25,10 @@ def scene(context: typer.Context) -> None:
 
 @scenes.command()
 def new(
-    file: Annotated[Path, typer.Argument(metavar="FILE.toml", help="What to write.")],
-    example: Annotated[
-        str, typer.Option(metavar="NAME", help="Which: bowling, four, robot, spread or vertical.")
-    ] = "bowling",
+    file: Annotated[Path, argument("FILE.toml", "What to write.")],
+    example: Annotated[str, takes("NAME", "Which: bowling, four, robot, spread or vertical.")] = "bowling",
     from_: Annotated[
-        Path | None,
-        typer.Option("--from", metavar="ROBOT", help="Its ball: a .urdf, a .sdf or MuJoCo's .xml, with one sphere."),
+        Path | None, takes("ROBOT", "Its ball: a .urdf, a .sdf or MuJoCo's .xml, with one sphere.", "--from")
     ] = None,
     schema: Annotated[bool, typer.Option(help="Write the schema for editors beside it, and name it.")] = True,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
@@ -57,7 +54,7 @@ def new(
 
 @scenes.command()
 def schema(
-    output: Annotated[Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write it there.")] = None,
+    output: Annotated[Path | None, writes("FILE", "Write it there.")] = None,
 ) -> None:
     """Print the JSON Schema of scene files, with descriptions and units.
 
@@ -75,7 +72,7 @@ def schema(
 
 @scenes.command()
 def check(
-    file: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="What to read.")],
+    file: Annotated[Path, argument("SCENE.toml", "What to read.")],
     as_json: Json = False,
 ) -> None:
     """Say what a scene will run, and what that costs.

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .app import app
-from .options import Json
+from .options import Json, argument, takes, writes
 from .output import fail, print_json, progress_bar
 
 if TYPE_CHECKING:
@@ -17,20 +17,13 @@ FORMATS = {"svg": ("svg",), "png": ("png",), "pdf": ("pdf",), "both": ("svg", "p
 
 @app.command()
 def show(
-    result: Annotated[Path, typer.Argument(metavar="RESULT", help="A result, or a scene (.toml), which is run first.")],
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FOLDER", help="Where to; RESULT-figures by default.")
-    ] = None,
+    result: Annotated[Path, argument("RESULT", "A result, or a scene (.toml), which is run first.")],
+    output: Annotated[Path | None, writes("FOLDER", "Where to; RESULT-figures by default.")] = None,
     form: Annotated[
-        str,
-        typer.Option(
-            "--format",
-            metavar="svg|png|pdf|both|gif|mp4",
-            help="Of the figures; gif, mp4: the motion, moving pictures.",
-        ),
+        str, takes("svg|png|pdf|both|gif|mp4", "Of the figures; gif, mp4: the motion, moving pictures.", "--format")
     ] = "svg",
-    ball: Annotated[str | None, typer.Option(metavar="NAME", help="Show one ball of several.")] = None,
-    names: Annotated[str | None, typer.Option("--figures", metavar="A,B", help="Only these; all by default.")] = None,
+    ball: Annotated[str | None, takes("NAME", "Show one ball of several.")] = None,
+    names: Annotated[str | None, takes("A,B", "Only these; all by default.", "--figures")] = None,
     page: Annotated[
         bool | None, typer.Option("--page/--no-page", help="The interactive page; by default if it can be made.")
     ] = None,

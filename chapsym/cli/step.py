@@ -2,8 +2,6 @@
 
 from typing import Annotated
 
-import typer
-
 from chapsym.rationals import rationals
 
 from .app import app
@@ -16,6 +14,7 @@ from .options import (
     ball_from,
     contact_from,
     precision_from,
+    takes,
     tensor_from,
     with_options,
 )
@@ -27,17 +26,10 @@ from .output import print_json
 def step(
     momentum: Momentum,
     gamma: Gamma,
-    digits: Annotated[
-        int | None, typer.Option(metavar="N", min=1, max=100_000, help="Significant digits, by mpmath.")
-    ] = None,
+    digits: Annotated[int | None, takes("N", "Significant digits, by mpmath.", min=1, max=100_000)] = None,
     precision: Annotated[
         str | None,
-        typer.Option(
-            "--precision",
-            "--rung",
-            metavar="NAME",
-            help="single, double (the default) or double-double: 7, 16, 31 digits.",
-        ),
+        takes("NAME", "single, double (the default) or double-double: 7, 16, 31 digits.", "--precision", "--rung"),
     ] = None,
     ball: Bits = None,
     as_json: Json = False,

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from .app import app
-from .options import Json
+from .options import Json, argument, takes, writes
 from .output import check_known, print_json, progress_bar
 
 #: The packages of research, in a checkout, that offer study(quick, run), run as `run_units`, sentences(found), and
@@ -18,17 +18,12 @@ STUDIES = ("rotation", "energy", "chaos")
 
 @app.command()
 def study(
-    name: Annotated[str, typer.Argument(metavar="NAME", help=f"{', '.join(STUDIES)}.")],
+    name: Annotated[str, argument("NAME", f"{', '.join(STUDIES)}.")],
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and coarser.")] = False,
     output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o", "--output", metavar="DIR", help="A folder for the data and figures; an unfinished one is resumed."
-        ),
+        Path | None, writes("DIR", "A folder for the data and figures; an unfinished one is resumed.")
     ] = None,
-    scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler, such as tcp://host:8786.")
-    ] = None,
+    scheduler: Annotated[str | None, takes("ADDRESS", "A Dask scheduler, such as tcp://host:8786.")] = None,
     as_json: Json = False,
 ) -> None:
     """Measure: rotation numbers and mode locking of the reduced map, the energy of the full map, how much is chaotic.

@@ -11,13 +11,13 @@ import typer
 from chapsym.rationals import rationals
 
 from .app import app
-from .options import BALL, Json, ball_from, contact_from, tensor_from, with_options
+from .options import BALL, Json, argument, ball_from, contact_from, takes, tensor_from, with_options, writes
 from .output import fail, print_json, quiet, say
 
 #: The ball and its start, which a scene has, too.
 BALL_AND_START = BALL | {
-    "omega": Annotated[str | None, typer.Option(metavar="W1,W2,W3", help="Angular velocity in the body, rad/s.")],
-    "gamma": Annotated[str | None, typer.Option(metavar="G1,G2,G3", help="The unit vertical, upwards, in the body.")],
+    "omega": Annotated[str | None, takes("W1,W2,W3", "Angular velocity in the body, rad/s.")],
+    "gamma": Annotated[str | None, takes("G1,G2,G3", "The unit vertical, upwards, in the body.")],
 }
 
 
@@ -26,30 +26,17 @@ BALL_AND_START = BALL | {
 def trade(
     what: Annotated[
         list[str] | None,
-        typer.Argument(
-            metavar="[SECTION]... | SCENE.toml",
-            help="rounding, contact, state, batch, n4, n4-batch, requests, kernels; with --accuracy a scene.",
+        argument(
+            "[SECTION]... | SCENE.toml",
+            "rounding, contact, state, batch, n4, n4-batch, requests, kernels; with --accuracy a scene.",
         ),
     ] = None,
-    accuracy: Annotated[
-        float | None, typer.Option(metavar="A", help="Choose, run and verify: the error wanted.")
-    ] = None,
-    time: Annotated[float | None, typer.Option(metavar="T", help="Seconds to roll, with --accuracy.")] = None,
-    of: Annotated[
-        str | None,
-        typer.Option(metavar="WHAT", help="contact (metres; the default with a radius) or state (relative)."),
-    ] = None,
-    limit: Annotated[float, typer.Option(metavar="S", help="Seconds of the processor that a run may take.")] = 600.0,
+    accuracy: Annotated[float | None, takes("A", "Choose, run and verify: the error wanted.")] = None,
+    time: Annotated[float | None, takes("T", "Seconds to roll, with --accuracy.")] = None,
+    of: Annotated[str | None, takes("WHAT", "contact (metres; the default with a radius) or state (relative).")] = None,
+    limit: Annotated[float, takes("S", "Seconds of the processor that a run may take.")] = 600.0,
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs.")] = False,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="A figure or a page (.md); with --accuracy the run.",
-        ),
-    ] = None,
+    output: Annotated[Path | None, writes("FILE", "A figure or a page (.md); with --accuracy the run.")] = None,
     as_json: Json = False,
     **told: str | None,
 ) -> None:
