@@ -10,7 +10,8 @@ from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from chapsym.studies.judge import Case, convergence, departure, read_trajectory
+from chapsym.studies.judge import Case, convergence, departure
+from chapsym.studies.judge_tables import read_trajectory
 
 from .engines.common import case_of, text
 

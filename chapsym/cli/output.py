@@ -139,12 +139,13 @@ def _balls(at: Any) -> str:
 @contextmanager
 def telling() -> Iterator[Callable[[str], None]]:
     """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
-    console = terminal()
-    if console is None:
+    if not sys.stderr.isatty():
         yield now_and_then()
         return
-    with console.status("") as status:
-        yield status.update
+    try:
+        yield say
+    finally:
+        quiet()
 
 
 def console_for(width: int) -> Any:

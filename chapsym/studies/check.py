@@ -68,15 +68,12 @@ def _ball(rng: np.random.Generator) -> tuple[Floats, float]:
     return rng.uniform(0.1, 2.0, 3), float(rng.uniform(0.0, 2.0))
 
 
-def _at_reach(rng: np.random.Generator, J: Floats, D: float, g: Floats, fraction: float) -> State:
-    """A momentum in a random direction, as far along the branch as `fraction` of its fold."""
-    K = _unit(rng) * 100 * (J.sum() + D)
-    return State(J, D, K * _reach(K, g, J, D) * fraction, g)
-
-
-def _reach(K: Floats, g: Floats, J: Floats, D: float) -> float:
-    """The fraction of 𝒦 at which the branch folds."""
-    return float(small_rotation(*[*K, *g, *J, D])[1])
+def _at_reach(
+    rng: np.random.Generator, J: Floats, D: float, g: Floats, fraction: float, along: Floats | None = None
+) -> State:
+    """A momentum in a direction, random by default, as far along the branch as `fraction` of its fold."""
+    K = (_unit(rng) if along is None else along) * 100 * (J.sum() + D)
+    return State(J, D, K * float(small_rotation(*[*K, *g, *J, D])[1]) * fraction, g)
 
 
 def _flat(rng: np.random.Generator) -> State:
@@ -93,8 +90,7 @@ def _nearly_equal(rng: np.random.Generator) -> State:
 def _vertical(rng: np.random.Generator) -> State:
     J, D = _ball(rng)
     g = _unit(rng)
-    K = g * 100 * (J.sum() + D)
-    return State(J, D, K * _reach(K, g, J, D) * rng.uniform(0.01, 0.7), g)
+    return _at_reach(rng, J, D, g, rng.uniform(0.01, 0.7), along=g)
 
 
 STRATA: dict[str, Callable[[np.random.Generator], State]] = {

@@ -12,7 +12,8 @@ from chapsym.dynamics.errors import BadInput
 from chapsym.show.drawing.style import WIDE, Picture, legend, new, styled
 from chapsym.studies.figures import save_figure
 
-from .judge import LIMITS, UNITS, Case, Convergence, Departure, Trajectory, limit_of, sentence
+from .judge import LIMITS, UNITS, Case, Convergence, Departure, limit_of, sentence
+from .judge_tables import Trajectory
 
 FORMS = (".svg", ".png", ".pdf", ".html")
 

@@ -96,25 +96,21 @@ def read_table(file: Path) -> Table:
     except (OSError, UnicodeDecodeError) as error:
         raise BadInput(f"{file} cannot be read: {getattr(error, 'strerror', None) or 'it is no text'}") from None
     rows = [line for line in lines if line.strip() and not line.startswith("#")]
-    if len(rows) > 1 and not any(map(_is_number, _cells(rows[1]))):  # after a title
+    if len(rows) > 1 and np.isnan([*map(_number, _cells(rows[1]))]).all():  # after a title
         rows = rows[1:]
     names = [_name(cell) for cell in _cells(rows[0])] if rows else []
-    if rows and len(names) == len(TUM) and all(map(_is_number, _cells(rows[0]))):
+    if rows and len(names) == len(TUM) and not np.isnan([*map(_number, _cells(rows[0]))]).any():
         names, rows = list(TUM), ["", *rows]
     if missing := [name for name in NEEDED if name not in names]:
         raise BadInput(f"{file} has no column {missing[0]}: its first row must name {','.join((*NEEDED, *MORE))}")
     if twice := [name for name in names if name in (*NEEDED, *MORE) and names.count(name) > 1]:
         raise BadInput(f"{file} has the column {twice[0]} twice")
-    numbers = []
-    for i, line in enumerate(rows[1:], 1):
-        try:
-            numbers.append([float(x) for x in _cells(line)])
-        except ValueError:
-            numbers.append([])
-        if len(numbers[-1]) != len(names) or not (np.abs(numbers[-1]) < LARGEST).all():
+    texts = [_cells(line) for line in rows[1:]]
+    numbers = [[_number(text) for text in row] for row in texts]
+    for i, row in enumerate(numbers, 1):
+        if len(row) != len(names) or not (np.abs(row) < LARGEST).all():
             raise BadInput(f"{file}: row {i} must have {len(names)} numbers, separated by commas, below {LARGEST:g}")
     array = np.array(numbers).reshape(-1, len(names))
-    texts = [_cells(line) for line in rows[1:]]
     # A column that ends in 0 at the start may have more digits later.
     units = {name: min(map(_unit, column)) for name, column in zip(names, zip(*texts, strict=True), strict=False)}
     parts = {"centre": NEEDED[1:4], "attitude": NEEDED[4:], "velocity": MORE[:3], "omega": MORE[3:]}
@@ -128,11 +124,12 @@ def _cells(line: str) -> list[str]:
     return next((line.split(mark) for mark in (",", ";", "\t") if mark in line), line.split())
 
 
-def _is_number(text: str) -> bool:
+def _number(text: str) -> float:
+    """The number; NaN of what is none."""
     try:
-        return float(text) == float(text)
+        return float(text)
     except ValueError:
-        return False
+        return np.nan
 
 
 def _name(cell: str) -> str:
@@ -178,10 +175,7 @@ def _places(file: Path, given: np.ndarray, times: np.ndarray) -> np.ndarray:
 def _step(file: Path, lines: list[str]) -> float | None:
     for line in lines:
         if found := re.fullmatch(r"#\s*time_step\s*=\s*(\S+)\s*", line):
-            try:
-                step = float(found[1])
-            except ValueError:
-                step = 0.0
+            step = _number(found[1])
             if not 0 < step < np.inf:
                 raise BadInput(f"{file}: time_step must be a positive number of seconds, not {found[1]}")
             return step

@@ -12,18 +12,8 @@ import pytest
 from commands import answer, chapsym, refused
 
 from benchmarks.rolling import make
-from chapsym.studies.judge import (
-    MORE,
-    NEEDED,
-    Case,
-    Trajectory,
-    angle,
-    convergence,
-    departure,
-    read_case,
-    read_trajectory,
-    sentence,
-)  # fmt: skip
+from chapsym.studies.judge import Case, angle, convergence, departure, read_case, sentence
+from chapsym.studies.judge_tables import MORE, NEEDED, Trajectory, read_trajectory
 
 DATA = make.DATA
 FILE = DATA / "random-3.json"

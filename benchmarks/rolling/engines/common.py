@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from chapsym import files
-from chapsym.studies.judge import MORE, NEEDED, Case, read_case
+from chapsym.studies.judge import Case, read_case
+from chapsym.studies.judge_tables import MORE, NEEDED
 
 DATA = Path(__file__).parents[1] / "data"
 #: Time, centre, quaternion (scalar first), velocity and ω in space.

@@ -72,16 +72,11 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     else:
         momentum = turning(_numbers(told, "omega"), D, told.get("axes") == "space", rotor)
     place = tuple(x.rational for x in _numbers(told, "position")) if "position" in told else (Fraction(0), Fraction(0))
-    if any(map(any, rotor)) and not any(map(any, _moving(told))):
+    moving = _numbers(told, "velocity" if "velocity" in told else "omega")
+    if any(map(any, rotor)) and not any(map(any, (*moving, _number(told.get("spin", 0), RATE)))):
         raise SceneError(f"{name}: without angular velocity the ball stays at rest, whatever the rotor")
     start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, tensor)
     return start, _times(scene, data["run"])
-
-
-def _moving(start: Mapping[str, Any]) -> tuple[Turns, ...]:
-    if "omega" in start:
-        return _numbers(start, "omega")
-    return (*_numbers(start, "velocity"), _number(start.get("spin", 0), RATE))
 
 
 def _numbers(table: Mapping[str, Any], key: str) -> tuple[Turns, ...]:

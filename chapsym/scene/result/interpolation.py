@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from chapsym.dynamics import BadInput, Ball, kernels
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.interpolation import States, standing
+from chapsym.dynamics.principal_axes import inverse
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -42,7 +43,7 @@ def interpolated(run: Any, times: ArrayLike) -> Any:
     values: dict[str, Floats | None] = {
         "momentum": _turned(axes, found.momentum * per_step), "gamma": _turned(axes, found.gamma),
         "omega": _turned(axes, found.omega), "contact": found.contact,
-        "attitude": None if found.attitude is None else _composed(found.attitude, _conjugate(axes)),
+        "attitude": None if found.attitude is None else _composed(found.attitude, inverse(axes)),
     }  # fmt: skip
     kept = dataset.drop_vars([name for name, one in dataset.variables.items() if "frame" in one.dims])
     for name in FOLLOWED:
@@ -85,7 +86,7 @@ def _states(dataset: Dataset) -> tuple[States, float]:
     per_step = 1.0
     if "momentum" in dataset and timed and dataset["momentum"].attrs.get("units") != RATE:
         per_step = clock[-1] / step[-1] if step[-1] else 1.0
-    axes, back = _axes(dataset), _conjugate(_axes(dataset))
+    axes, back = _axes(dataset), inverse(_axes(dataset))
     there, given = standing(**{name: _frames(dataset, name) for name in FOLLOWED})
     attitude, gamma = given["attitude"], given["gamma"]
     attitude = None if attitude is None else _composed(attitude, axes)
@@ -126,10 +127,6 @@ def _axes(dataset: Dataset) -> Floats:
     if "axes" not in dataset.variables:
         return np.array([[[1.0, 0.0, 0.0, 0.0]]])
     return _of_balls(dataset, "axes")[:, np.newaxis]
-
-
-def _conjugate(q: Floats) -> Floats:
-    return q * [1.0, -1.0, -1.0, -1.0]
 
 
 def _turned(q: Floats, v: Floats) -> Floats:
