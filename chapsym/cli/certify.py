@@ -247,7 +247,8 @@ def motion(
     from chapsym.dynamics.enclosed_motion import follow
     from chapsym.scene import load
     from chapsym.scene.members.exactly import exact_motion
-    from chapsym.scene.result.proved import UNITS, proved_errors
+    from chapsym.scene.result import formats
+    from chapsym.scene.result.proved import UNITS, check_scene, proved_errors
 
     for path in filter(None, (output, certificate)):
         if path.resolve() in {other.resolve() for other in (scene, against) if other}:
@@ -257,7 +258,9 @@ def motion(
     start, times = exact_motion(given)
     if certificate is not None:
         check_start(start)
-    result = None if against is None else _loaded(against, str(given.toml))
+    result = None if against is None else formats.load(against).load()
+    if result is not None:
+        check_scene(result, str(given.toml))
     with telling() as progress:
         found = follow(start, times, digits, limit=limit, progress=progress)
         if certificate is not None and found.stopped is None:
@@ -295,16 +298,6 @@ def within(error: float | None, unit: str) -> str:
         return "has no number at some of these frames"
     shown = Context(prec=2, rounding=ROUND_CEILING).create_decimal_from_float(error)
     return f"is within {float(shown):.2g}{unit} at these frames: proved"
-
-
-def _loaded(result: Path, scene: str) -> Any:
-    """A result, which must be of the scene."""
-    from chapsym.scene.result import formats
-    from chapsym.scene.result.proved import check_scene
-
-    dataset = formats.load(result).load()
-    check_scene(dataset, scene)
-    return dataset
 
 
 def _deliver(find: Callable[..., dict[str, Any]], output: Path | None, as_json: bool) -> None:

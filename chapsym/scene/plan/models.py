@@ -346,12 +346,7 @@ class Steady(Direct):
 
     name = "steady rotation"
     about = "each step is the same rotation about a fixed axis: every frame in closed form, no step between"
-    kernels = {  # noqa: RUF012
-        "momentum": ("turn",),
-        "gamma": ("turn",),
-        "attitude": ("compose",),
-        "contact": ("centre_step", "rotate"),
-    }
+    kernels = ROLLING | {"momentum": ("turn",), "gamma": ("turn",), "contact": ("centre_step", "rotate")}
 
     def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Balls that do not rotate steadily."""

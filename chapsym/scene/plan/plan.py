@@ -251,14 +251,9 @@ def explained(plan: Plan) -> list[tuple[str, str]]:
     rows.append(("cost", _told(plan)))
     if plan.task.accuracy is None:
         rows.append(("full model", _beside(plan)))
-    rows.append(("work", _work(len(plan.chunks), len(plan.segments))))
-    return rows
-
-
-def _work(balls: int, frames: int) -> str:
-    """Into how many chunks the balls, and the frames of each, are divided."""
-    chunks = f"{balls * frames} chunk{'s' if balls * frames > 1 else ''}"
-    return chunks if frames == 1 else f"{chunks}: {balls} of balls × {frames} of frames"
+    balls, frames = len(plan.chunks), len(plan.segments)
+    work = f"{balls * frames} chunk{'s' if balls * frames > 1 else ''}"
+    return [*rows, ("work", work if frames == 1 else f"{work}: {balls} of balls × {frames} of frames")]
 
 
 def full(plan: Plan) -> Plan:

@@ -67,7 +67,8 @@ def described(
     errors = [error for error in errors if error["type"] != "too_short" or not _inside(error, errors)]
     told: list[str] = []
     for error in errors[:MOST_PROBLEMS]:
-        path = _in_file(error, one_ball)
+        path = _path(error)
+        path = (path[0], *path[2:]) if one_ball and path[:2] == ("ball", 0) else path  # [ball] is a table, and no list
         where = place(name if not told else "", text, path)
         told.append(f"{where}: {_sentence(error, keys)}" if where else _sentence(error, keys))
     if len(errors) > MOST_PROBLEMS:
@@ -85,12 +86,6 @@ def _path(error: Any) -> Path:
     """The keys and indices of an error; the tags of unions are none."""
     own = getattr(error.get("ctx", {}).get("error"), "path", ())
     return (*(part for part in error["loc"] if part not in (LIST, MATRIX)), *own)
-
-
-def _in_file(error: Any, one_ball: bool) -> Path:
-    """The same as it stands in the file, where one ball is a table and no list."""
-    path = _path(error)
-    return (path[0], *path[2:]) if one_ball and path[:2] == ("ball", 0) else path
 
 
 def _key(path: Path) -> str:
@@ -130,7 +125,7 @@ def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
         "string_too_long": f"must have at most {limits.get('max_length')} characters",
     }
     told = kinds.get(error["type"], ": " + error["msg"].removeprefix("Value error, "))
-    told = told.removeprefix(": it ") if told.startswith(": it ") else told
+    told = told.removeprefix(": it ")
     return f"{key}{told}" if told.startswith(":") else f"{key} {told}"
 
 
