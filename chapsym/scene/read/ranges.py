@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import prod
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -15,13 +15,16 @@ from .units import Dimension, number
 MOST_BALLS = 10_000_000
 
 
+Kind = Literal["linspace", "grid", "random", "normal"]
+
+
 @dataclass(frozen=True)
 class Range:
     """kind: "linspace" (a, b, n) and "grid" (values) span a dimension of the sweep; "random" (a, b) and "normal"
     (mean, deviation) draw once for each ball.  values: in SI.  count: of those that span a dimension, else 0.
     """
 
-    kind: Literal["linspace", "grid", "random", "normal"]
+    kind: Kind
     values: tuple[float, ...]
     count: int = 0
 
@@ -53,7 +56,7 @@ def value(given: Any, dimension: Dimension) -> Value:
     """A number, a text with a unit, or a table that is a range; raises ValueError with what would be right."""
     if not isinstance(given, dict):
         return number(given, dimension)
-    if len(given) != 1 or (kind := next(iter(given))) not in _READ:
+    if len(given) != 1 or (kind := next(iter(given))) not in get_args(Kind):
         told = ", ".join(map(str, given)) or "nothing"
         raise ValueError(
             f"a range is one of {{ linspace = [a, b, n] }}, {{ grid = [v1, v2, ...] }}, {{ random = [a, b] }} and "
@@ -62,44 +65,31 @@ def value(given: Any, dimension: Dimension) -> Value:
     numbers = given[kind]
     if not isinstance(numbers, list | tuple):
         raise ValueError(f"{kind} takes a list of numbers in brackets")
-    return _READ[kind](numbers, lambda x: number(x, dimension))
+    return _range(kind, numbers, lambda x: number(x, dimension))
 
 
-def _linspace(given: Any, read: Callable[[Any], float]) -> Range:
-    if len(given) != 3 or isinstance(given[2], bool) or not isinstance(given[2], int) or given[2] < 1:
-        raise ValueError("linspace takes [a, b, n]: the first value, the last, and how many (a whole number from 1 on)")
-    if given[2] > MOST_BALLS:
-        raise ValueError(f"linspace of {given[2]} values: a sweep has {MOST_BALLS} balls at most")
-    return Range("linspace", (read(given[0]), read(given[1])), given[2])
-
-
-def _grid(given: Any, read: Callable[[Any], float]) -> Range:
-    if not given:
-        raise ValueError("grid takes one value or more")
-    return Range("grid", tuple(map(read, given)), len(given))
-
-
-def _random(given: Any, read: Callable[[Any], float]) -> Range:
+def _range(kind: Kind, given: Any, read: Callable[[Any], float]) -> Range:
+    """The range of a list of numbers; raises ValueError with what the kind takes."""
+    if kind == "linspace":
+        if len(given) != 3 or isinstance(given[2], bool) or not isinstance(given[2], int) or given[2] < 1:
+            told = "the first value, the last, and how many (a whole number from 1 on)"
+            raise ValueError(f"linspace takes [a, b, n]: {told}")
+        if given[2] > MOST_BALLS:
+            raise ValueError(f"linspace of {given[2]} values: a sweep has {MOST_BALLS} balls at most")
+        return Range(kind, (read(given[0]), read(given[1])), given[2])
+    if kind == "grid":
+        if not given:
+            raise ValueError("grid takes one value or more")
+        return Range(kind, tuple(map(read, given)), len(given))
+    takes, where = ("[a, b]", ": the draws lie between them") if kind == "random" else ("[mean, deviation]", "")
     if len(given) != 2:
-        raise ValueError("random takes [a, b]: the draws lie between them")
-    found = Range("random", (read(given[0]), read(given[1])))
-    if not found.values[0] <= found.values[1]:
-        raise ValueError("random takes [a, b] with a at most b")
-    return found
-
-
-def _normal(given: Any, read: Callable[[Any], float]) -> Range:
-    if len(given) != 2:
-        raise ValueError("normal takes [mean, deviation]")
-    found = Range("normal", (read(given[0]), read(given[1])))
-    if found.values[1] < 0:
-        raise ValueError("normal takes [mean, deviation] with a deviation that is not negative")
-    return found
-
-
-_READ: dict[str, Callable[[Any, Callable[[Any], float]], Range]] = {
-    "linspace": _linspace, "grid": _grid, "random": _random, "normal": _normal,
-}  # fmt: skip
+        raise ValueError(f"{kind} takes {takes}{where}")
+    first, second = map(read, given)
+    if kind == "random" and not first <= second:
+        raise ValueError(f"random takes {takes} with a at most b")
+    if kind == "normal" and second < 0:
+        raise ValueError(f"normal takes {takes} with a deviation that is not negative")
+    return Range(kind, (first, second))
 
 
 def ranges_in(value: Any, key: str) -> dict[str, Range]:
