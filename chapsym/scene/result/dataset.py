@@ -155,11 +155,6 @@ def sizes(plan: Plan) -> dict[str, int]:
     return {"ball": len(plan.members), "frame": plan.frames} | {dim: len(of) for dim, of in names.items()}
 
 
-def build(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> "Dataset":
-    """The same as `arrays`, as a Dataset whose frames are found by their time."""
-    return with_clock(arrays(plan, columns, state).dataset())
-
-
 def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> Arrays:
     """The result of a plan.
 

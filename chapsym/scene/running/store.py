@@ -27,7 +27,7 @@ from ..plan.models import State
 from ..plan.plan import Plan
 from ..read.errors import SceneError
 from ..read.task import Columns
-from ..result.dataset import OUTCOME, build, layout, provenance, sizes
+from ..result.dataset import OUTCOME, arrays, layout, provenance, sizes
 from ..result.formats import attributes, check_ours, plain
 
 if TYPE_CHECKING:
@@ -339,7 +339,7 @@ def _unwritten(plan: Plan) -> "Dataset":
         name: np.broadcast_to(np.array(one.missing, one.dtype), [length[dim] for dim in one.dims])
         for name, one in layout(plan).items()
     }
-    return build(plan, none, none).assign_attrs(complete=False)
+    return arrays(plan, none, none).assign_attrs({"complete": False}).dataset()
 
 
 def write(data: "Dataset", path: Path) -> None:

@@ -156,7 +156,7 @@ class Memory:
 
 
 def run_in_memory(plan: Plan, report: Report = lambda progress: None) -> "Dataset":
-    """The same as `run`, as a Dataset (`dataset.build`)."""
+    """The same as `run`, as a Dataset whose frames are found by their time."""
     return with_clock(run(plan, report).dataset())
 
 
