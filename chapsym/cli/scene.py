@@ -97,10 +97,7 @@ def check(
     if as_json:
         print_json({"file": str(file), "title": scene.title, **plan.describe(), "warnings": warnings})
         return
-    _print_rows([*rows, *(("warning", told) for told in warnings)])
-
-
-def _print_rows(rows: list[tuple[str, str]]) -> None:
+    rows += [("warning", told) for told in warnings]
     width = min(max(len(key) for key, _ in rows), 24)
     for key, text in rows:
         print(f"{key:{width}}  {text}")

@@ -76,7 +76,11 @@ def _pictures(
     written = figures.save_all(dataset, folder, FORMATS[form], names=wanted)
     missing = {} if names else {name: reason for name, reason in reasons.items() if reason is not None}
     if not FORMATS[form]:
-        written.append(_motion(dataset, folder / f"motion.{form}"))
+        from chapsym.show.moving import save_motion
+
+        written.append(folder / f"motion.{form}")
+        with progress_bar("drawing", 1000) as shown:
+            save_motion(dataset, written[-1], progress=lambda drawn, of: shown(1000 * drawn // of))
     if page is not False and (page or not names):
         reason = _page(dataset, folder / "page.html", must=page is True)
         if reason is None:
@@ -108,14 +112,6 @@ def _opened(result: Path, folder: Path) -> "Dataset":
         files.check_destination(folder / "page.html")
     with progress_bar("rolling", 1000) as shown:
         return run_scene(scene, lambda now: shown(round(1000 * now.steps / max(now.of, 1)))).dataset
-
-
-def _motion(dataset: "Dataset", path: Path) -> Path:
-    from chapsym.show.moving import save_motion
-
-    with progress_bar("drawing", 1000) as shown:
-        save_motion(dataset, path, progress=lambda drawn, of: shown(1000 * drawn // of))
-    return path
 
 
 def _page(dataset: "Dataset", path: Path, must: bool) -> str | None:
