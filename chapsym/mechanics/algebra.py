@@ -1,6 +1,6 @@
 """Expressions of a system in a ring: letters for sines, cosines and roots, with their relations and derivatives."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import combinations, count
 from random import Random
@@ -86,18 +86,19 @@ class Letters:
             self._of[stands] = sp.Symbol(name)
         return self._of[stands]
 
-    def derivative(self, expr: sp.Expr, x: sp.Symbol) -> sp.Expr:
-        """∂/∂x of an expression in letters."""
-        names = expr.free_symbols
-        found = sp.diff(expr, x) if x in names else sp.S.Zero
-        for letter, stands in self.meanings.items():
-            if letter in names and (rate := self.rate(letter, stands, x)) != 0:
-                found += sp.diff(expr, letter) * rate
+    def derivative(self, expr: sp.Expr, x: sp.Symbol, rate: Callable[..., sp.Expr] | None = None) -> sp.Expr:
+        """∂/∂x of an expression in letters, or in names whose derivatives `rate` gives."""
+        names, found = expr.free_symbols, sp.S.Zero
+        if x in names:
+            found = sp.diff(expr, x)
+        for name in sorted(names - {x}, key=str):
+            if (by := (rate or self.rate)(name, x)) != 0:
+                found += sp.diff(expr, name) * by
         return found
 
-    def rate(self, letter: sp.Symbol, stands: sp.Expr, x: sp.Symbol) -> sp.Expr:
-        """∂/∂x of a letter."""
-        function, of = adjoined(stands) or ("", sp.S.Zero)
+    def rate(self, letter: sp.Symbol, x: sp.Symbol) -> sp.Expr:
+        """∂/∂x of a letter; 0 of another symbol."""
+        function, of = adjoined(self.meanings.get(letter, sp.S.Zero)) or ("", sp.S.Zero)
         inner = self.derivative(of, x)
         if inner == 0:
             return sp.S.Zero

@@ -1,11 +1,12 @@
 """Attitudes: by angles about axes, one after the other, or by a unit quaternion; each with its angular velocity."""
 
 from functools import cached_property
-from typing import Any
 
 import sympy as sp
 
 from .system import dot
+
+_TURNS = {"x": sp.rot_ccw_axis1, "y": sp.rot_ccw_axis2, "z": sp.rot_ccw_axis3}
 
 
 class Turned:
@@ -34,7 +35,7 @@ class Turned:
     def __init__(self, *turns: tuple[str, sp.Symbol]) -> None:
         self.rotation, self.spin = sp.eye(3), sp.zeros(3, 1)
         for axis, angle in turns:
-            one = _turn(axis, angle)
+            one = _TURNS[axis](angle)
             self.rotation = self.rotation * one
             self.spin = one.T * self.spin
             self.spin["xyz".index(axis)] += dot(angle)
@@ -43,14 +44,6 @@ class Turned:
     def spin_in_space(self) -> sp.Matrix:
         """The angular velocity in the axes of space."""
         return self.rotation * self.spin
-
-
-def _turn(axis: str, angle: Any) -> sp.Matrix:
-    c, s, i = sp.cos(angle), sp.sin(angle), "xyz".index(axis)
-    j, k = (i + 1) % 3, (i + 2) % 3
-    made = sp.eye(3)
-    made[j, j], made[j, k], made[k, j], made[k, k] = c, -s, s, c
-    return made
 
 
 class Quaternion:
@@ -102,6 +95,5 @@ class Quaternion:
     @cached_property
     def rotation(self) -> sp.Matrix:
         """From the axes of the body to those of space."""
-        skew = self._vector.cross(sp.eye(3)[:, 0]).row_join(self._vector.cross(sp.eye(3)[:, 1]))
-        skew = skew.row_join(self._vector.cross(sp.eye(3)[:, 2]))
+        skew = self._vector.hat()
         return sp.eye(3) + 2 * (self._scalar * skew + skew * skew)

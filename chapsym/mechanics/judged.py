@@ -22,7 +22,7 @@ from chapsym.derive import Quotient
 
 from .algebra import Letters
 from .methods import Scheme
-from .series import Exact, Series, State, Stepped, Undecided, _at, evaluated, inverse, replaced, terms
+from .series import Exact, Series, State, Stepped, Undecided, _at, by_parts, evaluated, inverse, replaced, terms
 from .system import STEP, BadSystem, System, rate
 
 #: A prime in which combinations are looked for, and the largest denominator and numerator of their factors.
@@ -452,34 +452,24 @@ def _small(x: int) -> sp.Rational | None:
 
 def coefficients(expressions: Iterable[sp.Expr]) -> list[tuple[sp.Expr, sp.Expr, sp.Expr]]:
     """Those of 1, h and h² of expressions in the length of a step; of shared parts once."""
-    zero = sp.S.Zero
-    known: dict[sp.Expr, tuple[Any, Any, Any]] = {STEP: (zero, sp.S.One, zero)}
 
-    def of(expr: sp.Expr) -> tuple[Any, Any, Any]:
-        if expr not in known:
-            known[expr] = made(expr) if expr.args else (expr, zero, zero)
-        return known[expr]
-
-    def made(expr: sp.Expr) -> tuple[Any, Any, Any]:
+    def made(expr: sp.Expr, of: Callable[[sp.Expr], tuple[Any, Any, Any]]) -> tuple[Any, Any, Any]:
+        if not expr.args:
+            return expr, sp.S.Zero, sp.S.Zero
         parts = [of(x) for x in expr.args]
+        a, b, c = parts[0]
         if isinstance(expr, sp.Add):
             a, b, c = (sp.Add(*some) for some in zip(*parts, strict=True))
-            return a, b, c
-        a, b, c = parts[0]
-        if isinstance(expr, sp.Mul):
+        elif isinstance(expr, sp.Mul):
             for d, e, f in parts[1:]:
                 a, b, c = a * d, a * e + b * d, a * f + b * e + c * d
-            return a, b, c
-        if isinstance(expr, sp.Pow):
-            first, second = expr.exp * a ** (expr.exp - 1), expr.exp * (expr.exp - 1) / 2 * a ** (expr.exp - 2)
-        elif isinstance(expr, sp.sin | sp.cos | sp.tan):
-            first = expr.func(_ANY).diff(_ANY).xreplace({_ANY: a})
-            second = expr.func(_ANY).diff(_ANY, 2).xreplace({_ANY: a}) / 2
         else:
-            raise Undecided(f"{expr!s:.60} has no exact series")
-        return expr.func(a, *expr.args[1:]), first * b, first * c + (second * b**2 if b != 0 else 0)
+            outer = expr.func(_ANY, *expr.args[1:])
+            first, second = (outer.diff(_ANY, k).xreplace({_ANY: a}) for k in (1, 2))
+            a, b, c = outer.xreplace({_ANY: a}), first * b, first * c + (second * b**2 / 2 if b != 0 else 0)
+        return a, b, c
 
-    return [of(e) for e in expressions]
+    return by_parts(expressions, {STEP: (sp.S.Zero, sp.S.One, sp.S.Zero)}, made)
 
 
 _ANY = sp.Symbol("any")

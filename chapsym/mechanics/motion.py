@@ -19,7 +19,7 @@ from chapsym.codegen import Kernel, build, c_files, passes
 
 from .algebra import Letters
 from .methods import METHODS, Scheme
-from .slope import Steps, differentiated, shared
+from .slope import Terms, differentiated, needed, shared
 from .system import STEP, BadSystem, System, number
 
 #: Newton's iteration: rounds at most; the last correction in units of the unknowns, and one that may stay; and how much
@@ -115,21 +115,19 @@ class Runner:
         state, unknowns, fixed = ([named[x] for x in group] for group in (scheme.state, scheme.unknowns, known))
         groups = (("state", tuple(state)), ("unknowns", tuple(unknowns)), ("fixed", tuple(fixed)))
 
-        def kernel(name: str, steps: Steps, results: list[sp.Expr]) -> Kernel:
-            needed = _needed([*results, *(e for _, one in steps for e in one)], letters.meanings)
+        def kernel(name: str, terms: Terms, results: Sequence[sp.Expr]) -> Kernel:
+            terms = needed(terms, results)
+            steps = [([x], [e]) for x, e in terms.items()]
             outputs = tuple(f"r{i}" for i in range(len(results)))
             return Kernel(
                 name, f"{name}.", (), groups, outputs, lambda: [0 * fixed[-1]] * len(results), lambda: (steps, results),
-                letters=needed,
+                letters=needed(letters.meanings, [*results, *terms.values()]),
             )  # fmt: skip
 
-        def simple(name: str, expressions: Sequence[sp.Expr]) -> Kernel:
-            terms, results = shared(expressions)
-            return kernel(name, [([x], [e]) for x, e in terms.items()], results)
-
-        first, value, second, slope = differentiated(residual, unknowns, letters)
-        made = [kernel("residual", first, value), kernel("slope", second, slope)]
-        return [*made, simple("after", after), simple("seen", [*place, *velocity])]
+        terms, values = shared(residual)
+        slope = kernel("slope", *differentiated(terms, values, unknowns, letters))
+        seen = kernel("seen", *shared([*place, *velocity]))
+        return [kernel("residual", terms, values), slope, kernel("after", *shared(after)), seen]
 
     @cached_property
     def _constants(self) -> dict[sp.Expr, sp.Symbol]:
@@ -323,15 +321,6 @@ def moved(
     ([0.625312, 0.625157], True)
     """
     return Runner(system, method).march(steps, length, every)
-
-
-def _needed(expressions: Sequence[sp.Expr], meanings: dict[sp.Symbol, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
-    """The letters that some expressions have, and those that these need."""
-    wanted = set().union(*(e.free_symbols for e in expressions))
-    for letter in reversed(meanings):
-        if letter in wanted:
-            wanted |= meanings[letter].free_symbols
-    return {letter: stands for letter, stands in meanings.items() if letter in wanted}
 
 
 def _lifted(expr: sp.Expr, constants: dict[sp.Expr, sp.Symbol]) -> sp.Expr:

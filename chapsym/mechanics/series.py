@@ -42,16 +42,22 @@ def terms(count: int) -> Iterator[None]:
         ctx.cap = before
 
 
-def evaluated(expressions: Iterable[sp.Expr], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:
-    """Expressions in any numbers: fractions, series, those of a finite field."""
-    known = dict(values)
+def by_parts(expressions: Iterable[Any], known: Mapping[sp.Expr, Any], made: Callable[..., Any]) -> list[Any]:
+    """What `made` makes of expressions, by what it makes of their parts, which `of` gives; of shared parts once."""
+    found = dict(known)
 
     def of(expr: sp.Expr) -> Any:
-        if expr not in known:
-            known[expr] = made(expr)
-        return known[expr]
+        if expr not in found:
+            found[expr] = made(expr, of)
+        return found[expr]
 
-    def made(expr: sp.Expr) -> Any:
+    return [of(sp.sympify(e)) for e in expressions]
+
+
+def evaluated(expressions: Iterable[sp.Expr], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:
+    """Expressions in any numbers: fractions, series, those of a finite field."""
+
+    def made(expr: sp.Expr, of: Callable[[sp.Expr], Any]) -> Any:
         if expr.is_Rational:
             return number(expr.p, 1) / number(expr.q, 1)
         if isinstance(expr, sp.Add | sp.Mul):
@@ -65,7 +71,7 @@ def evaluated(expressions: Iterable[sp.Expr], values: Mapping[sp.Symbol, Any], n
         raise Undecided(f"{expr!s:.60} has no exact series")
 
     try:
-        return [of(e) for e in expressions]
+        return by_parts(expressions, values, made)
     except ZeroDivisionError:
         raise Undecided("an expression divides by 0 at the exact state") from None
     except (ValueError, DomainError):
@@ -81,17 +87,14 @@ def replaced(
     expressions: Iterable[Any], put: Mapping[sp.Symbol, Any], turned: Callable[[sp.Expr], sp.Expr] = lambda wave: wave
 ) -> list[sp.Expr]:
     """Expressions with others in the place of symbols, and sines and cosines of expanded sums; shared parts once."""
-    known: dict[sp.Expr, sp.Expr] = dict(put)
 
-    def of(expr: sp.Expr) -> sp.Expr:
-        if expr not in known:
-            made = [of(x) for x in expr.args]
-            is_wave = isinstance(expr, sp.sin | sp.cos | sp.tan)
-            new = expr.func(*map(sp.expand, made) if is_wave else made) if made else expr
-            known[expr] = turned(new) if isinstance(new, sp.sin | sp.cos | sp.tan) else new
-        return known[expr]
+    def made(expr: sp.Expr, of: Callable[[sp.Expr], sp.Expr]) -> sp.Expr:
+        parts = [of(x) for x in expr.args]
+        is_wave = isinstance(expr, sp.sin | sp.cos | sp.tan)
+        new = expr.func(*map(sp.expand, parts) if is_wave else parts) if parts else expr
+        return turned(new) if isinstance(new, sp.sin | sp.cos | sp.tan) else new
 
-    return [of(sp.sympify(e)) for e in expressions]
+    return by_parts(expressions, put, made)
 
 
 def _root(x: Series) -> Series:
