@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from itertools import islice, product
+from operator import mul
 from typing import Any
 
 import sympy as sp
@@ -154,12 +155,14 @@ class _Judged:
     def order(self, adjoint: bool) -> Verdict:
         """That of the local error, of place and velocity, less one; false where a step does not follow the motion."""
         final = self.after(self.state, self.reactions)[0]
-        pairs = list(zip(map(str, self.exact.symbols), final, self.exact.moved(self.state)[0], strict=True))
+        pairs = list(zip(map(str, self.exact.symbols), final, self.exact.moved, strict=True))
         looked = 4 if self.reactions else self.looked  # c₃ is not known
         most = next((k - 1 for k in range(looked) if any(_at(x, k) != _at(y, k) for _, x, y in pairs)), self.looked)
         if most < 1 and (wrong := self.wrong("a step of the exact motion differs in", *pairs)):
             return wrong
-        least = self.least_order(adjoint)
+        least = 0
+        if self.is_consistent():  # of an explicit method the tableau says more, of another the symmetry
+            least = _of_tableau(self.scheme.stages) if self.scheme.stages else 1 + adjoint
         if least == most:
             return Verdict("proved", str(least))
         bounds = [f"at least {least}"] * (least > 0) + [f"at most {most}"] * (most < self.looked)
@@ -192,7 +195,7 @@ class _Judged:
         bare = self.after(self.state, none)[1]
         kept = [[_at(x, 0) for x in self.after(self.state, one)[1]] for one in units]
         left = inverse(fmpq_mat([[(i == j) - kept[j][i] for j in range(m)] for i in range(m)]))
-        rates = [x.derivative()[0] for x in self.exact.moved(self.state)[0]]
+        rates = [x.derivative()[0] for x in self.exact.moved]
         later = self.after([x + small * r for x, r in zip(self.state, rates, strict=True)], none)[1]
 
         def settled(of: Sequence[fmpq]) -> list[fmpq]:
@@ -203,14 +206,6 @@ class _Judged:
         normal = self.after(self.state, [self.h * x for x in first])[1]
         second = settled([_at(x, 2) - r for x, r in zip(normal, turning, strict=True)])
         return [self.h * x + self.h**2 * y for x, y in zip(first, second, strict=True)]
-
-    def least_order(self, adjoint: bool) -> int:
-        """What is proved: for an explicit method by its tableau, else by the first coefficient, and symmetry."""
-        if not self.is_consistent():
-            return 0
-        if self.scheme.stages:
-            return _of_tableau(self.scheme.stages)
-        return 2 if adjoint else 1
 
     def is_consistent(self) -> bool:
         """Whether the equations are those of the motion in their first powers of h, at any state.
@@ -276,17 +271,16 @@ class _Judged:
         known += [*(system.mass * rest - leaning), *self.always]
         if self.stepped.has_momenta:
             known += system.rows * sp.Matrix(system.velocities) + system.offsets
-        state, size = self.state, n + m
+        state = self.state
         mass = fmpq_mat(n, n, [_at(x, 0) for x in exact.at(system.mass, state)])
         lean = inverse(mass) * fmpq_mat(n, 1, [_at(x, 0) for x in exact.at(leaning, state)])
         true, light = ([_at(x, 0) for x in exact.solved(state[:n], exact.at(of, state))] for of in (right, easy))
         changes = [(a, true[:n]), (rest, lean.entries()), (e, light[:n])]
         parts = []
-        for symbols, numbers in ((lam, true[n:size]), (kappa, light[n:size])):
-            for on in (slice(0, m - len(system.holonomic)), slice(m - len(system.holonomic), m)):
-                part = sp.zeros(m, 1)
-                part[on, 0] = symbols[on, 0]
-                parts.append((part, [x if e != 0 else fmpq(0) for x, e in zip(numbers, part, strict=True)]))
+        for symbols, numbers in ((lam, true[n:]), (kappa, light[n:])):
+            for is_placed in (False, True):
+                on = [int((i >= m - len(system.holonomic)) is is_placed) for i in range(m)]
+                parts.append((sp.Matrix(m, 1, list(map(mul, on, symbols))), list(map(mul, on, numbers))))
         return known, changes, parts
 
     def returns(self, back: int) -> Verdict:
@@ -359,7 +353,7 @@ class _Judged:
         """Whether a quantity of place and velocity is the same where the method looks at a step and at the next."""
         stepped, (first, there, z, then) = self.stepped, self.forth
         seen = [stepped.of(stepped.seen, at, of, self.h) for at, of in ((first, z), (there, then))]
-        before, after, moved = (self.exact.at([quantity], x)[0] for x in (*seen, self.exact.moved(self.state)[0]))
+        before, after, moved = (self.exact.at([quantity], x)[0] for x in (*seen, self.exact.moved))
         if self.wrong("", ("", moved, _at(moved, 0))):
             return Verdict("measured", "the exact motion does not keep it")
         wrong = self.wrong("it changes", ("in a step", after, before))

@@ -2,7 +2,7 @@
 
 import math
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from itertools import pairwise
 from typing import Any
 
@@ -92,16 +92,9 @@ class Cell:
     def of(cls, data: dict[str, Any]) -> "Cell":
         """From that."""
         curve = tuple((float(t), float(e)) for t, e in data["curve"])
-        figures = ("energy", "oscillation", "drift", "constraint", "places", "microseconds")
         decided = {name: Verdict(**one) for name, one in data.get("verdicts", {}).items()}
-        return cls(
-            **{
-                **data,
-                "curve": curve,
-                "verdicts": decided,
-                **{k: math.nan if data[k] is None else data[k] for k in figures},
-            }
-        )
+        unknown = {x.name: math.nan for x in fields(cls) if x.default is math.nan and data[x.name] is None}
+        return cls(**{**data, "curve": curve, "verdicts": decided, **unknown})
 
 
 def measured(

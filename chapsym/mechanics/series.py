@@ -107,7 +107,7 @@ class Exact:
     def __init__(self, system: System) -> None:
         self.system, self.n, self.m = system, len(system.coordinates), system.rows.rows
         self.numbers = {x: rational(v, f"{system.name}: the parameter {x}") for x, v in system.parameters.items()}
-        self._moved: dict[tuple[Any, ...], tuple[State, list[Series]]] = {}
+        self._moved: dict[int, State] = {}
         self.turns = {x: TURNS[i % len(TURNS)] for i, x in enumerate(self._turning())}
         matrix, right = system.equations
         self._linear, self._right = self.read(matrix), self.read(right)
@@ -190,17 +190,17 @@ class Exact:
             found = _less(found, slope, short)
         return found
 
-    def moved(self, state: Sequence[fmpq]) -> tuple[State, list[Series]]:
-        """The exact motion from a state over the time of a step, and its multipliers."""
-        key = ctx.cap, *map(str, state)
-        if key not in self._moved:
-            now, rates = [series(x) for x in state], list[Series]()
+    @property
+    def moved(self) -> State:
+        """The exact motion from the state over the time of a step."""
+        if ctx.cap not in self._moved:
+            now = [series(x) for x in self.state]
             for _ in range(ctx.cap):
                 rates = self.solved(now[: self.n], self._at(self._right, now))
-                v = [x + rate.integral() for x, rate in zip(state[self.n :], rates, strict=False)]
-                now = [*(x + u.integral() for x, u in zip(state, v, strict=False)), *v]
-            self._moved[key] = now, rates[self.n :]
-        return self._moved[key]
+                v = [x + rate.integral() for x, rate in zip(self.state[self.n :], rates, strict=False)]
+                now = [*(x + u.integral() for x, u in zip(self.state, v, strict=False)), *v]
+            self._moved[ctx.cap] = now
+        return self._moved[ctx.cap]
 
     def velocities(self, state: Sequence[Series], has_momenta: bool = True) -> tuple[State, list[Series]]:
         """Place and velocity v of a place and momenta p, and c, with p = ∂L/∂v + Aᵀc and A v + b = 0."""
@@ -281,8 +281,4 @@ def inverse(matrix: fmpq_mat) -> fmpq_mat:
 
 def _less(found: State, inverse: fmpq_mat, short: Sequence[Series]) -> State:
     """x - J⁻¹ r."""
-    size = len(found)
-    return [
-        x - sum((inverse[i, j] * short[j] for j in range(size) if inverse[i, j] != 0), fmpq_series([0]))
-        for i, x in enumerate(found)
-    ]
+    return [x - sum(map(mul, row, short), fmpq_series([0])) for x, row in zip(found, inverse.table(), strict=True)]

@@ -121,23 +121,23 @@ class System:
     integrals: Mapping[str, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        def put(name: str, value: Any) -> None:
+            object.__setattr__(self, name, value)
+
         for name in ("coordinates", "constraints", "holonomic"):
-            object.__setattr__(self, name, _several(getattr(self, name), f"{self.name}: {name}"))
-        object.__setattr__(self, "lagrangian", expression(self.lagrangian, f"{self.name}: the Lagrangian"))
+            put(name, _several(getattr(self, name), f"{self.name}: {name}"))
+        put("lagrangian", expression(self.lagrangian, f"{self.name}: the Lagrangian"))
         for name in ("constraints", "holonomic"):
-            made = tuple(expression(one, f"{self.name}: one of {name}") for one in getattr(self, name))
-            object.__setattr__(self, name, made)
-        for name in ("forces", "parameters", "start"):
-            if not isinstance(getattr(self, name), Mapping) or not all(
-                isinstance(x, sp.Symbol) for x in getattr(self, name)
-            ):
-                raise BadSystem(f"{self.name}: {name} must be given as {{symbol: value}}")
-        forces = {x: expression(f, f"{self.name}: the force along {x}") for x, f in self.forces.items()}
-        object.__setattr__(self, "forces", forces)
-        if not isinstance(self.integrals, Mapping) or not all(isinstance(name, str) for name in self.integrals):
-            raise BadSystem(f"{self.name}: integrals must be given as {{name: quantity}}")
-        made_ = {name: expression(e, f"{self.name}: the integral {name}") for name, e in self.integrals.items()}
-        object.__setattr__(self, "integrals", made_)
+            put(name, tuple(expression(one, f"{self.name}: one of {name}") for one in getattr(self, name)))
+        keys = {"forces": sp.Symbol, "parameters": sp.Symbol, "start": sp.Symbol, "integrals": str}
+        for name, key in keys.items():
+            given = getattr(self, name)
+            if not isinstance(given, Mapping) or not all(isinstance(x, key) for x in given):
+                form = "{symbol: value}" if key is sp.Symbol else "{name: quantity}"
+                raise BadSystem(f"{self.name}: {name} must be given as {form}")
+        for name, what in (("forces", "the force along"), ("integrals", "the integral")):
+            given = getattr(self, name).items()
+            put(name, {x: expression(e, f"{self.name}: {what} {x}") for x, e in given})
         if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
             raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
         symbols = (*self.coordinates, *self.velocities, *self.parameters, STEP)
@@ -158,9 +158,7 @@ class System:
             for one in expressions:
                 without(f"{self.name}: {what} has", one.free_symbols - allowed)
         if self.discrete is not None:
-            own = [expression(e, f"{self.name}: the discretization") for e in self._own(self.discrete)]
-            object.__setattr__(self, "discrete", Discrete(own[0], tuple(own[1:])))
-            self._check(self.discrete, places | {after(x) for x in self.coordinates} | {STEP})
+            put("discrete", self._discretized(self.discrete, places | {after(x) for x in self.coordinates} | {STEP}))
         without(f"{self.name}: a force is along", set(self.forces) - set(self.coordinates), "no coordinate")
         moving = {*self.coordinates, *self.velocities}
         without(f"{self.name}: the start has", set(self.start) - moving, "no coordinate or velocity")
@@ -169,19 +167,19 @@ class System:
         if self.rows.free_symbols & set(self.velocities):
             raise BadSystem(f"{self.name}: a constraint is not affine in the velocities")
 
-    def _own(self, discrete: Discrete) -> tuple[Any, ...]:
+    def _discretized(self, discrete: Discrete, allowed: set[sp.Symbol]) -> Discrete:
         if not isinstance(discrete, Discrete):
             raise BadSystem(f"{self.name}: discrete must be Discrete(lagrangian, constraints)")
-        return discrete.lagrangian, *_several(discrete.constraints, f"{self.name}: the constraints of discrete")
-
-    def _check(self, discrete: Discrete, allowed: set[sp.Symbol]) -> None:
-        for one in (discrete.lagrangian, *discrete.constraints):
+        given = discrete.lagrangian, *_several(discrete.constraints, f"{self.name}: the constraints of discrete")
+        action, *rules = (expression(e, f"{self.name}: the discretization") for e in given)
+        for one in (action, *rules):
             without(f"{self.name}: the discretization has", one.free_symbols - allowed, "nothing at a step's two ends")
-        if len(discrete.constraints) != len(self.constraints):
-            counts = f"{len(discrete.constraints)} constraints, and the system {len(self.constraints)}"
+        if len(rules) != len(self.constraints):
+            counts = f"{len(rules)} constraints, and the system {len(self.constraints)}"
             raise BadSystem(f"{self.name}: the discretization has {counts}")
         if self.forces:
             raise BadSystem(f"{self.name}: a discretization of one's own has no forces")
+        return Discrete(action, tuple(rules))
 
     def digest(self, *more: Any) -> str:
         """A hash of all that a run depends on."""
