@@ -78,15 +78,12 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     """
     if missing := [x for x in system.coordinates if x not in accelerations]:
         raise BadSystem(f"{system.name}: there is no acceleration of {missing[0]}")
-    n = len(system.coordinates)
     of = _OnShell(system, *(accelerations[x] for x in system.coordinates))
     made = sp.Matrix(of.more)
     checks = [(f"constraint {i + 1}", e) for i, e in enumerate(of.algebra.rows * made - of.turning)]
     work = of.mass * made - of.forced
-    checks += [
-        (f"the principle along {i + 1} of {len(of.fields)}", sum((field[k] * work[k] for k in range(n)), sp.S.Zero))
-        for i, field in enumerate(of.fields)
-    ]
+    along = [(sp.Matrix([field]) * work)[0] for field in of.fields]
+    checks += [(f"the principle along {i + 1} of {len(along)}", e) for i, e in enumerate(along)]
     for what, left in checks:
         on_shell = left.xreplace(of.allowed)
         if not of.algebra.is_zero(on_shell):
@@ -182,18 +179,16 @@ class _OnShell:
         point = generic(algebra.rows, algebra.points)
         self.kept = pivots(algebra.rows.xreplace(point).T) if algebra.rows.rows else []
         rows, offsets = algebra.rows.extract(self.kept, list(range(n))), algebra.offsets.extract(self.kept, [0])
-        self.bound = pivots(rows.xreplace(point)) if self.kept else []
+        self.bound = pivots(rows.xreplace(point))
         self.square = rows.extract(list(range(len(self.kept))), self.bound)
         free = {v[i]: sp.S.Zero for i in self.bound}
         solved = adjugate(self.square) * -(rows * sp.Matrix(v).xreplace(free) + offsets)
         below = determinant(self.square)
         self.allowed = {v[i]: value / below for i, value in zip(self.bound, solved, strict=True)}
-        for e in algebra.rows * sp.Matrix(v) + algebra.offsets:
-            if not algebra.is_zero(e.xreplace(self.allowed)):
-                raise BadSystem(
-                    f"{system.name}: the constraints contradict each other, or depend on each other in places"
-                )
-        self.fields = _kernel(rows, rows.xreplace(point)) if self.kept else sp.eye(n).tolist()
+        kept = (algebra.rows * sp.Matrix(v) + algebra.offsets).xreplace(self.allowed)
+        if not all(map(algebra.is_zero, kept)):
+            raise BadSystem(f"{system.name}: the constraints contradict each other, or depend on each other in places")
+        self.fields = _kernel(rows, rows.xreplace(point))
 
 
 def _shown(value: sp.Expr, algebra: Algebra, bound: Mapping[sp.Symbol, sp.Expr]) -> tuple[dict[str, str], str]:

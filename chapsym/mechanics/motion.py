@@ -99,19 +99,17 @@ class Runner:
 
         Their names are none of the system's: y of the state, z of the unknowns, k of what is fixed, l of letters.
         """
-        scheme, constants = self.scheme, self._constants
+        scheme, (constants, parts) = self.scheme, self._lifted
         known = (*self.system.parameters, *constants.values(), STEP)
         groups_ = (("y", scheme.state), ("z", scheme.unknowns), ("k", known))
         named = {x: sp.Symbol(f"{name}{i}") for name, group in groups_ for i, x in enumerate(group)}
         letters = Letters(plain=True)
 
-        def read(part: Sequence[sp.Expr]) -> list[sp.Expr]:
-            return [letters.into(_lifted(e, constants).xreplace(named)) for e in part]
-
         try:
-            residual, after, place, velocity = map(read, (scheme.residual, scheme.after, scheme.place, scheme.velocity))
+            read = [[letters.into(e.xreplace(named)) for e in part] for part in parts]
         except BadSystem as error:
             raise BadSystem(f"{self.system.name}: {error}") from None
+        residual, after, place, velocity = read
         state, unknowns, fixed = ([named[x] for x in group] for group in (scheme.state, scheme.unknowns, known))
         groups = (("state", tuple(state)), ("unknowns", tuple(unknowns)), ("fixed", tuple(fixed)))
 
@@ -130,18 +128,16 @@ class Runner:
         return [kernel("residual", terms, values), slope, kernel("after", *shared(after)), seen]
 
     @cached_property
-    def _constants(self) -> dict[sp.Expr, sp.Symbol]:
-        """Symbols for the numbers that are no integers, and for e: a text has integers alone."""
-        found: dict[sp.Expr, sp.Symbol] = {}
-        for part in (self.scheme.residual, self.scheme.after, self.scheme.place, self.scheme.velocity):
-            for e in part:
-                _lifted(e, found)
-        return found
+    def _lifted(self) -> tuple[dict[sp.Expr, sp.Symbol], list[list[sp.Expr]]]:
+        """Symbols for numbers that are no integers, and for e, and the scheme in these: a text has integers alone."""
+        constants, scheme = dict[sp.Expr, sp.Symbol](), self.scheme
+        parts = (scheme.residual, scheme.after, scheme.place, scheme.velocity)
+        return constants, [[_lifted(e, constants) for e in part] for part in parts]
 
     @cached_property
     def fixed(self) -> np.ndarray:
         """Parameters and constants, in order."""
-        return np.array([*self.system.numbers, *(float(e) for e in self._constants)])
+        return np.array([*self.system.numbers, *(float(e) for e in self._lifted[0])])
 
     @cached_property
     def functions(self) -> dict[str, Callable[..., Any]]:
