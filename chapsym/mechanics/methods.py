@@ -7,16 +7,12 @@ f = ∂L/∂q + F with the forces F, A v + b = 0 the constraints, and h the leng
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from functools import partial
+from typing import Any
 
 import sympy as sp
 
 from .system import STEP, BadSystem, System, after
-
-if TYPE_CHECKING:
-    Vector: TypeAlias = Any  # a column; SymPy's matrices have no types
-else:
-    Vector = sp.Matrix
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,59 +79,54 @@ class _Parts:
 
     def __init__(self, system: System) -> None:
         self.system, self.n, self.m = system, len(system.coordinates), system.rows.rows
-        self.q, self.v = Vector(system.coordinates), Vector(system.velocities)
+        self.q, self.v = sp.Matrix(system.coordinates), sp.Matrix(system.velocities)
         self.p = self.symbols("p", self.n)
 
-    def symbols(self, name: str, count: int) -> Vector:
+    def symbols(self, name: str, count: int) -> sp.Matrix:
         """Symbols of the unknowns or of the state."""
-        return Vector([sp.Symbol(f"{name} {i}") for i in range(count)])  # which no symbol of a system is called
+        return sp.Matrix([sp.Symbol(f"{name} {i}") for i in range(count)])  # which no symbol of a system is called
 
-    def at(self, of: Vector, q: Vector, v: Vector | None = None) -> Vector:
+    def at(self, of: sp.Matrix, q: sp.Matrix, v: sp.Matrix | None = None) -> sp.Matrix:
         """A function of coordinates, and of velocities, at others."""
         places: Mapping[sp.Symbol, sp.Expr] = dict(zip(self.q, q, strict=True))
         if v is not None:
             places = {**places, **dict(zip(self.v, v, strict=True))}
         return of.xreplace(places)
 
-    def momenta(self, q: Vector, v: Vector) -> Vector:
+    def momenta(self, q: sp.Matrix, v: sp.Matrix) -> sp.Matrix:
         return self.at(self.system.momenta, q, v)
 
-    def push(self, q: Vector, v: Vector) -> Vector:
+    def push(self, q: sp.Matrix, v: sp.Matrix) -> sp.Matrix:
         return self.at(self.system.push, q, v)
 
-    def held(self, q: Vector, multipliers: Vector) -> Vector:
+    def held(self, q: sp.Matrix, multipliers: sp.Matrix) -> sp.Matrix:
         """Aᵀλ."""
         return self.at(self.system.rows.T, q) * multipliers if self.m else sp.zeros(self.n, 1)
 
-    def kept(self, q: Vector, v: Vector, end: Vector | None = None) -> Vector:
+    def kept(self, q: sp.Matrix, v: sp.Matrix, end: sp.Matrix | None = None) -> sp.Matrix:
         """A v + b; of holonomic constraints, their values at `end`, where it is given."""
-        rates = self.at(self.system.rows, q) * v + self.at(self.system.offsets, q) if self.m else Vector([])
+        rates = self.at(self.system.rows, q) * v + self.at(self.system.offsets, q) if self.m else sp.Matrix([])
         if end is None or not self.system.holonomic:
-            return Vector(rates)
+            return sp.Matrix(rates)
         first = self.m - len(self.system.holonomic)
-        return Vector([*rates[:first], *self.at(Vector(list(self.system.holonomic)), end)])
+        return sp.Matrix([*rates[:first], *self.at(sp.Matrix(list(self.system.holonomic)), end)])
 
 
-def discrete(alpha: sp.Rational) -> Callable[[System], Scheme]:
+def discrete(alpha: sp.Rational, system: System) -> Scheme:
     """The discrete Lagrange-d'Alembert principle with h L(q + α h u, u), u = (q' - q)/h, the constraint at that place.
 
     p + h(1 - α) f - ∂L/∂v + A(q)ᵀλ = 0 and p' = ∂L/∂v + h α f, all at (q + α h u, u).
     """
-
-    def scheme(system: System) -> Scheme:
-        of = _Parts(system)
-        u, multipliers = of.symbols("u", of.n), of.symbols("lam", of.m)
-        place, end = of.q + alpha * STEP * u, of.q + STEP * u
-        momenta, push = of.momenta(place, u), of.push(place, u)
-        balance = of.p + STEP * (1 - alpha) * push - momenta + of.held(of.q, multipliers)
-        return Scheme(
-            (*of.q, *of.p), (*u, *multipliers), [*balance, *of.kept(place, u, end)],
-            [*end, *(momenta + STEP * alpha * push)], list(place), list(u),
-            [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)], alpha,
-        )  # fmt: skip
-
-    scheme.__doc__ = discrete.__doc__
-    return scheme
+    of = _Parts(system)
+    u, multipliers = of.symbols("u", of.n), of.symbols("lam", of.m)
+    place, end = of.q + alpha * STEP * u, of.q + STEP * u
+    momenta, push = of.momenta(place, u), of.push(place, u)
+    balance = of.p + STEP * (1 - alpha) * push - momenta + of.held(of.q, multipliers)
+    return Scheme(
+        (*of.q, *of.p), (*u, *multipliers), [*balance, *of.kept(place, u, end)],
+        [*end, *(momenta + STEP * alpha * push)], list(place), list(u),
+        [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)], alpha,
+    )  # fmt: skip
 
 
 def own(system: System) -> Scheme:
@@ -149,18 +140,16 @@ def own(system: System) -> Scheme:
     u, multipliers = of.symbols("u", of.n), of.symbols("lam", of.m)
     end = of.q + STEP * u
     there = {after(x): e for x, e in zip(system.coordinates, end, strict=True)}
-    first, last = (Vector([sp.diff(action, x(c)) for c in system.coordinates]).xreplace(there) for x in (_same, after))
+    first, last = (
+        sp.Matrix([sp.diff(action, x) for x in ends]).xreplace(there) for ends in (system.coordinates, there)
+    )
     kept = [c.xreplace(there) for c in system.discrete.constraints]
-    held = [of.at(Vector([c]), end)[0] for c in system.holonomic]
+    held = [of.at(sp.Matrix([c]), end)[0] for c in system.holonomic]
     return Scheme(
         (*of.q, *of.p), (*u, *multipliers), [*(of.p + first + of.held(of.q, multipliers)), *kept, *held],
         [*end, *last], list((of.q + end) / 2), list(u), [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)],
         sp.S.Half,
     )  # fmt: skip
-
-
-def _same(x: sp.Symbol) -> sp.Symbol:
-    return x
 
 
 def geometric(system: System) -> Scheme:
@@ -234,24 +223,22 @@ def midpoint(system: System) -> Scheme:
     )  # fmt: skip
 
 
-def explicit(*stages: Sequence[str]) -> Callable[[System], Scheme]:
+def explicit(stages: Sequence[Sequence[str]], system: System) -> Scheme:
     """An explicit Runge-Kutta method for the equations with the accelerations solved for."""
-
-    def scheme(system: System) -> Scheme:
-        of = _Parts(system)
-        a, multipliers = of.symbols("a", of.n), of.symbols("lam", of.m)
-        return Scheme(
-            (*of.q, *of.v), (*a, *multipliers), _accelerated(of, a, multipliers, of.q, of.v), [*of.v, *a], list(of.q),
-            list(of.v), [*of.q, *of.v], [sp.S.Zero] * (of.n + of.m),
-            stages=[[sp.Rational(x) for x in row] for row in stages],
-        )  # fmt: skip
-
-    return scheme
+    of = _Parts(system)
+    a, multipliers = of.symbols("a", of.n), of.symbols("lam", of.m)
+    return Scheme(
+        (*of.q, *of.v), (*a, *multipliers), _accelerated(of, a, multipliers, of.q, of.v), [*of.v, *a], list(of.q),
+        list(of.v), [*of.q, *of.v], [sp.S.Zero] * (of.n + of.m),
+        stages=[[sp.Rational(x) for x in row] for row in stages],
+    )  # fmt: skip
 
 
-def _accelerated(of: _Parts, a: Vector, multipliers: Vector, place: Vector, velocity: Vector) -> list[sp.Expr]:
+def _accelerated(
+    of: _Parts, a: sp.Matrix, multipliers: sp.Matrix, place: sp.Matrix, velocity: sp.Matrix
+) -> list[sp.Expr]:
     matrix, right = of.system.equations
-    solved = of.at(matrix, place) * Vector([*a, *multipliers])
+    solved = of.at(matrix, place) * sp.Matrix([*a, *multipliers])
     return list(solved - of.at(right, place, velocity))
 
 
@@ -260,10 +247,10 @@ METHODS: dict[str, Method] = {
     for one in (
         Method(
             "dla", "discrete Lagrange-d'Alembert, middle", "J. Cortés, S. Martínez, Nonlinearity 14 (2001) 1365",
-            discrete(sp.S.Half),
+            partial(discrete, sp.S.Half),
         ),
         Method("own", "discrete Lagrange-d'Alembert, of one's own", "the same", own),
-        Method("dla-left", "discrete Lagrange-d'Alembert, left end", "the same", discrete(sp.S.Zero)),
+        Method("dla-left", "discrete Lagrange-d'Alembert, left end", "the same", partial(discrete, sp.S.Zero)),
         Method(
             "gni", "geometric nonholonomic integrator",
             "S. Ferraro, D. Iglesias, D. Martín de Diego, Nonlinearity 21 (2008) 1911", geometric,
@@ -275,6 +262,6 @@ METHODS: dict[str, Method] = {
         Method("spark", "SPARK, Lobatto of two stages", "L. O. Jay, BIT 43 (2003) 93", lobatto),
         Method("midpoint", "implicit midpoint rule", "of the equations of motion", midpoint),
         Method("rk4", "Runge-Kutta of order 4", "of the equations of motion",
-               explicit(["1/2"], ["0", "1/2"], ["0", "0", "1"], ["1/6", "1/3", "1/3", "1/6"])),
+               partial(explicit, [["1/2"], ["0", "1/2"], ["0", "0", "1"], ["1/6", "1/3", "1/3", "1/6"]])),
     )
 }  # fmt: skip
