@@ -457,6 +457,8 @@ def coefficients(expressions: Iterable[sp.Expr]) -> list[tuple[sp.Expr, sp.Expr,
         elif isinstance(expr, sp.Mul):
             for d, e, f in parts[1:]:
                 a, b, c = a * d, a * e + b * d, a * f + b * e + c * d
+        elif not isinstance(expr, sp.Pow | sp.sin | sp.cos | sp.tan):
+            raise Undecided(f"{expr!s:.60} has no exact series")
         else:
             outer = expr.func(_ANY, *expr.args[1:])
             first, second = (outer.diff(_ANY, k).xreplace({_ANY: a}) for k in (1, 2))

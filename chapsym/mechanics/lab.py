@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 
 from .judged import Verdict, verdicts
-from .methods import Scheme, _Parts
+from .methods import Scheme
 from .motion import Motion, NotSolved, Runner
 from .system import System, number
 
@@ -160,9 +160,8 @@ def measured(
 
 def keeps(system: System, scheme: Scheme) -> bool:
     """Whether an equation of the method says that the velocities obey the constraints, at each step or after it."""
-    of = _Parts(system)
-    rows = list(of.kept(of.q, of.v))[: len(system.constraints)]
-    here = dict(zip((*of.q, *of.v), (*scheme.place, *scheme.velocity), strict=True))
+    rows = list(system.rows * sp.Matrix(system.velocities) + system.offsets)[: len(system.constraints)]
+    here = dict(zip((*system.coordinates, *system.velocities), (*scheme.place, *scheme.velocity), strict=True))
     after = dict(zip(scheme.state, scheme.after, strict=True)) if not scheme.stages else {}
     found = [row.xreplace(here) for row in rows]  # of the state alone it may be said of the next state
     return bool(found) and all(
