@@ -1,16 +1,12 @@
-"""The goals of the project in one table: speed compared with the best known way, first calls, many balls, lightness."""
+"""The goals of the project in one table: speed compared with the best known way, first calls, many balls."""
 
 import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterable
-from contextlib import redirect_stdout, suppress
 from functools import partial
-from io import StringIO
-from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
-from unittest.mock import patch
 
 import numpy as np
 
@@ -30,8 +26,6 @@ ACCURACIES = (1e-6, 1e-9)
 LEAST = 2e-3
 #: Of the ensemble.
 END, TOGETHER = 100.0, 1e-9
-PACKAGE = Path(chapsym.__file__).parent
-LINES = ("dynamics", "codegen", "numbers", "accuracy")
 ROLL, OWN, HEYOKA, ACCURATE = "roll", "best own", "heyoka.py", "accurate"
 #: A program: a ball in a state, and one call.
 START = """
@@ -47,14 +41,6 @@ FIRST = {
     "n = 4": "M = numpy.tri(4, k=-1) / 100\n"
     "chapsym.trajectory_n(chapsym.BallN((1.0, 2.0, 0.5, 3.0), 3.0), M - M.T, (0, 0, 0, 1.0), 1000)",
 }
-#: A warm call, and how many files of chapsym it may execute.
-WARM = {
-    "step": ("chapsym.step(ball, K, g)", 6),
-    "trajectory": ("chapsym.trajectory(ball, K, g, 10)", 7),
-    "double-double": ("chapsym.trajectory(ball, K, g, 10, precision='double-double')", 8),
-    "roll": (FIRST["roll"], 10),
-}
-COMMAND = ("step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7")
 PROGRAM = "-m", "chapsym.cli"
 Say = Callable[[str], None]
 
@@ -68,7 +54,6 @@ def measure(quick: bool, on_round: Say = lambda text: None) -> Result:
         reach += ensemble(40 if quick else 1000, 1 if quick else 5, on_round, missing)
     reach += first_calls(1 if quick else 5, on_round, missing)
     reach += single_steps((10_000, 100_000) if quick else (10_000, 100_000, 1_000_000), 3 if quick else 9, on_round)
-    reach += light()
     rows = [{"figure": r.what, "measured": r.value, "wanted": f"at most {r.wanted:g}", "reached": r.met} for r in reach]
     notes = ["best own: the fastest of extrapolate and trajectory of orders 2, 4, 6 and 8 that meets the accuracy"]
     return Result(f"the goals: {sum(r.met for r in reach)} of {len(reach)} are reached", rows, missing, notes=notes)
@@ -202,45 +187,3 @@ def single_steps(counts: Iterable[int], rounds: int, on_round: Say) -> list[Reac
         for name, timing in interleaved(contenders, rounds).items():
             found.append(Reached(f"{name}, {balls} balls: ns of the processor a ball", timing.median * 1e9, 200, False))
     return found
-
-
-def light() -> list[Reached]:
-    """Files and calls of Python that a warm call takes, and the lines of the package."""
-    scope: dict[str, Any] = {}
-    exec(START, scope)  # our own text, never a user's
-    found, calls = [], 0
-    for name, (call, most) in WARM.items():
-        files, calls = executed(partial(exec, compile(call, name, "exec"), scope))
-        found.append(Reached(f"files that a warm {name} executes", len(files), most, False))
-    found.append(Reached("Python calls of a roll", calls, 300, False))
-    from chapsym.cli import main
-
-    def command() -> None:
-        with redirect_stdout(StringIO()), patch.object(sys, "argv", ["chapsym", *COMMAND]), suppress(SystemExit):
-            main()
-
-    found.append(Reached("files that a warm command step executes", len(executed(command)[0]), 9, False))
-    texts = [p for name in LINES for p in (PACKAGE / name).rglob("*") if p.suffix in (".py", ".c")]
-    lines = sum(p.read_text(encoding="utf-8").count("\n") for p in texts)
-    return [*found, Reached(f"lines in {', '.join(LINES)}", lines, 12_000, False)]
-
-
-def executed(call: Callable[[], Any]) -> tuple[set[str], int]:
-    """The files of chapsym whose code a call executes when it is warm, and how many calls of Python it makes."""
-    call()
-    call()
-    files, calls = set(), 0
-
-    def look(frame: Any, event: str, argument: Any) -> None:
-        nonlocal calls
-        if event == "call":
-            calls += 1
-            files.add(frame.f_code.co_filename)
-
-    before = sys.getprofile()
-    sys.setprofile(look)
-    try:
-        call()
-    finally:
-        sys.setprofile(before)
-    return {name for name in files if Path(name).is_relative_to(PACKAGE)}, calls

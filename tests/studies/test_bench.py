@@ -278,12 +278,6 @@ def test_heyoka_follows_the_balls_of_the_goals(monkeypatch):
         assert problem.error(problems.loosest(problem, alone, 1e-8)(), alone) <= 1e-8
 
 
-def test_the_files_and_calls_of_a_warm_call_are_counted():
-    files, calls = goals.executed(lambda: trajectory.with_chapsym(*STATE, trajectory.MASS_TENSOR, trajectory.D, 1))
-    assert calls > len(files) > 2
-    assert goals.executed(lambda: None) == (set(), 1)
-
-
 def test_a_program_that_fails_is_not_timed():
     with pytest.raises(RuntimeError, match=r"chapsym run fails: chapsym: .*absent"):
         goals.timed(("run", "absent.toml", "-o", "x.npz"))
