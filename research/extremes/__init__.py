@@ -36,16 +36,6 @@ def _each(judge: Callable[..., Judged], items: Mapping[str, Sequence[Any]]) -> d
     return {name: [partial(judge, item) for item in those] for name, those in items.items()}
 
 
-def _of_each(judge: Callable[..., Judged], names: Sequence[str], items: Mapping[str, Any]) -> dict[str, list[Judge]]:
-    """A row for each quantity and condition."""
-    return _each(judge, {
-        f"{quantity}: {name}": [(quantity, state) for state in those]
-        for quantity in names
-        for name, those in items.items()
-        if quantity == "increment" or name != "increments 1e-12"
-    })  # fmt: skip
-
-
 _STARTS = {name: [state] for name, state in states.STARTS.items()}
 _BATCHED = tuple(level for level in LEVELS if not level.guarded)
 _DOUBLE = (DOUBLE,)
@@ -74,17 +64,11 @@ GROUPS = {
         "Drift of ⟨𝒦,γ⟩, |𝒦|² and |γ|² in a long run",
         _each(runs.long_run, {f"ε = {size:g}": [size] for size in (1e-3, 0.05, 0.4)}),
     ),
-    "extrapolate": Group("One long step, extrapolated", _each(runs.extrapolated, runs.LONG), _DOUBLE),
     "derived": Group(
-        "ω, the energy, and 𝒦 of ω", _of_each(formulas.derived, [*formulas.QUANTITIES], formulas.DERIVED), _DOUBLE
+        "ω, the energy, and 𝒦 of ω", _each(formulas.derived, formulas.DERIVED), _DOUBLE
     ),
     "fold search": Group("Where the branch folds", _each(steps.fold_search, states.FOLDS), _DOUBLE),
     "vertical": Group("One step of the reduced map G_h", _each(steps.vertical, states.VERTICAL), _DOUBLE),
-    "elliptic": Group(
-        "The curve in Jacobi's functions, and the exact top",
-        _of_each(formulas.elliptic, [*formulas.ELLIPTIC], formulas.CURVES), _DOUBLE,
-    ),
-    "n = 4": Group("One step in four dimensions", _each(steps.four, states.FOUR), _DOUBLE),
     "arrays": Group(
         "What is given: made otherwise, the same bits",
         {

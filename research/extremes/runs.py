@@ -1,21 +1,17 @@
 """Runs: a few steps beside a chain of the oracle's, alone and in a batch; orders, the way back; and long ones."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
-from functools import cache
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from chapsym import generated
-from chapsym.dynamics import Ball, Trajectory, extrapolate, reverse, trajectory
+from chapsym.dynamics import Ball, Trajectory, reverse, trajectory
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.dynamics.extrapolation import weights
 
 from . import states
-from .formulas import angular_velocity
 from .judging import BUDGET, FAILED, Judged, Level, compared, mp, number, state, whole, worst
-from .truth import State, chain, promised, rotation_matrix, scaled
+from .truth import State, chain, promised, scaled
 
 #: Balls of a batch: enough, with ten steps, for the loop over blocks of balls.
 BATCH = 4096
@@ -84,38 +80,3 @@ def long_run(size: float, level: Level, quick: bool) -> Judged:
         for done, frame in zip(run.index[1:], later, strict=True)
         for start, now in zip(first, frame, strict=True)
     ])  # fmt: skip
-
-
-@cache
-def long_step(given: State, columns: int) -> tuple[list[Any], list[Any], float, float]:
-    """𝒦 and γ after one extrapolated step of the oracle's rotations, the ulps that are promised, and κ."""
-    spin = mp.norm(mp.matrix(angular_velocity([*map(mp.mpf, (*given.K, *given.g, *given.J, given.D))])))
-    total, ulps, kappa = [mp.zero] * 4, BUDGET, 1.0
-    for n, w in enumerate(weights(columns), 8 - columns):
-        stages = (mp.sin(spin / n) / spin,) * n  # fitted to steady rotation
-        product: Sequence[Any] = [mp.one, mp.zero, mp.zero, mp.zero]
-        for one in chain(given, stages):
-            product = generated.compose(*(*product, one.q0, *one.q))
-            kappa = max(kappa, one.condition)
-        total = [a + number(w) * b for a, b in zip(total, product, strict=True)]
-        ulps += abs(float(w)) * promised(given, stages)
-    length = mp.sqrt(sum(x * x for x in total))
-    back = rotation_matrix(mp, [x / length * sign for x, sign in zip(total, (1, -1, -1, -1), strict=True)])
-    return list(back * mp.matrix(given.K)), list(back * mp.matrix(given.g)), ulps, kappa
-
-
-def extrapolated(given: State, level: Level, quick: bool) -> Judged:
-    """One long step of `extrapolate`."""
-    columns = 3 if quick else 6
-    *end, ulps, kappa = long_step(given, columns)
-    found = extrapolate(given.ball, given.K, given.g, 1.0, 1, columns=columns)
-    return state(level, kappa, (found.angular_momentum, found.gamma), end, ulps)
-
-
-#: Long steps, at a part of the momentum of their start: short enough that the sine is its series.
-LONG = {
-    name: [replace(states.STARTS[name], K=scaled(states.STARTS[name].K, size))]
-    for name, size in {
-        "generic": 0.2, "tiny momentum": 1.0, "D = 1e6": 0.2, "a flat body": 0.2, "γ along an axis": 0.2,
-    }.items()
-}  # fmt: skip

@@ -189,23 +189,3 @@ FOLDS = {
     "γ along an axis": [(State(J, D, K, AXIS), 1.0)],
     "momentum and γ along an axis": [(State(J, D, AXIS, AXIS), 1.0)],
 }
-
-#: In four dimensions, with the components of 𝒦 below the diagonal, row by row.
-K4, G4, J4 = (0.3, -0.2, 0.5, 0.1, 0.4, -0.25), (0.1, 0.1, 0.7, 0.7), (1.0, 2.0, 0.5, 3.0)
-AXIS4, PLANE4 = (0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0, 0.4, 0.0, 0.0)
-FOUR = {
-    "generic": [State(J4, D, K4, G4)],
-    **{f"momentum {size}": [State(J4, D, scaled(K4, float(size)), G4)] for size in ("1e-12", "1e-300", "5e-320")},
-    "at rest": [State(J4, D, (0.0,) * 6, G4)],
-    **{f"D = {D}": [State(J4, float(D), K4, G4)] for D in ("0", "1e6", "1e12")},
-    "J equal": [State((1.0,) * 4, D, K4, G4)],
-    "J 1e-15 apart": [State((1.0, 1 + 1e-15, 1 - 1e-15, 1.0), D, K4, G4)],
-    "a flat body, one J = 0": [State((1.0, 0.0, 0.5, 3.0), D, K4, G4)],
-    "ratios of 1e12": [State((1e-12, 1.0, 1e-6, 3.0), D, K4, G4)],
-    "γ along an axis": [State(J4, D, K4, AXIS4)],
-    "one plane only": [State(J4, D, PLANE4, G4), State(J4, D, PLANE4, AXIS4)],
-    **{
-        f"a body of size {size}": [State(scaled(J4, float(size)), 3 * float(size), scaled(K4, float(size)), G4)]
-        for size in ("1e-150", "1e150")
-    },
-}

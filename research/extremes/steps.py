@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import BallN, Status, StepNotTaken, fold, step, step_n, step_vertical
-from chapsym.dynamics.oracle import Oracle
+from chapsym.dynamics import Status, StepNotTaken, fold, step, step_vertical
 
 from .judging import BUDGET, FAILED, NO_DIGIT, Judged, Level, compared, mp, number, refused, state, whole
-from .truth import State, Truth, componentwise, fold_at, reachable, scaled, truth, truth_n, unit_gamma
+from .truth import State, Truth, componentwise, fold_at, reachable, scaled, truth, unit_gamma
 
 #: Beyond this share of a rounding from the fold, a precision cannot tell the two sides.
 BLUR = BUDGET
@@ -85,17 +84,6 @@ def vertical(given: State, level: Level, quick: bool) -> Judged:
     exact = truth(replace(given, K=tuple(mp.mpf(height) * x for x in unit_gamma(given.g))))
     found = step_vertical(given.ball, height, given.g)
     return beside(level, (found.rotation[1:], found.momentum, found.gamma), exact)
-
-
-def four(given: State, level: Level, quick: bool) -> Judged:
-    """One step in four dimensions: Ω - 1, 𝒦 and γ within 4(1 + |Ω - 1|κ) ulps."""
-    moved, momentum, gamma, kappa = truth_n(given)
-    matrix = np.array(Oracle(given.J, given.D, given.g).skew(given.K).tolist(), dtype=float)
-    ulps = BUDGET * (1 + float(max(map(abs, moved))) * kappa)
-    found = step_n(BallN(given.J, given.D), matrix, given.g)
-    exact = [x + int(i % 5 == 0) for i, x in enumerate(moved)]
-    rotation = compared(level, kappa, "the rotation", found.rotation.flat, exact, ulps, 1)
-    return state(level, kappa, (found.momentum.flat, found.gamma), (momentum, gamma), ulps, rotation)
 
 
 def fold_search(item: tuple[State, float], level: Level, quick: bool) -> Judged:

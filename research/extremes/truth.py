@@ -36,7 +36,7 @@ def scaled(v: Iterable[float], factor: float) -> Vector:
 
 @dataclass(frozen=True)
 class State:
-    """A ball and its state, in float64, exactly; in n dimensions K has the components below the diagonal.
+    """A ball and its state, in float64, exactly.
 
     from_fold: how far 𝒦 is from the fold, relatively: positive before it, negative beyond; None if it is far.
     """
@@ -75,22 +75,11 @@ def truth(state: State) -> Truth | None:
     except OracleFailed:
         return None
     q, momentum, gamma = ([mp.convert(x) for x in v] for v in (step.q, step.momentum, step.gamma))
-    kappa = _condition(state, oracle, oracle.tangent(step.rotation) * 2, max(map(abs, q)))
+    kappa = condition(state, oracle, oracle.tangent(step.rotation) * 2, max(map(abs, q)))
     return Truth(mp.convert(step.q0), q, momentum, gamma, kappa)
 
 
-@cache
-def truth_n(state: State) -> tuple[list[Any], list[Any], list[Any], float]:
-    """In n dimensions: Ω - 1, 𝒦 and γ after the step, and κ with |Ω - 1| for |q|; ArithmeticError at a fold."""
-    oracle = Oracle(state.J, state.D, state.g, DIGITS)
-    step = oracle.step(state.K)
-    moved = [mp.convert(x) for x in step.rotation - oracle.mp.eye(oracle.n)]
-    kappa = _condition(state, oracle, oracle.tangent(step.rotation), max(map(abs, moved)))
-    momentum, gamma = ([mp.convert(x) for x in v] for v in (oracle.skew(step.momentum), step.gamma))
-    return moved, momentum, gamma, kappa
-
-
-def _condition(state: State, oracle: Oracle, tangent: Any, extent: Any) -> float:
+def condition(state: State, oracle: Oracle, tangent: Any, extent: Any) -> float:
     """κ of a state whose rotation has this tangent and extent."""
     largest = sum(sorted(state.J)[-2:])
     inverse = (tangent / largest) ** -1  # of T by the largest moment, so that it is a float

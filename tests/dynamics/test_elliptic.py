@@ -97,7 +97,7 @@ def test_point_and_argument_are_inverse(gamma, ball, part):
     assert abs(abs(back) - abs(u)) <= 8 * ULP * (1 + curve.period + 1 / slope)
 
 
-@pytest.mark.parametrize("epsilon", [1e-2, 1e-5, 1e-7, 0.0])
+@pytest.mark.parametrize("epsilon", [1e-2, 1e-5, 1e-7, 1e-10, 1e-13, 0.0])
 def test_near_the_separatrix_and_near_its_ends(epsilon):
     """γ at distance `epsilon` from the separatrix, and from the two stable axes."""
     ball = Ball((1, 2, 4), 3)

@@ -84,6 +84,19 @@ def test_against_two_independent_integrators_at_100():
     assert 1e-16 < end.doubt < 1e-8
 
 
+@pytest.mark.parametrize(
+    ("J", "D", "gamma"),
+    [((1, 2, 4), 1e6, GAMMA), ((0, 1, 2), 3.0, GAMMA), ((1, 2, 4), 3.0, (0.0, 0.0, 1.0))],
+    ids=["D = 1e6", "a flat body", "γ along an axis"],
+)
+def test_the_extremes_are_against_a_taylor_series_too(J, D, gamma):
+    ball, momentum = chapsym.Ball(J, D), 0.5 * K
+    exact = continuous(ball, momentum, gamma, None, [Fraction(1)], 25)[0, :6].astype(float)
+    end = chapsym.extrapolate(ball, momentum, gamma, 0.25, 4)
+    # 4 steps of 27 turns, weights with Σ|w| = 54.
+    np.testing.assert_allclose([*end.angular_momentum, *end.gamma], exact, rtol=0, atol=4 * 54 * UNIT_ROUNDOFF)
+
+
 def test_the_integrals_are_kept_at_a_low_order_too():
     end = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, columns=2)
     # A turn rounds each of 6 components by a few units; in 400 steps, all of one sign, by 400 times that.

@@ -155,6 +155,50 @@ def invariants_of(curve, J, D, g):
     return MP.sqrt(k2), MP.sqrt(rest), V, 1 - D * level
 
 
+#: Bodies and γ (of any length) for which a difference of moments, or the distance from an end, is easily lost.
+HARD = {
+    "moments 1e-9 apart": ((1.0, 1.0 + 1e-9, 4.0), (2, 3, 6)),
+    "moments 1e-15 apart": ((1.0, 1.0 + 1e-15, 1.0 + 3e-15), (2, 3, 6)),
+    "equal moments": ((1.0, 1.0, 4.0), (2, 3, 6)),
+    "a flat body": ((0.0, 1.0, 2.0), (2, 3, 6)),
+    "near its upper end": ((1.0, 2.0, 4.0), (1e-8, 2e-8, 1.0)),
+    "near its lower end": ((1.0, 2.0, 4.0), (1.0, 2e-8, 1e-8)),
+    "at its upper end": ((1.0, 2.0, 4.0), (1e-150, 2e-150, 1.0)),
+    "at its lower end": ((1.0, 2.0, 4.0), (1.0, 2e-150, 1e-150)),
+    "near the middle axis": ((1.0, 2.0, 4.0), (1e-8, 1.0, 2e-8)),
+}
+
+
+@pytest.mark.parametrize("D", [0.0, 3.0, 1e6])
+@pytest.mark.parametrize("name", HARD)
+def test_the_curve_and_its_increment_at_the_extremes(name, D):
+    """The amplitudes (5.8) within 16 ulps of their own size, γ by its u, and a step of it beside that of the map."""
+    J, g = (np.array(x, dtype=float) for x in HARD[name])
+    g /= np.sqrt(g @ g)
+    g /= np.sqrt(g @ g)
+    ball = Ball(J, D)
+    curve = Curve.through(ball, g)
+    with MP.workdps(700):
+        true = amplitudes_of(curve, exact(J), MP.mpf(D), exact(g))
+        off = [abs(float(abs(MP.mpf(float(c))) / t - 1)) for c, t in zip(curve.amplitudes, true, strict=True)]
+    assert max(off) <= 16 * ULP
+    u = float(curve.argument(g))
+    assert np.abs(curve.point(u) - g).max() <= 8 * ULP
+    after = step_vertical(ball, 0.3, g).gamma
+    assert np.abs(curve.point(u + increment(curve, 0.3, u)) - after).max() <= 16 * (1 + abs(u)) * ULP
+
+
+def amplitudes_of(curve, J, D, g):
+    """|C_a|, |C_b|, |C_c| from their definition (5.8), on the direction of g."""
+    L, norm = [sum(J) - x + D for x in J], sum(x * x for x in g)
+    a, b, c = curve.axes
+    level = sum(x * x / m for x, m in zip(g, L, strict=True)) / norm
+    lower, upper = abs(L[a] * level - 1), abs(1 - L[c] * level)
+    gaps = L[a] - L[c], L[b] - L[c], L[a] - L[c]
+    sizes = L[a] * upper, L[b] * upper, L[c] * lower
+    return [MP.sqrt(size / abs(gap)) for size, gap in zip(sizes, gaps, strict=True)]
+
+
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("D", [0.0, 3.0, 1e15])
 def test_no_curve_goes_through_a_principal_axis(axis, D):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, batch
 from budget import slow
+from extremes_n import FOUR, truth_n
 from plain import in_plain_python
 
 from chapsym import BallN, Status, StepNotTaken, step_n, substeps, trajectory_n
@@ -11,8 +12,7 @@ from chapsym.dynamics.n import run_n, so_n
 from chapsym.dynamics.n.branch_n import small_rotation
 from chapsym.dynamics.n.near_n import limits
 from research.extremes.judging import BUDGET
-from research.extremes.states import FOUR
-from research.extremes.truth import State, truth_n
+from research.extremes.truth import State
 
 NAMES = ("momentum", "gamma", "attitude", "contact")
 ONE = np.ones(1)
@@ -102,6 +102,9 @@ def test_each_step_is_as_accurate_as_one_of_its_own(condition):
             state = State(J, D, tuple(so_n.coordinates(run.momentum[k])), tuple(run.gamma[k]))
             E, after, vertical, kappa = truth_n(state)
             budget = BUDGET * UNIT_ROUNDOFF * (1 + float(max(map(abs, E))) * kappa)
+            if k == 0:
+                turn = step_n(BallN(J, D), K, gamma).rotation - np.eye(4)
+                assert max(abs(float(a - b)) for a, b in zip(E, turn.flat, strict=True)) <= budget
             off = max(abs(float(a - b)) for a, b in zip(after, run.momentum[k + 1].flat, strict=True))
             assert off <= budget * np.abs(K).max()
             assert max(abs(float(a - b)) for a, b in zip(vertical, run.gamma[k + 1], strict=True)) <= budget
