@@ -58,28 +58,32 @@ def lsoda(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
     return found[-1]
 
 
-def _system(number: type) -> list[tuple[Any, Any]]:
-    """The equations for heyoka.py; it folds constants in the numbers that it is given."""
+def adaptive(system: list[tuple[Any, Any]], tolerance: float, kind: str, parameters: int = 0) -> Any:
+    """heyoka.py's integrator of one ball, in "double" or "long double", or of a "batch" of `LANES`."""
     import heyoka
 
-    names = heyoka.make_vars("K1", "K2", "K3", "g1", "g2", "g3")
-    ball = [heyoka.expression(number(x)) for x in BALL]
-    return list(zip(names, rates(*names, *ball), strict=True))
+    if kind == "batch":
+        start, pars = np.ones((len(system), LANES)), np.ones((parameters, LANES))
+        return heyoka.taylor_adaptive_batch(system, start, tol=tolerance, pars=pars)
+    number = np.longdouble if kind == "long double" else np.float64
+    more = {"fp_type": number} if kind == "long double" else {}
+    start, pars = np.ones(len(system), dtype=number), np.zeros(parameters, dtype=number)
+    return heyoka.taylor_adaptive(system, start, tol=number(tolerance), pars=pars, **more)
 
 
 @cache
-def _taylor(tolerance: float, lanes: int) -> Any:
-    """heyoka.py's integrator, compiled once for each tolerance."""
+def _taylor(tolerance: float, kind: str) -> Any:
+    """The integrator, compiled once for each tolerance; it folds the constants of the ball."""
     import heyoka
 
-    if lanes:
-        return heyoka.taylor_adaptive_batch(_system(float), np.ones((6, lanes)), tol=tolerance)
-    return heyoka.taylor_adaptive(_system(float), np.ones(6), tol=tolerance)
+    names = heyoka.make_vars("K1", "K2", "K3", "g1", "g2", "g3")
+    sides = rates(*names, *map(heyoka.expression, BALL))
+    return adaptive(list(zip(names, sides, strict=True)), tolerance, kind)
 
 
 def taylor(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
     """heyoka.py for one ball."""
-    integrator = _taylor(tolerance, 0)
+    integrator = _taylor(tolerance, "double")
     integrator.time = 0.0
     integrator.state[:] = y
     integrator.propagate_until(end)
@@ -88,7 +92,7 @@ def taylor(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
 
 def taylor_batch(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
     """heyoka.py for `LANES` balls at once, all from the same state; the state of the first."""
-    integrator = _taylor(tolerance, LANES)
+    integrator = _taylor(tolerance, "batch")
     integrator.set_time(0.0)
     integrator.state[:] = y[:, np.newaxis]
     integrator.propagate_until([end] * LANES)

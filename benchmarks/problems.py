@@ -14,7 +14,7 @@ from chapsym.dynamics import kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.studies.harness import installed
 
-from .continuous import LANES, rates
+from .continuous import LANES, adaptive, rates
 
 #: heyoka.py's tolerances, from loose to tight.
 TOLERANCES = tuple(10.0 ** (-k / 2) for k in range(8, 28))
@@ -142,7 +142,7 @@ def fewest(error: Callable[[int], float], accuracy: float, order: int, first: in
 
 
 @cache
-def _integrator(tolerance: float, kind: str = "double") -> Any:
+def _integrator(tolerance: float, kind: str) -> Any:
     """heyoka.py's, of K, γ, the attitude and the contact point; the parameters are J, D and the radius."""
     import heyoka
 
@@ -153,15 +153,7 @@ def _integrator(tolerance: float, kind: str = "double") -> Any:
     slip = generated.rotate(a0, a1, a2, a3, w2 * g3 - w3 * g2, w3 * g1 - w1 * g3, w1 * g2 - w2 * g1)
     turn = generated.compose(a0, a1, a2, a3, 0.0, 0.5 * w1, 0.5 * w2, 0.5 * w3)
     sides = (*rates(*kinetic), *turn, slip[0] * radius, slip[1] * radius)
-    system = list(zip(v, sides, strict=True))
-    if kind == "batch":
-        start, pars = np.ones((12, LANES)), np.ones((5, LANES))
-        return heyoka.taylor_adaptive_batch(system, start, tol=tolerance, pars=pars)
-    number = np.longdouble if kind == "long double" else np.float64
-    more = {"fp_type": np.longdouble} if kind == "long double" else {}
-    return heyoka.taylor_adaptive(
-        system, np.ones(12, dtype=number), tol=number(tolerance), pars=np.zeros(5, dtype=number), **more
-    )
+    return adaptive(list(zip(v, sides, strict=True)), tolerance, kind, parameters=5)
 
 
 def _start(p: Problem) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
