@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
 from functools import partial
 from math import isfinite
+from operator import call
 from typing import Any, NamedTuple
 
 from chapsym import jobs
@@ -25,18 +26,26 @@ Cell = dict[str, Any]
 
 
 class Group(NamedTuple):
-    """Rows of the matrix: what is judged under each condition, and the columns that have this path."""
+    """Rows of the matrix: what judges the items of each condition, and the columns that have this path.
+
+    items: made when they are asked for, as most take a continuation.
+    """
 
     title: str
-    rows: Mapping[str, Sequence[Judge]]
+    judge: Callable[..., Judged]
+    items: Callable[[], Mapping[str, Sequence[Any]]]
     levels: Sequence[Level] = LEVELS
 
+    @property
+    def rows(self) -> dict[str, list[Judge]]:
+        """The judges of each condition."""
+        return {name: [partial(self.judge, item) for item in those] for name, those in self.items().items()}
 
-def _each(judge: Callable[..., Judged], items: Mapping[str, Sequence[Any]]) -> dict[str, list[Judge]]:
-    return {name: [partial(judge, item) for item in those] for name, those in items.items()}
+
+def _of_a_step(group: str) -> Mapping[str, Sequence[Any]]:
+    return states.conditions()[group]
 
 
-_STARTS = {name: [state] for name, state in states.STARTS.items()}
 _BATCHED = tuple(level for level in LEVELS if not level.guarded)
 _DOUBLE = (DOUBLE,)
 _TITLES = {
@@ -48,35 +57,30 @@ _TITLES = {
 #: The groups, in the order of the table.
 GROUPS = {
     **{
-        name: Group(f"One step: {title}", _each(steps.judge, states.CONDITIONS[name]))
+        name: Group(f"One step: {title}", steps.judge, partial(_of_a_step, name))
         for name, title in _TITLES.items()
     },
-    "runs": Group("Ten steps of a trajectory, beside ten of the oracle", _each(runs.ten_steps, _STARTS)),
+    "runs": Group("Ten steps of a trajectory, beside ten of the oracle", runs.ten_steps, states.starts),
     "batch": Group(
-        "The same in a batch of 4096", _each(partial(runs.ten_steps, balls=runs.BATCH), _STARTS), _BATCHED
+        "The same in a batch of 4096", partial(runs.ten_steps, balls=runs.BATCH), states.starts, _BATCHED
     ),
     "order": Group(
-        "One step of the composition of order 8 (of order 4 when quick)",
-        _each(runs.composed, _STARTS | {"at 0.8 of the fold": [runs.near_its_fold]}),
+        "One step of the composition of order 8 (of order 4 when quick)", runs.composed,
+        lambda: states.starts() | {"at 0.8 of the fold": [runs.near_its_fold]},
     ),
-    "reverse": Group("Ten steps, and back", _each(runs.way_back, _STARTS), _DOUBLE),
+    "reverse": Group("Ten steps, and back", runs.way_back, states.starts, _DOUBLE),
     "long": Group(
-        "Drift of ⟨𝒦,γ⟩, |𝒦|² and |γ|² in a long run",
-        _each(runs.long_run, {f"ε = {size:g}": [size] for size in (1e-3, 0.05, 0.4)}),
+        "Drift of ⟨𝒦,γ⟩, |𝒦|² and |γ|² in a long run", runs.long_run,
+        lambda: {f"ε = {size:g}": [size] for size in (1e-3, 0.05, 0.4)},
     ),
-    "derived": Group(
-        "ω, the energy, and 𝒦 of ω", _each(formulas.derived, formulas.DERIVED), _DOUBLE
-    ),
-    "fold search": Group("Where the branch folds", _each(steps.fold_search, states.FOLDS), _DOUBLE),
-    "vertical": Group("One step of the reduced map G_h", _each(steps.vertical, states.VERTICAL), _DOUBLE),
+    "derived": Group("ω, the energy, and 𝒦 of ω", formulas.derived, formulas.items, _DOUBLE),
+    "fold search": Group("Where the branch folds", steps.fold_search, states.folds, _DOUBLE),
+    "vertical": Group("One step of the reduced map G_h", steps.vertical, states.upright_states, _DOUBLE),
     "arrays": Group(
-        "What is given: made otherwise, the same bits",
-        {
-            **_each(arrays.same, {name: [make] for name, make in arrays.MAKES.items()}),
-            **{name: [judge] for name, judge in arrays.WHOLE.items()},
-        },
+        "What is given: made otherwise, the same bits", call,
+        lambda: {name: [judge] for name, judge in arrays.JUDGES.items()},
     ),
-    "input": Group("What is given: no numbers, no states", _each(arrays.refusal, arrays.INPUT)),
+    "input": Group("What is given: no numbers, no states", arrays.refusal, lambda: arrays.INPUT),
 }  # fmt: skip
 #: Groups whose rows of one name are about the same run.
 SHARED = ("runs", "batch", "reverse")
@@ -104,8 +108,8 @@ def cell(group: str, condition: str, judges: Sequence[Judge], level: Level, quic
 
 def row(group: str, condition: str, quick: bool) -> list[Cell]:
     """The cells of one condition, at the precisions that have its path."""
-    _, rows, levels = GROUPS[group]
-    return [cell(group, condition, rows[condition], level, quick) for level in levels]
+    found = GROUPS[group]
+    return [cell(group, condition, found.rows[condition], level, quick) for level in found.levels]
 
 
 def extremes(

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -106,8 +107,11 @@ def huge(level: Level, quick: bool) -> Judged:
     return SAME
 
 
-#: What else is judged of arrays.
-WHOLE: dict[str, Judge] = {"float32": float32, "empty": empty, "huge batch": huge}
+#: What is judged of arrays.
+JUDGES: dict[str, Judge] = {
+    **{name: partial(same, make) for name, make in MAKES.items()},
+    "float32": float32, "empty": empty, "huge batch": huge,
+}  # fmt: skip
 
 #: Asks for a run that is to be refused.
 Attempt = Callable[[Level], object]

@@ -60,15 +60,12 @@ def _several(D: float, size: float = 1.0) -> list[State]:
     return [State(J, D, scaled(v, size), g) for v, g in pairs]
 
 
-_STATES = {
-    **{f"D = {D}": _several(float(D)) for D in ("3", "0", "1e6", "1e12")},
-    "momentum 1e-300": _several(3.0, 1e-150),
-    "a rod 1e-6 from upright": [State(ROD, D, K, states.unit((1e-6, 0.0, 1.0)))],
-    "ratios of 1e12": [State(RATIOS, 1.0, K, G)],
-}
-#: By quantity and condition.
-DERIVED = {
-    f"{quantity}: {name}": [(quantity, state) for state in those]
-    for quantity in QUANTITIES
-    for name, those in _STATES.items()
-}
+def items() -> dict[str, list[tuple[str, State]]]:
+    """What is derived, by quantity and condition."""
+    conditions = {
+        **{f"D = {D}": _several(float(D)) for D in ("3", "0", "1e6", "1e12")},
+        "momentum 1e-300": _several(3.0, 1e-150),
+        "a rod 1e-6 from upright": [State(ROD, D, K, states.unit((1e-6, 0.0, 1.0)))],
+        "ratios of 1e12": [State(RATIOS, 1.0, K, G)],
+    }
+    return {f"{q}: {name}": [(q, state) for state in those] for q in QUANTITIES for name, those in conditions.items()}

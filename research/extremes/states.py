@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache, partial
 from math import sqrt
+from typing import Any
 
 import numpy as np
 
@@ -81,83 +82,96 @@ def tiny(size: float) -> list[State]:
 TINY = ("1e-12", "1e-150", "1e-300", "subnormal, 5e-320")
 SIDES = {"before": 1, "beyond": -1}
 HEAVY = ("1e6", "1e12", "1e15")
-#: The states of a single step: by group and condition; those beside a fold are made for a precision when asked for.
-CONDITIONS: dict[str, dict[str, Sequence[State | Callable[[Level], State]]]] = {
-    "momentum": {
-        "generic": [halfway(), halfway((0.1, 0.5, 1.6), 0.7, (0.3, 0.2, -1.0))],
-        "at rest": [State(J, D, (0.0, 0.0, 0.0), G)],
-        **{name: tiny(float(name.removeprefix("subnormal, "))) for name in TINY},
-        "subnormal, 4e-313, D = 100": [State((1.0, 1.0, 1.0), 100.0, (4.4500984e-313, 0.0, 0.0), (1.0, 0.0, 0.0))],
-        "components from 1 to 1e-300": [State(J, D, (0.5, 1e-150, 1e-300), G), State(J, D, (1e-300, 0.5, 0.0), AXIS)],
-        "from 1e-12 of the fold to 0.999": [part(J, D, K, G, share) for share in SWEEP],
-    },
-    "rotation": {
-        "by 90°": [turned(sqrt(0.5))],
-        "90° about an axis, its fold, less 1e-8": [
-            State(J, D, (0.0, 0.0, 3.0 * (1 - 1e-8)), AXIS, 1e-8),
-            State(J, 0.0, (6.0 * (1 - 1e-8), 0.0, 0.0), AXIS, 1e-8),
-        ],
-        "by π less 1e-4": [turned(5e-5)],
-        "by π less 1e-8": [turned(5e-9)],
-        "by π, to rounding": [turned(0.0)],
-    },
-    "fold": {
-        **{
-            f"{off} {where} it": [partial(beside_fold, side * float(off))]
-            for off in ("1e-8", "1e-12")
-            for where, side in SIDES.items()
-        },
-        **{f"one ulp {where} it": [partial(next_to_fold, -side)] for where, side in SIDES.items()},
-        "twice as far": [partial(beside_fold, -1.0)],
-        "more than any rotation has": [State(J, D, scaled(K, 1e3), G, -1e3), State(J, D, scaled(K, 1e300), G, -1e3)],
-    },
-    "D": {
-        "D = 0": [halfway(D=0.0), halfway(D=0.0, direction=G)],
-        "D = 1e-12": [halfway(D=1e-12), halfway(D=1e-12, direction=G)],
-        **{
-            f"D = {D}": [halfway(D=float(D)), halfway(D=float(D), direction=G), halfway(D=float(D), g=AXIS)]
-            for D in HEAVY
-        },
-        **{f"D = {D}, momentum horizontal": [halfway(D=float(D), direction=ACROSS)] for D in HEAVY},
-    },
-    "inertia": {
-        "one ulp apart": [halfway((1.0, 1 + 2.0**-52, 1 + 2.0**-51)), halfway((1.0, 1.0, 1 + 5 * 2.0**-52), 0.0)],
-        "1e-15 apart": [halfway(APART)],
-        "equal": [halfway((1.0, 1.0, 1.0)), halfway((1.0, 1.0, 1.0), 0.0, G)],
-        "a flat body, one J = 0": [halfway(FLAT), halfway((1.0, 0.0, 1.0), D, G, AXIS)],
-        "a rod, two J = 0": [halfway(ROD), halfway(ROD, g=(1.0, 0.0, 0.0))],
-        "a rod upright: no inertia about the vertical": [State(ROD, D, (0.1, 0.0, 0.0), AXIS)],
-        "a rod 1e-6 from upright": [halfway(ROD, g=unit((1e-6, 0.0, 1.0)))],
-        "ratios of 1e12": [halfway((1e-12, 1.0, 1.0)), halfway(RATIOS, 1.0), halfway((1.0, 1e-12, 1e-12), 0.0)],
-        **{
-            f"a ball of size {size}": [halfway(scaled(J, float(size)), 3 * float(size))]
-            for size in ("1e-150", "1e150", "1e-300")
-        },
-        "a ball of size 1e300": [State(scaled(J, 1e300), 3e300, scaled(K, 1e300), G)],
-    },
-    "directions": {
-        "γ along an axis": [halfway(g=axis) for axis in AXES],
-        "γ 1e-9 from an axis": [halfway(g=unit((1e-9, -1e-9, 1.0)))],
-        "momentum vertical": [halfway(direction=G), halfway(direction=AXIS, g=AXIS)],
-        "momentum 1e-9 from vertical": [halfway(direction=(G[0] + 1e-9, G[1], G[2]))],
-        "momentum horizontal": [halfway(direction=ACROSS), halfway(direction=AXES[0], g=AXIS)],
-        "momentum 1e-9 from horizontal": [halfway(direction=tuple(ACROSS + 1e-9 * np.array(G)))],
-        "momentum along an axis": [halfway(direction=axis) for axis in AXES],
-    },
-}
 
-#: The states of the runs.
-STARTS = {
-    "generic": halfway(),
-    "tiny momentum": State(J, D, scaled(K, 1e-300), G),
-    "at 0.8 of the fold": part(J, D, K, G, 0.8),
-    "D = 1e6": halfway(D=1e6),
-    "D = 0": halfway(D=0.0),
-    "a flat body": halfway(FLAT),
-    "inertia 1e-15 apart": halfway(APART),
-    "momentum vertical": halfway(direction=G),
-    "γ along an axis": halfway(g=AXIS),
-}
+
+@cache
+def conditions() -> dict[str, dict[str, Sequence[State | Callable[[Level], State]]]]:
+    """The states of a single step, by group and condition; those beside a fold are made for a precision."""
+    return {
+        "momentum": {
+            "generic": [halfway(), halfway((0.1, 0.5, 1.6), 0.7, (0.3, 0.2, -1.0))],
+            "at rest": [State(J, D, (0.0, 0.0, 0.0), G)],
+            **{name: tiny(float(name.removeprefix("subnormal, "))) for name in TINY},
+            "subnormal, 4e-313, D = 100": [State((1.0, 1.0, 1.0), 100.0, (4.4500984e-313, 0.0, 0.0), (1.0, 0.0, 0.0))],
+            "components from 1 to 1e-300": [
+                State(J, D, (0.5, 1e-150, 1e-300), G),
+                State(J, D, (1e-300, 0.5, 0.0), AXIS),
+            ],
+            "from 1e-12 of the fold to 0.999": [part(J, D, K, G, share) for share in SWEEP],
+        },
+        "rotation": {
+            "by 90°": [turned(sqrt(0.5))],
+            "90° about an axis, its fold, less 1e-8": [
+                State(J, D, (0.0, 0.0, 3.0 * (1 - 1e-8)), AXIS, 1e-8),
+                State(J, 0.0, (6.0 * (1 - 1e-8), 0.0, 0.0), AXIS, 1e-8),
+            ],
+            "by π less 1e-4": [turned(5e-5)],
+            "by π less 1e-8": [turned(5e-9)],
+            "by π, to rounding": [turned(0.0)],
+        },
+        "fold": {
+            **{
+                f"{off} {where} it": [partial(beside_fold, side * float(off))]
+                for off in ("1e-8", "1e-12")
+                for where, side in SIDES.items()
+            },
+            **{f"one ulp {where} it": [partial(next_to_fold, -side)] for where, side in SIDES.items()},
+            "twice as far": [partial(beside_fold, -1.0)],
+            "more than any rotation has": [
+                State(J, D, scaled(K, 1e3), G, -1e3),
+                State(J, D, scaled(K, 1e300), G, -1e3),
+            ],
+        },
+        "D": {
+            "D = 0": [halfway(D=0.0), halfway(D=0.0, direction=G)],
+            "D = 1e-12": [halfway(D=1e-12), halfway(D=1e-12, direction=G)],
+            **{
+                f"D = {D}": [halfway(D=float(D)), halfway(D=float(D), direction=G), halfway(D=float(D), g=AXIS)]
+                for D in HEAVY
+            },
+            **{f"D = {D}, momentum horizontal": [halfway(D=float(D), direction=ACROSS)] for D in HEAVY},
+        },
+        "inertia": {
+            "one ulp apart": [halfway((1.0, 1 + 2.0**-52, 1 + 2.0**-51)), halfway((1.0, 1.0, 1 + 5 * 2.0**-52), 0.0)],
+            "1e-15 apart": [halfway(APART)],
+            "equal": [halfway((1.0, 1.0, 1.0)), halfway((1.0, 1.0, 1.0), 0.0, G)],
+            "a flat body, one J = 0": [halfway(FLAT), halfway((1.0, 0.0, 1.0), D, G, AXIS)],
+            "a rod, two J = 0": [halfway(ROD), halfway(ROD, g=(1.0, 0.0, 0.0))],
+            "a rod upright: no inertia about the vertical": [State(ROD, D, (0.1, 0.0, 0.0), AXIS)],
+            "a rod 1e-6 from upright": [halfway(ROD, g=unit((1e-6, 0.0, 1.0)))],
+            "ratios of 1e12": [halfway((1e-12, 1.0, 1.0)), halfway(RATIOS, 1.0), halfway((1.0, 1e-12, 1e-12), 0.0)],
+            **{
+                f"a ball of size {size}": [halfway(scaled(J, float(size)), 3 * float(size))]
+                for size in ("1e-150", "1e150", "1e-300")
+            },
+            "a ball of size 1e300": [State(scaled(J, 1e300), 3e300, scaled(K, 1e300), G)],
+        },
+        "directions": {
+            "γ along an axis": [halfway(g=axis) for axis in AXES],
+            "γ 1e-9 from an axis": [halfway(g=unit((1e-9, -1e-9, 1.0)))],
+            "momentum vertical": [halfway(direction=G), halfway(direction=AXIS, g=AXIS)],
+            "momentum 1e-9 from vertical": [halfway(direction=(G[0] + 1e-9, G[1], G[2]))],
+            "momentum horizontal": [halfway(direction=ACROSS), halfway(direction=AXES[0], g=AXIS)],
+            "momentum 1e-9 from horizontal": [halfway(direction=tuple(ACROSS + 1e-9 * np.array(G)))],
+            "momentum along an axis": [halfway(direction=axis) for axis in AXES],
+        },
+    }
+
+
+@cache
+def starts() -> dict[str, Sequence[Any]]:
+    """The states of the runs."""
+    return {
+        "generic": [halfway()],
+        "tiny momentum": [State(J, D, scaled(K, 1e-300), G)],
+        "at 0.8 of the fold": [part(J, D, K, G, 0.8)],
+        "D = 1e6": [halfway(D=1e6)],
+        "D = 0": [halfway(D=0.0)],
+        "a flat body": [halfway(FLAT)],
+        "inertia 1e-15 apart": [halfway(APART)],
+        "momentum vertical": [halfway(direction=G)],
+        "γ along an axis": [halfway(g=AXIS)],
+    }
 
 
 def upright(J: Vector = J, D: float = D, g: Vector = G, share: float = 0.5) -> State:
@@ -165,27 +179,32 @@ def upright(J: Vector = J, D: float = D, g: Vector = G, share: float = 0.5) -> S
     return part(J, D, g, g, share)
 
 
-#: States whose momentum is h γ; only ⟨𝒦,γ⟩ = h is taken from them.
-VERTICAL = {
-    "generic": [upright(share=share) for share in (0.01, 0.5, 0.9)],
-    "h 1e-300": [State(J, D, scaled(G, 1e-300), G)],
-    "h 5e-320": [State(J, D, scaled(AXIS, 5e-320), AXIS)],
-    "1e-6 before the fold": [upright(share=1 - 1e-6)],
-    "D = 0": [upright(D=0.0)],
-    "D = 1e6": [upright(D=1e6), upright(D=1e6, g=AXIS)],
-    "D = 1e12": [upright(D=1e12), upright(D=1e12, g=AXIS)],
-    "inertia 1e-15 apart": [upright(APART)],
-    "a flat body": [upright(FLAT)],
-    "ratios of 1e12": [upright(RATIOS, 1.0)],
-    "γ along an axis": [upright(g=AXIS)],
-}
+@cache
+def upright_states() -> dict[str, list[State]]:
+    """States whose momentum is h γ; only ⟨𝒦,γ⟩ = h is taken from them."""
+    return {
+        "generic": [upright(share=share) for share in (0.01, 0.5, 0.9)],
+        "h 1e-300": [State(J, D, scaled(G, 1e-300), G)],
+        "h 5e-320": [State(J, D, scaled(AXIS, 5e-320), AXIS)],
+        "1e-6 before the fold": [upright(share=1 - 1e-6)],
+        "D = 0": [upright(D=0.0)],
+        "D = 1e6": [upright(D=1e6), upright(D=1e6, g=AXIS)],
+        "D = 1e12": [upright(D=1e12), upright(D=1e12, g=AXIS)],
+        "inertia 1e-15 apart": [upright(APART)],
+        "a flat body": [upright(FLAT)],
+        "ratios of 1e12": [upright(RATIOS, 1.0)],
+        "γ along an axis": [upright(g=AXIS)],
+    }
 
-#: Balls and directions whose folds are searched for, and by how much the momentum that is given is larger.
-FOLDS = {
-    "generic": [(State(J, D, K, G), 1.0)],
-    **{f"momentum {size}": [(State(J, D, K, G), float(size))] for size in ("1e-300", "1e300")},
-    **{f"D = {D}": [(State(J, float(D), K, G), 1.0)] for D in ("0", "1e3", "1e6")},
-    "a flat body": [(State(FLAT, D, K, G), 1.0)],
-    "γ along an axis": [(State(J, D, K, AXIS), 1.0)],
-    "momentum and γ along an axis": [(State(J, D, AXIS, AXIS), 1.0)],
-}
+
+@cache
+def folds() -> dict[str, list[tuple[State, float]]]:
+    """Balls and directions whose folds are searched for, and by how much the momentum that is given is larger."""
+    return {
+        "generic": [(State(J, D, K, G), 1.0)],
+        **{f"momentum {size}": [(State(J, D, K, G), float(size))] for size in ("1e-300", "1e300")},
+        **{f"D = {D}": [(State(J, float(D), K, G), 1.0)] for D in ("0", "1e3", "1e6")},
+        "a flat body": [(State(FLAT, D, K, G), 1.0)],
+        "γ along an axis": [(State(J, D, K, AXIS), 1.0)],
+        "momentum and γ along an axis": [(State(J, D, AXIS, AXIS), 1.0)],
+    }

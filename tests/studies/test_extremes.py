@@ -108,7 +108,7 @@ def test_a_ball_that_excludes_the_truth_fails_though_it_is_near(monkeypatch):
     [
         *((status, 0.5, lambda: GENERIC, "failed") for status in (Status.FOLDED, Status.UNREACHABLE)),
         *((status, 0.5, lambda: GENERIC, "failed") for status in (Status.NO_INERTIA, Status.NOT_CONVERGED)),
-        (Status.NOT_CONVERGED, 1.0, lambda: states.CONDITIONS["D"][HEAVIEST][0], "refused"),
+        (Status.NOT_CONVERGED, 1.0, lambda: states.conditions()["D"][HEAVIEST][0], "refused"),
         (Status.UNREACHABLE, 0.5, lambda: states.beside_fold(-1e-8), "failed"),
     ],
 )
@@ -209,7 +209,7 @@ def unstable_velocity(K, g, J, D):
 def test_the_printed_form_of_the_velocity_fails_where_it_cancels(monkeypatch):
     monkeypatch.setattr(kernels, "angular_velocity", unstable_velocity)
     verdicts = {
-        condition: {formulas.derived(item, DOUBLE, True).verdict for item in formulas.DERIVED[f"ω: {condition}"]}
+        condition: {formulas.derived(item, DOUBLE, True).verdict for item in formulas.items()[f"ω: {condition}"]}
         for condition in ("D = 3", "D = 1e6", "D = 1e12")
     }
     assert verdicts["D = 3"] == {"within"}
@@ -228,14 +228,14 @@ def test_a_step_by_the_printed_form_fails_where_it_cancels(monkeypatch):
         return q * (np.array(state.K) @ g) / (back @ g), momentum, gamma  # the scale of q from the vertical part
 
     monkeypatch.setattr(steps, "taken", printed)
-    heavy = states.CONDITIONS["D"]["D = 1e12"][0]
+    heavy = states.conditions()["D"]["D = 1e12"][0]
     assert verdict_of(heavy) == "failed"
 
 
 def test_a_fold_that_is_a_little_off_fails(monkeypatch):
     honest = steps.fold
     monkeypatch.setattr(steps, "fold", lambda *given: replace((f := honest(*given)), reach=f.reach * (1 + 1e-13)))
-    assert steps.fold_search(states.FOLDS["generic"][0], DOUBLE, True).verdict == "failed"
+    assert steps.fold_search(states.folds()["generic"][0], DOUBLE, True).verdict == "failed"
 
 
 def test_a_refused_input_that_is_taken_fails():
