@@ -20,8 +20,6 @@ DRAWN: dict[str, Callable[..., Any]] = {
     "contact": partial(frontiers.one_ball, "contact"),
     "state": partial(frontiers.one_ball, "state"),
     "batch": frontiers.batch,
-    "n4": partial(frontiers.four, 1),
-    "n4-batch": partial(frontiers.four, frontiers.BATCH_N),
 }
 DEFAULT = tuple(DRAWN)
 SECTIONS: dict[str, Callable[..., Any]] = {**DRAWN, "requests": requests.measure, "kernels": Kernels}

@@ -1,20 +1,17 @@
-"""The sections that have a frontier: rounding alone, one ball and a batch against the continuous ball, and n = 4."""
+"""The sections that have a frontier: rounding alone, one ball and a batch against the continuous ball."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from chapsym.accuracy import Method, Request, methods, take
 from chapsym.accuracy.methods import CHECKS, EXTRAPOLATED, label_of
-from chapsym.dynamics import Ball, BallN, Trajectory, extrapolate, kernels, trajectory, trajectory_n
-from chapsym.dynamics.ball import Floats
+from chapsym.dynamics import Ball, Trajectory, extrapolate, kernels, trajectory
 from chapsym.dynamics.certified import exactly
 from chapsym.numbers import NAMED, Digits, Enclosure, Precision
-from chapsym.studies.harness import NotComparable
 
 from .frontier import Choice, Frontier, Say, frontier
 from .reference import sample, true_error, truth
@@ -37,14 +34,6 @@ LONGEST = {True: 0.02, False: 1.0}
 DIGITS, OF_BATCH = 34, 19
 #: Balls of a batch, and those of them whose error is taken.
 BATCH, SHOWN = 256, 4
-
-#: n = 4: the time, the ball, and γ.
-END_N, BALL_N, GAMMA_N = 2.0, ((1.0, 2.0, 0.5, 3.0), 3.0), np.array([0.1, 0.1, 0.7, 0.7])
-#: |K| is 0.36 and the least moment 1.5: steps up to 1 are taken.
-STEPS_N = {True: (16, 64, 256), False: (16, 32, 64, 128, 256, 512, 1024, 2048, 4096)}
-#: Numbers of steps of the reference, whose errors are even power series in the step, and its digits.
-REFERENCES_N, DIGITS_N = {True: (64, 128, 256, 512), False: (256, 512, 1024, 2048)}, 13
-BATCH_N = 64
 
 
 def rounding(quick: bool, say: Say) -> Frontier:
@@ -150,47 +139,3 @@ def _all(ball: Ball, K: np.ndarray, gamma: np.ndarray, method: Method, steps: in
         return
     options: dict[str, Any] = {"order": method.order, "every": steps, "precision": method.precision, "threads": 1}
     trajectory(ball, END / steps * K, gamma, steps, **options)
-
-
-def four(balls: int, quick: bool, say: Say) -> Frontier:
-    """n = 4, where the map is of order 2, in float64: digits of K and γ after END_N, and the time for each ball."""
-    say("n = 4: the reference")
-    exact, agreed = reference_n(REFERENCES_N[quick])
-    choices = (
-        Choice(
-            "double, order 2", END_N / steps, steps, END_N,
-            lambda steps=steps: float(abs(end_n(1, steps) - exact).max()),  # type: ignore[misc]
-            partial(end_n, balls, steps),
-        )
-        for steps in STEPS_N[quick]
-    )  # fmt: skip
-    title = "n = 4, one ball" if balls == 1 else f"n = 4, a batch of {balls}"
-    question = f"correct digits of K and γ after {END_N:g} units of time"
-    notes = [f"reference: {REFERENCES_N[quick]} steps extrapolated; with a column less it differs by {agreed:.0e}"]
-    return frontier(title, question, notes, choices, DIGITS_N, 1 if quick else 3, say, balls)
-
-
-def end_n(balls: int, steps: int) -> Floats:
-    """K and γ at the end, flat, of the first of the balls."""
-    K = np.zeros((4, 4))
-    K[1, 0], K[3, 2], K[2, 0] = 0.3, -0.2, 0.1
-    ball = BallN(mass_tensor=np.array(BALL_N[0]), D=np.array(BALL_N[1]))
-    start = np.broadcast_to((K - K.T) * (END_N / steps), (balls, 4, 4))
-    run = trajectory_n(ball, start, np.broadcast_to(GAMMA_N, (balls, 4)), steps, every=steps)
-    return np.concatenate([(run.momentum[0, -1] * (steps / END_N)).ravel(), run.gamma[0, -1]])
-
-
-def reference_n(counts: tuple[int, ...]) -> tuple[Floats, float]:
-    """The steps of the map itself, halved, and extrapolated in the square of the step; by how much the last differ.
-
-    Raises NotComparable if it does not settle.
-    """
-    row = [end_n(1, n) for n in counts]
-    before = row[-1]
-    for k in range(1, len(counts)):
-        row = [b + (b - a) / (4.0**k - 1) for a, b in pairwise(row)]
-        before, last = row[-1], before
-    agreed = float(abs(before - last).max())
-    if not agreed < 1e-9:
-        raise NotComparable(f"the reference of n = 4 does not settle: {agreed:.0e}")
-    return before, agreed

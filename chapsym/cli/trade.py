@@ -28,7 +28,7 @@ def trade(
         list[str] | None,
         argument(
             "[SECTION]... | SCENE.toml",
-            "rounding, contact, state, batch, n4, n4-batch, requests, kernels; with --accuracy a scene.",
+            "rounding, contact, state, batch, requests, kernels; with --accuracy a scene.",
         ),
     ] = None,
     accuracy: Annotated[float | None, takes("A", "Choose, run and verify: the error wanted.")] = None,

@@ -18,7 +18,7 @@ from benchmarks import trade
 from benchmarks.trade import reference
 from benchmarks.trade.figure import draw
 from benchmarks.trade.frontier import Frontier, Point, digits_of
-from benchmarks.trade.frontiers import name_of, reference_n
+from benchmarks.trade.frontiers import name_of
 from benchmarks.trade.reference import continuous, sample, true_error, truth
 from benchmarks.trade.requests import Outcomes, measure
 from chapsym.accuracy import Method, methods, take
@@ -93,9 +93,8 @@ def test_a_request_that_is_not_met_is_told():
     assert trade.missed({"requests": found}) == "1 of 2 requests were not met"
 
 
-@pytest.mark.parametrize("section", ["contact", "n4"])
-def test_a_section_is_measured(section):
-    found = trade.run(section, quick=True)
+def test_a_section_is_measured():
+    found = trade.run("contact", quick=True)
     assert all(p.per_time > 0 and 0 <= p.digits <= 34 for p in found.points)
     assert found.best
     for name in {p.name for p in found.points}:  # shorter steps are more exact, up to the rounding of the precision
@@ -111,13 +110,8 @@ def test_a_reference_without_its_digits_is_told(monkeypatch):
         truth(request, 34)
 
 
-def test_the_reference_of_n_4_is_checked(monkeypatch):
-    with pytest.raises(trade.NotComparable, match="does not settle"):
-        reference_n((4, 5))
-
-
 def test_a_figure_is_drawn(tmp_path):
-    drawn = draw({"contact": Frontier("t", "q of 𝒦", POINTS, []), "n4": Frontier("u", "q", POINTS[:2], [])})
+    drawn = draw({"contact": Frontier("t", "q of 𝒦", POINTS, []), "batch": Frontier("u", "q", POINTS[:2], [])})
     drawn.savefig(tmp_path / "figure.svg")
     text = (tmp_path / "figure.svg").read_text()
     assert text.startswith("<?xml")
