@@ -1,4 +1,4 @@
-"""The errors of every generated kernel in ulps, in sampled states of every stratum, and the time of a call.
+"""The errors of every generated kernel in ulps, in sampled states of every stratum.
 
 An ulp is 2^-52 of the largest component of the exact output; of 𝒦, or of the level, where the kernel is a residual;
 and ⟨𝒦,γ⟩ is measured on the scale of 𝒦, whose own rounding moves it by as much.  The condition number κ is
@@ -8,9 +8,7 @@ by up to κ/2 ulps, so an error of a few κ is as good as one can ask.
 
 import json
 import math
-import time
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,7 +17,6 @@ import numpy as np
 
 from chapsym import generated
 from chapsym.generated import TABLE
-from chapsym.studies.harness import Contender, interleaved
 
 from .states import CHANGES, DRAWN, arguments
 
@@ -30,8 +27,8 @@ ULP = 2.0**-52
 #: The relative change of an argument from which its derivative is taken: its error is of the same order.
 NUDGE = CONTEXT.mpf(10) ** -25
 SEED = 20071
-#: States of a stratum: quick and full; and those of the columns that are timed, few enough to stay in the cache.
-SAMPLED, TIMED = {True: 2, False: 40}, 1024
+#: States of a stratum: quick and full.
+SAMPLED = {True: 2, False: 40}
 MANIFEST = Path(generated.__file__).parent / "manifest.json"
 
 Kernel = Callable[..., Any]
@@ -160,22 +157,11 @@ def sampled(kernel: str, function: Kernel, states: int) -> dict[str, list[Worst]
     return found
 
 
-def nanoseconds(kernels: Sequence[str], rounds: int) -> dict[str, float]:
-    """The median time of each kernel for one of many generic states, in columns of NumPy, in nanoseconds."""
-    rng = np.random.default_rng(SEED)
-    drawn = [list(rng.uniform(size=DRAWN)) for _ in range(TIMED)]
-    contenders = []
-    for name in kernels:
-        columns = np.array([arguments(name, "generic", u) for u in drawn]).T.copy()
-        contenders.append(Contender(name, partial(KERNELS[name], *columns), TIMED, time.thread_time))
-    return {name: timing.median * 1e9 for name, timing in interleaved(contenders, rounds).items()}
-
-
 class Row(NamedTuple):
     """One output of a kernel.
 
     kernel, output: the kernel, and the part of its output ("" for all of it) that the errors are of.
-    operations, nanoseconds: + - * / in its text, and the median time for one of many states, in columns of NumPy.
+    operations: + - * / in its text.
     strata: the worst error of the states of each stratum, in ulps.
     worst, hardest: the state with the largest error, and that with the largest share of its condition number.
     """
@@ -183,7 +169,6 @@ class Row(NamedTuple):
     kernel: str
     output: str
     operations: int
-    nanoseconds: float
     strata: dict[str, float]
     worst: Worst
     hardest: Worst
@@ -192,19 +177,18 @@ class Row(NamedTuple):
 def measured(quick: bool, say: Callable[[str], None], kernels: Sequence[str]) -> Iterator[Row]:
     """The rows of the kernels that are named."""
     texts = json.loads(MANIFEST.read_text(encoding="utf-8"))["kernels"]
-    times = nanoseconds(kernels, 5 if quick else 31)
     for name in kernels:
         say(f"kernels: {name}")
         for view, met in sampled(name, KERNELS[name], SAMPLED[quick]).items():
             strata = {stratum: max(one.ulps for one in met if one.stratum == stratum) for stratum in CHANGES}
             worst, hardest = max(met, key=lambda one: one.ulps), max(met, key=lambda one: one.share)
-            yield Row(name, view, texts[name]["operations"], times[name], strata, worst, hardest)
+            yield Row(name, view, texts[name]["operations"], strata, worst, hardest)
 
 
 class Kernels:
     """The section of the trade: every kernel, or those that are named."""
 
-    title = "kernels: errors in ulps, and times"
+    title = "kernels: errors in ulps"
 
     def __init__(self, quick: bool, say: Callable[[str], None], kernels: Sequence[str] = tuple(TABLE)) -> None:
         self.rows = list(measured(quick, say, kernels))
@@ -213,7 +197,7 @@ class Kernels:
         """The worst error, the condition number there, and the worst error in units of it, for each row."""
         return [
             {
-                "kernel": row.kernel, "output": row.output, "operations": row.operations, "ns": row.nanoseconds,
+                "kernel": row.kernel, "output": row.output, "operations": row.operations,
                 "worst ulps": row.worst.ulps, "condition": row.worst.condition, "where": row.worst.stratum,
                 "ulps / condition": row.hardest.share,
             }
@@ -222,7 +206,7 @@ class Kernels:
 
     def sentences(self) -> list[str]:
         """What the columns are."""
-        return ["errors against 90 digits; times for one of many states, in columns of NumPy"]
+        return ["errors against 90 digits"]
 
     def as_json(self) -> dict[str, Any]:
         """All that was measured, as plain data; an error that is not finite is None."""

@@ -136,7 +136,6 @@ def test_measured_rows():
     assert seen == ["kernels: energy", "kernels: momentum"]
     assert [(r.kernel, r.output) for r in found.rows] == [("energy", ""), ("momentum", "𝒦"), ("momentum", "⟨𝒦,γ⟩")]
     for row in found.rows:
-        assert row.nanoseconds > 0
         assert set(row.strata) == set(states.CHANGES)
         assert row.worst.ulps == max(row.strata.values())
         assert row.hardest.share >= row.worst.share
