@@ -5,7 +5,7 @@ Numbers are Arb's midpoints: nothing here is a proof (that is `chapsym certify`)
 commutes with the map's symmetries.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import pi
 from typing import Any
@@ -21,6 +21,8 @@ Vector = tuple[Any, Any, Any]
 
 #: Bits of a float64 Newton root that Arb's iteration may count on.
 FIRST_BITS = 40
+#: Of the secant method.
+MOST_ROUNDS = 60
 
 
 def number(x: Any) -> Any:
@@ -47,6 +49,20 @@ def circle(moments: Sequence[Any], l: Any) -> tuple[tuple[Any, Any, Any], Any]:
     low, high = 1 - Lc * l, La * l - 1
     squares = -La * low / (Lc - La), -Lb * low / (Lc - Lb), -Lc * high / (Lc - La)
     return squares, (squares[1] - squares[0]) / squares[2]
+
+
+def solved(function: Callable[[Any], Any], first: Any, second: Any) -> Any:
+    """A root by the secant method, to the working digits."""
+    a, b = number(first), number(second)
+    fa = function(a)
+    for _ in range(MOST_ROUNDS):
+        fb = function(b)
+        if fb == fa or abs(fb) < arb(2) ** (6 - ctx.prec):
+            return b
+        a, b, fa = b, middle(b - fb * (b - a) / (fb - fa)), fb
+        if abs(b - a) < abs(b) * arb(2) ** (4 - ctx.prec):
+            return b
+    raise BadInput("the secant method found no root; next to the end of the branch take a smaller height")
 
 
 class Level:

@@ -5,8 +5,8 @@ from typing import Any
 
 from flint import acb, arb, ctx
 
-from .circle import Level, middle, number
-from .plateau import resonance, solved, symmetric_starts, text
+from .circle import Level, middle, number, solved
+from .plateau import resonance, symmetric_starts, text
 from .relation import Relation
 
 #: Starts at which the two routes are compared.

@@ -13,14 +13,13 @@ from flint import arb, ctx
 
 from chapsym.dynamics import BadInput
 
-from .circle import Level, middle, number
+from .circle import Level, middle, number, solved
 from .relation import Relation
 
 #: Digits by which the level is known better than the plateau is wide, and the fewest digits.
 SPARE, FEWEST = 25, 50
 #: Digits at which a level is looked for, and the points of the search, more of them next to the separatrix.
 COARSE, SEARCHED = 20, 48
-MOST_ROUNDS = 40
 
 
 def text(x: Any, digits: int = 12) -> str:
@@ -31,20 +30,6 @@ def text(x: Any, digits: int = 12) -> str:
 def decades(x: Any) -> int:
     """The decimal logarithm of a positive number, rounded down."""
     return int(float(x.log()) // 2.302585092994046)
-
-
-def solved(function: Callable[[Any], Any], first: Any, second: Any) -> Any:
-    """A root by the secant method, to the working digits."""
-    a, b = number(first), number(second)
-    fa = function(a)
-    for _ in range(MOST_ROUNDS):
-        fb = function(b)
-        if fb == fa or abs(fb) < arb(2) ** (6 - ctx.prec):
-            return b
-        a, b, fa = b, middle(b - fb * (b - a) / (fb - fa)), fb
-        if abs(b - a) < abs(b) * arb(2) ** (4 - ctx.prec):
-            return b
-    raise BadInput("the secant method did not settle on a resonance")
 
 
 def symmetric_starts(level: Level, steps: int) -> tuple[Any, Any]:

@@ -4,11 +4,7 @@ from typing import Any
 
 from flint import acb, arb, ctx
 
-from chapsym.dynamics import BadInput
-
-from .circle import Level, middle, number, real
-
-MOST_ROUNDS = 60
+from .circle import Level, middle, number, real, solved
 
 
 class Relation:
@@ -41,18 +37,7 @@ class Relation:
         """2δu of the step from u on the branch that starts at δu = 0, by the secant method."""
         slack = 1 - self.level.D * self.level.l
         b = middle(self.V * self.level.h / (2 * slack))
-        a = b * arb("0.99")
-        miss = self.height(a, u + a) - self.level.h
-        for _ in range(MOST_ROUNDS):
-            missed = self.height(b, u + b) - self.level.h
-            if missed == miss:
-                break
-            a, b, miss = b, middle(b - missed * (b - a) / (missed - miss)), missed
-            if abs(b - a) < abs(b) * arb(2) ** (3 - ctx.prec):
-                break
-        else:
-            raise BadInput("no increment was found on the small-rotation branch for this height; take a smaller one")
-        return 2 * b
+        return 2 * solved(lambda half: self.height(half, u + half) - self.level.h, b * arb("0.99"), b)
 
     def displacement(self, phase: Any, steps: int, half_turns: int) -> Any:
         """As `Level.displacement`, without the sphere."""
