@@ -8,7 +8,8 @@ by up to κ/2 ulps, so an error of a few κ is as good as one can ask.
 
 import json
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -157,49 +158,36 @@ def sampled(kernel: str, function: Kernel, states: int) -> dict[str, list[Worst]
     return found
 
 
-class Row(NamedTuple):
-    """One output of a kernel.
+class Kernels:
+    """The section of the trade: every kernel, or those that are named; a row for each part of the output of each.
 
     kernel, output: the kernel, and the part of its output ("" for all of it) that the errors are of.
-    operations: + - * / in its text.
-    strata: the worst error of the states of each stratum, in ulps.
+    operations: + - * / in its text.  strata: the worst error of the states of each stratum, in ulps.
     worst, hardest: the state with the largest error, and that with the largest share of its condition number.
     """
-
-    kernel: str
-    output: str
-    operations: int
-    strata: dict[str, float]
-    worst: Worst
-    hardest: Worst
-
-
-def measured(quick: bool, say: Callable[[str], None], kernels: Sequence[str]) -> Iterator[Row]:
-    """The rows of the kernels that are named."""
-    texts = json.loads(MANIFEST.read_text(encoding="utf-8"))["kernels"]
-    for name in kernels:
-        say(f"kernels: {name}")
-        for view, met in sampled(name, KERNELS[name], SAMPLED[quick]).items():
-            strata = {stratum: max(one.ulps for one in met if one.stratum == stratum) for stratum in CHANGES}
-            worst, hardest = max(met, key=lambda one: one.ulps), max(met, key=lambda one: one.share)
-            yield Row(name, view, texts[name]["operations"], strata, worst, hardest)
-
-
-class Kernels:
-    """The section of the trade: every kernel, or those that are named."""
 
     title = "kernels: errors in ulps"
 
     def __init__(self, quick: bool, say: Callable[[str], None], kernels: Sequence[str] = tuple(TABLE)) -> None:
-        self.rows = list(measured(quick, say, kernels))
+        texts = json.loads(MANIFEST.read_text(encoding="utf-8"))["kernels"]
+        self.rows: list[dict[str, Any]] = []
+        for name in kernels:
+            say(f"kernels: {name}")
+            for view, met in sampled(name, KERNELS[name], SAMPLED[quick]).items():
+                strata = {stratum: max(one.ulps for one in met if one.stratum == stratum) for stratum in CHANGES}
+                worst, hardest = (max(met, key=attrgetter(measure)) for measure in ("ulps", "share"))
+                self.rows.append({
+                    "kernel": name, "output": view, "operations": texts[name]["operations"], "strata": strata,
+                    "worst": worst, "hardest": hardest,
+                })  # fmt: skip
 
     def table(self) -> list[dict[str, Any]]:
         """The worst error, the condition number there, and the worst error in units of it, for each row."""
         return [
             {
-                "kernel": row.kernel, "output": row.output, "operations": row.operations,
-                "worst ulps": row.worst.ulps, "condition": row.worst.condition, "where": row.worst.stratum,
-                "ulps / condition": row.hardest.share,
+                **{name: row[name] for name in ("kernel", "output", "operations")}, "worst ulps": row["worst"].ulps,
+                "condition": row["worst"].condition, "where": row["worst"].stratum,
+                "ulps / condition": row["hardest"].share,
             }
             for row in self.rows
         ]  # fmt: skip
@@ -213,10 +201,10 @@ class Kernels:
         return {
             "title": self.title,
             "kernels": [
-                row._asdict() | {
+                row | {
                     "without": "",  # once the codegen pass that a text went without
-                    "strata": {name: finite(x) for name, x in row.strata.items()},
-                    "worst": row.worst.as_json(), "hardest": row.hardest.as_json(),
+                    "strata": {name: finite(x) for name, x in row["strata"].items()},
+                    "worst": row["worst"].as_json(), "hardest": row["hardest"].as_json(),
                 }
                 for row in self.rows
             ],

@@ -134,13 +134,18 @@ def test_measured_rows():
     seen = []
     found = kernels.Kernels(True, seen.append, ["energy", "momentum"])
     assert seen == ["kernels: energy", "kernels: momentum"]
-    assert [(r.kernel, r.output) for r in found.rows] == [("energy", ""), ("momentum", "𝒦"), ("momentum", "⟨𝒦,γ⟩")]
+    assert [(r["kernel"], r["output"]) for r in found.rows] == [
+        ("energy", ""),
+        ("momentum", "𝒦"),
+        ("momentum", "⟨𝒦,γ⟩"),
+    ]
     for row in found.rows:
-        assert set(row.strata) == set(states.CHANGES)
-        assert row.worst.ulps == max(row.strata.values())
-        assert row.hardest.share >= row.worst.share
-        again = kernels.errors(row.kernel, TABLE[row.kernel][0], row.worst.stratum, row.worst.arguments)
-        assert again[row.output] == row.worst  # it can be replayed
+        kernel, worst = row["kernel"], row["worst"]
+        assert set(row["strata"]) == set(states.CHANGES)
+        assert worst.ulps == max(row["strata"].values())
+        assert row["hardest"].share >= worst.share
+        again = kernels.errors(kernel, TABLE[kernel][0], worst.stratum, worst.arguments)
+        assert again[row["output"]] == worst  # it can be replayed
     plain = json.loads(json.dumps(found.as_json(), allow_nan=False))["kernels"]
     assert plain[0]["worst"]["arguments"]
     assert len(found.table()) == len(found.rows)
