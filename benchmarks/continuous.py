@@ -63,12 +63,12 @@ def adaptive(system: list[tuple[Any, Any]], tolerance: float, kind: str, paramet
     import heyoka
 
     if kind == "batch":
-        start, pars = np.ones((len(system), LANES)), np.ones((parameters, LANES))
-        return heyoka.taylor_adaptive_batch(system, start, tol=tolerance, pars=pars)
+        pars = np.ones((parameters, LANES))
+        return heyoka.taylor_adaptive_batch(system, np.ones((len(system), LANES)), tol=tolerance, pars=pars)
     number = np.longdouble if kind == "long double" else np.float64
     more = {"fp_type": number} if kind == "long double" else {}
-    start, pars = np.ones(len(system), dtype=number), np.zeros(parameters, dtype=number)
-    return heyoka.taylor_adaptive(system, start, tol=number(tolerance), pars=pars, **more)
+    start, tol = np.ones(len(system), dtype=number), number(tolerance)
+    return heyoka.taylor_adaptive(system, start, tol=tol, pars=np.zeros(parameters, dtype=number), **more)
 
 
 @cache
@@ -81,22 +81,16 @@ def _taylor(tolerance: float, kind: str) -> Any:
     return adaptive(list(zip(names, sides, strict=True)), tolerance, kind)
 
 
-def taylor(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
-    """heyoka.py for one ball."""
-    integrator = _taylor(tolerance, "double")
-    integrator.time = 0.0
-    integrator.state[:] = y
+def taylor(y: np.ndarray, end: float, tolerance: float, kind: str = "double") -> np.ndarray:
+    """heyoka.py for one ball, or for a batch, all from the same state; the state of the first."""
+    integrator = _taylor(tolerance, kind)
+    if kind == "batch":
+        integrator.set_time(0.0)
+    else:
+        integrator.time = 0.0
+    integrator.state.T[...] = y
     integrator.propagate_until(end)
-    return integrator.state.copy()
-
-
-def taylor_batch(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
-    """heyoka.py for `LANES` balls at once, all from the same state; the state of the first."""
-    integrator = _taylor(tolerance, "batch")
-    integrator.set_time(0.0)
-    integrator.state[:] = y[:, np.newaxis]
-    integrator.propagate_until([end] * LANES)
-    return integrator.state[:, 0].copy()
+    return integrator.state.T.reshape(-1, len(y))[0].copy()
 
 
 def reference(y: np.ndarray, end: float) -> np.ndarray:

@@ -100,7 +100,7 @@ def methods(quick: bool) -> tuple[list[Method], dict[str, str]]:
         missing[HEYOKA] = reason
     else:
         found.append(Method(HEYOKA, continuous.taylor, tolerances))
-        found.append(Method(f"{HEYOKA}, batch", continuous.taylor_batch, tolerances, continuous.LANES))
+        found.append(Method(f"{HEYOKA}, batch", partial(continuous.taylor, kind="batch"), tolerances, continuous.LANES))
     return found, missing
 
 

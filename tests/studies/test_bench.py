@@ -135,7 +135,7 @@ def exact():
         (continuous.dop853, 1e-10, 1e-8, "scipy"),
         (continuous.lsoda, 1e-10, 1e-8, "scipy"),
         (continuous.taylor, 1e-12, 1e-12, "heyoka"),
-        (continuous.taylor_batch, 1e-12, 1e-12, "heyoka"),
+        (partial(continuous.taylor, kind="batch"), 1e-12, 1e-12, "heyoka"),
     ],
 )
 def test_the_integrators_solve_the_continuous_ball(peer, control, bound, package, exact):
