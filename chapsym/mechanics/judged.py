@@ -88,7 +88,7 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
     looked = LOOKED_FURTHER if scheme.stages else LOOKED
     with terms(looked + BEYOND):
         try:
-            judged = _Judged(_exact(system), scheme, looked)
+            judged = _Judged(_exact(system, system.digest()), scheme, looked)
         except (Undecided, BadSystem) as error:
             return dict.fromkeys(names, Verdict("measured", str(error)))
         adjoint = _decided(judged.returns, -1)
@@ -105,8 +105,8 @@ def _decided(judge: Callable[[Any], Verdict], of: Any) -> Verdict:
 
 
 @lru_cache(maxsize=1)
-def _exact(system: System) -> Exact:
-    """A system whose motion all methods share."""
+def _exact(system: System, digest: str) -> Exact:
+    """A system, as it is now, whose motion all methods share."""
     return Exact(system)
 
 
@@ -116,6 +116,8 @@ def _quantities(system: System) -> dict[str, sp.Expr]:
     for i, (x, p) in enumerate(zip(system.coordinates, system.momenta, strict=True)):
         if system.push[i] == 0 and not any(system.rows[:, i]):
             found[f"the momentum of {x}"] = p
+    if taken := found.keys() & dict(system.integrals).keys():
+        raise BadSystem(f"{system.name}: {min(taken)} is a quantity of every system: give the integral another name")
     return found | dict(system.integrals)
 
 
@@ -245,7 +247,9 @@ class _Judged:
         if scheme.stages:
             return after == [*v, *goal] and self.spanned(residual, known)
         powers = zip(coefficients(residual), shift, strict=True)
-        aims = [x for found, late in powers for x in found[: 2 + late if is_moving else 1]]
+        if not is_moving and any(e.subs(STEP, 0).has(*scheme.unknowns) for e in scheme.after):
+            return False  # what these change by, which is not verified, would count
+        aims = [x for found, late in powers for x in found[: late + (2 if is_moving else 1)]]
         first_ones = (*system.coordinates, *replaced(p, {STEP: sp.S.Zero}))
         for (first, second, _), before, further in zip(coefficients(after), first_ones, (*v, *goal), strict=True):
             aims += [first - before, second - further]

@@ -23,6 +23,8 @@ from .system import STEP, System, rational
 UNIT = ("1/5", "2/5", "4/5", "2/5")
 #: Cosines and sines of angles, which are taken in turn.
 TURNS = ((3, 4, 5), (12, 5, 13), (8, 15, 17))
+#: An angle is turned where it is taken no more times than this.
+MOST_TURNS = 100
 
 Series = Any  # python-flint has no types
 State = list[Series]
@@ -121,7 +123,7 @@ class Exact:
         return found
 
     def _turning(self) -> list[sp.Symbol]:
-        """Angles that are turned: those of which there are sines and cosines alone, not in roots."""
+        """Angles that are turned: those of which there are sines and cosines alone, not in roots, and linearly."""
         system = self.system
         own = [] if system.discrete is None else [system.discrete.lagrangian, *system.discrete.constraints]
         parts = (*system.constraints, *system.holonomic, *system.forces.values(), *system.integrals.values(), *own)
@@ -130,7 +132,13 @@ class Exact:
         bare = everything.xreplace(dict.fromkeys(waves, sp.S.One)).free_symbols
         rooted = (e for e in everything.atoms(sp.Pow) if not e.exp.is_Integer)
         self.angles = set().union(*(e.free_symbols for e in waves)) & set(system.coordinates)
-        return sorted(self.angles - bare.union(*(e.free_symbols for e in rooted)), key=str)
+        fixed = bare.union(*(e.free_symbols for e in rooted))
+        for of in (sp.expand(wave.args[0].xreplace(self.numbers)) for wave in waves):
+            for x in of.free_symbols & self.angles:
+                count = of.coeff(x)
+                linear = count.is_Integer and abs(count) <= MOST_TURNS and not (of - count * x).has(x)
+                fixed |= set() if linear or (count.is_Rational and not count.is_Integer) else {x}
+        return sorted(self.angles - fixed, key=str)
 
     def _turned(self, wave: sp.Expr) -> sp.Expr:
         """A sine or cosine of turned angles, by those of the angles from there."""

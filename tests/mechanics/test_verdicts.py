@@ -4,11 +4,13 @@ import dataclasses
 from functools import cache
 from pathlib import Path
 
+import mpmath as mp
 import numpy as np
 import pytest
 import sympy as sp
 
-from chapsym.mechanics import METHODS, Runner, System, dot, loaded, verdicts
+from chapsym.mechanics import METHODS, BadSystem, Runner, System, dot, loaded, verdicts
+from chapsym.mechanics.methods import Scheme
 from chapsym.mechanics.system import STEP
 
 SYSTEMS = Path(__file__).parents[2] / "docs/examples/systems"
@@ -213,3 +215,64 @@ def test_what_is_not_decided_stays_measured_and_says_why(settings, said):
     found = verdicts(system, METHODS["dla"].scheme(system))
     assert {one.verdict for one in found.values()} == {"measured"}
     assert any(said in one.said for one in found.values())
+
+
+def osc(equations, unknowns, after):
+    """A method of one's own on an oscillator."""
+    x, h = sp.Symbol("x"), STEP
+    system = System("oscillator", (x,), dot(x) ** 2 / 2 - x**2 / 2)
+    scheme = Scheme((x, dot(x)), unknowns, equations(x, dot(x), h), after(x, dot(x), h), [x], [dot(x)], [x, dot(x)],
+                    [0] * len(unknowns))  # fmt: skip
+    return verdicts(system, scheme)["order"]
+
+
+def test_what_is_right_at_the_exact_state_alone_is_no_order():
+    """Equations times h, and unknowns of the order h, that are those of the motion at x = 4/3 only."""
+    a, d, wrong = sp.Symbol("a 0"), sp.Symbol("d 0"), sp.Rational(4, 3)
+    middle = lambda x, v, h: x + h * (v + h * a / 2) / 2  # noqa: E731
+    late = osc(
+        lambda x, v, h: [h * (a + middle(x, v, h) - (middle(x, v, h) - wrong) ** 2)], (a,),
+        lambda x, v, h: [x + h * (v + h * a / 2), v + h * a],
+    )  # fmt: skip
+    small = osc(
+        lambda x, v, h: [a + x, d - h * (x - wrong)], (a, d), lambda x, v, h: [x + h * v, v + h * a + d]
+    )  # fmt: skip
+    right = osc(
+        lambda x, v, h: [a + middle(x, v, h)], (a,), lambda x, v, h: [x + h * (v + h * a / 2), v + h * a]
+    )  # fmt: skip
+    assert [one.verdict for one in (late, small, right)] == ["measured", "measured", "proved"]
+
+
+def test_an_angle_that_is_not_linear_is_not_turned():
+    """The state that is shown is that of the series: the coefficient is found again in floats."""
+    x, y = sp.symbols("x y")
+    system = System("wavy", (x, y), (dot(x) ** 2 + dot(y) ** 2) / 2 - sp.cos(x**2 + y**2) - sp.sin(x))
+    found = verdicts(system, METHODS["rk4"].scheme(system))["keeps the energy"]
+    assert found.point.keys() == {"x", "y", "x_dot", "y_dot"}
+    start = [mp.mpf(sp.Rational(found.point[name]).p) / sp.Rational(found.point[name]).q for name in found.point]
+    rate = sp.lambdify(
+        (x, y, dot(x), dot(y)), [dot(x), dot(y), *(sp.diff(-system.energy, q) for q in (x, y))], "mpmath"
+    )
+    energy = sp.lambdify((x, y, dot(x), dot(y)), system.energy, "mpmath")
+    with mp.workdps(40):
+        h = mp.mpf(10) ** -6
+        moved = lambda s, k, c: [u + c * h * v for u, v in zip(s, k, strict=True)]  # noqa: E731
+        k1 = rate(*start)
+        k2 = rate(*moved(start, k1, 0.5))
+        k3 = rate(*moved(start, k2, 0.5))
+        k4 = rate(*moved(start, k3, 1))
+        sums = [a + 2 * b + 2 * c + d for a, b, c, d in zip(k1, k2, k3, k4, strict=True)]
+        change = (energy(*moved(start, sums, mp.mpf(1) / 6)) - energy(*start)) / h**5
+    said = sp.Rational(found.said.split("by ")[1].split(" h^")[0])
+    assert change == pytest.approx(float(said), rel=1e-4)
+
+
+def test_no_integral_hides_the_energy_and_a_changed_parameter_counts():
+    x, y, a = sp.symbols("x y a")
+    hidden = System("hidden", (x, y), (dot(x) ** 2 + dot(y) ** 2) / 2 - x**2, integrals={"the energy": dot(y)})
+    with pytest.raises(BadSystem, match="give the integral another name"):
+        verdicts(hidden, METHODS["rk4"].scheme(hidden))
+    system = System("s", (x,), dot(x) ** 2 / 2 - a * x**2, parameters={a: 0}, integrals={"q": dot(x)})
+    assert verdicts(system, METHODS["rk4"].scheme(system))["keeps q"].verdict == "proved"
+    system.parameters[a] = 1
+    assert verdicts(system, METHODS["rk4"].scheme(system))["keeps q"].verdict != "proved"
