@@ -227,8 +227,7 @@ def test_beside_a_fold_pairs_say_what_forty_digits_say(thorough):
     rng, taken, balls = np.random.default_rng(5), 0, 12 if thorough else 5
     for _ in range(balls):
         (tensor, contact), gamma = check._ball(rng), check._unit(rng)
-        far = check._unit(rng) * 100 * (tensor.sum() + contact)
-        ball, fold = chapsym.Ball(tensor, contact), far * check._reach(far, gamma, tensor, contact)
+        ball, fold = chapsym.Ball(tensor, contact), check._at_reach(rng, tensor, contact, gamma, 1.0).K
         for beyond in (3e-16, 4e-15):
             found = takes(ball, fold * (1 + beyond), gamma, "double-double")
             assert found == takes(ball, fold * (1 + beyond), gamma, Digits(40))
