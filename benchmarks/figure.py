@@ -28,7 +28,7 @@ def draw(results: dict[str, Result]) -> Picture:
         for axis in axes[len(found) :]:
             axis.set_visible(False)
         handles, labels = part.axes[0].get_legend_handles_labels()
-        part.legend(handles, labels, loc="outside lower center", ncols=5)
+        part.legend(handles, labels, loc="outside lower center", ncols=4)
     return figure
 
 
