@@ -87,7 +87,7 @@ class Words(Arithmetic):
 
 
 class Matrix(Arithmetic):
-    """A matrix of numbers, or of quotients; a number beside it stands for that multiple of the unit matrix."""
+    """A matrix of numbers, or of quotients; a number added to it is that multiple of the unit matrix."""
 
     __slots__ = ("rows",)
 

@@ -252,7 +252,7 @@ FORGED |= {
         "prop-2",
         printed(r"\mathrm{tr}(\mathcal K_k^s\Gamma_k^l)", r"\mathrm{tr}(\mathrm{tr}\mathcal K_k^s\Gamma_k^l)"),
     ),
-    "a matrix beside a trace": (
+    "a matrix added to a trace": (
         "prop-2",
         printed(r"\mathrm{tr}(\mathcal K_k^s\Gamma_k^l)", r"\mathcal K_k^s\mathrm{tr}\Gamma_k^l"),
     ),

@@ -21,7 +21,7 @@ from chapsym.generated import TABLE
 
 from .states import CHANGES, DRAWN, arguments
 
-#: The errors are against so many digits.
+#: Digits of the reference for the errors.
 CONTEXT = mpmath.MPContext()
 CONTEXT.dps = 90
 ULP = 2.0**-52
@@ -147,7 +147,7 @@ def _off(found: Sequence[Any], values: Sequence[Any], size: Any) -> float:
 
 
 def sampled(kernel: str, function: Kernel, states: int) -> dict[str, list[Worst]]:
-    """The errors of a text of the kernel at so many seeded states of each stratum, by the view."""
+    """The errors of a text of the kernel at a number of seeded states of each stratum, by the view."""
     found: dict[str, list[Worst]] = {}
     for index, stratum in enumerate(CHANGES):
         rng = np.random.default_rng([SEED, index])

@@ -186,7 +186,7 @@ class Ball(Parameters):
         """A ball with an inertia tensor or principal moments (kg m²), and its mass (kg) and radius (m), or D.
 
         inertia: a symmetric tensor (3, 3), or one for each ball, (..., 3, 3): it is diagonalised, its `axes` are kept,
-        and all vectors and attitudes, given or returned, are in the axes in which it is given.  Beside its diagonal it
+        and all vectors and attitudes, given or returned, are in the axes in which it is given.  Off its diagonal it
         has -∫xy dm, ..., as ixy, ... of URDF, SDF and MJCF; SolidWorks shows both signs, and calls this one negative.
         Or principal moments I1 = J2 + J3, ..., (3,), or a row for each ball, (..., 3), where that is not symmetric and
         3 x 3.

@@ -53,7 +53,7 @@ def by_parts(expressions: Iterable[Any], known: Mapping[sp.Expr, Any], made: Cal
             found[expr] = made(expr, of)
         return found[expr]
 
-    return [of(sp.sympify(e)) for e in expressions]
+    return [of(sp.sympify(e, strict=True)) for e in expressions]
 
 
 def evaluated(expressions: Iterable[sp.Expr], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:

@@ -22,8 +22,8 @@ from .judge_tables import Table, Trajectory, in_space
 #: How far the first row may be from the start, relatively, beyond its digits: more than float32 rounds; and where a
 #: soft contact gives way: the height of the centre, and the velocity of a ball that starts by itself.
 NEAR, SOFT = 1e-5, 0.02
-#: Another convention is meant where it is so many times nearer, and this one beyond so many degrees; none is sought
-#: beyond one that is as near as the last number says.
+#: Another convention is meant where it is nearer by the first factor and this one is off by more than the second, in
+#: degrees; none is sought beyond one that is as near as the last number says.
 NEARER, FAR, FITS = 5.0, 10.0, 0.1
 #: Rows of a file that are judged at most, and radians that are turned until a convention shows.
 MOST_ROWS, TURNED = 2000, 0.5

@@ -92,7 +92,7 @@ def rooted(text: str, left: list[sp.Expr], right: list[sp.Expr], last: int = 3, 
     relations = [*AMPLITUDES[:last], *chain(*(x.relations() for x in arguments))]
 
     def letters(of: list[sp.Expr]) -> list[sp.Expr]:
-        return [sp.sympify(x).xreplace(ROOTED) for x in of]
+        return [sp.sympify(x, strict=True).xreplace(ROOTED) for x in of]
 
     return Equation(text, letters(left), letters(right), Quotient(tuple(ROOTED.values()), letters(relations)))
 

@@ -127,7 +127,7 @@ def test_a_read_only_disk_is_one_sentence(tmp_path):
 
 @contextmanager
 def file_size(most):
-    """No file of this process grows beyond so many bytes."""
+    """No file of this process grows beyond a number of bytes."""
     ignored, limits = signal.signal(signal.SIGXFSZ, signal.SIG_IGN), resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, limits[1]))
     try:

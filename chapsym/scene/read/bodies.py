@@ -22,7 +22,7 @@ LEAST = 1e-3
 
 @dataclass(frozen=True)
 class Preset:
-    """required, optional: its keys beside mass and radius.  tensor: its ∫xxᵀdm."""
+    """required, optional: its keys other than mass and radius.  tensor: its ∫xxᵀdm."""
 
     required: tuple[str, ...]
     optional: tuple[str, ...]
@@ -30,7 +30,7 @@ class Preset:
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """All its keys beside mass and radius."""
+        """All its keys other than mass and radius."""
         return self.required + self.optional
 
 

@@ -221,7 +221,7 @@ class BallTable(Table):
     mass_tensor: MomentsN | None = Field(None, description="J = ∫x²dm, ∫y²dm, ∫z²dm; n numbers in n dimensions.")
     inertia: Inertia | None = Field(
         None,
-        description="Principal moments of inertia about the centre, or the symmetric 3×3 tensor: beside its diagonal "
+        description="Principal moments of inertia about the centre, or the symmetric 3×3 tensor: off its diagonal "
         "stand -∫xy dm, ..., as ixy, ... of URDF, SDF and MJCF.",
     )
     preset: Literal[*PRESETS] | None = Field(None, description="A body whose moments are known.")  # type: ignore[valid-type]
