@@ -1,6 +1,8 @@
 """chapsym lab: what methods make of mechanical systems, as a table, JSON or a page."""
 
 import json
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -49,8 +51,8 @@ def lab(
                 raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
             system.beginning  # noqa: B018, which refuses a start that breaks a constraint
             energy = "keeps" if system.keeps_energy else "need not keep"
-            said = f"{_verdict(system)}; " * flags + f"the exact motion {energy} its energy"
-            constraints[system.name] = "; ".join([said, *_integrals(system, flags)])
+            said = f"the exact motion {energy} its energy"
+            constraints[system.name] = "; ".join(_decided(system, said) if flags else [said])
             keys.add(key := system.digest(length, halve))
             if not as_json:
                 print(f"{system.name}: {constraints[system.name]}")
@@ -91,26 +93,21 @@ def _row(cell: dict[str, Any]) -> str:
     return row + (f"  {rest}" if rest else "")
 
 
-def _verdict(system: Any) -> str:
-    """What is said of the constraints, or why nothing is."""
-    from chapsym.mechanics import BadSystem, flag
+def _decided(system: Any, said: str) -> list[str]:
+    """What is said of a system: its constraints, energy, volume and the quantities that it names; or why not."""
+    from chapsym.mechanics import BadSystem, conserved, flag, volume
 
-    try:
-        return str(flag(system))
-    except BadSystem as error:
-        return f"integrability is not decided ({str(error).removeprefix(f'{system.name}: ')})"
-
-
-def _integrals(system: Any, decide: bool) -> list[str]:
-    """What is said of the quantities that a system names."""
-    from chapsym.mechanics import BadSystem, conserved
-
-    found = []
-    for name, quantity in system.integrals.items() if decide else ():
+    def of(decide: Callable[[], Any], what: str, form: str) -> str:
         try:
-            found.append(f"{name} is {str(conserved(system, quantity)).partition(':')[0]}")
+            return form.format(decide())
         except BadSystem as error:
-            found.append(f"{name} is not decided ({str(error).removeprefix(f'{system.name}: ')})")
+            return f"{what} is not decided ({str(error).removeprefix(f'{system.name}: ')})"
+
+    found = [of(lambda: flag(system), "integrability", "{}"), said]
+    found.append(of(lambda: volume(system), "whether it keeps a volume", "it {}"))
+    for name, quantity in system.integrals.items():
+        kept = partial(conserved, system, quantity)
+        found.append(of(kept, name, f"{name} is {{}}").partition(": its rate")[0])
     return found
 
 

@@ -45,7 +45,13 @@ class Quotient:
 
     def normal(self, expr: sp.Expr | int) -> sp.Expr:
         """The normal form of a polynomial modulo the relations."""
-        return self._reduce(sp.sympify(expr, strict=True)).as_expr()
+        return self._shown(self._ring.from_expr(sp.sympify(expr, strict=True)))
+
+    def reduced(self, expr: sp.Expr) -> sp.Expr:
+        """A rational function as a quotient of normal forms, the one below with integers that have no common factor."""
+        above, below = map(self._shown, self._fraction(sp.sympify(expr, strict=True))[0])
+        content, below = below.as_content_primitive()
+        return sp.expand(above / content) / below
 
     def is_zero(self, expr: sp.Expr | int) -> bool:
         """True exactly when the rational function vanishes wherever the relations hold and it is defined.
@@ -54,7 +60,7 @@ class Quotient:
         remainder says that the numerator is not in the ideal.
         Raises ZeroDivisionError if the denominator vanishes under the relations.
         """
-        numerator, divisors = self._numerator(sp.sympify(expr, strict=True))  # a text is not evaluated
+        (numerator, _), divisors = self._fraction(sp.sympify(expr, strict=True))  # a text is not evaluated
         for written, divisor in divisors:
             if not self._rest(divisor.to_dict()):
                 raise ZeroDivisionError(f"the denominator {written} is zero under the hypotheses")
@@ -68,8 +74,8 @@ class Quotient:
         known = {x: (gen, one) for x, gen in zip(self.symbols, context.gens(), strict=True)}
         return {sp.S.One: (one, one), **known}
 
-    def _numerator(self, expr: sp.Expr) -> tuple[fmpq_mpoly, list[tuple[sp.Expr, fmpq_mpoly]]]:
-        """The numerator of a rational function, and each expression that it divides by, with its numerator."""
+    def _fraction(self, expr: sp.Expr) -> tuple[tuple[fmpq_mpoly, fmpq_mpoly], list[tuple[sp.Expr, fmpq_mpoly]]]:
+        """Numerator and denominator of a rational function; what it divides by, with the numerators of that."""
         known, divisors = dict(self._known), []
         one = known[sp.S.One][0]
 
@@ -101,16 +107,16 @@ class Quotient:
                 above, below = above * its + a * mine, below * its
             return above, below
 
-        return of(expr)[0], divisors
+        return of(expr), divisors
 
     @cached_property
     def _division(self) -> "Division":
         return Division([g.to_dict() for g in self._basis], [g.leading_expv() for g in self._basis], len(self.symbols))
 
-    def _reduce(self, expr: sp.Expr) -> PolyElement:
+    def _shown(self, polynomial: PolyElement | fmpq_mpoly) -> sp.Expr:
         """The normal form of a polynomial."""
-        rest = self._rest(self._ring.from_expr(expr).to_dict())
-        return self._ring.from_dict({m: sp.QQ(int(c.p), int(c.q)) for m, c in rest.items()})
+        rest = self._rest(polynomial.to_dict())
+        return self._ring.from_dict({m: sp.QQ(int(c.p), int(c.q)) for m, c in rest.items()}).as_expr()
 
     def _rest(self, polynomial: Terms) -> Terms:
         """The same of its terms; that by a Gröbner basis does not depend on their order."""

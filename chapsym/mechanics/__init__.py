@@ -10,6 +10,7 @@
 
 from .attitude import Quaternion, Turned
 from .brackets import Flag, flag
+from .density import Volume, volume
 from .equations import Agreement, Conservation, agree, conserved, in_symbols, of_kane
 from .judged import Verdict, verdicts
 from .lab import Cell, measured
@@ -19,6 +20,6 @@ from .system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
 
 __all__ = [
     "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Conservation", "Discrete", "Flag", "Method", "Motion",
-    "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "Verdict", "after", "agree", "conserved", "dot",
-    "flag", "in_symbols", "loaded", "measured", "moved", "of_kane", "rate", "verdicts",
+    "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "Verdict", "Volume", "after", "agree",
+    "conserved", "dot", "flag", "in_symbols", "loaded", "measured", "moved", "of_kane", "rate", "verdicts", "volume",
 ]  # fmt: skip

@@ -109,14 +109,14 @@ def flag(system: System) -> Flag:
         if not _inside(rows.extract(kept, list(range(rows.cols))).tolist(), list(rows[i, :]), point, algebra):
             raise BadSystem(f"{system.name}: it is not decided whether constraint {i + 1} depends on the others")
     rows = rows.extract(kept, list(range(rows.cols)))
-    fields = [algebra.normal(field) for field in _kernel(rows, rows.xreplace(point))]
+    fields = [algebra.normal(field) for field in kernel(rows, rows.xreplace(point))]
     if with_time and all(algebra.is_zero(field[-1]) for field in fields):
         raise BadSystem(f"{system.name}: the constraints contradict each other: no motion obeys them")
     span, newest, growth = list(fields), list(fields), [len(fields)]
     while newest and len(span) < dimension:
         before, newest = newest, []
         for x, y in product(fields, before):
-            bracket = algebra.normal(_bracket(x, y, algebra))
+            bracket = algebra.normal(bracket_of(x, y, algebra))
             larger = [*span, bracket]
             if rank(_matrix(larger), point) < len(larger):
                 if _inside(span, bracket, point, algebra):
@@ -147,7 +147,7 @@ def _whole(rows: sp.Matrix) -> sp.Matrix:
     return sp.Matrix(rows.rows, rows.cols, [e for row in made for e in row])
 
 
-def _kernel(rows: sp.Matrix, at_point: sp.Matrix) -> list[list[sp.Expr]]:
+def kernel(rows: sp.Matrix, at_point: sp.Matrix) -> list[list[sp.Expr]]:
     """Fields that span the velocities v with A v = 0, by Cramer's rule, of independent rows A."""
     columns = pivots(at_point)
     square = rows.extract(list(range(rows.rows)), columns)
@@ -166,14 +166,15 @@ def _matrix(vectors: Sequence[Sequence[sp.Expr]]) -> sp.Matrix:
     return sp.Matrix([list(v) for v in vectors])
 
 
-def _bracket(x: Sequence[sp.Expr], y: Sequence[sp.Expr], algebra: Algebra) -> list[sp.Expr]:
+def along(field: Sequence[sp.Expr], of: sp.Expr, algebra: Algebra) -> sp.Expr:
+    """The derivative along a field, of whose components those beyond the coordinates count nothing."""
+    q = algebra.system.coordinates
+    return sum((f * algebra.letters.derivative(of, c) for f, c in zip(field, q, strict=False) if f != 0), sp.S.Zero)
+
+
+def bracket_of(x: Sequence[sp.Expr], y: Sequence[sp.Expr], algebra: Algebra) -> list[sp.Expr]:
     """[X, Y] = (∂Y) X - (∂X) Y."""
-    q = algebra.system.coordinates  # of time nothing depends
-
-    def along(field: Sequence[sp.Expr], of: sp.Expr) -> sp.Expr:
-        return sum((f * algebra.letters.derivative(of, c) for f, c in zip(field, q, strict=False) if f != 0), sp.S.Zero)
-
-    return [along(x, b) - along(y, a) for a, b in zip(x, y, strict=True)]
+    return [along(x, b, algebra) - along(y, a, algebra) for a, b in zip(x, y, strict=True)]
 
 
 def _inside(span: Sequence[Any], vector: Sequence[sp.Expr], point: dict[sp.Symbol, Any], algebra: Algebra) -> bool:

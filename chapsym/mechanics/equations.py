@@ -9,7 +9,7 @@ from sympy.core.function import AppliedUndef
 from sympy.physics.vector import dynamicsymbols
 
 from .algebra import Algebra, adjugate, determinant, generic, pivots
-from .brackets import _kernel
+from .brackets import kernel
 from .system import BadSystem, System, dot, expression, rate, without
 
 
@@ -78,7 +78,7 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     """
     if missing := [x for x in system.coordinates if x not in accelerations]:
         raise BadSystem(f"{system.name}: there is no acceleration of {missing[0]}")
-    of = _OnShell(system, *(accelerations[x] for x in system.coordinates))
+    of = OnShell(system, *(accelerations[x] for x in system.coordinates))
     made = sp.Matrix(of.more)
     checks = [(f"constraint {i + 1}", e) for i, e in enumerate(of.algebra.rows * made - of.turning)]
     work = of.mass * made - of.forced
@@ -143,7 +143,7 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
     known = {*system.coordinates, *system.velocities, *system.parameters}
     without(f"{system.name}: there is", quantity.free_symbols - known)
     slope = [sp.diff(quantity, v) for v in system.velocities]
-    of = _OnShell(system, rate(quantity, system.coordinates), *slope)
+    of = OnShell(system, rate(quantity, system.coordinates), *slope)
     alone, slope = of.more[0], sp.Matrix([of.more[1:]])
     x = sp.Matrix(of.fields).T if of.fields else sp.zeros(slope.cols, 0)
     first = sp.zeros(slope.cols, 1)  # accelerations that the constraints bind, where the others are 0
@@ -160,7 +160,7 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
     return Conservation(False, *_shown(-above / below, of.algebra, of.allowed))
 
 
-class _OnShell:
+class OnShell:
     """A system's equations in letters, with the velocities that its constraints bind, and more expressions.
 
     (A a = turning, and M a - forced orthogonal to the fields that span the allowed velocities.)
@@ -188,7 +188,7 @@ class _OnShell:
         kept = (algebra.rows * sp.Matrix(v) + algebra.offsets).xreplace(self.allowed)
         if not all(map(algebra.is_zero, kept)):
             raise BadSystem(f"{system.name}: the constraints contradict each other, or depend on each other in places")
-        self.fields = _kernel(rows, rows.xreplace(point))
+        self.fields = kernel(rows, rows.xreplace(point))
 
 
 def _shown(value: sp.Expr, algebra: Algebra, bound: Mapping[sp.Symbol, sp.Expr]) -> tuple[dict[str, str], str]:

@@ -16,7 +16,7 @@ def test_a_table_with_verdicts_and_figures():
     head, columns, first, last = done.stdout.splitlines()
     assert head == (
         "nonholonomic particle: completely nonholonomic: the flag has the dimensions 2, 3 of 3; the exact motion keeps "
-        "its energy"
+        "its energy; it keeps a smooth volume"
     )
     assert columns.split() == [
         "method",

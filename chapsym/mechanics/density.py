@@ -1,0 +1,222 @@
+"""Whether the exact motion of a system keeps a smooth volume, exactly.
+
+Fields X₁, ... span the velocities that the constraints allow, v = Σ sⱼ Xⱼ, and p = ∂L/∂s are their momenta.  In (q, p)
+the divergence of the motion is Σ θⱼ sⱼ with
+
+    θⱼ = div Xⱼ + tr(m⁻¹ Wⱼ),  m = ⟨X, M X⟩,  (Wⱼ)ₗᵢ = ⟨Xₗ, M [Xⱼ, Xᵢ]⟩,
+
+as ṗᵢ = Xᵢ L - ⟨∂L/∂v, [Xᵢ, Xⱼ]⟩ sⱼ, where forces do not depend on velocities.  A volume with the density exp f(q) is
+kept if Xⱼ f = -θⱼ for all j.  For exp f a product of powers is tried: of what θⱼ and m⁻¹ divide by.  There is none if
+the fields Xⱼ - θⱼ ∂/∂f, in q and f, span with their brackets more dimensions than Xⱼ with theirs: they would be tangent
+to the graph of f.
+
+Where nothing drives the system, there is no smooth density exp f(q, p) either: the terms of first order in p of the
+equation for f(q, p) say that exp f(q, 0) is kept.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import partial
+from operator import mul
+
+import numpy as np
+import sympy as sp
+from flint import arb, ctx
+
+from .algebra import Algebra, Point, adjugate, determinant
+from .brackets import along, bracket_of, flag
+from .equations import OnShell
+from .series import evaluated
+from .system import BadSystem, System
+
+#: Denominators of the powers in a density, how often brackets are taken of brackets, and the bits of balls.
+BELOW, MOST_LEVELS, BITS = 12, 3, 400
+#: What is 0 in a numerical rank.
+NEAR = 1e-9
+
+
+@dataclass(frozen=True)
+class Volume:
+    """Whether the exact motion keeps a smooth volume.
+
+    Attributes
+    ----------
+    density : sympy.Expr or None
+        Proved: this density is kept, of the coordinates and the velocities in `by`, in letters for sines and cosines;
+        where holonomic constraints φ bind the coordinates, of the measure dq/dφ on them.  It is positive near almost
+        every place.  If there is none, none that depends on the place alone is kept, near the point and almost every
+        place: proved.
+    by : tuple of sympy.Symbol
+        The velocities that determine the others.
+    at_all : bool
+        If there is none: whether no smooth density of place and velocity is kept either, rest included; it is proved
+        where nothing drives the system.
+    point : mapping of str to str
+        The exact place, with sines and cosines in the place of angles; empty where a volume is kept.
+    """
+
+    density: sp.Expr | None = None
+    by: tuple[sp.Symbol, ...] = ()
+    at_all: bool = False
+    point: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def kept(self) -> bool:
+        """Whether one is."""
+        return self.density is not None
+
+    def __str__(self) -> str:
+        if self.kept:
+            return "keeps a smooth volume"
+        return "keeps no smooth volume" if self.at_all else "keeps no volume whose density depends on the place alone"
+
+
+def volume(system: System) -> Volume:
+    """Whether the exact motion of a system, with its numbers, keeps a smooth volume, decided exactly.
+
+    Parameters
+    ----------
+    system : System
+        With constraints that are linear in the velocities, and forces that do not depend on these.
+
+    Returns
+    -------
+    Volume
+
+    Raises
+    ------
+    BadSystem
+        As `flag` does; for other constraints and forces; if neither is found.
+
+    References
+    ----------
+    Y. Fedorov, L. García-Naranjo, J. C. Marrero, J. Nonlinear Sci. 25 (2015) 203: densities of the place suffice for
+    what moves by inertia.
+
+    Examples
+    --------
+    >>> from sympy import cos, sin, symbols
+    >>> from chapsym.mechanics import System, dot, volume
+    >>> x, y, a = symbols("x y a")
+    >>> def sleigh(ahead):  # of which the centre of mass is ahead of the blade
+    ...     centre = dot(x) - ahead * sin(a) * dot(a), dot(y) + ahead * cos(a) * dot(a)
+    ...     energy = (centre[0] ** 2 + centre[1] ** 2 + dot(a) ** 2) / 2
+    ...     return System("sleigh", (x, y, a), energy, [sin(a) * dot(x) - cos(a) * dot(y)])
+    >>> print(volume(sleigh(1)))
+    keeps no smooth volume
+    >>> found = volume(sleigh(0))
+    >>> print(found, found.density, found.by)
+    keeps a smooth volume 1/sin_a (y_dot, a_dot)
+    """
+    q, v = system.coordinates, system.velocities
+    if any(sp.expand(b) != 0 for b in system.offsets):
+        raise BadSystem(f"{system.name}: volumes are for constraints that are linear in the velocities")
+    if any(f.free_symbols & set(v) for f in system.forces.values()):
+        raise BadSystem(f"{system.name}: volumes are for forces that do not depend on velocities")
+    of = OnShell(system)
+    algebra, reduced = of.algebra, of.algebra.ring.reduced
+    if not set(range(len(system.constraints), len(system.rows[:, 0]))) <= set(of.kept):
+        raise BadSystem(f"{system.name}: volumes are for holonomic constraints that are independent of the others")
+    by = tuple(x for i, x in enumerate(v) if i not in of.bound)
+    if not by:
+        return Volume(sp.S.One)
+    x, whole = sp.Matrix(of.fields).T, reduced(determinant(of.square))
+    inner = x.T * of.mass * x
+    inverse, below = adjugate(inner), reduced(determinant(inner))
+    if below == 0:
+        raise BadSystem(f"{system.name}: the mass matrix is singular, so that the motion is not determined")
+    fields, spread = [list(map(reduced, one)) for one in of.fields], []
+    for one in of.fields:
+        brackets = sp.Matrix([bracket_of(one, other, algebra) for other in of.fields]).T
+        pushed = (inverse * (x.T * of.mass * brackets)).trace() / below
+        own = (algebra.letters.derivative(e, c) for e, c in zip(one, q, strict=True))
+        spread.append(reduced(sum(own, pushed)))
+    lifted = {below: 1, whole: -len(by)}  # dq dp is that times dq dv, of the velocities in `by`
+    turned = [
+        e - sum(n * along(one, p, algebra) / p for p, n in lifted.items())
+        for one, e in zip(fields, spread, strict=True)
+    ]
+    candidates = {p for e in (whole, below, *spread) for p in sp.fraction(e)}
+    if (density := _density(fields, turned, candidates, algebra)) is not None:
+        return Volume(density, by)
+    if not (point := _refuted(fields, spread, flag(system).growth[-1], algebra)):
+        raise BadSystem(f"{system.name}: neither a volume is found that is kept, nor that there is none")
+    at_rest = dict.fromkeys(v, sp.S.Zero)
+    push = [algebra.into(e.xreplace(at_rest)) for e in system.push]
+    drives = any(p.xreplace(at_rest) != 0 for p in system.momenta) or any(
+        not algebra.is_zero(sum(map(mul, one, push), sp.S.Zero)) for one in fields
+    )
+    return Volume(None, by, not drives, algebra.shown(point))
+
+
+def _density(
+    fields: Sequence[Sequence[sp.Expr]], spread: Sequence[sp.Expr], parts: Iterable[sp.Expr], algebra: Algebra
+) -> sp.Expr | None:
+    """A product of powers of some polynomials and their factors whose derivative by each field is -θ times it."""
+    parts = {p for e in parts for p in (e, *(of for of, _ in sp.factor_list(e)[1]))}
+    factors = sorted((p for p in parts if p.free_symbols), key=lambda p: (p.count_ops(), str(p)))
+    rates = [[along(one, p, algebra) / p for p in factors] for one in fields]
+    table = [[*own, aim] for own, aim in zip(rates, spread, strict=True)]
+    rows = [row for _, at in _places(algebra) for row in at(table)]
+    numbers = np.array([[float(x) for x in row] for row in rows if all(x.is_finite() for x in row)])
+    if not len(numbers):
+        return None
+    kept = list[int]()  # as cos² - 1 is -sin²
+    for i in range(len(factors)):
+        if np.linalg.matrix_rank(numbers[:, [*kept, i]], tol=NEAR * len(numbers)) > len(kept):
+            kept.append(i)
+    found = np.linalg.lstsq(numbers[:, kept], -numbers[:, -1])[0]
+    if np.abs(numbers[:, kept] @ found + numbers[:, -1]).max() > NEAR * np.abs(numbers).max():
+        return None
+    powers = {i: sp.Rational(Fraction(float(x)).limit_denominator(BELOW)) for i, x in zip(kept, found, strict=True)}
+    for row in table:
+        if not algebra.is_zero(sum((a * row[i] for i, a in powers.items()), row[-1])):
+            return None
+    return sp.Mul(*(factors[i] ** a for i, a in powers.items()))
+
+
+def _refuted(
+    fields: Sequence[Sequence[sp.Expr]], spread: Sequence[sp.Expr], dimension: int, algebra: Algebra
+) -> Point | None:
+    """A point where brackets of the fields with -θ span more than a dimension, proved in balls, if one is found."""
+    extended = [[*one, -aim] for one, aim in zip(fields, spread, strict=True)]
+    span, newest = list(extended), list(extended)
+    for level in range(MOST_LEVELS):
+        for point, at in _places(algebra):
+            if _rank(at(span)) > dimension:
+                return point
+        pairs = [(a, b) for i, a in enumerate(extended) for j, b in enumerate(newest) if level or i < j]
+        newest = [bracket_of(a, b, algebra) for a, b in pairs]
+        span += newest
+    return None
+
+
+def _places(algebra: Algebra) -> Iterator[tuple[Point, Callable[[Sequence[Sequence[sp.Expr]]], list[list[arb]]]]]:
+    """Exact points, and what gives rows of expressions there, in balls; those that divide by 0 there are not finite."""
+
+    def ball(above: int, below: int) -> arb:
+        return arb(int(above)) / int(below)
+
+    def at(point: Point, rows: Sequence[Sequence[sp.Expr]]) -> list[list[arb]]:
+        with ctx.workprec(BITS):
+            values = {x: ball(*(y**2).as_numer_denom()).sqrt() * int(sp.sign(y)) for x, y in point.items()}
+            found = iter(evaluated([e for row in rows for e in row], values, ball))
+            return [[next(found) for _ in row] for row in rows]
+
+    for point in algebra.points:
+        yield point, partial(at, point)
+
+
+def _rank(rows: list[list[arb]]) -> int:
+    """At least that of matrices in balls: how many pivots exclude 0."""
+    found = 0
+    for column in range(len(rows[0])):
+        rest = [row for row in rows[found:] if not row[column].contains(0)]
+        if rest:
+            pivot = max(rest, key=lambda row: float(abs(row[column]).lower()))
+            others = [row for row in rows[found:] if row is not pivot]
+            reduced = [[x - row[column] / pivot[column] * y for x, y in zip(row, pivot, strict=True)] for row in others]
+            rows = [*rows[:found], pivot, *reduced]
+            found += 1
+    return found
