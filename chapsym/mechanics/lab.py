@@ -3,6 +3,7 @@
 import math
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, replace
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -20,6 +21,8 @@ END, KEPT = 10, 240
 MOST = 1_000_000
 #: Steps on which the order is measured, and differences that are rounding; steps forth and back.
 SHORT, ROUNDING, BACK = 16, 1e-12, 100
+#: Into how many a step is cut for the error against work, and by RK4 for what is taken as exact.
+CUT, FINE = (1, 2, 4, 8, 16), 256
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,8 @@ class Cell:
         Why there are no figures: the step that has no solution.
     curve : list of [float, float]
         Time and energy.
+    work : list of [float, float]
+        Processor time in µs of a run of some steps, cut into shorter ones, and the error of its last place.
     verdicts : dict of str to Verdict
         What `verdicts` decides, where it was asked for.
     """
@@ -82,6 +87,7 @@ class Cell:
     microseconds: float = math.nan
     failed: str | None = None
     curve: tuple[tuple[float, float], ...] = ()
+    work: tuple[tuple[float, float], ...] = ()
     verdicts: dict[str, Verdict] = field(default_factory=dict)
 
     def data(self) -> dict[str, Any]:
@@ -91,10 +97,10 @@ class Cell:
     @classmethod
     def of(cls, data: dict[str, Any]) -> "Cell":
         """From that."""
-        curve = tuple((float(t), float(e)) for t, e in data["curve"])
+        curves = {name: tuple((float(x), float(y)) for x, y in data.get(name, ())) for name in ("curve", "work")}
         decided = {name: Verdict(**one) for name, one in data.get("verdicts", {}).items()}
         unknown = {x.name: math.nan for x in fields(cls) if x.default is math.nan and data[x.name] is None}
-        return cls(**{**data, "curve": curve, "verdicts": decided, **unknown})
+        return cls(**{**data, **curves, "verdicts": decided, **unknown})
 
 
 def measured(
@@ -154,8 +160,12 @@ def measured(
         order = _order(runner, h)
     with suppress(NotSolved):
         returns = _returns(runner, h)
-    micro = 1e6 * motion.seconds / steps
-    return replace(first, **_figures(motion), order=order, returns=returns, halved=half, microseconds=micro)
+    micro, work = 1e6 * motion.seconds / steps, tuple[tuple[float, float], ...]()
+    with suppress(NotSolved):
+        exact = _place(_reference(system, system.digest()), h, FINE)
+        work = tuple((SHORT * k * micro, float(np.abs(_place(runner, h, k) - exact).max())) for k in CUT)
+    figures = _figures(motion)
+    return replace(first, **figures, order=order, returns=returns, halved=half, microseconds=micro, work=work)
 
 
 def keeps(system: System, scheme: Scheme) -> bool:
@@ -202,7 +212,17 @@ def _returns(runner: Runner, h: float) -> float:
 
 def _order(runner: Runner, h: float) -> float | None:
     """The power of the step with which the place changes, from a step, its half and its quarter; None by rounding."""
-    n = len(runner.system.coordinates)
-    ends = [runner.march(SHORT * k, h / k).final[:n] for k in (1, 2, 4)]
+    ends = [_place(runner, h, k) for k in (1, 2, 4)]
     first, second = (np.abs(a - b).max() for a, b in pairwise(ends))
     return float(np.log2(first / second)) if first > second > ROUNDING * np.abs(ends[-1]).max() else None
+
+
+def _place(runner: Runner, h: float, k: int) -> np.ndarray:
+    """The place after some steps, each cut into k."""
+    return runner.march(SHORT * k, h / k).final[: len(runner.system.coordinates)]
+
+
+@lru_cache(maxsize=1)
+def _reference(system: System, digest: str) -> Runner:
+    """What is taken as exact, for all methods on a system as it is now."""
+    return Runner(system, "rk4")

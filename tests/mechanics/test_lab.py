@@ -1,7 +1,9 @@
 """chapsym lab: the table, JSON that is gone on with, and the page."""
 
 import json
+import math
 import shutil
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -68,6 +70,15 @@ def test_json_is_gone_on_with(tmp_path):
     done = chapsym("lab", "--method", "dla", *options)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert "is not what chapsym lab has written" in done.stderr
+
+
+def test_the_error_falls_with_work_by_the_order():
+    """Each halving of the step costs twice as much and has a quarter of the error, or a sixteenth."""
+    cells = answer("lab", FILE, "--method", "dla", "--method", "rk4", "--steps", 300, "--no-flags")["cells"]
+    for cell, order in zip(cells, (2, 4), strict=True):
+        for (work, error), (more, less) in pairwise(cell["work"]):
+            assert more == pytest.approx(2 * work)
+            assert order - 0.3 < math.log2(error / less) < order + 0.3
 
 
 def test_half_the_step_and_a_step_without_a_solution():
