@@ -253,7 +253,7 @@ class _Judged:
         first_ones = (*system.coordinates, *replaced(p, {STEP: sp.S.Zero}))
         for (first, second, _), before, further in zip(coefficients(after), first_ones, (*v, *goal), strict=True):
             aims += [first - before, second - further]
-        return self.spanned(aims, known)
+        return self.spanned(aims, known, on=True)
 
     @cached_property
     def vectors(self) -> tuple[list[sp.Expr], list[Named], list[Named]]:
@@ -402,11 +402,27 @@ class _Judged:
         known = [*self.scheme.residual, *links]
         return [] if self.scheme.stages else [e for e in found if self.spanned(replaced([e], after), known)]
 
-    def spanned(self, aims: Iterable[sp.Expr], known: Iterable[sp.Expr]) -> bool:
-        """Whether each of some expressions is a combination of known ones, with rational numbers."""
-        one, other = (replaced(part, self.exact.numbers) for part in (aims, known))
-        letters = Letters(set().union(*(e.free_symbols for e in (*one, *other))), plain=True)
-        return _spanned(list(map(letters.into, one)), list(map(letters.into, other)))
+    def spanned(self, aims: Iterable[sp.Expr], known: Iterable[sp.Expr], on: bool = False) -> bool:
+        """Whether each of some expressions is a combination of known ones, with rational numbers.
+
+        With `on` that is so where holonomic constraints hold, their rates and the rates of these.
+        """
+        relations = list(self.bound) if on else []
+        parts = [replaced(part, self.exact.numbers) for part in (aims, known, relations)]
+        letters = Letters(set().union(*(e.free_symbols for part in parts for e in part)), plain=True)
+        one, other, zero = (list(map(letters.into, part)) for part in parts)
+        if zero:
+            ring = Quotient(sorted(set().union(*(e.free_symbols for e in (*one, *other, *zero))), key=str), zero)
+            one, other = ([ring.reduced(e) for e in part] for part in (one, other))
+        return _spanned(one, other)
+
+    @cached_property
+    def bound(self) -> list[sp.Expr]:
+        """Holonomic constraints, their rates, and the rates of these, by the accelerations of `vectors`."""
+        (known, _, _), m = self.vectors, self.exact.m
+        found, count = list(self.system.holonomic), len(self.system.holonomic)
+        rates = list(self.system.rows * sp.Matrix(self.system.velocities))[m - count :] if count else []
+        return [*found, *rates, *known[self.n + m - count : self.n + m]]
 
 
 def _spanned(aims: Sequence[sp.Expr], known: Sequence[sp.Expr]) -> bool:

@@ -141,15 +141,24 @@ def own(system: System) -> Scheme:
     end = of.q + STEP * u
     there = {after(x): e for x, e in zip(system.coordinates, end, strict=True)}
     first, last = (
-        sp.Matrix([sp.diff(action, x) for x in ends]).xreplace(there) for ends in (system.coordinates, there)
+        sp.Matrix([_divided(sp.diff(action, x).xreplace(there)) for x in ends]) for ends in (system.coordinates, there)
     )
-    kept = [c.xreplace(there) for c in system.discrete.constraints]
+    kept = [_divided(c.xreplace(there)) for c in system.discrete.constraints]
     held = [of.at(sp.Matrix([c]), end)[0] for c in system.holonomic]
     return Scheme(
         (*of.q, *of.p), (*u, *multipliers), [*(of.p + first + of.held(of.q, multipliers)), *kept, *held],
         [*end, *last], list((of.q + end) / 2), list(u), [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)],
         sp.S.Half,
     )  # fmt: skip
+
+
+def _divided(expr: sp.Expr) -> sp.Expr:
+    """A polynomial over the length of a step, divided by it where it can be."""
+    try:
+        whole = sp.Poly(sp.expand(expr * STEP), STEP)
+    except sp.PolynomialError:
+        return expr
+    return sp.Poly(whole.all_coeffs()[:-1], STEP).as_expr() if whole.nth(0) == 0 and whole.degree() > 0 else expr
 
 
 def geometric(system: System) -> Scheme:

@@ -14,6 +14,7 @@ momentum = inertia * body.spin + mass * radius**2 * across  # about the contact 
 start, end = body.rotation, body.rotation.xreplace({q: after(q) for q in body.coordinates})
 moved, turned = Matrix([after(x) - x, after(y) - y, 0]), end * start.T
 slip = moved + radius / 2 * (turned - turned.T) * Matrix([0, 0, -1])  # (4.9), whose plane is above the ball
+energy = (mass * moved.dot(moved) + ((end - start) * diag(J1, J2, J3) * (end - start).T).trace()) / 2
 
 SYSTEM = System(
     "Chaplygin ball",
@@ -28,5 +29,5 @@ SYSTEM = System(
     step="1/20",
     source="S. A. Chaplygin, Mat. Sb. 24 (1903) 139; Yu. Fedorov, SIGMA 3 (2007) 044",
     integrals={"|K|²": momentum.dot(momentum), "⟨K,γ⟩": momentum.dot(up)},
-    discrete=Discrete((mass * moved.dot(moved) / 2 - (start * diag(J1, J2, J3) * end.T).trace()) / STEP, slip[:2]),
+    discrete=Discrete(energy / STEP, slip[:2]),
 )
