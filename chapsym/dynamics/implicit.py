@@ -87,7 +87,7 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
     if then is not None and not set(then[1]) <= set(groups):
         others = f"those of {residual[0].__name__}: {_listed(groups)}"
         raise BadInput(f"the groups of {then[0].__name__} must be among {others}")
-    system = _System(residual[0], jacobian[0], size)
+    system = Equations(residual[0], jacobian[0], size)
 
     def step(guess: ArrayLike, *known: ArrayLike, precision: str | Precision = "double") -> Any:
         level = named(precision)
@@ -126,12 +126,13 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
     return step
 
 
-class _System(NamedTuple):
-    """What vanishes, its derivatives by the unknowns row by row, and how many unknowns there are."""
+class Equations(NamedTuple):
+    """What vanishes, its derivatives by the unknowns row by row, how many unknowns there are, and a least size of x."""
 
     function: Callable[..., Any]
     slope: Callable[..., Any]
     size: int
+    least: float = 0.0
 
     def in_floats(self, x: np.ndarray, known: Sequence[np.ndarray]) -> np.ndarray:
         """The roots near points x (N, n), each by corrections of its own; raises BadInput where they do not settle.
@@ -162,26 +163,28 @@ class _System(NamedTuple):
             raise _unsettled(int(left[0]))
         return x
 
-    def at_level(self, start: np.ndarray, known: list[Any], level: Precision, index: int) -> list[Any]:
+    def at_level(self, start: Sequence[Any], known: list[Any], level: Precision, index: int = 0) -> list[Any]:
         """The root near a float64 root, in the numbers of a precision."""
         # In enclosures a point near a root is found first.
         point = (lambda v: v.mid()) if isinstance(level, Enclosure) else (lambda v: v)
         middle = [point(value) for value in known]
-        x = [level.number(Fraction(float(value))) for value in start]
-        size = [level.number(Fraction(float(value))) for value in self._scale(start, middle)]
         few = level.number(Fraction(1, 10 ** (level.digits // 2 + 1)))
         last, end = False, few * few * 10**LOST
         try:
+            x = [level.number(Fraction(float(value))) for value in start]
             for _ in range(MOST_ROUNDS):
-                change = [point(value) for value in self._correction(x, middle)]
+                correction, scale = self._correction(x, middle)
+                change = [point(value) for value in correction]
+                size = [level.number(Fraction(float(value))) for value in scale]
                 x = [point(a - b) for a, b in zip(x, change, strict=True)]
                 if last:
                     break
                 last = all(abs(c) <= few * s for c, s in zip(change, size, strict=True))
-            if last and all(abs(c) <= end * s for c, s in zip(change, size, strict=True)):
-                return self._enclosed(x, known) if isinstance(level, Enclosure) else x
-        except ZeroDivisionError:
-            pass
+            last = last and all(abs(c) <= end * s for c, s in zip(change, size, strict=True))
+        except (ArithmeticError, TypeError, ValueError):  # singular, beyond the numbers, or a complex root of mpmath
+            last = False
+        if last:
+            return self._enclosed(x, known) if isinstance(level, Enclosure) else x
         raise BadInput(f"number {index} does not settle: the root is nearly singular, or more digits are needed")
 
     def _at(self, x: np.ndarray, known: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
@@ -191,15 +194,14 @@ class _System(NamedTuple):
             slope = np.stack(_values(self.slope, [x, *known]), axis=-1)
         return value, slope.reshape(-1, self.size, self.size)
 
-    def _scale(self, x: np.ndarray, known: Sequence[Any]) -> np.ndarray:
-        """What a relative change of x changes a correction by; at least x."""
-        columns = [np.array([[float(value)]]) for value in known]
-        _, (slope,) = self._at(x[None], columns)
-        return np.abs(np.linalg.inv(slope)) @ np.abs(slope) @ np.abs(x)
-
-    def _correction(self, x: list[Any], known: list[Any]) -> list[Any]:
-        slope, value = parts_of(self.slope(*x, *known)), parts_of(self.function(*x, *known))
-        return _solved([slope[i * self.size : (i + 1) * self.size] for i in range(self.size)], value)
+    def _correction(self, x: list[Any], known: list[Any]) -> tuple[list[Any], np.ndarray]:
+        """A correction of x, and what a relative change of x changes it by, at least x."""
+        zero = 0 * x[0]  # a quotient of whole numbers would be a float
+        value, slope = ([zero + e for e in parts_of(of(*x, *known))] for of in (self.function, self.slope))
+        rows = [slope[i * self.size : (i + 1) * self.size] for i in range(self.size)]
+        table = np.array(rows, float)
+        sizes = np.abs(np.array(x, float)) + self.least
+        return solved(rows, value), np.abs(np.linalg.inv(table)) @ np.abs(table) @ sizes
 
     def _enclosed(self, x: list[Any], known: list[Any]) -> list[Any]:
         """The root near a point, in balls; raises BadInput if it is not proved to be one, and the only one near it."""
@@ -214,7 +216,7 @@ class _System(NamedTuple):
         return [a + b for a, b in zip(x, image, strict=True)]
 
 
-def _solved(rows: list[Vector], right: Vector) -> list[Any]:
+def solved(rows: Sequence[Vector], right: Vector) -> list[Any]:
     """The solution of a linear system, by elimination with the largest pivots, in any numbers.
 
     Raises ZeroDivisionError if a pivot is 0.
