@@ -25,7 +25,7 @@ ROOMS = {
     "sources": set(),
     "prove": {"checker", "derive", "files", "sources", "workers"},
     "codegen": {"checker", "derive", "prove"},
-    "mechanics": {"codegen", "derive", "prove"},
+    "mechanics": {"codegen", "derive", "dynamics", "numbers", "prove"},
     "dynamics": {"generated", "numbers", "rationals"},
     "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},
     "accuracy": {"dynamics", "files", "generated", "numbers"},

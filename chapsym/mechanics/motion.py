@@ -1,6 +1,7 @@
 """A method run on a system: its kernels, in C where a compiler is there, in Python otherwise; and what it recorded."""
 
 import ctypes
+import itertools
 import logging
 import shutil
 import subprocess
@@ -8,6 +9,7 @@ import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
@@ -16,11 +18,15 @@ import numpy as np
 import sympy as sp
 
 from chapsym.codegen import Kernel, build, c_files, passes
+from chapsym.dynamics.implicit import solved
+from chapsym.dynamics.kernels import parts_of
+from chapsym.numbers import Double, Enclosure, Precision, named
 
 from .algebra import Letters
 from .methods import METHODS, Scheme
 from .slope import Terms, differentiated, needed, shared
-from .system import STEP, BadSystem, System, number
+from .steps import UNSOLVED, NotSolved, Sets, Steps
+from .system import STEP, BadSystem, System, number, rational
 
 #: Newton's iteration: rounds at most; the last correction in units of the unknowns, and one that may stay; and how much
 #: one must be smaller than the one before for the derivatives to serve another round.
@@ -32,13 +38,9 @@ PART = 50_000
 ROUTINE = Path(__file__).with_name("march.c").read_text(encoding="utf-8")
 
 
-class NotSolved(ArithmeticError):
-    """A step that was not found; the message says which."""
-
-
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Steps of a method.
+    """Steps of a method, in arrays of float64, or of the numbers of another precision.
 
     Attributes
     ----------
@@ -79,14 +81,23 @@ class Runner:
         One of METHODS.
     compiled : bool, optional
         Whether C takes the steps; by default where there is a compiler.
+    precision : str or Precision, optional
+        Of the numbers, as for `moved`.
     """
 
-    def __init__(self, system: System, method: str = "dla", compiled: bool | None = None) -> None:
+    def __init__(
+        self, system: System, method: str = "dla", compiled: bool | None = None, precision: str | Precision = "double"
+    ) -> None:
         if method not in METHODS:
             raise BadSystem(f"{method!r} is no method; those are {', '.join(METHODS)}")
         self.system, self.method = system, method
         self.scheme: Scheme = METHODS[method].scheme(system)
-        self.compiled = _has_compiler() if compiled is None else compiled
+        try:
+            self.level = named(precision)
+        except ValueError as error:
+            raise BadSystem(str(error)) from None
+        self.in_floats = isinstance(self.level, Double)
+        self.compiled = self.in_floats and (_has_compiler() if compiled is None else compiled)
 
     @property
     def length(self) -> float:
@@ -95,58 +106,95 @@ class Runner:
 
     @cached_property
     def kernels(self) -> list[Kernel]:
-        """What vanishes, its derivatives by the unknowns, what comes after, and where the step is looked at.
-
-        Their names are none of the system's: y of the state, z of the unknowns, k of what is fixed, l of letters.
-        """
-        scheme, (constants, parts) = self.scheme, self._lifted
-        known = (*self.system.parameters, *constants.values(), STEP)
-        groups_ = (("y", scheme.state), ("z", scheme.unknowns), ("k", known))
-        named = {x: sp.Symbol(f"{name}{i}") for name, group in groups_ for i, x in enumerate(group)}
-        letters = Letters(plain=True)
-
-        try:
-            read = [[letters.into(e.xreplace(named)) for e in part] for part in parts]
-        except BadSystem as error:
-            raise BadSystem(f"{self.system.name}: {error}") from None
-        residual, after, place, velocity = read
-        state, unknowns, fixed = ([named[x] for x in group] for group in (scheme.state, scheme.unknowns, known))
-        groups = (("state", tuple(state)), ("unknowns", tuple(unknowns)), ("fixed", tuple(fixed)))
-
-        def kernel(name: str, terms: Terms, results: Sequence[sp.Expr]) -> Kernel:
-            terms = needed(terms, results)
-            steps = [([x], [e]) for x, e in terms.items()]
-            outputs = tuple(f"r{i}" for i in range(len(results)))
-            return Kernel(
-                name, f"{name}.", (), groups, outputs, lambda: [0 * fixed[-1]] * len(results), lambda: (steps, results),
-                letters=needed(letters.meanings, [*results, *terms.values()]),
-            )  # fmt: skip
-
+        """What vanishes, its derivatives by the unknowns, what comes after, and where the step is looked at."""
+        residual, after, place, velocity = map(self._read, ("residual", "after", "place", "velocity"))
         terms, values = shared(residual)
-        slope = kernel("slope", *differentiated(terms, values, unknowns, letters))
-        seen = kernel("seen", *shared([*place, *velocity]))
-        return [kernel("residual", terms, values), slope, kernel("after", *shared(after)), seen]
+        unknowns = self._groups["unknowns"]
+        slope = self._kernel("slope", *differentiated(terms, values, unknowns, self._letters))
+        seen = self._kernel("seen", *shared([*place, *velocity]))
+        return [self._kernel("residual", terms, values), slope, self._kernel("after", *shared(after)), seen]
 
     @cached_property
-    def _lifted(self) -> tuple[dict[sp.Expr, sp.Symbol], list[list[sp.Expr]]]:
-        """Symbols for numbers that are no integers, and for e, and the scheme in these: a text has integers alone."""
-        constants, scheme = dict[sp.Expr, sp.Symbol](), self.scheme
-        parts = (scheme.residual, scheme.after, scheme.place, scheme.velocity)
-        return constants, [[_lifted(e, constants) for e in part] for part in parts]
+    def more(self) -> list[Kernel]:
+        """Of other numbers than float64: the first state, the constraints, and what is measured.
+
+        For enclosures, too, the derivatives of what vanishes and of what comes after, by unknowns and state.
+        """
+        made = [self._kernel(name, *shared(self._read(name))) for name in ("start", "constraints", "measured")]
+        if isinstance(self.level, Enclosure):
+            terms, values = shared([*self._read("residual"), *self._read("after")])
+            symbols = [*self._groups["unknowns"], *self._groups["state"]]
+            made.append(self._kernel("turning", *differentiated(terms, values, symbols, self._letters)))
+        return made
+
+    @cached_property
+    def _groups(self) -> dict[str, list[sp.Symbol]]:
+        """Arguments of kernels, whose names are none of the system's: z, y, k; l are letters."""
+        counts = {"unknowns": len(self.scheme.unknowns), "state": len(self.scheme.state), "fixed": len(self._known)}
+        return {g: [sp.Symbol(f"{g_}{i}") for i in range(counts[g])] for g, g_ in zip(counts, "zyk", strict=True)}
+
+    @cached_property
+    def _letters(self) -> Letters:
+        return Letters(plain=True)
+
+    @property
+    def _known(self) -> list[sp.Symbol]:
+        return [*self.system.parameters, *self._lifted[0].values(), STEP]
+
+    def _read(self, part: str) -> list[sp.Expr]:
+        """A part of the scheme, or of the system, in the arguments of kernels and letters."""
+        scheme, groups = self.scheme, self._groups
+        velocities = zip(self.system.velocities, groups["state"][len(self.system.coordinates) :], strict=True)
+        symbols = (*scheme.unknowns, *scheme.state, *self._known)
+        put = {**dict(velocities), **dict(zip(symbols, itertools.chain(*groups.values()), strict=True))}
+        try:
+            return [self._letters.into(e.xreplace(put)) for e in self._lifted[1][part]]
+        except BadSystem as error:
+            raise BadSystem(f"{self.system.name}: {error}") from None
+
+    def _kernel(self, name: str, terms: Terms, results: Sequence[sp.Expr]) -> Kernel:
+        terms, groups = needed(terms, results), self._groups
+        steps = [([x], [e]) for x, e in terms.items()]
+        outputs = tuple(f"r{i}" for i in range(len(results)))
+        return Kernel(
+            name, f"{name}.", (), tuple((group, tuple(symbols)) for group, symbols in groups.items()), outputs,
+            lambda: [0 * groups["fixed"][-1]] * len(results), lambda: (steps, results),
+            letters=needed(self._letters.meanings, [*results, *terms.values()]),
+        )  # fmt: skip
+
+    @cached_property
+    def _lifted(self) -> tuple[dict[sp.Expr, sp.Symbol], dict[str, list[sp.Expr]]]:
+        """Symbols for numbers that are no integers, and for e, and what is computed in these: texts have integers."""
+        constants, system, scheme = dict[sp.Expr, sp.Symbol](), self.system, self.scheme
+        parts = {name: getattr(scheme, name) for name in ("residual", "after", "place", "velocity", "start")}
+        parts["constraints"] = [*system.rows, *system.offsets]
+        parts["measured"] = [system.energy, *system.constraints, *system.holonomic, *system.integrals.values()]
+        return constants, {name: [_lifted(e, constants) for e in part] for name, part in parts.items()}
 
     @cached_property
     def fixed(self) -> np.ndarray:
         """Parameters and constants, in order."""
-        return np.array([*self.system.numbers, *(float(e) for e in self._lifted[0])])
+        if self.in_floats:
+            return np.array([*self.system.numbers, *(float(e) for e in self._lifted[0])])
+        parameters = (self._number(v, f"the parameter {x}") for x, v in self.system.parameters.items())
+        return np.array([*parameters, *(self._number(e, "a constant") for e in self._lifted[0])], object)
+
+    def _number(self, value: Any, what: str) -> Any:
+        exact = rational(value, f"{self.system.name}: {what}")
+        with self.level.working():
+            return self.level.number(Fraction(exact.p, exact.q))
 
     @cached_property
     def functions(self) -> dict[str, Callable[..., Any]]:
         """The kernels in Python."""
         scope: dict[str, Any] = {}
-        exec(compile(_text(self.kernels), "kernels", "exec"), scope)  # our own text, never a user's
-        return {kernel.name: scope[kernel.name] for kernel in self.kernels}
+        kernels = [*self.kernels, *([] if self.in_floats else self.more)]
+        exec(compile(_text(kernels), "kernels", "exec"), scope)  # our own text, never a user's
+        return {kernel.name: scope[kernel.name] for kernel in kernels}
 
-    def march(self, steps: int, length: float | None = None, every: int = 1, start: np.ndarray | None = None) -> Motion:
+    def march(
+        self, steps: int, length: float | str | Fraction | None = None, every: int = 1, start: np.ndarray | None = None
+    ) -> Motion:
         """Takes steps from the start of the system.
 
         Parameters
@@ -157,7 +205,7 @@ class Runner:
         every : int
             Of which one is recorded.
         start : numpy.ndarray, optional
-            Another state to start from, as `Motion.final` is one.
+            Another state to start from, as `Motion.final` is one, in the numbers of the precision.
 
         Raises
         ------
@@ -170,37 +218,83 @@ class Runner:
                 raise BadSystem(f"{what} must be a whole number from 1 on, not {given!r}")
         if not h > 0:
             raise BadSystem(f"the length of a step must be positive, not {h!r}")
-        fixed = np.array([*self.fixed, h])
         q, v = self.system.beginning
         if start is not None:
+            if np.shape(start) != (len(self.scheme.state),):
+                raise BadSystem(
+                    f"the start must be {len(self.scheme.state)} numbers, as `final` has them, not {start!r:.60}"
+                )
             q, v = self.velocities(start)
-        state = self._numbers(self.scheme.start, q, v) if start is None else np.array(start, float)
         unknowns = self._numbers(self.scheme.guess, q, v)
-        recorded = np.empty((-(-steps // every), 2 * len(q)))
-        take = _in_c if self.compiled and self.library else _in_python
-        begin = time.process_time()
-        with np.errstate(all="ignore"):
-            done = take(self, steps, every, state, unknowns, fixed, recorded)
-        seconds = time.process_time() - begin
-        if done < steps:
-            which = f"{self.system.name}, {self.method}: step {done} of {steps}"
-            if done == 0 and self._is_singular(q, v, fixed):
-                why = "constraints depend on each other, or the mass matrix is singular (see Quaternion.swelling)"
-                raise NotSolved(f"{which} has no solution, as its equations are singular: {why}")
-            raise NotSolved(f"{which} has no solution near the last one")
-        if not (np.isfinite(state).all() and np.isfinite(recorded).all()):
-            raise NotSolved(f"{self.system.name}, {self.method}: a step of {steps} leaves the range of numbers")
-        place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
-        energy, *kept, integrals = ([x + 0 * place[:, 0] for x in of(*place.T, *velocity.T)] for of in self.measures)
-        constraint, places = (np.max([0 * place[:, 0], *map(np.abs, values)], axis=0) for values in kept)
-        times = h * (np.arange(0, steps, every) + float(self.scheme.when))
-        named = dict(zip(self.system.integrals, integrals, strict=True))
-        return Motion(times, place, velocity, energy[0], constraint, places, named, state, seconds)
+        with self.level.working(), np.errstate(all="ignore"):
+            if not self.in_floats:
+                h = self._number(self.system.step if length is None else length, "the length of a step")
+            fixed = np.array([*self.fixed, h])
+            if start is not None:
+                state = np.array([0 * h + x for x in start], fixed.dtype)
+            else:
+                state = self._numbers(self.scheme.start, q, v) if self.in_floats else self._beginning(fixed)
+            recorded = np.empty((-(-steps // every), 2 * len(q)), fixed.dtype)
+            take = _in_c if self.compiled and self.library else _in_numbers
+            begin = time.process_time()
+            done, why = take(self, steps, every, state, unknowns, fixed, recorded)
+            seconds = time.process_time() - begin
+            if done < steps:
+                which = f"{self.system.name}, {self.method}: step {done} of {steps}"
+                if done == 0 and self._is_singular(q, v, fixed):
+                    why = "constraints depend on each other, or the mass matrix is singular (see Quaternion.swelling)"
+                    raise NotSolved(f"{which} has no solution, as its equations are singular: {why}")
+                raise NotSolved(f"{which} {why}")
+            if not all((np.abs(array) < np.inf).all() for array in (state, recorded)):
+                raise NotSolved(f"{self.system.name}, {self.method}: a step of {steps} leaves the range of numbers")
+            place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
+            (energy,), *kept, integrals = self._measured(place, velocity, fixed)
+            is_enclosed = isinstance(self.level, Enclosure)
+            largest: Any = np.frompyfunc(lambda a, b: a.max(b), 2, 1).reduce if is_enclosed else np.max
+            constraint, places = (largest([0 * place[:, 0], *map(np.abs, values)], axis=0) for values in kept)
+            if self.in_floats:
+                times = h * (np.arange(0, steps, every) + float(self.scheme.when))
+            else:
+                times = np.array([self._number(i + self.scheme.when, "") for i in range(0, steps, every)], object) * h
+        quantities = dict(zip(self.system.integrals, integrals, strict=True))
+        return Motion(times, place, velocity, energy, constraint, places, quantities, state, seconds)
+
+    def _measured(self, place: np.ndarray, velocity: np.ndarray, fixed: np.ndarray) -> list[list[np.ndarray]]:
+        """The energy, what the constraints on velocities and on places set to 0, and the integrals."""
+        if self.in_floats:
+            return [[x + 0 * place[:, 0] for x in of(*place.T, *velocity.T)] for of in self.measures]
+        rows = (self._of("measured", *pair, fixed) for pair in zip(place, velocity, strict=True))
+        columns = [np.array(column, object) for column in zip(*rows, strict=True)]
+        counts = 1, len(self.system.constraints), len(self.system.holonomic), len(self.system.integrals)
+        return [[columns.pop(0) for _ in range(count)] for count in counts]
+
+    def _of(self, name: str, q: Sequence[Any], v: Sequence[Any], fixed: np.ndarray) -> list[Any]:
+        """What a kernel gives at a place and velocity."""
+        unknowns = [0] * len(self.scheme.unknowns)  # which it has not
+        return [0 * fixed[-1] + x for x in parts_of(self.functions[name](*unknowns, *q, *v, *fixed))]
+
+    def _beginning(self, fixed: np.ndarray) -> np.ndarray:
+        """The first state in other numbers than float64: velocities that are not given are the smallest there are."""
+        system, zero = self.system, 0 * fixed[-1]
+        given = {x: self._number(value, f"the start of {x}") for x, value in system.start.items()}
+        q, v = ([given.get(x, zero) for x in symbols] for symbols in (system.coordinates, system.velocities))
+        free = [i for i, x in enumerate(system.velocities) if x not in given]
+        if free and system.rows.rows:
+            found = np.array(self._of("constraints", q, v, fixed), object)
+            rows, offsets = found[: -system.rows.rows].reshape(-1, len(q)), found[-system.rows.rows :]
+            kept = list[int]()
+            for i in range(len(rows)):  # rows that do not depend on others
+                rank = np.linalg.matrix_rank(rows[[*kept, i]][:, free].astype(float))
+                kept += [i] if rank > len(kept) else []
+            within, short = rows[kept][:, free], -(rows @ v + offsets)[kept]
+            for i, more in zip(free, solved((within @ within.T).tolist(), short) @ within, strict=True):
+                v[i] += more
+        return np.array(self._of("start", q, v, fixed), object)
 
     def _is_singular(self, q: np.ndarray, v: np.ndarray, fixed: np.ndarray) -> bool:
         """Whether the derivatives of the first step's equations are singular at its guess."""
         state, unknowns = (self._numbers(part, q, v) for part in (self.scheme.start, self.scheme.guess))
-        slope = np.array(self.functions["slope"](*map(float, (*state, *unknowns, *fixed)))).reshape(len(unknowns), -1)
+        slope = np.array(self.functions["slope"](*map(float, (*unknowns, *state, *fixed)))).reshape(len(unknowns), -1)
         return bool(np.isfinite(slope).all() and np.linalg.matrix_rank(slope) < len(unknowns))
 
     @cached_property
@@ -213,9 +307,9 @@ class Runner:
         return [sp.lambdify(symbols, [e.xreplace(numbers) for e in one], "numpy", cse=True) for one in measured]
 
     def velocities(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Coordinates and velocities of a state, which may have momenta: p = ∂L/∂v is solved, with least |v|."""
+        """Coordinates and velocities of a state, in float64; of momenta p = ∂L/∂v is solved, with least |v|."""
         n = len(self.system.coordinates)
-        q, rest = state[:n], state[n:]
+        q, rest = np.split(np.array(state, float), [n])
         if self.scheme.state[n] == self.system.velocities[0]:
             return q, rest
         at_rest = self._numbers(list(self.system.momenta), q, 0 * q)
@@ -249,8 +343,8 @@ class Runner:
             "MOST_ROUNDS": MOST_ROUNDS, "LAST": LAST, "STAYS": STAYS, "SHRINKS": SHRINKS,
         }  # fmt: skip
         head = "".join(f"#define {name} {value}\n" for name, value in sizes.items())
-        counts = {"unknowns": len(scheme.unknowns), "fixed": sizes["FIXED_COUNT"]}
-        given = ["at", *(f"{name}[0]" if count == 1 else name for name, count in counts.items())]
+        counts = {"unknowns": len(scheme.unknowns), "at": len(scheme.state), "fixed": sizes["FIXED_COUNT"]}
+        given = (f"{name}[0]" if count == 1 else name for name, count in counts.items())
         head += f"#define GIVEN(at) {', '.join(given)}\n"
         head += f"static const double tableau[] = {{{tableau}}};\n"
         with tempfile.TemporaryDirectory() as folder:
@@ -279,7 +373,12 @@ def _has_compiler() -> bool:
 
 
 def moved(
-    system: System, method: str = "dla", steps: int = 1000, length: float | None = None, every: int = 1
+    system: System,
+    method: str = "dla",
+    steps: int = 1000,
+    length: float | str | Fraction | None = None,
+    every: int = 1,
+    precision: str | Precision = "double",
 ) -> Motion:
     """The motion of a system from its start, by a method.
 
@@ -293,6 +392,10 @@ def moved(
         Of a step; that of the system by default.
     every : int
         Of which one step is recorded.
+    precision : str or Precision, optional
+        "double" is float64; "double-double", `chapsym.Digits(n)` and `chapsym.Enclosure(bits)` take parameters, start
+        and length exactly, floats as they are written.  An enclosure contains the motion of the method; that each step
+        has the root that it follows, one near the last, is proved.
 
     Returns
     -------
@@ -301,9 +404,9 @@ def moved(
     Raises
     ------
     BadSystem
-        For a method that is none, or a start that breaks a constraint.
+        For a method that is none, a start that breaks a constraint, or what is not rational in another precision.
     NotSolved
-        If the equations of a step are not solved.
+        If the equations of a step are not solved, or an enclosure has grown too wide for that.
 
     Examples
     --------
@@ -315,8 +418,11 @@ def moved(
     >>> motion = moved(particle, steps=100)
     >>> motion.energy[[0, -1]].round(6).tolist(), bool(motion.constraint.max() < 1e-14)
     ([0.625312, 0.625157], True)
+    >>> from chapsym import Enclosure
+    >>> print(moved(particle, steps=100, precision=Enclosure(100)).energy[-1].str(25))
+    [0.62515655901137717269...]
     """
-    return Runner(system, method).march(steps, length, every)
+    return Runner(system, method, precision=precision).march(steps, length, every)
 
 
 def _lifted(expr: sp.Expr, constants: dict[sp.Expr, sp.Symbol]) -> sp.Expr:
@@ -337,8 +443,10 @@ def _text(kernels: Sequence[Kernel]) -> str:
     return imports + "\n\n".join(build.code(kernel, PASSES) for kernel in kernels)
 
 
-def _in_c(runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: np.ndarray, *arrays: np.ndarray) -> int:
-    """A part of the steps after the other, so that they can be interrupted; how many were taken."""
+def _in_c(
+    runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: np.ndarray, *arrays: np.ndarray
+) -> tuple[int, str]:
+    """A part of the steps after the other, so that they can be interrupted; how many were taken, and why no more."""
     arrays = (state, unknowns, np.tile(unknowns, 2), *arrays)
     pointers = [array.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for array in arrays]
     run, done = runner.library.march, 0
@@ -346,50 +454,25 @@ def _in_c(runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: n
     while done < steps:
         end = min(steps, done + PART)
         if (reached := int(run(*map(ctypes.c_int64, (done, end, every)), *pointers))) < end:
-            return reached
+            return reached, UNSOLVED
         done = end
-    return steps
+    return steps, ""
 
 
-def _in_python(
+def _in_numbers(
     runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: np.ndarray, fixed: np.ndarray,
     recorded: np.ndarray,
-) -> int:  # fmt: skip
-    """The same steps as `march.c` takes, in Python: each from the unknowns of the last, by Newton's iteration alone."""
-    functions, stages, size = runner.functions, runner.scheme.stages, len(unknowns)
-
-    def of(name: str, at: np.ndarray) -> np.ndarray:
-        found = functions[name](*map(float, at), *map(float, unknowns), *map(float, fixed))
-        return np.array(found if isinstance(found, tuple) else (found,))
-
-    def solved(at: np.ndarray) -> bool:
-        before = np.inf
-        for _ in range(MOST_ROUNDS):
-            slope = of("slope", at).reshape(size, size)
-            if not np.isfinite(slope).all() or np.linalg.matrix_rank(slope) < size:
-                return False
-            change = np.linalg.solve(slope, of("residual", at))
-            unknowns[:] -= change
-            largest = float(np.max(np.abs(change) / (1 + np.abs(unknowns))))
-            if not largest < np.inf:
-                return False
-            if stages or largest <= LAST or (largest < STAYS and largest >= before / 2):
-                return True
-            before = largest
-        return False
-
-    def rates(at: Any) -> np.ndarray:
-        if not solved(at):
-            raise NotSolved
-        return of("after", at)
-
+) -> tuple[int, str]:  # fmt: skip
+    """The same steps in any numbers, in Python."""
+    kind = Sets if isinstance(runner.level, Enclosure) else Steps
+    method = kind(runner.scheme, runner.functions, runner.level, unknowns.tolist(), fixed.tolist())
+    now = method.first(state.tolist())
     for i in range(steps):
-        if not solved(state):
-            return i
-        if i % every == 0:
-            recorded[i // every] = of("seen", state)
         try:
-            state[:] = runner.scheme.step(state, of("after", state), fixed[-1], rates, float)
-        except NotSolved:
-            return i
-    return steps
+            seen, now = method.step(now)
+        except NotSolved as error:
+            return i, str(error)
+        if i % every == 0:
+            recorded[i // every] = seen
+    state[:] = method.numbers(now)
+    return steps, ""

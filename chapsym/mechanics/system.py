@@ -319,7 +319,9 @@ def loaded(path: str | Path) -> System:
 def rational(value: Any, what: str) -> sp.Rational:
     """A number of a system, exactly; raises BadSystem with what it is, if it is none."""
     try:
-        found = Fraction(repr(float(value)) if isinstance(value, float | sp.Float) else value)
+        is_long = isinstance(value, sp.Float) and value._prec > sp.Float(0.5)._prec
+        is_float = isinstance(value, float | sp.Float)
+        found = Fraction(str(value) if is_long else repr(float(value)) if is_float else value)
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
         raise BadSystem(f"{what} is {value!r}, which is no rational number") from None
     return sp.Rational(found.numerator, found.denominator)
