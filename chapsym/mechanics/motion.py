@@ -200,7 +200,7 @@ class Runner:
         Parameters
         ----------
         steps : int
-        length : float, optional
+        length : number, optional
             Of a step; that of the system by default.
         every : int
             Of which one is recorded.
@@ -388,7 +388,7 @@ def moved(
     method : str
         One of METHODS: "dla" is the discrete Lagrange-d'Alembert principle at the middle.
     steps : int
-    length : float, optional
+    length : number, optional
         Of a step; that of the system by default.
     every : int
         Of which one step is recorded.
