@@ -83,7 +83,7 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
     >>> found["order"].said, found["self-adjoint"].verdict, found["keeps the energy"].verdict
     ('2', 'proved', 'false')
     """
-    quantities = _quantities(system)
+    quantities = _quantities(system) | dict(scheme.integrals)
     names = ["order", "self-adjoint", "reversible", *(f"keeps {name}" for name in quantities)]
     looked = LOOKED_FURTHER if scheme.stages else LOOKED
     with terms(looked + BEYOND):
@@ -357,8 +357,11 @@ class _Judged:
         """Whether a quantity of place and velocity is the same where the method looks at a step and at the next."""
         stepped, (first, there, z, then) = self.stepped, self.forth
         seen = [stepped.of(stepped.seen, at, of, self.h) for at, of in ((first, z), (there, then))]
-        before, after, moved = (self.exact.at([quantity], x)[0] for x in (*seen, self.exact.moved))
-        if self.wrong("", ("", moved, _at(moved, 0))):
+        read, symbols = self.exact.read([quantity]), (*self.exact.symbols, STEP)
+        before, after, moved = (
+            evaluated(read, dict(zip(symbols, (*x, self.h), strict=True)))[0] for x in (*seen, self.exact.moved)
+        )
+        if not quantity.has(STEP) and self.wrong("", ("", moved, _at(moved, 0))):
             return Verdict("measured", "the exact motion does not keep it")
         wrong = self.wrong("it changes", ("in a step", after, before))
         return wrong or self._proved(self.is_kept(quantity))

@@ -6,7 +6,7 @@ f = ∂L/∂q + F with the forces F, A v + b = 0 the constraints, and h the leng
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -39,6 +39,8 @@ class Scheme:
         Whether the momenta of a state are those before a reaction that reflects them, not those of its velocities.
     stages : sequence of sequence of sympy.Rational
         Of an explicit Runge-Kutta method, the rows of its tableau, then its weights; none for another.
+    integrals : mapping
+        {name: quantity of this method alone}, in coordinates and velocities where the step is looked at, and `STEP`.
     """
 
     state: Sequence[sp.Symbol]
@@ -52,6 +54,7 @@ class Scheme:
     when: sp.Rational = sp.S.Zero
     reflects: bool = False
     stages: Sequence[Sequence[sp.Rational]] = ()
+    integrals: Mapping[str, sp.Expr] = field(default_factory=dict)
 
     def step(self, state: Any, first: Any, length: Any, rates: Callable[[Any], Any], number: Any) -> Any:
         """The next state in any numbers, by `after` at the state and, of an explicit method, what it is at others."""
@@ -145,10 +148,12 @@ def own(system: System) -> Scheme:
     )
     kept = [_divided(c.xreplace(there)) for c in system.discrete.constraints]
     held = [of.at(sp.Matrix([c]), end)[0] for c in system.holonomic]
+    half = STEP * of.v / 2
+    ends = {**dict(zip(of.q, of.q - half, strict=True)), **dict(zip(there, of.q + half, strict=True))}
     return Scheme(
         (*of.q, *of.p), (*u, *multipliers), [*(of.p + first + of.held(of.q, multipliers)), *kept, *held],
         [*end, *last], list((of.q + end) / 2), list(u), [*of.q, *system.momenta], [*of.v, *([sp.S.Zero] * of.m)],
-        sp.S.Half,
+        sp.S.Half, integrals={name: e.xreplace(ends) for name, e in system.discrete.integrals.items()},
     )  # fmt: skip
 
 

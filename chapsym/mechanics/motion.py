@@ -100,6 +100,11 @@ class Runner:
         self.compiled = self.in_floats and (_has_compiler() if compiled is None else compiled)
 
     @property
+    def integrals(self) -> dict[str, sp.Expr]:
+        """The quantities that are looked at, by name."""
+        return {**self.system.integrals, **self.scheme.integrals}
+
+    @property
     def length(self) -> float:
         """The usual length of a step."""
         return number(self.system.step, f"{self.system.name}: the step")
@@ -168,7 +173,7 @@ class Runner:
         constants, system, scheme = dict[sp.Expr, sp.Symbol](), self.system, self.scheme
         parts = {name: getattr(scheme, name) for name in ("residual", "after", "place", "velocity", "start")}
         parts["constraints"] = [*system.rows, *system.offsets]
-        parts["measured"] = [system.energy, *system.constraints, *system.holonomic, *system.integrals.values()]
+        parts["measured"] = [system.energy, *system.constraints, *system.holonomic, *self.integrals.values()]
         return constants, {name: [_lifted(e, constants) for e in part] for name, part in parts.items()}
 
     @cached_property
@@ -256,16 +261,16 @@ class Runner:
                 times = h * (np.arange(0, steps, every) + float(self.scheme.when))
             else:
                 times = np.array([self._number(i + self.scheme.when, "") for i in range(0, steps, every)], object) * h
-        quantities = dict(zip(self.system.integrals, integrals, strict=True))
+        quantities = dict(zip(self.integrals, integrals, strict=True))
         return Motion(times, place, velocity, energy, constraint, places, quantities, state, seconds)
 
     def _measured(self, place: np.ndarray, velocity: np.ndarray, fixed: np.ndarray) -> list[list[np.ndarray]]:
         """The energy, what the constraints on velocities and on places set to 0, and the integrals."""
         if self.in_floats:
-            return [[x + 0 * place[:, 0] for x in of(*place.T, *velocity.T)] for of in self.measures]
+            return [[x + 0 * place[:, 0] for x in of(*place.T, *velocity.T, fixed[-1])] for of in self.measures]
         rows = (self._of("measured", *pair, fixed) for pair in zip(place, velocity, strict=True))
         columns = [np.array(column, object) for column in zip(*rows, strict=True)]
-        counts = 1, len(self.system.constraints), len(self.system.holonomic), len(self.system.integrals)
+        counts = 1, len(self.system.constraints), len(self.system.holonomic), len(self.integrals)
         return [[columns.pop(0) for _ in range(count)] for count in counts]
 
     def _of(self, name: str, q: Sequence[Any], v: Sequence[Any], fixed: np.ndarray) -> list[Any]:
@@ -301,9 +306,9 @@ class Runner:
     def measures(self) -> list[Callable[..., Any]]:
         """The energy, what the constraints on velocities and on places set to 0, and the integrals, on arrays."""
         system = self.system
-        symbols = (*system.coordinates, *system.velocities)
+        symbols = (*system.coordinates, *system.velocities, STEP)
         numbers = dict(zip(system.parameters, map(sp.Float, system.numbers), strict=True))
-        measured = ([system.energy], system.constraints, system.holonomic, list(system.integrals.values()))
+        measured = ([system.energy], system.constraints, system.holonomic, list(self.integrals.values()))
         return [sp.lambdify(symbols, [e.xreplace(numbers) for e in one], "numpy", cse=True) for one in measured]
 
     def velocities(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

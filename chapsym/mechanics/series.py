@@ -125,7 +125,7 @@ class Exact:
     def _turning(self) -> list[sp.Symbol]:
         """Angles that are turned: those of which there are sines and cosines alone, not in roots, and linearly."""
         system = self.system
-        own = [] if system.discrete is None else [system.discrete.lagrangian, *system.discrete.constraints]
+        own = [e for d in [system.discrete] if d for e in (d.lagrangian, *d.constraints, *d.integrals.values())]
         parts = (*system.constraints, *system.holonomic, *system.forces.values(), *system.integrals.values(), *own)
         everything = sp.Tuple(system.lagrangian, *parts)
         waves = everything.atoms(sp.sin, sp.cos, sp.tan)

@@ -54,10 +54,13 @@ class Discrete:
         In the coordinates x before and `after(x)` a step, parameters and the length `STEP` of a step: about the action.
     constraints : sequence of sympy.Expr
         What vanishes at a step, one for each constraint of the system on velocities.
+    integrals : mapping, optional
+        {name: quantity of a step} to look at, in the same symbols.
     """
 
     lagrangian: sp.Expr
     constraints: Sequence[sp.Expr] = ()
+    integrals: Mapping[str, sp.Expr] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,15 +174,24 @@ class System:
         if not isinstance(discrete, Discrete):
             raise BadSystem(f"{self.name}: discrete must be Discrete(lagrangian, constraints)")
         given = discrete.lagrangian, *_several(discrete.constraints, f"{self.name}: the constraints of discrete")
+        if not isinstance(discrete.integrals, Mapping) or not all(isinstance(x, str) for x in discrete.integrals):
+            raise BadSystem(f"{self.name}: integrals of discrete must be given as {{name: quantity}}")
+        names = [*discrete.integrals]
+        if taken := {"the energy", *self.integrals}.intersection(names):
+            raise BadSystem(
+                f"{self.name}: {min(taken)} is a quantity of the system: give the discrete one another name"
+            )
+        given = *given, *discrete.integrals.values()
         action, *rules = (expression(e, f"{self.name}: the discretization") for e in given)
         for one in (action, *rules):
             without(f"{self.name}: the discretization has", one.free_symbols - allowed, "nothing at a step's two ends")
+        rules, quantities = rules[: len(rules) - len(names)], rules[len(rules) - len(names) :]
         if len(rules) != len(self.constraints):
             counts = f"{len(rules)} constraints, and the system {len(self.constraints)}"
             raise BadSystem(f"{self.name}: the discretization has {counts}")
         if self.forces:
             raise BadSystem(f"{self.name}: a discretization of one's own has no forces")
-        return Discrete(action, tuple(rules))
+        return Discrete(action, tuple(rules), dict(zip(names, quantities, strict=True)))
 
     def digest(self, *more: Any) -> str:
         """A hash of all that a run depends on."""

@@ -276,3 +276,44 @@ def test_no_integral_hides_the_energy_and_a_changed_parameter_counts():
     assert verdicts(system, METHODS["rk4"].scheme(system))["keeps q"].verdict == "proved"
     system.parameters[a] = 1
     assert verdicts(system, METHODS["rk4"].scheme(system))["keeps q"].verdict != "proved"
+
+
+def test_the_map_of_the_paper_is_judged_as_what_was_typed():
+    """Of order 2, self-adjoint, reversible; its own momentum about the contact point stays, that of the motion not."""
+    found = judged("ball", "own")
+    assert proved(found) == ["order", "self-adjoint", "reversible"]
+    assert found["order"].said == "2"
+    assert [found[f"keeps {name}"].verdict for name in ("|K|²", "⟨K,γ⟩")] == ["false", "false"]
+    assert [found[f"keeps {name}"].said for name in ("|𝒦|²", "⟨𝒦,γ⟩")] == ["no difference is found"] * 2
+    kept = Runner(example("ball"), "own").march(500).integrals
+    assert [np.ptp(kept[name]) < 1e-14 for name in kept] == [False, False, True, True]
+    assert [*kept] == ["|K|²", "⟨K,γ⟩", "|𝒦|²", "⟨𝒦,γ⟩"]
+    many = Runner(example("ball"), "own", precision="double-double").march(20).integrals
+    assert float(max(many["|𝒦|²"]) - min(many["|𝒦|²"])) < 1e-30
+
+
+def test_another_discrete_momentum_or_constraint_is_refuted():
+    ball = example("ball")
+    own = ball.discrete
+    radius = next(s for s in ball.parameters if s.name == "radius")
+    halved = {name: e.xreplace({radius: radius / 2}) for name, e in own.integrals.items()}
+    changed = dataclasses.replace(ball, discrete=dataclasses.replace(own, integrals=halved))
+    found = verdicts(changed, METHODS["own"].scheme(changed))
+    assert found["keeps |𝒦|²"].verdict == "false"
+    forward = [
+        e.xreplace({radius: radius * (1 + x)}) for e, x in zip(own.constraints, ball.coordinates[:2], strict=True)
+    ]
+    changed = dataclasses.replace(ball, discrete=dataclasses.replace(own, constraints=forward))
+    found = verdicts(changed, METHODS["own"].scheme(changed))
+    assert found["order"].verdict == found["self-adjoint"].verdict == "false"
+
+
+def test_a_quantity_of_a_discretization_is_checked():
+    ball = example("ball")
+    for integrals, why in (
+        ({"a": sp.Symbol("strange")}, "strange, which is nothing at a step's two ends"),
+        ({"|K|²": sp.Integer(1)}, "is a quantity of the system"),
+        ([1], "must be given as"),
+    ):
+        with pytest.raises(BadSystem, match=why):
+            dataclasses.replace(ball, discrete=dataclasses.replace(ball.discrete, integrals=integrals))

@@ -14,6 +14,8 @@ momentum = inertia * body.spin + mass * radius**2 * across  # about the contact 
 start, end = body.rotation, body.rotation.xreplace({q: after(q) for q in body.coordinates})
 moved, turned = Matrix([after(x) - x, after(y) - y, 0]), end * start.T
 slip = moved + radius / 2 * (turned - turned.T) * Matrix([0, 0, -1])  # (4.9), whose plane is above the ball
+skew = end * diag(J1, J2, J3) * start.T
+carried = (skew - skew.T).vee() + mass * radius * Matrix([0, 0, 1]).cross(moved)  # 𝒦, in the axes of space
 energy = (mass * moved.dot(moved) + ((end - start) * diag(J1, J2, J3) * (end - start).T).trace()) / 2
 
 SYSTEM = System(
@@ -29,5 +31,5 @@ SYSTEM = System(
     step="1/20",
     source="S. A. Chaplygin, Mat. Sb. 24 (1903) 139; Yu. Fedorov, SIGMA 3 (2007) 044",
     integrals={"|K|²": momentum.dot(momentum), "⟨K,γ⟩": momentum.dot(up)},
-    discrete=Discrete(energy / STEP, slip[:2]),
+    discrete=Discrete(energy / STEP, slip[:2], {"|𝒦|²": carried.dot(carried), "⟨𝒦,γ⟩": carried[2]}),
 )
