@@ -1,7 +1,8 @@
 """chapsym lab: what methods make of mechanical systems, as a table, JSON or a page."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,6 +12,9 @@ import typer
 from .app import app
 from .options import Json, argument, takes
 from .output import fail, note, print_json
+
+#: What a call and its arguments become: its result, when it is called.
+Later = Callable[..., Callable[[], Any]]
 
 
 @app.command()
@@ -23,6 +27,7 @@ def lab(
         bool, typer.Option(help="Also decide exactly what can be: constraints, integrals, methods.")
     ] = True,
     halve: Annotated[bool, typer.Option(help="Also run with half the step: is a drift of the method?")] = False,
+    jobs: Annotated[int, takes("N", "Processes.", min=1)] = 1,
     output: Annotated[
         Path | None, takes("FILE", "A .json, which is gone on with if it is there; or an .html.", "--output", "-o")
     ] = None,
@@ -44,30 +49,46 @@ def lab(
     done, keys = _there(output), set[str]()
     constraints: dict[str, str] = {}
     wrong: list[str] = []
-    for path in _files(files):
-        try:
-            system = loaded(path)
-            if system.name in constraints:
-                raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
-            system.beginning  # noqa: B018, which refuses a start that breaks a constraint
-            energy = "keeps" if system.keeps_energy else "need not keep"
-            said = f"the exact motion {energy} its energy"
-            constraints[system.name] = "; ".join(_decided(system, said) if flags else [said])
-            keys.add(key := system.digest(length, halve))
+
+    def started(system: Any, later: Later) -> Any:
+        """A system, its key, what is said of it, and its cells, as what gives them."""
+        system.beginning  # noqa: B018, which refuses a start that breaks a constraint
+        key, cells = system.digest(length, halve), list[Callable[[], Any]]()
+        for name in methods if method or system.discrete else [one for one in methods if one != "own"]:
+            there = next((c for c in done if (c["key"], c["method"], c["steps"]) == (key, name, steps)), None)
+            more = system, name, steps, length, halve, flags
+            cells.append(partial(dict, there) if there else later(measured, *more))
+        return system, key, later(_said, system, flags), cells
+
+    with _crew(jobs) as later:
+        begun = list[Any]()
+        for path in _files(files):
+            try:
+                system = loaded(path)
+                if system.name in [one.name for one, *_ in begun]:
+                    raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
+                begun.append(started(system, later))
+            except BadSystem as error:
+                wrong.append(str(error))
+        for system, key, said, cells in begun:
+            constraints[system.name] = said()
+            keys.add(key)
             if not as_json:
                 print(f"{system.name}: {constraints[system.name]}")
                 print("".join(f"  {name:>{width}}" for name, width in COLUMNS.items()))
-            for name in methods if method or system.discrete else [one for one in methods if one != "own"]:
-                cell = next((c for c in done if (c["key"], c["method"], c["steps"]) == (key, name, steps)), None)
-                if cell is None:
-                    cell = {"key": key, **measured(system, name, steps, length, halve, flags).data()}
+            for made in cells:
+                try:
+                    cell = made()
+                except BadSystem as error:
+                    wrong.append(str(error))
+                    continue
+                if not isinstance(cell, dict):
+                    cell = {"key": key, **cell.data()}
                     done.append(cell)
                 if not as_json:
                     print(_row(cell))
                 if output is not None and output.suffix == ".json":
                     write_text(output, json.dumps({"cells": done}, allow_nan=False))
-        except BadSystem as error:
-            wrong.append(str(error))
     shown = [cell for cell in done if cell["key"] in keys and cell["method"] in methods and cell["steps"] == steps]
     if output is not None and output.suffix == ".html" and shown:
         from chapsym.show.lab import page
@@ -93,8 +114,26 @@ def _row(cell: dict[str, Any]) -> str:
     return row + (f"  {rest}" if rest else "")
 
 
-def _decided(system: Any, said: str) -> list[str]:
-    """What is said of a system: its constraints, energy, volume and the quantities that it names; or why not."""
+@contextmanager
+def _crew(jobs: int) -> Iterator[Later]:
+    """What makes a call when its result is asked for, or begins it in one of some processes."""
+    if jobs == 1:
+        yield partial
+        return
+    import multiprocessing
+    from concurrent.futures import ProcessPoolExecutor
+
+    from chapsym import workers
+
+    pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=workers.begin)
+    try:
+        yield lambda call, *arguments: pool.submit(call, *arguments).result
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _said(system: Any, decide: bool) -> str:
+    """What is said of a system: whether its motion keeps its energy; with `decide`, what is exact, or why it is not."""
     from chapsym.mechanics import BadSystem, conserved, flag, volume
 
     def of(decide: Callable[[], Any], what: str, form: str) -> str:
@@ -103,12 +142,15 @@ def _decided(system: Any, said: str) -> list[str]:
         except BadSystem as error:
             return f"{what} is not decided ({str(error).removeprefix(f'{system.name}: ')})"
 
-    found = [of(lambda: flag(system), "integrability", "{}"), said]
+    energy = f"the exact motion {'keeps' if system.keeps_energy else 'need not keep'} its energy"
+    if not decide:
+        return energy
+    found = [of(lambda: flag(system), "integrability", "{}"), energy]
     found.append(of(lambda: volume(system), "whether it keeps a volume", "it {}"))
     for name, quantity in system.integrals.items():
         kept = partial(conserved, system, quantity)
         found.append(of(kept, name, f"{name} is {{}}").partition(": its rate")[0])
-    return found
+    return "; ".join(found)
 
 
 def _there(output: Path | None) -> list[dict[str, Any]]:

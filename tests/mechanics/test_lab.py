@@ -81,6 +81,16 @@ def test_the_error_falls_with_work_by_the_order():
             assert order - 0.3 < math.log2(error / less) < order + 0.3
 
 
+def test_two_processes_say_the_same():
+    """But for the time."""
+    words = "lab", FILE, SYSTEMS / "sleigh.py", "--method", "dla", "--method", "rk4", "--steps", 200
+    one, two = (answer(*words, "--jobs", jobs) for jobs in (1, 2))
+    for cell in (*one["cells"], *two["cells"]):
+        cell["work"] = [error for _, error in cell["work"]]
+        assert cell.pop("microseconds") > 0
+    assert one == two
+
+
 def test_half_the_step_and_a_step_without_a_solution():
     done = chapsym("lab", FILE, "--method", "rk4", "--steps", 5000, "--halve", "--no-flags")
     assert "with half the step" in done.stdout
