@@ -160,6 +160,8 @@ class System:
         ):
             for one in expressions:
                 without(f"{self.name}: {what} has", one.free_symbols - allowed)
+                if what != "an integral":
+                    _smooth(one, f"{self.name}: {what}")
         if self.discrete is not None:
             put("discrete", self._discretized(self.discrete, places | {after(x) for x in self.coordinates} | {STEP}))
         without(f"{self.name}: a force is along", set(self.forces) - set(self.coordinates), "no coordinate")
@@ -183,8 +185,11 @@ class System:
             )
         given = *given, *discrete.integrals.values()
         action, *rules = (expression(e, f"{self.name}: the discretization") for e in given)
+        if twice := {after(x) for x in self.coordinates} & set(self.coordinates):
+            raise BadSystem(f"{self.name}: {min(map(str, twice))} is a coordinate, and another one after a step")
         for one in (action, *rules):
             without(f"{self.name}: the discretization has", one.free_symbols - allowed, "nothing at a step's two ends")
+            _smooth(one, f"{self.name}: the discretization")
         rules, quantities = rules[: len(rules) - len(names)], rules[len(rules) - len(names) :]
         if len(rules) != len(self.constraints):
             counts = f"{len(rules)} constraints, and the system {len(self.constraints)}"
@@ -353,6 +358,13 @@ def _several(value: Any, what: str) -> tuple[Any, ...]:
     if isinstance(value, str | sp.Basic) or not isinstance(value, Iterable):
         raise BadSystem(f"{what} must be a sequence, such as a list, not {value!s:.40}")
     return tuple(value)
+
+
+def _smooth(expr: sp.Expr, what: str) -> None:
+    """Raises BadSystem for functions of which there are no kernels."""
+    strange = [f for f in expr.atoms(sp.Function, sp.exp) if not isinstance(f, sp.sin | sp.cos | sp.tan)]
+    if strange:
+        raise BadSystem(f"{what} has {strange[0]}, which is not sin, cos, a square root or a whole power")
 
 
 def expression(value: Any, what: str) -> sp.Expr:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from chapsym.mechanics import METHODS, BadSystem, Runner, System, dot, loaded, verdicts
+from chapsym.mechanics import METHODS, BadSystem, Discrete, Runner, System, dot, loaded, verdicts
 from chapsym.mechanics.methods import Scheme
 from chapsym.mechanics.system import STEP
 
@@ -306,6 +306,12 @@ def test_another_discrete_momentum_or_constraint_is_refuted():
     changed = dataclasses.replace(ball, discrete=dataclasses.replace(own, constraints=forward))
     found = verdicts(changed, METHODS["own"].scheme(changed))
     assert found["order"].verdict == found["self-adjoint"].verdict == "false"
+
+
+def test_a_coordinate_is_not_another_one_after_a_step():
+    later = sp.Symbol("x_after")
+    with pytest.raises(BadSystem, match="x_after is a coordinate, and another one after a step"):
+        System("two", (x, later), vx**2, discrete=Discrete(x * later))
 
 
 def test_a_quantity_of_a_discretization_is_checked():
