@@ -122,14 +122,14 @@ def volume(system: System) -> Volume:
     if not by:
         return Volume(sp.S.One)
     x, whole = sp.Matrix(of.fields).T, reduced(determinant(of.square))
-    inner = x.T * of.mass * x
+    inner = (x.T * of.mass * x).applyfunc(reduced)
     inverse, below = adjugate(inner), reduced(determinant(inner))
     if below == 0:
         raise BadSystem(f"{system.name}: the mass matrix is singular, so that the motion is not determined")
     fields, spread = [list(map(reduced, one)) for one in of.fields], []
     for one in of.fields:
         brackets = sp.Matrix([bracket_of(one, other, algebra) for other in of.fields]).T
-        pushed = (inverse * (x.T * of.mass * brackets)).trace() / below
+        pushed = (inverse * (x.T * of.mass * brackets).applyfunc(reduced)).trace() / below
         own = (algebra.letters.derivative(e, c) for e, c in zip(one, q, strict=True))
         spread.append(reduced(sum(own, pushed)))
     lifted = {below: 1, whole: -len(by)}  # dq dp is that times dq dv, of the velocities in `by`
