@@ -1,18 +1,14 @@
 """The motion of the balls of a scene from first principles: what the tests compare a run with.
 
 Nothing here comes from chapsym: a scene is read as its documentation says, with a few units, and the ball that rolls
-without slipping is integrated in space, where K = Iω + D(ω - ⟨ω,e₃⟩e₃) stays as it is, or by Newton's laws.
+without slipping is integrated in space, where K = Iω + D(ω - ⟨ω,e₃⟩e₃) stays as it is.
 """
 
 import math
 import tomllib
-from collections import Counter
-from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
 
-import mpmath
 import numpy as np
 from scipy.integrate import solve_ivp
 
@@ -21,7 +17,6 @@ UNITS = {
     "rad/s": 1, "deg/s": math.pi / 180, "rpm": math.pi / 30, "m/s": 1, "cm/s": 0.01, "km/h": 1 / 3.6,
     "kg m^2": 1, "kg cm^2": 1e-4, "g cm^2": 1e-7,
 }  # fmt: skip
-RANGES = ("linspace", "grid", "random", "normal")
 
 
 @dataclass(frozen=True)
@@ -66,76 +61,15 @@ def load(path):
         return tomllib.load(stream)
 
 
-def balls_of(scene, values: Mapping[str, np.ndarray], count: int, chosen) -> Balls:
-    """The chosen ones of the `count` balls of a scene; `values` has, by dotted key, what a sweep varies, (count,).
-
-    Raises AssertionError where the values are not the product of the ranges that span, or not within those drawn.
-    """
+def balls_of(scene) -> Balls:
+    """The balls of a scene whose tables have no ranges."""
     tables = scene["ball"] if isinstance(scene["ball"], list) else [scene["ball"]]
-    found, first = [], 0
-    for table in tables:
-        whole = {
-            "ball": {key: part for key, part in table.items() if key != "start"},
-            "start": table.get("start") or scene["start"],
-        }
-        ranges = dict(ranges_in(whole))
-        size = checked(ranges, values, first, scene.get("sweep", {}).get("samples", 1))
-        for i in chosen:
-            if first <= i < first + size:
-                one = filled(whole, {key: values[key][i] for key in ranges})
-                found.append(ball_of(one["ball"], one["start"]))
-        first += size
-    assert first == count, f"the scene has {first} balls, and its result {count}"
+    found = [ball_of(table, table.get("start") or scene["start"]) for table in tables]
     return Balls(*(np.array(part) for part in zip(*found, strict=True)))
 
 
-def ranges_in(value, key=""):
-    """(dotted key, range) of each range in nested tables and lists; numbers of lists count from 1 on."""
-    if isinstance(value, dict) and len(value) == 1 and next(iter(value)) in RANGES:
-        yield key, value
-    elif isinstance(value, dict | list):
-        named = value.items() if isinstance(value, dict) else enumerate(value, start=1)
-        for name, part in named:
-            yield from ranges_in(part, f"{key}.{name}" if key else str(name))
-
-
-def checked(ranges, values, first, samples):
-    """How many balls the ranges make; their values, from the ball `first` on, must be those that the ranges say."""
-    spans = {key: spanned(one) for key, one in ranges.items() if "linspace" in one or "grid" in one}
-    drawn = {key: one for key, one in ranges.items() if key not in spans}
-    repeated = samples if drawn else 1
-    size = math.prod(map(len, spans.values())) * repeated
-    there = {key: np.round(values[key][first : first + size], 9) for key in ranges}
-    wanted = Counter(dict.fromkeys(product(*(np.round(one, 9) for one in spans.values())), repeated))
-    assert Counter(zip(*(there[key] for key in spans), strict=True)) == wanted or not spans
-    for key, one in drawn.items():
-        a, b = si(next(iter(one.values())))
-        low, high = (a, b) if "random" in one else (a - 6 * b, a + 6 * b)
-        assert np.all((low - 1e-9 <= there[key]) & (there[key] <= high + 1e-9)), f"{key} is not within {one}"
-    return size
-
-
-def spanned(one):
-    """The values of a range that spans a dimension."""
-    if "grid" in one:
-        return si(one["grid"])
-    first, last, count = one["linspace"]
-    return np.linspace(si(first), si(last), count)
-
-
-def filled(value, values, key=""):
-    """Nested tables in which the ranges are numbers."""
-    if key in values:
-        return values[key]
-    if isinstance(value, list):
-        return [filled(part, values, f"{key}.{i}") for i, part in enumerate(value, start=1)]
-    if isinstance(value, dict):
-        return {name: filled(part, values, f"{key}.{name}" if key else name) for name, part in value.items()}
-    return value
-
-
 def ball_of(ball, start):
-    """(inertia, D, radius, attitude, ω in the body, contact point) of one ball, of its tables without ranges."""
+    """(inertia, D, radius, attitude, ω in the body, contact point) of one ball."""
     radius = si(ball["radius"]) if "radius" in ball else math.nan
     D = si(ball["D"]) if "D" in ball else si(ball["mass"]) * radius**2
     if "attitude" in start:
@@ -245,29 +179,3 @@ def motion(balls: Balls, times, method="DOP853", rtol=1e-13, atol=1e-15):
     omega, gamma, _ = spin_of(balls, attitude, K)
     whole = {"gamma": gamma, "omega": omega, "attitude": attitude, "contact": states[..., 4:]}
     return {name: np.swapaxes(part, 0, 1) for name, part in whole.items()}
-
-
-def newton(balls: Balls, time, digits=20):
-    """(γ, ω, R, contact) of the first ball after `time`, by Newton's laws and Taylor's series in mpmath.
-
-    The force at the contact point is F = m v̇ = mρ ω̇ × e₃, so with its torque -ρ e₃ × F, in the body,
-    Iω̇ + ω × Iω = -D(ω̇ - ⟨ω̇,γ⟩γ); and Ṙ = R[ω]×.
-    """
-    mp = mpmath.MPContext()
-    mp.dps = digits
-    inertia, D, radius = mp.matrix(balls.inertia[0].tolist()), mp.mpf(balls.D[0]), mp.mpf(balls.radius[0])
-
-    def skew(a):
-        return mp.matrix([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
-
-    def rate(t, y):
-        omega, R = mp.matrix(y[:3]), mp.matrix([y[3:6], y[6:9], y[9:12]])
-        gamma = R[2, :].T
-        heavy = inertia + D * (mp.eye(3) - gamma * gamma.T)
-        faster = mp.lu_solve(heavy, -(skew(omega) * (inertia * omega)))
-        in_space = R * omega
-        return [*faster, *(R * skew(omega)), radius * in_space[1], -radius * in_space[0]]
-
-    start = [*balls.omega[0], *matrix(balls.attitude[0]).reshape(-1), *balls.contact[0]]
-    y = np.array(mp.odefun(rate, 0, [mp.mpf(float(x)) for x in start])(mp.mpf(time)), dtype=float)
-    return y[9:12], y[:3], y[3:12].reshape(3, 3), y[12:]

@@ -1,6 +1,6 @@
 """Scenes with physical starts, drawn from a seed: every way to say a body and a start, slow and fast, dense and sparse.
 
-`scene(n)` is the n-th, a dict of tables, and `toml` its text: the same on every machine.
+`scene(n)` is the n-th, a dict of tables: the same on every machine.
 """
 
 import math
@@ -21,24 +21,22 @@ def scene(n):
     if n % 8 == 7:
         return several(r, n)
     ball = body(r, n)
-    start, swept = (start_of(n)(r, ball), {}) if n % 8 != 3 else sweep(r, n // 8)
+    start = start_of(n)(r, ball)
     found = {"title": f"Random scene {n}", "ball": ball, "start": start}
-    if swept:
-        found["sweep"] = swept
     if r.random() < 0.4:
         start["position"] = [number(r, -2, 2), "25 cm"] if r.random() < 0.5 else [number(r, -2, 2), number(r, -2, 2)]
     return found | {"run": run(r, n, rate(start, ball), LONG if start_of(n) is near_an_axis else 0.0)}
 
 
 def several(r, n):
-    """Two or three balls, each with its own start or that of all, and one of them swept."""
+    """Two or three balls, each with its own start or that of all."""
     balls = []
     for i in range(2 + n // 8 % 2):
         ball = body(r, n + 3 * i) | {"name": "abc"[i] * 3}
         if i:
             ball["start"] = start_of(n + 2 * i)(r, ball) | {"position": [number(r, -1, 1), f"{10 * i} cm"]}
         balls.append(ball)
-    start = vary(r, omega(r), ["linspace"], 3)
+    start = omega(r)
     return {"title": f"Random scene {n}", "ball": balls, "start": start, "run": run(r, n, rate(start, balls[0]))}
 
 
@@ -209,53 +207,12 @@ def start_of(n):
     return STARTS[n % len(STARTS)]
 
 
-def vary(r, start, kinds, count):
-    """The same start with ranges in it."""
-    where = r.sample(range(3), len(kinds))
-    for kind, i in zip(kinds, where, strict=True):
-        middle = start["omega"][i]
-        start["omega"][i] = {
-            "linspace": {"linspace": [middle, middle + 1.0, count]},
-            "grid": {"grid": [middle, f"{number(r, 10, 90)} rpm"]},
-            "random": {"random": [middle - 0.5, middle + 0.5]},
-            "normal": {"normal": [middle, 0.25]},
-        }[kind]
-    return start
-
-
-def sweep(r, which):
-    """A start that is swept, and [sweep]: products and draws, of ω, of γ and of an attitude."""
-    drawn = {"samples": r.randint(3, 12), "seed": r.randint(0, 2**31)}
-    if which == 0:
-        return vary(r, omega(r), ["linspace", "grid"], 6), {}
-    if which == 1:
-        return vary(r, in_space(r), ["random", "normal", "linspace"], 3), drawn
-    if which == 2:
-        start = omega(r)
-        start["gamma"] = [{"normal": [x, 0.1]} for x in direction(r)]
-        return start, drawn
-    if which == 3:
-        q = quaternion(r)
-        q[2] = {"random": [-0.5, 0.5]}
-        return {
-            "velocity": [{"grid": [0.2, "1 km/h"]}, 0.3],
-            "spin": {"normal": ["60 rpm", "6 rpm"]},
-            "attitude": q,
-        }, drawn
-    return vary(r, omega(r), ["random"], 0), drawn | {"samples": 100}
-
-
 def rate(start, ball):
     """About how fast the ball turns, in rad/s, so that its steps can be as long as they are."""
     if "omega" in start:
-        return max(0.1, math.hypot(*(about(x) for x in start["omega"])))
-    radius = about(ball["radius"])
-    return math.hypot(*(about(x) / radius for x in start["velocity"]), about(start.get("spin", 0.0)))
-
-
-def about(value):
-    """A number, or the first of a range."""
-    return si(next(iter(value.values()))[0]) if isinstance(value, dict) else si(value)
+        return max(0.1, math.hypot(*(si(x) for x in start["omega"])))
+    radius = si(ball["radius"])
+    return math.hypot(*(si(x) / radius for x in start["velocity"]), si(start.get("spin", 0.0)))
 
 
 def run(r, n, rate, least=0.0):
@@ -275,24 +232,3 @@ def run(r, n, rate, least=0.0):
         every = -(-steps // frames)
         told |= {"time": float(f"{frames * every * step:.12g}"), "frames": frames}
     return told | {"outputs": list(FOLLOWED)}
-
-
-def toml(found):
-    """The text of a scene."""
-    lines = [f"{key} = {value(one)}" for key, one in found.items() if not isinstance(one, dict) and key != "ball"]
-    balls = found["ball"] if isinstance(found["ball"], list) else [found["ball"]]
-    head = "[[ball]]" if isinstance(found["ball"], list) else "[ball]"
-    tables = [(head, ball) for ball in balls]
-    tables += [(f"[{key}]", one) for key, one in found.items() if isinstance(one, dict) and key != "ball"]
-    for head, table in tables:
-        lines += ["", head, *(f"{key} = {value(one)}" for key, one in table.items())]
-    return "\n".join(lines) + "\n"
-
-
-def value(one):
-    """A value as TOML writes it."""
-    if isinstance(one, dict):
-        return "{ " + ", ".join(f"{key} = {value(part)}" for key, part in one.items()) + " }"
-    if isinstance(one, list):
-        return "[" + ", ".join(map(value, one)) + "]"
-    return f'"{one}"' if isinstance(one, str) else repr(one)
