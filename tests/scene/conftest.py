@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from small_units import plan
+from small_units import OUTPUTS, plan
 
 import chapsym
 from chapsym.dynamics import kernels
@@ -36,6 +36,12 @@ def members():
 def whole():
     """The result of small units, computed in memory at once."""
     return sweep.run_in_memory(plan())
+
+
+@pytest.fixture(scope="session")
+def everything():
+    """The same with all outputs."""
+    return sweep.run_in_memory(plan(OUTPUTS))
 
 
 @pytest.fixture

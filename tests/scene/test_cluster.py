@@ -12,7 +12,6 @@ import sys
 import threading
 import time
 from contextlib import contextmanager, suppress
-from pathlib import Path
 
 import pytest
 from distributed import LocalCluster
@@ -29,7 +28,6 @@ from chapsym.scene.plan.plan import plan_from
 from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
 
-PRELOAD = str(Path(__file__).parents[1] / "slow_small_units.py")
 SCENE = f"""{BALL.replace("[3.0,", "[{ linspace = [3.0, 200.0, 25] },")}time_step = 0.01
 steps = 200
 every = 10
@@ -184,8 +182,8 @@ def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, mon
     for name in ("distributed", "distributed.client"):
         monkeypatch.setattr(logging.getLogger(name), "handlers", [caplog.handler])
     (tmp_path / "deadly.py").write_text(
-        "import os, runpy\nfrom pathlib import Path\nfrom chapsym.scene.running import sweep\n"
-        f"runpy.run_path({PRELOAD!r})\n"
+        "import os\nfrom pathlib import Path\nfrom chapsym.scene.plan import models, plan\n"
+        "from chapsym.scene.running import sweep\nplan.CHUNK, models.Rolling.unit_steps = 4, 400\n"
         "def advance(plan, chunk, *rest, real=sweep.advance):\n"
         f"    died = Path({str(tmp_path / 'died')!r})\n"
         "    if chunk.start == 12 or (chunk.start == 24 and not died.exists()):\n"

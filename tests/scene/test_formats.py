@@ -9,7 +9,7 @@ import pandas
 import pytest
 import xarray
 from first import BALL, FIRST
-from small_units import equal_to_the_bit, plan
+from small_units import OUTPUTS, equal_to_the_bit, plan
 
 from chapsym.dynamics import BadInput
 from chapsym.scene import SceneError, load
@@ -25,7 +25,7 @@ FILES = [".nc", ".csv", ".parquet", ".npz"]
 @pytest.fixture(scope="module")
 def result():
     """Balls with failures, every output, other axes; names and numbers that a format may spoil."""
-    data = sweep.run_in_memory(plan(scene='# Two\n# lines, "quoted"\na = 1\n'))
+    data = sweep.run_in_memory(plan(OUTPUTS, scene='# Two\n# lines, "quoted"\na = 1\n'))
     names = data.ball.values.copy()
     names[:6] = ["nan", 'a,"b"', " blank ", "# hash", "two\nlines", "1e5"]
     data["momentum"][0, 1] = [-0.0, 5e-324, 1.7976931348623157e308]
@@ -58,7 +58,7 @@ def test_a_result_comes_back_to_the_bit(result, tmp_path, suffix):
 @pytest.mark.parametrize("balls", [1, 20])
 def test_a_run_is_written_alike_with_and_without_xarray(tmp_path, balls):
     """And its summary is the same; the balls are in other axes than the principal ones, and some of 20 stop."""
-    wanted = plan(n=balls)
+    wanted = plan(OUTPUTS, n=balls)
     alone, labelled = sweep.run(wanted), sweep.run_in_memory(wanted)
     for suffix in FILES:
         for name, data in (("alone", alone), ("labelled", labelled)):

@@ -69,13 +69,13 @@ def test_a_disk_that_fills_up_loses_nothing_and_the_same_run_goes_on(whole, tmp_
 
 
 @pytest.mark.parametrize("suffix", [".nc", ".csv", ".parquet"])
-def test_a_full_disk_leaves_the_file_that_was_there(whole, tmp_path, suffix):
+def test_a_full_disk_leaves_the_file_that_was_there(everything, tmp_path, suffix):
     disk = tmp_path / "disk"
     with small_disk(disk, "64k"):
         path = disk / f"run{suffix}"
         path.write_bytes(b"precious")
         with pytest.raises(SceneError, match="No space left on device"):
-            formats.save(whole, path)
+            formats.save(everything, path)
         assert path.read_bytes() == b"precious"
         assert os.listdir(disk) == [path.name]
 
@@ -83,9 +83,9 @@ def test_a_full_disk_leaves_the_file_that_was_there(whole, tmp_path, suffix):
 @pytest.mark.parametrize(
     ("place", "name", "at"),
     [
-        *((_local, "_put", n) for n in (0, 2, 30, 150)),
+        *((_local, "_put", n) for n in (0, 2, 30, 70)),
         (np, "savez", 6),
-        *slow(*((_local, "_put", n) for n in (1, 55, 80))),
+        *slow(*((_local, "_put", n) for n in (1, 50, 60))),
     ],
 )
 def test_every_write_that_fails_is_one_sentence_and_is_mended_by_room(whole, path, monkeypatch, place, name, at):

@@ -66,39 +66,39 @@ def child(path, sleep, most=UNITS):
             running.kill()
 
 
-def test_the_dataset_keeps_the_contract(whole):
-    assert dict(whole.sizes) == {"ball": 20, "frame": 34, "axis": 3, "quaternion": 4, "plane": 2, "integral": 3}
-    assert set(OUTPUTS) | {"taken", "status", "mass_tensor", "D", "radius", "axes"} == set(whole.data_vars)
-    assert all(whole[name].attrs["long_name"] for name in whole.data_vars)
-    assert all(whole[name].attrs["units"] for name in whole.data_vars if name != "status")
-    assert whole.step.values.tolist() == list(range(0, STEPS + 1, EVERY))
-    np.testing.assert_allclose(whole.time, 0.01 * whole.step, rtol=1e-15)
-    assert whole["start.omega.1"].attrs["units"] == "rad s-1"
-    assert whole.sel(ball="ball 2", axis="3").momentum.dims == ("frame",)
-    assert whole.attrs["seed"] == 7
-    assert "turn" in whole.attrs["kernels"]
-    stopped = whole.status.values != Status.TAKEN
+def test_the_dataset_keeps_the_contract(everything):
+    assert dict(everything.sizes) == {"ball": 20, "frame": 34, "axis": 3, "quaternion": 4, "plane": 2, "integral": 3}
+    assert set(OUTPUTS) | {"taken", "status", "mass_tensor", "D", "radius", "axes"} == set(everything.data_vars)
+    assert all(everything[name].attrs["long_name"] for name in everything.data_vars)
+    assert all(everything[name].attrs["units"] for name in everything.data_vars if name != "status")
+    assert everything.step.values.tolist() == list(range(0, STEPS + 1, EVERY))
+    np.testing.assert_allclose(everything.time, 0.01 * everything.step, rtol=1e-15)
+    assert everything["start.omega.1"].attrs["units"] == "rad s-1"
+    assert everything.sel(ball="ball 2", axis="3").momentum.dims == ("frame",)
+    assert everything.attrs["seed"] == 7
+    assert "turn" in everything.attrs["kernels"]
+    stopped = everything.status.values != Status.TAKEN
     assert 0 < stopped.sum() < 20
     for ball in range(20):
-        after = whole.step.values > whole.taken.values[ball]
+        after = everything.step.values > everything.taken.values[ball]
         for name in OUTPUTS:
-            gone = np.isnan(whole[name].values[ball]).reshape(34, -1)
+            gone = np.isnan(everything[name].values[ball]).reshape(34, -1)
             assert (gone == after[:, np.newaxis]).all(), name
 
 
-def test_a_store_has_the_bits_of_the_run_in_memory_and_is_left_alone(whole, tmp_path, path, monkeypatch):
-    outcome = sweep.run_to_store(plan(), path)
+def test_a_store_has_the_bits_of_the_run_in_memory_and_is_left_alone(everything, tmp_path, path, monkeypatch):
+    outcome = sweep.run_to_store(plan(OUTPUTS), path)
     assert outcome.complete
     assert not outcome.nothing_to_do
-    assert outcome.failed == (whole.status.values != 0).sum()
+    assert outcome.failed == (everything.status.values != 0).sum()
     found = opened(path)
-    equal_to_the_bit(found, whole)
+    equal_to_the_bit(found, everything)
     assert found.attrs["complete"] is True
     assert [p.name for p in tmp_path.iterdir()] == ["run.zarr"]
     assert not stores.folder_of(path).exists()
     before = {p: p.stat().st_mtime_ns for p in path.rglob("*")}
     monkeypatch.setattr(sweep, "advance", None)
-    again = sweep.run_to_store(plan(), path)
+    again = sweep.run_to_store(plan(OUTPUTS), path)
     assert again.nothing_to_do
     assert again.failed == outcome.failed
     assert {p: p.stat().st_mtime_ns for p in path.rglob("*")} == before
