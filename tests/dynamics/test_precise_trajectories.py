@@ -12,7 +12,7 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
-from budget import examples
+from budget import examples, slow
 from hypothesis import assume, given
 from orbits import context, from_quaternion, orbit
 
@@ -53,7 +53,7 @@ def contains(balls, exact, digits):
     return True
 
 
-@pytest.mark.parametrize("digits", [15, 30, 50, 100, 130, 400])
+@pytest.mark.parametrize("digits", [15, 30, 100, 400, *slow(50, 130)])
 @pytest.mark.parametrize("size", [0.05, 0.4])
 def test_digits_are_the_oracles_step_by_step(digits, size):
     steps = 12 if digits < 400 else 3

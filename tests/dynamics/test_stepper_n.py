@@ -28,7 +28,7 @@ def same(state, other, frame=None):
 
 @pytest.mark.parametrize("size", [0.2, 1.3], ids=["below the bound", "above it"])
 @pytest.mark.parametrize("options", OPTIONS, ids=str)
-def test_steps_in_any_calls_are_those_of_a_trajectory(options, size, way):
+def test_steps_in_any_calls_are_those_of_a_trajectory(options, size):
     start = alone(size=size)
     whole = trajectory_n(*start, 45, **options)
     stepper, at = StepperN(*start, **options), 0

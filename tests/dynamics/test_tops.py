@@ -5,6 +5,7 @@ from math import isqrt
 
 import numpy as np
 import pytest
+from budget import slow
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -99,16 +100,14 @@ def test_vertical_momentum_on_a_ball_with_two_equal_moments(state, every):
     ("ball", "momentum"),
     [
         (TOP, (1, -0.5, 0.75)),
-        (TOP, (-0.01, -0.005, 0.0075)),
         (TOP, (0.1, 2, 0.06)),  # the other side of the separatrix is 0.05
         (TOP, (0.1, 2, 0.04)),
         (TOP, (1, 1e-30, 2e-30)),
-        (TOP, (1e-200, -5e-201, 7e-201)),
         (Ball((1, 1, 4), 0), (1, -0.5, 0.75)),
-        (Ball((1, 4, 4), 0), (-1, -0.5, 0.75)),
         (Ball((1, 1 + 1e-15, 4), 0), (1, -0.5, 0.75)),
         (Ball((1e100, 2e100, 4e100), 0), (1e100, -5e99, 7e99)),
         (Ball((1e100, 2e100, 5e99), 0), (0, 7.5e99, 4e92)),
+        *slow((TOP, (-0.01, -0.005, 0.0075)), (TOP, (1e-200, -5e-201, 7e-201)), (Ball((1, 4, 4), 0), (-1, -0.5, 0.75))),
     ],
 )
 @pytest.mark.parametrize("gamma", [GAMMA, pytest.param(-GAMMA, marks=pytest.mark.thorough)])

@@ -40,28 +40,12 @@ def test_every_kth_state_is_kept():
     assert thin.taken == 103
 
 
-def test_attitude_and_contact_come_only_when_asked_for():
-    run = chapsym.trajectory(BALL, K, GAMMA, 3)
-    assert run.attitude is None
-    assert run.contact is None
-    run = chapsym.trajectory(BALL, K, GAMMA, 3, attitude=True)
-    assert run.attitude.shape == (4, 4)
-    assert run.contact is None
-
-
 def test_attitude_keeps_the_vertical_up_and_the_momentum_fixed_in_space():
     run = chapsym.trajectory(BALL, K, GAMMA, 1500, attitude=True)
     assert np.abs(kernels.rotate(run.attitude, run.gamma) - [0, 0, 1]).max() < 5e-14
     space = kernels.rotate(run.attitude, run.momentum)
     assert np.abs(space - space[0]).max() < 5e-14
     assert np.abs((run.attitude**2).sum(axis=-1) - 1).max() < 1e-15
-
-
-def test_a_ball_rolls_where_it_should():
-    """Spinning about +y with the vertical +z it moves along +x with speed ρω."""
-    run = chapsym.roll(BALL, (0, 2, 0), 1e-3, 1000, contact=True)
-    assert run.time[-1] == 1.0
-    assert np.allclose(run.contact[-1], [1.0, 0.0], atol=1e-6)
 
 
 def test_si_front_is_the_map_of_epsilon_times_k():

@@ -40,8 +40,10 @@ def asking(patch, *factors):
 
 @pytest.mark.parametrize(
     ("n", "order", "stubborn"),
-    [(n, *way) for n in (3, 4) for way in ((2, False), (2, True), (4, True))] + [(5, 2, True), (8, 2, False)]
-    + slow((5, 2, False), (5, 4, True), (8, 2, True), (8, 4, True)),
+    [
+        (3, 2, True), (4, 2, False), (4, 4, True), (5, 2, True), (8, 2, False),
+        *slow((3, 2, False), (3, 4, True), (4, 2, True), (5, 2, False), (5, 4, True), (8, 2, True), (8, 4, True)),
+    ],
 )  # fmt: skip
 def test_compiled_and_in_python_one_ball_and_a_batch_have_the_same_bits(n, order, stubborn, monkeypatch):
     """Two balls are stubborn: of some of their stages, or of all, the corrections are not as small as is asked."""
@@ -98,7 +100,7 @@ def test_each_step_is_as_accurate_as_one_of_its_own(condition):
         K = 0.3 * so_n.from_coordinates(np.array(start.K), 4)
         served += (limits(K[None], np.array([J]), np.array([D]), ONE)[0] > 0).sum()
         run = trajectory_n(BallN(J, D), K, gamma, 13)
-        for k in (0, 1, 12):
+        for k in (0, 12):
             state = State(J, D, tuple(so_n.coordinates(run.momentum[k])), tuple(run.gamma[k]))
             E, after, vertical, kappa = truth_n(state)
             budget = BUDGET * UNIT_ROUNDOFF * (1 + float(max(map(abs, E))) * kappa)

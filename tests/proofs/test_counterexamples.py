@@ -14,7 +14,7 @@ def vector(*numbers):
 
 
 ONE = np.eye(3, dtype=int) * F(1)
-E1, E2, E3 = ONE
+E1, _, E3 = ONE
 
 
 def diagonal(*entries):

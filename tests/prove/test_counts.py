@@ -1,39 +1,22 @@
-"""Numbers of solutions: found by elimination, as another method finds them; as data that the checker judges."""
+"""Numbers of solutions: found by elimination, and as data that the checker judges.
 
-import groebner_count
+Of the rotations of a momentum they are those that are found one by one: tests/dynamics/test_branches.py.
+"""
+
 import pytest
 import sympy as sp
 
 from chapsym import checker
-from chapsym.derive import solutions
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import MASSES, RING, D, K, gamma, placed
 from chapsym.prove import COMPLEX, COMPLEX_MULTIPLE, REAL, REAL_MULTIPLE, Count, Fact, Proof
 from chapsym.prove.certificates import certificate
 from chapsym.prove.elimination import NotCounted
 
 w, x, y, z, a = sp.symbols("w x y z a")
-#: J, D, 𝒦, γ: simple solutions; a fold; two equal moments; a rational momentum.
-STATES = [
-    ((1, 2, 4), 3, (1, "-1/2", "3/4"), ("2/7", "3/7", "6/7")),
-    ((5, 1, 3), 10, (0, 0, -4), (0, 1, 0)),
-    ((2, 2, 4), 3, ("3/2", "1/2", "4/3"), (0, 0, 1)),
-    ((5, 3, 2), 302, ("7/43", "-18/43", "84/43"), ("-4/5", "-3/5", 0)),
-]
 
 
 def count(equations, *relations, unknowns=(w, x), point=None, nonzero=(), text="so many"):
     return Count(text, equations, unknowns, point or {}, relations, Quotient(tuple(point or {})), nonzero)
-
-
-@pytest.mark.parametrize("state", STATES)
-def test_the_numbers_are_those_by_a_groebner_basis_and_by_hermite(state):
-    J, contact, momentum, vertical = state
-    point = placed((MASSES, J), ([D], [contact]), (gamma, vertical), (K, momentum))
-    found = Count("", solutions.equations(), solutions.POINT, point, (), RING).numbers()
-    other = groebner_count.count(groebner_count.at(J, contact, vertical, momentum))
-    expected = (other.real, other.distinct, groebner_count.multiplicity(other), other.degree)
-    assert tuple(found[n] for n in (REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE)) == expected
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 import copy
 import json
-import re
 from pathlib import Path
 
 import jsonschema
@@ -36,30 +35,6 @@ def test_the_schema_is_one_and_refuses_what_it_does_not_name(handmade):
     document, _ = written(handmade)
     for change in ({"more": 1}, {"errata": [{}]}, {"format": "chapsym errata 2"}, {"claims": "many"}):
         assert not jsonschema.Draft202012Validator(SCHEMA).is_valid(document | change)
-
-
-@pytest.mark.parametrize("which", ["register", "handmade"])
-def test_it_says_what_the_markdown_says(which, request):
-    found = request.getfixturevalue(which)
-    document, _ = written(found)
-    text = errata.markdown(found, "1")
-    assert [one["label"] for one in document["errata"]] == re.findall(r"^## (.*)$", text, re.MULTILINE)
-    assert document["cite"] in text
-    assert document["claims"] == len(found)
-    for one in document["errata"]:
-        for said in (
-            *one["hypotheses"],
-            one["kind"],
-            one["title"],
-            one["printed"],
-            one["true"],
-            one["condition"],
-            one["true_in_words"],
-        ):
-            assert said is None or said in text
-        for example in one["counterexamples"]:
-            assert ", ".join(f"{symbol} = {value}" for symbol, value in example["point"].items()) in text
-            assert all(sides["statement"] in text and sides["left"] != sides["right"] for sides in example["printed"])
 
 
 def test_an_entry_tells_its_place_what_rests_on_it_and_what_is_true(handmade):
