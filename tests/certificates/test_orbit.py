@@ -19,7 +19,6 @@ from chapsym.dynamics.levels.balls import exact
 COMMITTED = ("periodic-orbit-simplest", "periodic-orbit-attracting", "periodic-orbit-real-ball")
 #: The resonance of the simplest certificate: 10 steps up to the rotation by π about e₃.
 NEAR = Level((Fraction(1), Fraction(2), Fraction(4)), Fraction(2), Fraction(15, 2), Fraction(0))
-START = [0.31, 1.27, 2.41], [0.4, -0.2, 0.9]
 
 
 @pytest.fixture(autouse=True)

@@ -2,6 +2,7 @@
 
 import random
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -11,10 +12,16 @@ from chapsym.checker import Rejected, check, formulas, meaning, read
 from chapsym.prove import load
 
 
+@cache
+def is_accepted(id):
+    check(certificate(id))
+    return True
+
+
 @pytest.mark.parametrize("name", FORGED)
 def test_a_certificate_with_another_meaning_is_refused(name):
     id, change = FORGED[name]
-    check(certificate(id))
+    assert is_accepted(id)
     with pytest.raises(Rejected) as caught:
         check(changed(id, change))
     assert 10 < len(str(caught.value)) < 300

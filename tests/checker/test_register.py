@@ -51,10 +51,13 @@ def test_every_certificate_is_accepted():
     assert sum(int(n.get(role, 0)) for n in numbers for role in checker.register.ROLES) == 767
 
 
-def test_a_hundred_changes_of_one_number_sign_operation_or_name_are_rejected(samples, thorough):
-    """Nothing of an identity or of its proof can be changed alone; the digest and the counts fit the change."""
+def test_changes_of_one_number_sign_operation_or_name_are_rejected(samples, thorough):
+    """Nothing of an identity or of its proof can be changed alone; the digest and the counts fit the change.
+
+    Sixty changes are some of each certificate, of each kind of number and in each part of a proof.
+    """
     rng = random.Random(18)
-    for _ in range(3000 if thorough else 130):
+    for _ in range(3000 if thorough else 60):
         data, path = slip(samples[rng.choice(SAMPLES)], rng)
         assert refused(data), (data["claim"], path)
 
