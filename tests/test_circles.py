@@ -36,15 +36,3 @@ def test_the_rooms_of_scene_stand_on_each_other():
                 below = other.removeprefix("chapsym.scene.").split(".")[0]
                 if below in OF_SCENE:
                     assert OF_SCENE.index(below) <= OF_SCENE.index(inside[0]), f"{name} imports {other}"
-
-
-def test_a_circle_is_seen(tmp_path):
-    """Of a package with a file that takes a name from it, and of two files, one of which is lazy."""
-    for text, wanted in (
-        (("from .a import x\n", "from . import y\n", ""), ["room", "room.a"]),
-        (("", "def f():\n    from . import b\n", "from .a import f\n"), ["room.a", "room.b"]),
-        (("from .a import x\n", "from . import b\n", "import room.c\n"), []),
-    ):
-        for name, content in zip(("__init__", "a", "b"), text, strict=True):
-            (tmp_path / f"{name}.py").write_text(content, encoding="utf-8")
-        assert circle(modules(tmp_path, "room")) == wanted

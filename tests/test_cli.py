@@ -123,11 +123,6 @@ def test_help_shows_an_example_of_each_command():
     assert not [kind for kind in kinds if re.search("<[a-z]", chapsym("certify", kind, "-h").stdout)]
 
 
-@pytest.mark.parametrize("command", ["bench", "extremes", "study", "trade"])
-def test_a_command_that_needs_a_checkout_says_so_in_its_help(command):
-    assert "a checkout of chapsym" in " ".join(chapsym(*command.split(), "--help").stdout.split())
-
-
 def test_prove_some():
     found = answer("prove", "4.1", "4.3", "--jobs", "1")
     assert [c["id"] for c in found["claims"]] == ["4.1", "4.3"]
@@ -174,20 +169,6 @@ def test_kernels_are_not_generated_from_what_is_not_proved(monkeypatch, option):
     assert "gibbs_residual comes from the claim gibbs, which is not proved" in done.stderr
     assert done.returncode == 1
     assert {path.name: path.read_bytes() for path in build.folder().iterdir() if path.is_file()} == before
-
-
-@pytest.mark.thorough  # tests above see the two halves: the claim is then open, and codegen refuses an open one
-def test_codegen_judges_what_the_kernels_come_from(tmp_path):
-    """A sign that is turned in the derivation of the step in the Gibbs vector."""
-    env = changed(
-        tmp_path,
-        "import chapsym.derive.gibbs as gibbs",
-        "honest = gibbs.bilinear",
-        "gibbs.bilinear = lambda x: -honest(x)",
-    )
-    done = child("codegen", "--check", env=env)
-    assert done.returncode == 1
-    assert "comes from the claim gibbs-newton, which is not proved" in done.stderr
 
 
 def test_the_kernels_of_a_checkout_are_written_from_inside_it_only(tmp_path, monkeypatch):
@@ -251,17 +232,6 @@ def test_an_interrupt_is_told_and_ends_the_command(command):
         _, told = running.communicate()
     assert running.returncode == 130
     assert told.strip().splitlines()[-1] == "chapsym: interrupted"
-
-
-def test_run_writes_a_trajectory(tmp_path):
-    found = answer("run", FIRST, "-o", tmp_path / "first.npz")
-    assert found["steps"] == 1000
-    assert max(found["drift"]) < 1e-13
-    with np.load(tmp_path / "first.npz") as data:
-        assert data["time"][-1] == pytest.approx(10)
-        assert data["contact"].shape == (1001, 2)
-        assert data["momentum"][-1].tolist() == found["final"]["momentum"]
-    assert [p.name for p in tmp_path.iterdir()] == ["first.npz"]
 
 
 def test_a_run_that_meets_a_fold_keeps_what_it_has(tmp_path):

@@ -16,22 +16,30 @@ from chapsym.dynamics.loops.guess import stage_weights
 PRECISIONS = ["single", "double", "double-double"]
 
 
+ROLLING = ((balls, 2), (long_steps, 2), (balls, 6), (long_steps, 8))
+
+
 @pytest.mark.parametrize(
-    ("precision", "made", "n", "order"),
-    [(p, balls, n, 2) for p in PRECISIONS for n in (12, block.LANES, 150)]
-    + [(p, long_steps, 2 * block.LANES + 5, 2) for p in PRECISIONS]
-    + [(p, beyond, block.LANES + 9, 2) for p in PRECISIONS]
-    + [(p, balls, block.LANES + 5, order) for p in ("double", "single") for order in (4, 6, 8)]
-    + [("double", made, block.LANES + 5, order) for made in (long_steps, beyond) for order in (4, 8)],
+    ("precision", "made", "n", "order", "rolls"),
+    [(p, balls, n, 2, False) for p in PRECISIONS for n in (12, block.LANES, 150)]
+    + [(p, long_steps, 2 * block.LANES + 5, 2, False) for p in PRECISIONS]
+    + [(p, beyond, block.LANES + 9, 2, False) for p in PRECISIONS]
+    + [(p, balls, block.LANES + 5, order, False) for p in ("double", "single") for order in (4, 6, 8)]
+    + [("double", made, block.LANES + 5, order, False) for made in (long_steps, beyond) for order in (4, 8)]
+    + [(p, made, block.LANES + 5, order, True) for p in ("double", "single") for made, order in ROLLING],
 )
-def test_a_batch_is_its_balls_to_the_bit(precision, made, n, order):
-    """One of the long steps cannot be certified: it neither stops the rounds of the others nor is settled by them."""
+def test_a_batch_is_its_balls_to_the_bit(precision, made, n, order, rolls):
+    """One of the long steps cannot be certified: it neither stops the rounds of the others nor is settled by them.
+
+    Bodies roll from attitudes that are given: in double precision in a block, in single one by one.
+    """
     ball, K, g = made(n, 1e-12, 1e8) if precision == "single" and made is balls else made(n)
-    options = {"every": 7, "precision": precision, "order": order}
-    run = chapsym.trajectory(ball, K, g, 2100, **options)
-    J, D = np.broadcast_to(ball.mass_tensor, (n, 3)), np.broadcast_to(ball.D, n)
+    J, D, radius = np.broadcast_to(ball.mass_tensor, (n, 3)), np.broadcast_to(ball.D, n), np.linspace(0.1, 2, n)
+    options = {"every": 7, "precision": precision, "order": order, "contact": rolls}
+    turned = kernels.compose(np.array([0.8, 0, 0, 0.6]), attitude_with(g)) if rolls else [False] * n
+    run = chapsym.trajectory(Ball(J, D, radius), K, g, 2100, attitude=turned if rolls else False, **options)
     for i in [*range(12), *range(12, n, 31), n - 1]:
-        one, *end = alone(Ball(J[i], D[i]), K[i], g[i], 2100, **options)
+        one, *end = alone(Ball(J[i], D[i], radius[i]), K[i], g[i], 2100, attitude=turned[i], **options)
         assert [run.status[i], run.taken[i]] == end
         for all_, few in zip(floats_of(run), floats_of(one), strict=True):
             assert np.array_equal(all_[i, : len(few)], few)
@@ -54,24 +62,6 @@ def test_a_block_is_as_wide_as_its_balls_need(n, widths, monkeypatch):
     for i in {0, 1, n - 1}:
         one = chapsym.trajectory(ball, K[i], g[i], 1100, every=100)
         assert all(np.array_equal(all_[i], few) for all_, few in zip(floats_of(run), floats_of(one), strict=True))
-
-
-@pytest.mark.parametrize("precision", ["double", "single"])
-@pytest.mark.parametrize(("made", "order"), [(balls, 2), (long_steps, 2), (balls, 6), (long_steps, 8)])
-def test_bodies_roll_in_a_block_as_alone(made, order, precision):
-    """In double precision in a block, in single one by one; also those that stop, and from attitudes that are given."""
-    n = block.LANES + 5
-    ball, K, g = made(n, 1e-12, 1e8) if precision == "single" and made is balls else made(n)
-    J, D, radius = np.broadcast_to(ball.mass_tensor, (n, 3)), np.broadcast_to(ball.D, n), np.linspace(0.1, 2, n)
-    turned = kernels.compose(np.array([0.8, 0, 0, 0.6]), attitude_with(g))  # about the vertical
-    options = {"every": 7, "contact": True, "precision": precision, "order": order}
-    run = chapsym.trajectory(Ball(J, D, radius), K, g, 1100, attitude=turned, **options)
-    for i in [*range(12), n - 2, n - 1]:
-        one, *end = alone(Ball(J[i], D[i], radius[i]), K[i], g[i], 1100, attitude=turned[i], **options)
-        assert [run.status[i], run.taken[i]] == end
-        for all_, few in zip(floats_of(run), floats_of(one), strict=True):
-            assert np.array_equal(all_[i, : len(few)], few)
-            assert np.isnan(all_[i, len(few) :]).all()
 
 
 def test_steps_beyond_the_bound_are_proved_in_their_lanes(monkeypatch):

@@ -184,12 +184,6 @@ def test_an_interpreter_that_drops_docstrings_keeps_the_titles(monkeypatch):
     assert [claim.title for claim in claims] == titles
 
 
-def test_a_terminal_without_greek_gets_escapes(tmp_path):
-    done = child("prove", "4.1", "--records", tmp_path / "x", env={**os.environ, "PYTHONIOENCODING": "ascii"})
-    assert done.returncode == 0
-    assert ascii(load()["4.1"].title)[1:-1] in done.stdout
-
-
 def test_a_lost_process_leaves_its_claims_open(tmp_path):
     env = changed(tmp_path, lost("os._exit(9)"))
     done = child("prove", "prop-2", "4.3", "--jobs", "2", env=env)

@@ -3,9 +3,7 @@
 import re
 from html.parser import HTMLParser
 from itertools import pairwise
-from types import SimpleNamespace
 
-import chromium
 import pytest
 from contrast import contrast
 
@@ -189,16 +187,3 @@ def test_each_verdict_has_colours_that_can_be_read_in_light_and_in_dark():
         for name in ("ink", "muted", "link", *records.VERDICTS):
             for background in ("paper", "raised"):
                 assert contrast(colours[name], colours[background]) >= 4.5, (name, background)
-
-
-def test_page_tests_that_are_not_run_are_counted_in_one_line(monkeypatch):
-    """From the reports of tests that were skipped, for this reason and for another."""
-    monkeypatch.setattr(chromium, "PATH", None)
-    with pytest.raises(pytest.skip.Exception) as skipped:
-        chromium.path()
-    reasons = skipped.value.msg, "only root can mount a disk"
-    page_test, other = (SimpleNamespace(longrepr=("file", 1, f"Skipped: {why}")) for why in reasons)
-    told = "not run: no Chromium; apt install chromium"
-    assert chromium.left_out([page_test, other, page_test]) == f"2 page tests {told}"
-    assert chromium.left_out([other, page_test]) == f"1 page test {told}"
-    assert chromium.left_out([other]) == ""

@@ -16,11 +16,6 @@ def test_every_row_of_the_document_is_read():
     assert "|Λω|" in [row.meaning for row in symbols.SYMBOLS]
 
 
-def test_the_meanings_of_a_letter_are_told_apart():
-    rows = [(letter, row.where, row.meaning) for row in symbols.SYMBOLS for letter in row.paper.split(", ")]
-    assert len(set(rows)) == len(rows)
-
-
 def test_the_names_of_chapsym_are_those_of_the_program():
     import chapsym
 
