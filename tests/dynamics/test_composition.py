@@ -3,7 +3,6 @@
 import math
 from fractions import Fraction
 
-import mpmath
 import numpy as np
 import pytest
 
@@ -21,30 +20,6 @@ BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 GAMMA = np.array([2, 3, 6]) / 7
 K = np.array([0.6, -0.5, 0.6])
 ORDERS = (4, 6, 8)
-#: As they are printed: Kahan and Li, Math. Comp. 66 (1997); also in Hairer, Lubich, Wanner, Geometric Numerical
-#: Integration, V.3.2.
-PUBLISHED = {
-    6: (
-        "0.39216144400731413927925056", "0.33259913678935943859974864", "-0.70624617255763935980996482",
-        "0.08221359629355080023149045", "0.79854399093482996339895035",
-    ),
-    8: (
-        "0.13020248308889008087881763", "0.56116298177510838456196441", "-0.38947496264484728640807860",
-        "0.15884190655515560089621075", "-0.39590389413323757733623154", "0.18453964097831570709183254",
-        "0.25837438768632204729397911", "0.29501172360931029887096624", "-0.60550853383003451169892108",
-    ),
-}  # fmt: skip
-#: Words without a proper suffix that is smaller: what the others of a group-like series follow from.
-LYNDON = {6: [(1,), (3,), (5,), (1, 1, 3)]}
-LYNDON[8] = [*LYNDON[6], (7,), (1, 1, 5), (1, 3, 3), (1, 1, 1, 1, 3)]
-
-
-def palindrome(half):
-    return [*half, *half[-2::-1]]
-
-
-def worst(coefficients, order):
-    return max(abs(defect) for defect in defects(coefficients, order).values())
 
 
 # The coefficients: that they solve the order conditions is the lemma `composition-order`
@@ -57,32 +32,6 @@ def test_a_composition_is_a_palindrome_and_a_step_of_length_one(order):
     assert sum(exact) - 1 == pytest.approx(0, abs=1e-39)
     assert stages.tolist() == [float(c) for c in exact]
     assert len(stages) == {4: 5, 6: 9, 8: 17}[order]
-
-
-@pytest.mark.parametrize("order", [6, 8])
-def test_newton_from_the_published_digits_gives_those_that_are_used(order):
-    """c₁ as published, the others from the order conditions at 60 digits; none moves by a unit of its last digit."""
-    with mpmath.workdps(60):
-        published = [mpmath.mpf(x) for x in PUBLISHED[order]]
-        half, small = list(published), mpmath.mpf(10) ** -30
-
-        def conditions(free):
-            found = defects(palindrome([half[0], *free]), order)
-            return mpmath.matrix([found[word] for word in LYNDON[order]])
-
-        for _ in range(3):
-            free, size = half[1:], len(half) - 1
-            slopes = mpmath.matrix(size, size)
-            for j in range(size):
-                ahead, behind = (conditions([c + s * (i == j) for i, c in enumerate(free)]) for s in (small, -small))
-                slopes[:, j] = (ahead - behind) / (2 * small)
-            change = mpmath.lu_solve(slopes, -conditions(free))
-            half[1:] = [c + d for c, d in zip(free, change, strict=True)]
-        assert max(abs(x) for x in change) < mpmath.mpf("1e-50")
-        assert worst(palindrome(half), order) < mpmath.mpf("1e-55")
-        for mine, refined, printed in zip(COMPOSITIONS[order].half, half, published, strict=True):
-            assert abs(refined - mpmath.mpf(mine)) < mpmath.mpf("5.1e-41")
-            assert abs(refined - printed) < mpmath.mpf("1e-26")
 
 
 def test_the_order_conditions_are_those_that_are_known():

@@ -133,12 +133,6 @@ def test_the_increment_is_that_of_the_map(ball, height):
         assert abs(miss) <= 16 * ULP * (1 + 1 / slope)
 
 
-def test_without_rolling_the_increment_is_constant_and_with_it_is_not():
-    u = np.linspace(0, 1, 20)
-    assert np.ptp(increment(Curve.through(Ball((1, 2, 4), 0), GAMMA), 1.0, u)) <= 4 * ULP
-    assert np.ptp(increment(Curve.through(Ball((1, 2, 4), 3), GAMMA), 1.0, u)) > 1e-6  # O(h³)
-
-
 def test_the_derivative_of_the_height_is_its_derivative():
     curve = Curve.through(Ball((1, 2, 4), 3), GAMMA)
     half, u, e = 0.3, 0.2, 1e-5
