@@ -16,7 +16,6 @@ from chapsym.prove import (
     Reading,
     Theorem,
     Verdict,
-    claim,
     claims,
     judged,
     load,
@@ -354,27 +353,11 @@ def test_a_proof_that_raises_leaves_the_claim_open_with_the_place():
     assert "PROBLEM" in explain(record)
 
 
-def test_two_proofs_of_one_claim_are_refused(monkeypatch):
-    monkeypatch.setattr("chapsym.prove.claims._REGISTER", {})
-    claim("prop-4", "x")(lambda p: None)
-    with pytest.raises(ValueError, match="two proofs"):
-        claim("prop-4", "x")(lambda p: None)
-
-
 def test_downstream_follows_uses_through_others():
     claims = {
         id: Claim(id, "", uses, lambda p: None) for id, uses in [("a", ()), ("b", ("a",)), ("c", ("b",)), ("d", ())]
     }
     assert downstream("a", claims) == ["b", "c"]
-
-
-def test_the_quotient_knows_its_hypotheses():
-    assert CIRCLE.is_zero(x**2 + y**2 - 1)
-    assert not CIRCLE.is_zero(x**2 + y**2 + 1)
-    assert CIRCLE.is_zero((1 - y**2) / x - x)
-    assert Quotient((x, y), [*CIRCLE.relations, x - y]).is_zero(2 * x**2 - 1)
-    with pytest.raises(ZeroDivisionError, match="zero under the hypotheses"):
-        CIRCLE.is_zero(1 / (x**2 + y**2 - 1))
 
 
 def test_an_error_is_classed_by_its_proof_and_only_where_there_is_one():
