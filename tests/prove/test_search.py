@@ -4,6 +4,7 @@ from fractions import Fraction
 
 import pytest
 import sympy as sp
+from budget import examples
 from hypothesis import given
 
 from chapsym import testing
@@ -29,6 +30,7 @@ equal = equations(CIRCLE)
 def test_points_of_a_ring_obey_its_relations_and_differ(name):
     seen = set()
 
+    @examples(12)
     @given(testing.of_ring(RINGS[name], x <= 3))
     def look(point):
         exact = {symbol: sp.Rational(point[symbol.name]) for symbol in RINGS[name].symbols}
