@@ -1,12 +1,13 @@
-"""Compositions in n dimensions: the order, the stages, the integrals, three dimensions, and where a stage folds."""
+"""Compositions in n dimensions: the stages, three dimensions, and where a stage folds.
+
+The coefficients are those of three dimensions, whose order is measured: tests/dynamics/test_composition.py.
+"""
 
 import threading
-from functools import cache
 
 import numpy as np
 import pytest
-from balls_n import SIZES, UNIT_ROUNDOFF, batch, invariant_scales
-from motion_n import continuous
+from balls_n import SIZES, UNIT_ROUNDOFF, batch
 
 import chapsym
 from chapsym import Ball, BallN, Status, StepNotTaken, axial, skew, step_n, substeps, trajectory_n
@@ -15,36 +16,6 @@ from chapsym.dynamics.n.near_n import limits
 
 ORDERS = (4, 6, 8)
 NAMES = ("momentum", "gamma", "attitude", "contact")
-#: A time in which the ball turns by some radians.
-END = 4.0
-
-
-@cache
-def moved(n):
-    """A ball, its K and γ at the start, and the continuous motion at END."""
-    ball, K, gamma = batch(n, 1, 3.0, seed=5)
-    one = BallN(ball.mass_tensor[0] + 0.5, ball.D[0], radius=ball.radius[0])
-    first = trajectory_n(one, K[0], gamma[0], 0, attitude=True).attitude[0]
-    return one, K[0], gamma[0], continuous(one, K[0], gamma[0], first, END)
-
-
-@pytest.mark.parametrize(
-    ("order", "steps"),
-    [(2, (100, 200, 400, 800)), (4, (24, 32, 48, 64)), (6, (12, 16, 20, 24, 32)), (8, (10, 12, 14, 17))],
-)
-@pytest.mark.parametrize("n", [3, 4, 5])
-def test_the_order_is_measured(n, order, steps):
-    """Of all that is followed, beside the continuous ball: as in three dimensions, a fit is off by less than 0.2."""
-    ball, K, gamma, exact = moved(n)
-    errors = []
-    for count in steps:
-        run = trajectory_n(ball, K * END / count, gamma, count, order=order, every=count, contact=True)
-        found = run.momentum[-1] * count / END, run.gamma[-1], run.attitude[-1], run.contact[-1]
-        errors.append(max(np.abs(a - b).max() for a, b in zip(found, exact, strict=True)))
-    assert errors[0] < 1e-3
-    assert errors[-1] > 1e-13
-    slope = -np.polyfit(np.log(steps), np.log(errors), 1)[0]
-    assert abs(slope - order) < 0.2, errors
 
 
 @pytest.mark.parametrize("order", ORDERS)
@@ -75,15 +46,6 @@ def test_in_three_dimensions_it_is_the_same_composition(order):
     assert np.abs(general.gamma - special.gamma).max() <= allowed
     assert np.abs(general.contact - special.contact).max() <= allowed
     assert np.abs(special.contact[-1]).max() > 0.1
-
-
-@pytest.mark.parametrize("n", SIZES)
-def test_the_integrals_drift_like_roundings_of_the_stages(n):
-    steps, order = 60, 8
-    ball, K, gamma = batch(n, 4, 0.3)
-    run = trajectory_n(ball, K, gamma, steps, order=order)
-    drift = np.abs(run.invariants() - run.invariants()[:, :1]) / invariant_scales(K)[:, np.newaxis]
-    assert drift.max() <= 3 * UNIT_ROUNDOFF * np.sqrt(steps * len(substeps(order)))
 
 
 @pytest.mark.parametrize("n", [3, 5])

@@ -10,11 +10,8 @@ from budget import examples
 from hypothesis import given
 from hypothesis import strategies as st
 
-from chapsym import axial, skew
 from chapsym.derive import ball as derived
-from chapsym.derive import principle as space
 from chapsym.derive.words import evaluate
-from chapsym.dynamics import kernels
 from chapsym.dynamics.n import so_n
 
 
@@ -65,27 +62,6 @@ def test_the_jacobian_is_the_derived_momentum_along_every_plane(n):
             assert (so_n.coordinates(words(X @ xi, gamma, J, D)) == slope[:, p]).all()
 
     exactly()
-
-
-@pytest.mark.parametrize("n", [3, 4, 5])
-def test_half_a_twist_is_the_step_of_the_centre(n):
-    """Δr/ρ = R twist/2 satisfies the discrete constraint (4.9), whose γ points down."""
-    rng = np.random.default_rng(n)
-    x, v = rng.integers(-5, 5, (n, n)).astype(float), rng.integers(-5, 5, n).astype(float)
-    R, X, up, stride = map(rationals, (np.eye(n)[rng.permutation(n)], x, v, so_n.twist(x, v) / 2))
-    before, after = {space.R: R, space.r: sp.zeros(n, 1)}, {space.R1: R * X, space.r1: R * stride}
-    transposes = {space.RT: R.T, space.R1T: (R * X).T, space.gamma: -R * up, space.rho: 1}
-    constraint = space.discrete_constraint(space.R, space.R1, space.r, space.r1)
-    assert evaluate(constraint, {**before, **after, **transposes}).is_zero_matrix
-
-
-def test_in_three_dimensions_the_signs_are_those_of_section_5():
-    q, gamma, J, D = np.array([0.8, 0.4, 0.2, 0.4]), np.array([2, 3, 6]) / 7, np.array([1.0, 2, 4]), np.array(3.0)
-    matrix = so_n.momentum(kernels.rotation(q), gamma, J, D)
-    assert np.abs(axial(matrix) - kernels.momentum(q, gamma, J, D)).max() < 1e-14
-    v, x = np.array([1.0, 2, 3]), np.array([4.0, -5, 6])
-    assert (skew(v) @ x == np.cross(v, x)).all()
-    assert (axial(skew(v)) == v).all()
 
 
 @pytest.mark.parametrize("n", SIZES)
