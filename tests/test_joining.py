@@ -28,19 +28,6 @@ def test_every_make_target_and_command_that_is_named_exists():
         assert commands.chapsym(name, "--help").returncode == 0, name
 
 
-@pytest.mark.parametrize(
-    "path", sorted((ROOT / ".github" / "ISSUE_TEMPLATE").glob("[!c]*.yml")), ids=lambda path: path.stem
-)
-def test_an_issue_template_asks_for_something_and_has_no_id_twice(path):
-    form = yaml.safe_load(path.read_text(encoding="utf-8"))
-    assert form["name"]
-    assert form["description"]
-    ids = [part["id"] for part in form["body"]]
-    assert len(set(ids)) == len(ids)
-    assert any(part.get("validations", {}).get("required") for part in form["body"])
-    assert all(part["attributes"]["label"] for part in form["body"])
-
-
 def test_the_paper_has_its_sections_and_its_references():
     text = (ROOT / "paper.md").read_text(encoding="utf-8")
     assert 250 <= len(text.split("---", 2)[2].split()) <= 1000

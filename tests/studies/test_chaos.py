@@ -9,7 +9,7 @@ import chapsym
 from chapsym.dynamics.loops import loop, tangent
 from chapsym.studies import figures
 from research import chaos
-from research.chaos.orbits import LIMIT, follow_orbits, picture, sample, slab, starts
+from research.chaos.orbits import LIMIT, follow_orbits, sample, slab, starts
 from research.energy.continuous import Level
 from research.energy.section import state
 
@@ -109,13 +109,6 @@ def test_slab_is_on_the_section_of_the_orbit():
     theta, psi = slab(level, *level.flow(K, g, 400.0, 40_000))
     assert len(theta) > 20
     assert np.ptp(level.energy(*state(level, theta, psi))) < 1e-4 * level.energy(K, g)
-
-
-def test_picture_is_plain_data():
-    found = picture([[0, 1, 3], 1.0, 0.5], 0.9, [[0.0, 0.1, 0.4]], 4, 4000, 30)
-    assert len(found) == 4
-    json.dumps(found, allow_nan=False)
-    assert all(0 < len(one["psi"]) == len(one["theta"]) <= 120 for one in found)
 
 
 def test_share_has_wilson_s_interval():
