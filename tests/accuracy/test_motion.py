@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from commands import chapsym as command
-from scipy.integrate import solve_ivp
 
 import chapsym
 from chapsym.accuracy import composed, motion
@@ -188,20 +187,6 @@ def test_a_frame_after_a_thousand_turns_has_as_many_steps_as_it_takes():
     asked = problem([14.0, -6.0, 3.0], frames=1, interval=400.0, accuracy=1e-4)
     found = moved(asked)
     assert true(asked, found) < found.error <= 1e-4
-
-
-def test_it_is_the_motion_by_another_integration():
-    asked = problem([14.0, -6.0, 3.0])
-    found, J, D = moved(asked), asked.ball.mass_tensor[0], asked.ball.D[0]
-
-    def rate(_, y):
-        w = kernels.angular_velocity(y[:3], y[3:6], J, D)
-        return np.concatenate([np.cross(y[:3], w), np.cross(y[3:6], w)])
-
-    times = np.arange(21) * 0.1
-    y = solve_ivp(rate, (0, 2.0), [*asked.K[0], *GAMMA], "DOP853", times, rtol=1e-12, atol=1e-14).y.T
-    assert np.abs(found.gamma[0] - y[:, 3:]).max() < 2e-7
-    assert np.abs(found.angular_momentum[0] - y[:, :3]).max() < 2e-7 * np.abs(y[:, :3]).max()
 
 
 def test_a_steady_rotation_is_had_at_once_after_any_time():

@@ -2,11 +2,9 @@
 
 import json
 from dataclasses import replace
-from fractions import Fraction
 from itertools import pairwise
 from types import SimpleNamespace
 
-import mpmath
 import numpy as np
 import pytest
 from commands import answer
@@ -18,11 +16,10 @@ from benchmarks.trade import reference
 from benchmarks.trade.figure import draw
 from benchmarks.trade.frontier import Frontier, Point, digits_of
 from benchmarks.trade.frontiers import name_of
-from benchmarks.trade.reference import continuous, sample, true_error, truth
+from benchmarks.trade.reference import sample, true_error, truth
 from benchmarks.trade.requests import Outcomes, measure
 from chapsym.accuracy import Method, methods, take
 from chapsym.cli.trade import print_answer
-from chapsym.dynamics.attitudes import attitude_with
 from chapsym.numbers import NAMED
 
 #: An accuracy and a time; of an option that is given twice the last counts.
@@ -50,26 +47,9 @@ def test_the_frontier_and_what_is_dominated_and_equal_points_are_not():
     assert [digits_of(x, 30) for x in (1e-5, 0.0, 2.0)] == pytest.approx([5, 30, 0])
 
 
-def by_mpmath(ball, momentum, gamma, time):
-    """K and γ of (2.12), (2.13) by mpmath's Taylor series at 25 digits."""
-    with mpmath.workdps(25):
-        inertia, D = mpmath.diag([*map(float, ball.inertia)]), mpmath.mpf(float(ball.D))
-
-        def field(_, y):
-            K, g = mpmath.matrix(y[:3]), mpmath.matrix(y[3:])
-            omega = mpmath.lu_solve(inertia + D * (mpmath.eye(3) - g * g.T), K)
-            return [*np.cross(list(K), list(omega)), *np.cross(list(g), list(omega))]
-
-        return mpmath.odefun(field, 0, [*momentum, *gamma])(time)
-
-
-def test_the_reference_agrees_with_mpmaths_taylor_series_and_with_a_run_in_double_double():
+def test_the_reference_agrees_with_a_run_in_double_double():
+    """A Taylor series, and a composition of the map, which has nothing of it."""
     request = sample("contact", 2.0)
-    q = attitude_with(request.gamma)
-    found = continuous(request.ball, request.angular_momentum, request.gamma, q, [Fraction(2)], 25)[0]
-    other = by_mpmath(request.ball, request.angular_momentum, request.gamma, 2)
-    # That one does not divide γ by its length, which is 1 to rounding.
-    assert max(abs(float(a) - float(b)) for a, b in zip(found[:6], other, strict=True)) < 1e-15
     run = take(request, Method(NAMED["double-double"], 8), 1600, 16)
     assert true_error(request, run, truth(request, 25)) < 1e-21
 
