@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 import xarray
 import zarr
+from budget import slow
 from small_units import EVERY, OUTPUTS, STEPS, UNITS, equal_to_the_bit, interrupted, plan
 from waiting import GUARD, until
 
@@ -114,9 +115,17 @@ def turned(chunk):
     chunk.write_bytes(content)
 
 
-@pytest.mark.parametrize("damage", [cut, turned, Path.unlink])
-@pytest.mark.parametrize("name", ["gamma", "taken", "mass_tensor"])
-@pytest.mark.parametrize("after", [UNITS, 7])
+DAMAGES, NAMES = (cut, turned, Path.unlink), ("gamma", "taken", "mass_tensor")
+
+
+@pytest.mark.parametrize(
+    ("damage", "name", "after"),
+    [
+        *((damage, name, UNITS) for damage in DAMAGES for name in NAMES),
+        *((damage, name, 7) for damage, name in zip(DAMAGES, NAMES, strict=True)),
+        *slow(*((damage, name, 7) for damage in DAMAGES for name in NAMES)),
+    ],
+)
 def test_a_chunk_that_is_lost_or_damaged_is_found_and_computed_anew(whole, path, monkeypatch, damage, name, after):
     interrupted(path, monkeypatch, after)
     chunks = sorted(file for file in (path / name / "c").rglob("*") if file.is_file())
