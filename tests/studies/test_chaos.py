@@ -119,17 +119,13 @@ def test_share_has_wilson_s_interval():
     assert chaos.share(0, 0)[1:] == (0.0, 1.0)
 
 
-def test_sentences_and_figures(tmp_path, monkeypatch, thorough):
+def test_sentences_and_figures(tmp_path, monkeypatch):
     monkeypatch.setattr("chapsym.studies.units.cores", lambda: 1)
     monkeypatch.setattr(chaos, "_units", small_units)
     found = chaos.study(quick=True)
     json.dumps(found, allow_nan=False)
     assert "integrable: 0 of" in chaos.sentences(found)[0]
-    first = [path.read_bytes() for path in figures.save_figures("research.chaos", chaos.DRAWN, found, tmp_path)]
-    if thorough:  # the same of every figure of results is seen in tests/report/test_figures.py
-        assert first == [
-            path.read_bytes() for path in figures.save_figures("research.chaos", chaos.DRAWN, found, tmp_path)
-        ]
+    assert figures.save_figures("research.chaos", chaos.DRAWN, found, tmp_path)
 
 
 def small_units(quick, all_units=chaos._units):
