@@ -21,7 +21,7 @@ def extremes(
     output: Annotated[Path | None, writes("PAGE", "A page: .html, that opens from disk, or .md.")] = None,
     as_json: Json = False,
 ) -> None:
-    """Judge every precision at the extremes: tiny momenta, folds, rotations by π, D up to 1e15, odd bodies and arrays.
+    """Judge every precision at the extremes: tiny momenta, folds, rotations by π, D up to 1e15, odd bodies.
 
     Exit status 1 if a cell failed: wrong, or refused without a true reason.  It needs a checkout of chapsym.
 

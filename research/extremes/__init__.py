@@ -11,14 +11,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, replace
 from functools import partial
 from math import isfinite
-from operator import call
 from typing import Any, NamedTuple
 
 from chapsym import jobs
 from chapsym.dynamics import BadInput, StepNotTaken
 from chapsym.dynamics.levels.frames import cores
 
-from . import arrays, formulas, runs, states, steps
+from . import runs, states, steps
 from .judging import BUDGET, DOUBLE, FAILED, LEVELS, ORDER, Judge, Judged, Level, refused, worst
 
 #: A condition at a precision, as JSON has it, but that numbers may be infinite.
@@ -73,14 +72,8 @@ GROUPS = {
         "Drift of ⟨𝒦,γ⟩, |𝒦|² and |γ|² in a long run", runs.long_run,
         lambda: {f"ε = {size:g}": [size] for size in (1e-3, 0.05, 0.4)},
     ),
-    "derived": Group("ω, the energy, and 𝒦 of ω", formulas.derived, formulas.items, _DOUBLE),
     "fold search": Group("Where the branch folds", steps.fold_search, states.folds, _DOUBLE),
     "vertical": Group("One step of the reduced map G_h", steps.vertical, states.upright_states, _DOUBLE),
-    "arrays": Group(
-        "What is given: made otherwise, the same bits", call,
-        lambda: {name: [judge] for name, judge in arrays.JUDGES.items()},
-    ),
-    "input": Group("What is given: no numbers, no states", arrays.refusal, lambda: arrays.INPUT),
 }  # fmt: skip
 #: Groups whose rows of one name are about the same run.
 SHARED = ("runs", "batch", "reverse")

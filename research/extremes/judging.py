@@ -30,7 +30,7 @@ class Level:
 
     key: its name in JSON.  unit: an ulp relative to the size of a vector; least: the smallest number, below which
     nothing is resolved; digits: the decimal digits that its numbers have.
-    long, huge: steps of a long run and balls of a huge batch, quick and full.
+    long: steps of a long run, quick and full.
     guarded: whether guard digits absorb the condition number, so that the promise does not know it.
     compensated: whether the sums of a run are, so that only the roundings of increments add up.
     """
@@ -42,7 +42,6 @@ class Level:
     least: Fraction
     digits: float
     long: tuple[int, int]
-    huge: tuple[int, int]
     guarded: bool = False
     compensated: bool = False
 
@@ -53,23 +52,23 @@ class Level:
 
 SINGLE = Level(
     "single", "single", Single(), Fraction(1, 2**23), Fraction(1, 2**149), 7.2,
-    long=(100_000, 100_000_000), huge=(100_000, 4_000_000), compensated=True,
+    long=(100_000, 100_000_000), compensated=True,
 )  # fmt: skip
 DOUBLE = Level(
     "double", "double", Double(), Fraction(1, 2**52), Fraction(1, 2**1074), 16.0,
-    long=(100_000, 100_000_000), huge=(100_000, 4_000_000), compensated=True,
+    long=(100_000, 100_000_000), compensated=True,
 )  # fmt: skip
 DOUBLE_DOUBLE = Level(
     "double-double", "quad", DoubleDouble(), Fraction(1, 2**104), Fraction(1, 2**1074), 31.3,
-    long=(10_000, 10_000_000), huge=(5000, 400_000),
+    long=(10_000, 10_000_000),
 )  # fmt: skip
 DIGITS = Level(
     "Digits(50)", "Digits(50)", Digits(50), Fraction(1, 10**49), Fraction(0), 50.0,
-    long=(100, 10_000), huge=(20, 200), guarded=True,
+    long=(100, 10_000), guarded=True,
 )  # fmt: skip
 ENCLOSURE = Level(
     "Enclosure(200)", "Ball(200)", Enclosure(200), Fraction(1, 2**199), Fraction(0), 60.2,
-    long=(100, 1000), huge=(20, 200), guarded=True,
+    long=(100, 1000), guarded=True,
 )  # fmt: skip
 LEVELS = (SINGLE, DOUBLE, DOUBLE_DOUBLE, DIGITS, ENCLOSURE)
 

@@ -9,7 +9,7 @@ import numpy as np
 from chapsym.dynamics import Status, StepNotTaken, fold, step, step_vertical
 
 from .judging import BUDGET, FAILED, NO_DIGIT, Judged, Level, compared, mp, number, refused, state, whole
-from .truth import State, Truth, componentwise, fold_at, reachable, scaled, truth, unit_gamma
+from .truth import State, Truth, fold_at, reachable, scaled, truth, unit_gamma
 
 #: Beyond this share of a rounding from the fold, a precision cannot tell the two sides.
 BLUR = BUDGET
@@ -93,11 +93,14 @@ def fold_search(item: tuple[State, float], level: Level, quick: bool) -> Judged:
     if not np.isfinite(found.reach):
         return Judged(FAILED, reason="the reach is NaN, and nothing says why")
 
-    def at(x: Sequence[Any]) -> list[Any]:
-        return [mp.make_mpf(fold_at(tuple(x[6:9]), x[9], tuple(x[:3]), tuple(x[3:6]))._mpf_)]
+    def at(x: Sequence[Any]) -> Any:
+        return mp.make_mpf(fold_at(tuple(x[6:9]), x[9], tuple(x[:3]), tuple(x[3:6]))._mpf_)
 
-    exact, kappa = componentwise(at, (*given.K, *given.g, *given.J, given.D), DIFFERENCE)
-    judged = compared(level, kappa, "the reach", [number(found.reach) * mp.mpf(size)], exact, BUDGET * (1 + kappa))
+    inputs = [mp.mpf(x) for x in (*given.K, *given.g, *given.J, given.D)]
+    exact = at(inputs)
+    moved = [at([*inputs[:i], x * (1 + DIFFERENCE), *inputs[i + 1 :]]) for i, x in enumerate(inputs) if x]
+    kappa = float(sum(abs(other - exact) for other in moved) / DIFFERENCE / abs(exact))  # Σ |∂t/∂x · x|/|t|
+    judged = compared(level, kappa, "the reach", [number(found.reach) * mp.mpf(size)], [exact], BUDGET * (1 + kappa))
     if judged.verdict == FAILED and not found.settled:
         return refused("Newton settles on no simple fold: `settled` is False, and the reach a lower bound")
     return judged

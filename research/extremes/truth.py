@@ -5,7 +5,7 @@
 is the condition number of a step, as in `chapsym.studies.check`, here from the oracle's matrices.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -21,8 +21,6 @@ from .judging import BUDGET, mp
 DIGITS = 115
 #: And of the fold, of which a difference takes half.
 FOLD_DIGITS = 40
-#: An input is changed by this, relatively, to see what becomes of the output.
-CHANGE = mp.mpf(10) ** -50
 #: The start of a run is changed by this, relatively, in a direction that is none in particular.
 RUN_CHANGE, DIRECTION = mp.mpf(10) ** -40, (1.0, -0.7, 0.4)
 
@@ -93,20 +91,6 @@ def unit_gamma(g: Iterable[Any]) -> list[Any]:
     exact = [mp.mpf(x) for x in g]
     length = mp.sqrt(sum(x * x for x in exact))
     return [x / length for x in exact]
-
-
-def componentwise(
-    function: Callable[[Sequence[Any]], list[Any]], inputs: Sequence[Any], change: Any = CHANGE
-) -> tuple[list[Any], float]:
-    """f of the inputs, in mpmath, and Σ |∂f/∂x · x|/|f|, with the largest component as the norm."""
-    exact = [mp.mpf(x) for x in inputs]
-    value = [mp.convert(x) for x in function(exact)]
-    size, total = max(map(abs, value)), mp.zero
-    for i, x in enumerate(exact):
-        if x != 0:
-            moved = function([*exact[:i], x * (1 + change), *exact[i + 1 :]])
-            total += max(abs(mp.convert(a) - b) for a, b in zip(moved, value, strict=True)) / change
-    return value, float(total / size) if size else 0.0
 
 
 @cache

@@ -89,6 +89,21 @@ def test_by_a_row_the_determinant_is_lost_and_by_the_vertical_it_is_not():
     assert worst["gibbs_newton_heavy"] <= SHARE
 
 
+def printed_velocity(*arguments):
+    """ω by Λ⁻¹K + (D⟨γ,Λ⁻¹K⟩/(1 - D⟨γ,Λ⁻¹γ⟩)) Λ⁻¹γ, as printed: 1 - D⟨γ,Λ⁻¹γ⟩ cancels for D ≫ J."""
+    K, g, J = np.reshape(arguments[:9], (3, 3))
+    D = arguments[9]
+    moments = J.sum() - J + D
+    return tuple(K / moments + D * (g @ (K / moments)) / (1 - D * (g @ (g / moments))) * g / moments)
+
+
+def test_the_printed_form_of_the_velocity_fails_where_it_cancels():
+    found = kernels.sampled("angular_velocity", printed_velocity, 6)[""]
+    worst = {name: max(one.share for one in found if one.stratum == name) for name in ("D = 0", "D = 1e6 to 1e14")}
+    assert worst["D = 0"] <= SHARE
+    assert worst["D = 1e6 to 1e14"] > 1e3
+
+
 def test_measured_rows():
     seen = []
     found = kernels.Kernels(True, seen.append, ["energy", "momentum"])

@@ -1,0 +1,136 @@
+"""What users hand over, at every precision: arrays of every make give the same bits; what is no number is refused."""
+
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import chapsym
+from chapsym import BadInput, Ball, Digits, Enclosure
+from research.extremes.judging import number, whole
+
+J, D, G, K = (1.0, 2.0, 4.0), 3.0, (2 / 7, 3 / 7, 6 / 7), (1.0, -0.5, 0.75)
+STEPS = 3
+#: A momentum and its vertical, of one state and of a batch.
+STATES = [
+    (np.array(K), np.array(G)),
+    (np.array([K, (0.3, 0.2, -0.1), (-0.4, 0.1, 0.2)]), np.array([G, (0.6, 0.0, 0.8), (0.0, 0.0, 1.0)])),
+]
+precisions = pytest.mark.parametrize("precision", ["single", "double", "double-double", Digits(50), Enclosure(200)])
+
+
+def run(precision, momentum=K, gamma=G, J=J, D=D, steps=STEPS, **options):
+    return chapsym.trajectory(Ball(J, D), momentum, gamma, steps, precision=precision, **options)
+
+
+def bits(found):
+    """All numbers of a run, exactly."""
+    return [number(x) for name in ("momentum", "gamma") for x in whole(found, name).flat]
+
+
+def strided(x):
+    """Every second element of a larger array, backwards in the components."""
+    wide = np.zeros((*x.shape[:-1], 6))
+    wide[..., ::-2] = x
+    return wide[..., ::-2]
+
+
+def read_only(x):
+    copy = x.copy()
+    copy.flags.writeable = False
+    return copy
+
+
+MADE = {
+    "not contiguous, backwards": strided,
+    "column order": np.asfortranarray,
+    "wrong byte order": lambda x: x.astype(x.dtype.newbyteorder()),
+    "read-only": read_only,
+    "lists": lambda x: x.tolist(),
+    "fractions": np.vectorize(Fraction, otypes=[object]),
+    "decimals": np.vectorize(Decimal, otypes=[object]),
+    "long doubles": lambda x: x.astype(np.longdouble),
+    "memory views": lambda x: np.ascontiguousarray(x).data,
+}
+
+
+@precisions
+@pytest.mark.parametrize("made", MADE)
+def test_the_same_bits_come_from_arrays_that_are_made_otherwise(precision, made):
+    for plain in STATES:
+        given = [MADE[made](x) for x in plain]
+        before = [np.array(x, copy=True) for x in given]
+        assert bits(run(precision, *given)) == bits(run(precision, *plain))
+        assert not any((np.asarray(x) != y).any() for x, y in zip(given, before, strict=True))
+
+
+@precisions
+def test_float32_arrays_are_the_numbers_that_they_hold(precision):
+    momentum, gamma = (np.array(x, np.float32) for x in (K, (0.6, 0.0, 0.8)))
+    wide = gamma.astype(np.float64)
+    found = run(precision, momentum, gamma, np.array(J, np.float32), np.float32(D))
+    plain = run(precision, momentum.astype(np.float64), wide / np.sqrt(wide @ wide))
+    for name in ("momentum", "gamma"):
+        one, other = (np.vectorize(float)(getattr(x, name)) for x in (found, plain))
+        assert np.abs(one - other).max() <= 16 * 2.0**-23
+
+
+@precisions
+def test_no_balls_and_no_steps_have_their_shapes(precision):
+    for shape in ((0, 3), (2, 0, 3)):
+        found = run(precision, np.zeros(shape))
+        assert found.momentum.shape == (*shape[:-1], STEPS + 1, 3)
+        assert found.status.shape == shape[:-1]
+    assert run(precision, steps=0).momentum.shape == (1, 3)
+
+
+@precisions
+def test_a_ball_of_a_huge_batch_has_the_numbers_that_it_has_alone(precision):
+    count = 20 if isinstance(precision, Digits | Enclosure) else 100_000 if precision != "double-double" else 5000
+    momentum = np.random.default_rng(7).uniform(-0.3, 0.3, (count, 3))
+    batch = run(precision, momentum, every=STEPS)
+    for i in range(0, count, max(1, count // 9)):
+        alone = run(precision, momentum[i], every=STEPS)
+        assert [number(x) for x in batch.momentum[i, -1]] == [number(x) for x in alone.momentum[-1]]
+
+
+def anywhere(value):
+    """A value in the place of a component of everything that is given."""
+    bad = (value, -0.5, 0.75)
+    return [
+        {"momentum": bad}, {"gamma": (0.6, value, 0.8)}, {"J": (value, 2.0, 4.0)}, {"D": value}, {"momentum": [K, bad]},
+    ]  # fmt: skip
+
+
+MASKED = np.ma.masked_array([1.0, 2.0, 3.0], mask=[False, True, False])
+REFUSED = {
+    "NaN": anywhere(float("nan")),
+    "infinities": [*anywhere(float("inf")), *anywhere(float("-inf"))],
+    "beyond float64": [{"momentum": (10**400, 0, 0)}],
+    "complex numbers": anywhere(1j),
+    "texts": anywhere("1"),
+    "masked arrays": [{"momentum": MASKED}, {"momentum": [MASKED, MASKED]}, {"momentum": (MASKED[1], 0.1, 0.2)}],
+    "zero-dimensional": [{"momentum": np.array(1.0)}, {"gamma": 1.0}],
+    "wrong shapes": [
+        {"momentum": (1.0, 2.0)}, {"momentum": np.zeros((2, 3)), "gamma": np.tile(G, (3, 1))},
+        {"momentum": [[1.0, 2.0, 3.0], [1.0]]},
+    ],
+    "gamma of length 0, 2 and 1 + 1e-9": [{"gamma": np.array(G) * size} for size in (0.0, 2.0, 1 + 1e-9)],
+    "negative moments": [{"J": (-1e-300, 1.0, 2.0)}, {"D": -1e-300}],
+    "more frames than memory": [{"steps": 10**15}],
+}  # fmt: skip
+
+
+@precisions
+@pytest.mark.parametrize("kind", REFUSED)
+def test_what_is_no_number_or_no_state_is_refused_in_a_sentence(precision, kind):
+    for given in REFUSED[kind]:
+        with pytest.raises(BadInput) as refusal:
+            run(precision, **given)
+        assert len(str(refusal.value).split()) >= 4
+
+
+def test_a_precision_that_there_is_not_is_refused():
+    with pytest.raises(BadInput):
+        run("triple")
