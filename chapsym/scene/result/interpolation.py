@@ -10,7 +10,12 @@ from numpy.typing import ArrayLike
 from chapsym.dynamics import BadInput, Ball, kernels
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.interpolation import States, standing
-from chapsym.dynamics.principal_axes import inverse
+from chapsym.dynamics.principal_axes import (
+    attitude_from_principal,
+    attitude_to_principal,
+    from_principal,
+    to_principal,
+)
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -41,9 +46,9 @@ def interpolated(run: Any, times: ArrayLike) -> Any:
     found = frames.at(np.atleast_1d(np.asarray(times, dtype=np.float64)))
     axes = _axes(dataset)
     values: dict[str, Floats | None] = {
-        "momentum": _turned(axes, found.momentum * per_step), "gamma": _turned(axes, found.gamma),
-        "omega": _turned(axes, found.omega), "contact": found.contact,
-        "attitude": None if found.attitude is None else _composed(found.attitude, inverse(axes)),
+        "momentum": from_principal(axes, found.momentum * per_step), "gamma": from_principal(axes, found.gamma),
+        "omega": from_principal(axes, found.omega), "contact": found.contact,
+        "attitude": None if found.attitude is None else attitude_from_principal(axes, found.attitude),
     }  # fmt: skip
     kept = dataset.drop_vars([name for name, one in dataset.variables.items() if "frame" in one.dims])
     for name in FOLLOWED:
@@ -86,25 +91,25 @@ def _states(dataset: Dataset) -> tuple[States, float]:
     per_step = 1.0
     if "momentum" in dataset and timed and dataset["momentum"].attrs.get("units") != RATE:
         per_step = clock[-1] / step[-1] if step[-1] else 1.0
-    axes, back = _axes(dataset), inverse(_axes(dataset))
+    axes, J, D = _axes(dataset), per_ball(dataset, "mass_tensor"), per_ball(dataset, "D")
+    assert J is not None
+    assert D is not None
     there, given = standing(**{name: _frames(dataset, name) for name in FOLLOWED})
     attitude, gamma = given["attitude"], given["gamma"]
-    attitude = None if attitude is None else _composed(attitude, axes)
+    attitude = None if attitude is None else attitude_to_principal(axes, attitude)
     if gamma is None:
         assert attitude is not None
         gamma = kernels.transport(attitude, np.broadcast_to([0.0, 0.0, 1.0], (*attitude.shape[:-1], 3)))
     else:
-        gamma = _turned(back, gamma)
-    radius = _of_balls(dataset, "radius") if "radius" in dataset.variables else None
-    J, D = _of_balls(dataset, "mass_tensor"), _of_balls(dataset, "D")
-    ball = Ball(J, D, radius)
+        gamma = to_principal(axes, gamma)
+    ball = Ball(J, D, per_ball(dataset, "radius"))
     momentum, omega = given["momentum"], given["omega"]
     if momentum is not None:
-        K = _turned(back, momentum) / per_step
+        K = to_principal(axes, momentum) / per_step
     else:
         assert omega is not None
-        K = kernels.contact_momentum(_turned(back, omega), gamma, J[:, np.newaxis], D[:, np.newaxis])
-    return States(ball, clock, there, K, gamma, attitude, None if radius is None else given["contact"]), per_step
+        K = kernels.contact_momentum(to_principal(axes, omega), gamma, J[:, np.newaxis], D[:, np.newaxis])
+    return States(ball, clock, there, K, gamma, attitude, None if ball.radius is None else given["contact"]), per_step
 
 
 def _frames(dataset: Dataset, name: str) -> Floats | None:
@@ -117,23 +122,15 @@ def _frames(dataset: Dataset, name: str) -> Floats | None:
     return found
 
 
-def _of_balls(dataset: Dataset, name: str) -> Floats:
-    one = dataset[name] if "ball" in dataset[name].dims else dataset[name].expand_dims("ball")
-    return np.asarray(one.transpose("ball", ...).values, dtype=np.float64)
+def per_ball(dataset: Dataset, name: str) -> Floats | None:
+    """A variable with one row a ball, (balls, ...), as float64; None if the result has none."""
+    if name not in dataset.variables:
+        return None
+    array = dataset[name] if "ball" in dataset[name].dims else dataset[name].expand_dims("ball")
+    return np.asarray(array.transpose("ball", ...).values, dtype=np.float64)
 
 
 def _axes(dataset: Dataset) -> Floats:
     """The unit quaternions from principal axes to those of the result, (balls, 1, 4)."""
-    if "axes" not in dataset.variables:
-        return np.array([[[1.0, 0.0, 0.0, 0.0]]])
-    return _of_balls(dataset, "axes")[:, np.newaxis]
-
-
-def _turned(q: Floats, v: Floats) -> Floats:
-    """Vectors (balls, frames, 3), turned by the quaternions (balls, 1, 4); NaN stays NaN."""
-    return np.asarray(v @ kernels.rotate(q, np.eye(3)))
-
-
-def _composed(p: Floats, q: Floats) -> Floats:
-    """The products of quaternions p (balls, frames, 4) and q (balls, 1, 4); NaN stays NaN."""
-    return np.asarray(p @ kernels.compose(np.eye(4), q))
+    axes = per_ball(dataset, "axes")
+    return np.array([[[1.0, 0.0, 0.0, 0.0]]]) if axes is None else axes[:, np.newaxis]

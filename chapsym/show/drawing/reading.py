@@ -8,6 +8,7 @@ import numpy as np
 from chapsym.dynamics import BadInput, Status
 from chapsym.dynamics.ball import Floats
 from chapsym.scene.result.dataset import NOT_RUN
+from chapsym.scene.result.interpolation import per_ball as per_ball
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -140,14 +141,6 @@ def values(dataset: "Dataset", name: str) -> Floats:
 def size_of(array: np.ndarray) -> float:
     """The largest size of the numbers in an array that are there; 0 where there are none."""
     return float(np.nanmax(np.abs(array), initial=0.0))
-
-
-def per_ball(dataset: "Dataset", name: str) -> Floats | None:
-    """A variable with one row a ball, (balls, ...), as float64; None if the result has none."""
-    if name not in dataset:
-        return None
-    array = dataset[name] if "ball" in dataset[name].dims else dataset[name].expand_dims("ball")
-    return np.asarray(array.transpose("ball", ...).values, dtype=np.float64)
 
 
 def stopped(dataset: "Dataset") -> np.ndarray:
