@@ -4,7 +4,7 @@ import hashlib
 import json
 import re
 from collections.abc import Hashable, Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
@@ -104,55 +104,43 @@ def _of(one: Labelled, ball: int | slice) -> Labelled:
 # The result of a plan.
 
 
-@dataclass(frozen=True)
-class Variable:
-    """The dimensions of a variable, its type and its attributes."""
+def layout(plan: Plan) -> dict[str, Labelled]:
+    """The variables of a result that come from its run, as long as nothing is computed, without memory of their own.
 
-    dims: tuple[str, ...]
-    attrs: Mapping[str, Any]
-    dtype: type = np.float64
-
-    @property
-    def missing(self) -> float | int:
-        """What stands where nothing was computed."""
-        return np.nan if self.dtype is np.float64 else NOT_RUN
-
-
-def layout(plan: Plan) -> dict[str, Variable]:
-    """The variables of a result that come from its run, by name: what was asked for, then `taken` and `status`."""
-    found: dict[str, Variable] = {}
+    By name: what was asked for, then `taken` and `status`.
+    """
+    found: dict[str, Labelled] = {}
     n = plan.members.dimension
+    length = {"ball": len(plan.members), "frame": plan.frames} | {dim: len(of) for dim, of in labels(n).items()}
+
+    def add(name: str, dims: tuple[str, ...], attrs: Mapping[str, Any], missing: float = NOT_RUN) -> None:
+        found[name] = Labelled(dims, np.broadcast_to(missing, [length[dim] for dim in dims]), attrs)
+
     for name in plan.task.outputs:
         one = OUTPUTS[name]
-        where = ("ball",) if one.per_ball else ("ball", "frame")
-        found[name] = Variable((*where, *one.dims_in(n)), one.attrs(n, plan.task.accuracy is not None))
+        dims = (*(("ball",) if one.per_ball else ("ball", "frame")), *one.dims_in(n))
+        attrs = one.attrs(n, plan.task.accuracy is not None)
+        add(name, dims, attrs, np.nan)
         if plan.doubled and one.derive is None:
-            beyond = {"long_name": f"{found[name].attrs['long_name']}: what it has beyond float64"}
-            found[f"{name}_low"] = Variable(found[name].dims, {**found[name].attrs, **beyond})
+            add(f"{name}_low", dims, attrs | {"long_name": f"{attrs['long_name']}: what it has beyond float64"}, np.nan)
     flags = {
         "flag_values": [NOT_RUN, *map(int, Status)],
         "flag_meanings": " ".join(["not_run", *(status.name.lower() for status in Status)]),
     }
-    found["taken"] = Variable(("ball",), _about("steps taken"), np.int64)
-    found["status"] = Variable(("ball",), {"long_name": "why the ball stopped", **flags}, np.int64)
+    add("taken", ("ball",), _about("steps taken"))
+    add("status", ("ball",), {"long_name": "why the ball stopped", **flags})
     if plan.task.accuracy is not None:
         unit = "m" if plan.task.of == "contact" else "1"
-        found["error"] = Variable(("ball",), _about("estimate of the error, by comparison", unit))
+        add("error", ("ball",), _about("estimate of the error, by comparison", unit), np.nan)
         if isinstance(plan.model, Moving):
-            found["order"] = Variable(("ball",), _about("order of the composition"), np.int64)
-            found["substeps"] = Variable(("ball",), _about("its steps between two frames"), np.int64)
+            add("order", ("ball",), _about("order of the composition"))
+            add("substeps", ("ball",), _about("its steps between two frames"))
     return found
 
 
 def _about(long_name: str, units: str = "1") -> dict[str, Any]:
     """The attributes of a variable."""
     return {"units": units, "long_name": long_name}
-
-
-def sizes(plan: Plan) -> dict[str, int]:
-    """The length of each dimension that a result may have."""
-    names = labels(plan.members.dimension)
-    return {"ball": len(plan.members), "frame": plan.frames} | {dim: len(of) for dim, of in names.items()}
 
 
 def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> Arrays:
@@ -163,7 +151,7 @@ def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> 
     It has no other values than those, the plan's, and the version's: the same run gives the same bits.
     """
     variables = {
-        name: Labelled(one.dims, np.asarray((state if name in OUTCOME else columns)[name]), one.attrs)
+        name: replace(one, values=np.asarray((state if name in OUTCOME else columns)[name]))
         for name, one in layout(plan).items()
     }
     variables |= _bodies(plan)

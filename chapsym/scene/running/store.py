@@ -27,7 +27,7 @@ from ..plan.models import State
 from ..plan.plan import Plan
 from ..read.errors import SceneError
 from ..read.task import Columns
-from ..result.dataset import OUTCOME, arrays, layout, provenance, sizes
+from ..result.dataset import OUTCOME, arrays, layout, provenance
 from ..result.formats import attributes, check_ours, plain
 
 if TYPE_CHECKING:
@@ -334,11 +334,7 @@ def _fill(path: Path, plan: Plan) -> None:
 
 def _unwritten(plan: Plan) -> "Dataset":
     """The result without a value that is computed."""
-    length = sizes(plan)
-    none: Columns = {
-        name: np.broadcast_to(np.array(one.missing, one.dtype), [length[dim] for dim in one.dims])
-        for name, one in layout(plan).items()
-    }
+    none = {name: one.values for name, one in layout(plan).items()}
     return arrays(plan, none, none).assign_attrs({"complete": False}).dataset()
 
 
@@ -356,13 +352,13 @@ def _add_arrays(path: Path, plan: Plan) -> None:
 
     from ..result.chunks import COMPRESSORS
 
-    length, units = sizes(plan), {"ball": plan.chunks[0].stop, "frame": plan.segments[0].stop}
+    units = {"ball": plan.chunks[0].stop, "frame": plan.segments[0].stop}
     group = zarr.open_group(path, mode="r+", use_consolidated=False)
     for name, one in layout(plan).items():
-        shape = tuple(length[dim] for dim in one.dims)
-        chunks = tuple(units.get(dim, length[dim]) for dim in one.dims)
+        shape = one.values.shape
+        chunks = tuple(units.get(dim, length) for dim, length in zip(one.dims, shape, strict=True))
         group.create_array(
-            name, shape=shape, chunks=chunks, dtype=one.dtype, fill_value=one.missing, dimension_names=one.dims,
+            name, shape=shape, chunks=chunks, dtype=one.dtype, fill_value=one.values.flat[0], dimension_names=one.dims,
             attributes=plain(one.attrs), compressors=COMPRESSORS,
         )  # fmt: skip
 

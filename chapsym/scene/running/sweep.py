@@ -26,7 +26,7 @@ from ..plan.models import Chosen, State
 from ..plan.plan import Plan, asked_for, plan_from
 from ..read.errors import SceneError
 from ..read.task import Columns
-from ..result.dataset import OUTCOME, Arrays, arrays, layout, provenance, sizes, with_clock
+from ..result.dataset import OUTCOME, Arrays, arrays, layout, provenance, with_clock
 from .store import Store, check_same, difference, write_region
 
 if TYPE_CHECKING:
@@ -130,12 +130,9 @@ class Memory:
     """Keeps the columns of all balls and frames; units go here or into a `Store`."""
 
     def __init__(self, plan: Plan) -> None:
-        self.plan, length = plan, sizes(plan)
-        self.variables = layout(plan)
+        self.plan, self.variables = plan, layout(plan)
         try:
-            self.columns = {
-                name: np.full([length[dim] for dim in one.dims], one.missing) for name, one in self.variables.items()
-            }
+            self.columns = {name: one.values.copy() for name, one in self.variables.items()}
         except (MemoryError, ValueError):
             raise SceneError(f"{plan.bytes / 1e9:.3g} GB do not fit into memory; write to a .zarr") from None
 
