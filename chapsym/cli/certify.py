@@ -5,7 +5,6 @@ import sys
 from collections.abc import Callable, Mapping
 from decimal import ROUND_CEILING, Context
 from fractions import Fraction
-from functools import partial
 from math import isfinite
 from pathlib import Path
 from typing import Annotated, Any
@@ -76,14 +75,11 @@ def no_invariant_measure(
     J, D = _ball(body, "1")
     h = rational(vertical_momentum, "--vertical-momentum")
     at, within = _optional(level, "--level"), _optional(radius, "--radius")
-    from chapsym.certificates import measure
+    from chapsym.certificates.measure import no_invariant_measure as search
     from chapsym.certificates.reduced import Top
 
-    find = partial(
-        measure.no_invariant_measure, Top((J[0], J[1], J[2]), D, h), steps=steps, half_turns=turns, level=at,
-        digits=digits, radius=within,
-    )  # fmt: skip
-    _deliver(find, output, as_json)
+    options = {"steps": steps, "half_turns": turns, "level": at, "digits": digits, "radius": within}
+    _deliver(output, as_json, search, Top(J, D, h), **options)
 
 
 @certify.command("heteroclinic")
@@ -107,15 +103,11 @@ def heteroclinic(
     J, D = _ball(body, "1/2", "1,4,8")
     h = rational(vertical_momentum, "--vertical-momentum")
     within = _optional(radius, "--radius")
-    from chapsym.certificates import heteroclinic as search
+    two = None if starts is None else rationals(starts, "--starts", 2)
+    from chapsym.certificates.heteroclinic import heteroclinic as search
     from chapsym.certificates.reduced import Top
 
-    two = None
-    if starts is not None:
-        given = rationals(starts, "--starts", 2)
-        two = given[0], given[1]
-    find = partial(search.heteroclinic, Top((J[0], J[1], J[2]), D, h), starts=two, digits=digits, radius=within)
-    _deliver(find, output, as_json)
+    _deliver(output, as_json, search, Top(J, D, h), starts=two, digits=digits, radius=within)
 
 
 @certify.command("periodic-orbit")
@@ -144,10 +136,9 @@ def periodic_orbit(
     KK = rational(k_squared, "--k-squared")
     Kg = _optional(vertical_momentum, "--vertical-momentum")
     within = _optional(radius, "--radius")
-    from chapsym.certificates import orbit
+    from chapsym.certificates.orbit import periodic_orbit as search
 
-    find = partial(orbit.periodic_orbit, (J[0], J[1], J[2]), D, KK, steps, Kg, digits, attracting, within)
-    _deliver(find, output, as_json)
+    _deliver(output, as_json, search, J, D, KK, steps, Kg, digits, attracting, within)
 
 
 @certify.command("energy-drift")
@@ -174,8 +165,7 @@ def energy_drift(
     signs, end = rationals(symmetry, "--symmetry", 3), rational(time, "--time")
     from chapsym.certificates.drift_search import energy_drift as search
 
-    find = partial(search, J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits)
-    _deliver(find, output, as_json)
+    _deliver(output, as_json, search, J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits)
 
 
 @certify.command()
@@ -300,7 +290,9 @@ def within(error: float | None, unit: str) -> str:
     return f"is within {float(shown):.2g}{unit} at these frames: proved"
 
 
-def _deliver(find: Callable[..., dict[str, Any]], output: Path | None, as_json: bool) -> None:
+def _deliver(
+    output: Path | None, as_json: bool, search: Callable[..., dict[str, Any]], *given: Any, **options: Any
+) -> None:
     """Finds a certificate with its progress on standard error, writes it, and prints what the checker says of it."""
     from chapsym import checker, files
     from chapsym.certificates.document import write
@@ -308,7 +300,7 @@ def _deliver(find: Callable[..., dict[str, Any]], output: Path | None, as_json: 
     if output is not None:
         files.check_destination(output)
     with telling() as progress:
-        found = find(progress=progress)
+        found = search(*given, **options, progress=progress)
     if output is not None:
         write(output, found)
     if as_json:

@@ -65,6 +65,14 @@ def solved(function: Callable[[Any], Any], first: Any, second: Any) -> Any:
     raise BadInput("the secant method found no root; next to the end of the branch take a smaller height")
 
 
+def halved(below: Callable[[Any], bool], a: Any, b: Any, rounds: int) -> tuple[Any, Any]:
+    """The part of an interval, halved so often, at whose first end something holds that does not at its second."""
+    for _ in range(rounds):
+        c = (a + b) / 2
+        a, b = (c, b) if below(c) else (a, c)
+    return a, b
+
+
 class Level:
     """γ = (C_a cn u, C_b sn u, C_c dn u), the circle ⟨γ,Λ⁻¹γ⟩ = l around the axis c, and G_h on it.
 

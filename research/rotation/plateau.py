@@ -13,7 +13,7 @@ from flint import arb, ctx
 
 from chapsym.dynamics import BadInput
 
-from .circle import Level, middle, number, solved
+from .circle import Level, halved, middle, number, solved
 from .relation import Relation
 
 #: Digits by which the level is known better than the plateau is wide, and the fewest digits.
@@ -55,26 +55,18 @@ def bracket(off: Callable[[Any], Any], low: Any, high: Any) -> Any:
     """Two levels near each other between which the rotation number passes p/q, found at few digits; None if there are
     none.
     """
-    before = None
+    before: Any = None
     for i in range(1, SEARCHED):
         l = low + (high - low) * i * i / SEARCHED**2
         try:
-            here = off(l)
+            sign = off(l) > 0
         except BadInput:  # the branch has ended, or the step turns too far
             before = None
             continue
-        if before is not None and (before[1] > 0) != (here > 0):
-            return _closer(off, *before, l)
-        before = l, here
+        if before is not None and before[1] != sign:
+            return halved(lambda c, end=sign: (off(c) > 0) != end, before[0], l, 8)
+        before = l, sign
     return None
-
-
-def _closer(off: Callable[[Any], Any], a: Any, at_a: Any, b: Any) -> tuple[Any, Any]:
-    for _ in range(8):
-        c = middle((a + b) / 2)
-        at_c = off(c)
-        a, at_a, b = (c, at_c, b) if (at_c > 0) == (at_a > 0) else (a, at_a, c)
-    return a, b
 
 
 def resonance(

@@ -9,7 +9,7 @@ from chapsym.dynamics import BadInput
 from chapsym.dynamics.ball import Floats
 from chapsym.generated import gibbs_newton, turn
 
-from .circle import circle
+from .circle import circle, halved
 
 #: Newton rounds from u = 0, inside the bound of lemma `small-branch`.
 ROUNDS = 7
@@ -100,14 +100,8 @@ def edges(
 
     if not (extremes(low)[0] < 0 < extremes(high)[1]):
         return None
-    found = []
-    for which in (0, 1):
-        a, b = low, high
-        for _ in range(HALVINGS):
-            c = (a + b) / 2
-            a, b = (c, b) if extremes(c)[which] < 0 else (a, c)
-        found.append((a + b) / 2)
-    return found
+    ends = (halved(lambda l, which=which: extremes(l)[which] < 0, low, high, HALVINGS) for which in (0, 1))  # type: ignore[misc]
+    return [(a + b) / 2 for a, b in ends]
 
 
 def plateaus(
