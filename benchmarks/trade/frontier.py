@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from chapsym.dynamics import BadInput, StepNotTaken
-from chapsym.studies.harness import Contender, cores, interleaved
+
+from ..results import timed
 
 Say = Callable[[str], None]
 #: The digits of the table's rows.
@@ -126,11 +127,8 @@ def frontier(
             continue
         except BadInput as error:
             notes.append(f"{one.name}: {error}")
-    contenders = [Contender(f"{one.name} at {one.steps}", one.run, balls) for one in digits]
-    with cores(1):
-        times = interleaved(contenders, rounds, lambda done: say(f"{title}: round {done}"))
+    runs = {f"{one.name} at {one.steps}": (one.run, balls) for one in digits}
     points = []
-    for one, contender in zip(digits, contenders, strict=True):
-        took = times[contender.name].median
-        points.append(Point(one.name, one.step, took / one.steps, took / one.time, digits[one]))
+    for one, timing in zip(digits, timed(runs, rounds, say, title).values(), strict=True):
+        points.append(Point(one.name, one.step, timing.median / one.steps, timing.median / one.time, digits[one]))
     return Frontier(title, question, points, notes)

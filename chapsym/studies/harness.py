@@ -144,12 +144,6 @@ def in_checkout(package: str, module: str) -> Any:
         sys.path.remove(str(root))
 
 
-def compiler() -> str | None:
-    """The path of the C compiler: that of CC, or cc, gcc, clang, or None."""
-    wanted = os.environ.get("CC")
-    return next((path for path in map(shutil.which, [wanted] if wanted else ["cc", "gcc", "clang"]) if path), None)
-
-
 def machine() -> dict[str, Any]:
     """What a measurement must name: the processor, its cores, the compiler, and the versions."""
     return {
@@ -174,7 +168,9 @@ def _cpu() -> str:
 
 
 def _compiler_version() -> str:
-    path = compiler()
+    """Of the C compiler: that of CC, or cc, gcc, clang."""
+    wanted = os.environ.get("CC")
+    path = next(filter(None, map(shutil.which, [wanted] if wanted else ["cc", "gcc", "clang"])), None)
     if path is None:
         return "none"
     done = subprocess.run([path, "--version"], capture_output=True, text=True, check=False)

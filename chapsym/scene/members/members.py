@@ -181,7 +181,7 @@ class Body:
 
         def made(chosen: slice) -> Members:
             given = Given({key: array[chosen] for key, array in values.items()}, len(range(count)[chosen]))
-            return members_of(self.ball, self.start, given, self.scene.scale, names[chosen])
+            return members_of(self.ball, self.start, given, self.scene.task().scale, names[chosen])
 
         try:
             return replace(made(slice(0, count)), parameters=parameters)

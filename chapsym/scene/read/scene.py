@@ -5,6 +5,7 @@ import os
 import re
 import sys
 import tomllib
+from contextlib import suppress
 from copy import deepcopy
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -27,15 +28,13 @@ MOST_BYTES = 10_000_000
 MOST_DOTS = 2000
 
 
-def _one_or_many(given: Any) -> Any:
-    """The balls as a list: [ball] is one of one."""
-    return given if isinstance(given, list | tuple) else [given]
-
-
 Balls = Annotated[
     tuple[BallTable, ...],
     Field(min_length=1, description="A ball; or several, each [[ball]]."),
-    BeforeValidator(_one_or_many, json_schema_input_type=BallTable | list[BallTable]),
+    BeforeValidator(
+        lambda given: given if isinstance(given, list | tuple) else [given],
+        json_schema_input_type=BallTable | list[BallTable],
+    ),
 ]
 
 
@@ -67,11 +66,6 @@ class Scene(Table):
     def source(self) -> str:
         """What it was made of: the TOML text of its file, or else JSON."""
         return self._toml if self._toml is not None else json.dumps(self._data, ensure_ascii=False, default=str)
-
-    @property
-    def scale(self) -> float:
-        """What multiplies K to give the momentum of the members: ε, or 1 where the steps are to be chosen."""
-        return 1.0 if self.run.time_step is None else self.run.time_step
 
     def task(self) -> Task:
         """What is asked for, with the defaults filled in."""
@@ -185,7 +179,8 @@ def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:
         for name in ("every", "order", "precision"):
             run.pop(name, None)
         if time is None and own is None and isinstance(steps, int):
-            own = steps * _seconds(step)
+            with suppress(ValueError):  # of a step that is none the scene is refused below
+                own = steps * number(step, TIME)
         data["run"] = run | {"accuracy": accuracy} | ({"time": own if time is None else time} if time or own else {})
     return checked(data, str(path))
 
@@ -260,11 +255,3 @@ def toml_float(text: str) -> Any:
     """A float, or its text where float64 has not all digits: then `number` says so, with the key."""
     value = float(text)
     return text.replace("_", "") if abs(value) < sys.float_info.min else value
-
-
-def _seconds(given: Any) -> float:
-    """A time step as it is written; 0 where it is none."""
-    try:
-        return number(given, TIME)
-    except ValueError:
-        return 0.0

@@ -63,4 +63,4 @@ class Task:
     @property
     def scale(self) -> float:
         """What divides the momentum of a start to give K: ε, or 1 where it is K itself."""
-        return 1.0 if self.chosen or self.time_step is None else self.time_step
+        return 1.0 if self.time_step is None else self.time_step

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from chapsym import files
 from chapsym.dynamics import BadInput
@@ -32,9 +32,13 @@ class Kind(NamedTuple):
     warns: bool = False
 
 
-def _without(name: str, sentence: str) -> "Callable[[Dataset], str | None]":
-    """Of a figure that needs one variable: why it cannot be drawn."""
-    return lambda dataset: None if name in dataset else sentence
+def _needs(*needed: "tuple[Callable[[Dataset], Any], str]") -> "Callable[[Dataset], str | None]":
+    """What a figure needs of a result, each with the sentence that says why it cannot be drawn without."""
+    return lambda dataset: next((sentence for there, sentence in needed if not there(dataset)), None)
+
+
+def _any_of(*names: str) -> "Callable[[Dataset], bool]":
+    return lambda dataset: any(name in dataset for name in names)
 
 
 @cache
@@ -43,17 +47,35 @@ def kinds() -> dict[str, Kind]:
     from . import contact, over_time, phase, spheres
 
     timed = "(and give run.time_step)"
-    no_contact = _without("contact", 'no contact: add "contact" to run.outputs')
-    no_omega = _without("omega", f'no ω: add "omega" to run.outputs {timed}')
-    no_energy = _without("energy", f'no energy: add "energy" to run.outputs {timed}')
+    no_contact = _needs((_any_of("contact"), 'no contact: add "contact" to run.outputs'))
+    no_omega = _needs((_any_of("omega"), f'no ω: add "omega" to run.outputs {timed}'))
+    no_energy = _needs((_any_of("energy"), f'no energy: add "energy" to run.outputs {timed}'))
+    no_attitude = _needs(
+        (_any_of("attitude"), 'no attitude: add "attitude" to run.outputs'),
+        (lambda data: "quaternion" in data["attitude"].dims, "the attitude is drawn in three dimensions only"),
+    )
+    no_spread = _needs(
+        (lambda data: data.sizes.get("ball", 1) > 2, "a spread needs at least three balls"),
+        (_any_of("contact", "gamma"), 'no contact and no γ: add "contact" to run.outputs'),
+        (lambda data: (reading.last_frames(data) > 0).sum() > 2, "a spread needs at least three balls that go on"),
+    )
+    no_phase = _needs(
+        (_any_of("phase"), 'no phase: add "phase" to run.outputs (for vertical momentum)'),
+        (lambda data: data.sizes["frame"] > 1, "an increment needs two frames"),
+    )
+    alone = "one ball has one rotation number: sweep a parameter to see it change"
+    no_rotation = _needs(
+        (_any_of("rotation_number"), 'no rotation number: add "rotation_number" to run.outputs'),
+        (lambda data: data.sizes["ball"] > 1, alone),
+    )
     return {
         "contact": Kind(contact.draw, no_contact, curve=True, warns=True),
         "spheres": Kind(spheres.draw, spheres.missing, curve=True, warns=True),
-        "spread": Kind(over_time.draw_spread, over_time.no_spread),
-        "rotation": Kind(phase.draw_rotation, phase.no_rotation),
-        "phase": Kind(phase.draw_phase, phase.no_phase),
+        "spread": Kind(over_time.draw_spread, no_spread),
+        "rotation": Kind(phase.draw_rotation, no_rotation),
+        "phase": Kind(phase.draw_phase, no_phase),
         "omega": Kind(over_time.draw_omega, no_omega, curve=True, warns=True),
-        "attitude": Kind(over_time.draw_attitude, over_time.no_attitude, curve=True, warns=True),
+        "attitude": Kind(over_time.draw_attitude, no_attitude, curve=True, warns=True),
         "energy": Kind(over_time.draw_energy, no_energy, warns=True),
         "integrals": Kind(over_time.draw_integrals, over_time.no_integrals),
     }

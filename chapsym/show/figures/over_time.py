@@ -83,13 +83,6 @@ def _components(dataset: Dataset, array: Floats, names: list[str], symbol: str, 
     return figure
 
 
-def no_attitude(dataset: Dataset) -> str | None:
-    """Why the attitude cannot be drawn, in a sentence; None if it can."""
-    if "attitude" not in dataset:
-        return 'no attitude: add "attitude" to run.outputs'
-    return "the attitude is drawn in three dimensions only" if "quaternion" not in dataset["attitude"].dims else None
-
-
 def draw_attitude(dataset: Dataset) -> Picture:
     """One ball: its axes on the sphere of space and its quaternion; several: their quaternions."""
     quaternions = continued(reading.values(dataset, "attitude"))
@@ -219,16 +212,6 @@ def _changes(dataset: Dataset, changes: dict[str, Floats], title: str, height: f
     axis.set(xlabel=label, ylabel=f"relative change, {text}" if text else "relative change", title=title)
     legend(figure, [axis])
     return figure
-
-
-def no_spread(dataset: Dataset) -> str | None:
-    """Why the spread cannot be drawn, in a sentence; None if it can."""
-    if dataset.sizes.get("ball", 1) < 3:
-        return "a spread needs at least three balls"
-    if "contact" not in dataset and "gamma" not in dataset:
-        return 'no contact and no γ: add "contact" to run.outputs'
-    going = np.count_nonzero(reading.last_frames(dataset) > 0)
-    return "a spread needs at least three balls that go on" if going < 3 else None
 
 
 def draw_spread(dataset: Dataset) -> Picture:

@@ -14,13 +14,6 @@ from ..drawing.style import COLOURS, VERTICES, Picture, at_least, in_power, lege
 from .over_time import ULP, ULPS
 
 
-def no_phase(dataset: Dataset) -> str | None:
-    """Why the phase cannot be drawn, in a sentence; None if it can."""
-    if "phase" not in dataset:
-        return 'no phase: add "phase" to run.outputs (for vertical momentum)'
-    return "an increment needs two frames" if dataset.sizes["frame"] < 2 else None
-
-
 def draw_phase(dataset: Dataset) -> Picture:
     """u(t) above, without its jumps by a period; below its increment a step, constant for D = 0, else a function of u.
 
@@ -79,13 +72,6 @@ def gains(u: Floats, apart: np.ndarray, period: Floats | None, turns: Floats | N
     ways = np.sign(np.nan_to_num(gained))
     monotone = ways.min(axis=1, keepdims=True) * ways.max(axis=1, keepdims=True) >= 0
     return np.where(~monotone & (np.abs(gained) > span / 2), np.nan, gained), False
-
-
-def no_rotation(dataset: Dataset) -> str | None:
-    """Why the rotation number cannot be drawn, in a sentence; None if it can."""
-    if "rotation_number" not in dataset:
-        return 'no rotation number: add "rotation_number" to run.outputs'
-    return "one ball has one rotation number: sweep a parameter to see it change" if dataset.sizes["ball"] < 2 else None
 
 
 def draw_rotation(dataset: Dataset) -> Picture:
