@@ -51,8 +51,7 @@ def rows(case: Case, module: str, steps: tuple[float, ...], best: bool) -> Itera
             found.append(departure(case, runs[-1]))
     known = convergence(case, runs)
     for step, one in zip(steps, found, strict=True):
-        parts = one.parts()
-        numbers = [f"{abs(parts[name]).max():.2g}" for name in ("path", "attitude", "energy", "momentum")]
+        numbers = [f"{abs(one[name]).max():.2g}" for name in ("path", "attitude", "energy", "momentum")]
         last = ["", ""]
         if step == steps[-1]:
             last = ["none", ""] if known.order is None else [f"{known.order:.2f}", f"{known.floor:.2g}"]

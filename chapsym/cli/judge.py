@@ -33,7 +33,7 @@ def judge(
     Example: chapsym judge mine.csv --body mine.urdf
     """
     from chapsym.studies.comparable import case_of_body, check_start
-    from chapsym.studies.judge import case_of_scene, convergence, departure, read_case, sentence
+    from chapsym.studies.judge import case_of_scene, convergence, departure, read_case, sentence, summary
     from chapsym.studies.judge_tables import read_table
 
     if (against is None) == (body is None):
@@ -61,7 +61,7 @@ def judge(
         save(output, case, runs, found, known)
     if as_json:
         rows = [
-            {"file": run.file, "time_step": run.step, "departure": one.summary(case.time)}
+            {"file": run.file, "time_step": run.step, "departure": summary(one, case.time)}
             for run, one in zip(runs, found, strict=True)
         ]
         print_json(
@@ -70,7 +70,7 @@ def judge(
         return
     for run, one in zip(runs, found, strict=True):
         print(f"{run.file}{'' if run.step is None else f', step {run.step:g} s'}, against {case.name}:")
-        for line in lines(one.summary(case.time)):
+        for line in lines(summary(one, case.time)):
             print(f"  {line}")
     for name, several in known.items():
         print(f"{name}: {sentence(several, 'm' if name == 'path' else 'degrees')}")

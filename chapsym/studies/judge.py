@@ -114,51 +114,40 @@ def limit_of(name: str) -> str:
     return f"{LIMITS[name]:g} {'degree' if name == 'attitude' else UNITS[name]}"
 
 
-@dataclass(frozen=True, eq=False)
-class Departure:
-    """At the frames, (frames,) each, or None where the file has no velocities.
+#: The parts of a departure that there are, in the order of UNITS, (frames,) each.
+Departure = dict[str, np.ndarray]
 
-    path: from the point of contact to that below the centre, m.  attitude: the angle between the two, degrees.
-    energy, momentum: of the energy, and of the momentum about the contact point as a vector fixed in space, from those
-    at the start, per cent.  height: of the centre above the radius, m.  slip: the speed of the ball's point at the
-    floor, m/s.
-    """
 
-    path: np.ndarray
-    attitude: np.ndarray
-    height: np.ndarray
-    energy: np.ndarray | None
-    momentum: np.ndarray | None
-    slip: np.ndarray | None
-
-    def parts(self) -> dict[str, np.ndarray]:
-        """Those that there are, by name."""
-        return {name: part for name in UNITS if (part := getattr(self, name)) is not None}
-
-    def summary(self, time: np.ndarray) -> dict[str, Any]:
-        """The greatest, that at the end, and when the limits are passed: for JSON."""
-        found: dict[str, Any] = {}
-        for name, part in self.parts().items():
-            found[name] = {"greatest": float(np.abs(part).max()), "end": float(part[-1]), "unit": UNITS[name]}
-            if name in LIMITS:
-                passed = np.flatnonzero(np.abs(part) > LIMITS[name])
-                found[name] |= {"limit": LIMITS[name], "departs": float(time[passed[0]]) if passed.size else None}
-        return found
+def summary(found: Departure, time: np.ndarray) -> dict[str, Any]:
+    """Of each part the greatest, that at the end, and when the limit is passed: for JSON."""
+    told: dict[str, Any] = {}
+    for name, part in found.items():
+        told[name] = {"greatest": float(np.abs(part).max()), "end": float(part[-1]), "unit": UNITS[name]}
+        if name in LIMITS:
+            passed = np.flatnonzero(np.abs(part) > LIMITS[name])
+            told[name] |= {"limit": LIMITS[name], "departs": float(time[passed[0]]) if passed.size else None}
+    return told
 
 
 def departure(case: Case, found: Trajectory) -> Departure:
-    """Compares a trajectory with a case, frame by frame."""
+    """Compares a trajectory with a case, frame by frame.
+
+    path: from the point of contact to that below the centre, m.  attitude: the angle between the two, degrees.
+    Where the file has velocities, energy, momentum: of the energy, and of the momentum about the contact point as a
+    vector fixed in space, from those at the start, per cent.  height: of the centre above the radius, m.  slip, with
+    velocities: the speed of the ball's point at the floor, m/s.
+    """
     path = np.linalg.norm(found.centre[:, :2] - case.path, axis=-1)
-    energy = momentum = slip = None
-    if found.velocity is not None and found.omega is not None:
-        known = _carried(case, case.attitude, _rolling(case), case.omega)
-        own = _carried(case, found.attitude, found.velocity, found.omega)
-        energy = 100 * (own[0] / known[0][0] - 1)
-        momentum = 100 * np.linalg.norm(own[1] - known[1][0], axis=-1) / np.linalg.norm(known[1][0])
-        slip = np.linalg.norm(found.velocity[:, :2] - _rolling(case, found.omega)[:, :2], axis=-1)
-    return Departure(
-        path, angle(case.attitude, found.attitude), found.centre[:, 2] - case.radius, energy, momentum, slip
-    )
+    parts = {"path": path, "attitude": angle(case.attitude, found.attitude)}
+    height = {"height": found.centre[:, 2] - case.radius}
+    if found.velocity is None or found.omega is None:
+        return parts | height
+    known = _carried(case, case.attitude, _rolling(case), case.omega)
+    own = _carried(case, found.attitude, found.velocity, found.omega)
+    slip = np.linalg.norm(found.velocity[:, :2] - _rolling(case, found.omega)[:, :2], axis=-1)
+    parts["energy"] = 100 * (own[0] / known[0][0] - 1)
+    parts["momentum"] = 100 * np.linalg.norm(own[1] - known[1][0], axis=-1) / np.linalg.norm(known[1][0])
+    return parts | height | {"slip": slip}
 
 
 def angle(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from chapsym.dynamics.errors import BadInput
 from chapsym.show.drawing.style import WIDE, Picture, legend, new, styled
 from chapsym.studies.figures import save_figure
 
-from .judge import LIMITS, UNITS, Case, Convergence, Departure, limit_of, sentence
+from .judge import LIMITS, UNITS, Case, Convergence, Departure, limit_of, sentence, summary
 from .judge_tables import Trajectory
 
 FORMS = (".svg", ".png", ".pdf", ".html")
@@ -36,14 +36,14 @@ def save(
 def draw(data: Mapping[str, Any]) -> Picture:
     """A panel for each part, a line for each run, over the time after the start; the limit of departure is dotted."""
     case, found = data["case"], data["found"]
-    parts = [name for name in UNITS if any(name in one.parts() for one in found)]
+    parts = [name for name in UNITS if any(name in one for one in found)]
     title = f"{case.name}: distance from the certified motion"
     figure, axes = new(title, -(-len(parts) // 2), 2, height=2.6, width=WIDE)
     for axis, name in zip(axes, parts, strict=False):
         for run, one in zip(data["runs"], found, strict=True):
-            if name in one.parts():
+            if name in one:
                 label = Path(run.file).stem if run.step is None else f"step {run.step:g} s"
-                away = one.parts()[name][1:]
+                away = one[name][1:]
                 axis.plot(case.time[1:], away if name == "height" else np.abs(away), label=label)
         if name in LIMITS:
             axis.axhline(LIMITS[name], color="0.5", linestyle=":", linewidth=1)
@@ -62,12 +62,12 @@ def draw(data: Mapping[str, Any]) -> Picture:
 def _page(
     case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Mapping[str, Convergence], curves: str
 ) -> str:
-    names = [name for name in UNITS if any(name in one.parts() for one in found)]
+    names = [name for name in UNITS if any(name in one for one in found)]
     head = "".join(f"<th>{name}, {UNITS[name]}</th>" for name in names)
     rows = ""
     for run, one in zip(runs, found, strict=True):
-        summary = one.summary(case.time)
-        cells = "".join(f"<td>{_cell(summary.get(name))}</td>" for name in names)
+        told = summary(one, case.time)
+        cells = "".join(f"<td>{_cell(told.get(name))}</td>" for name in names)
         step = "" if run.step is None else f"{run.step:g}"
         rows += f"<tr><th>{html.escape(Path(run.file).name)}</th><td>{step}</td>{cells}</tr>\n"
     said = "".join(f"<p>{html.escape(f'{name}: {sentence(one, UNITS[name])}')}</p>\n" for name, one in known.items())

@@ -74,7 +74,7 @@ COUNTER = BLOCK * AWAY / RADIUS
 def test_the_moments_of_a_preset_are_those_of_its_mass(preset, keys, points):
     where, mass = points
     given = {name: np.array([value]) for name, value in {"mass": MASS, "radius": RADIUS, **keys}.items()}
-    tensor = PRESETS[preset].tensor(given)[0]
+    tensor = PRESETS[preset](**given)[0]
     tensor = np.diag(tensor) if tensor.ndim == 1 else tensor
     assert abs(mass.sum() / MASS - 1) < 16 * EPS
     np.testing.assert_allclose(mass @ where, 0, atol=64 * EPS * MASS * RADIUS)  # the centre of mass is the centre
@@ -85,7 +85,7 @@ def test_the_moments_of_a_preset_are_those_of_its_mass(preset, keys, points):
 def test_a_batch_of_bowling_balls_may_have_one_whose_block_is_at_the_centre():
     offset = np.array([[0.0, 0.0, 0.0], OFFSET])
     given = {"mass": np.full(2, MASS), "radius": np.full(2, RADIUS), "block_mass": np.full(2, BLOCK)}
-    tensor = PRESETS["bowling"].tensor(given | {"block_size": np.array([SIZE, SIZE]), "block_offset": offset})
+    tensor = PRESETS["bowling"](**given, block_size=np.array([SIZE, SIZE]), block_offset=offset)
     even = (MASS - BLOCK) * RADIUS**2 / 5 + BLOCK * np.array(SIZE) ** 2 / 12
     np.testing.assert_allclose(tensor[0], np.diag(even), rtol=4 * EPS)
 
@@ -112,11 +112,11 @@ def test_a_batch_of_bowling_balls_may_have_one_whose_block_is_at_the_centre():
 def test_a_body_that_cannot_be_is_refused(preset, keys, sentence):
     given = {name: np.array([value]) for name, value in {"mass": MASS, "radius": RADIUS, **keys}.items()}
     with pytest.raises(BadInput, match=sentence):
-        PRESETS[preset].tensor(given)
+        PRESETS[preset](**given)
 
 
 def test_mass_outside_of_the_ball_is_refused_and_a_shell_is_not():
-    thin = PRESETS["shell"].tensor({"mass": np.array([MASS]), "radius": np.array([RADIUS])})
+    thin = PRESETS["shell"](np.array([MASS]), np.array([RADIUS]))
     check_inside(thin, np.array([MASS]), np.array([RADIUS]))
     with pytest.raises(BadInput, match="some of its mass is outside of the ball"):
         check_inside(thin * (1 + 1e-11), np.array([MASS]), np.array([RADIUS]))

@@ -24,7 +24,7 @@ from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.map import check_body
 from chapsym.rationals import mass_tensor_from
 
-from ..read.bodies import PRESETS
+from ..read.bodies import PRESETS, keys_of
 from ..read.errors import SceneError
 from ..read.scene import Scene
 from ..read.tables import DIMENSIONS, SCALAR_FIRST
@@ -110,15 +110,15 @@ def _body(table: Mapping[str, Any]) -> tuple[tuple[Fraction, ...], Fraction, Ten
         if not any(whole[i][j] for i in range(3) for j in range(i)):
             return tuple(whole[i][i] for i in range(3)), D, None
         return (), D, lambda: [balls(row) for row in whole]
-    preset = PRESETS[table["preset"]]
-    given: dict[str, Any] = {key: _exactly(table, key) for key in ("mass", "radius", *preset.keys) if key in table}
+    preset, keys = PRESETS[table["preset"]], ("mass", "radius", *keys_of(table["preset"]))
+    given: dict[str, Any] = {key: _exactly(table, key) for key in keys if key in table}
     if "block_offset" not in given:
-        return tuple(preset.tensor(given)), D, None
+        return tuple(preset(**given)), D, None
 
     def tensor() -> Sequence[Balls]:
         """With a root in it: the distance of the block."""
         inside = {key: np.vectorize(ball, otypes=[object])(x[np.newaxis]) for key, x in given.items()}  # a batch of one
-        found: Sequence[Balls] = [tuple(row) for row in preset.tensor(inside)[0]]
+        found: Sequence[Balls] = [tuple(row) for row in preset(**inside)[0]]
         return found
 
     return (), D, tensor

@@ -21,7 +21,7 @@ from chapsym.dynamics.principal_axes import (
     to_principal,
 )
 
-from ..read.bodies import PRESETS, check_inside, rounded_by
+from ..read.bodies import KEYS, PRESETS, check_inside, rounded_by
 from ..read.errors import Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene
@@ -305,7 +305,7 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
         if table.mass_tensor is not None:
             tensor = given.array(table.mass_tensor, "ball.mass_tensor")
         elif table.preset is not None:
-            tensor = PRESETS[table.preset].tensor(told)
+            tensor = PRESETS[table.preset](**told)
         else:
             inertia = given.array(table.inertia, "ball.inertia")
             least = rounded_by(table.inertia)
@@ -320,8 +320,7 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
 
 def _sizes(table: BallTable, given: Given) -> tuple[dict[str, Floats], Floats]:
     """The masses and lengths of a table that are given, as arrays, and D."""
-    keys = ("mass", "radius", "D", *(key for preset in PRESETS.values() for key in preset.keys))
-    told = {key: given.array(value, f"ball.{key}") for key in keys if (value := getattr(table, key)) is not None}
+    told = {key: given.array(getattr(table, key), f"ball.{key}") for key in table.given("mass", "radius", "D", *KEYS)}
     with said_by("ball", _no_size(told) or ("D" if "D" in told else "mass")):
         return told, np.asarray(contact_term(told.get("mass"), told.get("radius"), told.get("D")))
 

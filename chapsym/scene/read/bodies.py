@@ -4,9 +4,9 @@ A body is a batch: masses and lengths are arrays (...), vectors (..., 3), and it
 diagonal in the axes that the user gave, else (..., 3, 3).  Every centre of mass is the centre of the ball.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from decimal import Decimal
+from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -20,53 +20,39 @@ ROUNDING = 1e-12
 LEAST = 1e-3
 
 
-@dataclass(frozen=True)
-class Preset:
-    """required, optional: its keys other than mass and radius.  tensor: its ∫xxᵀdm."""
-
-    required: tuple[str, ...]
-    optional: tuple[str, ...]
-    tensor: Callable[[Mapping[str, Floats]], Floats]
-
-    @property
-    def keys(self) -> tuple[str, ...]:
-        """All its keys other than mass and radius."""
-        return self.required + self.optional
-
-
-def homogeneous(given: Mapping[str, Floats]) -> Floats:
+def homogeneous(mass: Floats, radius: Floats) -> Floats:
     """m ρ²/5 along each axis: ∫x²dm = ⅓ ∫r²dm with ∫r²dm = 3m/ρ³ ∫₀^ρ r⁴dr = 3mρ²/5."""
-    return _isotropic(given["mass"] * given["radius"] ** 2 / 5)
+    return _isotropic(mass * radius**2 / 5)
 
 
-def shell(given: Mapping[str, Floats]) -> Floats:
+def shell(mass: Floats, radius: Floats, thickness: Floats | int = 0) -> Floats:
     """m/5 (ρ⁵ - r⁵)/(ρ³ - r³) along each axis, between r = ρ - thickness and ρ; m ρ²/3 as the thickness goes to 0.
 
     Both differences have the factor ρ - r, which is divided out.
     """
-    outer = given["radius"]
-    inner = outer - given.get("thickness", 0 * outer)
-    _check((inner >= 0) & (inner <= outer), "thickness must be from 0 to the radius")
-    fourth = outer**4 + outer**3 * inner + (outer * inner) ** 2 + outer * inner**3 + inner**4
-    return _isotropic(given["mass"] / 5 * fourth / (outer**2 + outer * inner + inner**2))
+    inner = radius - thickness
+    _check((inner >= 0) & (inner <= radius), "thickness must be from 0 to the radius")
+    fourth = radius**4 + radius**3 * inner + (radius * inner) ** 2 + radius * inner**3 + inner**4
+    return _isotropic(mass / 5 * fourth / (radius**2 + radius * inner + inner**2))
 
 
-def dumbbell(given: Mapping[str, Floats]) -> Floats:
+def dumbbell(
+    mass: Floats, radius: Floats, point_mass: Floats, separation: Floats, thickness: Floats | int = 0
+) -> Floats:
     """A shell, and two equal point masses on the third axis, at ± separation/2; the shell has what is left of the mass.
 
     The points add 2 point_mass (separation/2)² along the third axis.
     """
-    point, separation, inner = given["point_mass"], given["separation"], given["radius"]
-    inner = inner - given.get("thickness", 0 * inner)
-    left = given["mass"] - 2 * point
-    _check(point >= 0, "point_mass must not be negative")
+    left = mass - 2 * point_mass
+    _check(point_mass >= 0, "point_mass must not be negative")
     _check(left >= 0, "the two point masses are more than the mass, which is that of the whole ball")
-    _check((separation >= 0) & (separation <= 2 * inner), "separation must be from 0 to the inside of the shell")
-    points = point * separation**2 / 2
-    return shell({**given, "mass": left}) + np.stack([0 * points, 0 * points, points], axis=-1)
+    inside = (separation >= 0) & (separation <= 2 * (radius - thickness))
+    _check(inside, "separation must be from 0 to the inside of the shell")
+    points = point_mass * separation**2 / 2
+    return shell(left, radius, thickness) + np.stack([0 * points, 0 * points, points], axis=-1)
 
 
-def bowling(given: Mapping[str, Floats]) -> Floats:
+def bowling(mass: Floats, radius: Floats, block_mass: Floats, block_size: Floats, block_offset: Floats) -> Floats:
     """A homogeneous ball; in it a cuboid block with its middle at block_offset, and a counterweight.
 
     Assumed: block_mass is what the block has beyond the core that it displaces; its edges block_size are along the
@@ -74,29 +60,32 @@ def bowling(given: Mapping[str, Floats]) -> Floats:
     brings the centre of mass to the centre.  The rest of the mass is the homogeneous ball.
     ∫xxᵀdm = m₀ρ²/5 + block_mass (diag(size²)/12 + oo ᵀ) + block_mass |o| ρ ôôᵀ for the offset o = |o| ô.
     """
-    block, size, offset, radius = (given[name] for name in ("block_mass", "block_size", "block_offset", "radius"))
-    distance = np.sqrt((offset * offset).sum(axis=-1))
-    counterweight = block * distance / radius
-    core = given["mass"] - block - counterweight
-    corner = np.sqrt(((np.abs(offset) + size / 2) ** 2).sum(axis=-1))
-    _check(block >= 0, "block_mass must not be negative")
-    _check((size >= 0).all(axis=-1), "block_size must not be negative")
+    distance = np.sqrt((block_offset * block_offset).sum(axis=-1))
+    core = mass - block_mass - block_mass * distance / radius
+    corner = np.sqrt(((np.abs(block_offset) + block_size / 2) ** 2).sum(axis=-1))
+    _check(block_mass >= 0, "block_mass must not be negative")
+    _check((block_size >= 0).all(axis=-1), "block_size must not be negative")
     _check(corner <= radius * (1 + ROUNDING), "the block reaches beyond the radius of the ball")
     _check(core >= 0, "the block and its counterweight are more than the mass, which is that of the whole ball")
     along = np.divide(radius, distance, out=np.zeros_like(distance * radius), where=distance > 0)
-    points = (
-        (block * (1 + along))[..., np.newaxis, np.newaxis] * offset[..., :, np.newaxis] * offset[..., np.newaxis, :]
-    )
-    even = _isotropic(core * radius**2 / 5) + block[..., np.newaxis] * size**2 / 12
+    weight = (block_mass * (1 + along))[..., np.newaxis, np.newaxis]
+    points = weight * block_offset[..., :, np.newaxis] * block_offset[..., np.newaxis, :]
+    even = _isotropic(core * radius**2 / 5) + block_mass[..., np.newaxis] * block_size**2 / 12
     return points + even[..., np.newaxis] * np.eye(3)
 
 
-PRESETS: dict[str, Preset] = {
-    "homogeneous": Preset((), (), homogeneous),
-    "shell": Preset((), ("thickness",), shell),
-    "dumbbell": Preset(("point_mass", "separation"), ("thickness",), dumbbell),
-    "bowling": Preset(("block_mass", "block_size", "block_offset"), (), bowling),
-}
+#: The ∫xxᵀdm of bodies from their mass, their radius and other keys, of which some may be left out.
+PRESETS: dict[str, Callable[..., Floats]] = {one.__name__: one for one in (homogeneous, shell, dumbbell, bowling)}
+
+
+def keys_of(preset: str, required: bool = False) -> tuple[str, ...]:
+    """The keys of a preset other than mass and radius, all or those that it cannot do without."""
+    _, _, *own = signature(PRESETS[preset]).parameters.values()
+    return tuple(one.name for one in own if not required or one.default is one.empty)
+
+
+#: The keys of all presets.
+KEYS = tuple(key for preset in PRESETS for key in keys_of(preset))
 
 
 def _isotropic(moment: Floats) -> Floats:

@@ -20,7 +20,7 @@ from pydantic_core import core_schema
 from chapsym.accuracy.motion import FINEST
 from chapsym.numbers import own_name
 
-from .bodies import PRESETS, unbalanced
+from . import bodies
 from .errors import LIST, MATRIX, Misfit
 from .outputs import OUTPUTS
 from .ranges import Range, Value, value
@@ -224,7 +224,7 @@ class BallTable(Table):
         description="Principal moments of inertia about the centre, or the symmetric 3×3 tensor: off its diagonal "
         "stand -∫xy dm, ..., as ixy, ... of URDF, SDF and MJCF.",
     )
-    preset: Literal[*PRESETS] | None = Field(None, description="A body whose moments are known.")  # type: ignore[valid-type]
+    preset: Literal[*bodies.PRESETS] | None = Field(None, description="A body whose moments are known.")  # type: ignore[valid-type]
     mass: Mass | None = Field(None, description="Of the whole ball.")
     radius: Length | None = Field(None, description="Of the ball.")
     center_of_mass: Lengths3 | None = Field(
@@ -248,14 +248,13 @@ class BallTable(Table):
             known = [x for x in self.center_of_mass if not isinstance(x, Range)]
             offset = math.hypot(*known) if len(known) == 3 else None
             radius = self.radius if isinstance(self.radius, float) else None
-            raise Misfit(unbalanced("ball.center_of_mass", offset, radius), "center_of_mass")
+            raise Misfit(bodies.unbalanced("ball.center_of_mass", offset, radius), "center_of_mass")
         return self
 
     @model_validator(mode="after")
     def _one_body(self) -> Self:
         _one_of(self.given("mass_tensor", "inertia", "preset"), "ball", "mass_tensor or inertia (or a preset)")
-        own = {key for preset in PRESETS.values() for key in preset.keys}
-        told = self.given(*sorted(own))
+        told = self.given(*sorted(set(bodies.KEYS)))
         if self.mass_tensor is not None and len(self.mass_tensor) > MOST_DIMENSIONS:
             told_n = (
                 f"ball.mass_tensor has {len(self.mass_tensor)} numbers, and {MOST_DIMENSIONS} dimensions are the most"
@@ -265,10 +264,11 @@ class BallTable(Table):
             if told:
                 raise Misfit(f"ball.{told[0]} goes with ball.preset", told[0])
             return self._with_contact()
-        preset = PRESETS[self.preset]
-        if wrong := [key for key in told if key not in preset.keys]:
+        if wrong := [key for key in told if key not in bodies.keys_of(self.preset)]:
             raise Misfit(f"ball.{wrong[0]} does not go with the preset {self.preset}", wrong[0])
-        if missing := [key for key in ("mass", "radius", *preset.required) if getattr(self, key) is None]:
+        if missing := [
+            key for key in ("mass", "radius", *bodies.keys_of(self.preset, required=True)) if getattr(self, key) is None
+        ]:
             raise Misfit(f"ball.{missing[0]} is missing: the preset {self.preset} needs it", "preset")
         return self._with_contact()
 
