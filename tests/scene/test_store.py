@@ -31,7 +31,7 @@ from chapsym.scene.result.formats import check_ours, load
 from chapsym.scene.result.summary import far
 from chapsym.scene.running import store as stores
 from chapsym.scene.running import sweep
-from chapsym.scene.running.store import Store, write_region
+from chapsym.scene.running.store import Store
 from chapsym.scene.running.sweep import Stopped
 
 CHILD = [sys.executable, str(Path(__file__).parents[1] / "small_units.py")]
@@ -365,7 +365,7 @@ def test_a_store_that_is_deleted_under_a_unit_leaves_no_debris(tmp_path, path, m
 
         monkeypatch.setattr(zarr.Array, "__setitem__", late)
         with pytest.raises(SceneError, match="was deleted or moved while it was written"):
-            write_region(path, wanted, 0, 0, columns)
+            Store(path, wanted).write(0, 0, columns)
     assert not path.exists()
 
 
@@ -424,7 +424,7 @@ def test_a_worker_that_is_late_changes_nothing(whole, path):
     state = sweep.begin(wanted, wanted.chunks[1])
     columns, _ = sweep.advance(wanted, wanted.chunks[1], state, wanted.segments[0])
     assert sweep.run_to_store(wanted, path).complete
-    write_region(path, wanted, 1, 0, columns)
+    Store(path, wanted).write(1, 0, columns)
     equal_to_the_bit(opened(path), whole)
 
 

@@ -157,16 +157,31 @@ class Store:
                 self._put_mark(chunk, len(self.plan.segments), state)
             self._say(complete=False)
 
-    def write(self, chunk: int, segment: int, columns: Columns) -> None:
-        """Writes the values of a unit."""
-        write_region(self.path, self.plan, chunk, segment, columns)
+    def write(self, chunk: int, segment: int, values: Columns) -> None:
+        """Writes variables of one unit, which share no Zarr chunk with those of another; raises SceneError."""
+        import zarr
+
+        variables = {name: one for name, one in layout(self.plan).items() if name in values}
+        where = {"ball": self.plan.chunks[chunk], "frame": self.plan.segments[segment]}
+        with _refusals(self.path, variables):
+            (self.path / "zarr.json").stat()
+            try:
+                group = zarr.open_group(self.path, mode="r+", use_consolidated=False)
+                arrays: dict[str, Any] = {name: group[name] for name in variables}
+            except (KeyError, ValueError, TypeError):
+                (self.path / "zarr.json").stat()
+                raise SceneError(f"{self.path} is damaged, or is being deleted; replace it with --fresh") from None
+            for name, one in variables.items():
+                written = arrays[name].with_config({"write_empty_chunks": True})
+                written[tuple(where.get(dim, slice(None)) for dim in one.dims)] = np.asarray(values[name], one.dtype)
+            (self.path / "zarr.json").stat()  # of a store that was deleted since, Zarr has made these folders anew
 
     def mark(self, chunk: int, segment: int, state: State) -> None:
         """The mark of a unit whose region is written, after how its balls fared.
 
         That changes from segment to segment, so only the process that holds the lock writes it: a worker may be late.
         """
-        write_region(self.path, self.plan, chunk, segment, {name: state[name] for name in OUTCOME if name in state})
+        self.write(chunk, segment, {name: state[name] for name in OUTCOME if name in state})
         with _refusals(self.path, layout(self.plan)):
             self._put_mark(chunk, segment + 1, state)
 
@@ -194,26 +209,6 @@ def folder_of(store: Path) -> Path:
 def mark_of(store: Path, chunk: int) -> Path:
     """The mark of a chunk."""
     return folder_of(store) / f"chunk-{chunk:06d}.npz"
-
-
-def write_region(path: Path, plan: Plan, chunk: int, segment: int, values: Columns) -> None:
-    """Writes variables of one unit, which share no Zarr chunk with those of another; raises SceneError."""
-    import zarr
-
-    variables = {name: one for name, one in layout(plan).items() if name in values}
-    where = {"ball": plan.chunks[chunk], "frame": plan.segments[segment]}
-    with _refusals(path, variables):
-        (path / "zarr.json").stat()
-        try:
-            group = zarr.open_group(path, mode="r+", use_consolidated=False)
-            arrays: dict[str, Any] = {name: group[name] for name in variables}
-        except (KeyError, ValueError, TypeError):
-            (path / "zarr.json").stat()
-            raise SceneError(f"{path} is damaged, or is being deleted; replace it with --fresh") from None
-        for name, one in variables.items():
-            written = arrays[name].with_config({"write_empty_chunks": True})
-            written[tuple(where.get(dim, slice(None)) for dim in one.dims)] = np.asarray(values[name], one.dtype)
-        (path / "zarr.json").stat()  # of a store that was deleted since, Zarr has made these folders anew
 
 
 # Whose result a store holds.

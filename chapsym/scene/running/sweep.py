@@ -27,7 +27,7 @@ from ..plan.plan import Plan, asked_for, plan_from
 from ..read.errors import SceneError
 from ..read.task import Columns
 from ..result.dataset import OUTCOME, Arrays, arrays, layout, provenance, with_clock
-from .store import Store, check_same, difference, write_region
+from .store import Store, check_same, difference
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -248,7 +248,7 @@ def unit(text: str, about: dict[str, Any], path: str, chunk: int, segment: int, 
             )
         columns, after = computed(plan, chunk, segment, state)
         check_same(Path(path), plan)  # this worker may be late, and the store by now another's
-        write_region(Path(path), plan, chunk, segment, columns)
+        Store(Path(path), plan).write(chunk, segment, columns)
         return after
     except (NoAnswer, SceneError) as error:
         raise type(error)(str(error)) from None
