@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 import chapsym
-from chapsym.scene.members.members import Members, Parameter
+from chapsym.scene.members.members import Members
 from chapsym.scene.plan.models import FOLLOWED
 from chapsym.scene.plan.plan import asked_for, planned
 from chapsym.scene.read.task import Task
@@ -70,7 +70,7 @@ def batch(balls=400, steps=1500, every=5, seed=1, width=0.05):
     run = chapsym.roll(
         UNEVEN, omega, 0.01, steps, gamma=(2 / 7, 3 / 7, 6 / 7), every=every, contact=True, map=True
     )  # fmt: skip
-    return of(run, ALL, f"{balls} nearby starts", {"start.omega.1": Parameter(omega[:, 0], "rad s-1")})
+    return of(run, ALL, f"{balls} nearby starts", {"start.omega.1": omega[:, 0]})
 
 
 def top(steps=300, every=1):

@@ -11,7 +11,7 @@ from waiting import GUARD
 
 import chapsym
 from chapsym.dynamics import kernels
-from chapsym.scene.members.members import Members, Parameter
+from chapsym.scene.members.members import Members
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.plan import planned
 from chapsym.scene.read.task import Task
@@ -46,7 +46,7 @@ def members(n=BALLS):
     half = np.array([0.5, 0.5, 0.5, 0.5])
     return Members(
         tuple(f"ball {i}" for i in range(n)), ball, momentum, gamma, axes=np.broadcast_to(half, (n, 4)).copy(),
-        place=np.full((n, 2), 0.25), parameters={"start.omega.1": Parameter(omega[:, 0], "rad s-1")},
+        place=np.full((n, 2), 0.25), parameters={"start.omega.1": omega[:, 0]},
     )  # fmt: skip
 
 

@@ -9,6 +9,7 @@ import pytest
 from chapsym import scene
 from chapsym.scene import SceneError
 from chapsym.scene.members.members import expand
+from chapsym.scene.read.tables import units_of
 
 
 def checked(omega=(1, 2, 3), sweep=None, **ball):
@@ -21,7 +22,7 @@ def checked(omega=(1, 2, 3), sweep=None, **ball):
 
 
 def values(of):
-    return {key: one.values.tolist() for key, one in expand(of).parameters.items()}
+    return {key: one.tolist() for key, one in expand(of).parameters.items()}
 
 
 def test_ranges_make_their_product_the_last_the_fastest():
@@ -30,11 +31,11 @@ def test_ranges_make_their_product_the_last_the_fastest():
     assert found.names[0] == "ball 1"
     assert found.names[-1] == "ball 12"
     first, second = found.parameters["start.omega.1"], found.parameters["start.omega.2"]
-    assert found.parameters["ball.radius"].values.tolist() == [0.1] * 6 + [0.11] * 6
-    assert first.values.tolist() == [0.0, 0.0, 0.5, 0.5, 1.0, 1.0] * 2
-    assert second.values.tolist() == [np.pi, 7.0] * 6
-    assert (first.units, found.parameters["ball.radius"].units) == ("rad s-1", "m")
-    assert found.ball.radius.tolist() == found.parameters["ball.radius"].values.tolist()
+    assert found.parameters["ball.radius"].tolist() == [0.1] * 6 + [0.11] * 6
+    assert first.tolist() == [0.0, 0.0, 0.5, 0.5, 1.0, 1.0] * 2
+    assert second.tolist() == [np.pi, 7.0] * 6
+    assert (units_of("start.omega.1"), units_of("ball.radius")) == ("rad s-1", "m")
+    assert found.ball.radius.tolist() == found.parameters["ball.radius"].tolist()
 
 
 def test_each_ball_of_a_sweep_is_the_ball_alone():
@@ -42,9 +43,7 @@ def test_each_ball_of_a_sweep_is_the_ball_alone():
     swept = whole.parameters
     for i in range(len(whole)):
         keys = ("start.omega.2", "start.omega.3")
-        alone = expand(
-            checked((1, *(float(swept[k].values[i]) for k in keys)), mass=float(swept["ball.mass"].values[i]))
-        )
+        alone = expand(checked((1, *(float(swept[k][i]) for k in keys)), mass=float(swept["ball.mass"][i])))
         assert alone.momentum[0].tolist() == whole.momentum[i].tolist()
         assert alone.ball.D[0] == whole.ball.D[i]
     assert len(whole) == 24

@@ -25,18 +25,10 @@ from ..read.bodies import KEYS, PRESETS, check_inside, rounded_by
 from ..read.errors import Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene
-from ..read.tables import ATTITUDES, SCALAR_FIRST, BallTable, StartTable, units_of
+from ..read.tables import ATTITUDES, SCALAR_FIRST, BallTable, StartTable
 
 #: What is this near to a unit vector was meant to be one, and is divided by its length.
 ROUNDED = 1e-6
-
-
-@dataclass(frozen=True, eq=False)
-class Parameter:
-    """What a sweep varies: one value a ball, (n,), and its unit."""
-
-    values: Floats
-    units: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +42,7 @@ class Members:
     axes: unit quaternions, (n, 4), that turn principal axes to those the user gave; None where they are the same.
     attitude: unit quaternions from the principal axes to space, (n, 4); None for the least rotation with R γ = e₃.
     place: the contact point at the start in m, (n, 2); None for the origin.
-    parameters: what was varied, by dotted key.
+    parameters: what was varied, by dotted key, one value a ball in the unit of the key (`units_of`), (n,).
     """
 
     names: tuple[str, ...]
@@ -60,7 +52,7 @@ class Members:
     axes: Floats | None = None
     attitude: Floats | None = None
     place: Floats | None = None
-    parameters: Mapping[str, Parameter] = field(default_factory=dict)
+    parameters: Mapping[str, Floats] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.names)
@@ -77,7 +69,7 @@ class Members:
             name: getattr(self, name) for name in ("momentum", "gamma", "axes", "attitude", "place")
         }
         arrays: dict[str, Any] = {name: None if array is None else array[chosen] for name, array in whole.items()}
-        some = {name: Parameter(one.values[chosen], one.units) for name, one in self.parameters.items()}
+        some = {name: values[chosen] for name, values in self.parameters.items()}
         return replace(self, names=names, ball=_some(self.ball, chosen), parameters=some, **arrays)
 
 
@@ -177,14 +169,13 @@ class Body:
             raise SceneError(f"{self._place()}{told}")
         sweep = self.sweep()
         values, count, names = sweep.values(), len(sweep), self.names
-        parameters = {key: Parameter(array, units_of(key)) for key, array in values.items()}
 
         def made(chosen: slice) -> Members:
             given = Given({key: array[chosen] for key, array in values.items()}, len(range(count)[chosen]))
             return members_of(self.ball, self.start, given, self.scene.task().scale, names[chosen])
 
         try:
-            return replace(made(slice(0, count)), parameters=parameters)
+            return replace(made(slice(0, count)), parameters=values)
         except BadInput as error:
             first, why = _first_refused(made, 0, count) or (0, error)
             told = ", ".join(f"{key} = {array[first]:.6g}" for key, array in list(values.items())[:4])
@@ -226,13 +217,13 @@ def _joined(parts: list[Members]) -> Members:
         whole("axes", lambda part: np.tile([1.0, 0.0, 0.0, 0.0], (len(part), 1))),
         whole("attitude", lambda part: attitude_with(part.gamma)),
         whole("place", lambda part: np.zeros((len(part), part.dimension - 1))),
-        {key: Parameter(np.concatenate([_values(part, key) for part in parts]), units_of(key)) for key in keys},
+        {key: np.concatenate([_values(part, key) for part in parts]) for key in keys},
     )  # fmt: skip
 
 
 def _values(part: Members, key: str) -> Floats:
     """The values of a parameter; NaN for balls of which it is not varied."""
-    return part.parameters[key].values if key in part.parameters else np.full(len(part), np.nan)
+    return part.parameters.get(key, np.full(len(part), np.nan))
 
 
 def _whole(parts: list[Members], name: str, default: Callable[[Members], Any] = lambda part: None) -> Any:

@@ -22,6 +22,7 @@ from ..read.errors import SceneError
 from ..read.outputs import OUTPUTS, labels
 from ..read.ranges import Range
 from ..read.scene import from_source
+from ..read.tables import units_of
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -161,8 +162,8 @@ def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> 
         if dim in used:
             coords[dim] = _texts(names, dim)
     coords |= _moments(plan)
-    for key, parameter in plan.members.parameters.items():
-        coords[key] = Labelled(("ball",), np.asarray(parameter.values), _about(key, parameter.units))
+    for key, values in plan.members.parameters.items():
+        coords[key] = Labelled(("ball",), values, _about(key, units_of(key)))
     return Arrays(variables | coords, coords, provenance(plan) | _accuracy(plan))
 
 
