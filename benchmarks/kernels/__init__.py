@@ -35,6 +35,8 @@ MANIFEST = Path(generated.__file__).parent / "manifest.json"
 Kernel = Callable[..., Any]
 KERNELS: dict[str, Kernel] = {name: getattr(generated, name) for name in TABLE}
 Groups = dict[str, Sequence[Any]]
+#: One view of an output: its values, and what its error is relative to.
+Seen = tuple[Sequence[Any], Any]
 
 
 class View(NamedTuple):
@@ -107,13 +109,6 @@ def grouped(kernel: str, arguments: Sequence[Any]) -> Groups:
     return {name: [next(rest) for _ in range(length)] for name, length in TABLE[kernel][1]}
 
 
-class Seen(NamedTuple):
-    """One view of an output: its values, and what its error is relative to."""
-
-    values: Sequence[Any]
-    size: Any
-
-
 def seen(kernel: str, function: Kernel, point: Sequence[Any], at: Sequence[Any] | None = None) -> dict[str, Seen]:
     """The views of what a text of the kernel makes of a point, as mpf; `at`: the point as mpf, if it is of floats."""
     result, groups = function(*point), grouped(kernel, point if at is None else at)
@@ -121,7 +116,7 @@ def seen(kernel: str, function: Kernel, point: Sequence[Any], at: Sequence[Any] 
     found = {}
     for name, view in VIEWS.get(kernel, {"": View()}).items():
         values = view.values(output, groups)
-        found[name] = Seen(values, view.size(output, groups) if view.size else max(map(abs, values)))
+        found[name] = values, view.size(output, groups) if view.size else max(map(abs, values))
     return found
 
 
@@ -133,9 +128,9 @@ def errors(kernel: str, function: Kernel, stratum: str, given: Sequence[float]) 
     moved = [seen(kernel, reference, [*point[:j], x * (1 + NUDGE), *point[j + 1 :]]) for j, x in enumerate(point) if x]
     worst = {}
     for name, (values, size) in exact.items():
-        changes = (sum(abs(other[name].values[i] - x) for other in moved) for i, x in enumerate(values))
+        changes = (sum(abs(other[name][0][i] - x) for other in moved) for i, x in enumerate(values))
         condition = float(max(changes) / NUDGE / size) if size else 0.0
-        worst[name] = Worst(_off(found[name].values, values, size), condition, stratum, tuple(given))
+        worst[name] = Worst(_off(found[name][0], values, size), condition, stratum, tuple(given))
     return worst
 
 

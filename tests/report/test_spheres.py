@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import results
 
-from chapsym.dynamics import kernels
+from chapsym.dynamics import Ball, kernels
 from chapsym.show import figures
 from chapsym.show.drawing import invariant, sphere
-from chapsym.show.drawing.invariant import Body, curve_through, energy_range, unit
+from chapsym.show.drawing.invariant import curve_through, energy_range, unit
 from chapsym.show.figures import over_time, spheres
 
 J, D = np.array([0.1, 0.5, 1.6]), 0.7
@@ -21,31 +21,31 @@ def nearest(points, curve):
 
 @pytest.mark.parametrize("axes", [SAME, AXES], ids=["principal", "turned"])
 def test_the_curve_of_a_vertical_momentum_is_that_of_its_orbit(axes):
-    body = Body(J, D, axes)
-    orbit = body.given(results.vertical(300)["gamma"].values[0])
+    body = Ball(J, D, axes=axes)
+    orbit = body.from_principal(results.vertical(300)["gamma"].values[0])
     curve = curve_through(body, orbit, D)
     assert curve == pytest.approx(unit(curve), abs=1e-15)
     # Vertices of a curve of length < 2π, 720 pieces: no point is farther from one than half a piece or so.
     assert nearest(orbit, curve) < 0.01
     assert nearest(curve, orbit) < 0.08  # steps of the orbit
     if axes is AXES:
-        assert curve_through(Body(J, D), orbit, D) is None or nearest(orbit, curve_through(Body(J, D), orbit, D)) > 0.05
+        assert curve_through(Ball(J, D), orbit, D) is None or nearest(orbit, curve_through(Ball(J, D), orbit, D)) > 0.05
 
 
 def test_no_curve_is_drawn_that_is_not_the_orbits():
     orbit = results.vertical(100)["gamma"].values[0]
-    assert curve_through(Body(J[[1, 0, 2]], D), orbit, D) is None
-    assert curve_through(Body(J, D), np.tile([0.0, 0.0, 1.0], (5, 1)), D) is None
-    assert curve_through(Body(np.ones(3), D), orbit, D) is None
+    assert curve_through(Ball(J[[1, 0, 2]], D), orbit, D) is None
+    assert curve_through(Ball(J, D), np.tile([0.0, 0.0, 1.0], (5, 1)), D) is None
+    assert curve_through(Ball(np.ones(3), D), orbit, D) is None
     astray = orbit.copy()
     astray[50] = unit(astray[50] + [1e-3, 0.0, 0.0])
-    assert curve_through(Body(J, D), astray, D) is None
+    assert curve_through(Ball(J, D), astray, D) is None
 
 
 def test_the_polhode_is_that_of_the_momentum_of_a_top():
     dataset = results.top(200)
     momentum = unit(dataset["momentum"].values[0])
-    curve = curve_through(Body(np.array([1.0, 2.0, 4.0]), 0.0), momentum, 0.0)
+    curve = curve_through(Ball(np.array([1.0, 2.0, 4.0]), 0.0), momentum, 0.0)
     assert nearest(momentum, curve) < 0.01
     gamma, sphere_of_momentum = figures.draw(dataset, "spheres").axes
     labels = [axis.get_legend_handles_labels()[1] for axis in (gamma, sphere_of_momentum)]
@@ -62,7 +62,7 @@ def test_a_vertical_momentum_has_one_sphere_with_its_curve_in_the_axes_that_were
     assert len(figures.draw(upwards, "spheres").axes) == 1
     dataset = results.vertical(100)
     for name in ("gamma", "momentum"):
-        dataset[name] = dataset[name].dims, Body(J, D, AXES).given(dataset[name].values)
+        dataset[name] = dataset[name].dims, Ball(J, D, axes=AXES).from_principal(dataset[name].values)
     assert "invariant curve" not in figures.draw(dataset, "spheres").axes[0].get_legend_handles_labels()[1]
     dataset["axes"] = ("ball", "quaternion"), AXES[np.newaxis]
     assert "invariant curve" in figures.draw(dataset, "spheres").axes[0].get_legend_handles_labels()[1]
@@ -71,7 +71,7 @@ def test_a_vertical_momentum_has_one_sphere_with_its_curve_in_the_axes_that_were
 @pytest.mark.parametrize("of_gamma", [True, False])
 def test_the_range_of_the_energy_is_that_of_all_states_with_these_integrals(of_gamma):
     rng = np.random.default_rng(5)
-    body, cosine = Body(J, D), 0.3
+    body, cosine = Ball(J, D), 0.3
     directions = unit(rng.standard_normal((20, 3)))
     least, largest = energy_range(body, directions, cosine, of_gamma)
     whole = largest.max() - least.min()

@@ -1,13 +1,12 @@
 """Where a ball may be on the spheres of γ and 𝒦/|𝒦|: its invariant curve, or the region that the integrals leave it."""
 
-from dataclasses import dataclass, field
+from contextlib import suppress
 
 import numpy as np
 from xarray import Dataset
 
 from chapsym.dynamics import BadInput, Ball, Curve, kernels
 from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.principal_axes import from_principal, to_principal
 
 from . import reading
 
@@ -20,29 +19,14 @@ POINTS, LONGEST = 721, 20.0
 ANGLES = 48
 
 
-@dataclass(frozen=True, eq=False)
-class Body:
-    """J (3,), D, and the unit quaternion that turns principal axes to those of the result."""
-
-    mass_tensor: Floats
-    D: float
-    axes: Floats = field(default_factory=lambda: np.array([1.0, 0.0, 0.0, 0.0]))
-
-    def principal(self, vectors: Floats) -> Floats:
-        """Vectors (..., 3) in principal axes, from those of the result."""
-        return to_principal(self.axes, vectors)
-
-    def given(self, vectors: Floats) -> Floats:
-        """Vectors (..., 3) in the axes of the result, from principal ones."""
-        return from_principal(self.axes, vectors)
-
-
-def bodies_of(dataset: Dataset) -> list[Body]:
-    """The body of each ball of a result; none where the result does not know J and D."""
+def bodies_of(dataset: Dataset) -> list[Ball]:
+    """The body of each ball of a result, in its axes; none where the result does not know J and D."""
     J, D, axes = (reading.per_ball(dataset, name) for name in ("mass_tensor", "D", "axes"))
     if J is None or D is None:
         return []
-    return [Body(J[i], float(D[i]), *([] if axes is None else [axes[i]])) for i in range(len(J))]
+    with suppress(BadInput):
+        return [Ball(J[i], D[i], axes=None if axes is None else axes[i]) for i in range(len(J))]
+    return []
 
 
 def unit(vectors: Floats) -> Floats:
@@ -57,13 +41,13 @@ def is_vertical(momentum: Floats, gamma: Floats) -> bool:
     return bool(momentum.any() and np.abs(np.cross(direction, gamma)).max() < VERTICAL)
 
 
-def curve_through(body: Body, orbit: Floats, D: float) -> Floats | None:
+def curve_through(body: Ball, orbit: Floats, D: float) -> Floats | None:
     """The curve ⟨x,Λ⁻¹x⟩ = l, Λ = I + D, on which an orbit (frames, 3) of unit vectors runs, (m, 3).
 
     For γ of a ball with vertical momentum D is the ball's; for 𝒦/|𝒦| of a ball with D = 0 it is Poinsot's polhode.
     None where the orbit is a fixed point, and where it is not on that curve: then the result's J and D are not its own.
     """
-    principal = body.principal(orbit)
+    principal = body.to_principal(orbit)
     try:
         curve = Curve.through(Ball(body.mass_tensor, np.float64(D)), principal[0])
         curve.argument(principal[-1])
@@ -73,10 +57,10 @@ def curve_through(body: Body, orbit: Floats, D: float) -> Floats | None:
     if np.abs((principal**2 / moments).sum(axis=-1) / curve.level - 1.0).max() > NEAR:
         return None
     end = min(curve.period / 2.0, LONGEST)
-    return body.given(curve.point(np.linspace(-end, end, POINTS)))
+    return body.from_principal(curve.point(np.linspace(-end, end, POINTS)))
 
 
-def energy_range(body: Body, directions: Floats, cosine: float, of_gamma: bool) -> tuple[Floats, Floats]:
+def energy_range(body: Ball, directions: Floats, cosine: float, of_gamma: bool) -> tuple[Floats, Floats]:
     """Least and largest ½⟨m,ω⟩/|𝒦|² for γ (if `of_gamma`) or m = 𝒦/|𝒦| at `directions`, (...), the angle kept.
 
     directions: unit vectors in principal axes, (..., 3).  The other vector is anywhere on the circle ⟨m,γ⟩ = `cosine`.
@@ -89,7 +73,7 @@ def energy_range(body: Body, directions: Floats, cosine: float, of_gamma: bool) 
     here = np.broadcast_to(directions[..., np.newaxis, :], (*directions.shape[:-1], ANGLES, 3))
     others = cosine * here + np.sqrt(max(1.0 - cosine**2, 0.0)) * np.moveaxis(ring, -1, -2)
     m, gamma = (others, here) if of_gamma else (here, others)
-    energy = kernels.energy(m, gamma, body.mass_tensor, np.float64(body.D))
+    energy = kernels.energy(m, gamma, body.mass_tensor, body.D)
     return -_largest(-energy), _largest(energy)
 
 

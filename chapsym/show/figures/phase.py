@@ -5,7 +5,7 @@ from contextlib import suppress
 import numpy as np
 from xarray import Dataset
 
-from chapsym.dynamics import BadInput, Ball, Curve
+from chapsym.dynamics import BadInput, Curve
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading, series
@@ -52,7 +52,7 @@ def periods(dataset: Dataset) -> Floats | None:
     found = np.full(len(gamma), np.nan)
     for i, (body, start) in enumerate(zip(bodies, gamma, strict=True)):
         with suppress(BadInput):  # a fixed point has no curve
-            found[i] = Curve.through(Ball(body.mass_tensor, np.float64(body.D)), body.principal(start)).period
+            found[i] = Curve.through(body.principal, body.to_principal(start)).period
     return found
 
 

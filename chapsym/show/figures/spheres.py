@@ -6,11 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from xarray import Dataset
 
-from chapsym.dynamics import kernels
+from chapsym.dynamics import Ball, kernels
 from chapsym.dynamics.ball import Floats
 
 from ..drawing import reading, series
-from ..drawing.invariant import Body, bodies_of, curve_through, energy_range, is_vertical, unit
+from ..drawing.invariant import bodies_of, curve_through, energy_range, is_vertical, unit
 from ..drawing.sphere import LONGEST, View, draw_curve, draw_globe, draw_orbit
 from ..drawing.style import COLOURS, FEW, VERTICES, Picture, empty, entitle, legend, new, scale
 
@@ -86,7 +86,7 @@ def _panel(
     for i, one in enumerate(points):
         orbit, colour = one[: last[i] + 1], COLOURS[i]
         if bodies and (vertical or (name == "momentum" and bodies[i].D == 0.0)):
-            curve = curve_through(bodies[i], orbit, bodies[i].D if vertical else 0.0)
+            curve = curve_through(bodies[i], orbit, float(bodies[i].D) if vertical else 0.0)
             if curve is not None:
                 draw_curve(axis, view, curve, "invariant curve")
         most, longest = VERTICES // len(points), LONGEST * share / len(points)
@@ -100,14 +100,14 @@ def _panel(
     return shortest
 
 
-def _forbidden(axis: Axes, view: View, body: Body, found: dict[str, Floats], of_gamma: bool) -> None:
+def _forbidden(axis: Axes, view: View, body: Ball, found: dict[str, Floats], of_gamma: bool) -> None:
     """Greys out where |𝒦|, ⟨𝒦,γ⟩ and the energies of this run do not let the vector be."""
     there = np.isfinite(found["gamma"]).all(axis=-1)
-    m, gamma = unit(body.principal(found["momentum"][there])), body.principal(found["gamma"][there])
-    energies = kernels.energy(m, gamma, body.mass_tensor, np.float64(body.D))
+    m, gamma = unit(body.to_principal(found["momentum"][there])), body.to_principal(found["gamma"][there])
+    energies = kernels.energy(m, gamma, body.mass_tensor, body.D)
     low, high = float(energies.min()), float(energies.max())
     inside, seen = view.disc(PIXELS)
-    least, largest = energy_range(body, body.principal(seen), float(np.median((m * gamma).sum(-1))), of_gamma)
+    least, largest = energy_range(body, body.to_principal(seen), float(np.median((m * gamma).sum(-1))), of_gamma)
     image: Any = np.zeros((PIXELS, PIXELS, 4))
     # The least and largest energies have the error of a parabola through samples: 1.6e-4 of the range was measured.
     slack = 1e-3 * (float(np.max(largest)) - float(np.min(least)))
