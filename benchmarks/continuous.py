@@ -11,6 +11,7 @@ import numpy as np
 
 from chapsym import Ball, certified_motion, generated
 from chapsym.dynamics.levels.start import fraction
+from chapsym.dynamics.loops.vectors import cross
 from chapsym.studies.harness import NotComparable
 
 from .trajectory import MASS_TENSOR, D
@@ -25,11 +26,8 @@ DIGITS = 25
 
 def rates(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
     """K × ω and γ × ω, six numbers of any kind, with ω from the generated kernel."""
-    w1, w2, w3 = generated.angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
-    return (
-        K2 * w3 - K3 * w2, K3 * w1 - K1 * w3, K1 * w2 - K2 * w1,
-        g2 * w3 - g3 * w2, g3 * w1 - g1 * w3, g1 * w2 - g2 * w1,
-    )  # fmt: skip
+    w = generated.angular_velocity(K1, K2, K3, g1, g2, g3, J1, J2, J3, D)
+    return *cross((K1, K2, K3), w), *cross((g1, g2, g3), w)
 
 
 def right_side(t: float, y: np.ndarray) -> tuple[float, ...]:

@@ -12,6 +12,7 @@ import chapsym
 from chapsym import generated
 from chapsym.dynamics import kernels
 from chapsym.dynamics.attitudes import attitude_with
+from chapsym.dynamics.loops.vectors import cross
 from chapsym.studies.harness import installed
 
 from .continuous import LANES, adaptive, rates
@@ -148,10 +149,9 @@ def _integrator(tolerance: float, kind: str) -> Any:
 
     v: Any = heyoka.make_vars("K1", "K2", "K3", "g1", "g2", "g3", "a0", "a1", "a2", "a3", "x", "y")
     kinetic, radius = (*v[:6], *(heyoka.par[i] for i in range(4))), heyoka.par[4]
-    g1, g2, g3, a0, a1, a2, a3 = v[3:10]
-    w1, w2, w3 = generated.angular_velocity(*kinetic)
-    slip = generated.rotate(a0, a1, a2, a3, w2 * g3 - w3 * g2, w3 * g1 - w1 * g3, w1 * g2 - w2 * g1)
-    turn = generated.compose(a0, a1, a2, a3, 0.0, 0.5 * w1, 0.5 * w2, 0.5 * w3)
+    omega, attitude = generated.angular_velocity(*kinetic), v[6:10]
+    slip = generated.rotate(*attitude, *cross(omega, v[3:6]))
+    turn = generated.compose(*attitude, 0.0, *(0.5 * w for w in omega))
     sides = (*rates(*kinetic), *turn, slip[0] * radius, slip[1] * radius)
     return adaptive(list(zip(v, sides, strict=True)), tolerance, kind, parameters=5)
 

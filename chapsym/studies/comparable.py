@@ -16,7 +16,7 @@ import numpy as np
 
 from chapsym.dynamics.errors import BadInput
 
-from .judge import Case, angle, certified
+from .judge import Case, angle, certified, rolling
 from .judge_tables import Table, Trajectory, in_space
 
 #: How far the first row may be from the start, relatively, beyond its digits: more than float32 rounds; and where a
@@ -90,9 +90,8 @@ Start = dict[str, np.ndarray]
 
 def _rolling(place: np.ndarray, radius: float, attitude: np.ndarray, omega: np.ndarray) -> Start:
     """That of a ball on the plane, at its point of contact."""
-    velocity = radius * np.array([omega[1], -omega[0], 0.0])
     centre = np.array([*place, radius])
-    return {"centre": centre, "attitude": attitude, "velocity": velocity, "omega": omega}
+    return {"centre": centre, "attitude": attitude, "velocity": rolling(radius, omega), "omega": omega}
 
 
 def _apart(run: Trajectory, start: Start, soft: float) -> list[str]:

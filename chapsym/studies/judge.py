@@ -142,9 +142,9 @@ def departure(case: Case, found: Trajectory) -> Departure:
     height = {"height": found.centre[:, 2] - case.radius}
     if found.velocity is None or found.omega is None:
         return parts | height
-    known = _carried(case, case.attitude, _rolling(case), case.omega)
+    known = _carried(case, case.attitude, rolling(case.radius, case.omega), case.omega)
     own = _carried(case, found.attitude, found.velocity, found.omega)
-    slip = np.linalg.norm(found.velocity[:, :2] - _rolling(case, found.omega)[:, :2], axis=-1)
+    slip = np.linalg.norm(found.velocity[:, :2] - rolling(case.radius, found.omega)[:, :2], axis=-1)
     parts["energy"] = 100 * (own[0] / known[0][0] - 1)
     parts["momentum"] = 100 * np.linalg.norm(own[1] - known[1][0], axis=-1) / np.linalg.norm(known[1][0])
     return parts | height | {"slip": slip}
@@ -157,10 +157,9 @@ def angle(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.degrees(4 * np.arctan2(near, far))
 
 
-def _rolling(case: Case, omega: np.ndarray | None = None) -> np.ndarray:
-    """The velocity of the centre of a ball that rolls: ω × ρe₃."""
-    w = case.omega if omega is None else omega
-    return case.radius * np.stack([w[:, 1], -w[:, 0], np.zeros(len(w))], axis=-1)
+def rolling(radius: float, omega: np.ndarray) -> np.ndarray:
+    """The velocities (..., 3) of the centre of a ball that rolls: ω × ρe₃."""
+    return radius * np.stack([omega[..., 1], -omega[..., 0], np.zeros(omega.shape[:-1])], axis=-1)
 
 
 def _carried(

@@ -4,8 +4,6 @@ import argparse
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-import numpy as np
-
 from chapsym import files
 from chapsym.studies.judge import Case, read_case
 from chapsym.studies.judge_tables import MORE, NEEDED
@@ -17,12 +15,6 @@ Rows = Iterable[Iterable[float]]
 
 def case_of(name: str) -> Case:
     return read_case(DATA / f"{name}.json")
-
-
-def velocity_of(case: Case) -> np.ndarray:
-    """Of the centre at the start: ω × ρe₃."""
-    w = case.omega[0]
-    return case.radius * np.array([w[1], -w[0], 0.0])
 
 
 def steps_between(case: Case, step: float) -> int:

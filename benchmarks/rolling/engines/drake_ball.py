@@ -13,9 +13,9 @@ from pydrake.multibody.tree import SpatialInertia, UnitInertia
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from chapsym.studies.judge import Case
+from chapsym.studies.judge import Case, rolling
 
-from .common import Rows, command, velocity_of
+from .common import Rows, command
 
 
 def run(case: Case, step: float, best: bool) -> Rows:
@@ -36,7 +36,7 @@ def run(case: Case, step: float, best: bool) -> Rows:
     diagram = builder.Build()
     simulator = Simulator(diagram)
     context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
-    start = [*case.attitude[0], *case.path[0], case.radius, *case.omega[0], *velocity_of(case)]
+    start = [*case.attitude[0], *case.path[0], case.radius, *case.omega[0], *rolling(case.radius, case.omega[0])]
     plant.SetPositionsAndVelocities(context, start)
     for time in case.time:
         simulator.AdvanceTo(time)

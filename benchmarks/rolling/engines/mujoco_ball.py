@@ -7,9 +7,9 @@ elliptic friction cones, more friction than can be used, and the integrator RK4.
 import mujoco
 import numpy as np
 
-from chapsym.studies.judge import Case
+from chapsym.studies.judge import Case, rolling
 
-from .common import Rows, command, steps_between, velocity_of
+from .common import Rows, command, steps_between
 
 MODEL = """
 <mujoco>
@@ -40,7 +40,7 @@ def run(case: Case, step: float, best: bool) -> Rows:
     mujoco.mju_negQuat(back, case.attitude[0])
     body = np.zeros(3)
     mujoco.mju_rotVecQuat(body, case.omega[0], back)
-    data.qvel[:] = [*velocity_of(case), *body]  # MuJoCo has ω in the axes of the body
+    data.qvel[:] = [*rolling(case.radius, case.omega[0]), *body]  # MuJoCo has ω in the axes of the body
     count = steps_between(case, step)
     for time in case.time:
         for _ in range(count if time else 0):

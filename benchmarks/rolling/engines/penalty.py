@@ -7,9 +7,9 @@ Kutta's method of order 4 with a fixed step, in space.
 import numpy as np
 
 from chapsym import generated
-from chapsym.studies.judge import Case
+from chapsym.studies.judge import Case, rolling
 
-from .common import Rows, command, steps_between, velocity_of
+from .common import Rows, command, steps_between
 
 GRAVITY, STIFFNESS, DAMPING, VISCOSITY = 9.81, 1e6, 1e3, 3e2  # m/s², N/m, N s/m, N s/m, each a kg of the ball
 
@@ -32,12 +32,11 @@ def run(case: Case, step: float, best: bool = False) -> Rows:
         dq = (r[1] * tx + r[4] * ty + (j3 - j1) * s * p) / j2
         ds = (r[2] * tx + r[5] * ty + (j1 - j2) * p * q) / j3
         turning = [r[i] * dp + r[i + 1] * dq + r[i + 2] * ds for i in (0, 3, 6)]
-        spun = [-qx * wx - qy * wy - qz * wz, qw * wx + wy * qz - wz * qy, qw * wy + wz * qx - wx * qz,
-                qw * wz + wx * qy - wy * qx]  # fmt: skip
+        spun = generated.compose(0.0, wx, wy, wz, qw, qx, qy, qz)
         return np.array([vx, vy, vz, *(x / 2 for x in spun), ax, ay, press - GRAVITY, *turning])
 
     sunk = GRAVITY / STIFFNESS
-    start = [[*case.path[0], case.radius - sunk], case.attitude[0], velocity_of(case), case.omega[0]]
+    start = [[*case.path[0], case.radius - sunk], case.attitude[0], rolling(case.radius, case.omega[0]), case.omega[0]]
     state, count, h = np.concatenate(start), steps_between(case, step), step
     for time in case.time:
         for _ in range(count if time else 0):

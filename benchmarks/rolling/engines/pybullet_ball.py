@@ -6,9 +6,9 @@ one; with --best no damping, more friction than can be used, and 500 iterations 
 
 import pybullet
 
-from chapsym.studies.judge import Case
+from chapsym.studies.judge import Case, rolling
 
-from .common import Rows, command, steps_between, velocity_of
+from .common import Rows, command, steps_between
 
 
 def run(case: Case, step: float, best: bool) -> Rows:
@@ -30,7 +30,7 @@ def run(case: Case, step: float, best: bool) -> Rows:
             )
             for body in (plane, ball):
                 pybullet.changeDynamics(body, -1, lateralFriction=10, physicsClientId=client)
-        pybullet.resetBaseVelocity(ball, list(velocity_of(case)), list(case.omega[0]), client)
+        pybullet.resetBaseVelocity(ball, list(rolling(case.radius, case.omega[0])), list(case.omega[0]), client)
         count = steps_between(case, step)
         for time in case.time:
             for _ in range(count if time else 0):
