@@ -32,14 +32,12 @@ SECTIONS = {
 }
 
 
-def html(
-    records: Sequence[Record], versions: Mapping[str, str], date: str | None = None, source: Source = FEDOROV
-) -> str:
+def html(records: Sequence[Record], versions: Mapping[str, str], source: Source = FEDOROV) -> str:
     """The whole page; the same records and versions give the same bytes."""
     page = Page(records, versions, source)
     shown = {name: both for name, both in SECTIONS.items() if name != "symbols" or source == FEDOROV}
     return page.render(
-        "page.html", style=style(), script=Markup((FOLDER / "script.js").read_text(encoding="utf-8")), date=date,
+        "page.html", style=style(), script=Markup((FOLDER / "script.js").read_text(encoding="utf-8")),
         body=[(name, title, page.section(name, title, template)) for name, (title, template) in shown.items()],
         summary=page.section("summary", "Summary", "summary.html"),
     )  # fmt: skip

@@ -56,7 +56,7 @@ def html(
     """
     by_id = {record["id"]: record for record in records}
     return Page(records, versions).render(
-        "questions.html", style=style(FOLDER / "questions.css"), date=None, certificates=certificates,
+        "questions.html", style=style(FOLDER / "questions.css"), certificates=certificates,
         questions=[(id, question, by_id[id]) for id, question in QUESTIONS.items() if id in by_id],
         evidence=evidence, lemmas=[record for record in records if record["id"] not in QUESTIONS],
         source_of=lambda svg: "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode(),

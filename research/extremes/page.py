@@ -84,5 +84,5 @@ def html(matrix: Mapping[str, Any], versions: Mapping[str, str], machine: str) -
     """The whole page of the JSON object of `chapsym extremes`; the same input gives the same bytes."""
     from chapsym.report.page import style, templates
 
-    said = {"about": about(matrix), "tables": tables(matrix), "versions": versions, "machine": machine, "date": None}
+    said = {"about": about(matrix), "tables": tables(matrix), "versions": versions, "machine": machine}
     return templates(HERE).get_template("page.html").render(style=style(HERE / "page.css"), **said)
