@@ -8,7 +8,7 @@ from chapsym.studies.harness import Contender, NotComparable, Timing
 
 from .results import Curve, Reached, Result
 
-__all__ = ["SECTIONS", "Contender", "Curve", "NotComparable", "Reached", "Result", "Timing", "draw", "run"]
+__all__ = ["SECTIONS", "Contender", "Curve", "NotComparable", "Reached", "Result", "Timing", "run"]
 
 NAME, TITLE = "bench", "Speed beside other methods"
 ABOUT = (
@@ -29,10 +29,3 @@ def run(section: str, quick: bool, on_round: Callable[[str], None] = lambda text
     own: of the section `trajectory`, the ball and its start, as `trajectory.Start`.
     """
     return import_module(f".{section.replace('-', '_')}", __name__).measure(quick, on_round, **own)
-
-
-def draw(results: dict[str, Result]) -> Any:
-    """The figure of the sections that have one."""
-    from . import figure
-
-    return figure.draw(results)

@@ -39,9 +39,10 @@ def measure(
         if output is not None and page:  # after each section: what is measured is kept, whatever comes then
             measured.write(output, study.TITLE, study.ABOUT, [*_goals(results), *_tables(results)], _shown)
     if output is not None and not page:
-        from chapsym.studies.figures import save_figure
+        from chapsym.studies.figures import save_figures
 
-        save_figure(study.draw, {name: results[name] for name in study.DRAWN if name in results}, output)
+        drawn = {name: results[name] for name in study.DRAWN if name in results}
+        save_figures(study.__name__, {output.name: "figure:draw"}, drawn, output.parent)
     quiet()
     found = plain(results, quick)
     if as_json:

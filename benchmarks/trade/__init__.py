@@ -10,7 +10,7 @@ from chapsym.studies.harness import NotComparable
 from . import frontiers, requests
 from .frontier import Frontier, Point
 
-__all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "draw", "missed", "run"]
+__all__ = ["DRAWN", "SECTIONS", "Frontier", "NotComparable", "Point", "missed", "run"]
 
 NAME, TITLE = "trade", "Speed against accuracy"
 ABOUT = "Time of the processor against correct digits, for every precision level, order and length of step."
@@ -28,13 +28,6 @@ SECTIONS: dict[str, Callable[..., Any]] = {**DRAWN, "requests": requests.measure
 def run(section: str, quick: bool, say: Callable[[str], None] = lambda text: None) -> Any:
     """Measures a section; raises NotComparable where a reference is not confirmed."""
     return SECTIONS[section](quick, say)
-
-
-def draw(found: dict[str, Frontier]) -> Any:
-    """A figure with a panel for each section."""
-    from . import figure
-
-    return figure.draw(found)
 
 
 def missed(found: dict[str, Any]) -> str | None:

@@ -36,7 +36,7 @@ def test_a_page_of_the_check_has_the_table_that_is_printed(tmp_path, monkeypatch
 
 def test_a_page_of_the_extremes_has_every_condition_of_its_group(tmp_path):
     page = tmp_path / "extremes.md"
-    done = chapsym("extremes", "input", "--quick", "-o", page)
+    done = chapsym("extremes", "vertical", "--quick", "-o", page)
     assert done.returncode == 0, done.stderr
     conditions = [row[0] for row in table(page.read_text(encoding="utf-8"))[2:]]
     assert conditions
