@@ -41,7 +41,7 @@ FIRST = {
     "n = 4": "M = numpy.tri(4, k=-1) / 100\n"
     "chapsym.trajectory_n(chapsym.BallN((1.0, 2.0, 0.5, 3.0), 3.0), M - M.T, (0, 0, 0, 1.0), 1000)",
 }
-PROGRAM = "-m", "chapsym.cli"
+PROGRAM = "-m", "chapsym"
 Say = Callable[[str], None]
 
 

@@ -21,7 +21,7 @@ BATCH = 1000
 #: How far the ends of the two may be apart: n^(3/2) roundings, which the full model makes.
 ROUNDING = 2.0**-50
 
-Run = Callable[[int, int], Any]
+Run = Callable[..., Any]
 
 
 @dataclass(frozen=True)
@@ -43,31 +43,28 @@ def _full(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: boo
     return chapsym.trajectory(ball, K, GAMMA, steps, every=every, threads=1, **body).momentum[..., -1, :]  # type: ignore[arg-type]
 
 
-def _steady(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
-    return chapsym.steady_frames(ball, K, GAMMA, range(0, steps + 1, every), **body).momentum[..., -1, :]
-
-
-def _top(ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
-    return chapsym.top_frames(ball, K, GAMMA, range(0, steps + 1, every), **body).momentum[..., -1, :]
+def _at_once(frames: Run, ball: chapsym.Ball, K: np.ndarray, steps: int, every: int, **body: bool) -> np.ndarray:
+    return frames(ball, K, GAMMA, range(0, steps + 1, every), **body).momentum[..., -1, :]
 
 
 def pairs() -> list[Pair]:
     """Every reduction with the full model that it stands for."""
     K, up = EPSILON * MOMENTUM, EPSILON * GAMMA
+    steady, tops = partial(_at_once, chapsym.steady_frames), partial(_at_once, chapsym.top_frames)
     equal, many = _ball((1, 1, 1), 0.7), _ball((1, 1, 1), 0.7, BATCH)
     top, round_top = _ball((0.1, 0.5, 1.6), 0.0), _ball((0.5, 0.5, 1.6), 0.7)
     return [
-        Pair("equal J: 𝒦, γ", partial(_steady, equal, K), partial(_full, equal, K)),
-        Pair("equal J: with the contact point", partial(_steady, equal, K, contact=True),
+        Pair("equal J: 𝒦, γ", partial(steady, equal, K), partial(_full, equal, K)),
+        Pair("equal J: with the contact point", partial(steady, equal, K, contact=True),
              partial(_full, equal, K, contact=True)),
-        Pair(f"equal J: 𝒦, γ, {BATCH} balls", partial(_steady, many, K), partial(_full, many, K), BATCH),
+        Pair(f"equal J: 𝒦, γ, {BATCH} balls", partial(steady, many, K), partial(_full, many, K), BATCH),
         Pair("top: 𝒦 at once", lambda steps, every: TopMotion.free(top, K).momenta(range(0, steps + 1, every))[-1],
              partial(_full, top, K)),
         Pair("top: 𝒦 step by step (G_h)", lambda steps, every: chapsym.trajectory_vertical(
              top, EPSILON, MOMENTUM, steps, every=every).momentum[-1], partial(_full, top, K)),
-        Pair("top: 𝒦, γ, attitude at once", partial(_top, top, K, attitude=True),
+        Pair("top: 𝒦, γ, attitude at once", partial(tops, top, K, attitude=True),
              partial(_full, top, K, attitude=True)),
-        Pair("two equal J, vertical 𝒦: at once", partial(_top, round_top, up), partial(_full, round_top, up)),
+        Pair("two equal J, vertical 𝒦: at once", partial(tops, round_top, up), partial(_full, round_top, up)),
     ]  # fmt: skip
 
 

@@ -51,6 +51,8 @@ def draw_section(found: dict[str, Any]) -> Picture:
     for axis, one in zip(axes, found["pictures"], strict=True):
         zoom = None if axis is axes[0] else float(np.mean([orbit["energy"] for orbit in one["found"]] or [1.0]))
         energies = [orbit["energy"] for orbit in one["found"]]
+        (J, D, cosine), epsilon = one["ball"], one["epsilon"]
+        level = Level(tuple(J), D, cosine)
         cold = Normalize(min(energies, default=0.0) - 1e-9, max(energies, default=1.0))
         for orbit in sorted(one["found"], key=lambda orbit: orbit["chaotic"]):
             if orbit["chaotic"]:
@@ -58,22 +60,14 @@ def draw_section(found: dict[str, Any]) -> Picture:
             else:
                 colour = colormaps["YlGnBu"](0.35 + 0.65 * cold(orbit["energy"]))
             psi, theta = unpacked(orbit["psi"]) / 1e5, unpacked(orbit["theta"]) / 1e5
-            height = theta if zoom is None else _energy(one, psi, theta) / zoom - 1
+            height = theta if zoom is None else level.energy(*state(level, np.pi * theta, np.pi * psi)) / zoom - 1
             axis.plot(
                 psi, height, ".", markersize=2.2,
                 markeredgewidth=0, color=colour, rasterized=True,
             )  # fmt: skip
-        J, D, _ = one["ball"]
-        axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $\\varepsilon={one['epsilon']:g}$")
+        axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $\\varepsilon={epsilon:g}$")
         axis.set(xlabel=r"$\psi/\pi$", xlim=(-1, 1), xticks=(-1, -0.5, 0, 0.5, 1))
         axis.set_ylabel(r"$\theta/\pi$" if zoom is None else r"$H/\langle H\rangle-1$")
     scale = ScalarMappable(Normalize(0.0, most), colormaps["autumn_r"])
     figure.colorbar(scale, ax=axes, label="Lyapunov exponent a step (chaotic orbits)", shrink=0.8)
     return figure
-
-
-def _energy(one: dict[str, Any], psi: np.ndarray, theta: np.ndarray) -> np.ndarray:
-    """H at points of the section."""
-    J, D, cosine = one["ball"]
-    level = Level(tuple(J), D, cosine)
-    return level.energy(*state(level, np.pi * theta, np.pi * psi))
