@@ -151,7 +151,7 @@ def _integrator(tolerance: float, kind: str) -> Any:
     kinetic, radius = (*v[:6], *(heyoka.par[i] for i in range(4))), heyoka.par[4]
     omega, attitude = generated.angular_velocity(*kinetic), v[6:10]
     slip = generated.rotate(*attitude, *cross(omega, v[3:6]))
-    turn = generated.compose(*attitude, 0.0, *(0.5 * w for w in omega))
+    turn = generated.compose(*attitude, 0.0, *(0.5 * w for w in omega))  # type: ignore[call-arg]
     sides = (*rates(*kinetic), *turn, slip[0] * radius, slip[1] * radius)
     return adaptive(list(zip(v, sides, strict=True)), tolerance, kind, parameters=5)
 

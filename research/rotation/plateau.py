@@ -64,7 +64,7 @@ def bracket(off: Callable[[Any], Any], low: Any, high: Any) -> Any:
             before = None
             continue
         if before is not None and before[1] != sign:
-            return halved(lambda c, end=sign: (off(c) > 0) != end, before[0], l, 8)
+            return halved(lambda c, end=sign: (off(c) > 0) != end, before[0], l, 8)  # type: ignore[misc]
         before = l, sign
     return None
 
