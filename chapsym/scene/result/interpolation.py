@@ -10,12 +10,7 @@ from numpy.typing import ArrayLike
 from chapsym.dynamics import BadInput, Ball, kernels
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.interpolation import States, standing
-from chapsym.dynamics.principal_axes import (
-    attitude_from_principal,
-    attitude_to_principal,
-    from_principal,
-    to_principal,
-)
+from chapsym.dynamics.principal_axes import attitude_from_principal, attitude_to_principal, from_principal, to_principal
 
 if TYPE_CHECKING:
     from xarray import Dataset

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from chapsym.accuracy.discretisation import Discretisation, read
+from chapsym.accuracy.discretisation import read
 from chapsym.dynamics import Ball, Status, kernels, step, step_n
 
 from ..members.members import Members, bodies
@@ -143,8 +143,7 @@ def stopped(data: "Dataset | Arrays") -> str:
 
 def far(data: "Dataset | Arrays") -> dict[str, Any]:
     """As plain data: `motion`, with what was asked for, estimated and chosen; or `discretisation`; or nothing."""
-    map_ = _map(data)
-    if map_ is not None:
+    if (map_ := read(data.attrs.get("discretisation"))) is not None:
         return {"discretisation": asdict(map_)}
     if "error" not in data or "accuracy" not in data.attrs:
         return {}
@@ -168,7 +167,7 @@ MODEL = "balanced, without slip"
 
 def sentence(data: "Dataset | Arrays") -> tuple[str, str] | None:
     """The same for a reader: a key and a text; None if nothing is known."""
-    map_, found = _map(data), far(data).get("motion")
+    map_, found = read(data.attrs.get("discretisation")), far(data).get("motion")
     if "row" in data.dims and "time" in data.coords:
         return "discretisation", "of a ball in more than three dimensions it is not estimated"
     if map_ is not None:
@@ -196,7 +195,3 @@ def _how(order: tuple[int, int] = (0, 0), substeps: tuple[int, int] | None = Non
 
 def _span(least: int, most: int) -> str:
     return f"{least}" if least == most else f"{least} to {most}"
-
-
-def _map(data: "Dataset | Arrays") -> Discretisation | None:
-    return read(data.attrs.get("discretisation"))
