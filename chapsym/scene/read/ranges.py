@@ -133,13 +133,11 @@ class Sweep:
     def values(self) -> dict[str, Floats]:
         """The value of each range for each ball, (balls,), by key."""
         found: dict[str, Floats] = {}
-        axis = 0
+        places = iter(np.unravel_index(np.arange(len(self)), self.shape))
         for key, one in self.ranges.items():
             if one.drawn:
                 spawned = np.random.SeedSequence(self.seed, spawn_key=tuple(f"{self.stream}/{key}".encode()))
                 found[key] = one.draw(len(self), np.random.Generator(np.random.PCG64(spawned)))
-                continue
-            along = one.grid().reshape([-1 if i == axis else 1 for i in range(len(self.shape))])
-            found[key] = np.broadcast_to(along, self.shape).reshape(-1)
-            axis += 1
+            else:
+                found[key] = one.grid()[next(places)]
         return found
