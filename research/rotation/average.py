@@ -20,12 +20,8 @@ SPARE = 10
 
 def weights(steps: int) -> list[Any]:
     """exp(-1/(t(1-t))) at t = 1/(n+1), ..., n/(n+1) (Das and Yorke), of sum 1."""
-    found = []
-    for i in range(1, steps // 2 + 1):
-        t = arb(i) / (steps + 1)
-        found.append(middle((-1 / (t * (1 - t))).exp()))
-    odd = [middle(arb(-4).exp())] if steps % 2 else []
-    found = [*found, *odd, *reversed(found)]
+    t = (arb(i) / (steps + 1) for i in range(1, steps + 1))
+    found = [middle((-1 / (x * (1 - x))).exp()) for x in t]
     total = middle(arb(1) / sum(found))
     return [x * total for x in found]
 
