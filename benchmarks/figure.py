@@ -34,10 +34,8 @@ def draw(results: dict[str, Result]) -> Picture:
 
 def panels(found: Result) -> dict[str, list[Curve]]:
     """The curves of a section by panel, in their order."""
-    grouped: dict[str, list[Curve]] = {}
-    for curve in found.curves:
-        grouped.setdefault(curve.panel, []).append(curve)
-    return grouped
+    names = dict.fromkeys(curve.panel for curve in found.curves)
+    return {name: [curve for curve in found.curves if curve.panel == name] for name in names}
 
 
 def _panel(axis: Any, title: str, curves: list[Curve], section: str) -> None:

@@ -22,15 +22,13 @@ GIGABYTE = 2**30
 #: Runs in a process of its own, so that the peak is that of the batch; prints it in bytes.
 CHILD = """
 import sys
-import numpy as np
 import chapsym
-balls, steps = int(sys.argv[1]), int(sys.argv[2])
-draw = np.random.default_rng(1)
-K, g = (v / np.linalg.norm(v, axis=-1, keepdims=True) for v in draw.normal(size=(2, balls, 3)))
-ball = chapsym.Ball(draw.uniform(0.3, 1.6, size=(balls, 3)), draw.uniform(0.0, 1.0, size=balls))
-end = chapsym.trajectory(ball, 0.05 * K, g, steps, every=steps)
-assert (end.taken == steps).all()
+from benchmarks.batch import states
 from benchmarks.memory import peak_of_this_process
+balls, steps = int(sys.argv[1]), int(sys.argv[2])
+K, g, J, D = states(balls)
+end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=steps)
+assert (end.taken == steps).all()
 print(peak_of_this_process())
 """
 

@@ -68,12 +68,8 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
 
 def _widest(resonances: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """The widest resonance of each ball."""
-    best: dict[str, dict[str, Any]] = {}
-    for r in resonances:
-        name = str(r["ball"][:2])
-        if name not in best or best[name]["width"] < r["width"]:
-            best[name] = r
-    return list(best.values())
+    names = dict.fromkeys(str(r["ball"][:2]) for r in resonances)
+    return [max((r for r in resonances if str(r["ball"][:2]) == name), key=lambda r: r["width"]) for name in names]
 
 
 def _table(levels: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
