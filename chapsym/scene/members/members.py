@@ -25,7 +25,7 @@ from ..read.bodies import KEYS, PRESETS, check_inside, rounded_by
 from ..read.errors import Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene
-from ..read.tables import ATTITUDES, SCALAR_FIRST, BallTable, StartTable
+from ..read.tables import ATTITUDES, SCALAR_FIRST, BallTable, StartTable, ranges_of
 
 #: What is this near to a unit vector was meant to be one, and is divided by its length.
 ROUNDED = 1e-6
@@ -149,13 +149,9 @@ class Body:
 
     def sweep(self) -> Sweep:
         """Its ranges, those of the ball first."""
-        found: dict[str, Range] = {}
-        for table, keys in (("ball", self.ball), ("start", self.start)):
-            for key in type(keys).model_fields:
-                found |= ranges_in(getattr(keys, key), f"{table}.{key}")
         sweep = self.scene.sweep
         try:
-            return Sweep(found, sweep.samples or 1, sweep.seed, str(self.index))
+            return Sweep(ranges_of(self.ball, self.start), sweep.samples or 1, sweep.seed, str(self.index))
         except ValueError as error:
             raise SceneError(f"{self._place()}{error}") from None
 

@@ -17,8 +17,7 @@ from chapsym.accuracy.motion import DEFAULT
 
 from . import robots
 from .errors import Misfit, SceneError, described
-from .ranges import ranges_in
-from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table
+from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table, ranges_of
 from .task import Task
 from .units import TIME, number
 
@@ -131,15 +130,9 @@ class Scene(Table):
             raise Misfit("start.velocity needs ball.radius: the ball rolls without slipping", *path, "velocity")
         if "contact" in run.names() and ball.radius is None:
             raise Misfit("the contact point needs the radius: give the ball its radius", "ball", i)
-        drawn = {
-            key: one
-            for name, table in (("ball", ball), ("start", start))
-            for field in type(table).model_fields
-            for key, one in ranges_in(getattr(table, field), f"{name}.{field}").items()
-            if one.drawn
-        }
+        drawn = [key for key, one in ranges_of(ball, start).items() if one.drawn]
         if drawn and self.sweep.samples is None:
-            raise Misfit(f"{next(iter(drawn))} is drawn: say how often, as samples = 100 under [sweep]", "ball", i)
+            raise Misfit(f"{drawn[0]} is drawn: say how often, as samples = 100 under [sweep]", "ball", i)
         return bool(drawn)
 
 

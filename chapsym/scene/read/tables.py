@@ -23,7 +23,7 @@ from chapsym.numbers import own_name
 from . import bodies
 from .errors import LIST, MATRIX, Misfit
 from .outputs import OUTPUTS
-from .ranges import Range, Value, value
+from .ranges import Range, Value, ranges_in, value
 from .units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, TURNING, Dimension, has_unit, number
 
 # The types of the keys: numbers with a dimension, and lists of them.
@@ -281,6 +281,15 @@ class BallTable(Table):
             has_other = getattr(self, other) is not None
             raise Misfit(f"ball.{missing} is missing: give {'it' if has_other else 'mass and radius'}, or D")
         return self
+
+
+def ranges_of(ball: BallTable, start: StartTable) -> dict[str, Range]:
+    """The ranges of a ball and of its start, by dotted key, those of the ball first."""
+    found: dict[str, Range] = {}
+    for name, table in (("ball", ball), ("start", start)):
+        for key in type(table).model_fields:
+            found |= ranges_in(getattr(table, key), f"{name}.{key}")
+    return found
 
 
 class RunTable(Table):
