@@ -78,14 +78,10 @@ def main(names: list[str]) -> None:
             continue
         print(scene.stem, file=sys.stderr)
         case = made(scene)
-        keep(DATA / f"{scene.stem}.json", text(case))
-        keep(DATA / f"{scene.stem}.csv", table(case))
+        files.write_text(DATA / f"{scene.stem}.json", text(case))
+        files.write_text(DATA / f"{scene.stem}.csv", table(case))
     sums = [f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p.name}\n" for p in sorted(DATA.glob("*.*"))]
-    keep(DATA / "SHA256SUMS", "".join(sums))
-
-
-def keep(path: Path, written: str) -> None:
-    files.write_text(path, written)
+    files.write_text(DATA / "SHA256SUMS", "".join(sums))
 
 
 if __name__ == "__main__":

@@ -10,10 +10,10 @@ from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from chapsym.studies.judge import Case, convergence, departure
+from chapsym.studies.judge import Case, convergence, departure, read_case
 from chapsym.studies.judge_tables import read_trajectory
 
-from .engines.common import case_of, text
+from .engines.common import DATA, text
 
 OUTPUT = Path(__file__).parents[2] / "docs" / "reference" / "measured" / "engines.md"
 CASES = ("bowling", "random-3", "robot", "heavy-axis", "separatrix")
@@ -77,7 +77,7 @@ def main() -> None:
     if missing:
         lines.append(f"Not installed here: {', '.join(missing)}.\n")
     for name in CASES:
-        case = case_of(name)
+        case = read_case(DATA / f"{name}.json")
         lines += [f"## {name}\n\n{case.time[-1]:g} s.\n", COLUMNS, "|---" * 9 + "|"]
         for module, _, title, steps, two in there:
             for best in (False, True) if two else (False,):

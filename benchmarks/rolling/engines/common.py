@@ -13,10 +13,6 @@ DATA = Path(__file__).parents[1] / "data"
 Rows = Iterable[Iterable[float]]
 
 
-def case_of(name: str) -> Case:
-    return read_case(DATA / f"{name}.json")
-
-
 def steps_between(case: Case, step: float) -> int:
     """The steps from a frame to the next; raises SystemExit where the step does not divide it."""
     count = round(case.time[1] / step)
@@ -40,5 +36,5 @@ def command(run: Callable[[Case, float, bool], Rows], about: str) -> None:
     parser.add_argument("output", type=Path)
     parser.add_argument("--best", action="store_true", help="the settings that we found best, instead of the defaults")
     given = parser.parse_args()
-    written = text(given.step, run(case_of(given.case), given.step, given.best)).encode()
-    files.write_whole(given.output, lambda stream: stream.write(written))
+    case = read_case(DATA / f"{given.case}.json")
+    files.write_text(given.output, text(given.step, run(case, given.step, given.best)))

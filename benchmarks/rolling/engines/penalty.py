@@ -32,7 +32,8 @@ def run(case: Case, step: float, best: bool = False) -> Rows:
         dq = (r[1] * tx + r[4] * ty + (j3 - j1) * s * p) / j2
         ds = (r[2] * tx + r[5] * ty + (j1 - j2) * p * q) / j3
         turning = [r[i] * dp + r[i + 1] * dq + r[i + 2] * ds for i in (0, 3, 6)]
-        spun = generated.compose(0.0, wx, wy, wz, qw, qx, qy, qz)
+        spun = [-qx * wx - qy * wy - qz * wz, qw * wx + wy * qz - wz * qy, qw * wy + wz * qx - wx * qz,
+                qw * wz + wx * qy - wy * qx]  # fmt: skip
         return np.array([vx, vy, vz, *(x / 2 for x in spun), ax, ay, press - GRAVITY, *turning])
 
     sunk = GRAVITY / STIFFNESS
