@@ -141,11 +141,6 @@ def time_to(points: list[Point], target: float) -> float | None:
     return min(times, default=None)
 
 
-def integral_error_at(points: list[Point], target: float) -> tuple[float | None, ...]:
-    """The errors of the integrals in the first run whose trajectory error is at most `target`."""
-    return next((p.integrals for p in points if p.error <= target), (None, None, None))
-
-
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
     """The sweep of all methods; ratios are to heyoka.py, for one ball or, of a batch, for eight."""
     on_round("work-precision: the reference solution")
@@ -160,9 +155,10 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
             found, home = points[method.name], HEYOKA if method.balls == 1 else f"{HEYOKA}, batch"
             took, base = time_to(found, target), time_to(points.get(home, []), target)
             ratio = took / base if took and base else None
+            kept = next((p.integrals for p in found if p.error <= target), (None, None, None))
             rows.append({
                 "name": method.name, "error": target, "µs": took and took * 1e6, f"to {HEYOKA}": ratio,
-                **dict(zip(INTEGRALS, integral_error_at(found, target), strict=True)),
+                **dict(zip(INTEGRALS, kept, strict=True)),
             })  # fmt: skip
             if ratio and method.name.startswith("chapsym") and "contact" not in method.name:
                 best[home] = min(ratio, best.get(home, ratio))

@@ -41,10 +41,6 @@ class Group(NamedTuple):
         return {name: [partial(self.judge, item) for item in those] for name, those in self.items().items()}
 
 
-def _of_a_step(group: str) -> Mapping[str, Sequence[Any]]:
-    return states.conditions()[group]
-
-
 _BATCHED = tuple(level for level in LEVELS if not level.guarded)
 _DOUBLE = (DOUBLE,)
 _TITLES = {
@@ -56,7 +52,7 @@ _TITLES = {
 #: The groups, in the order of the table.
 GROUPS = {
     **{
-        name: Group(f"One step: {title}", steps.judge, partial(_of_a_step, name))
+        name: Group(f"One step: {title}", steps.judge, lambda name=name: states.conditions()[name])  # type: ignore[misc]
         for name, title in _TITLES.items()
     },
     "runs": Group("Ten steps of a trajectory, beside ten of the oracle", runs.ten_steps, states.starts),
