@@ -85,9 +85,7 @@ def to_an_accuracy(accuracy: float, on_round: Say, count: int, rounds: int) -> l
     return found
 
 
-def _compare(
-    ratios: dict[tuple[str, str], list[float]], name: str, sides: Runs, own: Runs, rounds: int,
-) -> None:  # fmt: skip
+def _compare(ratios: dict[tuple[str, str], list[float]], name: str, sides: Runs, own: Runs, rounds: int) -> None:
     """Times all sides together, and notes the ratio of one to the others, and to the fastest of our own."""
     timings = interleaved([repeated(*side, LEAST) for side in (sides | own).items()], rounds)
     if own:

@@ -28,9 +28,8 @@ def sample(of: str, time: float) -> Request:
 
 
 def continuous(
-    ball: Ball, angular_momentum: Floats, gamma: Floats, attitude: Floats | None, times: Sequence[Fraction],
-    digits: int,
-) -> np.ndarray:  # fmt: skip
+    ball: Ball, angular_momentum: Floats, gamma: Floats, attitude: Floats | None, times: Sequence[Fraction], digits: int
+) -> np.ndarray:
     """K (kg m²/s), γ and the contact point (m) at ascending times (s): Fractions, (times, 8).
 
     attitude: a quaternion, body to space; None for the least rotation that turns γ up.  All floats are taken as exact.

@@ -61,10 +61,7 @@ def draw_section(found: dict[str, Any]) -> Picture:
                 colour = colormaps["YlGnBu"](0.35 + 0.65 * cold(orbit["energy"]))
             psi, theta = unpacked(orbit["psi"]) / 1e5, unpacked(orbit["theta"]) / 1e5
             height = theta if zoom is None else level.energy(*state(level, np.pi * theta, np.pi * psi)) / zoom - 1
-            axis.plot(
-                psi, height, ".", markersize=2.2,
-                markeredgewidth=0, color=colour, rasterized=True,
-            )  # fmt: skip
+            axis.plot(psi, height, ".", markersize=2.2, markeredgewidth=0, color=colour, rasterized=True)
         axis.set_title(f"$J=({J[0]:g},{J[1]:g},{J[2]:g})$, $D={D:g}$, $\\varepsilon={epsilon:g}$")
         axis.set(xlabel=r"$\psi/\pi$", xlim=(-1, 1), xticks=(-1, -0.5, 0, 0.5, 1))
         axis.set_ylabel(r"$\theta/\pi$" if zoom is None else r"$H/\langle H\rangle-1$")

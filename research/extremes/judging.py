@@ -59,13 +59,11 @@ DOUBLE = Level(
     long=(100_000, 100_000_000), compensated=True,
 )  # fmt: skip
 DOUBLE_DOUBLE = Level(
-    "double-double", "quad", DoubleDouble(), Fraction(1, 2**104), Fraction(1, 2**1074), 31.3,
-    long=(10_000, 10_000_000),
-)  # fmt: skip
+    "double-double", "quad", DoubleDouble(), Fraction(1, 2**104), Fraction(1, 2**1074), 31.3, long=(10_000, 10_000_000)
+)
 DIGITS = Level(
-    "Digits(50)", "Digits(50)", Digits(50), Fraction(1, 10**49), Fraction(0), 50.0,
-    long=(100, 10_000), guarded=True,
-)  # fmt: skip
+    "Digits(50)", "Digits(50)", Digits(50), Fraction(1, 10**49), Fraction(0), 50.0, long=(100, 10_000), guarded=True
+)
 ENCLOSURE = Level(
     "Enclosure(200)", "Ball(200)", Enclosure(200), Fraction(1, 2**199), Fraction(0), 60.2,
     long=(100, 1000), guarded=True,

@@ -118,9 +118,7 @@ def _against_q(axis: Any, found: list[dict[str, Any]]) -> None:
         if contacts[0] == D:
             axis.plot(q, [log10(x["law"]) for x in rows], color=colour, linewidth=1, label=f"law, D = {D}")
     axis.axhline(FLOAT64, color="0.35", linestyle=":", linewidth=1.2)
-    axis.set(
-        xlabel="q", ylabel="$\\log_{10}$ width in l", title=f"p/q next to 1/5, {named(found[0], 'J', 'h')}",
-    )  # fmt: skip
+    axis.set(xlabel="q", ylabel="$\\log_{10}$ width in l", title=f"p/q next to 1/5, {named(found[0], 'J', 'h')}")
     axis.legend(loc="lower left")
 
 

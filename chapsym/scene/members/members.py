@@ -278,9 +278,7 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
             momentum = given.array(start.vertical_momentum, "start.vertical_momentum")[:, np.newaxis] * gamma
         if not np.isfinite(momentum).all():
             raise BadInput("K = Λω - D⟨ω,γ⟩γ is beyond the range of float64, about 1.8e308; take other units")
-        return Members(
-            names, body, momentum, gamma, axes, attitude, _position(start, given, 2)
-        )  # fmt: skip
+        return Members(names, body, momentum, gamma, axes, attitude, _position(start, given, 2))
 
 
 def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:

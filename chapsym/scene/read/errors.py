@@ -59,9 +59,7 @@ def place(name: str, text: str | None, path: Path) -> str:
     return name
 
 
-def described(
-    errors: Sequence[Any], name: str, text: str | None, data: Any, keys: dict[str, Iterable[str]]
-) -> str:  # fmt: skip
+def described(errors: Sequence[Any], name: str, text: str | None, data: Any, keys: dict[str, Iterable[str]]) -> str:
     """All problems that pydantic found in `data`, one sentence each; `keys` has those of each table."""
     one_ball = not isinstance(data.get("ball"), list)
     errors = [error for error in errors if error["type"] != "too_short" or not _inside(error, errors)]

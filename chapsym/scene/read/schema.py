@@ -96,9 +96,7 @@ _WHOLE = {"type": "integer", "minimum": 1}
 
 
 def _list(about: str, items: list[Any]) -> dict[str, Any]:
-    return {
-        "type": "array", "prefixItems": items, "minItems": len(items), "maxItems": len(items), "description": about,
-    }  # fmt: skip
+    return {"type": "array", "prefixItems": items, "minItems": len(items), "maxItems": len(items), "description": about}
 
 
 # The examples, with comments.
