@@ -186,9 +186,7 @@ def check(
 
 
 @certify.command("manifest")
-def manifest_of(
-    folder: Annotated[Path, argument("DIR", "Certificates, in this folder and those below.")],
-) -> None:
+def manifest_of(folder: Annotated[Path, argument("DIR", "Certificates, in this folder and those below.")]) -> None:
     """Write DIR/manifest.json, which lists all certificates of a folder: one that is missing later is seen.
 
     Example: chapsym certify manifest proofs

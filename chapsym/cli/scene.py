@@ -53,9 +53,7 @@ def new(
 
 
 @scenes.command()
-def schema(
-    output: Annotated[Path | None, writes("FILE", "Write it there.")] = None,
-) -> None:
+def schema(output: Annotated[Path | None, writes("FILE", "Write it there.")] = None) -> None:
     """Print the JSON Schema of scene files, with descriptions and units.
 
     Example: chapsym scene schema -o chapsym-scene.schema.json
@@ -71,10 +69,7 @@ def schema(
 
 
 @scenes.command()
-def check(
-    file: Annotated[Path, argument("SCENE.toml", "What to read.")],
-    as_json: Json = False,
-) -> None:
+def check(file: Annotated[Path, argument("SCENE.toml", "What to read.")], as_json: Json = False) -> None:
     """Say what a scene will run, and what that costs.
 
     Example: chapsym scene check docs/first.toml

@@ -27,8 +27,7 @@ def trade(
     what: Annotated[
         list[str] | None,
         argument(
-            "[SECTION]... | SCENE.toml",
-            "rounding, contact, state, batch, requests, kernels; with --accuracy a scene.",
+            "[SECTION]... | SCENE.toml", "rounding, contact, state, batch, requests, kernels; with --accuracy a scene."
         ),
     ] = None,
     accuracy: Annotated[float | None, takes("A", "Choose, run and verify: the error wanted.")] = None,

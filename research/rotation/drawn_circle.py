@@ -49,9 +49,7 @@ def displacement(found: dict[str, Any]) -> Picture:
     )  # fmt: skip
     axes[3].set_xticks(range(0, len(ball["cosines"]), q))
     axes[3].legend(loc="upper right", ncols=3, handlelength=1.2, columnspacing=1)
-    figure.suptitle(
-        f"$(G^{{{q}}}u-u)/2K-1$ where {q} steps are one half turn, with {digits} digits",
-    )
+    figure.suptitle(f"$(G^{{{q}}}u-u)/2K-1$ where {q} steps are one half turn, with {digits} digits")
     return figure
 
 

@@ -9,17 +9,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics.attitudes import roll_pitch_yaw
-from chapsym.dynamics.flow.start import (
-    NO_ROTOR,
-    Balls,
-    Principal,
-    Start,
-    Turns,
-    ball,
-    balls,
-    turning,
-    upright,
-)
+from chapsym.dynamics.flow.start import NO_ROTOR, Balls, Principal, Start, Turns, ball, balls, turning, upright
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.map import check_body
 from chapsym.rationals import mass_tensor_from

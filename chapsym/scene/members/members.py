@@ -13,13 +13,7 @@ from chapsym.dynamics.attitudes import attitude_with, roll_pitch_yaw
 from chapsym.dynamics.ball import SMALLEST, UNIT_TOLERANCE, Floats, contact_term, mass_tensor_of, numbers, unit_vertical
 from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.ball_n import skew_matrices
-from chapsym.dynamics.principal_axes import (
-    attitude_to_principal,
-    from_inertia_tensor,
-    inverse,
-    principal,
-    to_principal,
-)
+from chapsym.dynamics.principal_axes import attitude_to_principal, from_inertia_tensor, inverse, principal, to_principal
 
 from ..read.bodies import KEYS, PRESETS, check_inside, rounded_by
 from ..read.errors import Misfit, SceneError, place, said_by
