@@ -8,9 +8,9 @@ extras.need("report")
 
 from . import errata, page  # noqa: E402
 from .errata import NotErrata, entries  # noqa: E402
-from .records import FEDOROV, Source, counts, own  # noqa: E402
+from .records import FEDOROV, Source, counts, own, unproved  # noqa: E402
 
-__all__ = ["FEDOROV", "WRITERS", "NotErrata", "Source", "counts", "entries", "own"]
+__all__ = ["FEDOROV", "WRITERS", "NotErrata", "Source", "counts", "entries", "own", "unproved"]
 
 #: suffix of a file: what turns records, versions, the entries that the file has now and the source into its text.
 WRITERS: dict[str, Callable[..., str]] = {

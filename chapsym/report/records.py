@@ -159,6 +159,11 @@ def kinds(records: Iterable[Record]) -> str:
     return ", ".join(parts)
 
 
+def unproved(records: Iterable[Record]) -> list[str]:
+    """The ids of the open claims, but for those that the paper itself leaves open."""
+    return [r["id"] for r in records if r["verdict"] == "open" and not r["evidence"].get("open_in_paper")]
+
+
 def uses(records: Sequence[Record]) -> dict[str, list[str]]:
     """What each claim uses itself, among the records that are there."""
     known = {record["id"] for record in records}
