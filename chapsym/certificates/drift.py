@@ -1,183 +1,83 @@
-"""What a closed orbit of the continuous ball proves of the energy: the integrals over it of X₃(H) and div_μ X₃.
+"""Certificate `energy-drift`: a closed orbit of the continuous ball, with the integrals over it of X₃(H) and div_μ X₃.
 
-The certificate gives a ball (J, D), a start (𝒦, γ) of which one component of the momentum is known up to a radius, a
-time and a symmetry S = diag(±1, ±1, ±1), det S = 1.  Balls that contain the solutions prove, with y = S·(solution):
-
-1. From every such start, y returns once within the window of times to the section, where one component has its value
-   at the start; transversally, so the return moves continuously with the start.
-2. At the two ends of the starts another component, `along`, has returned below and above its value at the start: for
-   some start between, both components are back.
-3. |γ|, |K|, ⟨K,γ⟩ and the energy are the same after the return.  With the two components they determine the state in a
-   box about it: in the box the 6 × 6 matrix of their derivatives, each row at points of its own, is not singular.
-   So this start has returned: S·(solution at T) = start, and the orbit is closed after T or 2T.
-4. The integrals over [0, T] of X₃(H) and of div_μ X₃, from any of the starts, are in balls without 0.
+The search varies one component of the momentum until the solution is back; where it is back, and the integrals, are as
+the checker encloses them (checker/drift.py, which says why that proves them).
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import itertools
+import math
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, arb_mat, ctx
+import numpy as np
 
+from chapsym import checker
+from chapsym.checker.drift import STATE, SYMMETRIES, Orbit
+from chapsym.checker.interval import Interval
+from chapsym.checker.linear import Vector
+from chapsym.checker.taylor import Model
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.levels.balls import exact
-from chapsym.generated import angular_velocity, energy, energy_rate, modified_load, modified_rotation, torque
 
-from .balls import cross, dot
-from .duals import derivative
-from .taylor import LONGEST, Flow, NotEnclosed, Piece
+from .balls import decade, shortest
+from .document import accepted, stated
 
-State = list[Any]
-
-#: The components of the state.
-NAMES = ("K1", "K2", "K3", "gamma1", "gamma2", "gamma3")
+KIND = "energy-drift"
+#: The steps of the secant method; the window in which each looks for the return.
+ROUNDS, WINDOW = 12, "1/100"
 
 
-@dataclass(frozen=True)
-class Orbit:
-    """A closed orbit of the continuous ball, up to a radius.
+class Return(Orbit):
+    """The starts of a certificate, and how they return; `time` is when, about."""
 
-    J, D: the ball, exact.  momentum, gamma: the start, K = 𝒦/ε, |γ| = 1.  varied: the component of the momentum, 0
-    to 2, that is known up to `radius`.  signs: the diagonal of S.  time, window: T, and how far from it the return may
-    be.  section, along: the components of the state, 0 to 5, by which the return is judged.
-    """
-
-    J: tuple[Fraction, ...]
-    D: Fraction
-    momentum: tuple[Fraction, ...]
-    gamma: tuple[Fraction, ...]
-    varied: int
-    radius: Fraction
-    signs: tuple[int, ...]
     time: Fraction
-    window: Fraction
-    section: int
-    along: int
 
-    def __post_init__(self) -> None:
-        if sum(x * x for x in self.gamma) != 1:
-            raise BadInput(f"gamma must be a unit vector of rationals, such as 2/7,3/7,6/7, not {listed(self.gamma)}")
-        if min(self.J) < 0 or sorted(self.J)[1] <= 0 or self.D < 0:
-            raise BadInput(f"J = {listed(self.J)}, D = {self.D} is no ball")
-        if self.varied not in range(3) or min(self.radius, self.window, self.time) < 0:
-            raise BadInput(
-                "a component of the momentum is varied; the radius, the window and the time are not negative"
-            )
-        if tuple(self.signs) not in SYMMETRIES:
-            raise BadInput(f"the signs must be one of {', '.join(map(listed, SYMMETRIES))}, not {listed(self.signs)}")
-
-    def start(self, shift: Any) -> State:
-        """The state at the start, the varied component moved by `shift` radii."""
-        state = [exact(x) for x in (*self.momentum, *self.gamma)]
-        state[self.varied] += exact(self.radius) * shift
-        return state
-
-    @property
-    def size(self) -> Fraction:
-        """The size of the momentum."""
-        return max(map(abs, self.momentum))
+    def crossing(self, models: Sequence[Model], length: int, wanted: Interval) -> Interval:
+        """As of `Orbit`: in the last step, which begins at `early`."""
+        back = super().crossing(models, length, wanted)
+        self.time = (self.early + middle(back) * length) / 2**self.bits
+        return back
 
 
-SYMMETRIES = ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))
+def energy_drift(
+    J: Sequence[Fraction], D: Fraction, momentum: Sequence[Fraction], gamma: Sequence[Fraction], signs: Sequence[int],
+    time: Fraction, varied: int, *, digits: int = 20, progress: Callable[[str], None] = lambda sentence: None,
+) -> dict[str, Any]:  # fmt: skip
+    """Finds the closed orbit near a start, one component of its momentum adjusted, and encloses it.
 
-
-@dataclass(frozen=True)
-class Enclosures:
-    """What is proved: balls for the misses at the two ends, and for the integrals over [0, T] from any start."""
-
-    misses: tuple[Any, Any]
-    energy: Any
-    density: Any
-
-
-def flow_of(J: Sequence[Fraction], D: Fraction, order: int, size: Fraction) -> Flow:
-    """The continuous ball in (K, γ), |K| about `size`, and the densities X₃(H) and div_μ X₃."""
-    tensor, contact = [exact(x) for x in J], exact(D)
-    whole = [1 / (sum(tensor, contact) - x) for x in tensor]  # 1/Λ
-
-    def field(state: Sequence[Any]) -> State:
-        K, g = state[:3], state[3:]
-        w = angular_velocity(*(*K, *g, *tensor, contact))
-        return [*cross(K, w), *cross(g, w)]
-
-    def turning(state: Sequence[Any]) -> tuple[Any, ...]:
-        """12ω₃."""
-        K, g = state[:3], state[3:]
-        w = angular_velocity(*(*K, *g, *tensor, contact))
-        rate = angular_velocity(*(*torque(*w, *tensor), *g, *tensor, contact))
-        load = modified_load(*(*w, *rate, *g, *tensor, contact))
-        return modified_rotation(*w, *rate, *angular_velocity(*(*load, *g, *tensor, contact)))
-
-    def densities(state: Sequence[Any]) -> State:
-        K, g = state[:3], state[3:]
-        w = angular_velocity(*(*K, *g, *tensor, contact))
-        rate = angular_velocity(*(*torque(*w, *tensor), *g, *tensor, contact))
-        turns = turning(state)
-        weighted = [x * y for x, y in zip(g, whole, strict=True)]
-        lift = contact * dot(weighted, cross(g, turns)) / (1 - contact * dot(weighted, g))
-        for j in range(3):
-            e = [int(i == j) for i in range(3)]
-            lift = lift + derivative(turning, state, [*cross(K, e), *cross(g, e)])[j]
-        return [energy_rate(*(*w, *rate, *g, contact)) / 4, lift / 12]
-
-    return Flow(field, densities, order, [*[exact(size)] * 3, *[arb(1)] * 3])
-
-
-def enclose(orbit: Orbit, bits: int, order: int) -> Enclosures:
-    """Proves 1 to 4 in balls of so many bits, with series of so many terms.
-
-    Raises NotEnclosed where the balls are too wide, or what is to be proved is not true.
+    Raises BadInput where there is none, or where the checker does not prove it.
     """
-    with ctx.workprec(bits):
-        flow = flow_of(orbit.J, orbit.D, order, orbit.size)
-        bare = flow._replace(densities=lambda state: [])
-        misses = [_return(orbit, bare, arb(end)) for end in (-1, 1)]
-        below, above = (found[orbit.along] - start[orbit.along] for start, found in misses)
-        if not below * above < 0:
-            raise NotEnclosed("the return does not cross the start between the two ends, as far as the balls tell")
-        start, found = _return(orbit, flow, arb(0, 1))
-        _distinguish(orbit, start, found)
-        if not (found[6] != 0 and found[7] != 0):
-            raise NotEnclosed("an integral may be 0")
-        return Enclosures((below, above), found[6], found[7])
+    _check(J, D, gamma, signs, time)
+    section, along = components(np.array(J, float), float(D), np.array(momentum, float), np.array(gamma, float))
+    fields = {
+        "ball": {"J": [str(x) for x in J], "D": str(D)},
+        "start": {"momentum": [shortest(x) for x in momentum], "gamma": [str(x) for x in gamma]},
+        "varied": STATE[varied], "radius": "0", "symmetry": list(signs), "periods": 1 + (list(signs) != SYMMETRIES[0]),
+        "time": shortest(time), "window": WINDOW, "section": STATE[section], "along": STATE[along],
+        "bits": 96 + 8 * digits, "order": 24 + 2 * digits,
+    }  # fmt: skip
+    try:
+        fields = refined(fields, digits, progress)
+        orbit = Orbit(fields)
+        ends = [orbit.returned(end, end, integrals=False) for end in (-1, 1)]
+        energy, density = orbit.returned(-1, 1, integrals=True)[2]
+        progress("the orbit is enclosed")
+        misses = [outward(missed(orbit, start, end)) for start, end, _ in ends]
+        fields |= {"misses": misses, "energy": outward(energy), "density": outward(density)}
+        return accepted(stated(KIND, **fields))
+    except checker.Rejected as error:
+        raise BadInput(f"the orbit is not proved with {digits} digits: {error}") from None
 
 
-def _return(orbit: Orbit, flow: Flow, shift: Any) -> tuple[State, State]:
-    """The start, and the state S·(solution) with the integrals when it is back on the section, once in the window."""
-    start = orbit.start(shift)
-    end = flow.run(start, orbit.time)
-    piece, *_ = flow.piece(end[:6], LONGEST, orbit.window)
-    since = crossing(flow, piece, orbit, start)
-    found = piece.at(since)
-    mirrored = [s * x for s, x in zip((*orbit.signs, *orbit.signs), found[:6], strict=True)]
-    return start, [*mirrored, *(x + y for x, y in zip(end[6:], found[6:], strict=True))]
-
-
-def crossing(flow: Flow, piece: Piece, orbit: Orbit, start: State) -> Any:
-    """The time in the window at which the component is back, by interval Newton steps: the first proves it."""
-    sign, window = orbit.signs[orbit.section % 3], arb(0, exact(orbit.window))
-    proved = False
-    for _ in range(3):
-        middle = arb(window.mid())
-        missed = piece.at(middle)[orbit.section] * sign - start[orbit.section]
-        newton = middle - missed / (flow.field(piece.at(window)[:6])[orbit.section] * sign)
-        if not window.contains_interior(newton):
-            break
-        window, proved = newton, True
-    if not proved:
-        raise NotEnclosed(
-            "the return to the section is not in the window, or not transversal, as far as the balls tell"
-        )
-    return window
-
-
-def _distinguish(orbit: Orbit, start: State, found: State) -> None:
-    """Proves that the integrals and the two components tell any two states of a box apart."""
-    box = [x.union(y) for x, y in zip(start, found[:6], strict=True)]
-    columns = told_apart(box, [exact(x) for x in orbit.J], exact(orbit.D), orbit.section, orbit.along)
-    if not arb_mat(columns).det() != 0:
-        raise NotEnclosed("the integrals and the two components do not tell states apart: choose other components")
+def _check(J: Sequence[Fraction], D: Fraction, gamma: Sequence[Fraction], signs: Sequence[int], time: Fraction) -> None:
+    if sum(x * x for x in gamma) != 1:
+        raise BadInput(f"gamma must be a unit vector of rationals, such as 2/7,3/7,6/7, not {listed(gamma)}")
+    if min(J) < 0 or sorted(J)[1] <= 0 or D < 0:
+        raise BadInput(f"J = {listed(J)}, D = {D} is no ball")
+    if time < 0:
+        raise BadInput("the time must not be negative")
+    if list(signs) not in SYMMETRIES:
+        raise BadInput(f"the signs must be one of {', '.join(map(listed, SYMMETRIES))}, not {listed(signs)}")
 
 
 def listed(values: Sequence[Any]) -> str:
@@ -185,11 +85,57 @@ def listed(values: Sequence[Any]) -> str:
     return f"({', '.join(map(str, values))})"
 
 
-def told_apart(box: State, tensor: State, contact: Any, section: int, along: int) -> list[State]:
-    """The derivatives of |γ|², |K|², ⟨K,γ⟩, the energy and two components on a box, column by column."""
+def components(J: np.ndarray, D: float, K: np.ndarray, g: np.ndarray) -> tuple[int, int]:
+    """The section and the component along it that tell states best apart, the flow across the section taken in."""
+    w = np.linalg.solve(np.diag(J.sum() - J + D) - D * np.outer(g, g), K)
+    rates = [*np.cross(K, w), *np.cross(g, w)]
+    of_energy = [*w, *(D * (g @ w) * w)]
+    gradients = [[*(0 * g), *(2 * g)], [*(2 * K), *(0 * K)], [*g, *K], of_energy]  # of |γ|², |K|², ⟨K,γ⟩, H
 
-    def told(state: Sequence[Any]) -> list[Any]:
-        K, g = state[:3], state[3:]
-        return [dot(g, g), dot(K, K), dot(K, g), energy(*(*state, *tensor, contact)), state[section], state[along]]
+    def value(pair: tuple[int, int]) -> float:
+        return abs(float(np.linalg.det([*gradients, *np.eye(6)[[*pair]]]) * rates[pair[0]]))
 
-    return [derivative(told, box, [int(i == j) for i in range(6)]) for j in range(6)]
+    return max(itertools.permutations(range(6), 2), key=value)
+
+
+def refined(fields: Mapping[str, Any], digits: int, progress: Callable[[str], None]) -> dict[str, Any]:
+    """With the varied component and the time to so many decimals, by the secant method from a near orbit."""
+    unit, varied = Fraction(1, 10**digits), STATE.index(fields["varied"])
+    momentum = [Fraction(x) for x in fields["start"]["momentum"]]
+    before: tuple[Fraction, Fraction] | None = None
+    for _ in range(ROUNDS):
+        orbit, here = Return(dict(fields)), momentum[varied]
+        miss = middle(missed(orbit, *orbit.returned(0, 0, integrals=False)[:2]))
+        progress(f"the orbit misses its start by {float(miss):.1e}")
+        slope = (miss - before[1]) / (here - before[0]) if before else None
+        before = here, miss
+        momentum[varied] = rounded(here - miss / slope if slope else here + Fraction(1, 10**6), digits)
+        start = fields["start"] | {"momentum": [shortest(x) for x in momentum]}
+        fields = {**fields, "start": start, "time": shortest(rounded(orbit.time, digits))}
+        if slope and abs(momentum[varied] - here) <= unit:
+            return {**fields, "radius": shortest(3 * unit), "window": shortest(Fraction(1, 10 ** (digits // 3)))}
+    raise BadInput("no closed orbit was found near the start: give a nearer one, or another component to vary")
+
+
+def missed(orbit: Orbit, start: Vector, found: Vector) -> Interval:
+    """By how much the component `along` misses its start on the section."""
+    return found[orbit.along] - start[orbit.along]
+
+
+def middle(x: Interval) -> Fraction:
+    """Of an interval."""
+    return Fraction(x.lo + x.hi, 2 << x.bits)
+
+
+def outward(x: Interval) -> list[str]:
+    """An interval as [centre, radius] in decimals, which contain it."""
+    radius = Fraction(x.width, 2 << x.bits)
+    digits = max(2 - decade(radius), 0)
+    centre = rounded(middle(x), digits)
+    off = radius + abs(middle(x) - centre)
+    return [shortest(centre), shortest(Fraction(math.ceil(off * 10**digits), 10**digits))]
+
+
+def rounded(x: Fraction, digits: int) -> Fraction:
+    """To so many decimals."""
+    return Fraction(round(x * 10**digits), 10**digits)

@@ -156,14 +156,14 @@ def energy_drift(
 ) -> None:
     """Certify a closed orbit of the continuous ball on which the energy of the map drifts.
 
-    By default for the ball with J = (1, 2, 4), D = 1.  It takes about a minute.
+    By default for the ball with J = (1, 2, 4), D = 1.
 
     Example: chapsym certify energy-drift -o drift.json
     """
     J, D = _ball(body, "1")
     K, g = rationals(momentum, "--momentum", 3), rationals(gamma, "--gamma", 3)
     signs, end = rationals(symmetry, "--symmetry", 3), rational(time, "--time")
-    from chapsym.certificates.drift_search import energy_drift as search
+    from chapsym.certificates.drift import energy_drift as search
 
     _deliver(output, as_json, search, J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits)
 
