@@ -19,16 +19,6 @@ class NotProved(ArithmeticError):
     """The balls are too wide for what the proof needs."""
 
 
-def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
-    """⟨a, b⟩ in three dimensions."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
-    """a × b."""
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
 def near_root(
     k: Sequence[Any], g: Sequence[Any], I: Sequence[Any], D: Any, near: Sequence[Any] | None = None
 ) -> tuple[Any, ...]:

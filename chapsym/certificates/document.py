@@ -1,6 +1,5 @@
 """The file of a certificate: one JSON object of strings and whole numbers, sealed by a digest."""
 
-import hashlib
 import json
 from collections.abc import Callable, Sequence
 from fractions import Fraction
@@ -12,20 +11,15 @@ from chapsym.files import write_text
 
 from .balls import NotProved, shortest
 
-FORMAT = "chapsym-certificate/1"
 #: What is made of the other fields of a file.
 MADE = ("format", "kind", "statement", "digest")
 
 
-def sealed(kind: str, statement: str, **fields: Any) -> dict[str, Any]:
-    """The object of a certificate, with its format, kind, statement and digest."""
-    document = {"format": FORMAT, "kind": kind, "statement": statement, **fields}
-    return {**document, "digest": digest(document)}
-
-
 def stated(kind: str, **fields: Any) -> dict[str, Any]:
-    """The object of a certificate, with the statement that its numbers make, and sealed."""
-    return sealed(kind, checker.statement({"kind": kind, **fields}), **fields)
+    """The object of a certificate, with the statement that its numbers make, and sealed by its digest."""
+    sentence = checker.statement({"kind": kind, **fields})
+    document = {"format": checker.FORMAT, "kind": kind, "statement": sentence, **fields}
+    return {**document, "digest": checker.digest(document)}
 
 
 def accepted(document: dict[str, Any]) -> dict[str, Any]:
@@ -50,12 +44,6 @@ def widest(
         except (NotProved, checker.Rejected):
             first = middle + 1
     return best
-
-
-def digest(document: dict[str, Any]) -> str:
-    """SHA-256, in hexadecimal, of the canonical JSON of all but the digest."""
-    rest = {name: value for name, value in document.items() if name != "digest"}
-    return hashlib.sha256(json.dumps(rest, sort_keys=True, separators=(",", ":")).encode("ascii")).hexdigest()
 
 
 def text(document: dict[str, Any]) -> str:

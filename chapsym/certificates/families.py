@@ -16,12 +16,12 @@ from typing import Any
 
 import numpy as np
 
+from chapsym.checker.linear import cross, dot
 from chapsym.dynamics.ball import Ball, Floats
 from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import fraction
 from chapsym.dynamics.map import step
 
-from .balls import cross, dot
 from .passage import Level, Map, Vector, columns
 
 #: Starts along each of the two angles of 𝒦 and γ, Newton's iterations, their longest and what is settled.

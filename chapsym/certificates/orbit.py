@@ -1,10 +1,7 @@
 """Certificate `periodic-orbit`: a point that is back after q steps, where det DG^q ≠ 1 and det(1 - DG^q) ≠ 0 on the
 level M.
 
-Existence.  Let f(x) be the vector part of the quaternion by which q steps from x turn: x is back where f = 0.  For
-|w_i| ≤ r, f(exp(w)x₀) = f(x₀) + Aw with A in the hull of the derivatives of f on a box that contains all exp(w)x₀.
-If, with Y near f'(x₀)⁻¹, all -Yf(x₀) + (1 - YA)w are within r, Brouwer's theorem gives a w with f(exp(w)x₀) = 0.
-The point x₀ is a ball of points that are exactly on M.
+Looked for with Newton's method, in as many bits as the checker needs to prove it.
 """
 
 import math
@@ -13,19 +10,19 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, ctx
+from flint import ctx
 
 from chapsym import checker
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
-from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.levels.proved_root import upper
+from chapsym.checker.orbit import attracts
+from chapsym.dynamics.errors import BadInput, TooWide
 from chapsym.dynamics.levels.start import fraction
 
 from . import families
 from .balls import NotProved, rounded, shortest, simplest
 from .document import MADE, accepted, stated, widest
 from .families import Member
-from .passage import Level, Map, Passage, Vector, column, columns, entries, identity
+from .passage import Level, Map, Passage, Vector, identity
 
 KIND = "periodic-orbit"
 #: Bits with which families are followed; ⟨𝒦, γ⟩ must vary by more than 2^-RESOLVED along one.
@@ -60,13 +57,14 @@ def periodic_orbit(
         progress(f"<momentum, gamma> = {shortest(level.height)}: {bits} bits")
         try:
             with ctx.workprec(bits):
-                start, passage = proved(level, *families.solved(level, steps, near, 4 + bits.bit_length()), steps)
+                start = families.solved(level, steps, near, 4 + bits.bit_length())
+                passage = Map.of(level).passage(*start, steps)
                 found = _document(level, steps, start, passage, _digits(passage, steps, digits), attracting)
             checker.check(found)
             return _with_radius(found, radius, steps, progress)
         except checker.Rejected as error:
             raise BadInput(f"the checker does not accept what was found: {error}; take other digits") from None
-        except NotProved:
+        except (NotProved, TooWide):
             if bits > 8 * (SEARCH_BITS + 4 * (digits or 0)):
                 raise BadInput(f"no orbit of {steps} steps is proved there; choose another <momentum, gamma>") from None
             bits = 2 * bits
@@ -124,7 +122,7 @@ def _found(
             W = Map.of(level).passage(member.momentum, member.gamma, steps).derivative()
             if W.det() > 1:
                 member, W = member.mirrored(), W.inv()
-            if attracts(W) or not attracting:
+            if not attracting or attracts(*multipliers(W)):
                 best = high - low, at, member
     if best is None:
         where = "" if height is None else f" with <momentum, gamma> = {shortest(height)}"
@@ -133,47 +131,17 @@ def _found(
     return best[1], best[2]
 
 
-def proved(level: Level, momentum: Vector, gamma: Vector, steps: int) -> tuple[Vector, Passage]:
-    """Balls of the periodic point near a point of the level, and of its passage; raises NotProved.
-
-    momentum, gamma: balls of a point that is exactly on the level (`families.on_level`).
-    """
-    at = Map.of(level)
-    there = at.passage(momentum, gamma, steps)
-    try:
-        Y = columns(there.slope(), 3).mid().inv().mid()
-    except ZeroDivisionError:
-        raise NotProved("the derivative is singular") from None
-    first = Y * there.error()
-    r = (4 * upper(entries(first)) + arb(2) ** (-ctx.prec)).abs_upper()
-    reach = r * arb(3).sqrt()
-    # |exp(w)v - v| ≤ |w||v|.
-    K, g = ([x + arb(0, (reach * upper(v)).abs_upper()) for x in v] for v in (momentum, gamma))
-    passage = at.passage(K, g, steps)
-    rest = identity() - Y * columns(passage.slope(), 3)
-    moved = rest * column([arb(0, r)] * 3) - first
-    if not all(abs(x) < r for x in entries(moved)):
-        raise NotProved("Newton's map does not take the box into itself")
-    return [*K, *g], passage
+def multipliers(W: Any) -> tuple[Any, Any, Any]:
+    """det W, det(1 - W) and the trace."""
+    return W.det(), (identity() - W).det(), W[0, 0] + W[1, 1] + W[2, 2]
 
 
 def determinants(passage: Passage) -> tuple[Any, Any]:
     """det DG^q and det(1 - DG^q) on M; raises NotProved unless they are proved to be other than 1 and 0."""
-    W = passage.derivative()
-    det, unit = W.det(), (identity() - W).det()
+    det, unit, _ = multipliers(passage.derivative())
     if det.contains(1) or unit.contains(0):
         raise NotProved("det DG^q may be 1, or an eigenvalue may be")
     return det, unit
-
-
-def attracts(W: Any) -> bool:
-    """Whether all eigenvalues are proved to be inside the unit circle: Schur and Cohn's test of det(λ - W)."""
-    trace, det = W[0, 0] + W[1, 1] + W[2, 2], W.det()
-    unit = (identity() - W).det()
-    minors = unit - 1 + trace + det
-    return bool(
-        unit > 0 and 1 + trace + minors + det > 0 and abs(det) < 1 and abs(minors - trace * det) < 1 - det * det
-    )
 
 
 def _digits(passage: Passage, steps: int, wanted: int | None) -> int:
@@ -186,18 +154,16 @@ def _digits(passage: Passage, steps: int, wanted: int | None) -> int:
 
 
 def _document(
-    level: Level, steps: int, start: Vector, passage: Passage, digits: int, attracting: bool
+    level: Level, steps: int, start: tuple[Vector, Vector], passage: Passage, digits: int, attracting: bool
 ) -> dict[str, Any]:
-    det, unit = determinants(passage)
-    W = passage.derivative()
-    if attracting and not attracts(W):
-        raise NotProved("an eigenvalue may be outside of the unit circle")
-    more = {"trace": rounded(W[0, 0] + W[1, 1] + W[2, 2], digits)} if attracting else {}
-    texts = [rounded(x, digits) for x in start]
+    """The object of the file, for the checker to prove."""
+    det, unit, trace = multipliers(passage.derivative())
+    more = {"trace": rounded(trace, digits)} if attracting else {}
+    numbers = [[rounded(x, digits) for x in v] for v in (*start, *passage.gibbs)]
     return stated(
         KIND, ball={"J": [str(x) for x in level.J], "D": str(level.D)},
         integrals={"momentum.momentum": str(level.size), "momentum.gamma": shortest(level.height)},
-        steps=steps, digits=digits, start={"momentum": texts[:3], "gamma": texts[3:]},
-        orbit=[{"u": [rounded(x, digits) for x in u]} for u in passage.gibbs],
+        steps=steps, digits=digits, start={"momentum": numbers[0], "gamma": numbers[1]},
+        orbit=[{"u": u} for u in numbers[2:]],
         determinant=rounded(det, digits), unit_eigenvalue=rounded(unit, digits), **more,
     )  # fmt: skip

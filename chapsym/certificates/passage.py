@@ -10,14 +10,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, arb_mat
+from flint import arb, arb_mat, ctx
 
+from chapsym.checker.linear import cross, dot
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.balls import exact
-from chapsym.dynamics.levels.proved_root import certified, upper
-from chapsym.generated import compose, gibbs_newton, gibbs_residual
+from chapsym.dynamics.levels.proved_root import certified, inverse_slope, newton_enclosure, upper
+from chapsym.generated import compose, gibbs_residual
 
-from .balls import NotProved, cross, dot, near_root
+from .balls import NotProved, near_root
 
 Vector = Sequence[Any]
 
@@ -75,12 +76,12 @@ class Map:
         return cls([exact(x) for x in level.J], exact(level.D), exact(level.size))
 
     def passage(self, momentum: Vector, gamma: Vector, steps: int) -> Passage:
-        """`steps` steps from 𝒦 and γ.  Raises NotProved where the balls are too wide."""
+        """`steps` steps from 𝒦 and γ.  Raises NotProved or TooWide where the balls are too wide."""
         K, g = column(momentum), column(gamma)
         dK, dg, change = self._variations(momentum, gamma)
         turned, quaternion, gibbs = identity(), (arb(1), arb(0), arb(0), arb(0)), []
         for _ in range(steps):
-            k, v = [x / 2 for x in entries(K)], entries(g)
+            k, v = [x / 2 for x in K.entries()], g.entries()
             u, inverse = self.root(k, v)
             U, norm = hat(u), 1 + dot(u, u)
             step = identity() + (U * U - U) * (2 / norm)
@@ -88,7 +89,7 @@ class Map:
             du = inverse * (dK * (norm / 2) + (g * (column(u).transpose() * dg) + dg * dot(v, u)) * self.D)
             omega = (U - identity()) * du * (2 / norm)
             K, g, turned, change = step * K, step * g, step * turned, step * change + omega
-            dK, dg = step * dK - hat(entries(K)) * omega, step * dg - hat(entries(g)) * omega
+            dK, dg = step * dK - hat(K.entries()) * omega, step * dg - hat(g.entries()) * omega
             length = norm.sqrt()
             quaternion = compose(*(*(x / length for x in (arb(1), *(-y for y in u))), *quaternion))
             gibbs.append(u)
@@ -99,38 +100,23 @@ class Map:
         near = near_root(k, g, self.inertia, self.D)
         if not upper(near) <= self.radius:
             raise NotProved("a step is not near its root")
-        residual = gibbs_residual(*(*near, *k, *g, *self.inertia, self.D))
-        # G is monotone: the root is within |G|/m; and with ∂G on this box it is u - (∂G)⁻¹G(u).
-        off = (upper(residual) / self.monotone).abs_upper()
-        box = [x + arb(0, off) for x in near]
-        u = entries(column(near) - self._inverse(box, k, g) * column(residual))
-        return u, self._inverse(u, k, g)
-
-    def _inverse(self, u: Vector, k: Vector, g: Vector) -> Any:
-        found = gibbs_newton(*(*u, *k, *g, *self.inertia, self.D))
-        det, cofactors = found[0], found[4:]
-        if not det > 0:
-            raise NotProved("the balls are too wide for a step")
-        return arb_mat([[cofactors[3 * j + i] / det for j in range(3)] for i in range(3)])
+        state = (*k, *g, *self.inertia, self.D)
+        u = newton_enclosure(near, gibbs_residual(*(*near, *state)), self.monotone, state, ctx.prec)
+        return u, inverse_slope(u, arb(0), state)
 
     def _variations(self, momentum: Vector, gamma: Vector) -> tuple[Any, Any, Any]:
         """d𝒦, dγ and ω of the four variations at the start."""
-        towards = cross(cross(momentum, gamma), momentum)
+        towards: Vector = cross(cross(momentum, gamma), momentum)
         dK, dg = (
             arb_mat([[*row, x] for row, x in zip((-1 * hat(v)).tolist(), last, strict=True)])
-            for v, last in ((momentum, towards), (gamma, [0, 0, 0]))
+            for v, last in ((momentum, towards), (gamma, (0, 0, 0)))
         )
         return dK, dg, arb_mat(3, 4)
 
 
 def column(v: Vector) -> Any:
     """A vector as a matrix of one column."""
-    return arb_mat([[x] for x in v])
-
-
-def entries(v: Any) -> list[Any]:
-    """The entries of a column."""
-    return [v[i, 0] for i in range(v.nrows())]
+    return arb_mat(len(v), 1, v)
 
 
 def columns(m: Any, count: int) -> Any:

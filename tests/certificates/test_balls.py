@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from chapsym.certificates.balls import NotProved, ball, decade, decimal, decimals, rounded, shortest
-from chapsym.certificates.document import digest, sealed
 
 fractions = st.fractions(max_denominator=10**9).filter(lambda x: abs(x) < 10**6)
 
@@ -52,10 +51,3 @@ def test_decimals_are_exact(scaled, digits):
 @given(fractions.filter(lambda x: x > 0))
 def test_decade(x):
     assert Fraction(10) ** decade(x) <= x < Fraction(10) ** (decade(x) + 1)
-
-
-def test_the_digest_is_of_everything_but_itself():
-    document = sealed("kind", "statement γ", one="1", two=[1, {"b": "2", "a": "3"}])
-    assert document["digest"] == digest(document) == digest({**document, "digest": ""})
-    assert digest({**document, "one": "2"}) != document["digest"]
-    assert digest(dict(reversed(document.items()))) == document["digest"]

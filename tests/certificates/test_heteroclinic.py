@@ -11,8 +11,7 @@ import pytest
 from commands import answer, child, refused
 from flint import ctx
 
-from chapsym import proofs
-from chapsym.certificates import document
+from chapsym import checker, proofs
 from chapsym.certificates import heteroclinic as search
 from chapsym.certificates.heteroclinic import Orbits, heteroclinic
 from chapsym.certificates.reduced import Top
@@ -40,7 +39,7 @@ def committed(name):
 def test_the_committed_certificates_are_what_is_found(name):
     found = heteroclinic(top(*COMMITTED[name]))
     assert found == committed(name)
-    assert found["digest"] == document.digest(found)
+    assert found["digest"] == checker.digest(found)
 
 
 def test_the_real_ball_is_one():

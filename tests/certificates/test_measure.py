@@ -52,7 +52,7 @@ def test_the_committed_certificates_are_what_is_found(name):
     first, second = displacements(found)
     assert first * second < 0
     assert Fraction(found["radius"]) > 0
-    assert found["digest"] == document.digest(found)
+    assert found["digest"] == checker.digest(found)
 
 
 @pytest.mark.thorough
@@ -188,7 +188,7 @@ def test_the_command_has_the_checker_judge(tmp_path):
     done = child("certify", "check", str(good))
     assert (done.returncode, done.stderr) == (0, "")
     found["orbits"][0]["displacement"] = found["orbits"][0]["displacement"].replace("415", "416")
-    document.write(file, {**found, "digest": document.digest(found)})
+    document.write(file, {**found, "digest": checker.digest(found)})
     done = child("certify", "check", str(good), str(file))
     assert done.returncode == 1
     assert "rejected" in done.stderr
