@@ -9,6 +9,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
+from itertools import chain
 from typing import Any
 
 import sympy as sp
@@ -108,12 +109,14 @@ class Proof:
         if relations:
             self.assumed.append(Comparison(text, relations))
 
-    def reads(self, symbols: Mapping[str, tuple[Any, str]]) -> None:
+    def reads(self, *given: Mapping[str, tuple[Any, str]] | tuple[str, Any, str]) -> None:
         """What the symbols of the formulas stand for, so that the checker reads these and compares what was decided.
 
-        symbols: {TeX: (an expression, a column or a matrix in the letters of the statements, what it is)}.
+        given: (TeX, an expression, a column or a matrix in the letters of the statements, what it is), or tables of
+        these, {TeX: (value, what it is)}.
         """
-        for symbol, one in symbols.items():
+        tables = ({one[0]: one[1:]} if isinstance(one, tuple) else one for one in given)
+        for symbol, one in chain.from_iterable(table.items() for table in tables):
             value, meaning = one if isinstance(one, tuple) and len(one) == 2 else (None, None)
             value = sp.Integer(value) if type(value) is int else value
             if not isinstance(value, sp.Expr | sp.MatrixBase) or not isinstance(meaning, str):

@@ -66,12 +66,10 @@ def vector_equations(p: Proof) -> None:
     ring = Quotient(RING.symbols)
     turning, falling = carried_rates()
     p.reads(
-        glossary.classical()
-        | {
-            "K": (K, "the vector of K (2.13), (A₃₂, A₁₃, A₂₁) of a skew A"),
-            r"\dot K": (turning, "that of -[ω, K] (2.12), by the derivation"),
-            r"\dot\gamma": (falling, "-ωγ, as γ is fixed in space, by the derivation"),
-        }
+        glossary.classical(),
+        ("K", K, "the vector of K (2.13), (A₃₂, A₁₃, A₂₁) of a skew A"),
+        (r"\dot K", turning, "that of -[ω, K] (2.12), by the derivation"),
+        (r"\dot\gamma", falling, "-ωγ, as γ is fixed in space, by the derivation"),
     )
     p.printed(
         equation("the vector of -[ω,K] is K×ω", turning, K.cross(omega), ring),
@@ -107,13 +105,11 @@ def closed_system(p: Proof) -> None:
     upright = sp.eye(3) + D / factor * gamma * gamma.T * lam.inv()
     vanishing = upright * (along(momentum) - momentum.cross(omega))
     p.reads(
-        glossary.ball()
-        | {
-            r"\Lambda": (lam, "Λ, diagonal (2.2)"),
-            "F": (factor, "1 - D⟨γ,Λ⁻¹γ⟩ (2.2-F)"),
-            r"\dot\omega": (alpha, "its rate"),
-            "0": (vanishing, "(1 + (D/F)γγᵀΛ⁻¹)(K̇ - K×ω), where K = Λω - D⟨ω,γ⟩γ and K̇ = K×ω (2.3)"),
-        }
+        glossary.ball(),
+        (r"\Lambda", lam, "Λ, diagonal (2.2)"),
+        ("F", factor, "1 - D⟨γ,Λ⁻¹γ⟩ (2.2-F)"),
+        (r"\dot\omega", alpha, "its rate"),
+        ("0", vanishing, "(1 + (D/F)γγᵀΛ⁻¹)(K̇ - K×ω), where K = Λω - D⟨ω,γ⟩γ and K̇ = K×ω (2.3)"),
     )
 
     def said(text: str, size: sp.Expr) -> Equation:
@@ -146,16 +142,14 @@ def four_integrals(p: Proof) -> None:
     fixed = [K.cross(omega).dot(gamma) + K.dot(VERTICAL_RATE), 2 * K.dot(K.cross(omega))]  # with K̇ = K×ω
     rates = [sp.S.Zero, *fixed, power[3].subs(acceleration, simultaneous=True)]
     p.reads(
-        glossary.classical()
-        | {
-            "K": (k, "Λω - D⟨ω,γ⟩γ, the momentum about the point of contact (2.3)"),
-            r"\dot\gamma": (VERTICAL_RATE, "γ×ω (2.3)"),
-            **{name: (functions[i], f"the integral {name}") for i, name in enumerate("hnl", start=1)},
-            **{
-                rf"\dot {name}": (rates[i], "its rate, by K̇ and γ̇ (2.3), or by ω̇ (2.2)")
-                for i, name in enumerate("hnl", start=1)
-            },
-        }
+        glossary.classical(),
+        ("K", k, "Λω - D⟨ω,γ⟩γ, the momentum about the point of contact (2.3)"),
+        (r"\dot\gamma", VERTICAL_RATE, "γ×ω (2.3)"),
+        {name: (functions[i], f"the integral {name}") for i, name in enumerate("hnl", start=1)},
+        {
+            rf"\dot {name}": (rates[i], "its rate, by K̇ and γ̇ (2.3), or by ω̇ (2.2)")
+            for i, name in enumerate("hnl", start=1)
+        },
     )
     p.printed(equation("⟨γ,γ⟩ = 1", gamma.dot(gamma), 1), equation("⟨γ,γ̇⟩ = 0", gamma.dot(VERTICAL_RATE), 0))
     p.printed(equation("⟨K,γ⟩ = ⟨Jω,γ⟩", k.dot(gamma), (central * omega).dot(gamma)))
@@ -186,11 +180,9 @@ def kinetic_energy(p: Proof) -> None:
     kinetic = continuous.lagrangian_energy()
     left = momentum().dot(omega)
     p.reads(
-        glossary.classical()
-        | {
-            "K": (momentum(), "Λω - D⟨ω,γ⟩γ, the momentum about the point of contact (2.3)"),
-            "T": (kinetic, "the kinetic energy, ½m|v|² + ½⟨Iω,ω⟩ on the rolling ball"),
-        }
+        glossary.classical(),
+        ("K", momentum(), "Λω - D⟨ω,γ⟩γ, the momentum about the point of contact (2.3)"),
+        ("T", kinetic, "the kinetic energy, ½m|v|² + ½⟨Iω,ω⟩ on the rolling ball"),
     )
     p.printed(equation("⟨K,ω⟩ = ½m|v|² + ½⟨Iω,ω⟩", left, kinetic))
     p.corrected(r"\langle K,\omega\rangle = 2T", equation("⟨K,ω⟩ = m|v|² + ⟨Iω,ω⟩", left, 2 * kinetic))

@@ -33,12 +33,10 @@ def rolling_condition(p: Proof) -> None:
     """The sign is wrong if γ is directed upwards, as it is before (2.9); at (2.1) no direction is printed."""
     p.slips("convention")
     p.reads(
-        glossary.ball()
-        | {
-            "v": (VELOCITY, "the velocity of the centre (2.1)"),
-            r"\rho": (RADIUS, "the radius (2.1)"),
-            "0": (SLIP, "the velocity of the point of the ball at P = C - ργ, which vanishes"),
-        }
+        glossary.ball(),
+        ("v", VELOCITY, "the velocity of the centre (2.1)"),
+        (r"\rho", RADIUS, "the radius (2.1)"),
+        ("0", SLIP, "the velocity of the point of the ball at P = C - ργ, which vanishes"),
     )
     v, rho = VELOCITY, RADIUS
     ring = Quotient((*v, rho, *omega, *gamma))
@@ -124,11 +122,9 @@ def energy_integral(p: Proof) -> None:
     """The energy integral as a function of K, γ: the sign is misprinted with that of the inverse."""
     p.slips("serious", "2.5-inverse")
     p.reads(
-        glossary.classical()
-        | {
-            "K": (K, "the momentum about the point of contact (2.3)"),
-            r"\omega": (sp.Matrix(continuous.angular_velocity()), "Λ⁻¹(K + (D/F)⟨γ,Λ⁻¹K⟩γ) (2.5-inverse as corrected)"),
-        }
+        glossary.classical(),
+        ("K", K, "the momentum about the point of contact (2.3)"),
+        (r"\omega", sp.Matrix(continuous.angular_velocity()), "Λ⁻¹(K + (D/F)⟨γ,Λ⁻¹K⟩γ) (2.5-inverse as corrected)"),
     )
     p.assume("J_i + J_j > 0, D ≥ 0, so that F > 0 (2.13)", *three.MOMENTS)
     p.say("ω(K, γ) is the inverse of K(ω, γ) that 2.5-inverse proves.")

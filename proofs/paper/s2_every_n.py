@@ -91,9 +91,7 @@ def rolling_condition(p: Proof) -> None:
 @claim("2.10", r"M = J\omega + \omega J")
 def centre_momentum(p: Proof) -> None:
     """The angular momentum about the centre, from the kinetic energy ½ tr(Ṙ J Ṙᵀ)."""
-    p.reads(
-        motion_symbols() | {"M": (motion.centre_momentum(), "from the kinetic energy ½ tr(ṘJṘᵀ), by the derivation")}
-    )
+    p.reads(motion_symbols(), ("M", motion.centre_momentum(), "from the kinetic energy ½ tr(ṘJṘᵀ), by the derivation"))
     derived = motion.centre_momentum()
     p.show("M", derived)
     p.printed(equation("M = Jω + ωJ", J * omega + omega * J, derived))
@@ -110,11 +108,9 @@ def centre_momentum(p: Proof) -> None:
 def equations_of_motion(p: Proof) -> None:
     """The equations of motion are d'Alembert's principle in the frame of the body."""
     p.reads(
-        motion_symbols()
-        | {
-            "F": (motion.m * (motion.a + omega * motion.v), "m(v̇ + ωv), the force of inertia"),
-            "0": (motion.dalembert(), VANISHES),
-        }
+        motion_symbols(),
+        ("F", motion.m * (motion.a + omega * motion.v), "m(v̇ + ωv), the force of inertia"),
+        ("0", motion.dalembert(), VANISHES),
     )
     p.assume(DOWNWARDS)
     p.say("tr(R̈ J δRᵀ) + ⟨m r̈, δr⟩ = 0 for δR = Rη, δr = -ρRηγ, every skew η; R̈ = R(ω̇+ω²), r̈ = R(v̇+ωv).")
@@ -134,13 +130,12 @@ def reaction_force(p: Proof) -> None:
     """The reaction force: its sign is misprinted."""
     p.slips("serious")
     p.reads(
-        motion_symbols()
-        | {
-            "F": (
-                motion.on_rolling("force_rolling", motion.inertial_force()),
-                "m(v̇ + ωv) where v = -ρωγ, by the derivation",
-            )
-        }
+        motion_symbols(),
+        (
+            "F",
+            motion.on_rolling("force_rolling", motion.inertial_force()),
+            "m(v̇ + ωv) where v = -ρωγ, by the derivation",
+        ),
     )
     p.assume(DOWNWARDS)
     p.say("v = -ρωγ and γ̇ = -ωγ give v̇ + ωv = -ρω̇γ.")
@@ -179,12 +174,10 @@ def eliminated_force(p: Proof) -> None:
 def conservation(p: Proof) -> None:
     """The momentum about the contact point is fixed in space, for every n."""
     p.reads(
-        motion_symbols()
-        | {
-            r"\mathbf K": (motion.contact_momentum(), "Jω + ωJ + D(Γω + ωΓ) (2.13)"),
-            r"\dot{\mathbf K}": (moving("K_here", motion.contact_momentum()), "its rate"),
-            "0": (motion.eliminated(), VANISHES),
-        }
+        motion_symbols(),
+        (r"\mathbf K", motion.contact_momentum(), "Jω + ωJ + D(Γω + ωΓ) (2.13)"),
+        (r"\dot{\mathbf K}", moving("K_here", motion.contact_momentum()), "its rate"),
+        ("0", motion.eliminated(), VANISHES),
     )
     momentum = motion.contact_momentum()
     p.show("K", momentum)
@@ -219,10 +212,8 @@ def trace_integrals(p: Proof) -> None:
     traces = Traces(algebra)
     power, product = (moving(name, of, rates, algebra) for name, of in (("power", X), ("product", X * Y)))
     p.reads(
-        {
-            r"\tfrac d{dt}\mathbf K^s": (power, "that of any X with the rate -[ω, X], by the derivation"),
-            r"\tfrac d{dt}(\mathbf K^s\Gamma^l)": (product, "that of any XY with such rates, by the derivation"),
-        }
+        (r"\tfrac d{dt}\mathbf K^s", power, "that of any X with the rate -[ω, X], by the derivation"),
+        (r"\tfrac d{dt}(\mathbf K^s\Gamma^l)", product, "that of any XY with such rates, by the derivation"),
     )
     p.printed(
         equation("d/dt tr X = 0", power, 0, traces),
@@ -242,11 +233,9 @@ def energy_integral(p: Proof) -> None:
     velocity = motion.rolling_velocity()
     kinetic = omega * J * ALGEBRA.transpose(omega) / 2 + D / rho**2 * velocity * ALGEBRA.transpose(velocity) / 2
     p.reads(
-        motion_symbols()
-        | {
-            "H": (sp.Function("tr")(kinetic), "the kinetic energy, ½ tr(Ṙ J Ṙᵀ) + ½ m|v|² on v = -ρωγ"),
-            r"\mathcal A\omega": (momentum, "K (2.13)"),
-        }
+        motion_symbols(),
+        ("H", sp.Function("tr")(kinetic), "the kinetic energy, ½ tr(Ṙ J Ṙᵀ) + ½ m|v|² on v = -ρωγ"),
+        (r"\mathcal A\omega", momentum, "K (2.13)"),
     )
     p.printed(equation("H = ½ tr(Ṙ J Ṙᵀ) + ½ m|v|² on v = -ρωγ", energy, kinetic, TRACES))
     p.say("dH/dt = -½ tr(ω(K̇ + [ω,K])): the principle times the velocity, so it vanishes along every motion.")

@@ -52,11 +52,9 @@ def inertia_operator(p: Proof) -> None:
     p.say("K is the momentum about the point of contact P: M about the centre C, and mv ∧ (C - P) with C - P = -ργ and")
     p.say("v = -ρωγ; it is in so*(n), not so*(m).")
     p.reads(
-        motion_symbols()
-        | {
-            r"\mathbf K": (motion.contact_momentum(), "M about C and mv∧(C - P), about the point of contact P"),
-            r"\mathcal A\omega": (applied(omega), "Jω + ωJ + D(Γω + ωΓ), for any ω"),
-        }
+        motion_symbols(),
+        (r"\mathbf K", motion.contact_momentum(), "M about C and mv∧(C - P), about the point of contact P"),
+        (r"\mathcal A\omega", applied(omega), "Jω + ωJ + D(Γω + ωΓ), for any ω"),
     )
     p.printed(equation("K = Jω + ωJ + D(Γω + ωΓ)", applied(omega), motion.contact_momentum()))
     p.say("⟨ω, 𝒜ω⟩ for every n, and entry by entry (n = 5: the sum over i, j is symmetric for every n):")
@@ -221,10 +219,8 @@ def isomorphism(p: Proof) -> None:
     for matrix, (vector, index, name) in letters.items():
         whole = -hat(vector)
         p.reads(
-            {
-                f"{matrix}{{ij}}": (hat(vector), f"the matrix of the vector {name} with which (2.12) is (2.3)"),
-                rf"\varepsilon_{{ijk}}{index}": (whole, f"Σ_k ε_ijk {name}_k: in row 1, column 2 it is {name}_3"),
-            }
+            (f"{matrix}{{ij}}", hat(vector), f"the matrix of the vector {name} with which (2.12) is (2.3)"),
+            (rf"\varepsilon_{{ijk}}{index}", whole, f"Σ_k ε_ijk {name}_k: in row 1, column 2 it is {name}_3"),
         )
         p.printed(Equation(f"{name}_ij = ε_ijk {name}_k", hat(vector), whole, ring))
     p.printed(Equation("H of (2.15) is l of (2.4)", energy, momentum.dot(spin), ring))

@@ -73,11 +73,9 @@ def naive_constraint(p: Proof) -> None:
     step = {motion.v: principle.r1 - principle.r, motion.omega: R1 * RT}
     imitated = replaced("imitated", "Δr_k for v and Ω̄_k for ω", form, step, ALGEBRA)
     p.reads(
-        step_symbols()
-        | {
-            r"\bar\gamma": (gamma, "the vertical unit vector in space (4.2)"),
-            "0": (imitated, "(2.9) with Δr_k for v and Ω̄_k for ω, by the derivation"),
-        }
+        step_symbols(),
+        (r"\bar\gamma", gamma, "the vertical unit vector in space (4.2)"),
+        ("0", imitated, "(2.9) with Δr_k for v and Ω̄_k for ω, by the derivation"),
     )
     p.printed(equation("Δr + ρΩ̄γ = (2.9) with Δr for v and Ω̄ for ω", step[motion.v] + rho * R1 * RT * gamma, imitated))
     p.say("Its vertical component is -ρ γᵀΩ̄γ; n = 3, Ω̄ by Euler parameters:")
@@ -115,12 +113,10 @@ def rotation_limit(p: Proof) -> None:
     p.say("As a statement about the limit: Ω̄ = 1 + (first order) + O(ε²), where the first order is εω, not ω.")
     e = sp.Symbol("e")  # the value of ε, a parameter of the words
     p.reads(
-        {
-            r"\bar\Omega_k": (zeroth + e * first, "its terms up to the order ε, by the derivation"),
-            r"\mathbf I": (sp.S.One, "the unit matrix"),
-            r"\omega": (spin, "the skew ω of Ω̄_k = exp(εω)"),
-            r"\varepsilon": (e, "ε"),
-        }
+        (r"\bar\Omega_k", zeroth + e * first, "its terms up to the order ε, by the derivation"),
+        (r"\mathbf I", sp.S.One, "the unit matrix"),
+        (r"\omega", spin, "the skew ω of Ω̄_k = exp(εω)"),
+        (r"\varepsilon", e, "ε"),
     )
     p.printed(Equation("the part of Ω̄ up to order 1 = 1 + ω", zeroth + e * first, 1 + spin, algebra))
     p.corrected(
@@ -224,9 +220,7 @@ def closed_equation(p: Proof) -> None:
     balance = ball.body_balance()
     p.show("R_kᵀ S R_k", balance)
     left, right = closed_sides()
-    p.reads(
-        step_symbols() | {"0": (balance, "the principle in the body, on the discrete constraint, by the derivation")}
-    )
+    p.reads(step_symbols(), ("0", balance, "the principle in the body, on the discrete constraint, by the derivation"))
     p.printed(equation("(4.10) left - right = R_kᵀ S R_k", left - right, balance))
     left, right = closed_sides(sign=-1)
     p.control(equation("(4.10) with one sign flipped", left - right, balance))

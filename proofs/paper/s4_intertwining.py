@@ -50,11 +50,9 @@ def intertwining(p: Proof) -> None:
     p.show("𝒦_{k-1}", momentum)
     p.show("𝒦_k = Ωᵀ𝒦_{k-1}Ω", ball.carried(momentum))
     p.reads(
-        one_step_symbols()
-        | {
-            r"\mathcal K_{k-1}": (momentum, "𝒦 of the step (4.13), by the derivation"),
-            r"\mathcal K_k": (ball.carried(momentum), "Ωᵀ𝒦_(k-1)Ω (4.12)"),
-        }
+        one_step_symbols(),
+        (r"\mathcal K_{k-1}", momentum, "𝒦 of the step (4.13), by the derivation"),
+        (r"\mathcal K_k", ball.carried(momentum), "Ωᵀ𝒦_(k-1)Ω (4.12)"),
     )
     before, after = printed_relations()
     p.show("right side for 𝒦_{k-1}", ALGEBRA.normal(before))

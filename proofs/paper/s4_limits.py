@@ -84,13 +84,11 @@ def momentum_limit(p: Proof) -> None:
     whole = centre + contact
     moving = {name: limits.transport(name, tensor) for name, tensor in (("K_contact", whole), ("Gamma", Gamma))}
     p.reads(
-        symbols()
-        | {
-            r"\mathcal K/\varepsilon": (momentum.limit, "what it tends to, by the derivation"),
-            r"\mathbf K": (whole, "Jω + ωJ + D(Γω + ωΓ) (2.13)"),
-            r"\dot{\mathbf K}": (moving["K_contact"].limit, "what (ΩᵀKΩ - K)/ε tends to (4.12), by the derivation"),
-            r"\dot\Gamma": (moving["Gamma"].limit, "what (ΩᵀΓΩ - Γ)/ε tends to (4.12), by the derivation"),
-        }
+        symbols(),
+        (r"\mathcal K/\varepsilon", momentum.limit, "what it tends to, by the derivation"),
+        (r"\mathbf K", whole, "Jω + ωJ + D(Γω + ωΓ) (2.13)"),
+        (r"\dot{\mathbf K}", moving["K_contact"].limit, "what (ΩᵀKΩ - K)/ε tends to (4.12), by the derivation"),
+        (r"\dot\Gamma", moving["Gamma"].limit, "what (ΩᵀΓΩ - Γ)/ε tends to (4.12), by the derivation"),
     )
     for name, tensor, moved in (("K", whole, moving["K_contact"]), ("Γ", Gamma, moving["Gamma"])):
         show(p, f"(Ωᵀ{name}Ω - {name})/ε", moved)

@@ -47,12 +47,10 @@ def compact_form(p: Proof) -> None:
     p.assume("𝕃 with the correction of (4.1)")
     p.assume("Γ is even in γ: (4.12) fixes γ_k up to a common sign, and (4.11) fixes the sign")
     p.reads(
-        step_symbols()
-        | {
-            r"\mathcal K_k": (ball.momentum_in_space(now=True), "𝒦 of the step k, by the derivation"),
-            r"\mathcal K_{k-1}": (ball.momentum_in_space(now=False), "that of the step k-1"),
-        }
-        | BALANCE
+        step_symbols(),
+        (r"\mathcal K_k", ball.momentum_in_space(now=True), "𝒦 of the step k, by the derivation"),
+        (r"\mathcal K_{k-1}", ball.momentum_in_space(now=False), "that of the step k-1"),
+        BALANCE,
     )
     p.say("The balance splits into a part with R_{k+1} and a part with R_{k-1}. In the symbols of their own steps:")
     now, before = ball.split_balance()
@@ -142,12 +140,10 @@ def discrete_euler_top(p: Proof) -> None:
     balance = without("top_balance", ball.body_balance())
     now, before = (without(f"top_{i}", ball.momentum_in_space(now=not i)) for i in range(2))
     p.reads(
-        step_symbols()
-        | {
-            "M_k": (now, "𝒦_k for D = 0, by the derivation"),
-            "M_{k-1}": (before, "𝒦_(k-1) for D = 0, by the derivation"),
-            "0": (balance, "the principle in the body for D = 0, by the derivation"),
-        }
+        step_symbols(),
+        ("M_k", now, "𝒦_k for D = 0, by the derivation"),
+        ("M_{k-1}", before, "𝒦_(k-1) for D = 0, by the derivation"),
+        ("0", balance, "the principle in the body for D = 0, by the derivation"),
     )
     centre, swapped = Omega * J - J * OmegaT, J * Omega - OmegaT * J
     step, back = principle.R0T * principle.R, principle.RT * principle.R0
@@ -213,12 +209,10 @@ def trace_integrals(p: Proof) -> None:
     p.say("By induction (𝒦_k)^s(Γ_k)^l = Ωᵀ(𝒦_{k-1})^s(Γ_{k-1})^lΩ for all s, l; and the trace does not see Ω:")
     traces = Traces(algebra)
     p.reads(
-        {
-            r"\mathcal K_{k-1}^s": (X, "any matrix in its place"),
-            r"\mathcal K_k^s": (carried(X), "Ωᵀ𝒦_(k-1)^sΩ, as carrying is multiplicative"),
-            r"\Gamma_{k-1}^l": (Y, "any matrix in its place"),
-            r"\Gamma_k^l": (carried(Y), "ΩᵀΓ_(k-1)^lΩ, as carrying is multiplicative"),
-        }
+        (r"\mathcal K_{k-1}^s", X, "any matrix in its place"),
+        (r"\mathcal K_k^s", carried(X), "Ωᵀ𝒦_(k-1)^sΩ, as carrying is multiplicative"),
+        (r"\Gamma_{k-1}^l", Y, "any matrix in its place"),
+        (r"\Gamma_k^l", carried(Y), "ΩᵀΓ_(k-1)^lΩ, as carrying is multiplicative"),
     )
     p.printed(
         equation("tr ΩᵀXΩ = tr X", carried(X), X, traces),

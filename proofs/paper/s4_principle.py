@@ -161,11 +161,9 @@ def rotation_equation(p: Proof) -> None:
     p.say("Λ is any symmetric matrix, so -Λ may be called Λ; the sign of the whole is free.")
     derived = -replaced("equation_R_other", "with -Λ for Λ", in_R, {Lam: -Lam}, ALGEBRA)
     p.reads(
-        step_symbols()
-        | {
-            r"\vec f^k": (f, "the multiplier of the rolling constraint (4.3)"),
-            "0": (derived, "the equation of the principle in R_k, by the derivation"),
-        }
+        step_symbols(),
+        (r"\vec f^k", f, "the multiplier of the rolling constraint (4.3)"),
+        ("0", derived, "the equation of the principle in R_k, by the derivation"),
     )
     printed = (R1 + R0) * J - Lam * R - rho * f * gammaT * R
     p.printed(equation("(4.3) left - right = minus the equation of the principle with -Λ for Λ", printed, derived))
@@ -180,11 +178,9 @@ def centre_equation(p: Proof) -> None:
     _, in_r = principle.multiplier_equations(CORRECTED)
     p.show("0", in_r)
     p.reads(
-        step_symbols()
-        | {
-            r"\vec f^k": (f, "the multiplier of the rolling constraint (4.3)"),
-            "0": (in_r, "the equation of the principle in r_k, by the derivation"),
-        }
+        step_symbols(),
+        (r"\vec f^k", f, "the multiplier of the rolling constraint (4.3)"),
+        ("0", in_r, "the equation of the principle in r_k, by the derivation"),
     )
     printed = principle.reaction() - f
     p.printed(equation("(4.4) left - right = - the equation of the principle", printed, -in_r))
@@ -203,12 +199,10 @@ def transposed_forms(p: Proof) -> None:
     first = R1 * J * RT + R0 * J * RT - Lam - rho * f * gammaT
     second = R * J * R1T + R * J * R0T - ALGEBRA.transpose(Lam) - rho * gamma * fT
     p.reads(
-        step_symbols()
-        | {
-            r"\vec f^k": (f, "the multiplier of the rolling constraint (4.3)"),
-            r"\vec f^T_k": (fT, "its transpose"),
-            "0": (at_4_3 * RT, "(4.3) times R_kᵀ, which vanishes"),
-        }
+        step_symbols(),
+        (r"\vec f^k", f, "the multiplier of the rolling constraint (4.3)"),
+        (r"\vec f^T_k", fT, "its transpose"),
+        ("0", at_4_3 * RT, "(4.3) times R_kᵀ, which vanishes"),
     )
     p.printed(
         equation("first form = (4.3)·R_kᵀ", first, at_4_3 * RT),
@@ -232,12 +226,10 @@ def spatial_balance(p: Proof) -> None:
     now, before = principle.spatial_momentum(R, R1), principle.spatial_momentum(R0, R)
     force = ALGEBRA.wedge(principle.reaction(), gamma)
     p.reads(
-        step_symbols()
-        | {
-            r"\vec f^k": (principle.reaction(), "m(Δr_k - Δr_(k-1)) (4.4)"),
-            r"\vec{f^k}^T": (ALGEBRA.transpose(principle.reaction()), "its transpose"),
-            "0": (balance, "the principle, the multipliers eliminated, by the derivation"),
-        }
+        step_symbols(),
+        (r"\vec f^k", principle.reaction(), "m(Δr_k - Δr_(k-1)) (4.4)"),
+        (r"\vec{f^k}^T", ALGEBRA.transpose(principle.reaction()), "its transpose"),
+        ("0", balance, "the principle, the multipliers eliminated, by the derivation"),
     )
     p.printed(equation("m_k - m_{k-1} - ρ(fγᵀ - γfᵀ) = S", now - before - rho * force, balance))
     first = R1 * J * RT + R0 * J * RT - Lam - rho * f * gammaT
@@ -269,12 +261,10 @@ def euler_poincare(p: Proof) -> None:
     force = ALGEBRA.wedge(RT * principle.reaction(), RT * gamma)
     balance = RT * principle.momentum_balance(CORRECTED) * R
     p.reads(
-        step_symbols()
-        | {
-            r"\vec F^k": (RT * principle.reaction(), "R_kᵀf^k (4.8)"),
-            r"\vec f^k": (principle.reaction(), "m(Δr_k - Δr_(k-1)) (4.4)"),
-            "0": (balance, "the principle in the body, by the derivation"),
-        }
+        step_symbols(),
+        (r"\vec F^k", RT * principle.reaction(), "R_kᵀf^k (4.8)"),
+        (r"\vec f^k", principle.reaction(), "m(Δr_k - Δr_(k-1)) (4.4)"),
+        ("0", balance, "the principle in the body, by the derivation"),
     )
     p.printed(equation("M_k - Ωᵀ M_{k-1} Ω - ρ F∧γ = R_kᵀ S R_k", now - moved - rho * force, balance))
     turned = R0T * R * _in_body(R0, R) * RT * R0
@@ -302,13 +292,11 @@ def rolling_in_space(p: Proof) -> None:
     fixed = principle.rolling_constraint(R * velocity, R * spin).subs(gamma, R * vertical)
     body = velocity + rho * spin * vertical
     p.reads(
-        step_symbols()
-        | {
-            r"\dot r": (R * velocity, "Rv, the velocity of the centre"),
-            r"\dot R R^T": (R * spin * RT, "RωRᵀ, the angular velocity in space"),
-            r"\vec\gamma": (R * vertical, "Rγ, the vertical in space"),
-            "0": (R * body, "R(v + ρωγ), which vanishes (2.9)"),
-        }
+        step_symbols(),
+        (r"\dot r", R * velocity, "Rv, the velocity of the centre"),
+        (r"\dot R R^T", R * spin * RT, "RωRᵀ, the angular velocity in space"),
+        (r"\vec\gamma", R * vertical, "Rγ, the vertical in space"),
+        ("0", R * body, "R(v + ρωγ), which vanishes (2.9)"),
     )
     p.printed(Equation("ṙ + ρṘRᵀγ⃗ = R(v + ρωγ)", fixed, R * body, algebra))
     wrong = velocity - rho * spin * vertical
@@ -327,12 +315,10 @@ def body_momentum(p: Proof) -> None:
     spatial = principle.spatial_momentum(R, R1)
     body = RT * R1 * J - J * R1T * R
     p.reads(
-        step_symbols()
-        | {
-            r"\mathrm{Ad}_{R_k} m_k": (R * spatial * RT, "R_km_kR_kᵀ"),
-            r"\mathrm{Ad}_{R_k^{-1}} m_k": (RT * spatial * R, "R_k⁻¹m_kR_k"),
-            "M_k": (body, "Ω_kJ - JΩ_kᵀ, as (4.7) needs it"),
-        }
+        step_symbols(),
+        (r"\mathrm{Ad}_{R_k} m_k", R * spatial * RT, "R_km_kR_kᵀ"),
+        (r"\mathrm{Ad}_{R_k^{-1}} m_k", RT * spatial * R, "R_k⁻¹m_kR_k"),
+        ("M_k", body, "Ω_kJ - JΩ_kᵀ, as (4.7) needs it"),
     )
     p.printed(equation("R_k m_k R_kᵀ = Ω_k J - J Ω_kᵀ", R * spatial * RT, body))
     p.corrected(
@@ -356,13 +342,11 @@ def balance_in_body(p: Proof) -> None:
     force = principle.reaction()
     balance = RT * principle.momentum_balance(CORRECTED) * R
     p.reads(
-        step_symbols()
-        | {
-            r"\vec f^k": (force, "m(Δr_k - Δr_(k-1)) (4.4)"),
-            r"\vec f^T": (ALGEBRA.transpose(force), "its transpose"),
-            r"\gamma^T": (gammaT, "that of the vertical in space"),
-            "0": (balance, "the principle in the body, by the derivation"),
-        }
+        step_symbols(),
+        (r"\vec f^k", force, "m(Δr_k - Δr_(k-1)) (4.4)"),
+        (r"\vec f^T", ALGEBRA.transpose(force), "its transpose"),
+        (r"\gamma^T", gammaT, "that of the vertical in space"),
+        ("0", balance, "the principle in the body, by the derivation"),
     )
 
     def carried(text: str, vertical: sp.Expr) -> Equation:

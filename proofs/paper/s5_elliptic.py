@@ -149,11 +149,9 @@ def modulus(p: Proof) -> None:
     first, second, third = printed_squares(-1)
     made = (second - first) / third
     p.reads(
-        curve_symbols()
-        | {
-            "l": (l, "the level ⟨γ, Λ⁻¹γ⟩ (5.5)"),
-            "k^2": (made, "the square of the modulus: (C2² - C1²)/C3², so that |γ|² = 1 for every u (5.7, 5.8)"),
-        }
+        curve_symbols(),
+        ("l", l, "the level ⟨γ, Λ⁻¹γ⟩ (5.5)"),
+        ("k^2", made, "the square of the modulus: (C2² - C1²)/C3², so that |γ|² = 1 for every u (5.7, 5.8)"),
     )
     printed = (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1))
     p.say("The coefficient of sn² in |γ|² is C2² - C1² - k²C3²; it is 0.")
@@ -210,12 +208,10 @@ def sums_and_differences(p: Proof) -> None:
     """Sums and differences by the addition formulas: the sign of the first difference is misprinted."""
     p.slips("typo")
     p.reads(
-        curve_symbols()
-        | {
-            "C_1": (C1, "the first amplitude (5.8)"),
-            r"\gamma_1": (pair()[0][0], "C1 cn(ū - δu) (5.7)"),
-            r"\tilde\gamma_1": (pair()[1][0], "C1 cn(ū + δu) (5.7)"),
-        }
+        curve_symbols(),
+        ("C_1", C1, "the first amplitude (5.8)"),
+        (r"\gamma_1", pair()[0][0], "C1 cn(ū - δu) (5.7)"),
+        (r"\tilde\gamma_1", pair()[1][0], "C1 cn(ū + δu) (5.7)"),
     )
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.assume("1/Λ1 < 1/Λ2 < l < 1/Λ3", *elliptic.ORDER)
@@ -300,13 +296,11 @@ def increment_and_kappa(p: Proof) -> None:
 
     p.say("Each component of (5.10) gives ϰ by itself; V is for them", *(f"    {factor}" for factor in factors))
     p.reads(
-        amplitude_symbols()
-        | {name: (value.xreplace(ROOTED), meaning) for name, (value, meaning) in functions(HALF, r"\delta u").items()}
-        | {
-            r"\mathcal D": (elliptic.denominator().xreplace(ROOTED), "1 - k² sn²ū sn²δu (5.13)"),
-            r"\varkappa": (kappas[0].xreplace(ROOTED), "that of the first component of (5.10), by (5.13 as corrected)"),
-            "V": (factors[0].xreplace(ROOTED), "-(C₂C₃/C₁)(1/Λ₃ - 1/Λ₂)"),
-        }
+        amplitude_symbols(),
+        {name: (value.xreplace(ROOTED), meaning) for name, (value, meaning) in functions(HALF, r"\delta u").items()},
+        (r"\mathcal D", elliptic.denominator().xreplace(ROOTED), "1 - k² sn²ū sn²δu (5.13)"),
+        (r"\varkappa", kappas[0].xreplace(ROOTED), "that of the first component of (5.10), by (5.13 as corrected)"),
+        ("V", factors[0].xreplace(ROOTED), "-(C₂C₃/C₁)(1/Λ₃ - 1/Λ₂)"),
     )
     first, *others = (said(i, factor) for i, factor in enumerate(factors))
     p.printed(first, rooted("V² as printed", [factors[0] ** 2], [printed]))

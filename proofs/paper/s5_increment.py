@@ -81,11 +81,9 @@ def written_out() -> sp.Expr:
 def first_form(p: Proof) -> None:
     """Π1 in Jacobi's functions."""
     p.reads(
-        level_symbols()
-        | {
-            r"\Pi_1": (on_curve(elliptic.quarter_form(1)), "¼⟨γ~+γ, Λ⁻¹(γ~+γ)⟩ (5.11)"),
-            r"\mu": (on_curve(MU), "(1 - Λ3 l)/(Λ2 - Λ3) (5.14)"),
-        }
+        level_symbols(),
+        (r"\Pi_1", on_curve(elliptic.quarter_form(1)), "¼⟨γ~+γ, Λ⁻¹(γ~+γ)⟩ (5.11)"),
+        (r"\mu", on_curve(MU), "(1 - Λ3 l)/(Λ2 - Λ3) (5.14)"),
     )
     p.assume("C3 with the correction of (5.8)")
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
@@ -107,13 +105,11 @@ def first_form(p: Proof) -> None:
 def second_form(p: Proof) -> None:
     """Π2 in terms of G."""
     p.reads(
-        level_symbols()
-        | {
-            r"\Pi_2": (on_curve(elliptic.quarter_form(2)), "¼⟨γ~+γ, Λ⁻²(γ~+γ)⟩ (5.14)"),
-            "G": (on_curve(true_g()), "the function G of δu (5.14-G as corrected)"),
-            "V^2": (on_curve(V_SQUARED), "(Λ2 - Λ3)(Λ1 l - 1)/(Λ1Λ2Λ3) (5.13)"),
-            r"\dots": (on_curve(written_out()), "C1²/Λ1² cn²ū cn²δu + C2²/Λ2² sn²ū cn²δu dn²δu + C3²/Λ3² dn²ū dn²δu"),
-        }
+        level_symbols(),
+        (r"\Pi_2", on_curve(elliptic.quarter_form(2)), "¼⟨γ~+γ, Λ⁻²(γ~+γ)⟩ (5.14)"),
+        ("G", on_curve(true_g()), "the function G of δu (5.14-G as corrected)"),
+        ("V^2", on_curve(V_SQUARED), "(Λ2 - Λ3)(Λ1 l - 1)/(Λ1Λ2Λ3) (5.13)"),
+        (r"\dots", on_curve(written_out()), "C1²/Λ1² cn²ū cn²δu + C2²/Λ2² sn²ū cn²δu dn²δu + C3²/Λ3² dn²ū dn²δu"),
     )
     p.assume("G with the correction of (5.14-G)")
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
@@ -190,15 +186,13 @@ def alpha(p: Proof) -> None:
     """α: l is missing beside 2Λ1Λ3 in the numerator."""
     p.slips("typo")
     p.reads(
-        level_symbols()
-        | {
-            r"\alpha": (on_curve(coefficient(true_g(), 1)), "the coefficient of sn² in G/V² (5.14)"),
-            r"\beta": (on_curve(-coefficient(true_g(), 2)), "that of sn⁴, less its sign (5.14)"),
-            "G": (on_curve(true_g()), "the function G of δu (5.14-G as corrected)"),
-            "V^2": (on_curve(V_SQUARED), "(Λ2 - Λ3)(Λ1 l - 1)/(Λ1Λ2Λ3) (5.13)"),
-            r"\mathrm{sn}^2": (Y, "sn² of δu"),
-            r"\mathrm{sn}^4": (Y**2, "sn⁴ of δu"),
-        }
+        level_symbols(),
+        (r"\alpha", on_curve(coefficient(true_g(), 1)), "the coefficient of sn² in G/V² (5.14)"),
+        (r"\beta", on_curve(-coefficient(true_g(), 2)), "that of sn⁴, less its sign (5.14)"),
+        ("G", on_curve(true_g()), "the function G of δu (5.14-G as corrected)"),
+        ("V^2", on_curve(V_SQUARED), "(Λ2 - Λ3)(Λ1 l - 1)/(Λ1Λ2Λ3) (5.13)"),
+        (r"\mathrm{sn}^2", Y, "sn² of δu"),
+        (r"\mathrm{sn}^4", Y**2, "sn⁴ of δu"),
     )
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     p.lemma(curve_equation("the constant term of G/V² is 1", coefficient(true_g(), 0), sp.S.One))
@@ -327,16 +321,15 @@ def before_squaring(p: Proof) -> None:
     inverse, half = 1 - D * FIRST, 1 - D / 2 * FIRST
     ratio = SCALE * (1 + ROOT) * inverse
     p.reads(
-        {name: part_symbols()[name] for name in (r"\mathcal D", "D", "d")}
-        | {
-            r"\Pi_1": (FIRST, "¼⟨s,Λ⁻¹s⟩, s = γ~ + γ (5.14-Pi1)"),
-            r"\Pi_2": (OTHER, "¼⟨s,Λ⁻²s⟩ (5.14-Pi2)"),
-            **{rf"\mathrm{{{name}}}\delta u": (x, f"{name} δu (5.7)") for name, x in HALF._asdict().items()},
-            "V": (
-                ratio * HALF.sn / (HALF.cn * HALF.dn),
-                "W sn/(cn dn) of δu, W = 2𝒟/ϰ (5.13-V), 2/ϰ = (1 + root)/σ (prop-4)",
-            ),
-        }
+        {name: part_symbols()[name] for name in (r"\mathcal D", "D", "d")},
+        (r"\Pi_1", FIRST, "¼⟨s,Λ⁻¹s⟩, s = γ~ + γ (5.14-Pi1)"),
+        (r"\Pi_2", OTHER, "¼⟨s,Λ⁻²s⟩ (5.14-Pi2)"),
+        {rf"\mathrm{{{name}}}\delta u": (x, f"{name} δu (5.7)") for name, x in HALF._asdict().items()},
+        (
+            "V",
+            ratio * HALF.sn / (HALF.cn * HALF.dn),
+            "W sn/(cn dn) of δu, W = 2𝒟/ϰ (5.13-V), 2/ϰ = (1 + root)/σ (prop-4)",
+        ),
     )
     p.printed(
         by_prop_4(
@@ -388,15 +381,13 @@ def relation_for_the_increment(p: Proof) -> None:
     slope = sp.Symbol("mu")
     whole = equations(Quotient((*PARTS.symbols, slope), PARTS.relations))
     p.reads(
-        part_symbols()
-        | {
-            r"\mu": (slope, "(1 - Λ₃l)/(Λ₂ - Λ₃) (5.14-Pi1)"),
-            "l": (level + slope * y, "λ + μ sn²δu, λ the l - μ sn²δu of (5.14-Pi1)"),
-            r"\mathrm{sn}^2": (y, "sn²δu"),
-            r"\mathrm{sn}^2\delta u": (y, "sn²δu"),
-            r"\mathrm{cn}^2\mathrm{dn}^2": (e, "cn²δu dn²δu"),
-            "0": (statement / factor, "((2σ/ϰ-1)² - (1-σ²Π2))·𝒟² sn²δu/σ², which vanishes (prop-4 as corrected)"),
-        }
+        part_symbols(),
+        (r"\mu", slope, "(1 - Λ₃l)/(Λ₂ - Λ₃) (5.14-Pi1)"),
+        ("l", level + slope * y, "λ + μ sn²δu, λ the l - μ sn²δu of (5.14-Pi1)"),
+        (r"\mathrm{sn}^2", y, "sn²δu"),
+        (r"\mathrm{sn}^2\delta u", y, "sn²δu"),
+        (r"\mathrm{cn}^2\mathrm{dn}^2", e, "cn²δu dn²δu"),
+        ("0", statement / factor, "((2σ/ϰ-1)² - (1-σ²Π2))·𝒟² sn²δu/σ², which vanishes (prop-4 as corrected)"),
     )
     p.printed(whole("the printed relation, d = D", printed.subs(CONSTANT, D), 0 * w))
     p.lemma(*no_constant(printed))
@@ -491,14 +482,12 @@ def weierstrass_form(p: Proof) -> None:
     """Jacobi's functions by Weierstrass' ones, with e1 - e3 = 1."""
     square, cosine, delta = 1 / (P - E3), (P - E1) / (P - E3), (P - E2) / (P - E3)
     p.reads(
-        {
-            "k^2": (k2, "the square of the modulus (5.8)"),
-            "p": (P, "Weierstrass' function of δu"),
-            **{f"e_{i + 1}": (x, "a root of (p-e₁)(p-e₂)(p-e₃); their sum is 0") for i, x in enumerate((E1, E2, E3))},
-            r"\mathrm{sn}^2": (square, "1/(p - e₃), which solves (d sn²/du)² = 4 sn² cn² dn²"),
-            r"\mathrm{cn}^2": (1 - square, "1 - sn²"),
-            r"\mathrm{dn}^2": (1 - k2 * square, "1 - k² sn²"),
-        }
+        ("k^2", k2, "the square of the modulus (5.8)"),
+        ("p", P, "Weierstrass' function of δu"),
+        {f"e_{i + 1}": (x, "a root of (p-e₁)(p-e₂)(p-e₃); their sum is 0") for i, x in enumerate((E1, E2, E3))},
+        (r"\mathrm{sn}^2", square, "1/(p - e₃), which solves (d sn²/du)² = 4 sn² cn² dn²"),
+        (r"\mathrm{cn}^2", 1 - square, "1 - sn²"),
+        (r"\mathrm{dn}^2", 1 - k2 * square, "1 - k² sn²"),
     )
     p.lemma(equation("e1 + e2 + e3 = 0", E1 + E2 + E3, 0))
     p.printed(
@@ -522,12 +511,10 @@ def weierstrass_w(p: Proof) -> None:
     square, slope = sp.symbols("y y1")
     by_rates = Quotient((square, slope, P, Q, k2), [square * (P - E3) - 1, slope * (P - E3) + square * Q])
     p.reads(
-        {
-            r"w(\delta u)": (slope / 2, "½ d(sn²)/du, y' being the rate of y = sn²"),
-            "p": (P, "Weierstrass' function of δu"),
-            "q": (Q, "its derivative"),
-            "e_3": (E3, "-(1 + k²)/3"),
-        }
+        (r"w(\delta u)", slope / 2, "½ d(sn²)/du, y' being the rate of y = sn²"),
+        ("p", P, "Weierstrass' function of δu"),
+        ("q", Q, "its derivative"),
+        ("e_3", E3, "-(1 + k²)/3"),
     )
     p.printed(Equation("w = ½q/(p-e3)³", Q / (2 * (P - E3) ** 3), slope / 2, by_rates))
     p.corrected(

@@ -63,13 +63,11 @@ def invariant_curve(p: Proof) -> None:
     quartic = -sp.prod(z - a for a in roots) * (z - l)
     whole = sp.prod(squares) * (z - l) ** 4 * scale**2
     p.reads(
-        {rf"\Lambda_{i + 1}": (lam, "an entry of Λ (5.2)") for i, lam in enumerate(LAMBDA)}
-        | {rf"\gamma_{i + 1}^2": (of, "its square on the curve, as a function of z") for i, of in enumerate(squares)}
-        | {
-            "l": (l, "the level (5.5)"),
-            "z": (z, "a coordinate of the line on which the squares are"),
-            "w^2": (whole, "the square of γ₁γ₂γ₃ (z - l)² Π_{i<j}(1/Λ_i - 1/Λ_j)/Π(l - 1/Λ_i)"),
-        }
+        {rf"\Lambda_{i + 1}": (lam, "an entry of Λ (5.2)") for i, lam in enumerate(LAMBDA)},
+        {rf"\gamma_{i + 1}^2": (of, "its square on the curve, as a function of z") for i, of in enumerate(squares)},
+        ("l", l, "the level (5.5)"),
+        ("z", z, "a coordinate of the line on which the squares are"),
+        ("w^2", whole, "the square of γ₁γ₂γ₃ (z - l)² Π_{i<j}(1/Λ_i - 1/Λ_j)/Π(l - 1/Λ_i)"),
     )
     p.printed(Equation("w² = -(z-1/Λ1)(z-1/Λ2)(z-1/Λ3)(z-l)", whole, quartic, ring))
     p.say(

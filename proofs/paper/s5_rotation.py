@@ -65,11 +65,9 @@ def rotation_matrix(p: Proof) -> None:
 
     entry = quaternions.on_vectors(quaternions.turned()[0])[1][3]
     p.reads(
-        {f"q_{i}": (part, "an Euler parameter (5.1)") for i, part in enumerate((q0, *q))}
-        | {
-            r"\Omega": (rotation, "x ↦ q x q̄, read off on the basis"),
-            r"\Omega_{32}": (entry, "the third component of q e₂ q̄, by the derivation"),
-        }
+        {f"q_{i}": (part, "an Euler parameter (5.1)") for i, part in enumerate((q0, *q))},
+        (r"\Omega", rotation, "x ↦ q x q̄, read off on the basis"),
+        (r"\Omega_{32}", entry, "the third component of q e₂ q̄, by the derivation"),
     )
     p.printed(equation("(5.1), nine entries", printed, rotation))
     corrected = printed.copy()
@@ -244,14 +242,12 @@ def parameter_expansion(p: Proof) -> None:
     zero, square, small = sp.zeros(3, 1), omega.dot(omega), sp.Symbol("epsilon")
     series = [small * terms[0][i] + small**2 * terms[1][i] for i in range(1, 4)]
     p.reads(
-        {
-            r"\omega": (omega, "the angular velocity: the rotation is exp(εω)"),
-            r"\varepsilon": (small, "ε"),
-            r"\mathbf q": (sp.Matrix(series), "its terms in ε and ε², as q → 0, by the derivation"),
-            "q_0": (1 + small * terms[0][0], "its terms up to ε, as q₀ → 1, by the derivation"),
-            r"O(\varepsilon^3)": (zero, "no term in 1, ε and ε²"),
-            r"O(\varepsilon^2)": (sp.S.Zero, "no term in 1 and ε"),
-        }
+        (r"\omega", omega, "the angular velocity: the rotation is exp(εω)"),
+        (r"\varepsilon", small, "ε"),
+        (r"\mathbf q", sp.Matrix(series), "its terms in ε and ε², as q → 0, by the derivation"),
+        ("q_0", 1 + small * terms[0][0], "its terms up to ε, as q₀ → 1, by the derivation"),
+        (r"O(\varepsilon^3)", zero, "no term in 1, ε and ε²"),
+        (r"O(\varepsilon^2)", sp.S.Zero, "no term in 1 and ε"),
     )
     p.lemma(words("q₀ → 1, and q → 0", constant, 1), ring("q/ε → ω/2", vector.limit, omega / 2))
     p.printed(
@@ -284,11 +280,9 @@ def vector_limit(p: Proof) -> None:
     words = limits.momentum()
     limit = limits.in_vectors("K", words)
     p.reads(
-        glossary.ball()
-        | {
-            **{f"J_{i + 1}": (x, "an entry of the mass tensor (5.2)") for i, x in enumerate((J1, J2, J3))},
-            r"\tfrac1\varepsilon\vec{\mathcal K}": (limit.limit, "without its terms in ε, by the derivation"),
-        }
+        glossary.ball(),
+        {f"J_{i + 1}": (x, "an entry of the mass tensor (5.2)") for i, x in enumerate((J1, J2, J3))},
+        (r"\tfrac1\varepsilon\vec{\mathcal K}", limit.limit, "without its terms in ε, by the derivation"),
     )
     p.show("limit", limit.limit)
     p.show(f"leading remainder, order {limit.order}", limit.leading)
@@ -313,17 +307,16 @@ def vector_limit(p: Proof) -> None:
 def vector_form(p: Proof) -> None:
     """The vector form of the map, and its continuum limit."""
     p.reads(
-        glossary.ball()
-        | {
-            r"\vec{\mathcal K}_k": (
-                axial(sp.Matrix(three.rotation()).T * hat(K) * sp.Matrix(three.rotation())),
-                "the vector of ΩᵀKΩ (4.12)",
-            ),
-            r"\vec{\mathcal K}_{k-1}": (K, "that of 𝒦 (4.12)"),
-            r"\Omega_{k-1}": (sp.Matrix(three.rotation()), "the rotation by the Euler parameters (5.1 as corrected)"),
-            r"\gamma_k": (sp.Matrix(three.rotation()).T * gamma, "Ωᵀγ (4.11)"),
-            r"\gamma_{k-1}": (gamma, "the vertical before the step (4.11)"),
-        }
+        glossary.ball(),
+        (
+            r"\vec{\mathcal K}_k",
+            axial(sp.Matrix(three.rotation()).T * hat(K) * sp.Matrix(three.rotation())),
+            "the vector of ΩᵀKΩ (4.12)",
+        ),
+        (r"\vec{\mathcal K}_{k-1}", K, "that of 𝒦 (4.12)"),
+        (r"\Omega_{k-1}", sp.Matrix(three.rotation()), "the rotation by the Euler parameters (5.1 as corrected)"),
+        (r"\gamma_k", sp.Matrix(three.rotation()).T * gamma, "Ωᵀγ (4.11)"),
+        (r"\gamma_{k-1}", gamma, "the vertical before the step (4.11)"),
     )
     ring = Quotient((*K, *RING.symbols), RING.relations)
     rotation = sp.Matrix(three.rotation())
@@ -360,12 +353,10 @@ def vector_integrals(p: Proof) -> None:
         Equation("⟨Ωᵀ𝒦, Ωᵀ𝒦⟩ = ⟨𝒦, 𝒦⟩", moved.dot(moved), K.dot(K), ring),
     )
     p.reads(
-        {
-            r"\mathcal K": (moved, "Ωᵀ𝒦, after a step (5.3)"),
-            r"\gamma": (vertical, "Ωᵀγ, after a step (5.3)"),
-            "h": (K.dot(gamma), "⟨𝒦,γ⟩ before the step"),
-            "n": (K.dot(K), "⟨𝒦,𝒦⟩ before the step"),
-        }
+        (r"\mathcal K", moved, "Ωᵀ𝒦, after a step (5.3)"),
+        (r"\gamma", vertical, "Ωᵀγ, after a step (5.3)"),
+        ("h", K.dot(gamma), "⟨𝒦,γ⟩ before the step"),
+        ("n", K.dot(K), "⟨𝒦,𝒦⟩ before the step"),
     )
     p.lemma(Equation("|Ωᵀγ| = |γ|", vertical.dot(vertical), gamma.dot(gamma), ring))
     p.say("Only ΩᵀΩ = 1 is used: the branch of Ω does not matter.")

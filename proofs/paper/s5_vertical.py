@@ -67,15 +67,13 @@ def vertical_relation(p: Proof) -> None:
     """The relation between γ and q when the momentum is vertical: a factor 2 is missing."""
     p.slips("serious")
     p.reads(
-        glossary.ball()
-        | {
-            "h": (h, "of 𝒦 = hγ (5.4)"),
-            r"(\dots)^T": (printed_vector(+1), "the vector that is printed"),
-            r"\widehat J": (sp.diag(J1, J2, J3) + D / 2 * sp.eye(3), "J + (D/2) I (5.4)"),
-            "J": (sp.diag(J1, J2, J3), "the mass tensor (5.2)"),
-            "I": (sp.eye(3), "the unit matrix"),
-            "0": (sp.Matrix(three.momentum()) - h * gamma, "𝒦 - hγ, which vanishes"),
-        }
+        glossary.ball(),
+        ("h", h, "of 𝒦 = hγ (5.4)"),
+        (r"(\dots)^T", printed_vector(+1), "the vector that is printed"),
+        (r"\widehat J", sp.diag(J1, J2, J3) + D / 2 * sp.eye(3), "J + (D/2) I (5.4)"),
+        ("J", sp.diag(J1, J2, J3), "the mass tensor (5.2)"),
+        ("I", sp.eye(3), "the unit matrix"),
+        ("0", sp.Matrix(three.momentum()) - h * gamma, "𝒦 - hγ, which vanishes"),
     )
     p.assume("|γ| = 1, |q|² + q₀² = 1", *three.UNITS)
     p.assume("the equations are judged modulo 𝒦 - hγ = 0")
@@ -119,12 +117,10 @@ def sigma_definition(p: Proof) -> None:
     height, square = momentum.dot(now), vertical.left_side().dot(vertical.left_side())
     unit = Quotient(RING.symbols, [*RING.relations, sp.expand(square - sigma**2)])
     p.reads(
-        vertical_symbols()
-        | {
-            "h": (height, "⟨𝒦,γ⟩, as 𝒦 = hγ (5.4)"),
-            r"\sigma_k": vertical_symbols()[r"\sigma"],
-            r"\gamma_k": vertical_symbols()[r"\gamma"],
-        }
+        vertical_symbols(),
+        ("h", height, "⟨𝒦,γ⟩, as 𝒦 = hγ (5.4)"),
+        {r"\sigma_k": vertical_symbols()[r"\sigma"]},
+        {r"\gamma_k": vertical_symbols()[r"\gamma"]},
     )
     p.say("h is ⟨𝒦(q,γ),γ⟩, as 𝒦 = hγ and |γ| = 1:")
 
@@ -147,15 +143,13 @@ def consecutive_verticals(p: Proof) -> None:
     """γ_k and γ_(k+1) in Euler parameters: the vectors are right, the sign of Ωᵀ is not."""
     p.slips("typo")
     p.reads(
-        vertical_symbols()
-        | {
-            r"\sigma_k": vertical_symbols()[r"\sigma"],
-            r"\gamma_k": vertical_symbols()[r"\gamma"],
-            r"\gamma_{k+1}": vertical_symbols()[r"\tilde\gamma"],
-            r"\Omega_k": (sp.Matrix(three.rotation()), "the rotation by the Euler parameters (5.1 as corrected)"),
-            r"(\dots+\dots)^T": (printed_vector(+1), "the vector that is printed for γ_k"),
-            r"(\dots-\dots)^T": (printed_vector(-1), "the vector that is printed for γ_(k+1)"),
-        }
+        vertical_symbols(),
+        {r"\sigma_k": vertical_symbols()[r"\sigma"]},
+        {r"\gamma_k": vertical_symbols()[r"\gamma"]},
+        {r"\gamma_{k+1}": vertical_symbols()[r"\tilde\gamma"]},
+        (r"\Omega_k", sp.Matrix(three.rotation()), "the rotation by the Euler parameters (5.1 as corrected)"),
+        (r"(\dots+\dots)^T", printed_vector(+1), "the vector that is printed for γ_k"),
+        (r"(\dots-\dots)^T", printed_vector(-1), "the vector that is printed for γ_(k+1)"),
     )
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     now = vertical.gamma_now()
@@ -190,11 +184,9 @@ def quadratic_integral(p: Proof) -> None:
     now, after = vertical.gamma_now(), vertical.gamma_next()
     p.say("σ ≠ 0: both verticals are functions of q, σ on |q|² + q₀² = 1, |γ| = 1; no branch is chosen.")
     p.reads(
-        {
-            r"\Lambda": (vertical.lam(), "diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D), J the mass tensor (5.2)"),
-            r"\gamma": (after, "γ_(k+1), after a step (5.6 as corrected)"),
-            "l": (now.dot(inverse * now), "⟨γ_k,Λ⁻¹γ_k⟩, before the step (5.6)"),
-        }
+        (r"\Lambda", vertical.lam(), "diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D), J the mass tensor (5.2)"),
+        (r"\gamma", after, "γ_(k+1), after a step (5.6 as corrected)"),
+        ("l", now.dot(inverse * now), "⟨γ_k,Λ⁻¹γ_k⟩, before the step (5.6)"),
     )
     p.printed(equation("⟨γ_k, Λ⁻¹γ_k⟩ = ⟨γ_{k+1}, Λ⁻¹γ_{k+1}⟩", now.dot(inverse * now), after.dot(inverse * after)))
     any_inertia = Quotient((*gamma, *vertical.INERTIA), [])

@@ -394,3 +394,5 @@ def test_every_verdict_of_a_proof_has_a_certificate():
     for value in ("x", None, (x, y), 1.5, (x, "x", "y"), ("x + y", "a text is not evaluated")):
         with pytest.raises(TypeError, match=r"p\.reads takes for D its value"):
             made.reads({"D": value})
+    made.reads(("D", x, "the letter"), {"E": (y, "another one")})
+    assert list(made.glossary) == ["s", "D", "E"]
