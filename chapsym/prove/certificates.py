@@ -27,13 +27,18 @@ from .cofactors import Ideal, ideal, trees
 from .evidence import Proof
 from .points import allowed, candidates
 from .polynomials import Identity
-from .statements import Comparison, Count, Equation, Point, Rest, Statement, Zero
+from .statements import Comparison, Count, Equation, Point, Rest, Statement, Zero, contradicts
 from .trees import NotAlgebra, nested, number, shared, tree
 
 #: The trace of words, as the value of a symbol.
 TRACE = sp.Function("tr")
 #: Letters of a judged formula in a record.
 LONGEST = 400
+#: The lists of a certificate that are made of what was decided.
+PARTS = (
+    "algebras", "derivation", "points", "statements", "comparisons", "counts", "zeros", "counterexamples", "rests",
+    "sentences",
+)  # fmt: skip
 
 
 def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> dict[str, Any]:
@@ -46,10 +51,10 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
     made.finish()
     hypotheses = [{"text": h.text, "relations": _relations(h)} for h in proof.assumed]
     decidable = {h.text for h in proof.assumed}
-    made.sentences += [{"role": "hypothesis", "text": text} for text in proof.hypotheses if text not in decidable]
-    made.sentences += [{"role": "said", "text": text} for text in proof.said]
-    made.sentences += [{"role": "inference", "text": text} for text in proof.inferences]
-    made.rests += [
+    undecided = [text for text in proof.hypotheses if text not in decidable]
+    for role, texts in (("hypothesis", undecided), ("said", proof.said), ("inference", proof.inferences)):
+        made.parts["sentences"] += [{"role": role, "text": text} for text in texts]
+    made.parts["rests"] += [
         {"role": "lemma", "text": f"{c['file']}: {c['statement']}", "certificate": c["digest"]}
         for c in proof.certificates
         if c["accepted"]
@@ -57,11 +62,7 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
     data = {
         "format": checker.FORMAT, "kind": "register-claim", "claim": id, "verdict": verdict, "printed": printed,
         "corrected": proof.corrected_text, "glossary": _glossary(printed, proof), "uses": sorted(set(proof.uses)),
-        "hypotheses": hypotheses,
-        "algebras": made.algebras, "derivation": made.derivation, "points": made.points, "statements": made.statements,
-        "comparisons": made.comparisons, "counts": made.counts, "zeros": made.zeros,
-        "counterexamples": made.counterexamples,
-        "rests": made.rests, "sentences": made.sentences,
+        "hypotheses": hypotheses, **made.parts,
     }  # fmt: skip
     for role in ("printed", "corrected") if data["glossary"] else ():
         decided, found, _ = meaning.said(role, data, register.read(data, Work())[2])
@@ -112,34 +113,32 @@ def _value(of: Any) -> Any:
     return [tree(x) for x in of] if of.cols == 1 else [[tree(x) for x in row] for row in of.tolist()]
 
 
+#: What a record counts beside statements, and the words for it.
+COUNTED = {
+    "derivation": "steps from the premises", "comparisons": "comparisons", "counts": "counts of solutions",
+    "hypotheses": "hypotheses", "zeros": "solutions near points", "rests": "rests on other certificates",
+}  # fmt: skip
+
+
 def carried(data: dict[str, Any]) -> dict[str, Any]:
     """What the checker judged of a certificate that it accepted, counted and as text; the sentences that it did not."""
+    sizes = {name: len(part) for name, part in data.items() if isinstance(part, list)}
     identical = sum(one["left"] == one["right"] for one in data["statements"])
-    sentences = Counter(sentence["role"] for sentence in data["sentences"])
-    same = f" ({identical} of one expression on both sides)" if identical else ""
     failing = sum("refuted" in one for one in data["comparisons"])
-    fail = f" ({failing} fail as printed)" if failing else ""
-    more = f"; comparisons: {len(data['comparisons'])}{fail}" if data["comparisons"] else ""
-    more += f"; counts of solutions: {len(data['counts'])}" if data["counts"] else ""
-    more += f"; hypotheses: {len(data['hypotheses'])}" if data["hypotheses"] else ""
-    more += f"; solutions near points: {len(data['zeros'])}" if data["zeros"] else ""
-    more += f"; rests on other certificates: {len(data['rests'])}" if data["rests"] else ""
-    steps = f"; steps from the premises: {len(data['derivation'])}" if data["derivation"] else ""
+    same = f" ({identical} of one expression on both sides)" if identical else ""
+    fail = {"comparisons": f" ({failing} fail as printed)"} if failing else {}
+    more = "".join(f"; {what}: {sizes[name]}{fail.get(name, '')}" for name, what in COUNTED.items() if sizes[name])
+    sentences = Counter(sentence["role"] for sentence in data["sentences"])
     listed = ", ".join(f"{n} {role}" for role, n in sentences.items()) or "none"
     nothing = "; they decide nothing: a derivation is missing" if data["verdict"] == "open" else ""
     return {
-        "statements": len(data["statements"]),
+        "statements": sizes["statements"],
         "identical": identical,
-        "steps": len(data["derivation"]),
-        "comparisons": len(data["comparisons"]),
-        "counts": len(data["counts"]),
-        "hypotheses": len(data["hypotheses"]),
-        "zeros": len(data["zeros"]),
-        "counterexamples": len(data["counterexamples"]),
-        "rests": len(data["rests"]),
+        "steps": sizes["derivation"],
+        **{name: sizes[name] for name in ("comparisons", "counts", "hypotheses", "zeros", "counterexamples", "rests")},
         "sentences": dict(sentences),
-        "text": f"statements that the checker accepted: {len(data['statements'])}{same}{steps}{more}; "
-        f"counterexamples: {len(data['counterexamples'])}; sentences: {listed}{nothing}",
+        "text": f"statements that the checker accepted: {sizes['statements']}{same}{more}; "
+        f"counterexamples: {sizes['counterexamples']}; sentences: {listed}{nothing}",
         "judged": [_cut(line) for line in shown.lines(data, parts=False)],
     }
 
@@ -167,18 +166,12 @@ class _Maker:
 
     def __init__(self, proof: Proof) -> None:
         self.proof = proof
-        self.algebras: list[dict[str, Any]] = []
-        self.derivation: list[dict[str, Any]] = []
-        self.points: list[dict[str, Any]] = []
-        self.statements: list[dict[str, Any]] = []
-        self.comparisons: list[dict[str, Any]] = []
-        self.counts: list[dict[str, Any]] = []
-        self.counterexamples: list[dict[str, Any]] = []
-        self.zeros: list[dict[str, Any]] = []
-        self.rests: list[dict[str, str]] = []
-        self.sentences: list[dict[str, str]] = []
-        self._symbols: dict[int, list[sp.Symbol]] = {}
-        self._words_of: dict[int, WordAlgebra] = {}
+        self.parts: dict[str, list[dict[str, Any]]] = {name: [] for name in PARTS}
+        self.algebras, self.derivation, self.statements, self.counterexamples = (
+            self.parts[name] for name in ("algebras", "derivation", "statements", "counterexamples")
+        )
+        #: Of each algebra, itself or that of its traces, and its symbols.
+        self._sources: dict[int, tuple[Any, list[sp.Symbol]]] = {}
         self._ideals: dict[int, Ideal] = {}
         stated = [statement for _, statement, _ in proof.decided if isinstance(statement, Equation)]
         stated += [hypothesis for point in proof.points for hypothesis in point.hypotheses]
@@ -187,10 +180,7 @@ class _Maker:
             expressions += [*one.equations, *one.nonzero] if isinstance(one, Count) else []
         self._steps = list(needed(expressions))
         self._defined: dict[str, derivation.Made] = {}
-        for letter in self._steps:
-            definition = self._definition(letter)
-            value = unfolded(letter) if definition["operation"] != "matrix" else None
-            self.derivation.append(definition | ({} if value is None else {"value": tree(value)}))
+        self.derivation += map(self._definition, self._steps)
         self._defined = derivation.values(self.derivation, [self._arithmetic(one) for one in self.algebras])
 
     def _arithmetic(self, algebra: dict[str, Any]) -> Algebra | Quotients:
@@ -209,72 +199,64 @@ class _Maker:
         exact = point.exact
         for _, statement, holds in self.proof.decided:
             if isinstance(statement, Equation) and not holds:
-                algebra = statement.algebra
+                algebra = _letters_of(statement.algebra)
                 if isinstance(algebra, QuotientRing):
                     exact = next(candidates(algebra.symbols, algebra.relations, self.proof.examples, exact), exact)
                 else:
-                    exact = _with_transposes(exact, algebra.algebra if isinstance(algebra, Traces) else algebra)
+                    exact = _with_transposes(exact, algebra)
         return exact
 
     def add(self, role: str, statement: Statement, holds: bool) -> None:
         """A decided statement, with what proves or refutes it; or a sentence."""
-        if isinstance(statement, Comparison) and (holds or role == "printed"):
-            point = self._point(statement.point)
-            one = {"role": role, "text": statement.text, "point": point, "relations": _relations(statement)}
-            self.comparisons.append(one | ({} if holds else {"refuted": True}))
-            return
-        if isinstance(statement, Count) and (holds or (role == "printed" and not statement.nonzero)):
-            self.counts.append(self._count(role, statement, holds))
-            return
-        if isinstance(statement, Zero) and holds:
-            self._zero(role, statement)
-            return
-        if isinstance(statement, Rest) and holds:
-            self.rests.append({"role": role, "text": statement.text, "certificate": statement.certificate})
-            return
-        if isinstance(statement, Identity) and holds:
-            self._identity(role, statement)
-            return
-        if not isinstance(statement, Equation):
-            truth = "" if holds else "false: "
-            self.sentences.append({"role": role, "text": f"{truth}{statement.text} ({statement.method})"})
-            return
         try:
-            one = {
-                "role": role,
-                "text": statement.text,
-                "algebra": self._algebra(statement.algebra),
-                **_sides(statement),
-            }
-            one |= self._proof(statement, one) if holds else {"refuted": None}
+            part, data = self._exported(statement, holds, holds or (role == "printed" and contradicts(statement)))
+            why = statement.method
         except (NotAlgebra, NotFound) as error:
-            truth = "" if holds else "false: "
-            self.sentences.append({"role": role, "text": f"{truth}{statement.text} (not exported: {error})"})
-            return
-        for example in self.counterexamples:
-            self._compare(example, one, len(self.statements))
-        if not holds and one["refuted"] is None:
-            self.sentences.append({"role": role, "text": f"false: {statement.text} (its counterexample is another's)"})
-            return
-        self.statements.append(one)
+            part, data, why = "sentences", {}, f"not exported: {error}"
+        one = {"role": role, "text": statement.text} | data
+        if isinstance(statement, Equation) and data:
+            for example in self.counterexamples:
+                self._compare(example, one, len(self.statements))
+            if not holds and one["refuted"] is None:
+                part, why = "sentences", "its counterexample is another's"
+        if part == "sentences":
+            one = {"role": role, "text": f"{'' if holds else 'false: '}{statement.text} ({why})"}
+        self.parts[part].append(one)
 
-    def _identity(self, role: str, identity: Identity) -> None:
+    def _exported(self, statement: Statement, holds: bool, judged: bool) -> tuple[str, dict[str, Any]]:
+        """In which list a statement is, and what proves it; what is no equation and not `judged` is a sentence."""
+        match statement:
+            case Equation():
+                one = {"algebra": self._algebra(statement.algebra), **_sides(statement)}
+                return "statements", one | (self._proof(statement, one) if holds else {"refuted": None})
+            case Comparison() if judged:
+                one = {"point": self._point(statement.point), "relations": _relations(statement)}
+                return "comparisons", one | ({} if holds else {"refuted": True})
+            case Count() if judged:
+                return "counts", self._count(statement, holds)
+            case Zero() if holds:
+                return "zeros", self._zero(statement)
+            case Rest() if holds:
+                return "rests", {"certificate": statement.certificate}
+            case Identity() if holds:
+                return "statements", self._identity(statement)
+        return "sentences", {}
+
+    def _identity(self, identity: Identity) -> dict[str, Any]:
         """An identity in free parameters: a statement without relations."""
         names = identity.parameters
         definitions, trees = shared([*identity.left, *identity.right])
         half = len(identity.left)
         algebra = _place(self.algebras, {"kind": "quotient", "variables": names, "relations": []})
-        one = {"role": role, "text": identity.text, "algebra": algebra, "left": trees[:half], "right": trees[half:]}
+        one = {"algebra": algebra, "left": trees[:half], "right": trees[half:]}
         one |= {"definitions": definitions} if definitions else {}
-        point = self._good_point(one, sp.symbols(names), ())
-        self.statements.append(one | {"point": point, "cofactors": [[]] * half})
+        return one | {"point": self._good_point(one, sp.symbols(names), ()), "cofactors": [[]] * half}
 
-    def _count(self, role: str, count: Count, holds: bool) -> dict[str, Any]:
+    def _count(self, count: Count, holds: bool) -> dict[str, Any]:
         """A count, with what proves the numbers of solutions."""
         found = count.elimination()
         names = [f"y{i}" for i in range(len(count.unknowns))]
         return {
-            "role": role, "text": count.text,
             "algebra": self._algebra(count.algebra), "point": self._point(count.point),
             "unknowns": [x.name for x in count.unknowns], "equations": [tree(e) for e in count.equations],
             "nonzero": [tree(e) for e in count.nonzero], "chart": found.chart,
@@ -282,15 +264,14 @@ class _Maker:
             "relations": _relations(count), "holds": holds,
         }  # fmt: skip
 
-    def _zero(self, role: str, zero: Zero) -> None:
+    def _zero(self, zero: Zero) -> dict[str, Any]:
         """A solution near a point."""
-        self.zeros.append({
-            "role": role, "text": zero.text, "point": self._point(zero.point),
-            "unknowns": [x.name for x in zero.unknowns],
+        return {
+            "point": self._point(zero.point), "unknowns": [x.name for x in zero.unknowns],
             "definitions": [[name.name, tree(expr)] for name, expr in zero.definitions],
             "equations": [tree(e) for e in zero.equations], "nonzero": [tree(e) for e in zero.nonzero],
             "radius": number(zero.radius),
-        })  # fmt: skip
+        }  # fmt: skip
 
     def _compare(self, example: dict[str, Any], one: dict[str, Any], i: int) -> None:
         """Notes that a point refutes a printed statement, or that what is correct holds there."""
@@ -313,30 +294,30 @@ class _Maker:
         """Leaves out what is not used, and gives each algebra of words a point."""
         stated = [*self.statements, *(h for one in self.counterexamples if one["refutes"] for h in one["hypotheses"])]
         trees = [tree for one in stated for tree in (*one["left"], *one["right"])]
-        trees += [tree for one in self.counts for tree in (*one["equations"], *one["nonzero"])]
+        trees += [tree for one in self.parts["counts"] for tree in (*one["equations"], *one["nonzero"])]
         used = derivation.used(self.derivation, trees)
-        self.derivation = [one for one in self.derivation if one["name"] in used]
+        self.derivation[:] = [one for one in self.derivation if one["name"] in used]
         self._leave_out_algebras()
         for i, algebra in enumerate(self.algebras):
             if algebra["kind"] != "quotient":
-                exact = witness.matrices(set(self._symbols[i]), self._words_of[i], self.proof.examples)
+                words, symbols = self._sources[i]
+                exact = witness.matrices(set(symbols), words, self.proof.examples)
                 if exact is not None:
                     self._point(exact)
         kept = [example for example in self.counterexamples if example["refutes"]]
         for one in self.statements:
             if "refuted" in one:
                 one["refuted"] = kept.index(self.counterexamples[one["refuted"]])
-        self.counterexamples = kept
+        self.counterexamples[:] = kept
 
     def _leave_out_algebras(self) -> None:
         """Those in which nothing is left."""
-        using = [*self.statements, *self.counts, *self.derivation]
+        using = [*self.statements, *self.parts["counts"], *self.derivation]
         kept = sorted({one["algebra"] for one in using})
         for one in using:
             one["algebra"] = kept.index(one["algebra"])
-        self.algebras = [self.algebras[i] for i in kept]
-        self._symbols = {new: self._symbols[old] for new, old in enumerate(kept) if old in self._symbols}
-        self._words_of = {new: self._words_of[old] for new, old in enumerate(kept) if old in self._words_of}
+        self.algebras[:] = [self.algebras[i] for i in kept]
+        self._sources = {new: self._sources[old] for new, old in enumerate(kept) if old in self._sources}
 
     def _definition(self, letter: sp.Symbol) -> dict[str, Any]:
         """A step of the derivation."""
@@ -350,9 +331,10 @@ class _Maker:
             by = [[x.name, tree(image)] for x, image in by.items()]
         elif by is not None:
             by = by.name if isinstance(by, sp.Symbol) else [x.name for x in by]
+        value = {} if step.operation == "matrix" else {"value": tree(unfolded(letter))}
         return {
             "name": letter.name, "text": step.text, "algebra": self._algebra(step.algebra),
-            "operation": step.operation, "of": tree(step.of), "by": by or [],
+            "operation": step.operation, "of": tree(step.of), "by": by or [], **value,
         }  # fmt: skip
 
     def _places(self, step: Step) -> list[Any]:
@@ -371,21 +353,18 @@ class _Maker:
         return [[[x.name, rows(of)] for x, of in places.items()], cofactors]
 
     def _algebra(self, algebra: Any) -> int:
-        if isinstance(algebra, QuotientRing):
-            symbols = list(algebra.symbols)
-            relations = [tree(relation) for relation in algebra.relations]
+        of = _letters_of(algebra)
+        if isinstance(of, QuotientRing):
+            symbols = list(of.symbols)
+            relations = [tree(relation) for relation in of.relations]
             data = {"kind": "quotient", "variables": [x.name for x in symbols], "relations": relations}
-        elif isinstance(algebra, WordAlgebra):
-            data, symbols = self._words(algebra)
-        elif isinstance(algebra, Traces):
-            data, symbols = self._words(algebra.algebra)
-            data["kind"] = "traces"
+        elif isinstance(of, WordAlgebra):
+            data, symbols = self._words(of)
+            data["kind"] = "words" if of is algebra else "traces"
         else:
             raise NotAlgebra(f"{type(algebra).__name__} is neither a quotient ring nor an algebra of words")
         i = _place(self.algebras, data)
-        self._symbols[i] = symbols
-        if not isinstance(algebra, QuotientRing):
-            self._words_of[i] = algebra.algebra if isinstance(algebra, Traces) else algebra
+        self._sources[i] = of, symbols
         return i
 
     def _words(self, algebra: WordAlgebra) -> tuple[dict[str, Any], list[sp.Symbol]]:
@@ -409,15 +388,12 @@ class _Maker:
 
     def _proof(self, equation: Equation, one: dict[str, Any]) -> dict[str, Any]:
         """The point, and the cofactors of an equation in a quotient ring."""
-        algebra, symbols = equation.algebra, self._symbols[one["algebra"]]
-        if isinstance(algebra, Traces):
-            algebra = algebra.algebra
+        algebra, symbols = self._sources[one["algebra"]]
         if isinstance(algebra, WordAlgebra):
             exact = witness.matrices(set(symbols), algebra, self.proof.examples)
             if exact is None:
                 raise NotFound("no matrices are known for which its rules hold")
             return {"point": self._point(exact)}
-        assert isinstance(algebra, QuotientRing)
         return {"cofactors": self._cofactors(one), "point": self._good_point(one, symbols, algebra.relations)}
 
     def _good_point(self, one: dict[str, Any], symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr]) -> int:
@@ -432,7 +408,7 @@ class _Maker:
         raise NotFound("no rational point was found where its relations hold")
 
     def _point(self, exact: Mapping[sp.Symbol, Any]) -> int:
-        return _place(self.points, {x.name: _entry(v) for x, v in sorted(exact.items(), key=lambda item: item[0].name)})
+        return _place(self.parts["points"], dict(sorted((x.name, _entry(v)) for x, v in exact.items())))
 
     def _cofactors(self, one: dict[str, Any]) -> list[list[Any]]:
         """For each entry of left - right, in the numerator that the checker forms."""
@@ -458,12 +434,15 @@ def _sides(equation: Equation) -> dict[str, Any]:
     return {"left": [tree(x) for x in left], "right": [tree(x) for x in right]}
 
 
+def _letters_of(algebra: Any) -> Any:
+    """The algebra, or that of its traces."""
+    return algebra.algebra if isinstance(algebra, Traces) else algebra
+
+
 def _alike(one: Any, other: WordAlgebra) -> bool:
     """Whether an algebra is another one, or that of its traces."""
-    if isinstance(one, Traces):
-        one = one.algebra
-    same = isinstance(one, WordAlgebra) and (one.transposes, one.rules) == (other.transposes, other.rules)
-    return bool(same)
+    one = _letters_of(one)
+    return isinstance(one, WordAlgebra) and bool((one.transposes, one.rules) == (other.transposes, other.rules))
 
 
 def _with_transposes(exact: Mapping[sp.Symbol, Any], algebra: Any) -> dict[sp.Symbol, Any]:

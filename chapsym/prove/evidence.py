@@ -20,7 +20,7 @@ from chapsym.derive.words import unfolded
 from . import argument, points, witness
 from .argument import Reading, Step, Theorem
 from .limits import Limit
-from .statements import Comparison, Count, Equation, Point, Rest, Statement
+from .statements import Comparison, Count, Equation, Point, Rest, Statement, contradicts
 from .witness import Examples
 
 #: A rational number, as it is written.
@@ -147,7 +147,7 @@ class Proof:
         decided = [(s, self._decide(s, "printed")) for s in statements]
         self._printed += decided
         for statement, holds in decided:
-            if not holds and isinstance(statement, Comparison | Count) and not getattr(statement, "nonzero", ()):
+            if not holds and contradicts(statement):
                 self._contradict(statement)
 
     def corrected(self, text: str, *statements: Statement) -> None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeGuard
 
 import sympy as sp
 from flint import fmpq
@@ -255,6 +255,11 @@ class Count:
 
 
 Statement = Equation | Fact | Identity | Comparison | Count | Rest | Zero
+
+
+def contradicts(statement: Statement) -> TypeGuard[Comparison | Count]:
+    """Whether a statement is its own counterexample where it is false: unless it says where something is not 0."""
+    return isinstance(statement, Comparison) or (isinstance(statement, Count) and not statement.nonzero)
 
 
 def _evaluated(expr: Any, exact: Mapping[sp.Symbol, Any]) -> Any:
