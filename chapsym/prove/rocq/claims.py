@@ -112,7 +112,7 @@ class Claim:
             self._put("Points", sort, text, name, quotients.at_point(name, values, facts))
             return
         pairs = [pair for algebra in algebras for pair in algebra.get("transposes", [])]
-        known = [pair for pair in pairs if words.names_in(["+", *pair]) <= values.keys()]
+        known = [pair for pair in pairs if quotients.names_in(["+", *pair]) <= values.keys()]
         self._put("Matrices", sort, text, name, matrices.at_point(name, values, facts, known))
 
 
@@ -138,5 +138,5 @@ def _hypotheses(algebra: dict[str, Any], point: Mapping[str, Any]) -> list[Fact]
     """What an algebra assumes, of the names that a point gives."""
     if algebra["kind"] == "quotient":
         return [("=", [(relation, 0)]) for relation in algebra["relations"]]
-    rules = [rule for rule in algebra["rules"] if words.names_in(["+", *rule]) <= point.keys()]
+    rules = [rule for rule in algebra["rules"] if quotients.names_in(["+", *rule]) <= point.keys()]
     return [("=", [(["*", a, b], image)]) for a, b, image in rules]

@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import Any
 
 from .names import identifier, integer
-from .quotients import SIGNS, Fact, denominators
+from .quotients import Fact, denominators
 
 Tree = Any
 
@@ -39,7 +39,7 @@ class Point:
             return f"({self.number(tree[1])} ^ {integer(tree[2])})"
         if tree[0] == "tr":
             return f"(trace {self.matrix(tree[1], self.size(tree[1])[0])})"
-        return "(" + SIGNS[tree[0]].join(map(self.number, tree[1:])) + ")"
+        return "(" + f" {tree[0]} ".join(map(self.number, tree[1:])) + ")"
 
     def matrix(self, tree: Tree, rows: int) -> str:
         """A matrix; a number stands for that multiple of the unit matrix."""

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from functools import reduce
 from math import prod
 from typing import Any
 
 from .names import identifier, integer
 
 Tree = Any
-SIGNS = {"+": " + ", "*": " * "}
 #: What a variable is: its identifier, and its number from 1 on.
 Variables = Mapping[str, tuple[str, int]]
 
@@ -18,18 +18,35 @@ def variables(names: Iterable[str]) -> dict[str, tuple[str, int]]:
     return {name: (identifier(name), i) for i, name in enumerate(names, 1)}
 
 
-def written(tree: Tree, names: Variables) -> str:
-    """An expression, for a reader: in parentheses, unless it is one name or number."""
+def both(tree: Tree, names: Variables) -> tuple[str, str]:
+    """An expression for a reader, in parentheses unless it is one name or number; and as data of type tree."""
     if isinstance(tree, str) and tree in names:
-        return names[tree][0]
+        return names[tree][0], f"(Var {names[tree][1]})"
     if not isinstance(tree, list):
-        x = Fraction(tree)
-        return f"#{integer(x.numerator)}" if x.denominator == 1 else f"(#{integer(x.numerator)} / #{x.denominator})"
+        above, below = integer(Fraction(tree).numerator), Fraction(tree).denominator
+        return (f"#{above}", f"(Int {above})") if below == 1 else (f"(#{above} / #{below})", f"(Rat {above} {below})")
     if tree[0] == "^":
-        base, power = written(tree[1], names), abs(tree[2])
-        whole = base if power == 1 else f"({base} ^ {power})"
-        return whole if tree[2] > 0 else f"(/ {whole})"
-    return "(" + SIGNS[tree[0]].join(written(part, names) for part in tree[1:]) + ")"
+        (text, of), power = both(tree[1], names), abs(tree[2])
+        text, of = (text, of) if power == 1 else (f"({text} ^ {power})", f"(Pow {of} {power})")
+        return (text, of) if tree[2] > 0 else (f"(/ {text})", f"(Inv {of})")
+    return joined(*{"+": ("+", "Sum"), "*": ("*", "Prod")}[tree[0]], (both(part, names) for part in tree[1:]))
+
+
+def joined(sign: str, operation: str, parts: Iterable[tuple[str, str]]) -> tuple[str, str]:
+    """A sum or a product for a reader and as data."""
+    texts, data = zip(*parts, strict=True)
+    whole = f" {sign} ".join(texts)
+    return f"({whole})" if len(texts) > 1 else whole, reduce(lambda a, b: f"({operation} {a} {b})", data)
+
+
+def written(tree: Tree, names: Variables) -> str:
+    """An expression, for a reader."""
+    return both(tree, names)[0]
+
+
+def data(tree: Tree, names: Variables) -> str:
+    """An expression, as data of type tree."""
+    return both(tree, names)[1]
 
 
 def equation(left: Tree, right: Tree, names: Variables) -> str:
@@ -37,22 +54,11 @@ def equation(left: Tree, right: Tree, names: Variables) -> str:
     return f"{written(left, names)} = {written(right, names)} :> Field"
 
 
-def data(tree: Tree, names: Variables) -> str:
-    """The same expression, as data of type tree."""
-    if isinstance(tree, str) and tree in names:
-        return f"(Var {names[tree][1]})"
-    if not isinstance(tree, list):
-        x = Fraction(tree)
-        number = f"Int {integer(x.numerator)}" if x.denominator == 1 else f"Rat {integer(x.numerator)} {x.denominator}"
-        return f"({number})"
-    if tree[0] == "^":
-        base, power = data(tree[1], names), abs(tree[2])
-        whole = base if power == 1 else f"(Pow {base} {power})"
-        return whole if tree[2] > 0 else f"(Inv {whole})"
-    operation, (first, *rest) = {"+": "Sum", "*": "Prod"}[tree[0]], [data(part, names) for part in tree[1:]]
-    for part in rest:
-        first = f"({operation} {first} {part})"
-    return first
+def names_in(tree: Tree) -> set[str]:
+    """The names in a tree."""
+    if isinstance(tree, list):
+        return set().union(*map(names_in, tree[1:]))
+    return {tree} if isinstance(tree, str) and tree[0] not in "-0123456789" else set()
 
 
 def denominators(trees: Iterable[Tree]) -> list[Tree]:
@@ -61,7 +67,7 @@ def denominators(trees: Iterable[Tree]) -> list[Tree]:
 
     def below(tree: Tree, inverted: bool) -> None:
         if not isinstance(tree, list):
-            if inverted and isinstance(tree, str) and not _is_number(tree):
+            if inverted and names_in(tree):
                 found.setdefault(repr(tree), tree)
             return
         if tree[0] == "^":
@@ -77,10 +83,6 @@ def denominators(trees: Iterable[Tree]) -> list[Tree]:
     for tree in trees:
         below(tree, False)
     return list(found.values())
-
-
-def _is_number(tree: str) -> bool:
-    return tree[0] in "-0123456789"
 
 
 def conjunction(parts: list[str]) -> str:

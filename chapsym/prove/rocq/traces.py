@@ -3,7 +3,8 @@
 from math import lcm
 from typing import Any
 
-from .words import Algebra, LeftOut, algebra_of, names_in, rules_for, rules_of, shapes_of, theorem
+from .quotients import names_in
+from .words import Algebra, LeftOut, algebra_of, rules_for, rules_of, shapes_of, theorem
 
 Tree = Any
 

@@ -3,11 +3,11 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
 from math import lcm
 from typing import Any
 
 from .names import identifier
+from .quotients import joined, names_in
 
 Tree = Any
 #: Rows and columns of a letter; True is n, False is 1.
@@ -62,7 +62,7 @@ class Algebra:
             if tree[2] < 0:
                 raise LeftOut("it divides by a parameter")
             return self.number(["*", *[tree[1]] * tree[2]] if tree[2] > 1 else tree[1])
-        return _joined(*{"+": ("+", "SSum"), "*": ("*", "SProd")}[tree[0]], map(self.number, tree[1:]))
+        return joined(*{"+": ("+", "SSum"), "*": ("*", "SProd")}[tree[0]], map(self.number, tree[1:]))
 
     def matrix(self, tree: Tree) -> tuple[str, str]:
         """A matrix as it is read, and as data."""
@@ -78,32 +78,19 @@ class Algebra:
                 raise LeftOut("it has the inverse of a matrix")
             return self.matrix(["*", *[tree[1]] * tree[2]] if tree[2] > 1 else tree[1])
         if tree[0] == "+":
-            return _joined("+", "Sum", map(self.matrix, tree[1:]))
-        text, product = _joined("*m", "Prod", (self.matrix(part) for part in tree[1:] if not self.is_number(part)))
+            return joined("+", "Sum", map(self.matrix, tree[1:]))
+        text, product = joined("*m", "Prod", (self.matrix(part) for part in tree[1:] if not self.is_number(part)))
         numbers = [self.number(part) for part in tree[1:] if self.is_number(part)]
         if not numbers:
             return text, product
-        factor, number = _joined("*", "SProd", numbers)
+        factor, number = joined("*", "SProd", numbers)
         return f"({factor} *: {text})", f"(Scaled {number} {product})"
-
-
-def _joined(sign: str, operation: str, parts: Iterable[tuple[str, str]]) -> tuple[str, str]:
-    texts, data = zip(*parts, strict=True)
-    whole = f" {sign} ".join(texts)
-    return f"({whole})" if len(texts) > 1 else whole, reduce(lambda a, b: f"({operation} {a} {b})", data)
-
-
-def names_in(tree: Tree) -> set[str]:
-    """The names in a tree, and its quotients in quotes."""
-    if isinstance(tree, list):
-        return set().union(*(names_in(part) for part in tree[1:]))
-    return {tree} if isinstance(tree, str) else set()
 
 
 def _denominators(tree: Tree) -> set[int]:
     if isinstance(tree, list):
         return set().union(*(_denominators(part) for part in tree[1:]))
-    return {Fraction(tree).denominator} if not isinstance(tree, str) or tree[0] in "-0123456789" else set()
+    return set() if names_in(tree) else {Fraction(tree).denominator}
 
 
 def statement(name: str, one: dict[str, Any], data: dict[str, Any], point: dict[str, Any]) -> str:
