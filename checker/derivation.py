@@ -47,11 +47,6 @@ class Defined(NamedTuple):
 Made = Defined | Rows | Entry
 
 
-def is_premise(one: dict[str, Any], names: Collection[str]) -> bool:
-    """Whether a definition is made from nothing that is defined."""
-    return one["operation"] == "written" and names_in(one["of"]).isdisjoint(names)
-
-
 def check_definition(data: Any, where: str) -> None:
     """Raises Rejected unless this is a step of a derivation."""
     check_shape(data, DEFINITION, where)

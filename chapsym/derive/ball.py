@@ -42,14 +42,17 @@ def body_balance() -> sp.Symbol:
 
 @cache
 def split_balance() -> tuple[sp.Symbol, sp.Symbol]:
-    """The parts of the body balance that belong to the step k and to the step k-1.
+    """The parts of the body balance that belong to the step k and to the step k-1: (𝒦_k, -Ωᵀ𝒦_{k-1}Ω)."""
+    return split(body_balance(), "part", "", BOTH)
 
-    Each is returned as words in its own Ω and in the γ of its own start: (𝒦_k, -Ωᵀ𝒦_{k-1}Ω).
-    """
-    balance, later = body_balance(), (space.R1, space.R1T)
-    now = terms("part_now", "its terms with R_{k+1}", balance, later)
-    before = terms("part_before", "its terms without R_{k+1}", balance, later, having=False)
-    return in_step_symbols("momentum", now, at_start=True), in_step_symbols("before", before, at_start=False)
+
+def split(balance: sp.Symbol, name: str, suffix: str, algebra: WordAlgebra) -> tuple[sp.Symbol, sp.Symbol]:
+    """These parts of a balance in the body, as words in their own Ω and in the γ of their own start."""
+    later = (space.R1, space.R1T)
+    now = terms(f"{name}_now", "its terms with R_{k+1}", balance, later)
+    before = terms(f"{name}_before", "its terms without R_{k+1}", balance, later, having=False)
+    own = in_step_symbols(f"momentum{suffix}", now, True, algebra)
+    return own, in_step_symbols(f"before{suffix}", before, False, algebra)
 
 
 def momentum_in_space(now: bool) -> sp.Symbol:

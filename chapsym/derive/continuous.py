@@ -26,9 +26,10 @@ def momentum_steps() -> tuple[three.Steps, sp.Matrix]:
     return three.carried_steps(omega)
 
 
-def inverse_inertia() -> sp.Matrix:
+@cache
+def inverse_inertia() -> sp.ImmutableMatrix:
     """Λ⁻¹, with Λ read off the discrete momentum."""
-    return three.lam().inv()
+    return sp.ImmutableMatrix(three.lam().inv())
 
 
 def rolling_factor() -> sp.Expr:

@@ -11,7 +11,7 @@ import sympy as sp
 
 from . import ball, continuous, limits, motion, three
 from . import principle as space
-from .derivation import coordinates, dual, rate, replaced, terms, written
+from .derivation import coordinates, dual, rate, replaced, written
 from .motion import eta, omega
 from .quotient import Quotient
 from .words import WordAlgebra, matrix_symbols
@@ -97,13 +97,7 @@ def split_balance() -> tuple[sp.Symbol, sp.Symbol]:
     balance = written(
         "gyrostat_balance", "the ball's balance, and the rotor's, in the body", ball.body_balance() + seen, SPACE
     )
-    later = (space.R1, space.R1T)
-    now = terms("gyrostat_now", "its terms with R_{k+1}", balance, later)
-    before = terms("gyrostat_before", "its terms without R_{k+1}", balance, later, having=False)
-    return (
-        ball.in_step_symbols("momentum_gyrostat", now, True, BOTH),
-        ball.in_step_symbols("before_gyrostat", before, False, BOTH),
-    )
+    return ball.split(balance, "gyrostat", "_gyrostat", BOTH)
 
 
 def momentum() -> sp.Symbol:

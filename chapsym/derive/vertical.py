@@ -64,11 +64,6 @@ def height() -> sp.Expr:
     return sigma - excess().subs(dict(zip(gamma, gamma_now(), strict=True)), simultaneous=True)
 
 
-def lam() -> sp.Matrix:
-    """Λ."""
-    return three.lam()
-
-
 @cache
 def total() -> sp.ImmutableMatrix:
     """γ + γ~."""

@@ -14,6 +14,8 @@ from typing import Any
 
 from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 
+from chapsym.checker.interval import Arithmetic
+
 #: The most products of terms in one multiplication; the proofs need a third of it.
 LIMIT = 10_000_000
 
@@ -27,7 +29,7 @@ class TooLarge(ArithmeticError):
 Made = str | int | tuple[Any, ...] | None
 
 
-class Ratio:
+class Ratio(Arithmetic):
     """A rational function over Q in lowest terms; its denominator is monic and not 0.  It knows how it was made."""
 
     __slots__ = ("denominator", "made", "numerator")
@@ -80,21 +82,10 @@ class Ratio:
     def __rtruediv__(self, other: Any) -> "Ratio":
         return other * self._inverse()
 
-    def __neg__(self) -> "Ratio":
-        return self * -1
-
-    def __sub__(self, other: Any) -> "Ratio":
-        return self + -other
-
-    def __rsub__(self, other: Any) -> "Ratio":
-        return -self + other
-
     def __pow__(self, power: int) -> "Ratio":
         base = self if power >= 0 else self._inverse()
         result = prod([base] * abs(power), start=self._one())
         return Ratio._lowest(result.numerator, result.denominator, ("^", self, power) if power else 1)
-
-    __radd__, __rmul__ = __add__, __mul__
 
     def lowest(self) -> "Ratio":
         """The same, which does not know how it was made: it is written in lowest terms."""

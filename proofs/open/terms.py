@@ -6,7 +6,6 @@ A text is a name: two lemmas join where one concludes what the other assumes, le
 # Hypotheses.
 THREE = "I1, I2, I3 are different"
 SMALL_BRANCH = "|𝒦| is below the bound of small-branch, and the map is that of the small branch"
-REGULAR_LEVEL = "l is none of 1/Λ1, 1/Λ2, 1/Λ3"
 MOMENTS = "J_i + J_j > 0 and D ≥ 0"
 FOR_SMALL = "for each three moments there is h₀ > 0, and for every h with 0 < |h| < h₀ there is D₀(h) > 0, so that for every D with 0 < D < D₀(h)"
 BUT_DISCRETE = "for each three moments and every h ≠ 0 there is a set without limit points in [0, ∞), and for every D > 0 that is not in it"

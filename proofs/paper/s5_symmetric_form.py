@@ -1,29 +1,17 @@
 """Section 5: the symmetric form of the reduced map (Proposition 4) and what it needs."""
 
-from functools import cache
-
 import sympy as sp
 
-from chapsym.derive import vertical
+from chapsym.derive import three, vertical
+from chapsym.derive.continuous import inverse_inertia
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, q, q0
-from chapsym.derive.vertical import RING, sigma
+from chapsym.derive.vertical import RING, sigma, total
 from chapsym.proofs import second_routes
 from chapsym.proofs.paper.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_point, vertical_symbols
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
 
 equation = equations(RING)
-
-
-@cache
-def inverse() -> sp.ImmutableMatrix:
-    """Λ⁻¹."""
-    return sp.ImmutableMatrix(vertical.lam().inv())
-
-
-def total() -> sp.Matrix:
-    """γ + γ~ in q, σ."""
-    return vertical.total()
 
 
 def difference() -> sp.Matrix:
@@ -33,12 +21,12 @@ def difference() -> sp.Matrix:
 
 def first_form() -> sp.Expr:
     """⟨γ+γ~, Λ⁻¹(γ+γ~)⟩."""
-    return total().dot(inverse() * total())
+    return total().dot(inverse_inertia() * total())
 
 
 def second_form() -> sp.Expr:
     """⟨γ+γ~, Λ⁻²(γ+γ~)⟩."""
-    return total().dot(inverse() ** 2 * total())
+    return total().dot(inverse_inertia() ** 2 * total())
 
 
 def square_of_root(text: str, factor: sp.Expr) -> Equation:
@@ -58,7 +46,7 @@ def solved_sigma(text: str, factor: sp.Expr) -> Equation:
 
 def symmetric(text: str, factor: sp.Expr) -> Equation:
     """γ~ - γ = factor·(γ+γ~) × Λ⁻¹(γ+γ~)."""
-    return equation(text, difference(), factor * total().cross(inverse() * total()))
+    return equation(text, difference(), factor * total().cross(inverse_inertia() * total()))
 
 
 @claim(
@@ -70,9 +58,9 @@ def sum_and_difference(p: Proof) -> None:
     """Sum and difference of consecutive verticals."""
     p.reads(vertical_symbols())
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
-    p.lemma(equation("γ~ + γ = (4q₀/σ)Λq", total(), 4 * q0 / sigma * vertical.lam() * q))
-    p.printed(equation("γ~ - γ = (4/σ)Λq×q", difference(), 4 / sigma * (vertical.lam() * q).cross(q)))
-    p.control(equation("γ~ - γ = (4/σ)q×Λq", difference(), 4 / sigma * q.cross(vertical.lam() * q)))
+    p.lemma(equation("γ~ + γ = (4q₀/σ)Λq", total(), 4 * q0 / sigma * three.lam() * q))
+    p.printed(equation("γ~ - γ = (4/σ)Λq×q", difference(), 4 / sigma * (three.lam() * q).cross(q)))
+    p.control(equation("γ~ - γ = (4/σ)q×Λq", difference(), 4 / sigma * q.cross(three.lam() * q)))
 
 
 @claim(
@@ -137,8 +125,10 @@ def sigma_equation(p: Proof) -> None:
     p.slips("serious", "5.6-sigma")
     p.reads(vertical_symbols())
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
-    lifted = D * sigma / 4 * vertical.gamma_now().dot(inverse() * total())
-    p.printed(equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", vertical.gamma_now().dot(inverse() * total()), first_form() / 2))
+    lifted = D * sigma / 4 * vertical.gamma_now().dot(inverse_inertia() * total())
+    p.printed(
+        equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", vertical.gamma_now().dot(inverse_inertia() * total()), first_form() / 2)
+    )
     p.printed(equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", sigma, vertical.height() + lifted))
     p.corrected(
         r"\sigma = h+2D\langle\gamma,\tfrac\sigma4\Lambda^{-1}(\tilde\gamma+\gamma)\rangle",
@@ -181,7 +171,7 @@ def symmetric_form(p: Proof) -> None:
     p.slips("serious", "5.11", "5.12-q0")
     p.reads(vertical_symbols() | {r"\varkappa": (sigma / q0**2, "σ/q₀² (5.12-kappa)")})
     p.assume("h ≠ 0 and q₀ ≠ 0 (no rotation by π)", sp.Ne(vertical.height(), 0), sp.Ne(q0, 0))
-    p.assume("Λ is positive, as for every ball", *(x > 0 for x in vertical.lam().diagonal()))
+    p.assume("Λ is positive, as for every ball", *(x > 0 for x in three.lam().diagonal()))
     p.printed(symmetric("5.10 with ϰ = σ/q₀²", sigma / (4 * q0**2)))
     p.say("Where the vector product is not 0, (5.10) leaves one ϰ, σ/q₀². The printed formula for it says")
     p.say("2σ/ϰ - 1 = √(...), that is 2q₀² - 1 = √(1 - ¼⟨s, Λ⁻²s⟩) with s = γ~ + γ; squared it is polynomial:")
@@ -200,7 +190,7 @@ def symmetric_form(p: Proof) -> None:
     for name, state in [("below", SMALL), ("above", LARGE)]:
         p.say(f"A state with the rotation angle {name} 90°: the sign of the root is that of 2q₀² - 1 = cos θ.")
         p.counterexample(vertical_point(state))
-        product = total().cross(inverse() * total())
+        product = total().cross(inverse_inertia() * total())
         p.lemma(Comparison("the vector product in (5.10) is not zero there", [sp.Ne(product[0], 0)], state))
     p.say("The two states need the two signs of the root:")
     p.lemma(*_signs())
@@ -241,7 +231,7 @@ def rescaling(p: Proof) -> None:
         return expr.subs(changed, simultaneous=True)
 
     p.say("J, D, σ ↦ J/s, D/s, σ/s, with the same q: γ and γ~ stay, h becomes h/s, so that s = h gives 1.")
-    now, after, lam = vertical.gamma_now(), vertical.gamma_next(), vertical.lam()
+    now, after, lam = vertical.gamma_now(), vertical.gamma_next(), three.lam()
     p.printed(
         Equation("Λ becomes Λ/s", lam.applyfunc(rescaled), lam / scale, ring),
         Equation("γ stays", now.applyfunc(rescaled), now, ring),
@@ -263,18 +253,20 @@ def _converse(p: Proof) -> None:
     p.say("q = (σ/4q₀)Λ⁻¹s, γ = (s-d)/2, γ~ = (s+d)/2. Then |q|² + q₀² = 1 is the formula for ϰ, and")
     s = sp.Matrix(sp.symbols("s1:4"))
     free = Quotient((*s, sigma, q0, J1, J2, J3, D))
-    d = sigma / (4 * q0**2) * s.cross(inverse() * s)
-    vector = sigma / (4 * q0) * inverse() * s
-    left = 2 * (q0 * vertical.lam() * vector + vector.cross(vertical.lam() * vector))
-    right = 2 * (q0 * vertical.lam() * vector - vector.cross(vertical.lam() * vector))
+    d = sigma / (4 * q0**2) * s.cross(inverse_inertia() * s)
+    vector = sigma / (4 * q0) * inverse_inertia() * s
+    left = 2 * (q0 * three.lam() * vector + vector.cross(three.lam() * vector))
+    right = 2 * (q0 * three.lam() * vector - vector.cross(three.lam() * vector))
     p.lemma(Equation("the left side of (5.4) at that q is σγ", left, sigma * (s - d) / 2, free))
     p.lemma(Equation("and σΩᵀγ = 2(q₀Λq - q×Λq) is σγ~", right, sigma * (s + d) / 2, free))
     p.lemma(Equation("|γ~| = |γ|: ⟨s, d⟩ = 0", s.dot(d), 0, free))
     lifted = 2 * D * q0 * ((s - d) / 2).dot(vector)
     p.lemma(
-        Equation("2Dq₀⟨γ,q⟩ = (D/4)σ⟨s, Λ⁻¹s⟩, the formula for σ", lifted, D / 4 * sigma * s.dot(inverse() * s), free)
+        Equation(
+            "2Dq₀⟨γ,q⟩ = (D/4)σ⟨s, Λ⁻¹s⟩, the formula for σ", lifted, D / 4 * sigma * s.dot(inverse_inertia() * s), free
+        )
     )
-    p.control(Equation("the same with D/8", lifted, D / 8 * sigma * s.dot(inverse() * s), free))
+    p.control(Equation("the same with D/8", lifted, D / 8 * sigma * s.dot(inverse_inertia() * s), free))
 
 
 if __name__ == "__main__":

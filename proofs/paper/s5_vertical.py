@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from chapsym.derive import three, vertical
+from chapsym.derive import continuous, three, vertical
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0, q1, q2, q3
 from chapsym.derive.vertical import RING, h, sigma
@@ -178,13 +178,13 @@ def consecutive_verticals(p: Proof) -> None:
 def quadratic_integral(p: Proof) -> None:
     """The quadratic integral of the reduced map, for every branch and every h."""
     p.infers("Where σ ≠ 0, from the identity; where σ = 0, from ⟨q, left⟩ = 0, in words.")
-    p.assume("Λ = diag(J₂+J₃+D, ...) is positive, as for every ball", *(x > 0 for x in vertical.lam().diagonal()))
+    p.assume("Λ = diag(J₂+J₃+D, ...) is positive, as for every ball", *(x > 0 for x in three.lam().diagonal()))
     p.assume("q is real; (5.4) and (5.6) as corrected")
-    inverse = vertical.lam().inv()
+    inverse = continuous.inverse_inertia()
     now, after = vertical.gamma_now(), vertical.gamma_next()
     p.say("σ ≠ 0: both verticals are functions of q, σ on |q|² + q₀² = 1, |γ| = 1; no branch is chosen.")
     p.reads(
-        (r"\Lambda", vertical.lam(), "diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D), J the mass tensor (5.2)"),
+        (r"\Lambda", three.lam(), "diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D), J the mass tensor (5.2)"),
         (r"\gamma", after, "γ_(k+1), after a step (5.6 as corrected)"),
         ("l", now.dot(inverse * now), "⟨γ_k,Λ⁻¹γ_k⟩, before the step (5.6)"),
     )
@@ -193,7 +193,7 @@ def quadratic_integral(p: Proof) -> None:
     p.lemma(Equation("⟨γ, adj(Λ)γ⟩ = det(Λ)⟨γ, Λ⁻¹γ⟩", [vertical.weighted_square()],
                      [vertical.LAMBDA.det() * gamma.dot(vertical.LAMBDA.inv() * gamma)], any_inertia))  # fmt: skip
     p.say("σ = 0 (only for h = 0): ⟨q, left⟩ = 2q₀⟨q,Λq⟩ = 0, so q = 0 (Ω = 1) or q₀ = 0 and then q×Λq = 0.")
-    lam, left = vertical.lam(), sp.Matrix(vertical.left_side())
+    lam, left = three.lam(), sp.Matrix(vertical.left_side())
     p.lemma(equation("⟨q, left⟩ = 2q₀⟨q, Λq⟩", q.dot(left), 2 * q0 * q.dot(lam * q)))
     rotation = sp.Matrix(three.rotation())
     half_turn, crossed = rotation.subs(q0, 0), q.cross(lam * q)

@@ -34,7 +34,7 @@ def vertical_energy(p: Proof) -> None:
             ring,
         )
     )
-    inverse = vertical.lam().inv()
+    inverse = continuous.inverse_inertia()
     now, after = (x.dot(inverse * x) for x in (vertical.gamma_now(), vertical.gamma_next()))
     at = Quotient((h, *RING.symbols), RING.relations)
     before, later = (h**2 * level / (1 - D * level) for level in (now, after))
@@ -42,8 +42,8 @@ def vertical_energy(p: Proof) -> None:
     p.reads({"E_k": (before, f"{meaning}, before a step"), "E_{k+1}": (later, f"{meaning}, after it")})
     p.printed(Equation("h²l/(1 - Dl) at γ~ is that at γ, for every branch", later, before, at))
     p.control(Equation("𝒦 = hγ: ⟨𝒦,ω⟩ = h²l", energy, h**2 * form, ring))
-    wrong = vertical.gamma_next().dot(vertical.lam() * vertical.gamma_next())
-    p.control(Equation("⟨γ,Λγ⟩ is kept", wrong, vertical.gamma_now().dot(vertical.lam() * vertical.gamma_now()), RING))
+    wrong = vertical.gamma_next().dot(three.lam() * vertical.gamma_next())
+    p.control(Equation("⟨γ,Λγ⟩ is kept", wrong, vertical.gamma_now().dot(three.lam() * vertical.gamma_now()), RING))
 
 
 @claim(
