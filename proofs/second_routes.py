@@ -7,10 +7,10 @@ solved for.  Nothing here comes from chapsym.derive.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -42,12 +42,9 @@ def unit(n: int) -> Array:
 
 def skew(above: Sequence[Any], n: int) -> Array:
     """The skew matrix with the given entries above the diagonal, row by row."""
-    matrix, rest = unit(n) * 0, iter(above)
-    for i in range(n):
-        for j in range(i + 1, n):
-            matrix[i, j] = next(rest)
-            matrix[j, i] = -matrix[i, j]
-    return matrix
+    matrix, places = unit(n) * 0, np.triu_indices(n, 1)
+    matrix[places] = above[: len(places[0])]
+    return matrix - matrix.T
 
 
 def hat(v: Any) -> Array:
@@ -352,7 +349,7 @@ def steps_of_the_symmetric_form(part: int = 4) -> list[Identity]:
     sigma = (4 / kappa) / (4 / kappa**2 + step.second / 4)
     step = replace(step, h=sigma * (1 - D / part * (step.sum @ step.inverse_of_sum)))
     return [
-        has_kappa(pair_on_a_curve())[0],
+        has_kappa(*pair_on_a_curve()[:3])[0],
         turn_of_a_pair(),
         identity("(2σ/ϰ - 1)² = 1 - (σ²/4)⟨s, Λ⁻²s⟩", (2 * sigma / kappa - 1) ** 2, 1 - sigma**2 / 4 * step.second),
         identity("2σ/ϰ - 1 is the cos θ of the turn", 2 * sigma / kappa - 1, step.cosine),
@@ -360,96 +357,17 @@ def steps_of_the_symmetric_form(part: int = 4) -> list[Identity]:
     ]
 
 
-@dataclass(frozen=True)
-class Increment:
-    """What (5.15) is made of, for two points γ(u), γ(ũ) of one curve; all of it is rational in them.
+class Lowest:
+    """Makes numbers and vectors that are in lowest terms; that they are the same is an identity each."""
 
-    By the addition theorem for ũ ± u, the halves by sn²(x/2) = (1 - cn x)/(1 + dn x).  Each part goes on in lowest
-    terms; that this is the same is an identity of its own.
-    """
+    def __init__(self) -> None:
+        self.identities: list[Identity] = []
 
-    gamma: Array
-    following: Array
-    lam: Array
-    D: Any
-    reduced: list[Identity] = field(default_factory=list)
-
-    def lowest(self, text: str, value: Any) -> Any:
+    def __call__(self, text: str, value: Any) -> Any:
         """A number or a vector in lowest terms."""
         lowest = np.vectorize(lambda x: x.lowest() if isinstance(x, Ratio) else x, otypes=[object])(array(value))
-        self.reduced.append(identity(f"{text} in lowest terms", value, lowest))
+        self.identities.append(identity(f"{text} in lowest terms", value, lowest))
         return lowest if lowest.shape else lowest.item()
-
-    @cached_property
-    def inverse(self) -> Array:
-        """1/Λ1, 1/Λ2, 1/Λ3."""
-        return self.lowest("1/Λ1, 1/Λ2, 1/Λ3", 1 / self.lam)
-
-    @cached_property
-    def level(self) -> Any:
-        """l."""
-        return self.lowest("l", self.gamma @ (self.gamma * self.inverse))
-
-    @cached_property
-    def squares(self) -> Array:
-        """C1², C2², C3² of (5.8) as corrected."""
-        (L1, L2, L3), l = 1 / self.inverse, self.level
-        squares = [L1 * (1 - L3 * l) / (L1 - L3), L2 * (1 - L3 * l) / (L2 - L3), L3 * (L1 * l - 1) / (L1 - L3)]
-        return self.lowest("C1², C2², C3²", squares)
-
-    @cached_property
-    def over_squares(self) -> Array:
-        """1/C1², 1/C2², 1/C3²."""
-        return self.lowest("1/C1², 1/C2², 1/C3²", 1 / self.squares)
-
-    @cached_property
-    def modulus(self) -> Any:
-        """k²."""
-        (L1, L2, L3), l = 1 / self.inverse, self.level
-        return self.lowest("k²", (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1)))
-
-    @cached_property
-    def above(self) -> Any:
-        """1/(1 - k² sn²u sn²ũ), of the addition theorem."""
-        below = 1 - self.modulus * (self.gamma[1] * self.following[1] * self.over_squares[1]) ** 2
-        return self.lowest("1/(1 - k² sn²u sn²ũ)", 1 / below)
-
-    def half_square(self, sign: int) -> Any:
-        """sn² of (ũ + sign·u)/2."""
-        a, b, c = self.over_squares
-        x, y, z = self.gamma * self.following
-        name = f"(ũ {'+' if sign > 0 else '-'} u)"
-        cn = self.lowest(f"cn{name}", (x * a - sign * y * z * b * c) * self.above)
-        dn = self.lowest(f"dn{name}", (z * c - sign * self.modulus * x * y * a * b) * self.above)
-        return self.lowest(f"sn²(½{name})", (1 - cn) / (1 + dn))
-
-    @cached_property
-    def coefficients(self) -> Array:
-        """Of 1/Λ1², 1/Λ2², 1/Λ3² in G."""
-        (a, b, c), k2, y = self.squares, self.modulus, self.y
-        in_g = [a / k2 * (1 - y), -b / k2 * (1 - y) * (1 - k2 * y), c * (1 - k2 * y)]
-        return self.lowest("the coefficients of Λ⁻² in G", in_g)
-
-    @cached_property
-    def y(self) -> Any:
-        """sn²δu."""
-        return self.half_square(-1)
-
-    @cached_property
-    def parts(self) -> "Parts":
-        """sn²δu, 𝒟, V w(δu), G and l - μ sn²δu."""
-        k2, (_, L2, L3), l, y = self.modulus, 1 / self.inverse, self.level, self.y
-        (g1, g2, g3), (h1, h2, h3) = self.gamma, self.following
-        # V = -(C2 C3/C1)(Λ2-Λ3)/(Λ2Λ3); 2w = sn(ũ-u)(1 - k²y²); C1 C2 C3 sn(ũ-u) is rational in γ, γ~.
-        sine = self.lowest("C1 C2 C3 sn(ũ - u)", (h2 * g1 * g3 - g2 * h1 * h3) * self.above)
-        vw = -(L2 - L3) / (L2 * L3) * sine * self.over_squares[0] * (1 - k2 * y**2) / 2
-        return Parts(
-            y,
-            self.lowest("𝒟", 1 - k2 * self.half_square(+1) * y),
-            self.lowest("Vw(δu)", vw),
-            self.coefficients @ self.inverse**2,
-            self.lowest("l - μ sn²δu", l - (1 - L3 * l) / (L2 - L3) * y),
-        )
 
 
 @dataclass(frozen=True)
@@ -467,51 +385,96 @@ class Parts:
         return self.G * self.scale - 2 * sign * self.vw * (self.scale - D * self.level)
 
 
-def pair_on_a_curve() -> Increment:
-    """Two unit vectors γ, γ~ and a Λ with ⟨γ, Λ⁻¹γ⟩ = ⟨γ~, Λ⁻¹γ~⟩, which is solved for Λ1; Λ2, Λ3, D are free.
+class Curve(NamedTuple):
+    """l, C1², C2², C3² of (5.8) as corrected, k², the coefficients of 1/Λ1², 1/Λ2², 1/Λ3² in G, and what (5.15) has."""
+
+    level: Any
+    squares: Array
+    modulus: Any
+    coefficients: Array
+    parts: Parts
+
+
+def curve(gamma: Array, following: Array, inverse: Array, lowest: Lowest) -> Curve:
+    """What (5.15) is made of, for two points γ(u), γ(ũ) of one curve and 1/Λ; all of it is rational in them.
+
+    By the addition theorem for ũ ± u.  Each part goes on in lowest terms.
+    """
+    (L1, L2, L3), (g1, g2, g3), (h1, h2, h3) = 1 / inverse, gamma, following
+    l = lowest("l", gamma @ (gamma * inverse))
+    k2 = lowest("k²", (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1)))
+    a, b, c = squares = lowest(
+        "C1², C2², C3²",
+        [L1 * (1 - L3 * l) / (L1 - L3), L2 * (1 - L3 * l) / (L2 - L3), L3 * (L1 * l - 1) / (L1 - L3)],
+    )
+    over = lowest("1/C1², 1/C2², 1/C3²", 1 / squares)
+    above = lowest("1/(1 - k² sn²u sn²ũ)", 1 / (1 - k2 * (g2 * h2 * over[1]) ** 2))
+    y = half_square(-1, gamma * following, k2, over, above, lowest)
+    # V = -(C2 C3/C1)(Λ2-Λ3)/(Λ2Λ3); 2w = sn(ũ-u)(1 - k²y²); C1 C2 C3 sn(ũ-u) is rational in γ, γ~.
+    sine = lowest("C1 C2 C3 sn(ũ - u)", (h2 * g1 * g3 - g2 * h1 * h3) * above)
+    scale = lowest("𝒟", 1 - k2 * half_square(+1, gamma * following, k2, over, above, lowest) * y)
+    vw = lowest("Vw(δu)", -(L2 - L3) / (L2 * L3) * sine * over[0] * (1 - k2 * y**2) / 2)
+    in_g = [a / k2 * (1 - y), -b / k2 * (1 - y) * (1 - k2 * y), c * (1 - k2 * y)]
+    coefficients = lowest("the coefficients of Λ⁻² in G", in_g)
+    level = lowest("l - μ sn²δu", l - (1 - L3 * l) / (L2 - L3) * y)
+    return Curve(l, squares, k2, coefficients, Parts(y, scale, vw, coefficients @ inverse**2, level))
+
+
+def half_square(sign: int, products: Array, k2: Any, over: Array, above: Any, lowest: Lowest) -> Any:
+    """sn² of (ũ + sign·u)/2, by sn²(x/2) = (1 - cn x)/(1 + dn x); above: 1/(1 - k² sn²u sn²ũ)."""
+    (a, b, c), (x, y, z) = over, products
+    name = f"(ũ {'+' if sign > 0 else '-'} u)"
+    cn = lowest(f"cn{name}", (x * a - sign * y * z * b * c) * above)
+    dn = lowest(f"dn{name}", (z * c - sign * k2 * x * y * a * b) * above)
+    return lowest(f"sn²(½{name})", (1 - cn) / (1 + dn))
+
+
+def pair_on_a_curve() -> tuple[Array, Array, Array, Lowest]:
+    """Two unit vectors γ, γ~ and 1/Λ of a Λ with ⟨γ, Λ⁻¹γ⟩ = ⟨γ~, Λ⁻¹γ~⟩, which is solved for Λ1; Λ2, Λ3, D are free.
 
     Every such triple with Λ finite and γ~₁² ≠ γ₁² is reached, but for a vector (0, 0, -1).
     """
-    a, b, c, d, m2, m3, D = parameters("a b c d m2 m3 D")  # m2 and m3 are 1/Λ2 and 1/Λ3
-    gamma, following = sphere(a, b), sphere(c, d)
+    a, b, c, d, m2, m3, _ = parameters("a b c d m2 m3 D")  # m2 and m3 are 1/Λ2 and 1/Λ3
+    gamma, following, lowest = sphere(a, b), sphere(c, d), Lowest()
     rise = following**2 - gamma**2
-    return Increment(gamma, following, 1 / array([-(rise[1] * m2 + rise[2] * m3) / rise[0], m2, m3]), D)
+    lam = 1 / array([-(rise[1] * m2 + rise[2] * m3) / rise[0], m2, m3])
+    return gamma, following, lowest("1/Λ1, 1/Λ2, 1/Λ3", 1 / lam), lowest
 
 
-def has_kappa(pair: Increment) -> tuple[Identity, Any]:
+def has_kappa(gamma: Array, following: Array, inverse: Array) -> tuple[Identity, Any]:
     """(5.10) for two points of a curve, and its ϰ."""
-    s, d = pair.gamma + pair.following, pair.following - pair.gamma
-    product = np.cross(s, s * pair.inverse)
+    s, d = gamma + following, following - gamma
+    product = np.cross(s, s * inverse)
     kappa = 4 * d[0] / product[0]
     return identity("(5.10) defines ϰ: its three components agree", 4 * d, kappa * product), kappa
 
 
 def increment() -> list[Identity]:
     """(5.15) as corrected, h = 1, for every two points of a curve."""
-    pair = pair_on_a_curve()
-    parts, k2, l, (L1, L2, L3) = pair.parts, pair.modulus, pair.level, 1 / pair.inverse
-    defines, kappa = has_kappa(pair)
+    gamma, following, inverse, lowest = pair_on_a_curve()
+    l, squares, k2, coefficients, parts = curve(gamma, following, inverse, lowest)
+    defines, kappa = has_kappa(gamma, following, inverse)
     on_curve = [
         entry
-        for x in (pair.gamma, pair.following)
-        for entry in (x[0] ** 2 / pair.squares[0] + x[1] ** 2 / pair.squares[1],
-                      x[2] ** 2 / pair.squares[2] + k2 * x[1] ** 2 / pair.squares[1])
+        for x in (gamma, following)
+        for entry in (x[0] ** 2 / squares[0] + x[1] ** 2 / squares[1],
+                      x[2] ** 2 / squares[2] + k2 * x[1] ** 2 / squares[1])
     ]  # fmt: skip
-    s = pair.gamma + pair.following
-    printed_v = pair.lowest("V² as printed", (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3))
-    rest = pair.lowest(
+    s, (L1, L2, L3) = gamma + following, 1 / inverse
+    printed_v = lowest("V² as printed", (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3))
+    rest = lowest(
         "the coefficients of Λ⁻² in Π2 𝒟² sn² - G𝒟",
-        s**2 / 4 * parts.scale**2 * parts.y - parts.scale * pair.coefficients,
+        s**2 / 4 * parts.scale**2 * parts.y - parts.scale * coefficients,
     )
     return [
-        *pair.reduced,
+        *lowest.identities,
         identity("γ and γ~ are (C1 cn, C2 sn, C3 dn) of one curve", on_curve, [1] * 4),
         defines,
         identity("2𝒟 sn²δu = ϰVw (5.13-V)", 2 * parts.scale * parts.y, kappa * parts.vw),
         identity("(Vw)² = V² sn² cn² dn²", parts.vw**2,
                  printed_v * parts.y * (1 - parts.y) * (1 - k2 * parts.y)),
-        identity("Π1 = (l - μ sn²)/𝒟", s @ (s * pair.inverse) / 4, parts.level / parts.scale),
-        identity("Π2 𝒟² sn² = G𝒟 - (Vw)²/sn²", rest @ pair.inverse**2, -(parts.vw**2) / parts.y),
+        identity("Π1 = (l - μ sn²)/𝒟", s @ (s * inverse) / 4, parts.level / parts.scale),
+        identity("Π2 𝒟² sn² = G𝒟 - (Vw)²/sn²", rest @ inverse**2, -(parts.vw**2) / parts.y),
         relation_for_the_increment(),
     ]  # fmt: skip
 
