@@ -46,10 +46,10 @@ def ball(centre: Fraction, radius: Fraction = Fraction(0)) -> Any:
 def rounded(x: Any, digits: int) -> str:
     """The numbers of a ball rounded to so many decimals; raises NotProved where they round differently."""
     middle, off = fraction(x), fraction(x.rad())
-    found = round((middle - off) * 10**digits)
-    if found != round((middle + off) * 10**digits):
+    found = round(middle - off, digits)
+    if found != round(middle + off, digits):
         raise NotProved(f"a number does not round to {digits} decimals alike in the whole box")
-    return decimal(Fraction(found, 10**digits), digits)
+    return decimal(found, digits)
 
 
 def decimal(x: Fraction, digits: int) -> str:
@@ -70,7 +70,7 @@ def decimals(x: Fraction) -> int | None:
 def simplest(low: Fraction, high: Fraction) -> Fraction:
     """The number with the fewest decimals in the middle half of an interval, nearest to its middle."""
     middle, off = (low + high) / 2, (high - low) / 4
-    candidates = (Fraction(round(middle * 10**digits), 10**digits) for digits in itertools.count())
+    candidates = (round(middle, digits) for digits in itertools.count())
     return next(x for x in candidates if abs(x - middle) <= off)
 
 

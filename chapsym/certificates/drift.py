@@ -109,9 +109,9 @@ def refined(fields: Mapping[str, Any], digits: int, progress: Callable[[str], No
         progress(f"the orbit misses its start by {float(miss):.1e}")
         slope = (miss - before[1]) / (here - before[0]) if before else None
         before = here, miss
-        momentum[varied] = rounded(here - miss / slope if slope else here + Fraction(1, 10**6), digits)
+        momentum[varied] = round(here - miss / slope if slope else here + Fraction(1, 10**6), digits)
         start = fields["start"] | {"momentum": [shortest(x) for x in momentum]}
-        fields = {**fields, "start": start, "time": shortest(rounded(orbit.time, digits))}
+        fields = {**fields, "start": start, "time": shortest(round(orbit.time, digits))}
         if slope and abs(momentum[varied] - here) <= unit:
             return {**fields, "radius": shortest(3 * unit), "window": shortest(Fraction(1, 10 ** (digits // 3)))}
     raise BadInput("no closed orbit was found near the start: give a nearer one, or another component to vary")
@@ -131,11 +131,6 @@ def outward(x: Interval) -> list[str]:
     """An interval as [centre, radius] in decimals, which contain it."""
     radius = Fraction(x.width, 2 << x.bits)
     digits = max(2 - decade(radius), 0)
-    centre = rounded(middle(x), digits)
+    centre = round(middle(x), digits)
     off = radius + abs(middle(x) - centre)
     return [shortest(centre), shortest(Fraction(math.ceil(off * 10**digits), 10**digits))]
-
-
-def rounded(x: Fraction, digits: int) -> Fraction:
-    """To so many decimals."""
-    return Fraction(round(x * 10**digits), 10**digits)

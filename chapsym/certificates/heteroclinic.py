@@ -136,8 +136,7 @@ def _digits(top: Top, starts: tuple[Fraction, Fraction], progress: Callable[[str
 
 def _orbit(orbits: Orbits, x: Fraction, digits: int) -> dict[str, Any]:
     end, steps = orbits.end(x, digits)
-    nearest = Fraction(round(fraction(end) * 10**digits), 10**digits)
-    return {"start": str(x), "steps": steps, "end": decimal(nearest, digits)}
+    return {"start": str(x), "steps": steps, "end": decimal(round(fraction(end), digits), digits)}
 
 
 def _document(top: Top, radius: Fraction, digits: int, orbits: list[dict[str, Any]]) -> dict[str, Any]:
