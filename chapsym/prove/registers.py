@@ -176,7 +176,7 @@ class Register:
         for id, claim in claims.items():
             if self != PROOFS and id in ours:
                 raise _taken(claim.prove.__module__, id, "chapsym")
-            if id in _reached(id, claims):
+            if id in reached(id, claims):
                 raise BrokenScript(
                     f"{self.place}: {id} uses itself, directly or through others: uses goes in no circle"
                 )
@@ -196,7 +196,7 @@ def register_of(script: str) -> Register:
     return PROOFS if PROOFS.script(Path(script)) else Register(script)
 
 
-def _reached(id: str, claims: Mapping[str, Claim]) -> set[str]:
+def reached(id: str, claims: Mapping[str, Claim]) -> set[str]:
     """What a claim uses, directly or through others."""
     found: set[str] = set()
     new = {id}

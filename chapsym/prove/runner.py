@@ -17,19 +17,12 @@ from .certificates import write
 from .claims import Claim, Judgement, judgement_of, once
 from .evidence import Proof, Verdict
 from .records import fingerprint
-from .registers import PROOFS, BrokenScript, NoRegister, Register, register_of
+from .registers import PROOFS, BrokenScript, NoRegister, Register, reached, register_of
 
 
 def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
     """The claims among `claims` that use `id`, directly or through others."""
-    reached: list[str] = []
-    frontier = [id]
-    while frontier:
-        source = frontier.pop()
-        new = [other.id for other in claims.values() if source in other.uses and other.id not in reached]
-        reached += new
-        frontier += new
-    return [other for other in claims if other in reached]
+    return [other for other in claims if id in reached(other, claims)]
 
 
 def prove_one(id: str, folder: Path | None = None, register: Register = PROOFS) -> dict[str, Any]:
