@@ -13,7 +13,7 @@ from .words import evaluate
 def momentum() -> sp.ImmutableMatrix:
     """K(ω, γ) = Λω - D⟨ω,γ⟩γ (2.13 for n = 3), the limit of 𝒦/ε: B(γ) ω."""
     limit = limits.momentum().limit
-    values = {ball.omega: three.hat(omega), ball.J: three.J, ball.Gamma: three.gamma * three.gamma.T}
+    values = {ball.omega: omega.hat(), ball.J: three.J, ball.Gamma: three.gamma * three.gamma.T}
     vector = three.axial(evaluate(limit, values))
     inertia = sp.Matrix(three.contact_inertia())
     if (vector - inertia * omega).applyfunc(sp.expand) != sp.zeros(3, 1):

@@ -118,7 +118,7 @@ def limit() -> limits.Remainder:
 def vector_momentum() -> sp.ImmutableMatrix:
     """𝒦(q, γ) for n = 3, a letter for each entry, with the rotor's angular momentum of a step."""
     turn = sp.Matrix(three.rotation())
-    places = three.BALL | {ball.Omega: turn, ball.OmegaT: turn.T, step_A: three.hat(rotor)}
+    places = three.BALL | {ball.Omega: turn, ball.OmegaT: turn.T, step_A: rotor.hat()}
     matrix = coordinates("gyrostat_matrix", "n = 3: Ω in Euler parameters, A = a×", momentum(), places, RING)
     return three.axial_entries("K_gyrostat", matrix)
 

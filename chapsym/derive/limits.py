@@ -104,7 +104,7 @@ def constraint() -> Remainder:
 
 def in_vectors(name: str, of: Remainder) -> Remainder:
     """The same for n = 3: its skew matrices as vectors of letters for their entries."""
-    places = three.BALL | {ball.omega: three.hat(omega), ball.K: three.hat(three.K)}
+    places = three.BALL | {ball.omega: omega.hat(), ball.K: three.K.hat()}
 
     def vector(name: str, letter: sp.Expr) -> sp.Matrix:
         text = "n = 3: ω, 𝒦 and γ as vectors, J = diag(J₁, J₂, J₃)"

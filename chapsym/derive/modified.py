@@ -62,12 +62,18 @@ def step_jet(x: sp.Matrix) -> list[sp.Matrix]:
     return [x, 2 * once[1], 2 * once[2], 2 * (once[3] - square * once[1])]
 
 
-def flow_jet(x: sp.Matrix) -> list[sp.Matrix]:
-    """The same of the flow of ẋ = x × Ω̃ over the time ε."""
+def ball_jet(x: sp.Matrix) -> list[sp.Matrix]:
+    """The same of the flow of ẋ = x × ω along the continuous ball, over the time ε."""
     first = x.cross(omega)
     twice = first.cross(omega) + x.cross(rate)
     thrice = twice.cross(omega) + 2 * first.cross(rate) + x.cross(second)
-    return [x, first, twice / 2, thrice / 6 + x.cross(correction()) / 12]
+    return [x, first, twice / 2, thrice / 6]
+
+
+def flow_jet(x: sp.Matrix) -> list[sp.Matrix]:
+    """The same of the flow of ẋ = x × Ω̃."""
+    *lower, third = ball_jet(x)
+    return [*lower, third + x.cross(correction()) / 12]
 
 
 def equation_jet() -> list[sp.Matrix]:

@@ -39,13 +39,8 @@ UNITS = (sp.Eq(UNIT_QUATERNION, 0), sp.Eq(UNIT_VERTICAL, 0))
 RING = Quotient((q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D), [UNIT_QUATERNION, UNIT_VERTICAL])
 
 
-def hat(v: sp.Matrix) -> sp.Matrix:
-    """The skew matrix of the vector product: hat(v) x = v × x."""
-    return sp.Matrix([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
-
-
 def axial(a: sp.Matrix) -> sp.Matrix:
-    """The vector (A₃₂, A₁₃, A₂₁) of a skew matrix, as in Section 5; the inverse of `hat`."""
+    """The vector (A₃₂, A₁₃, A₂₁) of a skew matrix, as in Section 5; the inverse of SymPy's `hat`."""
     return sp.Matrix([a[2, 1], a[0, 2], a[1, 0]])
 
 

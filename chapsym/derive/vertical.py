@@ -84,7 +84,7 @@ CLOSED = Quotient((t, e, *gamma, *INERTIA), [three.UNIT_VERTICAL])
 @cache
 def closed_matrix() -> sp.ImmutableMatrix:
     """Λ - e - t γ×: the matrix M of M q = tγ q₀, which is Λq + (q/q₀)×Λq = σ/(2q₀²) q₀γ solved for Λq."""
-    return sp.ImmutableMatrix(LAMBDA - e * sp.eye(3) - t * three.hat(gamma))
+    return sp.ImmutableMatrix(LAMBDA - e * sp.eye(3) - t * gamma.hat())
 
 
 @cache

@@ -7,7 +7,7 @@ from chapsym.derive.gyrostat import ALGEBRA, RATES, A, rotor
 from chapsym.derive.limits import omega
 from chapsym.derive.motion import D, Gamma, J, commutator, rate
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import J1, J2, J3, gamma, hat
+from chapsym.derive.three import J1, J2, J3, gamma
 from chapsym.derive.words import Traces, evaluate
 from chapsym.proofs.paper.s2_classical import along, factor_and_divergence, solved_acceleration
 from chapsym.proofs.paper.s2_every_n import moving
@@ -95,7 +95,7 @@ def equations_of_motion(p: Proof) -> None:
         words("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(spin, Gamma), 0),
     )
     p.say("For n = 3, A = a× and (A₃₂, A₁₃, A₂₁) of K:")
-    values = {spin: hat(omega), J: three.J, Gamma: gamma * gamma.T, A: hat(rotor), D: three.D}
+    values = {spin: omega.hat(), J: three.J, Gamma: gamma * gamma.T, A: rotor.hat(), D: three.D}
     found = three.axial(evaluate(momentum, values))
     p.printed(vectors("K = B(γ)ω + a", found, sp.Matrix(continuous.momentum()) + rotor))
     wrong = printed - 2 * A

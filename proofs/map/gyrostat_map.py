@@ -156,7 +156,7 @@ def self_adjoint(p: Proof) -> None:
     twice = 2 * gyrostat.added_momentum().subs(placed((q, -q)), simultaneous=True)
     turned = sp.Matrix(three.rotation())
     ring = Quotient((q0, *q, *rotor), [three.UNIT_QUATERNION])
-    found = three.axial(three.hat(rotor) * turned + turned.T * three.hat(rotor))
+    found = three.axial(rotor.hat() * turned + turned.T * rotor.hat())
     p.lemma(vectors("the vector of AΩ + ΩᵀA", found, twice, ring))
     p.printed(Comparison("it is not 0 at q = (4, 2, 1, 2)/5, a = (1, ½, -1)", [sp.Ne(twice[0], 0)], TURN | ROTOR))
     p.control(words("𝒦(Ωᵀ, Γ_+; A) = -Ωᵀ𝒦(Ω, Γ; A)Ω", momentum_back(1), -ball.carried(here)))

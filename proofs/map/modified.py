@@ -82,7 +82,7 @@ def modified_field(p: Proof) -> None:
     for power, (step, flow) in enumerate(zip(modified.step_jet(X), modified.flow_jet(X), strict=True)):
         p.printed(equal(f"Ωᵀx and the flow of ẋ = x × Ω̃ agree in ε^{power}", step, flow))
     p.say("So with c = -½ Σ eᵢ × (eᵢ × c) ω₃ is what the step turns the basis by beyond the flow of ω:")
-    beyond = [e.cross(modified.step_jet(e)[3] - third_of_the_ball(e)) for e in sp.eye(3).columnspace()]
+    beyond = [e.cross(modified.step_jet(e)[3] - modified.ball_jet(e)[3]) for e in sp.eye(3).columnspace()]
     p.lemma(
         equal("12ω₃ from what the step leaves in ε³", modified.correction(), -6 * (beyond[0] + beyond[1] + beyond[2]))
     )
@@ -103,13 +103,6 @@ def modified_field(p: Proof) -> None:
     point, values = _witness()
     left = [x for part in modified.equation_jet() for x in part.xreplace(point)]
     p.witness("under way", values, Fact("the coefficients of the equation are 0", not any(left)))
-
-
-def third_of_the_ball(x: sp.Matrix) -> sp.Matrix:
-    """The coefficient of ε³ of the flow of ẋ = x × ω along the continuous ball."""
-    first = x.cross(omega)
-    twice = first.cross(omega) + x.cross(rate)
-    return (twice.cross(omega) + 2 * first.cross(rate) + x.cross(second)) / 6
 
 
 def _controls(p: Proof, two: sp.Matrix, third: sp.Matrix) -> None:

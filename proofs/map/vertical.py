@@ -61,7 +61,7 @@ def closed_rotation(p: Proof) -> None:
     p.printed(closed_momentum("𝒦 = (2t(q₀²+|q|²) - 2Dq₀⟨γ,q⟩)γ + 2(q₀e - t⟨γ,q⟩)q"))
     p.say("Where q is not along γ both scalars must vanish for 𝒦 = h(q₀²+|q|²)γ; where they do, it holds.")
     p.control(closed_momentum("the same with -2(q₀e - t⟨γ,q⟩)q", -1))
-    wrong = (LAMBDA - e * sp.eye(3) + t * three.hat(gamma)) * vector
+    wrong = (LAMBDA - e * sp.eye(3) + t * gamma.hat()) * vector
     p.control(Equation("M q = tγ q₀ with M = Λ - e + t γ×", wrong, t * scalar * gamma, CLOSED))
 
 

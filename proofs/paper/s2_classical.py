@@ -9,7 +9,7 @@ from chapsym.derive.continuous import RING, inverse_inertia, rolling_factor
 from chapsym.derive.derivation import coordinates, entry, written
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import J1, J2, J3, D, K, gamma, hat
+from chapsym.derive.three import J1, J2, J3, D, K, gamma
 from chapsym.derive.words import evaluate
 from chapsym.proofs import glossary
 from chapsym.proofs.glossary import Symbols
@@ -46,12 +46,12 @@ def carried_rates() -> tuple[sp.Matrix, sp.Matrix]:
     turning = written("K_rate_words", "-[ω, K] (2.12)", -motion.commutator(motion.omega, motion.K), words)
     falling = written("gamma_rate_words", "-ωγ", -motion.omega * motion.gamma, words)
     ring, unit, text = Quotient(RING.symbols), RING, "n = 3: ω and K as vectors"
-    skew = coordinates("K_rate_matrix", text, turning, {motion.omega: hat(omega), motion.K: hat(K)}, ring)
+    skew = coordinates("K_rate_matrix", text, turning, {motion.omega: omega.hat(), motion.K: K.hat()}, ring)
     column = coordinates(
         "gamma_rate_column",
         "n = 3",
         falling,
-        {motion.omega: hat(omega), motion.gamma: gamma, motion.gammaT: gamma.T, motion.Gamma: gamma * gamma.T},
+        {motion.omega: omega.hat(), motion.gamma: gamma, motion.gammaT: gamma.T, motion.Gamma: gamma * gamma.T},
         unit,
     )
     entries = [entry(f"gamma_rate_{i + 1}", f"entry {i + 1}", column, i, 0) for i in range(3)]
@@ -62,7 +62,7 @@ def carried_rates() -> tuple[sp.Matrix, sp.Matrix]:
 def vector_equations(p: Proof) -> None:
     """The conservation of the momentum about the contact point, as vectors: (2.12) for n = 3."""
     p.assume("the vector of a skew matrix A is (A₃₂, A₁₃, A₂₁), as in Section 5: ωx = ω×x")
-    spin, tensor = hat(omega), hat(K)
+    spin, tensor = omega.hat(), K.hat()
     ring = Quotient(RING.symbols)
     turning, falling = carried_rates()
     p.reads(

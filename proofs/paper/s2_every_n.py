@@ -6,7 +6,6 @@ import sympy as sp
 
 from chapsym.derive import derivation, motion
 from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, gamma, m, omega, rate, rho
-from chapsym.derive.three import hat
 from chapsym.derive.words import Traces, WordAlgebra
 from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Equation, Point, Proof, claim, equations, main
@@ -48,7 +47,7 @@ def moving(
 
 def motion_point() -> Point:
     """n = 3, γ = e₃, ω = (1, 1, 1), and the ω̇ that the principle gives; m = 10, ρ = 1."""
-    spin, gain = hat(sp.Matrix([1, 1, 1])), hat(sp.Matrix(["1/8", "-1/5", "1/3"]))
+    spin, gain = sp.Matrix([1, 1, 1]).hat(), sp.Matrix(["1/8", "-1/5", "1/3"]).hat()
     down = sp.Matrix([0, 0, 1])
     values = {alpha: gain, omega: spin, J: sp.diag(1, 2, 4), gamma: down, motion.gammaT: down.T}
     values |= {Gamma: down * down.T, m: sp.Integer(10), rho: sp.S.One, D: sp.Integer(10)}
@@ -129,17 +128,10 @@ def equations_of_motion(p: Proof) -> None:
 def reaction_force(p: Proof) -> None:
     """The reaction force: its sign is misprinted."""
     p.slips("serious")
-    p.reads(
-        motion_symbols(),
-        (
-            "F",
-            motion.on_rolling("force_rolling", motion.inertial_force()),
-            "m(v̇ + ωv) where v = -ρωγ, by the derivation",
-        ),
-    )
+    force = motion.on_rolling("force_rolling", motion.inertial_force())
+    p.reads(motion_symbols(), ("F", force, "m(v̇ + ωv) where v = -ρωγ, by the derivation"))
     p.assume(DOWNWARDS)
     p.say("v = -ρωγ and γ̇ = -ωγ give v̇ + ωv = -ρω̇γ.")
-    force = motion.on_rolling("force_rolling", motion.inertial_force())
     p.show("F", force)
     p.printed(equation("F = mρω̇γ", m * rho * alpha * gamma, force))
     p.corrected(r"F = -m\rho\,\dot\omega\gamma", equation("F = -mρω̇γ", -m * rho * alpha * gamma, force))

@@ -12,7 +12,6 @@ from chapsym.derive import continuous, derivation, motion, three
 from chapsym.derive.limits import omega as spin
 from chapsym.derive.motion import ALGEBRA, D, Gamma, J, K, alpha, commutator, eta, gamma, gammaT, omega, rate
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import hat
 from chapsym.derive.words import Traces, WordAlgebra, evaluate, matrix_symbols
 from chapsym.proofs import second_routes
 from chapsym.proofs.paper.s2_every_n import motion_symbols
@@ -200,35 +199,35 @@ def isomorphism(p: Proof) -> None:
 
     def carried(sign: int) -> list[Equation]:
         """(2.12) under A = sign·(v×), as vector equations."""
-        turn, tensor = sign * hat(spin), sign * hat(three.K)
+        turn, tensor = sign * spin.hat(), sign * three.K.hat()
         swept = -(turn * tensor - tensor * turn)
         name = f"ω_ij = {'-' * (sign > 0)}ε_ijk ω_k"
         return [
-            Equation(f"{name}: K̇ = -[ω,K] is K̇ = K×ω", swept, sign * hat(three.K.cross(spin)), ring),
+            Equation(f"{name}: K̇ = -[ω,K] is K̇ = K×ω", swept, sign * three.K.cross(spin).hat(), ring),
             Equation(f"{name}: γ̇ = -ωγ is γ̇ = γ×ω", -turn * three.gamma, three.gamma.cross(spin), ring),
         ]
 
     momentum = sp.Matrix(continuous.momentum())
-    values = {motion.J: three.J, motion.Gamma: vertical, motion.D: three.D, motion.omega: hat(spin)}
-    energy = -(hat(spin) * evaluate(motion.contact_momentum(), values)).trace() / 4
+    values = {motion.J: three.J, motion.Gamma: vertical, motion.D: three.D, motion.omega: spin.hat()}
+    energy = -(spin.hat() * evaluate(motion.contact_momentum(), values)).trace() / 4
     p.say("The matrix A of a vector v with which (2.12) is (2.3) has Ax = v×x:")
     p.lemma(*carried(1))
     p.control(*carried(-1))
     letters = {r"\omega_": (spin, r"\omega_k", "ω"), r"\mathbf K_": (three.K, "K_k", "K")}
     p.reads({"H": (energy, "-¼ tr(ω𝒜ω) (2.15)"), "l": (momentum.dot(spin), "⟨K,ω⟩ (2.4)")})
     for matrix, (vector, index, name) in letters.items():
-        whole = -hat(vector)
+        whole = -vector.hat()
         p.reads(
-            (f"{matrix}{{ij}}", hat(vector), f"the matrix of the vector {name} with which (2.12) is (2.3)"),
+            (f"{matrix}{{ij}}", vector.hat(), f"the matrix of the vector {name} with which (2.12) is (2.3)"),
             (rf"\varepsilon_{{ijk}}{index}", whole, f"Σ_k ε_ijk {name}_k: in row 1, column 2 it is {name}_3"),
         )
-        p.printed(Equation(f"{name}_ij = ε_ijk {name}_k", hat(vector), whole, ring))
+        p.printed(Equation(f"{name}_ij = ε_ijk {name}_k", vector.hat(), whole, ring))
     p.printed(Equation("H of (2.15) is l of (2.4)", energy, momentum.dot(spin), ring))
     p.corrected(
         r"\omega_{ij} = -\varepsilon_{ijk}\omega_k,\ \mathbf K_{ij} = -\varepsilon_{ijk}K_k,\ H = \tfrac12l",
         Equation("H of (2.15) is ½ l", energy, momentum.dot(spin) / 2, ring),
     )
-    tensor = hat(three.K)
+    tensor = three.K.hat()
     height = three.K.dot(three.gamma)
     p.say("The integrals and the measure are even in the sign of the identification:")
     p.lemma(Equation("tr K² = -2⟨K,K⟩", (tensor**2).trace(), -2 * three.K.dot(three.K), ring))

@@ -4,7 +4,7 @@ import sympy as sp
 
 from chapsym.derive import continuous, principle, three
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import J1, J2, J3, RING, D, gamma, hat, placed, q, q0
+from chapsym.derive.three import J1, J2, J3, RING, D, gamma, placed, q, q0
 from chapsym.derive.three import determinant as det
 from chapsym.prove import REAL, Comparison, Count, Equation, Fact, Proof, claim, equations, main
 
@@ -12,7 +12,7 @@ m, rho = sp.symbols("m rho")
 BALL_RING = Quotient((m, rho, *RING.symbols), [*RING.relations, D - m * rho**2])
 equation = equations(BALL_RING)
 TURN = sp.eye(3)  # R_k = 1: the principle does not see the attitude
-AXES = [hat(e) for e in sp.eye(3).columnspace()]
+AXES = [e.hat() for e in sp.eye(3).columnspace()]
 
 
 def mixed_derivative(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:

@@ -4,17 +4,13 @@ import sympy as sp
 
 from chapsym.derive import ball, limits
 from chapsym.derive.ball import ALGEBRA, D, Gamma, J, omega
+from chapsym.derive.motion import commutator
 from chapsym.derive.words import unfolded
 from chapsym.proofs.examples import EXAMPLES
 from chapsym.proofs.glossary import Symbols
 from chapsym.prove import Comparison, Proof, claim, equations, main
 
 equation = equations(ALGEBRA)
-
-
-def commutator(a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """[a, b]."""
-    return a * b - b * a
 
 
 def symbols() -> Symbols:

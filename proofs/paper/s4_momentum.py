@@ -197,10 +197,7 @@ def trace_integrals(p: Proof) -> None:
     p.infers("By induction on the exponents, for every s and l. Odd powers of a skew matrix have the trace 0.")
     X, XT, Y, YT = matrix_symbols("X X^T Y Y^T")
     algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X, Y: YT, YT: Y}, ALGEBRA.rules)
-
-    def carried(expr: sp.Expr) -> sp.Expr:
-        return OmegaT * expr * Omega
-
+    carried = ball.carried
     p.say("The only fact about the step is (4.12): 𝒦_k = Ωᵀ𝒦_{k-1}Ω, Γ_k = ΩᵀΓ_{k-1}Ω with ΩΩᵀ = 1.")
     p.lemma(
         equation("carrying is multiplicative: (ΩᵀXΩ)(ΩᵀYΩ) = ΩᵀXYΩ", carried(X) * carried(Y), carried(X * Y), algebra)

@@ -5,7 +5,7 @@ import sympy as sp
 from chapsym.derive import ball, continuous, limits, quaternions, three
 from chapsym.derive.limits import omega
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, hat, placed, q, q0, q1, q2, q3
+from chapsym.derive.three import J1, J2, J3, RING, D, K, axial, gamma, placed, q, q0, q1, q2, q3
 from chapsym.proofs import glossary, second_routes
 from chapsym.proofs.paper.s4_limits import exact_order
 from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main, rational_point
@@ -45,7 +45,7 @@ def rotation_matrix(p: Proof) -> None:
     p.lemma(equation("det Ω = 1", rotation.det(), 1))
     p.lemma(equation("Ωq = q: the axis", rotation * q, q))
     p.lemma(equation("tr Ω = 4q₀² - 1 = 1 + 2cos θ with q₀ = cos(θ/2)", rotation.trace(), 4 * q0**2 - 1))
-    p.lemma(equation("Ω - Ωᵀ = 4q₀ q×: right-handed about q", rotation - rotation.T, 4 * q0 * hat(q)))
+    p.lemma(equation("Ω - Ωᵀ = 4q₀ q×: right-handed about q", rotation - rotation.T, 4 * q0 * q.hat()))
     x, a, b = (sp.Matrix(sp.symbols(names)) for names in ("v1:4", "a0:4", "b0:4"))
     turning, pairs = Quotient((*x, *RING.symbols), RING.relations), Quotient((*a, *b), [])
     p.lemma(Equation("Ωx = x + (Ω - (q₀² + |q|²))x", three.rotated(x), rotation * x, turning))
@@ -103,7 +103,7 @@ def axis_and_angle(p: Proof) -> None:
     rotation = sp.Matrix(three.rotation())
 
     def rodrigues(sign: int) -> sp.Matrix:
-        return (q0**2 - q.dot(q)) * sp.eye(3) + sign * 2 * q0 * hat(q) + 2 * q * q.T
+        return (q0**2 - q.dot(q)) * sp.eye(3) + sign * 2 * q0 * q.hat() + 2 * q * q.T
 
     p.printed(equation("Ω = (q₀²-|q|²) + 2q₀ q× + 2qqᵀ, nine entries", rotation, rodrigues(1)))
     p.say("As (q₀, q) and (-q₀, -q) give the same Ω, q₀ ≥ 0 can be had; but tr Ω = 4q₀² - 1 is -1 only for q₀ = 0.")
@@ -163,23 +163,15 @@ def second_derivatives() -> list[sp.Expr]:
 )
 def vector_momentum(p: Proof) -> None:
     """The vector momentum, by substituting the rotation into (4.13)."""
+    centre, derived = three.turned_entries("M", ball.centre_momentum()), three.turned_entries("K", ball.momentum())
     p.reads(
-        glossary.ball()
-        | {f"J_{i}": (J, f"entry {i} of the mass tensor (5.2)") for i, J in enumerate((J1, J2, J3), 1)}
-        | {f"q_{i}": (x, f"entry {i} of q (5.1)") for i, x in enumerate(q, 1)}
-        | {
-            r"\vec M": (
-                sp.Matrix(three.turned_entries("M", ball.centre_momentum())),
-                "the vector of M_k (4.6), by the derivation",
-            ),
-            r"\vec{\mathcal K}": (
-                sp.Matrix(three.turned_entries("K", ball.momentum())),
-                "that of 𝒦_k (4.13), by the derivation",
-            ),
-        }
+        glossary.ball(),
+        {f"J_{i}": (J, f"entry {i} of the mass tensor (5.2)") for i, J in enumerate((J1, J2, J3), 1)},
+        {f"q_{i}": (x, f"entry {i} of q (5.1)") for i, x in enumerate(q, 1)},
+        (r"\vec M", sp.Matrix(centre), "the vector of M_k (4.6), by the derivation"),
+        (r"\vec{\mathcal K}", sp.Matrix(derived), "that of 𝒦_k (4.13), by the derivation"),
     )
     p.assume("|γ| = 1 and |q|² + q₀² = 1; Ω with the correction of (5.1)")
-    centre, derived = three.turned_entries("M", ball.centre_momentum()), three.turned_entries("K", ball.momentum())
     p.say(
         "Into (4.13) go the matrix of the Euler parameters, J = diag(J₁,J₂,J₃) and Γ = γγᵀ; (A₃₂, A₁₃, A₂₁) comes out:"
     )
@@ -234,7 +226,7 @@ def parameter_expansion(p: Proof) -> None:
         ring(
             "½(ωx - xω) is ω × x",
             [x for column in spun for x in column],
-            [x for e in hat(omega).T.tolist() for x in (0, *e)],
+            [x for e in omega.hat().T.tolist() for x in (0, *e)],
         )
     )
     constant, terms = quaternions.expansion()
@@ -306,22 +298,17 @@ def vector_limit(p: Proof) -> None:
 )
 def vector_form(p: Proof) -> None:
     """The vector form of the map, and its continuum limit."""
+    ring, rotation = Quotient((*K, *RING.symbols), RING.relations), sp.Matrix(three.rotation())
+    moved = axial(rotation.T * K.hat() * rotation)
     p.reads(
         glossary.ball(),
-        (
-            r"\vec{\mathcal K}_k",
-            axial(sp.Matrix(three.rotation()).T * hat(K) * sp.Matrix(three.rotation())),
-            "the vector of ΩᵀKΩ (4.12)",
-        ),
+        (r"\vec{\mathcal K}_k", moved, "the vector of ΩᵀKΩ (4.12)"),
         (r"\vec{\mathcal K}_{k-1}", K, "that of 𝒦 (4.12)"),
-        (r"\Omega_{k-1}", sp.Matrix(three.rotation()), "the rotation by the Euler parameters (5.1 as corrected)"),
-        (r"\gamma_k", sp.Matrix(three.rotation()).T * gamma, "Ωᵀγ (4.11)"),
+        (r"\Omega_{k-1}", rotation, "the rotation by the Euler parameters (5.1 as corrected)"),
+        (r"\gamma_k", rotation.T * gamma, "Ωᵀγ (4.11)"),
         (r"\gamma_{k-1}", gamma, "the vertical before the step (4.11)"),
     )
-    ring = Quotient((*K, *RING.symbols), RING.relations)
-    rotation = sp.Matrix(three.rotation())
     p.say("The axial vector of Ωᵀ𝒦Ω, for a skew 𝒦 with the free vector (K₁,K₂,K₃):")
-    moved = axial(rotation.T * hat(K) * rotation)
     p.printed(Equation("the axial vector of Ωᵀ𝒦Ω = Ωᵀ𝒦⃗", moved, rotation.T * K, ring))
     p.lemma(Equation("Ωᵀx = x + (Ω - (q₀² + |q|²))ᵀx, here of 𝒦⃗", three.transported(K), rotation.T * K, ring))
     p.say("γ_k = Ωᵀγ_{k-1} is (4.11).")

@@ -6,7 +6,7 @@ from chapsym.derive import three, vertical
 from chapsym.derive.continuous import inverse_inertia
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, D, q, q0
-from chapsym.derive.vertical import RING, sigma, total
+from chapsym.derive.vertical import RING, sigma
 from chapsym.proofs import second_routes
 from chapsym.proofs.paper.s5_vertical import LARGE, NOT_ZERO, SMALL, vertical_point, vertical_symbols
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, main
@@ -21,12 +21,12 @@ def difference() -> sp.Matrix:
 
 def first_form() -> sp.Expr:
     """⟨γ+γ~, Λ⁻¹(γ+γ~)⟩."""
-    return total().dot(inverse_inertia() * total())
+    return vertical.total().dot(inverse_inertia() * vertical.total())
 
 
 def second_form() -> sp.Expr:
     """⟨γ+γ~, Λ⁻²(γ+γ~)⟩."""
-    return total().dot(inverse_inertia() ** 2 * total())
+    return vertical.total().dot(inverse_inertia() ** 2 * vertical.total())
 
 
 def square_of_root(text: str, factor: sp.Expr) -> Equation:
@@ -46,7 +46,7 @@ def solved_sigma(text: str, factor: sp.Expr) -> Equation:
 
 def symmetric(text: str, factor: sp.Expr) -> Equation:
     """γ~ - γ = factor·(γ+γ~) × Λ⁻¹(γ+γ~)."""
-    return equation(text, difference(), factor * total().cross(inverse_inertia() * total()))
+    return equation(text, difference(), factor * vertical.total().cross(inverse_inertia() * vertical.total()))
 
 
 @claim(
@@ -58,7 +58,7 @@ def sum_and_difference(p: Proof) -> None:
     """Sum and difference of consecutive verticals."""
     p.reads(vertical_symbols())
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
-    p.lemma(equation("γ~ + γ = (4q₀/σ)Λq", total(), 4 * q0 / sigma * three.lam() * q))
+    p.lemma(equation("γ~ + γ = (4q₀/σ)Λq", vertical.total(), 4 * q0 / sigma * three.lam() * q))
     p.printed(equation("γ~ - γ = (4/σ)Λq×q", difference(), 4 / sigma * (three.lam() * q).cross(q)))
     p.control(equation("γ~ - γ = (4/σ)q×Λq", difference(), 4 / sigma * q.cross(three.lam() * q)))
 
@@ -125,9 +125,11 @@ def sigma_equation(p: Proof) -> None:
     p.slips("serious", "5.6-sigma")
     p.reads(vertical_symbols())
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
-    lifted = D * sigma / 4 * vertical.gamma_now().dot(inverse_inertia() * total())
+    lifted = D * sigma / 4 * vertical.gamma_now().dot(inverse_inertia() * vertical.total())
     p.printed(
-        equation("⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", vertical.gamma_now().dot(inverse_inertia() * total()), first_form() / 2)
+        equation(
+            "⟨γ, Λ⁻¹s⟩ = ½⟨s, Λ⁻¹s⟩", vertical.gamma_now().dot(inverse_inertia() * vertical.total()), first_form() / 2
+        )
     )
     p.printed(equation("σ = h + D⟨γ, (σ/4)Λ⁻¹s⟩, s = γ~ + γ", sigma, vertical.height() + lifted))
     p.corrected(
@@ -190,7 +192,7 @@ def symmetric_form(p: Proof) -> None:
     for name, state in [("below", SMALL), ("above", LARGE)]:
         p.say(f"A state with the rotation angle {name} 90°: the sign of the root is that of 2q₀² - 1 = cos θ.")
         p.counterexample(vertical_point(state))
-        product = total().cross(inverse_inertia() * total())
+        product = vertical.total().cross(inverse_inertia() * vertical.total())
         p.lemma(Comparison("the vector product in (5.10) is not zero there", [sp.Ne(product[0], 0)], state))
     p.say("The two states need the two signs of the root:")
     p.lemma(*_signs())
