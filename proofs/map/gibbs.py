@@ -269,25 +269,19 @@ def state_error(p: Proof) -> None:
     moved = sp.Matrix(gibbs.residual()).subs(placed((u, u + w)), simultaneous=True)
     p.printed(equal("G(ũ + w) - G(ũ) = A(ũ + w/2)w", moved - sp.Matrix(gibbs.residual()), middle * w, wide))
     p.say("So w = u - ũ has Aw = -Sξ.  For the rotation after the step, with Hamilton's product:")
-    one = sp.Integer(1)
-
-    def product(a: tuple, b: tuple) -> tuple:
-        return a[0] * b[0] - a[1].dot(b[1]), a[0] * b[1] + b[0] * a[1] + a[1].cross(b[1])
-
-    first = product((one, -u), (one, d))
-    after, steady = product(first, (one, u + w)), product(first, (one, u))
+    product = three.quaternion_product
+    first = product(sp.Matrix([1, *-u]), sp.Matrix([1, *d]))
+    after, steady = (product(first, sp.Matrix([1, *x])) for x in (u + w, u))
     turned = (1 - u.dot(u)) * d + 2 * u * u.dot(d) - 2 * u.cross(d)
     p.lemma(Equation("(1, -ũ)(1, ξ)(1, ũ) = (1 + |ũ|², (1 - |ũ|²)ξ + 2ũ⟨ũ, ξ⟩ - 2ũ × ξ)",
-                     [steady[0], *steady[1]], [NORM, *turned], wide))  # fmt: skip
-    rest = product((sp.Integer(0), d), (sp.Integer(0), w))
-    beside = product((one, -u), rest)
+                     steady, [NORM, *turned], wide))  # fmt: skip
+    beside = product(sp.Matrix([1, *-u]), product(sp.Matrix([0, *d]), sp.Matrix([0, *w])))
     p.printed(Equation("(1, -ũ)(1, ξ)(1, ũ + w) is that, and (⟨ũ, w⟩, w - ũ × w) and (1, -ũ)(0, ξ)(0, w) more",
-                       [after[0] - steady[0], *(after[1] - steady[1])],
-                       [u.dot(w) + beside[0], *(w - u.cross(w) + beside[1])], wide))  # fmt: skip
+                       after - steady, sp.Matrix([u.dot(w), *(w - u.cross(w))]) + beside, wide))  # fmt: skip
     p.say("The last has the length (1 + |ũ|²)^½|ξ||w| at most, as quaternions multiply in length.")
     p.control(equal("G(ũ; k, γ) - G(ũ; k̃, γ̃) without γ̃⟨ũ, n⟩", residual(u, k + m, gamma + n) - residual(u, k, gamma),
                     change + D * gamma * u.dot(n), wide))  # fmt: skip
-    p.control(Equation("(1, -ũ)(1, ξ)(1, ũ) with + 2ũ × ξ", [*steady[1]], [*(turned + 4 * u.cross(d))], wide))
+    p.control(Equation("(1, -ũ)(1, ξ)(1, ũ) with + 2ũ × ξ", steady[1:, :], turned + 4 * u.cross(d), wide))
 
 
 if __name__ == "__main__":

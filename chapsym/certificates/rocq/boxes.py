@@ -60,7 +60,7 @@ class Walk:
     def box(self, v: Vector) -> Box:
         """One that contains these, and a little more."""
         ends = [(Fraction(x.lo, 2**x.bits), Fraction(x.hi, 2**x.bits)) for x in v]
-        centre = [Fraction(round((lo + hi) / 2 * 10**self.digits), 10**self.digits) for lo, hi in ends]
+        centre = [round((lo + hi) / 2, self.digits) for lo, hi in ends]
         return Box(centre, roomy(max(max(c - lo, hi - c) for (lo, hi), c in zip(ends, centre, strict=True))))
 
     def step(self, before: Box, near: Sequence[str]) -> Step:
@@ -102,12 +102,8 @@ def roomy(x: Fraction) -> Fraction:
     return -(-x * 103 // (100 * unit)) * unit
 
 
-def inverse(matrix: Sequence[Sequence[Fraction]]) -> list[list[Fraction]]:
+def inverse(matrix: Sequence[Any]) -> list[list[Fraction]]:
     """A matrix near the inverse of one of 3 × 3."""
-
-    def product(v: Sequence[Fraction], w: Sequence[Fraction]) -> list[Fraction]:
-        return [v[i - 2] * w[i - 1] - v[i - 1] * w[i - 2] for i in range(3)]
-
-    columns = [product(matrix[i - 2], matrix[i - 1]) for i in range(3)]
-    det = sum(x * y for x, y in zip(matrix[0], columns[0], strict=True))
+    columns: list[Any] = [cross(matrix[i - 2], matrix[i - 1]) for i in range(3)]
+    det = dot(matrix[0], columns[0])
     return [[round(columns[j][i] / det / ROW) * ROW for j in range(3)] for i in range(3)]
