@@ -72,15 +72,13 @@ def the_map(p: Proof) -> None:
             slope * omega,
             2 * sp.Matrix(three.contact_inertia()) * omega - rotor.cross(omega),
             WITH_SPIN,
-        )
-    )
-    p.lemma(
+        ),
         vectors(
             "⟨x, 2Bx - a×x⟩ = 2⟨x,Bx⟩",
             omega.dot(slope * omega),
             2 * omega.dot(sp.Matrix(continuous.momentum())),
             WITH_SPIN,
-        )
+        ),
     )
     p.say("which is regular, as B > 0: so 𝒦 near a, for εK and εA with a small ε, has one small rotation.")
     p.control(words("𝒦 = 𝒦₀ + ½(ΩᵀA + AΩ)", now, ball.momentum() + (OmegaT * step_A + step_A * Omega) / 2))

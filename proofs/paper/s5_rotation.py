@@ -220,14 +220,12 @@ def parameter_expansion(p: Proof) -> None:
     p.lemma(
         words("x ↦ q x q̄ is 1 at ε = 0", start, 1),
         words("its derivative is itself after x ↦ ½(ωx - xω)", rate, turn * spin),
-    )
-    p.lemma(ring("x ↦ q x q̄ is Ω", [x for column in moved for x in column[1:]], sp.Matrix(three.rotation()).T))
-    p.lemma(
+        ring("x ↦ q x q̄ is Ω", [x for column in moved for x in column[1:]], sp.Matrix(three.rotation()).T),
         ring(
             "½(ωx - xω) is ω × x",
             [x for column in spun for x in column],
             [x for e in omega.hat().T.tolist() for x in (0, *e)],
-        )
+        ),
     )
     constant, terms = quaternions.expansion()
     vector, scalar = quaternions.remainders()
