@@ -349,10 +349,8 @@ class _InRing(Comparer):
         """Whether numerators are multiples of each other."""
         if all(map(proportional, said[0], decided[0])):
             return True
-        mine, theirs = _parts(said[1]), _parts([*decided[1], *said[1]])
-        return all(
-            proportional(_without(a, mine), _without(b, theirs)) for a, b in zip(said[0], decided[0], strict=True)
-        )
+        pairs = zip(said[0], decided[0], strict=True)
+        return all(proportional(_without(a, said[1]), _without(b, [*decided[1], *said[1]])) for a, b in pairs)
 
 
 def comparers(
@@ -391,18 +389,6 @@ def _without(of: Polynomial, divisors: Sequence[Polynomial]) -> Polynomial:
         while of.terms and (smaller := _divided(of, divisor)) is not None:
             of = smaller
     return of
-
-
-def _parts(factors: Sequence[Polynomial]) -> list[Polynomial]:
-    """Each factor without those before it that divide it, the shortest first."""
-    found: list[Polynomial] = []
-    for factor in sorted(factors, key=lambda p: len(p.terms)):
-        for known in found:
-            while (smaller := _divided(factor, known)) is not None:
-                factor = smaller
-        if factor.terms.keys() != {0}:
-            found.append(factor)
-    return found
 
 
 def _divided(a: Polynomial, b: Polynomial) -> Polynomial | None:

@@ -185,10 +185,11 @@ def coefficient(expr: sp.Expr, power: int) -> sp.Expr:
 def alpha(p: Proof) -> None:
     """α: l is missing beside 2Λ1Λ3 in the numerator."""
     p.slips("typo")
+    derived, last = (sp.factor(on_curve(coefficient(true_g(), power))) for power in (1, 2))
     p.reads(
         level_symbols(),
-        (r"\alpha", on_curve(coefficient(true_g(), 1)), "the coefficient of sn² in G/V² (5.14)"),
-        (r"\beta", on_curve(-coefficient(true_g(), 2)), "that of sn⁴, less its sign (5.14)"),
+        (r"\alpha", derived, "the coefficient of sn² in G/V² (5.14)"),
+        (r"\beta", -last, "that of sn⁴, less its sign (5.14)"),
         ("G", on_curve(true_g()), "the function G of δu (5.14-G as corrected)"),
         ("V^2", on_curve(V_SQUARED), "(Λ2 - Λ3)(Λ1 l - 1)/(Λ1Λ2Λ3) (5.13)"),
         (r"\mathrm{sn}^2", Y, "sn² of δu"),
@@ -196,10 +197,9 @@ def alpha(p: Proof) -> None:
     )
     p.assume("0 < k² < 1, Λ1 > Λ2 > Λ3 > 0", *ON_CURVES)
     p.lemma(curve_equation("the constant term of G/V² is 1", coefficient(true_g(), 0), sp.S.One))
-    derived = coefficient(true_g(), 1)
-    p.show("α", sp.factor(on_curve(derived)))
+    p.show("α", derived)
     below = (L2 - L3) * (L1 * l - 1)
-    whole = V_SQUARED * (1 + derived * Y + coefficient(true_g(), 2) * Y**2)
+    whole = V_SQUARED * (1 + derived * Y + last * Y**2)
     p.printed(curve_equation("G = V²(1 + α sn² - β sn⁴)", true_g(), whole))
     p.printed(curve_equation("α as printed", (2 * L1 * L3 - (L1 + L3 - L2)) / below, derived))
     p.corrected(
