@@ -114,11 +114,11 @@ typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7; } t_r8;
 typedef struct { real a0; t_r9 a1; } t_r_r9_;
 
 #ifdef SINGLE
-#define pairs_SPLITTER R(4097.0)
 #define gibbs_LEFT R(5.960464477539063e-08)
 #define gibbs_SMALLEST R(3.552713678800501e-15)
 #define gibbs_LIGHTEST R(3.552713678800501e-15)
 #define gibbs_LEAST_ENOUGH R(2.168404344971009e-19)
+#define pairs_SPLITTER R(4097.0)
 #define integrals_VERTICAL R(0.0001)
 #define loop_small_rotation single_loop_widened
 #define loop_follow_body single_loop_follow_body
@@ -126,17 +126,20 @@ typedef struct { real a0; t_r9 a1; } t_r_r9_;
 #define block_REGISTER 16
 t_id5 branch_small_rotation_double(double, double, double, double, double, double, double, double, double, double);
 #else
-#define pairs_SPLITTER R(134217729.0)
 #define gibbs_LEFT R(1.1102230246251565e-16)
 #define gibbs_SMALLEST R(7.52316384526264e-37)
 #define gibbs_LIGHTEST R(4.909093465297727e-91)
 #define gibbs_LEAST_ENOUGH R(0.0)
+#define pairs_SPLITTER R(134217729.0)
 #define integrals_VERTICAL R(1e-06)
 #define loop_small_rotation branch_small_rotation
 #define block_LANES 40
 #define block_REGISTER 8
 #endif
 
+INLINE t_r3 vectors_three(r1 array, int64_t at) { return (t_r3){array.p[at], array.p[at + 1], array.p[at + 2]}; }
+INLINE t_r3 branch_moments(t_r3 J) { return (t_r3){J.a1 + J.a2, J.a0 + J.a2, J.a0 + J.a1}; }
+INLINE real vectors_largest(t_r3 v) { return max_r(max_r(R(fabs(v.a0)), R(fabs(v.a1))), R(fabs(v.a2))); }
 INLINE real loop_power_of_two(int64_t exponent) {
     return (-126 <= exponent && exponent <= 127) ? R(ldexp(R(1.0), (int)exponent)) : R(0.0);
 }
@@ -145,7 +148,10 @@ INLINE real loop_times(real x, real power, int64_t exponent) {
     return power != R(0.0) ? x * power : R(ldexp(x, (int)exponent));
 }
 
-INLINE t_r3 vectors_three(r1 array, int64_t at) { return (t_r3){array.p[at], array.p[at + 1], array.p[at + 2]}; }
+INLINE void vectors_put(r1 array, int64_t at, t_r3 v) {
+    array.p[at] = v.a0; array.p[at + 1] = v.a1; array.p[at + 2] = v.a2;
+}
+
 INLINE int gibbs_is_heavy(t_r3 I, real D) { return R(32.0) * min_r(min_r(I.a0, I.a1), I.a2) < D; }
 INLINE real vectors_dot(t_r3 a, t_r3 b) { return a.a0 * b.a0 + a.a1 * b.a1 + a.a2 * b.a2; }
 INLINE real vectors_length(t_r3 v) { return R(sqrt(vectors_dot(v, v))); }
@@ -174,23 +180,21 @@ INLINE t_r2 gibbs_certificate(t_r3 k, t_r3 I, real D) {
 }
 
 OUT_OF_LINE real loop_entered(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
-    t_ri t_1 = real_frexp(max_r(max_r(tensor.p[1] + tensor.p[2], tensor.p[0] + tensor.p[2]), tensor.p[0] +
-        tensor.p[1]) + contact);
-    int64_t exponent = t_1.a1;
-    real largest = max_r(max_r(R(fabs(momentum.p[0])), R(fabs(momentum.p[1]))), R(fabs(momentum.p[2])));
-    t_ri size = real_frexp(largest); exponent = max_i(min_i(exponent, 1021), size.a1 - 1021);
-    int tiny = R(0.0) < largest && largest < R(ldexp(gibbs_SMALLEST, (int)exponent));
+    t_r3 t_1 = branch_moments(vectors_three(tensor, 0));
+    t_ri t_2 = real_frexp(max_r(max_r(t_1.a0, t_1.a1), t_1.a2) + contact); int64_t exponent = t_2.a1;
+    real most = vectors_largest(vectors_three(momentum, 0)); t_ri size = real_frexp(most);
+    exponent = max_i(min_i(exponent, 1021), size.a1 - 1021);
+    int tiny = R(0.0) < most && most < R(ldexp(gibbs_SMALLEST, (int)exponent));
     if (tiny) { exponent = max_i(-1, exponent - 1021 + 1); }
     r1_fill(state, R(0.0)); real power = loop_power_of_two(-exponent), half = loop_power_of_two(-exponent - 1);
     for (int64_t c = 0; c < 3; c++) {
         state.p[0 + c] = loop_times(momentum.p[c], half, -exponent - 1); state.p[3 + c] = g.p[c];
         state.p[18 + c] = loop_times(tensor.p[c], power, -exponent);
     }
-    real t_2 = state.p[19] + state.p[20], t_3 = state.p[18] + state.p[20], t_4 = state.p[18] + state.p[19];
-    state.p[21] = t_2; state.p[22] = t_3; state.p[23] = t_4; state.p[24] = loop_times(contact, power, -exponent);
-    t_r3 inertia = vectors_three(state, 21);
-    t_r2 t_5 = gibbs_certificate(vectors_three(state, 0), inertia, state.p[24]); state.p[25] = t_5.a0;
-    state.p[26] = t_5.a1;
+    vectors_put(state, 21, branch_moments(vectors_three(state, 18)));
+    state.p[24] = loop_times(contact, power, -exponent); t_r3 inertia = vectors_three(state, 21);
+    t_r2 t_3 = gibbs_certificate(vectors_three(state, 0), inertia, state.p[24]); state.p[25] = t_3.a0;
+    state.p[26] = t_3.a1;
     if (tiny || min_r(min_r(inertia.a0, inertia.a1), inertia.a2) < gibbs_SMALLEST) { state.p[25] = R(-1.0); }
     return R(ldexp(R(1.0), (int)(exponent + 1)));
 }
@@ -330,10 +334,6 @@ INLINE t_b_r4__r3_ gibbs_settle(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real rad
         p.a0, p.a1};
 }
 
-INLINE void vectors_put(r1 array, int64_t at, t_r3 v) {
-    array.p[at] = v.a0; array.p[at + 1] = v.a1; array.p[at + 2] = v.a2;
-}
-
 INLINE t__r4__r3_rb2 path_improved(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
     Round r = gibbs_newton_round(u, k, g, I, D, 0); t__r4__r3_r p = gibbs_second_round(r, k, I);
     real size = vectors_square(p.a1);
@@ -418,7 +418,6 @@ INLINE t_b_r4__r3_ path_search_on_path(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
     return (t_b_r4__r3_){0, (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)}, u};
 }
 
-INLINE real vectors_largest(t_r3 v) { return max_r(max_r(R(fabs(v.a0)), R(fabs(v.a1))), R(fabs(v.a2))); }
 INLINE t_r3 vectors_shifted(t_r3 v, int64_t exponent) {
     return (t_r3){R(ldexp(v.a0, (int)exponent)), R(ldexp(v.a1, (int)exponent)), R(ldexp(v.a2, (int)exponent))};
 }
@@ -450,7 +449,6 @@ INLINE t_b_r4__r3_ gibbs_search_safely(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, r
 }
 
 #ifndef SINGLE
-INLINE t_r3 branch_moments(t_r3 J) { return (t_r3){J.a1 + J.a2, J.a0 + J.a2, J.a0 + J.a1}; }
 INLINE t_r9 kernel_tangent_jacobian(real q0, real q1, real q2, real q3, real g1, real g2, real g3, real J1, real J2,
     real J3, real D) {
     real t0 = q0 * q0, t1 = g2 * g2, t2 = g3 * g3, t3 = J2 + J3 + D * (t1 + t2), t4 = 2 * t3, t5 = 2 * D * g1;
@@ -1956,17 +1954,16 @@ INLINE int vertical_loop_march(r1 g, r1 I, real k, int64_t count, int64_t every,
     vectors_put_four(q, 0, p); return 1;
 }
 
-INLINE t_i2 double_double_step_scales(r1 momentum, r1 tensor, real contact) {
-    t_ri t_1 = real_frexp(max_r(max_r(tensor.p[1] + tensor.p[2], tensor.p[0] + tensor.p[2]), tensor.p[0] +
-        tensor.p[1]) + contact);
-    int64_t exponent = t_1.a1;
-    real most = max_r(max_r(R(fabs(momentum.p[0])), R(fabs(momentum.p[1]))), R(fabs(momentum.p[2])));
-    t_ri size = real_frexp(most); exponent = max_i(exponent, size.a1 - 1021);
+INLINE t_i2 double_double_scales(r1 momentum, r1 tensor, real contact) {
+    t_r3 t_1 = branch_moments(vectors_three(tensor, 0));
+    t_ri t_2 = real_frexp(max_r(max_r(t_1.a0, t_1.a1), t_1.a2) + contact); int64_t exponent = t_2.a1;
+    real most = vectors_largest(vectors_three(momentum, 0)); t_ri size = real_frexp(most);
+    exponent = max_i(exponent, size.a1 - 1021);
     int64_t beyond = most > R(0.0) ? max_i(0, -200 - (size.a1 - exponent)) : 0;
     return (t_i2){beyond - exponent - 1, beyond};
 }
 
-INLINE t_e3 vectors_exact(t_r3 v) { return (t_e3){v.a0, v.a1, v.a2}; }
+INLINE t_e3 double_double_exact(t_r3 v) { return (t_e3){v.a0, v.a1, v.a2}; }
 INLINE t_r2 pairs_two_product(real a, real b) { real p = a * b; return (t_r2){p, fma(a, b, -p)}; }
 INLINE t_r2 pairs_loose_add(real a, real a_, real b, real b_) {
     t_r2 s = pairs_two_sum(a, b); return (t_r2){s.a0, s.a1 + (a_ + b_)};
@@ -1995,8 +1992,8 @@ INLINE t_r2 pairs_divide(real a, real a_, real b, real b_) {
     return pairs_quick_two_sum(high, (a - r.a0 + (a_ - r.a1)) / b);
 }
 
-INLINE t_p3 double_double_step_unit(t_r3 v) {
-    t_e3 x = vectors_exact(v);
+INLINE t_p3 double_double_unit(t_r3 v) {
+    t_e3 x = double_double_exact(v);
     t_r2 t_1 = vectors_dot__e3_2(x, x), t_2 = pairs_two_sum(t_1.a0, t_1.a1), length = pairs_root(t_2.a0, t_2.a1);
     t_r2 t_3 = pairs_two_sum(length.a0, length.a1), t_4 = pairs_two_sum(length.a0, length.a1);
     t_r2 t_5 = pairs_two_sum(length.a0, length.a1);
@@ -2004,15 +2001,16 @@ INLINE t_p3 double_double_step_unit(t_r3 v) {
         t_5.a0, t_5.a1)};
 }
 
-INLINE void vectors_put_pair_r1ip(r1 array, int64_t at, t_r2 x) { array.p[at] = x.a0; array.p[at + 1] = x.a1; }
-INLINE void vectors_put_pairs_r1i_p3_(r1 array, int64_t at, t_p3 v) {
-    vectors_put_pair_r1ip(array, at, v.a0); vectors_put_pair_r1ip(array, at + 2, v.a1);
-    vectors_put_pair_r1ip(array, at + 4, v.a2);
+INLINE void double_double_put_pair_r1ip(r1 array, int64_t at, t_r2 x) { array.p[at] = x.a0; array.p[at + 1] = x.a1; }
+INLINE void double_double_put_pairs_r1i_p3_(r1 array, int64_t at, t_p3 v) {
+    double_double_put_pair_r1ip(array, at, v.a0); double_double_put_pair_r1ip(array, at + 2, v.a1);
+    double_double_put_pair_r1ip(array, at + 4, v.a2);
 }
 
-INLINE t_r2 vectors_pair(r1 array, int64_t at) { return (t_r2){array.p[at], array.p[at + 1]}; }
-INLINE t_p3 vectors_three_pairs(r1 array, int64_t at) {
-    return (t_p3){vectors_pair(array, at), vectors_pair(array, at + 2), vectors_pair(array, at + 4)};
+INLINE t_r2 double_double_pair(r1 array, int64_t at) { return (t_r2){array.p[at], array.p[at + 1]}; }
+INLINE t_p3 double_double_three_pairs(r1 array, int64_t at) {
+    return (t_p3){double_double_pair(array, at), double_double_pair(array, at + 2), double_double_pair(array, at +
+        4)};
 }
 
 INLINE t_r2 pairs_loose_multiply(real a, real a_, real b, real b_) {
@@ -2027,40 +2025,40 @@ INLINE t_r2 vectors_dot__p3_2(t_p3 a, t_p3 b) {
     return pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
 }
 
-INLINE t_p3 vectors_normalised__p3_(t_p3 v) {
+INLINE t_p3 double_double_normalised__p3_(t_p3 v) {
     return (t_p3){pairs_two_sum(v.a0.a0, v.a0.a1), pairs_two_sum(v.a1.a0, v.a1.a1), pairs_two_sum(v.a2.a0, v.a2.a1)};
 }
 
-INLINE void double_double_loop_remember_pairs(r1 state) {
-    t_p3 k = vectors_three_pairs(state, 0), g = vectors_three_pairs(state, 6);
-    vectors_put_pairs_r1i_p3_(state, 22, vectors_normalised__p3_((t_p3){vectors_dot__p3_2(g, g), vectors_dot__p3_2(k,
-        g), vectors_dot__p3_2(k, k)}));
+INLINE void double_double_remember_pairs(r1 state) {
+    t_p3 k = double_double_three_pairs(state, 0), g = double_double_three_pairs(state, 6);
+    double_double_put_pairs_r1i_p3_(state, 22, double_double_normalised__p3_((t_p3){vectors_dot__p3_2(g, g),
+        vectors_dot__p3_2(k, g), vectors_dot__p3_2(k, k)}));
 }
 
-INLINE t_r3 vectors_highs__p3_(t_p3 v) { return (t_r3){v.a0.a0, v.a1.a0, v.a2.a0}; }
-INLINE t_r2 double_double_step_bounds(t_r3 k, t_r3 I, real D) {
+INLINE t_r3 double_double_highs__p3_(t_p3 v) { return (t_r3){v.a0.a0, v.a1.a0, v.a2.a0}; }
+INLINE t_r2 double_double_bounds(t_r3 k, t_r3 I, real D) {
     if (min_r(min_r(I.a0, I.a1), I.a2) < R(7.52316384526264e-37)) { return (t_r2){R(-1.0), R(0.0)}; }
     return gibbs_certificate(k, I, D);
 }
 
-OUT_OF_LINE t_i2 double_double_loop_prepare_pairs(r1 momentum, r1 g, r1 tensor, real contact, r2 c, r1 state, r1
-    radius, r1 enough) {
-    t_r3 k, inertia; t_i2 shift = double_double_step_scales(momentum, tensor, contact);
+OUT_OF_LINE t_i2 double_double_prepare_pairs(r1 momentum, r1 g, r1 tensor, real contact, r2 c, r1 state, r1 radius, r1
+    enough) {
+    t_r3 k, inertia; t_i2 shift = double_double_scales(momentum, tensor, contact);
     int64_t size = shift.a1 - shift.a0 - 1;
     for (int64_t i = 0; i < 3; i++) {
         state.p[0 + 2 * i] = R(ldexp(momentum.p[i], (int)shift.a0)); state.p[0 + 2 * i + 1] = R(0.0);
         state.p[18 + i] = R(ldexp(tensor.p[i], (int)-size));
     }
     state.p[21] = R(ldexp(contact, (int)-size));
-    vectors_put_pairs_r1i_p3_(state, 6, double_double_step_unit(vectors_three(g, 0)));
+    double_double_put_pairs_r1i_p3_(state, 6, double_double_unit(vectors_three(g, 0)));
     t_r2 t_1 = pairs_two_sum(state.p[19], state.p[20]); state.p[12] = t_1.a0; state.p[13] = t_1.a1;
     t_r2 t_2 = pairs_two_sum(state.p[18], state.p[20]); state.p[14] = t_2.a0; state.p[15] = t_2.a1;
     t_r2 t_3 = pairs_two_sum(state.p[18], state.p[19]); state.p[16] = t_3.a0; state.p[17] = t_3.a1;
-    double_double_loop_remember_pairs(state);
+    double_double_remember_pairs(state);
     for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
-        k = vectors_scaled(AT2(c, i, 0), vectors_highs__p3_(vectors_three_pairs(state, 0)));
-        inertia = vectors_highs__p3_(vectors_three_pairs(state, 12));
-        t_r2 t_4 = double_double_step_bounds(k, inertia, state.p[21]); radius.p[i] = t_4.a0; enough.p[i] = t_4.a1;
+        k = vectors_scaled(AT2(c, i, 0), double_double_highs__p3_(double_double_three_pairs(state, 0)));
+        inertia = double_double_highs__p3_(double_double_three_pairs(state, 12));
+        t_r2 t_4 = double_double_bounds(k, inertia, state.p[21]); radius.p[i] = t_4.a0; enough.p[i] = t_4.a1;
     }
     return (t_i2){shift.a0, shift.a1};
 }
@@ -2070,7 +2068,7 @@ INLINE t_p3 vectors_scaled_p_p3_(t_r2 s, t_p3 v) {
         v.a1.a1), pairs_loose_multiply(s.a0, s.a1, v.a2.a0, v.a2.a1)};
 }
 
-INLINE Round double_double_step_approach(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real radius, real enough) {
+INLINE Round double_double_approach(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real radius, real enough) {
     Round r = gibbs_newton_round(u, k, g, I, D, 0);
     for (int64_t i_0 = 0; i_0 < 11; i_0++) {
         if (r.first <= enough || radius < R(0.0)) { break; }
@@ -2145,7 +2143,7 @@ INLINE t_r3 kernel_gibbs_mixed(real d1, real d2, real d3, real e1, real e2, real
     real o_x3 = c13 * r1 + c23 * r2 + c33 * r3; return (t_r3){o_x1, o_x2, o_x3};
 }
 
-INLINE t_r3 double_double_step_correction(real det, t_r3 d, t_r9 cofactors, t_r3 r, t_r3 k, t_r3 I) {
+INLINE t_r3 double_double_correction(real det, t_r3 d, t_r9 cofactors, t_r3 r, t_r3 k, t_r3 I) {
     t_r9 c = cofactors; real s = R(-1.0) / det, e1 = s * (c.a0 * r.a0 + c.a3 * r.a1 + c.a6 * r.a2);
     real e2 = s * (c.a1 * r.a0 + c.a4 * r.a1 + c.a7 * r.a2), e3 = s * (c.a2 * r.a0 + c.a5 * r.a1 + c.a8 * r.a2);
     t_r3 e = (t_r3){e1, e2, e3}, t_1 = vectors_plus(d, vectors_scaled(R(0.5), e));
@@ -2153,16 +2151,16 @@ INLINE t_r3 double_double_step_correction(real det, t_r3 d, t_r9 cofactors, t_r3
         k.a2, c.a0, c.a1, c.a2, c.a3, c.a4, c.a5, c.a6, c.a7, c.a8, I.a0, I.a1, I.a2)));
 }
 
-INLINE int double_double_step_small(t_r3 w, t_r3 e) {
+INLINE int double_double_small(t_r3 w, t_r3 e) {
     return vectors_square(e) <= R(7.888609052210118e-31) * vectors_square(w);
 }
 
-INLINE t_p3 vectors_summed(t_r3 v, t_r3 w) {
+INLINE t_p3 double_double_summed(t_r3 v, t_r3 w) {
     t_r2 t_1 = pairs_two_sum(v.a0, w.a0), t_2 = pairs_two_sum(v.a1, w.a1), t_3 = pairs_two_sum(v.a2, w.a2);
     return (t_p3){(t_r2){t_1.a0, t_1.a1}, (t_r2){t_2.a0, t_2.a1}, (t_r2){t_3.a0, t_3.a1}};
 }
 
-INLINE t_r4 double_double_step_rotation_of(t_r3 w) {
+INLINE t_r4 double_double_rotation_of(t_r3 w) {
     real p0 = R(1.0) / R(sqrt(R(1.0) + vectors_square(w))); return (t_r4){p0, p0 * w.a0, p0 * w.a1, p0 * w.a2};
 }
 
@@ -2171,7 +2169,7 @@ INLINE t_p3 vectors_plus__p3_2(t_p3 a, t_p3 b) {
         b.a1.a1), pairs_loose_add(a.a2.a0, a.a2.a1, b.a2.a0, b.a2.a1)};
 }
 
-INLINE t_q3 double_double_step_sums_normal__p3_(t_p3 v) {
+INLINE t_q3 double_double_sums_normal__p3_(t_p3 v) {
     return (t_q3){(t_r2){v.a0.a0, v.a0.a1}, (t_r2){v.a1.a0, v.a1.a1}, (t_r2){v.a2.a0, v.a2.a1}};
 }
 
@@ -2253,7 +2251,7 @@ INLINE t_r2 vectors_square_of_four__p4_(t_p4 q) {
     return pairs_loose_add(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
 }
 
-INLINE t_p4 vectors_of_length_one__p4_(t_p4 q) {
+INLINE t_p4 double_double_of_length_one__p4_(t_p4 q) {
     t_r2 t_1 = vectors_square_of_four__p4_(q), t_2 = pairs_loose_add_float(-t_1.a0, -t_1.a1, 3);
     t_r2 t = (t_r2){t_2.a0 / 2, t_2.a1 / 2};
     return (t_p4){pairs_loose_multiply(t.a0, t.a1, q.a0.a0, q.a0.a1), pairs_loose_multiply(t.a0, t.a1, q.a1.a0,
@@ -2261,29 +2259,29 @@ INLINE t_p4 vectors_of_length_one__p4_(t_p4 q) {
         q.a3.a1)};
 }
 
-INLINE t_p4 vectors_normalised_four__p4_(t_p4 q) {
+INLINE t_p4 double_double_normalised_four__p4_(t_p4 q) {
     return (t_p4){pairs_two_sum(q.a0.a0, q.a0.a1), pairs_two_sum(q.a1.a0, q.a1.a1), pairs_two_sum(q.a2.a0, q.a2.a1),
         pairs_two_sum(q.a3.a0, q.a3.a1)};
 }
 
-INLINE t_b_p3_ double_double_step_polished__r4__p3_2_r3_r2(t_r4 p, t_p3 k, t_p3 g, t_r3 J, real D, real near) {
+INLINE t_b_p3_ double_double_polished__r4__p3_2_r3_r2(t_r4 p, t_p3 k, t_p3 g, t_r3 J, real D, real near) {
     t_q3 r; t_r_r9_ det; t_r3 w; real change, extent;
-    t_q3 K = double_double_step_sums_normal__p3_(vectors_plus__p3_2(k, k));
-    t_q3 v = double_double_step_sums_normal__p3_(g); t_r3 floats = vectors_highs__p3_(g);
+    t_q3 K = double_double_sums_normal__p3_(vectors_plus__p3_2(k, k)), v = double_double_sums_normal__p3_(g);
+    t_r3 floats = double_double_highs__p3_(g);
     t_p4 q = (t_p4){(t_r2){p.a0, R(0.0)}, (t_r2){p.a1, R(0.0)}, (t_r2){p.a2, R(0.0)}, (t_r2){p.a3, R(0.0)}};
     real before = near; int settled = 0;
     for (int64_t i_0 = 0; i_0 < 60; i_0++) {
-        t_q3 t_1 = double_double_step_sums_normal__p3_((t_p3){q.a1, q.a2, q.a3}); t_e3 t_2 = vectors_exact(J);
+        t_q3 t_1 = double_double_sums_normal__p3_((t_p3){q.a1, q.a2, q.a3}); t_e3 t_2 = double_double_exact(J);
         r = kernel_residual_q10e4((t_r2){q.a0.a0, q.a0.a1}, t_1.a0, t_1.a1, t_1.a2, K.a0, K.a1, K.a2, v.a0, v.a1,
             v.a2, t_2.a0, t_2.a1, t_2.a2, D);
-        t_r3 t_3 = vectors_highs__p3_((t_p3){q.a1, q.a2, q.a3});
+        t_r3 t_3 = double_double_highs__p3_((t_p3){q.a1, q.a2, q.a3});
         det = branch_inverse((t_r4){q.a0.a0, t_3.a0, t_3.a1, t_3.a2}, floats, J, D);
         if (!(det.a0 > R(0.0))) { break; }
         t_r2 t_4 = pairs_two_sum(r.a0.a0, r.a0.a1), t_5 = pairs_two_sum(r.a1.a0, r.a1.a1);
         t_r2 t_6 = pairs_two_sum(r.a2.a0, r.a2.a1); w = branch_product(det.a1, (t_r3){t_4.a0, t_5.a0, t_6.a0});
-        q = vectors_normalised_four__p4_(vectors_of_length_one__p4_(kernel_compose_p41e3(q.a0, q.a1, q.a2, q.a3,
-            -w.a0, -w.a1, -w.a2)));
-        change = vectors_largest(w); extent = vectors_largest(vectors_highs__p3_((t_p3){q.a1, q.a2, q.a3}));
+        q = double_double_normalised_four__p4_(double_double_of_length_one__p4_(kernel_compose_p41e3(q.a0, q.a1, q.a2,
+            q.a3, -w.a0, -w.a1, -w.a2)));
+        change = vectors_largest(w); extent = vectors_largest(double_double_highs__p3_((t_p3){q.a1, q.a2, q.a3}));
         if (change > near) { break; }
         settled = change <= R(4.930380657631324e-32) * extent || (change <= R(8.673617379884035e-19) * extent &&
             change >= R(0.25) * before);
@@ -2298,31 +2296,31 @@ INLINE t_b_p3_ double_double_step_polished__r4__p3_2_r3_r2(t_r4 p, t_p3 k, t_p3 
         t_8.a0, t_8.a1), pairs_divide(q.a3.a0, q.a3.a1, t_9.a0, t_9.a1)}};
 }
 
-INLINE t_ir_p3_ double_double_step_solved__r3__p3_3_r3_r3(t_r3 u, t_p3 k, t_p3 g, t_p3 I, t_r3 J, real D, real radius,
-    real enough) {
+INLINE t_ir_p3_ double_double_solved__r3__p3_3_r3_r3(t_r3 u, t_p3 k, t_p3 g, t_p3 I, t_r3 J, real D, real radius, real
+    enough) {
     t_p3 G; t_r3 left, e; t_r4 p; real p0, p1, p2, p3;
-    t_r3 floats = vectors_highs__p3_(k), vertical = vectors_highs__p3_(g), inertia = vectors_highs__p3_(I);
-    t_r2 zero = (t_r2){R(0.0), R(0.0)}; int t_1 = vectors_square(u) <= radius;
-    t_r3 t_2 = (t_r3){R(0.0), R(0.0), R(0.0)};
-    Round r = double_double_step_approach((t_r3){t_1 ? u.a0 : t_2.a0, t_1 ? u.a1 : t_2.a1, t_1 ? u.a2 : t_2.a2},
-        floats, vertical, inertia, D, radius, enough);
+    t_r3 floats = double_double_highs__p3_(k), vertical = double_double_highs__p3_(g);
+    t_r3 inertia = double_double_highs__p3_(I); t_r2 zero = (t_r2){R(0.0), R(0.0)};
+    int t_1 = vectors_square(u) <= radius; t_r3 t_2 = (t_r3){R(0.0), R(0.0), R(0.0)};
+    Round r = double_double_approach((t_r3){t_1 ? u.a0 : t_2.a0, t_1 ? u.a1 : t_2.a1, t_1 ? u.a2 : t_2.a2}, floats,
+        vertical, inertia, D, radius, enough);
     int settled = radius >= R(0.0) && r.first <= enough; t_r3 w = r.w; int64_t status = 0; real reach = R(1.0);
     if (settled) {
-        t_e3 t_3 = vectors_exact(w);
+        t_e3 t_3 = double_double_exact(w);
         G = kernel_gibbs_residual_e3p9e(t_3.a0, t_3.a1, t_3.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, I.a0, I.a1, I.a2,
             D);
         t_r2 t_4 = pairs_two_sum(G.a0.a0, G.a0.a1), t_5 = pairs_two_sum(G.a1.a0, G.a1.a1);
         t_r2 t_6 = pairs_two_sum(G.a2.a0, G.a2.a1); left = (t_r3){t_4.a0, t_5.a0, t_6.a0};
-        e = double_double_step_correction(r.p.a0, r.d, r.cofactors, left, floats, inertia);
-        if (double_double_step_small(w, e)) { return (t_ir_p3_){0, R(1.0), vectors_summed(w, e)}; }
-        p = double_double_step_rotation_of(vectors_plus(w, e));
+        e = double_double_correction(r.p.a0, r.d, r.cofactors, left, floats, inertia);
+        if (double_double_small(w, e)) { return (t_ir_p3_){0, R(1.0), double_double_summed(w, e)}; }
+        p = double_double_rotation_of(vectors_plus(w, e));
     }
     else {
         if (radius == R(-2.0)) {
             t_b_r4__r3_ t_7 = path_search_on_path(u, floats, vertical, inertia, D); settled = t_7.a0; p = t_7.a1;
             w = t_7.a2;
         }
-        if (settled) { p = double_double_step_rotation_of(w); }
+        if (settled) { p = double_double_rotation_of(w); }
         else {
             t_r3 t_8 = vectors_scaled(R(2.0), floats);
             t_ir5 t_9 = branch_small_rotation(t_8.a0, t_8.a1, t_8.a2, vertical.a0, vertical.a1, vertical.a2, J.a0,
@@ -2334,7 +2332,7 @@ INLINE t_ir_p3_ double_double_step_solved__r3__p3_3_r3_r3(t_r3 u, t_p3 k, t_p3 g
             return (t_ir_p3_){status, reach, (t_p3){zero, zero, zero}};
         }
     }
-    t_b_p3_ t_10 = double_double_step_polished__r4__p3_2_r3_r2(p, k, g, J, D, status == 1 ? R(1e-06) : R(0.1));
+    t_b_p3_ t_10 = double_double_polished__r4__p3_2_r3_r2(p, k, g, J, D, status == 1 ? R(1e-06) : R(0.1));
     settled = t_10.a0; t_p3 found = t_10.a1;
     if (settled) { return (t_ir_p3_){0, R(1.0), found}; }
     return (t_ir_p3_){status == 1 ? 1 : 2, reach, (t_p3){zero, zero, zero}};
@@ -2345,7 +2343,7 @@ INLINE t_r8 sums_filtered(real b, real c, real d, real e, real f, real h, real o
         o + R(8.0) * w, -w};
 }
 
-INLINE void double_double_loop_extrapolated(r2 past, t_r3 w) {
+INLINE void double_double_extrapolated(r2 past, t_r3 w) {
     int64_t c = 0; real x = w.a0;
     t_r8 t_1 = sums_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
         AT2(past, 6, c), AT2(past, 7, c), x);
@@ -2363,12 +2361,12 @@ INLINE void double_double_loop_extrapolated(r2 past, t_r3 w) {
     AT2(past, 4, c) = t_3.a4; AT2(past, 5, c) = t_3.a5; AT2(past, 6, c) = t_3.a6; AT2(past, 7, c) = t_3.a7;
 }
 
-INLINE t_ir_p3_ double_double_loop_stage_r1pr2r2(r1 state, t_r2 c, real radius, real enough, r2 past) {
-    t_p3 k = vectors_normalised__p3_(vectors_scaled_p_p3_(c, vectors_three_pairs(state, 0)));
-    t_p3 g = vectors_three_pairs(state, 6), inertia = vectors_three_pairs(state, 12);
-    t_ir_p3_ status = double_double_step_solved__r3__p3_3_r3_r3(vectors_three(r2_row(past, 0), 0), k, g, inertia,
+INLINE t_ir_p3_ double_double_stage_r1pr2r2(r1 state, t_r2 c, real radius, real enough, r2 past) {
+    t_p3 k = double_double_normalised__p3_(vectors_scaled_p_p3_(c, double_double_three_pairs(state, 0)));
+    t_p3 g = double_double_three_pairs(state, 6), inertia = double_double_three_pairs(state, 12);
+    t_ir_p3_ status = double_double_solved__r3__p3_3_r3_r3(vectors_three(r2_row(past, 0), 0), k, g, inertia,
         vectors_three(state, 18), state.p[21], radius, enough);
-    if (status.a0 == 0) { double_double_loop_extrapolated(past, vectors_highs__p3_(status.a2)); }
+    if (status.a0 == 0) { double_double_extrapolated(past, double_double_highs__p3_(status.a2)); }
     return (t_ir_p3_){status.a0, status.a1, status.a2};
 }
 
@@ -2454,14 +2452,14 @@ INLINE t_p4 kernel_compose_p8(t_r2 a0, t_r2 a1, t_r2 a2, t_r2 a3, t_r2 b0, t_r2 
     t_r2 o_c3 = pairs_loose_add(t_23.a0, t_23.a1, t_24.a0, t_24.a1); return (t_p4){o_c0, o_c1, o_c2, o_c3};
 }
 
-INLINE t__p4_p2 double_double_loop_rolled__p3_2_p4_p2r(t_p3 u, t_p3 g, t_p4 a, t_r2 x, t_r2 y, real rho) {
+INLINE t__p4_p2 double_double_rolled__p3_2_p4_p2r(t_p3 u, t_p3 g, t_p4 a, t_r2 x, t_r2 y, real rho) {
     t_r2 t_1 = vectors_dot__p3_2(u, u), t_2 = pairs_loose_add_float(t_1.a0, t_1.a1, R(1.0));
     t_r2 t_3 = pairs_two_sum(t_2.a0, t_2.a1), t_4 = pairs_root(t_3.a0, t_3.a1), t_5 = pairs_two_sum(t_4.a0, t_4.a1);
     t_r2 q0 = pairs_divide(R(1.0), 0, t_5.a0, t_5.a1);
     t_p3 q = vectors_scaled_p_p3_(q0, u), t_6 = kernel_centre_step_p7(q0, q.a0, q.a1, q.a2, g.a0, g.a1, g.a2);
     t_p3 d1 = kernel_rotate_p7(a.a0, a.a1, a.a2, a.a3, t_6.a0, t_6.a1, t_6.a2);
-    t_p4 turned = vectors_normalised_four__p4_(vectors_of_length_one__p4_(kernel_compose_p8(a.a0, a.a1, a.a2, a.a3,
-        q0, q.a0, q.a1, q.a2)));
+    t_p4 turned = double_double_normalised_four__p4_(double_double_of_length_one__p4_(kernel_compose_p8(a.a0, a.a1,
+        a.a2, a.a3, q0, q.a0, q.a1, q.a2)));
     t_r2 t_7 = pairs_loose_multiply_float(d1.a0.a0, d1.a0.a1, rho);
     t_r2 t_8 = pairs_loose_add(x.a0, x.a1, t_7.a0, t_7.a1);
     t_r2 t_9 = pairs_loose_multiply_float(d1.a1.a0, d1.a1.a1, rho);
@@ -2469,14 +2467,14 @@ INLINE t__p4_p2 double_double_loop_rolled__p3_2_p4_p2r(t_p3 u, t_p3 g, t_p4 a, t
     return (t__p4_p2){turned, pairs_two_sum(t_8.a0, t_8.a1), pairs_two_sum(t_10.a0, t_10.a1)};
 }
 
-INLINE void double_double_loop_follow_body__p3_r13r(t_p3 u, r1 state, r1 attitude, r1 contact, real rho) {
-    t_p4 a = (t_p4){vectors_pair(attitude, 0), vectors_pair(attitude, 2), vectors_pair(attitude, 4),
-        vectors_pair(attitude, 6)};
-    t__p4_p2 b = double_double_loop_rolled__p3_2_p4_p2r(u, vectors_three_pairs(state, 6), a, vectors_pair(contact, 0),
-        vectors_pair(contact, 2), rho);
-    vectors_put_pair_r1ip(attitude, 0, b.a0.a0);
-    vectors_put_pairs_r1i_p3_(attitude, 2, (t_p3){b.a0.a1, b.a0.a2, b.a0.a3});
-    vectors_put_pair_r1ip(contact, 0, b.a1); vectors_put_pair_r1ip(contact, 2, b.a2);
+INLINE void double_double_follow_body__p3_r13r(t_p3 u, r1 state, r1 attitude, r1 contact, real rho) {
+    t_p4 a = (t_p4){double_double_pair(attitude, 0), double_double_pair(attitude, 2), double_double_pair(attitude, 4),
+        double_double_pair(attitude, 6)};
+    t__p4_p2 b = double_double_rolled__p3_2_p4_p2r(u, double_double_three_pairs(state, 6), a,
+        double_double_pair(contact, 0), double_double_pair(contact, 2), rho);
+    double_double_put_pair_r1ip(attitude, 0, b.a0.a0);
+    double_double_put_pairs_r1i_p3_(attitude, 2, (t_p3){b.a0.a1, b.a0.a2, b.a0.a3});
+    double_double_put_pair_r1ip(contact, 0, b.a1); double_double_put_pair_r1ip(contact, 2, b.a2);
 }
 
 INLINE t_p3 kernel_turn_1p6(t_r2 p1, t_r2 p2, t_r2 p3, t_r2 v1, t_r2 v2, t_r2 v3) {
@@ -2511,8 +2509,8 @@ INLINE t_p3 kernel_turn_1p6(t_r2 p1, t_r2 p2, t_r2 p3, t_r2 v1, t_r2 v2, t_r2 v3
     t_r2 o_x3 = pairs_loose_multiply(s.a0, s.a1, t_25.a0, t_25.a1); return (t_p3){o_x1, o_x2, o_x3};
 }
 
-INLINE t_p3 double_double_loop_turned__p3_2(t_p3 u, t_p3 v) {
-    return vectors_normalised__p3_(vectors_plus__p3_2(v, kernel_turn_1p6(u.a0, u.a1, u.a2, v.a0, v.a1, v.a2)));
+INLINE t_p3 double_double_turned__p3_2(t_p3 u, t_p3 v) {
+    return double_double_normalised__p3_(vectors_plus__p3_2(v, kernel_turn_1p6(u.a0, u.a1, u.a2, v.a0, v.a1, v.a2)));
 }
 
 INLINE t_r2 pairs_add(real a, real a_, real b, real b_) {
@@ -2522,88 +2520,89 @@ INLINE t_r2 pairs_add(real a, real a_, real b, real b_) {
 }
 
 INLINE t_r2 pairs_subtract(real a, real a_, real b, real b_) { return pairs_add(a, a_, -b, -b_); }
-OUT_OF_LINE void double_double_loop_restore_pairs(r1 state) {
-    t_r2 x, y;
-    t_p3 k = vectors_three_pairs(state, 0), g = vectors_three_pairs(state, 6), h = vectors_three_pairs(state, 22);
-    t_p3 now = vectors_normalised__p3_((t_p3){vectors_dot__p3_2(g, g), vectors_dot__p3_2(k, g), vectors_dot__p3_2(k,
-        k)});
+OUT_OF_LINE void double_double_restore_pairs(r1 state) {
+    t_r2 x, y; t_p3 k = double_double_three_pairs(state, 0), g = double_double_three_pairs(state, 6);
+    t_p3 h = double_double_three_pairs(state, 22);
+    t_p3 now = double_double_normalised__p3_((t_p3){vectors_dot__p3_2(g, g), vectors_dot__p3_2(k, g),
+        vectors_dot__p3_2(k, k)});
     t_r2 unit = pairs_subtract(h.a0.a0, h.a0.a1, now.a0.a0, now.a0.a1);
     t_r2 height = pairs_subtract(h.a1.a0, h.a1.a1, now.a1.a0, now.a1.a1);
     t_r2 squared = pairs_subtract(h.a2.a0, h.a2.a1, now.a2.a0, now.a2.a1);
     t_r3 stretch = integrals_shares(unit.a0, height.a0, squared.a0, h.a0.a0, h.a1.a0, h.a2.a0);
     for (int64_t i = 0; i < 6; i += 2) {
-        x = vectors_pair(state, 0 + i); y = vectors_pair(state, 6 + i);
+        x = double_double_pair(state, 0 + i); y = double_double_pair(state, 6 + i);
         t_r2 t_1 = pairs_two_sum(x.a0, x.a1 + (stretch.a1 * x.a0 + stretch.a2 * y.a0));
-        vectors_put_pair_r1ip(state, 0 + i, (t_r2){t_1.a0, t_1.a1});
+        double_double_put_pair_r1ip(state, 0 + i, (t_r2){t_1.a0, t_1.a1});
         t_r2 t_2 = pairs_two_sum(y.a0, y.a1 + stretch.a0 * y.a0);
-        vectors_put_pair_r1ip(state, 6 + i, (t_r2){t_2.a0, t_2.a1});
+        double_double_put_pair_r1ip(state, 6 + i, (t_r2){t_2.a0, t_2.a1});
     }
 }
 
-INLINE void double_double_loop_write(r1 frame, r1 frame_, r1 pairs, int64_t at, int64_t exponent) {
+INLINE void double_double_write(r1 frame, r1 frame_, r1 pairs, int64_t at, int64_t exponent) {
     for (int64_t i = 0, end_i = frame.n0; i < end_i; i++) {
         frame.p[i] = R(ldexp(pairs.p[at + 2 * i], (int)exponent));
         frame_.p[i] = R(ldexp(pairs.p[at + 2 * i + 1], (int)exponent));
     }
 }
 
-INLINE t_i2r double_double_loop_march_pairs(r1 state, r2 c, r1 radius, r1 enough, r3 past, int64_t first, int64_t
-    count, int64_t every, int64_t shift, int64_t beyond, r2 momenta, r2 momenta_, r2 verticals, r2 verticals_, int
-    with_body, r1 attitude, r1 contact, real rho, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
+INLINE t_i2r double_double_march_pairs(r1 state, r2 c, r1 radius, r1 enough, r3 past, int64_t first, int64_t count,
+    int64_t every, int64_t shift, int64_t beyond, r2 momenta, r2 momenta_, r2 verticals, r2 verticals_, int with_body,
+    r1 attitude, r1 contact, real rho, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
     t_ir_p3_ status; int64_t frame; int64_t period = max_i(1, div_i(1024, c.n0));
     for (int64_t step = first + 1, end_step = first + count + 1; step < end_step; step++) {
         for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
-            status = double_double_loop_stage_r1pr2r2(state, (t_r2){AT2(c, i, 0), AT2(c, i, 1)}, radius.p[i],
-                enough.p[i], r3_row(past, i));
+            status = double_double_stage_r1pr2r2(state, (t_r2){AT2(c, i, 0), AT2(c, i, 1)}, radius.p[i], enough.p[i],
+                r3_row(past, i));
             if (status.a0 != 0) { return (t_i2r){step - 1 - first, status.a0, status.a1}; }
-            if (with_body) { double_double_loop_follow_body__p3_r13r(status.a2, state, attitude, contact, rho); }
-            vectors_put_pairs_r1i_p3_(state, 0, double_double_loop_turned__p3_2(status.a2, vectors_three_pairs(state,
-                0)));
-            vectors_put_pairs_r1i_p3_(state, 6, double_double_loop_turned__p3_2(status.a2, vectors_three_pairs(state,
-                6)));
+            if (with_body) { double_double_follow_body__p3_r13r(status.a2, state, attitude, contact, rho); }
+            double_double_put_pairs_r1i_p3_(state, 0, double_double_turned__p3_2(status.a2,
+                double_double_three_pairs(state, 0)));
+            double_double_put_pairs_r1i_p3_(state, 6, double_double_turned__p3_2(status.a2,
+                double_double_three_pairs(state, 6)));
         }
-        if (mod_i(step, period) == 0) { double_double_loop_restore_pairs(state); }
+        if (mod_i(step, period) == 0) { double_double_restore_pairs(state); }
         if (mod_i(step, every) == 0) {
             frame = div_i(step, every);
-            double_double_loop_write(r2_row(momenta, frame), r2_row(momenta_, frame), state, 0, -shift);
-            double_double_loop_write(r2_row(verticals, frame), r2_row(verticals_, frame), state, 6, 0);
+            double_double_write(r2_row(momenta, frame), r2_row(momenta_, frame), state, 0, -shift);
+            double_double_write(r2_row(verticals, frame), r2_row(verticals_, frame), state, 6, 0);
             if (with_body) {
-                double_double_loop_write(r2_row(attitudes, frame), r2_row(attitudes_, frame), attitude, 0, 0);
-                double_double_loop_write(r2_row(traces, frame), r2_row(traces_, frame), contact, 0, -beyond);
+                double_double_write(r2_row(attitudes, frame), r2_row(attitudes_, frame), attitude, 0, 0);
+                double_double_write(r2_row(traces, frame), r2_row(traces_, frame), contact, 0, -beyond);
             }
         }
     }
     return (t_i2r){count, 0, R(1.0)};
 }
 
-INLINE void double_double_block_prepare_pairs_block(r2 momentum, r2 g, r2 tensor, r1 contact, r2 c, r2 state, i1
-    shift, i1 beyond) {
+INLINE void double_double_prepare_pairs_block(r2 momentum, r2 g, r2 tensor, r1 contact, r2 c, r2 state, i1 shift, i1
+    beyond) {
     int64_t i; ALIGNED real one_[28]; r1 one = {one_, 28}; ALIGNED real radius_[1]; r1 radius = {radius_, 1};
     ALIGNED real enough_[1]; r1 enough = {enough_, 1}; int64_t last = contact.n0 - 1;
     for (int64_t lane = 0, end_lane = state.n1; lane < end_lane; lane++) {
         i = min_i(lane, last);
-        t_i2 t_1 = double_double_loop_prepare_pairs(r2_row(momentum, i), r2_row(g, i), r2_row(tensor, i),
-            contact.p[i], c, one, radius, enough);
+        t_i2 t_1 = double_double_prepare_pairs(r2_row(momentum, i), r2_row(g, i), r2_row(tensor, i), contact.p[i], c,
+            one, radius, enough);
         shift.p[i] = t_1.a0; beyond.p[i] = t_1.a1;
         for (int64_t row = 0; row < 52; row++) { AT2(state, row, lane) = row < 28 ? one.p[row] : R(0.0); }
         AT2(state, 52, lane) = radius.p[0]; AT2(state, 53, lane) = enough.p[0];
     }
 }
 
-INLINE t_p3 vectors_pairs_in(r2 S, int64_t at, int64_t i) {
+INLINE t_p3 double_double_pairs_in(r2 S, int64_t at, int64_t i) {
     return (t_p3){(t_r2){AT2(S, at, i), AT2(S, at + 1, i)}, (t_r2){AT2(S, at + 2, i), AT2(S, at + 3, i)},
         (t_r2){AT2(S, at + 4, i), AT2(S, at + 5, i)}};
 }
 
-INLINE int64_t double_double_block_approached(r2 S, r2 P, i1 ok, int again) {
+INLINE int64_t double_double_approached(r2 S, r2 P, i1 ok, int again) {
     real radius; t_r3 u, k, g, inertia; Round r; int done; t_r9 c; int64_t bad = 0;
     INDEPENDENT for (int64_t i = 0; i < 16; i++) {
         radius = AT2(S, 52, i); t_r3 t_1 = vectors_three_in(P, 0, i), t_2 = vectors_three_in(S, 28, i);
         u = (t_r3){again ? t_1.a0 : t_2.a0, again ? t_1.a1 : t_2.a1, again ? t_1.a2 : t_2.a2};
         int t_3 = vectors_square(u) <= radius; t_r3 t_4 = (t_r3){R(0.0), R(0.0), R(0.0)};
         u = (t_r3){t_3 ? u.a0 : t_4.a0, t_3 ? u.a1 : t_4.a1, t_3 ? u.a2 : t_4.a2};
-        k = vectors_highs__p3_(vectors_pairs_in(S, 0, i)); g = vectors_highs__p3_(vectors_pairs_in(S, 6, i));
-        inertia = vectors_highs__p3_(vectors_pairs_in(S, 12, i));
+        k = double_double_highs__p3_(double_double_pairs_in(S, 0, i));
+        g = double_double_highs__p3_(double_double_pairs_in(S, 6, i));
+        inertia = double_double_highs__p3_(double_double_pairs_in(S, 12, i));
         r = gibbs_newton_round(u, k, g, inertia, AT2(S, 21, i), 0); done = again & (ok.p[i] == 1); c = r.cofactors;
         t_r3 t_5 = vectors_three_in(P, 0, i);
         vectors_put_in(P, 0, i, (t_r3){done ? t_5.a0 : r.w.a0, done ? t_5.a1 : r.w.a1, done ? t_5.a2 : r.w.a2});
@@ -2623,33 +2622,36 @@ INLINE int64_t double_double_block_approached(r2 S, r2 P, i1 ok, int again) {
     return bad;
 }
 
-INLINE void double_double_block_residuals(r2 S, r2 P) {
+INLINE void double_double_residuals(r2 S, r2 P) {
     t_e3 w; real contact; t_p3 k, g, inertia;
     INDEPENDENT for (int64_t i = 0; i < 16; i++) {
-        w = vectors_exact(vectors_three_in(P, 0, i)); contact = AT2(S, 21, i); k = vectors_pairs_in(S, 0, i);
-        g = vectors_pairs_in(S, 6, i); inertia = vectors_pairs_in(S, 12, i);
-        vectors_put_in(P, 16, i, vectors_highs__p3_(vectors_normalised__p3_(kernel_gibbs_residual_e3p9e(w.a0, w.a1,
-            w.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, inertia.a0, inertia.a1, inertia.a2, contact))));
+        w = double_double_exact(vectors_three_in(P, 0, i)); contact = AT2(S, 21, i);
+        k = double_double_pairs_in(S, 0, i); g = double_double_pairs_in(S, 6, i);
+        inertia = double_double_pairs_in(S, 12, i);
+        vectors_put_in(P, 16, i,
+            double_double_highs__p3_(double_double_normalised__p3_(kernel_gibbs_residual_e3p9e(w.a0, w.a1, w.a2, k.a0,
+            k.a1, k.a2, g.a0, g.a1, g.a2, inertia.a0, inertia.a1, inertia.a2, contact))));
     }
 }
 
-INLINE int64_t double_double_block_corrected(r2 S, r2 P, i1 ok) {
+INLINE int64_t double_double_corrected(r2 S, r2 P, i1 ok) {
     t_r9 c; t_r3 k, inertia, e; int64_t bad = 0;
     INDEPENDENT for (int64_t i = 0; i < 16; i++) {
         t_r3 t_1 = vectors_three_in(P, 7, i), t_2 = vectors_three_in(P, 10, i), t_3 = vectors_three_in(P, 13, i);
         c = (t_r9){t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2};
-        k = vectors_highs__p3_(vectors_pairs_in(S, 0, i)); inertia = vectors_highs__p3_(vectors_pairs_in(S, 12, i));
-        e = double_double_step_correction(AT2(P, 6, i), vectors_three_in(P, 3, i), c, vectors_three_in(P, 16, i), k,
+        k = double_double_highs__p3_(double_double_pairs_in(S, 0, i));
+        inertia = double_double_highs__p3_(double_double_pairs_in(S, 12, i));
+        e = double_double_correction(AT2(P, 6, i), vectors_three_in(P, 3, i), c, vectors_three_in(P, 16, i), k,
             inertia);
         vectors_put_in(P, 19, i, e);
-        ok.p[i] = ((ok.p[i] == 1) & double_double_step_small(vectors_three_in(P, 0, i), e)) ? 1 : 0;
+        ok.p[i] = ((ok.p[i] == 1) & double_double_small(vectors_three_in(P, 0, i), e)) ? 1 : 0;
         bad = bad + (1 - ok.p[i]);
     }
     return bad;
 }
 
-INLINE t_r3 vectors_lows__p3_(t_p3 v) { return (t_r3){v.a0.a1, v.a1.a1, v.a2.a1}; }
-OUT_OF_LINE void double_double_block_mend(r2 S, r2 P, i1 ok, int64_t step, i1 taken, i1 status, d1 reach) {
+INLINE t_r3 double_double_lows__p3_(t_p3 v) { return (t_r3){v.a0.a1, v.a1.a1, v.a2.a1}; }
+OUT_OF_LINE void double_double_mend(r2 S, r2 P, i1 ok, int64_t step, i1 taken, i1 status, d1 reach) {
     t_p3 u;
     for (int64_t i = 0; i < 16; i++) {
         if (ok.p[i] == 1) { continue; }
@@ -2658,12 +2660,12 @@ OUT_OF_LINE void double_double_block_mend(r2 S, r2 P, i1 ok, int64_t step, i1 ta
         if (i < status.n0 && status.p[i] == 0) {
             real s_[S.n0]; r1 s = {s_, S.n0};
             for (int64_t i_ = 0; i_ < S.n0; i_++) { s_[i_] = AT2(S, i_, i); }
-            t_ir_p3_ t_1 = double_double_loop_stage_r1pr2r2(s, (t_r2){R(1.0), R(0.0)}, s.p[52], s.p[53],
-                (r2){r1_part(s, 28, 52).p, 8, 3, 3});
+            t_ir_p3_ t_1 = double_double_stage_r1pr2r2(s, (t_r2){R(1.0), R(0.0)}, s.p[52], s.p[53], (r2){r1_part(s,
+                28, 52).p, 8, 3, 3});
             status.p[i] = t_1.a0; reach.p[i] = t_1.a1; u = t_1.a2;
             if (status.p[i] == 0) {
-                vectors_put_in(P, 0, i, vectors_highs__p3_(u)); vectors_put_in(P, 19, i, vectors_lows__p3_(u));
-                continue;
+                vectors_put_in(P, 0, i, double_double_highs__p3_(u));
+                vectors_put_in(P, 19, i, double_double_lows__p3_(u)); continue;
             }
             taken.p[i] = step;
         }
@@ -2671,12 +2673,12 @@ OUT_OF_LINE void double_double_block_mend(r2 S, r2 P, i1 ok, int64_t step, i1 ta
     }
 }
 
-INLINE void vectors_put_pairs_in_r2i2_p3_(r2 S, int64_t at, int64_t i, t_p3 v) {
+INLINE void double_double_put_pairs_in_r2i2_p3_(r2 S, int64_t at, int64_t i, t_p3 v) {
     vectors_put_in(S, at, i, (t_r3){v.a0.a0, v.a0.a1, v.a1.a0});
     vectors_put_in(S, at + 3, i, (t_r3){v.a1.a1, v.a2.a0, v.a2.a1});
 }
 
-INLINE void double_double_block_extrapolated(r2 S, int64_t row, int64_t i, real w) {
+INLINE void double_double_extrapolated_in(r2 S, int64_t row, int64_t i, real w) {
     t_r8 t_1 = sums_filtered(AT2(S, row + 3, i), AT2(S, row + 6, i), AT2(S, row + 9, i), AT2(S, row + 12, i), AT2(S,
         row + 15, i), AT2(S, row + 18, i), AT2(S, row + 21, i), w);
     AT2(S, row, i) = t_1.a0; AT2(S, row + 3, i) = t_1.a1; AT2(S, row + 6, i) = t_1.a2; AT2(S, row + 9, i) = t_1.a3;
@@ -2684,35 +2686,32 @@ INLINE void double_double_block_extrapolated(r2 S, int64_t row, int64_t i, real 
     AT2(S, row + 21, i) = t_1.a7;
 }
 
-INLINE void double_double_block_all_turned(r2 S, r2 P) {
+INLINE void double_double_all_turned(r2 S, r2 P) {
     t_r3 w, e; t_p3 u;
     INDEPENDENT for (int64_t i = 0; i < 16; i++) {
-        w = vectors_three_in(P, 0, i); e = vectors_three_in(P, 19, i); u = vectors_summed(w, e);
-        vectors_put_pairs_in_r2i2_p3_(S, 0, i, double_double_loop_turned__p3_2(u, vectors_pairs_in(S, 0, i)));
-        vectors_put_pairs_in_r2i2_p3_(S, 6, i, double_double_loop_turned__p3_2(u, vectors_pairs_in(S, 6, i)));
-        double_double_block_extrapolated(S, 28, i, w.a0 + e.a0);
-        double_double_block_extrapolated(S, 29, i, w.a1 + e.a1);
-        double_double_block_extrapolated(S, 30, i, w.a2 + e.a2);
+        w = vectors_three_in(P, 0, i); e = vectors_three_in(P, 19, i); u = double_double_summed(w, e);
+        double_double_put_pairs_in_r2i2_p3_(S, 0, i, double_double_turned__p3_2(u, double_double_pairs_in(S, 0, i)));
+        double_double_put_pairs_in_r2i2_p3_(S, 6, i, double_double_turned__p3_2(u, double_double_pairs_in(S, 6, i)));
+        double_double_extrapolated_in(S, 28, i, w.a0 + e.a0); double_double_extrapolated_in(S, 29, i, w.a1 + e.a1);
+        double_double_extrapolated_in(S, 30, i, w.a2 + e.a2);
     }
 }
 
-INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64_t count, int64_t every, i1 shift, r3
+INLINE void double_double_march_pairs_block(r2 state, int64_t first, int64_t count, int64_t every, i1 shift, r3
     momenta, r3 momenta_, r3 verticals, r3 verticals_, i1 taken, i1 status, d1 reach) {
     int64_t bad, rounds, frame; ALIGNED real S_[54 * 16]; r2 S = {S_, 54, 16, 16}; ALIGNED real P_[22 * 16];
     r2 P = {P_, 22, 16, 16}; ALIGNED int64_t ok_[16]; i1 ok = {ok_, 16}; block_carry(state, S, 16);
     for (int64_t step = first, end_step = first + count; step < end_step; step++) {
-        bad = double_double_block_approached(S, P, ok, 0); rounds = 1;
-        while (bad != 0 && rounds < 4) { bad = double_double_block_approached(S, P, ok, 1); rounds = rounds + 1; }
-        double_double_block_residuals(S, P);
-        if (double_double_block_corrected(S, P, ok) != 0) {
-            double_double_block_mend(S, P, ok, step, taken, status, reach);
-        }
-        double_double_block_all_turned(S, P);
+        bad = double_double_approached(S, P, ok, 0); rounds = 1;
+        while (bad != 0 && rounds < 4) { bad = double_double_approached(S, P, ok, 1); rounds = rounds + 1; }
+        double_double_residuals(S, P);
+        if (double_double_corrected(S, P, ok) != 0) { double_double_mend(S, P, ok, step, taken, status, reach); }
+        double_double_all_turned(S, P);
         if (mod_i(step + 1, 1024) == 0) {
             for (int64_t i = 0; i < 16; i++) {
                 real one_[28]; r1 one = {one_, 28};
                 for (int64_t i_ = 0; i_ < 28; i_++) { one_[i_] = AT2(S, i_, i); }
-                double_double_loop_restore_pairs(one);
+                double_double_restore_pairs(one);
                 for (int64_t row = 0; row < 28; row++) { AT2(S, row, i) = one.p[row]; }
             }
         }
@@ -2722,10 +2721,10 @@ INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64
                 if (status.p[i] == 0) {
                     real one_[S.n0]; r1 one = {one_, S.n0};
                     for (int64_t i_ = 0; i_ < S.n0; i_++) { one_[i_] = AT2(S, i_, i); }
-                    double_double_loop_write(r2_row(r3_row(momenta, i), frame), r2_row(r3_row(momenta_, i), frame),
-                        one, 0, -(int64_t)shift.p[i]);
-                    double_double_loop_write(r2_row(r3_row(verticals, i), frame), r2_row(r3_row(verticals_, i),
-                        frame), one, 6, 0);
+                    double_double_write(r2_row(r3_row(momenta, i), frame), r2_row(r3_row(momenta_, i), frame), one, 0,
+                        -(int64_t)shift.p[i]);
+                    double_double_write(r2_row(r3_row(verticals, i), frame), r2_row(r3_row(verticals_, i), frame),
+                        one, 6, 0);
                 }
             }
         }
@@ -2736,40 +2735,41 @@ INLINE void double_double_block_march_pairs_block(r2 state, int64_t first, int64
     block_carry(S, state, 16);
 }
 
-INLINE t_p3 double_double_long_rotated__p4__p3_(t_p4 a, t_p3 v) {
-    return vectors_normalised__p3_(kernel_rotate_p7(a.a0, a.a1, a.a2, a.a3, v.a0, v.a1, v.a2));
+INLINE t_p3 double_double_rotated__p4__p3_(t_p4 a, t_p3 v) {
+    return double_double_normalised__p3_(kernel_rotate_p7(a.a0, a.a1, a.a2, a.a3, v.a0, v.a1, v.a2));
 }
 
 INLINE t_p4 vectors_conjugate__p4_(t_p4 q) {
     return (t_p4){q.a0, (t_r2){-q.a1.a0, -q.a1.a1}, (t_r2){-q.a2.a0, -q.a2.a1}, (t_r2){-q.a3.a0, -q.a3.a1}};
 }
 
-INLINE t_ir_p4_p2 double_double_long_column__p3_2_p4_p2ir1r3(t_p3 k, t_p3 g, t_p4 a, t_r2 x, t_r2 y, int64_t n, r1
-    state, real radius, real enough, real rho) {
-    t_p3 w; t_p3 inertia = vectors_three_pairs(state, 12); t_r3 J = vectors_three(state, 18);
-    real contact = state.p[21]; t_r3 t_1 = vectors_highs__p3_(k), t_2 = vectors_highs__p3_(g);
-    t_r3 u = kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, J.a0, J.a1, J.a2, contact);
+INLINE t_ir_p4_p2 double_double_column__p3_2_p4_p2ir1r3(t_p3 k, t_p3 g, t_p4 a, t_r2 x, t_r2 y, int64_t n, r1 state,
+    real radius, real enough, real rho) {
+    t_p3 w; t_p3 inertia = double_double_three_pairs(state, 12); t_r3 tensor = vectors_three(state, 18);
+    real contact = state.p[21]; t_r3 t_1 = double_double_highs__p3_(k), t_2 = double_double_highs__p3_(g);
+    t_r3 u = kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, tensor.a0, tensor.a1, tensor.a2,
+        contact);
     t_r3 v = u; int64_t status = 0; real reach = R(1.0);
     for (int64_t i_0 = 0, end_i_0 = n; i_0 < end_i_0; i_0++) {
-        t_ir_p3_ t_3 = double_double_step_solved__r3__p3_3_r3_r3(u, k, g, inertia, J, contact, radius, enough);
+        t_ir_p3_ t_3 = double_double_solved__r3__p3_3_r3_r3(u, k, g, inertia, tensor, contact, radius, enough);
         status = t_3.a0; reach = t_3.a1; w = t_3.a2;
         if (status != 0) { break; }
-        t__p4_p2 t_4 = double_double_loop_rolled__p3_2_p4_p2r(w, g, a, x, y, rho); a = t_4.a0; x = t_4.a1; y = t_4.a2;
-        k = double_double_loop_turned__p3_2(w, k); g = double_double_loop_turned__p3_2(w, g);
-        u = vectors_minus(vectors_scaled(R(2.0), vectors_highs__p3_(w)), v); v = vectors_highs__p3_(w);
+        t__p4_p2 t_4 = double_double_rolled__p3_2_p4_p2r(w, g, a, x, y, rho); a = t_4.a0; x = t_4.a1; y = t_4.a2;
+        k = double_double_turned__p3_2(w, k); g = double_double_turned__p3_2(w, g);
+        u = vectors_minus(vectors_scaled(R(2.0), double_double_highs__p3_(w)), v); v = double_double_highs__p3_(w);
     }
     return (t_ir_p4_p2){status, reach, a, x, y};
 }
 
-INLINE t_r2 double_double_long_with_share_p3(t_r2 total, t_r2 weight, t_r2 x) {
+INLINE t_r2 double_double_with_share_p3(t_r2 total, t_r2 weight, t_r2 x) {
     t_r2 t_1 = pairs_loose_multiply(weight.a0, weight.a1, x.a0, x.a1), t_2 = pairs_two_sum(t_1.a0, t_1.a1);
     t_r2 t_3 = pairs_loose_add(total.a0, total.a1, t_2.a0, t_2.a1); return pairs_two_sum(t_3.a0, t_3.a1);
 }
 
-INLINE t_p4 double_double_long_with_shares__p4_p_p4_(t_p4 total, t_r2 weight, t_p4 q) {
-    return (t_p4){double_double_long_with_share_p3(total.a0, weight, q.a0), double_double_long_with_share_p3(total.a1,
-        weight, q.a1), double_double_long_with_share_p3(total.a2, weight, q.a2),
-        double_double_long_with_share_p3(total.a3, weight, q.a3)};
+INLINE t_p4 double_double_with_shares__p4_p_p4_(t_p4 total, t_r2 weight, t_p4 q) {
+    return (t_p4){double_double_with_share_p3(total.a0, weight, q.a0), double_double_with_share_p3(total.a1, weight,
+        q.a1), double_double_with_share_p3(total.a2, weight, q.a2), double_double_with_share_p3(total.a3, weight,
+        q.a3)};
 }
 
 INLINE t_r2 vectors_dot_four__p4_2(t_p4 a, t_p4 b) {
@@ -2782,7 +2782,7 @@ INLINE t_r2 vectors_dot_four__p4_2(t_p4 a, t_p4 b) {
     return pairs_loose_add(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
 }
 
-INLINE t_i2r2 double_double_long_march_long_pairs(r1 momentum, r1 g, r1 tensor, real contact, real h, real h_, int64_t
+INLINE t_i2r2 double_double_march_long_pairs(r1 momentum, r1 g, r1 tensor, real contact, real h, real h_, int64_t
     first, int64_t count, int64_t every, r2 weights, real rho, int follows, r1 attitude, r1 body, r2 momenta, r2
     momenta_, r2 verticals, r2 verticals_, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
     t_p4 sums, changes; t_r2 x_, y_, f, weight, change, length; t_p3 k_body, g_body; int64_t n, frame;
@@ -2794,37 +2794,38 @@ INLINE t_i2r2 double_double_long_march_long_pairs(r1 momentum, r1 g, r1 tensor, 
     t_r3 k = vectors_shifted(vectors_three(momentum, 0), -size.a1); ALIGNED real part_[3];
     memset(part_, 0, sizeof part_); r1 part = {part_, 3};
     vectors_put(part, 0, vectors_shifted(k, min_i(size.a1 + mantissa.a1, 1000)));
-    t_i2 shift = double_double_loop_prepare_pairs(part, g, tensor, contact, one, state, r2_row(limits, 0),
-        r2_row(limits, 1));
+    t_i2 shift = double_double_prepare_pairs(part, g, tensor, contact, one, state, r2_row(limits, 0), r2_row(limits,
+        1));
     real half = R(ldexp(mantissa.a0, (int)min_i(size.a1 + mantissa.a1 + shift.a0, 100)));
     real half_ = R(ldexp(R(ldexp(h_, (int)-mantissa.a1)), (int)min_i(size.a1 + mantissa.a1 + shift.a0, 100)));
     for (int64_t j = 0, end_j = columns; j < end_j; j++) {
-        t_r2 t_1 = double_double_step_bounds(vectors_scaled(half / (3 + j), k),
-            vectors_highs__p3_(vectors_three_pairs(state, 12)), state.p[21]);
+        t_r2 t_1 = double_double_bounds(vectors_scaled(half / (3 + j), k),
+            double_double_highs__p3_(double_double_three_pairs(state, 12)), state.p[21]);
         AT2(limits, 0, j) = t_1.a0; AT2(limits, 1, j) = t_1.a1;
     }
-    t_p4 a = (t_p4){vectors_pair(attitude, 0), vectors_pair(attitude, 2), vectors_pair(attitude, 4),
-        vectors_pair(attitude, 6)};
-    t_p3 K_ = double_double_long_rotated__p4__p3_(a, (t_p3){(t_r2){k.a0, R(0.0)}, (t_r2){k.a1, R(0.0)}, (t_r2){k.a2,
+    t_p4 a = (t_p4){double_double_pair(attitude, 0), double_double_pair(attitude, 2), double_double_pair(attitude, 4),
+        double_double_pair(attitude, 6)};
+    t_p3 K_ = double_double_rotated__p4__p3_(a, (t_p3){(t_r2){k.a0, R(0.0)}, (t_r2){k.a1, R(0.0)}, (t_r2){k.a2,
         R(0.0)}});
-    t_p3 g_ = double_double_long_rotated__p4__p3_(a, vectors_three_pairs(state, 6));
-    a = (t_p4){vectors_pair(body, 0), vectors_pair(body, 2), vectors_pair(body, 4), vectors_pair(body, 6)};
-    t_r2 x = vectors_pair(body, 8), y = vectors_pair(body, 10);
+    t_p3 g_ = double_double_rotated__p4__p3_(a, double_double_three_pairs(state, 6));
+    a = (t_p4){double_double_pair(body, 0), double_double_pair(body, 2), double_double_pair(body, 4),
+        double_double_pair(body, 6)};
+    t_r2 x = double_double_pair(body, 8), y = double_double_pair(body, 10);
     for (int64_t step = first, end_step = first + count; step < end_step; step++) {
         sums = (t_p4){zero, zero, zero, zero}; changes = (t_p4){zero, zero, zero, zero}; x_ = zero; y_ = zero;
-        k_body = double_double_long_rotated__p4__p3_(vectors_conjugate__p4_(a), K_);
-        g_body = double_double_long_rotated__p4__p3_(vectors_conjugate__p4_(a), g_);
+        k_body = double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), K_);
+        g_body = double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), g_);
         for (int64_t j = 0, end_j = columns; j < end_j; j++) {
             n = 3 + j; t_r2 t_2 = (t_r2){half, half_}; f = pairs_divide(t_2.a0, t_2.a1, n * R(1.0), 0);
-            status = double_double_long_column__p3_2_p4_p2ir1r3(vectors_normalised__p3_(vectors_scaled_p_p3_(f,
+            status = double_double_column__p3_2_p4_p2ir1r3(double_double_normalised__p3_(vectors_scaled_p_p3_(f,
                 k_body)), g_body, a, zero, zero, n, state, AT2(limits, 0, j), AT2(limits, 1, j), rho);
             if (status.a0 != 0) { return (t_i2r2){step - first, status.a0, status.a1, doubt}; }
             weight = (t_r2){AT2(weights, j, 0), AT2(weights, j, 1)};
             change = (t_r2){AT2(weights, j, 2), AT2(weights, j, 3)};
-            sums = double_double_long_with_shares__p4_p_p4_(sums, weight, status.a2);
-            x_ = double_double_long_with_share_p3(x_, weight, status.a3);
-            y_ = double_double_long_with_share_p3(y_, weight, status.a4);
-            changes = double_double_long_with_shares__p4_p_p4_(changes, change, status.a2);
+            sums = double_double_with_shares__p4_p_p4_(sums, weight, status.a2);
+            x_ = double_double_with_share_p3(x_, weight, status.a3);
+            y_ = double_double_with_share_p3(y_, weight, status.a4);
+            changes = double_double_with_shares__p4_p_p4_(changes, change, status.a2);
         }
         t_r2 t_3 = vectors_dot_four__p4_2(sums, sums), t_4 = pairs_two_sum(t_3.a0, t_3.a1);
         length = pairs_root(t_4.a0, t_4.a1);
@@ -2834,20 +2835,21 @@ INLINE t_i2r2 double_double_long_march_long_pairs(r1 momentum, r1 g, r1 tensor, 
             t_6.a1), pairs_divide(sums.a2.a0, sums.a2.a1, t_7.a0, t_7.a1), pairs_divide(sums.a3.a0, sums.a3.a1,
             t_8.a0, t_8.a1)};
         t_r2 t_9 = pairs_loose_add(x.a0, x.a1, x_.a0, x_.a1), t_10 = pairs_loose_add(y.a0, y.a1, y_.a0, y_.a1);
-        x = pairs_two_sum(t_9.a0, t_9.a1); y = pairs_two_sum(t_10.a0, t_10.a1); vectors_put_pair_r1ip(body, 0, a.a0);
-        vectors_put_pairs_r1i_p3_(body, 2, (t_p3){a.a1, a.a2, a.a3}); vectors_put_pair_r1ip(body, 8, x);
-        vectors_put_pair_r1ip(body, 10, y);
-        t_r3 t_11 = vectors_highs__p3_((t_p3){changes.a1, changes.a2, changes.a3});
+        x = pairs_two_sum(t_9.a0, t_9.a1); y = pairs_two_sum(t_10.a0, t_10.a1);
+        double_double_put_pair_r1ip(body, 0, a.a0);
+        double_double_put_pairs_r1i_p3_(body, 2, (t_p3){a.a1, a.a2, a.a3}); double_double_put_pair_r1ip(body, 8, x);
+        double_double_put_pair_r1ip(body, 10, y);
+        t_r3 t_11 = double_double_highs__p3_((t_p3){changes.a1, changes.a2, changes.a3});
         doubt = doubt + R(2.0) * R(sqrt(vectors_square_of_four((t_r4){changes.a0.a0, t_11.a0, t_11.a1, t_11.a2})));
         if (mod_i(step + 1, every) == 0) {
             frame = div_i(step + 1, every);
-            vectors_put_pairs_r1i_p3_(state, 0, double_double_long_rotated__p4__p3_(vectors_conjugate__p4_(a), K_));
-            vectors_put_pairs_r1i_p3_(state, 6, double_double_long_rotated__p4__p3_(vectors_conjugate__p4_(a), g_));
-            double_double_loop_write(r2_row(momenta, frame), r2_row(momenta_, frame), state, 0, size.a1);
-            double_double_loop_write(r2_row(verticals, frame), r2_row(verticals_, frame), state, 6, 0);
+            double_double_put_pairs_r1i_p3_(state, 0, double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), K_));
+            double_double_put_pairs_r1i_p3_(state, 6, double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), g_));
+            double_double_write(r2_row(momenta, frame), r2_row(momenta_, frame), state, 0, size.a1);
+            double_double_write(r2_row(verticals, frame), r2_row(verticals_, frame), state, 6, 0);
             if (follows) {
-                double_double_loop_write(r2_row(attitudes, frame), r2_row(attitudes_, frame), body, 0, 0);
-                double_double_loop_write(r2_row(traces, frame), r2_row(traces_, frame), body, 8, -shift.a1);
+                double_double_write(r2_row(attitudes, frame), r2_row(attitudes_, frame), body, 0, 0);
+                double_double_write(r2_row(traces, frame), r2_row(traces_, frame), body, 8, -shift.a1);
             }
         }
     }
@@ -3663,31 +3665,29 @@ WIDEST static void in_vertical_loop_march(const argument *a, argument *got) {
     int out = vertical_loop_march(r1_(0), r1_(1), r_(2), i_(3), i_(4), r2_(5), r1_(6)); got[0].integer = out;
 }
 
-static void in_double_double_loop_prepare_pairs(const argument *a, argument *got) {
-    t_i2 out = double_double_loop_prepare_pairs(r1_(0), r1_(1), r1_(2), r_(3), r2_(4), r1_(5), r1_(6), r1_(7));
+static void in_double_double_prepare_pairs(const argument *a, argument *got) {
+    t_i2 out = double_double_prepare_pairs(r1_(0), r1_(1), r1_(2), r_(3), r2_(4), r1_(5), r1_(6), r1_(7));
     got[0].integer = out.a0; got[1].integer = out.a1;
 }
 
-WIDEST static void in_double_double_loop_march_pairs(const argument *a, argument *got) {
-    t_i2r out = double_double_loop_march_pairs(r1_(0), r2_(1), r1_(2), r1_(3), r3_(4), i_(5), i_(6), i_(7), i_(8),
-        i_(9), r2_(10), r2_(11), r2_(12), r2_(13), b_(14), r1_(15), r1_(16), r_(17), r2_(18), r2_(19), r2_(20),
-        r2_(21));
+WIDEST static void in_double_double_march_pairs(const argument *a, argument *got) {
+    t_i2r out = double_double_march_pairs(r1_(0), r2_(1), r1_(2), r1_(3), r3_(4), i_(5), i_(6), i_(7), i_(8), i_(9),
+        r2_(10), r2_(11), r2_(12), r2_(13), b_(14), r1_(15), r1_(16), r_(17), r2_(18), r2_(19), r2_(20), r2_(21));
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2;
 }
 
-static void in_double_double_block_prepare_pairs_block(const argument *a, argument *got) {
-    double_double_block_prepare_pairs_block(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), r2_(5), i1_(6), i1_(7));
-    (void)got;
+static void in_double_double_prepare_pairs_block(const argument *a, argument *got) {
+    double_double_prepare_pairs_block(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), r2_(5), i1_(6), i1_(7)); (void)got;
 }
 
-WIDEST static void in_double_double_block_march_pairs_block(const argument *a, argument *got) {
-    double_double_block_march_pairs_block(r2_(0), i_(1), i_(2), i_(3), i1_(4), r3_(5), r3_(6), r3_(7), r3_(8), i1_(9),
+WIDEST static void in_double_double_march_pairs_block(const argument *a, argument *got) {
+    double_double_march_pairs_block(r2_(0), i_(1), i_(2), i_(3), i1_(4), r3_(5), r3_(6), r3_(7), r3_(8), i1_(9),
         i1_(10), d1_(11));
     (void)got;
 }
 
-WIDEST static void in_double_double_long_march_long_pairs(const argument *a, argument *got) {
-    t_i2r2 out = double_double_long_march_long_pairs(r1_(0), r1_(1), r1_(2), r_(3), r_(4), r_(5), i_(6), i_(7), i_(8),
+WIDEST static void in_double_double_march_long_pairs(const argument *a, argument *got) {
+    t_i2r2 out = double_double_march_long_pairs(r1_(0), r1_(1), r1_(2), r_(3), r_(4), r_(5), i_(6), i_(7), i_(8),
         r2_(9), r_(10), b_(11), r1_(12), r1_(13), r2_(14), r2_(15), r2_(16), r2_(17), r2_(18), r2_(19), r2_(20),
         r2_(21));
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2; got[3].number = out.a3;
@@ -3731,11 +3731,11 @@ const loop_export LOOPS()[] = {
     {"long_run_march_eight", "r3* r3* r3* r3* r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_long_run_march_eight},
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1 r1 r i i r2* r1*", "b", in_vertical_loop_march},
-    {"double_double_loop_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_loop_prepare_pairs},
-    {"double_double_loop_march_pairs", "r1* r2 r1 r1 r3* i i i i i r2* r2* r2* r2* b r1* r1* r r2* r2* r2* r2*", "iir", in_double_double_loop_march_pairs},
-    {"double_double_block_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_block_prepare_pairs_block},
-    {"double_double_block_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_block_march_pairs_block},
-    {"double_double_long_march_long_pairs", "r1 r1 r1 r r r i i i r2 r b r1 r1* r2* r2* r2* r2* r2* r2* r2* r2*", "iirr", in_double_double_long_march_long_pairs},
+    {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_prepare_pairs},
+    {"double_double_march_pairs", "r1* r2 r1 r1 r3* i i i i i r2* r2* r2* r2* b r1* r1* r r2* r2* r2* r2*", "iir", in_double_double_march_pairs},
+    {"double_double_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_prepare_pairs_block},
+    {"double_double_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_march_pairs_block},
+    {"double_double_march_long_pairs", "r1 r1 r1 r r r i i i r2 r b r1 r1* r2* r2* r2* r2* r2* r2* r2* r2*", "iirr", in_double_double_march_long_pairs},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
     {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
     {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
@@ -3745,5 +3745,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "ef85a3a17a883a2543915f7162ac2c11a045197cbc4b7a338216d149858c565f";
+const char loops_text[] = "518a58aa3a02dfe7b801d4b6585f35cfec45203e00f7e20f4e0fdf24a2061f0f";
 #endif

@@ -16,7 +16,7 @@ from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.ball import checked_before
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, weights
-from chapsym.dynamics.loops.double_double_long import FIRST
+from chapsym.dynamics.loops.double_double import FIRST
 from chapsym.dynamics.results import some_frames
 from chapsym.numbers import NAMED, Digits, Double, Single, in_words
 

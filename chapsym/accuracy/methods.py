@@ -9,7 +9,7 @@ import numpy as np
 from chapsym.dynamics import BadInput, Trajectory, extrapolate, substeps, trajectory
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of
-from chapsym.dynamics.loops.double_double_long import FIRST
+from chapsym.dynamics.loops.double_double import FIRST
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, pairs
 
 from .problem import EXTRAPOLATED

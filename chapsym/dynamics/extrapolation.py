@@ -30,7 +30,7 @@ from .errors import BadInput, Status, StepNotTaken
 from .levels import double, double_double
 from .levels.dispatch import begun, no_room, precision_of
 from .levels.frames import Balls, Count, cores, share
-from .loops import double_double_long
+from .loops.double_double import FIRST
 from .loops.guess import guess_weights
 from .loops.lanes import EIGHT, MOST_COLUMNS
 from .loops.long_run import march_eight, march_one
@@ -83,7 +83,7 @@ def weights(columns: int, first: int = 0) -> tuple[Fraction, ...]:
 @cache
 def weights_of_pairs(columns: int) -> Floats:
     """What `march_long_pairs` takes: the weights, and the differences that the last column makes, (columns, 4)."""
-    whole, fewer = (weights(n, double_double_long.FIRST) for n in (columns, columns - 1))
+    whole, fewer = (weights(n, FIRST) for n in (columns, columns - 1))
     return np.array([
         [*Pair.of(w).halves(), *Pair.of(w - v).halves()] for w, v in zip(whole, (*fewer, Fraction(0)), strict=True)
     ])  # fmt: skip

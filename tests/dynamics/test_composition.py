@@ -13,7 +13,7 @@ from chapsym.derive.composition import defects, product, step_series, words
 from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.levels import double
-from chapsym.dynamics.loops import double_double_loop, gibbs, loop
+from chapsym.dynamics.loops import double_double, gibbs, loop
 from chapsym.dynamics.loops.guess import stage_weights
 
 BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
@@ -169,7 +169,7 @@ def test_the_guess_continues_polynomials_of_degree_7():
     for degree, exact in ((7, True), (8, False)):
         past = np.zeros((8, 3))
         for n in range(-8, 0):
-            double_double_loop.extrapolated(past, (float(n**degree), float((n + 2) ** degree), 1.0))
+            double_double.extrapolated(past, (float(n**degree), float((n + 2) ** degree), 1.0))
         assert (past[0] == [0.0, 2.0**degree, 1.0]).all() == exact
 
 

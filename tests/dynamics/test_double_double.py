@@ -12,7 +12,7 @@ from chapsym.dynamics import kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.errors import BadInput, StepNotTaken
 from chapsym.dynamics.levels import double_double
-from chapsym.dynamics.loops import double_double_loop
+from chapsym.dynamics.loops import double_double as loops
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.map import exact_step, step
 from chapsym.dynamics.oracle import Oracle
@@ -137,15 +137,13 @@ def test_integrals_do_not_walk():
 
 def test_restoring_takes_back_what_is_added():
     """Off by 1e-26 in γ and k: then it is below a few u²."""
-    state = np.zeros(double_double_loop.ROWS)
+    state = np.zeros(loops.ROWS)
     one = np.ones((1, 1))
-    double_double_loop.prepare_pairs(
-        np.array(K), np.array(GAMMA), np.array(J), D, np.array([[1.0, 0.0]]), state, one[0], one[0]
-    )
+    loops.prepare_pairs(np.array(K), np.array(GAMMA), np.array(J), D, np.array([[1.0, 0.0]]), state, one[0], one[0])
     before = state.copy()
     state[1] += 3e-28
     state[9] -= 1e-26
-    double_double_loop.restore_pairs(state)
+    loops.restore_pairs(state)
     for pair in ((6, 6), (0, 6), (0, 0)):
         a, b = (whole(state[i : i + 6 : 2], state[i + 1 : i + 6 : 2]) for i in pair)
         c, d = (whole(before[i : i + 6 : 2], before[i + 1 : i + 6 : 2]) for i in pair)

@@ -108,8 +108,8 @@ def chaotic():
 
 
 ALONE = {"loop_prepare", "loop_march"}
-PAIRS = {"double_double_loop_prepare_pairs", "double_double_loop_march_pairs"}
-PAIRS_BLOCK = {"double_double_block_prepare_pairs_block", "double_double_block_march_pairs_block"}
+PAIRS = {"double_double_prepare_pairs", "double_double_march_pairs"}
+PAIRS_BLOCK = {"double_double_prepare_pairs_block", "double_double_march_pairs_block"}
 CASES = [
     *((lambda m=m, o=o: each(m, 60, **o), ALONE) for m in (balls, long_steps, beyond)
       for o in ({}, BODY, {"precision": "single"}, BODY | {"precision": "single"})),
@@ -130,7 +130,7 @@ CASES = [
     *((lambda n=n, o=o: long(n, **o), loops) for o in ({"time_step": 0.3, "contact": True}, {"time_step": 1.0},
       {"time_step": 0.7, "columns": 2, "attitude": True})
       for n, loops in ((1, {"long_run_march_one"}), (9, {"long_run_march_one", "long_run_march_eight"}))),
-    (lambda: long(2, time_step=0.3, contact=True, precision="double-double"), {"double_double_long_march_long_pairs"}),
+    (lambda: long(2, time_step=0.3, contact=True, precision="double-double"), {"double_double_march_long_pairs"}),
     (in_four, {"loop_n_march"}),
     (lambda: chapsym.trajectory_vertical(Ball((1, 2, 4), 0), [0.3, 1.0, 0.0], (0.6, 0.0, 0.8), 300),
      {"vertical_loop_march"}),

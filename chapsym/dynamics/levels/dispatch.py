@@ -12,7 +12,7 @@ from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Enclosure, Prec
 from ..ball import Asked, in_shape
 from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
-from ..loops import double_double_step
+from ..loops import double_double as pairs_loop
 from ..results import Step
 from . import double, double_double, high, single
 from .frames import Balls, Frames
@@ -106,9 +106,7 @@ def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
         if lacking:
             frames.attitude[:] = _two_frames(replace(precision, bits=precision.bits + lacking), balls, order).attitude
     if frames.low is not None:  # where momenta are tiny, they were taken 2^beyond times as large
-        beyond = [
-            double_double_step.scales(*ball)[1] for ball in zip(balls.momentum, balls.mass_tensor, balls.D, strict=True)
-        ]
+        beyond = [pairs_loop.scales(*ball)[1] for ball in zip(balls.momentum, balls.mass_tensor, balls.D, strict=True)]
         for of in (frames, frames.low):
             of.attitude[:, 1, 1:] = np.ldexp(of.attitude[:, 1, 1:], -np.array(beyond, np.int64)[:, np.newaxis])
     return frames

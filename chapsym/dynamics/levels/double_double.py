@@ -13,9 +13,7 @@ from ..ball import Floats
 from ..coefficients import COMPOSITIONS
 from ..errors import Status
 from ..failure import explain
-from ..loops import double_double_block as block
-from ..loops import double_double_long as long
-from ..loops import double_double_loop as loop
+from ..loops import double_double as loop
 from .frames import Balls, Count, Frames, cores, share
 
 #: Shorter runs than this are not shared out to cores.
@@ -36,7 +34,7 @@ def run(
     count, n = Count(progress), len(balls.D)
     work = steps * n * len(stages)
     in_blocks = n >= FEW and not frames.with_body and order == 2 and native.is_compiled()
-    width = block.LANES if in_blocks else 1
+    width = loop.LANES if in_blocks else 1
     starts = range(0, n, width)
 
     def task(start: int) -> None:
@@ -125,9 +123,9 @@ def _run_one(
 def _run_block(
     balls: Balls, which: slice, steps: int, every: int, frames: Frames, low: Frames, stages: Floats, count: Count
 ) -> None:
-    march, prepare = native.loop(block.march_pairs_block), native.loop(block.prepare_pairs_block)
+    march, prepare = native.loop(loop.march_pairs_block), native.loop(loop.prepare_pairs_block)
     n = which.stop - which.start
-    state = np.zeros((block.ALL_ROWS, block.LANES))
+    state = np.zeros((loop.ALL_ROWS, loop.LANES))
     shift, beyond = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
     prepare(balls.momentum[which], balls.gamma[which], balls.mass_tensor[which], balls.D[which], stages,
             state, shift, beyond)  # fmt: skip
@@ -136,7 +134,7 @@ def _run_block(
             _add(balls.rest[which.start + lane], state[:, lane], int(shift[lane]))
         _begin(frames, low, which.start + lane, state[:, lane], balls.rest)
     status, reach, taken = frames.status[which], frames.reach[which], frames.taken[which]
-    chunk = max(1, CHUNK // block.LANES)
+    chunk = max(1, CHUNK // loop.LANES)
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
         march(
@@ -156,13 +154,13 @@ def run_long(
     balls: Balls, h: Pair, steps: int, every: int, frames: Frames, weights: Floats, threads: int,
     progress: Callable[[int], None],
 ) -> Floats:  # fmt: skip
-    """Long steps of h seconds of the continuous ball, by `double_double_long`, from K in the place of 𝒦.
+    """Long steps of h seconds of the continuous ball, from K in the place of 𝒦.
 
     weights: of `march_long_pairs`.  It writes frame 0 anew, as `run` does; returns the sum of the doubts, (n,).
     """
     low, doubt, count = frames.low, np.zeros(len(balls.D)), Count(progress)
     assert low is not None
-    march, chunk = native.loop(long.march_long_pairs), max(1, CHUNK // (len(weights) * long.FIRST * 4))
+    march, chunk = native.loop(loop.march_long_pairs), max(1, CHUNK // (len(weights) * loop.FIRST * 4))
 
     def task(i: int) -> None:
         g, body = normalised(balls.gamma[i]), np.zeros((6, 2))

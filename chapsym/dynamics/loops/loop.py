@@ -12,13 +12,13 @@ import numpy as np
 from chapsym.generated import centre_step, compose, rotate
 
 from . import single_loop
-from .branch import small_rotation
+from .branch import moments, small_rotation
 from .gibbs import BEYOND, SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore
 from .path import search_on_path
 from .sums import turned
 from .text import Cube, Matrix, Vector, out_of_line
-from .vectors import plus, put, scaled, scaled_four, square_of_four, three
+from .vectors import largest, plus, put, scaled, scaled_four, square_of_four, three
 
 #: The largest exponent by which a ball is scaled.
 HIGHEST = 1021
@@ -70,11 +70,11 @@ def entered(momentum, g, tensor, contact, state):
 
     All is scaled by a power of two, exactly, so that the largest moment of inertia is about 1.
     """
-    _, exponent = frexp(max(tensor[1] + tensor[2], tensor[0] + tensor[2], tensor[0] + tensor[1]) + contact)
-    largest = max(abs(momentum[0]), abs(momentum[1]), abs(momentum[2]))
-    _, size = frexp(largest)
+    _, exponent = frexp(max(*moments(three(tensor, 0))) + contact)
+    most = largest(three(momentum, 0))
+    _, size = frexp(most)
     exponent = max(min(exponent, HIGHEST), size - HIGHEST)  # neither `scale` nor k overflows
-    tiny = 0.0 < largest < ldexp(SMALLEST, exponent)
+    tiny = 0.0 < most < ldexp(SMALLEST, exponent)
     if tiny:
         exponent = max(-1, exponent - HIGHEST + 1)  # k = 𝒦, where J allows: nothing of a subnormal momentum is lost
     state[:] = 0.0
@@ -83,7 +83,7 @@ def entered(momentum, g, tensor, contact, state):
         state[K + c] = times(momentum[c], half, -exponent - 1)
         state[G + c] = g[c]
         state[J + c] = times(tensor[c], power, -exponent)
-    state[I], state[I + 1], state[I + 2] = state[J + 1] + state[J + 2], state[J] + state[J + 2], state[J] + state[J + 1]
+    put(state, I, moments(three(state, J)))
     state[D] = times(contact, power, -exponent)
     inertia = three(state, I)
     state[RADIUS], state[ENOUGH] = certificate(three(state, K), inertia, state[D])

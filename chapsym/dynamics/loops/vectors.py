@@ -2,9 +2,6 @@
 
 from math import ldexp, sqrt
 
-from chapsym.numbers.loose import Loose
-from chapsym.numbers.pairs import two_sum
-
 
 def three(array, at):
     """Three numbers of an array, from `at` on."""
@@ -114,72 +111,3 @@ def conjugate(q):
 def largest(v):
     """The largest absolute value of three numbers."""
     return max(abs(v[0]), abs(v[1]), abs(v[2]))
-
-
-def pair(array, at):
-    """A pair of an array, its high half first."""
-    return Loose(array[at], array[at + 1])
-
-
-def put_pair(array, at, x):
-    """Writes a pair into an array."""
-    array[at], array[at + 1] = x.high, x.low
-
-
-def three_pairs(array, at):
-    """Three pairs of an array."""
-    return pair(array, at), pair(array, at + 2), pair(array, at + 4)
-
-
-def put_pairs(array, at, v):
-    """Writes three pairs into an array."""
-    put_pair(array, at, v[0])
-    put_pair(array, at + 2, v[1])
-    put_pair(array, at + 4, v[2])
-
-
-def pairs_in(S, at, i):
-    """Three pairs of a lane."""
-    return Loose(S[at, i], S[at + 1, i]), Loose(S[at + 2, i], S[at + 3, i]), Loose(S[at + 4, i], S[at + 5, i])
-
-
-def put_pairs_in(S, at, i, v):
-    """Writes three pairs into a lane."""
-    put_in(S, at, i, (v[0].high, v[0].low, v[1].high))
-    put_in(S, at + 3, i, (v[1].low, v[2].high, v[2].low))
-
-
-def exact(v):
-    """A vector of floats that count as exact."""
-    return Loose(v[0]), Loose(v[1]), Loose(v[2])
-
-
-def summed(v, w):
-    """v + w of floats, as pairs."""
-    return Loose(*two_sum(v[0], w[0])), Loose(*two_sum(v[1], w[1])), Loose(*two_sum(v[2], w[2]))
-
-
-def highs(v):
-    """The high halves of a vector of pairs."""
-    return v[0].high, v[1].high, v[2].high
-
-
-def lows(v):
-    """The low halves of a vector of pairs."""
-    return v[0].low, v[1].low, v[2].low
-
-
-def normalised(v):
-    """A vector of pairs of which the low halves are small."""
-    return v[0].normalised(), v[1].normalised(), v[2].normalised()
-
-
-def normalised_four(q):
-    """Four pairs of which the low halves are small."""
-    return q[0].normalised(), q[1].normalised(), q[2].normalised(), q[3].normalised()
-
-
-def of_length_one(q):
-    """A quaternion of nearly the length 1, divided by it: a Newton step."""
-    t = (3 - square_of_four(q)) / 2
-    return t * q[0], t * q[1], t * q[2], t * q[3]
