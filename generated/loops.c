@@ -75,10 +75,14 @@ INLINE void r2_fill(r2 a, real x) { for (int64_t i = 0; i < a.n0; i++) r1_fill(r
 typedef struct { real a0; int64_t a1; } t_ri;
 INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_ri){m, e}; }
 
+typedef struct { r1 first, allowed, most, start; } Asked;
+typedef struct { r2 tensor; r1 contact, radius; } Balls;
+typedef struct { r3 momenta, verticals, attitudes, traces; int follows, traced; } Frames;
 typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { real a0, a1, a2; } t_r3;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8; } t_r9;
 typedef struct { t_r4 p; t_r3 w; real first; t_r3 d; t_r9 cofactors; } Round;
+typedef struct { r2 sums; r3 following; r2 beginning; } Weights;
 typedef struct { real a0, a1; } t_r2;
 typedef struct { t_r2 a0, a1, a2, a3; } t_p4;
 typedef struct { t_p4 a0; t_r2 a1, a2; } t__p4_p2;
@@ -1197,15 +1201,14 @@ INLINE void vectors_put_four(r1 array, int64_t at, t_r4 q) {
     array.p[at] = q.a0; array.p[at + 1] = q.a1; array.p[at + 2] = q.a2; array.p[at + 3] = q.a3;
 }
 
-INLINE void long_run_placed(r1 body, int64_t i, r3 momenta, r3 verticals, r3 attitudes, r3 traces, int follows, int
-    traced) {
-    r1_fill(body, R(0.0)); vectors_put(body, 0, vectors_three(r2_row(r3_row(momenta, i), 0), 0));
-    vectors_put(body, 3, vectors_three(r2_row(r3_row(verticals, i), 0), 0)); body.p[6] = R(1.0);
-    if (follows) { vectors_put_four(body, 6, vectors_four(r2_row(r3_row(attitudes, i), 0), 0)); }
-    if (traced) { body.p[10] = AT3(traces, i, 0, 0); body.p[11] = AT3(traces, i, 0, 1); }
+INLINE void lanes_placed(r1 body, int64_t i, Frames frames) {
+    r1_fill(body, R(0.0)); vectors_put(body, 0, vectors_three(r2_row(r3_row(frames.momenta, i), 0), 0));
+    vectors_put(body, 3, vectors_three(r2_row(r3_row(frames.verticals, i), 0), 0)); body.p[6] = R(1.0);
+    if (frames.follows) { vectors_put_four(body, 6, vectors_four(r2_row(r3_row(frames.attitudes, i), 0), 0)); }
+    if (frames.traced) { body.p[10] = AT3(frames.traces, i, 0, 0); body.p[11] = AT3(frames.traces, i, 0, 1); }
 }
 
-INLINE t_ri long_step_begun(r1 body, r1 J0, real D0, real h, r1 state) {
+INLINE t_ri lanes_begun(r1 body, r1 J0, real D0, real h, r1 state) {
     ALIGNED real none_[3]; memset(none_, 0, sizeof none_); r1 none = {none_, 3};
     t_ri size = real_frexp(loop_entered(none, none, J0, D0, state));
     t_ri exponent = real_frexp(vectors_largest(vectors_three(body, 0)));
@@ -1214,7 +1217,11 @@ INLINE t_ri long_step_begun(r1 body, r1 J0, real D0, real h, r1 state) {
     return (t_ri){R(ldexp(mantissa.a0, (int)min_i(mantissa.a1 + exponent.a1 - (size.a1 - 2), 100))), exponent.a1};
 }
 
-INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, int64_t n, r1 state) {
+INLINE void lanes_put_back(r2 S, int64_t b, r1 body) {
+    for (int64_t c = 0; c < 24; c++) { AT2(S, 105 + c, b) = body.p[c]; }
+}
+
+INLINE void lanes_entered(r2 S, int64_t at, int64_t i, r1 body, real half, int64_t n, r1 state) {
     real part = half / n; t_r3 inertia = vectors_three(state, 21); real contact = state.p[24];
     real spread = R(0.5) * (max_r(max_r(inertia.a0, inertia.a1), inertia.a2) - min_r(min_r(inertia.a0, inertia.a1),
         inertia.a2));
@@ -1227,30 +1234,31 @@ INLINE void long_run_entered(r2 S, int64_t at, int64_t i, r1 body, real half, in
     AT2(S, at + 5, i) = R(1.0) / (n * n);
 }
 
-INLINE void long_run_resized(r2 S, int64_t B, int64_t b, int64_t columns, real half, r1 body, r1 state) {
+INLINE void lanes_resized(r2 S, int64_t B, int64_t b, int64_t columns, real half, r1 body, r1 state) {
     AT2(S, 129, b) = half; int64_t least = 8 - columns;
     for (int64_t lane = 0; lane < 4; lane++) {
-        long_run_entered(S, 59, lane * B + b, body, half, max_i(7 - lane, least), state);
-        long_run_entered(S, 65, lane * B + b, body, half, max_i(lane, least), state);
+        lanes_entered(S, 59, lane * B + b, body, half, max_i(7 - lane, least), state);
+        lanes_entered(S, 65, lane * B + b, body, half, max_i(lane, least), state);
     }
 }
 
-OUT_OF_LINE int64_t long_run_enter(r2 S, int64_t B, int64_t b, int64_t columns, r1 J0, real D0, real radius, real h,
-    r2 sums, r2 beginning, r1 body, r1 state) {
-    int64_t i, first; int one, two; t_ri half = long_step_begun(body, J0, D0, h, state);
-    for (int64_t c = 0; c < 24; c++) { AT2(S, 105 + c, b) = body.p[c]; }
-    AT2(S, 129, b) = half.a0; AT2(S, 130, b) = radius; AT2(S, 134, b) = state.p[24]; AT2(S, 135, b) = R(0.0);
-    vectors_put_in(S, 131, b, vectors_three(state, 18)); int64_t least = 8 - columns;
+OUT_OF_LINE int64_t lanes_enter(r2 S, int64_t B, int64_t b, int64_t i, Balls balls, real h, Weights weights, r1 body,
+    r1 state) {
+    int64_t j, first; int one, two;
+    t_ri half = lanes_begun(body, r2_row(balls.tensor, i), balls.contact.p[i], h, state); lanes_put_back(S, b, body);
+    AT2(S, 129, b) = half.a0; AT2(S, 130, b) = balls.radius.p[i]; AT2(S, 134, b) = state.p[24];
+    AT2(S, 135, b) = R(0.0); vectors_put_in(S, 131, b, vectors_three(state, 18));
+    int64_t columns = weights.sums.n1, least = 8 - columns;
     for (int64_t lane = 0; lane < 4; lane++) {
-        i = lane * B + b; first = max_i(7 - lane, least); vectors_put_in(S, 27, i, vectors_three(state, 21));
-        AT2(S, 30, i) = state.p[24]; one = 7 - lane >= least; two = lane >= least;
-        for (int64_t c = 0; c < 3; c++) { AT2(S, 79 + c, i) = AT2(beginning, first, c); }
+        j = lane * B + b; first = max_i(7 - lane, least); vectors_put_in(S, 27, j, vectors_three(state, 21));
+        AT2(S, 30, j) = state.p[24]; one = 7 - lane >= least; two = lane >= least;
+        for (int64_t c = 0; c < 3; c++) { AT2(S, 79 + c, j) = AT2(weights.beginning, first, c); }
         for (int64_t c = 0; c < 4; c++) {
-            AT2(S, 71 + 2 * c, i) = one ? AT2(sums, c, first - least) : R(0.0);
-            AT2(S, 71 + 2 * c + 1, i) = two ? AT2(sums, c, lane - least) : R(0.0);
+            AT2(S, 71 + 2 * c, j) = one ? AT2(weights.sums, c, first - least) : R(0.0);
+            AT2(S, 71 + 2 * c + 1, j) = two ? AT2(weights.sums, c, lane - least) : R(0.0);
         }
     }
-    long_run_resized(S, B, b, columns, half.a0, body, state); return half.a1;
+    lanes_resized(S, B, b, columns, half.a0, body, state); return half.a1;
 }
 
 INLINE t_r3 kernel_angular_velocity(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3,
@@ -1266,7 +1274,7 @@ INLINE t_r3 vectors_cross(t_r3 a, t_r3 b) {
     return (t_r3){a.a1 * b.a2 - a.a2 * b.a1, a.a2 * b.a0 - a.a0 * b.a2, a.a0 * b.a1 - a.a1 * b.a0};
 }
 
-INLINE real fitted_turn_square(real h, int64_t first, t_r3 w) {
+INLINE real lanes_turn_square(real h, int64_t first, t_r3 w) {
     real turned = h * h * vectors_square(w); return turned <= R(2.25) * (first * first) ? turned : R(0.0);
 }
 
@@ -1288,8 +1296,8 @@ INLINE void lanes_rates(r2 S, int64_t B, int64_t first) {
         whole = R(2.0) * AT2(S, 129, b); vectors_put_in(S, 31, b, K); vectors_put_in(S, 34, b, g);
         vectors_put_in(S, 37, b, w); vectors_put_in(S, 40, b, vectors_scaled(whole, a));
         vectors_put_in(S, 43, b, vectors_scaled(whole * whole, x));
-        AT2(S, 46, b) = fitted_turn_square(whole, first, w);
-        vectors_put_in(S, 136, b, (t_r3){R(0.0), R(0.0), R(0.0)}); AT2(S, 58, b) = AT2(S, 135, b);
+        AT2(S, 46, b) = lanes_turn_square(whole, first, w); vectors_put_in(S, 136, b, (t_r3){R(0.0), R(0.0), R(0.0)});
+        AT2(S, 58, b) = AT2(S, 135, b);
     }
     for (int64_t row = 31; row < 47; row++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
@@ -1302,23 +1310,23 @@ INLINE void lanes_rates(r2 S, int64_t B, int64_t first) {
     }
 }
 
-INLINE real fitted_fitted(real square) {
+INLINE real lanes_fitted(real square) {
     real fourth = square * square;
     real last = R(2.7557319223985893e-06) - square * R(2.505210838544172e-08) + fourth * R(1.6059043836821613e-10);
     return R(1.0) - square * R(0.16666666666666666) + fourth * (R(0.008333333333333333) - square *
         R(0.0001984126984126984)) + fourth * fourth * last;
 }
 
-INLINE real fitted_half_angle(real square) {
+INLINE real lanes_half_angle(real square) {
     real fourth = square * square;
     return R(1.0) - square * R(0.25) + fourth * (R(0.020833333333333332) - square * R(0.0006944444444444445) + fourth
         * R(1.240079365079365e-05));
 }
 
 INLINE void lanes_start(r2 S, int64_t i, int64_t at) {
-    real scale = fitted_fitted(AT2(S, 46, i) * AT2(S, at + 5, i)), half = AT2(S, at, i) * scale;
+    real scale = lanes_fitted(AT2(S, 46, i) * AT2(S, at + 5, i)), half = AT2(S, at, i) * scale;
     real slope = AT2(S, 82, i) + AT2(S, at + 2, i) * scale;
-    real bend = fitted_half_angle(AT2(S, 46, i) * AT2(S, at + 5, i)); AT2(S, 83, i) = half / bend;
+    real bend = lanes_half_angle(AT2(S, 46, i) * AT2(S, at + 5, i)); AT2(S, 83, i) = half / bend;
     real t_1 = half, t_2 = AT2(S, at + 1, i) * bend / scale, t_3 = slope * slope; AT2(S, 22, i) = t_1;
     AT2(S, 23, i) = t_2; AT2(S, 24, i) = t_3; real t_4 = AT2(S, at + 3, i), t_5 = AT2(S, at + 4, i) * (scale * scale);
     AT2(S, 25, i) = t_4; AT2(S, 26, i) = t_5;
@@ -1429,7 +1437,7 @@ INLINE void lanes_moved(r2 S, int64_t B, int traced) {
 }
 
 INLINE t_r4 vectors_plus_four(t_r4 a, t_r4 b) { return (t_r4){a.a0 + b.a0, a.a1 + b.a1, a.a2 + b.a2, a.a3 + b.a3}; }
-INLINE t__r3_2_r4_r2 long_step_moved_body(t_r3 k, t_r3 g, t_r4 a, real x, real y, t_r4 q, t_r3 s, real radius) {
+INLINE t__r3_2_r4_r2 lanes_moved_body(t_r3 k, t_r3 g, t_r4 a, real x, real y, t_r4 q, t_r3 s, real radius) {
     t_r3 d1 = kernel_rotate(a.a0, a.a1, a.a2, a.a3, s.a0, s.a1, s.a2);
     t_r4 b = kernel_compose(a.a0, a.a1, a.a2, a.a3, q.a0, q.a1, q.a2, q.a3);
     b = vectors_scaled_four(R(1.0) / R(sqrt(vectors_square_of_four(b))), b);
@@ -1460,8 +1468,8 @@ INLINE void lanes_gather(r2 S, int64_t B) {
         rests = AT2(S, 58, b) != R(0.0); k = vectors_three_in(S, 105, b); g = vectors_three_in(S, 108, b);
         a = vectors_four_in(S, 111, b); x = AT2(S, 115, b); y = AT2(S, 116, b);
         more = R(2.0) * R(sqrt(vectors_square_of_four(vectors_four_in(S, 98, b))));
-        t__r3_2_r4_r2 t_1 = long_step_moved_body(k, g, a, x, y, vectors_four_in(S, 94, b), vectors_three_in(S, 102,
-            b), AT2(S, 130, b));
+        t__r3_2_r4_r2 t_1 = lanes_moved_body(k, g, a, x, y, vectors_four_in(S, 94, b), vectors_three_in(S, 102, b),
+            AT2(S, 130, b));
         l = t_1.a0; h = t_1.a1; c = t_1.a2; v = t_1.a3; w = t_1.a4;
         vectors_put_in(S, 105, b, (t_r3){rests ? k.a0 : l.a0, rests ? k.a1 : l.a1, rests ? k.a2 : l.a2});
         vectors_put_in(S, 108, b, (t_r3){rests ? g.a0 : h.a0, rests ? g.a1 : h.a1, rests ? g.a2 : h.a2});
@@ -1472,21 +1480,21 @@ INLINE void lanes_gather(r2 S, int64_t B) {
     }
 }
 
-INLINE int lanes_side_by_side(r2 S, int64_t B, int64_t columns, int traced, r3 following, r2 beginning) {
-    int64_t lane, left, rounds, i; real weight; int64_t first = 8 - columns, second = 3; lanes_rates(S, B, first);
-    lanes_begin(S, B); int lost = 0;
+INLINE int lanes_side_by_side(r2 S, int64_t B, int traced, Weights weights) {
+    int64_t lane, left, rounds, i; real weight; int64_t columns = weights.sums.n1, first = 8 - columns, second = 3;
+    lanes_rates(S, B, first); lanes_begin(S, B); int lost = 0;
     for (int64_t slot = 0; slot < 7; slot++) {
         lane = 7 - slot;
         if (lane < 4) {
             INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) { lanes_finish(S, lane * B + b); }
         }
-        if (lane == 3 && first <= 3) { lanes_begin_second(S, B, 3, beginning); }
+        if (lane == 3 && first <= 3) { lanes_begin_second(S, B, 3, weights.beginning); }
         else {
-            if (lane == 2 && first <= 2) { lanes_begin_second(S, B, 2, beginning); }
+            if (lane == 2 && first <= 2) { lanes_begin_second(S, B, 2, weights.beginning); }
         }
         for (int64_t j = 0; j < 6; j++) {
             for (int64_t c = 0; c < 4; c++) {
-                weight = AT3(following, slot, j, c);
+                weight = AT3(weights.following, slot, j, c);
                 INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) { AT2(S, 47 + j, c * B + b) = weight; }
             }
         }
@@ -1516,9 +1524,13 @@ INLINE int lanes_side_by_side(r2 S, int64_t B, int64_t columns, int traced, r3 f
     lanes_gather(S, B); return lost;
 }
 
-INLINE t_ir_r4__r3_ long_step_column(r1 body, real half, int64_t n, real square, r1 state) {
+INLINE void lanes_taken_out(r2 S, int64_t b, r1 body) {
+    for (int64_t c = 0; c < 24; c++) { body.p[c] = AT2(S, 105 + c, b); }
+}
+
+INLINE t_ir_r4__r3_ lanes_column(r1 body, real half, int64_t n, real square, r1 state) {
     int settled; t_r4 p, unit; t_r3 w; int64_t status; real reach, size;
-    t_r3 k = vectors_scaled(half / n * fitted_fitted(square * (R(1.0) / (n * n))), vectors_three(body, 0));
+    t_r3 k = vectors_scaled(half / n * lanes_fitted(square * (R(1.0) / (n * n))), vectors_three(body, 0));
     t_r3 g = vectors_three(body, 3), inertia = vectors_three(state, 21); real contact = state.p[24];
     t_r2 t_1 = gibbs_certificate(k, inertia, contact); state.p[25] = t_1.a0; state.p[26] = t_1.a1;
     t_r3 t_2 = vectors_three(state, 18);
@@ -1545,21 +1557,21 @@ INLINE t_ir_r4__r3_ long_step_column(r1 body, real half, int64_t n, real square,
     return (t_ir_r4__r3_){0, R(1.0), q, y};
 }
 
-INLINE t_r3 long_step_twist(t_r4 q, t_r4 d) {
+INLINE t_r3 lanes_twist(t_r4 q, t_r4 d) {
     t_r4 t_1 = vectors_conjugate(q), t_2 = kernel_compose(t_1.a0, t_1.a1, t_1.a2, t_1.a3, d.a0, d.a1, d.a2, d.a3);
     return vectors_scaled(R(2.0), (t_r3){t_2.a1, t_2.a2, t_2.a3});
 }
 
-INLINE t_ir long_step_long_step(r1 body, real half, real radius, r2 sums, r1 state) {
+INLINE t_ir lanes_long_step(r1 body, real half, real radius, r2 sums, r1 state) {
     t_ir_r4__r3_ status; t_r4 d; t_r4 q = (t_r4){R(0.0), R(0.0), R(0.0), R(0.0)};
     t_r3 y = (t_r3){R(0.0), R(0.0), R(0.0)}, z = (t_r3){R(0.0), R(0.0), R(0.0)}; ALIGNED real changes_[3 * 4];
     memset(changes_, 0, sizeof changes_); r2 changes = {changes_, 3, 4, 4};
     t_r3 t_1 = vectors_three(body, 0), t_2 = vectors_three(body, 3), t_3 = vectors_three(state, 18);
     t_r3 w = kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2,
         state.p[24]);
-    int64_t first = 8 - sums.n1; real square = fitted_turn_square(R(2.0) * half, first, w);
+    int64_t first = 8 - sums.n1; real square = lanes_turn_square(R(2.0) * half, first, w);
     for (int64_t i = 0, end_i = sums.n1; i < end_i; i++) {
-        status = long_step_column(body, half, first + i, square, state);
+        status = lanes_column(body, half, first + i, square, state);
         if (status.a0 != 0) { return (t_ir){status.a0, status.a1}; }
         q = vectors_plus_four(q, vectors_scaled_four(AT2(sums, 0, i), status.a2));
         y = vectors_plus(y, vectors_scaled(AT2(sums, 0, i), status.a3));
@@ -1571,88 +1583,88 @@ INLINE t_ir long_step_long_step(r1 body, real half, real radius, r2 sums, r1 sta
     }
     t_r4 t_4 = vectors_four(body, 6); t_r3 t_5 = kernel_rotate(t_4.a0, t_4.a1, t_4.a2, t_4.a3, z.a0, z.a1, z.a2);
     body.p[22] = t_5.a0; body.p[23] = t_5.a1;
-    t__r3_2_r4_r2 t_6 = long_step_moved_body(vectors_three(body, 0), vectors_three(body, 3), vectors_four(body, 6),
+    t__r3_2_r4_r2 t_6 = lanes_moved_body(vectors_three(body, 0), vectors_three(body, 3), vectors_four(body, 6),
         body.p[10], body.p[11], q, y, radius);
     t_r3 k = t_6.a0, g = t_6.a1; t_r4 a = t_6.a2; body.p[10] = t_6.a3; body.p[11] = t_6.a4; vectors_put(body, 0, k);
     vectors_put(body, 3, g); vectors_put_four(body, 6, a);
     for (int64_t c = 0; c < 3; c++) {
         d = vectors_four(r2_row(changes, c), 0);
         if (c == 0) { body.p[12] = body.p[12] + R(2.0) * R(sqrt(vectors_square_of_four(d))); }
-        vectors_put(body, 13 + 3 * c, long_step_twist(q, d));
+        vectors_put(body, 13 + 3 * c, lanes_twist(q, d));
     }
     return (t_ir){0, R(1.0)};
 }
 
-OUT_OF_LINE t_ir long_run_safely(r2 S, int64_t b, r2 sums, r1 state) {
-    ALIGNED real body_[24]; r1 body = {body_, 24};
-    for (int64_t c = 0; c < 24; c++) { body.p[c] = AT2(S, 105 + c, b); }
-    t_ir status = long_step_long_step(body, AT2(S, 129, b), AT2(S, 130, b), sums, state);
-    for (int64_t c = 0; c < 24; c++) { AT2(S, 105 + c, b) = body.p[c]; }
+OUT_OF_LINE t_ir lanes_safely(r2 S, int64_t b, r2 sums, r1 state) {
+    ALIGNED real body_[24]; r1 body = {body_, 24}; lanes_taken_out(S, b, body);
+    t_ir status = lanes_long_step(body, AT2(S, 129, b), AT2(S, 130, b), sums, state); lanes_put_back(S, b, body);
     return (t_ir){status.a0, status.a1};
 }
 
-INLINE void long_run_show(r2 S, int64_t b, int64_t exponent, int64_t frame, r3 momenta, r3 verticals, r3 attitudes, r3
-    traces, int follows, int going) {
-    for (int64_t c = 0; c < 3; c++) {
-        AT3(momenta, b, frame, c) = going ? R(ldexp(AT2(S, 105 + c, b), (int)(int64_t)exponent)) : R(NAN);
-        AT3(verticals, b, frame, c) = going ? AT2(S, 108 + c, b) : R(NAN);
+INLINE void lanes_stopped_at(int64_t i, int64_t frame, Frames frames) {
+    r2_fill(r2_part(r3_row(frames.momenta, i), frame, r3_row(frames.momenta, i).n0), R(NAN));
+    r2_fill(r2_part(r3_row(frames.verticals, i), frame, r3_row(frames.verticals, i).n0), R(NAN));
+    if (frames.follows) {
+        r2_fill(r2_part(r3_row(frames.attitudes, i), frame, r3_row(frames.attitudes, i).n0), R(NAN));
     }
-    if (follows) {
-        for (int64_t c = 0; c < 4; c++) { AT3(attitudes, b, frame, c) = going ? AT2(S, 111 + c, b) : R(NAN); }
-        for (int64_t c = 0; c < 2; c++) { AT3(traces, b, frame, c) = going ? AT2(S, 115 + c, b) : R(NAN); }
-    }
+    if (frames.traced) { r2_fill(r2_part(r3_row(frames.traces, i), frame, r3_row(frames.traces, i).n0), R(NAN)); }
 }
 
-INLINE void long_run_march_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
-    radius, real h, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1
-    doubt, i1 taken, i1 status, d1 reach) {
+INLINE void lanes_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, Frames frames) {
+    vectors_put(r2_row(r3_row(frames.momenta, i), frame), 0, vectors_shifted(vectors_three(body, 0),
+        (int64_t)exponent));
+    vectors_put(r2_row(r3_row(frames.verticals, i), frame), 0, vectors_three(body, 3));
+    if (frames.follows) { vectors_put_four(r2_row(r3_row(frames.attitudes, i), frame), 0, vectors_four(body, 6)); }
+    if (frames.traced) { AT3(frames.traces, i, frame, 0) = body.p[10]; AT3(frames.traces, i, frame, 1) = body.p[11]; }
+}
+
+INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int64_t steps, int64_t every, Weights
+    weights, r1 doubt, i1 taken, i1 status, d1 reach) {
     int64_t i; t_ir stopped; ALIGNED real S_[139 * (4 * B)]; memset(S_, 0, sizeof S_);
-    r2 S = {S_, 139, (4 * B), (4 * B)}; int64_t columns = sums.n1; ALIGNED real states_[B * 27];
+    r2 S = {S_, 139, (4 * B), (4 * B)}; int64_t count = status.n0; ALIGNED real states_[B * 27];
     memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B];
     memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B}; ALIGNED real body_[24];
-    memset(body_, 0, sizeof body_); r1 body = {body_, 24}; int64_t balls = status.n0;
+    memset(body_, 0, sizeof body_); r1 body = {body_, 24};
     for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        i = min_i(b, balls - 1); long_run_placed(body, i, momenta, verticals, attitudes, traces, follows, traced);
-        exponents.p[b] = long_run_enter(S, B, b, columns, r2_row(J0, i), D0.p[i], radius.p[i], h, sums, beginning,
-            body, r2_row(states, b));
+        i = min_i(b, count - 1); lanes_placed(body, i, frames);
+        exponents.p[b] = lanes_enter(S, B, b, i, balls, h, weights, body, r2_row(states, b));
     }
     for (int64_t step = 0, end_step = steps; step < end_step; step++) {
-        if (lanes_side_by_side(S, B, columns, traced, following, beginning)) {
+        if (lanes_side_by_side(S, B, frames.traced, weights)) {
             for (int64_t b = 0, end_b = B; b < end_b; b++) {
                 if (AT2(S, 58, b) != R(0.0) && AT2(S, 135, b) == R(0.0)) {
-                    stopped = long_run_safely(S, b, sums, r2_row(states, b));
+                    stopped = lanes_safely(S, b, weights.sums, r2_row(states, b));
                     if (stopped.a0 != 0) {
                         AT2(S, 135, b) = R(1.0);
-                        if (b < balls) { status.p[b] = stopped.a0; reach.p[b] = stopped.a1; taken.p[b] = step; }
+                        if (b < count) {
+                            status.p[b] = stopped.a0; reach.p[b] = stopped.a1; taken.p[b] = step;
+                            lanes_stopped_at(b, div_i(step, every) + 1, frames);
+                        }
                     }
                 }
             }
         }
         if (mod_i(step + 1, every) == 0) {
-            for (int64_t b = 0, end_b = balls; b < end_b; b++) {
-                long_run_show(S, b, exponents.p[b], div_i(step + 1, every), momenta, verticals, attitudes, traces,
-                    follows, status.p[b] == 0);
+            for (int64_t b = 0, end_b = count; b < end_b; b++) {
+                if (status.p[b] == 0) {
+                    lanes_taken_out(S, b, body); lanes_shown(body, exponents.p[b], b, div_i(step + 1, every), frames);
+                }
             }
         }
     }
-    for (int64_t b = 0, end_b = balls; b < end_b; b++) {
+    for (int64_t b = 0, end_b = count; b < end_b; b++) {
         doubt.p[b] = status.p[b] == 0 ? AT2(S, 117, b) : R(NAN);
         if (status.p[b] == 0) { taken.p[b] = steps; reach.p[b] = R(1.0); }
     }
 }
 
-INLINE void long_run_march_one(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h,
+INLINE void lanes_march(int alone, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h,
     int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1 doubt, i1 taken, i1
     status, d1 reach) {
-    long_run_march_lanes(1, momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
-        sums, following, beginning, doubt, taken, status, reach);
-}
-
-INLINE void long_run_march_eight(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h,
-    int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1 doubt, i1 taken, i1
-    status, d1 reach) {
-    long_run_march_lanes(8, momenta, verticals, attitudes, traces, J0, D0, radius, h, steps, every, follows, traced,
-        sums, following, beginning, doubt, taken, status, reach);
+    Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
+    Balls balls = (Balls){J0, D0, radius}; Weights weights = (Weights){sums, following, beginning};
+    if (alone) { lanes_march_lanes(1, frames, balls, h, steps, every, weights, doubt, taken, status, reach); }
+    else { lanes_march_lanes(8, frames, balls, h, steps, every, weights, doubt, taken, status, reach); }
 }
 
 INLINE void rotation_n_guess(r3 past, r1 use, r2 E) {
@@ -2972,15 +2984,14 @@ INLINE void carried_begun(r2 E, int64_t B, int64_t b, t_r3 J, real start) {
     AT2(E, 64, b) = start * start; AT2(E, 67, b) = start * start; AT2(E, 69, b) = start * start;
 }
 
-INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t columns, int64_t i, real first, real
-    allowed, real start, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, int64_t frames,
-    real interval, int follows, r2 sums, r2 beginning, r1 body, r1 state, r1 lane, r2 reported, int traced) {
-    long_run_placed(body, i, momenta, verticals, attitudes, traces, follows, traced); r1_fill(lane, R(0.0));
-    lane.p[4] = i; lane.p[5] = R(1.0); lane.p[18] = allowed; lane.p[13] = first; lane.p[10] = R(1e+300);
-    lane.p[20] = R(1e+300); following_aimed(lane, frames, interval);
-    int64_t exponent = long_run_enter(S, B, b, columns, r2_row(J0, i), D0.p[i], radius.p[i], lane.p[1], sums,
-        beginning, body, state);
-    lane.p[2] = R(2.0) * AT2(S, 129, b) / lane.p[1]; carried_begun(E, B, b, vectors_three_in(S, 131, b), start);
+INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t i, Frames frames, Balls balls, real
+    interval, Weights weights, Asked asked, r1 body, r1 state, r1 lane, r2 reported) {
+    lanes_placed(body, i, frames); r1_fill(lane, R(0.0)); lane.p[4] = i; lane.p[5] = R(1.0);
+    lane.p[18] = asked.allowed.p[i]; lane.p[13] = asked.first.p[i]; lane.p[10] = R(1e+300); lane.p[20] = R(1e+300);
+    following_aimed(lane, frames.momenta.n1, interval);
+    int64_t exponent = lanes_enter(S, B, b, i, balls, lane.p[1], weights, body, state);
+    lane.p[2] = R(2.0) * AT2(S, 129, b) / lane.p[1];
+    carried_begun(E, B, b, vectors_three_in(S, 131, b), asked.start.p[i]);
     for (int64_t c = 0; c < 6; c++) { AT2(reported, i, c) = c == 5 ? R(1.0) : R(0.0); }
     return exponent;
 }
@@ -3047,8 +3058,8 @@ INLINE void carried_changes(r2 S, r2 E, int64_t B) {
     }
     for (int64_t c = 0; c < 3; c++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-            vectors_put_in(S, 118 + 3 * c, b, long_step_twist(vectors_four_in(S, 94, b), vectors_four_in(E, 100 + 4 *
-                c, b)));
+            vectors_put_in(S, 118 + 3 * c, b, lanes_twist(vectors_four_in(S, 94, b), vectors_four_in(E, 100 + 4 * c,
+                b)));
         }
     }
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
@@ -3080,7 +3091,7 @@ INLINE void following_judged(r2 S, r2 E, int64_t b, int lost, real start, r2 sum
     if (lost && AT2(S, 58, b) != R(0.0)) {
         heavy = AT2(S, 62, b) < R(0.0); stopped = 0;
         if (heavy || tries >= 40) {
-            t_ir t_1 = long_run_safely(S, b, sums, state); stopped = t_1.a0; reached = t_1.a1; lane.p[16] = stopped;
+            t_ir t_1 = lanes_safely(S, b, sums, state); stopped = t_1.a0; reached = t_1.a1; lane.p[16] = stopped;
             lane.p[17] = reached; lane.p[12] = stopped == 0 ? R(3.0) : R(2.0);
         }
         if (tries < 40 && (stopped != 0 || !heavy)) { lane.p[12] = R(1.0); lane.p[10] = R(0.9) * step; }
@@ -3230,8 +3241,7 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real
     if (lane.p[12] == R(3.0)) {
         inside = following_part_of(lane, (int64_t)lane.p[5], interval) < R(0.999999999);
         if (inside) {
-            for (int64_t c = 0; c < 24; c++) { now.p[c] = AT2(S, 105 + c, b); }
-            off = following_through(S, b, body, now, traced, lane, V, first, last, curve);
+            lanes_taken_out(S, b, now); off = following_through(S, b, body, now, traced, lane, V, first, last, curve);
             speed = lane.p[11] / lane.p[2];
             worst = speed > R(0.0) ? max_r(off.a0 * max_r(following_spinning(E, B, b) / speed, R(1.0)), off.a1) :
                 max_r(off.a0, off.a1);
@@ -3250,9 +3260,7 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real
         AT2(E, 82, b) = rounding * rounding; AT2(S, 117, b) = R(0.0);
     }
     else { AT2(E, 79, b) = R(0.0); AT2(E, 80, b) = R(0.0); AT2(E, 81, b) = R(0.0); }
-    if (lane.p[12] == R(1.0)) {
-        for (int64_t c = 0; c < 24; c++) { AT2(S, 105 + c, b) = body.p[c]; }
-    }
+    if (lane.p[12] == R(1.0)) { lanes_put_back(S, b, body); }
 }
 
 INLINE t_r3 carried_ended(r2 E, int64_t i, real half, real twelfth) {
@@ -3396,22 +3404,6 @@ INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
     }
 }
 
-INLINE void following_stopped_at(int64_t i, int64_t frame, r3 momenta, r3 verticals, r3 attitudes, r3 traces, int
-    follows, int traced) {
-    r2_fill(r2_part(r3_row(momenta, i), frame, r3_row(momenta, i).n0), R(NAN));
-    r2_fill(r2_part(r3_row(verticals, i), frame, r3_row(verticals, i).n0), R(NAN));
-    if (follows) { r2_fill(r2_part(r3_row(attitudes, i), frame, r3_row(attitudes, i).n0), R(NAN)); }
-    if (traced) { r2_fill(r2_part(r3_row(traces, i), frame, r3_row(traces, i).n0), R(NAN)); }
-}
-
-INLINE void following_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, r3 momenta, r3 verticals, r3
-    attitudes, r3 traces, int follows, int traced) {
-    vectors_put(r2_row(r3_row(momenta, i), frame), 0, vectors_shifted(vectors_three(body, 0), (int64_t)exponent));
-    vectors_put(r2_row(r3_row(verticals, i), frame), 0, vectors_three(body, 3));
-    if (follows) { vectors_put_four(r2_row(r3_row(attitudes, i), frame), 0, vectors_four(body, 6)); }
-    if (traced) { AT3(traces, i, frame, 0) = body.p[10]; AT3(traces, i, frame, 1) = body.p[11]; }
-}
-
 INLINE real between_at_part(r2 curve, int64_t i, real s) {
     real r = s - R(1.0), power = s * s;
     real low = ((AT2(curve, 5, i) * s + AT2(curve, 4, i)) * s + AT2(curve, 3, i)) * s + AT2(curve, 2, i);
@@ -3452,12 +3444,11 @@ INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, 
     lane.p[8] = max_r(lane.p[8], cautious * AT2(E, 84, b) + spun + off * max_r(speed, following_spinning(E, B, b)));
 }
 
-INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1
-    radius, real interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3
-    following, r2 beginning, r2 reported, i1 reached, i1 status, d1 reach) {
-    int64_t i, frame; int lost, done, there, alike; real fate, part, wish; ALIGNED real S_[139 * (4 * B)];
+INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real interval, Asked asked, int patient,
+    Weights weights, r2 reported, i1 reached, i1 status, d1 reach) {
+    int lost, done, there, alike; int64_t i, frame; real fate, part, wish; ALIGNED real S_[139 * (4 * B)];
     memset(S_, 0, sizeof S_); r2 S = {S_, 139, (4 * B), (4 * B)}; ALIGNED real E_[115 * (4 * B)];
-    memset(E_, 0, sizeof E_); r2 E = {E_, 115, (4 * B), (4 * B)}; int64_t columns = sums.n1;
+    memset(E_, 0, sizeof E_); r2 E = {E_, 115, (4 * B), (4 * B)}; int64_t columns = weights.sums.n1;
     ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27};
     ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B};
     ALIGNED real bodies_[B * 24]; memset(bodies_, 0, sizeof bodies_); r2 bodies = {bodies_, B, 24, 24};
@@ -3467,73 +3458,66 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
     memset(ends_, 0, sizeof ends_); r3 ends = {ends_, (2 * B), 6, 6, 6 * 6, 6}; ALIGNED real V_[16 * 6];
     memset(V_, 0, sizeof V_); r2 V = {V_, 16, 6, 6}; ALIGNED real curves_[B * 12 * 6];
     memset(curves_, 0, sizeof curves_); r3 curves = {curves_, B, 12, 6, 12 * 6, 6};
-    int64_t balls = momenta.n0, frames = momenta.n1; real end = (frames - 1) * interval;
-    int64_t coming = min_i(B, balls), busy = min_i(B, balls); int fresh = 1;
+    int64_t count = frames.momenta.n0, kept = frames.momenta.n1; int traced = frames.traced;
+    real end = (kept - 1) * interval; int64_t coming = min_i(B, count), busy = min_i(B, count); int fresh = 1;
     for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        i = min_i(b, balls - 1);
-        exponents.p[b] = following_taken_in(S, E, B, b, columns, i, first.p[i], allowed.p[i], start.p[i], momenta,
-            verticals, attitudes, traces, J0, D0, radius, frames, interval, follows, sums, beginning, r2_row(bodies,
-            b), r2_row(states, b), r2_row(lanes, b), reported, traced);
-        AT2(S, 135, b) = b < balls ? R(0.0) : R(1.0);
+        exponents.p[b] = following_taken_in(S, E, B, b, min_i(b, count - 1), frames, balls, interval, weights, asked,
+            r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), reported);
+        AT2(S, 135, b) = b < count ? R(0.0) : R(1.0);
     }
     while (busy > 0) {
         if (fresh) { carried_tangent(S, E, B, 0, traced); fresh = 0; }
-        lost = lanes_side_by_side(S, B, columns, traced, following, beginning); carried_changes(S, E, B);
+        lost = lanes_side_by_side(S, B, traced, weights); carried_changes(S, E, B);
         for (int64_t b = 0, end_b = B; b < end_b; b++) {
             i = (int64_t)AT2(lanes, b, 4);
-            following_looked_at(S, E, B, b, lost, interval, start.p[i], R(0.4) * most.p[i], traced, sums,
-                r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), V, r3_row(ends, 2 * b), r3_row(ends, 2 * b +
-                1), r3_row(curves, b), now);
+            following_looked_at(S, E, B, b, lost, interval, asked.start.p[i], R(0.4) * asked.most.p[i], traced,
+                weights.sums, r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), V, r3_row(ends, 2 * b),
+                r3_row(ends, 2 * b + 1), r3_row(curves, b), now);
         }
         carried_tangent(S, E, B, 19, traced); carried_carry(S, E, B, traced);
         for (int64_t b = 0, end_b = B; b < end_b; b++) {
             i = (int64_t)AT2(lanes, b, 4); frame = (int64_t)AT2(lanes, b, 5); fate = AT2(lanes, b, 12); done = 0;
             if (fate == R(1.0)) {
-                AT2(lanes, b, 6) = AT2(lanes, b, 6) + R(1.0); following_aimed(r2_row(lanes, b), frames, interval);
-                long_run_resized(S, B, b, columns, R(0.5) * AT2(lanes, b, 1) * AT2(lanes, b, 2), r2_row(bodies, b),
+                AT2(lanes, b, 6) = AT2(lanes, b, 6) + R(1.0); following_aimed(r2_row(lanes, b), kept, interval);
+                lanes_resized(S, B, b, columns, R(0.5) * AT2(lanes, b, 1) * AT2(lanes, b, 2), r2_row(bodies, b),
                     r2_row(states, b));
             }
             else {
                 if (fate == R(2.0)) {
                     status.p[i] = (int64_t)AT2(lanes, b, 16); reach.p[i] = AT2(lanes, b, 17);
-                    reached.p[i] = frame - 1; done = 1;
-                    following_stopped_at(i, frame, momenta, verticals, attitudes, traces, follows, traced);
+                    reached.p[i] = frame - 1; done = 1; lanes_stopped_at(i, frame, frames);
                 }
                 else {
                     if (fate == R(3.0)) {
-                        for (int64_t c = 0; c < 24; c++) { now.p[c] = AT2(S, 105 + c, b); }
-                        part = following_part_of(r2_row(lanes, b), frame, interval);
-                        while (frame < frames && part <= R(1.000000001)) {
+                        lanes_taken_out(S, b, now); part = following_part_of(r2_row(lanes, b), frame, interval);
+                        while (frame < kept && part <= R(1.000000001)) {
                             if (R(fabs(part - R(1.0))) <= R(1e-09)) {
-                                following_shown(now, exponents.p[b], i, frame, momenta, verticals, attitudes, traces,
-                                    follows, traced);
+                                lanes_shown(now, exponents.p[b], i, frame, frames);
                             }
                             else {
                                 between_ball_at(r3_row(curves, b), part, r2_row(bodies, b), traced, found);
-                                following_shown(found, exponents.p[b], i, frame, momenta, verticals, attitudes,
-                                    traces, follows, traced);
+                                lanes_shown(found, exponents.p[b], i, frame, frames);
                             }
                             frame = frame + 1; part = following_part_of(r2_row(lanes, b), frame, interval);
                         }
-                        following_recorded(E, B, b, i, end, allowed.p[i], most.p[i], patient, r2_row(lanes, b),
-                            reported);
+                        following_recorded(E, B, b, i, end, asked.allowed.p[i], asked.most.p[i], patient,
+                            r2_row(lanes, b), reported);
                         int64_t t_1 = frame; real t_2 = R(0.0), t_3 = AT2(lanes, b, 0) + AT2(lanes, b, 1);
                         AT2(lanes, b, 5) = t_1; AT2(lanes, b, 6) = t_2; AT2(lanes, b, 0) = t_3;
-                        AT2(lanes, b, 3) = AT2(lanes, b, 3) - R(1.0);
-                        for (int64_t c = 0; c < 24; c++) { AT2(bodies, b, c) = now.p[c]; }
+                        AT2(lanes, b, 3) = AT2(lanes, b, 3) - R(1.0); lanes_taken_out(S, b, r2_row(bodies, b));
                         there = AT2(lanes, b, 3) < R(0.5); wish = min_r(AT2(lanes, b, 13), AT2(lanes, b, 20));
                         alike = wish * R(1.15) >= AT2(lanes, b, 1) && wish <= R(1.15) * AT2(lanes, b, 1);
                         if (there) { AT2(lanes, b, 0) = AT2(lanes, b, 19) * interval; }
-                        done = there && AT2(lanes, b, 19) == frames - 1;
+                        done = there && AT2(lanes, b, 19) == kept - 1;
                         if (AT2(reported, i, 5) < R(1.0)) {
                             reached.p[i] = frame - 1; status.p[i] = 0; reach.p[i] = R(1.0); done = 1;
                         }
                         else {
-                            if (done) { reached.p[i] = frames - 1; status.p[i] = 0; reach.p[i] = R(1.0); }
+                            if (done) { reached.p[i] = kept - 1; status.p[i] = 0; reach.p[i] = R(1.0); }
                             else {
-                                if ((there || !alike) && following_aimed(r2_row(lanes, b), frames, interval)) {
-                                    long_run_resized(S, B, b, columns, R(0.5) * AT2(lanes, b, 1) * AT2(lanes, b, 2),
-                                        now, r2_row(states, b));
+                                if ((there || !alike) && following_aimed(r2_row(lanes, b), kept, interval)) {
+                                    lanes_resized(S, B, b, columns, R(0.5) * AT2(lanes, b, 1) * AT2(lanes, b, 2), now,
+                                        r2_row(states, b));
                                 }
                             }
                         }
@@ -3542,11 +3526,9 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
             }
             if (done) {
                 AT2(reported, i, 1) = AT2(lanes, b, 7) > R(0.0) ? AT2(lanes, b, 8) / AT2(lanes, b, 7) : R(0.0);
-                if (coming < balls) {
-                    exponents.p[b] = following_taken_in(S, E, B, b, columns, coming, first.p[coming],
-                        allowed.p[coming], start.p[coming], momenta, verticals, attitudes, traces, J0, D0, radius,
-                        frames, interval, follows, sums, beginning, r2_row(bodies, b), r2_row(states, b),
-                        r2_row(lanes, b), reported, traced);
+                if (coming < count) {
+                    exponents.p[b] = following_taken_in(S, E, B, b, coming, frames, balls, interval, weights, asked,
+                        r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), reported);
                     coming = coming + 1; fresh = 1;
                 }
                 else { AT2(S, 135, b) = R(1.0); busy = busy - 1; }
@@ -3555,18 +3537,18 @@ INLINE void following_follow_lanes(int64_t B, r3 momenta, r3 verticals, r3 attit
     }
 }
 
-INLINE void following_follow_one(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3 following, r2
-    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
-    following_follow_lanes(1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most,
-        start, patient, follows, traced, sums, following, beginning, reported, reached, status, reach);
-}
-
-INLINE void following_follow_eight(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
-    interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3 following, r2
-    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
-    following_follow_lanes(8, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most,
-        start, patient, follows, traced, sums, following, beginning, reported, reached, status, reach);
+INLINE void following_follow(int alone, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius,
+    real interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3
+    following, r2 beginning, r2 reported, i1 reached, i1 status, d1 reach) {
+    Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
+    Balls balls = (Balls){J0, D0, radius}; Asked asked = (Asked){first, allowed, most, start};
+    Weights weights = (Weights){sums, following, beginning};
+    if (alone) {
+        following_follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach);
+    }
+    else {
+        following_follow_lanes(8, frames, balls, interval, asked, patient, weights, reported, reached, status, reach);
+    }
 }
 
 INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
@@ -3643,15 +3625,9 @@ static void in_single_step_advance_all(const argument *a, argument *got) {
 }
 
 #ifndef SINGLE
-WIDEST static void in_long_run_march_one(const argument *a, argument *got) {
-    long_run_march_one(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), b_(10), b_(11),
-        r2_(12), r3_(13), r2_(14), r1_(15), i1_(16), i1_(17), d1_(18));
-    (void)got;
-}
-
-WIDEST static void in_long_run_march_eight(const argument *a, argument *got) {
-    long_run_march_eight(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), b_(10), b_(11),
-        r2_(12), r3_(13), r2_(14), r1_(15), i1_(16), i1_(17), d1_(18));
+WIDEST static void in_lanes_march(const argument *a, argument *got) {
+    lanes_march(b_(0), r3_(1), r3_(2), r3_(3), r3_(4), r2_(5), r1_(6), r1_(7), r_(8), i_(9), i_(10), b_(11), b_(12),
+        r2_(13), r3_(14), r2_(15), r1_(16), i1_(17), i1_(18), d1_(19));
     (void)got;
 }
 
@@ -3697,15 +3673,9 @@ WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
     tangent_follow_all(r2_(0), r2_(1), r1_(2), r_(3), i_(4), r2_(5)); (void)got;
 }
 
-WIDEST static void in_following_follow_one(const argument *a, argument *got) {
-    following_follow_one(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10),
-        r1_(11), b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
-    (void)got;
-}
-
-WIDEST static void in_following_follow_eight(const argument *a, argument *got) {
-    following_follow_eight(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10),
-        r1_(11), b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
+WIDEST static void in_following_follow(const argument *a, argument *got) {
+    following_follow(b_(0), r3_(1), r3_(2), r3_(3), r3_(4), r2_(5), r1_(6), r1_(7), r_(8), r1_(9), r1_(10), r1_(11),
+        r1_(12), b_(13), b_(14), b_(15), r2_(16), r3_(17), r2_(18), r2_(19), i1_(20), i1_(21), d1_(22));
     (void)got;
 }
 
@@ -3727,8 +3697,7 @@ const loop_export LOOPS()[] = {
     {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
     {"single_step_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_single_step_advance_all},
 #ifndef SINGLE
-    {"long_run_march_one", "r3* r3* r3* r3* r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_long_run_march_one},
-    {"long_run_march_eight", "r3* r3* r3* r3* r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_long_run_march_eight},
+    {"lanes_march", "b r3 r3 r3 r3 r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_lanes_march},
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1 r1 r i i r2* r1*", "b", in_vertical_loop_march},
     {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_prepare_pairs},
@@ -3737,13 +3706,12 @@ const loop_export LOOPS()[] = {
     {"double_double_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_march_pairs_block},
     {"double_double_march_long_pairs", "r1 r1 r1 r r r i i i r2 r b r1 r1* r2* r2* r2* r2* r2* r2* r2* r2*", "iirr", in_double_double_march_long_pairs},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
-    {"following_follow_one", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_one},
-    {"following_follow_eight", "r3* r3* r3* r3* r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_eight},
+    {"following_follow", "b r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow},
     {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "rr", in_expected_surveyed},
     {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1*", "r", in_expected_estimated},
 #endif
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "518a58aa3a02dfe7b801d4b6585f35cfec45203e00f7e20f4e0fdf24a2061f0f";
+const char loops_text[] = "a91ab8f216e4c1b5a1c9649a06d24bb1460080cf7067297d8c8967b0d3c18976";
 #endif

@@ -17,7 +17,7 @@ from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.extrapolation import FEW, loop_weights
 from chapsym.dynamics.levels.frames import Count, cores, share
 from chapsym.dynamics.loops.expected import ALLOWED, FIRST, FLOOR, MOST, START, STILL, estimated
-from chapsym.dynamics.loops.following import REPORTED, STEPS, follow_eight, follow_one
+from chapsym.dynamics.loops.following import REPORTED, STEPS, follow
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 
 from .composed import composed
@@ -152,19 +152,18 @@ def _run(
         ball.D if ball.radius is None or not traced else ball.radius,
     )  # fmt: skip
     ends = reported, found.reached, found.status, reach
-    width = TOGETHER if n >= FEW else 1
-    loop = native.loop(follow_eight if n >= FEW else follow_one)
-
+    few, loop = n < FEW, native.loop(follow)
+    width = 1 if few else TOGETHER
     asked, weights = (first, allowed, problem.survey[MOST], problem.survey[START]), loop_weights(MOST_COLUMNS)
     if n == 1:
-        loop(*frames, problem.interval, *asked, patient, follows, traced, *weights, *ends)
+        loop(few, *frames, problem.interval, *asked, patient, follows, traced, *weights, *ends)
         progress(1)
     else:
 
         def task(at: int) -> None:
             some = slice(at, at + width)
             balls, wanted, found = ([x[some] for x in arrays] for arrays in (frames, asked, ends))
-            loop(*balls, problem.interval, *wanted, patient, follows, traced, *weights, *found)
+            loop(few, *balls, problem.interval, *wanted, patient, follows, traced, *weights, *found)
             count.add(len(found[-1]))
 
         count, parts = Count(progress), range(0, n, width)

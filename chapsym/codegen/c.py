@@ -17,7 +17,7 @@ from textwrap import wrap
 from typing import Any
 
 from .printer import FUNCTIONS
-from .source import LOOSE, PAIRS, Function, NotConstant, Program, Record, Varying, constant, meaning
+from .source import ANNOTATIONS, LOOSE, PAIRS, Array, Function, NotConstant, Program, Record, Varying, constant, meaning
 
 #: What binds tighter has the larger number, as in C.
 OPERATORS: dict[type, tuple[str, int]] = {
@@ -44,24 +44,6 @@ NARROW, WIDE = "single_loop", "branch"
 #: What is a new array.
 ALLOCATE = ("numpy.empty", "numpy.zeros", "numpy.eye", "copy")
 WIDTH = 118
-
-
-@dataclass(frozen=True)
-class Array:
-    """An array: the kind of its elements, and its number of axes."""
-
-    element: str
-    rank: int
-
-    def __str__(self) -> str:
-        return f"{self.element}{self.rank}"
-
-
-#: What a parameter of an exported function may be annotated with.
-ANNOTATIONS: dict[str, Any] = {
-    "bool": "b", "int": "i", "float": "r", "Vector": Array("r", 1), "Matrix": Array("r", 2), "Cube": Array("r", 3),
-    "Tensor": Array("r", 4), "Integers": Array("i", 1), "Doubles": Array("d", 1),
-}  # fmt: skip
 
 
 class NotTranslatable(ValueError):
@@ -174,6 +156,8 @@ class Printer:
         #: What it returns; the parameters into whose elements it writes.
         self.returned: Any = None
         self.written: set[str] = set()
+        #: What the records are made of that have a name.
+        self.made: dict[str, Sequence[ast.expr]] = {}
         #: The functions that it calls, each with the one that takes its place in float32, or itself.
         self.calls: dict[Function, Function] = {}
         nodes = [n for n in ast.walk(function.node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
@@ -541,8 +525,11 @@ class Printer:
         self.names[name] = joined(self.names.get(name, kind), kind)
 
     def writes(self, node: ast.expr) -> None:
-        """The function writes into the array that an expression is a part of."""
-        self.written |= {base_name(node)} & set(self.function.parameters)
+        """The function writes into the array that an expression is a part of, or into the arrays of a record."""
+        name = base_name(node)
+        for part in self.made.get(name, ()):
+            self.writes(part)
+        self.written |= {x for x in {name} & set(self.function.parameters) if isinstance(self.names[x], Array | Record)}
 
     def add(self, *texts: str) -> None:
         """Adds simple statements."""
@@ -688,6 +675,8 @@ class Printer:
                 self.allocate(name, value)
             case ast.Name(id=name), _:
                 of = self.expression(value)
+                if isinstance(value, ast.Call) and isinstance(of.kind, Record):
+                    self.made[name] = value.args
                 if isinstance(of.kind, tuple) and name in self.listed:
                     if self.stored[name] > 1 or self.depth or set(of.kind) != {"r"}:
                         raise TypeError("a tuple with an element that a variable names is of floats, and assigned once")

@@ -14,7 +14,7 @@ PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block", "single_step")
 LOOPS = (
     *SINGLE,
-    "long_run",
+    "lanes",
     "loop_n",
     "vertical_loop",
     "double_double",

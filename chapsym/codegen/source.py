@@ -18,9 +18,22 @@ LOOSE, PAIRS = "chapsym.numbers.loose", "chapsym.numbers.pairs"
 OUTSIDE = ("math", "numpy", "typing", "collections.abc", FUNCTIONS, LOOSE)
 
 
-#: The kinds of what a field of a named tuple may be annotated with.
-FIELDS: dict[str, Any] = {
-    "float": "r", "Three": ("r",) * 3, "Four": ("r",) * 4, "Nine": ("r",) * 9,
+@dataclass(frozen=True)
+class Array:
+    """An array: the kind of its elements, and its number of axes."""
+
+    element: str
+    rank: int
+
+    def __str__(self) -> str:
+        return f"{self.element}{self.rank}"
+
+
+#: The kinds of what a parameter of an exported function, or a field of a named tuple, may be annotated with.
+ANNOTATIONS: dict[str, Any] = {
+    "bool": "b", "int": "i", "float": "r", "Vector": Array("r", 1), "Matrix": Array("r", 2), "Cube": Array("r", 3),
+    "Tensor": Array("r", 4), "Integers": Array("i", 1), "Doubles": Array("d", 1),
+    "Three": ("r",) * 3, "Four": ("r",) * 4, "Nine": ("r",) * 9,
 }  # fmt: skip
 
 
@@ -106,7 +119,7 @@ class Program:
                     names[name] = module.functions[name] = Function(module, node)
                 case ast.ClassDef(name=name, bases=[ast.Name(id="NamedTuple")], body=body):
                     fields = ((ast.unparse(n.target), n.annotation) for n in body if isinstance(n, ast.AnnAssign))
-                    names[name] = Record(name, tuple((field, FIELDS[ast.unparse(kind)]) for field, kind in fields))
+                    names[name] = Record(name, tuple((field, ANNOTATIONS[ast.unparse(kind)]) for field, kind in fields))
                 case ast.Import(names=aliases):
                     names.update((alias.asname or alias.name, alias.name) for alias in aliases)
                 case ast.ImportFrom():

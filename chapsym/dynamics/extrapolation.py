@@ -32,9 +32,7 @@ from .levels.dispatch import begun, no_room, precision_of
 from .levels.frames import Balls, Count, cores, share
 from .loops.double_double import FIRST
 from .loops.guess import guess_weights
-from .loops.lanes import EIGHT, MOST_COLUMNS
-from .loops.long_run import march_eight, march_one
-from .loops.long_step import CHANGES, LAST
+from .loops.lanes import CHANGES, EIGHT, LAST, MOST_COLUMNS, march
 from .results import in_given_axes
 from .trajectories import flag, rolling_radius, whole_number
 
@@ -221,19 +219,17 @@ def _march(
     taken, status = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
     ends = doubt, taken, status, reach
     if alone:
-        native.loop(march_one)(*frames, *how, *weights, *ends)
+        native.loop(march)(True, *frames, *how, *weights, *ends)
         if status[0]:
             raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]))
         progress(steps)
         return doubt, taken, status
     blocks = (n + EIGHT - FEW) // EIGHT if native.is_compiled() else 0  # the last may have idle lanes
-    march, each = native.loop(march_eight), native.loop(march_one)
 
     def task(part: int) -> None:
         first = EIGHT * part if part < blocks else EIGHT * blocks + part - blocks
         some = slice(first, first + (EIGHT if part < blocks else 1))
-        loop = march if part < blocks else each
-        loop(*(x[some] for x in frames), *how, *weights, *(x[some] for x in ends))
+        native.loop(march)(part >= blocks, *(x[some] for x in frames), *how, *weights, *(x[some] for x in ends))
         count.add(steps * len(doubt[some]))
 
     parts = range(blocks + max(0, n - EIGHT * blocks))

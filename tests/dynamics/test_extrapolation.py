@@ -14,8 +14,8 @@ import chapsym
 from benchmarks.trade.reference import continuous
 from chapsym.dynamics import extrapolation, kernels
 from chapsym.dynamics.attitudes import initial_attitude
-from chapsym.dynamics.loops import lanes, long_run
-from chapsym.dynamics.loops.fitted import fitted, half_angle, turn_square
+from chapsym.dynamics.loops import lanes
+from chapsym.dynamics.loops.lanes import fitted, half_angle, turn_square
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
 K = np.array([1, -0.5, 0.75]) / np.sqrt(1 + 0.25 + 0.5625)
@@ -139,7 +139,7 @@ def test_lanes_take_the_rotations_of_the_branch(monkeypatch, columns, time_step)
     ball, K, g = at_random(20)
     ball = chapsym.Ball(ball.mass_tensor, ball.D, 0.7)
     fast = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, contact=True)
-    monkeypatch.setattr(long_run, "side_by_side", lambda S, *args: S[lanes.LOST].fill(1.0) or True)
+    monkeypatch.setattr(lanes, "side_by_side", lambda S, *args: S[lanes.LOST].fill(1.0) or True)
     with in_plain_python():
         safe = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, contact=True)
     assert (safe.status == 0).sum() >= 15
@@ -251,7 +251,7 @@ def test_lanes_do_not_need_the_safe_way(monkeypatch, time_step, rounds):
     At 2.1 three columns are beyond the lemma's bound.
     """
     calls = []
-    monkeypatch.setattr(long_run, "long_step", lambda *args: calls.append(1) or (0, 1.0))
+    monkeypatch.setattr(lanes, "long_step", lambda *args: calls.append(1) or (0, 1.0))
     monkeypatch.setattr(lanes, "MOST_ROUNDS", rounds)
     chapsym.extrapolate(BALL, K, GAMMA, time_step, 40)
     assert not calls

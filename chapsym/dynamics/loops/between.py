@@ -13,7 +13,7 @@ from math import sqrt
 
 from chapsym.generated import angular_velocity, compose, rotate
 
-from .long_step import ATTITUDE, SPOT
+from .lanes import ATTITUDE, SPOT
 from .vectors import (
     conjugate,
     dot,
@@ -54,7 +54,7 @@ def crossed(V, at, n, i):
 def series(body, J, contact, radius, whole, traced, V, end):
     """Taylor's coefficients of the attitude and the contact point at `body`, in parts of a step, into `end` (6, 6).
 
-    body: `long_step.MOVING`.  whole: the step, in the unit of time of K and J.  V (SERIES, TERMS) is used.
+    body: `lanes.MOVING`.  whole: the step, in the unit of time of K and J.  V (SERIES, TERMS) is used.
     traced: whether the contact point is wanted.
     """
     g, a = three(body, 3), four(body, ATTITUDE)
@@ -148,7 +148,7 @@ def at_part(curve, i, s):
 
 
 def ball_at(curve, s, body, traced, found):
-    """The ball at the part s of the step that began at `body`, into `found`; both `long_step.MOVING`."""
+    """The ball at the part s of the step that began at `body`, into `found`; both `lanes.MOVING`."""
     q = at_part(curve, 0, s), at_part(curve, 1, s), at_part(curve, 2, s), at_part(curve, 3, s)
     q = scaled_four(1.0 / sqrt(square_of_four(q)), q)
     p = compose(*conjugate(q), *four(body, ATTITUDE))  # from the axes at the beginning to those of now

@@ -18,8 +18,7 @@ from math import sqrt
 
 from chapsym.generated import angular_velocity, rotate
 
-from .lanes import BALL, CHANGE, DONE, LANES, MOVED, RADIUS, SUMS, Q, Y
-from .long_step import ATTITUDE, CHANGES, SLIP, SPOT, TWIST, twist
+from .lanes import ATTITUDE, BALL, CHANGE, CHANGES, DONE, LANES, MOVED, RADIUS, SLIP, SPOT, SUMS, TWIST, Q, Y, twist
 from .text import lanes
 from .vectors import (
     cross,

@@ -5,7 +5,8 @@ does depends on its own ball alone, so a ball has the same bits alone and among 
 the same functions run on floats and are compiled.
 """
 
-from math import nan, sqrt
+from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,11 +17,37 @@ from .carried import FOUND, PART, WHOLE, begun, carry, changes, tangent
 from .carried import ROUNDED as ROUNDING
 from .carried import ROWS as ERRORS
 from .carried import SPUN as BY_ATTITUDE
-from .lanes import CONTACT, EIGHT, FIRSTS, LANES, LENGTH, LOST, MOVED, OMEGA, RADIUS, RESTS, ROWS, TENSOR, side_by_side
-from .long_run import enter, placed, resized, safely
-from .long_step import ATTITUDE, DOUBT, MOVING, SPOT, TWIST
+from .lanes import (
+    CONTACT,
+    DOUBT,
+    EIGHT,
+    FIRSTS,
+    LANES,
+    LENGTH,
+    LOST,
+    MOVED,
+    MOVING,
+    OMEGA,
+    RADIUS,
+    RESTS,
+    ROWS,
+    TENSOR,
+    TWIST,
+    Balls,
+    Frames,
+    Weights,
+    enter,
+    placed,
+    put_back,
+    resized,
+    safely,
+    shown,
+    side_by_side,
+    stopped_at,
+    taken_out,
+)
 from .text import Cube, Doubles, Integers, Matrix, Vector
-from .vectors import four, length, put, put_four, shifted, square, three, three_in
+from .vectors import length, square, three_in
 
 #: The largest |ω|h of a step, in radians: longer ones have errors beyond 10⁻⁴, or do not settle.
 FARTHEST = 1.7
@@ -78,6 +105,18 @@ LANE = 21
 RESTING, AGAIN, STOPS, STAYS = 0.0, 1.0, 2.0, 3.0
 
 
+class Asked(NamedTuple):
+    """Of each ball, (balls,): the length of its first step, in seconds, and the error that it may make in a second.
+
+    most: what all of them may have made at the end.  start: how far its start may be off by a rounding.
+    """
+
+    first: Vector
+    allowed: Vector
+    most: Vector
+    start: Vector
+
+
 def steps_in(time, step):
     """The fewest steps of at most about this length that a time is."""
     count = int(time / step)
@@ -127,42 +166,19 @@ def left(S, b, start):
     return GAIN * last * min(last / middle, 1.0), x, y, z
 
 
-def taken_in(
-    S, E, B, b, columns, i, first, allowed, start, momenta, verticals, attitudes, traces, J0, D0, radius, frames,
-    interval, follows, sums, beginning, body, state, lane, reported, traced,
-):  # fmt: skip
+def taken_in(S, E, B, b, i, frames, balls, interval, weights, asked, body, state, lane, reported):
     """Puts the ball i into the lane b; returns K's exponent."""
-    placed(body, i, momenta, verticals, attitudes, traces, follows, traced)
+    placed(body, i, frames)
     lane[:] = 0.0
-    lane[WHICH], lane[NEXT], lane[ALLOWED], lane[WISH] = i, 1.0, allowed, first
+    lane[WHICH], lane[NEXT], lane[ALLOWED], lane[WISH] = i, 1.0, asked.allowed[i], asked.first[i]
     lane[SETTLED], lane[SMOOTH] = ANYTHING, ANYTHING
-    aimed(lane, frames, interval)
-    exponent = enter(S, B, b, columns, J0[i], D0[i], radius[i], lane[STEP], sums, beginning, body, state)
+    aimed(lane, frames.momenta.shape[1], interval)
+    exponent = enter(S, B, b, i, balls, lane[STEP], weights, body, state)
     lane[UNIT] = 2.0 * S[LENGTH, b] / lane[STEP]
-    begun(E, B, b, three_in(S, TENSOR, b), start)
+    begun(E, B, b, three_in(S, TENSOR, b), asked.start[i])
     for c in range(REPORTED):
         reported[i, c] = 1.0 if c == UNTIL else 0.0
     return exponent
-
-
-def shown(body, exponent, i, frame, momenta, verticals, attitudes, traces, follows, traced):
-    """Writes a ball into one of its frames."""
-    put(momenta[i, frame], 0, shifted(three(body, 0), int(exponent)))
-    put(verticals[i, frame], 0, three(body, 3))
-    if follows:
-        put_four(attitudes[i, frame], 0, four(body, ATTITUDE))
-    if traced:
-        traces[i, frame, 0], traces[i, frame, 1] = body[SPOT], body[SPOT + 1]
-
-
-def stopped_at(i, frame, momenta, verticals, attitudes, traces, follows, traced):
-    """Writes NaN into the frames of a ball from one on."""
-    momenta[i, frame:] = nan
-    verticals[i, frame:] = nan
-    if follows:
-        attitudes[i, frame:] = nan
-    if traced:
-        traces[i, frame:] = nan
 
 
 def judged(S, E, b, lost, start, sums, state, lane):
@@ -263,8 +279,7 @@ def looked_at(
     if lane[FATE] == STAYS:
         inside = part_of(lane, int(lane[NEXT]), interval) < 1.0 - AT_END
         if inside:
-            for c in range(MOVING):
-                now[c] = S[MOVED + c, b]
+            taken_out(S, b, now)
             off, out = through(S, b, body, now, traced, lane, V, first, last, curve)
             speed = lane[SPEED] / lane[UNIT]
             worst = max(off * max(spinning(E, B, b) / speed, 1.0), out) if speed > 0.0 else max(off, out)
@@ -281,44 +296,37 @@ def looked_at(
     else:
         E[PART, b], E[PART + 1, b], E[PART + 2, b] = 0.0, 0.0, 0.0
     if lane[FATE] == AGAIN:
-        for c in range(MOVING):
-            S[MOVED + c, b] = body[c]
+        put_back(S, b, body)
 
 
-def follow_lanes(
-    B, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, patient,
-    follows, traced, sums, following, beginning, reported, reached, status, reach,
-):  # fmt: skip
-    """Balls from their frames 0, (balls, frames, ...), to all other frames, `interval` seconds apart.
+def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, reached, status, reach):
+    """Balls from their frames 0 to all other frames, `interval` seconds apart.
 
-    first: the length of the first step of each ball, in seconds; allowed: the error that it may make in a second, at
-    first; most: what all of them may have made at the end; start: how far its start may be off by a rounding.
-    patient: whether no ball is given up.  follows, traced, sums, following, beginning: as of `long_run.march_lanes`.
-    reported (balls, REPORTED), the last frame that was reached, status, reach: of each ball.
+    patient: whether no ball is given up.  reported (balls, REPORTED), the last frame that was reached, status, reach:
+    of each ball.
     """
-    S, E, columns = np.zeros((ROWS, LANES * B)), np.zeros((ERRORS, LANES * B)), sums.shape[1]
+    S, E, columns = np.zeros((ROWS, LANES * B)), np.zeros((ERRORS, LANES * B)), weights.sums.shape[1]
     states, exponents = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64)
     bodies, now, found, lanes = np.zeros((B, MOVING)), np.zeros(MOVING), np.zeros(MOVING), np.zeros((B, LANE))
     ends, V, curves = np.zeros((2 * B, TERMS, PARTS)), np.zeros((SERIES, TERMS)), np.zeros((B, 2 * TERMS, PARTS))
-    balls, frames = momenta.shape[0], momenta.shape[1]
-    end, coming, busy, fresh = (frames - 1) * interval, min(B, balls), min(B, balls), True
+    count, kept, traced = frames.momenta.shape[0], frames.momenta.shape[1], frames.traced
+    end, coming, busy, fresh = (kept - 1) * interval, min(B, count), min(B, count), True
     for b in range(B):
-        i = min(b, balls - 1)
         exponents[b] = taken_in(
-            S, E, B, b, columns, i, first[i], allowed[i], start[i], momenta, verticals, attitudes, traces, J0, D0,
-            radius, frames, interval, follows, sums, beginning, bodies[b], states[b], lanes[b], reported, traced,
+            S, E, B, b, min(b, count - 1), frames, balls, interval, weights, asked, bodies[b], states[b], lanes[b],
+            reported,
         )  # fmt: skip
-        S[RESTS, b] = 0.0 if b < balls else 1.0
+        S[RESTS, b] = 0.0 if b < count else 1.0
     while busy > 0:
         if fresh:
             tangent(S, E, B, 0, traced)
             fresh = False
-        lost = side_by_side(S, B, columns, traced, following, beginning)
+        lost = side_by_side(S, B, traced, weights)
         changes(S, E, B)
         for b in range(B):
             i = int(lanes[b, WHICH])
             looked_at(
-                S, E, B, b, lost, interval, start[i], BEARABLE * most[i], traced, sums, bodies[b],
+                S, E, B, b, lost, interval, asked.start[i], BEARABLE * asked.most[i], traced, weights.sums, bodies[b],
                 states[b], lanes[b], V, ends[2 * b], ends[2 * b + 1], curves[b], now,
             )  # fmt: skip
         tangent(S, E, B, LAST_END, traced)
@@ -327,46 +335,43 @@ def follow_lanes(
             i, frame, fate, done = int(lanes[b, WHICH]), int(lanes[b, NEXT]), lanes[b, FATE], False
             if fate == AGAIN:
                 lanes[b, TRIES] += 1.0
-                aimed(lanes[b], frames, interval)
+                aimed(lanes[b], kept, interval)
                 resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], bodies[b], states[b])
             elif fate == STOPS:
                 status[i], reach[i], reached[i], done = int(lanes[b, STATUS]), lanes[b, REACH], frame - 1, True
-                stopped_at(i, frame, momenta, verticals, attitudes, traces, follows, traced)
+                stopped_at(i, frame, frames)
             elif fate == STAYS:
-                for c in range(MOVING):
-                    now[c] = S[MOVED + c, b]
+                taken_out(S, b, now)
                 part = part_of(lanes[b], frame, interval)
-                while frame < frames and part <= 1.0 + AT_END:
+                while frame < kept and part <= 1.0 + AT_END:
                     if abs(part - 1.0) <= AT_END:
-                        shown(now, exponents[b], i, frame, momenta, verticals, attitudes, traces, follows, traced)
+                        shown(now, exponents[b], i, frame, frames)
                     else:
                         ball_at(curves[b], part, bodies[b], traced, found)
-                        shown(found, exponents[b], i, frame, momenta, verticals, attitudes, traces, follows, traced)
+                        shown(found, exponents[b], i, frame, frames)
                     frame += 1
                     part = part_of(lanes[b], frame, interval)
-                recorded(E, B, b, i, end, allowed[i], most[i], patient, lanes[b], reported)
+                recorded(E, B, b, i, end, asked.allowed[i], asked.most[i], patient, lanes[b], reported)
                 lanes[b, NEXT], lanes[b, TRIES], lanes[b, NOW] = frame, 0.0, lanes[b, NOW] + lanes[b, STEP]
                 lanes[b, COMING] = lanes[b, COMING] - 1.0
-                for c in range(MOVING):
-                    bodies[b, c] = now[c]
+                taken_out(S, b, bodies[b])
                 there, wish = lanes[b, COMING] < 0.5, min(lanes[b, WISH], lanes[b, SMOOTH])
                 alike = wish * ALIKE >= lanes[b, STEP] and wish <= ALIKE * lanes[b, STEP]
                 if there:
                     lanes[b, NOW] = lanes[b, GOAL] * interval
-                done = there and lanes[b, GOAL] == frames - 1
+                done = there and lanes[b, GOAL] == kept - 1
                 if reported[i, UNTIL] < 1.0:
                     reached[i], status[i], reach[i], done = frame - 1, 0, 1.0, True
                 elif done:
-                    reached[i], status[i], reach[i] = frames - 1, 0, 1.0
-                elif (there or not alike) and aimed(lanes[b], frames, interval):
+                    reached[i], status[i], reach[i] = kept - 1, 0, 1.0
+                elif (there or not alike) and aimed(lanes[b], kept, interval):
                     resized(S, B, b, columns, 0.5 * lanes[b, STEP] * lanes[b, UNIT], now, states[b])
             if done:
                 reported[i, SPUN] = lanes[b, SPINNING] / lanes[b, FASTEST] if lanes[b, FASTEST] > 0.0 else 0.0
-                if coming < balls:
+                if coming < count:
                     exponents[b] = taken_in(
-                        S, E, B, b, columns, coming, first[coming], allowed[coming], start[coming], momenta,
-                        verticals, attitudes, traces, J0, D0, radius, frames, interval, follows, sums, beginning,
-                        bodies[b], states[b], lanes[b], reported, traced,
+                        S, E, B, b, coming, frames, balls, interval, weights, asked, bodies[b], states[b], lanes[b],
+                        reported,
                     )  # fmt: skip
                     coming, fresh = coming + 1, True
                 else:
@@ -374,27 +379,16 @@ def follow_lanes(
                     busy -= 1
 
 
-def follow_one(
-    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
-    float, first: Vector, allowed: Vector, most: Vector, start: Vector, patient: bool,
-    follows: bool, traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix,
-    reached: Integers, status: Integers, reach: Doubles,
+def follow(
+    alone: bool, momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
+    interval: float, first: Vector, allowed: Vector, most: Vector, start: Vector, patient: bool, follows: bool,
+    traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers,
+    status: Integers, reach: Doubles,
 ):  # fmt: skip
-    """`follow_lanes` in one lane."""
-    follow_lanes(
-        1, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, patient,
-        follows, traced, sums, following, beginning, reported, reached, status, reach,
-    )  # fmt: skip
-
-
-def follow_eight(
-    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector, interval:
-    float, first: Vector, allowed: Vector, most: Vector, start: Vector, patient: bool,
-    follows: bool, traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix,
-    reached: Integers, status: Integers, reach: Doubles,
-):  # fmt: skip
-    """`follow_lanes` in eight lanes."""
-    follow_lanes(
-        EIGHT, momenta, verticals, attitudes, traces, J0, D0, radius, interval, first, allowed, most, start, patient,
-        follows, traced, sums, following, beginning, reported, reached, status, reach,
-    )  # fmt: skip
+    """`follow_lanes` in one lane for a ball that is `alone`, else in eight."""
+    frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
+    asked, weights = Asked(first, allowed, most, start), Weights(sums, following, beginning)
+    if alone:
+        follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)
+    else:
+        follow_lanes(EIGHT, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)

@@ -6,8 +6,7 @@ from math import factorial
 import numpy as np
 
 from ..ball import Floats
-from .lanes import DERIVATIVES, FIRST_TERMS, LANES, TERMS
-from .long_step import LAST
+from .lanes import DERIVATIVES, FIRST_TERMS, LANES, LAST, TERMS
 
 #: The Taylor coefficients of a rate, in the time of a long step and its square, are taken to fall like this.
 DECAY = 0.5

@@ -1,4 +1,4 @@
-"""Long steps of the continuous ball, columns side by side, of one ball or of eight: vector code.
+"""Long steps of the continuous ball, columns side by side, of one ball or of eight: vector code, and its frames.
 
 Lane i first takes the column n = 7 - i, and then the column i where there is one; so the columns 2 to 7 are 7, 6,
 5 + 2 and 4 + 3 steps of the map, 7 slots of four.  A lane without a column repeats one, with no weight.  Each number
@@ -12,32 +12,63 @@ c = ½(I_max - I_min) + |k|, which bounds the quadratic part of G: if |A⁻¹| c
 Kantorovich has a root within 1.2|d| of u, |A⁻¹| grows by less than 1.42 on the way to it, and u + d + e is at most
 1.42 · 3 |A⁻¹| c max(|d|,|e|)|e| from the root.  Where the lemma holds, the root is that of the small-rotation branch;
 beyond, it is the one that Newton's method finds from the rates of the other steps.
+
+The safe way (`long_step`) takes the rotations of the small-rotation branch, proved or continued from no rotation.
+
+Steps of the map are fitted: they turn a ball in steady rotation as far as the continuous ball turns.  By lemmas
+`steady` and `steady-branch` a step of length s turns it by θ with sin θ = s|ω|.  So the step for the time h has the
+length s = sin(h|ω|)/|ω|.  That is h times an even function of h, so the rotation of n steps stays an even series.  In
+lemma `modified-field` 12ω₃ loses its part 2|ω|²ω so, up to what |ω| changes in the long step.
 """
 
-from math import sqrt
+from math import frexp, ldexp, nan, sqrt
+from typing import NamedTuple
 
-from chapsym.generated import angular_velocity, centre_step, compose, turn
+import numpy as np
 
-from .fitted import fitted, half_angle, turn_square
-from .gibbs import newton_round, second_round
-from .long_step import DOUBT, LAST, MOVING, moved_body
-from .text import lanes
+from chapsym.generated import angular_velocity, centre_step, compose, rotate, turn
+
+from . import loop
+from .branch import NOT_CONVERGED
+from .gibbs import LEFT, certificate, is_heavy, newton_round, second_round, settle
+from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import (
     conjugate,
     cross,
     dot,
+    four,
     four_in,
+    largest,
+    length,
+    minus,
     plus,
     plus_four,
+    put,
+    put_four,
     put_four_in,
     put_in,
     scaled,
     scaled_four,
+    shifted,
     square,
     square_of_four,
+    three,
     three_in,
 )  # fmt: skip
 
+#: The last column; the first is LAST + 1 - columns: longer steps of the map gain less than more columns do.
+LAST = 7
+#: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
+LONGEST = 100
+#: The rows of the weights: of the columns, and from 1 on of the differences that the last three columns make.
+CHANGES = 3
+#: A ball under way, and where its numbers begin: K, γ, the attitude, the contact point, and the doubt so far.  Of the
+#: last step: by which vectors, in the axes at its end, the last three columns have turned it otherwise; and how far the
+#: last one has moved the contact point, in radii.
+MOMENTUM, GAMMA, ATTITUDE, SPOT, DOUBT, TWIST, SLIP = 0, 3, 6, 10, 12, 13, 22
+MOVING = 24
+#: 1.5²: steps that would turn the ball by nearly a right angle, where the branch folds, are not fitted.
+MOST_TURN = 2.25
 #: Columns side by side, and balls in a block.
 LANES, EIGHT = 4, 8
 #: The most columns that fit: 2, ..., 7.
@@ -60,7 +91,7 @@ BALL, START, VERTICAL, OMEGA, RATE, CURVE, TURNED, WEIGHT, P, OPEN, LOST = 27, 3
 FIRSTS, SECONDS, FULL, CHANGE, GUESS, SPREAD, TANGENT = 59, 65, 71, 73, 79, 82, 83
 #: The rate of each lane's first step, the quaternion and the way of the column that it has finished first, and sums.
 KEPT, DONE, SUMS = 84, 87, 94
-#: Rows of the balls, one number each: `long_step.MOVING`, half a long step, the radius, J and D, whether it rests, and
+#: Rows of the balls, one number each: `lanes.MOVING`, half a long step, the radius, J and D, whether it rests, and
 #: the rate of the first step of the largest second column.
 MOVED = SUMS + 11
 LENGTH, RADIUS, TENSOR = MOVED + MOVING, MOVED + MOVING + 1, MOVED + MOVING + 2
@@ -70,6 +101,43 @@ ROWS = MOVED + MOVING + 10
 KANTOROVICH = 1.0 / 64.0
 #: Rounds of a slot that are tried before the long step is left to the safe way.
 MOST_ROUNDS = 6
+#: Where the lemma has no radius, none is asked for.
+ANYWHERE = 2.0**1000
+#: (1.42 · 3)².
+BEHIND = 18.2
+
+
+class Weights(NamedTuple):
+    """Those of the columns, and of the differences that the last three make, (1 + CHANGES, columns).
+
+    following, beginning: those of the guesses (`guess`).
+    """
+
+    sums: Matrix
+    following: Cube
+    beginning: Matrix
+
+
+class Balls(NamedTuple):
+    """J (balls, 3), D and the radius, (balls,)."""
+
+    tensor: Matrix
+    contact: Vector
+    radius: Vector
+
+
+class Frames(NamedTuple):
+    """What is kept of balls, (balls, frames, ...), with K in the place of 𝒦.
+
+    follows, traced: whether there are attitudes and traces, and whether the latter are wanted.
+    """
+
+    momenta: Cube
+    verticals: Cube
+    attitudes: Cube
+    traces: Cube
+    follows: bool
+    traced: bool
 
 
 def checked(S, B, again):
@@ -240,8 +308,9 @@ def rates(S, B, first):
         S[LOST, B + b], S[LOST, 2 * B + b], S[LOST, 3 * B + b] = one, one, one
 
 
-def side_by_side(S, B, columns, traced, following, beginning):
+def side_by_side(S, B, traced, weights):
     """One long step of every ball in place but of those that get lost; returns whether one is."""
+    columns = weights.sums.shape[1]
     first, second = LAST + 1 - columns, LAST - LANES  # the largest of the second columns
     rates(S, B, first)
     begin(S, B)
@@ -252,12 +321,12 @@ def side_by_side(S, B, columns, traced, following, beginning):
             for b in lanes(B):
                 finish(S, lane * B + b)
         if lane == 3 and first <= 3:
-            begin_second(S, B, 3, beginning)
+            begin_second(S, B, 3, weights.beginning)
         elif lane == 2 and first <= 2:
-            begin_second(S, B, 2, beginning)
+            begin_second(S, B, 2, weights.beginning)
         for j in range(TERMS):
             for c in range(LANES):
-                weight = following[slot, j, c]
+                weight = weights.following[slot, j, c]
                 for b in lanes(B):
                     S[WEIGHT + j, c * B + b] = weight
         left, rounds = checked(S, B, False), 0
@@ -291,3 +360,263 @@ def lose(S, B):
         is_open = (S[OPEN, b] + S[OPEN, B + b]) + (S[OPEN, 2 * B + b] + S[OPEN, 3 * B + b]) != 0.0
         for lane in range(LANES):
             S[LOST, lane * B + b] = 1.0 if is_open else S[LOST, lane * B + b]
+
+
+def turn_square(h, first, w):
+    """(h|ω|)² for a long step h, or 0 where its steps, the longest h/`first`, are not fitted."""
+    turned = h * h * square(w)
+    return turned if turned <= MOST_TURN * (first * first) else 0.0
+
+
+def fitted(square):
+    """(sin x)/x by its Taylor polynomial up to x¹²: off by 3e-10 at x = 1.5, and by roundings up to x = 0.5."""
+    fourth = square * square
+    last = (1.0 / 362880.0 - square * (1.0 / 39916800.0)) + fourth * (1.0 / 6227020800.0)
+    return ((1.0 - square * (1.0 / 6.0)) + fourth * (1.0 / 120.0 - square * (1.0 / 5040.0))) + fourth * fourth * last
+
+
+def half_angle(square):
+    """cos²(x/2) by its Taylor polynomial up to x⁸: x (sin x)/x over twice this is tan(x/2)."""
+    fourth = square * square
+    return (1.0 - square * 0.25) + fourth * ((1.0 / 48.0 - square * (1.0 / 1440.0)) + fourth * (1.0 / 80640.0))
+
+
+def begun(body, J0, D0, h, state):
+    """Scales K of `body` by a power of two, exactly, so that it is about 1, and puts the ball, likewise, into `state`.
+
+    Returns (half, exponent): half a long step in these units, and K's exponent.
+    """
+    none = np.zeros(3)
+    _, size = frexp(loop.entered(none, none, J0, D0, state))
+    _, exponent = frexp(largest(three(body, 0)))
+    put(body, 0, shifted(three(body, 0), -exponent))
+    mantissa, shift = frexp(0.5 * h)
+    return ldexp(mantissa, min(shift + exponent - (size - 2), LONGEST)), exponent
+
+
+def column(body, half, n, square, state):
+    """The unit quaternion that n fitted steps of the map make together from K and γ of `body`.
+
+    Each has 𝒦 = 2 half K/n times `fitted`, of `turn_square` over n².
+    state (`loop.ROWS`) has J, I and D; the rest of it is used.  Returns (status, reach, q, y) with the way y of the
+    centre in radii, in the axes of the body at the start.
+    """
+    k = scaled(half / n * fitted(square * (1.0 / (n * n))), three(body, MOMENTUM))
+    g, inertia, contact = three(body, GAMMA), three(state, loop.I), state[loop.D]
+    state[loop.RADIUS], state[loop.ENOUGH] = certificate(k, inertia, contact)
+    u = angular_velocity(*k, *g, *three(state, loop.J), contact)
+    v = u  # the Gibbs vector of the step before
+    q, y = (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    for _ in range(n):
+        settled, p, w = settle(u, k, g, inertia, contact, state[loop.RADIUS], state[loop.ENOUGH])
+        if not settled:
+            put(state, loop.K, k)
+            put(state, loop.G, g)
+            status, reach, p, w = loop.safe_rotation(w, state)
+            if status != 0:
+                return status, reach, q, y
+        size = square_of_four(p)
+        if not size > 0.0:
+            return NOT_CONVERGED, 0.0, q, y
+        unit = scaled_four(1.0 / sqrt(size), p)
+        y = plus(y, rotate(*q, *centre_step(*unit, *g)))
+        k, g = plus(k, turn(*p, *k)), plus(g, turn(*p, *g))
+        q = compose(*q, *unit)
+        u, v = minus(scaled(2.0, w), v), w
+    return 0, 1.0, q, y
+
+
+def long_step(body, half, radius, sums, state):
+    """One long step of `body` (MOVING) in place; sums: as of `lanes.march_lanes`.
+
+    Returns (status, reach); nothing is written unless the status is 0.
+    """
+    q, y, z = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    changes = np.zeros((CHANGES, 4))
+    w = angular_velocity(*three(body, MOMENTUM), *three(body, GAMMA), *three(state, loop.J), state[loop.D])
+    first = LAST + 1 - sums.shape[1]
+    square = turn_square(2.0 * half, first, w)
+    for i in range(sums.shape[1]):
+        status, reach, p, s = column(body, half, first + i, square, state)
+        if status != 0:
+            return status, reach
+        q, y = plus_four(q, scaled_four(sums[0, i], p)), plus(y, scaled(sums[0, i], s))
+        z = plus(z, scaled(sums[1, i], s))
+        for c in range(CHANGES):
+            put_four(changes[c], 0, plus_four(four(changes[c], 0), scaled_four(sums[1 + c, i], p)))
+    body[SLIP], body[SLIP + 1], _ = rotate(*four(body, ATTITUDE), *z)
+    k, g, a, body[SPOT], body[SPOT + 1] = moved_body(
+        three(body, MOMENTUM), three(body, GAMMA), four(body, ATTITUDE), body[SPOT], body[SPOT + 1], q, y, radius
+    )
+    put(body, MOMENTUM, k)
+    put(body, GAMMA, g)
+    put_four(body, ATTITUDE, a)
+    for c in range(CHANGES):
+        d = four(changes[c], 0)
+        if c == 0:
+            body[DOUBT] += 2.0 * sqrt(square_of_four(d))
+        put(body, TWIST + 3 * c, twist(q, d))
+    return 0, 1.0
+
+
+def twist(q, d):
+    """By which small vector, in the axes at the end, a unit quaternion q turns otherwise for a change d of it."""
+    return scaled(2.0, compose(*conjugate(q), *d)[1:4])
+
+
+def moved_body(k, g, a, x, y, q, s, radius):
+    """K and γ turned by one quaternion q of any length, the attitude a with them, and the contact point moved by s."""
+    d1, d2, _ = rotate(*a, *s)
+    b = compose(*a, *q)
+    b = scaled_four(1.0 / sqrt(square_of_four(b)), b)
+    return plus(k, turn(*q, *k)), plus(g, turn(*q, *g)), b, x + radius * d1, y + radius * d2
+
+
+def placed(body, i, frames):
+    """The ball i as it is at frame 0."""
+    body[:] = 0.0
+    put(body, 0, three(frames.momenta[i, 0], 0))
+    put(body, 3, three(frames.verticals[i, 0], 0))
+    body[ATTITUDE] = 1.0
+    if frames.follows:
+        put_four(body, ATTITUDE, four(frames.attitudes[i, 0], 0))
+    if frames.traced:
+        body[SPOT], body[SPOT + 1] = frames.traces[i, 0, 0], frames.traces[i, 0, 1]
+
+
+def shown(body, exponent, i, frame, frames):
+    """Writes a ball, of K's exponent, into one of its frames."""
+    put(frames.momenta[i, frame], 0, shifted(three(body, 0), int(exponent)))
+    put(frames.verticals[i, frame], 0, three(body, 3))
+    if frames.follows:
+        put_four(frames.attitudes[i, frame], 0, four(body, ATTITUDE))
+    if frames.traced:
+        frames.traces[i, frame, 0], frames.traces[i, frame, 1] = body[SPOT], body[SPOT + 1]
+
+
+def stopped_at(i, frame, frames):
+    """Writes NaN into the frames of a ball from one on."""
+    frames.momenta[i, frame:] = nan
+    frames.verticals[i, frame:] = nan
+    if frames.follows:
+        frames.attitudes[i, frame:] = nan
+    if frames.traced:
+        frames.traces[i, frame:] = nan
+
+
+def taken_out(S, b, body):
+    """The present state of a ball, out of its column of S."""
+    for c in range(MOVING):
+        body[c] = S[MOVED + c, b]
+
+
+def put_back(S, b, body):
+    """The same into it."""
+    for c in range(MOVING):
+        S[MOVED + c, b] = body[c]
+
+
+@out_of_line
+def enter(S, B, b, i, balls, h, weights, body, state):
+    """Puts the ball i, of which `body` has all but the scale, into the column b of S; returns K's exponent."""
+    half, exponent = begun(body, balls.tensor[i], balls.contact[i], h, state)
+    put_back(S, b, body)
+    S[LENGTH, b], S[RADIUS, b], S[CONTACT, b], S[RESTS, b] = half, balls.radius[i], state[loop.D], 0.0
+    put_in(S, TENSOR, b, three(state, loop.J))
+    columns = weights.sums.shape[1]
+    least = LAST + 1 - columns
+    for lane in range(LANES):
+        j, first = lane * B + b, max(LAST - lane, least)
+        put_in(S, BALL, j, three(state, loop.I))
+        S[BALL + 3, j] = state[loop.D]
+        one, two = LAST - lane >= least, lane >= least
+        for c in range(DERIVATIVES):
+            S[GUESS + c, j] = weights.beginning[first, c]
+        for c in range(1 + CHANGES):
+            S[FULL + 2 * c, j] = weights.sums[c, first - least] if one else 0.0
+            S[FULL + 2 * c + 1, j] = weights.sums[c, lane - least] if two else 0.0
+    resized(S, B, b, columns, half, body, state)
+    return exponent
+
+
+def resized(S, B, b, columns, half, body, state):
+    """Gives a ball a long step of another length, of which `half` is the half in the unit of S."""
+    S[LENGTH, b], least = half, LAST + 1 - columns
+    for lane in range(LANES):
+        entered(S, FIRSTS, lane * B + b, body, half, max(LAST - lane, least), state)
+        entered(S, SECONDS, lane * B + b, body, half, max(lane, least), state)
+
+
+def entered(S, at, i, body, half, n, state):
+    """Half a step of a lane and what goes with it (`FIRSTS`).
+
+    The lemma's radius for the step that is not fitted serves the fitted one, too, as that is shorter: its root is
+    nearer to 0, and what is monotone stays so.
+    """
+    part = half / n
+    inertia, contact = three(state, loop.I), state[loop.D]
+    spread = 0.5 * (max(*inertia) - min(*inertia))
+    k = scaled(part, three(body, 0))
+    size = length(k)
+    within, _ = certificate(k, inertia, contact)
+    least = LEFT * size / (max(*inertia) + contact + spread)
+    anywhere = -1.0 if is_heavy(inertia, contact) else ANYWHERE  # a heavy ball takes the safe way
+    S[at, i], S[at + 1, i], S[at + 2, i], S[SPREAD, i] = part, 1.0 / part if part != 0.0 else 0.0, size, spread
+    S[at + 3, i], S[at + 4, i] = within if within >= 0.0 else anywhere, least * least / BEHIND
+    S[at + 5, i] = 1.0 / (n * n)
+
+
+@out_of_line
+def safely(S, b, sums, state):
+    """The safe way of a long step for one ball; returns (status, reach)."""
+    body = np.empty(MOVING)
+    taken_out(S, b, body)
+    status, reach = long_step(body, S[LENGTH, b], S[RADIUS, b], sums, state)
+    put_back(S, b, body)
+    return status, reach
+
+
+def march_lanes(B, frames, balls, h, steps, every, weights, doubt, taken, status, reach):
+    """`steps` long steps of at most B balls from their frames 0; keeps every `every`-th state.
+
+    doubt, taken, status, reach: of each ball, (balls,).
+    """
+    S, count = np.zeros((ROWS, LANES * B)), len(status)
+    states, exponents, body = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64), np.zeros(MOVING)
+    for b in range(B):
+        i = min(b, count - 1)  # lanes beyond the balls repeat the last
+        placed(body, i, frames)
+        exponents[b] = enter(S, B, b, i, balls, h, weights, body, states[b])
+    for step in range(steps):
+        if side_by_side(S, B, frames.traced, weights):
+            for b in range(B):
+                if S[LOST, b] != 0.0 and S[RESTS, b] == 0.0:
+                    stopped, reached = safely(S, b, weights.sums, states[b])
+                    if stopped != 0:
+                        S[RESTS, b] = 1.0
+                        if b < count:
+                            status[b], reach[b], taken[b] = stopped, reached, step
+                            stopped_at(b, step // every + 1, frames)
+        if (step + 1) % every == 0:
+            for b in range(count):
+                if status[b] == 0:
+                    taken_out(S, b, body)
+                    shown(body, exponents[b], b, (step + 1) // every, frames)
+    for b in range(count):
+        doubt[b] = S[MOVED + DOUBT, b] if status[b] == 0 else nan
+        if status[b] == 0:
+            taken[b], reach[b] = steps, 1.0
+
+
+def march(
+    alone: bool, momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
+    h: float, steps: int, every: int, follows: bool, traced: bool, sums: Matrix, following: Cube, beginning: Matrix,
+    doubt: Vector, taken: Integers, status: Integers, reach: Doubles,
+):  # fmt: skip
+    """`march_lanes` for one ball that is `alone`, or for eight or fewer."""
+    frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
+    weights = Weights(sums, following, beginning)
+    if alone:
+        march_lanes(1, frames, balls, h, steps, every, weights, doubt, taken, status, reach)
+    else:
+        march_lanes(EIGHT, frames, balls, h, steps, every, weights, doubt, taken, status, reach)
