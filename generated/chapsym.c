@@ -309,8 +309,8 @@ void chapsym_vertical_square(const double gamma[3], const double Lambda[3], doub
 int chapsym_step(const double mass_tensor[3], double D, double momentum[3], double gamma[3], double rotation[4],
     double *reach) {
     double tensor[3] = {mass_tensor[0], mass_tensor[1], mass_tensor[2]}, state[27] = {0};
-    t_ir got = single_step_advance((r1){momentum, 3}, (r1){gamma, 3}, (r1){tensor, 3}, D, (r1){state, 27},
-        (r1){rotation, 4});
+    t_ir got = loop_advance((r1){momentum, 3}, (r1){gamma, 3}, (r1){tensor, 3}, D, (r1){state, 27}, (r1){rotation,
+        4});
     *reach = got.a1; return (int)got.a0;
 }
 

@@ -722,13 +722,14 @@ INLINE t_r3 kernel_turn(real p0, real p1, real p2, real p3, real v1, real v2, re
     real o_x3 = s * (p1 * x2 - p0 * x3 - p2 * x1); return (t_r3){o_x1, o_x2, o_x3};
 }
 
-INLINE t_r2 sums_added(real total, real rest, real more) {
+INLINE t_r2 integrals_added(real total, real rest, real more) {
     more = more - rest; real there = total + more; return (t_r2){there, there - total - more};
 }
 
-INLINE t__r3_2 sums_turned(t_r4 p, t_r3 v, t_r3 x) {
+INLINE t__r3_2 integrals_turned(t_r4 p, t_r3 v, t_r3 x) {
     t_r3 z = kernel_turn(p.a0, p.a1, p.a2, p.a3, v.a0, v.a1, v.a2);
-    t_r2 v1 = sums_added(v.a0, x.a0, z.a0), v2 = sums_added(v.a1, x.a1, z.a1), v3 = sums_added(v.a2, x.a2, z.a2);
+    t_r2 v1 = integrals_added(v.a0, x.a0, z.a0), v2 = integrals_added(v.a1, x.a1, z.a1);
+    t_r2 v3 = integrals_added(v.a2, x.a2, z.a2);
     return (t__r3_2){(t_r3){v1.a0, v2.a0, v3.a0}, (t_r3){v1.a1, v2.a1, v3.a1}};
 }
 
@@ -770,7 +771,7 @@ OUT_OF_LINE void integrals_restore(r1 state) {
 
 #ifdef SINGLE
 INLINE void single_loop_add(r1 array, int64_t at, int64_t rest, real z) {
-    t_r2 t_1 = sums_added(array.p[at], array.p[rest], z); array.p[at] = t_1.a0; array.p[rest] = t_1.a1;
+    t_r2 t_1 = integrals_added(array.p[at], array.p[rest], z); array.p[at] = t_1.a0; array.p[rest] = t_1.a1;
 }
 
 INLINE void single_loop_follow_body(t_r4 p, t_r3 g, r1 attitude, r1 contact, real radius) {
@@ -812,8 +813,8 @@ INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 pas
                 }
                 vectors_put(r2_row(past, at + i), 0, u); vectors_put(r2_row(past, places + at + i), 0, u);
                 if (with_body) { loop_follow_body(p, g, attitude, contact, rho); }
-                t__r3_2 t_3 = sums_turned(p, k, x); k = t_3.a0; x = t_3.a1; t__r3_2 t_4 = sums_turned(p, g, y);
-                g = t_4.a0; y = t_4.a1;
+                t__r3_2 t_3 = integrals_turned(p, k, x); k = t_3.a0; x = t_3.a1;
+                t__r3_2 t_4 = integrals_turned(p, g, y); g = t_4.a0; y = t_4.a1;
             }
             if (status != 0) { break; }
             step = step + 1;
@@ -833,6 +834,33 @@ INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 pas
         }
     }
     return (t_i2r){step - first, status, reach};
+}
+
+INLINE t_ir loop_advance(r1 momentum, r1 g, r1 tensor, real contact, r1 state, r1 q) {
+    int64_t status; real scale = loop_entered(momentum, g, tensor, contact, state);
+    t_r3 k = vectors_three(state, 0), v = vectors_three(state, 3); real reach = R(1.0);
+    t_b_r4__r3_ t_1 = gibbs_settle((t_r3){R(0.0), R(0.0), R(0.0)}, k, v, vectors_three(state, 21), state.p[24],
+        state.p[25], state.p[26], 0);
+    int settled = t_1.a0; t_r4 p = t_1.a1; t_r3 u = t_1.a2;
+    if (!settled) {
+        t_ir_r4__r3_ t_2 = loop_safe_rotation(u, state); status = t_2.a0; reach = t_2.a1; p = t_2.a2; u = t_2.a3;
+        if (status != 0) { return (t_ir){status, reach}; }
+    }
+    real length = R(sqrt(vectors_square_of_four(p))); q.p[0] = p.a0 / length; q.p[1] = p.a1 / length;
+    q.p[2] = p.a2 / length; q.p[3] = p.a3 / length;
+    vectors_put(momentum, 0, vectors_scaled(scale, vectors_plus(k, kernel_turn(p.a0, p.a1, p.a2, p.a3, k.a0, k.a1,
+        k.a2))));
+    vectors_put(g, 0, vectors_plus(v, kernel_turn(p.a0, p.a1, p.a2, p.a3, v.a0, v.a1, v.a2)));
+    return (t_ir){0, reach};
+}
+
+INLINE void loop_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, i1 status, d1 reach) {
+    ALIGNED real state_[27]; memset(state_, 0, sizeof state_); r1 state = {state_, 27};
+    for (int64_t i = 0, end_i = momenta.n0; i < end_i; i++) {
+        t_ir t_1 = loop_advance(r2_row(momenta, i), r2_row(verticals, i), r2_row(tensors, i), contacts.p[i], state,
+            r2_row(q, i));
+        status.p[i] = t_1.a0; reach.p[i] = t_1.a1;
+    }
 }
 
 INLINE void block_prepare_block(r2 momentum, r2 g, r2 tensor, r1 contact, r1 c, r2 state, r2 radius, r2 enough, r2
@@ -1052,7 +1080,7 @@ INLINE void block_rolled(r2 S, r2 P, r2 B, w1 ok) {
 }
 
 INLINE void block_turn_in(t_r4 p, r2 S, int64_t at, int64_t rest, int64_t i) {
-    t__r3_2 v = sums_turned(p, vectors_three_in(S, at, i), vectors_three_in(S, rest, i));
+    t__r3_2 v = integrals_turned(p, vectors_three_in(S, at, i), vectors_three_in(S, rest, i));
     vectors_put_in(S, at, i, v.a0); vectors_put_in(S, rest, i, v.a1);
 }
 
@@ -1162,33 +1190,6 @@ INLINE void block_march_blocks(r2 state, r1 c, r3 weights, r2 radius, r2 enough,
                 }
             }
         }
-    }
-}
-
-INLINE t_ir single_step_advance(r1 momentum, r1 g, r1 tensor, real contact, r1 state, r1 q) {
-    int64_t status; real scale = loop_entered(momentum, g, tensor, contact, state);
-    t_r3 k = vectors_three(state, 0), v = vectors_three(state, 3); real reach = R(1.0);
-    t_b_r4__r3_ t_1 = gibbs_settle((t_r3){R(0.0), R(0.0), R(0.0)}, k, v, vectors_three(state, 21), state.p[24],
-        state.p[25], state.p[26], 0);
-    int settled = t_1.a0; t_r4 p = t_1.a1; t_r3 u = t_1.a2;
-    if (!settled) {
-        t_ir_r4__r3_ t_2 = loop_safe_rotation(u, state); status = t_2.a0; reach = t_2.a1; p = t_2.a2; u = t_2.a3;
-        if (status != 0) { return (t_ir){status, reach}; }
-    }
-    real length = R(sqrt(vectors_square_of_four(p))); q.p[0] = p.a0 / length; q.p[1] = p.a1 / length;
-    q.p[2] = p.a2 / length; q.p[3] = p.a3 / length;
-    vectors_put(momentum, 0, vectors_scaled(scale, vectors_plus(k, kernel_turn(p.a0, p.a1, p.a2, p.a3, k.a0, k.a1,
-        k.a2))));
-    vectors_put(g, 0, vectors_plus(v, kernel_turn(p.a0, p.a1, p.a2, p.a3, v.a0, v.a1, v.a2)));
-    return (t_ir){0, reach};
-}
-
-INLINE void single_step_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, i1 status, d1 reach) {
-    ALIGNED real state_[27]; memset(state_, 0, sizeof state_); r1 state = {state_, 27};
-    for (int64_t i = 0, end_i = momenta.n0; i < end_i; i++) {
-        t_ir t_1 = single_step_advance(r2_row(momenta, i), r2_row(verticals, i), r2_row(tensors, i), contacts.p[i],
-            state, r2_row(q, i));
-        status.p[i] = t_1.a0; reach.p[i] = t_1.a1;
     }
 }
 
@@ -1667,7 +1668,7 @@ INLINE void lanes_march(int alone, r3 momenta, r3 verticals, r3 attitudes, r3 tr
     else { lanes_march_lanes(8, frames, balls, h, steps, every, weights, doubt, taken, status, reach); }
 }
 
-INLINE void rotation_n_guess(r3 past, r1 use, r2 E) {
+INLINE void loop_n_guess(r3 past, r1 use, r2 E) {
     real z; int64_t n = E.n0;
     for (int64_t i = 0, end_i = n; i < end_i; i++) {
         for (int64_t j = 0, end_j = n; j < end_j; j++) {
@@ -1678,7 +1679,7 @@ INLINE void rotation_n_guess(r3 past, r1 use, r2 E) {
     }
 }
 
-INLINE real rotation_n_polish(r2 E, r2 W, r1 v) {
+INLINE real loop_n_polish(r2 E, r2 W, r1 v) {
     real z; int64_t n = E.n0; real far = R(0.0);
     for (int64_t i = 0, end_i = n; i < end_i; i++) {
         for (int64_t j = 0, end_j = i + 1; j < end_j; j++) {
@@ -1698,7 +1699,7 @@ INLINE real rotation_n_polish(r2 E, r2 W, r1 v) {
     return far;
 }
 
-INLINE void rotation_n_gap(r2 E, r2 k, r1 g, r1 J, real D, r1 c, r1 r) {
+INLINE void loop_n_gap(r2 E, r2 k, r1 g, r1 J, real D, r1 c, r1 r) {
     real z; int64_t n = E.n0;
     for (int64_t i = 0, end_i = n; i < end_i; i++) {
         z = (AT2(E, i, 0) - AT2(E, 0, i)) * g.p[0];
@@ -1715,7 +1716,7 @@ INLINE void rotation_n_gap(r2 E, r2 k, r1 g, r1 J, real D, r1 c, r1 r) {
     }
 }
 
-INLINE void rotation_n_slope(r2 E, r1 g, r1 J, real D, r2 O, r1 h, r1 c, r2 T) {
+INLINE void loop_n_slope(r2 E, r1 g, r1 J, real D, r2 O, r1 h, r1 c, r2 T) {
     real z, dq, dp; int64_t row; int64_t n = E.n0;
     for (int64_t i = 0, end_i = n; i < end_i; i++) {
         for (int64_t j = 0, end_j = n; j < end_j; j++) { AT2(O, i, j) = AT2(E, i, j) + (i == j ? R(1.0) : R(0.0)); }
@@ -1751,7 +1752,7 @@ INLINE void rotation_n_slope(r2 E, r1 g, r1 J, real D, r2 O, r1 h, r1 c, r2 T) {
     }
 }
 
-INLINE void rotation_n_solve(r2 T, r1 r) {
+INLINE void loop_n_solve(r2 T, r1 r) {
     real inverse, f, z; int64_t size = r.n0;
     for (int64_t k = 0, end_k = size; k < end_k; k++) {
         inverse = R(1.0) / AT2(T, k, k);
@@ -1767,7 +1768,7 @@ INLINE void rotation_n_solve(r2 T, r1 r) {
     }
 }
 
-INLINE t_r2 rotation_n_turn(r2 E, r1 r, r2 O, r2 W, r1 v) {
+INLINE t_r2 loop_n_turn(r2 E, r1 r, r2 O, r2 W, r1 v) {
     real z; int64_t n = E.n0, p = 0; real change = R(0.0), size = R(0.0);
     for (int64_t i = 0, end_i = n; i < end_i; i++) {
         AT2(O, i, i) = R(0.0);
@@ -1798,15 +1799,14 @@ INLINE t_r2 rotation_n_turn(r2 E, r1 r, r2 O, r2 W, r1 v) {
 INLINE int loop_n_settle(r2 k, r1 g, r1 J, real D, real near, real enough, r2 E, r2 O, r2 W, r2 T, r1 r, r1 h, r1 c) {
     real far, off; t_r2 change;
     for (int64_t i_0 = 0; i_0 < 12; i_0++) {
-        far = rotation_n_polish(E, W, c); rotation_n_gap(E, k, g, J, D, c, r);
-        rotation_n_slope(E, g, J, D, O, h, c, T); rotation_n_solve(T, r); change = rotation_n_turn(E, r, O, W, c);
-        off = change.a0 + far;
+        far = loop_n_polish(E, W, c); loop_n_gap(E, k, g, J, D, c, r); loop_n_slope(E, g, J, D, O, h, c, T);
+        loop_n_solve(T, r); change = loop_n_turn(E, r, O, W, c); off = change.a0 + far;
         if (off * off <= enough * enough * change.a1) { return change.a1 <= near; }
     }
     return 0;
 }
 
-INLINE void rotation_n_remember(r2 E, r3 past, r1 use) {
+INLINE void loop_n_remember(r2 E, r3 past, r1 use) {
     real z, before; int64_t n = E.n0;
     for (int64_t i = 0, end_i = n; i < end_i; i++) {
         for (int64_t j = 0, end_j = n; j < end_j; j++) {
@@ -1818,7 +1818,7 @@ INLINE void rotation_n_remember(r2 E, r3 past, r1 use) {
     use.p[0] = R(1.0);
 }
 
-INLINE void rotation_n_roll(r2 E, r1 g, r2 R, r1 spot, real rho, r1 c, r2 W) {
+INLINE void loop_n_roll(r2 E, r1 g, r2 R, r1 spot, real rho, r1 c, r2 W) {
     real z; int64_t n = E.n0;
     for (int64_t i = 0, end_i = n; i < end_i; i++) {
         z = (AT2(E, i, 0) - AT2(E, 0, i)) * g.p[0];
@@ -1855,7 +1855,7 @@ INLINE void rotation_n_roll(r2 E, r1 g, r2 R, r1 spot, real rho, r1 c, r2 W) {
     }
 }
 
-INLINE void rotation_n_move(r2 E, r2 k, r1 g, r2 W, r1 c) {
+INLINE void loop_n_move(r2 E, r2 k, r1 g, r2 W, r1 c) {
     real z, y; int64_t n = E.n0;
     for (int64_t i = 0, end_i = n; i < end_i; i++) {
         z = AT2(E, 0, i) * g.p[0];
@@ -1894,11 +1894,11 @@ INLINE int64_t loop_n_march(r2 k, r1 g, r1 J, real D, r1 c, r1 near, r1 enough, 
         for (int64_t i = 0, end_i = n; i < end_i; i++) {
             for (int64_t j = 0, end_j = n; j < end_j; j++) { AT2(part, i, j) = c.p[s] * AT2(k, i, j); }
         }
-        rotation_n_guess(r4_row(past, s), r2_row(use, s), E);
+        loop_n_guess(r4_row(past, s), r2_row(use, s), E);
         if (!loop_n_settle(part, g, J, D, near.p[s], enough.p[s], E, O, W, T, r, h, v)) { return stage - first; }
-        rotation_n_remember(E, r4_row(past, s), r2_row(use, s));
-        if (with_body) { rotation_n_roll(E, g, R, spot, rho, v, W); }
-        rotation_n_move(E, k, g, W, v);
+        loop_n_remember(E, r4_row(past, s), r2_row(use, s));
+        if (with_body) { loop_n_roll(E, g, R, spot, rho, v, W); }
+        loop_n_move(E, k, g, W, v);
         if (mod_i(stage + 1, stages * every) == 0) {
             frame = div_i(stage + 1, stages * every);
             for (int64_t i = 0, end_i = n; i < end_i; i++) {
@@ -1960,7 +1960,7 @@ INLINE int vertical_loop_march(r1 g, r1 I, real k, int64_t count, int64_t every,
             R(1.7763568394002505e-15) * root)) {
             return 0;
         }
-        root = root - correction; t__r3_2 t_2 = sums_turned(p, v, y); v = t_2.a0; y = t_2.a1;
+        root = root - correction; t__r3_2 t_2 = integrals_turned(p, v, y); v = t_2.a0; y = t_2.a1;
         if (mod_i(step, every) == 0) { vectors_put(r2_row(verticals, div_i(step, every)), 0, v); }
     }
     vectors_put_four(q, 0, p); return 1;
@@ -2350,24 +2350,24 @@ INLINE t_ir_p3_ double_double_solved__r3__p3_3_r3_r3(t_r3 u, t_p3 k, t_p3 g, t_p
     return (t_ir_p3_){status == 1 ? 1 : 2, reach, (t_p3){zero, zero, zero}};
 }
 
-INLINE t_r8 sums_filtered(real b, real c, real d, real e, real f, real h, real o, real w) {
+INLINE t_r8 integrals_filtered(real b, real c, real d, real e, real f, real h, real o, real w) {
     return (t_r8){b + R(8.0) * w, c - R(28.0) * w, d + R(56.0) * w, e - R(70.0) * w, f + R(56.0) * w, h - R(28.0) * w,
         o + R(8.0) * w, -w};
 }
 
 INLINE void double_double_extrapolated(r2 past, t_r3 w) {
     int64_t c = 0; real x = w.a0;
-    t_r8 t_1 = sums_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
+    t_r8 t_1 = integrals_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
         AT2(past, 6, c), AT2(past, 7, c), x);
     AT2(past, 0, c) = t_1.a0; AT2(past, 1, c) = t_1.a1; AT2(past, 2, c) = t_1.a2; AT2(past, 3, c) = t_1.a3;
     AT2(past, 4, c) = t_1.a4; AT2(past, 5, c) = t_1.a5; AT2(past, 6, c) = t_1.a6; AT2(past, 7, c) = t_1.a7; c = 1;
     x = w.a1;
-    t_r8 t_2 = sums_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
+    t_r8 t_2 = integrals_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
         AT2(past, 6, c), AT2(past, 7, c), x);
     AT2(past, 0, c) = t_2.a0; AT2(past, 1, c) = t_2.a1; AT2(past, 2, c) = t_2.a2; AT2(past, 3, c) = t_2.a3;
     AT2(past, 4, c) = t_2.a4; AT2(past, 5, c) = t_2.a5; AT2(past, 6, c) = t_2.a6; AT2(past, 7, c) = t_2.a7; c = 2;
     x = w.a2;
-    t_r8 t_3 = sums_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
+    t_r8 t_3 = integrals_filtered(AT2(past, 1, c), AT2(past, 2, c), AT2(past, 3, c), AT2(past, 4, c), AT2(past, 5, c),
         AT2(past, 6, c), AT2(past, 7, c), x);
     AT2(past, 0, c) = t_3.a0; AT2(past, 1, c) = t_3.a1; AT2(past, 2, c) = t_3.a2; AT2(past, 3, c) = t_3.a3;
     AT2(past, 4, c) = t_3.a4; AT2(past, 5, c) = t_3.a5; AT2(past, 6, c) = t_3.a6; AT2(past, 7, c) = t_3.a7;
@@ -2691,8 +2691,8 @@ INLINE void double_double_put_pairs_in_r2i2_p3_(r2 S, int64_t at, int64_t i, t_p
 }
 
 INLINE void double_double_extrapolated_in(r2 S, int64_t row, int64_t i, real w) {
-    t_r8 t_1 = sums_filtered(AT2(S, row + 3, i), AT2(S, row + 6, i), AT2(S, row + 9, i), AT2(S, row + 12, i), AT2(S,
-        row + 15, i), AT2(S, row + 18, i), AT2(S, row + 21, i), w);
+    t_r8 t_1 = integrals_filtered(AT2(S, row + 3, i), AT2(S, row + 6, i), AT2(S, row + 9, i), AT2(S, row + 12, i),
+        AT2(S, row + 15, i), AT2(S, row + 18, i), AT2(S, row + 21, i), w);
     AT2(S, row, i) = t_1.a0; AT2(S, row + 3, i) = t_1.a1; AT2(S, row + 6, i) = t_1.a2; AT2(S, row + 9, i) = t_1.a3;
     AT2(S, row + 12, i) = t_1.a4; AT2(S, row + 15, i) = t_1.a5; AT2(S, row + 18, i) = t_1.a6;
     AT2(S, row + 21, i) = t_1.a7;
@@ -3116,7 +3116,7 @@ INLINE real following_part_of(r1 lane, int64_t frame, real interval) {
     return (frame * interval - lane.p[0]) / lane.p[1];
 }
 
-INLINE void between_shortened(r2 end, real ratio) {
+INLINE void following_shortened(r2 end, real ratio) {
     real factor = R(1.0);
     for (int64_t n = 1; n < 6; n++) {
         factor = factor * ratio;
@@ -3124,7 +3124,7 @@ INLINE void between_shortened(r2 end, real ratio) {
     }
 }
 
-INLINE real between_crossed(r2 V, int64_t at, int64_t n, int64_t i) {
+INLINE real following_crossed(r2 V, int64_t at, int64_t n, int64_t i) {
     int64_t j = i < 2 ? i + 1 : 0, k = j < 2 ? j + 1 : 0; real found = R(0.0);
     for (int64_t m = 0, end_m = n + 1; m < end_m; m++) {
         found = found + (AT2(V, at + j, m) * AT2(V, 0 + k, n - m) - AT2(V, at + k, m) * AT2(V, 0 + j, n - m));
@@ -3132,7 +3132,7 @@ INLINE real between_crossed(r2 V, int64_t at, int64_t n, int64_t i) {
     return found;
 }
 
-INLINE void between_series(r1 body, t_r3 J, real contact, real radius, real whole, int traced, r2 V, r2 end) {
+INLINE void following_series(r1 body, t_r3 J, real contact, real radius, real whole, int traced, r2 V, r2 end) {
     t_r3 x, w; real along, part, x1, x2; t_r4 b; t_r3 g = vectors_three(body, 3); t_r4 a = vectors_four(body, 6);
     vectors_put_in(V, 3, 0, vectors_three(body, 0)); vectors_put_in(V, 6, 0, g);
     if (traced) {
@@ -3152,12 +3152,12 @@ INLINE void between_series(r1 body, t_r3 J, real contact, real radius, real whol
         w = kernel_angular_velocity(t_3.a0, t_3.a1, t_3.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
         vectors_put_in(V, 0, n, w); AT2(V, 15, n) = along + vectors_dot(g, w); part = R(1.0) / (n + 1);
         for (int64_t i = 0; i < 3; i++) {
-            real t_4 = part * between_crossed(V, 3, n, i), t_5 = part * between_crossed(V, 6, n, i);
+            real t_4 = part * following_crossed(V, 3, n, i), t_5 = part * following_crossed(V, 6, n, i);
             AT2(V, 3 + i, n + 1) = t_4; AT2(V, 6 + i, n + 1) = t_5;
         }
         if (traced) {
             for (int64_t i = 0; i < 3; i++) {
-                real t_6 = part * between_crossed(V, 9, n, i), t_7 = part * between_crossed(V, 12, n, i);
+                real t_6 = part * following_crossed(V, 9, n, i), t_7 = part * following_crossed(V, 12, n, i);
                 AT2(V, 9 + i, n + 1) = t_6; AT2(V, 12 + i, n + 1) = t_7;
             }
             x1 = R(0.0); x2 = R(0.0);
@@ -3178,11 +3178,11 @@ INLINE void between_series(r1 body, t_r3 J, real contact, real radius, real whol
     }
 }
 
-INLINE real between_followed(real last, real before) {
+INLINE real following_followed(real last, real before) {
     return before > R(0.0) ? R(8.0) * R(sqrt(last)) * min_r(R(sqrt(last / before)), R(8.0)) : R(8.0) * R(sqrt(last));
 }
 
-INLINE t_r2 between_joined(r2 first, r2 end, real radius, int traced, r2 curve) {
+INLINE t_r2 following_joined(r2 first, r2 end, real radius, int traced, r2 curve) {
     real a0, a1, a2, a3, a4, a5, d0, d1, d2, d3, d4, d5;
     for (int64_t i = 0, end_i = traced ? 6 : 4; i < end_i; i++) {
         for (int64_t n = 0; n < 6; n++) { AT2(curve, n, i) = AT2(first, n, i); }
@@ -3201,10 +3201,10 @@ INLINE t_r2 between_joined(r2 first, r2 end, real radius, int traced, r2 curve) 
     for (int64_t i = 0; i < 4; i++) {
         turned = turned + AT2(curve, 11, i) * AT2(curve, 11, i); last = last + AT2(curve, 10, i) * AT2(curve, 10, i);
     }
-    turned = R(0.00048828125) * between_followed(turned, last);
+    turned = R(0.00048828125) * following_followed(turned, last);
     if (traced) {
         way = AT2(curve, 11, 4) * AT2(curve, 11, 4) + AT2(curve, 11, 5) * AT2(curve, 11, 5);
-        way = R(0.000244140625) / radius * between_followed(way, AT2(curve, 10, 4) * AT2(curve, 10, 4) + AT2(curve,
+        way = R(0.000244140625) / radius * following_followed(way, AT2(curve, 10, 4) * AT2(curve, 10, 4) + AT2(curve,
             10, 5) * AT2(curve, 10, 5));
     }
     return (t_r2){turned, way};
@@ -3218,11 +3218,11 @@ INLINE t_r2 following_through(r2 S, int64_t b, r1 body, r1 now, int traced, r1 l
         for (int64_t n = 0; n < 6; n++) {
             for (int64_t c = 0; c < 6; c++) { AT2(first, n, c) = AT2(last, n, c); }
         }
-        if (lane.p[9] != whole) { between_shortened(first, whole / lane.p[9]); }
+        if (lane.p[9] != whole) { following_shortened(first, whole / lane.p[9]); }
     }
-    else { between_series(body, J, contact, radius, whole, traced, V, first); }
-    between_series(now, J, contact, radius, whole, traced, V, last);
-    return between_joined(first, last, radius, traced, curve);
+    else { following_series(body, J, contact, radius, whole, traced, V, first); }
+    following_series(now, J, contact, radius, whole, traced, V, last);
+    return following_joined(first, last, radius, traced, curve);
 }
 
 INLINE real following_spinning(r2 E, int64_t B, int64_t b) {
@@ -3404,7 +3404,7 @@ INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
     }
 }
 
-INLINE real between_at_part(r2 curve, int64_t i, real s) {
+INLINE real following_at_part(r2 curve, int64_t i, real s) {
     real r = s - R(1.0), power = s * s;
     real low = ((AT2(curve, 5, i) * s + AT2(curve, 4, i)) * s + AT2(curve, 3, i)) * s + AT2(curve, 2, i);
     real high = ((AT2(curve, 11, i) * r + AT2(curve, 10, i)) * r + AT2(curve, 9, i)) * r + AT2(curve, 8, i);
@@ -3412,9 +3412,9 @@ INLINE real between_at_part(r2 curve, int64_t i, real s) {
     high = (high * r + AT2(curve, 7, i)) * r + AT2(curve, 6, i); return low + power * power * power * high;
 }
 
-INLINE void between_ball_at(r2 curve, real s, r1 body, int traced, r1 found) {
-    t_r4 q = (t_r4){between_at_part(curve, 0, s), between_at_part(curve, 1, s), between_at_part(curve, 2, s),
-        between_at_part(curve, 3, s)};
+INLINE void following_ball_at(r2 curve, real s, r1 body, int traced, r1 found) {
+    t_r4 q = (t_r4){following_at_part(curve, 0, s), following_at_part(curve, 1, s), following_at_part(curve, 2, s),
+        following_at_part(curve, 3, s)};
     q = vectors_scaled_four(R(1.0) / R(sqrt(vectors_square_of_four(q))), q);
     t_r4 t_1 = vectors_conjugate(q), t_2 = vectors_four(body, 6);
     t_r4 p = kernel_compose(t_1.a0, t_1.a1, t_1.a2, t_1.a3, t_2.a0, t_2.a1, t_2.a2, t_2.a3);
@@ -3423,7 +3423,7 @@ INLINE void between_ball_at(r2 curve, real s, r1 body, int traced, r1 found) {
     t_r3 t_4 = vectors_three(body, 3);
     vectors_put(found, 3, kernel_rotate(p.a0, p.a1, p.a2, p.a3, t_4.a0, t_4.a1, t_4.a2));
     vectors_put_four(found, 6, q);
-    if (traced) { found.p[10] = between_at_part(curve, 4, s); found.p[11] = between_at_part(curve, 5, s); }
+    if (traced) { found.p[10] = following_at_part(curve, 4, s); found.p[11] = following_at_part(curve, 5, s); }
 }
 
 INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, real allowed, real most, int patient,
@@ -3495,7 +3495,7 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
                                 lanes_shown(now, exponents.p[b], i, frame, frames);
                             }
                             else {
-                                between_ball_at(r3_row(curves, b), part, r2_row(bodies, b), traced, found);
+                                following_ball_at(r3_row(curves, b), part, r2_row(bodies, b), traced, found);
                                 lanes_shown(found, exponents.p[b], i, frame, frames);
                             }
                             frame = frame + 1; part = following_part_of(r2_row(lanes, b), frame, interval);
@@ -3613,15 +3613,15 @@ WIDEST static void in_loop_march(const argument *a, argument *got) {
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2;
 }
 
+static void in_loop_advance_all(const argument *a, argument *got) {
+    loop_advance_all(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), i1_(5), d1_(6)); (void)got;
+}
+
 WIDEST static void in_block_march_blocks(const argument *a, argument *got) {
     block_march_blocks(r2_(0), r1_(1), r3_(2), r2_(3), r2_(4), r2_(5), i_(6), i_(7), i_(8), r2_(9), r2_(10), r2_(11),
         r1_(12), r1_(13), r1_(14), r2_(15), r3_(16), r3_(17), i1_(18), i1_(19), d1_(20), b_(21), r2_(22), r3_(23),
         r3_(24));
     (void)got;
-}
-
-static void in_single_step_advance_all(const argument *a, argument *got) {
-    single_step_advance_all(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), i1_(5), d1_(6)); (void)got;
 }
 
 #ifndef SINGLE
@@ -3694,8 +3694,8 @@ static void in_expected_estimated(const argument *a, argument *got) {
 const loop_export LOOPS()[] = {
     {"loop_prepare", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_loop_prepare},
     {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
+    {"loop_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_loop_advance_all},
     {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
-    {"single_step_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_single_step_advance_all},
 #ifndef SINGLE
     {"lanes_march", "b r3 r3 r3 r3 r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_lanes_march},
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
@@ -3713,5 +3713,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "a91ab8f216e4c1b5a1c9649a06d24bb1460080cf7067297d8c8967b0d3c18976";
+const char loops_text[] = "e3edee047b1b4bc11dbec6c5cbb12ece7908988e3f910ffeb272a6e5eb2b1ec6";
 #endif

@@ -1,6 +1,6 @@
 """The continuous motion of balls at equal times, to an accuracy: long steps of order 12, each ball with its own.
 
-The steps are as long as the accuracy allows; frames inside are interpolated (`loops.between`).  The error that is
+The steps are as long as the accuracy allows; frames inside are interpolated (`loops.following`).  The error that is
 stated is what the flow makes of the errors of all steps together (`loops.carried`).  It is an estimate in that the size
 of the error of a step (`loops.following.left`) and its direction are.  A ball whose error is larger than the accuracy
 is followed again with shorter steps; where the roundings of long steps are too many, by compositions of the map

@@ -11,7 +11,7 @@ from .source import Function, Program, Record
 
 #: The modules with functions that are exported, and those that float32 has, too.
 PACKAGE = "chapsym.dynamics.loops"
-SINGLE = ("loop", "block", "single_step")
+SINGLE = ("loop", "block")
 LOOPS = (
     *SINGLE,
     "lanes",
@@ -316,7 +316,7 @@ def library(texts: Texts, kernels: Sequence[Kernel]) -> dict[str, str]:
     arrays = "(r1){momentum, 3}, (r1){gamma, 3}, (r1){tensor, 3}, D, (r1){state, @}, (r1){rotation, 4}"
     body = [
         "double tensor[3] = {mass_tensor[0], mass_tensor[1], mass_tensor[2]}, state[@] = {0}",
-        f"t_ir got = single_step_advance({arrays})",
+        f"t_ir got = loop_advance({arrays})",
         "*reach = got.a1",
         "return (int)got.a0",
     ]

@@ -12,7 +12,7 @@ from plain import in_plain_python
 import chapsym
 from chapsym import Ball
 from chapsym.dynamics import native
-from chapsym.dynamics.loops import block, loop, single_step, twins
+from chapsym.dynamics.loops import block, loop, twins
 from research.chaos.orbits import follow_orbits
 
 #: Only where no C was asked for: a compilation that failed is a failure of the tests, not a reason to skip them.
@@ -125,8 +125,8 @@ CASES = [
     (lambda: restored(1100, precision="single", **BODY), ALONE),
     (lambda: restored(63, order=8), ALONE),
     (lambda: restored(63, 2, order=8), {"block_march_blocks"}),
-    (lambda: any_magnitudes("double"), {"single_step_advance_all"}),
-    (lambda: any_magnitudes("single"), {"single_step_advance_all"}),
+    (lambda: any_magnitudes("double"), {"loop_advance_all"}),
+    (lambda: any_magnitudes("single"), {"loop_advance_all"}),
     *((lambda n=n, o=o: long(n, **o), loops) for o in ({"time_step": 0.3, "contact": True}, {"time_step": 1.0},
       {"time_step": 0.7, "columns": 2, "attitude": True})
       for n, loops in ((1, {"lanes_march"}), (9, {"lanes_march"}))),
@@ -160,7 +160,7 @@ def test_a_loop_has_the_same_bits_in_c_and_in_python(case, called):
 def test_every_loop_is_among_the_cases():
     exported = set().union(*(loops for _, loops in CASES))
     assert exported == set(native._tables()["float64"])
-    assert set(native._tables()["float32"]) == {*ALONE, "block_march_blocks", "single_step_advance_all"}
+    assert set(native._tables()["float32"]) == {*ALONE, "block_march_blocks", "loop_advance_all"}
 
 
 @needs_compiled
@@ -207,12 +207,12 @@ def test_an_array_of_another_form_is_refused_with_a_sentence(at, change, sentenc
     given = arguments()
     given[at] = change(given[at])
     with pytest.raises(TypeError, match=sentence):
-        native.loop(single_step.advance_all)(*given)
+        native.loop(loop.advance_all)(*given)
 
 
 @needs_compiled
 def test_an_array_that_is_written_may_not_be_read_only():
-    advance = native.loop(single_step.advance_all)
+    advance = native.loop(loop.advance_all)
     for at, is_written in enumerate([True, True, False, False, True, True, True]):
         given = arguments()
         read_only(given[at])
@@ -227,7 +227,7 @@ def test_an_array_that_is_written_may_not_be_read_only():
 def test_another_number_of_arguments_is_refused():
     for given in ([], arguments()[:-1], [*arguments(), 1.0], [1.0] * 40):
         with pytest.raises(TypeError, match=r"takes another number of arguments than|bytes-like object is required"):
-            native.loop(single_step.advance_all)(*given)
+            native.loop(loop.advance_all)(*given)
     with pytest.raises(TypeError, match="takes no keyword arguments"):
         native.loop(loop.prepare)(momentum=np.ones(3))
 

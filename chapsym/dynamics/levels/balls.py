@@ -24,8 +24,8 @@ from chapsym.numbers.precisions import flint_bits
 
 from ..errors import Status, StepNotTaken, TooWide
 from ..loops.gibbs import BEYOND, certificate
+from ..loops.integrals import WEIGHTS
 from ..loops.path import joined
-from ..loops.sums import WEIGHTS
 from .newton import enclosed, refined, unit
 from .proved_root import MATRIX_BITS, Numbers, certified, inverse_slope, on_path, stretch, upper
 from .root import extrapolated, root

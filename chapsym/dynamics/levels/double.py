@@ -12,7 +12,7 @@ from ..ball import Floats
 from ..coefficients import substeps
 from ..errors import Status
 from ..failure import explain
-from ..loops import block, loop, single_step
+from ..loops import block, loop
 from ..loops.guess import stage_weights
 from .frames import Balls, Count, Frames, cores, share
 
@@ -80,7 +80,7 @@ def step_all(balls: Balls, of: Numbers = DOUBLE) -> tuple[np.ndarray, ...]:
     n = len(balls.D)
     q, status, reach = np.full((n, 4), np.nan, of.dtype), np.zeros(n, np.int64), np.ones(n)
     K, g, J, D = balls.momentum.copy(), balls.gamma.copy(), balls.mass_tensor, balls.D
-    advance = of.loop(single_step.advance_all)
+    advance = of.loop(loop.advance_all)
 
     def some(start: int) -> None:
         which = slice(start, start + CHUNK // 16)

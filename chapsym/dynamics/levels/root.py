@@ -13,7 +13,7 @@ from flint import arb, ctx
 from chapsym.generated import gibbs_newton, gibbs_residual
 
 from ..loops.gibbs import newton_round
-from ..loops.sums import WEIGHTS
+from ..loops.integrals import WEIGHTS
 
 #: Up to so many bits, corrections by the float64 Jacobian; beyond, Newton's, each with twice the bits of the last.
 CHORD_BITS = 300

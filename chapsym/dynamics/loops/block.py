@@ -6,11 +6,10 @@ It does to each ball what `loop.march` does, with the same roundings.
 import numpy as np
 
 from .gibbs import BEYOND, newton_round, second_round, settle
-from .integrals import PERIOD, restore
+from .integrals import PERIOD, restore, turned
 from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, X, followed, prepare, safe_rotation
 from .path import MOST_ROUNDS as PATH_ROUNDS
 from .path import improved, proved
-from .sums import turned
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import four_in, plus, put_four_in, put_in, scaled, square, three, three_in
 

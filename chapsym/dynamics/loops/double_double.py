@@ -37,10 +37,9 @@ from chapsym.numbers.pairs import subtract, two_sum
 from .block import carry
 from .branch import FOLDED, NOT_CONVERGED, TAKEN, inverse, moments, product, small_rotation
 from .gibbs import BEYOND, MOST_ROUNDS, certificate, newton_round
-from .integrals import PERIOD, shares
+from .integrals import PERIOD, filtered, shares
 from .loop import HIGHEST
 from .path import search_on_path
-from .sums import filtered
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import (
     conjugate,

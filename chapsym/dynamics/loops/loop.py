@@ -9,15 +9,14 @@ from math import frexp, ldexp, sqrt
 
 import numpy as np
 
-from chapsym.generated import centre_step, compose, rotate
+from chapsym.generated import centre_step, compose, rotate, turn
 
 from . import single_loop
 from .branch import moments, small_rotation
 from .gibbs import BEYOND, SMALLEST, certificate, search_safely, settle
-from .integrals import PERIOD, remember, restore
+from .integrals import PERIOD, remember, restore, turned
 from .path import search_on_path
-from .sums import turned
-from .text import Cube, Matrix, Vector, out_of_line
+from .text import Cube, Doubles, Integers, Matrix, Vector, out_of_line
 from .vectors import largest, plus, put, scaled, scaled_four, square_of_four, three
 
 #: The largest exponent by which a ball is scaled.
@@ -199,3 +198,31 @@ def march(
                     attitudes[frame, i] = attitude[i]
                 traces[frame, 0], traces[frame, 1] = contact[0], contact[1]
     return step - first, status, reach
+
+
+def advance(momentum, g, tensor, contact, state, q):
+    """The first step of `loop.march`, in place: writes the rotation into q and moves momentum and g.
+
+    state (ROWS) is overwritten.  Returns (status, reach); nothing else is written unless the status is 0.
+    """
+    scale = entered(momentum, g, tensor, contact, state)
+    k, v, reach = three(state, K), three(state, G), 1.0
+    settled, p, u = settle((0.0, 0.0, 0.0), k, v, three(state, I), state[D], state[RADIUS], state[ENOUGH])
+    if not settled:
+        status, reach, p, u = safe_rotation(u, state)
+        if status != 0:
+            return status, reach
+    length = sqrt(square_of_four(p))
+    q[0], q[1], q[2], q[3] = p[0] / length, p[1] / length, p[2] / length, p[3] / length
+    put(momentum, 0, scaled(scale, plus(k, turn(*p, *k))))
+    put(g, 0, plus(v, turn(*p, *v)))
+    return 0, reach
+
+
+def advance_all(
+    momenta: Matrix, verticals: Matrix, tensors: Matrix, contacts: Vector, q: Matrix, status: Integers, reach: Doubles
+):
+    """One step of each ball, in place: arrays (n, 3), (n, 3), (n, 3), (n,), (n, 4), (n,), (n,)."""
+    state = np.zeros(ROWS, momenta.dtype)
+    for i in range(momenta.shape[0]):
+        status[i], reach[i] = advance(momenta[i], verticals[i], tensors[i], contacts[i], state, q[i])

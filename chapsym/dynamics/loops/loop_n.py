@@ -1,15 +1,241 @@
 """Many steps of one ball in n dimensions, one text for every n.
 
-It serves balls below the bound of `n.near_n` only, where any rotation with the momentum and a small E is the right one.
+Ω is kept as E = Ω - 1, as in `n.so_n`.  The coordinate p of a skew matrix is its entry (i, j), i > j, row by row.
+
+`march` serves balls below the bound of `n.near_n` only, where any rotation with the momentum and a small E is the right
+one.
 """
 
 from numpy import empty
 
-from .rotation_n import gap, guess, move, polish, remember, roll, slope, solve, turn
 from .text import Cube, Matrix, Tensor, Vector
 
 #: Corrections of Newton in a step, at most.
 MOST_ROUNDS = 12
+#: The last so many rotations guess the next one.
+ORDER = 8
+
+
+def guess(past, use, E):
+    """Writes the polynomial through the last rotations, at the next step, into E; no rotation where there are none."""
+    n = E.shape[0]
+    for i in range(n):
+        for j in range(n):
+            z = use[ORDER - 1] * past[ORDER - 1, i, j]
+            for m in range(ORDER - 2, -1, -1):
+                z += use[m] * past[m, i, j]
+            E[i, j] = z
+
+
+def remember(E, past, use):
+    """Takes E into the backward differences `past` (ORDER, n, n), of which use (ORDER) is 1 where there is one."""
+    n = E.shape[0]
+    for i in range(n):
+        for j in range(n):
+            z = E[i, j]
+            for m in range(ORDER):
+                before = past[m, i, j]
+                past[m, i, j] = z
+                z -= before
+    for m in range(ORDER - 1, 0, -1):
+        use[m] = use[m - 1]
+    use[0] = 1.0
+
+
+def polish(E, W, v):
+    """A step of Newton and Schulz to the rotation nearest to 1 + E, in place; returns how far it was, squared."""
+    n = E.shape[0]
+    far = 0.0
+    for i in range(n):
+        for j in range(i + 1):
+            z = E[i, j] + E[j, i]
+            for m in range(n):
+                z += E[m, i] * E[m, j]
+            W[i, j] = z
+            W[j, i] = z
+            far += z * z
+    for i in range(n):
+        for j in range(n):
+            z = W[i, j]
+            for m in range(n):
+                z += E[i, m] * W[m, j]
+            v[j] = z
+        for j in range(n):
+            E[i, j] -= 0.5 * v[j]
+    return far
+
+
+def gap(E, k, g, J, D, c, r):
+    """Writes the coordinates of 𝒦 - 𝒦(Ω, γ) (4.13) into r."""
+    n = E.shape[0]
+    for i in range(n):
+        z = (E[i, 0] - E[0, i]) * g[0]
+        for j in range(1, n):
+            z += (E[i, j] - E[j, i]) * g[j]
+        c[i] = 0.5 * D * z
+    p = 0
+    for i in range(1, n):
+        for j in range(i):
+            r[p] = k[i, j] - ((E[i, j] * J[j] + c[i] * g[j]) - (E[j, i] * J[i] + c[j] * g[i]))
+            p += 1
+
+
+def slope(E, g, J, D, O, h, c, T):
+    """Writes the derivative of 𝒦 along Ω(1 + ξ), that is 𝒦(Ωξ), into T: in its row p that along the coordinate p of ξ.
+
+    For the coordinate (p, q), Ωξ has the column p of Ω as its column q, and minus the column q as its column p.
+    """
+    n = E.shape[0]
+    for i in range(n):
+        for j in range(n):
+            O[i, j] = E[i, j] + (1.0 if i == j else 0.0)
+    for i in range(n):
+        z = O[0, i] * g[0]
+        for m in range(1, n):
+            z += O[m, i] * g[m]
+        h[i] = 0.5 * D * z
+    at = 0
+    for p in range(1, n):
+        for q in range(p):
+            dq, dp = 0.5 * D * g[q], 0.5 * D * g[p]
+            for i in range(n):
+                c[i] = O[i, p] * dq - O[i, q] * dp
+            c[q] -= h[p]
+            c[p] += h[q]
+            row = 0
+            for i in range(1, n):
+                for j in range(i):
+                    T[at, row] = c[i] * g[j] - c[j] * g[i]
+                    row += 1
+            for i in range(n):
+                if i != q:
+                    row = i * (i - 1) // 2 + q if i > q else q * (q - 1) // 2 + i
+                    z = O[i, p] * J[q]
+                    T[at, row] += z if i > q else -z
+                if i != p:
+                    row = i * (i - 1) // 2 + p if i > p else p * (p - 1) // 2 + i
+                    z = O[i, q] * J[p]
+                    T[at, row] -= z if i > p else -z
+            at += 1
+
+
+def solve(T, r):
+    """Makes the solution ξ of ξT = r of r, by elimination without exchanges; T is overwritten.
+
+    The symmetric part of T is positive definite where the step is accepted, so that no pivot vanishes there.
+    """
+    size = r.shape[0]
+    for k in range(size):
+        inverse = 1.0 / T[k, k]
+        for i in range(k + 1, size):
+            f = T[i, k] * inverse
+            T[i, k] = f
+            for j in range(k + 1, size):
+                T[i, j] -= f * T[k, j]
+        z = r[k] * inverse
+        r[k] = z
+        for j in range(k + 1, size):
+            r[j] -= z * T[k, j]
+    for i in range(size - 1, 0, -1):
+        for j in range(i):
+            r[j] -= r[i] * T[i, j]
+
+
+def turn(E, r, O, W, v):
+    """E of Ω(1 + ξ + ξ²/2), a rotation up to ξ⁴/8, for the coordinates r of ξ, in place.
+
+    Returns Σ ξᵢⱼ², i > j, and Σ Eᵢⱼ².
+    """
+    n = E.shape[0]
+    p, change, size = 0, 0.0, 0.0
+    for i in range(n):
+        O[i, i] = 0.0
+        for j in range(i):
+            O[i, j] = r[p]
+            O[j, i] = -r[p]
+            change += r[p] * r[p]
+            p += 1
+    for i in range(n):
+        for j in range(n):
+            z = O[i, 0] * O[0, j]
+            for m in range(1, n):
+                z += O[i, m] * O[m, j]
+            W[i, j] = O[i, j] + 0.5 * z
+    for i in range(n):
+        for j in range(n):
+            z = W[i, j]
+            for m in range(n):
+                z += E[i, m] * W[m, j]
+            v[j] = z
+        for j in range(n):
+            E[i, j] += v[j]
+            size += E[i, j] * E[i, j]
+    return change, size
+
+
+def roll(E, g, R, spot, rho, c, W):
+    """Moves the contact point `spot` and the attitude R by the step E that begins at the vertical g."""
+    n = E.shape[0]
+    for i in range(n):
+        z = (E[i, 0] - E[0, i]) * g[0]
+        for j in range(1, n):
+            z += (E[i, j] - E[j, i]) * g[j]
+        c[i] = z
+    for i in range(n - 1):
+        z = R[i, 0] * c[0]
+        for j in range(1, n):
+            z += R[i, j] * c[j]
+        spot[i] += 0.5 * rho * z
+    for i in range(n):
+        for j in range(n):
+            z = R[i, j]
+            for m in range(n):
+                z += R[i, m] * E[m, j]
+            c[j] = z
+        for j in range(n):
+            R[i, j] = c[j]
+    for i in range(n):  # the rotation nearest to it
+        for j in range(i + 1):
+            z = R[0, i] * R[0, j]
+            for m in range(1, n):
+                z += R[m, i] * R[m, j]
+            W[i, j] = z - (1.0 if i == j else 0.0)
+            W[j, i] = W[i, j]
+    for i in range(n):
+        for j in range(n):
+            z = R[i, 0] * W[0, j]
+            for m in range(1, n):
+                z += R[i, m] * W[m, j]
+            c[j] = z
+        for j in range(n):
+            R[i, j] -= 0.5 * c[j]
+
+
+def move(E, k, g, W, c):
+    """Goes to ΩᵀkΩ and Ωᵀγ (4.11, 4.12), as increments; k stays exactly skew."""
+    n = E.shape[0]
+    for i in range(n):
+        z = E[0, i] * g[0]
+        for m in range(1, n):
+            z += E[m, i] * g[m]
+        c[i] = z
+    for i in range(n):
+        g[i] += c[i]
+    for i in range(n):
+        for j in range(n):
+            z = k[i, 0] * E[0, j]
+            for m in range(1, n):
+                z += k[i, m] * E[m, j]
+            W[i, j] = z
+    for i in range(1, n):
+        for j in range(i):
+            z, y = E[0, i] * W[0, j], E[0, j] * W[0, i]
+            for m in range(1, n):
+                z += E[m, i] * W[m, j]
+                y += E[m, j] * W[m, i]
+            z = k[i, j] + ((W[i, j] + 0.5 * z) - (W[j, i] + 0.5 * y))
+            k[i, j] = z
+            k[j, i] = -z
 
 
 def settle(k, g, J, D, near, enough, E, O, W, T, r, h, c):

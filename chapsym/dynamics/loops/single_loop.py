@@ -7,7 +7,7 @@ from numpy import float32, float64
 from chapsym.generated import centre_step, compose, rotate
 
 from .branch import small_rotation
-from .sums import added
+from .integrals import added
 from .vectors import square, square_of_four
 
 

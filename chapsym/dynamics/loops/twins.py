@@ -13,13 +13,11 @@ import numpy as np
 MODULES = (
     "chapsym.numbers.pairs",
     "vectors",
-    "sums",
     "integrals",
     "gibbs",
     "path",
     "single_loop",
     "loop",
-    "single_step",
 )
 
 

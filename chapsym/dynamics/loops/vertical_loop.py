@@ -7,7 +7,7 @@ whole orbit, and one Newton correction a step keeps it true to the rounding of Î
 
 from chapsym.generated import vertical_level, vertical_rotation, vertical_square
 
-from .sums import turned
+from .integrals import turned
 from .text import Matrix, Vector
 from .vectors import dot, put, put_four, three
 

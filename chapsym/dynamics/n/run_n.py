@@ -12,7 +12,7 @@ import chapsym.dynamics.native as native
 from ..ball import Floats, common_shape, is_followed, largest_moment, unit_vertical
 from ..errors import BadInput, Status
 from ..levels.frames import Count, cores, share
-from ..loops import loop_n, rotation_n
+from ..loops import loop_n
 from ..trajectories import flag, rolling_radius
 from . import so_n
 from .ball_n import BallN, initial_attitudes, skew_matrices
@@ -33,7 +33,7 @@ class Under:
 
     Moments are divided by `scale`, so that the largest is about 1; 𝒦 = scale·k.
     stages, near, enough, past, use: cᵢ of each stage of a step and what it has of its own, (b, s, ...);
-    `near_n.limits`, `rotation_n.remember`.
+    `near_n.limits`, `loop_n.remember`.
     """
 
     k: Floats
@@ -183,7 +183,7 @@ def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Float
     K, g, J, D = (state[x] for x in ("momentum", "gamma", "mass_tensor", "D"))
     b, n, s = *g.shape, len(stages)
     exponent = np.frexp(largest_moment(J, D))[1]
-    past, use = np.zeros((b, s, rotation_n.ORDER, n, n)), np.zeros((b, s, rotation_n.ORDER))
+    past, use = np.zeros((b, s, loop_n.ORDER, n, n)), np.zeros((b, s, loop_n.ORDER))
     return Under(
         np.ldexp(K, -exponent[:, np.newaxis, np.newaxis]), g.copy(), np.ldexp(J, -exponent[:, np.newaxis]),
         np.ldexp(D, -exponent), np.tile(stages, (b, 1)), *limits, past, use, np.ldexp(1.0, exponent),
@@ -225,8 +225,8 @@ def _safely(one: Under, s: int, with_body: bool) -> tuple[int, float]:
     if status[0] == Status.TAKEN:
         n = len(one.g)
         W, c = np.empty((n, n)), np.empty(n)
-        rotation_n.remember(E[0], one.past[s], one.use[s])
+        loop_n.remember(E[0], one.past[s], one.use[s])
         if with_body:
-            rotation_n.roll(E[0], one.g, one.R, one.spot, float(one.rho), c, W)
-        rotation_n.move(E[0], one.k, one.g, W, c)
+            loop_n.roll(E[0], one.g, one.R, one.spot, float(one.rho), c, W)
+        loop_n.move(E[0], one.k, one.g, W, c)
     return int(status[0]), float(reach[0])
