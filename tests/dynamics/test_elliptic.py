@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import chapsym
 from chapsym import BadInput, Ball, Curve, exact_top, increment, rotation_number, step_vertical, testing, trajectory
 from chapsym.dynamics import kernels
-from chapsym.dynamics.closed import jacobi
+from chapsym.dynamics.closed import elliptic
 from chapsym.dynamics.closed.elliptic import height_of
 from chapsym.numbers import Digits
 
@@ -33,13 +33,13 @@ def verticals(count, seed=7):
 def test_jacobis_functions_are_those_of_mpmath(complement):
     """Within 3(1 + |u|) ulps of 1, and K within 2: the reduction by K rounds u."""
     modulus = np.sqrt((1 - complement) * (1 + complement))
-    quarter = jacobi.quarter_period(complement)
+    quarter = elliptic.quarter_period(complement)
     u = np.concatenate([np.linspace(-2, 2, 41), [1e-9, 1 - 1e-9]]) * quarter
     with mpmath.workdps(60):
         m = 1 - mpmath.mpf(complement) ** 2
         assert abs(quarter / mpmath.ellipk(m) - 1) <= 2 * ULP
         true = [[float(mpmath.ellipfun(f, mpmath.mpf(x), m=m)) for x in u] for f in ("sn", "cn", "dn")]
-    error = np.abs(np.array(jacobi.jacobi(u, modulus, complement)) - true).max(axis=0)
+    error = np.abs(np.array(elliptic.jacobi(u, modulus, complement)) - true).max(axis=0)
     assert (error <= 3 * (1 + np.abs(u)) * ULP).all()
 
 
@@ -49,16 +49,16 @@ def test_carlsons_integral_where_its_series_takes_over(spread):
     x, y, z = (np.array([1 + 1e-3 * s]) for s in spread)
     with mpmath.workdps(40):
         true = float(mpmath.elliprf(*(mpmath.mpf(float(a[0])) for a in (x, y, z))))
-    assert abs(jacobi.carlson(x, y, z)[0] / true - 1) <= 2 * ULP
+    assert abs(elliptic.carlson(x, y, z)[0] / true - 1) <= 2 * ULP
 
 
 def test_on_the_separatrix_they_are_hyperbolic():
     u = np.array([-800.0, -1.0, 0.0, 0.3, 800.0])
-    sn, cn, dn = jacobi.jacobi(u, 1.0, 0.0)
-    assert jacobi.quarter_period(0.0) == np.inf
+    sn, cn, dn = elliptic.jacobi(u, 1.0, 0.0)
+    assert elliptic.quarter_period(0.0) == np.inf
     assert np.abs(sn - np.tanh(u)).max() <= ULP
     assert (cn == dn).all()
-    assert np.abs(jacobi.argument(sn[1:4], cn[1:4], dn[1:4], np.inf) - u[1:4]).max() <= 2 * ULP
+    assert np.abs(elliptic.argument(sn[1:4], cn[1:4], dn[1:4], np.inf) - u[1:4]).max() <= 2 * ULP
 
 
 @pytest.mark.parametrize("ball", BALLS)

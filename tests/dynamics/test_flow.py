@@ -13,7 +13,7 @@ from chapsym import generated
 from chapsym.derive import continuous, three
 from chapsym.derive.gyrostat import rotor
 from chapsym.derive.limits import RING, omega
-from chapsym.dynamics.flow import deviation, newton, series
+from chapsym.dynamics.flow import deviation, series
 from chapsym.dynamics.flow import path as paths
 from chapsym.dynamics.flow.path import Path
 from chapsym.dynamics.levels.proved_root import TooWide, upper
@@ -326,7 +326,7 @@ def test_the_solutions_of_neighbours_have_twice_as_many_bits_once_they_are_mende
         path = Path(400, tuple(map(arb, J)), arb(D), tuple(map(arb, K)), tuple(map(arb, ATTITUDE)), None)
         floats, length = path._series(F(1, 4), 1.0)
         p, w, _ = path._mended(floats, tuple(number(length) * x for x in path.k), path.body)
-        one, left = newton.Neighbours(floats, path.body), []
+        one, left = paths.Neighbours(floats, path.body), []
         for _ in range(3):
             left.append(unlike_inverse(one))
             one.mend(p, w, 200)
@@ -341,5 +341,5 @@ def test_the_solutions_of_neighbours_have_twice_as_many_bits_once_they_are_mende
 
 def unlike_inverse(one):
     """How far ΦΨ is from 1 on [0, 1]."""
-    rows = newton._product(one.phi, one.psi)
+    rows = paths._product(one.phi, one.psi)
     return upper([(x - (i == j))(deviation.UNIT) for i, row in enumerate(rows) for j, x in enumerate(row)])
