@@ -6,7 +6,7 @@ import pytest
 
 from chapsym import BadInput, Ball, Curve, increment, roll, step, step_vertical
 from chapsym.dynamics import kernels
-from chapsym.dynamics.closed import jacobi
+from chapsym.dynamics.closed import elliptic
 from chapsym.dynamics.closed.elliptic import height_of
 from chapsym.dynamics.loops import branch, gibbs, loop
 from chapsym.dynamics.loops.branch import small_rotation
@@ -258,10 +258,10 @@ def test_one_height_beyond_the_fold_does_not_spoil_a_batch():
 @pytest.mark.parametrize("complement", [1e-100, 1e-160, 1e-250, 1e-300])
 def test_jacobis_functions_do_not_overflow_near_the_separatrix(complement):
     """u up to 2K ~ 1400: sinh 2u and cosh 4K are beyond float64, and their quotient is small."""
-    quarter = jacobi.quarter_period(complement)
+    quarter = elliptic.quarter_period(complement)
     u = np.array([-2.0, -1.2, -1.0, -0.3, 1e-3, 0.3, 1.0, 1.2, 2.0]) * quarter
     with np.errstate(all="raise", under="ignore"):
-        sn, cn, dn = jacobi.jacobi(u, 1.0, complement)
+        sn, cn, dn = elliptic.jacobi(u, 1.0, complement)
     assert np.isfinite([sn, cn, dn]).all()
     assert np.abs(sn * sn + cn * cn - 1).max() <= 8 * ULP
     assert np.abs(dn).min() >= complement * (1 - 1e-12)
