@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 
 from chapsym.accuracy import Request
-from chapsym.accuracy.methods import CHECKS
+from chapsym.accuracy.answer import CHECKS
 from chapsym.accuracy.request import exact_values, lengths
 from chapsym.dynamics import Ball, Trajectory, certified_motion
 from chapsym.dynamics.ball import Floats

@@ -13,7 +13,7 @@ import numpy as np
 
 from benchmarks import problems
 from chapsym.accuracy import Accurate, Method, Request, accurate, methods, take
-from chapsym.accuracy.methods import CHECKS, checks
+from chapsym.accuracy.answer import CHECKS, checks
 from chapsym.dynamics import BadInput, kernels
 from chapsym.numbers import NAMED
 from chapsym.studies.harness import Contender, interleaved

@@ -22,7 +22,7 @@ from chapsym.derive.three import placed
 from chapsym.dynamics import BadInput, Ball, branches, fold
 from chapsym.dynamics.loops.branch import inverse
 from chapsym.dynamics.oracle import Oracle
-from chapsym.dynamics.solutions import candidates, enclosed, intersection, multivalued
+from chapsym.dynamics.solutions import candidates, enclosed, multivalued
 from chapsym.numbers import Digits, Double, Enclosure
 from chapsym.prove import REAL, REAL_MULTIPLE, Count
 from chapsym.prove.elimination import NotCounted
@@ -199,7 +199,7 @@ def test_digits_are_those_of_the_enclosure():
 
 
 def test_the_counts_must_agree(monkeypatch):
-    monkeypatch.setattr(intersection._Algebra, "inertia", lambda self: (8, 2))
+    monkeypatch.setattr(enclosed._Algebra, "inertia", lambda self: (8, 2))
     with pytest.raises(ArithmeticError, match="differ"):
         solve(STATES[8])
 

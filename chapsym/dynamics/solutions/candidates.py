@@ -4,7 +4,7 @@ A rotation is a real point (q0, q1, q2, q3) up to a factor.  The coefficients ar
 numbers that it is given: fmpq, arrays.  The points are found for many balls at once.
 
 Macaulay's matrix of degree 4 has an 8-dimensional kernel, on which a linear form over another acts as multiplication:
-its eigenvectors are the points (as in `intersection`).  They are then polished by Newton's iteration in C⁴, where the
+its eigenvectors are the points (as in `enclosed`).  They are then polished by Newton's iteration in C⁴, where the
 Newton-Kantorovich test says what each is: an isolated root, or not proved to be one.
 """
 
