@@ -7,7 +7,6 @@ import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -347,13 +346,8 @@ def _rounded(request: Request, columns: int, steps: int) -> float:
     # That of J, D, K and γ no comparison shows; the factor is the least that covered some twenty random balls.
     shared = 2 * ROUNDED * math.sqrt(request.condition) * (1 + request.angle) * request.unit
     path = request.angle if request.of == "contact" else 0.0
-    return shared + ROUNDED * _multiplied(columns) * math.sqrt(request.condition * steps) * (1 + path) * request.unit
-
-
-@cache
-def _multiplied(columns: int) -> float:
-    """How many times as large as those of the columns the roundings of a long step are, at most."""
-    return float(sum(map(abs, weights(columns, FIRST))))
+    weight = float(sum(map(abs, weights(columns, FIRST))))
+    return shared + ROUNDED * weight * math.sqrt(request.condition * steps) * (1 + path) * request.unit
 
 
 def _by_double_double(request: Request, limit: float, attempts: list[Attempt]) -> Trajectory:

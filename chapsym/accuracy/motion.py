@@ -44,10 +44,7 @@ def nominal(problem: Problem) -> float:
 
 
 def moved(problem: Problem, progress: Callable[[float], None] = lambda done: None) -> Motion:
-    """The motion to the accuracy; `progress` is called with the balls that are done.
-
-    Raises BadInput where rounding alone is more than the accuracy.
-    """
+    """The motion to the accuracy, or BadInput where rounding alone is more; `progress` is of the balls done."""
     steady = _check(problem)
     if steady is None:
         found = _follow(problem, progress)
@@ -169,15 +166,8 @@ def _run(
         count, parts = Count(progress), range(0, n, width)
         share(task, parts, min(problem.threads or cores(), len(parts)), count)
     found.order[:], found.total[:] = EXTRAPOLATED, reported[:, STEPS]
-    return _estimate(problem, reported, found.error)
-
-
-def _estimate(problem: Problem, reported: Floats, error: Floats) -> tuple[float, Floats, Floats]:
-    """Puts the errors of a run to their place; returns the largest, and the roundings among them."""
-    (noise, started), parts = np.empty((2, len(error))), problem.parts
-    estimate = native.loop(estimated)
+    (noise, started), parts = np.empty((2, n)), problem.parts
     turned = not parts or bool(parts & {"momentum", "gamma", "attitude"})
-    rolled = problem.contact and "contact" in parts
-    spun = "omega" in parts
-    worst = estimate(problem.survey, reported, problem.units, turned, spun, rolled, error, noise, started)
+    counted = turned, "omega" in parts, traced and "contact" in parts
+    worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, found.error, noise, started)
     return worst, noise, started

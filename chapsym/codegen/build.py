@@ -133,10 +133,7 @@ class Package:
 
     @cached_property
     def files(self) -> dict[str, str]:
-        """Every generated file but the fingerprints, by name.
-
-        Raises ArithmeticError if a text does not compute its expression, or what carries it.
-        """
+        """Every generated file but the fingerprints; raises ArithmeticError where a text computes something else."""
         files, rows = {"__init__.py": package_source(self.kernels)}, dict[str, dict[str, Any]]()
         for kernel in self.kernels:
             try:

@@ -29,7 +29,8 @@ def text(expr: sp.Expr, passes: Collection[str] = (POWERS, BALANCED)) -> str:
 
 
 def _sum(expr: sp.Expr, passes: Collection[str]) -> str:
-    pieces = [_product(term, passes) for term in sorted(sp.Add.make_args(expr), key=_positive_first)]
+    positive_first = lambda term: (bool(term.could_extract_minus_sign()), default_sort_key(term))  # noqa: E731
+    pieces = [_product(term, passes) for term in sorted(sp.Add.make_args(expr), key=positive_first)]
     return _tree(pieces) if BALANCED in passes else _added(pieces)
 
 
@@ -50,10 +51,6 @@ def _tree(pieces: Sequence[str]) -> str:
 
 def _grouped(text: str, terms: int) -> str:
     return f"({text})" if terms > 1 else text
-
-
-def _positive_first(term: sp.Expr) -> tuple:
-    return bool(term.could_extract_minus_sign()), default_sort_key(term)
 
 
 def _product(expr: sp.Expr, passes: Collection[str]) -> str:

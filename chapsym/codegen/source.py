@@ -164,10 +164,7 @@ def meaning(node: ast.expr, names: dict[str, Any]) -> Any:
 
 
 def constant(node: ast.expr, names: dict[str, Any]) -> Any:
-    """The value of an expression of numbers, of names of numbers and of functions, and of tuples of these.
-
-    Raises NotConstant for anything else.
-    """
+    """The value of an expression of numbers, of names of these or of functions, and of tuples; raises NotConstant."""
     match node:
         case ast.Constant(value=bool() | int() | float() as number):
             return number

@@ -2,7 +2,6 @@
 
 import ast
 import hashlib
-from collections.abc import Callable
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -49,11 +48,7 @@ def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
         found.append(f"{function} {decimal(Fraction(1) if function == 'pi' else of[0])}")
         return at(name)
 
-    run = _function(kernel.name, ast.unparse(ast.fix_missing_locations(module)), **{LETTER: letter})
-    result = run(*(at(symbol.name) for symbol in kernel.inputs))
+    scope: dict[str, Any] = {LETTER: letter}
+    exec(compile(ast.fix_missing_locations(module), f"{kernel.name}.py", "exec"), scope)  # our own text, never a user's
+    result = scope[kernel.name](*(at(symbol.name) for symbol in kernel.inputs))
     return [decimal(value) for value in (result if isinstance(result, tuple) else (result,))] + found
-
-
-def _function(name: str, text: str, **scope: Any) -> Callable:
-    exec(compile(text, f"{name}.py", "exec"), scope)  # our own text, never a user's
-    return scope[name]

@@ -155,7 +155,11 @@ class Ball(Parameters):
         common_shape(shapes, "mass_tensor, D and radius")
         turn = None
         if axes is not None:
-            tensor, turn = _with_axes(tensor, axes)
+            turn = numbers(axes, "axes", 4)
+            if (np.abs((turn * turn).sum(axis=-1) - 1) > UNIT_TOLERANCE).any():
+                raise BadInput("axes must be unit quaternions (scalar first); divide by the length")
+            shape = common_shape([tensor.shape[:-1], turn.shape[:-1]], "mass_tensor and axes")
+            tensor, turn = np.broadcast_to(tensor, (*shape, 3)), np.broadcast_to(turn, (*shape, 4))
         if (tensor < 0).any():
             raise BadInput(
                 f"mass_tensor has the negative moment {tensor.min():g}; J = (∫x²dm, ∫y²dm, ∫z²dm) is never negative "
@@ -276,15 +280,6 @@ def in_principal_axes(ball: Ball) -> Ball:
             "give it ball.principal, vectors as ball.to_principal(vector), and turn its vectors by ball.from_principal"
         )
     return ball
-
-
-def _with_axes(tensor: Floats, axes: ArrayLike) -> tuple[Floats, Floats]:
-    """As many mass tensors as axes, which are checked."""
-    turn = numbers(axes, "axes", 4)
-    if (np.abs((turn * turn).sum(axis=-1) - 1) > UNIT_TOLERANCE).any():
-        raise BadInput("axes must be unit quaternions (scalar first); divide by the length")
-    shape = common_shape([tensor.shape[:-1], turn.shape[:-1]], "mass_tensor and axes")
-    return np.broadcast_to(tensor, (*shape, 3)), np.broadcast_to(turn, (*shape, 4))
 
 
 def keep(ball: Any, **parameters: Floats | None) -> None:

@@ -238,10 +238,7 @@ class _Search:
         return self.kept == len(self.times)
 
     def doublings(self) -> int:
-        """About the logarithm to base 2 of the turns, at most, and of their number at the start.
-
-        Raises BadInput where ω at the start does not follow from K.
-        """
+        """About log₂ of the turns, at most, and of those at the start; BadInput where ω does not follow from K."""
         from flint import ctx
 
         from .levels.proved_root import upper
@@ -314,16 +311,12 @@ class _Search:
             until = f", until {decimal(kept[-1])} s" if kept else ""
             stopped = f"{why} for {self.digits} digits at {decimal(self.times[-1])} s: {told}{until}"
         names = PARTS if self.start.radius is not None else PARTS[:-1]
-        arrays: dict[str, Any] = {name: _stacked([frame[name] for frame in frames]) for name in names}
+        shape = len(frames), -1 if frames else 0
+        arrays: dict[str, Any] = {
+            name: np.array([frame[name] for frame in frames], dtype=object).reshape(shape) for name in names
+        }
         arrays.setdefault("contact", None)
         return CertifiedMotion(kept, **arrays, digits=self.digits, steps=self.steps, bits=self.bits, stopped=stopped)
-
-
-def _stacked(rows: list[tuple[Any, ...]]) -> np.ndarray:
-    found = np.empty((len(rows), len(rows[0]) if rows else 0), dtype=object)
-    for i, row in enumerate(rows):
-        found[i] = row
-    return found
 
 
 def _signed(frame: dict[str, tuple[Any, ...]]) -> dict[str, tuple[Any, ...]]:

@@ -217,10 +217,7 @@ class Equations(NamedTuple):
 
 
 def solved(rows: Sequence[Vector], right: Vector) -> list[Any]:
-    """The solution of a linear system, by elimination with the largest pivots, in any numbers.
-
-    Raises ZeroDivisionError if a pivot is 0.
-    """
+    """The solution of a linear system, by elimination with the largest pivots; ZeroDivisionError if one is 0."""
     table, size = [[*row, value] for row, value in zip(rows, right, strict=True)], len(rows)
     for i in range(size):
         best = max(range(i, size), key=lambda n: abs(float(table[n][i])))
@@ -242,16 +239,13 @@ def _followed(function: Callable[..., Any], arrays: Sequence[np.ndarray], rows: 
     try:
         with np.errstate(all="ignore"):
             found = np.stack(_values(function, arrays), axis=-1)
-        if all(map(_is_finite, found.flat)) if found.dtype == object else np.isfinite(found).all():
+        # Numbers without `is_finite` divide by 0 with an exception, which Arb's balls do not.
+        whole = found.dtype != object and np.isfinite(found).all()
+        if whole or (found.dtype == object and all(getattr(x, "is_finite", lambda: True)() for x in found.flat)):
             return found
     except ZeroDivisionError:
         pass
     raise BadInput(f"{function.__name__} is not defined at a root: it divides by 0 there, or is beyond the range")
-
-
-def _is_finite(x: Any) -> bool:
-    """Of what does not divide by 0 with an exception, as Arb's balls do not."""
-    return bool(x.is_finite()) if hasattr(x, "is_finite") else True
 
 
 def _array(value: ArrayLike, name: str, size: int) -> np.ndarray:

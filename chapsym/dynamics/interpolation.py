@@ -116,7 +116,8 @@ class States:
         both = self.there[..., 1:] & self.there[..., :-1]
         turned = (way @ [1, 1j] * (expected @ [1, -1j])).sum(axis=-1, where=both)[..., np.newaxis]
         turned = np.exp(1j * np.angle(turned))
-        return tuple(_plane(v @ [1, 1j] * turned) for v in (rate, second))  # type: ignore[return-value]
+        rate, second = (v @ [1, 1j] * turned for v in (rate, second))
+        return np.stack([rate.real, rate.imag], axis=-1), np.stack([second.real, second.imag], axis=-1)
 
 
 def standing(**arrays: Asked) -> tuple[np.ndarray, dict[str, Asked]]:
@@ -185,10 +186,6 @@ def _one_sign(q: Floats) -> Floats:
 def _rolled(spin: Floats, x: Floats, y: Floats) -> Floats:
     """(⟨ω,y⟩, -⟨ω,x⟩), (..., 2): ω × e₃ along the horizontals x and y."""
     return np.stack([(spin * y).sum(axis=-1), -(spin * x).sum(axis=-1)], axis=-1)
-
-
-def _plane(z: np.ndarray) -> Floats:
-    return np.stack([z.real, z.imag], axis=-1)
 
 
 def _unit(v: Floats) -> Floats:

@@ -82,12 +82,11 @@ class Oracle:
         rotation = self._continued(target) if size else mp.eye(self.n)
         after = rotation.T * target * rotation
         vertical = rotation.T * self.gamma
-        q0, q = self._quaternion(rotation) if self.n == 3 else (None, [])
+        q0, q = None, []
+        if self.n == 3:
+            q0 = mp.sqrt(1 + rotation[0, 0] + rotation[1, 1] + rotation[2, 2]) / 2
+            q = [x / (4 * q0) for x in self.components(rotation - rotation.T)]
         return OracleStep(rotation, self.components(after), list(vertical), q0, q)
-
-    def _quaternion(self, rotation: Any) -> tuple[Any, list[Any]]:
-        q0 = self.mp.sqrt(1 + rotation[0, 0] + rotation[1, 1] + rotation[2, 2]) / 2
-        return q0, [x / (4 * q0) for x in self.components(rotation - rotation.T)]
 
     def _continued(self, target: Any) -> Any:
         mp = self.mp

@@ -11,10 +11,7 @@ from . import pairs
 
 
 class Loose:
-    """A float64 that counts as exact, or the sum of two: the result of an operation is not normalised.
-
-    Its halves may be arrays, too.
-    """
+    """A float64 that counts as exact, or the sum of two, of arrays, too: what operations give is not normalised."""
 
     __slots__ = ("high", "low")
     __array_ufunc__ = None  # an array leaves its operations with a number to it

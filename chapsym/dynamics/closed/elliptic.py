@@ -161,7 +161,9 @@ class Curve:
         if not across(tensor, moments, g).any():
             raise BadInput("the map fixes this gamma (a principal axis, or a ball with equal moments): it is no curve")
         # Λ_b l - 1 = x² - y²: its sign says on which side of the separatrix γ is.
-        x, y = _separatrix(tensor, moments, g, order)
+        first, middle, last = order
+        x = float(abs(g[last]) * np.sqrt((tensor[last] - tensor[middle]) / moments[last]))
+        y = float(abs(g[first]) * np.sqrt((tensor[middle] - tensor[first]) / moments[first]))
         a, b, c = (int(i) for i in (order if x >= y else order[::-1]))
         La, Lb, Lc = (float(moments[i]) for i in (a, b, c))
         gaps = float(tensor[c] - tensor[b]), float(tensor[c] - tensor[a]), float(tensor[b] - tensor[a])
@@ -223,14 +225,6 @@ def across(tensor: Floats, moments: Floats, g: Floats) -> Floats:
     b, c = np.roll(np.arange(3), -1), np.roll(np.arange(3), -2)
     gaps = tensor[..., c] - tensor[..., b]
     return np.asarray(g[..., b] * g[..., c] * (gaps / moments[..., b] / moments[..., c]))
-
-
-def _separatrix(tensor: Floats, moments: Floats, g: Floats, order: np.ndarray) -> tuple[float, float]:
-    """x, y ≥ 0 with Λ_b l - 1 = x² - y² for Λ in the given order, a to c."""
-    a, b, c = order
-    x = abs(g[c]) * np.sqrt((tensor[c] - tensor[b]) / moments[c])
-    y = abs(g[a]) * np.sqrt((tensor[b] - tensor[a]) / moments[a])
-    return float(x), float(y)
 
 
 def _parts(curve: Curve, sn: Floats, cn: Floats, dn: Floats) -> tuple[Floats, Floats, Floats, Floats]:

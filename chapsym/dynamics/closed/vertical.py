@@ -99,10 +99,7 @@ def _flat(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, .
 
 
 def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) -> Frames:
-    """`steps` steps of every ball: by the closed form where it holds, else by those of the full map.
-
-    rotation: of one step, the rotation as the attitude of frame 1.
-    """
+    """Steps of every ball, by the closed form where it holds; rotation: of one step, as the attitude of frame 1."""
     g, J, D, h = given
     precision, still = NAMED["double"], [1.0, 0.0, 0.0, 0.0] if rotation else None
     balls = Balls(h[:, np.newaxis] * g, g, J, D, np.zeros(len(D)))

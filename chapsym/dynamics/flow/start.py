@@ -144,10 +144,7 @@ class Start:
     tensor: Callable[[], Sequence[Balls]] | None = None
 
     def path(self, precision: int) -> Path:
-        """The motion at the start; to be called with that precision set.
-
-        Raises TooWide where the precision does not tell three principal moments apart.
-        """
+        """The motion at the start, with that precision set; raises TooWide where it does not tell the axes apart."""
         axes = Principal(balls(self.mass_tensor)) if self.tensor is None else principal(self.tensor())
         a = unit(generated.compose(*unit(self.attitude()), *axes.turn))
         radius, rotor = None if self.radius is None else ball(self.radius), axes.inward(balls(self.rotor))

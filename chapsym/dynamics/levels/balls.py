@@ -209,10 +209,7 @@ class _UnderWay:
 
 
 class DigitsBall(_UnderWay):
-    """A ball that takes steps at N digits: midpoints inside, mpmath's numbers outside.
-
-    There are as many bits more as 𝒦 is small, the conditioning costs, and the roundings of the steps add up to.
-    """
+    """A ball that takes steps at N digits, with guard bits for all: midpoints inside, mpmath's numbers outside."""
 
     def __init__(
         self, precision: Digits, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
@@ -241,7 +238,7 @@ class DigitsBall(_UnderWay):
             if self.a:
                 q = unit(p)
                 self._follow(q, self.g)
-                self.a = midpoints(compose(*self.a, *q))
+                self.a = tuple(x.mid() for x in compose(*self.a, *q))
             self.k, self.g = (
                 tuple((x + y).mid() for x, y in zip(v, turn(*p, *v), strict=True)) for v in (self.k, self.g)
             )
@@ -430,11 +427,6 @@ def in_context(context: Any, x: Any, bits: int, shift: int = 0) -> Any:
     """2^shift times the midpoint of a ball, rounded to so many bits, as a number of an mpmath context."""
     man, exp = x.mid().man_exp()
     return context.make_mpf(from_man_exp(int(man), int(exp) + shift, bits, "n"))
-
-
-def midpoints(v: Iterable[Any]) -> Numbers:
-    """The midpoints of balls, exactly."""
-    return tuple(x.mid() for x in v)
 
 
 def size_of(K: Exact, exponent: int) -> int:

@@ -101,10 +101,7 @@ class _Way:
 
 
 def _enclosed(precision: Enclosure, given: Given, way: _Way) -> int:
-    """Repeats the run with more bits until `precision.bits` are left; raises BadInput where more do not help.
-
-    Returns how many rotations were selected.
-    """
+    """The run with more bits until `precision.bits` are left, or BadInput; returns how many rotations were selected."""
     guard, before, stuck = precision.guard, (0, -math.inf), 0
     _, lost = magnitude(*given[2:4])
     while guard <= MOST_GUARD:

@@ -37,17 +37,20 @@ def run(
         np.abs(balls.momentum).max(axis=1) < SLOWEST * largest_moment(balls.mass_tensor, balls.D)
     )
     if steps > 1 and slow.any():
+        first = ", ".join(f"{x:g}" for x in balls.momentum[slow][0])
         raise BadInput(
-            f"the momentum {_worst(balls.momentum, slow)} turns the ball by less than 2^-48 a step, and in float32 it "
+            f"the momentum ({first}) turns the ball by less than 2^-48 a step, and in float32 it "
             'would stand still; take a longer time step, or precision="double"'
         )
     frames.momentum[:, 0], frames.gamma[:, 0] = in_single.momentum, in_single.gamma
     if frames.with_body:
         frames.attitude[:, 0] = unit(frames.attitude[:, 0])
-    with np.errstate(under="ignore"):
+    with np.errstate(under="ignore", over="ignore"):  # what overflows is refused
         double.run(in_single, steps, every, frames, order, threads, progress, double.SINGLE)
-        if frames.with_body:
-            _in_metres(frames.contact, balls.radius)
+        traces = frames.contact
+        traces *= balls.radius.astype(np.float32)[:, np.newaxis, np.newaxis]
+    if np.isinf(traces).any():
+        raise BadInput('the contact point leaves the range of float32, 3.4e38 metres; use precision="double"')
 
 
 def rounded(balls: Balls) -> Balls:
@@ -70,18 +73,6 @@ def unit(vectors: Floats) -> np.ndarray:
     """Vectors divided by their length, rounded to float32."""
     wide = vectors.astype(np.float64)
     return (wide / np.linalg.norm(wide, axis=-1, keepdims=True)).astype(np.float32)
-
-
-def _worst(momentum: Floats, which: np.ndarray) -> str:
-    return "({})".format(", ".join(f"{x:g}" for x in momentum[which][0]))
-
-
-def _in_metres(traces: np.ndarray, radius: Floats) -> None:
-    """Multiplies traces in units of the radius by it."""
-    with np.errstate(over="ignore"):
-        traces *= radius.astype(np.float32)[:, np.newaxis, np.newaxis]
-    if np.isinf(traces).any():
-        raise BadInput('the contact point leaves the range of float32, 3.4e38 metres; use precision="double"')
 
 
 def step_all(balls: Balls) -> tuple[np.ndarray, ...]:

@@ -30,10 +30,7 @@ DIGITS = 40
 
 
 def start(K: Exact, g: Exact, J: Exact, D: Fraction) -> tuple[Fraction, ...]:
-    """The rotation of the small-rotation branch, to 16 digits or a few more than the conditioning costs.
-
-    Raises StepNotTaken as `step` does.
-    """
+    """The rotation of the small-rotation branch, to 16 digits or more; raises StepNotTaken as `step` does."""
     moments = (J[1] + J[2], J[0] + J[2], J[0] + J[1])
     scale = Fraction(2) ** -exponent_of(max(moments) + D)
     J, D, K = [x * scale for x in J], D * scale, [x * scale for x in K]
@@ -44,7 +41,8 @@ def start(K: Exact, g: Exact, J: Exact, D: Fraction) -> tuple[Fraction, ...]:
         K = [x * factor for x in K]
     least = min((x for x in moments if x > 0), default=Fraction(1)) * scale
     stiff = largest * factor < TINY or least * Fraction(STIFF) < 1
-    floats = [[float(x) for x in v] for v in (K, _unit(g), J, (D,))]
+    length = math.hypot(*map(float, g))
+    floats = [[float(x) for x in v] for v in (K, (float(x) / length for x in g), J, (D,))]
     if not stiff:
         status, reach, *q = branch.small_rotation(*floats[0], *floats[1], *floats[2], *floats[3])
         if status == Status.TAKEN:
@@ -89,11 +87,6 @@ def least(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any, Any]:
 def exponent_of(x: Fraction) -> int:
     """An exponent e with |x| < 2^e, and |x| ≥ 2^(e-2), of a fraction that is not 0."""
     return x.numerator.bit_length() - x.denominator.bit_length() + 1
-
-
-def _unit(g: Exact) -> list[float]:
-    length = math.hypot(*map(float, g))
-    return [float(x) / length for x in g]
 
 
 def _on_numbers(K: Exact, g: Exact, J: Exact, D: Fraction, digits: int) -> tuple[int, Any, list[Fraction]]:

@@ -133,10 +133,7 @@ def uncertified(radius, ok):
 
 
 def solved(S, P, ok, hopeless, beyond, patience):
-    """Every lane's rotation; returns the patience that is left, and how many lanes are to be mended.
-
-    hopeless, beyond: of `uncertified`.
-    """
+    """Every lane's rotation: the patience left, and how many lanes to mend; hopeless, beyond: of `uncertified`."""
     bad = hopeless + 1 if beyond < len(ok) else hopeless
     if patience == 0 and beyond < len(ok):
         bad = predicted(S, P, ok)

@@ -100,10 +100,7 @@ def moments(J):
 
 
 def tangent(q, K, g, J, D):
-    """The direction of the curve, d = T⁻¹𝒦, and what bounds the step along it.
-
-    Returns (det T, |d|, |T⁻¹𝒦''|, d), with the Frobenius norm of T⁻¹𝒦''.
-    """
+    """(det T, |d|, |T⁻¹𝒦''|, d): the direction of the curve, d = T⁻¹𝒦, and what bounds the step along it."""
     det, n = inverse(q, g, J, D)
     h = tangent_hessian(*q, *g, *J, D)
     bend = 0.0

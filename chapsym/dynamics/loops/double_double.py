@@ -514,7 +514,7 @@ def march_pairs_block(
     state: Matrix, first: int, count: int, every: int, shift: Integers, momenta: Cube, momenta_: Cube, verticals: Cube,
     verticals_: Cube, taken: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
-    """`count` steps of a block from the step `first` on, as of `double_double_loop`: state (ALL_ROWS, LANES).
+    """`count` steps of a block from the step `first` on, as of `march_pairs`: state (ALL_ROWS, LANES).
 
     shift, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
     """
@@ -559,10 +559,7 @@ def rotated(a, v):
 
 
 def column(k, g, a, x, y, n, state, radius, enough, rho):
-    """n steps of the map from k and γ, pairs: (status, reach, a, x, y), the attitude and the contact point moved.
-
-    state: with I, J and D.
-    """
+    """n steps of the map from k and γ: (status, reach, a, x, y), a the attitude; state: with I, J and D."""
     inertia, tensor, contact = three_pairs(state, I), three(state, J), state[D]
     u = angular_velocity(*highs(k), *highs(g), *tensor, contact)
     v, status, reach = u, TAKEN, 1.0  # v: the Gibbs vector of the step before

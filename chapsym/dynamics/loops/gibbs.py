@@ -108,10 +108,7 @@ def second_round(r, k, I):
 
 
 def settle(u, k, g, I, D, radius, enough, heavy=False):
-    """One round from a guess of the Gibbs vector: a Newton iterate, and a second correction where it is needed.
-
-    Returns (settled, p, u): the rotation as a quaternion of any length, and as a Gibbs vector.
-    """
+    """A round from a guess u, with a second correction where it is needed: (settled, p, u), p of any length."""
     if not square(u) <= radius:
         return False, (1.0, 0.0, 0.0, 0.0), u
     r = newton_round(u, k, g, I, D, heavy)

@@ -108,10 +108,7 @@ BEHIND = 18.2
 
 
 class Weights(NamedTuple):
-    """Those of the columns, and of the differences that the last three make, (1 + CHANGES, columns).
-
-    following, beginning: those of the guesses (`guess`).
-    """
+    """Of the columns and of the differences that the last three make, (1 + CHANGES, columns); of guesses (`guess`)."""
 
     sums: Matrix
     following: Cube
@@ -127,10 +124,7 @@ class Balls(NamedTuple):
 
 
 class Frames(NamedTuple):
-    """What is kept of balls, (balls, frames, ...), with K in the place of 𝒦.
-
-    follows, traced: whether there are attitudes and traces, and whether the latter are wanted.
-    """
+    """Frames of balls, (balls, frames, ...), with K for 𝒦; whether there are attitudes, and traces are wanted."""
 
     momenta: Cube
     verticals: Cube
@@ -141,10 +135,7 @@ class Frames(NamedTuple):
 
 
 def checked(S, B, again):
-    """Two Newton iterates, or one `again`, and a second correction in every lane; returns how many are open.
-
-    A lane that has settled before stays as it is.
-    """
+    """Two Newton iterates, or one `again`, and a second correction in every open lane; returns how many stay open."""
     for i in lanes(LANES * B):
         u, k, g, inertia, contact = (
             three_in(S, U, i),
@@ -176,10 +167,7 @@ def checked(S, B, again):
 
 
 def moved(S, B, traced):
-    """Turns k and γ of every lane, carries its quaternion on by (1, u), and guesses the next u.
-
-    traced: whether its centre moves, too, in the axes of the body at the beginning of the long step.
-    """
+    """Turns k and γ of every lane, carries on its quaternion, and its centre if `traced`, and guesses the next u."""
     for i in lanes(LANES * B):
         p, q, w, k, g = four_in(S, P, i), four_in(S, Q, i), three_in(S, U, i), three_in(S, K, i), three_in(S, G, i)
         if traced:
@@ -382,10 +370,7 @@ def half_angle(square):
 
 
 def begun(body, J0, D0, h, state):
-    """Scales K of `body` by a power of two, exactly, so that it is about 1, and puts the ball, likewise, into `state`.
-
-    Returns (half, exponent): half a long step in these units, and K's exponent.
-    """
+    """Scales K of `body` to about 1, and puts the ball into `state`: (half a long step there, K's exponent)."""
     none = np.zeros(3)
     _, size = frexp(loop.entered(none, none, J0, D0, state))
     _, exponent = frexp(largest(three(body, 0)))
@@ -427,10 +412,7 @@ def column(body, half, n, square, state):
 
 
 def long_step(body, half, radius, sums, state):
-    """One long step of `body` (MOVING) in place; sums: as of `lanes.march_lanes`.
-
-    Returns (status, reach); nothing is written unless the status is 0.
-    """
+    """One long step of `body` (MOVING) in place: (status, reach); nothing is written unless the status is 0."""
     q, y, z = (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     changes = np.zeros((CHANGES, 4))
     w = angular_velocity(*three(body, MOMENTUM), *three(body, GAMMA), *three(state, loop.J), state[loop.D])
@@ -577,10 +559,7 @@ def safely(S, b, sums, state):
 
 
 def march_lanes(B, frames, balls, h, steps, every, weights, doubt, taken, status, reach):
-    """`steps` long steps of at most B balls from their frames 0; keeps every `every`-th state.
-
-    doubt, taken, status, reach: of each ball, (balls,).
-    """
+    """`steps` long steps of at most B balls from their frames 0; keeps every `every`-th state."""
     S, count = np.zeros((ROWS, LANES * B)), len(status)
     states, exponents, body = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64), np.zeros(MOVING)
     for b in range(B):

@@ -34,10 +34,7 @@ def prepare(
     momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Vector, state: Vector, radius: Vector,
     enough: Vector,
 ):  # fmt: skip
-    """Writes the state of a ball at the start, and radius² and enough of the momentum of each stage c, (s,).
-
-    Returns `scale`, with 𝒦 = scale·k.
-    """
+    """Writes the state of a ball, and radius² and enough of each stage c, (s,); returns `scale`, with 𝒦 = scale·k."""
     part = np.empty(3, momentum.dtype)
     for i in range(c.shape[0]):
         if c[i] != 1.0:
@@ -65,10 +62,7 @@ def times(x, power, exponent):
 
 @out_of_line
 def entered(momentum, g, tensor, contact, state):
-    """Writes the state of a ball at the start, but for the integrals; returns `scale`.
-
-    All is scaled by a power of two, exactly, so that the largest moment of inertia is about 1.
-    """
+    """Writes the state but for the integrals, scaled by a power of two so that Λmax is about 1; returns `scale`."""
     _, exponent = frexp(max(*moments(three(tensor, 0))) + contact)
     most = largest(three(momentum, 0))
     _, size = frexp(most)
@@ -93,10 +87,7 @@ def entered(momentum, g, tensor, contact, state):
 
 @out_of_line
 def safe_rotation(u, state):
-    """The rotation of a step that the first round did not settle: from where it came, or by the continuation.
-
-    Returns (status, reach, p, u).
-    """
+    """(status, reach, p, u) of a step that the first round did not settle: from its guess, or by the continuation."""
     k, g, inertia, contact = three(state, K), three(state, G), three(state, I), state[D]
     if state[RADIUS] == BEYOND:
         settled, p, w = search_on_path(u, k, g, inertia, contact)

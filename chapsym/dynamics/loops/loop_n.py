@@ -142,10 +142,7 @@ def solve(T, r):
 
 
 def turn(E, r, O, W, v):
-    """E of Ω(1 + ξ + ξ²/2), a rotation up to ξ⁴/8, for the coordinates r of ξ, in place.
-
-    Returns Σ ξᵢⱼ², i > j, and Σ Eᵢⱼ².
-    """
+    """E of Ω(1 + ξ + ξ²/2), a rotation up to ξ⁴/8, from the coordinates r of ξ, in place; the squares of ξ and E."""
     n = E.shape[0]
     p, change, size = 0, 0.0, 0.0
     for i in range(n):

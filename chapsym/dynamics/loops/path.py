@@ -26,10 +26,7 @@ FOUND = 1e-26
 
 
 def search_on_path(u, k, g, I, D):
-    """A Newton iterate, and rounds of corrections until the root is proved to be that of the branch.
-
-    Returns (settled, p, u).
-    """
+    """(settled, p, u): a Newton iterate, and corrections until the root is proved to be that of the branch."""
     r = newton_round(u, k, g, I, D)
     u = r.w
     for _ in range(MOST_ROUNDS):

@@ -34,10 +34,7 @@ UNCOUNTED = Count(lambda done: None)
 def _stepped(
     precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1
 ) -> tuple[dict[str, Floats], np.ndarray, np.ndarray, Floats]:
-    """The frames of a run from its start on, (b, frames, ...), and (taken, status, reach), (b,).
-
-    Raises BadInput for a precision that is neither "double" nor Digits, and for frames that do not fit into memory.
-    """
+    """The frames of a run from its start on, (b, frames, ...), and (taken, status, reach), (b,); or BadInput."""
     chosen, stages, count = precision_of(precision), substeps(order), steps // every + 1
     if not isinstance(chosen, Double | Digits):
         raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {precision!r}')

@@ -79,10 +79,11 @@ def candidates(forms: Floats) -> Candidates:
         points /= np.linalg.norm(points, axis=-1, keepdims=True)
     correction, inverse = _newton(basis, points)
     # |F'⁻¹F''| for orthonormal forms: its Frobenius norm is that of 2F'⁻¹.
-    bend = 2 * _norm(inverse)
-    noise = ROUNDINGS * EPSILON * stretch[:, np.newaxis] * _norm(inverse)
+    size = np.linalg.norm(inverse, axis=(-2, -1))
+    bend, noise = 2 * size, ROUNDINGS * EPSILON * stretch[:, np.newaxis] * size
     error = 2 * (np.linalg.norm(correction, axis=-1) + noise)
-    return Candidates(_least_imaginary(points), error, bend, sound)
+    square = (points * points).sum(axis=-1, keepdims=True)
+    return Candidates(points * np.exp(-0.5j * np.angle(square)), error, bend, sound)
 
 
 def _orthonormal(forms: Floats) -> tuple[Floats, Floats]:
@@ -128,16 +129,6 @@ def _newton(basis: Floats, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     inverse = np.linalg.inv(matrix)[..., :3]
     inverse[singular] = 1e100  # nothing is proved with it
     return -np.einsum("npai,npi->npa", inverse, value), inverse
-
-
-def _least_imaginary(points: np.ndarray) -> np.ndarray:
-    """The same points of P³, turned by a phase."""
-    square = (points * points).sum(axis=-1, keepdims=True)
-    return points * np.exp(-0.5j * np.angle(square))
-
-
-def _norm(inverse: np.ndarray) -> Floats:
-    return np.linalg.norm(inverse, axis=(-2, -1))
 
 
 def _smallest(r: Floats) -> Floats:

@@ -341,7 +341,9 @@ def _enclosures(points: Points, precision: Precision, given: Sequence[Sequence[F
     for _ in range(MOST_PRECISIONS):
         with flint_bits(bits):
             found = [_branch(c, f.multiplicity) for f in points.factors for c in f.points(bits)]
-            if _precise(found, wanted) and _apart(found) and _confirmed(found, given):
+            # A leading parameter that has so many bits has a sign.
+            precise = all(x.rel_accuracy_bits() >= wanted for b in found for x in (*b.rotation, b.angle))
+            if precise and _apart(found) and _confirmed(found, given):
                 return tuple(sorted(found, key=cmp_to_key(_order)))
         bits *= 2
     raise ArithmeticError("the rotations could not be enclosed")
@@ -355,11 +357,6 @@ def _branch(coordinates: tuple, multiplicity: int) -> Branch:
     q = tuple(arb(0) if c.is_zero() else sign * c / length for c in coordinates)
     sine = arb(0) if all(c.is_zero() for c in q[1:]) else sum((c * c for c in q[1:]), arb(0)).sqrt()
     return Branch(q, 2 * arb.atan2(sine, q[0]), multiplicity)
-
-
-def _precise(branches: Sequence[Branch], bits: int) -> bool:
-    """Whether every number is exact or has so many bits; a leading parameter that has them has a sign."""
-    return all(x.rel_accuracy_bits() >= bits for b in branches for x in (*b.rotation, b.angle))
 
 
 def _apart(branches: Sequence[Branch]) -> bool:
