@@ -166,8 +166,8 @@ def _run(
         count, parts = Count(progress), range(0, n, width)
         share(task, parts, min(problem.threads or cores(), len(parts)), count)
     found.order[:], found.total[:] = EXTRAPOLATED, reported[:, STEPS]
-    (noise, started), parts = np.empty((2, n)), problem.parts
-    turned = not parts or bool(parts & {"momentum", "gamma", "attitude"})
-    counted = turned, "omega" in parts, traced and "contact" in parts
+    (noise, started), asked_of = np.empty((2, n)), problem.parts
+    turned = not asked_of or bool(asked_of & {"momentum", "gamma", "attitude"})
+    counted = turned, "omega" in asked_of, traced and "contact" in asked_of
     worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, found.error, noise, started)
     return worst, noise, started

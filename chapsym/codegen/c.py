@@ -54,8 +54,6 @@ def joined(a: Any, b: Any) -> Any:
     """The kind that holds both."""
     if a == b:
         return a
-    if isinstance(a, tuple) and isinstance(b, tuple):
-        return tuple(joined(x, y) for x, y in zip(a, b, strict=True))
     return max(a, b, key=list(SCALARS).index)
 
 
@@ -103,17 +101,6 @@ class Text:
         if isinstance(self.kind, tuple):
             return [Text(f"{self.text}.a{i}", kind) for i, kind in enumerate(self.kind)]
         raise TypeError("one value is no tuple")
-
-    def to(self, kind: Any) -> "Text":
-        """The same value, where a tuple is wanted of elements of other kinds."""
-        if not isinstance(kind, tuple) or kind == self.kind:
-            return self
-        return several_in(kind, [part.to(one) for part, one in zip(self.parts, kind, strict=True)])
-
-
-def several_in(kind: tuple[Any, ...], parts: Sequence[Text]) -> Text:
-    """A tuple of these values."""
-    return Text(f"({c_type(kind)}){{{', '.join(part.text for part in parts)}}}", kind)
 
 
 def number(value: float) -> Text:
@@ -305,7 +292,7 @@ class Printer:
         """A tuple."""
         kind = tuple(part.kind for part in parts)
         self.tuples.add(kind)
-        return several_in(kind, parts)
+        return Text(f"({c_type(kind)}){{{', '.join(part.text for part in parts)}}}", kind)
 
     def chosen(self, given: Text, yes: Text, no: Text) -> Text:
         """One of two values."""
@@ -461,8 +448,7 @@ class Printer:
             if joined(x.kind, kind) != kind:
                 raise TypeError(f"the field {name} is of another kind")
         self.tuples.add(callee)
-        fields = [x.to(kind).text for x, (_, kind) in zip(given, callee.fields, strict=True)]
-        return Text(f"({callee.name}){{{', '.join(fields)}}}", callee)
+        return Text(f"({callee.name}){{{', '.join(x.text for x in given)}}}", callee)
 
     def of_loose(self, name: str, given: Sequence[Text]) -> Text:
         """A number of double-double from one or two floats, or the root of one."""
@@ -497,15 +483,11 @@ class Printer:
             for name, node in zip(function.parameters, arguments, strict=False):
                 if name in of.written:
                     self.writes(node)
-        wanted = self.printers[double].names
-        self.tuples |= {kind for kind in wanted.values() if isinstance(kind, tuple)}
-        taken = [(x, wanted[name]) for x, name in zip(full, double.parameters, strict=True) if x.kind != "1"]
-        taken = [
-            (self.named(x).to(kind) if isinstance(kind, tuple) and kind != x.kind else x, kind) for x, kind in taken
-        ]
-        text = ", ".join(x.text for x, _ in taken)
+        taken = [x for x in full if x.kind != "1"]
+        self.tuples |= {x.kind for x in taken if isinstance(x.kind, tuple)}
+        text = ", ".join(x.text for x in taken)
         if is_external(self.function, double):
-            if not isinstance(of.returned, tuple) or any(isinstance(kind, tuple) for _, kind in taken):
+            if not isinstance(of.returned, tuple) or any(isinstance(x.kind, tuple) for x in taken):
                 raise TypeError(f"{double.name} of float64 must take numbers and return several")
             return Text(f"{double.name}_double({text})", widened(of.returned))
         return Text(f"{callee.name if single is not double else double.name}({text})", of.returned)
@@ -571,9 +553,7 @@ class Printer:
             case ast.Name(id=name) if name not in self.loops:
                 self.note(name, value.kind)
                 self.ended.discard(name)
-                kind = self.names[name]
-                value = self.named(value).to(kind) if isinstance(kind, tuple) and kind != value.kind else value
-                self.assigned(name, kind, value.text)
+                self.assigned(name, self.names[name], value.text)
             case ast.Subscript():
                 self.writes(target)
                 to = self.expression(target)
@@ -645,25 +625,15 @@ class Printer:
 
     def result(self, node: ast.expr) -> str:
         """A return of one value, of what a call returns, or of a tuple."""
-        if isinstance(node, ast.Tuple):
-            parts = list(self.several(node.elts))
-            kind: Any = tuple(x.kind for x in parts)
-        else:
-            value, parts = self.expression(node), []
-            kind = value.kind
-            if isinstance(kind, Array):
-                raise TypeError("an array is returned")
-        self.returned = joined(self.returned or kind, kind)
-        if not parts and (kind == self.returned or not isinstance(kind, tuple)):
-            return f"return {value.text}"
-        parts = parts or self.kept(value).parts
-        return f"return {several_in(self.returned, [x.to(k) for x, k in zip(parts, self.returned, strict=True)]).text}"
+        value = self.expression(node)
+        if isinstance(value.kind, Array):
+            raise TypeError("an array is returned")
+        self.returned = joined(self.returned or value.kind, value.kind)
+        return f"return {value.text}"
 
     def assign(self, target: ast.expr, value: ast.expr) -> None:
         """Adds an assignment."""
         match target, value:
-            case _, ast.IfExp(test=test, body=ast.Tuple() as body, orelse=orelse):
-                self.statement(ast.If(test, [ast.Assign([target], body)], [ast.Assign([target], orelse)]))
             case ast.Tuple(elts=targets), ast.Tuple(elts=values) if any(map(self.is_allocation, values)):
                 for one, of_one in zip(targets, values, strict=True):
                     self.assign(one, of_one)
