@@ -11,7 +11,7 @@ columns up to n = 14, which are not fitted.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -28,11 +28,12 @@ from .attitudes import first_attitudes
 from .ball import Asked, Ball, Floats, batch, is_followed, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double, double_double
-from .levels.dispatch import begun, no_room, precision_of
-from .levels.frames import Balls, Count, cores, share
+from .levels.dispatch import begun, precision_of
+from .levels.frames import Balls, Count, Frames, cores, share
 from .loops.double_double import FIRST
 from .loops.guess import guess_weights
-from .loops.lanes import CHANGES, EIGHT, LAST, MOST_COLUMNS, march
+from .loops.lanes import CHANGES, EIGHT, LAST, MOST_COLUMNS
+from .loops.lanes import march as march_lanes
 from .results import in_given_axes
 from .trajectories import flag, rolling_radius, whole_number
 
@@ -135,47 +136,34 @@ def extrapolate(
     kept = max(steps, 1) if every is None else min(whole_number(every, "every", 1), steps + 1)
     shape, (K, g, J, D) = batch(ball, numbers(angular_momentum, "angular_momentum", 3), unit_vertical(gamma))
     follows = flag(contact, "contact") or is_followed(attitude)
-    n, count = len(D), steps // kept + 1
-    body = count if follows else 0
     radius = np.broadcast_to(rolling_radius(ball), shape).reshape(-1).copy() if contact else D
     first = first_attitudes(attitude, g, shape) if follows else None
+    balls, count = Balls(K, g, J, D, radius), steps // kept + 1
+    level = NAMED["double-double" if of_pairs else "double"]
+    frames = begun(level, balls, count, first, isinstance(attitude, bool | np.bool_))
+    if of_pairs:
+        pair = Pair.of(time_step) if isinstance(time_step, Fraction) else Pair(h)
+        doubt = double_double.run_long(
+            balls, pair, steps, kept, frames, weights_of_pairs(columns), threads, progress
+        )  # fmt: skip
+    else:
+        doubt = _march(frames, balls, (h, steps, kept, follows, contact), columns, threads, not shape, progress)
+    if not shape and frames.status[0]:
+        raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]), int(frames.taken[0]))
 
     def shaped(array: Floats) -> Floats:
         array = array[:, -1] if every is None else array
         return array.reshape(shape + array.shape[1:]) if shape else array[0]
 
-    def result(momenta: Floats, verticals: Floats, attitudes: Floats, spots: Floats) -> Extrapolated:
+    def result(kept_frames: Frames, low: Extrapolated | None = None) -> Extrapolated:
+        attitudes = shaped(kept_frames.attitude) if follows else None
         return Extrapolated(
-            shaped(momenta), shaped(verticals), shaped(attitudes) if follows else None, doubt.reshape(shape),
-            status.reshape(shape), taken.reshape(shape), shaped(spots) if contact else None,
-            None if every is None else np.arange(count) * kept,
+            shaped(kept_frames.momentum), shaped(kept_frames.gamma), attitudes, doubt.reshape(shape),
+            frames.status.reshape(shape), frames.taken.reshape(shape), shaped(kept_frames.contact) if contact else None,
+            None if every is None else np.arange(count) * kept, low,
         )  # fmt: skip
 
-    if of_pairs:
-        balls, least = Balls(K, g, J, D, radius), isinstance(attitude, bool | np.bool_)
-        frames = begun(NAMED["double-double"], balls, count, first, least)
-        pair = Pair.of(time_step) if isinstance(time_step, Fraction) else Pair(h)
-        doubt = double_double.run_long(
-            balls, pair, steps, kept, frames, weights_of_pairs(columns), threads, progress
-        )  # fmt: skip
-        taken, status = frames.taken, frames.status
-        if not shape and status[0]:
-            raise StepNotTaken(Status(int(status[0])), float(frames.reach[0]), int(taken[0]))
-        assert frames.low is not None
-        high, low = (result(x.momentum, x.gamma, x.attitude, x.contact) for x in (frames, frames.low))
-        return replace(high, low=low)
-    try:
-        momenta, verticals = _frames(K, count), _frames(g, count)
-        attitudes, spots = np.empty((n, body, 4)), np.empty((n, body, 2))
-    except (MemoryError, ValueError):
-        raise no_room(count, n) from None
-    if first is not None:
-        attitudes[:, 0], spots[:, 0] = first, 0.0
-    arrays = momenta, verticals, attitudes, spots
-    doubt, taken, status = _march(
-        (*arrays, J, D, radius), (h, steps, kept, follows, contact), columns, threads, not shape, progress
-    )
-    return result(*arrays)
+    return result(frames, None if frames.low is None else result(frames.low))
 
 
 def _is_doubled(precision: str | Precision) -> bool:
@@ -184,15 +172,6 @@ def _is_doubled(precision: str | Precision) -> bool:
     if not isinstance(found, Double | DoubleDouble):
         raise BadInput('long steps have the precisions "double" and "double-double"')
     return isinstance(found, DoubleDouble)
-
-
-def _frames(first: Floats, count: int) -> Floats:
-    """Room for frames, (n, count, 3), of which the first is there; it is `first` itself where there is no other."""
-    if count == 1:
-        return first.reshape(-1, 1, 3)
-    frames = np.empty((len(first), count, 3))
-    frames[:, 0] = first
-    return frames
 
 
 def _seconds(time_step: Any) -> float:
@@ -206,36 +185,31 @@ def _seconds(time_step: Any) -> float:
 
 
 def _march(
-    frames: tuple[Floats, ...], how: tuple[Any, ...], columns: int, threads: int, alone: bool,
+    frames: Frames, balls: Balls, how: tuple[Any, ...], columns: int, threads: int, alone: bool,
     progress: Callable[[int], None],
-) -> tuple[Floats, np.ndarray, np.ndarray]:  # fmt: skip
-    """Takes all long steps; returns doubt, taken and status, (n,).
-
-    frames, how: the first arguments of `march_lanes`.  alone: one ball that stops raises StepNotTaken.
-    """
-    n, steps = len(frames[0]), how[1]
-    work = steps * n * stages_of(columns)
-    weights, doubt, reach = loop_weights(columns), np.empty(n), np.empty(n)
-    taken, status = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64)
-    ends = doubt, taken, status, reach
+) -> Floats:  # fmt: skip
+    """Takes all long steps, of one ball that is `alone`, or of many; returns doubt, (n,)."""
+    n, steps, weights = len(balls.D), how[1], loop_weights(columns)
+    doubt, march = np.empty(n), native.loop(march_lanes)
+    states = frames.momentum, frames.gamma, frames.attitude, frames.contact, balls.mass_tensor, balls.D, balls.radius
+    ends = doubt, frames.taken, frames.status, frames.reach
     if alone:
-        native.loop(march)(True, *frames, *how, *weights, *ends)
-        if status[0]:
-            raise StepNotTaken(Status(int(status[0])), float(reach[0]), int(taken[0]))
-        progress(steps)
-        return doubt, taken, status
+        march(True, *states, *how, *weights, *ends)
+        if not frames.status[0]:
+            progress(steps)
+        return doubt
     blocks = (n + EIGHT - FEW) // EIGHT if native.is_compiled() else 0  # the last may have idle lanes
 
     def task(part: int) -> None:
         first = EIGHT * part if part < blocks else EIGHT * blocks + part - blocks
         some = slice(first, first + (EIGHT if part < blocks else 1))
-        native.loop(march)(part >= blocks, *(x[some] for x in frames), *how, *weights, *(x[some] for x in ends))
+        march(part >= blocks, *(x[some] for x in states), *how, *weights, *(x[some] for x in ends))
         count.add(steps * len(doubt[some]))
 
-    parts = range(blocks + max(0, n - EIGHT * blocks))
+    parts, work = range(blocks + max(0, n - EIGHT * blocks)), steps * n * stages_of(columns)
     workers, count = min(threads or cores(), len(parts)) if work >= double.SHORT_RUN else 1, Count(progress)
     share(task, parts, workers, count)
-    return doubt, taken, status
+    return doubt
 
 
 @cache
