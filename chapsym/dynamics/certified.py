@@ -16,7 +16,7 @@ from .ball import Asked, Floats, batch, in_shape
 from .coefficients import COMPOSITIONS
 from .errors import BadInput, Status
 from .levels import dispatch, high
-from .levels.frames import Balls
+from .levels.frames import Balls, Frames
 from .levels.frames import exactly as exact_numbers
 from .levels.start import fraction
 from .results import Trajectory
@@ -132,18 +132,18 @@ def _orbit(
     precision = Enclosure(bits)
     every_ball = Balls(first["momentum"], first["gamma"], J, D, radius)
     frames = dispatch.begun(precision, every_ball, count, first["attitude"])
+    arrays, ends = (frames.momentum, frames.gamma, frames.attitude, frames.contact), (frames.status, frames.reach)
     selected = []
     for i, taken in enumerate(trajectory.taken.reshape(-1)):
-        balls = Balls(*(x[i : i + 1] for x in vars(every_ball).values() if x is not None))
-        kept = min(count, int(taken) // every + 1)
-        part = frames.part(i, kept)
+        one, kept = slice(i, i + 1), min(count, int(taken) // every + 1)
+        balls = Balls(*(x[one] for x in vars(every_ball).values() if x is not None))
+        part = Frames(*(x[one, :kept] for x in arrays), *(x[one] for x in (frames.taken, *ends)), frames.with_body)
         selected += high.run(precision, balls, (kept - 1) * every, every, part, trajectory.order, progress)
         if part.status[0] != Status.TAKEN:
             raise BadInput(
                 f"the true orbit{f' of ball {i}' if shape else ''} does not take step {int(part.taken[0])}:"
                 f" {Status(int(part.status[0])).sentence}"
             )
-    arrays = (frames.momentum, frames.gamma, frames.attitude, frames.contact)
     found = {
         name: None if first[name] is None else in_shape(shape, array) for name, array in zip(NAMES, arrays, strict=True)
     }

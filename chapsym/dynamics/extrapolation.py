@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
-from math import isfinite, prod
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -35,7 +35,7 @@ from .loops.guess import guess_weights
 from .loops.lanes import CHANGES, EIGHT, LAST, MOST_COLUMNS
 from .loops.lanes import march as march_lanes
 from .results import in_given_axes
-from .trajectories import flag, rolling_radius, whole_number
+from .trajectories import flag, rolling_radius, seconds, whole_number
 
 #: From so many balls on a block of eight is faster than one after another.
 FEW = 6
@@ -132,7 +132,11 @@ def extrapolate(
     of_pairs = precision != "double" and _is_doubled(precision)
     most = MOST_OF_PAIRS if of_pairs else MOST_COLUMNS
     columns = most if columns is None else whole_number(columns, "columns", 2, most)
-    steps, threads, h = whole_number(steps, "steps", 0), whole_number(threads, "threads", 0), _seconds(time_step)
+    steps, threads, h = (
+        whole_number(steps, "steps", 0),
+        whole_number(threads, "threads", 0),
+        seconds(time_step, positive=False),
+    )
     kept = max(steps, 1) if every is None else min(whole_number(every, "every", 1), steps + 1)
     shape, (K, g, J, D) = batch(ball, numbers(angular_momentum, "angular_momentum", 3), unit_vertical(gamma))
     follows = flag(contact, "contact") or is_followed(attitude)
@@ -172,16 +176,6 @@ def _is_doubled(precision: str | Precision) -> bool:
     if not isinstance(found, Double | DoubleDouble):
         raise BadInput('long steps have the precisions "double" and "double-double"')
     return isinstance(found, DoubleDouble)
-
-
-def _seconds(time_step: Any) -> float:
-    """One finite number; raises BadInput for anything else."""
-    if type(time_step) is float and isfinite(time_step):
-        return time_step
-    h = numbers(time_step, "time_step")
-    if h.ndim:
-        raise BadInput(f"time_step must be one number of seconds, not {time_step!r}")
-    return float(h)
 
 
 def _march(

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Enclosure, Pair, Precision, Single
+from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single
 
-from .ball import Ball, batch, numbers, unit_vertical
+from .ball import Ball
 from .errors import BadInput
 from .levels import dispatch
-from .levels.frames import Balls, beyond_float64, given_exactly
+from .levels.frames import Balls, given
 from .levels.start import exponent_of, fraction
 from .results import Step, in_given_axes
 
@@ -57,10 +57,7 @@ def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) 
 
 def composed(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int, precision: Precision) -> Step:
     """One step of the composition of any order."""
-    shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
-    balls = Balls(K, g, J, D, np.zeros(len(D)), beyond_float64(momentum, shape))
-    if isinstance(precision, Digits | Enclosure):
-        balls = given_exactly(ball, momentum, gamma, balls, shape)
+    shape, _, balls = given(ball, momentum, gamma, precision)
     return dispatch.step(precision, shape, balls, order)
 
 

@@ -24,20 +24,6 @@ from .n import so_n
 VECTORS = ("momentum", "angular_momentum", "omega", "gamma")
 
 
-def in_axes(function: Callable[..., Any], ball: Ball, args: tuple[Any, ...], kwargs: dict[str, Any]) -> Any:
-    """What a function of a ball in principal axes answers for a ball with axes of its own, in these."""
-    call = signature(function).bind(*args, **kwargs)
-    call.apply_defaults()
-    call.arguments.update(_principal_arguments(ball, call.arguments))
-    try:
-        return in_axes_of(ball, function(*call.args, **call.kwargs))
-    except StepNotTaken as error:
-        if error.trajectory is None:
-            raise
-        frames = in_axes_of(ball, error.trajectory)
-        raise StepNotTaken(error.status, error.reach, error.index, frames) from None
-
-
 def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
     """The arguments that are others in principal axes."""
     try:
@@ -103,7 +89,16 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
         ball: Any = args[0] if args else kwargs.get("ball")
         if getattr(ball, "axes", None) is None or not isinstance(ball, Ball):
             return function(*args, **kwargs)
-        found: R = in_axes(function, ball, args, kwargs)
+        call = signature(function).bind(*args, **kwargs)
+        call.apply_defaults()
+        call.arguments.update(_principal_arguments(ball, call.arguments))
+        try:
+            found: R = in_axes_of(ball, function(*call.args, **call.kwargs))
+        except StepNotTaken as error:
+            if error.trajectory is None:
+                raise
+            frames = in_axes_of(ball, error.trajectory)
+            raise StepNotTaken(error.status, error.reach, error.index, frames) from None
         return found
 
     return taken

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import Digits, Enclosure, Precision
+from chapsym.numbers import Precision
 
 from .attitudes import first_attitudes
-from .ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
+from .ball import Ball, Floats, is_followed, numbers
 from .errors import BadInput
 from .levels import dispatch
-from .levels.frames import Balls, Frames, beyond_float64, given_exactly
+from .levels.frames import Frames, given
 from .results import Trajectory, finished, in_given_axes, of_balls
 
 #: Whoever asks for more steps than this, or for every so many, will not see the end of it.
@@ -71,12 +71,10 @@ def trajectory(
     every = min(every, steps + 1)
     time_step = None if time_step is None else seconds(time_step)
     precision = dispatch.precision_of(precision)
-    shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    shape, g, balls = given(ball, momentum, gamma, precision)
     with_body = flag(contact, "contact") or is_followed(attitude)
-    radius = np.broadcast_to(rolling_radius(ball) if contact else 0.0, shape).reshape(-1)
-    balls = Balls(K, g, J, D, radius, beyond_float64(momentum, shape))
-    if isinstance(precision, Digits | Enclosure):
-        balls = given_exactly(ball, momentum, gamma, balls, shape)
+    if contact:
+        balls = replace(balls, radius=np.broadcast_to(rolling_radius(ball), shape).reshape(-1))
     first = first_attitudes(attitude, g, shape) if with_body else None
     frame = dispatch.begun(precision, balls, steps // every + 1, first, isinstance(attitude, bool | np.bool_))
     dispatch.run(precision, balls, steps, every, frame, order, threads, progress)
@@ -131,11 +129,9 @@ def step_numbers(index: ArrayLike) -> np.ndarray:
     return given.astype(np.int64)
 
 
-def seconds(value: ArrayLike) -> float:
-    """A time step in seconds; raises BadInput for what is not one positive number."""
-    if isinstance(value, float) and 0.0 < value < inf:
-        return float(value)
-    epsilon = numbers(value, "time_step")
-    if epsilon.ndim or not epsilon > 0:
-        raise BadInput(f"time_step must be one positive number of seconds, not {value!r}")
+def seconds(value: Any, positive: bool = True) -> float:
+    """A time step in seconds; raises BadInput for what is not one number, or not a positive one."""
+    epsilon = value if isinstance(value, float) and -inf < value < inf else numbers(value, "time_step")
+    if np.ndim(epsilon) or (positive and not epsilon > 0):
+        raise BadInput(f"time_step must be one {'positive ' if positive else ''}number of seconds, not {value!r}")
     return float(epsilon)

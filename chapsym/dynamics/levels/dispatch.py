@@ -33,10 +33,7 @@ def precision_of(precision: str | Precision) -> Precision:
 
 
 def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None, least: bool = False) -> Frames:
-    """Frames in the numbers of the precision, of which the first is that of the balls; the others are NaN.
-
-    attitude: at the start, (n, 4), where it is followed.  Raises BadInput for frames that do not fit into memory.
-    """
+    """Frames of a precision, NaN but for the first, or BadInput; attitude: at the start, (n, 4), if it is followed."""
     n, body = len(balls.D), 0 if attitude is None else count
     shapes = (n, count, 3), (n, count, 3), (n, body, 4), (n, body, 2)
     try:

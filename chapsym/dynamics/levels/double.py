@@ -73,10 +73,7 @@ def run(
 
 
 def step_all(balls: Balls, of: Numbers = DOUBLE) -> tuple[np.ndarray, ...]:
-    """The first step of a run of each ball: (q, 𝒦, γ, status, reach), (n, 4), (n, 3), (n, 3), (n,), (n,).
-
-    q: unit Euler parameters with q0 ≥ 0; q, 𝒦 and γ are NaN where the status is not TAKEN.
-    """
+    """The first step of a run of each ball: (q, 𝒦, γ, status, reach), q0 ≥ 0, NaN where the status is not TAKEN."""
     n = len(balls.D)
     q, status, reach = np.full((n, 4), np.nan, of.dtype), np.zeros(n, np.int64), np.ones(n)
     K, g, J, D = balls.momentum.copy(), balls.gamma.copy(), balls.mass_tensor, balls.D

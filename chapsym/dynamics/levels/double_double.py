@@ -154,10 +154,7 @@ def run_long(
     balls: Balls, h: Pair, steps: int, every: int, frames: Frames, weights: Floats, threads: int,
     progress: Callable[[int], None],
 ) -> Floats:  # fmt: skip
-    """Long steps of h seconds of the continuous ball, from K in the place of 𝒦.
-
-    weights: of `march_long_pairs`.  It writes frame 0 anew, as `run` does; returns the sum of the doubts, (n,).
-    """
+    """Long steps of h seconds from K, with frame 0 anew as in `run`; returns the sum of the doubts, (n,)."""
     low, doubt, count = frames.low, np.zeros(len(balls.D)), Count(progress)
     assert low is not None
     march, chunk = native.loop(loop.march_long_pairs), max(1, CHUNK // (len(weights) * loop.FIRST * 4))

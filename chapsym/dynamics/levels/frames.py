@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Ball, Floats, exact_array
+from chapsym.numbers import Digits, Enclosure, Precision
+
+from ..ball import Ball, Floats, batch, exact_array, numbers, unit_vertical
 
 #: The work of each thread comes in about so many parts, so that none is idle for long at the end.
 SHARES = 16
@@ -33,15 +35,6 @@ class Balls:
     rest: Floats | None = None
 
 
-def beyond_float64(momentum: ArrayLike, shape: tuple[int, ...]) -> Floats | None:
-    """What a momentum of exact numbers has beyond float64, (n, 3); None if there is nothing."""
-    if np.asarray(momentum).dtype != object:
-        return None
-    given = exact_array(momentum)
-    rest = np.array([float(x - Fraction(float(x))) for x in given.flat]).reshape(given.shape)
-    return np.broadcast_to(rest, (*shape, 3)).reshape(-1, 3)
-
-
 def exactly(given: ArrayLike, floats: Floats, shape: tuple[int, ...]) -> Any:
     """What was given, as Fractions in the shape of the floats, where it is of exact numbers; else the floats."""
     array = np.asarray(given)
@@ -50,13 +43,20 @@ def exactly(given: ArrayLike, floats: Floats, shape: tuple[int, ...]) -> Any:
     return np.broadcast_to(exact_array(array), (*shape, *floats.shape[1:])).reshape(floats.shape)
 
 
-def given_exactly(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, balls: Balls, shape: tuple[int, ...]) -> Balls:
-    """The balls of a run on Digits or Enclosure, with every number as it was given."""
-    tensor, contact, _ = ball.exact
-    return Balls(
-        exactly(momentum, balls.momentum, shape), exactly(gamma, balls.gamma, shape),
-        exactly(tensor, balls.mass_tensor, shape), exactly(contact, balls.D, shape), balls.radius,
-    )  # fmt: skip
+def given(
+    ball: Ball, momentum: ArrayLike, gamma: ArrayLike, precision: Precision
+) -> tuple[tuple[int, ...], Floats, Balls]:
+    """The leading axes of the states, γ in float64, and the balls of a run: on Digits and Enclosure as given."""
+    shape, floats = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
+    radius, rest = np.zeros(len(floats[-1])), None
+    if isinstance(precision, Digits | Enclosure):
+        whole = momentum, gamma, *ball.exact[:2]
+        return shape, floats[1], Balls(*(exactly(x, y, shape) for x, y in zip(whole, floats, strict=True)), radius)
+    if np.asarray(momentum).dtype == object:
+        exact = exact_array(momentum)
+        beyond = np.array([float(x - Fraction(float(x))) for x in exact.flat]).reshape(exact.shape)
+        rest = np.broadcast_to(beyond, (*shape, 3)).reshape(-1, 3)
+    return shape, floats[1], Balls(*floats, radius, rest)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,15 +78,6 @@ class Frames:
     with_body: bool
     low: "Frames | None" = None
     least: bool = False
-
-    def part(self, i: int, kept: int) -> "Frames":
-        """The first frames of one ball, in the same memory."""
-        one = slice(i, i + 1)
-        momentum, gamma, attitude, contact = (
-            x[one, :kept] for x in (self.momentum, self.gamma, self.attitude, self.contact)
-        )
-        ends = self.taken[one], self.status[one], self.reach[one]
-        return Frames(momentum, gamma, attitude, contact, *ends, self.with_body)
 
 
 class Count:

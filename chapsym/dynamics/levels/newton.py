@@ -20,7 +20,8 @@ def refined(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     q = tuple(x.mid() for x in unit(q))
     settled = arb(2) ** (-ctx.prec // 2 - 2)
     for _ in range(MOST_REFINEMENTS):
-        w = tuple(x.mid() for x in _correction(q, K, g, J, D))
+        r = generated.residual(*q, *K, *g, *J, *D)
+        w = tuple((-x).mid() for x in product(inverse(q, g, J, *D)[1], r))  # q becomes q ∘ (1, w)
         change = max(abs(x) for x in w)
         if not change < NEAR:
             return None
@@ -28,12 +29,6 @@ def refined(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
         if change <= max(abs(x) for x in q[1:]) * settled:
             return q
     return None
-
-
-def _correction(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple:
-    """The Newton correction w for unit q: q becomes q ∘ (1, w)."""
-    r = generated.residual(*q, *K, *g, *J, *D)
-    return tuple(-x for x in product(inverse(q, g, J, *D)[1], r))
 
 
 def unit(v: Iterable[Any]) -> tuple[Any, ...]:
@@ -44,13 +39,11 @@ def unit(v: Iterable[Any]) -> tuple[Any, ...]:
 
 
 def enclosed(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
-    """Unit Euler parameters as balls that contain the one root near the float64 root."""
+    """Unit Euler parameters as balls that contain the one root near the float64 root, by the interval Newton test."""
     point = refined(q, K, g, J, D)
-    return None if point is None else _tested(point, K, g, J, D)
-
-
-def _tested(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
-    """The interval Newton test in a box round a point q, which is widened until it holds the root; else None."""
+    if point is None:
+        return None
+    q = point
     # F(w) = 𝒦(q ∘ (1, w)) - |q|²(1 + |w|²)𝒦 vanishes exactly at the root; q is a point that is nearly unit.
     norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
     value = generated.residual(*q, *(norm * x for x in K), *g, *J, *D)

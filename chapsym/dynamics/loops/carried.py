@@ -190,10 +190,7 @@ def applied(columns, v):
 
 
 def changes(S, E, B):
-    """What the last columns have changed in the step of every ball, into `TWIST` and `SLIP`.
-
-    Not of those that get lost: the safe way says it of these.
-    """
+    """What the last columns have changed in the step of every ball that is not lost, into `TWIST` and `SLIP`."""
     for i in lanes(LANES * B):
         a, b = four_in(S, DONE, i), four_in(S, Q, i)
         one, two = 1.0 / sqrt(square_of_four(a)), 1.0 / sqrt(square_of_four(b))
@@ -242,10 +239,7 @@ def leave(S, E, B, traced):
 
 
 def carry(S, E, B, traced):
-    """Carries the errors of every ball on by the step that `WHOLE`, `PART` and `ROUNDED` describe, 0 where none stays.
-
-    Both ends are there; the last becomes the first.
-    """
+    """Carries errors on by the step of `WHOLE`, `PART`, `ROUNDED`, 0 if none stays; its last end becomes the first."""
     flown(E, B, traced)
     leave(S, E, B, traced)
     for b in lanes(B):

@@ -278,10 +278,7 @@ def steps_in(time, step):
 
 
 def aimed(lane, frames, interval):
-    """Divides the time that is left, or that until the next frame, into steps; returns whether the step changes.
-
-    The steps end at the next frame where they are not much shorter for it: then nothing is interpolated.
-    """
+    """Divides the time left, or until the next frame if steps are long enough for it; whether the step changes."""
     goal, step = frames - 1, min(lane[WISH], lane[SMOOTH])
     time = lane[NEXT] * interval - lane[NOW]
     count = steps_in(time, lane[WISH])

@@ -107,10 +107,7 @@ def turned(p, v, x):
 
 
 def filtered(b, c, d, e, f, h, o, w):
-    """The polynomial through the last 8 values as a filter: takes the newest, w, into the sums under way.
-
-    The first of those that it returns, after (a, b, c, d, e, f, h, o), is the guess of the next value.
-    """
+    """The polynomial through the last 8 values as a filter: takes the newest, w; first is the guess of the next."""
     return (
         b + 8.0 * w, c - 28.0 * w, d + 56.0 * w, e - 70.0 * w, f + 56.0 * w, h - 28.0 * w, o + 8.0 * w, -w
     )  # fmt: skip

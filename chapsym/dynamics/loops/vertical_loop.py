@@ -28,10 +28,7 @@ def level_root(level, t, v, inertia):
 
 
 def march(g: Vector, I: Vector, k: float, count: int, every: int, verticals: Matrix, q: Vector):
-    """Takes `count` steps from g (3) on, with k = h/2; keeps every `every`-th γ in the frames, the last rotation in q.
-
-    Returns whether every step settled, on a rotation by less than a right angle; else the frames are of no use.
-    """
+    """`count` steps from g (3), k = h/2; keeps every `every`-th γ, and the last rotation in q; whether all settled."""
     inertia, v, y = three(I, 0), three(g, 0), (0.0, 0.0, 0.0)
     level = vertical_square(*v, *inertia)
     settled, root = level_root(level, k, level / (I[0] * I[1] * I[2]), inertia)

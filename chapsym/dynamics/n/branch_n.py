@@ -35,11 +35,7 @@ MOST_CORRECTIONS = 20
 
 
 def small_rotation(K: Floats, gamma: Floats, J: Floats, D: Floats) -> tuple[Floats, np.ndarray, Floats]:
-    """Solves 𝒦(Ω, γ) = 𝒦 on the small-rotation branch, for balls (b, n, n), (b, n), (b, n), (b,).
-
-    Returns (E, status, reach): Ω - 1 (b, n, n), NaN where the status is not TAKEN, and the fraction of the
-    momentum that was attained.
-    """
+    """The small rotations with momenta 𝒦 of b balls: (Ω - 1, NaN where the status is not TAKEN, status, reach)."""
     K, J, D, end = _scaled(K, J, D)
     k = so_n.coordinates(K)
     status = np.full(len(D), Status.NOT_CONVERGED, dtype=np.int64)

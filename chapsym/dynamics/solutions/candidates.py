@@ -137,10 +137,7 @@ def _smallest(r: Floats) -> Floats:
 
 @cache
 def _tables() -> SimpleNamespace:
-    """Indices of the Macaulay matrix, and the constants in general position.
-
-    The monomials of degree 4 in columns; each form times the monomials of degree 2 in rows.
-    """
+    """Indices of Macaulay's matrix, by monomials of degree 4 and forms times those of degree 2; general constants."""
 
     def monomials(degree: int) -> list[tuple[int, ...]]:
         return list(itertools.combinations_with_replacement(range(4), degree))
