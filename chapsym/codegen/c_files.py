@@ -12,16 +12,7 @@ from .source import Function, Program, Record
 #: The modules with functions that are exported, and those that float32 has, too.
 PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block")
-LOOPS = (
-    *SINGLE,
-    "lanes",
-    "loop_n",
-    "vertical_loop",
-    "double_double",
-    "tangent",
-    "following",
-    "expected",
-)
+LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "tangent", "following", "expected"
 
 #: The first lines of a file, with its contents and its sources.
 HEAD = "/* {}\n * Written by `chapsym codegen`: do not edit; change {} and generate again. */\n"

@@ -132,12 +132,14 @@ def _orbit(
     precision = Enclosure(bits)
     every_ball = Balls(first["momentum"], first["gamma"], J, D, radius)
     frames = dispatch.begun(precision, every_ball, count, first["attitude"])
-    arrays, ends = (frames.momentum, frames.gamma, frames.attitude, frames.contact), (frames.status, frames.reach)
+    arrays = frames.momentum, frames.gamma, frames.attitude, frames.contact
+    ends = frames.taken, frames.status, frames.reach
     selected = []
     for i, taken in enumerate(trajectory.taken.reshape(-1)):
         one, kept = slice(i, i + 1), min(count, int(taken) // every + 1)
         balls = Balls(*(x[one] for x in vars(every_ball).values() if x is not None))
-        part = Frames(*(x[one, :kept] for x in arrays), *(x[one] for x in (frames.taken, *ends)), frames.with_body)
+        ours: Any = *(x[one, :kept] for x in arrays), *(x[one] for x in ends), frames.with_body
+        part = Frames(*ours)
         selected += high.run(precision, balls, (kept - 1) * every, every, part, trajectory.order, progress)
         if part.status[0] != Status.TAKEN:
             raise BadInput(

@@ -73,7 +73,7 @@ class Precision(ABC):
 class Single(Precision):
     """IEEE float32."""
 
-    dtype = np.dtype(np.float32)
+    dtype, digits = np.dtype(np.float32), 5
 
     def number(self, value: Fraction) -> np.float32:
         return np.float32(float(value))
@@ -82,16 +82,12 @@ class Single(Precision):
         """The shortest decimal number that is this float32: as a float64 it would have digits that mean nothing."""
         return float(str(np.float32(value)))
 
-    @property
-    def digits(self) -> int:
-        return 5
-
 
 @dataclass(frozen=True)
 class Double(Precision):
     """IEEE float64."""
 
-    dtype = np.dtype(np.float64)
+    dtype, digits = np.dtype(np.float64), 12
 
     def number(self, value: Fraction) -> float:
         return float(value)
@@ -99,26 +95,18 @@ class Double(Precision):
     def write(self, value: float) -> float:
         return float(value)
 
-    @property
-    def digits(self) -> int:
-        return 12
-
 
 @dataclass(frozen=True)
 class DoubleDouble(Precision):
     """Double-double numbers: pairs of float64, about 31 digits."""
 
-    dtype = np.dtype(np.float64)
+    dtype, digits = np.dtype(np.float64), 28
 
     def number(self, value: Fraction) -> Pair:
         return Pair.of(value)
 
     def write(self, value: Pair) -> str:
         return Digits(WRITTEN).write(Digits(WRITTEN).number(value.exactly()))
-
-    @property
-    def digits(self) -> int:
-        return 28
 
 
 @dataclass(frozen=True)

@@ -48,15 +48,15 @@ def given(
 ) -> tuple[tuple[int, ...], Floats, Balls]:
     """The leading axes of the states, γ in float64, and the balls of a run: on Digits and Enclosure as given."""
     shape, floats = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
-    radius, rest = np.zeros(len(floats[-1])), None
+    rest, state = None, tuple[Any, ...](floats)
     if isinstance(precision, Digits | Enclosure):
-        whole = momentum, gamma, *ball.exact[:2]
-        return shape, floats[1], Balls(*(exactly(x, y, shape) for x, y in zip(whole, floats, strict=True)), radius)
-    if np.asarray(momentum).dtype == object:
+        state = tuple(exactly(x, y, shape) for x, y in zip((momentum, gamma, *ball.exact[:2]), floats, strict=True))
+    elif np.asarray(momentum).dtype == object:
         exact = exact_array(momentum)
         beyond = np.array([float(x - Fraction(float(x))) for x in exact.flat]).reshape(exact.shape)
         rest = np.broadcast_to(beyond, (*shape, 3)).reshape(-1, 3)
-    return shape, floats[1], Balls(*floats, radius, rest)
+    K, g, J, D = state
+    return shape, floats[1], Balls(K, g, J, D, np.zeros(len(D)), rest)
 
 
 @dataclass(frozen=True, eq=False)

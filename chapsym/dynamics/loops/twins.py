@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import cache
 from importlib import import_module
 from math import ldexp, sqrt
-from types import BuiltinFunctionType, FunctionType, ModuleType
+from types import FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -39,7 +39,7 @@ def _made(constants: tuple[Any, ...], number: Callable[[float], Any]) -> tuple[A
 
 def single(function: Callable[..., Any]) -> Callable[..., Any]:
     """A function of the loops in float32."""
-    found: Callable[..., Any] = _single()[function.__module__.rpartition(".")[2]][function.__name__]
+    found: Callable[..., Any] = _single()[function.__module__][function.__name__]
     return found
 
 
@@ -47,25 +47,19 @@ def single(function: Callable[..., Any]) -> Callable[..., Any]:
 def _single() -> dict[str, dict[str, Any]]:
     """The names of the modules in float32, by module."""
     made: dict[str, dict[str, Any]] = {}
-    #: What has been replaced so far, by its name and what it was.
-    instead: dict[tuple[str, Any], Any] = {}
+    numbers: dict[str, Any] = {}
     for path in MODULES:
         module = import_module(path if "." in path else f"{__package__}.{path}")
+        other: dict[str, Any] = getattr(module, "SINGLE", {})
+        numbers |= {name: np.float32(x) for name, x in other.items() if isinstance(x, float)}
+        known = vars(module) | {name: x for name, x in other.items() if isinstance(x, FunctionType)}
+        functions = {name: x for name, x in known.items() if isinstance(x, FunctionType) and x.__module__ in made}
+        here = {name: made[x.__module__][x.__name__] for name, x in functions.items()}
+        here |= {name: numbers[name] for name in numbers.keys() & vars(module).keys()}
         if path != "single_loop":  # that takes float64 where it says so
-            instead |= {("sqrt", sqrt): _root, ("ldexp", ldexp): _scaled}
-        for name, other in getattr(module, "SINGLE", {}).items():
-            value = np.float32(other) if isinstance(other, float) else instead[other.__name__, other]
-            instead[name, vars(module)[name]] = value
-        here = {name: instead[name, x] for name, x in vars(module).items() if _is_known(name, x, instead)}
-        names = made[path.rpartition(".")[2]] = twin(module, np.float32, **here)
-        instead |= {(name, x): names[name] for name, x in vars(module).items() if isinstance(x, FunctionType)}
-        for key in (("sqrt", sqrt), ("ldexp", ldexp)):
-            instead.pop(key, None)
+            here |= {name: x for name, x in (("sqrt", _root), ("ldexp", _scaled)) if name in vars(module)}
+        made[module.__name__] = twin(module, np.float32, **here)
     return made
-
-
-def _is_known(name: str, value: Any, instead: dict[tuple[str, Any], Any]) -> bool:
-    return isinstance(value, float | FunctionType | BuiltinFunctionType) and (name, value) in instead
 
 
 def _root(x: Any) -> Any:
