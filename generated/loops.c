@@ -2145,6 +2145,11 @@ INLINE t_p3 kernel_gibbs_residual_e3p9e(real u1, real u2, real u3, t_r2 k1, t_r2
     t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
 }
 
+INLINE t_r3 vectors_adjoint(t_r9 c, t_r3 r) {
+    return (t_r3){c.a0 * r.a0 + c.a3 * r.a1 + c.a6 * r.a2, c.a1 * r.a0 + c.a4 * r.a1 + c.a7 * r.a2, c.a2 * r.a0 + c.a5
+        * r.a1 + c.a8 * r.a2};
+}
+
 INLINE t_r3 kernel_gibbs_mixed(real d1, real d2, real d3, real e1, real e2, real e3, real k1, real k2, real k3, real
     c11, real c12, real c13, real c21, real c22, real c23, real c31, real c32, real c33, real I1, real I2, real I3) {
     real t0 = 2 * d1 * e1 + 2 * d2 * e2 + 2 * d3 * e3;
@@ -2156,11 +2161,11 @@ INLINE t_r3 kernel_gibbs_mixed(real d1, real d2, real d3, real e1, real e2, real
 }
 
 INLINE t_r3 double_double_correction(real det, t_r3 d, t_r9 cofactors, t_r3 r, t_r3 k, t_r3 I) {
-    t_r9 c = cofactors; real s = R(-1.0) / det, e1 = s * (c.a0 * r.a0 + c.a3 * r.a1 + c.a6 * r.a2);
-    real e2 = s * (c.a1 * r.a0 + c.a4 * r.a1 + c.a7 * r.a2), e3 = s * (c.a2 * r.a0 + c.a5 * r.a1 + c.a8 * r.a2);
-    t_r3 e = (t_r3){e1, e2, e3}, t_1 = vectors_plus(d, vectors_scaled(R(0.5), e));
+    real s = R(-1.0) / det;
+    t_r3 e = vectors_scaled(s, vectors_adjoint(cofactors, r)), t_1 = vectors_plus(d, vectors_scaled(R(0.5), e));
     return vectors_plus(e, vectors_scaled(s, kernel_gibbs_mixed(t_1.a0, t_1.a1, t_1.a2, e.a0, e.a1, e.a2, k.a0, k.a1,
-        k.a2, c.a0, c.a1, c.a2, c.a3, c.a4, c.a5, c.a6, c.a7, c.a8, I.a0, I.a1, I.a2)));
+        k.a2, cofactors.a0, cofactors.a1, cofactors.a2, cofactors.a3, cofactors.a4, cofactors.a5, cofactors.a6,
+        cofactors.a7, cofactors.a8, I.a0, I.a1, I.a2)));
 }
 
 INLINE int double_double_small(t_r3 w, t_r3 e) {
@@ -2873,8 +2878,7 @@ INLINE t_r3 tangent_column(t_r3 x, t_r3 u, r1 state, real det, t_r9 c) {
     real length = R(1.0) + vectors_dot(u, u);
     t_r3 r = vectors_plus(vectors_plus(vectors_scaled(state.p[24] * vectors_dot(g, u), b), vectors_scaled(state.p[24]
         * vectors_dot(b, u), g)), vectors_scaled(length, a));
-    real d1 = (c.a0 * r.a0 + c.a3 * r.a1 + c.a6 * r.a2) / det, d2 = (c.a1 * r.a0 + c.a4 * r.a1 + c.a7 * r.a2) / det;
-    real d3 = (c.a2 * r.a0 + c.a5 * r.a1 + c.a8 * r.a2) / det; t_r3 d = (t_r3){d1, d2, d3};
+    t_r3 x1 = vectors_adjoint(c, r), d = (t_r3){x1.a0 / det, x1.a1 / det, x1.a2 / det};
     return vectors_plus(vectors_plus(x, kernel_turn(R(1.0), u.a0, u.a1, u.a2, x.a0, x.a1, x.a2)),
         vectors_scaled(R(2.0) / length, vectors_minus(d, vectors_cross(u, d))));
 }
@@ -3713,5 +3717,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "e3edee047b1b4bc11dbec6c5cbb12ece7908988e3f910ffeb272a6e5eb2b1ec6";
+const char loops_text[] = "d55e4f73e400415a745d7ae07c658c798af02a8af0c1274e397ec4d9273cceab";
 #endif

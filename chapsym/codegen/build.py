@@ -4,12 +4,14 @@ A kernel is refused unless its text computes what the statements that carry it s
 the other from the certificate of the claim, which is proved anew here, and compares them as rational functions.
 """
 
+import ast
 import hashlib
 import importlib.util
 import json
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -24,7 +26,7 @@ from chapsym.prove.trees import tree
 
 from . import c_files, carriers, passes, printer
 from .kernels import Kernel
-from .values import fingerprint, text_fingerprint
+from .passes import letters
 
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
 EDIT = "Written by `chapsym codegen`: do not edit; change the derivation and generate again."
@@ -323,3 +325,46 @@ def _doubts(what: str, derived: list[str], values: Callable[[str], list[str]], t
         return [] if values(text.decode()) == derived else [f"{what} computes another value than the derivation"]
     except Exception as error:
         return [f"{what} does not run: {error}"]
+
+
+DIGITS = 40
+#: What a text calls in the place of its functions: no kernel may have a name that begins so.
+LETTER = "__letter"
+
+
+def at(name: str) -> Fraction:
+    """The value of a name at the rational point, in (1/2, 3/2): it is seeded from the name."""
+    seed = int.from_bytes(hashlib.sha256(name.encode()).digest()[:4], "big") % 1009
+    return Fraction(1009 + 2 * seed, 2018)
+
+
+def decimal(value: Fraction | sp.Rational) -> str:
+    """40 significant digits of a rational number."""
+    return str(sp.Rational(value).evalf(DIGITS))
+
+
+@cache
+def fingerprint(kernel: Kernel) -> list[str]:
+    """The values of the expressions at the rational point, letters with values of their own, and of what these are."""
+    point = {symbol: sp.Rational(at(symbol.name)) for symbol in (*kernel.inputs, *kernel.letters)}
+    values = [decimal(e.xreplace(point)) for e in kernel.expressions]
+    return values + [f"{function} {decimal(of.xreplace(point))}" for _, function, of in letters(kernel)]
+
+
+def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
+    """The same values from the generated text, run on fractions."""
+    module, found = ast.parse(text), list[str]()
+    module.body = [node for node in module.body if not isinstance(node, ast.ImportFrom)]
+    for node in ast.walk(module):
+        if isinstance(node, ast.Assign) and isinstance(call := node.value, ast.Call):
+            call.args[:0] = [ast.Constant(ast.unparse(part)) for part in (call.func, *node.targets)]
+            call.func = ast.Name(LETTER, ast.Load())
+
+    def letter(function: str, name: str, *of: Fraction) -> Fraction:
+        found.append(f"{function} {decimal(Fraction(1) if function == 'pi' else of[0])}")
+        return at(name)
+
+    scope: dict[str, Any] = {LETTER: letter}
+    exec(compile(ast.fix_missing_locations(module), f"{kernel.name}.py", "exec"), scope)  # our own text, never a user's
+    result = scope[kernel.name](*(at(symbol.name) for symbol in kernel.inputs))
+    return [decimal(value) for value in (result if isinstance(result, tuple) else (result,))] + found

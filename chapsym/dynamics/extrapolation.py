@@ -2,7 +2,7 @@
 
 The map is self-adjoint, so the rotation that n steps of length h/n make together is an even power series in h/n.
 Its quaternions for c values of n up to 7, with the weights n²/(n² - m²) multiplied over the other m, leave an error of
-order h^(2c+1).  The steps are fitted to steady rotation (`loops.fitted`), which leaves less of it.  K and γ are then
+order h^(2c+1).  The steps are fitted to steady rotation (`loops.lanes`), which leaves less of it.  K and γ are then
 turned by *one* rotation: ⟨K,γ⟩, |K|² and |γ|² are kept to rounding, at every order.  A step is no longer exactly
 self-adjoint, as compositions are, nor is the measure kept: both to the order h^(2c+1).  In double-double there are
 columns up to n = 14, which are not fitted.

@@ -16,7 +16,7 @@ import sympy as sp
 from commands import answer
 
 from chapsym import generated
-from chapsym.codegen import build, printer, values
+from chapsym.codegen import build, printer
 from chapsym.proofs.kernels import KERNELS
 
 x, y = sp.symbols("x y")
@@ -63,7 +63,7 @@ def test_any_flipped_sign_changes_the_value(kernel):
     assert places
     for at in places:
         flipped = text[:at] + {"+": "-", "-": "+"}[text[at]] + text[at + 1 :]
-        assert values.text_fingerprint(kernel, flipped) != trusted, flipped[at - 30 : at + 30]
+        assert build.text_fingerprint(kernel, flipped) != trusted, flipped[at - 30 : at + 30]
 
 
 def test_a_reordered_text_is_changed_but_keeps_its_value(copy):
@@ -140,7 +140,7 @@ def test_the_printer_refuses_what_would_round(expr):
 
 
 def exact_arguments(kernel):
-    return [values.at(symbol.name) for symbol in kernel.inputs]
+    return [build.at(symbol.name) for symbol in kernel.inputs]
 
 
 @pytest.mark.parametrize("kernel", KERNELS, ids=lambda k: k.name)

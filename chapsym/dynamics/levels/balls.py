@@ -30,6 +30,7 @@ from ..errors import Status, StepNotTaken, TooWide
 from ..loops.gibbs import BEYOND, certificate, newton_round
 from ..loops.integrals import WEIGHTS
 from ..loops.path import joined
+from ..loops.vectors import adjoint
 from .newton import enclosed, refined, unit
 from .proved_root import MATRIX_BITS, Numbers, certified, inverse_slope, on_path, stretch, upper
 from .spread import Spread, carried
@@ -116,14 +117,9 @@ def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, un
     if ctx.prec > FLOAT_BITS:
         raise NotSettled
     u1, u2, u3 = map(arb, start)
-    c11, c12, c13, c21, c22, c23, c31, c32, c33 = inverse
     large, least, before = 1 / unit, 2.0**-ctx.prec, 0.0
     for _ in range(MOST_ROUNDS):
-        r1, r2, r3 = gibbs_residual(u1, u2, u3, *state)
-        r1, r2, r3 = float(r1 * large), float(r2 * large), float(r3 * large)
-        d1 = c11 * r1 + c21 * r2 + c31 * r3
-        d2 = c12 * r1 + c22 * r2 + c32 * r3
-        d3 = c13 * r1 + c23 * r2 + c33 * r3
+        d1, d2, d3 = adjoint(inverse, [float(r * large) for r in gibbs_residual(u1, u2, u3, *state)])
         u1, u2, u3 = u1 - d1 * unit, u2 - d2 * unit, u3 - d3 * unit
         change = max(abs(d1), abs(d2), abs(d3))
         # The next correction is taken to shrink by the same factor.
@@ -138,12 +134,11 @@ def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, un
 
 def _newton(u: Vector, state: Vector, bits: int) -> Vector:
     """One correction of u to so many bits, with ∂G/∂u at the bits of the working precision, which becomes `bits`."""
-    det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*u, *_rounded(state))
+    det, _, _, _, *cofactors = gibbs_newton(*u, *_rounded(state))
     half, ctx.prec = ctx.prec, bits
     residual = gibbs_residual(*u, *_rounded(state))
     ctx.prec = half
-    r1, r2, r3 = (x.mid() / det for x in residual)
-    d = c11 * r1 + c21 * r2 + c31 * r3, c12 * r1 + c22 * r2 + c32 * r3, c13 * r1 + c23 * r2 + c33 * r3
+    d = adjoint(cofactors, [x.mid() / det for x in residual])
     ctx.prec = bits
     return tuple((x - y).mid() for x, y in zip(u, d, strict=True))
 

@@ -42,6 +42,7 @@ from .loop import HIGHEST
 from .path import search_on_path
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import (
+    adjoint,
     conjugate,
     dot,
     dot_four,
@@ -181,12 +182,9 @@ def approach(u, k, g, I, D, radius, enough):
 
 def correction(det, d, cofactors, r, k, I):
     """e with G(w + e) = 0 for G(w) = r, by the Jacobian of the round that led to w by d."""
-    c, s = cofactors, -1.0 / det
-    e1 = s * (c[0] * r[0] + c[3] * r[1] + c[6] * r[2])
-    e2 = s * (c[1] * r[0] + c[4] * r[1] + c[7] * r[2])
-    e3 = s * (c[2] * r[0] + c[5] * r[1] + c[8] * r[2])
-    e = e1, e2, e3
-    return plus(e, scaled(s, gibbs_mixed(*plus(d, scaled(0.5, e)), *e, *k, *c, *I)))
+    s = -1.0 / det
+    e = scaled(s, adjoint(cofactors, r))
+    return plus(e, scaled(s, gibbs_mixed(*plus(d, scaled(0.5, e)), *e, *k, *cofactors, *I)))
 
 
 def small(w, e):
@@ -457,7 +455,7 @@ def corrected(S, P, ok):
 
 @out_of_line
 def mend(S, P, ok, step, taken, status, reach):
-    """The stage of `double_double_loop` for the lanes that did not settle; a ball that cannot go on rests."""
+    """`stage` for the lanes that did not settle; a ball that cannot go on rests."""
     for i in range(LANES):
         if ok[i] == 1:
             continue

@@ -13,7 +13,7 @@ from chapsym.generated import energy, gibbs_newton, turn
 
 from .loop import ROWS, D, G, I, K, entered, safe_rotation
 from .text import Matrix, Vector
-from .vectors import cross, dot, minus, plus, put, scaled, three
+from .vectors import adjoint, cross, dot, minus, plus, put, scaled, three
 
 
 def column(x, u, state, det, c):
@@ -22,10 +22,8 @@ def column(x, u, state, det, c):
     a, b = cross(three(state, K), x), cross(g, x)
     length = 1.0 + dot(u, u)
     r = plus(plus(scaled(state[D] * dot(g, u), b), scaled(state[D] * dot(b, u), g)), scaled(length, a))
-    d1 = (c[0] * r[0] + c[3] * r[1] + c[6] * r[2]) / det
-    d2 = (c[1] * r[0] + c[4] * r[1] + c[7] * r[2]) / det
-    d3 = (c[2] * r[0] + c[5] * r[1] + c[8] * r[2]) / det
-    d = d1, d2, d3
+    x1, x2, x3 = adjoint(c, r)
+    d = x1 / det, x2 / det, x3 / det
     return plus(plus(x, turn(1.0, *u, *x)), scaled(2.0 / length, minus(d, cross(u, d))))
 
 

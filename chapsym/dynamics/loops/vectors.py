@@ -103,6 +103,14 @@ def cross(a, b):
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
+def adjoint(c, r):
+    """The vector r times the adjugate of a matrix with the cofactors c, row by row: det times the solution."""
+    return (
+        c[0] * r[0] + c[3] * r[1] + c[6] * r[2], c[1] * r[0] + c[4] * r[1] + c[7] * r[2],
+        c[2] * r[0] + c[5] * r[1] + c[8] * r[2],
+    )  # fmt: skip
+
+
 def conjugate(q):
     """The quaternion of the inverse rotation."""
     return q[0], -q[1], -q[2], -q[3]
