@@ -8,7 +8,7 @@ import pytest
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken
 from chapsym.dynamics import kernels
-from chapsym.dynamics.levels import single
+from chapsym.dynamics.levels import double
 from chapsym.dynamics.loops import gibbs, twins
 from chapsym.dynamics.oracle import Oracle
 from chapsym.studies import check
@@ -22,7 +22,7 @@ STRATA = [name for name in check.STRATA if not name.startswith("tiny")]
 def rounded(ball, momentum, gamma):
     """The same ball and state after their rounding to float32, as float64."""
     J, D, k = (np.asarray(x, np.float32).astype(float) for x in (ball.mass_tensor, ball.D, momentum))
-    g = single.unit(np.asarray(gamma, float)).astype(float)
+    g = double.unit(np.asarray(gamma, float)).astype(float)
     return Ball(J, D, ball.radius), k, g / np.linalg.norm(g, axis=-1, keepdims=True)
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from types import ModuleType
 
 import numpy as np
 
@@ -14,12 +13,14 @@ from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops import double_double as pairs_loop
 from ..results import Step
-from . import double, double_double, high, single
+from . import double, double_double, high
 from .frames import Balls, Frames
 from .start import exponent_of, fraction
 
 #: The levels that know no other number than floats.
-LEVELS: dict[type[Precision], ModuleType] = {Single: single, Double: double, DoubleDouble: double_double}
+LEVELS: dict[type[Precision], Callable[..., None]] = {
+    Single: double.run_single, Double: double.run, DoubleDouble: double_double.run,
+}  # fmt: skip
 
 
 def precision_of(precision: str | Precision) -> Precision:
@@ -66,7 +67,7 @@ def run(
     if isinstance(precision, Digits | Enclosure):
         high.run(precision, balls, steps, every, frames, order, progress)
     else:
-        LEVELS[type(precision)].run(balls, steps, every, frames, order, threads, progress)
+        LEVELS[type(precision)](balls, steps, every, frames, order, threads, progress)
 
 
 #: Bits that a small rotation gets beyond those that its size costs.
@@ -80,7 +81,8 @@ def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int)
     """
     low = None
     if order == 2 and isinstance(precision, Single | Double):
-        q, K, g, status, reach = LEVELS[type(precision)].step_all(balls)
+        of = (double.rounded(balls), double.SINGLE) if isinstance(precision, Single) else (balls, double.DOUBLE)
+        q, K, g, status, reach = double.step_all(*of)
     else:
         frames = _after_one(precision, balls, order)
         q, K, g, status, reach = *_vectors(frames), frames.status, frames.reach
