@@ -31,7 +31,7 @@ from .. import kernels
 from ..attitudes import first_attitudes
 from ..ball import Ball, Floats, batch, in_principal_axes, inertia_of, is_followed, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
-from ..flow.series import cross, dot
+from ..loops.vectors import cross, dot
 from ..results import Trajectory, finished, of_balls
 from ..trajectories import step_numbers
 from . import turns

@@ -35,7 +35,9 @@ from chapsym import generated
 
 from ..errors import TooWide
 from ..levels.proved_root import highest, lowest, upper
-from .series import Series, bend, cross, dot
+from ..loops.branch import moments
+from ..loops.vectors import cross, dot_four
+from .series import Series, bend
 
 #: All τ that there are.
 UNIT = arb(0.5, 0.5)
@@ -77,8 +79,7 @@ class Body(NamedTuple):
     @property
     def inertia(self) -> tuple[Any, ...]:
         """The moments about the centre."""
-        J1, J2, J3 = self.J
-        return J2 + J3, J1 + J3, J1 + J2
+        return moments(self.J)
 
     def during(self, length: Any) -> "Body":
         """With a of a step of that length."""
@@ -104,7 +105,7 @@ class Defects(NamedTuple):
 
 def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, degree: int) -> Defects:
     """Those of exact polynomials p and w, R cut to a degree; raises TooWide where |p| may be far from 1."""
-    off = dot(p, p) - 1
+    off = dot_four(p, p) - 1
     most = bound([off])
     if not most < 0.5:
         raise TooWide

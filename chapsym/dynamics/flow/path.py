@@ -24,8 +24,9 @@ from ..levels.balls import point, unit
 from ..levels.proved_root import MATRIX_BITS, highest, upper
 from ..levels.spread import Spread
 from ..levels.start import exponent_of
+from ..loops.vectors import cross, dot
 from .deviation import Body, Defects, bound, defects, deviation, exact
-from .series import LONG, TERMS, Floats, Series, cross, dot, linear, long_float, motion
+from .series import LONG, TERMS, Floats, Series, linear, long_float, motion
 
 Row = Sequence[Any]
 Rows = Sequence[Row]

@@ -12,6 +12,8 @@ import numpy as np
 
 from chapsym import generated
 
+from ..loops.vectors import cross
+
 Floats = np.ndarray
 Vector = Sequence[Any] | np.ndarray
 
@@ -64,19 +66,6 @@ def bend(J: Vector, w: Vector, x: Vector) -> tuple[Any, Any, Any]:
         (J2 - J3) * (w3 * x1) - (J2 - J1) * (w1 * x3),
         (J3 - J1) * (w1 * x2) - (J3 - J2) * (w2 * x1),
     )
-
-
-def cross(x: Vector, y: Vector) -> tuple[Any, Any, Any]:
-    """x × y."""
-    return x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]
-
-
-def dot(x: Vector, y: Vector) -> Any:
-    """⟨x,y⟩ of numbers of any kind, which need not know 0."""
-    first, *rest = (a * b for a, b in zip(x, y, strict=True))
-    for term in rest:
-        first = first + term
-    return first
 
 
 def motion(a: Vector, k: Vector, J: Vector, D: float, rotor: Vector = (0.0, 0.0, 0.0), terms: int = TERMS) -> Series:

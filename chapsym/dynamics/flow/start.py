@@ -17,9 +17,9 @@ from ..ball import brief
 from ..errors import BadInput, TooWide
 from ..levels.balls import unit
 from ..levels.start import least
+from ..loops.vectors import cross
 from ..principal_axes import quaternions
 from .path import Numbers, Path
-from .series import cross
 
 
 class Turns(NamedTuple):

@@ -27,10 +27,11 @@ from chapsym.numbers import Digits
 from chapsym.numbers.precisions import flint_bits
 
 from ..errors import Status, StepNotTaken, TooWide
+from ..loops.branch import moments
 from ..loops.gibbs import BEYOND, certificate, newton_round
 from ..loops.integrals import WEIGHTS
 from ..loops.path import joined
-from ..loops.vectors import adjoint
+from ..loops.vectors import adjoint, dot
 from .newton import enclosed, refined, unit
 from .proved_root import MATRIX_BITS, Numbers, certified, inverse_slope, on_path, stretch, upper
 from .spread import Spread, carried
@@ -174,7 +175,7 @@ class _UnderWay:
         self.k: Numbers = tuple(exact(x * scale / 2) for x in K)
         self.g = unit(map(exact, g))
         self.J = tuple(exact(x * scale) for x in J)
-        self.I = (self.J[1] + self.J[2], self.J[0] + self.J[2], self.J[0] + self.J[1])
+        self.I = moments(self.J)
         self.D = exact(D * scale)
         self.a: Numbers = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
         self.x = (arb(0), arb(0))
@@ -245,7 +246,7 @@ class DigitsBall(_UnderWay):
             past.clear()
             return None
         u, start = found
-        if not (self._on_path(u, k) if bound == BEYOND else square_of(start) <= bound):
+        if not (self._on_path(u, k) if bound == BEYOND else dot(start, start) <= bound):
             past.clear()
             return None
         past.appendleft(start)
@@ -255,7 +256,7 @@ class DigitsBall(_UnderWay):
         """Whether the straight path joins a root to no rotation: an inequality with room, looked at in float64."""
         u, half, g = (tuple(map(float, v)) for v in (root, k, self.g))
         spread = 0.5 * (max(self.floats[:3]) - min(self.floats[:3]))
-        proved, _ = joined(u, square_of(u), half, math.hypot(*half), g, self.floats[:3], self.floats[3], spread)
+        proved, _ = joined(u, dot(u, u), half, math.hypot(*half), g, self.floats[:3], self.floats[3], spread)
         return proved > 0
 
     def _rotation(self, k: Numbers) -> Numbers:
@@ -411,11 +412,6 @@ def point(p: Iterable[Any]) -> tuple[Numbers, Any]:
     with ctx.workprec(MATRIX_BITS):
         off = upper([x.rad() for x in balls]) / sum(x * x for x in middle).sqrt()
         return middle, (off / (1 - off)).abs_upper()
-
-
-def square_of(v: Sequence[float]) -> float:
-    """The square of the length."""
-    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
 
 
 def in_context(context: Any, x: Any, bits: int, shift: int = 0) -> Any:
