@@ -2160,7 +2160,7 @@ INLINE t_r3 kernel_gibbs_mixed(real d1, real d2, real d3, real e1, real e2, real
     real o_x3 = c13 * r1 + c23 * r2 + c33 * r3; return (t_r3){o_x1, o_x2, o_x3};
 }
 
-INLINE t_r3 double_double_correction(real det, t_r3 d, t_r9 cofactors, t_r3 r, t_r3 k, t_r3 I) {
+INLINE t_r3 gibbs_correction(real det, t_r3 d, t_r9 cofactors, t_r3 r, t_r3 k, t_r3 I) {
     real s = R(-1.0) / det;
     t_r3 e = vectors_scaled(s, vectors_adjoint(cofactors, r)), t_1 = vectors_plus(d, vectors_scaled(R(0.5), e));
     return vectors_plus(e, vectors_scaled(s, kernel_gibbs_mixed(t_1.a0, t_1.a1, t_1.a2, e.a0, e.a1, e.a2, k.a0, k.a1,
@@ -2328,7 +2328,7 @@ INLINE t_ir_p3_ double_double_solved__r3__p3_3_r3_r3(t_r3 u, t_p3 k, t_p3 g, t_p
             D);
         t_r2 t_4 = pairs_two_sum(G.a0.a0, G.a0.a1), t_5 = pairs_two_sum(G.a1.a0, G.a1.a1);
         t_r2 t_6 = pairs_two_sum(G.a2.a0, G.a2.a1); left = (t_r3){t_4.a0, t_5.a0, t_6.a0};
-        e = double_double_correction(r.p.a0, r.d, r.cofactors, left, floats, inertia);
+        e = gibbs_correction(r.p.a0, r.d, r.cofactors, left, floats, inertia);
         if (double_double_small(w, e)) { return (t_ir_p3_){0, R(1.0), double_double_summed(w, e)}; }
         p = double_double_rotation_of(vectors_plus(w, e));
     }
@@ -2658,8 +2658,7 @@ INLINE int64_t double_double_corrected(r2 S, r2 P, i1 ok) {
         c = (t_r9){t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1, t_3.a2};
         k = double_double_highs__p3_(double_double_pairs_in(S, 0, i));
         inertia = double_double_highs__p3_(double_double_pairs_in(S, 12, i));
-        e = double_double_correction(AT2(P, 6, i), vectors_three_in(P, 3, i), c, vectors_three_in(P, 16, i), k,
-            inertia);
+        e = gibbs_correction(AT2(P, 6, i), vectors_three_in(P, 3, i), c, vectors_three_in(P, 16, i), k, inertia);
         vectors_put_in(P, 19, i, e);
         ok.p[i] = ((ok.p[i] == 1) & double_double_small(vectors_three_in(P, 0, i), e)) ? 1 : 0;
         bad = bad + (1 - ok.p[i]);
@@ -3074,9 +3073,9 @@ INLINE void carried_changes(r2 S, r2 E, int64_t B) {
 }
 
 INLINE t_r4 following_left(r2 S, int64_t b, real start) {
-    int64_t at = 118;
-    real x = vectors_length(vectors_three_in(S, at, b)), y = vectors_length(vectors_three_in(S, at + 3, b));
-    real z = vectors_length(vectors_three_in(S, at + 6, b)), rounded = R(2e-15) + R(10.0) * start;
+    int64_t row = 118;
+    real x = vectors_length(vectors_three_in(S, row, b)), y = vectors_length(vectors_three_in(S, row + 3, b));
+    real z = vectors_length(vectors_three_in(S, row + 6, b)), rounded = R(2e-15) + R(10.0) * start;
     real last = max_r(x - rounded, R(0.0)), middle = max_r(y - rounded, R(0.0));
     if (!(middle > R(0.0) && z > R(0.0))) { return (t_r4){R(0.0), x, y, z}; }
     last = max_r(last, middle * min_r(middle / z, R(1.0)));
@@ -3717,5 +3716,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "d55e4f73e400415a745d7ae07c658c798af02a8af0c1274e397ec4d9273cceab";
+const char loops_text[] = "f643a499e841be0c53de03c70e970ccc5d5e9647df5530525b91b12ecfc8b050";
 #endif

@@ -21,28 +21,18 @@ from math import frexp, ldexp, sqrt
 
 import numpy as np
 
-from chapsym.generated import (
-    angular_velocity,
-    centre_step,
-    compose,
-    gibbs_mixed,
-    gibbs_residual,
-    residual,
-    rotate,
-    turn,
-)
+from chapsym.generated import angular_velocity, centre_step, compose, gibbs_residual, residual, rotate, turn
 from chapsym.numbers.loose import Loose, Normal, square_root
 from chapsym.numbers.pairs import subtract, two_sum
 
 from .block import carry
 from .branch import FOLDED, NOT_CONVERGED, TAKEN, inverse, moments, product, small_rotation
-from .gibbs import BEYOND, MOST_ROUNDS, certificate, newton_round
+from .gibbs import BEYOND, MOST_ROUNDS, certificate, correction, newton_round
 from .integrals import PERIOD, filtered, shares
 from .loop import HIGHEST
 from .path import search_on_path
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import (
-    adjoint,
     conjugate,
     dot,
     dot_four,
@@ -178,13 +168,6 @@ def approach(u, k, g, I, D, radius, enough):
             break
         r = newton_round(r.w if square(r.w) <= radius else (0.0, 0.0, 0.0), k, g, I, D)
     return r
-
-
-def correction(det, d, cofactors, r, k, I):
-    """e with G(w + e) = 0 for G(w) = r, by the Jacobian of the round that led to w by d."""
-    s = -1.0 / det
-    e = scaled(s, adjoint(cofactors, r))
-    return plus(e, scaled(s, gibbs_mixed(*plus(d, scaled(0.5, e)), *e, *k, *cofactors, *I)))
 
 
 def small(w, e):

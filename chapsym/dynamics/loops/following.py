@@ -18,43 +18,14 @@ import numpy as np
 
 from chapsym.generated import angular_velocity, compose, rotate
 
+from . import lanes as at
 from . import loop
 from .carried import END as LAST_END
 from .carried import FOUND, PART, WHOLE, begun, carry, changes, tangent
 from .carried import ROUNDED as ROUNDING
 from .carried import ROWS as ERRORS
 from .carried import SPUN as BY_ATTITUDE
-from .lanes import (
-    ATTITUDE,
-    CONTACT,
-    DOUBT,
-    EIGHT,
-    FIRSTS,
-    LANES,
-    LENGTH,
-    LOST,
-    MOVED,
-    MOVING,
-    OMEGA,
-    RADIUS,
-    RESTS,
-    ROWS,
-    SPOT,
-    TENSOR,
-    TWIST,
-    Balls,
-    Frames,
-    Weights,
-    enter,
-    placed,
-    put_back,
-    resized,
-    safely,
-    shown,
-    side_by_side,
-    stopped_at,
-    taken_out,
-)
+from .lanes import Balls, Frames, Weights, enter, placed, put_back, resized, safely, shown, stopped_at, taken_out
 from .text import Cube, Doubles, Integers, Matrix, Vector
 from .vectors import (
     conjugate,
@@ -101,14 +72,14 @@ def series(body, J, contact, radius, whole, traced, V, end):
     body: `lanes.MOVING`.  whole: the step, in the unit of time of K and J.  V (SERIES, TERMS) is used.
     traced: whether the contact point is wanted.
     """
-    g, a = three(body, 3), four(body, ATTITUDE)
+    g, a = three(body, 3), four(body, at.ATTITUDE)
     put_in(V, SPACE, 0, three(body, 0))
     put_in(V, UP, 0, g)
     if traced:
         put_in(V, EAST, 0, rotate(*conjugate(a), 1.0, 0.0, 0.0))
         put_in(V, NORTH, 0, rotate(*conjugate(a), 0.0, 1.0, 0.0))
     put_four(end[0], 0, a)
-    end[0, 4], end[0, 5] = body[SPOT], body[SPOT + 1]
+    end[0, 4], end[0, 5] = body[at.SPOT], body[at.SPOT + 1]
     for n in range(TERMS - 1):
         # Λω - D⟨γ,ω⟩γ = K, of which all but the terms of ω itself is known.
         x, along = scaled(whole, three_in(V, SPACE, n)), 0.0
@@ -195,12 +166,12 @@ def ball_at(curve, s, body, traced, found):
     """The ball at the part s of the step that began at `body`, into `found`; both `lanes.MOVING`."""
     q = at_part(curve, 0, s), at_part(curve, 1, s), at_part(curve, 2, s), at_part(curve, 3, s)
     q = scaled_four(1.0 / sqrt(square_of_four(q)), q)
-    p = compose(*conjugate(q), *four(body, ATTITUDE))  # from the axes at the beginning to those of now
+    p = compose(*conjugate(q), *four(body, at.ATTITUDE))  # from the axes at the beginning to those of now
     put(found, 0, rotate(*p, *three(body, 0)))
     put(found, 3, rotate(*p, *three(body, 3)))
-    put_four(found, ATTITUDE, q)
+    put_four(found, at.ATTITUDE, q)
     if traced:
-        found[SPOT], found[SPOT + 1] = at_part(curve, 4, s), at_part(curve, 5, s)
+        found[at.SPOT], found[at.SPOT + 1] = at_part(curve, 4, s), at_part(curve, 5, s)
 
 
 #: The largest |ω|h of a step, in radians: longer ones have errors beyond 10⁻⁴, or do not settle.
@@ -307,8 +278,8 @@ def left(S, b, start):
     The last column gains on the one before as that on its own, times `GAIN`.  Where the last change is rounding, or
     smaller than the two before let expect, these say how large it would be.
     """
-    at = MOVED + TWIST
-    x, y, z = length(three_in(S, at, b)), length(three_in(S, at + 3, b)), length(three_in(S, at + 6, b))
+    row = at.MOVED + at.TWIST
+    x, y, z = length(three_in(S, row, b)), length(three_in(S, row + 3, b)), length(three_in(S, row + 6, b))
     rounded = ROUNDED + ROUNDED_START * start
     last, middle = max(x - rounded, 0.0), max(y - rounded, 0.0)
     if not (middle > 0.0 and z > 0.0):
@@ -325,8 +296,8 @@ def taken_in(S, E, B, b, i, frames, balls, interval, weights, asked, body, state
     lane[SETTLED], lane[SMOOTH] = ANYTHING, ANYTHING
     aimed(lane, frames.momenta.shape[1], interval)
     exponent = enter(S, B, b, i, balls, lane[STEP], weights, body, state)
-    lane[UNIT] = 2.0 * S[LENGTH, b] / lane[STEP]
-    begun(E, B, b, three_in(S, TENSOR, b), asked.start[i])
+    lane[UNIT] = 2.0 * S[at.LENGTH, b] / lane[STEP]
+    begun(E, B, b, three_in(S, at.TENSOR, b), asked.start[i])
     for c in range(REPORTED):
         reported[i, c] = 1.0 if c == UNTIL else 0.0
     return exponent
@@ -335,10 +306,10 @@ def taken_in(S, E, B, b, i, frames, balls, interval, weights, asked, body, state
 def judged(S, E, b, lost, start, sums, state, lane):
     """Decides the fate of a long step, and the length of the next."""
     step, tries = lane[STEP], lane[TRIES]
-    size = lane[UNIT] * sqrt(square(three_in(S, OMEGA, b)))
+    size = lane[UNIT] * sqrt(square(three_in(S, at.OMEGA, b)))
     lane[SPEED], lane[FATE], lane[OFF], lane[OUT] = size, STAYS, 0.0, 0.0
-    if lost and S[LOST, b] != 0.0:
-        heavy = S[FIRSTS + 3, b] < 0.0  # always takes the safe way
+    if lost and S[at.LOST, b] != 0.0:
+        heavy = S[at.FIRSTS + 3, b] < 0.0  # always takes the safe way
         stopped = 0
         if heavy or tries >= MOST_TRIES:
             stopped, reached = safely(S, b, sums, state)
@@ -370,7 +341,7 @@ def part_of(lane, frame, interval):
 def through(S, b, body, now, traced, lane, V, first, last, curve):
     """The polynomials of a step from `body` to `now`; returns what may be wrong of them (`between.joined`)."""
     whole = lane[STEP] * lane[UNIT]
-    J, contact, radius = three_in(S, TENSOR, b), S[CONTACT, b], S[RADIUS, b]
+    J, contact, radius = three_in(S, at.TENSOR, b), S[at.CONTACT, b], S[at.RADIUS, b]
     if lane[KNOWN] > 0.0:
         for n in range(TERMS):
             for c in range(PARTS):
@@ -423,7 +394,7 @@ def looked_at(
 ):  # fmt: skip
     """Decides the fate of the step of a lane, and makes the polynomials of one that has frames in between."""
     E[WHOLE, b], E[ROUNDING, b] = 0.0, 0.0
-    if S[RESTS, b] != 0.0:
+    if S[at.RESTS, b] != 0.0:
         lane[FATE] = RESTING
         return
     judged(S, E, b, lost, start, sums, state, lane)
@@ -443,7 +414,7 @@ def looked_at(
         lane[SMOOTH], lane[SETTLED] = min(HOPE * lane[SMOOTH], ANYTHING), min(HOPE * lane[SETTLED], ANYTHING)
         rounding = ROUNDINGS * start
         E[WHOLE, b], E[ROUNDING, b] = lane[STEP] * lane[UNIT], rounding * rounding
-        S[MOVED + DOUBT, b] = 0.0
+        S[at.MOVED + at.DOUBT, b] = 0.0
     else:
         E[PART, b], E[PART + 1, b], E[PART + 2, b] = 0.0, 0.0, 0.0
     if lane[FATE] == AGAIN:
@@ -456,9 +427,9 @@ def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, 
     patient: whether no ball is given up.  reported (balls, REPORTED), the last frame that was reached, status, reach:
     of each ball.
     """
-    S, E, columns = np.zeros((ROWS, LANES * B)), np.zeros((ERRORS, LANES * B)), weights.sums.shape[1]
+    S, E, columns = np.zeros((at.ROWS, at.LANES * B)), np.zeros((ERRORS, at.LANES * B)), weights.sums.shape[1]
     states, exponents = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64)
-    bodies, now, found, lanes = np.zeros((B, MOVING)), np.zeros(MOVING), np.zeros(MOVING), np.zeros((B, LANE))
+    bodies, now, found, lanes = np.zeros((B, at.MOVING)), np.zeros(at.MOVING), np.zeros(at.MOVING), np.zeros((B, LANE))
     ends, V, curves = np.zeros((2 * B, TERMS, PARTS)), np.zeros((SERIES, TERMS)), np.zeros((B, 2 * TERMS, PARTS))
     count, kept, traced = frames.momenta.shape[0], frames.momenta.shape[1], frames.traced
     end, coming, busy, fresh = (kept - 1) * interval, min(B, count), min(B, count), True
@@ -467,12 +438,12 @@ def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, 
             S, E, B, b, min(b, count - 1), frames, balls, interval, weights, asked, bodies[b], states[b], lanes[b],
             reported,
         )  # fmt: skip
-        S[RESTS, b] = 0.0 if b < count else 1.0
+        S[at.RESTS, b] = 0.0 if b < count else 1.0
     while busy > 0:
         if fresh:
             tangent(S, E, B, 0, traced)
             fresh = False
-        lost = side_by_side(S, B, traced, weights)
+        lost = at.side_by_side(S, B, traced, weights)
         changes(S, E, B)
         for b in range(B):
             i = int(lanes[b, WHICH])
@@ -526,7 +497,7 @@ def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, 
                     )  # fmt: skip
                     coming, fresh = coming + 1, True
                 else:
-                    S[RESTS, b] = 1.0
+                    S[at.RESTS, b] = 1.0
                     busy -= 1
 
 
@@ -542,4 +513,4 @@ def follow(
     if alone:
         follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)
     else:
-        follow_lanes(EIGHT, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)
+        follow_lanes(at.EIGHT, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)

@@ -13,10 +13,10 @@ certificate, and takes the safe way, with the determinant of lemma `stable-deter
 from math import frexp, ldexp, sqrt
 from typing import NamedTuple
 
-from chapsym.generated import gibbs_newton, gibbs_newton_heavy, gibbs_second
+from chapsym.generated import gibbs_mixed, gibbs_newton, gibbs_newton_heavy, gibbs_second
 
 from .text import Four, Nine, Three
-from .vectors import largest, length, minus, scaled, shifted, square
+from .vectors import adjoint, largest, length, minus, plus, scaled, shifted, square
 
 #: The error that the last correction may leave, relative to the least that |u| can be: the unit roundoff.
 LEFT = 2.0**-53
@@ -105,6 +105,13 @@ def second_round(r, k, I):
     scale = 1.0 / r.p[0]
     v = minus(r.p[1:4], e)
     return (r.p[0], *v), scaled(scale, v), square(e) * (scale * scale)
+
+
+def correction(det, d, cofactors, r, k, I):
+    """e with G(w + e) = 0 for G(w) = r, by the Jacobian of the round that led to w by d."""
+    s = -1.0 / det
+    e = scaled(s, adjoint(cofactors, r))
+    return plus(e, scaled(s, gibbs_mixed(*plus(d, scaled(0.5, e)), *e, *k, *cofactors, *I)))
 
 
 def settle(u, k, g, I, D, radius, enough, heavy=False):
