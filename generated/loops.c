@@ -1438,6 +1438,10 @@ INLINE void lanes_moved(r2 S, int64_t B, int traced) {
 }
 
 INLINE t_r4 vectors_plus_four(t_r4 a, t_r4 b) { return (t_r4){a.a0 + b.a0, a.a1 + b.a1, a.a2 + b.a2, a.a3 + b.a3}; }
+INLINE t_r4 vectors_mixed(real w, t_r4 a, real v, t_r4 b) {
+    return vectors_plus_four(vectors_scaled_four(w, a), vectors_scaled_four(v, b));
+}
+
 INLINE t__r3_2_r4_r2 lanes_moved_body(t_r3 k, t_r3 g, t_r4 a, real x, real y, t_r4 q, t_r3 s, real radius) {
     t_r3 d1 = kernel_rotate(a.a0, a.a1, a.a2, a.a3, s.a0, s.a1, s.a2);
     t_r4 b = kernel_compose(a.a0, a.a1, a.a2, a.a3, q.a0, q.a1, q.a2, q.a3);
@@ -1451,11 +1455,8 @@ INLINE void lanes_gather(r2 S, int64_t B) {
     INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
         a = vectors_four_in(S, 87, i); b = vectors_four_in(S, 15, i);
         one = R(1.0) / R(sqrt(vectors_square_of_four(a))); two = R(1.0) / R(sqrt(vectors_square_of_four(b)));
-        w = AT2(S, 71, i); v = AT2(S, 72, i);
-        vectors_put_four_in(S, 94, i, vectors_plus_four(vectors_scaled_four(w * one, a), vectors_scaled_four(v * two,
-            b)));
-        vectors_put_four_in(S, 98, i, vectors_plus_four(vectors_scaled_four(AT2(S, 73, i) * one, a),
-            vectors_scaled_four(AT2(S, 74, i) * two, b)));
+        w = AT2(S, 71, i); v = AT2(S, 72, i); vectors_put_four_in(S, 94, i, vectors_mixed(w * one, a, v * two, b));
+        vectors_put_four_in(S, 98, i, vectors_mixed(AT2(S, 73, i) * one, a, AT2(S, 74, i) * two, b));
         vectors_put_in(S, 102, i, vectors_plus(vectors_scaled(w, vectors_three_in(S, 91, i)), vectors_scaled(v,
             vectors_three_in(S, 19, i))));
     }
@@ -3047,8 +3048,7 @@ INLINE void carried_changes(r2 S, r2 E, int64_t B) {
         one = R(1.0) / R(sqrt(vectors_square_of_four(a))); two = R(1.0) / R(sqrt(vectors_square_of_four(b)));
         for (int64_t c = 0; c < 3; c++) {
             w = AT2(S, 73 + 2 * c, i) * one; v = AT2(S, 73 + 2 * c + 1, i) * two;
-            vectors_put_four_in(E, 100 + 4 * c, i, vectors_plus_four(vectors_scaled_four(w, a), vectors_scaled_four(v,
-                b)));
+            vectors_put_four_in(E, 100 + 4 * c, i, vectors_mixed(w, a, v, b));
         }
         way = vectors_plus(vectors_scaled(AT2(S, 73, i), vectors_three_in(S, 91, i)), vectors_scaled(AT2(S, 74, i),
             vectors_three_in(S, 19, i)));
@@ -3716,5 +3716,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "f643a499e841be0c53de03c70e970ccc5d5e9647df5530525b91b12ecfc8b050";
+const char loops_text[] = "ffdc3ae38a1215377c5adc49c39a058098a31c994eba3feaeb9226d84bd138f5";
 #endif

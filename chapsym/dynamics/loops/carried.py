@@ -20,20 +20,7 @@ from chapsym.generated import angular_velocity, rotate
 
 from .lanes import ATTITUDE, BALL, CHANGE, CHANGES, DONE, LANES, MOVED, RADIUS, SLIP, SPOT, SUMS, TWIST, Q, Y, twist
 from .text import lanes
-from .vectors import (
-    cross,
-    dot,
-    four_in,
-    minus,
-    plus,
-    plus_four,
-    put_four_in,
-    put_in,
-    scaled,
-    scaled_four,
-    square_of_four,
-    three_in,
-)  # fmt: skip
+from .vectors import cross, dot, four_in, minus, mixed, plus, put_four_in, put_in, scaled, square_of_four, three_in
 
 #: Rows of an end.  Of the unit error φ of a lane: δω, φ', φ'', how fast the contact point leaves, and its rate.  Of the
 #: ball, in its first lane: ω, along which the flow goes, and the gradient of the energy.
@@ -196,7 +183,7 @@ def changes(S, E, B):
         one, two = 1.0 / sqrt(square_of_four(a)), 1.0 / sqrt(square_of_four(b))
         for c in range(CHANGES):
             w, v = S[CHANGE + 2 * c, i] * one, S[CHANGE + 2 * c + 1, i] * two
-            put_four_in(E, CHANGED + 4 * c, i, plus_four(scaled_four(w, a), scaled_four(v, b)))
+            put_four_in(E, CHANGED + 4 * c, i, mixed(w, a, v, b))
         way = plus(scaled(S[CHANGE, i], three_in(S, DONE + 4, i)), scaled(S[CHANGE + 1, i], three_in(S, Y, i)))
         put_in(E, CHANGED + 4 * CHANGES, i, way)
     for row in range(CHANGED, ROWS):

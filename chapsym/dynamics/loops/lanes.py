@@ -41,6 +41,7 @@ from .vectors import (
     largest,
     length,
     minus,
+    mixed,
     plus,
     plus_four,
     put,
@@ -244,10 +245,8 @@ def gather(S, B):
         a, b = four_in(S, DONE, i), four_in(S, Q, i)
         one, two = 1.0 / sqrt(square_of_four(a)), 1.0 / sqrt(square_of_four(b))
         w, v = S[FULL, i], S[FULL + 1, i]
-        put_four_in(S, SUMS, i, plus_four(scaled_four(w * one, a), scaled_four(v * two, b)))
-        put_four_in(
-            S, SUMS + 4, i, plus_four(scaled_four(S[CHANGE, i] * one, a), scaled_four(S[CHANGE + 1, i] * two, b))
-        )
+        put_four_in(S, SUMS, i, mixed(w * one, a, v * two, b))
+        put_four_in(S, SUMS + 4, i, mixed(S[CHANGE, i] * one, a, S[CHANGE + 1, i] * two, b))
         put_in(S, SUMS + 8, i, plus(scaled(w, three_in(S, DONE + 4, i)), scaled(v, three_in(S, Y, i))))
     for c in range(11):
         for b in lanes(B):

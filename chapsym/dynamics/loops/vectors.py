@@ -68,6 +68,11 @@ def scaled_four(s, q):
     return s * q[0], s * q[1], s * q[2], s * q[3]
 
 
+def mixed(w, a, v, b):
+    """w a + v b, of four numbers each."""
+    return plus_four(scaled_four(w, a), scaled_four(v, b))
+
+
 def shifted(v, exponent):
     """The vector v times a power of two."""
     return ldexp(v[0], exponent), ldexp(v[1], exponent), ldexp(v[2], exponent)
