@@ -123,10 +123,8 @@ def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:
         found = lengths(_difference(run, other, "contact"))
     else:
         size = float(lengths(request.angular_momentum)) or 1.0
-        found = np.maximum(
-            lengths(_difference(run, other, "momentum")) / size,
-            lengths(_difference(run, other, "gamma")),
-        )
+        momentum, gamma = (lengths(_difference(run, other, name)) for name in ("momentum", "gamma"))
+        found = np.maximum(momentum / size, gamma)
     if request.attitude is False:
         return found
     return np.maximum(found, 2 * request.unit * lengths(_difference(run, other, "attitude")))

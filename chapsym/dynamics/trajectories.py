@@ -63,11 +63,8 @@ def trajectory(
     Of a ball with axes, momentum, γ and attitude, and what is returned, are in these.
     Raises BadInput as `step` does, and for counts that are not positive integers.
     """
-    steps, every, threads = (
-        whole_number(steps, "steps", 0),
-        whole_number(every, "every", 1),
-        whole_number(threads, "threads", 0),
-    )
+    steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
+    threads = whole_number(threads, "threads", 0)
     every = min(every, steps + 1)
     time_step = None if time_step is None else seconds(time_step)
     precision = dispatch.precision_of(precision)

@@ -4,15 +4,6 @@ from .pair import Pair
 from .precisions import NAMED, Digits, Double, DoubleDouble, Enclosure, Precision, Single, in_words, named, own_name
 
 __all__ = [
-    "NAMED",
-    "Digits",
-    "Double",
-    "DoubleDouble",
-    "Enclosure",
-    "Pair",
-    "Precision",
-    "Single",
-    "in_words",
-    "named",
-    "own_name",
-]
+    "NAMED", "Digits", "Double", "DoubleDouble", "Enclosure", "Pair", "Precision", "Single",
+    "in_words", "named", "own_name",
+]  # fmt: skip

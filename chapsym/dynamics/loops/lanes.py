@@ -138,13 +138,8 @@ class Frames(NamedTuple):
 def checked(S, B, again):
     """Two Newton iterates, or one `again`, and a second correction in every open lane; returns how many stay open."""
     for i in lanes(LANES * B):
-        u, k, g, inertia, contact = (
-            three_in(S, U, i),
-            three_in(S, K, i),
-            three_in(S, G, i),
-            three_in(S, BALL, i),
-            S[BALL + 3, i],
-        )
+        u, k, g = three_in(S, U, i), three_in(S, K, i), three_in(S, G, i)
+        inertia, contact = three_in(S, BALL, i), S[BALL + 3, i]
         if not again:
             r = newton_round(u, k, g, inertia, contact)
             u = r.w
