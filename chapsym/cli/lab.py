@@ -38,7 +38,7 @@ def lab(
     A file of a system is Python, and is run. Example: chapsym lab docs/examples/systems -o systems.html
     """
     from chapsym.files import write_text
-    from chapsym.mechanics import METHODS, BadSystem, loaded, measured
+    from chapsym.mechanics import METHODS, BadSystem, loaded
     from chapsym.show.lab import COLUMNS
 
     if output is not None and output.suffix not in (".json", ".html"):
@@ -50,15 +50,16 @@ def lab(
     constraints: dict[str, str] = {}
     wrong: list[str] = []
 
-    def started(system: Any, later: Later) -> Any:
+    def started(path: Path, system: Any, later: Later) -> Any:
         """A system, its key, what is said of it, and its cells, as what gives them."""
         system.beginning  # noqa: B018, which refuses a start that breaks a constraint
         key, cells = system.digest(length, halve), list[Callable[[], Any]]()
         for name in methods if method or system.discrete else [one for one in methods if one != "own"]:
-            there = next((c for c in done if (c["key"], c["method"], c["steps"]) == (key, name, steps)), None)
-            more = system, name, steps, length, halve, flags
-            cells.append(partial(dict, there) if there else later(measured, *more))
-        return system, key, later(_said, system, flags), cells
+            same = (c for c in done if (c["key"], c["method"], c["steps"]) == (key, name, steps))
+            there = next((c for c in same if c["verdicts"] or not flags), None)
+            more = name, steps, length, halve, flags
+            cells.append(partial(dict, there) if there else later(_cell, path if jobs > 1 else system, *more))
+        return system, key, later(_said, path if jobs > 1 else system, flags), cells
 
     with _crew(jobs) as later:
         begun = list[Any]()
@@ -67,7 +68,7 @@ def lab(
                 system = loaded(path)
                 if system.name in [one.name for one, *_ in begun]:
                     raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
-                begun.append(started(system, later))
+                begun.append(started(path, system, later))
             except BadSystem as error:
                 wrong.append(str(error))
         for system, key, said, cells in begun:
@@ -84,6 +85,7 @@ def lab(
                     continue
                 if not isinstance(cell, dict):
                     cell = {"key": key, **cell.data()}
+                    done[:] = [c for c in done if any(c[part] != cell[part] for part in ("key", "method", "steps"))]
                     done.append(cell)
                 if not as_json:
                     print(_row(cell))
@@ -122,19 +124,36 @@ def _crew(jobs: int) -> Iterator[Later]:
         return
     import multiprocessing
     from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
 
     from chapsym import workers
 
     pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=workers.begin)
     try:
         yield lambda call, *arguments: pool.submit(call, *arguments).result
+    except BrokenProcessPool:
+        fail("a process that measured a system ended, perhaps for lack of memory: try --jobs 1", 1)
     finally:
+        for worker in multiprocessing.active_children():  # after an interrupt some are at work
+            worker.terminate()
         pool.shutdown(cancel_futures=True)
 
 
-def _said(system: Any, decide: bool) -> str:
-    """What is said of a system: whether its motion keeps its energy; with `decide`, what is exact, or why it is not."""
-    from chapsym.mechanics import BadSystem, conserved, flag, volume
+def _cell(of: Any, *how: Any) -> Any:
+    """A cell, of a system or of the file of one, which another process reads."""
+    from chapsym.mechanics import loaded, measured
+
+    return measured(loaded(of) if isinstance(of, Path) else of, *how)
+
+
+def _said(given: Any, decide: bool) -> str:
+    """What is said of a system, or of that of a file: whether its motion keeps its energy.
+
+    With `decide` also what is exact, or why it is not.
+    """
+    from chapsym.mechanics import BadSystem, conserved, flag, loaded, volume
+
+    system = loaded(given) if isinstance(given, Path) else given
 
     def of(decide: Callable[[], Any], what: str, form: str) -> str:
         try:

@@ -181,6 +181,16 @@ class Algebra:
             raise BadSystem(
                 f"{name}: a holonomic constraint binds the angle {min(map(str, bound))} outside of sin and cos"
             )
+        held = set().union(*(e.free_symbols for e in self.holonomic))
+        bare = set().union(*(e.free_symbols for e in (*self.rows, *self.offsets, *self.more)))
+        turning = {of for function in ("sin", "cos") for x, of in self.letters.arguments(function).items() if x in held}
+        if turning & bare:
+            raise BadSystem(
+                f"{name}: a holonomic constraint binds the angle {min(map(str, turning & bare))}, which is not only in "
+                "sin and cos"
+            )
+        if any(sum(power for _, power in sp.factor_list(one)[1]) > 1 for one in self.holonomic):
+            raise BadSystem(f"{name}: a holonomic constraint is a product: give the factor that is 0")
         roots = self.letters.arguments("sqrt")
         if any(of.free_symbols & roots.keys() for of in roots.values()):
             raise BadSystem(f"{name}: exact verdicts are not for roots in roots")

@@ -17,7 +17,7 @@ equation for f(q, p) say that exp f(q, 0) is kept.
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
+from functools import partial, reduce
 from operator import mul
 
 import numpy as np
@@ -27,11 +27,14 @@ from flint import arb, ctx
 from .algebra import Algebra, Point, adjugate, determinant
 from .brackets import along, bracket_of, flag
 from .equations import OnShell
+from .judged import size
 from .series import evaluated
 from .system import BadSystem, System
 
 #: Denominators of the powers in a density, how often brackets are taken of brackets, and the bits of balls.
 BELOW, MOST_LEVELS, BITS = 12, 3, 400
+#: Of what has more different parts no further brackets are taken.
+MOST_PARTS = 1000
 #: What is 0 in a numerical rank.
 NEAR = 1e-9
 
@@ -43,17 +46,18 @@ class Volume:
     Attributes
     ----------
     density : sympy.Expr or None
-        Proved: this density is kept, of the coordinates and the velocities in `by`, in letters for sines and cosines;
-        where holonomic constraints φ bind the coordinates, of the measure dq/dφ on them.  It is positive near almost
-        every place.  If there is none, none that depends on the place alone is kept, near the point and almost every
-        place: proved.
+        Proved: this density is kept, of the coordinates and the velocities in `by`; where holonomic constraints φ bind
+        the coordinates, of the measure dq/dφ on them.  It is a product of powers of functions, of which the absolute
+        values are meant; where all of these are finite and not 0 the density is smooth and positive: near almost every
+        place of the component that the point is on.  If there is none, none that depends on the place alone is kept,
+        near the point and almost every place of its component: proved.
     by : tuple of sympy.Symbol
         The velocities that determine the others.
     at_all : bool
         If there is none: whether no smooth density of place and velocity is kept either, rest included; it is proved
         where nothing drives the system.
     point : mapping of str to str
-        The exact place, with sines and cosines in the place of angles; empty where a volume is kept.
+        An exact place, with sines and cosines in the place of angles.
     """
 
     density: sp.Expr | None = None
@@ -107,7 +111,7 @@ def volume(system: System) -> Volume:
     keeps no smooth volume
     >>> found = volume(sleigh(0))
     >>> print(found, found.density, found.by)
-    keeps a smooth volume 1/sin_a (y_dot, a_dot)
+    keeps a smooth volume 1/sin(a) (y_dot, a_dot)
     """
     q, v = system.coordinates, system.velocities
     if any(sp.expand(b) != 0 for b in system.offsets):
@@ -139,7 +143,12 @@ def volume(system: System) -> Volume:
     ]
     candidates = {p for e in (whole, below, *spread) for p in sp.fraction(e)}
     if (density := _density(fields, turned, candidates, algebra)) is not None:
-        return Volume(density, by)
+        point = next((p for p, at in _places(algebra) if _rank(at(fields)) == len(by) and _rank(at([[below]]))), None)
+        if point is None:
+            raise BadSystem(f"{system.name}: no exact place is found where the equations are regular")
+        for letter, stands in reversed(algebra.letters.meanings.items()):
+            density = density.xreplace({letter: stands})
+        return Volume(density, by, point=algebra.shown(point))
     if not (point := _refuted(fields, spread, flag(system).growth[-1], algebra)):
         raise BadSystem(f"{system.name}: neither a volume is found that is kept, nor that there is none")
     at_rest = dict.fromkeys(v, sp.S.Zero)
@@ -159,9 +168,12 @@ def _density(
     rates = [[along(one, p, algebra) / p for p in factors] for one in fields]
     table = [[*own, aim] for own, aim in zip(rates, spread, strict=True)]
     rows = [row for _, at in _places(algebra) for row in at(table)]
-    numbers = np.array([[float(x) for x in row] for row in rows if all(x.is_finite() for x in row)])
-    if not len(numbers):
+    scaled = [_scaled(row) for row in rows if all(x.is_finite() for x in row)]
+    if not scaled:
         return None
+    numbers = np.array(scaled)
+    sizes = np.linalg.norm(numbers[:, :-1], axis=0)
+    numbers[:, :-1] /= np.where(sizes > 0, sizes, 1)
     kept = list[int]()  # as cos² - 1 is -sin²
     for i in range(len(factors)):
         if np.linalg.matrix_rank(numbers[:, [*kept, i]], tol=NEAR * len(numbers)) > len(kept):
@@ -169,11 +181,19 @@ def _density(
     found = np.linalg.lstsq(numbers[:, kept], -numbers[:, -1])[0]
     if np.abs(numbers[:, kept] @ found + numbers[:, -1]).max() > NEAR * np.abs(numbers).max():
         return None
+    found = found / sizes[kept]
     powers = {i: sp.Rational(Fraction(float(x)).limit_denominator(BELOW)) for i, x in zip(kept, found, strict=True)}
     for row in table:
         if not algebra.is_zero(sum((a * row[i] for i, a in powers.items()), row[-1])):
             return None
     return sp.Mul(*(factors[i] ** a for i, a in powers.items()))
+
+
+def _scaled(row: Sequence[arb]) -> list[float]:
+    """Numbers over the largest of them."""
+    with ctx.workprec(BITS):
+        largest = reduce(lambda x, y: x.max(y), map(abs, row))
+        return [float(x / largest) if largest > 0 else 0.0 for x in row]
 
 
 def _refuted(
@@ -183,12 +203,14 @@ def _refuted(
     extended = [[*one, -aim] for one, aim in zip(fields, spread, strict=True)]
     span, newest = list(extended), list(extended)
     for level in range(MOST_LEVELS):
-        for point, at in _places(algebra):
-            if _rank(at(span)) > dimension:
-                return point
+        if size(e for one in newest for e in one) > MOST_PARTS:
+            return None
         pairs = [(a, b) for i, a in enumerate(extended) for j, b in enumerate(newest) if level or i < j]
         newest = [bracket_of(a, b, algebra) for a, b in pairs]
         span += newest
+        for point, at in _places(algebra):
+            if _rank(at(span)) > dimension:
+                return point
     return None
 
 
@@ -205,7 +227,8 @@ def _places(algebra: Algebra) -> Iterator[tuple[Point, Callable[[Sequence[Sequen
             return [[next(found) for _ in row] for row in rows]
 
     for point in algebra.points:
-        yield point, partial(at, point)
+        place = {x: y for x, y in point.items() if x not in algebra.system.velocities}
+        yield place, partial(at, place)
 
 
 def _rank(rows: list[list[arb]]) -> int:

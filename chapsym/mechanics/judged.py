@@ -83,7 +83,7 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
     >>> found["order"].said, found["self-adjoint"].verdict, found["keeps the energy"].verdict
     ('2', 'proved', 'false')
     """
-    quantities = _quantities(system) | dict(scheme.integrals)
+    quantities = _quantities(system, scheme.integrals)
     names = ["order", "self-adjoint", "reversible", *(f"keeps {name}" for name in quantities)]
     looked = LOOKED_FURTHER if scheme.stages else LOOKED
     with terms(looked + BEYOND):
@@ -110,15 +110,16 @@ def _exact(system: System, digest: str) -> Exact:
     return Exact(system)
 
 
-def _quantities(system: System) -> dict[str, sp.Expr]:
-    """What the exact motion may keep: the energy, momenta along which nothing pushes, and what the system names."""
+def _quantities(system: System, of_method: Mapping[str, sp.Expr]) -> dict[str, sp.Expr]:
+    """What may be kept: the energy, momenta along which nothing pushes, what the system names, and the method."""
     found = {"the energy": system.energy} if system.keeps_energy else {}
     for i, (x, p) in enumerate(zip(system.coordinates, system.momenta, strict=True)):
         if system.push[i] == 0 and not any(system.rows[:, i]):
             found[f"the momentum of {x}"] = p
-    if taken := found.keys() & dict(system.integrals).keys():
+    named = {**system.integrals, **of_method}
+    if taken := found.keys() & named.keys():
         raise BadSystem(f"{system.name}: {min(taken)} is a quantity of every system: give the integral another name")
-    return found | dict(system.integrals)
+    return found | named
 
 
 class _Judged:
@@ -128,7 +129,7 @@ class _Judged:
         self.system, self.scheme, self.exact, self.looked = exact.system, scheme, exact, looked
         self.n, self.state = exact.n, exact.state
         self.h: Series = fmpq_series([0, 1])
-        if _size(scheme.residual) * len(scheme.unknowns) > MOST_OPERATIONS:
+        if size(scheme.residual) * len(scheme.unknowns) > MOST_OPERATIONS:
             raise Undecided("a step has more operations than its series may have")
         self.stepped = Stepped(exact, scheme)
         self.blocks: dict[str, list[int]] = {}
@@ -433,7 +434,7 @@ def _spanned(aims: Sequence[sp.Expr], known: Sequence[sp.Expr]) -> bool:
     if not (aims := [e for e in aims if e != 0]):
         return True
     symbols = sorted(set().union(*(e.free_symbols for e in (*aims, *known))), key=str)
-    if len(known) > MOST_KNOWN or _size([*aims, *known]) > MOST_OPERATIONS:
+    if len(known) > MOST_KNOWN or size([*aims, *known]) > MOST_OPERATIONS:
         raise Undecided("it has more operations than a proof may have")
     ring = Quotient(symbols, [])
     table = []
@@ -494,7 +495,7 @@ def coefficients(expressions: Iterable[sp.Expr]) -> list[tuple[sp.Expr, sp.Expr,
 _ANY = sp.Symbol("any")
 
 
-def _size(expressions: Iterable[sp.Expr]) -> int:
+def size(expressions: Iterable[sp.Expr]) -> int:
     """How many different parts expressions have."""
     seen, left = set[sp.Expr](), list(expressions)
     while left:

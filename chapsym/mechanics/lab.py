@@ -92,7 +92,7 @@ class Cell:
 
     def data(self) -> dict[str, Any]:
         """As JSON, which has no NaN."""
-        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in asdict(self).items()}
+        return _finite(asdict(self))
 
     @classmethod
     def of(cls, data: dict[str, Any]) -> "Cell":
@@ -186,6 +186,15 @@ def _said(row: sp.Expr, scheme: Scheme) -> bool:
         return True
     expanded = sp.expand(row)
     return any(sp.expand(e) == expanded for e in scheme.residual if e.free_symbols == row.free_symbols)
+
+
+def _finite(data: Any) -> Any:
+    """Data with None for numbers that are not finite."""
+    if isinstance(data, dict):
+        return {k: _finite(v) for k, v in data.items()}
+    if isinstance(data, tuple | list):
+        return type(data)(map(_finite, data))
+    return None if isinstance(data, float) and not math.isfinite(data) else data
 
 
 def _figures(motion: Motion) -> dict[str, Any]:

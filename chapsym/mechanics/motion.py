@@ -225,11 +225,14 @@ class Runner:
             raise BadSystem(f"the length of a step must be positive, not {h!r}")
         q, v = self.system.beginning
         if start is not None:
-            if np.shape(start) != (len(self.scheme.state),):
+            try:
+                if np.shape(start) != (len(self.scheme.state),):
+                    raise TypeError
+                q, v = self.velocities(start)
+            except (TypeError, ValueError):
                 raise BadSystem(
                     f"the start must be {len(self.scheme.state)} numbers, as `final` has them, not {start!r:.60}"
-                )
-            q, v = self.velocities(start)
+                ) from None
         unknowns = self._numbers(self.scheme.guess, q, v)
         with self.level.working(), np.errstate(all="ignore"):
             if not self.in_floats:
@@ -253,7 +256,12 @@ class Runner:
             if not all((np.abs(array) < np.inf).all() for array in (state, recorded)):
                 raise NotSolved(f"{self.system.name}, {self.method}: a step of {steps} leaves the range of numbers")
             place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
-            (energy,), *kept, integrals = self._measured(place, velocity, fixed)
+            try:
+                (energy,), *kept, integrals = self._measured(place, velocity, fixed)
+            except (ArithmeticError, ValueError):
+                integrals = [np.array([np.nan])]
+            if not all((np.abs(values) < np.inf).all() and not np.iscomplexobj(values) for values in integrals):
+                raise NotSolved(f"{self.system.name}, {self.method}: a quantity is not defined on the motion")
             is_enclosed = isinstance(self.level, Enclosure)
             largest: Any = np.frompyfunc(lambda a, b: a.max(b), 2, 1).reduce if is_enclosed else np.max
             constraint, places = (largest([0 * place[:, 0], *map(np.abs, values)], axis=0) for values in kept)

@@ -116,11 +116,8 @@ class Exact:
         self.symbols = (*system.coordinates, *system.velocities)
 
     def read(self, expressions: Iterable[Any]) -> list[sp.Expr]:
-        """Expressions with the numbers of the parameters; raises Undecided for floats."""
-        found = replaced(expressions, self.numbers, self._turned)
-        if any(e.has(sp.Float) for e in found):
-            raise Undecided("there are floats")
-        return found
+        """Expressions with the numbers of the parameters."""
+        return replaced(expressions, self.numbers, self._turned)
 
     def _turning(self) -> list[sp.Symbol]:
         """Angles that are turned: those of which there are sines and cosines alone, not in roots, and linearly."""

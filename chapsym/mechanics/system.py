@@ -185,8 +185,8 @@ class System:
             )
         given = *given, *discrete.integrals.values()
         action, *rules = (expression(e, f"{self.name}: the discretization") for e in given)
-        if twice := {after(x) for x in self.coordinates} & set(self.coordinates):
-            raise BadSystem(f"{self.name}: {min(map(str, twice))} is a coordinate, and another one after a step")
+        if twice := {after(x) for x in self.coordinates} & {*self.coordinates, *self.parameters}:
+            raise BadSystem(f"{self.name}: {min(map(str, twice))} has the name of a coordinate after a step")
         for one in (action, *rules):
             without(f"{self.name}: the discretization has", one.free_symbols - allowed, "nothing at a step's two ends")
             _smooth(one, f"{self.name}: the discretization")
@@ -368,11 +368,11 @@ def _smooth(expr: sp.Expr, what: str) -> None:
 
 
 def expression(value: Any, what: str) -> sp.Expr:
-    """An expression of numbers and symbols; a text is not evaluated."""
+    """An expression of numbers and symbols, with floats as they are written; a text is not evaluated."""
     try:
         found = sp.sympify(value, strict=True)
     except sp.SympifyError:
         found = None
     if not isinstance(found, sp.Expr) or found.has(sp.nan, sp.zoo, sp.oo, sp.I):
         raise BadSystem(f"{what} is {value!s:.40}, which is no real expression of SymPy")
-    return found
+    return found.xreplace({x: rational(x, what) for x in found.atoms(sp.Float)})

@@ -67,6 +67,25 @@ def test_two_processes_say_the_same():
     assert one == two
 
 
+def test_verdicts_that_were_not_asked_for_are_added(tmp_path):
+    out = tmp_path / "lab.json"
+    words = "lab", FILE, "--method", "dla", "--steps", 20, "-o", out
+    assert answer(*words, "--no-flags")["cells"][0]["verdicts"] == {}
+    assert answer(*words)["cells"][0]["verdicts"]["order"]["verdict"] == "proved"
+    assert len(json.loads(out.read_text(encoding="utf-8"))["cells"]) == 1
+    assert answer(*words, "--no-flags")["cells"][0]["verdicts"] != {}
+
+
+def test_a_quantity_that_is_not_defined_is_one_sentence(tmp_path):
+    text = FILE.read_text(encoding="utf-8").replace("coordinates=", "integrals={'r': sqrt(x - 100)}, coordinates=")
+    (tmp_path / "root.py").write_text(text.replace("import sym", "import sqrt, sym"), encoding="utf-8")
+    done = chapsym(
+        "lab", tmp_path / "root.py", "--method", "dla", "--steps", 20, "--no-flags", "-o", tmp_path / "x.json"
+    )
+    assert "dla: a quantity is not defined on the motion" in done.stdout
+    assert json.loads((tmp_path / "x.json").read_text(encoding="utf-8"))["cells"][0]["energy"] is None
+
+
 def test_a_step_without_a_solution_is_said():
     done = chapsym("lab", SYSTEMS / "falling_disc.py", "--method", "dla-left", "--steps", 1000, "--no-flags")
     assert "has no solution near the last one" in done.stdout
