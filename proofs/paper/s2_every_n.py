@@ -130,7 +130,7 @@ def reaction_force(p: Proof) -> None:
     p.slips("serious")
     force = motion.on_rolling("force_rolling", motion.inertial_force())
     p.reads(motion_symbols(), ("F", force, "m(v̇ + ωv) where v = -ρωγ, by the derivation"))
-    p.assume(DOWNWARDS)
+    p.assume(f"{DOWNWARDS}; with the other direction F is right as printed, and the sign of ρF∧γ in (2.11) is not")
     p.say("v = -ρωγ and γ̇ = -ωγ give v̇ + ωv = -ρω̇γ.")
     p.show("F", force)
     p.printed(equation("F = mρω̇γ", m * rho * alpha * gamma, force))

@@ -246,6 +246,10 @@ def true_relation(contact: sp.Expr = D, root: sp.Expr = V) -> sp.Expr:
 INVERSE, W, SECOND = 1 - D * level / SCALE, V * w / y, G * SCALE / y - V**2 * e / y
 
 
+#: What the printed V² leaves open.
+SIGN = "the sign of V is that of -C1 C2 C3 (5.13-V)"
+
+
 def part_symbols() -> Symbols:
     """What the relation is made of."""
     return {
@@ -317,6 +321,7 @@ def before_squaring(p: Proof) -> None:
     p.slips("serious", "prop-4")
     p.assume("sn δu, 𝒟 and 1 - DΠ1 do not vanish", *(sp.Ne(x, 0) for x in (HALF.sn, SCALE, 1 - D * FIRST)))
     p.assume("h = 1 (5.12-scaling); d is D, the only thing (5.11) can make it")
+    p.assume(SIGN)
     p.say("With 1/σ = 1 - DΠ1 (5.11) and 2𝒟/ϰ = V cn dn/sn =: W, prop-4 reads ±√(1 - σ²Π2) = σW/𝒟 - 1. Squared:")
     inverse, half = 1 - D * FIRST, 1 - D / 2 * FIRST
     ratio = SCALE * (1 + ROOT) * inverse
@@ -372,6 +377,7 @@ def relation_for_the_increment(p: Proof) -> None:
     p.slips("serious", "5.14")
     p.assume("sn δu, 𝒟 and σ are finite and not 0", *(sp.Ne(x, 0) for x in (y, SCALE, INVERSE)))
     p.assume("h = 1; w = sn cn dn of δu; G as corrected; d is D")
+    p.assume(SIGN)
     p.say("From prop-4 as corrected: (2σ/ϰ - 1)² = 1 - σ²Π2, 2σ/ϰ = σW/𝒟. The V² terms cancel, and one factor σ:")
     statement = (W / (INVERSE * SCALE) - 1) ** 2 - 1 + SECOND / (INVERSE * SCALE) ** 2
     factor = 1 / (INVERSE * SCALE) ** 2 / y
@@ -426,6 +432,7 @@ def euler_increment(p: Proof) -> None:
     p.infers("𝒟 is not 0, so the increment solves G = 2Vw, in which ū does not occur.")
     p.assume("𝒟 ≠ 0", sp.Ne(SCALE, 0))
     p.assume("(5.15) as corrected")
+    p.assume(SIGN)
     factored, without = SCALE * (G - 2 * V * w), true_relation(contact=sp.S.Zero)
     p.reads(part_symbols() | {"d": (sp.S.Zero, "D, in this case"), "0": (without / SCALE, "T/𝒟 for D = 0 (5.15)")})
     p.printed(part("T/𝒟 at D = 0 is G - 2Vw, and ū is in 𝒟 only", without / SCALE, factored / SCALE))
