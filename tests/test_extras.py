@@ -74,7 +74,7 @@ def offered(distributions):
     ("folder", "extras"),
     [
         ("chapsym", RUNTIME),
-        ("benchmarks", (*RUNTIME, "bench", "engines")),
+        ("benchmarks", (*RUNTIME, "bench", "engines", "test")),  # the fixture of chapsym-rolling
         ("research", RUNTIME),
         ("tests", (*RUNTIME, "test")),
     ],

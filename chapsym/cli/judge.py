@@ -32,8 +32,8 @@ def judge(
 
     Example: chapsym judge mine.csv --body mine.urdf
     """
-    from chapsym.studies.comparable import case_of_body, check_start
-    from chapsym.studies.judge import case_of_scene, convergence, departure, read_case, sentence, summary
+    from chapsym.studies.comparable import case_of_body, case_of_scene, check_start
+    from chapsym.studies.judge import convergence, departure, read_case, sentence, summary
     from chapsym.studies.judge_tables import read_table
 
     if (against is None) == (body is None):

@@ -178,7 +178,10 @@ def users(records: Sequence[Record]) -> dict[str, list[str]]:
 
 # What the claims of a report are of: how the paper is called, and how a claim of it is proved again.
 
-EXACT = "Each counterexample is exact: all hypotheses that are equations or inequalities hold at the point, and the two sides of what is printed differ."
+EXACT = (
+    "Each counterexample is exact: all hypotheses that are equations or inequalities hold at the point, and the two "
+    "sides of what is printed differ."
+)
 
 
 @dataclass(frozen=True)

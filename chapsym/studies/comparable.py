@@ -4,7 +4,7 @@ A judgement of one convention against another would be of the convention.
 """
 
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -16,7 +16,7 @@ import numpy as np
 
 from chapsym.dynamics.errors import BadInput
 
-from .judge import Case, angle, certified, rolling
+from .judge import Case, angle, rolling
 from .judge_tables import Table, Trajectory, in_space
 
 #: How far the first row may be from the start, relatively, beyond its digits: more than float32 rounds; and where a
@@ -194,3 +194,41 @@ def case_of_body(file: Path, table: Table, limit: float = 600.0) -> Case:
         lambda read: motion(read, [Fraction(0), probe]).attitude[1], SOFT,
     )  # fmt: skip
     return motion(first, chosen)
+
+
+#: Digits that are proved of a case that is made for a judgement.
+DIGITS = 12
+
+
+def case_of_scene(file: Path, limit: float = 600.0) -> Case:
+    """The certified motion of the one ball of a scene, at its frames."""
+    from chapsym.scene import load
+    from chapsym.scene.members.exactly import exact_motion
+
+    scene = load(file)
+    start, times = exact_motion(scene)
+    return certified(file.stem, scene, start, times, limit)
+
+
+def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], limit: float = 600.0) -> Case:
+    """The certified motion from an exact start of a scene, at these times; raises BadInput where it is not reached."""
+    from chapsym.dynamics.enclosed_motion import follow
+    from chapsym.dynamics.principal_axes import from_principal
+    from chapsym.scene.members.members import expand, one_ball
+
+    if start.radius is None:
+        raise BadInput(f"{name}: the contact point needs the radius: give the ball its mass and radius")
+    members = expand(scene)
+    moments = one_ball(members, 0).inertia
+    if members.axes is not None:
+        turn = from_principal(members.axes, np.eye(3)).T
+        moments = turn * moments @ turn.T
+    found = follow(start, times, DIGITS, limit=limit)
+    if found.stopped:
+        raise BadInput(f"{name}: the motion is certified to {float(found.times[-1]):g} s only: {found.stopped}")
+    parts: list[Any] = [found.contact, found.attitude, found.omega]
+    path, attitude, omega = (np.array([[float(x.mid()) for x in row] for row in part]) for part in parts)
+    attitude /= np.linalg.norm(attitude, axis=-1, keepdims=True)
+    time = np.array([float(at) for at in times])
+    mass, radius = float(start.D / start.radius**2), float(start.radius)
+    return Case(name, mass, radius, moments, time, path, attitude, in_space(attitude, omega))

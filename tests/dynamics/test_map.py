@@ -27,8 +27,8 @@ def test_a_step_agrees_with_the_matrix_equation(state):
     ball, momentum, gamma = state
     if np.abs(momentum).max() < 1e-290:
         return  # there 𝒦 and q are no longer normal numbers, and an ulp is not relative
-    compared = compare(State(ball.mass_tensor, float(ball.D), momentum, gamma), digits=30)
-    assert (compared.errors <= compared.promised).all(), compared
+    errors, promised, _ = compare(State(ball.mass_tensor, float(ball.D), momentum, gamma), digits=30)
+    assert (errors <= promised).all(), (errors, promised)
 
 
 @given(testing.states())
