@@ -3,7 +3,6 @@
 import math
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, replace
-from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -21,7 +20,7 @@ END, KEPT = 10, 240
 MOST = 1_000_000
 #: Steps on which the order is measured, and differences that are rounding; steps forth and back.
 SHORT, ROUNDING, BACK = 16, 1e-12, 100
-#: Into how many a step is cut for the error against work, and by RK4 for what is taken as exact.
+#: Into how many a step is cut for the error against work, and for what is taken as exact.
 CUT, FINE = (1, 2, 4, 8, 16), 256
 
 
@@ -65,7 +64,8 @@ class Cell:
     curve : list of [float, float]
         Time and energy.
     work : list of [float, float]
-        Processor time in µs of a run of some steps, cut into shorter ones, and the error of its last place.
+        Processor time in µs of a run of some steps, cut into shorter ones, and how far its last place is from that of
+        steps that are much shorter.
     verdicts : dict of str to Verdict
         What `verdicts` decides, where it was asked for.
     """
@@ -162,7 +162,7 @@ def measured(
         returns = _returns(runner, h)
     micro, work = 1e6 * motion.seconds / steps, tuple[tuple[float, float], ...]()
     with suppress(NotSolved):
-        exact = _place(_reference(system, system.digest()), h, FINE)
+        exact = _place(runner, h, FINE)
         work = tuple((SHORT * k * micro, float(np.abs(_place(runner, h, k) - exact).max())) for k in CUT)
     figures = _figures(motion)
     return replace(first, **figures, order=order, returns=returns, halved=half, microseconds=micro, work=work)
@@ -229,9 +229,3 @@ def _order(runner: Runner, h: float) -> float | None:
 def _place(runner: Runner, h: float, k: int) -> np.ndarray:
     """The place after some steps, each cut into k."""
     return runner.march(SHORT * k, h / k).final[: len(runner.system.coordinates)]
-
-
-@lru_cache(maxsize=1)
-def _reference(system: System, digest: str) -> Runner:
-    """What is taken as exact, for all methods on a system as it is now."""
-    return Runner(system, "rk4")

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -341,7 +341,7 @@ class Runner:
 
     def _numbers(self, expressions: Sequence[sp.Expr], q: np.ndarray, v: np.ndarray) -> np.ndarray:
         symbols = (*self.system.coordinates, *self.system.velocities, *self.system.parameters)
-        return np.array(sp.lambdify(symbols, list(expressions), "math")(*q, *v, *self.system.numbers), float)
+        return np.array(_in_floats(symbols, tuple(expressions))(*q, *v, *self.system.numbers), float)
 
     @cached_property
     def library(self) -> Any:
@@ -372,6 +372,12 @@ class Runner:
             except (OSError, subprocess.CalledProcessError) as error:
                 logging.getLogger("chapsym").warning("plain Python takes the steps, as cc failed: %s", error)
                 return None
+
+
+@lru_cache(maxsize=32)
+def _in_floats(symbols: tuple[sp.Symbol, ...], expressions: tuple[sp.Expr, ...]) -> Callable[..., list[float]]:
+    made: Callable[..., list[float]] = sp.lambdify(symbols, list(expressions), "math")
+    return made
 
 
 @cache

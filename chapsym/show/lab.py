@@ -27,7 +27,7 @@ of the first. Constraint: the largest |A v + b| of the constraints on velocities
 method says so. Places: the largest value of the holonomic constraints. Order: of the error of the place when the
 steps are halved; - where rounding hides it. Returns: how far the place is from its start after 100 steps, the
 velocities turned round, and 100 steps. Proved and false are exact; all else is measured. Error of the place: after 16
-steps, and after as much time in steps of a half to a sixteenth, against RK4 with 256 times as many.</p>
+steps, and after as much time in steps of a half to a sixteenth, against 256 times as many steps of the same method.</p>
 {systems}
 </html>
 """
