@@ -243,8 +243,10 @@ def test_a_step_is_enclosed_from_a_poor_point_too():
         gamma = reduced.start(ball(LEVEL), (0, 1, 2), Fraction(1))
         root = reduced.root(gamma)
         poor = tuple(x + ball(Fraction(1, 1000)).mid() for x in root)
-        enclosed, _ = reduced.image(poor, gamma)
+        enclosed, there = reduced.image(poor, gamma)
         assert all(x.overlaps(y) for x, y in zip(enclosed, root, strict=True))
+        wanted = reduced.image(tuple(x.mid() for x in root), gamma)[1]
+        assert all(x.overlaps(y) for x, y in zip(there, wanted, strict=True))
         assert max(float(x.rad()) for x in enclosed) < 1e-3
         with pytest.raises(NotProved, match="small-branch"):
             reduced.image((ball(Fraction(2)),) * 3, gamma)
