@@ -44,7 +44,7 @@ def ball(centre: Fraction, radius: Fraction = Fraction(0)) -> Any:
 
 
 def rounded(x: Any, digits: int) -> str:
-    """The numbers of a ball rounded to so many decimals; raises NotProved where they round differently."""
+    """The numbers of a ball rounded to this many decimals; raises NotProved where they round differently."""
     middle, off = fraction(x), fraction(x.rad())
     found = round(middle - off, digits)
     if found != round(middle + off, digits):
@@ -53,7 +53,7 @@ def rounded(x: Any, digits: int) -> str:
 
 
 def decimal(x: Fraction, digits: int) -> str:
-    """A multiple of 10^-digits with so many decimals."""
+    """A multiple of 10^-digits with this many decimals."""
     scaled = x * 10**digits
     assert scaled.denominator == 1, "not rounded"
     whole = str(abs(scaled.numerator)).rjust(digits + 1, "0")

@@ -99,7 +99,7 @@ def components(J: np.ndarray, D: float, K: np.ndarray, g: np.ndarray) -> tuple[i
 
 
 def refined(fields: Mapping[str, Any], digits: int, progress: Callable[[str], None]) -> dict[str, Any]:
-    """With the varied component and the time to so many decimals, by the secant method from a near orbit."""
+    """With the varied component and the time to this many decimals, by the secant method from a near orbit."""
     unit, varied = Fraction(1, 10**digits), STATE.index(fields["varied"])
     momentum = [Fraction(x) for x in fields["start"]["momentum"]]
     before: tuple[Fraction, Fraction] | None = None

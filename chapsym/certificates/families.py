@@ -48,7 +48,7 @@ class Member:
 
 
 def families(level: Level, steps: int, progress: Callable[[str], None]) -> Iterator[list[Member]]:
-    """The families of orbits of so many steps at this |𝒦|², a stretch of each; `level.height` is not used."""
+    """The families of orbits of this many steps at this |𝒦|², a stretch of each; `level.height` is not used."""
     found: list[float] = []
     for state in _symmetric(level, steps):
         height = abs(float(state[:3] @ state[3:]))

@@ -220,7 +220,7 @@ def _orbit(reduced: Reduced, at: Resonance, start: Vector, name: str) -> Orbit:
 def direction(turned: list[tuple[Any, Any]], half_turns: int) -> int:
     """1 or -1: the sign of all steps, from their (sines times a length, angles); raises NotProved.
 
-    Each is proved to turn by less than half a turn in this direction, and all by about so many half turns.
+    Each is proved to turn by less than half a turn in this direction, and all by about this many half turns.
     """
     s = 1 if turned[0][0] > 0 else -1
     if not all(s * sine > 0 for sine, _ in turned):

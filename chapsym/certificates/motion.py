@@ -20,7 +20,7 @@ from .document import stated
 KIND = "motion"
 #: Bits of the first attempt beyond those of the digits, how many more the next ones have, and the most beyond.
 GUARD, MORE, MOST = 48, 1.5, 512
-#: A number of the start with so small a denominator, and so many bits known, is written as a quotient.
+#: A number of the start with so small a denominator, and this many bits known, is written as a quotient.
 SIMPLE, KNOWN = 10**18, 512
 
 
@@ -59,7 +59,7 @@ def motion(
 
 
 def document(start: Start, found: CertifiedMotion, bits: int) -> dict[str, Any]:
-    """The certificate, for a checker with so many bits: not checked."""
+    """The certificate, for a checker with this many bits: not checked."""
     ball: dict[str, Any] = {"J": [shortest(x) for x in start.mass_tensor], "D": shortest(start.D)}
     if any(map(any, start.rotor)):
         ball["rotor"] = [shortest(x.rational) for x in start.rotor]

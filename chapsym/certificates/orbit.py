@@ -38,7 +38,7 @@ def periodic_orbit(
     digits: int | None = None, attracting: bool = False, radius: Fraction | None = None,
     progress: Callable[[str], None] = lambda what: None,
 ) -> dict[str, Any]:  # fmt: skip
-    """Finds the certificate of an orbit of so many steps, not symmetric, with det DG^q < 1 and without an eigenvalue
+    """Finds the certificate of an orbit of this many steps, not symmetric, with det DG^q < 1 and without an eigenvalue
     1.
 
     Of it and its mirror image, with the reciprocal determinant, it is the one that contracts volumes.

@@ -23,7 +23,7 @@ from chapsym.dynamics.levels.start import exponent_of, fraction
 from .balls import NotProved, ball
 from .reduced import Axes, Reduced, Top, Vector, angle, cross
 
-#: The levels that are looked at have x/(1 - x) = e^t for so many t up to ±REACH, x from the separatrix to the axis.
+#: The levels that are looked at have x/(1 - x) = e^t for this many t up to ±REACH, x from the separatrix to the axis.
 LEVELS, REACH = 29, 14.0
 #: Bits and steps of this look, and how well it finds the level, in half turns.
 LOOK_BITS, LOOK_STEPS, LOOK_NEAR = 64, 63, 1e-3
@@ -41,7 +41,7 @@ class Staircase:
     turns: list[list[float]]
 
     def between(self, steps: int, half_turns: int) -> tuple[Fraction, Fraction] | None:
-        """Two levels with fewer and with more half turns in so many steps."""
+        """Two levels with fewer and with more half turns in this many steps."""
         found = [turns[steps - 1] for turns in self.turns]
         for (x, a), (y, b) in pairwise(zip(found, self.levels, strict=True)):
             if (x < half_turns) != (y < half_turns):

@@ -76,7 +76,7 @@ def _why(sides: list[plateau.Staircase], steps: int | None, half_turns: int) -> 
 
 
 def turns(half_turns: int) -> str:
-    """So many half turns, in words."""
+    """This many half turns, in words."""
     return f"{half_turns} half turn{'s' if half_turns > 1 else ''}"
 
 
@@ -114,7 +114,7 @@ def _middle(
 
 
 def spare_bits(steps: int) -> int:
-    """How many bits beyond those of the numbers so many steps need."""
+    """How many bits beyond those of the numbers this many steps need."""
     return STEP_BITS * steps + SPARE_BITS
 
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -13,8 +13,20 @@ from .app import app
 from .options import Json, argument, takes
 from .output import fail, note, print_json
 
+if TYPE_CHECKING:
+    from chapsym.mechanics import System
+
 #: What a call and its arguments become: its result, when it is called.
 Later = Callable[..., Callable[[], Any]]
+
+
+class Begun(NamedTuple):
+    """A system, its key, what is said of it, and its cells, as what gives them."""
+
+    system: "System"
+    key: str
+    said: Callable[[], str]
+    cells: list[Callable[[], Any]]
 
 
 @app.command()
@@ -50,8 +62,7 @@ def lab(
     constraints: dict[str, str] = {}
     wrong: list[str] = []
 
-    def started(path: Path, system: Any, later: Later) -> Any:
-        """A system, its key, what is said of it, and its cells, as what gives them."""
+    def started(path: Path, system: "System", later: Later) -> Begun:
         system.beginning  # noqa: B018, which refuses a start that breaks a constraint
         key, cells = system.digest(length, halve), list[Callable[[], Any]]()
         for name in methods if method or system.discrete else [one for one in methods if one != "own"]:
@@ -59,10 +70,10 @@ def lab(
             there = next((c for c in same if c["verdicts"] or not flags), None)
             more = name, steps, length, halve, flags
             cells.append(partial(dict, there) if there else later(_cell, path if jobs > 1 else system, *more))
-        return system, key, later(_said, path if jobs > 1 else system, flags), cells
+        return Begun(system, key, later(_said, path if jobs > 1 else system, flags), cells)
 
     with _crew(jobs) as later:
-        begun = list[Any]()
+        begun = list[Begun]()
         for path in _files(files):
             try:
                 system = loaded(path)

@@ -257,7 +257,7 @@ class _Search:
         return max(exponent_of(turns), 0) if turns else 0
 
     def attempt(self, bits: int) -> int | None:
-        """Follows the motion with so many bits; returns how many more are needed, or None: the time is up."""
+        """Follows the motion with this many bits; returns how many more are needed, or None: the time is up."""
         from flint import ctx
 
         missing, kept = -math.inf, 0

@@ -37,7 +37,7 @@ from .loops.lanes import march as march_lanes
 from .results import in_given_axes
 from .trajectories import flag, rolling_radius, seconds, whole_number
 
-#: From so many balls on a block of eight is faster than one after another.
+#: From this many balls on a block of eight is faster than one after another.
 FEW = 6
 #: Columns in double-double, at most and as a rule: more of them make more of the roundings than they leave of the rest.
 MOST_OF_PAIRS = 12

@@ -110,7 +110,7 @@ class UnderWay:
         raise NotImplementedError
 
     def _frames(self, count: int) -> dict[str, Floats]:
-        """Rows for so many states."""
+        """Rows for this many states."""
         raise NotImplementedError
 
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
@@ -185,7 +185,7 @@ class Stepper(UnderWay):
         return np.array(angular_velocity(*(*angular_momentum, *self._gamma.tolist(), *self._J.tolist(), self._D)))
 
     def _frames(self, count: int) -> dict[str, Floats]:
-        """Rows for so many states; none for an attitude and a contact point that are not followed."""
+        """Rows for this many states; none for an attitude and a contact point that are not followed."""
         body = count if self._follows else 0
         return {
             "momentum": np.empty((count, 3)), "gamma": np.empty((count, 3)),

@@ -19,7 +19,7 @@ from .levels import dispatch
 from .levels.frames import Frames, given
 from .results import Trajectory, finished, in_given_axes, of_balls
 
-#: Whoever asks for more steps than this, or for every so many, will not see the end of it.
+#: Whoever asks for more steps than this, or for every this many, will not see the end of it.
 MOST_STEPS = 2**62
 
 

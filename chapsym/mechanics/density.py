@@ -136,11 +136,8 @@ def volume(system: System) -> Volume:
         pushed = (inverse * (x.T * of.mass * brackets).applyfunc(reduced)).trace() / below
         own = (algebra.letters.derivative(e, c) for e, c in zip(one, q, strict=True))
         spread.append(reduced(sum(own, pushed)))
-    lifted = {below: 1, whole: -len(by)}  # dq dp is that times dq dv, of the velocities in `by`
-    turned = [
-        e - sum(n * along(one, p, algebra) / p for p, n in lifted.items())
-        for one, e in zip(fields, spread, strict=True)
-    ]
+    lifted = (below, 1), (whole, -len(by))  # dq dp is the product of these powers times dq dv, v in `by`
+    turned = [e - sum(n * along(one, p, algebra) / p for p, n in lifted) for one, e in zip(fields, spread, strict=True)]
     candidates = {p for e in (whole, below, *spread) for p in sp.fraction(e)}
     if (density := _density(fields, turned, candidates, algebra)) is not None:
         point = next((p for p, at in _places(algebra) if _rank(at(fields)) == len(by) and _rank(at([[below]]))), None)
@@ -149,7 +146,11 @@ def volume(system: System) -> Volume:
         for letter, stands in reversed(algebra.letters.meanings.items()):
             density = density.xreplace({letter: stands})
         return Volume(density, by, point=algebra.shown(point))
-    if not (point := _refuted(fields, spread, flag(system).growth[-1], algebra)):
+    span = flag(system)
+    may_differ = len(algebra.holonomic) > 1 or any(e.free_symbols - set(q) for e in algebra.holonomic)
+    if span.functions and may_differ:  # by components, of which there may be several
+        raise BadSystem(f"{system.name}: what brackets span may differ from component to component of the places")
+    if not (point := _refuted(fields, spread, span.growth[-1], algebra)):
         raise BadSystem(f"{system.name}: neither a volume is found that is kept, nor that there is none")
     at_rest = dict.fromkeys(v, sp.S.Zero)
     push = [algebra.into(e.xreplace(at_rest)) for e in system.push]

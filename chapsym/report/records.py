@@ -210,7 +210,7 @@ class Source:
 
 FEDOROV = Source(
     "Yu.N. Fedorov, A Discretization of the Nonholonomic Chaplygin Sphere Problem, SIGMA 3 (2007), 044",
-    "Equations are named as in the paper, with a word for a display or a statement beside them. "
+    "Equations are named as in the paper, followed by a word for a display or a statement. "
     f"{EXACT} "
     "There J is always the mass tensor of Sections 4 and 5, so that Λ = diag(J2+J3+D, J1+J3+D, J1+J2+D), "
     "and an index k-1, k, k+1 is the time.",

@@ -106,7 +106,7 @@ def test_what_keeps_none():
 
 
 def test_a_suslov_body_about_a_principal_axis_keeps_one():
-    """Without products of inertia beside the axis that may not turn; with one, none."""
+    """Without products of inertia of the axis that may not turn; with one, none."""
     system = loaded(SYSTEMS / "suslov.py")
     products = [s for s in system.parameters if s.name in ("I13", "I23")]
     free = dataclasses.replace(system, parameters={**system.parameters, **dict.fromkeys(products, 0)})
@@ -158,3 +158,12 @@ def test_surfaces_of_several_components_are_refused():
     ):
         with pytest.raises(BadSystem, match=why):
             volume(System("several", (x, y, a), energy, [], holonomic))
+
+
+def test_the_density_is_of_the_velocities_that_are_named():
+    """Where the determinants of the mass matrix and of the constraints are one function, x, both count."""
+    system = System("curve", (x, y), x * vx**2 / 2, [x * vx - vy], start={x: 1})
+    found = volume(system)
+    with mp.workdps(30):
+        spread, along = divergence(system, found, found.density)
+        assert abs(spread + along) < mp.mpf(10) ** -15

@@ -21,7 +21,7 @@ HALVINGS = 5
 TERMS = 10
 #: So few balls are computed one by one.
 FEW = 16
-#: From so many step numbers on there are fewer angles than frames.
+#: From this many step numbers on there are fewer angles than frames.
 MANY = 64
 #: Step numbers are split here, so that each part is a float.
 SPLIT = 2**32

@@ -79,7 +79,7 @@ class Neighbours:
 
 @contextmanager
 def capped(terms: int) -> Iterator[None]:
-    """Cuts series to so many terms."""
+    """Cuts series to this many terms."""
     before, ctx.cap = ctx.cap, terms
     try:
         yield
@@ -113,7 +113,7 @@ def _product(left: Rows, right: Rows) -> Rows:
 
 Numbers = tuple[Any, ...]
 
-#: A step is this part of the radius of convergence, where the price of a unit of time is least, and so many radians.
+#: A step is this part of the radius of convergence, where the price of a unit of time is least, and this many radians.
 PART, RADIANS = 1 / math.e, 2.0
 #: The unit of time of the series is at most so much shorter than the step, after a few looks.
 ALIKE, LOOKS = 1.5, 4
@@ -121,7 +121,7 @@ ALIKE, LOOKS = 1.5, 4
 HALVINGS = 5
 #: Bits that a correction in float64 is taken to gain, and that are carried beyond those known so far.
 GAIN, BEYOND = 48, 66
-#: What is left after the last correction is so many bits above the rounding.
+#: What is left after the last correction is this many bits above the rounding.
 LEFT = 11
 #: Bits for each that a correction gains from which on the next gain twice as many, and bits of them that are lost.
 FAR, LOST = 4, 12
@@ -206,7 +206,7 @@ class Path:
         return found.scaled(LONG(float(length)) / LONG(unit_of_time)), length
 
     def _degree(self, series: Series) -> int:
-        """So many terms that what is beyond is below the rounding."""
+        """This many terms that what is beyond is below the rounding."""
         small = series.sizes() < 2.0**-self.precision
         if small[-2:].all():
             return max(int(np.flatnonzero(~small)[-1]), 1) + 3
@@ -246,7 +246,7 @@ class Path:
             bits = known + gain
 
     def _terms(self, degree: int, bits: int) -> int:
-        """So many terms serve for so many bits."""
+        """This many terms serve for this many bits."""
         return max(TERMS, min(degree, degree * bits // self.precision)) + 1
 
     def _rolled(self, w: Sequence[Any], found: Defects, slip: Any) -> Numbers:

@@ -37,9 +37,9 @@ from .proved_root import MATRIX_BITS, Numbers, certified, inverse_slope, on_path
 from .spread import Spread, carried
 from .start import Exact, exponent_of, fraction, least, magnitude, start
 
-#: Up to so many bits, corrections by the float64 Jacobian; beyond, Newton's, each with twice the bits of the last.
+#: Up to this many bits, corrections by the float64 Jacobian; beyond, Newton's, each with twice the bits of the last.
 CHORD_BITS = 300
-#: Numbers of so many bits below 1 are in the range of float64.
+#: Numbers of this many bits below 1 are in the range of float64.
 FLOAT_BITS = 1000
 #: What the first correction by the float64 Jacobian is taken to leave.
 GAIN = 2.0**-40
@@ -68,7 +68,7 @@ def extrapolated(past: Sequence[Vector]) -> Vector:
 
 
 def root(guess: Vector, state: Vector, bits: int, lost: int, unit: Any) -> tuple[Vector, Vector]:
-    """The Gibbs vector with so many bits, from a guess in float64; returns it, exact numbers, and its float64 value.
+    """The Gibbs vector with this many bits, from a guess in float64; returns it, exact numbers, and its float64 value.
 
     state: k, γ, I and D, the largest moment about 1; unit: a power of two about |k|.  lost: the bits that the
     conditioning costs.  Raises NotSettled, or another ArithmeticError, where it does not settle.
@@ -134,7 +134,7 @@ def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, un
 
 
 def _newton(u: Vector, state: Vector, bits: int) -> Vector:
-    """One correction of u to so many bits, with ∂G/∂u at the bits of the working precision, which becomes `bits`."""
+    """One correction of u to this many bits, with ∂G/∂u at the bits of the working precision, which becomes `bits`."""
     det, _, _, _, *cofactors = gibbs_newton(*u, *_rounded(state))
     half, ctx.prec = ctx.prec, bits
     residual = gibbs_residual(*u, *_rounded(state))
@@ -268,7 +268,7 @@ class DigitsBall(_UnderWay):
         return q
 
     def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
-        """𝒦, γ, the attitude and the contact point, rounded to so many bits, in the context of the precision."""
+        """𝒦, γ, the attitude and the contact point, rounded to this many bits, in the context of the precision."""
 
         momentum = tuple(in_context(self.context, x, bits, self.exponent + 1) for x in self.k)
         g, a, x = (tuple(in_context(self.context, x, bits) for x in v) for v in (self.g, self.a, self.x))
@@ -393,7 +393,7 @@ class ArbBall(_UnderWay):
         return -max(widest[0] - self.size, *widest[1:])
 
     def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
-        """𝒦, γ, the attitude and the contact point, rounded to so many bits."""
+        """𝒦, γ, the attitude and the contact point, rounded to this many bits."""
         scale = arb(2) ** (self.exponent + 1)
         k, g = self._all()
         a = self._attitude() if self.a else ()
@@ -415,7 +415,7 @@ def point(p: Iterable[Any]) -> tuple[Numbers, Any]:
 
 
 def in_context(context: Any, x: Any, bits: int, shift: int = 0) -> Any:
-    """2^shift times the midpoint of a ball, rounded to so many bits, as a number of an mpmath context."""
+    """2^shift times the midpoint of a ball, rounded to this many bits, as a number of an mpmath context."""
     man, exp = x.mid().man_exp()
     return context.make_mpf(from_man_exp(int(man), int(exp) + shift, bits, "n"))
 

@@ -15,7 +15,7 @@ from chapsym.numbers import Digits, Enclosure, Precision
 
 from ..ball import Ball, Floats, batch, exact_array, numbers, unit_vertical
 
-#: The work of each thread comes in about so many parts, so that none is idle for long at the end.
+#: The work of each thread comes in about this many parts, so that none is idle for long at the end.
 SHARES = 16
 
 
@@ -88,7 +88,7 @@ class Count:
         self.stopped = False
 
     def add(self, steps: int) -> None:
-        """So many steps more."""
+        """This many steps more."""
         with self._lock:
             self._done += steps
             self._progress(self._done)

@@ -77,7 +77,7 @@ class _Way:
     progress: Callable[[int], None]
 
     def take(self, ball: Any, bits: int, enough: Callable[[int], bool] = lambda step: True) -> None:
-        """Takes the steps and writes the frames, with so many bits; stops early where `enough` says no."""
+        """Takes the steps and writes the frames, with this many bits; stops early where `enough` says no."""
         f, i = self.frames, self.i
         kept = (f.momentum, f.gamma, *((f.attitude, f.contact) if f.with_body else ()))
         f.taken[i] = 0
@@ -122,7 +122,7 @@ def _enclosed(precision: Enclosure, given: Given, way: _Way) -> int:
 
 
 def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, float, int]:
-    """Runs with so many bits while those that are wanted are left.
+    """Runs with this many bits while those that are wanted are left.
 
     Returns the step where they were last looked at, the bits left there, and how many rotations were selected.  None
     are left where a step could not be proved.

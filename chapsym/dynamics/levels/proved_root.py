@@ -21,7 +21,7 @@ Numbers = tuple[Any, ...]
 
 #: The precision of the matrices beyond what a determinant can lose: what they multiply is as small as the radii.
 MATRIX_BITS = 64
-#: The box in which `straight-path` is looked at has so many times |G(u)|/I_min: enough if m is not much below I_min.
+#: The box in which `straight-path` is looked at has this many times |G(u)|/I_min: enough if m is not much below I_min.
 WIDER = 1024
 
 

@@ -90,7 +90,7 @@ def exponent_of(x: Fraction) -> int:
 
 
 def _on_numbers(K: Exact, g: Exact, J: Exact, D: Fraction, digits: int) -> tuple[int, Any, list[Fraction]]:
-    """`branch.small_rotation` with so many digits: (status, reach, rotation)."""
+    """`branch.small_rotation` with this many digits: (status, reach, rotation)."""
     import mpmath
 
     context = mpmath.MPContext()

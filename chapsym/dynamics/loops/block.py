@@ -19,7 +19,7 @@ LANES = 40
 REGISTER = 8
 #: A float32 is half as long.
 SINGLE = {"LANES": 80, "REGISTER": 16}
-#: After a step that needed the second correction, so many are taken with it at once.
+#: After a step that needed the second correction, this many are taken with it at once.
 PATIENCE = 64
 #: In place of a radius²: the ball has stopped.
 STOPPED = -3.0

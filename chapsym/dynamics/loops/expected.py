@@ -21,7 +21,7 @@ GROWTH = 30.0
 #: The error of a step of |ω|h = 1 radian, of most balls; and what part of an accuracy a run aims at: with all of it
 #: some balls miss, and start anew, which costs more than shorter steps.
 UNIT_ERROR, AIM = 3e-9, 0.5
-#: The roundings of steps that go one way turn a ball as those of its parameters do, and so many times as far.
+#: The roundings of steps that go one way turn a ball as those of its parameters do, and this many times as far.
 TURNING = 3.0
 #: Of a ball of a larger condition the roundings of long steps are not known.
 CONDITIONED = 1e4

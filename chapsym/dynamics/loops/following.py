@@ -108,7 +108,7 @@ def series(body, J, contact, radius, whole, traced, V, end):
 
 
 def shortened(end, ratio):
-    """The same coefficients for a step so many times as long."""
+    """The same coefficients for a step this many times as long."""
     factor = 1.0
     for n in range(1, TERMS):
         factor *= ratio
@@ -176,7 +176,7 @@ def ball_at(curve, s, body, traced, found):
 
 #: The largest |ω|h of a step, in radians: longer ones have errors beyond 10⁻⁴, or do not settle.
 FARTHEST = 1.7
-#: A step is taken again if its error is so many times what is allowed, the first already if it is less; and how often.
+#: A step is taken again if its error is this many times what is allowed, the first if it is less; and how often.
 TOO_MUCH, TOO_MUCH_FIRST, MOST_TRIES = 15.0, 3.0, 40
 #: What is no bound of a step; and by what part the bound grows with each step.
 ANYTHING, HOPE = 1e300, 1.05
@@ -191,7 +191,7 @@ WANTED = 0.4
 NEAREST = 0.02
 #: How the last column gains on the one before as that on the one before it, in the middle of balls of all shapes.
 GAIN = 2.0
-#: Of the changes that a column makes this is rounding: a part that all have, and so many times that of a start.
+#: Of the changes that a column makes this is rounding: a part that all have, and this many times that of a start.
 ROUNDED, ROUNDED_START = 2e-15, 10.0
 #: How many times as large as they leave it the error of steps is held to be, of many and of few.
 CAUTIOUS, CAUTIOUS_FEW = 20.0, 32.0

@@ -91,7 +91,7 @@ def guess_weights(columns: int) -> tuple[Floats, Floats]:
     return following, beginning
 
 
-#: A block adds so many Gibbs vectors at once.
+#: A block adds this many Gibbs vectors at once.
 GROUP = 4
 #: Of how many moments the weights up to 0, 1, 2, 3 and 4 are.
 COUNTS = (1, 2, 4, 7, 12)

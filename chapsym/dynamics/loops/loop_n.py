@@ -12,7 +12,7 @@ from .text import Cube, Matrix, Tensor, Vector
 
 #: Corrections of Newton in a step, at most.
 MOST_ROUNDS = 12
-#: The last so many rotations guess the next one.
+#: The last this many rotations guess the next one.
 ORDER = 8
 
 

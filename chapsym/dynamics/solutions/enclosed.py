@@ -95,7 +95,7 @@ def common_points(forms: Sequence[Form]) -> Points:
         if sum(p.degree() for p, _ in parts) == distinct:
             break
     else:
-        raise ArithmeticError("no linear form tells the common points apart")
+        raise ArithmeticError("no linear form separates the common points")
     coordinates = _representation(algebra, multiplication, parts)
     factors = tuple(Factor(p, c, m) for part, m in parts for p, c in _split(part, coordinates))
     real = sum(sum(1 for _ in factor.points(64)) for factor in factors)
@@ -233,7 +233,7 @@ MOST_PRECISIONS = 14
 SPARE = 12
 #: The rounding of a float64 step is below this, even where D is large or a fold is near.
 SAME = 1e-3
-#: The float64 step belongs to the nearest rotation, if the next one is so many times farther away.
+#: The float64 step belongs to the nearest rotation, if the next one is this many times farther away.
 CLEARLY = 4.0
 
 
@@ -341,7 +341,7 @@ def _enclosures(points: Points, precision: Precision, given: Sequence[Sequence[F
     for _ in range(MOST_PRECISIONS):
         with flint_bits(bits):
             found = [_branch(c, f.multiplicity) for f in points.factors for c in f.points(bits)]
-            # A leading parameter that has so many bits has a sign.
+            # A leading parameter that has this many bits has a sign.
             precise = all(x.rel_accuracy_bits() >= wanted for b in found for x in (*b.rotation, b.angle))
             if precise and _apart(found) and _confirmed(found, given):
                 return tuple(sorted(found, key=cmp_to_key(_order)))
