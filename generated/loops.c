@@ -2388,6 +2388,202 @@ INLINE t_ir_p3_ double_double_stage_r1pr2r2(r1 state, t_r2 c, real radius, real 
     return (t_ir_p3_){status.a0, status.a1, status.a2};
 }
 
+INLINE t_r3 proved_floats__p3_(t_p3 v) { return (t_r3){v.a0.a0 + v.a0.a1, v.a1.a0 + v.a1.a1, v.a2.a0 + v.a2.a1}; }
+INLINE real proved_slope_at(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
+    real half = R(sqrt(vectors_square(k)));
+    t_r2 reached = path_joined(u, vectors_square(u), k, half, g, I, D, R(0.5) * (max_r(max_r(I.a0, I.a1), I.a2) -
+        min_r(min_r(I.a0, I.a1), I.a2)));
+    real flattest = min_r(reached.a1, min_r(min_r(I.a0, I.a1), I.a2)) - R(0.25) * (half * vectors_length(u) -
+        vectors_dot(k, u));
+    return (reached.a0 > R(0.0) && flattest > R(0.00390625) * (max_r(max_r(I.a0, I.a1), I.a2) + D)) ? R(0.49) *
+        reached.a1 : R(0.0);
+}
+
+INLINE real proved_extent(r1 box) {
+    real total = box.p[12];
+    for (int64_t j = 0; j < 3; j++) { total = total + box.p[9 + j] * vectors_length(vectors_three(box, 0 + 3 * j)); }
+    return R(1.0000000000009095) * total;
+}
+
+INLINE t_p3 kernel_gibbs_residual_p12e(t_r2 u1, t_r2 u2, t_r2 u3, t_r2 k1, t_r2 k2, t_r2 k3, t_r2 g1, t_r2 g2, t_r2
+    g3, t_r2 I1, t_r2 I2, t_r2 I3, real D) {
+    t_r2 t_1 = pairs_loose_multiply(g3.a0, g3.a1, u2.a0, u2.a1);
+    t_r2 t_2 = pairs_loose_multiply(g2.a0, g2.a1, u3.a0, u3.a1);
+    t_r2 x1 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
+    t_r2 t_3 = pairs_loose_multiply(g1.a0, g1.a1, u3.a0, u3.a1);
+    t_r2 t_4 = pairs_loose_multiply(g3.a0, g3.a1, u1.a0, u1.a1);
+    t_r2 x2 = pairs_loose_subtract(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+    t_r2 t_5 = pairs_loose_multiply(g2.a0, g2.a1, u1.a0, u1.a1);
+    t_r2 t_6 = pairs_loose_multiply(g1.a0, g1.a1, u2.a0, u2.a1);
+    t_r2 x3 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
+    t_r2 y1 = pairs_loose_multiply(I1.a0, I1.a1, u1.a0, u1.a1);
+    t_r2 y2 = pairs_loose_multiply(I2.a0, I2.a1, u2.a0, u2.a1);
+    t_r2 y3 = pairs_loose_multiply(I3.a0, I3.a1, u3.a0, u3.a1);
+    t_r2 t_7 = pairs_loose_multiply(u1.a0, u1.a1, u1.a0, u1.a1);
+    t_r2 t_8 = pairs_loose_multiply(u2.a0, u2.a1, u2.a0, u2.a1);
+    t_r2 t_9 = pairs_loose_multiply(u3.a0, u3.a1, u3.a0, u3.a1), t_10 = pairs_loose_add_float(t_7.a0, t_7.a1, 1);
+    t_r2 t_11 = pairs_loose_add(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
+    t_r2 s = pairs_loose_add(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
+    t_r2 t_12 = pairs_loose_multiply(g2.a0, g2.a1, x3.a0, x3.a1);
+    t_r2 t_13 = pairs_loose_multiply(g3.a0, g3.a1, x2.a0, x2.a1);
+    t_r2 t_14 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
+    t_r2 t_15 = pairs_loose_multiply_float(t_14.a0, t_14.a1, D);
+    t_r2 t_16 = pairs_loose_add(y1.a0, y1.a1, t_15.a0, t_15.a1);
+    t_r2 t_17 = pairs_loose_multiply(u2.a0, u2.a1, y3.a0, y3.a1);
+    t_r2 t_18 = pairs_loose_multiply(k1.a0, k1.a1, s.a0, s.a1);
+    t_r2 t_19 = pairs_loose_multiply(u3.a0, u3.a1, y2.a0, y2.a1);
+    t_r2 t_20 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
+    t_r2 t_21 = pairs_loose_add(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
+    t_r2 o_r1 = pairs_loose_subtract(t_20.a0, t_20.a1, t_21.a0, t_21.a1);
+    t_r2 t_22 = pairs_loose_multiply(g3.a0, g3.a1, x1.a0, x1.a1);
+    t_r2 t_23 = pairs_loose_multiply(g1.a0, g1.a1, x3.a0, x3.a1);
+    t_r2 t_24 = pairs_loose_subtract(t_22.a0, t_22.a1, t_23.a0, t_23.a1);
+    t_r2 t_25 = pairs_loose_multiply_float(t_24.a0, t_24.a1, D);
+    t_r2 t_26 = pairs_loose_add(y2.a0, y2.a1, t_25.a0, t_25.a1);
+    t_r2 t_27 = pairs_loose_multiply(u3.a0, u3.a1, y1.a0, y1.a1);
+    t_r2 t_28 = pairs_loose_multiply(k2.a0, k2.a1, s.a0, s.a1);
+    t_r2 t_29 = pairs_loose_multiply(u1.a0, u1.a1, y3.a0, y3.a1);
+    t_r2 t_30 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1);
+    t_r2 t_31 = pairs_loose_add(t_28.a0, t_28.a1, t_29.a0, t_29.a1);
+    t_r2 o_r2 = pairs_loose_subtract(t_30.a0, t_30.a1, t_31.a0, t_31.a1);
+    t_r2 t_32 = pairs_loose_multiply(g1.a0, g1.a1, x2.a0, x2.a1);
+    t_r2 t_33 = pairs_loose_multiply(g2.a0, g2.a1, x1.a0, x1.a1);
+    t_r2 t_34 = pairs_loose_subtract(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
+    t_r2 t_35 = pairs_loose_multiply_float(t_34.a0, t_34.a1, D);
+    t_r2 t_36 = pairs_loose_add(y3.a0, y3.a1, t_35.a0, t_35.a1);
+    t_r2 t_37 = pairs_loose_multiply(u1.a0, u1.a1, y2.a0, y2.a1);
+    t_r2 t_38 = pairs_loose_multiply(k3.a0, k3.a1, s.a0, s.a1);
+    t_r2 t_39 = pairs_loose_multiply(u2.a0, u2.a1, y1.a0, y1.a1);
+    t_r2 t_40 = pairs_loose_add(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
+    t_r2 t_41 = pairs_loose_add(t_38.a0, t_38.a1, t_39.a0, t_39.a1);
+    t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
+}
+
+INLINE t__r3_3 tangent_column(t_r3 x, t_r3 u, t_r3 k, t_r3 g, real D, real det, t_r9 c) {
+    t_r3 a = vectors_cross(k, x), b = vectors_cross(g, x); real length = R(1.0) + vectors_dot(u, u);
+    t_r3 r = vectors_plus(vectors_plus(vectors_scaled(D * vectors_dot(g, u), b), vectors_scaled(D * vectors_dot(b, u),
+        g)), vectors_scaled(length, a));
+    t_r3 x1 = vectors_adjoint(c, r), d = (t_r3){x1.a0 / det, x1.a1 / det, x1.a2 / det};
+    return (t__r3_3){vectors_plus(vectors_plus(x, kernel_turn(R(1.0), u.a0, u.a1, u.a2, x.a0, x.a1, x.a2)),
+        vectors_scaled(R(2.0) / length, vectors_minus(d, vectors_cross(u, d)))), d, r};
+}
+
+INLINE real proved_left(t_r3 d, t_r3 r, t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
+    t_r3 x = vectors_cross(d, (t_r3){I.a0 * u.a0, I.a1 * u.a1, I.a2 * u.a2});
+    t_r3 y = vectors_cross(u, (t_r3){I.a0 * d.a0, I.a1 * d.a1, I.a2 * d.a2});
+    t__r3_2 B = (t__r3_2){(t_r3){I.a0 * d.a0, I.a1 * d.a1, I.a2 * d.a2}, vectors_scaled(D, vectors_minus(d,
+        vectors_scaled(vectors_dot(g, d), g)))};
+    t_r3 Ad = vectors_minus(vectors_plus(vectors_plus(B.a0, B.a1), vectors_plus(x, y)), vectors_scaled(R(2.0) *
+        vectors_dot(u, d), k));
+    return vectors_length(vectors_minus(Ad, r));
+}
+
+INLINE t_r3 proved_unit(t_r3 v, t_r3 instead) {
+    real size = vectors_length(v); int whole = size > R(0.0); real scale = whole ? R(1.0) / size : R(1.0);
+    t_r3 u = vectors_scaled(scale, v);
+    return (t_r3){whole ? u.a0 : instead.a0, whole ? u.a1 : instead.a1, whole ? u.a2 : instead.a2};
+}
+
+INLINE t_r3 proved_across(t_r3 v, t_r3 x) {
+    t_r3 y = vectors_minus(v, vectors_scaled(vectors_dot(v, x), x));
+    int far = vectors_square(y) > R(8.673617379884035e-19) * vectors_square(v), flat = R(fabs(x.a0)) < R(0.7);
+    t_r3 t_1 = (t_r3){R(1.0), R(0.0), R(0.0)}, t_2 = (t_r3){R(0.0), R(1.0), R(0.0)};
+    t_r3 other = (t_r3){flat ? t_1.a0 : t_2.a0, flat ? t_1.a1 : t_2.a1, flat ? t_1.a2 : t_2.a2};
+    t_r3 z = vectors_minus(other, vectors_scaled(vectors_dot(other, x), x));
+    return proved_unit((t_r3){far ? y.a0 : z.a0, far ? y.a1 : z.a1, far ? y.a2 : z.a2}, other);
+}
+
+OUT_OF_LINE void proved_squared(r1 box) {
+    for (int64_t j = 0; j < 3; j++) {
+        vectors_put(box, 0 + 3 * j, vectors_scaled(box.p[9 + j], vectors_three(box, 0 + 3 * j)));
+    }
+    int64_t i = 0, j = 1; t_r3 a = vectors_three(box, 0 + 3 * i), b = vectors_three(box, 0 + 3 * j);
+    int swap = vectors_square(a) < vectors_square(b);
+    vectors_put(box, 0 + 3 * i, (t_r3){swap ? b.a0 : a.a0, swap ? b.a1 : a.a1, swap ? b.a2 : a.a2});
+    vectors_put(box, 0 + 3 * j, (t_r3){swap ? a.a0 : b.a0, swap ? a.a1 : b.a1, swap ? a.a2 : b.a2}); i = 0; j = 2;
+    a = vectors_three(box, 0 + 3 * i); b = vectors_three(box, 0 + 3 * j);
+    swap = vectors_square(a) < vectors_square(b);
+    vectors_put(box, 0 + 3 * i, (t_r3){swap ? b.a0 : a.a0, swap ? b.a1 : a.a1, swap ? b.a2 : a.a2});
+    vectors_put(box, 0 + 3 * j, (t_r3){swap ? a.a0 : b.a0, swap ? a.a1 : b.a1, swap ? a.a2 : b.a2}); i = 1; j = 2;
+    a = vectors_three(box, 0 + 3 * i); b = vectors_three(box, 0 + 3 * j);
+    swap = vectors_square(a) < vectors_square(b);
+    vectors_put(box, 0 + 3 * i, (t_r3){swap ? b.a0 : a.a0, swap ? b.a1 : a.a1, swap ? b.a2 : a.a2});
+    vectors_put(box, 0 + 3 * j, (t_r3){swap ? a.a0 : b.a0, swap ? a.a1 : b.a1, swap ? a.a2 : b.a2});
+    t_r3 first = vectors_three(box, 0), second = vectors_three(box, 3), third = vectors_three(box, 6);
+    t_r3 x = proved_unit(first, (t_r3){R(1.0), R(0.0), R(0.0)}), y = proved_across(second, x);
+    y = proved_across(y, x); t_r3 z = vectors_cross(x, y);
+    real off = R(fabs(vectors_dot(x, y))) + R(fabs(vectors_dot(x, z))) + R(fabs(vectors_dot(y, z))) +
+        R(fabs(vectors_square(x) - R(1.0))) + R(fabs(vectors_square(y) - R(1.0)));
+    int good = off + R(fabs(vectors_square(z) - R(1.0))) <= R(1.4210854715202004e-14);
+    t_r3 t_1 = (t_r3){R(1.0), R(0.0), R(0.0)};
+    x = (t_r3){good ? x.a0 : t_1.a0, good ? x.a1 : t_1.a1, good ? x.a2 : t_1.a2};
+    t_r3 t_2 = (t_r3){R(0.0), R(1.0), R(0.0)};
+    y = (t_r3){good ? y.a0 : t_2.a0, good ? y.a1 : t_2.a1, good ? y.a2 : t_2.a2};
+    t_r3 t_3 = (t_r3){R(0.0), R(0.0), R(1.0)};
+    z = (t_r3){good ? z.a0 : t_3.a0, good ? z.a1 : t_3.a1, good ? z.a2 : t_3.a2};
+    real rest = box.p[12] + R(5.684341886080802e-14) * (vectors_length(first) + vectors_length(second) +
+        vectors_length(third));
+    j = 0; t_r3 q = x; vectors_put(box, 0 + 3 * j, q);
+    box.p[9 + j] = R(1.0000000000009095) * (R(fabs(vectors_dot(q, first))) + R(fabs(vectors_dot(q, second))) +
+        R(fabs(vectors_dot(q, third))) + rest);
+    j = 1; q = y; vectors_put(box, 0 + 3 * j, q);
+    box.p[9 + j] = R(1.0000000000009095) * (R(fabs(vectors_dot(q, first))) + R(fabs(vectors_dot(q, second))) +
+        R(fabs(vectors_dot(q, third))) + rest);
+    j = 2; q = z; vectors_put(box, 0 + 3 * j, q);
+    box.p[9 + j] = R(1.0000000000009095) * (R(fabs(vectors_dot(q, first))) + R(fabs(vectors_dot(q, second))) +
+        R(fabs(vectors_dot(q, third))) + rest);
+    box.p[12] = R(0.0);
+}
+
+OUT_OF_LINE void proved_carried_r1_p3_4r3(r1 box, t_p3 u, t_p3 k, t_p3 g, t_p3 I, real D, real slope, real radius) {
+    t_r3 c; real b, rounded, lost; t__r3_3 y;
+    t_r3 v = proved_floats__p3_(u), kf = proved_floats__p3_(k), gf = proved_floats__p3_(g);
+    t_r3 If = proved_floats__p3_(I);
+    real spread = R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2));
+    real half = vectors_length(kf), size = vectors_length(v), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
+    real steep = radius == R(-2.0) ? proved_slope_at(v, kf, gf, If, D) : slope, m = steep / R(1.0000000000009095);
+    real xi = proved_extent(box);
+    t_r13 found = kernel_gibbs_newton(v.a0, v.a1, v.a2, kf.a0, kf.a1, kf.a2, gf.a0, gf.a1, gf.a2, If.a0, If.a1, If.a2,
+        D);
+    real at_root = vectors_length(proved_floats__p3_(kernel_gibbs_residual_p12e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
+        g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D)));
+    real terms = (R(1.0) + size) * (most * size + half);
+    at_root = at_root + R(2.524354896707238e-29) * terms + R(2.0) * (D * size * box.p[14] + half * box.p[13]);
+    real shift = R(4.0) * D * size + R(2.0) * (R(1.0) + size * size) * half;
+    real curved = (R(11.0) * D * size + R(3.0) * (R(1.0) + size * size) * half) * xi * xi;
+    real w = m > R(0.0) ? R(1.0000000000009095) * ((at_root + shift * xi + curved) / m) : R(INFINITY);
+    int inside = w <= R(9.5367431640625e-07) && xi <= R(9.5367431640625e-07);
+    if (radius == R(-2.0)) {
+        inside = w <= R(1.4551915228366852e-11) && xi <= R(1.4551915228366852e-11) && R(2.0) * (spread + R(2.0) *
+            half) * w <= m;
+    }
+    else { inside = inside && size * size <= radius; }
+    if (!inside) { box.p[12] = R(INFINITY); return; }
+    real steeper = (spread + half) * w + R(5.0) * (half * size + D) * xi + R(1.4210854715202004e-14) * (most + half) *
+        (R(1.0) + size);
+    real more = (at_root + curved + steeper * w) / m + R(8.0) * w * (xi + w) + R(1.4210854715202004e-14) * (R(1.0) +
+        size) * (xi + w);
+    for (int64_t j = 0; j < 3; j++) {
+        c = vectors_three(box, 0 + 3 * j); b = box.p[9 + j];
+        y = tangent_column(c, v, kf, gf, D, found.a0, (t_r9){found.a4, found.a5, found.a6, found.a7, found.a8,
+            found.a9, found.a10, found.a11, found.a12});
+        vectors_put(box, 0 + 3 * j, y.a0);
+        rounded = R(1.4210854715202004e-14) * (R(1.0) + size) * ((most + half) * vectors_length(y.a1) + shift *
+            vectors_length(c));
+        lost = proved_left(y.a1, y.a2, v, kf, gf, If, D) + rounded;
+        more = more + b * (R(2.0) * lost / m + R(1.4210854715202004e-14) * (vectors_length(c) +
+            vectors_length(y.a1)));
+    }
+    box.p[12] = R(1.0000000000009095) * ((R(1.0) + shift / m) * box.p[12] + more);
+    box.p[13] = R(1.0000000000009095) * (box.p[13] + R(2.524354896707238e-29) * size + R(3.1554436208840472e-30));
+    box.p[14] = R(1.0000000000009095) * (box.p[14] + R(2.524354896707238e-29) * size + R(3.1554436208840472e-30));
+    box.p[15] = R(1.0000000000009095) * (box.p[15] + R(2.524354896707238e-29));
+    box.p[16] = R(1.0000000000009095) * (box.p[16] + R(3.0) * w + size * (R(10.0) * xi + R(4.0) * (box.p[15] +
+        box.p[14] + R(2.524354896707238e-29))));
+    box.p[17] = box.p[17] + R(1.0);
+    if (mod_i((int64_t)box.p[17], 8) == 0 || shift > R(0.5) * m) { proved_squared(box); }
+}
+
 INLINE t_p3 kernel_centre_step_p7(t_r2 q0, t_r2 q1, t_r2 q2, t_r2 q3, t_r2 g1, t_r2 g2, t_r2 g3) {
     t_r2 t0 = (t_r2){2 * q0.a0, 2 * q0.a1}, t_1 = pairs_loose_multiply(g3.a0, g3.a1, q2.a0, q2.a1);
     t_r2 t_2 = pairs_loose_multiply(g2.a0, g2.a1, q3.a0, q3.a1);
@@ -2538,7 +2734,7 @@ INLINE t_r2 pairs_add(real a, real a_, real b, real b_) {
 }
 
 INLINE t_r2 pairs_subtract(real a, real a_, real b, real b_) { return pairs_add(a, a_, -b, -b_); }
-OUT_OF_LINE void double_double_restore_pairs(r1 state) {
+OUT_OF_LINE t_r2 double_double_restore_pairs(r1 state) {
     t_r2 x, y; t_p3 k = double_double_three_pairs(state, 0), g = double_double_three_pairs(state, 6);
     t_p3 h = double_double_three_pairs(state, 22);
     t_p3 now = double_double_normalised__p3_((t_p3){vectors_dot__p3_2(g, g), vectors_dot__p3_2(k, g),
@@ -2554,6 +2750,14 @@ OUT_OF_LINE void double_double_restore_pairs(r1 state) {
         t_r2 t_2 = pairs_two_sum(y.a0, y.a1 + stretch.a0 * y.a0);
         double_double_put_pair_r1ip(state, 6 + i, (t_r2){t_2.a0, t_2.a1});
     }
+    return (t_r2){R(fabs(stretch.a0)), R(fabs(stretch.a1)) + R(fabs(stretch.a2)) /
+        max_r(vectors_length(double_double_highs__p3_(k)), R(1e-300))};
+}
+
+INLINE void proved_write_spread(r1 row, r1 box) {
+    real xi = proved_extent(box); row.p[0] = R(1.0000000000009095) * (R(2.0) * xi + R(3.0) * xi * xi + box.p[13]);
+    row.p[1] = R(1.0000000000009095) * (R(2.0) * xi + R(3.0) * xi * xi + box.p[14]);
+    row.p[2] = R(1.0000000000009095) * (xi + box.p[15]); row.p[3] = xi < R(INFINITY) ? box.p[16] : R(INFINITY);
 }
 
 INLINE void double_double_write(r1 frame, r1 frame_, r1 pairs, int64_t at, int64_t exponent) {
@@ -2565,22 +2769,38 @@ INLINE void double_double_write(r1 frame, r1 frame_, r1 pairs, int64_t at, int64
 
 INLINE t_i2r double_double_march_pairs(r1 state, r2 c, r1 radius, r1 enough, r3 past, int64_t first, int64_t count,
     int64_t every, int64_t shift, int64_t beyond, r2 momenta, r2 momenta_, r2 verticals, r2 verticals_, int with_body,
-    r1 attitude, r1 contact, real rho, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_) {
-    t_ir_p3_ status; int64_t frame; int64_t period = max_i(1, div_i(1024, c.n0));
+    r1 attitude, r1 contact, real rho, r2 attitudes, r2 attitudes_, r2 traces, r2 traces_, r2 slopes, r1 box, r2
+    spread) {
+    t_ir_p3_ status; t_p3 k, g, inertia, part; t_r2 stretched; int64_t frame; int proves = spread.n0 > 0;
+    int64_t period = max_i(1, div_i(1024, c.n0));
     for (int64_t step = first + 1, end_step = first + count + 1; step < end_step; step++) {
         for (int64_t i = 0, end_i = c.n0; i < end_i; i++) {
             status = double_double_stage_r1pr2r2(state, (t_r2){AT2(c, i, 0), AT2(c, i, 1)}, radius.p[i], enough.p[i],
                 r3_row(past, i));
             if (status.a0 != 0) { return (t_i2r){step - 1 - first, status.a0, status.a1}; }
+            if (proves) {
+                k = double_double_three_pairs(state, 0); g = double_double_three_pairs(state, 6);
+                inertia = double_double_three_pairs(state, 12);
+                part = double_double_normalised__p3_(vectors_scaled_p_p3_((t_r2){AT2(c, i, 0), AT2(c, i, 1)}, k));
+                proved_carried_r1_p3_4r3(box, status.a2, part, g, inertia, state.p[21], AT2(slopes, i, 0), AT2(slopes,
+                    i, 1));
+            }
             if (with_body) { double_double_follow_body__p3_r13r(status.a2, state, attitude, contact, rho); }
             double_double_put_pairs_r1i_p3_(state, 0, double_double_turned__p3_2(status.a2,
                 double_double_three_pairs(state, 0)));
             double_double_put_pairs_r1i_p3_(state, 6, double_double_turned__p3_2(status.a2,
                 double_double_three_pairs(state, 6)));
         }
-        if (mod_i(step, period) == 0) { double_double_restore_pairs(state); }
+        if (mod_i(step, period) == 0) {
+            stretched = double_double_restore_pairs(state);
+            if (proves) {
+                real t_1 = box.p[13] + R(2.0) * stretched.a1, t_2 = box.p[14] + R(2.0) * stretched.a0;
+                box.p[13] = t_1; box.p[14] = t_2;
+            }
+        }
         if (mod_i(step, every) == 0) {
             frame = div_i(step, every);
+            if (proves) { proved_write_spread(r2_row(spread, frame), box); }
             double_double_write(r2_row(momenta, frame), r2_row(momenta_, frame), state, 0, -shift);
             double_double_write(r2_row(verticals, frame), r2_row(verticals_, frame), state, 6, 0);
             if (with_body) {
@@ -2873,24 +3093,15 @@ INLINE t_i2r2 double_double_march_long_pairs(r1 momentum, r1 g, r1 tensor, real 
     return (t_i2r2){count, 0, R(1.0), doubt};
 }
 
-INLINE t_r3 tangent_column(t_r3 x, t_r3 u, r1 state, real det, t_r9 c) {
-    t_r3 g = vectors_three(state, 3), a = vectors_cross(vectors_three(state, 0), x), b = vectors_cross(g, x);
-    real length = R(1.0) + vectors_dot(u, u);
-    t_r3 r = vectors_plus(vectors_plus(vectors_scaled(state.p[24] * vectors_dot(g, u), b), vectors_scaled(state.p[24]
-        * vectors_dot(b, u), g)), vectors_scaled(length, a));
-    t_r3 x1 = vectors_adjoint(c, r), d = (t_r3){x1.a0 / det, x1.a1 / det, x1.a2 / det};
-    return vectors_plus(vectors_plus(x, kernel_turn(R(1.0), u.a0, u.a1, u.a2, x.a0, x.a1, x.a2)),
-        vectors_scaled(R(2.0) / length, vectors_minus(d, vectors_cross(u, d))));
-}
-
 INLINE void tangent_derivative(t_r3 u, r1 state, r2 T) {
-    t_r3 x; t_r3 t_1 = vectors_three(state, 0), t_2 = vectors_three(state, 3), t_3 = vectors_three(state, 21);
-    t_r13 n = kernel_gibbs_newton(u.a0, u.a1, u.a2, t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, t_3.a0, t_3.a1,
-        t_3.a2, state.p[24]);
+    t_r3 x; t__r3_3 y; t_r3 k = vectors_three(state, 0), g = vectors_three(state, 3), t_1 = vectors_three(state, 21);
+    t_r13 n = kernel_gibbs_newton(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, t_1.a0, t_1.a1, t_1.a2,
+        state.p[24]);
     for (int64_t i = 0; i < 3; i++) {
         x = (t_r3){i == 0 ? R(1.0) : R(0.0), i == 1 ? R(1.0) : R(0.0), i == 2 ? R(1.0) : R(0.0)};
-        vectors_put(r2_row(T, i), 0, tangent_column(x, u, state, n.a0, (t_r9){n.a4, n.a5, n.a6, n.a7, n.a8, n.a9,
-            n.a10, n.a11, n.a12}));
+        y = tangent_column(x, u, k, g, state.p[24], n.a0, (t_r9){n.a4, n.a5, n.a6, n.a7, n.a8, n.a9, n.a10, n.a11,
+            n.a12});
+        vectors_put(r2_row(T, i), 0, y.a0);
     }
 }
 
@@ -3651,7 +3862,8 @@ static void in_double_double_prepare_pairs(const argument *a, argument *got) {
 
 WIDEST static void in_double_double_march_pairs(const argument *a, argument *got) {
     t_i2r out = double_double_march_pairs(r1_(0), r2_(1), r1_(2), r1_(3), r3_(4), i_(5), i_(6), i_(7), i_(8), i_(9),
-        r2_(10), r2_(11), r2_(12), r2_(13), b_(14), r1_(15), r1_(16), r_(17), r2_(18), r2_(19), r2_(20), r2_(21));
+        r2_(10), r2_(11), r2_(12), r2_(13), b_(14), r1_(15), r1_(16), r_(17), r2_(18), r2_(19), r2_(20), r2_(21),
+        r2_(22), r1_(23), r2_(24));
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2;
 }
 
@@ -3704,7 +3916,7 @@ const loop_export LOOPS()[] = {
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1 r1 r i i r2* r1*", "b", in_vertical_loop_march},
     {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_prepare_pairs},
-    {"double_double_march_pairs", "r1* r2 r1 r1 r3* i i i i i r2* r2* r2* r2* b r1* r1* r r2* r2* r2* r2*", "iir", in_double_double_march_pairs},
+    {"double_double_march_pairs", "r1* r2 r1 r1 r3* i i i i i r2* r2* r2* r2* b r1* r1* r r2* r2* r2* r2* r2 r1* r2*", "iir", in_double_double_march_pairs},
     {"double_double_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_prepare_pairs_block},
     {"double_double_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_march_pairs_block},
     {"double_double_march_long_pairs", "r1 r1 r1 r r r i i i r2 r b r1 r1* r2* r2* r2* r2* r2* r2* r2* r2*", "iirr", in_double_double_march_long_pairs},
@@ -3716,5 +3928,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "ffdc3ae38a1215377c5adc49c39a058098a31c994eba3feaeb9226d84bd138f5";
+const char loops_text[] = "d76b5669cc5334ad7cb91bfa8e46532e9e1598e79ae0208c3b34ab62138ec92b";
 #endif

@@ -14,6 +14,7 @@ from ..coefficients import COMPOSITIONS
 from ..errors import Status
 from ..failure import explain
 from ..loops import double_double as loop
+from . import proved
 from .frames import Balls, Count, Frames, cores, share
 
 #: Shorter runs than this are not shared out to cores.
@@ -25,15 +26,19 @@ CHUNK = 25_000
 
 
 def run(
-    balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None]
-) -> None:
-    """`double.run` in double-double.  It writes frame 0 anew: γ and the attitude are divided by their lengths."""
+    balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None],
+    spread: Floats | None = None,
+) -> None:  # fmt: skip
+    """`double.run` in double-double.  It writes frame 0 anew: γ and the attitude are divided by their lengths.
+
+    spread: how far the exact orbit may be is written there, (n, frames, 4), by `loops.proved`.
+    """
     low = frames.low
     assert low is not None
     stages = coefficients(order)
     count, n = Count(progress), len(balls.D)
     work = steps * n * len(stages)
-    in_blocks = n >= FEW and not frames.with_body and order == 2 and native.is_compiled()
+    in_blocks = n >= FEW and not frames.with_body and order == 2 and native.is_compiled() and spread is None
     width = loop.LANES if in_blocks else 1
     starts = range(0, n, width)
 
@@ -41,7 +46,8 @@ def run(
         if in_blocks:
             _run_block(balls, slice(start, min(n, start + width)), steps, every, frames, low, stages, count)
         else:
-            _run_one(balls, start, steps, every, frames, low, stages, count)
+            kept = np.empty((0, 4)) if spread is None else spread[start]
+            _run_one(balls, start, steps, every, frames, low, stages, count, kept)
 
     share(task, starts, min(threads or cores(), len(starts)) if work >= SHORT_RUN else 1, count)
 
@@ -94,8 +100,9 @@ def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | No
 
 
 def _run_one(
-    balls: Balls, i: int, steps: int, every: int, frames: Frames, low: Frames, stages: Floats, count: Count
-) -> None:
+    balls: Balls, i: int, steps: int, every: int, frames: Frames, low: Frames, stages: Floats, count: Count,
+    spread: Floats,
+) -> None:  # fmt: skip
     march, prepare = native.loop(loop.march_pairs), native.loop(loop.prepare_pairs)
     K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
     state, limits, past = np.zeros(loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
@@ -103,6 +110,7 @@ def _run_one(
     if balls.rest is not None:
         _add(balls.rest[i], state, shift)
     attitude, contact = _begin(frames, low, i, state, balls.rest)
+    proof = proved.begun(state, stages, beyond) if len(spread) else (np.empty((0, 2)), np.empty(0))
     chunk = max(1, CHUNK // len(stages))
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
@@ -110,6 +118,7 @@ def _run_one(
             state, stages, *limits, past, first, now, every, shift, beyond,
             frames.momentum[i], low.momentum[i], frames.gamma[i], low.gamma[i], frames.with_body, attitude, contact,
             float(balls.radius[i]), frames.attitude[i], low.attitude[i], frames.contact[i], low.contact[i],
+            *proof, spread,
         )  # fmt: skip
         frames.taken[i] += went
         count.add(now)

@@ -31,12 +31,14 @@ from .gibbs import BEYOND, MOST_ROUNDS, certificate, correction, newton_round
 from .integrals import PERIOD, filtered, shares
 from .loop import HIGHEST
 from .path import search_on_path
+from .proved import G_OFF, K_OFF, carried, write_spread
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import (
     conjugate,
     dot,
     dot_four,
     largest,
+    length,
     minus,
     plus,
     put,
@@ -289,7 +291,10 @@ def remember_pairs(state):
 
 @out_of_line
 def restore_pairs(state):
-    """Gives k and γ the three integrals again, up to the rounding of these: else they walk by u² at each step."""
+    """Gives k and γ the three integrals again, up to the rounding of these: else they walk by u² at each step.
+
+    Returns by what part of their lengths γ and k moved.
+    """
     k, g = three_pairs(state, K), three_pairs(state, G)
     h, now = three_pairs(state, INTEGRALS), normalised((dot(g, g), dot(k, g), dot(k, k)))
     unit, _ = subtract(h[0].high, h[0].low, now[0].high, now[0].low)
@@ -300,6 +305,7 @@ def restore_pairs(state):
         x, y = pair(state, K + i), pair(state, G + i)
         put_pair(state, K + i, Loose(*two_sum(x.high, x.low + (along_k * x.high + along_gamma * y.high))))
         put_pair(state, G + i, Loose(*two_sum(y.high, y.low + stretch * y.high)))
+    return abs(stretch), abs(along_k) + abs(along_gamma) / max(length(highs(k)), 1e-300)
 
 
 def extrapolated(past, w):
@@ -353,27 +359,38 @@ def march_pairs(
     state: Vector, c: Matrix, radius: Vector, enough: Vector, past: Cube, first: int, count: int, every: int,
     shift: int, beyond: int, momenta: Matrix, momenta_: Matrix, verticals: Matrix, verticals_: Matrix, with_body: bool,
     attitude: Vector, contact: Vector, rho: float, attitudes: Matrix, attitudes_: Matrix, traces: Matrix,
-    traces_: Matrix,
+    traces_: Matrix, slopes: Matrix, box: Vector, spread: Matrix,
 ):  # fmt: skip
     """Takes `count` steps from the step `first` on, each with the stages c (s, 2); keeps every `every`-th state.
 
     state (ROWS), past (s, 8, 3), attitude (8) and contact (4) hold the present and move; shift and beyond are those of
     `scales`.  A name with _ is the low halves of its frames.  Returns (taken, status, reach).
+    spread (frames, 4), of no frame where nothing is proved: how far the exact orbit may be, as `proved.spread` writes
+    it; slopes (s, 2): m and radius² of each stage, box (`proved.ROWS`): the set that moves.
     """
+    proves = spread.shape[0] > 0
     period = max(1, PERIOD // c.shape[0])
     for step in range(first + 1, first + count + 1):
         for i in range(c.shape[0]):
             status, reach, u = stage(state, Loose(c[i, 0], c[i, 1]), radius[i], enough[i], past[i])
             if status != TAKEN:
                 return step - 1 - first, status, reach
+            if proves:
+                k, g, inertia = three_pairs(state, K), three_pairs(state, G), three_pairs(state, I)
+                part = normalised(scaled(Loose(c[i, 0], c[i, 1]), k))
+                carried(box, u, part, g, inertia, state[D], slopes[i, 0], slopes[i, 1])
             if with_body:
                 follow_body(u, state, attitude, contact, rho)
             put_pairs(state, K, turned(u, three_pairs(state, K)))
             put_pairs(state, G, turned(u, three_pairs(state, G)))
         if step % period == 0:
-            restore_pairs(state)
+            stretched, moved = restore_pairs(state)
+            if proves:
+                box[K_OFF], box[G_OFF] = box[K_OFF] + 2.0 * moved, box[G_OFF] + 2.0 * stretched
         if step % every == 0:
             frame = step // every
+            if proves:
+                write_spread(spread[frame], box)
             write(momenta[frame], momenta_[frame], state, K, -shift)
             write(verticals[frame], verticals_[frame], state, G, 0)
             if with_body:

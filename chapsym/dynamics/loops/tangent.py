@@ -16,23 +16,24 @@ from .text import Matrix, Vector
 from .vectors import adjoint, cross, dot, minus, plus, put, scaled, three
 
 
-def column(x, u, state, det, c):
-    """Tξ for one tangent vector ξ; state (`loop.ROWS`) before the step, det and the nine cofactors c of G_u."""
-    g = three(state, G)
-    a, b = cross(three(state, K), x), cross(g, x)
+def column(x, u, k, g, D, det, c):
+    """Tξ for one tangent vector ξ = x from k and γ; det and the nine cofactors c of G_u; with δu = d, G_u d = r."""
+    a, b = cross(k, x), cross(g, x)
     length = 1.0 + dot(u, u)
-    r = plus(plus(scaled(state[D] * dot(g, u), b), scaled(state[D] * dot(b, u), g)), scaled(length, a))
+    r = plus(plus(scaled(D * dot(g, u), b), scaled(D * dot(b, u), g)), scaled(length, a))
     x1, x2, x3 = adjoint(c, r)
     d = x1 / det, x2 / det, x3 / det
-    return plus(plus(x, turn(1.0, *u, *x)), scaled(2.0 / length, minus(d, cross(u, d))))
+    return plus(plus(x, turn(1.0, *u, *x)), scaled(2.0 / length, minus(d, cross(u, d)))), d, r
 
 
 def derivative(u, state, T):
     """Writes the three columns of the matrix T of the step with the Gibbs vector u into the rows of T."""
-    n = gibbs_newton(*u, *three(state, K), *three(state, G), *three(state, I), state[D])
+    k, g = three(state, K), three(state, G)
+    n = gibbs_newton(*u, *k, *g, *three(state, I), state[D])
     for i in range(3):
         x = 1.0 if i == 0 else 0.0, 1.0 if i == 1 else 0.0, 1.0 if i == 2 else 0.0
-        put(T[i], 0, column(x, u, state, n[0], n[4:13]))
+        y, _, _ = column(x, u, k, g, state[D], n[0], n[4:13])
+        put(T[i], 0, y)
 
 
 def determinant(T):

@@ -1,0 +1,172 @@
+"""How far the exact orbit of the map may be from a march in double-double: a proof in float64, step by step.
+
+The march takes Gibbs vectors ũ in pairs, and any vector turns by an exact rotation: they make an orbit R̃ of rotations,
+from which k̃ and γ̃ in pairs are off by the roundings of their turns, summed.  The exact orbit is R̃ times a small
+rotation, with the Gibbs vector ξ (lemma `state-error`, whose letters these are): k = Ω(ξ)ᵀk̃, γ = Ω(ξ)ᵀγ̃.
+The root u at k, γ is that of the branch; where G is monotone with m (`small-branch`, beyond its bound `straight-path`)
+|u - ũ| ≤ |G(ũ; k, γ)|/m, whatever found ũ.  G in pairs is as exact as its terms, and so w = u - ũ is
+
+    w = 2A⁻¹S(ξ) + (G(ũ; k̃, γ̃) + what is quadratic in ξ and w)/m,  S(ξ) = D(⟨γ̃,ũ⟩γ̃×ξ + ⟨ũ,γ̃×ξ⟩γ̃) + (1 + |ũ|²)k̃×ξ,
+
+and ξ after the step is Ω(ũ)ᵀξ + (w - ũ × w)/(1 + |ũ|²) up to 8|w|(|ξ| + |w|).  The set of ξ is a parallelepiped with a
+ball round it (Lohner): Σ zⱼcⱼ + e, |zⱼ| ≤ bⱼ, |e| ≤ r.  Its edges move by the derivative, in float64: what that rounds,
+and what the solution of the linear system leaves, goes into r.  Now and then the edges are made orthogonal again.
+
+Each bound is a sum of products of positive floats, of less than 2⁸ operations: `WIDER` covers their roundings.  What a
+kernel in pairs errs by, in parts of its terms taken absolutely, is counted on its text: 160·2⁻¹⁰⁶ at most, and the terms
+are at most 8 times the numbers below (`tests/dynamics/test_proved.py`): `EVALUATED` covers both.
+"""
+
+from math import inf, sqrt
+
+from chapsym.generated import gibbs_newton, gibbs_residual
+from chapsym.numbers.loose import Loose
+
+from .gibbs import BEYOND
+from .path import joined
+from .tangent import column
+from .text import out_of_line
+from .vectors import cross, dot, length, minus, plus, put, scaled, square, three
+
+#: The rows of a set of ξ: three edges c, their bounds b, r; what k̃ is off by, in parts of |k|, what γ̃, the attitude and
+#: the contact point, in radii, are off by; and the rotations that were proved.
+EDGES, BOUNDS, BALL, K_OFF, G_OFF, A_OFF, X_OFF, PROVED = 0, 9, 12, 13, 14, 15, 16, 17
+ROWS = 18
+#: What covers the roundings of a bound, of a sum of products in float64, of a kernel in pairs, and of a pair.
+WIDER, ROUNDED, EVALUATED, PAIR = 1.0 + 2.0**-40, 2.0**-46, 2.0**-95, 2.0**-98
+#: |ξ| and |w| above this are not followed.
+LARGEST = 2.0**-20
+#: Beyond the bound of `small-branch` each m(s) of `straight-path` is at least this part of Λmax, and |ξ| and |w| are
+#: below `NEAR`: what they and the roundings change in its inequality is then far below the 2 % that `path` keeps free.
+STEEP, NEAR = 2.0**-8, 2.0**-36
+#: Rotations between two looks at the edges; where the derivative may stretch by more than 1 + `QUICK`, at each.
+WINDOW, QUICK = 8, 0.5
+
+
+def extent(box):
+    """A bound of |ξ|."""
+    total = box[BALL]
+    for j in range(3):
+        total += box[BOUNDS + j] * length(three(box, EDGES + 3 * j))
+    return WIDER * total
+
+
+def floats(v):
+    """The numbers of a vector of pairs, once rounded."""
+    return v[0].high + v[0].low, v[1].high + v[1].low, v[2].high + v[2].low
+
+
+def slope_at(u, k, g, I, D):
+    """m where the bound of `small-branch` is passed: half the least stretch at u, if the straight path reaches it."""
+    half = sqrt(square(k))
+    reached, least = joined(u, square(u), k, half, g, I, D, 0.5 * (max(*I) - min(*I)))
+    flattest = min(least, min(*I)) - 0.25 * (half * length(u) - dot(k, u))
+    return 0.49 * least if reached > 0.0 and flattest > STEEP * (max(*I) + D) else 0.0
+
+
+def left(d, r, u, k, g, I, D):
+    """|Ad - r| for A = ∂G/∂u at u, |γ| = 1."""
+    x = cross(d, (I[0] * u[0], I[1] * u[1], I[2] * u[2]))
+    y = cross(u, (I[0] * d[0], I[1] * d[1], I[2] * d[2]))
+    B = (I[0] * d[0], I[1] * d[1], I[2] * d[2]), scaled(D, minus(d, scaled(dot(g, d), g)))
+    Ad = minus(plus(plus(B[0], B[1]), plus(x, y)), scaled(2.0 * dot(u, d), k))
+    return length(minus(Ad, r))
+
+
+@out_of_line
+def carried(box, u, k, g, I, D, slope, radius):
+    """The set after the step with the Gibbs vector u in pairs, from k, γ and I in pairs; all ξ if that is not proved.
+
+    slope: m by `small-branch` in |u|² ≤ radius; `BEYOND` for the radius where its bound is passed.
+    """
+    v, kf, gf, If = floats(u), floats(k), floats(g), floats(I)
+    spread, half, size, most = 0.5 * (max(*If) - min(*If)), length(kf), length(v), max(*If) + D
+    steep = slope_at(v, kf, gf, If, D) if radius == BEYOND else slope
+    m = steep / WIDER
+    xi = extent(box)
+    found = gibbs_newton(*v, *kf, *gf, *If, D)
+    at_root = length(floats(gibbs_residual(*u, *k, *g, *I, Loose(D))))
+    terms = (1.0 + size) * (most * size + half)
+    at_root = at_root + EVALUATED * terms + 2.0 * (D * size * box[G_OFF] + half * box[K_OFF])
+    shift = 4.0 * D * size + 2.0 * (1.0 + size * size) * half  # |2S(ξ)| ≤ shift |ξ|
+    curved = (11.0 * D * size + 3.0 * (1.0 + size * size) * half) * xi * xi
+    w = WIDER * ((at_root + shift * xi + curved) / m) if m > 0.0 else inf
+    inside = w <= LARGEST and xi <= LARGEST
+    if radius == BEYOND:  # the root is in the ball round ũ in which half the stretch is left
+        inside = w <= NEAR and xi <= NEAR and 2.0 * (spread + 2.0 * half) * w <= m
+    else:
+        inside = inside and size * size <= radius
+    if not inside:
+        box[BALL] = inf
+        return
+    steeper = (spread + half) * w + 5.0 * (half * size + D) * xi + ROUNDED * (most + half) * (1.0 + size)
+    more = (at_root + curved + steeper * w) / m + 8.0 * w * (xi + w) + ROUNDED * (1.0 + size) * (xi + w)
+    for j in range(3):
+        c, b = three(box, EDGES + 3 * j), box[BOUNDS + j]
+        y, d, r = column(c, v, kf, gf, D, found[0], found[4:13])
+        put(box, EDGES + 3 * j, y)
+        rounded = ROUNDED * (1.0 + size) * ((most + half) * length(d) + shift * length(c))
+        lost = left(d, r, v, kf, gf, If, D) + rounded
+        more += b * (2.0 * lost / m + ROUNDED * (length(c) + length(d)))
+    box[BALL] = WIDER * ((1.0 + shift / m) * box[BALL] + more)
+    box[K_OFF] = WIDER * (box[K_OFF] + EVALUATED * size + PAIR)
+    box[G_OFF] = WIDER * (box[G_OFF] + EVALUATED * size + PAIR)
+    box[A_OFF] = WIDER * (box[A_OFF] + EVALUATED)
+    box[X_OFF] = WIDER * (box[X_OFF] + 3.0 * w + size * (10.0 * xi + 4.0 * (box[A_OFF] + box[G_OFF] + EVALUATED)))
+    box[PROVED] += 1.0
+    if int(box[PROVED]) % WINDOW == 0 or shift > QUICK * m:
+        squared(box)
+
+
+@out_of_line
+def squared(box):
+    """Makes the edges orthogonal again, the longest first; the ball goes into their bounds."""
+    for j in range(3):
+        put(box, EDGES + 3 * j, scaled(box[BOUNDS + j], three(box, EDGES + 3 * j)))
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        a, b = three(box, EDGES + 3 * i), three(box, EDGES + 3 * j)
+        swap = square(a) < square(b)
+        put(box, EDGES + 3 * i, b if swap else a)
+        put(box, EDGES + 3 * j, a if swap else b)
+    first, second, third = three(box, EDGES), three(box, EDGES + 3), three(box, EDGES + 6)
+    x = unit(first, (1.0, 0.0, 0.0))
+    y = across(second, x)
+    y = across(y, x)
+    z = cross(x, y)
+    off = abs(dot(x, y)) + abs(dot(x, z)) + abs(dot(y, z)) + abs(square(x) - 1.0) + abs(square(y) - 1.0)
+    good = off + abs(square(z) - 1.0) <= ROUNDED
+    x = x if good else (1.0, 0.0, 0.0)
+    y = y if good else (0.0, 1.0, 0.0)
+    z = z if good else (0.0, 0.0, 1.0)
+    rest = box[BALL] + 4.0 * ROUNDED * (length(first) + length(second) + length(third))
+    for j, q in ((0, x), (1, y), (2, z)):
+        put(box, EDGES + 3 * j, q)
+        box[BOUNDS + j] = WIDER * (abs(dot(q, first)) + abs(dot(q, second)) + abs(dot(q, third)) + rest)
+    box[BALL] = 0.0
+
+
+def write_spread(row, box):
+    """How far 𝒦, in parts of |𝒦|, γ, the attitude and the contact point, in radii, may be from those of the march."""
+    xi = extent(box)
+    row[0] = WIDER * (2.0 * xi + 3.0 * xi * xi + box[K_OFF])
+    row[1] = WIDER * (2.0 * xi + 3.0 * xi * xi + box[G_OFF])
+    row[2], row[3] = WIDER * (xi + box[A_OFF]), box[X_OFF] if xi < inf else inf
+
+
+def unit(v, instead):
+    """v divided by its length, or a unit vector in its place where that is 0."""
+    size = length(v)
+    whole = size > 0.0
+    scale = 1.0 / size if whole else 1.0
+    u = scaled(scale, v)
+    return u if whole else instead
+
+
+def across(v, x):
+    """The direction of v across a unit vector x, or one of those across where v has none."""
+    y = minus(v, scaled(dot(v, x), x))
+    far = square(y) > 2.0**-60 * square(v)
+    flat = abs(x[0]) < 0.7
+    other = (1.0, 0.0, 0.0) if flat else (0.0, 1.0, 0.0)
+    z = minus(other, scaled(dot(other, x), x))
+    return unit(y if far else z, other)
