@@ -78,6 +78,7 @@ INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_r
 typedef struct { r1 first, allowed, most, start; } Asked;
 typedef struct { r2 tensor; r1 contact, radius; } Balls;
 typedef struct { r3 momenta, verticals, attitudes, traces; int follows, traced; } Frames;
+typedef struct { real w, m, rest, shift, curved; } Root;
 typedef struct { real a0, a1, a2, a3; } t_r4;
 typedef struct { real a0, a1, a2; } t_r3;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8; } t_r9;
@@ -1976,7 +1977,7 @@ INLINE t_i2 double_double_scales(r1 momentum, r1 tensor, real contact) {
     return (t_i2){beyond - exponent - 1, beyond};
 }
 
-INLINE t_e3 double_double_exact(t_r3 v) { return (t_e3){v.a0, v.a1, v.a2}; }
+INLINE t_e3 proved_exact(t_r3 v) { return (t_e3){v.a0, v.a1, v.a2}; }
 INLINE t_r2 pairs_two_product(real a, real b) { real p = a * b; return (t_r2){p, fma(a, b, -p)}; }
 INLINE t_r2 pairs_loose_add(real a, real a_, real b, real b_) {
     t_r2 s = pairs_two_sum(a, b); return (t_r2){s.a0, s.a1 + (a_ + b_)};
@@ -2005,11 +2006,11 @@ INLINE t_r2 pairs_divide(real a, real a_, real b, real b_) {
     return pairs_quick_two_sum(high, (a - r.a0 + (a_ - r.a1)) / b);
 }
 
-INLINE t_p3 double_double_unit(t_r3 v) {
-    t_e3 x = double_double_exact(v);
-    t_r2 t_1 = vectors_dot__e3_2(x, x), t_2 = pairs_two_sum(t_1.a0, t_1.a1), length = pairs_root(t_2.a0, t_2.a1);
-    t_r2 t_3 = pairs_two_sum(length.a0, length.a1), t_4 = pairs_two_sum(length.a0, length.a1);
-    t_r2 t_5 = pairs_two_sum(length.a0, length.a1);
+INLINE t_p3 proved_unit_pairs(t_r3 v) {
+    t_e3 x = proved_exact(v);
+    t_r2 t_1 = vectors_dot__e3_2(x, x), t_2 = pairs_two_sum(t_1.a0, t_1.a1), size = pairs_root(t_2.a0, t_2.a1);
+    t_r2 t_3 = pairs_two_sum(size.a0, size.a1), t_4 = pairs_two_sum(size.a0, size.a1);
+    t_r2 t_5 = pairs_two_sum(size.a0, size.a1);
     return (t_p3){pairs_divide(x.a0, 0, t_3.a0, t_3.a1), pairs_divide(x.a1, 0, t_4.a0, t_4.a1), pairs_divide(x.a2, 0,
         t_5.a0, t_5.a1)};
 }
@@ -2063,7 +2064,7 @@ OUT_OF_LINE t_i2 double_double_prepare_pairs(r1 momentum, r1 g, r1 tensor, real 
         state.p[18 + i] = R(ldexp(tensor.p[i], (int)-size));
     }
     state.p[21] = R(ldexp(contact, (int)-size));
-    double_double_put_pairs_r1i_p3_(state, 6, double_double_unit(vectors_three(g, 0)));
+    double_double_put_pairs_r1i_p3_(state, 6, proved_unit_pairs(vectors_three(g, 0)));
     t_r2 t_1 = pairs_two_sum(state.p[19], state.p[20]); state.p[12] = t_1.a0; state.p[13] = t_1.a1;
     t_r2 t_2 = pairs_two_sum(state.p[18], state.p[20]); state.p[14] = t_2.a0; state.p[15] = t_2.a1;
     t_r2 t_3 = pairs_two_sum(state.p[18], state.p[19]); state.p[16] = t_3.a0; state.p[17] = t_3.a1;
@@ -2289,7 +2290,7 @@ INLINE t_b_p3_ double_double_polished__r4__p3_2_r3_r2(t_r4 p, t_p3 k, t_p3 g, t_
     t_p4 q = (t_p4){(t_r2){p.a0, R(0.0)}, (t_r2){p.a1, R(0.0)}, (t_r2){p.a2, R(0.0)}, (t_r2){p.a3, R(0.0)}};
     real before = near; int settled = 0;
     for (int64_t i_0 = 0; i_0 < 60; i_0++) {
-        t_q3 t_1 = double_double_sums_normal__p3_((t_p3){q.a1, q.a2, q.a3}); t_e3 t_2 = double_double_exact(J);
+        t_q3 t_1 = double_double_sums_normal__p3_((t_p3){q.a1, q.a2, q.a3}); t_e3 t_2 = proved_exact(J);
         r = kernel_residual_q10e4((t_r2){q.a0.a0, q.a0.a1}, t_1.a0, t_1.a1, t_1.a2, K.a0, K.a1, K.a2, v.a0, v.a1,
             v.a2, t_2.a0, t_2.a1, t_2.a2, D);
         t_r3 t_3 = double_double_highs__p3_((t_p3){q.a1, q.a2, q.a3});
@@ -2324,7 +2325,7 @@ INLINE t_ir_p3_ double_double_solved__r3__p3_3_r3_r3(t_r3 u, t_p3 k, t_p3 g, t_p
         vertical, inertia, D, radius, enough);
     int settled = radius >= R(0.0) && r.first <= enough; t_r3 w = r.w; int64_t status = 0; real reach = R(1.0);
     if (settled) {
-        t_e3 t_3 = double_double_exact(w);
+        t_e3 t_3 = proved_exact(w);
         G = kernel_gibbs_residual_e3p9e(t_3.a0, t_3.a1, t_3.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, I.a0, I.a1, I.a2,
             D);
         t_r2 t_4 = pairs_two_sum(G.a0.a0, G.a0.a1), t_5 = pairs_two_sum(G.a1.a0, G.a1.a1);
@@ -2388,7 +2389,17 @@ INLINE t_ir_p3_ double_double_stage_r1pr2r2(r1 state, t_r2 c, real radius, real 
     return (t_ir_p3_){status.a0, status.a1, status.a2};
 }
 
-INLINE t_r3 proved_floats__p3_(t_p3 v) { return (t_r3){v.a0.a0 + v.a0.a1, v.a1.a0 + v.a1.a1, v.a2.a0 + v.a2.a1}; }
+INLINE t_r3 proved_floats__p3_(t_p3 v) {
+    t_r2 t_1 = pairs_two_sum(v.a0.a0, v.a0.a1), t_2 = pairs_two_sum(v.a1.a0, v.a1.a1);
+    t_r2 t_3 = pairs_two_sum(v.a2.a0, v.a2.a1); return (t_r3){t_1.a0, t_2.a0, t_3.a0};
+}
+
+INLINE real proved_extent(r1 box) {
+    real total = box.p[12];
+    for (int64_t j = 0; j < 3; j++) { total = total + box.p[9 + j] * vectors_length(vectors_three(box, 0 + 3 * j)); }
+    return R(1.0000000000009095) * total;
+}
+
 INLINE real proved_slope_at(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
     real half = R(sqrt(vectors_square(k)));
     t_r2 reached = path_joined(u, vectors_square(u), k, half, g, I, D, R(0.5) * (max_r(max_r(I.a0, I.a1), I.a2) -
@@ -2397,12 +2408,6 @@ INLINE real proved_slope_at(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
         vectors_dot(k, u));
     return (reached.a0 > R(0.0) && flattest > R(0.00390625) * (max_r(max_r(I.a0, I.a1), I.a2) + D)) ? R(0.49) *
         reached.a1 : R(0.0);
-}
-
-INLINE real proved_extent(r1 box) {
-    real total = box.p[12];
-    for (int64_t j = 0; j < 3; j++) { total = total + box.p[9 + j] * vectors_length(vectors_three(box, 0 + 3 * j)); }
-    return R(1.0000000000009095) * total;
 }
 
 INLINE t_p3 kernel_gibbs_residual_p12e(t_r2 u1, t_r2 u2, t_r2 u3, t_r2 k1, t_r2 k2, t_r2 k3, t_r2 g1, t_r2 g2, t_r2
@@ -2457,6 +2462,30 @@ INLINE t_p3 kernel_gibbs_residual_p12e(t_r2 u1, t_r2 u2, t_r2 u3, t_r2 k1, t_r2 
     t_r2 t_40 = pairs_loose_add(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
     t_r2 t_41 = pairs_loose_add(t_38.a0, t_38.a1, t_39.a0, t_39.a1);
     t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
+}
+
+INLINE Root proved_root_near__p3_4r6(t_p3 u, t_p3 k, t_p3 g, t_p3 I, real D, real slope, real radius, real xi, real
+    k_off, real g_off) {
+    t_r3 v = proved_floats__p3_(u), kf = proved_floats__p3_(k), gf = proved_floats__p3_(g);
+    t_r3 If = proved_floats__p3_(I);
+    real spread = R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2));
+    real half = R(2.0) * vectors_largest(kf), size = vectors_length(v), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
+    real m = (radius == R(-2.0) ? proved_slope_at(v, kf, gf, If, D) : slope) / R(1.0000000000009095);
+    real whole = R(1.0) + size * size;
+    real at_root = vectors_length(proved_floats__p3_(kernel_gibbs_residual_p12e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
+        g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D)));
+    real rest = at_root + R(2.524354896707238e-29) * (R(1.0) + size) * (most * size + half) + R(2.0) * (D * size *
+        g_off + half * k_off) + R(9.332636185032189e-302);
+    real shift = R(4.0) * D * size + R(2.0) * whole * half;
+    real curved = (R(11.0) * D * size + R(3.0) * whole * half) * xi * xi;
+    real w = m > R(0.0) ? R(1.0000000000009095) * ((rest + shift * xi + curved) / m) : R(INFINITY);
+    int inside = w <= R(9.5367431640625e-07) && xi <= R(9.5367431640625e-07);
+    if (radius == R(-2.0)) {
+        inside = w <= R(1.4551915228366852e-11) && xi <= R(1.4551915228366852e-11) && R(2.0) * (spread + R(2.0) *
+            half) * w <= m;
+    }
+    else { inside = inside && size * size <= radius; }
+    return (Root){inside ? w : R(INFINITY), m, rest, shift, curved};
 }
 
 INLINE t__r3_3 tangent_column(t_r3 x, t_r3 u, t_r3 k, t_r3 g, real D, real det, t_r9 c) {
@@ -2535,34 +2564,21 @@ OUT_OF_LINE void proved_squared(r1 box) {
     box.p[12] = R(0.0);
 }
 
-OUT_OF_LINE void proved_carried_r1_p3_4r3(r1 box, t_p3 u, t_p3 k, t_p3 g, t_p3 I, real D, real slope, real radius) {
+INLINE void proved_carried_r1_p3_4r3(r1 box, t_p3 u, t_p3 k, t_p3 g, t_p3 I, real D, real slope, real radius) {
     t_r3 c; real b, rounded, lost; t__r3_3 y;
     t_r3 v = proved_floats__p3_(u), kf = proved_floats__p3_(k), gf = proved_floats__p3_(g);
-    t_r3 If = proved_floats__p3_(I);
+    t_r3 If = proved_floats__p3_(I); real xi = proved_extent(box);
+    Root root = proved_root_near__p3_4r6(u, k, g, I, D, slope, radius, xi, box.p[13], box.p[14]);
+    real w = root.w, m = root.m, shift = root.shift;
+    if (w == R(INFINITY)) { box.p[12] = R(INFINITY); return; }
     real spread = R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2));
     real half = vectors_length(kf), size = vectors_length(v), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
-    real steep = radius == R(-2.0) ? proved_slope_at(v, kf, gf, If, D) : slope, m = steep / R(1.0000000000009095);
-    real xi = proved_extent(box);
     t_r13 found = kernel_gibbs_newton(v.a0, v.a1, v.a2, kf.a0, kf.a1, kf.a2, gf.a0, gf.a1, gf.a2, If.a0, If.a1, If.a2,
         D);
-    real at_root = vectors_length(proved_floats__p3_(kernel_gibbs_residual_p12e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
-        g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D)));
-    real terms = (R(1.0) + size) * (most * size + half);
-    at_root = at_root + R(2.524354896707238e-29) * terms + R(2.0) * (D * size * box.p[14] + half * box.p[13]);
-    real shift = R(4.0) * D * size + R(2.0) * (R(1.0) + size * size) * half;
-    real curved = (R(11.0) * D * size + R(3.0) * (R(1.0) + size * size) * half) * xi * xi;
-    real w = m > R(0.0) ? R(1.0000000000009095) * ((at_root + shift * xi + curved) / m) : R(INFINITY);
-    int inside = w <= R(9.5367431640625e-07) && xi <= R(9.5367431640625e-07);
-    if (radius == R(-2.0)) {
-        inside = w <= R(1.4551915228366852e-11) && xi <= R(1.4551915228366852e-11) && R(2.0) * (spread + R(2.0) *
-            half) * w <= m;
-    }
-    else { inside = inside && size * size <= radius; }
-    if (!inside) { box.p[12] = R(INFINITY); return; }
     real steeper = (spread + half) * w + R(5.0) * (half * size + D) * xi + R(1.4210854715202004e-14) * (most + half) *
         (R(1.0) + size);
-    real more = (at_root + curved + steeper * w) / m + R(8.0) * w * (xi + w) + R(1.4210854715202004e-14) * (R(1.0) +
-        size) * (xi + w);
+    real more = (root.rest + root.curved + steeper * w) / m + R(8.0) * w * (xi + w) + R(1.4210854715202004e-14) *
+        (R(1.0) + size) * (xi + w);
     for (int64_t j = 0; j < 3; j++) {
         c = vectors_three(box, 0 + 3 * j); b = box.p[9 + j];
         y = tangent_column(c, v, kf, gf, D, found.a0, (t_r9){found.a4, found.a5, found.a6, found.a7, found.a8,
@@ -2863,9 +2879,8 @@ INLINE int64_t double_double_approached(r2 S, r2 P, i1 ok, int again) {
 INLINE void double_double_residuals(r2 S, r2 P) {
     t_e3 w; real contact; t_p3 k, g, inertia;
     INDEPENDENT for (int64_t i = 0; i < 16; i++) {
-        w = double_double_exact(vectors_three_in(P, 0, i)); contact = AT2(S, 21, i);
-        k = double_double_pairs_in(S, 0, i); g = double_double_pairs_in(S, 6, i);
-        inertia = double_double_pairs_in(S, 12, i);
+        w = proved_exact(vectors_three_in(P, 0, i)); contact = AT2(S, 21, i); k = double_double_pairs_in(S, 0, i);
+        g = double_double_pairs_in(S, 6, i); inertia = double_double_pairs_in(S, 12, i);
         vectors_put_in(P, 16, i,
             double_double_highs__p3_(double_double_normalised__p3_(kernel_gibbs_residual_e3p9e(w.a0, w.a1, w.a2, k.a0,
             k.a1, k.a2, g.a0, g.a1, g.a2, inertia.a0, inertia.a1, inertia.a2, contact))));
@@ -3091,6 +3106,236 @@ INLINE t_i2r2 double_double_march_long_pairs(r1 momentum, r1 g, r1 tensor, real 
         }
     }
     return (t_i2r2){count, 0, R(1.0), doubt};
+}
+
+INLINE t_r2 proved_slope_of(t_r3 k, t_r3 I, real D) {
+    t_r2 radius = gibbs_bound(k, I, D);
+    real least = min_r(min_r(I.a0, I.a1), I.a2), most = max_r(max_r(I.a0, I.a1), I.a2);
+    real slope = least - R(sqrt(max_r(radius.a0, R(0.0)))) * (R(0.5) * (most - least) + R(2.0) * vectors_length(k)) *
+        R(1.0000000000009095);
+    return (t_r2){radius.a0 < R(0.0) ? R(0.0) : slope, radius.a0};
+}
+
+INLINE t_r3 proved_floats__e3_(t_e3 v) { return (t_r3){v.a0, v.a1, v.a2}; }
+INLINE t_p3 kernel_gibbs_residual_e9p3e(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real
+    g3, t_r2 I1, t_r2 I2, t_r2 I3, real D) {
+    t_r2 t_1 = pairs_two_product(g3, u2), t_2 = pairs_two_product(g2, u3);
+    t_r2 x1 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1), t_3 = pairs_two_product(g1, u3);
+    t_r2 t_4 = pairs_two_product(g3, u1), x2 = pairs_loose_subtract(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+    t_r2 t_5 = pairs_two_product(g2, u1), t_6 = pairs_two_product(g1, u2);
+    t_r2 x3 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
+    t_r2 y1 = pairs_loose_multiply_float(I1.a0, I1.a1, u1), y2 = pairs_loose_multiply_float(I2.a0, I2.a1, u2);
+    t_r2 y3 = pairs_loose_multiply_float(I3.a0, I3.a1, u3), t_7 = pairs_two_product(u1, u1);
+    t_r2 t_8 = pairs_two_product(u2, u2), t_9 = pairs_two_product(u3, u3);
+    t_r2 t_10 = pairs_loose_add_float(t_7.a0, t_7.a1, 1), t_11 = pairs_loose_add(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
+    t_r2 s = pairs_loose_add(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
+    t_r2 t_12 = pairs_loose_multiply_float(x3.a0, x3.a1, g2), t_13 = pairs_loose_multiply_float(x2.a0, x2.a1, g3);
+    t_r2 t_14 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
+    t_r2 t_15 = pairs_loose_multiply_float(t_14.a0, t_14.a1, D);
+    t_r2 t_16 = pairs_loose_add(y1.a0, y1.a1, t_15.a0, t_15.a1), t_17 = pairs_loose_multiply_float(y3.a0, y3.a1, u2);
+    t_r2 t_18 = pairs_loose_multiply_float(s.a0, s.a1, k1), t_19 = pairs_loose_multiply_float(y2.a0, y2.a1, u3);
+    t_r2 t_20 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
+    t_r2 t_21 = pairs_loose_add(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
+    t_r2 o_r1 = pairs_loose_subtract(t_20.a0, t_20.a1, t_21.a0, t_21.a1);
+    t_r2 t_22 = pairs_loose_multiply_float(x1.a0, x1.a1, g3), t_23 = pairs_loose_multiply_float(x3.a0, x3.a1, g1);
+    t_r2 t_24 = pairs_loose_subtract(t_22.a0, t_22.a1, t_23.a0, t_23.a1);
+    t_r2 t_25 = pairs_loose_multiply_float(t_24.a0, t_24.a1, D);
+    t_r2 t_26 = pairs_loose_add(y2.a0, y2.a1, t_25.a0, t_25.a1), t_27 = pairs_loose_multiply_float(y1.a0, y1.a1, u3);
+    t_r2 t_28 = pairs_loose_multiply_float(s.a0, s.a1, k2), t_29 = pairs_loose_multiply_float(y3.a0, y3.a1, u1);
+    t_r2 t_30 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1);
+    t_r2 t_31 = pairs_loose_add(t_28.a0, t_28.a1, t_29.a0, t_29.a1);
+    t_r2 o_r2 = pairs_loose_subtract(t_30.a0, t_30.a1, t_31.a0, t_31.a1);
+    t_r2 t_32 = pairs_loose_multiply_float(x2.a0, x2.a1, g1), t_33 = pairs_loose_multiply_float(x1.a0, x1.a1, g2);
+    t_r2 t_34 = pairs_loose_subtract(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
+    t_r2 t_35 = pairs_loose_multiply_float(t_34.a0, t_34.a1, D);
+    t_r2 t_36 = pairs_loose_add(y3.a0, y3.a1, t_35.a0, t_35.a1), t_37 = pairs_loose_multiply_float(y2.a0, y2.a1, u1);
+    t_r2 t_38 = pairs_loose_multiply_float(s.a0, s.a1, k3), t_39 = pairs_loose_multiply_float(y1.a0, y1.a1, u2);
+    t_r2 t_40 = pairs_loose_add(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
+    t_r2 t_41 = pairs_loose_add(t_38.a0, t_38.a1, t_39.a0, t_39.a1);
+    t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
+}
+
+INLINE Root proved_root_near__e3_3_p3_r6(t_e3 u, t_e3 k, t_e3 g, t_p3 I, real D, real slope, real radius, real xi,
+    real k_off, real g_off) {
+    t_r3 v = proved_floats__e3_(u), kf = proved_floats__e3_(k), gf = proved_floats__e3_(g);
+    t_r3 If = proved_floats__p3_(I);
+    real spread = R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2));
+    real half = R(2.0) * vectors_largest(kf), size = vectors_length(v), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
+    real m = (radius == R(-2.0) ? proved_slope_at(v, kf, gf, If, D) : slope) / R(1.0000000000009095);
+    real whole = R(1.0) + size * size;
+    real at_root = vectors_length(proved_floats__p3_(kernel_gibbs_residual_e9p3e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
+        g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D)));
+    real rest = at_root + R(2.524354896707238e-29) * (R(1.0) + size) * (most * size + half) + R(2.0) * (D * size *
+        g_off + half * k_off) + R(9.332636185032189e-302);
+    real shift = R(4.0) * D * size + R(2.0) * whole * half;
+    real curved = (R(11.0) * D * size + R(3.0) * whole * half) * xi * xi;
+    real w = m > R(0.0) ? R(1.0000000000009095) * ((rest + shift * xi + curved) / m) : R(INFINITY);
+    int inside = w <= R(9.5367431640625e-07) && xi <= R(9.5367431640625e-07);
+    if (radius == R(-2.0)) {
+        inside = w <= R(1.4551915228366852e-11) && xi <= R(1.4551915228366852e-11) && R(2.0) * (spread + R(2.0) *
+            half) * w <= m;
+    }
+    else { inside = inside && size * size <= radius; }
+    return (Root){inside ? w : R(INFINITY), m, rest, shift, curved};
+}
+
+INLINE t_p3 kernel_gibbs_residual_e6p6e(real u1, real u2, real u3, real k1, real k2, real k3, t_r2 g1, t_r2 g2, t_r2
+    g3, t_r2 I1, t_r2 I2, t_r2 I3, real D) {
+    t_r2 t_1 = pairs_loose_multiply_float(g3.a0, g3.a1, u2), t_2 = pairs_loose_multiply_float(g2.a0, g2.a1, u3);
+    t_r2 x1 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
+    t_r2 t_3 = pairs_loose_multiply_float(g1.a0, g1.a1, u3), t_4 = pairs_loose_multiply_float(g3.a0, g3.a1, u1);
+    t_r2 x2 = pairs_loose_subtract(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+    t_r2 t_5 = pairs_loose_multiply_float(g2.a0, g2.a1, u1), t_6 = pairs_loose_multiply_float(g1.a0, g1.a1, u2);
+    t_r2 x3 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
+    t_r2 y1 = pairs_loose_multiply_float(I1.a0, I1.a1, u1), y2 = pairs_loose_multiply_float(I2.a0, I2.a1, u2);
+    t_r2 y3 = pairs_loose_multiply_float(I3.a0, I3.a1, u3), t_7 = pairs_two_product(u1, u1);
+    t_r2 t_8 = pairs_two_product(u2, u2), t_9 = pairs_two_product(u3, u3);
+    t_r2 t_10 = pairs_loose_add_float(t_7.a0, t_7.a1, 1), t_11 = pairs_loose_add(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
+    t_r2 s = pairs_loose_add(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
+    t_r2 t_12 = pairs_loose_multiply(g2.a0, g2.a1, x3.a0, x3.a1);
+    t_r2 t_13 = pairs_loose_multiply(g3.a0, g3.a1, x2.a0, x2.a1);
+    t_r2 t_14 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
+    t_r2 t_15 = pairs_loose_multiply_float(t_14.a0, t_14.a1, D);
+    t_r2 t_16 = pairs_loose_add(y1.a0, y1.a1, t_15.a0, t_15.a1), t_17 = pairs_loose_multiply_float(y3.a0, y3.a1, u2);
+    t_r2 t_18 = pairs_loose_multiply_float(s.a0, s.a1, k1), t_19 = pairs_loose_multiply_float(y2.a0, y2.a1, u3);
+    t_r2 t_20 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
+    t_r2 t_21 = pairs_loose_add(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
+    t_r2 o_r1 = pairs_loose_subtract(t_20.a0, t_20.a1, t_21.a0, t_21.a1);
+    t_r2 t_22 = pairs_loose_multiply(g3.a0, g3.a1, x1.a0, x1.a1);
+    t_r2 t_23 = pairs_loose_multiply(g1.a0, g1.a1, x3.a0, x3.a1);
+    t_r2 t_24 = pairs_loose_subtract(t_22.a0, t_22.a1, t_23.a0, t_23.a1);
+    t_r2 t_25 = pairs_loose_multiply_float(t_24.a0, t_24.a1, D);
+    t_r2 t_26 = pairs_loose_add(y2.a0, y2.a1, t_25.a0, t_25.a1), t_27 = pairs_loose_multiply_float(y1.a0, y1.a1, u3);
+    t_r2 t_28 = pairs_loose_multiply_float(s.a0, s.a1, k2), t_29 = pairs_loose_multiply_float(y3.a0, y3.a1, u1);
+    t_r2 t_30 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1);
+    t_r2 t_31 = pairs_loose_add(t_28.a0, t_28.a1, t_29.a0, t_29.a1);
+    t_r2 o_r2 = pairs_loose_subtract(t_30.a0, t_30.a1, t_31.a0, t_31.a1);
+    t_r2 t_32 = pairs_loose_multiply(g1.a0, g1.a1, x2.a0, x2.a1);
+    t_r2 t_33 = pairs_loose_multiply(g2.a0, g2.a1, x1.a0, x1.a1);
+    t_r2 t_34 = pairs_loose_subtract(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
+    t_r2 t_35 = pairs_loose_multiply_float(t_34.a0, t_34.a1, D);
+    t_r2 t_36 = pairs_loose_add(y3.a0, y3.a1, t_35.a0, t_35.a1), t_37 = pairs_loose_multiply_float(y2.a0, y2.a1, u1);
+    t_r2 t_38 = pairs_loose_multiply_float(s.a0, s.a1, k3), t_39 = pairs_loose_multiply_float(y1.a0, y1.a1, u2);
+    t_r2 t_40 = pairs_loose_add(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
+    t_r2 t_41 = pairs_loose_add(t_38.a0, t_38.a1, t_39.a0, t_39.a1);
+    t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
+}
+
+INLINE Root proved_root_near__e3_2_p3_2r6(t_e3 u, t_e3 k, t_p3 g, t_p3 I, real D, real slope, real radius, real xi,
+    real k_off, real g_off) {
+    t_r3 v = proved_floats__e3_(u), kf = proved_floats__e3_(k), gf = proved_floats__p3_(g);
+    t_r3 If = proved_floats__p3_(I);
+    real spread = R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2));
+    real half = R(2.0) * vectors_largest(kf), size = vectors_length(v), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
+    real m = (radius == R(-2.0) ? proved_slope_at(v, kf, gf, If, D) : slope) / R(1.0000000000009095);
+    real whole = R(1.0) + size * size;
+    real at_root = vectors_length(proved_floats__p3_(kernel_gibbs_residual_e6p6e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
+        g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D)));
+    real rest = at_root + R(2.524354896707238e-29) * (R(1.0) + size) * (most * size + half) + R(2.0) * (D * size *
+        g_off + half * k_off) + R(9.332636185032189e-302);
+    real shift = R(4.0) * D * size + R(2.0) * whole * half;
+    real curved = (R(11.0) * D * size + R(3.0) * whole * half) * xi * xi;
+    real w = m > R(0.0) ? R(1.0000000000009095) * ((rest + shift * xi + curved) / m) : R(INFINITY);
+    int inside = w <= R(9.5367431640625e-07) && xi <= R(9.5367431640625e-07);
+    if (radius == R(-2.0)) {
+        inside = w <= R(1.4551915228366852e-11) && xi <= R(1.4551915228366852e-11) && R(2.0) * (spread + R(2.0) *
+            half) * w <= m;
+    }
+    else { inside = inside && size * size <= radius; }
+    return (Root){inside ? w : R(INFINITY), m, rest, shift, curved};
+}
+
+OUT_OF_LINE real proved_nearer__r3_3_p3_r3(t_r3 u, t_r3 k, t_r3 g, t_p3 I, real D, real slope, real radius) {
+    t_p3 v = proved_unit_pairs(g);
+    Root root = proved_root_near__e3_2_p3_2r6(proved_exact(u), proved_exact(k), v, I, D, slope, radius, R(0.0),
+        R(0.0), R(3.1554436208840472e-30));
+    t_r3 If = proved_floats__p3_(I), gf = proved_floats__p3_(v);
+    t_r13 found = kernel_gibbs_newton(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2, gf.a0, gf.a1, gf.a2, If.a0, If.a1, If.a2,
+        D);
+    t_e3 t_1 = proved_exact(u), t_2 = proved_exact(k);
+    t_r3 r = proved_floats__p3_(kernel_gibbs_residual_e6p6e(t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2, v.a0,
+        v.a1, v.a2, I.a0, I.a1, I.a2, D));
+    t_r3 d = vectors_scaled(R(1.0) / found.a0, vectors_adjoint((t_r9){found.a4, found.a5, found.a6, found.a7,
+        found.a8, found.a9, found.a10, found.a11, found.a12}, r));
+    real half = vectors_length(k), size = vectors_length(u), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
+    real lost = proved_left(d, r, u, k, gf, If, D) + R(1.4210854715202004e-14) * (R(1.0) + size) * (most + half) *
+        vectors_length(d);
+    real curved = (R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2)) + half) * root.w *
+        root.w;
+    return R(1.0000000000009095) * (vectors_length(d) + (lost + curved + max_r(root.rest - vectors_length(r), R(0.0))
+        + R(1.4210854715202004e-14) * root.rest) / root.m);
+}
+
+INLINE t_p3 kernel_turn_1e6(real p1, real p2, real p3, real v1, real v2, real v3) {
+    t_r2 t_1 = pairs_two_product(p1, p1), t_2 = pairs_two_product(p2, p2), t_3 = pairs_two_product(p3, p3);
+    t_r2 t_4 = pairs_loose_add_float(t_1.a0, t_1.a1, 1), t_5 = pairs_loose_add(t_2.a0, t_2.a1, t_3.a0, t_3.a1);
+    t_r2 t_6 = pairs_loose_add(t_4.a0, t_4.a1, t_5.a0, t_5.a1), t_7 = pairs_two_sum(t_6.a0, t_6.a1);
+    t_r2 s = pairs_divide(2, 0, t_7.a0, t_7.a1), t_8 = pairs_two_product(p2, v3), t_9 = pairs_two_product(p3, v2);
+    t_r2 x1 = pairs_loose_subtract(t_8.a0, t_8.a1, t_9.a0, t_9.a1), t_10 = pairs_two_product(p3, v1);
+    t_r2 t_11 = pairs_two_product(p1, v3), x2 = pairs_loose_subtract(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
+    t_r2 t_12 = pairs_two_product(p1, v2), t_13 = pairs_two_product(p2, v1);
+    t_r2 x3 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
+    t_r2 t_14 = pairs_loose_multiply_float(x3.a0, x3.a1, p2);
+    t_r2 t_15 = pairs_loose_subtract(t_14.a0, t_14.a1, x1.a0, x1.a1);
+    t_r2 t_16 = pairs_loose_multiply_float(x2.a0, x2.a1, p3);
+    t_r2 t_17 = pairs_loose_subtract(t_15.a0, t_15.a1, t_16.a0, t_16.a1);
+    t_r2 o_x1 = pairs_loose_multiply(s.a0, s.a1, t_17.a0, t_17.a1);
+    t_r2 t_18 = pairs_loose_multiply_float(x1.a0, x1.a1, p3);
+    t_r2 t_19 = pairs_loose_subtract(t_18.a0, t_18.a1, x2.a0, x2.a1);
+    t_r2 t_20 = pairs_loose_multiply_float(x3.a0, x3.a1, p1);
+    t_r2 t_21 = pairs_loose_subtract(t_19.a0, t_19.a1, t_20.a0, t_20.a1);
+    t_r2 o_x2 = pairs_loose_multiply(s.a0, s.a1, t_21.a0, t_21.a1);
+    t_r2 t_22 = pairs_loose_multiply_float(x2.a0, x2.a1, p1);
+    t_r2 t_23 = pairs_loose_subtract(t_22.a0, t_22.a1, x3.a0, x3.a1);
+    t_r2 t_24 = pairs_loose_multiply_float(x1.a0, x1.a1, p2);
+    t_r2 t_25 = pairs_loose_subtract(t_23.a0, t_23.a1, t_24.a0, t_24.a1);
+    t_r2 o_x3 = pairs_loose_multiply(s.a0, s.a1, t_25.a0, t_25.a1); return (t_p3){o_x1, o_x2, o_x3};
+}
+
+INLINE t_r3 proved_turned_off(t_r3 u, t_r3 v, t_r3 after) {
+    t_e3 t_1 = proved_exact(u), t_2 = proved_exact(v);
+    t_p3 y = kernel_turn_1e6(t_1.a0, t_1.a1, t_1.a2, t_2.a0, t_2.a1, t_2.a2);
+    return proved_floats__p3_(vectors_plus__p3_2(y, (t_p3){pairs_two_sum(v.a0, -after.a0), pairs_two_sum(v.a1,
+        -after.a1), pairs_two_sum(v.a2, -after.a2)}));
+}
+
+INLINE void proved_bound_step(r1 momentum, r1 vertical, r1 tensor, real contact, r1 q, r1 momentum_after, r1
+    vertical_after, r1 row) {
+    t_r3 t_1 = branch_moments(vectors_three(tensor, 0));
+    t_ri size = real_frexp(max_r(max_r(t_1.a0, t_1.a1), t_1.a2) + contact);
+    t_r3 k = vectors_shifted(vectors_three(momentum, 0), -size.a1 - 1), g = vectors_three(vertical, 0);
+    t_r3 J = vectors_shifted(vectors_three(tensor, 0), -size.a1); real D = R(ldexp(contact, (int)-size.a1));
+    t_r3 u = (t_r3){q.p[1] / q.p[0], q.p[2] / q.p[0], q.p[3] / q.p[0]};
+    t_r2 t_2 = pairs_two_sum(J.a1, J.a2), t_3 = pairs_two_sum(J.a0, J.a2), t_4 = pairs_two_sum(J.a0, J.a1);
+    t_p3 I = (t_p3){(t_r2){t_2.a0, t_2.a1}, (t_r2){t_3.a0, t_3.a1}, (t_r2){t_4.a0, t_4.a1}};
+    t_r2 slope = proved_slope_of(k, proved_floats__p3_(I), D);
+    real off = R(0.51) * R(fabs(vectors_dot(g, g) - R(1.0))) + R(2.220446049250313e-16);
+    Root root = proved_root_near__e3_3_p3_r6(proved_exact(u), proved_exact(k), proved_exact(g), I, D, slope.a0,
+        slope.a1, R(0.0), R(0.0), off);
+    real near = root.w; t_r3 t_5 = proved_floats__p3_(I);
+    if (root.m < R(0.125) * (max_r(max_r(t_5.a0, t_5.a1), t_5.a2) + D)) {
+        near = min_r(near, proved_nearer__r3_3_p3_r3(u, k, g, I, D, slope.a0, slope.a1));
+    }
+    real unit_off = R(0.51) * R(fabs(vectors_square_of_four(vectors_four(q, 0)) - R(1.0))) + R(2.220446049250313e-16);
+    int kept = R(ldexp(vectors_largest(k), (int)(size.a1 + 1))) == vectors_largest(vectors_three(momentum, 0)) &&
+        q.p[0] > R(9.5367431640625e-07);
+    real w = kept ? R(1.0000000000009095) * near : R(INFINITY);
+    real part = R(1.0000000000009095) * (R(2.0) * w + R(2.0) * w * w) + (R(2.524354896707238e-29) * vectors_length(u)
+        + R(3.1554436208840472e-30));
+    t_r3 after = vectors_shifted(vectors_three(momentum_after, 0), -size.a1 - 1);
+    row.p[0] = R(ldexp(R(1.0000000000009095) * (vectors_length(proved_turned_off(u, k, after)) + R(2.0) *
+        vectors_largest(k) * part + R(9.332636185032189e-302)), (int)(size.a1 + 1)));
+    row.p[1] = R(1.0000000000009095) * (vectors_length(proved_turned_off(u, g, vectors_three(vertical_after, 0))) +
+        R(1.01) * part + off);
+    row.p[2] = R(1.0000000000009095) * (w + vectors_length(u) * R(2.220446049250313e-16) + unit_off);
+}
+
+INLINE void proved_bound_steps(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, r2 momenta_after, r2
+    verticals_after, r2 errors) {
+    for (int64_t i = 0, end_i = momenta.n0; i < end_i; i++) {
+        proved_bound_step(r2_row(momenta, i), r2_row(verticals, i), r2_row(tensors, i), contacts.p[i], r2_row(q, i),
+            r2_row(momenta_after, i), r2_row(verticals_after, i), r2_row(errors, i));
+    }
 }
 
 INLINE void tangent_derivative(t_r3 u, r1 state, r2 T) {
@@ -3884,6 +4129,10 @@ WIDEST static void in_double_double_march_long_pairs(const argument *a, argument
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2; got[3].number = out.a3;
 }
 
+WIDEST static void in_proved_bound_steps(const argument *a, argument *got) {
+    proved_bound_steps(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), r2_(5), r2_(6), r2_(7)); (void)got;
+}
+
 WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
     tangent_follow_all(r2_(0), r2_(1), r1_(2), r_(3), i_(4), r2_(5)); (void)got;
 }
@@ -3920,6 +4169,7 @@ const loop_export LOOPS()[] = {
     {"double_double_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_prepare_pairs_block},
     {"double_double_march_pairs_block", "r2* i i i i1 r3* r3* r3* r3* i1* i1* d1*", "", in_double_double_march_pairs_block},
     {"double_double_march_long_pairs", "r1 r1 r1 r r r i i i r2 r b r1 r1* r2* r2* r2* r2* r2* r2* r2* r2*", "iirr", in_double_double_march_long_pairs},
+    {"proved_bound_steps", "r2 r2 r2 r1 r2 r2 r2 r2*", "", in_proved_bound_steps},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
     {"following_follow", "b r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow},
     {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "rr", in_expected_surveyed},
@@ -3928,5 +4178,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "d76b5669cc5334ad7cb91bfa8e46532e9e1598e79ae0208c3b34ab62138ec92b";
+const char loops_text[] = "00745e27714fd777dad5d6defdfea9e4d160f75b43577b8532206d5d9cdafde8";
 #endif

@@ -12,7 +12,7 @@ from .source import Function, Program, Record
 #: The modules with functions that are exported, and those that float32 has, too.
 PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block")
-LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "tangent", "following", "expected"
+LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "proved", "tangent", "following", "expected"
 
 #: The first lines of a file, with its contents and its sources.
 HEAD = "/* {}\n * Written by `chapsym codegen`: do not edit; change {} and generate again. */\n"
@@ -218,7 +218,7 @@ class Texts:
         """A function of one form that calls one that is exported."""
         of = self.of[function]
         given = ", ".join(f"{of.names[x]}_({i})" for i, x in enumerate(function.parameters))
-        widest = "WIDEST " if "march" in function.name or "follow" in function.name else ""
+        widest = "WIDEST " if any(word in function.name for word in ("march", "follow", "bound")) else ""
         head = f"{widest}static void in_{function.name}(const argument *a, argument *got)"
         call, out = f"{function.name}({given})", Text("out", of.returned)
         if of.returned is None:

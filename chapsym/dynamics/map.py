@@ -19,13 +19,16 @@ from .levels import dispatch
 from .levels.frames import Balls, given
 from .levels.start import exponent_of, fraction
 from .results import Step, in_given_axes
+from .trajectories import flag
 
 #: The digits of a step of exact numbers that pairs cannot hold, before it is rounded to pairs.
 BEYOND_DOUBLE_DOUBLE = Digits(40)
 
 
 @in_given_axes
-def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Precision = "double") -> Step:
+def step(
+    ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Precision = "double", proved: bool = False
+) -> Step:
     """One step of the map (5.3) on the small-rotation branch: the first step of `trajectory`, to the bit.
 
     Solves 𝒦(q, γ) = 𝒦 for the rotation Ω (5.2) that is continued from the identity, and carries
@@ -37,11 +40,17 @@ def step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | 
     precision: "single", "double", "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
     Floats that are given are taken as exact at every precision, and on `Digits` and `Enclosure` so are Fractions,
     Decimals and numbers of mpmath and SymPy, of the ball, too; but γ is divided by its length on all but "double".
+    proved: whether `Step.proved` shall bound what the rotation, 𝒦 and γ are off by from the exact step: a proof by the
+    residual at the rotation, whatever found it, with lemma `small-branch` and beyond its bound `straight-path`.  It is
+    of "double" and principal axes, and inf where the lemmas do not reach, as near a fold.
 
     One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
     Raises BadInput for shapes, NaN, infinities, and a gamma that is not unit.
     """
-    return composed(ball, momentum, gamma, 2, dispatch.precision_of(precision))
+    level = dispatch.precision_of(precision)
+    if flag(proved, "proved") and not isinstance(level, Double):
+        raise BadInput('a step is proved in "double"; in "double-double" take trajectory(..., 1, proved=True)')
+    return composed(ball, momentum, gamma, 2, level, bool(proved))
 
 
 @in_given_axes
@@ -55,10 +64,12 @@ def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) 
     return composed(ball, momentum, gamma, order, NAMED["double"])
 
 
-def composed(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int, precision: Precision) -> Step:
-    """One step of the composition of any order."""
+def composed(
+    ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int, precision: Precision, proved: bool = False
+) -> Step:
+    """One step of the composition of any order; `proved` is for the map itself in float64."""
     shape, _, balls = given(ball, momentum, gamma, precision)
-    return dispatch.step(precision, shape, balls, order)
+    return dispatch.step(precision, shape, balls, order, proved)
 
 
 def exact_step(

@@ -35,6 +35,8 @@ def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
             "more digits than float64 has are kept in principal axes only: give the principal moments, and all vectors "
             "in their axes"
         )
+    if given.get("proved"):
+        raise BadInput("what is proved is of principal axes: give the principal moments, and all vectors in their axes")
     assert ball.axes is not None
     vectors = {
         name: unit_vertical(given[name]) if name == "gamma" else numbers(given[name], name, 3)
@@ -105,6 +107,27 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
 
 
 @dataclass(frozen=True, eq=False)
+class Bounds:
+    """Proved upper bounds of what a result is off by from the exact orbit of the map, in the units of its arrays.
+
+    The exact orbit starts at the very numbers that were given, with γ and the attitude divided by their lengths, and is
+    that of the map, or of its composition, not of the continuous ball.
+
+    momentum, gamma: (..., frames) of a run, and (...) of a step.
+    attitude, contact: of a run, where it has them; else None.
+    rotation: of a step; else None.
+    steps: of a run, up to which step all is proved, (...); inf stands where nothing is, NaN where there is no frame.
+    """
+
+    momentum: Floats
+    gamma: Floats
+    attitude: Asked = None
+    contact: Asked = None
+    rotation: Asked = None
+    steps: np.ndarray | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class Step:
     """The outcome of one step, for one ball or a batch with the leading axes (...).
 
@@ -114,6 +137,7 @@ class Step:
     reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
     precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
     low: for DoubleDouble, what the numbers have beyond float64, as a step of its own; else None.
+    proved: with `proved=True`, bounds of what the numbers are off by.
     """
 
     rotation: Floats
@@ -123,6 +147,7 @@ class Step:
     reach: Floats
     precision: Precision = NAMED["double"]
     low: Step | Any = None
+    proved: Bounds | None = None
 
     def write(self) -> dict[str, Any]:
         """q0, q, momentum and gamma of one ball after the step, as floats or decimal strings."""
@@ -144,11 +169,11 @@ FRAMES = ("index", "momentum", "gamma", "attitude", "contact")
 
 
 def some_frames(run: Any, which: np.ndarray | slice) -> Any:
-    """Some of the frames of one ball: a run of any kind, or what it has beyond float64."""
+    """Some of the frames of one ball: of a run of any kind, what it has beyond float64, or its bounds."""
     names = {field.name for field in fields(run)}.intersection(FRAMES)
     kept = {name: array[which] for name in names if (array := getattr(run, name)) is not None}
-    low = getattr(run, "low", None)
-    return replace(run, **kept) if low is None else replace(run, low=some_frames(low, which), **kept)
+    more = {name: getattr(run, name, None) for name in ("low", "proved")}
+    return replace(run, **kept, **{name: some_frames(x, which) for name, x in more.items() if x is not None})
 
 
 def finished(run: Any, reach: Floats) -> Any:
@@ -187,6 +212,7 @@ class Trajectory:
     low: for DoubleDouble, a record of what the numbers have beyond float64, each at most half an ulp of its number:
     `momentum` + `low.momentum` is 𝒦, and so on; else None.
     error: of `roll`, an estimate of the largest error at any frame, (...); else None.
+    proved: with `proved=True`, bounds of what each frame is off by.
     """
 
     ball: Ball
@@ -202,6 +228,7 @@ class Trajectory:
     precision: Precision = NAMED["double"]
     low: Trajectory | Any = None
     error: Asked = None
+    proved: Bounds | None = None
 
     def __repr__(self) -> str:
         balls = f"{self.status.size} balls" if self.status.shape else "1 ball"

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import Precision
 
 from .attitudes import first_attitudes
-from .ball import Ball, Floats, is_followed, numbers
+from .ball import Ball, Floats, in_shape, is_followed, numbers
 from .errors import BadInput
 from .levels import dispatch
 from .levels.frames import Frames, given
-from .results import Trajectory, finished, in_given_axes, of_balls
+from .results import Bounds, Trajectory, finished, in_given_axes, of_balls
 
 #: Whoever asks for more steps than this, or for every this many, will not see the end of it.
 MOST_STEPS = 2**62
@@ -36,6 +36,7 @@ def trajectory(
     contact: bool = False,
     time_step: float | None = None,
     precision: str | Precision = "double",
+    proved: bool = False,
     threads: int = 0,
     progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Trajectory:
@@ -55,6 +56,9 @@ def trajectory(
     encloses: `bits` are correct in every frame, beside the length of each vector.  Its branch is proved by the lemmas
     `small-branch` and `straight-path`; where neither reaches, as near a fold, the float64 continuation selects it
     (`Certificate.selected`).
+    proved: whether `Trajectory.proved` shall have bounds of what every frame is off by from the exact orbit of the map:
+    a proof that a second run, in double-double, carries along.  It takes some ten times as long as the run in "double";
+    it is of "double" and "double-double", and of principal axes.
     threads: how many cores a batch may use; 0 for all.  Digits and Enclosure use one.
     progress: called with the steps done so far (of all balls together), every 200 000 steps or so.
 
@@ -74,7 +78,13 @@ def trajectory(
         balls = replace(balls, radius=np.broadcast_to(rolling_radius(ball), shape).reshape(-1))
     first = first_attitudes(attitude, g, shape) if with_body else None
     frame = dispatch.begun(precision, balls, steps // every + 1, first, isinstance(attitude, bool | np.bool_))
-    dispatch.run(precision, balls, steps, every, frame, order, threads, progress)
+    bounds = None
+    if flag(proved, "proved"):
+        dispatch.provable(precision)
+        bounds = dispatch.run_proved(precision, balls, steps, every, frame, order, threads, progress)
+        bounds = Bounds(*(None if x is None else in_shape(shape, x) for x in vars(bounds).values()))  # type: ignore[arg-type]
+    else:
+        dispatch.run(precision, balls, steps, every, frame, order, threads, progress)
 
     def run(kept: Frames) -> Trajectory:
         body = kept.attitude if with_body else None, kept.contact if contact else None
@@ -84,7 +94,8 @@ def trajectory(
         )  # fmt: skip
 
     result = run(frame)
-    return finished(result if frame.low is None else replace(result, low=run(frame.low)), frame.reach)
+    low = None if frame.low is None else run(frame.low)
+    return finished(replace(result, low=low, proved=bounds), frame.reach)
 
 
 def rolling_radius(ball: Any) -> Floats:

@@ -39,7 +39,7 @@ class Loose:
 
     def normalised(self) -> "Loose":
         """The same pair, with its low half at most half an ulp of the high one."""
-        return type(self)(*pairs.two_sum(self.high, self.low))
+        return self if self.low is None else type(self)(*pairs.two_sum(self.high, self.low))
 
     def __neg__(self) -> "Loose":
         return type(self)(-self.high, None if self.low is None else -self.low)

@@ -240,7 +240,7 @@ def test_what_cannot_be_is_one_sentence(build, sentence):
 def test_too_many_arguments_are_told_as_of_any_function():
     with pytest.raises(TypeError, match="unexpected keyword argument 'nothing'"):
         chapsym.step(FAR, **STATE, nothing=1)
-    assert list(signature(chapsym.step).parameters) == ["ball", "momentum", "gamma", "precision"]
+    assert list(signature(chapsym.step).parameters) == ["ball", "momentum", "gamma", "precision", "proved"]
 
 
 #: Those that answer in the axes of the ball; all others of one ball refuse.

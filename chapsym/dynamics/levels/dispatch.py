@@ -12,8 +12,8 @@ from ..ball import Asked, in_shape
 from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops import double_double as pairs_loop
-from ..results import Step
-from . import double, double_double, high
+from ..results import Bounds, Step
+from . import double, double_double, high, proved
 from .frames import Balls, Frames
 from .start import exponent_of, fraction
 
@@ -70,19 +70,57 @@ def run(
         LEVELS[type(precision)](balls, steps, every, frames, order, threads, progress)
 
 
+def run_proved(
+    precision: Precision, balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int,
+    progress: Callable[[int], None],
+) -> Bounds:  # fmt: skip
+    """`run` in float64 or double-double, with proved bounds of what its frames are off by, (n, frames) each.
+
+    A run in double-double carries the proof; that in float64 is compared with it.
+    """
+    n, count = frames.momentum.shape[:2]
+    spread = np.full((n, count, 4), np.inf)
+    spread[:, 0] = proved.PAIR
+    pairs = frames
+    if isinstance(precision, Double):
+        run(precision, balls, steps, every, frames, order, threads, lambda done: None)
+        start = frames.attitude[:, 0] if frames.with_body else None
+        pairs = begun(NAMED["double-double"], balls, count, start)
+    double_double.run(balls, steps, every, pairs, order, threads, progress, spread)
+    index = np.arange(count) * every
+    found = proved.errors(balls, index, frames, pairs, spread)
+    open_at = np.logical_or.reduce([~np.isfinite(x) for x in found if x is not None])
+    first = np.where(open_at.any(axis=1), open_at.argmax(axis=1), count)
+    return Bounds(*found, steps=np.maximum(first - 1, 0) * every)  # type: ignore[arg-type]
+
+
+def provable(precision: Precision) -> None:
+    """Raises BadInput for a precision of which no bounds are proved."""
+    if not isinstance(precision, Double | DoubleDouble):
+        raise BadInput(
+            'proved=True takes the precisions "double" and "double-double"; Enclosure(bits) is a proof of its own, and '
+            "`certify` bounds what a run at any other is off by"
+        )
+
+
 #: Bits that a small rotation gets beyond those that its size costs.
 FINER = 200
 
 
-def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int) -> Step:
-    """The first step of a run of each ball, with the leading axes `shape` of the result.
+def step(
+    precision: Precision, shape: tuple[int, ...], balls: Balls, order: int, with_proof: bool = False
+) -> Step:  # fmt: skip
+    """The first step of a run of each ball, with the leading axes `shape` of the result; with proof: in float64.
 
     The rotation is the attitude of a run that starts as the identity; the map on floats takes a shorter way there.
     """
-    low = None
+    low, bounds = None, None
     if order == 2 and isinstance(precision, Single | Double):
         of = (double.rounded(balls), double.SINGLE) if isinstance(precision, Single) else (balls, double.DOUBLE)
         q, K, g, status, reach = double.step_all(*of)
+        if with_proof:
+            momentum, gamma, rotation = (in_shape(shape, x) for x in proved.of_step(balls, q, K, g).T.copy())
+            bounds = Bounds(momentum, gamma, rotation=rotation)
     else:
         frames = _after_one(precision, balls, order)
         q, K, g, status, reach = *_vectors(frames), frames.status, frames.reach
@@ -92,7 +130,7 @@ def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int)
 
     def result(q: np.ndarray, K: np.ndarray, g: np.ndarray, low: Step | None = None) -> Step:
         q, K, g = (in_shape(shape, x) for x in (q, K, g))
-        return Step(q, K, g, status.reshape(shape), reach.reshape(shape), precision, low)
+        return Step(q, K, g, status.reshape(shape), reach.reshape(shape), precision, low, bounds)
 
     return result(q, K, g, None if low is None else result(*low))
 

@@ -1,16 +1,20 @@
 """Bounds of how far a run in float64 or double-double is from the exact orbit of the map, proved step by step."""
 
-from math import inf, nan, sqrt
+from math import inf, nan
 
 import numpy as np
 
+import chapsym.dynamics.native as native
+
 from ..ball import Asked, Floats
 from ..loops import double_double as loop
-from ..loops import gibbs, proved
-from .frames import Balls, Frames
+from ..loops import proved
+from .frames import Balls, Count, Frames, cores, share
 
 #: Beyond the roundings of a distance: relative to it, and to what is compared.
 WIDER, PAIR = 1.0 + 2.0**-40, 2.0**-98
+#: Balls of which a thread bounds a step in one call.
+MANY = 12_500
 
 
 def begun(state: Floats, stages: Floats, beyond: int) -> tuple[Floats, Floats]:
@@ -20,19 +24,9 @@ def begun(state: Floats, stages: Floats, beyond: int) -> tuple[Floats, Floats]:
     box[[proved.G_OFF, proved.A_OFF]] = PAIR
     if beyond:  # the momentum is taken 2^beyond times as large, which is another ball
         box[proved.BALL] = inf
-    return np.array([slope(c * state[:6:2], state[12:18:2], state[loop.D]) for c in stages[:, 0]]), box
-
-
-def slope(k: Floats, I: Floats, D: float) -> tuple[float, float]:
-    """(m, radius²) by lemma `small-branch`: G is monotone with m where |u|² ≤ radius², and has the branch's root there.
-
-    (0, BEYOND) where |𝒦| is beyond its bound.
-    """
-    radius, _ = gibbs.bound(tuple(map(float, k)), tuple(map(float, I)), float(D))
-    if radius == gibbs.BEYOND:
-        return 0.0, radius
-    steepest = 0.5 * (max(I) - min(I)) + 2.0 * sqrt(float(k @ k))
-    return (float(min(I)) - sqrt(radius) * steepest * WIDER) / WIDER, radius
+    I, D = tuple(state[loop.I : loop.J : 2].tolist()), float(state[loop.D])
+    stage_momenta = (tuple((c * state[loop.K : loop.G : 2]).tolist()) for c in stages[:, 0])
+    return np.array([proved.slope_of(k, I, D) for k in stage_momenta]), box
 
 
 def errors(balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floats) -> list[Asked]:
@@ -58,6 +52,22 @@ def errors(balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floa
             bound = np.nextafter(WIDER * (off + sizes[i] * part), inf)
         lost = np.isnan(bound)  # the run in pairs stopped before
         found.append(np.where(np.isnan(ours).any(axis=-1), nan, np.where(lost, inf, bound)))
+    return found
+
+
+def of_step(balls: Balls, q: Floats, K: Floats, g: Floats) -> Floats:
+    """Upper bounds of what a step of each ball is off by, in 𝒦, γ and the rotation, (n, 3); inf where none is proved.
+
+    balls: before the step; q, K, g: the rotations, 𝒦 and γ after it, in float64.
+    """
+    found, bound_steps = np.empty((len(q), 3)), native.loop(proved.bound_steps)
+    arrays = balls.momentum, balls.gamma, balls.mass_tensor, balls.D, q, K, g, found
+
+    def some(start: int) -> None:
+        bound_steps(*(x[start : start + MANY] for x in arrays))
+
+    starts = range(0, len(q), MANY)
+    share(some, starts, min(cores(), len(starts)), Count(lambda done: None))
     return found
 
 

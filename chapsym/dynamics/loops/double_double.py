@@ -31,7 +31,7 @@ from .gibbs import BEYOND, MOST_ROUNDS, certificate, correction, newton_round
 from .integrals import PERIOD, filtered, shares
 from .loop import HIGHEST
 from .path import search_on_path
-from .proved import G_OFF, K_OFF, carried, write_spread
+from .proved import G_OFF, K_OFF, carried, exact, unit_pairs, write_spread
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import (
     conjugate,
@@ -102,11 +102,6 @@ def put_pairs_in(S, at, i, v):
     put_in(S, at + 3, i, (v[1].low, v[2].high, v[2].low))
 
 
-def exact(v):
-    """A vector of floats that count as exact."""
-    return Loose(v[0]), Loose(v[1]), Loose(v[2])
-
-
 def summed(v, w):
     """v + w of floats, as pairs."""
     return Loose(*two_sum(v[0], w[0])), Loose(*two_sum(v[1], w[1])), Loose(*two_sum(v[2], w[2]))
@@ -136,13 +131,6 @@ def of_length_one(q):
     """A quaternion of nearly the length 1, divided by it: a Newton step."""
     t = (3 - square_of_four(q)) / 2
     return t * q[0], t * q[1], t * q[2], t * q[3]
-
-
-def unit(v):
-    """A vector of floats divided by its length, as pairs."""
-    x = exact(v)
-    length = square_root(dot(x, x))
-    return x[0] / length, x[1] / length, x[2] / length
 
 
 def scales(momentum, tensor, contact):
@@ -272,7 +260,7 @@ def prepare_pairs(
         state[K + 2 * i], state[K + 2 * i + 1] = ldexp(momentum[i], shift), 0.0
         state[J + i] = ldexp(tensor[i], -size)
     state[D] = ldexp(contact, -size)
-    put_pairs(state, G, unit(three(g, 0)))
+    put_pairs(state, G, unit_pairs(three(g, 0)))
     state[I], state[I + 1] = two_sum(state[J + 1], state[J + 2])
     state[I + 2], state[I + 3] = two_sum(state[J], state[J + 2])
     state[I + 4], state[I + 5] = two_sum(state[J], state[J + 1])

@@ -13,20 +13,38 @@ ball round it (Lohner): Σ zⱼcⱼ + e, |zⱼ| ≤ bⱼ, |e| ≤ r.  Its edges 
 and what the solution of the linear system leaves, goes into r.  Now and then the edges are made orthogonal again.
 
 Each bound is a sum of products of positive floats, of less than 2⁸ operations: `WIDER` covers their roundings.  What a
-kernel in pairs errs by, in parts of its terms taken absolutely, is counted on its text: 160·2⁻¹⁰⁶ at most, and the terms
-are at most 8 times the numbers below (`tests/dynamics/test_proved.py`): `EVALUATED` covers both.
+kernel in pairs errs by is counted on its text (`tests/dynamics/test_proved.py`): 160·2⁻¹⁰⁶ of its terms at most, taken
+absolutely, and these are at most 8 times the numbers below: `EVALUATED` covers both.
 """
 
-from math import inf, sqrt
+from math import frexp, inf, ldexp, sqrt
+from typing import NamedTuple
 
-from chapsym.generated import gibbs_newton, gibbs_residual
-from chapsym.numbers.loose import Loose
+from chapsym.generated import gibbs_newton, gibbs_residual, turn
+from chapsym.numbers.loose import Loose, square_root
+from chapsym.numbers.pairs import two_sum
 
-from .gibbs import BEYOND
+from .branch import moments
+from .gibbs import BEYOND, bound
 from .path import joined
 from .tangent import column
-from .text import out_of_line
-from .vectors import cross, dot, length, minus, plus, put, scaled, square, three
+from .text import Matrix, Vector, out_of_line
+from .vectors import (
+    adjoint,
+    cross,
+    dot,
+    four,
+    largest,
+    length,
+    minus,
+    plus,
+    put,
+    scaled,
+    shifted,
+    square,
+    square_of_four,
+    three,
+)
 
 #: The rows of a set of ξ: three edges c, their bounds b, r; what k̃ is off by, in parts of |k|, what γ̃, the attitude and
 #: the contact point, in radii, are off by; and the rotations that were proved.
@@ -34,6 +52,8 @@ EDGES, BOUNDS, BALL, K_OFF, G_OFF, A_OFF, X_OFF, PROVED = 0, 9, 12, 13, 14, 15, 
 ROWS = 18
 #: What covers the roundings of a bound, of a sum of products in float64, of a kernel in pairs, and of a pair.
 WIDER, ROUNDED, EVALUATED, PAIR = 1.0 + 2.0**-40, 2.0**-46, 2.0**-95, 2.0**-98
+#: More than what underflows in them.
+TINY = 2.0**-1000
 #: |ξ| and |w| above this are not followed.
 LARGEST = 2.0**-20
 #: Beyond the bound of `small-branch` each m(s) of `straight-path` is at least this part of Λmax, and |ξ| and |w| are
@@ -41,6 +61,8 @@ LARGEST = 2.0**-20
 STEEP, NEAR = 2.0**-8, 2.0**-36
 #: Rotations between two looks at the edges; where the derivative may stretch by more than 1 + `QUICK`, at each.
 WINDOW, QUICK = 8, 0.5
+#: Below this part of Λmax for m, as of heavy balls, the linear system is solved for the bound of a step.
+FLAT = 0.125
 
 
 def extent(box):
@@ -51,9 +73,32 @@ def extent(box):
     return WIDER * total
 
 
+def exact(v):
+    """A vector of floats that count as exact."""
+    return Loose(v[0]), Loose(v[1]), Loose(v[2])
+
+
+def unit_pairs(v):
+    """A vector of floats divided by its length, as pairs."""
+    x = exact(v)
+    size = square_root(dot(x, x))
+    return x[0] / size, x[1] / size, x[2] / size
+
+
 def floats(v):
-    """The numbers of a vector of pairs, once rounded."""
-    return v[0].high + v[0].low, v[1].high + v[1].low, v[2].high + v[2].low
+    """The numbers of a vector of pairs, each rounded."""
+    return v[0].normalised().high, v[1].normalised().high, v[2].normalised().high
+
+
+def slope_of(k, I, D):
+    """(m, radius²) by `small-branch`: G is monotone with m where |u|² ≤ radius², and has the branch's root there.
+
+    (0, BEYOND) where |𝒦| is beyond its bound.
+    """
+    radius, _ = bound(k, I, D)
+    least, most = min(*I), max(*I)
+    slope = least - sqrt(max(radius, 0.0)) * (0.5 * (most - least) + 2.0 * length(k)) * WIDER
+    return 0.0 if radius < 0.0 else slope, radius
 
 
 def slope_at(u, k, g, I, D):
@@ -73,34 +118,52 @@ def left(d, r, u, k, g, I, D):
     return length(minus(Ad, r))
 
 
-@out_of_line
-def carried(box, u, k, g, I, D, slope, radius):
-    """The set after the step with the Gibbs vector u in pairs, from k, γ and I in pairs; all ξ if that is not proved.
+class Root(NamedTuple):
+    """The root is within w of ũ; m is the slope, |G(ũ; k̃, γ̃)| ≤ rest, |2S(ξ)| ≤ shift |ξ|, and what is curved in ξ."""
 
-    slope: m by `small-branch` in |u|² ≤ radius; `BEYOND` for the radius where its bound is passed.
+    w: float
+    m: float
+    rest: float
+    shift: float
+    curved: float
+
+
+def root_near(u, k, g, I, D, slope, radius, xi, k_off, g_off):
+    """How near the root is to u, for all k and γ within |ξ| ≤ xi of k and γ in pairs, which are off by k_off and g_off.
+
+    slope: m by `small-branch` in |u|² ≤ radius; `BEYOND` for the radius where its bound is passed.  w is infinite where
+    nothing is proved.
     """
     v, kf, gf, If = floats(u), floats(k), floats(g), floats(I)
-    spread, half, size, most = 0.5 * (max(*If) - min(*If)), length(kf), length(v), max(*If) + D
-    steep = slope_at(v, kf, gf, If, D) if radius == BEYOND else slope
-    m = steep / WIDER
-    xi = extent(box)
-    found = gibbs_newton(*v, *kf, *gf, *If, D)
+    spread, half, size, most = 0.5 * (max(*If) - min(*If)), 2.0 * largest(kf), length(v), max(*If) + D
+    m = (slope_at(v, kf, gf, If, D) if radius == BEYOND else slope) / WIDER
+    whole = 1.0 + size * size
     at_root = length(floats(gibbs_residual(*u, *k, *g, *I, Loose(D))))
-    terms = (1.0 + size) * (most * size + half)
-    at_root = at_root + EVALUATED * terms + 2.0 * (D * size * box[G_OFF] + half * box[K_OFF])
-    shift = 4.0 * D * size + 2.0 * (1.0 + size * size) * half  # |2S(ξ)| ≤ shift |ξ|
-    curved = (11.0 * D * size + 3.0 * (1.0 + size * size) * half) * xi * xi
-    w = WIDER * ((at_root + shift * xi + curved) / m) if m > 0.0 else inf
+    rest = at_root + EVALUATED * (1.0 + size) * (most * size + half) + 2.0 * (D * size * g_off + half * k_off) + TINY
+    shift = 4.0 * D * size + 2.0 * whole * half
+    curved = (11.0 * D * size + 3.0 * whole * half) * xi * xi
+    w = WIDER * ((rest + shift * xi + curved) / m) if m > 0.0 else inf
     inside = w <= LARGEST and xi <= LARGEST
     if radius == BEYOND:  # the root is in the ball round ũ in which half the stretch is left
         inside = w <= NEAR and xi <= NEAR and 2.0 * (spread + 2.0 * half) * w <= m
     else:
         inside = inside and size * size <= radius
-    if not inside:
+    return Root(w if inside else inf, m, rest, shift, curved)
+
+
+def carried(box, u, k, g, I, D, slope, radius):
+    """The set after the step with the Gibbs vector u, from k, γ and I, in pairs; all ξ if that is not proved."""
+    v, kf, gf, If = floats(u), floats(k), floats(g), floats(I)
+    xi = extent(box)
+    root = root_near(u, k, g, I, D, slope, radius, xi, box[K_OFF], box[G_OFF])
+    w, m, shift = root.w, root.m, root.shift
+    if w == inf:
         box[BALL] = inf
         return
+    spread, half, size, most = 0.5 * (max(*If) - min(*If)), length(kf), length(v), max(*If) + D
+    found = gibbs_newton(*v, *kf, *gf, *If, D)
     steeper = (spread + half) * w + 5.0 * (half * size + D) * xi + ROUNDED * (most + half) * (1.0 + size)
-    more = (at_root + curved + steeper * w) / m + 8.0 * w * (xi + w) + ROUNDED * (1.0 + size) * (xi + w)
+    more = (root.rest + root.curved + steeper * w) / m + 8.0 * w * (xi + w) + ROUNDED * (1.0 + size) * (xi + w)
     for j in range(3):
         c, b = three(box, EDGES + 3 * j), box[BOUNDS + j]
         y, d, r = column(c, v, kf, gf, D, found[0], found[4:13])
@@ -116,6 +179,66 @@ def carried(box, u, k, g, I, D, slope, radius):
     box[PROVED] += 1.0
     if int(box[PROVED]) % WINDOW == 0 or shift > QUICK * m:
         squared(box)
+
+
+def bound_step(momentum, vertical, tensor, contact, q, momentum_after, vertical_after, row):
+    """Writes how far 𝒦, γ and the rotation q of a step may be from those of the map, for `bound_steps`."""
+    _, size = frexp(max(*moments(three(tensor, 0))) + contact)
+    k, g = shifted(three(momentum, 0), -size - 1), three(vertical, 0)
+    J, D = shifted(three(tensor, 0), -size), ldexp(contact, -size)
+    u = q[1] / q[0], q[2] / q[0], q[3] / q[0]
+    I = Loose(*two_sum(J[1], J[2])), Loose(*two_sum(J[0], J[2])), Loose(*two_sum(J[0], J[1]))
+    slope, radius = slope_of(k, floats(I), D)
+    off = 0.51 * abs(dot(g, g) - 1.0) + 2.0**-52  # of γ from γ/|γ|
+    root = root_near(exact(u), exact(k), exact(g), I, D, slope, radius, 0.0, 0.0, off)
+    near = root.w
+    if root.m < FLAT * (max(*floats(I)) + D):
+        near = min(near, nearer(u, k, g, I, D, slope, radius))
+    unit_off = 0.51 * abs(square_of_four(four(q, 0)) - 1.0) + 2.0**-52
+    kept = ldexp(largest(k), size + 1) == largest(three(momentum, 0)) and q[0] > LARGEST
+    w = WIDER * near if kept else inf
+    part = WIDER * (2.0 * w + 2.0 * w * w) + (EVALUATED * length(u) + PAIR)
+    after = shifted(three(momentum_after, 0), -size - 1)
+    row[0] = ldexp(WIDER * (length(turned_off(u, k, after)) + 2.0 * largest(k) * part + TINY), size + 1)
+    row[1] = WIDER * (length(turned_off(u, g, three(vertical_after, 0))) + 1.01 * part + off)
+    row[2] = WIDER * (w + length(u) * 2.0**-52 + unit_off)
+
+
+@out_of_line
+def nearer(u, k, g, I, D, slope, radius):
+    """The bound of `root_near` for γ/|γ|, by the solution of the linear system: 1/m is too much for most residuals."""
+    v = unit_pairs(g)
+    root = root_near(exact(u), exact(k), v, I, D, slope, radius, 0.0, 0.0, PAIR)
+    If, gf = floats(I), floats(v)
+    found = gibbs_newton(*u, *k, *gf, *If, D)
+    r = floats(gibbs_residual(*exact(u), *exact(k), *v, *I, Loose(D)))
+    d = scaled(1.0 / found[0], adjoint(found[4:13], r))
+    half, size, most = length(k), length(u), max(*If) + D
+    lost = left(d, r, u, k, gf, If, D) + ROUNDED * (1.0 + size) * (most + half) * length(d)
+    curved = (0.5 * (max(*If) - min(*If)) + half) * root.w * root.w
+    return WIDER * (length(d) + (lost + curved + max(root.rest - length(r), 0.0) + ROUNDED * root.rest) / root.m)
+
+
+def turned_off(u, v, after):
+    """What v turned by the step with the Gibbs vector u, in pairs, is more than `after`."""
+    y = turn(1, *exact(u), *exact(v))
+    return floats(
+        plus(y, (Loose(v[0]) - Loose(after[0]), Loose(v[1]) - Loose(after[1]), Loose(v[2]) - Loose(after[2])))
+    )
+
+
+def bound_steps(
+    momenta: Matrix, verticals: Matrix, tensors: Matrix, contacts: Vector, q: Matrix, momenta_after: Matrix,
+    verticals_after: Matrix, errors: Matrix,
+):  # fmt: skip
+    """Writes upper bounds of what a step of each ball is off by, in 𝒦, γ and the rotation, (n, 3); inf for none.
+
+    momenta, verticals: before the step, (n, 3), as the tensors; q: the rotations of the step, (n, 4).
+    """
+    for i in range(momenta.shape[0]):
+        bound_step(
+            momenta[i], verticals[i], tensors[i], contacts[i], q[i], momenta_after[i], verticals_after[i], errors[i]
+        )
 
 
 @out_of_line

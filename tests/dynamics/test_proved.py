@@ -1,0 +1,294 @@
+"""Proved steps and runs: the bounds contain the error that an independent orbit sees, and are little more than it."""
+
+from fractions import Fraction as F
+
+import numpy as np
+import pytest
+from crowds import balls, beyond, floats_of, long_steps
+from orbits import context, orbit
+from plain import in_plain_python
+
+import chapsym
+from chapsym import BadInput, Ball, Digits, Status, StepNotTaken
+from chapsym import generated as kernels
+from chapsym.dynamics.coefficients import COMPOSITIONS
+from chapsym.dynamics.levels import proved as level
+from chapsym.dynamics.levels.frames import Balls
+from chapsym.dynamics.loops import proved
+
+BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
+GAMMA = (2 / 7, 3 / 7, 6 / 7)
+NAMES = "momentum", "gamma", "attitude", "contact"
+
+
+def momentum(size):
+    """𝒦 with this length, of a ball with I_min = 0.6 and the bound of `small-branch` at 0.43."""
+    return size * np.array([4, -2, 3]) / np.sqrt(29)
+
+
+def off(found, exact):
+    """|found - exact| of numbers of any kind, in 60 digits."""
+    mp = context(60)
+    return mp.sqrt(sum((mp.mpf(float(x)) - mp.mpf(y)) ** 2 for x, y in zip(found, exact, strict=True)))
+
+
+def in_pairs(step, exact, name):
+    """The error of a step in float64 by one in double-double."""
+    high, low = getattr(exact, name), getattr(exact.low, name)
+    return np.linalg.norm((getattr(step, name) - high) - low, axis=-1)
+
+
+# -- steps
+
+
+@pytest.mark.parametrize("made", [balls, long_steps, beyond])
+def test_the_bounds_of_a_step_contain_the_error(made):
+    """Balls of every kind, by a step in double-double; every small step is proved, and the bound is of a few ulps."""
+    ball, K, g = made(300)
+    found, exact = chapsym.step(ball, K, g, proved=True), chapsym.step(ball, K, g, precision="double-double")
+    taken, sizes = found.status == Status.TAKEN, {"momentum": np.linalg.norm(K, axis=1), "gamma": 1.0, "rotation": 1.0}
+    for name, size in sizes.items():
+        bound = getattr(found.proved, name)
+        assert (in_pairs(found, exact, name) <= bound)[taken].all()
+        assert np.isnan(bound[~taken]).all()
+        if made is not beyond:
+            few = (bound < 64 * 2.0**-53 * np.maximum(size, 1e-290)) | ~taken
+            # At rest or nearly, where the bound is that of what underflows; near a fold; D/I = 10¹⁴.
+            assert set(np.flatnonzero(~few)) <= {1, 2, 4, 7}
+    proof = np.isfinite(found.proved.momentum)
+    assert proof.mean() > (0.8 if made is beyond else 0.98)
+    assert np.array_equal(found.momentum, chapsym.step(ball, K, g).momentum, equal_nan=True)
+
+
+@pytest.mark.parametrize("D", [0.0, 1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("J", [(1, 2, 4), (0, 1, 3), (1e-7, 1, 1), (1, 1, 1), (1e200, 2e200, 2.5e200)])
+def test_bounds_of_one_step_of_odd_bodies(J, D):
+    """Flat, slender and homogeneous bodies of any D, by a step of 50 digits: none is much above its error."""
+    rng, D = np.random.default_rng(7), D * max(J)
+    for size in (1e-12, 1e-3, 0.1, 0.4):
+        g = rng.normal(size=3)
+        g /= np.linalg.norm(g)
+        K = rng.normal(size=3)
+        K *= size * (sum(J) - max(J)) / np.linalg.norm(K)
+        step, exact = chapsym.step(Ball(J, D), K, g, proved=True), chapsym.step(Ball(J, D), K, g, precision=Digits(50))
+        for name, unit in (("momentum", np.linalg.norm(K)), ("gamma", 1.0), ("rotation", 1.0)):
+            seen, bound = off(getattr(step, name), getattr(exact, name)), getattr(step.proved, name)
+            assert seen <= bound <= 2 * seen + 40 * 2.0**-53 * unit
+
+
+def test_a_wrong_rotation_has_a_bound_that_contains_it():
+    """The bound is of the very numbers: of a rotation that is off, whoever found it, it is as large."""
+    step = chapsym.step(BALL, momentum(0.2), GAMMA)
+    one = [np.array([x], dtype=float) for x in (momentum(0.2), GAMMA, BALL.mass_tensor)]
+    ball = Balls(*one, BALL.D.reshape(1), np.zeros(1))
+    for wrong in (1e-12, 1e-8):
+        q = step.rotation + wrong * np.array([0.0, 1.0, -1.0, 0.5])
+        bound = level.of_step(ball, (q / np.linalg.norm(q))[None], step.momentum[None], step.gamma[None])[0]
+        assert 1.4 * wrong < bound[2] < 10 * wrong
+        assert 0.2 * wrong < bound[0] < 10 * wrong
+    moved = level.of_step(ball, step.rotation[None], step.momentum[None] + [1e-9, 0, 0], step.gamma[None])[0]
+    assert 1e-9 <= moved[0] < 1.001e-9
+
+
+# -- runs
+
+
+@pytest.mark.parametrize(("order", "size"), [(2, 0.03), (2, 0.4), (2, 0.55), (4, 0.2), (8, 0.1)])
+def test_the_bounds_of_a_run_are_the_errors_that_the_oracle_sees(order, size):
+    """With attitude and contact, within the bound of `small-branch` and beyond it; the bound is the error itself."""
+    steps = 40 if order == 2 else 4
+    g, start = (0.0, 1.0, 0.0), (0.5, 0.5, 0.5, 0.5)  # R γ = e₃ exactly, as the oracle's contact point has it
+    run = chapsym.trajectory(BALL, momentum(size), g, steps, order=order, attitude=start, contact=True, proved=True)
+    exact = orbit(BALL, momentum(size), g, steps, COMPOSITIONS[order].exact, digits=40, attitude=start)
+    assert run.proved.steps == steps
+    for k in range(1, steps + 1):
+        K, g, _, spot = exact[k]
+        for name, truth, scale in (
+            ("momentum", K, size),
+            ("gamma", g, 1.0),
+            ("contact", [x / 2 for x in spot[:2]], 0.5),
+        ):
+            seen, bound = off(getattr(run, name)[k], truth), getattr(run.proved, name)[k]
+            assert seen <= bound <= 1.001 * seen + 1e-19 * scale
+
+
+def test_the_bounds_are_those_of_a_certificate():
+    """By Arb's balls, an enclosure of its own: 1500 steps, past restorations, of float64 and of pairs."""
+    for precision in ("double", "double-double"):
+        run = chapsym.trajectory(BALL, momentum(0.1), GAMMA, 1500, every=500, contact=True, precision=precision,
+                                 proved=True)  # fmt: skip
+        wanted = chapsym.certify(run)
+        for name in NAMES:
+            bound, error = getattr(run.proved, name)[1:], getattr(wanted, f"{name}_error")[1:]
+            assert (error <= bound * (1 + 1e-9)).all()
+            assert (bound <= 1.001 * error + 1e-19).all()
+
+
+def test_digits_that_are_proved_after_many_steps():
+    """At |𝒦|/I_min = 0.05: 14 digits after 1000 steps, 11 after 100 000."""
+    run = chapsym.trajectory(BALL, momentum(0.03), GAMMA, 100_000, every=1000, proved=True)
+    assert (run.proved.momentum[:2] < 1e-14 * 0.03).all() and run.proved.gamma[1] < 1e-14
+    assert run.proved.momentum.max() < 1e-11 * 0.03 and run.proved.gamma.max() < 1e-11
+    assert run.proved.steps == 100_000
+
+
+def test_a_run_without_a_proof_is_the_same_run():
+    ball, K, g = balls(12)
+    ball = Ball(ball.mass_tensor, ball.D, radius=1.0)
+    for options in ({}, {"contact": True}, {"precision": "double-double"}, {"order": 4}):
+        plain, proof = (chapsym.trajectory(ball, K, g, 30, every=4, **options, proved=x) for x in (False, True))
+        for x, y in zip(floats_of(plain), floats_of(proof), strict=True):
+            assert np.array_equal(x, y, equal_nan=True)
+        assert np.array_equal(plain.taken, proof.taken) and np.array_equal(plain.status, proof.status)
+        assert plain.proved is None and proof.proved.momentum.shape == proof.momentum.shape[:-1]
+
+
+def test_where_a_proof_ends():
+    """Near a fold the lemmas do not reach: inf from there on, and `steps` says where; a run that stops keeps its proof."""
+    with pytest.raises(StepNotTaken) as stopped:
+        chapsym.trajectory(Ball((1, 2, 4), 3), (4.32, -2.16, 3.24), GAMMA, 10, proved=True)
+    run = stopped.value.trajectory
+    assert len(run.proved.momentum) == len(run.momentum) == 4
+    assert np.isinf(run.proved.momentum[-1]) and run.proved.steps < 3
+    finite = np.isfinite(run.proved.momentum)
+    assert finite[0] and (np.diff(finite.astype(int)) <= 0).all()
+
+
+def test_a_momentum_that_is_tiny_is_not_proved_in_a_run():
+    """It is taken larger there, as another ball is; a step says a bound of what underflows."""
+    run = chapsym.trajectory(BALL, (1e-250, 0, 0), GAMMA, 3, proved=True)
+    assert run.proved.steps == 0 and np.isinf(run.proved.gamma[1:]).all()
+    assert np.isfinite(chapsym.step(BALL, (1e-250, 0, 0), GAMMA, proved=True).proved.gamma)
+
+
+def test_plain_python_has_the_bits_of_the_bounds():
+    def found():
+        run = chapsym.trajectory(BALL, momentum(0.4), GAMMA, 20, contact=True, proved=True)
+        step = chapsym.step(BALL, momentum(0.4), GAMMA, proved=True)
+        return [getattr(run.proved, name) for name in NAMES] + [step.proved.momentum, step.proved.rotation]
+
+    compiled = found()
+    with in_plain_python():
+        for x, y in zip(compiled, found(), strict=True):
+            assert np.array_equal(x, y)
+
+
+# -- what is refused
+
+
+@pytest.mark.parametrize("precision", ["single", Digits(30)])
+def test_precisions_that_are_not_proved(precision):
+    with pytest.raises(BadInput, match="proved=True takes the precisions"):
+        chapsym.trajectory(BALL, momentum(0.1), GAMMA, 2, precision=precision, proved=True)
+    with pytest.raises(BadInput, match='a step is proved in "double"'):
+        chapsym.step(BALL, momentum(0.1), GAMMA, precision=precision, proved=True)
+
+
+def test_axes_are_not_proved():
+    ball = Ball.from_inertia(np.array([[3, 0.1, 0], [0.1, 4, 0], [0, 0, 5.0]]), mass=1.0, radius=1.0)
+    for call in (chapsym.step, lambda *a, **o: chapsym.trajectory(*a, 3, **o)):
+        with pytest.raises(BadInput, match="what is proved is of principal axes"):
+            call(ball, momentum(0.1), GAMMA, proved=True)
+    with pytest.raises(BadInput, match="proved must be True or False"):
+        chapsym.step(BALL, momentum(0.1), GAMMA, proved="yes")
+
+
+# -- the constants
+
+
+class Rounded:
+    """What an operation of pairs errs by at most, on the text of a kernel, in powers of u = 2⁻⁵³.
+
+    terms: a bound of the sum of the absolute values of what makes the number; the low half is at most `low` u terms, and
+    the pair off by at most `error` u² terms.  A loose sum rounds low halves twice, a product four times and leaves out
+    one (`numbers.pairs`); a part more covers what is of higher order.
+    """
+
+    def __init__(self, terms, low=F(0), error=F(0)):
+        self.terms, self.low, self.error = F(terms), F(low), F(error)
+
+    @staticmethod
+    def of(x):
+        return x if isinstance(x, Rounded) else Rounded(abs(x))
+
+    def __add__(self, other):
+        other = self.of(other)
+        low = max(self.low, other.low)
+        return Rounded(self.terms + other.terms, 1 + low + F(1, 2**20), max(self.error, other.error) + 2 * low + 2)
+
+    def __neg__(self):
+        return self
+
+    def __mul__(self, other):
+        other, exact = self.of(other), isinstance(other, int) and other in (1, 2)
+        if exact:  # a power of two
+            return Rounded(self.terms * other.terms, self.low, self.error)
+        low = self.low + other.low
+        error = self.error + other.error + self.low * other.low + 3 * low + 2
+        return Rounded(self.terms * other.terms, 1 + low + F(1, 2**20), error)
+
+    def __rtruediv__(self, other):
+        """By a sum of squares: what divides is its terms.  The quotient of pairs errs by 15 u² ([JMP] algorithm 17)."""
+        return Rounded(self.of(other).terms / self.terms, 1, self.error + 16)
+
+    __radd__ = __sub__ = __rsub__ = __add__
+    __rmul__ = __mul__
+
+
+def of(name, *groups):
+    """What a kernel errs by on pairs, its numbers at most as large as is said; floats where `low` is 0."""
+    arguments = [Rounded(size, low) if size != 1 or low else 1 for size, low, count in groups for _ in range(count)]
+    return getattr(kernels, name)(*arguments)
+
+
+def test_what_kernels_in_pairs_err_by():
+    """160 u² of the terms, and the terms of unit vectors: 8(most |u| + |k|) and what `EVALUATED` has room for."""
+    u, unit, I = (1, 1, 3), (1, 1, 3), (1, 1, 3)
+    residual = of("gibbs_residual", u, unit, unit, I, (1, 1, 1))
+    turned = of("turn", (1, 0, 1), u, unit)
+    assert max(x.error for x in (*residual, *turned)) <= 160
+    rng = np.random.default_rng(3)
+    for _ in range(150):
+        u, k, g, I, D = (
+            rng.normal(size=3),
+            rng.normal(size=3),
+            rng.normal(size=3),
+            rng.uniform(0.01, 1, 3),
+            10 * rng.random(),
+        )
+        u, g = u * rng.random() / np.linalg.norm(u), g / np.linalg.norm(g)
+        size = np.linalg.norm(u)
+        terms = [float(x.terms) for x in kernels.gibbs_residual(*(Rounded(abs(F(x))) for x in (*u, *k, *g, *I, D)))]
+        assert np.linalg.norm(terms) <= 8 * (1 + size) * ((max(I) + D) * size + np.linalg.norm(k))
+        turned = [float(x.terms) for x in kernels.turn(1, *(Rounded(abs(F(x))) for x in (*u, *g)))]
+        assert np.linalg.norm(turned) <= 8 * size
+        a = rng.normal(size=4)
+        a /= np.linalg.norm(a)
+        q = [Rounded(abs(F(x)), 2, 30) for x in (1.0, *u)]
+        spot = kernels.rotate(
+            *(Rounded(abs(F(x)), 1) for x in a), *kernels.centre_step(*q, *(Rounded(abs(F(x)), 1) for x in g))
+        )
+        assert float(max(x.error for x in spot)) * np.linalg.norm([float(x.terms) for x in spot]) <= 2**13 * size
+    assert proved.EVALUATED >= 8 * 160 * 2.0**-106
+    assert proved.PAIR >= 4 * 2.0**-106
+
+
+def test_edges_that_are_made_orthogonal_contain_the_set():
+    """Of flat sets and points, too."""
+    rng = np.random.default_rng(4)
+    for kind in range(60):
+        box = np.zeros(proved.ROWS)
+        edges = rng.normal(size=(3, 3)) * 10.0 ** rng.uniform(-6, 3, (3, 1))
+        if kind % 4 == 1:
+            edges[1] = edges[0] * 1.5
+        if kind % 4 == 2:
+            edges[1:] = 0.0
+        box[:9], box[9:12], box[12] = edges.reshape(-1), 10.0 ** rng.uniform(-9, 0, 3), 10.0 ** rng.uniform(-12, -6)
+        before = box.copy()
+        proved.squared(box)
+        Q, b = box[:9].reshape(3, 3), box[9:12]
+        assert np.abs(Q @ Q.T - np.eye(3)).max() < 1e-13 and box[12] == 0.0
+        for _ in range(20):
+            z, e = rng.choice([-1, 1], 3) * before[9:12], rng.normal(size=3)
+            point = z @ edges + before[12] * e / np.linalg.norm(e)
+            assert (np.abs(Q @ point) <= b * (1 + 1e-12)).all()
