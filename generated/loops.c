@@ -3249,6 +3249,7 @@ OUT_OF_LINE real proved_nearer__r3_3_p3_r3(t_r3 u, t_r3 k, t_r3 g, t_p3 I, real 
     t_p3 v = proved_unit_pairs(g);
     Root root = proved_root_near__e3_2_p3_2r6(proved_exact(u), proved_exact(k), v, I, D, slope, radius, R(0.0),
         R(0.0), R(3.1554436208840472e-30));
+    if (root.w == R(INFINITY)) { return R(INFINITY); }
     t_r3 If = proved_floats__p3_(I), gf = proved_floats__p3_(v);
     t_r13 found = kernel_gibbs_newton(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2, gf.a0, gf.a1, gf.a2, If.a0, If.a1, If.a2,
         D);
@@ -3312,8 +3313,8 @@ INLINE void proved_bound_step(r1 momentum, r1 vertical, r1 tensor, real contact,
     real off = R(0.51) * R(fabs(vectors_dot(g, g) - R(1.0))) + R(2.220446049250313e-16);
     Root root = proved_root_near__e3_3_p3_r6(proved_exact(u), proved_exact(k), proved_exact(g), I, D, slope.a0,
         slope.a1, R(0.0), R(0.0), off);
-    real near = root.w; t_r3 t_5 = proved_floats__p3_(I);
-    if (root.m < R(0.125) * (max_r(max_r(t_5.a0, t_5.a1), t_5.a2) + D)) {
+    t_r3 t_5 = proved_floats__p3_(I); real near = root.w, heaviest = max_r(max_r(t_5.a0, t_5.a1), t_5.a2) + D;
+    if (near < R(INFINITY) && root.m < R(0.125) * heaviest) {
         near = min_r(near, proved_nearer__r3_3_p3_r3(u, k, g, I, D, slope.a0, slope.a1));
     }
     real unit_off = R(0.51) * R(fabs(vectors_square_of_four(vectors_four(q, 0)) - R(1.0))) + R(2.220446049250313e-16);
@@ -4178,5 +4179,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "00745e27714fd777dad5d6defdfea9e4d160f75b43577b8532206d5d9cdafde8";
+const char loops_text[] = "8bc8a99c24c6523ceaa0821d74b95f970aa87791262b7171eaaeb4029b181c6b";
 #endif

@@ -72,14 +72,14 @@ def restored(steps, balls_=1, **options):
     chapsym.trajectory(ball, K if balls_ > 1 else K[0], gamma, steps, every=steps, **options)
 
 
-def any_magnitudes(precision):
+def any_magnitudes(precision, **options):
     """Steps of balls and momenta that are as large or as small as numbers are."""
     rng, n = np.random.default_rng(16), 300
     low, high = (-30, 30) if precision == "single" else (-300, 300)
     scale = 10.0 ** rng.uniform(low, high, (n, 1))
     J, D = scale * 10.0 ** rng.uniform(-3, 3, (n, 3)), scale[:, 0] * 10.0 ** rng.uniform(-5, 5, n)
     K, g = scale * rng.normal(size=(n, 3)) * 10.0 ** rng.uniform(-6, 2, (n, 1)), rng.normal(size=(n, 3))
-    step = chapsym.step(Ball(J, D), K, g / np.linalg.norm(g, axis=1, keepdims=True), precision=precision)
+    step = chapsym.step(Ball(J, D), K, g / np.linalg.norm(g, axis=1, keepdims=True), precision=precision, **options)
     assert len(set(step.status.tolist())) > 1
 
 
@@ -120,12 +120,15 @@ CASES = [
     *((lambda m=m, o=o: together(m, 12, 42, **o), {"block_march_blocks"}) for m in (balls, long_steps, beyond)
       for o in ({}, BODY)),
     *((lambda o=o: together(balls, 12, 7, order=o), {"block_march_blocks"}) for o in (4, 6, 8)),
+    *((lambda m=m, o=o: each(m, 9, proved=True, **o), PAIRS | ALONE)
+      for m in (balls, beyond) for o in (BODY, {"order": 4})),
     (lambda: together(balls, 12, 7, precision="double-double"), PAIRS_BLOCK),
     (lambda: restored(1100, **BODY), ALONE),
     (lambda: restored(1100, precision="single", **BODY), ALONE),
     (lambda: restored(63, order=8), ALONE),
     (lambda: restored(63, 2, order=8), {"block_march_blocks"}),
     (lambda: any_magnitudes("double"), {"loop_advance_all"}),
+    (lambda: any_magnitudes("double", proved=True), {"proved_bound_steps"}),
     (lambda: any_magnitudes("single"), {"loop_advance_all"}),
     *((lambda n=n, o=o: long(n, **o), loops) for o in ({"time_step": 0.3, "contact": True}, {"time_step": 1.0},
       {"time_step": 0.7, "columns": 2, "attitude": True})

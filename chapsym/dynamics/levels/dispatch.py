@@ -87,11 +87,11 @@ def run_proved(
         start = frames.attitude[:, 0] if frames.with_body else None
         pairs = begun(NAMED["double-double"], balls, count, start)
     double_double.run(balls, steps, every, pairs, order, threads, progress, spread)
-    index = np.arange(count) * every
-    found = proved.errors(balls, index, frames, pairs, spread)
+    found = proved.errors(balls, np.arange(0.0, count) * every, frames, pairs, spread)
     open_at = np.logical_or.reduce([~np.isfinite(x) for x in found if x is not None])
     first = np.where(open_at.any(axis=1), open_at.argmax(axis=1), count)
-    return Bounds(*found, steps=np.maximum(first - 1, 0) * every)  # type: ignore[arg-type]
+    bounds = dict(zip(("momentum", "gamma", "attitude", "contact"), found, strict=True))
+    return Bounds(**bounds, steps=np.maximum(first - 1, 0) * every)
 
 
 def provable(precision: Precision) -> None:

@@ -99,33 +99,56 @@ def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | No
     return attitude.reshape(-1), contact
 
 
+class OneBall:
+    """One ball under way in double-double, with a proof of how far the exact orbit may be, or without.
+
+    frames, low: their first frame is written; the steps of a call of `take` go into those that it is given.
+    """
+
+    def __init__(
+        self, balls: Balls, i: int, frames: Frames, low: Frames, stages: Floats, proves: bool = False
+    ) -> None:  # fmt: skip
+        self._march = native.loop(loop.march_pairs)
+        K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
+        self.state, limits, past = np.zeros(loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
+        self.shift, beyond = native.loop(loop.prepare_pairs)(K, g, J, D, stages, self.state, *limits)
+        if balls.rest is not None:
+            _add(balls.rest[i], self.state, self.shift)
+        body = _begin(frames, low, i, self.state, balls.rest)
+        self._taken = self.state, stages, *limits, past
+        self._body = frames.with_body, *body, float(balls.radius[i])
+        self._scales = self.shift, beyond
+        self._proof = proved.begun(self.state, stages, beyond) if proves else (np.empty((0, 2)), np.empty(0))
+
+    def take(
+        self, first: int, count: int, every: int, frames: Frames, low: Frames, i: int, spread: Floats
+    ) -> tuple[int, int, float]:
+        """Takes `count` steps from `first` on, and keeps every `every`-th state of the ball i, and its spread."""
+        with_body, attitude, contact, radius = self._body
+        went: tuple[int, int, float] = self._march(
+            *self._taken, first, count, every, *self._scales,
+            frames.momentum[i], low.momentum[i], frames.gamma[i], low.gamma[i], with_body, attitude, contact, radius,
+            frames.attitude[i], low.attitude[i], frames.contact[i], low.contact[i], *self._proof, spread,
+        )  # fmt: skip
+        return went
+
+
 def _run_one(
     balls: Balls, i: int, steps: int, every: int, frames: Frames, low: Frames, stages: Floats, count: Count,
     spread: Floats,
 ) -> None:  # fmt: skip
-    march, prepare = native.loop(loop.march_pairs), native.loop(loop.prepare_pairs)
-    K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
-    state, limits, past = np.zeros(loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))
-    shift, beyond = prepare(K, g, J, D, stages, state, *limits)
-    if balls.rest is not None:
-        _add(balls.rest[i], state, shift)
-    attitude, contact = _begin(frames, low, i, state, balls.rest)
-    proof = proved.begun(state, stages, beyond) if len(spread) else (np.empty((0, 2)), np.empty(0))
+    ball = OneBall(balls, i, frames, low, stages, len(spread) > 0)
     chunk = max(1, CHUNK // len(stages))
     for first in range(0, steps, chunk):
         now = min(chunk, steps - first)
-        went, frames.status[i], frames.reach[i] = march(
-            state, stages, *limits, past, first, now, every, shift, beyond,
-            frames.momentum[i], low.momentum[i], frames.gamma[i], low.gamma[i], frames.with_body, attitude, contact,
-            float(balls.radius[i]), frames.attitude[i], low.attitude[i], frames.contact[i], low.contact[i],
-            *proof, spread,
-        )  # fmt: skip
+        went, frames.status[i], frames.reach[i] = ball.take(first, now, every, frames, low, i, spread)
         frames.taken[i] += went
         count.add(now)
         if count.stopped:
             return
         if frames.status[i] != Status.TAKEN:
-            frames.status[i] = explain(frames.status[i], np.ldexp(state[:6:2], -shift), state[6:12:2], J, D)
+            K, g = np.ldexp(ball.state[:6:2], -ball.shift), ball.state[6:12:2]
+            frames.status[i] = explain(frames.status[i], K, g, balls.mass_tensor[i], float(balls.D[i]))
             return
 
 

@@ -191,8 +191,8 @@ def bound_step(momentum, vertical, tensor, contact, q, momentum_after, vertical_
     slope, radius = slope_of(k, floats(I), D)
     off = 0.51 * abs(dot(g, g) - 1.0) + 2.0**-52  # of γ from γ/|γ|
     root = root_near(exact(u), exact(k), exact(g), I, D, slope, radius, 0.0, 0.0, off)
-    near = root.w
-    if root.m < FLAT * (max(*floats(I)) + D):
+    near, heaviest = root.w, max(*floats(I)) + D
+    if near < inf and root.m < FLAT * heaviest:
         near = min(near, nearer(u, k, g, I, D, slope, radius))
     unit_off = 0.51 * abs(square_of_four(four(q, 0)) - 1.0) + 2.0**-52
     kept = ldexp(largest(k), size + 1) == largest(three(momentum, 0)) and q[0] > LARGEST
@@ -209,6 +209,8 @@ def nearer(u, k, g, I, D, slope, radius):
     """The bound of `root_near` for γ/|γ|, by the solution of the linear system: 1/m is too much for most residuals."""
     v = unit_pairs(g)
     root = root_near(exact(u), exact(k), v, I, D, slope, radius, 0.0, 0.0, PAIR)
+    if root.w == inf:
+        return inf
     If, gf = floats(I), floats(v)
     found = gibbs_newton(*u, *k, *gf, *If, D)
     r = floats(gibbs_residual(*exact(u), *exact(k), *v, *I, Loose(D)))
