@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Branches", "Certificate", "CertifiedMotion", "Curve", "Digits", "Enclosure",
+    "BadInput", "Ball", "BallN", "Bounds", "Branches", "Certificate", "CertifiedMotion", "Curve", "Digits", "Enclosure",
     "ExactBall", "ExactTop", "Extrapolated", "Fold", "Followed", "NotRetraced", "Result", "Status", "Step", "StepN",
     "StepNotTaken", "Stepper", "StepperN", "TopMotion", "Trajectory", "TrajectoryN", "VerticalTrajectory", "accurate",
     "axial", "branches", "certified_motion", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow",

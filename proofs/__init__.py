@@ -62,7 +62,7 @@ CLAIMS = (
 
 #: What the paper does not say and the map of chapsym rests on: judged like its claims, by name, outside its register.
 LEMMAS = (
-    "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "straight-path", "state-error", "self-adjoint", "reversible",
+    "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "straight-path", "state-error", "step-bound", "self-adjoint", "reversible",
     "momentum-integrals-composed", "composition-order", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes", "top-precession",
     "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
     "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle",

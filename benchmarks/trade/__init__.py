@@ -17,6 +17,7 @@ ABOUT = "Time of the processor against correct digits, for every precision level
 #: The sections that have a frontier, which are measured by default, and all of them.
 DRAWN: dict[str, Callable[..., Any]] = {
     "rounding": frontiers.rounding,
+    "proved": frontiers.proved,
     "contact": partial(frontiers.one_ball, "contact"),
     "state": partial(frontiers.one_ball, "state"),
     "batch": frontiers.batch,

@@ -62,6 +62,36 @@ def rounding(quick: bool, say: Say) -> Frontier:
     return frontier("rounding alone", question, notes, map(choice, PRECISIONS), FINEST.count, rounds, say)
 
 
+def proved(quick: bool, say: Say) -> Frontier:
+    """The digits of 𝒦 and γ that are proved after some steps of the map, and the time of a step with its proof."""
+    request, steps = sample("state", 1.0), 50 if quick else 400
+    epsilon = STEP / request.rate
+    momentum = epsilon * request.angular_momentum
+    size = float(np.linalg.norm(momentum))
+    run = partial(trajectory, request.ball, momentum, request.gamma)
+
+    def choice(precision: Precision) -> Choice:
+        enclosed = isinstance(precision, Enclosure)
+        timed = steps if enclosed else TIMED[NAMED["double-double"]]
+        options: dict[str, Any] = {"precision": precision, "proved": not enclosed}
+
+        def error() -> float:
+            found = run(steps, every=steps, **options)
+            if (bounds := found.proved) is None:
+                return max(float(x.rad()) for x in (*found.momentum[-1] / size, *found.gamma[-1]))
+            return float(max(bounds.momentum[-1] / size, bounds.gamma[-1]))
+
+        name = f"ball{precision.bits}" if isinstance(precision, Enclosure) else label_of(precision)
+        return Choice(
+            f"{name}, proved", STEP, timed, timed * epsilon, error, partial(run, timed, every=timed, **options)
+        )
+
+    question = f"proved digits of 𝒦/|𝒦| and γ of the map after {steps} steps"
+    notes = [f"{steps} steps of |ω|ε = {STEP:g}"]
+    precisions = (NAMED["double"], NAMED["double-double"], Enclosure(100), Enclosure(300))
+    return frontier("proved", question, notes, map(choice, precisions), FINEST.count, 1 if quick else 5, say)
+
+
 def ends(run: Trajectory) -> np.ndarray:
     """𝒦 and γ of the last frame, six Fractions (the middles of balls)."""
     return np.concatenate([exactly(run, name)[-1] for name in ("momentum", "gamma")])

@@ -2,6 +2,8 @@
 
 from typing import Annotated
 
+import typer
+
 from chapsym.rationals import rationals
 
 from .app import app
@@ -32,6 +34,9 @@ def step(
         takes("NAME", "single, double (the default) or double-double: 7, 16, 31 digits.", "--precision", "--rung"),
     ] = None,
     ball: Bits = None,
+    proved: Annotated[
+        bool, typer.Option("--proved", help="Prove what each is off by at most, for the numbers as float64 has them.")
+    ] = False,
     as_json: Json = False,
     **body: str | None,
 ) -> None:
@@ -49,10 +54,10 @@ def step(
     from chapsym.dynamics.map import exact_step
 
     if tensor is None:
-        taken = exact_step(*ball_from(body), K, g, chosen)
+        taken = exact_step(*ball_from(body), K, g, chosen, proved)
     else:
         turned = dynamics.Ball.from_inertia(np.array(tensor), D=np.array(contact_from(body)))
-        taken = dynamics.step(turned, np.array(K), np.array(g), precision=chosen)
+        taken = dynamics.step(turned, np.array(K), np.array(g), precision=chosen, proved=proved)
     result = taken.write()
     if as_json:
         print_json(result)
@@ -60,3 +65,6 @@ def step(
     print(f"q0        {result['q0']}")
     for name in ("q", "momentum", "gamma"):
         print(f"{name:9} " + "  ".join(str(x) for x in result[name]))
+    if proved:
+        bounds = "  ".join(f"{name} {bound:.2g}" for name, bound in result["proved"].items() if bound is not None)
+        print(f"off by at most, proved: {bounds or 'nothing, as near a fold'}")

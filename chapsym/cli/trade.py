@@ -27,7 +27,8 @@ def trade(
     what: Annotated[
         list[str] | None,
         argument(
-            "[SECTION]... | SCENE.toml", "rounding, contact, state, batch, requests, kernels; with --accuracy a scene."
+            "[SECTION]... | SCENE.toml",
+            "rounding, proved, contact, state, batch, requests, kernels; with --accuracy a scene.",
         ),
     ] = None,
     accuracy: Annotated[float | None, takes("A", "Choose, run and verify: the error wanted.")] = None,

@@ -14,7 +14,7 @@ from .implicit import implicit_step
 from .map import compose_step, step
 from .n.ball_n import BallN, axial, skew
 from .n.trajectory_n import StepN, StepperN, TrajectoryN, invariants_n, step_n, trajectory_n
-from .results import Step, Trajectory
+from .results import Bounds, Step, Trajectory
 from .reversal import NotRetraced, retrace_error, reverse, reverse_n
 from .solutions.continuation import Fold, Followed, fold, follow, margin
 from .solutions.multivalued import Branches, branches
@@ -22,11 +22,11 @@ from .stepper import Stepper
 from .trajectories import trajectory
 
 __all__ = [
-    "BadInput", "Ball", "BallN", "Branches", "Certificate", "CertifiedMotion", "Curve", "ExactBall", "ExactTop",
-    "Extrapolated", "Fold", "Followed", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken", "Stepper", "StepperN",
-    "TopMotion", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches", "certified_motion", "certify",
-    "compose_step", "exact_top", "extrapolate", "fold", "follow", "implicit_step", "increment", "invariants_n",
-    "is_steady", "is_top", "margin", "retrace_error", "reverse", "reverse_n", "rotation_number", "skew",
-    "steady_frames", "step", "step_n", "step_vertical", "substeps", "top_frames", "trajectory", "trajectory_n",
-    "trajectory_vertical",
+    "BadInput", "Ball", "BallN", "Bounds", "Branches", "Certificate", "CertifiedMotion", "Curve", "ExactBall",
+    "ExactTop", "Extrapolated", "Fold", "Followed", "NotRetraced", "Status", "Step", "StepN", "StepNotTaken",
+    "Stepper", "StepperN", "TopMotion", "Trajectory", "TrajectoryN", "VerticalTrajectory", "axial", "branches",
+    "certified_motion", "certify", "compose_step", "exact_top", "extrapolate", "fold", "follow", "implicit_step",
+    "increment", "invariants_n", "is_steady", "is_top", "margin", "retrace_error", "reverse", "reverse_n",
+    "rotation_number", "skew", "steady_frames", "step", "step_n", "step_vertical", "substeps", "top_frames",
+    "trajectory", "trajectory_n", "trajectory_vertical",
 ]  # fmt: skip

@@ -48,9 +48,16 @@ def step(
     Raises BadInput for shapes, NaN, infinities, and a gamma that is not unit.
     """
     level = dispatch.precision_of(precision)
-    if flag(proved, "proved") and not isinstance(level, Double):
-        raise BadInput('a step is proved in "double"; in "double-double" take trajectory(..., 1, proved=True)')
+    _only_in_double(flag(proved, "proved"), level)
     return composed(ball, momentum, gamma, 2, level, bool(proved))
+
+
+def _only_in_double(proved: bool, precision: Precision) -> None:
+    if proved and not isinstance(precision, Double):
+        raise BadInput(
+            'a step is proved in "double"; in "double-double" take trajectory(..., 1, proved=True), '
+            "and an Enclosure is proved as it is"
+        )
 
 
 @in_given_axes
@@ -74,15 +81,16 @@ def composed(
 
 def exact_step(
     mass_tensor: Sequence[Fraction], D: Fraction, momentum: Sequence[Fraction], gamma: Sequence[Fraction],
-    precision: Precision,
+    precision: Precision, proved: bool = False,
 ) -> Step:  # fmt: skip
-    """`step` of one ball from exact rational numbers, which are rounded once.
+    """`step` of one ball from exact rational numbers, which are rounded once; what is proved is of the rounded ones.
 
     Single, Double: to floats.  DoubleDouble: numbers that are no floats are taken at 40 digits, and the step is rounded
     to pairs.  Digits and Enclosure: to what those carry, of any size.
 
     Raises BadInput, also for a gamma that is not unit to the digits of the precision, and StepNotTaken as `step` does.
     """
+    _only_in_double(proved, precision)
     unit_exactly(gamma, precision)
     check_body(mass_tensor, D)
     if isinstance(precision, Single | Double | DoubleDouble):
@@ -92,7 +100,8 @@ def exact_step(
                 "a component of the momentum is below the range of float64; ask for more with --digits or --ball"
             )
         if not isinstance(precision, DoubleDouble) or [*tensor, *vertical, contact] == [*mass_tensor, *gamma, D]:
-            return composed(Ball(tensor, contact), np.array(momentum, dtype=object), vertical, 2, precision)
+            K = np.array(momentum, dtype=object)
+            return composed(Ball(tensor, contact), K, vertical, 2, precision, proved)
         return _in_pairs(exact_step(mass_tensor, D, momentum, gamma, BEYOND_DOUBLE_DOUBLE), precision)
     K, g, J = (np.array([x], dtype=object) for x in (momentum, gamma, mass_tensor))
     return dispatch.step(precision, (), Balls(K, g, J, np.array([D], dtype=object), np.zeros(1)), 2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import wraps
@@ -150,9 +151,13 @@ class Step:
     proved: Bounds | None = None
 
     def write(self) -> dict[str, Any]:
-        """q0, q, momentum and gamma of one ball after the step, as floats or decimal strings."""
+        """q0, q, momentum and gamma of one ball after the step, as floats or decimal strings, and what is proved."""
         q0, *q = self._written("rotation")
-        return {"q0": q0, "q": q, "momentum": self._written("momentum"), "gamma": self._written("gamma")}
+        found = {"q0": q0, "q": q, "momentum": self._written("momentum"), "gamma": self._written("gamma")}
+        if self.proved is None:
+            return found
+        bounds = {name: float(getattr(self.proved, name)) for name in ("rotation", "momentum", "gamma")}
+        return found | {"proved": {name: x if math.isfinite(x) else None for name, x in bounds.items()}}
 
     def _written(self, name: str) -> list[Any]:
         values = getattr(self, name)

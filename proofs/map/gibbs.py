@@ -284,5 +284,50 @@ def state_error(p: Proof) -> None:
     p.control(Equation("(1, -ũ)(1, ξ)(1, ũ) with + 2ũ × ξ", steady[1:, :], turned + 4 * u.cross(d), wide))
 
 
+NEAR_ROOT = "m|u - ũ| ≤ |G(ũ; k, γ)|"
+STEEP = "⟨x, ∂G(v)x⟩ ≥ m|x|², m > 0, for v between ũ and u, and G(u) = 0"
+
+
+@claim(
+    "step-bound",
+    r"\langle w, G(\tilde u + w) - G(\tilde u)\rangle = \langle w, \partial_uG(\tilde u + \tfrac12w)w\rangle,"
+    r"\ w = u - \tilde u,\ G(u) = 0 \ \Rightarrow\ m|u - \tilde u| \le |G(\tilde u)|",
+    uses=("gibbs", "small-branch", "straight-path", "state-error"),
+)
+def step_bound(p: Proof) -> None:
+    """A residual bounds the distance of the root from any point, and what is quadratic in the error of the state."""
+    p.assume(STEEP)
+    p.state(Theorem((), (STEEP,), (NEAR_ROOT,)))
+    w, n, m, x = (sp.Matrix(sp.symbols(f"{name}1:4")) for name in "wnmx")
+    wide = Quotient((*u, *v, *k, *d, *gamma, *w, *n, *m, *x, I1, I2, I3, D), [])
+    residual = sp.Matrix(gibbs.residual())
+    jacobian = residual.jacobian(u)
+    rise = residual.subs(placed((u, u + w)), simultaneous=True) - residual
+    middle = jacobian.subs(placed((u, u + w / 2)), simultaneous=True)
+    p.printed(Equation("⟨w, G(ũ + w) - G(ũ)⟩ = ⟨w, ∂G(ũ + w/2)w⟩", [w.dot(rise)], [(w.T * middle * w)[0]], wide))
+    p.say("With G(ũ + w) = 0 the left side is at most |w||G(ũ)|, the right one at least m|w|²; ũ may be any point.")
+    p.step(NEAR_ROOT, STEEP)
+    p.say("For a run, with γ = γ̃ + n, k = k̃ + m, |γ| = |γ̃| = 1, and A = ∂G(ũ) at k̃ and γ̃ (ũ stands as u):")
+
+    def steepness(at: sp.Matrix, momentum: sp.Matrix, vertical: sp.Matrix) -> sp.Matrix:
+        unit = INERTIA + D * (sp.eye(3) - vertical * vertical.T)
+        return unit * x + at.cross(INERTIA * x) + x.cross(INERTIA * at) - 2 * momentum * at.dot(x)
+
+    more = (w.cross(INERTIA * x) + x.cross(INERTIA * w)) / 2 - (k + m) * w.dot(x) - 2 * m * u.dot(x)
+    p.lemma(equal("(∂G(ũ + w/2) at k, γ - A)x = ½(w × Ix + x × Iw) - ⟨w,x⟩k - 2⟨ũ,x⟩m - D(⟨γ,x⟩n + ⟨n,x⟩γ̃)",
+                  steepness(u + w / 2, k + m, gamma + n) - steepness(u, k, gamma),
+                  more - D * ((gamma + n).dot(x) * n + n.dot(x) * gamma), wide))  # fmt: skip
+    p.say("of a length of at most ((½(I_max - I_min) + |k|)|w| + 2|ũ||m| + 2D|n|)|x|; and what turns by ξ,")
+    once = v.cross(d)
+    p.lemma(equal("(1 + |ξ|²)(Ωᵀv - v - 2v × ξ) = 2(v × ξ) × ξ - 2|ξ|²v × ξ, ξ = d",
+                  2 * (d.cross(d.cross(v)) - d.cross(v)) - 2 * (1 + d.dot(d)) * once,
+                  2 * once.cross(d) - 2 * d.dot(d) * once, wide))  # fmt: skip
+    p.say("has |m| ≤ 2|k||ξ| and |m - 2k̃ × ξ| ≤ 3|k||ξ|² for |ξ| ≤ 1/4, as n with |γ| = 1.  The constants of")
+    p.say("`dynamics.loops.proved` follow from these by the triangle inequality.")
+    p.control(Equation("the same with ∂G(ũ)", [w.dot(rise)], [(w.T * jacobian * w)[0]], wide))
+    p.control(equal("(1 + |ξ|²)(Ωᵀv - v - 2v × ξ) without the last", 2 * (d.cross(d.cross(v)) - d.cross(v))
+                    - 2 * (1 + d.dot(d)) * once, 2 * once.cross(d), wide))  # fmt: skip
+
+
 if __name__ == "__main__":
     main(__file__)

@@ -8,7 +8,22 @@ import numpy as np
 
 from chapsym.dynamics import Status, StepNotTaken, fold, step, step_vertical
 
-from .judging import BUDGET, FAILED, NO_DIGIT, Judged, Level, compared, mp, number, refused, state, whole
+from .judging import (
+    BUDGET,
+    DOUBLE,
+    FAILED,
+    KNOWN,
+    NO_DIGIT,
+    Judged,
+    Level,
+    compared,
+    mp,
+    number,
+    refused,
+    state,
+    whole,
+    worst,
+)
 from .truth import State, Truth, fold_at, reachable, scaled, truth, unit_gamma
 
 #: Beyond this share of a rounding from the fold, a precision cannot tell the two sides.
@@ -44,7 +59,22 @@ def judge(given: State | Callable[[Level], State], level: Level, quick: bool) ->
         assert given.from_fold is not None
         nearer = scaled(given.K, 1.0 + 2.0 * given.from_fold)
         exact = truth(replace(given, K=nearer, from_fold=-given.from_fold))
-    return beside(level, found, exact)
+        return beside(level, found, exact)
+    judged = beside(level, found, exact)
+    return worst([judged, *bounded(given, exact)]) if level is DOUBLE and exact is not None else judged
+
+
+def bounded(given: State, exact: Truth) -> list[Judged]:
+    """What is wrong with the proved bounds of a step in float64: one below the error."""
+    found = step(given.ball, given.K, given.g, proved=True)
+    assert found.proved is not None
+    wrong = []
+    for name, truths in (("momentum", exact.momentum), ("gamma", exact.gamma)):
+        away = [number(x) - t for x, t in zip(getattr(found, name), truths, strict=True)]
+        error, bound = mp.sqrt(sum(x * x for x in away)), float(getattr(found.proved, name))
+        if error > bound * (1 + KNOWN):
+            wrong.append(Judged(FAILED, reason=f"{name} is wrong by {float(error):.3g}, where {bound:.3g} is proved"))
+    return wrong
 
 
 def beside(level: Level, found: Found, exact: Truth | None) -> Judged:
