@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 from chapsym.dynamics import BadInput, Ball, Trajectory, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import SMALLEST, Floats, batch, checked_before, numbers, unit_vertical
+from chapsym.dynamics.enclosed_motion import of_motion
 from chapsym.dynamics.results import finished, in_given_axes, of_balls
 from chapsym.dynamics.trajectories import flag, rolling_radius, seconds, whole_number
 from chapsym.generated import contact_momentum
@@ -40,6 +42,7 @@ def roll(
     order: int | None = None,
     precision: str | Precision | None = None,
     map: bool = False,
+    proved: bool = False,
     threads: int = 0,
     progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Trajectory:
@@ -58,6 +61,9 @@ def roll(
     separatrix.
     order, precision, map: any of them takes the map in steps of `time_step` in the place of the motion, as `trajectory`
     does, with 𝒦 = ε(Λω - D⟨ω,γ⟩γ).  threads, progress: as of `trajectory`.
+    proved: whether `Trajectory.proved` shall bound what every frame is off by: from the motion of the ball that starts
+    at the numbers of frame 0, by `certified_motion`, which takes a thousand times as long; with `map`, as
+    `trajectory` does.  Of one ball in principal axes.
 
     One ball that cannot be followed raises StepNotTaken; in a batch the others go on, and `status` tells.
     Raises BadInput for what no ball or run can have, and for an accuracy that double precision has not.
@@ -67,12 +73,16 @@ def roll(
     by_map = flag(map, "map") or order is not None or precision is not None
     if by_map and accuracy is not None:
         raise BadInput("accuracy is of the motion of the ball; leave out order, precision and map")
+    if flag(proved, "proved") and (ball.axes is not None or not ball.is_one or spin.ndim > 1 or vertical.ndim > 1):
+        raise BadInput("proved=True takes one ball in principal axes, and all vectors in these")
     run = _rolled(
         ball, spin, vertical, turned, flag(contact, "contact"), "double" if precision is None else precision,
         seconds(time_step), whole_number(steps, "steps", 0), whole_number(every, "every", 1),
         2 if order is None else order, None if by_map else _accuracy(accuracy), whole_number(threads, "threads", 0),
-        progress,
+        progress, bool(proved) and by_map,
     )  # fmt: skip
+    if proved and not by_map:
+        run = replace(run, proved=of_motion(run))
     if contact and place is not None:
         run.contact[...] += place[..., np.newaxis, :]
     return run
@@ -119,14 +129,14 @@ def _start(
 def _rolled(
     ball: Ball, omega: Floats, gamma: Floats, attitude: bool | Floats, contact: bool, precision: str | Precision,
     epsilon: float, steps: int, every: int, order: int, accuracy: float | None, threads: int,
-    progress: Callable[[int], None],
+    progress: Callable[[int], None], proved: bool,
 ) -> Trajectory:  # fmt: skip
     """The map, or to an accuracy the motion as a trajectory of order 0, in principal axes."""
     K = _momentum(ball, omega, gamma, epsilon)
     if accuracy is None:
         return trajectory(
             ball, epsilon * K, gamma, steps, order=order, every=every, attitude=attitude, contact=contact,
-            time_step=epsilon, precision=precision, threads=threads, progress=progress,
+            time_step=epsilon, precision=precision, proved=proved, threads=threads, progress=progress,
         )  # fmt: skip
     shape, (flat, g, J, D) = batch(ball, K, gamma)
     every, radius = min(every, steps + 1), rolling_radius(ball) if contact else ball.radius

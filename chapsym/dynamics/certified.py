@@ -98,7 +98,7 @@ def certify(
     bits = whole_number(bits, "bits", 2, MOST_BITS)
     given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
     enclosed, selected = _orbit(trajectory, given, bits, progress)
-    errors = {name: None if array is None else _errors(array, given[name], bits) for name, array in enclosed.items()}
+    errors = {name: None if array is None else errors_of(array, given[name], bits) for name, array in enclosed.items()}
     return Certificate(trajectory, *enclosed.values(), *errors.values(), selected)  # type: ignore[arg-type, call-arg]
 
 
@@ -152,7 +152,7 @@ def _orbit(
     return found, np.array(selected, dtype=np.int64).reshape(shape)
 
 
-def _errors(balls: np.ndarray, given: Any, bits: int) -> Floats:
+def errors_of(balls: np.ndarray, given: Any, bits: int) -> Floats:
     """Upper bounds of |given - ball| for each frame, (..., frames); NaN where there is no frame."""
     from flint import arb, ctx, fmpq
 

@@ -15,6 +15,7 @@ from .ball import Ball, in_principal_axes
 from .errors import BadInput, TooWide
 from .levels.start import exponent_of, fraction
 from .map import check_body, check_tensor, unit_exactly
+from .results import Bounds, Trajectory
 
 #: What a frame has; `contact` where the ball has a radius.
 PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
@@ -153,6 +154,37 @@ def certified_motion(
         tensor=None if exact.diagonal else lambda: [balls(row) for row in moments],
     )  # fmt: skip
     return follow(start, _ascending(times), digits, limit=limit, progress=progress)
+
+
+def of_motion(run: Trajectory, limit: float = 600.0) -> Bounds:
+    """Bounds of what the frames of one ball are off by from the motion that starts at the numbers of frame 0.
+
+    run: in float64, with a time step, in principal axes.  Enclosed are the digits that it may have, and two more.
+    A frame that is not reached within `limit` seconds has inf.
+    """
+    from flint import fmpq
+
+    from .certified import errors_of, exactly
+
+    epsilon, index = Fraction(run.time_step or 0.0), run.index.tolist()
+    K = exactly(run, "momentum")
+    digits = min(17, max(4, math.ceil(-math.log10(max(float(np.max(run.error)), 1e-17))) + 2))
+    found = certified_motion(
+        ExactBall(*run.ball.exact), [x / epsilon for x in K[0]], run.gamma[0], [epsilon * i for i in index], digits,
+        attitude=None if run.attitude is None else run.attitude[0], limit=limit,
+    )  # fmt: skip
+    count, bits, scale = len(found.times), found.bits, fmpq(epsilon.numerator, epsilon.denominator)
+    bounds: dict[str, Any] = {}
+    arrays: dict[str, Any] = {"momentum": found.angular_momentum * scale}
+    arrays |= {name: getattr(found, name) for name in ("gamma", "attitude", "contact")}
+    for name, balls in arrays.items():
+        if getattr(run, name) is not None:
+            ours = exactly(run, name)
+            of = errors_of(balls, ours[:count], bits)
+            if name == "attitude":  # of the two signs
+                of = np.minimum(of, errors_of(-balls, ours[:count], bits))
+            bounds[name] = np.concatenate([of, np.full(len(index) - count, np.inf)])
+    return Bounds(**bounds, steps=np.array(index[max(count - 1, 0)]))
 
 
 def _exact_ball(ball: Any) -> ExactBall:

@@ -316,3 +316,39 @@ def test_edges_that_are_made_orthogonal_contain_the_set():
             z, e = rng.choice([-1, 1], 3) * before[9:12], rng.normal(size=3)
             point = z @ edges + before[12] * e / np.linalg.norm(e)
             assert np.all(np.abs(Q @ point) <= b * (1 + 1e-12))
+
+
+# -- the motion of the ball
+
+
+def test_bounds_of_a_rolled_ball_are_of_its_motion():
+    """By a certified motion of more digits; they are below the estimate, and little more than the error."""
+    ball = Ball.from_mass_tensor((0.003, 0.005, 0.009), mass=2.0, radius=0.1)
+    run = chapsym.roll(ball, (1.0, 2.0, 3.0), 0.25, 8, accuracy=1e-7, contact=True, every=2, proved=True)
+    K = [F(float(x)) / F(0.25) for x in run.momentum[0]]
+    exact = chapsym.certified_motion(
+        ball, K, run.gamma[0], [F(1, 2) * i for i in range(5)], 24, attitude=run.attitude[0]
+    )
+    size = np.linalg.norm(run.momentum[0])
+    for name, truth, unit in (
+        ("momentum", exact.angular_momentum, size), ("gamma", exact.gamma, 1.0), ("attitude", exact.attitude, 1.0),
+        ("contact", exact.contact, 0.1),
+    ):  # fmt: skip
+        for k in range(1, 5):
+            middle = [context(60).mpf(str(x.mid().str(40, radius=False))) for x in truth[k]]
+            middle = [x / 4 for x in middle] if name == "momentum" else middle
+            seen, bound = off(getattr(run, name)[k], middle), getattr(run.proved, name)[k]
+            if name == "attitude":
+                seen = min(seen, off(-run.attitude[k], middle))
+            assert seen <= bound * (1 + 1e-12) <= seen * 1.01 + 1e-9 * unit
+            assert bound <= run.error * unit
+    assert run.proved.steps == 8
+
+
+def test_what_of_a_rolled_ball_is_not_proved():
+    ball = Ball.from_mass_tensor((0.003, 0.005, 0.009), mass=2.0, radius=0.1)
+    with pytest.raises(BadInput, match="proved=True takes one ball in principal axes"):
+        chapsym.roll(ball, np.ones((2, 3)), 0.1, 3, proved=True)
+    run = chapsym.roll(ball, (1.0, 2.0, 3.0), 0.1, 9, map=True, proved=True)
+    again = chapsym.trajectory(ball, run.momentum[0], run.gamma[0], 9, proved=True)
+    assert np.array_equal(run.proved.gamma, again.proved.gamma)
