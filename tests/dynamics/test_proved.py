@@ -15,6 +15,7 @@ from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.levels import proved as level
 from chapsym.dynamics.levels.frames import Balls
 from chapsym.dynamics.loops import proved
+from chapsym.numbers.loose import Loose
 
 BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 GAMMA = (2 / 7, 3 / 7, 6 / 7)
@@ -163,6 +164,66 @@ def test_a_momentum_that_is_tiny_is_not_proved_in_a_run():
     assert run.proved.steps == 0
     assert np.isinf(run.proved.gamma[1:]).all()
     assert np.isfinite(chapsym.step(BALL, (1e-250, 0, 0), GAMMA, proved=True).proved.gamma)
+
+
+def hamilton(a, b):
+    """The product of two quaternions."""
+    (a0, *x), (b0, *y) = a, b
+    cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
+    return [a0 * b0 - sum(p * q for p, q in zip(x, y, strict=True)),
+            *(a0 * q + b0 * p + c for p, q, c in zip(x, y, cross, strict=True))]  # fmt: skip
+
+
+@pytest.mark.parametrize("size", [0.05, 0.3, 0.55])
+def test_a_set_after_a_step_contains_what_its_corners_become(size):
+    """By steps of 45 digits from states that are turned by ξ; and the set is hardly larger."""
+    mp, rng, one = context(50), np.random.default_rng(2), np.array([[0.0, 1.0, 0.0]])
+    for trial in range(4):
+        g = np.roll(one[0], trial)
+        K, J, D = momentum(size) * rng.choice([-1, 1], 3), np.roll(BALL.mass_tensor, trial), 0.7
+        ball = Ball(J, D)
+        exact = chapsym.step(ball, K, g, precision=Digits(45))
+        u = [x / exact.rotation[0] for x in exact.rotation[1:]]
+        pair = [Loose(float(x), float(x - mp.mpf(float(x)))) for x in u]
+        known = [mp.mpf(x.high) + mp.mpf(x.low) for x in pair]
+        k, I = (
+            [Loose(float(x) / 2, 0.0) for x in K],
+            [Loose(J[1] + J[2], 0.0), Loose(J[0] + J[2], 0.0), Loose(J[0] + J[1], 0.0)],
+        )
+        box = np.zeros(proved.ROWS)
+        edges = rng.normal(size=(3, 3))
+        box[:9], box[9:12], box[12] = edges.reshape(-1), 10.0 ** rng.uniform(-10, -7.5, 3), 1e-13
+        before, slopes = box.copy(), proved.slope_of([x.high for x in k], [x.high for x in I], D)
+        assert (slopes[1] == proved.BEYOND) == (size > 0.5)
+        if size > 0.5:
+            box[9:13] *= 1e-6  # beyond the bound of `small-branch` smaller sets are followed
+            before = box.copy()
+        with np.errstate(all="ignore"):
+            proved.carried(box, pair, k, [Loose(float(x), 0.0) for x in g], I, D, *slopes)
+        Q = np.linalg.inv(box[:9].reshape(3, 3).T)
+        largest = np.zeros(3)
+        for signs in np.ndindex(2, 2, 2):
+            xi = [mp.mpf(x) for x in (np.array(signs) * 2 - 1) * before[9:12] @ edges]
+            xi = [x + mp.mpf(before[12]) * y for x, y in zip(xi, (0.6, 0.0, 0.8), strict=True)]
+            turn = [mp.mpf(1), *xi]
+            back = [turn[0], *(-x for x in xi)]
+            n = sum(x * x for x in turn)
+            state = [
+                [y / n for y in hamilton(hamilton(back, [0, *map(mp.mpf, map(float, v))]), turn)[1:]] for v in (K, g)
+            ]
+            after = exact_step_of(ball, *state)
+            w = [x / after[0] for x in after[1:]]
+            total = hamilton(hamilton([1, *(-x for x in known)], turn), [1, *w])
+            z = np.abs(Q @ [float(x / total[0]) for x in total[1:]])
+            assert np.all(z <= (box[9:12] + box[12] * np.linalg.norm(Q, axis=1)) * (1 + 1e-12))
+            largest = np.maximum(largest, z)
+        assert np.all(largest > 0.9 * box[9:12] - 1e-11)
+
+
+def exact_step_of(ball, K, g):
+    """The rotation of a step from numbers of mpmath."""
+    return [context(50).mpf(x) for x in chapsym.step(ball, np.array(K, dtype=object), np.array(g, dtype=object),
+                                                     precision=Digits(45)).rotation]  # fmt: skip
 
 
 # -- a Stepper
