@@ -2400,6 +2400,10 @@ INLINE real proved_extent(r1 box) {
     return R(1.0000000000009095) * total;
 }
 
+INLINE real proved_long(t_r3 v) {
+    real most = vectors_largest(v); return most > R(3.054936363499605e-151) ? vectors_length(v) : R(2.0) * most;
+}
+
 INLINE real proved_slope_at(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
     real half = R(sqrt(vectors_square(k)));
     t_r2 reached = path_joined(u, vectors_square(u), k, half, g, I, D, R(0.5) * (max_r(max_r(I.a0, I.a1), I.a2) -
@@ -2469,13 +2473,15 @@ INLINE Root proved_root_near__p3_4r6(t_p3 u, t_p3 k, t_p3 g, t_p3 I, real D, rea
     t_r3 v = proved_floats__p3_(u), kf = proved_floats__p3_(k), gf = proved_floats__p3_(g);
     t_r3 If = proved_floats__p3_(I);
     real spread = R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2));
-    real half = R(2.0) * vectors_largest(kf), size = vectors_length(v), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
+    real half = proved_long(kf) * R(1.0000000000009095), size = proved_long(v);
+    real most = max_r(max_r(If.a0, If.a1), If.a2) + D;
     real m = (radius == R(-2.0) ? proved_slope_at(v, kf, gf, If, D) : slope) / R(1.0000000000009095);
     real whole = R(1.0) + size * size;
-    real at_root = vectors_length(proved_floats__p3_(kernel_gibbs_residual_p12e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
-        g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D)));
-    real rest = at_root + R(2.524354896707238e-29) * (R(1.0) + size) * (most * size + half) + R(2.0) * (D * size *
-        g_off + half * k_off) + R(9.332636185032189e-302);
+    real at_root = proved_long(proved_floats__p3_(kernel_gibbs_residual_p12e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2, g.a0,
+        g.a1, g.a2, I.a0, I.a1, I.a2, D)));
+    real rest = at_root + R(2.524354896707238e-29) * (R(1.0) + size) * (most * size + half) +
+        R(9.332636185032189e-302);
+    rest = rest + (R(2.0) * D * size * g_off + whole * half * k_off);
     real shift = R(4.0) * D * size + R(2.0) * whole * half;
     real curved = (R(11.0) * D * size + R(3.0) * whole * half) * xi * xi;
     real w = m > R(0.0) ? R(1.0000000000009095) * ((rest + shift * xi + curved) / m) : R(INFINITY);
@@ -2565,20 +2571,21 @@ OUT_OF_LINE void proved_squared(r1 box) {
 }
 
 INLINE void proved_carried_r1_p3_4r3(r1 box, t_p3 u, t_p3 k, t_p3 g, t_p3 I, real D, real slope, real radius) {
-    t_r3 c; real b, rounded, lost; t__r3_3 y;
+    t_r3 c; real b, rounded, solved; t__r3_3 y;
     t_r3 v = proved_floats__p3_(u), kf = proved_floats__p3_(k), gf = proved_floats__p3_(g);
     t_r3 If = proved_floats__p3_(I); real xi = proved_extent(box);
-    Root root = proved_root_near__p3_4r6(u, k, g, I, D, slope, radius, xi, box.p[13], box.p[14]);
+    Root root = proved_root_near__p3_4r6(u, k, g, I, D, slope, radius, xi, box.p[13] + R(3.1554436208840472e-30),
+        box.p[14]);
     real w = root.w, m = root.m, shift = root.shift;
-    if (w == R(INFINITY)) { box.p[12] = R(INFINITY); return; }
     real spread = R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2));
     real half = vectors_length(kf), size = vectors_length(v), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
+    real off = R(2.0) * (D * box.p[14] + half * size * box.p[13]);
+    real steeper = (spread + half) * w + R(5.0) * (half * size + D) * xi + R(1.4210854715202004e-14) * (most + half) *
+        (R(1.0) + size) + off;
+    if (w == R(INFINITY) || !(steeper < R(0.5) * m)) { box.p[12] = R(INFINITY); return; }
     t_r13 found = kernel_gibbs_newton(v.a0, v.a1, v.a2, kf.a0, kf.a1, kf.a2, gf.a0, gf.a1, gf.a2, If.a0, If.a1, If.a2,
         D);
-    real steeper = (spread + half) * w + R(5.0) * (half * size + D) * xi + R(1.4210854715202004e-14) * (most + half) *
-        (R(1.0) + size);
-    real more = (root.rest + root.curved + steeper * w) / m + R(8.0) * w * (xi + w) + R(1.4210854715202004e-14) *
-        (R(1.0) + size) * (xi + w);
+    real moved = R(0.0), lost = R(0.0);
     for (int64_t j = 0; j < 3; j++) {
         c = vectors_three(box, 0 + 3 * j); b = box.p[9 + j];
         y = tangent_column(c, v, kf, gf, D, found.a0, (t_r9){found.a4, found.a5, found.a6, found.a7, found.a8,
@@ -2586,15 +2593,19 @@ INLINE void proved_carried_r1_p3_4r3(r1 box, t_p3 u, t_p3 k, t_p3 g, t_p3 I, rea
         vectors_put(box, 0 + 3 * j, y.a0);
         rounded = R(1.4210854715202004e-14) * (R(1.0) + size) * ((most + half) * vectors_length(y.a1) + shift *
             vectors_length(c));
-        lost = proved_left(y.a1, y.a2, v, kf, gf, If, D) + rounded;
-        more = more + b * (R(2.0) * lost / m + R(1.4210854715202004e-14) * (vectors_length(c) +
-            vectors_length(y.a1)));
+        solved = R(2.0) * (proved_left(y.a1, y.a2, v, kf, gf, If, D) + rounded) / m;
+        moved = moved + b * (R(2.0) * vectors_length(y.a1) + solved);
+        lost = lost + b * (solved + R(1.4210854715202004e-14) * (vectors_length(c) + vectors_length(y.a1)));
     }
-    box.p[12] = R(1.0000000000009095) * ((R(1.0) + shift / m) * box.p[12] + more);
+    w = min_r(w, R(1.0000000000009095) * (((root.rest + root.curved + shift * box.p[12]) / m + moved) / (R(1.0) -
+        steeper / m)));
+    real more = (root.rest + root.curved + steeper * w) / m + R(8.0) * w * (xi + w) + R(1.4210854715202004e-14) *
+        (R(1.0) + size) * (xi + w);
+    box.p[12] = R(1.0000000000009095) * ((R(1.0) + shift / m) * box.p[12] + (more + lost));
     box.p[13] = R(1.0000000000009095) * (box.p[13] + R(2.524354896707238e-29) * size + R(3.1554436208840472e-30));
     box.p[14] = R(1.0000000000009095) * (box.p[14] + R(2.524354896707238e-29) * size + R(3.1554436208840472e-30));
     box.p[15] = R(1.0000000000009095) * (box.p[15] + R(2.524354896707238e-29));
-    box.p[16] = R(1.0000000000009095) * (box.p[16] + R(3.0) * w + size * (R(10.0) * xi + R(4.0) * (box.p[15] +
+    box.p[16] = R(1.0000000000009095) * (box.p[16] + R(3.0) * w + size * (R(10.0) * xi + R(8.0) * (box.p[15] +
         box.p[14] + R(2.524354896707238e-29))));
     box.p[17] = box.p[17] + R(1.0);
     if (mod_i((int64_t)box.p[17], 8) == 0 || shift > R(0.5) * m) { proved_squared(box); }
@@ -3160,13 +3171,15 @@ INLINE Root proved_root_near__e3_3_p3_r6(t_e3 u, t_e3 k, t_e3 g, t_p3 I, real D,
     t_r3 v = proved_floats__e3_(u), kf = proved_floats__e3_(k), gf = proved_floats__e3_(g);
     t_r3 If = proved_floats__p3_(I);
     real spread = R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2));
-    real half = R(2.0) * vectors_largest(kf), size = vectors_length(v), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
+    real half = proved_long(kf) * R(1.0000000000009095), size = proved_long(v);
+    real most = max_r(max_r(If.a0, If.a1), If.a2) + D;
     real m = (radius == R(-2.0) ? proved_slope_at(v, kf, gf, If, D) : slope) / R(1.0000000000009095);
     real whole = R(1.0) + size * size;
-    real at_root = vectors_length(proved_floats__p3_(kernel_gibbs_residual_e9p3e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
+    real at_root = proved_long(proved_floats__p3_(kernel_gibbs_residual_e9p3e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
         g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D)));
-    real rest = at_root + R(2.524354896707238e-29) * (R(1.0) + size) * (most * size + half) + R(2.0) * (D * size *
-        g_off + half * k_off) + R(9.332636185032189e-302);
+    real rest = at_root + R(2.524354896707238e-29) * (R(1.0) + size) * (most * size + half) +
+        R(9.332636185032189e-302);
+    rest = rest + (R(2.0) * D * size * g_off + whole * half * k_off);
     real shift = R(4.0) * D * size + R(2.0) * whole * half;
     real curved = (R(11.0) * D * size + R(3.0) * whole * half) * xi * xi;
     real w = m > R(0.0) ? R(1.0000000000009095) * ((rest + shift * xi + curved) / m) : R(INFINITY);
@@ -3226,13 +3239,15 @@ INLINE Root proved_root_near__e3_2_p3_2r6(t_e3 u, t_e3 k, t_p3 g, t_p3 I, real D
     t_r3 v = proved_floats__e3_(u), kf = proved_floats__e3_(k), gf = proved_floats__p3_(g);
     t_r3 If = proved_floats__p3_(I);
     real spread = R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2));
-    real half = R(2.0) * vectors_largest(kf), size = vectors_length(v), most = max_r(max_r(If.a0, If.a1), If.a2) + D;
+    real half = proved_long(kf) * R(1.0000000000009095), size = proved_long(v);
+    real most = max_r(max_r(If.a0, If.a1), If.a2) + D;
     real m = (radius == R(-2.0) ? proved_slope_at(v, kf, gf, If, D) : slope) / R(1.0000000000009095);
     real whole = R(1.0) + size * size;
-    real at_root = vectors_length(proved_floats__p3_(kernel_gibbs_residual_e6p6e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
+    real at_root = proved_long(proved_floats__p3_(kernel_gibbs_residual_e6p6e(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2,
         g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D)));
-    real rest = at_root + R(2.524354896707238e-29) * (R(1.0) + size) * (most * size + half) + R(2.0) * (D * size *
-        g_off + half * k_off) + R(9.332636185032189e-302);
+    real rest = at_root + R(2.524354896707238e-29) * (R(1.0) + size) * (most * size + half) +
+        R(9.332636185032189e-302);
+    rest = rest + (R(2.0) * D * size * g_off + whole * half * k_off);
     real shift = R(4.0) * D * size + R(2.0) * whole * half;
     real curved = (R(11.0) * D * size + R(3.0) * whole * half) * xi * xi;
     real w = m > R(0.0) ? R(1.0000000000009095) * ((rest + shift * xi + curved) / m) : R(INFINITY);
@@ -3263,8 +3278,8 @@ OUT_OF_LINE real proved_nearer__r3_3_p3_r3(t_r3 u, t_r3 k, t_r3 g, t_p3 I, real 
         vectors_length(d);
     real curved = (R(0.5) * (max_r(max_r(If.a0, If.a1), If.a2) - min_r(min_r(If.a0, If.a1), If.a2)) + half) * root.w *
         root.w;
-    return R(1.0000000000009095) * (vectors_length(d) + (lost + curved + max_r(root.rest - vectors_length(r), R(0.0))
-        + R(1.4210854715202004e-14) * root.rest) / root.m);
+    return R(1.0000000000009095) * (proved_long(d) + (lost + curved + max_r(root.rest - vectors_length(r), R(0.0)) +
+        R(1.4210854715202004e-14) * root.rest) / root.m);
 }
 
 INLINE t_p3 kernel_turn_1e6(real p1, real p2, real p3, real v1, real v2, real v3) {
@@ -3321,14 +3336,14 @@ INLINE void proved_bound_step(r1 momentum, r1 vertical, r1 tensor, real contact,
     int kept = R(ldexp(vectors_largest(k), (int)(size.a1 + 1))) == vectors_largest(vectors_three(momentum, 0)) &&
         q.p[0] > R(9.5367431640625e-07);
     real w = kept ? R(1.0000000000009095) * near : R(INFINITY);
-    real part = R(1.0000000000009095) * (R(2.0) * w + R(2.0) * w * w) + (R(2.524354896707238e-29) * vectors_length(u)
-        + R(3.1554436208840472e-30));
+    real part = R(1.0000000000009095) * (R(2.0) * w + R(2.0) * w * w) + (R(2.524354896707238e-29) * proved_long(u) +
+        R(3.1554436208840472e-30));
     t_r3 after = vectors_shifted(vectors_three(momentum_after, 0), -size.a1 - 1);
-    row.p[0] = R(ldexp(R(1.0000000000009095) * (vectors_length(proved_turned_off(u, k, after)) + R(2.0) *
-        vectors_largest(k) * part + R(9.332636185032189e-302)), (int)(size.a1 + 1)));
-    row.p[1] = R(1.0000000000009095) * (vectors_length(proved_turned_off(u, g, vectors_three(vertical_after, 0))) +
+    row.p[0] = R(ldexp(R(1.0000000000009095) * (proved_long(proved_turned_off(u, k, after)) + R(2.0) *
+        vectors_largest(k) * part + R(9.332636185032189e-302)), (int)(size.a1 + 1))) + R(1e-323);
+    row.p[1] = R(1.0000000000009095) * (proved_long(proved_turned_off(u, g, vectors_three(vertical_after, 0))) +
         R(1.01) * part + off);
-    row.p[2] = R(1.0000000000009095) * (w + vectors_length(u) * R(2.220446049250313e-16) + unit_off);
+    row.p[2] = R(1.0000000000009095) * (w + proved_long(u) * R(2.220446049250313e-16) + unit_off);
 }
 
 INLINE void proved_bound_steps(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, r2 momenta_after, r2
@@ -4179,5 +4194,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "8bc8a99c24c6523ceaa0821d74b95f970aa87791262b7171eaaeb4029b181c6b";
+const char loops_text[] = "8dc12946c91a7699944a9db84fcfae69fa034f4ef33b0c0d25eefcb62489e134";
 #endif

@@ -111,8 +111,9 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
 class Bounds:
     """Proved upper bounds of what a result is off by from the exact orbit of the map, in the units of its arrays.
 
-    The exact orbit starts at the very numbers that were given, with γ and the attitude divided by their lengths, and is
-    that of the map, or of its composition, not of the continuous ball.
+    The exact orbit starts at the numbers that were given, as float64 has them (a momentum of Fractions in a run as it
+    is), with γ and the attitude divided by their lengths; it is that of the map, or of its composition.  Of `roll` it
+    is the motion of the ball.
 
     momentum, gamma: (..., frames) of a run, and (...) of a step.
     attitude, contact: of a run, where it has them; else None.

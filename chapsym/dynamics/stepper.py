@@ -268,13 +268,14 @@ class Proof:
     """The run in double-double from the last start of a Stepper, which carries the bounds."""
 
     def __init__(self, ball: Stepper) -> None:
-        momentum, gamma, attitude, self._spot = ball._start
+        momentum, gamma, attitude, spot = ball._start
         one = momentum[np.newaxis], gamma[np.newaxis], ball._J[np.newaxis], np.array([ball._D])
         self._balls, self._taken = Balls(*one, np.array([ball._radius])), 0
         self._frames = self._rows("double-double", attitude if ball._follows else None)
         self._spread = np.array([[proved.PAIR] * 4, [np.inf] * 4])
         stages = double_double.coefficients(ball.order)
         self._run = double_double.OneBall(self._balls, 0, self._frames, self._frames.low, stages, proves=True)
+        self._run.begin_at(spot)
 
     def _rows(self, precision: str, attitude: Asked) -> Any:
         """Frames for the start and the present state."""
@@ -287,12 +288,14 @@ class Proof:
             went, _, _ = self._run.take(0, steps, steps, self._frames, self._frames.low, 0, self._spread)
             self._taken += steps
             if went < steps:
+                self._run.lose()
                 self._spread[:] = np.inf
         there = self._rows("double", ball._spin if ball._follows else None)
         there.momentum[0, now], there.gamma[0, now] = ball._momentum, ball._gamma
         if ball._follows:
-            there.attitude[0, now], there.contact[0, now] = ball._spin, ball._spot - self._spot
-        found = proved.errors(self._balls, np.array([0.0, float(ball._taken)]), there, self._frames, self._spread[None])
+            there.attitude[0, now], there.contact[0, now] = ball._spin, ball._spot
+        index, stages = np.array([0.0, float(ball._taken)]), len(ball._stages)
+        found = proved.errors(self._balls, index, there, self._frames, self._spread[np.newaxis], stages)
         present: list[Any] = [None if x is None else x[0, now] for x in found]
         whole = all(np.isfinite(x) for x in present if x is not None)
         momentum, gamma, attitude, contact = present

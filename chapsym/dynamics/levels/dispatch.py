@@ -79,15 +79,19 @@ def run_proved(
     A run in double-double carries the proof; that in float64 is compared with it.
     """
     n, count = frames.momentum.shape[:2]
-    spread = np.full((n, count, 4), np.inf)
-    spread[:, 0] = proved.PAIR
     pairs = frames
-    if isinstance(precision, Double):
-        run(precision, balls, steps, every, frames, order, threads, lambda done: None)
-        start = frames.attitude[:, 0] if frames.with_body else None
-        pairs = begun(NAMED["double-double"], balls, count, start)
-    double_double.run(balls, steps, every, pairs, order, threads, progress, spread)
-    found = proved.errors(balls, np.arange(0.0, count) * every, frames, pairs, spread)
+    try:
+        spread = np.full((n, count, 4), np.inf)
+        spread[:, 0] = proved.PAIR
+        if isinstance(precision, Double):
+            run(precision, balls, steps, every, frames, order, threads, lambda done: None)
+            start = frames.attitude[:, 0] if frames.with_body else None
+            pairs = begun(NAMED["double-double"], balls, count, start)
+        double_double.run(balls, steps, every, pairs, order, threads, progress, spread)
+        index, stages = np.arange(0.0, count) * every, len(substeps(order))
+        found = proved.errors(balls, index, frames, pairs, spread, stages)
+    except MemoryError:
+        raise no_room(count, n) from None
     open_at = np.logical_or.reduce([~np.isfinite(x) for x in found if x is not None])
     first = np.where(open_at.any(axis=1), open_at.argmax(axis=1), count)
     bounds = dict(zip(("momentum", "gamma", "attitude", "contact"), found, strict=True))

@@ -14,6 +14,7 @@ from ..coefficients import COMPOSITIONS
 from ..errors import Status
 from ..failure import explain
 from ..loops import double_double as loop
+from ..loops import proved as loops_proved
 from . import proved
 from .frames import Balls, Count, Frames, cores, share
 
@@ -119,6 +120,14 @@ class OneBall:
         self._body = frames.with_body, *body, float(balls.radius[i])
         self._scales = self.shift, beyond
         self._proof = proved.begun(self.state, stages, beyond) if proves else (np.empty((0, 2)), np.empty(0))
+
+    def begin_at(self, spot: Floats) -> None:
+        """Begins at a contact point that is not (0, 0)."""
+        self._body[2][::2] = spot
+
+    def lose(self) -> None:
+        """Has nothing proved from here on."""
+        self._proof[1][loops_proved.BALL] = np.inf
 
     def take(
         self, first: int, count: int, every: int, frames: Frames, low: Frames, i: int, spread: Floats

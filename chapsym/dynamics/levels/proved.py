@@ -13,6 +13,8 @@ from .frames import Balls, Count, Frames, cores, share
 
 #: Beyond the roundings of a distance: relative to it, and to what is compared.
 WIDER, PAIR = 1.0 + 2.0**-40, 2.0**-98
+#: More than what a rounded subnormal number is off by, in each part of a sum.
+FLOOR = 2.0**-1070
 #: Balls of which a thread bounds a step in one call.
 MANY = 12_500
 
@@ -29,7 +31,9 @@ def begun(state: Floats, stages: Floats, beyond: int) -> tuple[Floats, Floats]:
     return np.array([proved.slope_of(k, I, D) for k in stage_momenta]), box
 
 
-def errors(balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floats) -> list[Asked]:
+def errors(
+    balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floats, stages: int = 1
+) -> list[Asked]:  # fmt: skip
     """Upper bounds, (n, frames), of what a run is off by: in 𝒦, γ, the attitude and the contact point.
 
     pairs: the run in double-double from the same start, and `spread`: how far the exact orbit may be from that.
@@ -47,9 +51,10 @@ def errors(balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floa
         beyond = run.low if run.low is None else getattr(run.low, name)
         with np.errstate(invalid="ignore", over="ignore", under="ignore"):
             off = length((ours - high) + ((0.0 if beyond is None else beyond) - rest))
-            # The contact point is a sum of as many parts as steps, each of a radius at most.
-            part = spread[:, :, i] + PAIR * (1.0 + (index * index if name == "contact" else 0.0))
-            bound = np.nextafter(WIDER * (off + sizes[i] * part), inf)
+            # The contact point is a sum of as many parts as rotations, each of a radius at most.
+            parts = index * stages if name == "contact" else 0.0 * index
+            part = spread[:, :, i] + PAIR * (1.0 + parts * parts)
+            bound = np.nextafter(WIDER * (off + sizes[i] * part), inf) + FLOOR * (1.0 + parts)
         lost = np.isnan(bound)  # the run in pairs stopped before
         found.append(np.where(np.isnan(ours).any(axis=-1), nan, np.where(lost, inf, bound)))
     return found

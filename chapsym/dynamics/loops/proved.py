@@ -85,6 +85,12 @@ def unit_pairs(v):
     return x[0] / size, x[1] / size, x[2] / size
 
 
+def long(v):
+    """A bound of |v|, of vectors whose squares underflow, too."""
+    most = largest(v)
+    return length(v) if most > 2.0**-500 else 2.0 * most
+
+
 def floats(v):
     """The numbers of a vector of pairs, each rounded."""
     return v[0].normalised().high, v[1].normalised().high, v[2].normalised().high
@@ -135,11 +141,12 @@ def root_near(u, k, g, I, D, slope, radius, xi, k_off, g_off):
     nothing is proved.
     """
     v, kf, gf, If = floats(u), floats(k), floats(g), floats(I)
-    spread, half, size, most = 0.5 * (max(*If) - min(*If)), 2.0 * largest(kf), length(v), max(*If) + D
+    spread, half, size, most = 0.5 * (max(*If) - min(*If)), long(kf) * WIDER, long(v), max(*If) + D
     m = (slope_at(v, kf, gf, If, D) if radius == BEYOND else slope) / WIDER
     whole = 1.0 + size * size
-    at_root = length(floats(gibbs_residual(*u, *k, *g, *I, Loose(D))))
-    rest = at_root + EVALUATED * (1.0 + size) * (most * size + half) + 2.0 * (D * size * g_off + half * k_off) + TINY
+    at_root = long(floats(gibbs_residual(*u, *k, *g, *I, Loose(D))))
+    rest = at_root + EVALUATED * (1.0 + size) * (most * size + half) + TINY
+    rest = rest + (2.0 * D * size * g_off + whole * half * k_off)
     shift = 4.0 * D * size + 2.0 * whole * half
     curved = (11.0 * D * size + 3.0 * whole * half) * xi * xi
     w = WIDER * ((rest + shift * xi + curved) / m) if m > 0.0 else inf
@@ -155,27 +162,30 @@ def carried(box, u, k, g, I, D, slope, radius):
     """The set after the step with the Gibbs vector u, from k, γ and I, in pairs; all ξ if that is not proved."""
     v, kf, gf, If = floats(u), floats(k), floats(g), floats(I)
     xi = extent(box)
-    root = root_near(u, k, g, I, D, slope, radius, xi, box[K_OFF], box[G_OFF])
+    root = root_near(u, k, g, I, D, slope, radius, xi, box[K_OFF] + PAIR, box[G_OFF])
     w, m, shift = root.w, root.m, root.shift
-    if w == inf:
+    spread, half, size, most = 0.5 * (max(*If) - min(*If)), length(kf), length(v), max(*If) + D
+    off = 2.0 * (D * box[G_OFF] + half * size * box[K_OFF])
+    steeper = (spread + half) * w + 5.0 * (half * size + D) * xi + ROUNDED * (most + half) * (1.0 + size) + off
+    if w == inf or not steeper < 0.5 * m:
         box[BALL] = inf
         return
-    spread, half, size, most = 0.5 * (max(*If) - min(*If)), length(kf), length(v), max(*If) + D
     found = gibbs_newton(*v, *kf, *gf, *If, D)
-    steeper = (spread + half) * w + 5.0 * (half * size + D) * xi + ROUNDED * (most + half) * (1.0 + size)
-    more = (root.rest + root.curved + steeper * w) / m + 8.0 * w * (xi + w) + ROUNDED * (1.0 + size) * (xi + w)
+    moved, lost = 0.0, 0.0
     for j in range(3):
         c, b = three(box, EDGES + 3 * j), box[BOUNDS + j]
         y, d, r = column(c, v, kf, gf, D, found[0], found[4:13])
         put(box, EDGES + 3 * j, y)
         rounded = ROUNDED * (1.0 + size) * ((most + half) * length(d) + shift * length(c))
-        lost = left(d, r, v, kf, gf, If, D) + rounded
-        more += b * (2.0 * lost / m + ROUNDED * (length(c) + length(d)))
-    box[BALL] = WIDER * ((1.0 + shift / m) * box[BALL] + more)
+        solved = 2.0 * (left(d, r, v, kf, gf, If, D) + rounded) / m
+        moved, lost = moved + b * (2.0 * length(d) + solved), lost + b * (solved + ROUNDED * (length(c) + length(d)))
+    w = min(w, WIDER * (((root.rest + root.curved + shift * box[BALL]) / m + moved) / (1.0 - steeper / m)))
+    more = (root.rest + root.curved + steeper * w) / m + 8.0 * w * (xi + w) + ROUNDED * (1.0 + size) * (xi + w)
+    box[BALL] = WIDER * ((1.0 + shift / m) * box[BALL] + (more + lost))
     box[K_OFF] = WIDER * (box[K_OFF] + EVALUATED * size + PAIR)
     box[G_OFF] = WIDER * (box[G_OFF] + EVALUATED * size + PAIR)
     box[A_OFF] = WIDER * (box[A_OFF] + EVALUATED)
-    box[X_OFF] = WIDER * (box[X_OFF] + 3.0 * w + size * (10.0 * xi + 4.0 * (box[A_OFF] + box[G_OFF] + EVALUATED)))
+    box[X_OFF] = WIDER * (box[X_OFF] + 3.0 * w + size * (10.0 * xi + 8.0 * (box[A_OFF] + box[G_OFF] + EVALUATED)))
     box[PROVED] += 1.0
     if int(box[PROVED]) % WINDOW == 0 or shift > QUICK * m:
         squared(box)
@@ -197,11 +207,11 @@ def bound_step(momentum, vertical, tensor, contact, q, momentum_after, vertical_
     unit_off = 0.51 * abs(square_of_four(four(q, 0)) - 1.0) + 2.0**-52
     kept = ldexp(largest(k), size + 1) == largest(three(momentum, 0)) and q[0] > LARGEST
     w = WIDER * near if kept else inf
-    part = WIDER * (2.0 * w + 2.0 * w * w) + (EVALUATED * length(u) + PAIR)
+    part = WIDER * (2.0 * w + 2.0 * w * w) + (EVALUATED * long(u) + PAIR)
     after = shifted(three(momentum_after, 0), -size - 1)
-    row[0] = ldexp(WIDER * (length(turned_off(u, k, after)) + 2.0 * largest(k) * part + TINY), size + 1)
-    row[1] = WIDER * (length(turned_off(u, g, three(vertical_after, 0))) + 1.01 * part + off)
-    row[2] = WIDER * (w + length(u) * 2.0**-52 + unit_off)
+    row[0] = ldexp(WIDER * (long(turned_off(u, k, after)) + 2.0 * largest(k) * part + TINY), size + 1) + 2.0**-1073
+    row[1] = WIDER * (long(turned_off(u, g, three(vertical_after, 0))) + 1.01 * part + off)
+    row[2] = WIDER * (w + long(u) * 2.0**-52 + unit_off)
 
 
 @out_of_line
@@ -218,7 +228,7 @@ def nearer(u, k, g, I, D, slope, radius):
     half, size, most = length(k), length(u), max(*If) + D
     lost = left(d, r, u, k, gf, If, D) + ROUNDED * (1.0 + size) * (most + half) * length(d)
     curved = (0.5 * (max(*If) - min(*If)) + half) * root.w * root.w
-    return WIDER * (length(d) + (lost + curved + max(root.rest - length(r), 0.0) + ROUNDED * root.rest) / root.m)
+    return WIDER * (long(d) + (lost + curved + max(root.rest - length(r), 0.0) + ROUNDED * root.rest) / root.m)
 
 
 def turned_off(u, v, after):
