@@ -78,7 +78,8 @@ def proved(quick: bool, say: Say) -> Frontier:
         def error() -> float:
             found = run(steps, every=steps, **options)
             if (bounds := found.proved) is None:
-                return max(float(x.rad()) for x in (*found.momentum[-1] / size, *found.gamma[-1]))
+                radii = [[float(x.rad()) for x in v[-1]] for v in (found.momentum, found.gamma)]
+                return max(max(radii[0]) / size, *radii[1])
             return float(max(bounds.momentum[-1] / size, bounds.gamma[-1]))
 
         name = f"ball{precision.bits}" if isinstance(precision, Enclosure) else label_of(precision)
