@@ -2,28 +2,17 @@
 
 import dataclasses
 from functools import cache
-from pathlib import Path
 
 import mpmath as mp
 import numpy as np
 import pytest
 import sympy as sp
 from budget import slow
+from systems import ANYWHERE, SYMMETRIC, a, example, va, vx, vy, x, y
 
-from chapsym.mechanics import METHODS, BadSystem, Discrete, Runner, System, dot, loaded, verdicts
+from chapsym.mechanics import METHODS, BadSystem, Discrete, Runner, System, dot, verdicts
 from chapsym.mechanics.methods import Scheme
 from chapsym.mechanics.system import STEP
-
-SYSTEMS = Path(__file__).parents[2] / "docs/examples/systems"
-ANYWHERE = [name for name in METHODS if name != "own"]
-SYMMETRIC = ["dla", "gni", "leapfrog", "spark", "midpoint"]
-x, y, z, a = sp.symbols("x y z a")
-vx, vy, va = map(dot, (x, y, a))
-
-
-@cache
-def example(name):
-    return loaded(SYSTEMS / f"{name}.py")
 
 
 @cache

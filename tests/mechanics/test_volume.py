@@ -2,17 +2,14 @@
 
 import dataclasses
 from itertools import pairwise
-from pathlib import Path
 
 import mpmath as mp
 import pytest
 import sympy as sp
+from systems import a, example, va, vx, vy, vz, x, y, z
 
-from chapsym.mechanics import BadSystem, Quaternion, System, conserved, dot, flag, loaded, volume
+from chapsym.mechanics import BadSystem, Quaternion, System, conserved, flag, volume
 
-SYSTEMS = Path(__file__).parents[2] / "docs/examples/systems"
-x, y, z, a = sp.symbols("x y z a")
-vx, vy, vz, va = map(dot, (x, y, z, a))
 KEPT = ["ball", "contact", "falling_disc", "particle", "snakeboard", "transmission", "veselova", "vertical_disc"]
 
 
@@ -70,7 +67,7 @@ def divergence(system, found, density):
 
 @pytest.mark.parametrize("name", KEPT)
 def test_the_density_balances_the_divergence(name):
-    system = loaded(SYSTEMS / f"{name}.py")
+    system = example(name)
     found = volume(system)
     assert str(found) == "keeps a smooth volume"
     density = found.density
@@ -82,7 +79,7 @@ def test_the_density_balances_the_divergence(name):
 
 def test_the_density_of_the_ball_is_chaplygins():
     """√(1 - D⟨γ, (I + D)⁻¹γ⟩) of what the paper has, up to a factor and to the coordinates of the attitude."""
-    system = loaded(SYSTEMS / "ball.py")
+    system = example("ball")
     found = volume(system)
     q = system.coordinates[2:]
     up = Quaternion("q").rotation.T * sp.Matrix([0, 0, 1])
@@ -96,7 +93,7 @@ def test_the_density_of_the_ball_is_chaplygins():
 def test_what_keeps_none():
     """Suslov's body and the sleigh tend to steady motions; of a rattleback, which has weight, less is proved."""
     for name in ("suslov", "sleigh"):
-        found = volume(loaded(SYSTEMS / f"{name}.py"))
+        found = volume(example(name))
         assert str(found) == "keeps no smooth volume"
         assert found.point
     pulled = volume(sleigh(1, potential=x))
@@ -107,7 +104,7 @@ def test_what_keeps_none():
 
 def test_a_suslov_body_about_a_principal_axis_keeps_one():
     """Without products of inertia of the axis that may not turn; with one, none."""
-    system = loaded(SYSTEMS / "suslov.py")
+    system = example("suslov")
     products = [s for s in system.parameters if s.name in ("I13", "I23")]
     free = dataclasses.replace(system, parameters={**system.parameters, **dict.fromkeys(products, 0)})
     assert volume(free).kept

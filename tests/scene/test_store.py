@@ -115,17 +115,16 @@ def turned(chunk):
     chunk.write_bytes(content)
 
 
-DAMAGES, NAMES = (cut, turned, Path.unlink), ("gamma", "taken", "mass_tensor")
-
-
 @pytest.mark.parametrize(
     ("damage", "name", "after"),
     [
-        *((damage, name, UNITS) for damage in DAMAGES for name in NAMES),
-        *((damage, name, 7) for damage, name in zip(DAMAGES, NAMES, strict=True)),
-        *slow(*((damage, name, 7) for damage in DAMAGES for name in NAMES)),
+        (cut, "gamma", UNITS), (turned, "taken", UNITS), (Path.unlink, "mass_tensor", UNITS),
+        (cut, "taken", 7), (turned, "mass_tensor", 7), (Path.unlink, "gamma", 7),
+        *slow(*(
+            (damage, name, UNITS) for damage in (cut, turned, Path.unlink) for name in ("gamma", "taken", "mass_tensor")
+        )),
     ],
-)
+)  # fmt: skip
 def test_a_chunk_that_is_lost_or_damaged_is_found_and_computed_anew(whole, path, monkeypatch, damage, name, after):
     interrupted(path, monkeypatch, after)
     chunks = sorted(file for file in (path / name / "c").rglob("*") if file.is_file())

@@ -1,0 +1,28 @@
+"""The systems of the documentation, whose equations are derived once in a process, and symbols for those of tests."""
+
+from functools import cache
+from pathlib import Path
+
+import sympy as sp
+
+from chapsym.mechanics import METHODS, Runner, dot, loaded
+
+SYSTEMS = Path(__file__).parents[1] / "docs/examples/systems"
+#: The methods that take any system.
+ANYWHERE = [name for name in METHODS if name != "own"]
+SYMMETRIC = ["dla", "gni", "leapfrog", "spark", "midpoint"]
+x, y, z, a, k = sp.symbols("x y z a k")
+vx, vy, vz, va = map(dot, (x, y, z, a))
+FREE = (vx**2 + vy**2 + vz**2) / 2
+
+
+@cache
+def example(name):
+    """A system of the documentation, by the name of its file."""
+    return loaded(SYSTEMS / f"{name}.py")
+
+
+@cache
+def runner(name, method, precision="double"):
+    """A method made ready for an example once, in C where it can be."""
+    return Runner(example(name), method, precision=precision)
