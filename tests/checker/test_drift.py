@@ -211,7 +211,7 @@ def test_what_is_found_must_prove_the_statement(right, known):
         check(wide)
 
 
-@pytest.mark.parametrize("name", sorted(drift.FORM.keys() - form.HEAD.keys()))
 @pytest.mark.parametrize("bad", [None, 3, "x", [], {}, [[]], "-1", True])
-def test_any_shape_is_refused_with_a_sentence(right, name, bad):
-    assert refused(resealed(right | {name: bad}))
+def test_any_shape_is_refused_with_a_sentence(right, bad):
+    for name in drift.FORM.keys() - form.HEAD.keys():
+        assert refused(resealed(right | {name: bad})), name

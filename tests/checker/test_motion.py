@@ -253,14 +253,9 @@ def test_a_digit_of_a_frame_is_refused_or_true(right, truth):
     assert accepted < 10
 
 
-@pytest.mark.parametrize("name", sorted({*motion.FORM, "start", "frames"} - form.HEAD.keys()))
-@pytest.mark.parametrize("bad", [None, -3, "x", [], {}, [[]], "-1", True])
-def test_any_shape_is_refused_with_a_sentence(right, name, bad):
-    assert refused(resealed(right | {name: bad}))
-
-
-@pytest.mark.parametrize("path", [("frames", 1), ("frames", 1, "gamma"), ("frames", 1, "gamma", 0),
-                                  ("frames", 1, "gamma", 0, 1), ("start", "attitude"), ("ball", "radius")])  # fmt: skip
-@pytest.mark.parametrize("bad", [None, 3, "x", [], {}, [[]], True, "1e-8 "])
-def test_any_shape_within_is_refused_with_a_sentence(right, path, bad):
-    assert refused(resealed(replaced(right, path, bad)))
+@pytest.mark.parametrize("bad", [None, -3, "x", [], {}, [[]], "-1", True, "1e-8 "])
+def test_any_shape_is_refused_with_a_sentence(right, bad):
+    paths = [(name,) for name in {*motion.FORM, "start", "frames"} - form.HEAD.keys()]
+    paths += [("frames", 1), ("frames", 1, "gamma"), ("frames", 1, "gamma", 0), ("start", "attitude")]
+    for path in (*paths, ("frames", 1, "gamma", 0, 1), ("ball", "radius")):
+        assert refused(resealed(replaced(right, path, bad))), path
