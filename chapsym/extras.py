@@ -6,7 +6,7 @@ from importlib.util import find_spec
 EXTRAS = {
     "scenes": (
         "scenes and their results need",
-        ("pydantic", "pint", "xarray", "zarr", "google_crc32c", "h5netcdf", "h5py", "pyarrow"),
+        ("pydantic", "pint", "xarray", "zarr", "google_crc32c", "h5netcdf", "h5py", "pyarrow", "pandas"),
     ),
     "figures": ("figures and rolling pages need", ("matplotlib", "jinja2")),
     "cluster": ("a Dask cluster needs", ("distributed",)),
@@ -19,10 +19,10 @@ class MissingExtra(ImportError):
     """An extra is not installed: what needs it, the packages that are absent, and the command that installs them."""
 
 
-def need(extra: str) -> None:
-    """Raises MissingExtra unless all packages of an extra are there; none is imported."""
+def need(extra: str, *only: str) -> None:
+    """Raises MissingExtra unless all packages of an extra, or `only` these of it, are there; none is imported."""
     what, packages = EXTRAS[extra]
-    absent = [package for package in packages if find_spec(package) is None]
+    absent = [package for package in only or packages if find_spec(package) is None]
     if absent:
         *some, last = absent
         listed, are = (f"{', '.join(some)} and {last}", "are") if some else (last, "is")

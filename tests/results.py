@@ -8,7 +8,7 @@ from chapsym.scene.members.members import Members
 from chapsym.scene.plan.models import FOLLOWED
 from chapsym.scene.plan.plan import asked_for, planned
 from chapsym.scene.read.task import Task
-from chapsym.scene.result.dataset import arrays, with_clock
+from chapsym.scene.result.dataset import arrays
 
 BOWLING = chapsym.Ball.from_inertia((0.0300, 0.0312, 0.0318), mass=7.0, radius=0.1085)
 UNEVEN = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
@@ -31,7 +31,7 @@ def of(run, outputs, title="A ball", parameters=None, names=None):
     )  # fmt: skip
     every = int(index[1]) if len(index) > 1 else 1
     task = Task(tuple(outputs), int(index[-1]), every, getattr(run, "time_step", None))
-    data = with_clock(arrays(planned(members, task), asked_for(members, task, columns), state).dataset())
+    data = arrays(planned(members, task), asked_for(members, task, columns), state).dataset()
     return data.assign_attrs(title=title)
 
 

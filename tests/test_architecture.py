@@ -26,7 +26,7 @@ ROOMS = {
     "prove": {"checker", "derive", "files", "sources", "workers"},
     "codegen": {"checker", "derive", "prove"},
     "mechanics": {"codegen", "derive", "dynamics", "numbers", "prove"},
-    "dynamics": {"generated", "numbers", "rationals"},
+    "dynamics": {"extras", "generated", "numbers", "rationals"},
     "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},
     "accuracy": {"dynamics", "files", "generated", "numbers"},
     "jobs": {"dynamics", "extras", "workers"},

@@ -14,9 +14,9 @@ from .output import counted, fail, note, print_json
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from chapsym.dynamics.labelled import Arrays
     from chapsym.scene import Scene
     from chapsym.scene.plan.plan import Plan
-    from chapsym.scene.result.dataset import Arrays
 
 #: Seconds that a proof may take where the scene does not say.
 LIMIT = 600.0

@@ -17,6 +17,7 @@ from chapsym.rationals import exact_fraction
 from . import principal_axes
 from .errors import BadInput
 from .principal_axes import Floats
+from .shown import Brief
 
 #: An array that is None unless it was asked for; whoever asked need not tell the type checker so, hence `Any`.
 Asked = Floats | Any
@@ -105,7 +106,7 @@ def brief(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-class Parameters:
+class Parameters(Brief):
     """What balls of every dimension have: those with the same parameters are equal; a copy is checked anew."""
 
     def _values(self) -> tuple[Asked, ...]:
@@ -126,7 +127,7 @@ class Parameters:
         return type(self), self._values()
 
 
-@dataclass(frozen=True, eq=False, init=False)
+@dataclass(frozen=True, eq=False, init=False, repr=False)
 class Ball(Parameters):
     """A ball, or an array of balls, that rolls without slipping; balanced: its centre of mass is its centre.
 

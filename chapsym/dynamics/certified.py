@@ -20,14 +20,15 @@ from .levels.frames import Balls, Frames
 from .levels.frames import exactly as exact_numbers
 from .levels.start import fraction
 from .results import Trajectory
+from .shown import Brief
 from .trajectories import whole_number
 
 #: What a certificate is about; `contact` in metres.
 NAMES = ("momentum", "gamma", "attitude", "contact")
 
 
-@dataclass(frozen=True, eq=False)
-class Certificate:
+@dataclass(frozen=True, eq=False, repr=False)
+class Certificate(Brief):
     """The frames of a trajectory as balls that contain the true orbit, and bounds of what the trajectory is off by.
 
     The true orbit is that of the map, the small-rotation branch, from the very numbers of frame 0: 𝒦 as it is, γ and

@@ -16,6 +16,7 @@ from .errors import BadInput, TooWide
 from .levels.start import exponent_of, fraction
 from .map import check_body, check_tensor, unit_exactly
 from .results import Bounds, Trajectory
+from .shown import Brief
 
 #: What a frame has; `contact` where the ball has a radius.
 PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
@@ -66,8 +67,8 @@ class ExactBall:
         return not isinstance(self.mass_tensor[0], tuple)
 
 
-@dataclass(frozen=True, eq=False)
-class CertifiedMotion:
+@dataclass(frozen=True, eq=False, repr=False)
+class CertifiedMotion(Brief):
     """The motion at the times that were reached, in Arb's balls that contain it.
 
     times: in s, exact.  gamma, angular_momentum (K in kg m²/s), omega (rad/s): (frames, 3).

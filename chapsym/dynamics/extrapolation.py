@@ -35,6 +35,7 @@ from .loops.guess import guess_weights
 from .loops.lanes import CHANGES, EIGHT, LAST, MOST_COLUMNS
 from .loops.lanes import march as march_lanes
 from .results import in_given_axes
+from .shown import Brief
 from .trajectories import flag, rolling_radius, seconds, whole_number
 
 #: From this many balls on a block of eight is faster than one after another.
@@ -43,8 +44,8 @@ FEW = 6
 MOST_OF_PAIRS = 12
 
 
-@dataclass(frozen=True, eq=False)
-class Extrapolated:
+@dataclass(frozen=True, eq=False, repr=False)
+class Extrapolated(Brief):
     """States of the continuous ball after a number of equal times, for one ball or a batch (...).
 
     angular_momentum: K in kg m²/s, shape (..., 3); gamma: the vertical upwards, (..., 3).

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from . import kernels
 from .ball import Asked, Ball, Floats, numbers
 from .errors import BadInput
+from .shown import Brief
 
 #: Frames with more turning than this between them, in radians, tell too little of what is between.
 MOST_TURN = 1.5
@@ -19,8 +20,8 @@ RESTING = {"gamma": [0.0, 0.0, 1.0], "attitude": [1.0, 0.0, 0.0, 0.0]}
 _torque = kernels.kernel("torque")
 
 
-@dataclass(frozen=True, eq=False)
-class Moments:
+@dataclass(frozen=True, eq=False, repr=False)
+class Moments(Brief):
     """States of a run at given times, (..., times, ...) or (...) for one time, in float64; NaN behind a stop.
 
     time: seconds, or step numbers where the run has no time step.

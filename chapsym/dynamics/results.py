@@ -7,19 +7,24 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import wraps
 from inspect import signature
-from typing import Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.numbers import NAMED, Double, Pair, Precision, Single, named
 
-from . import kernels, principal_axes
+from . import kernels, labelled, principal_axes
 from .attitudes import initial_attitude
 from .ball import Asked, Ball, Floats, batch, in_shape, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .interpolation import Moments, States, standing
 from .n import so_n
+from .shown import Brief, html
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from xarray import Dataset
 
 #: The vectors of arguments and of results, by their names.
 VECTORS = ("momentum", "angular_momentum", "omega", "gamma")
@@ -107,8 +112,8 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
     return taken
 
 
-@dataclass(frozen=True, eq=False)
-class Bounds:
+@dataclass(frozen=True, eq=False, repr=False)
+class Bounds(Brief):
     """Proved upper bounds of what a result is off by from the exact orbit of the map, in the units of its arrays.
 
     The exact orbit starts at the numbers that were given, as float64 has them (a momentum of Fractions in a run as it
@@ -129,8 +134,8 @@ class Bounds:
     steps: np.ndarray | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class Step:
+@dataclass(frozen=True, eq=False, repr=False)
+class Step(Brief):
     """The outcome of one step, for one ball or a batch with the leading axes (...).
 
     rotation: the Euler parameters (q0, q1, q2, q3) of the step in the body, q0 ≥ 0, shape (..., 4).
@@ -242,6 +247,64 @@ class Trajectory:
         kept = [name for name in FRAMES[1:] if getattr(self, name) is not None]
         return f"<Trajectory of {balls}: {len(self.index)} frames in {end}; {', '.join(kept)}>"
 
+    def _repr_html_(self) -> str:
+        clock = {} if self.time_step is None else {"time": self.time}
+        kept = clock | {name: getattr(self, name) for name in FRAMES}
+        one = not self.status.shape
+        return html(self, {name: values for name, values in kept.items() if one and values is not None})
+
+    def to_xarray(self) -> Dataset:
+        """The same as a Dataset, labelled as the result of a scene: SI units, names of axes, the ball; with `time` also
+        `omega` and `energy`.
+
+        Its dimensions are `ball`, one for all axes of a batch, and `frame`; `chapsym.Result` draws and writes it.  Its
+        `momentum` is K in kg m² s⁻¹ of the motion (`roll`), and 𝒦 in kg m² of the map: its unit says which.  Beyond
+        float64 the numbers are those of the precision.
+
+        Raises
+        ------
+        MissingExtra
+            Without xarray.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> ball = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
+        >>> data = chapsym.roll(ball, (3, -2, 1), 0.01, 100, contact=True).to_xarray()
+        >>> data.momentum.dims, data.momentum.units
+        (('ball', 'frame', 'axis'), 'kg m2 s-1')
+        >>> round(data.omega.sel(time=0, axis="3").item(), 9)
+        1.0
+        """
+        return labelled.of_run(self).dataset()
+
+    def to_pandas(self, *, balls: bool = False) -> DataFrame:
+        """The same as a table with the columns of a result's CSV, a row for each ball and frame.
+
+        Parameters
+        ----------
+        balls
+            Whether to have what a ball has once, as J, D, and why it stopped, a row for each ball.
+
+        Returns
+        -------
+        DataFrame
+            `attrs["units"]` has the unit of each column.
+
+        Raises
+        ------
+        MissingExtra
+            Without pandas.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1), 5)
+        >>> list(run.to_pandas())
+        ['ball', 'step', 'momentum_1', 'momentum_2', 'momentum_3', 'gamma_1', 'gamma_2', 'gamma_3']
+        """
+        return labelled.frame(labelled.of_run(self), balls)
+
     @property
     def t(self) -> Floats:
         """`time`, as `solve_ivp` calls it."""
@@ -283,9 +346,10 @@ class Trajectory:
 
         In n dimensions those of `invariants_n`, (..., frames, m).  Raises BadInput if a ball stopped early.
         """
+        self._check_finite()
         of = kernels.invariants if isinstance(self.ball, Ball) else so_n.invariants
         with self.precision.working():
-            return of(*self._finite(self.momentum, self.gamma))
+            return of(self.momentum, self.gamma)
 
     def angular_momentum(self) -> Floats:
         """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
@@ -295,9 +359,8 @@ class Trajectory:
     @property
     def omega(self) -> Floats:
         """ω in rad/s for K = 𝒦/ε, in body axes, (..., frames, 3); raises BadInput if the run has no time step."""
-        with self.precision.working():
-            omega = kernels.angular_velocity(*self._principal())
-            return omega if self.ball.axes is None else self.ball.from_principal(omega, frames=True)
+        self._check_finite()
+        return self.derived()["omega"]
 
     @property
     def energy(self) -> Floats:
@@ -306,20 +369,26 @@ class Trajectory:
 
     def kinetic_energy(self) -> Floats:
         """½⟨K, ω⟩ in joules for K = 𝒦/ε, (..., frames); the map keeps it up to an oscillation."""
+        self._check_finite()
+        return self.derived()["energy"]
+
+    def derived(self) -> dict[str, Floats]:
+        """`omega` and `energy`, NaN where a ball of a batch stopped; raises BadInput if the run has no time step."""
         with self.precision.working():
-            return kernels.energy(*self._principal())
+            ball, missing = self.ball, self.index > self.taken[..., np.newaxis]
+            K = np.where(missing[..., np.newaxis], 0.0, self.angular_momentum())
+            gamma = np.where(missing[..., np.newaxis], [0.0, 0.0, 1.0], self.gamma)
+            if ball.axes is not None:
+                K, gamma = ball.to_principal(K, frames=True), ball.to_principal(gamma, frames=True)
+            frames = K, gamma, ball.mass_tensor[..., np.newaxis, :], ball.D[..., np.newaxis]
+            omega, energy = kernels.angular_velocity(*frames), np.array(kernels.energy(*frames))
+            omega = omega if ball.axes is None else ball.from_principal(omega, frames=True)
+            omega[missing] = energy[missing] = np.nan
+            return {"omega": omega, "energy": energy}
 
-    def _principal(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """K, γ, J and D of every frame, in principal axes."""
-        K, gamma = self._finite(self.angular_momentum(), self.gamma)
-        if self.ball.axes is not None:
-            K, gamma = self.ball.to_principal(K, frames=True), self.ball.to_principal(gamma, frames=True)
-        return K, gamma, self.ball.mass_tensor[..., np.newaxis, :], self.ball.D[..., np.newaxis]
-
-    def _finite(self, *arrays: Floats) -> tuple[Floats, ...]:
+    def _check_finite(self) -> None:
         if (self.taken < self.index[-1]).any():
             raise BadInput("a ball of the batch stopped early; choose the frames up to `taken` first")
-        return arrays
 
     def _time_step(self) -> float:
         if self.time_step is None:

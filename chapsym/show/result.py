@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from chapsym.dynamics import BadInput, kernels
+from chapsym.dynamics.labelled import frame
 from chapsym.scene import Scene, SceneError, checked, load
 from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result import formats
@@ -26,6 +27,7 @@ from .drawing import reading
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+    from pandas import DataFrame
     from xarray import Dataset
 
     from .drawing.style import Picture
@@ -42,6 +44,14 @@ class Result:
     """
 
     dataset: "Dataset"
+
+    def to_xarray(self) -> "Dataset":
+        """`dataset`, as `Trajectory.to_xarray` makes it of a run in Python."""
+        return self.dataset
+
+    def to_pandas(self, *, balls: bool = False) -> "DataFrame":
+        """The table of the CSV, as `Trajectory.to_pandas`: a row a ball and frame, or a ball with what it has once."""
+        return frame(reading.with_balls(self.dataset), balls)
 
     def figures(self) -> dict[str, str | None]:
         """Every figure by name: None where it can be drawn, else why not, in a sentence."""

@@ -246,7 +246,7 @@ def test_numbers_that_look_like_others_keep_their_type_in_batches_too(result, tm
     data["energy"][:] = -0.0
     data["omega"][:] = 7.0
     check_formats(data, tmp_path)
-    monkeypatch.setattr("chapsym.scene.result.formats.ROWS", 100)
+    monkeypatch.setattr("chapsym.dynamics.labelled.ROWS", 100)
     check_formats(data, tmp_path, (".csv", ".parquet"))
 
 

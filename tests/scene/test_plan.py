@@ -8,12 +8,12 @@ from rolled import rolled
 
 import chapsym
 from chapsym.dynamics import Status, kernels
+from chapsym.dynamics.outputs import OUTPUTS, K, Output, columns_for, timed
 from chapsym.generated import TABLE
 from chapsym.scene.members.members import Members
 from chapsym.scene.plan import plan as plans
 from chapsym.scene.plan.models import MODELS, Chosen, Rolling
 from chapsym.scene.plan.plan import full, planned, predicted
-from chapsym.scene.read.outputs import OUTPUTS, K, Output, columns_for, timed
 from chapsym.scene.read.task import Task
 from chapsym.scene.running import sweep
 
@@ -134,7 +134,7 @@ def test_what_an_output_is_made_of_is_there(name):
     assert one.needs <= {*OUTPUTS, K}
     assert one.with_D <= one.needs
     assert bool(one.needs) == (one.derive is not None)
-    units = one.attrs(3, chosen=False)["units"]
+    units = one.attrs(3, motion=False)["units"]
     assert timed(name) == any(part.startswith(("s", "J", "W")) for part in units.split())
 
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..ball import Ball, Floats, in_principal_axes, numbers, unit_vertical
 from ..errors import BadInput
+from ..shown import Brief
 
 #: Steps of the arithmetic-geometric mean: each doubles the digits, from k' = 1e-300 on.
 MOST_MEANS = 20
@@ -117,8 +118,8 @@ MOST_CORRECTIONS = 60
 SETTLED = 1e-9
 
 
-@dataclass(frozen=True, eq=False)
-class Curve:
+@dataclass(frozen=True, eq=False, repr=False)
+class Curve(Brief):
     """γ = (C_a cn u, C_b sn u, C_c dn u) on the axes (a, b, c), a level ⟨γ,Λ⁻¹γ⟩ = l on the sphere, for one ball.
 
     axes: which component has cn, sn, dn: decreasing Λ for l > 1/Λ_b, the middle one, else increasing.

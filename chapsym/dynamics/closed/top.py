@@ -33,6 +33,7 @@ from ..ball import Ball, Floats, batch, in_principal_axes, inertia_of, is_follow
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops.vectors import cross, dot
 from ..results import Trajectory, finished, of_balls
+from ..shown import Brief
 from ..trajectories import step_numbers
 from . import turns
 from .elliptic import Curve, across, height_of, increment
@@ -58,8 +59,8 @@ NEARLY_VERTICAL = 1e-12
 NODES = 32
 
 
-@dataclass(frozen=True, eq=False)
-class TopMotion:
+@dataclass(frozen=True, eq=False, repr=False)
+class TopMotion(Brief):
     """The motion of one Moser-Veselov top, or of a ball with vertical momentum and two equal J.
 
     curve: the curve of 𝒦/|𝒦| (of γ where 𝒦 = hγ); size: what makes 𝒦 of its points, in kg m².
@@ -450,8 +451,8 @@ def motion_of(ball: Ball, K: Floats, g: Floats) -> TopMotion:
     return TopMotion.vertical(ball, float(K @ g) / float(np.sqrt(g @ g)), g)
 
 
-@dataclass(frozen=True, eq=False)
-class ExactTop:
+@dataclass(frozen=True, eq=False, repr=False)
+class ExactTop(Brief):
     """A top with D = 0 whose discrete motion is the continuous motion of `origin`, sampled once a step.
 
     ball: the top, with the mass tensor J + D/2; momentum: its 𝒦 in kg m², (3,), along that of `origin`.

@@ -17,6 +17,7 @@ from ..levels import dispatch, double
 from ..levels.frames import Balls, Frames
 from ..loops import loop, vertical_loop
 from ..results import Step, finished
+from ..shown import Brief
 from ..trajectories import whole_number
 from .elliptic import Curve, increment
 
@@ -24,8 +25,8 @@ from .elliptic import Curve, increment
 TURNS, LEAST, MOST = 100, 2**11, 2**18
 
 
-@dataclass(frozen=True, eq=False)
-class VerticalTrajectory:
+@dataclass(frozen=True, eq=False, repr=False)
+class VerticalTrajectory(Brief):
     """States γ of one ball, shape (frames, 3), or of a batch, (balls..., frames, 3), with 𝒦 = hγ.
 
     height: h in kg m², shape (...).

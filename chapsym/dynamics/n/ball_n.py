@@ -17,7 +17,7 @@ SKEW_TOLERANCE = 1e-12
 AGREEMENT = 1e-9
 
 
-@dataclass(frozen=True, eq=False, init=False)
+@dataclass(frozen=True, eq=False, init=False, repr=False)
 class BallN(Parameters):
     """A ball in n ≥ 3 dimensions, or an array of such balls, that rolls without slipping on a hyperplane.
 
@@ -84,6 +84,22 @@ def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
     if (off > SKEW_TOLERANCE / 2 * largest.max(axis=(-2, -1), keepdims=True, initial=0.0)).any():
         raise BadInput(f"{name} must be skew, but it differs from minus its transpose by {2 * off.max():.2g}")
     return np.where(off == 0, array, array / 2 - array.mT / 2)
+
+
+def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
+    """What the map keeps on every branch (prop-2): functions of 𝒦 and γ that no rotation of both changes.
+
+    momentum: skew, (..., n, n); gamma: (..., n).  Returns (..., m): tr 𝒦²ʲ for j = 1, ..., ⌊n/2⌋, then
+    γᵀ𝒦²ʲγ for j = 1, ..., ⌊(n-1)/2⌋, then |γ|²: as many as are independent.
+    Raises BadInput as `step_n` does.
+    """
+    K = numbers(momentum, "momentum")
+    K = skew_matrices(K, K.shape[-1] if K.ndim else 3)
+    with np.errstate(over="ignore", invalid="ignore"):  # which is refused
+        found = so_n.invariants(K, numbers(gamma, "gamma", K.shape[-1]))
+    if not np.isfinite(found).all():
+        raise BadInput("the invariants are beyond the range of float64, about 1.8e308; take other units")
+    return found
 
 
 def attitudes_with(gamma: Floats) -> Floats:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Digits, Double, Precision
 
-from ..ball import Floats, in_shape, is_followed, numbers
+from ..ball import Floats, in_shape, is_followed
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
@@ -22,7 +22,6 @@ from ..levels.frames import Count
 from ..results import Step, Trajectory, finished, of_balls
 from ..stepper import UnderWay
 from ..trajectories import flag, whole_number
-from . import so_n
 from .ball_n import BallN, skew_matrices
 from .near_n import limits
 from .run_n import MOVING, advance, begun, continued, run, start
@@ -193,19 +192,3 @@ class StepperN(UnderWay):
         else:
             for name, array in self._ends.items():
                 array[1] = self._state[name][0]
-
-
-def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
-    """What the map keeps on every branch (prop-2): functions of 𝒦 and γ that no rotation of both changes.
-
-    momentum: skew, (..., n, n); gamma: (..., n).  Returns (..., m): tr 𝒦²ʲ for j = 1, ..., ⌊n/2⌋, then
-    γᵀ𝒦²ʲγ for j = 1, ..., ⌊(n-1)/2⌋, then |γ|²: as many as are independent.
-    Raises BadInput as `step_n` does.
-    """
-    K = numbers(momentum, "momentum")
-    K = skew_matrices(K, K.shape[-1] if K.ndim else 3)
-    with np.errstate(over="ignore", invalid="ignore"):  # which is refused
-        found = so_n.invariants(K, numbers(gamma, "gamma", K.shape[-1]))
-    if not np.isfinite(found).all():
-        raise BadInput("the invariants are beyond the range of float64, about 1.8e308; take other units")
-    return found

@@ -19,6 +19,7 @@ from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobi
 from ..ball import UNIT_TOLERANCE, Ball, Floats, batch, largest_moment, numbers, unit_vertical
 from ..errors import BadInput, Status
 from ..loops.branch import CONTRACTION, ROUNDINGS, SETTLED, SINGULAR, SMALLEST, UNIT_ROUNDOFF
+from ..shown import Brief
 
 #: The march towards a fold ends where a step is below this fraction of the way: Newton does the rest.
 NEAR_FOLD = 1e-6
@@ -35,8 +36,8 @@ AT_THE_ROOT = 1e-6
 PAIR = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2]])
 
 
-@dataclass(frozen=True, eq=False)
-class Fold:
+@dataclass(frozen=True, eq=False, repr=False)
+class Fold(Brief):
     """Where a branch turns back, for one ball or a batch with the leading axes (...).
 
     reach: the parameter t of the path there, shape (...).
@@ -50,8 +51,8 @@ class Fold:
     settled: np.ndarray
 
 
-@dataclass(frozen=True, eq=False)
-class Followed:
+@dataclass(frozen=True, eq=False, repr=False)
+class Followed(Brief):
     """A branch along a path of m momenta, for one ball or a batch with the leading axes (...).
 
     rotation: the Euler parameters at each of the momenta, q0 ≥ 0, shape (..., m, 4), NaN beyond a fold.

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from ..ball import Ball, Floats, batch, largest_moment, numbers, unit_vertical
 from ..errors import Status
 from ..map import step
+from ..shown import Brief
 from ..trajectories import flag
 from .candidates import Candidates, candidates, quadrics
 from .continuation import Marchers, nonsingular
@@ -39,8 +40,8 @@ ROUNDED = 1e-3
 POLISHINGS = 2
 
 
-@dataclass(frozen=True, eq=False)
-class Branches:
+@dataclass(frozen=True, eq=False, repr=False)
+class Branches(Brief):
     """All rotations with a momentum, by angle, for one ball or a batch with the leading axes (...).
 
     rotation: Euler parameters (q0, q1, q2, q3), q0 ≥ 0, and at q0 = 0 the first of the others that is not 0 is

@@ -7,10 +7,10 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, Ball
 from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.outputs import OUTPUTS, K, columns_for, kernels_for, timed
 from chapsym.dynamics.principal_axes import attitude_from_principal, from_principal
 
 from ..members.members import Members, expand
-from ..read.outputs import OUTPUTS, K, columns_for, kernels_for, timed
 from ..read.scene import Scene, from_source
 from ..read.task import Columns, Task
 from .models import MODELS, Chosen, General, Model, Rolling

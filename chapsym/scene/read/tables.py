@@ -18,11 +18,11 @@ from pydantic import (
 from pydantic_core import core_schema
 
 from chapsym.accuracy.motion import FINEST
+from chapsym.dynamics.outputs import OUTPUTS
 from chapsym.numbers import own_name
 
 from . import bodies
 from .errors import LIST, MATRIX, Misfit
-from .outputs import OUTPUTS
 from .ranges import Range, Value, ranges_in, value
 from .units import ANGLE, LENGTH, MASS, MOMENT, PURE, RATE, SPEED, TIME, TURNING, Dimension, has_unit, number
 

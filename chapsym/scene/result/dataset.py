@@ -3,8 +3,8 @@
 import hashlib
 import json
 import re
-from collections.abc import Hashable, Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import asdict, replace
 from functools import cache
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
@@ -13,13 +13,26 @@ import numpy as np
 
 import chapsym
 from chapsym.accuracy.discretisation import discretisation
-from chapsym.dynamics import Ball, Status
+from chapsym.dynamics import Ball
+from chapsym.dynamics.labelled import (
+    NOT_RUN,
+    OUTCOME,
+    TIME,
+    Arrays,
+    Labelled,
+    about,
+    bodies,
+    coordinates,
+    moments,
+    with_clock,
+)  # fmt: skip
+from chapsym.dynamics.outputs import OUTPUTS, labels
 
-from ..members.members import Body, bodies
+from ..members.members import Body
+from ..members.members import bodies as bodies_of
 from ..plan.models import Chosen, Moving
 from ..plan.plan import Plan
 from ..read.errors import SceneError
-from ..read.outputs import OUTPUTS, labels
 from ..read.ranges import Range
 from ..read.scene import from_source
 from ..read.tables import units_of
@@ -28,78 +41,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 #: What the state says of each ball.
-OUTCOME = ("taken", "status", "error", "order", "substeps")
-#: `taken` and `status` of balls whose turn has not come.
-NOT_RUN = -1
-#: The attributes of the times of frames.
-TIME = {"units": "s", "long_name": "time"}
-
-
-# Plain arrays, whose names are those of xarray.Dataset, so that a run, its summary and its files take either: loading
-# xarray takes longer than most runs.
-
-
-@dataclass(frozen=True)
-class Labelled:
-    """An array, the names of its dimensions, and its attributes."""
-
-    dims: tuple[str, ...]
-    values: np.ndarray
-    attrs: Mapping[str, Any] = field(default_factory=dict)
-
-    @property
-    def dtype(self) -> np.dtype[Any]:
-        """The type of its numbers, or object for texts."""
-        return self.values.dtype
-
-
-class Arrays:
-    """variables: by name, of which `coords` are those that label the others.  attrs: of the whole."""
-
-    def __init__(self, variables: Mapping[str, Labelled], coords: Iterable[str], attrs: Mapping[str, Any]) -> None:
-        self.variables, self.coords, self.attrs = dict(variables), tuple(coords), dict(attrs)
-        pairs = (zip(one.dims, one.values.shape, strict=True) for one in self.variables.values())
-        self.sizes = {dim: length for some in pairs for dim, length in some}
-
-    @property
-    def dims(self) -> tuple[str, ...]:
-        """The names of all dimensions, in the order in which the variables have them."""
-        return tuple(self.sizes)
-
-    def __getitem__(self, name: str) -> Labelled:
-        return self.variables[name]
-
-    def __contains__(self, name: Hashable) -> bool:
-        return name in self.variables
-
-    def __iter__(self) -> Iterator[str]:
-        return (name for name in self.variables if name not in self.coords)
-
-    def isel(self, ball: int | slice) -> "Arrays":
-        """One ball, without the dimension of the balls, or some of them."""
-        kept = {name: _of(one, ball) for name, one in self.variables.items()}
-        return Arrays(kept, self.coords, self.attrs)
-
-    def assign_attrs(self, attrs: Mapping[str, Any]) -> "Arrays":
-        """The same with more attributes."""
-        return Arrays(self.variables, self.coords, self.attrs | dict(attrs))
-
-    def dataset(self) -> "Dataset":
-        """The same as an xarray.Dataset."""
-        import xarray
-
-        whole = {name: (one.dims, one.values, dict(one.attrs)) for name, one in self.variables.items()}
-        coords = {name: whole.pop(name) for name in list(whole) if name in self.coords}
-        return xarray.Dataset(whole, coords, self.attrs)
-
-
-def _of(one: Labelled, ball: int | slice) -> Labelled:
-    if "ball" not in one.dims:
-        return one
-    where = one.dims.index("ball")
-    values = one.values[(*[slice(None)] * where, ball)]
-    dims = one.dims if isinstance(ball, slice) else (*one.dims[:where], *one.dims[where + 1 :])
-    return Labelled(dims, np.asarray(values), one.attrs)
+OF_BALLS = (*OUTCOME, "error", "order", "substeps")
 
 
 # The result of a plan.
@@ -120,28 +62,17 @@ def layout(plan: Plan) -> dict[str, Labelled]:
     for name in plan.task.outputs:
         one = OUTPUTS[name]
         dims = (*(("ball",) if one.per_ball else ("ball", "frame")), *one.dims_in(n))
-        attrs = one.attrs(n, plan.task.accuracy is not None)
-        add(name, dims, attrs, np.nan)
-        if plan.doubled and one.derive is None:
-            add(f"{name}_low", dims, attrs | {"long_name": f"{attrs['long_name']}: what it has beyond float64"}, np.nan)
-    flags = {
-        "flag_values": [NOT_RUN, *map(int, Status)],
-        "flag_meanings": " ".join(["not_run", *(status.name.lower() for status in Status)]),
-    }
-    add("taken", ("ball",), _about("steps taken"))
-    add("status", ("ball",), {"long_name": "why the ball stopped", **flags})
+        for each in (name, f"{name}_low") if plan.doubled and one.derive is None else (name,):
+            add(each, dims, one.attrs(n, plan.task.accuracy is not None, each), np.nan)
+    for name, attrs in OUTCOME.items():
+        add(name, ("ball",), attrs)
     if plan.task.accuracy is not None:
         unit = "m" if plan.task.of == "contact" else "1"
-        add("error", ("ball",), _about("estimate of the error, by comparison", unit), np.nan)
+        add("error", ("ball",), about("estimate of the error, by comparison", unit), np.nan)
         if isinstance(plan.model, Moving):
-            add("order", ("ball",), _about("order of the composition"))
-            add("substeps", ("ball",), _about("its steps between two frames"))
+            add("order", ("ball",), about("order of the composition"))
+            add("substeps", ("ball",), about("its steps between two frames"))
     return found
-
-
-def _about(long_name: str, units: str = "1") -> dict[str, Any]:
-    """The attributes of a variable."""
-    return {"units": units, "long_name": long_name}
 
 
 def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> Arrays:
@@ -152,58 +83,22 @@ def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> 
     It has no other values than those, the plan's, and the version's: the same run gives the same bits.
     """
     variables = {
-        name: replace(one, values=np.asarray((state if name in OUTCOME else columns)[name]))
+        name: replace(one, values=np.asarray((state if name in OF_BALLS else columns)[name]))
         for name, one in layout(plan).items()
     }
-    variables |= _bodies(plan)
-    used = {dim for one in variables.values() for dim in one.dims}
-    coords = {"ball": _texts(plan.members.names, "ball")}
-    for dim, names in labels(plan.members.dimension).items():
-        if dim in used:
-            coords[dim] = _texts(names, dim)
-    coords |= _moments(plan)
+    variables |= bodies(plan.members.ball, plan.members.axes, (len(plan.members),))
+    coords = coordinates(plan.members.names, variables, plan.members.dimension) | _moments(plan)
     for key, values in plan.members.parameters.items():
-        coords[key] = Labelled(("ball",), values, _about(key, units_of(key)))
+        coords[key] = Labelled(("ball",), values, about(key, units_of(key)))
     return Arrays(variables | coords, coords, provenance(plan) | _accuracy(plan))
 
 
-def _texts(names: Iterable[str], dim: str) -> Labelled:
-    return Labelled((dim,), np.array(names, dtype=object))
-
-
-def with_clock(data: "Dataset") -> "Dataset":
-    """A result whose frames are found by their `time`, or where there is none by their `step`.
-
-    `data.sel(time=5.0, method="nearest")` is the frame next to 5 s, `data.sel(time=slice(1, 2))` are those between.
-    """
-    name = next((name for name in ("time", "step") if name in data.coords and data[name].dims == ("frame",)), None)
-    return data if name is None or name in data.xindexes else data.set_xindex(name)
-
-
 def _moments(plan: Plan) -> dict[str, Labelled]:
-    """`step` and, where it is known, `time` of each frame."""
-    task, frame = plan.task, ("frame",)
+    """When each frame is."""
+    task = plan.task
     if task.chosen and task.time is not None:
-        return {"time": Labelled(frame, np.arange(plan.frames) * task.time / max(plan.frames - 1, 1), TIME)}
-    step = np.arange(plan.frames, dtype=np.int64) * task.every
-    found = {"step": Labelled(frame, step, _about("step of the map"))}
-    return found if task.time_step is None else found | {"time": Labelled(frame, step * task.time_step, TIME)}
-
-
-def _bodies(plan: Plan) -> dict[str, Labelled]:
-    """The parameters of the balls, for pictures."""
-    ball, axes = plan.members.ball, plan.members.axes
-    tensor = np.asarray(ball.mass_tensor), _about("principal mass tensor J, principal axes", "kg m2")
-    found = {
-        "mass_tensor": Labelled(("ball", "axis"), *tensor),
-        "D": Labelled(("ball",), np.asarray(ball.D), _about("D = m ρ²", "kg m2")),
-    }
-    if ball.radius is not None:
-        found["radius"] = Labelled(("ball",), np.asarray(ball.radius), _about("radius ρ", "m"))
-    if axes is not None:
-        turn = _about("principal axes to body axes, unit quaternion")
-        found["axes"] = Labelled(("ball", "quaternion"), np.asarray(axes), turn)
-    return found
+        return {"time": Labelled(("frame",), np.arange(plan.frames) * task.time / max(plan.frames - 1, 1), TIME)}
+    return moments(np.arange(plan.frames, dtype=np.int64) * task.every, task.time_step)
 
 
 def provenance(plan: Plan) -> dict[str, Any]:
@@ -297,7 +192,7 @@ def _tables(data: "Dataset") -> list[Body]:
     """The tables of balls of the scene of a result; raises SceneError where they do not make one grid."""
     if not data.attrs.get("scene"):
         raise SceneError("the result does not say of which scene it is, so that its ranges are not known")
-    tables = bodies(from_source(data.attrs["scene"]))
+    tables = bodies_of(from_source(data.attrs["scene"]))
     if data["ball"].values.tolist() != [name for body in tables for name in body.names]:
         raise SceneError("this is a part of the sweep: make a grid of the whole result, then choose of that")
     if any((_spans(body), body.sweep().shape) != (_spans(tables[0]), tables[0].sweep().shape) for body in tables):

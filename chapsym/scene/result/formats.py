@@ -8,19 +8,18 @@ import re
 import warnings
 import zipfile
 import zlib
-from collections.abc import Callable, Iterator, Mapping
-from itertools import product
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
 from chapsym import files
+from chapsym.dynamics.labelled import Arrays, batches, plain, structure, with_clock
+from chapsym.dynamics.outputs import OUTPUTS, labels
 
 from ..plan.plan import Plan
 from ..read.errors import SceneError
-from ..read.outputs import OUTPUTS, labels
-from .dataset import Arrays, with_clock
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -34,8 +33,6 @@ DAMAGED = (
 MOST_ROWS = 10**7
 #: The share of this machine's memory that a result may take before it goes to Zarr.
 SHARE = 0.25
-#: Rows of one batch, whose memory is bounded.
-ROWS = 2**17
 
 
 def check_destination(path: Path) -> None:
@@ -125,12 +122,6 @@ def check_ours(path: Path) -> None:
         raise SceneError(f"{path} is there, but it is no result of chapsym; choose another name")
 
 
-def plain(attrs: Mapping[Any, Any]) -> dict[str, Any]:
-    """Attributes as JSON has them."""
-    arrays = (np.ndarray, np.generic)
-    return {str(key): value.tolist() if isinstance(value, arrays) else value for key, value in attrs.items()}
-
-
 def _memory() -> float:
     """Bytes of memory that this machine has."""
     import os
@@ -142,7 +133,7 @@ def _memory() -> float:
 
 
 def _write_netcdf(stream: IO[bytes], data: "Dataset | Arrays") -> None:
-    data = with_clock(data.dataset()) if isinstance(data, Arrays) else data
+    data = data.dataset() if isinstance(data, Arrays) else data
     # In memory first: HDF5 ends the process when the disk under it is full.
     whole = data.assign_attrs({key: int(v) if isinstance(v, bool) else v for key, v in data.attrs.items()})
     stream.write(whole.to_netcdf(engine="h5netcdf"))
@@ -153,7 +144,7 @@ def _write_rows(data: "Dataset | Arrays", told: dict[str, Any], begin: Callable[
     import pyarrow
 
     writer = None
-    for columns in _batches(data, told):
+    for columns in batches(data, told):
         texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
         table = pyarrow.table({**columns, **texts}).replace_schema_metadata(about)
         writer = writer or begin(table.schema)
@@ -165,7 +156,7 @@ def _write_rows(data: "Dataset | Arrays", told: dict[str, Any], begin: Callable[
 def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     from pyarrow import parquet
 
-    told = _structure(data)
+    told = structure(data)
     about = {"chapsym": json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)}
     _write_rows(data, told, lambda schema: parquet.ParquetWriter(stream, schema, compression="zstd"), about)
 
@@ -173,7 +164,7 @@ def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
 def _write_csv(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     from pyarrow import csv
 
-    told = _structure(data)
+    told = structure(data)
     for key, value in (plain(data.attrs) | {"structure": told}).items():
         stream.write(f"# {key}: {json.dumps(value, ensure_ascii=False)}\n".encode())
     options = csv.WriteOptions(quoting_style="needed")
@@ -241,7 +232,7 @@ def _read_csv(path: Path) -> "Dataset":
 
 def _write_npz(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     """The arrays of all variables; of one ball without the axis of the balls."""
-    told = _structure(data)
+    told = structure(data)
     whole = data.isel(ball=0) if told["balls"] == 1 else data
     arrays: dict[str, Any] = {name: whole[name].values for name in told["variables"]}
     arrays = {name: np.array(a.tolist(), dtype=str) if a.dtype.kind in "OT" else a for name, a in arrays.items()}
@@ -266,45 +257,6 @@ def _columns(table: Any) -> dict[str, np.ndarray]:
     return {name: table[name].to_numpy() for name in table.column_names}
 
 
-def _structure(data: "Dataset | Arrays") -> dict[str, Any]:
-    """What the rows do not tell, as plain data: labels of components; the columns and attributes of each variable."""
-    dims = [str(dim) for dim in data.dims if dim not in ("ball", "frame") and dim in data]
-    labels = {dim: data[dim].values.tolist() for dim in dims}
-    variables = {
-        str(name): {
-            "dims": list(one.dims),
-            "columns": [f"{name}{suffix}" for suffix in _suffixes(one.dims, labels)],
-            "coordinate": name in data.coords,
-            "type": {"f": "double", "i": "int64"}.get(one.dtype.kind, "string"),
-            "attrs": plain(one.attrs),
-        }
-        for name, one in data.variables.items()
-        if name not in labels
-    }
-    return {
-        "balls": data.sizes["ball"], "frames": data.sizes["frame"], "labels": labels, "variables": _ordered(variables),
-    }  # fmt: skip
-
-
-def _batches(data: "Dataset | Arrays", told: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
-    """The columns of some balls after the others, each (rows,); what a ball has once stands in each of its rows."""
-    frames = data.sizes["frame"]
-    several = max(1, ROWS // frames)
-    for first in range(0, data.sizes["ball"], several):
-        part = data.isel(ball=slice(first, first + several))
-        balls = part.sizes["ball"]
-        columns: dict[str, np.ndarray] = {}
-        for name, one in told["variables"].items():
-            values = part[name].values
-            if "frame" not in one["dims"]:
-                values = np.broadcast_to(values[:, np.newaxis], (balls, frames, *values.shape[1:]))
-            elif "ball" not in one["dims"]:
-                values = np.broadcast_to(values, (balls, frames))
-            flat = values.reshape(balls * frames, -1)
-            columns |= {column: flat[:, i] for i, column in enumerate(one["columns"])}
-        yield columns
-
-
 def _assembled(columns: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
     """The Dataset of a table; raises KeyError, ValueError or TypeError if the table is not whole."""
     arrays = {}
@@ -317,7 +269,7 @@ def _assembled(columns: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs
 
 
 def _dataset(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
-    """The Dataset of these arrays and what `_structure` tells."""
+    """The Dataset of these arrays and what `structure` tells."""
     import xarray
 
     coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in told["labels"].items()}
@@ -325,22 +277,6 @@ def _dataset(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: M
     for name, one in told["variables"].items():
         (coords if one["coordinate"] else variables)[name] = (one["dims"], arrays[name], one["attrs"])
     return xarray.Dataset(variables, coords, dict(attrs))
-
-
-def _suffixes(dims: tuple[Any, ...], labels: Mapping[str, list[str]]) -> list[str]:
-    """The ends of the columns' names: _1, _2, ... of a vector; _1_1, _1_2, ... of a matrix; of a number none."""
-    inner = [labels[dim] for dim in dims if dim in labels]
-    return ["".join(f"_{label}" for label in chosen) for chosen in product(*inner)]
-
-
-def _ordered(variables: dict[str, Any]) -> dict[str, Any]:
-    """Ball and frame first, then what has a value in every frame, then what a ball has once."""
-
-    def rank(name: str) -> tuple[int, bool]:
-        leading = {"ball": 0, "step": 1, "time": 2}
-        return leading.get(name, 3 if variables[name]["coordinate"] else 4), "frame" not in variables[name]["dims"]
-
-    return {name: variables[name] for name in sorted(variables, key=rank)}
 
 
 #: What names of old files are now.
@@ -372,7 +308,7 @@ def _old(columns: Mapping[str, np.ndarray]) -> "Dataset":
             (dim,) = of.dims
             coords[dim] = np.array(labels(3)[dim], dtype=object)
             floats = values if values.dtype.kind in "OUS" else values.astype(np.float64)
-            variables[name] = (("ball", "frame", dim), floats[np.newaxis], of.attrs(3, chosen=False))
+            variables[name] = (("ball", "frame", dim), floats[np.newaxis], of.attrs(3, motion=False))
     variables["taken"] = ("ball", step[-1:], {"units": "1", "long_name": "steps taken"})
     variables["status"] = ("ball", np.zeros(1, dtype=np.int64), {"long_name": "why the ball stopped (not known)"})
     return xarray.Dataset(variables, coords, {"title": "A ball, from a file that does not say where it comes from"})

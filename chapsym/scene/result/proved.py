@@ -16,7 +16,7 @@ from ..read.errors import SceneError
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from .dataset import Arrays
+    from chapsym.dynamics.labelled import Arrays
 
 #: What is compared, and its unit.
 UNITS = {"gamma": "", "omega": " rad/s", "attitude": "", "contact": " m"}

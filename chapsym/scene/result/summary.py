@@ -17,7 +17,7 @@ from ..read.tables import units_of
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from .dataset import Arrays
+    from chapsym.dynamics.labelled import Arrays
 
 #: Of more balls, this many are asked whether they can take the first step.
 TRIED = 20_000

@@ -27,7 +27,7 @@ from ..plan.models import State
 from ..plan.plan import Plan
 from ..read.errors import SceneError
 from ..read.task import Columns
-from ..result.dataset import OUTCOME, arrays, layout, provenance
+from ..result.dataset import OF_BALLS, arrays, layout, provenance
 from ..result.formats import attributes, check_ours, plain
 
 if TYPE_CHECKING:
@@ -153,7 +153,7 @@ class Store:
                 if found := self._damage(chunk, len(self.plan.segments)):
                     self.damaged.append(found)
                     continue
-                state = {name: group[name][balls] for name in OUTCOME if name in group}
+                state = {name: group[name][balls] for name in OF_BALLS if name in group}
                 self._put_mark(chunk, len(self.plan.segments), state)
             self._say(complete=False)
 
@@ -181,7 +181,7 @@ class Store:
 
         That changes from segment to segment, so only the process that holds the lock writes it: a worker may be late.
         """
-        self.write(chunk, segment, {name: state[name] for name in OUTCOME if name in state})
+        self.write(chunk, segment, {name: state[name] for name in OF_BALLS if name in state})
         with _refusals(self.path, layout(self.plan)):
             self._put_mark(chunk, segment + 1, state)
 

@@ -20,13 +20,14 @@ import chapsym
 from chapsym import jobs
 from chapsym.accuracy import Accurate
 from chapsym.dynamics import BadInput, Status
+from chapsym.dynamics.labelled import Arrays
 from chapsym.dynamics.levels.frames import cores
 
 from ..plan.models import Chosen, State
 from ..plan.plan import Plan, asked_for, plan_from
 from ..read.errors import SceneError
 from ..read.task import Columns
-from ..result.dataset import OUTCOME, Arrays, arrays, layout, provenance, with_clock
+from ..result.dataset import OF_BALLS, arrays, layout, provenance
 from .store import Store, check_same, difference
 
 if TYPE_CHECKING:
@@ -149,12 +150,12 @@ class Memory:
 
     def mark(self, chunk: int, segment: int, state: State) -> None:
         """Copies what the state says of each ball."""
-        self.write(chunk, segment, {name: state[name] for name in OUTCOME if name in state})
+        self.write(chunk, segment, {name: state[name] for name in OF_BALLS if name in state})
 
 
 def run_in_memory(plan: Plan, report: Report = lambda progress: None) -> "Dataset":
     """The same as `run`, as a Dataset whose frames are found by their time."""
-    return with_clock(run(plan, report).dataset())
+    return run(plan, report).dataset()
 
 
 def run(plan: Plan, report: Report = lambda progress: None) -> Arrays:

@@ -7,7 +7,7 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, Status
 from chapsym.dynamics.ball import Floats
-from chapsym.scene.result.dataset import NOT_RUN
+from chapsym.dynamics.labelled import NOT_RUN
 from chapsym.scene.result.interpolation import per_ball as per_ball
 
 if TYPE_CHECKING:

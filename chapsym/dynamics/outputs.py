@@ -4,8 +4,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import prod
 
-from chapsym.dynamics import invariants_n, kernels
-from chapsym.dynamics.ball import Floats
+from . import kernels
+from .ball import Floats
+from .n.ball_n import invariants_n
 
 #: K = 𝒦/ε in kg m²/s.  An output sees ε through it alone, so that whatever is made of it needs a run with times.
 K = "angular_momentum"
@@ -13,7 +14,7 @@ K = "angular_momentum"
 
 @dataclass(frozen=True)
 class Output:
-    """long_name, units (in n dimensions): as files tell them of the map; `chosen` has both of the motion.
+    """long_name, units (in n dimensions): as files have them of the map; `motion` has both of the motion.
 
     dims: beside ball and frame; dims_n: the same in more than three dimensions, None where it is not known there.
     derive: its values from J, D and what it `needs`, other outputs or `K`; of these, `with_D` enter with D alone.
@@ -31,7 +32,7 @@ class Output:
     kernels: tuple[str, ...] = ()
     per_ball: bool = False
     radius: bool = False
-    chosen: tuple[str, str] | None = None
+    motion: tuple[str, str] | None = None
 
     def dims_in(self, n: int) -> tuple[str, ...]:
         """Its dimensions beside ball and frame in n dimensions."""
@@ -41,11 +42,13 @@ class Output:
         """How many numbers it has, of one frame of one ball in n dimensions."""
         return prod(len(labels(n)[dim]) for dim in self.dims_in(n))
 
-    def attrs(self, n: int, chosen: bool) -> dict[str, str]:
-        """Its units and its name in a result; whether it is of the motion, whose steps are chosen for an accuracy."""
-        if chosen and self.chosen is not None:
-            return dict(zip(("long_name", "units"), self.chosen, strict=True))
-        return {"units": self.units if isinstance(self.units, str) else self.units(n), "long_name": self.long_name}
+    def attrs(self, n: int, motion: bool, name: str = "") -> dict[str, str]:
+        """Its units and its name in a result, of the motion of the ball or of the map; of `NAME_low` the rest."""
+        found = {"units": self.units if isinstance(self.units, str) else self.units(n), "long_name": self.long_name}
+        if motion and self.motion is not None:
+            found = dict(zip(("long_name", "units"), self.motion, strict=True))
+        low = name.endswith("_low")
+        return found | {"long_name": f"{found['long_name']}: what it has beyond float64"} if low else found
 
 
 def labels(n: int) -> dict[str, list[str]]:
@@ -80,7 +83,7 @@ _STATE = _GAMMA | {"momentum"}
 OUTPUTS: dict[str, Output] = {
     "momentum": Output(
         "discrete momentum 𝒦, body axes", "kg m2", ("axis",), _MATRIX,
-        chosen=("angular momentum K about the contact point, body axes", "kg m2 s-1"),
+        motion=("angular momentum K about the contact point, body axes", "kg m2 s-1"),
     ),
     "gamma": Output("vertical γ, upwards, body axes", "1", ("axis",), ("axis",)),
     "omega": Output(
@@ -97,17 +100,17 @@ OUTPUTS: dict[str, Output] = {
     "integrals": Output(
         "momentum integrals", lambda n: ", ".join(_integrals(n).values()), ("integral",), ("integral",),
         needs=_STATE, derive=_invariants, kernels=("invariants",),
-        chosen=("momentum integrals", "kg m2 s-1, kg2 m4 s-2, 1"),
+        motion=("momentum integrals", "kg m2 s-1, kg2 m4 s-2, 1"),
     ),
     "vertical_momentum": Output(
         "vertical momentum ⟨𝒦,γ⟩", "kg m2", needs=_STATE, kernels=("invariants",),
         derive=lambda J, D, given: _invariants(J, D, given)[..., 0],
-        chosen=("vertical angular momentum ⟨K,γ⟩", "kg m2 s-1"),
+        motion=("vertical angular momentum ⟨K,γ⟩", "kg m2 s-1"),
     ),
     "momentum_squared": Output(
         "momentum squared ⟨𝒦,𝒦⟩", "kg2 m4", needs=_STATE, kernels=("invariants",),
         derive=lambda J, D, given: _invariants(J, D, given)[..., 1],
-        chosen=("angular momentum squared ⟨K,K⟩", "kg2 m4 s-2"),
+        motion=("angular momentum squared ⟨K,K⟩", "kg2 m4 s-2"),
     ),
     "gamma_squared": Output(
         "vertical squared ⟨γ,γ⟩", "1", needs=_STATE, kernels=("invariants",),

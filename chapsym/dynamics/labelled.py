@@ -1,0 +1,266 @@
+"""Labelled arrays and the one table that files and pandas have of them: names, units, columns.
+
+Their names are those of xarray.Dataset, so that a run, its summary and its files take either: loading xarray takes
+longer than most runs.
+"""
+
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from chapsym.extras import need
+
+from .errors import Status
+from .outputs import OUTPUTS, labels
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from xarray import Dataset
+
+#: `taken` and `status` of balls whose turn has not come.
+NOT_RUN = -1
+#: The attributes of the times of frames.
+TIME = {"units": "s", "long_name": "time"}
+#: Rows of one batch, whose memory is bounded.
+ROWS = 2**17
+
+
+@dataclass(frozen=True)
+class Labelled:
+    """An array, the names of its dimensions, and its attributes."""
+
+    dims: tuple[str, ...]
+    values: np.ndarray
+    attrs: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """The type of its numbers, or object for texts."""
+        return self.values.dtype
+
+
+class Arrays:
+    """variables: by name, of which `coords` are those that label the others.  attrs: of the whole."""
+
+    def __init__(self, variables: Mapping[str, Labelled], coords: Iterable[str], attrs: Mapping[str, Any]) -> None:
+        self.variables, self.coords, self.attrs = dict(variables), tuple(coords), dict(attrs)
+        pairs = (zip(one.dims, one.values.shape, strict=True) for one in self.variables.values())
+        self.sizes = {dim: length for some in pairs for dim, length in some}
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """The names of all dimensions, in the order in which the variables have them."""
+        return tuple(self.sizes)
+
+    def __getitem__(self, name: str) -> Labelled:
+        return self.variables[name]
+
+    def __contains__(self, name: Hashable) -> bool:
+        return name in self.variables
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name in self.variables if name not in self.coords)
+
+    def isel(self, ball: int | slice) -> "Arrays":
+        """One ball, without the dimension of the balls, or some of them."""
+        kept = {name: _of(one, ball) for name, one in self.variables.items()}
+        return Arrays(kept, self.coords, self.attrs)
+
+    def assign_attrs(self, attrs: Mapping[str, Any]) -> "Arrays":
+        """The same with more attributes."""
+        return Arrays(self.variables, self.coords, self.attrs | dict(attrs))
+
+    def dataset(self) -> "Dataset":
+        """The same as an xarray.Dataset, whose frames are found by their time."""
+        need("scenes", "xarray")
+        import xarray
+
+        whole = {name: (one.dims, one.values, dict(one.attrs)) for name, one in self.variables.items()}
+        coords = {name: whole.pop(name) for name in list(whole) if name in self.coords}
+        return with_clock(xarray.Dataset(whole, coords, self.attrs))
+
+
+def _of(one: Labelled, ball: int | slice) -> Labelled:
+    if "ball" not in one.dims:
+        return one
+    where = one.dims.index("ball")
+    values = one.values[(*[slice(None)] * where, ball)]
+    dims = one.dims if isinstance(ball, slice) else (*one.dims[:where], *one.dims[where + 1 :])
+    return Labelled(dims, np.asarray(values), one.attrs)
+
+
+def with_clock(data: "Dataset") -> "Dataset":
+    """A result whose frames are found by their `time`, or where there is none by their `step`.
+
+    `data.sel(time=5.0, method="nearest")` is the frame next to 5 s, `data.sel(time=slice(1, 2))` are those between.
+    """
+    name = next((name for name in ("time", "step") if name in data.coords and data[name].dims == ("frame",)), None)
+    return data if name is None or name in data.xindexes else data.set_xindex(name)
+
+
+def about(long_name: str, units: str = "1") -> dict[str, Any]:
+    """The attributes of a variable."""
+    return {"units": units, "long_name": long_name}
+
+
+def texts(names: Iterable[str], dim: str) -> Labelled:
+    """The labels along a dimension."""
+    return Labelled((dim,), np.array(list(names), dtype=object))
+
+
+#: Those of what every run says of each ball.
+OUTCOME = {
+    "taken": about("steps taken"),
+    "status": {
+        "long_name": "why the ball stopped",
+        "flag_values": [NOT_RUN, *map(int, Status)],
+        "flag_meanings": " ".join(["not_run", *(status.name.lower() for status in Status)]),
+    },
+}
+
+
+def bodies(ball: Any, axes: np.ndarray | None, shape: tuple[int, ...]) -> dict[str, Labelled]:
+    """The parameters of balls, and the turns from their principal axes to those of the user.
+
+    shape: the leading axes of the batch, to which they broadcast; the balls are along one axis here.
+    """
+    tensor = about("principal mass tensor J, principal axes", "kg m2")
+    given = {
+        "mass_tensor": (ball.mass_tensor, "axis", tensor),
+        "D": (ball.D, None, about("D = m ρ²", "kg m2")),
+        "radius": (ball.radius, None, about("radius ρ", "m")),
+        "axes": (axes, "quaternion", about("principal axes to body axes, unit quaternion")),
+    }
+    found = {}
+    for name, (values, inner, attrs) in given.items():
+        if values is not None:
+            last = np.shape(values)[-1:] if inner else ()
+            flat = np.broadcast_to(values, (*shape, *last)).reshape(-1, *last)
+            found[name] = Labelled(("ball", inner) if inner else ("ball",), flat, attrs)
+    return found
+
+
+def moments(step: np.ndarray, time_step: float | None) -> dict[str, Labelled]:
+    """`step` and, where it is known, `time` of each frame."""
+    found = {"step": Labelled(("frame",), step, about("step of the map"))}
+    return found if time_step is None else found | {"time": Labelled(("frame",), step * time_step, TIME)}
+
+
+def coordinates(names: Iterable[str], variables: Mapping[str, Labelled], n: int) -> dict[str, Labelled]:
+    """The names of the balls, and the labels of all components that variables have."""
+    used = {dim for one in variables.values() for dim in one.dims}
+    return {"ball": texts(names, "ball")} | {dim: texts(of, dim) for dim, of in labels(n).items() if dim in used}
+
+
+def of_run(run: Any) -> Arrays:
+    """A `Trajectory` as the result of a scene with the same outputs; where it has times, with ω and the energy, too."""
+    n, shape, count = run.gamma.shape[-1], run.status.shape, run.status.size
+    motion = run.order == 0 and run.time_step is not None
+    columns = {name: getattr(run, name) for name in ("momentum", "gamma", "attitude", "contact")}
+    columns |= {f"{name}_low": getattr(run.low, name, None) for name in columns}
+    if run.time_step is not None:
+        columns |= run.derived() | ({"momentum": run.angular_momentum()} if motion else {})
+    variables: dict[str, Labelled] = {}
+    for name in (part for one in OUTPUTS for part in (one, f"{one}_low")):
+        if (values := columns.get(name)) is not None:
+            one = OUTPUTS[name.removesuffix("_low")]
+            inner = values.reshape(count, len(run.index), *values.shape[len(shape) + 1 :])
+            inner = inner.astype(np.float64) if inner.dtype == np.float32 else inner
+            variables[name] = Labelled(("ball", "frame", *one.dims_in(n)), inner, one.attrs(n, motion, name))
+    variables |= {name: Labelled(("ball",), getattr(run, name).reshape(count), of) for name, of in OUTCOME.items()}
+    if run.error is not None:
+        found = about("estimate of the error, by comparison")
+        variables["error"] = Labelled(("ball",), np.reshape(run.error, count), found)
+    variables |= bodies(run.ball, getattr(run.ball, "axes", None), shape)
+    names = [f"ball {i + 1}" for i in range(count)] if shape else ["ball"]
+    coords = coordinates(names, variables, n) | moments(run.index, run.time_step)
+    about_it = {"title": f"{'Chaplygin' if motion else 'Discrete Chaplygin'} ball: {count} ball{'s' * (count != 1)}"}
+    return Arrays(variables | coords, coords, about_it | {"model": "motion of the ball" if motion else "the map"})
+
+
+# The table: a row for each ball and frame.
+
+
+def plain(attrs: Mapping[Any, Any]) -> dict[str, Any]:
+    """Attributes as JSON has them."""
+    arrays = (np.ndarray, np.generic)
+    return {str(key): value.tolist() if isinstance(value, arrays) else value for key, value in attrs.items()}
+
+
+def structure(data: "Dataset | Arrays") -> dict[str, Any]:
+    """What the rows do not tell, as plain data: labels of components; the columns and attributes of each variable."""
+    dims = [str(dim) for dim in data.dims if dim not in ("ball", "frame") and dim in data]
+    labels = {dim: data[dim].values.tolist() for dim in dims}
+    variables = {
+        str(name): {
+            "dims": list(one.dims),
+            "columns": [f"{name}{suffix}" for suffix in _suffixes(one.dims, labels)],
+            "coordinate": name in data.coords,
+            "type": {"f": "double", "i": "int64"}.get(one.dtype.kind, "string"),
+            "attrs": plain(one.attrs),
+        }
+        for name, one in data.variables.items()
+        if name not in labels
+    }
+    return {
+        "balls": data.sizes["ball"], "frames": data.sizes["frame"], "labels": labels, "variables": _ordered(variables),
+    }  # fmt: skip
+
+
+def batches(data: "Dataset | Arrays", told: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
+    """The columns of some balls after the others, each (rows,); what a ball has once stands in each of its rows."""
+    frames = data.sizes["frame"]
+    several = max(1, ROWS // frames)
+    for first in range(0, data.sizes["ball"], several):
+        part = data.isel(ball=slice(first, first + several))
+        balls = part.sizes["ball"]
+        columns: dict[str, np.ndarray] = {}
+        for name, one in told["variables"].items():
+            values = part[name].values
+            if "frame" not in one["dims"]:
+                values = np.broadcast_to(values[:, np.newaxis], (balls, frames, *values.shape[1:]))
+            elif "ball" not in one["dims"]:
+                values = np.broadcast_to(values, (balls, frames))
+            flat = values.reshape(balls * frames, -1)
+            columns |= {column: flat[:, i] for i, column in enumerate(one["columns"])}
+        yield columns
+
+
+def frame(data: "Dataset | Arrays", balls: bool = False) -> "DataFrame":
+    """The table in pandas: a row for each ball and frame, or for each ball with what it has once.
+
+    The columns are those of files; `attrs["units"]` has the unit of each.
+    """
+    need("scenes", "pandas")
+    import pandas
+
+    told, step = structure(data), data.sizes["frame"] if balls else 1
+    kept = {
+        name: one
+        for name, one in told["variables"].items()
+        if ("frame" in one["dims"]) is not balls or (one["coordinate"] and "frame" not in one["dims"])
+    }
+    parts = [*batches(data, {"variables": kept})]
+    found = pandas.DataFrame({name: np.concatenate([part[name] for part in parts])[::step] for name in parts[0]})
+    units = {column: one["attrs"].get("units") for one in kept.values() for column in one["columns"]}
+    found.attrs["units"] = {column: unit for column, unit in units.items() if unit is not None}
+    return found
+
+
+def _suffixes(dims: tuple[Any, ...], labels: Mapping[str, list[str]]) -> list[str]:
+    """The ends of the columns' names: _1, _2, ... of a vector; _1_1, _1_2, ... of a matrix; of a number none."""
+    inner = [labels[dim] for dim in dims if dim in labels]
+    return ["".join(f"_{label}" for label in chosen) for chosen in product(*inner)]
+
+
+def _ordered(variables: dict[str, Any]) -> dict[str, Any]:
+    """Ball and frame first, then what has a value in every frame, then what a ball has once."""
+
+    def rank(name: str) -> tuple[int, bool]:
+        leading = {"ball": 0, "step": 1, "time": 2}
+        return leading.get(name, 3 if variables[name]["coordinate"] else 4), "frame" not in variables[name]["dims"]
+
+    return {name: variables[name] for name in sorted(variables, key=rank)}
