@@ -2,6 +2,8 @@
 
 import json
 import os
+import sys
+from contextlib import nullcontext, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 
 #: Seconds that a proof may take where the scene does not say.
 LIMIT = 600.0
-OUT = "A .zarr, which can be resumed; or .nc, .parquet, .csv, .npz."
+OUT = "A .zarr, which can be resumed; or .nc, .parquet, .csv, .npz; - prints a CSV."
 
 
 @app.command()
@@ -30,12 +32,15 @@ def run(
     scheduler: Annotated[
         str | None, takes("ADDRESS", "A Dask scheduler, such as tcp://host:8786, for a .zarr.")
     ] = None,
-    fresh: Annotated[bool, typer.Option("--fresh", help="Begin a .zarr anew, whatever result it holds.")] = False,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", "--force", help="Replace a result that is there, of whatever scene.")
+    ] = False,
     as_json: Json = False,
 ) -> None:
     """Run a scene and write the result.
 
-    Repeat the command to resume an interrupted run to a .zarr.
+    Repeat the command to resume an interrupted run to a .zarr.  A result of another scene is not replaced without
+    --fresh.
 
     Example: chapsym run docs/first.toml -o first.npz
     """
@@ -44,6 +49,7 @@ def run(
     from chapsym.scene.result import formats
     from chapsym.scene.result.proved import with_proof
     from chapsym.scene.running import sweep
+    from chapsym.scene.running.store import check_same
 
     from .output import following, quiet, say, telling
 
@@ -53,10 +59,14 @@ def run(
         destination = output or _named(scene, wanted.run.output)
         if scheduler is not None and destination.suffix != ".zarr":
             fail(f"{destination}: --scheduler needs a .zarr, of which each worker writes its part", 2)
+        if as_json and destination == formats.STDOUT:
+            fail("--json prints on standard output, where -o - writes the result: choose one", 2)
         formats.check_destination(destination)
         exact = _exact(wanted, destination) if wanted.run.proved else None
         plan, answers = sweep.answering(plan_of(wanted), say)
         formats.check_size(plan, destination)
+        if destination.is_file() and not fresh:
+            check_same(destination, plan)
         data: Dataset | Arrays
         with following(as_json) as report:
             if destination.suffix == ".zarr":
@@ -64,7 +74,8 @@ def run(
                 data = formats.load(destination)
             else:
                 data = rolled = sweep.run(plan, report)
-                formats.save(data, destination)
+                if exact is None or destination != formats.STDOUT:
+                    formats.save(data, destination)
                 outcome = sweep.Outcome(int((data["status"].values != 0).sum()))
         quiet()
         stopped = None
@@ -79,7 +90,9 @@ def run(
         if saved:
             kept = f"the result is in {destination}, without a proof"
         fail(f"interrupted; {kept}", INTERRUPTED)
-    _tell(plan, destination, outcome, data, answers, as_json)
+    printed = destination == formats.STDOUT
+    with redirect_stdout(sys.stderr) if printed else nullcontext():
+        _tell(plan, Path("standard output") if printed else destination, outcome, data, answers, as_json)
     if stopped is not None:
         fail(f"the frames after {len(motion.times)} are not proved: {stopped}", 1)
 

@@ -229,6 +229,11 @@ def batches(data: "Dataset | Arrays", told: Mapping[str, Any]) -> Iterator[dict[
         yield columns
 
 
+def in_rows(one: Mapping[str, Any]) -> bool:
+    """Whether a variable of `structure` is in each row: it differs by frame, or it says of which ball the row is."""
+    return "frame" in one["dims"] or one["coordinate"]
+
+
 def frame(data: "Dataset | Arrays", balls: bool = False) -> "DataFrame":
     """The table in pandas: a row for each ball and frame, or for each ball with what it has once.
 
@@ -237,13 +242,9 @@ def frame(data: "Dataset | Arrays", balls: bool = False) -> "DataFrame":
     need("scenes", "pandas")
     import pandas
 
-    told, step = structure(data), data.sizes["frame"] if balls else 1
-    kept = {
-        name: one
-        for name, one in told["variables"].items()
-        if ("frame" in one["dims"]) is not balls or (one["coordinate"] and "frame" not in one["dims"])
-    }
-    parts = [*batches(data, {"variables": kept})]
+    variables = structure(data)["variables"].items()
+    kept = {name: one for name, one in variables if ("frame" not in one["dims"] if balls else in_rows(one))}
+    parts, step = [*batches(data, {"variables": kept})], data.sizes["frame"] if balls else 1
     found = pandas.DataFrame({name: np.concatenate([part[name] for part in parts])[::step] for name in parts[0]})
     units = {column: one["attrs"].get("units") for one in kept.values() for column in one["columns"]}
     found.attrs["units"] = {column: unit for column, unit in units.items() if unit is not None}

@@ -6,8 +6,10 @@ import re
 import numpy as np
 import pytest
 from commands import answer, chapsym, refused
+from first import FIRST
 
 from chapsym.scene.read.schema import names
+from chapsym.scene.running.store import ELSE
 
 
 def done(*arguments):
@@ -119,7 +121,7 @@ def test_a_ball_that_stops_early_is_told_with_its_reason_and_a_run_of_such_balls
     )
     text = UNREACHABLE.replace("[0.01, 0.0, 0.02]", "[10.0, 0.0, 20.0]")
     (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
-    for name in ("out.nc", "out.zarr"):
+    for name in ("again.nc", "again.zarr"):
         found = chapsym("run", "scene.toml", "-o", name, cwd=tmp_path)
         assert found.returncode == 2
         assert "no ball got to the end: 2 balls, the first slow at step 0: no rotation" in found.stderr
@@ -180,3 +182,36 @@ def test_an_accuracy_that_cannot_be_had_or_needs_the_radius_is_one_sentence_befo
     told = refused("run", tmp_path / "ball.toml", "-o", tmp_path / "out.zarr")
     assert told == "the contact point needs the radius: give the ball its mass and radius"
     assert not (tmp_path / "out.zarr").exists()
+
+
+def test_a_result_of_another_scene_and_what_is_no_result_are_replaced_only_where_that_is_asked_for(tmp_path):
+    scene, other = tmp_path / "scene.toml", tmp_path / "other.toml"
+    text = re.sub(r"steps = \d+", "steps = 20", FIRST.read_text(encoding="utf-8"))
+    scene.write_text(text, encoding="utf-8")
+    other.write_text(text.replace("3.0", "2.5"), encoding="utf-8")
+    for suffix in (".csv", ".npz", ".nc", ".parquet"):
+        output = tmp_path / f"run{suffix}"
+        assert chapsym("run", scene, "-o", output).returncode == 0
+        before = output.read_bytes()
+        assert chapsym("run", scene, "-o", output).returncode == 0  # the same scene has the same result
+        said = refused("run", other, "-o", output)
+        assert said.endswith(f"{output.name} holds another scene (start.omega differs); {ELSE}")
+        assert output.read_bytes() == before or suffix == ".nc"  # HDF5 writes times, too
+        assert chapsym("run", other, "-o", output, "--fresh").returncode == 0
+        assert output.read_bytes() != before
+        output.write_text("a,b\n1,2\n", encoding="utf-8")
+        assert refused("run", other, "-o", output).endswith(f"is there, but it is no result of chapsym; {ELSE}")
+        assert output.read_text(encoding="utf-8") == "a,b\n1,2\n"
+        assert chapsym("run", other, "-o", output, "--force").returncode == 0
+
+
+def test_a_csv_goes_to_standard_output_and_nothing_else_does(tmp_path):
+    """And what is said goes to standard error."""
+    scene, output = tmp_path / "scene.toml", tmp_path / "run.csv"
+    scene.write_text(re.sub(r"steps = \d+", "steps = 20", FIRST.read_text(encoding="utf-8")), encoding="utf-8")
+    assert chapsym("run", scene, "-o", output).returncode == 0
+    done = chapsym("run", scene, "-o", "-")
+    assert (done.returncode, done.stdout) == (0, output.read_text(encoding="utf-8"))
+    assert "21 frames in standard output" in done.stderr
+    assert "choose one" in refused("run", scene, "-o", "-", "--json")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["run.csv", "scene.toml"]

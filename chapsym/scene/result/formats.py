@@ -1,21 +1,23 @@
 """Results in files: NetCDF, and for the small CSV, Parquet and NumPy, each written whole; how all are read back.
 
-CSV and Parquet are one table, a row for each ball and frame; `structure` is what the rows do not tell.
+CSV and Parquet are one table, a row for each ball and frame; `structure` is what no row says.
 """
 
 import json
+import math
 import re
+import sys
 import warnings
 import zipfile
 import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
 from chapsym import files
-from chapsym.dynamics.labelled import Arrays, batches, plain, structure, with_clock
+from chapsym.dynamics.labelled import Arrays, batches, in_rows, plain, structure, with_clock
 from chapsym.dynamics.outputs import OUTPUTS, labels
 
 from ..plan.plan import Plan
@@ -29,6 +31,12 @@ DAMAGED = (
     ValueError, KeyError, TypeError, EOFError, AttributeError, IndexError, RecursionError, NotImplementedError,
     zipfile.BadZipFile, zlib.error,
 )  # fmt: skip
+#: Where a table and a .npz have what is in no row: their structure and attributes, as JSON.
+NOTES = "chapsym"
+#: Bytes that are read at once of a CSV, of which the first row has all of that.
+BLOCK = 2**24
+#: Where a CSV goes that is to have no file.
+STDOUT = Path("-")
 #: More rows make a CSV that nothing opens.
 MOST_ROWS = 10**7
 #: The share of this machine's memory that a result may take before it goes to Zarr.
@@ -38,8 +46,10 @@ SHARE = 0.25
 def check_destination(path: Path) -> None:
     """Raises SceneError, before anything is computed, if a result cannot be written as `path` is named."""
     *some, last = _READERS
+    if path == STDOUT:
+        return
     if path.suffix not in _READERS:
-        raise SceneError(f"{str(path)!r}: the output must end in {', '.join(some)} or {last}")
+        raise SceneError(f"{str(path)!r}: the output must end in {', '.join(some)} or {last}, or be - for a CSV")
     if path.suffix != ".zarr":
         try:
             files.check_destination(path)
@@ -56,7 +66,7 @@ def check_size(plan: Plan, path: Path) -> None:
 
 
 def _check_rows(path: Path, rows: int) -> None:
-    if path.suffix == ".csv" and rows > MOST_ROWS:
+    if (path == STDOUT or path.suffix == ".csv") and rows > MOST_ROWS:
         told = f"{rows} rows, and a CSV of more than {MOST_ROWS} is of no use; write to .parquet or .zarr"
         raise SceneError(f"{path}: the result has {told}, or keep fewer frames with run.every")
 
@@ -64,14 +74,19 @@ def _check_rows(path: Path, rows: int) -> None:
 def save(data: "Dataset | Arrays", path: Path) -> None:
     """Writes a result to .nc, .csv, .parquet or .npz, whole or not at all; raises SceneError if the disk refuses.
 
-    Of a CSV or Parquet file each row is a ball and a frame; what is not in the rows stands in `# ` lines, or in the
+    A CSV goes to standard output, too, as `STDOUT`.
+
+    Of a CSV or Parquet file each row is a ball and a frame; what is in no row stands in the column "chapsym", or in the
     metadata.  A .npz has an array for each variable, of one ball without its axis, and the rest as JSON in "chapsym".
-    `pandas.read_csv(path, comment="#")` has the same bits (older pandas with float_precision="round_trip").
+    `pandas.read_csv(path)` has the same bits (older pandas with float_precision="round_trip").
     """
-    write = _WRITERS.get(path.suffix)
+    write = _write_csv if path == STDOUT else _WRITERS.get(path.suffix)
     if write is None:
         raise SceneError(f"{str(path)!r}: a result is written to {', '.join(_WRITERS)}")
     _check_rows(path, data.sizes["ball"] * data.sizes["frame"])
+    if path == STDOUT:
+        write(sys.stdout.buffer, data)
+        return
     try:
         files.write_whole(path, lambda stream: write(stream, data))
     except files.CannotWrite as error:
@@ -108,11 +123,14 @@ def load(path: Path) -> "Dataset":
 
 
 def attributes(path: Path) -> dict[str, Any]:
-    """The attributes of a Zarr group; raises SceneError if there are none to be read."""
+    """The attributes of a result that is there; raises SceneError if there are none to be read."""
     try:
+        if path.is_file():
+            return load(path).attrs
         found = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
-        raise SceneError(f"{path} is there, but it is no result of chapsym; choose another name") from None
+    except (SceneError, OSError, ValueError, KeyError, TypeError, RecursionError):
+        told = "choose another name" + (", or replace it with --fresh" if path.is_file() else "")
+        raise SceneError(f"{path} is there, but it is no result of chapsym; {told}") from None
     return found if isinstance(found, dict) else {}
 
 
@@ -139,12 +157,12 @@ def _write_netcdf(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     stream.write(whole.to_netcdf(engine="h5netcdf"))
 
 
-def _write_rows(data: "Dataset | Arrays", told: dict[str, Any], begin: Callable[[Any], Any], about: Any = None) -> None:
-    """Writes the table with the writer that `begin` makes for its schema, some balls after the others."""
+def _write_rows(parts: Iterable[dict[str, Any]], begin: Callable[[Any], Any], about: Any = None) -> None:
+    """Writes the parts of a table, one after the other, with the writer that `begin` makes for its schema."""
     import pyarrow
 
     writer = None
-    for columns in batches(data, told):
+    for columns in parts:
         texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
         table = pyarrow.table({**columns, **texts}).replace_schema_metadata(about)
         writer = writer or begin(table.schema)
@@ -153,22 +171,48 @@ def _write_rows(data: "Dataset | Arrays", told: dict[str, Any], begin: Callable[
         writer.close()
 
 
+def _about(data: "Dataset | Arrays", told: dict[str, Any]) -> dict[str, Any]:
+    return {"structure": told, "attrs": plain(data.attrs)}
+
+
 def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     from pyarrow import parquet
 
     told = structure(data)
-    about = {"chapsym": json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)}
-    _write_rows(data, told, lambda schema: parquet.ParquetWriter(stream, schema, compression="zstd"), about)
+    about = {NOTES: json.dumps(_about(data, told), ensure_ascii=False)}
+    _write_rows(batches(data, told), lambda schema: parquet.ParquetWriter(stream, schema, compression="zstd"), about)
 
 
 def _write_csv(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     from pyarrow import csv
 
-    told = structure(data)
-    for key, value in (plain(data.attrs) | {"structure": told}).items():
-        stream.write(f"# {key}: {json.dumps(value, ensure_ascii=False)}\n".encode())
     options = csv.WriteOptions(quoting_style="needed")
-    _write_rows(data, told, lambda schema: csv.CSVWriter(stream, schema, write_options=options))
+    _write_rows(_with_notes(data), lambda schema: csv.CSVWriter(stream, schema, write_options=options))
+
+
+def _with_notes(data: "Dataset | Arrays") -> Iterator[dict[str, np.ndarray]]:
+    """The columns of a CSV: after those that differ from row to row, `NOTES`, JSON in the first row of each ball.
+
+    It has what the ball has once, and in that of the first ball all that no row has.  The other rows have a sign, as
+    pandas takes a column that is empty from some row on for two kinds of data.
+    """
+    told, ball = structure(data), 0
+    once = {name: data[name].values for name, one in told["variables"].items() if not in_rows(one)}
+    rows = {name: one for name, one in told["variables"].items() if name not in once}
+    for columns in batches(data, {"variables": rows}):
+        notes = np.full(len(next(iter(columns.values()))), "-", dtype=object)
+        for row in range(0, len(notes), told["frames"]):
+            note = {name: _written(values[ball].tolist()) for name, values in once.items()}
+            note |= {} if ball else _about(data, told)
+            notes[row], ball = json.dumps(note, ensure_ascii=False), ball + 1
+        yield columns | {NOTES: notes}
+
+
+def _written(value: Any) -> Any:
+    """A number or some, as JSON has them: those that are not finite as texts, which `float` reads."""
+    if isinstance(value, list):
+        return [_written(one) for one in value]
+    return value if not isinstance(value, float) or math.isfinite(value) else str(value)
 
 
 def _read_zarr(path: Path) -> "Dataset":
@@ -199,7 +243,7 @@ def _read_parquet(path: Path) -> "Dataset":
     from pyarrow import parquet
 
     table = parquet.ParquetFile(path).read()
-    about = json.loads((table.schema.metadata or {})[b"chapsym"])
+    about = json.loads((table.schema.metadata or {})[NOTES.encode()])
     return _assembled(_columns(table), about["structure"], about["attrs"])
 
 
@@ -207,25 +251,54 @@ def _read_csv(path: Path) -> "Dataset":
     import pyarrow
     from pyarrow import csv
 
+    with path.open(encoding="utf-8", newline="") as stream:
+        first = stream.readline()
+    names = first.rstrip().replace('"', "").split(",")
+    if first.startswith("# "):
+        return _with_lines(path)
+    if NOTES not in names:
+        if first.strip() and "step" not in names:
+            told = "it has no column step; chapsym judge reads the trajectory of another program"
+            raise SceneError(f"{path} was not written by chapsym: {told}")
+        return _old(_columns(csv.read_csv(path)))
+    reading, parsing = csv.ReadOptions(block_size=BLOCK), csv.ParseOptions(newlines_in_values=True)
+    only = csv.ConvertOptions(include_columns=[NOTES], column_types={NOTES: pyarrow.string()})
+    with csv.open_csv(path, reading, parsing, only) as begun:
+        about = json.loads(begun.read_next_batch()[NOTES][0].as_py())
+    told = about["structure"]
+    rows = {name: one for name, one in told["variables"].items() if in_rows(one)}
+    types = _types(rows) | {NOTES: pyarrow.string()}
+    columns = _columns(csv.read_csv(path, reading, parsing, csv.ConvertOptions(column_types=types)))
+    notes = [json.loads(text) for text in columns[NOTES][:: told["frames"]]]
+    for name, one in told["variables"].items():
+        if name not in rows:
+            kind = {"double": np.float64, "int64": np.int64}.get(one["type"], object)
+            values = np.array([note[name] for note in notes], dtype=kind).reshape(len(notes), -1)
+            values = np.repeat(values, told["frames"], axis=0)
+            columns |= {column: values[:, i] for i, column in enumerate(one["columns"])}
+    return _assembled(columns, told, about["attrs"])
+
+
+def _types(variables: Mapping[str, Any]) -> dict[str, Any]:
+    import pyarrow
+
+    return {column: pyarrow.type_for_alias(one["type"]) for one in variables.values() for column in one["columns"]}
+
+
+def _with_lines(path: Path) -> "Dataset":
+    """A file of before: what no row has is in `# ` lines, and what a ball has once in each of its rows."""
+    from pyarrow import csv
+
     attrs: dict[str, Any] = {}
     lines = 0
     with path.open(encoding="utf-8", newline="") as stream:
-        if not (line := stream.readline()).startswith("# "):
-            if line.strip() and "step" not in line.rstrip().replace('"', "").split(","):
-                told = "it has no column step; chapsym judge reads the trajectory of another program"
-                raise SceneError(f"{path} was not written by chapsym: {told}")
-            return _old(_columns(csv.read_csv(path)))
-        stream.seek(0)
         while (line := stream.readline()).startswith("# "):
             key, _, value = line[2:].partition(": ")
             attrs[key], lines = json.loads(value), lines + 1
     told = attrs.pop("structure")
-    types = {
-        column: pyarrow.type_for_alias(one["type"]) for one in told["variables"].values() for column in one["columns"]
-    }
     table = csv.read_csv(
         path, csv.ReadOptions(skip_rows=lines), csv.ParseOptions(newlines_in_values=True),
-        csv.ConvertOptions(column_types=types),
+        csv.ConvertOptions(column_types=_types(told["variables"])),
     )  # fmt: skip
     return _assembled(_columns(table), told, attrs)
 
@@ -236,16 +309,16 @@ def _write_npz(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     whole = data.isel(ball=0) if told["balls"] == 1 else data
     arrays: dict[str, Any] = {name: whole[name].values for name in told["variables"]}
     arrays = {name: np.array(a.tolist(), dtype=str) if a.dtype.kind in "OT" else a for name, a in arrays.items()}
-    about = json.dumps({"structure": told, "attrs": plain(data.attrs)}, ensure_ascii=False)
+    about = json.dumps(_about(data, told), ensure_ascii=False)
     np.savez(stream, chapsym=np.array(about), **arrays)
 
 
 def _read_npz(path: Path) -> "Dataset":
     with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
         arrays = {name: data[name] for name in data.files}
-    if "chapsym" not in arrays:
+    if NOTES not in arrays:
         return _old(arrays)
-    about = json.loads(str(arrays["chapsym"]))
+    about = json.loads(str(arrays[NOTES]))
     told = about["structure"]
     for name, one in told["variables"].items():
         values = arrays[name].astype(object) if arrays[name].dtype.kind == "U" else arrays[name]

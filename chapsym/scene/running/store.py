@@ -215,7 +215,7 @@ def mark_of(store: Path, chunk: int) -> Path:
 
 
 def check_same(path: Path, plan: Plan) -> None:
-    """Raises SceneError with what differs unless the store holds the run of this plan, of these versions."""
+    """Raises SceneError with what differs unless the result there is of this plan, of these versions."""
     found, wanted = attributes(path), provenance(plan)
     key = _first_difference(_data(found.get("scene")), _data(wanted["scene"]))
     if key is not None:
