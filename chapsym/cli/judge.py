@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 @app.command()
 def judge(
-    results: Annotated[list[Path], argument("RESULT.csv ...", "Of one engine, each with its step.")],
+    results: Annotated[list[Path], argument("RESULT.csv ...", "Of one engine, each with its step; or of chapsym.")],
     against: Annotated[
         Path | None, takes("CASE", "A .json of benchmarks/rolling/data, or a scene, .toml, with its start.")
     ] = None,
@@ -33,18 +33,18 @@ def judge(
     Example: chapsym judge mine.csv --body mine.urdf
     """
     from chapsym.studies.comparable import case_of_body, case_of_scene, check_start
+    from chapsym.studies.foreign import table_of
     from chapsym.studies.judge import convergence, departure, read_case, sentence, summary
-    from chapsym.studies.judge_tables import read_table
 
     if (against is None) == (body is None):
         fail("give either --against, a case or a scene, or --body, a ball that starts as the first row does", 2)
     if body is not None:
-        tables = [read_table(file).from_zero() for file in results]
+        tables = [table_of(file).from_zero() for file in results]
         case = case_of_body(body, min(tables, key=lambda table: len(table.times)))
     else:
         assert against is not None
         case = case_of_scene(against) if against.suffix == ".toml" else read_case(against)
-        tables = [read_table(file) for file in results]
+        tables = [table_of(file) for file in results]
     runs = [table.at(case.time) for table in tables]
     if against is not None:
         for run in runs:

@@ -13,11 +13,13 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 FORMATS = {"svg": ("svg",), "png": ("png",), "pdf": ("pdf",), "both": ("svg", "png"), "gif": (), "mp4": ()}
+#: What may be drawn of the table of another program.
+OF_TABLES = {"spheres", "omega", "attitude", "page"}
 
 
 @app.command()
 def show(
-    result: Annotated[Path, argument("RESULT", "A result, or a scene (.toml), which is run first.")],
+    result: Annotated[Path, argument("RESULT", "A result; a scene (.toml), to run first; or another program's table.")],
     output: Annotated[Path | None, writes("FOLDER", "Where to; RESULT-figures by default.")] = None,
     form: Annotated[
         str, takes("svg|png|pdf|both|gif|mp4", "Of the figures; gif, mp4: the motion, moving pictures.", "--format")
@@ -64,6 +66,7 @@ def _pictures(
     """Writes what was asked for; the files, why each figure that is missing is, and how much of the run there is."""
     from chapsym.show import figures
     from chapsym.show.drawing import reading
+    from chapsym.studies.foreign import FOREIGN
 
     if form == "mp4":
         from chapsym.show.moving import check_writer
@@ -87,6 +90,8 @@ def _pictures(
             written.append(folder / "page.html")
         else:
             missing["page"] = reason
+    if dataset.attrs.get("model") == FOREIGN:
+        missing = {name: "the table has no columns for it" for name in missing if name in OF_TABLES}
     return written, missing, reading.unfinished(dataset)
 
 
@@ -104,9 +109,13 @@ def _opened(result: Path, folder: Path) -> "Dataset":
     from chapsym.scene import load
     from chapsym.scene.result import formats
     from chapsym.show.result import run_scene
+    from chapsym.studies.foreign import result_of
 
     if result.suffix != ".toml":
-        return formats.load(result)
+        try:
+            return formats.load(result) if result.suffix in formats.READABLE else result_of(result)
+        except formats.NotOurs:
+            return result_of(result)
     scene = load(result)
     if folder.exists():
         files.check_destination(folder / "page.html")

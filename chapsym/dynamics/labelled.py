@@ -4,7 +4,9 @@ Their names are those of xarray.Dataset, so that a run, its summary and its file
 longer than most runs.
 """
 
+import json
 from collections.abc import Hashable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import product
 from typing import TYPE_CHECKING, Any
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
 NOT_RUN = -1
 #: The attributes of the times of frames.
 TIME = {"units": "s", "long_name": "time"}
+#: Where tables have what is in no row, as JSON.
+NOTES = "chapsym"
 #: Rows of one batch, whose memory is bounded.
 ROWS = 2**17
 
@@ -227,6 +231,17 @@ def batches(data: "Dataset | Arrays", told: Mapping[str, Any]) -> Iterator[dict[
             flat = values.reshape(balls * frames, -1)
             columns |= {column: flat[:, i] for i, column in enumerate(one["columns"])}
         yield columns
+
+
+def is_ours(head: str) -> bool:
+    """Whether a table of text with this first line was written by chapsym, now or before."""
+    names = set(head.rstrip().replace('"', "").split(","))
+    if NOTES in names or {"step", "momentum_0"} <= names:
+        return True
+    key, _, value = head.removeprefix("# ").partition(": ")
+    with suppress(ValueError, RecursionError):
+        return head.startswith("# ") and key.isidentifier() and json.loads(value) is not None
+    return False
 
 
 def in_rows(one: Mapping[str, Any]) -> bool:

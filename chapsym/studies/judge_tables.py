@@ -69,19 +69,26 @@ class Table:
     def at(self, times: np.ndarray) -> Trajectory:
         """The rows at `times`; other rows are left out.  Raises BadInput, one sentence, where one has none."""
         at = _places(self.file, self.columns["time"], times)
-        found = {name: column[at] for name, column in self.columns.items()}
-        attitude = np.stack([found[name] for name in NEEDED[4:]], axis=-1)
+        part = replace(self, columns={name: column[at] for name, column in self.columns.items()})
+        centre, velocity, omega = (part.vectors(names) for names in (NEEDED[1:4], MORE[:3], MORE[3:]))
+        assert centre is not None
+        return Trajectory(str(self.file), centre, part.attitudes(), velocity, omega, self.step, self.digit)
+
+    def vectors(self, names: Sequence[str]) -> np.ndarray | None:
+        """Some columns together, (rows, names); None where one is not there."""
+        there = set(names) <= self.columns.keys()
+        return np.stack([self.columns[name] for name in names], axis=-1) if there else None
+
+    def attitudes(self) -> np.ndarray:
+        """The quaternions, divided by their lengths; raises BadInput where one is not of the length 1."""
+        attitude = self.vectors(NEEDED[4:])
+        assert attitude is not None
         length = np.linalg.norm(attitude, axis=-1, keepdims=True)
         if not (abs(length - 1) < 1e-3).all():
             worst = np.abs(length - 1).argmax()
-            told = f"the quaternion at {times[worst]:g} s has the length {length[worst, 0]:.6g}, not 1"
+            told = f"the quaternion at {self.columns['time'][worst]:g} s has the length {length[worst, 0]:.6g}, not 1"
             raise BadInput(f"{self.file}: {told}")
-        velocity, omega = (
-            np.stack([found[name] for name in part], axis=-1) if set(part) <= found.keys() else None
-            for part in (MORE[:3], MORE[3:])
-        )  # fmt: skip
-        centre = np.stack([found[name] for name in NEEDED[1:4]], axis=-1)
-        return Trajectory(str(self.file), centre, attitude / length, velocity, omega, self.step, self.digit)
+        return np.asarray(attitude / length)
 
 
 def read_trajectory(file: Path, times: np.ndarray) -> Trajectory:
@@ -89,8 +96,11 @@ def read_trajectory(file: Path, times: np.ndarray) -> Trajectory:
     return read_table(file).at(times)
 
 
-def read_table(file: Path) -> Table:
-    """A file with commas, semicolons, tabs or spaces; raises BadInput, one sentence, for what is no trajectory."""
+def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
+    """A file with commas, semicolons, tabs or spaces; raises BadInput, one sentence, for what is no trajectory.
+
+    needed: the columns without which it is none.
+    """
     try:
         lines = file.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
@@ -101,7 +111,7 @@ def read_table(file: Path) -> Table:
     names = [_name(cell) for cell in _cells(rows[0])] if rows else []
     if rows and len(names) == len(TUM) and not np.isnan([*map(_number, _cells(rows[0]))]).any():
         names, rows = list(TUM), ["", *rows]
-    if missing := [name for name in NEEDED if name not in names]:
+    if missing := [name for name in needed if name not in names]:
         raise BadInput(f"{file} has no column {missing[0]}: its first row must name {','.join((*NEEDED, *MORE))}")
     if twice := [name for name in names if name in (*NEEDED, *MORE) and names.count(name) > 1]:
         raise BadInput(f"{file} has the column {twice[0]} twice")

@@ -274,10 +274,19 @@ def test_numbers_that_look_like_others_keep_their_type_in_batches_too(result, tm
 
 
 @pytest.mark.parametrize(
-    "text", ["RAI,RAI,RAI,0,1\n1,2,3,4,5\n", "mass_A\nt;x;y\n0;1;2\n", "0.0 0.0 -0.0 0.0 -0.1 -0.99 0.06 0.03\n"]
+    "text",
+    [
+        "RAI,RAI,RAI,0,1\n1,2,3,4,5\n",
+        "mass_A\nt;x;y\n0;1;2\n",
+        "0.0 0.0 -0.0 0.0 -0.1 -0.99 0.06 0.03\n",
+        "# time_step = 0.001\ntime,x,y\n0,0,0\n",
+        "# made by: an engine\nstep,x\n0,0\n",
+    ],
 )
 def test_a_table_of_another_program_is_answered_by_the_command_that_reads_it(tmp_path, text):
     path = tmp_path / "other.csv"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(SceneError, match="was not written by chapsym: it has no column step; chapsym judge reads"):
+    with pytest.raises(
+        SceneError, match="was not written by chapsym: it has no column chapsym; chapsym show and chapsym judge"
+    ):
         formats.load(path)

@@ -17,7 +17,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 
 from chapsym import files
-from chapsym.dynamics.labelled import Arrays, batches, in_rows, plain, structure, with_clock
+from chapsym.dynamics.labelled import NOTES, Arrays, batches, in_rows, is_ours, plain, structure, with_clock
 from chapsym.dynamics.outputs import OUTPUTS, labels
 
 from ..plan.plan import Plan
@@ -31,8 +31,6 @@ DAMAGED = (
     ValueError, KeyError, TypeError, EOFError, AttributeError, IndexError, RecursionError, NotImplementedError,
     zipfile.BadZipFile, zlib.error,
 )  # fmt: skip
-#: Where a table and a .npz have what is in no row: their structure and attributes, as JSON.
-NOTES = "chapsym"
 #: Bytes that are read at once of a CSV, of which the first row has all of that.
 BLOCK = 2**24
 #: Where a CSV goes that is to have no file.
@@ -41,6 +39,10 @@ STDOUT = Path("-")
 MOST_ROWS = 10**7
 #: The share of this machine's memory that a result may take before it goes to Zarr.
 SHARE = 0.25
+
+
+class NotOurs(SceneError):
+    """A table that chapsym did not write: another program's, perhaps."""
 
 
 def check_destination(path: Path) -> None:
@@ -253,13 +255,12 @@ def _read_csv(path: Path) -> "Dataset":
 
     with path.open(encoding="utf-8", newline="") as stream:
         first = stream.readline()
-    names = first.rstrip().replace('"', "").split(",")
+    if first.strip() and not is_ours(first):
+        told = f"it has no column {NOTES}; chapsym show and chapsym judge read the trajectory of another program"
+        raise NotOurs(f"{path} was not written by chapsym: {told}")
     if first.startswith("# "):
         return _with_lines(path)
-    if NOTES not in names:
-        if first.strip() and "step" not in names:
-            told = "it has no column step; chapsym judge reads the trajectory of another program"
-            raise SceneError(f"{path} was not written by chapsym: {told}")
+    if NOTES not in first:
         return _old(_columns(csv.read_csv(path)))
     reading, parsing = csv.ReadOptions(block_size=BLOCK), csv.ParseOptions(newlines_in_values=True)
     only = csv.ConvertOptions(include_columns=[NOTES], column_types={NOTES: pyarrow.string()})
@@ -394,3 +395,5 @@ _READERS: dict[str, Callable[[Path], Any]] = {
     ".zarr": _read_zarr, ".nc": _read_netcdf, ".csv": _read_csv, ".parquet": _read_parquet,
     ".npz": _read_npz,
 }  # fmt: skip
+#: What a file with a result ends in.
+READABLE = tuple(_READERS)

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 __all__ = ["FORMATS", "available", "draw", "save", "save_all"]
 
 FORMATS = ("svg", "png", "pdf")
+#: The figure that no result of chapsym has: its balls roll.
+SLIP = "slip"
 
 
 class Kind(NamedTuple):
@@ -74,6 +76,7 @@ def kinds() -> dict[str, Kind]:
         "spread": Kind(over_time.draw_spread, no_spread),
         "rotation": Kind(phase.draw_rotation, no_rotation),
         "phase": Kind(phase.draw_phase, no_phase),
+        SLIP: Kind(over_time.draw_slip, _needs((_any_of(SLIP), "slip is of trajectories of other programs"))),
         "omega": Kind(over_time.draw_omega, no_omega, curve=True, warns=True),
         "attitude": Kind(over_time.draw_attitude, no_attitude, curve=True, warns=True),
         "energy": Kind(over_time.draw_energy, no_energy, warns=True),
@@ -84,7 +87,7 @@ def kinds() -> dict[str, Kind]:
 def available(dataset: "Dataset") -> dict[str, str | None]:
     """Every figure by name: None where it can be drawn, else why not, in a sentence."""
     whole = reading.with_balls(dataset)
-    return {name: kind.missing(whole) for name, kind in kinds().items()}
+    return {name: kind.missing(whole) for name, kind in kinds().items() if name != SLIP or name in whole}
 
 
 def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Picture":

@@ -83,6 +83,13 @@ def _components(dataset: Dataset, array: Floats, names: list[str], symbol: str, 
     return figure
 
 
+def draw_slip(dataset: Dataset) -> Picture:
+    """|v - ρ ω × e₃|, the speed of the ball's point at the plane: 0 of a ball that rolls."""
+    return _components(
+        dataset, reading.values(dataset, "slip")[..., np.newaxis], ["slip"], "slip", reading.readable("m s-1")
+    )
+
+
 def draw_attitude(dataset: Dataset) -> Picture:
     """One ball: its axes on the sphere of space and its quaternion; several: their quaternions."""
     quaternions = continued(reading.values(dataset, "attitude"))
