@@ -273,3 +273,24 @@ def test_an_unforeseen_end_of_a_file_is_no_interruption(monkeypatch):
     monkeypatch.setattr(logging.getLogger("chapsym"), "level", logging.INFO)  # the entry point sets it
     with pytest.raises(EOFError, match="a damaged file"):
         app.main()
+
+
+def test_an_output_without_greek_has_the_names_of_letters_and_no_escapes(tmp_path):
+    """A locale without UTF-8; what is no sign of mathematics, as in a file's name, keeps its escape."""
+    plain = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    done = child("scene", "check", FIRST, env=plain)
+    assert done.stdout.isascii()
+    assert "\\" not in done.stdout
+    assert "K = (0.073102, -0.0613469, 0.0143061) kg m2/s" in done.stdout
+    assert "gamma = (0.285714" in done.stdout
+    said = "⟨𝒦,γ⟩ ≤ 10⁻⁵, Ωᵀ Λ½ ∫x²dm, é"
+    assert said.encode("ascii", "chapsym") == rb"<K,gamma> <= 10-5, OmegaT Lambda1/2 integral of x2dm, \xe9"
+
+
+@pytest.mark.parametrize(
+    ("words", "offered"), [("chapsym ju", {"judge"}), ("chapsym scene ", {"new", "check", "schema"})]
+)
+def test_a_shell_completes_subcommands(words, offered):
+    asked = {"_CHAPSYM_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
+    assert set(child(env={**os.environ, **asked}).stdout.split()) == offered
+    assert "--install-completion" in chapsym("--help").stdout

@@ -1,9 +1,11 @@
 """The typer application, and the entry point."""
 
+import codecs
 import io
 import logging
 import os
 import sys
+import unicodedata
 from typing import Annotated, Any, NoReturn
 
 import typer
@@ -15,7 +17,6 @@ from chapsym.rationals import NotANumber
 from .output import fail, quiet
 
 app = typer.Typer(
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -23,6 +24,30 @@ app = typer.Typer(
 
 
 INTERRUPTED = 130
+#: Signs of mathematics in ASCII.
+SIGNS = str.maketrans(
+    {"⟨": "<", "⟩": ">", "⁻": "-", "−": "-", "–": "-", "±": "+/-", "×": "x", "·": "*", "⁄": "/", "→": "->", "≤": "<="}
+    | {"≥": ">=", "≠": "!=", "∫": "integral of ", "√": "sqrt ", "∈": "in", "∞": "infinity", "…": "..."}
+)
+
+
+def in_ascii(error: UnicodeError) -> tuple[str, int]:
+    """Greek letters by their names, m² as m2, 𝒦 as K, for an output that has no such letters; others as escapes."""
+    assert isinstance(error, UnicodeEncodeError)
+    return "".join(map(_in_ascii, error.object[error.start : error.end])), error.end
+
+
+def _in_ascii(letter: str) -> str:
+    plain = letter.translate(SIGNS)
+    if unicodedata.decomposition(letter).startswith("<"):  # raised, lowered, script; not é, which a file may be called
+        plain = unicodedata.normalize("NFKD", letter).translate(SIGNS)
+    if not plain.isascii() and (name := unicodedata.name(plain[0], "")).startswith(("GREEK SMALL", "GREEK CAPITAL")):
+        name = name.split()[3].replace("LAMDA", "LAMBDA")
+        plain = name.lower() if letter.islower() else name.capitalize()
+    return plain.encode("ascii", "backslashreplace").decode()
+
+
+codecs.register_error("chapsym", in_ascii)
 
 
 def main() -> NoReturn:
@@ -31,7 +56,7 @@ def main() -> NoReturn:
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):  # for a terminal, or a pipe, without Greek
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")
+            stream.reconfigure(errors="chapsym")
     logging.basicConfig(format="chapsym: %(message)s", stream=sys.stderr)
     logging.getLogger("chapsym").setLevel(logging.INFO)
     if len(sys.argv) == 1:

@@ -113,7 +113,8 @@ def _opened(result: Path, folder: Path) -> "Dataset":
 
     if result.suffix != ".toml":
         try:
-            return formats.load(result) if result.suffix in formats.READABLE else result_of(result)
+            own = result.suffix in formats.READABLE or not result.is_file()
+            return formats.load(result) if own else result_of(result)
         except formats.NotOurs:
             return result_of(result)
     scene = load(result)

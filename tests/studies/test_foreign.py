@@ -91,7 +91,7 @@ def test_what_is_no_trajectory_is_one_sentence(tmp_path, result):
     path = tmp_path / "simb.csv"
     path.write_text("RAI,RAI,RAI,0,1,0.001\n", encoding="utf-8")
     assert "has no column time: its first row must name" in refused("show", path)
-    assert "cannot be read: Is a directory" in refused("show", tmp_path)
+    assert "is no result: one ends in" in refused("show", tmp_path)
     path.write_text("t,x,y,z,qw,qx,qy,qz\n0,0,0,.1,2,0,0,0\n1,0,0,.1,2,0,0,0\n", encoding="utf-8")
     assert "the quaternion at 0 s has the length 2, not 1" in refused("show", path)
     result[0].dataset[["contact", "radius"]].pipe(Result).save(tmp_path / "part.csv")
