@@ -12,24 +12,13 @@ COLUMNS = {
     "method": 9, "order": 6, "energy": 11, "oscillation": 11, "drift": 10, "constraint": 10, "places": 7, "returns": 9,
     "µs/step": 8,
 }  # fmt: skip
-PAGE = """<!doctype html>
-<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>Methods on mechanical systems</title>
-<style>
-body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; color: #111; }}
-table {{ border-collapse: collapse; display: block; overflow-x: auto; }}
-th, td {{ padding: .2rem .7rem; text-align: right; border-bottom: 1px solid #ddd; white-space: nowrap; }}
-th:first-child, td:first-child {{ text-align: left; }}
-</style>
-<h1>Methods on mechanical systems</h1>
-<p>Oscillation: the range of the energy in the first tenth of the steps. Drift: the mean of the last tenth less that
-of the first. Constraint: the largest |A v + b| of the constraints on velocities; proved 0 where an equation of the
-method says so. Places: the largest value of the holonomic constraints. Order: of the error of the place when the
-steps are halved; - where rounding hides it. Returns: how far the place is from its start after 100 steps, the
+ABOUT = """<p>Oscillation: the range of the energy in the first tenth of the steps. Drift: the mean of the last tenth
+less that of the first. Constraint: the largest |A v + b| of the constraints on velocities; proved 0 where an equation
+of the method says so. Places: the largest value of the holonomic constraints. Order: of the error of the place when
+the steps are halved; - where rounding hides it. Returns: how far the place is from its start after 100 steps, the
 velocities turned round, and 100 steps. Proved and false are exact; all else is measured. Error of the place: after 16
-steps, and after as much time in steps of a half to a sixteenth, against 256 times as many steps of the same method.</p>
-{systems}
-</html>
+steps, and after as much time in steps of a half to a sixteenth, against 256 times as many steps of the same
+method.</p>
 """
 
 
@@ -45,6 +34,8 @@ def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constrai
     constraints : mapping
         What is said of the constraints of each system.
     """
+    from .drawing.style import document
+
     names = dict.fromkeys(cell["system"] for cell in cells)
     parts = []
     for name in names:
@@ -53,7 +44,7 @@ def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constrai
         said = f"<p>{escape(constraints[name])}.</p>" if name in constraints else ""
         head = f"<tr>{''.join(f'<th>{name}' for name in COLUMNS)}</tr>"
         parts.append(f"<h2>{escape(name)}</h2>{said}<table>{head}{rows}</table>{_verdicts(own)}{_curves(own)}")
-    return PAGE.format(systems="\n".join(parts))
+    return document("Methods on mechanical systems", ABOUT + "\n".join(parts))
 
 
 def figures(cell: Mapping[str, Any]) -> list[str]:
@@ -118,6 +109,8 @@ def _row(cell: Mapping[str, Any], title: str) -> str:
 def _curves(cells: Sequence[Mapping[str, Any]]) -> str:
     """The change of the energy over time, on a scale that shows large and small ones; and the error against work."""
     need("figures")
+    from matplotlib.ticker import LogFormatterSciNotation
+
     from .drawing.style import COLOURS, legend, new, styled
 
     drawn = [cell for cell in cells if not cell["failed"]]
@@ -134,5 +127,6 @@ def _curves(cells: Sequence[Mapping[str, Any]]) -> str:
                     axes.plot(*zip(*shown, strict=True), marker=mark, color=colour, label=cell["method"])
         energy.set(yscale="log", xlabel="time", ylabel="|energy - first|")
         error.set(xscale="log", yscale="log", xlabel="µs of processor time", ylabel="error of the place")
+        error.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, 0.4)))  # else they overlap
         legend(figure, [energy, error])
     return figure.svg()

@@ -9,7 +9,7 @@ import numpy as np
 
 from chapsym import files
 from chapsym.dynamics.errors import BadInput
-from chapsym.show.drawing.style import WIDE, Picture, legend, new, styled
+from chapsym.show.drawing.style import WIDE, Picture, document, legend, new, styled
 from chapsym.studies.figures import save_figure
 
 from .judge import LIMITS, UNITS, Case, Convergence, Departure, limit_of, sentence, summary
@@ -72,24 +72,12 @@ def _page(
         rows += f"<tr><th>{html.escape(Path(run.file).name)}</th><td>{step}</td>{cells}</tr>\n"
     said = "".join(f"<p>{html.escape(f'{name}: {sentence(one, UNITS[name])}')}</p>\n" for name, one in known.items())
     limits = ", ".join(f"{limit_of(name)} ({name})" for name in LIMITS)
-    title = html.escape(case.name)
-    return f"""<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}: an engine, judged</title>
-<style>body {{ font: 16px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem }}
-table {{ border-collapse: collapse; display: block; overflow-x: auto }}
-th, td {{ padding: .3rem .8rem; text-align: right; vertical-align: top; white-space: nowrap }}
-th, td {{ border-bottom: 1px solid #ddd }}
-th:first-child {{ text-align: left }}
-small {{ color: #555 }}</style></head>
-<body><h1>{title}</h1>
-<p>How far the ball of an engine is from the certified motion of a ball that rolls without slipping: the greatest
-distance at the frames, and when it passes {limits}.</p>
+    about = f"""<p>How far the ball of an engine is from the certified motion of a ball that rolls without slipping: the
+greatest distance at the frames, and when it passes {limits}.</p>
 <table><thead><tr><th>file</th><th>step, s</th>{head}</tr></thead><tbody>
 {rows}</tbody></table>
-{said}{curves}
-</body></html>
 """
+    return document(f"{case.name}: an engine, judged", about + said + curves)
 
 
 def _cell(part: Mapping[str, Any] | None) -> str:

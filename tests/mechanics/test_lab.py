@@ -21,7 +21,9 @@ def test_exact_verdicts_are_in_the_table_in_json_and_on_the_page(tmp_path):
     wrong = cell["verdicts"]["reversible"]
     assert wrong["verdict"] == "false"
     assert set(wrong["point"]) == {"x", "y", "z", "x_dot", "y_dot", "z_dot"}
-    assert f"<li>gni: reversible: false {wrong['said']} from x = 4/3" in out.read_text(encoding="utf-8")
+    page = out.read_text(encoding="utf-8")
+    assert f"<li>gni: reversible: false {wrong['said']} from x = 4/3" in page
+    assert "prefers-color-scheme: dark" in page
     plain = answer("lab", SYSTEMS / "contact.py", "--method", "gni", "--steps", 20, "--no-flags")
     assert plain["cells"][0]["verdicts"] == {}
 

@@ -255,6 +255,7 @@ def test_the_page_has_one_table_and_the_curves_and_the_figure_is_written(three, 
     assert written.count("<tr>") == 4
     assert "<th>0.01.csv</th><td>0.01</td><td>0.0021<br><small>from 5 s on</small></td>" in written
     assert "path: order 2.00" in written
+    assert "prefers-color-scheme: dark" in written
     assert not re.search(r"(src|href)=.http|url\(http|<script", written)
     done = chapsym("judge", FILE.with_suffix(".csv"), "--against", FILE, "-o", tmp_path / "one.svg")
     assert (done.returncode, done.stderr) == (0, "")
