@@ -60,21 +60,75 @@ def test_a_scene_of_it_has_its_numbers_exactly(put, tmp_path):
     assert "has a ball and no start: chapsym scene new" in refused("run", put(URDF), "-o", tmp_path / "x.csv")
 
 
-@pytest.mark.parametrize(
-    ("text", "suffix"),
-    [
-        (URDF.replace('rpy="0 0 0"', 'rpy="0.3 -0.2 1.1"'), ".urdf"),
-        (SDF.replace("0 0 0 0 0 0", "0 0 0 0.3 -0.2 1.1"), ".sdf"),
-        (MJCF.replace('pos="0 0 0" mass', 'pos="0 0 0" quat="2 1 -1 3" mass'), ".xml"),
-    ],
-)
-def test_a_turned_inertial_frame_turns_the_tensor(put, text, suffix):
+def sdf(attributes, text):
+    return SDF.replace("<pose>0 0 0 0 0 0", f"<pose {attributes}>{text}")
+
+
+def mjcf(turn, compiler=""):
+    return MJCF.replace('mass="1.9"', f'mass="1.9" {turn}').replace("<worldbody>", f"<compiler {compiler}/><worldbody>")
+
+
+RPY = ("xyz", [0.3, -0.2, 1.1])
+#: A turn about (1, 2, -2) by 0.75.
+AXIS = ("rotvec", [0.25, 0.5, -0.5])
+TURNS = {
+    "rpy": (URDF.replace('rpy="0 0 0"', 'rpy="0.3 -0.2 1.1"'), RPY),
+    "URDF's quat_xyzw": (URDF.replace('rpy="0 0 0"', 'rpy="9 9 9" quat_xyzw="1 -1 3 2"'), ("quat", [1, -1, 3, 2])),
+    "pose": (sdf("", "0 0 0 0.3 -0.2 1.1"), RPY),
+    "its own link": (sdf('relative_to="ball" rotation_format="euler_rpy" degrees="false"', "0 0 0 0.3 -0.2 1.1"), RPY),
+    "degrees": (sdf('degrees="true"', "0 0 0 30 -20 110"), ("xyz", np.radians([30, -20, 110]))),
+    "quat_xyzw": (sdf('rotation_format="quat_xyzw"', "0 0 0 1 -1 3 2"), ("quat", [1, -1, 3, 2])),
+    "quat": (mjcf('quat="2 1 -1 3"'), ("quat", [1, -1, 3, 2])),
+    "euler": (mjcf('euler="30 -20 110"'), ("XYZ", np.radians([30, -20, 110]))),
+    "radian": (mjcf('euler="0.3 -0.2 1.1"', 'angle="radian"'), ("XYZ", [0.3, -0.2, 1.1])),
+    "eulerseq": (mjcf('euler="0.3 -0.2 1.1"', 'angle="radian" eulerseq="XYZ"'), RPY),
+    "another": (mjcf('euler="0.3 -0.2 1.1"', 'angle="radian" eulerseq="zyx"'), ("ZYX", [0.3, -0.2, 1.1])),
+    "axisangle": (mjcf('axisangle="1 2 -2 0.75"', 'angle="radian"'), AXIS),
+}
+
+
+@pytest.mark.parametrize("name", TURNS)
+def test_a_turned_inertial_frame_turns_the_tensor(put, name):
+    """scipy's small letters are turns about fixed axes, its capitals about those of the body; MuJoCo's, the reverse."""
     from scipy.spatial.transform import Rotation
 
-    turn = Rotation.from_quat([1, -1, 3, 2]) if suffix == ".xml" else Rotation.from_euler("xyz", [0.3, -0.2, 1.1])
+    text, (kind, numbers) = TURNS[name]
+    suffix = {"<mu": ".xml", "<sd": ".sdf"}.get(text[:3], ".urdf")
     found = np.array([[float(Fraction(x)) for x in row] for row in table(put(text, suffix))["inertia"]])
+    made = {"quat": Rotation.from_quat, "rotvec": Rotation.from_rotvec}.get(kind)
+    turn = made(numbers) if made else Rotation.from_euler(kind, numbers)
     r = turn.as_matrix()
     np.testing.assert_allclose(found, r @ np.array(ROWS, dtype=float) @ r.T, atol=1e-17)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (sdf('relative_to="arm"', "0 0 0 0 0 0"), "line 2: <pose>: relative_to = 'arm' is not read"),
+        (
+            sdf('rotation_format="matrix"', "0 0 0"),
+            "line 2: <pose>: rotation_format must be euler_rpy or quat_xyzw",
+        ),
+        (sdf('degrees="yes"', "0 0 0 0 0 0"), "line 2: <pose>: degrees must be false or true, not 'yes'"),
+        (sdf('rotation_format="quat_xyzw"', "0 0 0 0 0 0"), "line 2: <pose> must have 7 numbers"),
+        (SDF.replace("<inertial>", '<inertial auto="true">'), "line 2: <inertial>: auto is not read"),
+        (mjcf('euler="1 2 3"', 'eulerseq="xyw"'), "line 1: <compiler>: eulerseq must be three of x, y, z, X, Y, Z"),
+        (mjcf('euler="1 2 3"', 'angle="grad"'), "line 1: <compiler>: angle must be degree or radian, not 'grad'"),
+        (mjcf('euler="1 2 3" quat="1 0 0 0"'), "line 2: <inertial> is turned twice: by quat and euler"),
+        (mjcf('zaxis="1 2 3"'), "line 2: <inertial> is turned by zaxis, which is not read: write quat or euler"),
+        (mjcf("", 'settotalmass="3"'), "line 1: <compiler>: settotalmass = '3' makes others of the numbers"),
+        (mjcf("", 'balanceinertia="true"'), "line 1: <compiler>: balanceinertia = 'true' makes others of"),
+    ],
+)
+def test_an_attribute_that_is_not_read_is_named(put, text, said):
+    with pytest.raises(SceneError) as caught:
+        table(put(text, ".xml" if text.startswith("<mujoco") else ".sdf"))
+    assert said in str(caught.value)
+
+
+def test_mujoco_makes_the_inertia_of_the_geom_where_its_compiler_says_so(put):
+    text = mjcf("", 'inertiafromgeom="true"').replace('size="0.105"', 'size="0.105" mass="0.5"')
+    assert table(put(text, ".xml")) == {"name": "ball", "preset": "homogeneous", "mass": "0.5", "radius": "0.105"}
 
 
 def test_a_geom_with_a_mass_is_homogeneous_as_mujoco_makes_it(put):

@@ -3,6 +3,7 @@
 In all three formats ixy, ixz, iyz are entries of the tensor of inertia: -∫xy dm, ....
 """
 
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,6 @@ from xml.parsers import expat
 import numpy as np
 
 from chapsym import generated
-from chapsym.dynamics.attitudes import roll_pitch_yaw
 from chapsym.rationals import NotANumber, rational
 
 from .bodies import unbalanced
@@ -27,6 +27,10 @@ NO_OFFSET = Fraction(1, 10**9)
 DEEPEST = 100
 #: Digits of what is turned by angles.
 DIGITS = 40
+#: What <compiler> of MJCF says where it changes no number.
+PLAIN = {
+    "settotalmass": "-1", "boundmass": "0", "boundinertia": "0", "balanceinertia": "false", "coordinate": "local",
+}  # fmt: skip
 ENTRIES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 Vector = tuple[Fraction, ...]
 #: A place, and the quaternion of a turn, of any length, scalar first.
@@ -97,9 +101,14 @@ class _Reader:
         ((body, (radius, centre)),) = found
         name = {"name": body.attrib["name"]} if body.get("name") else {}
         inertial = body.find("inertial")
+        if self.kind == "mjcf":
+            self._check_masses()
+            inertial = None if self._compiler("inertiafromgeom", "auto")[0] == "true" else inertial
         if inertial is None:
             return name | self._of_one_material(body) | {"radius": radius}
-        place, turn = self._pose(inertial)
+        if inertial.get("auto", "false") not in ("false", "0"):
+            raise self._refused(inertial, "<inertial>: auto is not read: write the mass and the inertia themselves")
+        place, turn = self._pose(inertial, body)
         offset = [a - b for a, b in zip(place, centre, strict=True)]
         rho = self._number(radius, inertial)
         if max(map(abs, offset)) > NO_OFFSET * rho:
@@ -122,13 +131,13 @@ class _Reader:
             for one in body.findall("geom"):
                 size = one.get("size", "").split()
                 if one.get("type", "sphere") == "sphere" and size:
-                    return size[0], self._pose(one)[0]
+                    return size[0], self._pose(one, body)[0]
             return None
         for tag in ("collision", "visual"):
             for shape in body.findall(tag):
                 sphere = next(shape.iter("sphere"), None)
                 if sphere is not None:
-                    return self._value(sphere, "radius"), self._pose(shape)[0]
+                    return self._value(sphere, "radius"), self._pose(shape, body)[0]
         return None
 
     def _value(self, parent: Element, name: str, attribute: str | None = None) -> str:
@@ -153,23 +162,72 @@ class _Reader:
             raise self._refused(where, f"<{where.tag}> must have {count} numbers, not {text.strip()!r}")
         return tuple(self._number(part, where) for part in parts)
 
-    def _pose(self, parent: Element) -> Pose:
-        """Where an element says that it is, in its body."""
+    def _pose(self, parent: Element, body: Element) -> Pose:
+        """Where an element of a body says that it is, in the body."""
         if self.kind == "mjcf":
-            if wrong := [name for name in ("euler", "axisangle", "xyaxes", "zaxis") if name in parent.attrib]:
-                raise self._refused(parent, f"<{parent.tag}> is turned by {wrong[0]}: write quat, or leave it out")
-            place, turn = parent.get("pos", "0 0 0"), parent.get("quat", "1 0 0 0")
-            return self._numbers(place, parent, 3), self._numbers(turn, parent, 4)
+            return self._numbers(parent.get("pos", "0 0 0"), parent, 3), self._turn_of_mjcf(parent)
         where = parent.find("origin" if self.kind == "urdf" else "pose")
         if where is None:
             return NO_TURN[1:], NO_TURN
         if self.kind == "urdf":
-            place, turn = where.get("xyz", "0 0 0"), where.get("rpy", "0 0 0")
-            return self._numbers(place, where, 3), _turned(self._numbers(turn, where, 3))
-        if {"relative_to", "rotation_format", "degrees"} & set(where.attrib):
-            raise self._refused(where, "a <pose> with attributes is not read: write x y z roll pitch yaw, in radians")
-        numbers = self._numbers(where.text or "", where, 6)
-        return numbers[:3], _turned(numbers[3:])
+            if "quat_xyzw" in where.attrib:
+                *axis, scalar = self._numbers(where.attrib["quat_xyzw"], where, 4)
+                turn = (scalar, *axis)
+            else:
+                turn = _turned(self._numbers(where.get("rpy", "0 0 0"), where, 3))
+            return self._numbers(where.get("xyz", "0 0 0"), where, 3), turn
+        if where.get("relative_to", "") not in ("", body.get("name")):
+            told = f"relative_to = {where.attrib['relative_to']!r} is not read: give the pose in the frame of its link"
+            raise self._refused(where, f"<pose>: {told}")
+        form = self._one_of(where, "rotation_format", ("euler_rpy", "quat_xyzw"))
+        in_degrees = self._one_of(where, "degrees", ("false", "true", "0", "1")) in ("true", "1")
+        numbers = self._numbers(where.text or "", where, 7 if form == "quat_xyzw" else 6)
+        if form == "quat_xyzw":
+            return numbers[:3], (numbers[6], *numbers[3:6])
+        return numbers[:3], _turned(numbers[3:], degrees=in_degrees)
+
+    def _one_of(self, where: Element, name: str, known: tuple[str, ...]) -> str:
+        """An attribute that has one of some values, by default the first."""
+        if (found := where.get(name, known[0])) not in known:
+            raise self._refused(where, f"<{where.tag}>: {name} must be {' or '.join(known[:2])}, not {found!r}")
+        return found
+
+    def _turn_of_mjcf(self, where: Element) -> Vector:
+        """quat, euler or axisangle, as <compiler> says that angles are meant."""
+        given = [name for name in ("quat", "euler", "axisangle", "xyaxes", "zaxis") if name in where.attrib]
+        if len(given) > 1:
+            raise self._refused(where, f"<{where.tag}> is turned twice: by {given[0]} and {given[1]}")
+        name = given[0] if given else ""
+        if name in ("xyaxes", "zaxis"):
+            raise self._refused(where, f"<{where.tag}> is turned by {name}, which is not read: write quat or euler")
+        if name == "quat":
+            return self._numbers(where.attrib[name], where, 4)
+        unit, compiler = self._compiler("angle", "degree")
+        if unit not in ("degree", "radian"):
+            raise self._refused(compiler, f"<compiler>: angle must be degree or radian, not {unit!r}")
+        sequence, compiler = self._compiler("eulerseq", "xyz")
+        if len(sequence) != 3 or not set(sequence.lower()) <= set("xyz"):
+            raise self._refused(compiler, f"<compiler>: eulerseq must be three of x, y, z, X, Y, Z, not {sequence!r}")
+        if name == "axisangle":
+            *axis, angle = self._numbers(where.attrib[name], where, 4)
+            return _about_axis(axis, angle, unit == "degree")
+        angles = self._numbers(where.get("euler", "0 0 0"), where, 3)
+        return _turned(angles, sequence, degrees=unit == "degree")
+
+    def _compiler(self, name: str, default: str) -> tuple[str, Element]:
+        """What the last <compiler> with an attribute says of the whole file, and where."""
+        told = [one for one in self.root.iter("compiler") if name in one.attrib]
+        return (told[-1].attrib[name], told[-1]) if told else (default, self.root)
+
+    def _check_masses(self) -> None:
+        """Raises SceneError where <compiler> makes masses of MJCF, or places, others than those that are written."""
+        for name, plain in PLAIN.items():
+            value, where = self._compiler(name, plain)
+            if value != plain:
+                told = (
+                    f"{name} = {value!r} makes others of the numbers in the file, and is not read: write the ball's own"
+                )
+                raise self._refused(where, f"<compiler>: {told}")
 
     def _tensor(self, inertial: Element, turn: Vector) -> list[list[str]]:
         """The rows in the axes of the body: R I Rᵀ of the one in the axes of <inertial>."""
@@ -216,13 +274,26 @@ def _text(x: Fraction) -> str:
         return str(mpmath.nstr(mpmath.mpf(x.numerator) / x.denominator, DIGITS))
 
 
-def _turned(angles: Vector) -> Vector:
-    """Rz(yaw) Ry(pitch) Rx(roll), in many digits."""
-    if not any(angles):
+def _turned(angles: Vector, sequence: str = "XYZ", degrees: bool = False) -> Vector:
+    """Turns about axes one after the other: fixed ones X, Y, Z, or x, y, z of the body, which turn with it.
+
+    Roll, pitch, yaw are about X, Y, Z: Rz(yaw) Ry(pitch) Rx(roll).
+    """
+    found = NO_TURN
+    for angle, name in zip(angles, sequence, strict=True):
+        one = _about_axis([Fraction(name.lower() == axis) for axis in "xyz"], angle, degrees)
+        found = generated.compose(*found, *one) if name.islower() else generated.compose(*one, *found)
+    return found
+
+
+def _about_axis(axis: Sequence[Fraction], angle: Fraction, degrees: bool) -> Vector:
+    """A turn about an axis of any length, in many digits."""
+    if not angle:
         return NO_TURN
     import mpmath
 
     with mpmath.workdps(2 * DIGITS):
-        halves = [mpmath.mpf(x.numerator) / x.denominator / 2 for x in angles]
-        found = roll_pitch_yaw([(mpmath.cos(x), mpmath.sin(x)) for x in halves])
+        half, *along = (mpmath.mpf(x.numerator) / x.denominator for x in (angle / 2, *axis))
+        half *= mpmath.pi / 180 if degrees else 1
+        found = (mpmath.cos(half) * mpmath.norm(along), *(mpmath.sin(half) * x for x in along))
         return tuple(Fraction(mpmath.nstr(x, DIGITS + 10)) for x in found)
