@@ -166,7 +166,8 @@ def of_run(run: Any) -> Arrays:
     columns = {name: getattr(run, name) for name in ("momentum", "gamma", "attitude", "contact")}
     columns |= {f"{name}_low": getattr(run.low, name, None) for name in columns}
     if run.time_step is not None:
-        columns |= run.derived() | ({"momentum": run.angular_momentum()} if motion else {})
+        K = run.angular_momentum()
+        columns |= run.derived() | {"angular_momentum": K} | ({"momentum": K} if motion else {})
     variables: dict[str, Labelled] = {}
     for name in (part for one in OUTPUTS for part in (one, f"{one}_low")):
         if (values := columns.get(name)) is not None:

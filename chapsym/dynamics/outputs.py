@@ -8,7 +8,8 @@ from . import kernels
 from .ball import Floats
 from .n.ball_n import invariants_n
 
-#: K = 𝒦/ε in kg m²/s.  An output sees ε through it alone, so that whatever is made of it needs a run with times.
+#: K = 𝒦/ε in kg m²/s.  An output sees ε through it alone, so that whatever is made of it needs a run with times.  It is
+#: one quantity of the motion and of the map, and 𝒦 is `discrete_momentum`; `momentum` is the one or the other.
 K = "angular_momentum"
 
 
@@ -96,6 +97,14 @@ OUTPUTS: dict[str, Output] = {
     "energy": Output(
         "kinetic energy", "J", needs=_GAMMA | {K}, with_D=_GAMMA, kernels=("energy",),
         derive=lambda J, D, given: kernels.energy(given[K], given["gamma"], J, D),
+    ),
+    "angular_momentum": Output(
+        "angular momentum K about the contact point, body axes", "kg m2 s-1", ("axis",), _MATRIX,
+        needs=frozenset({K}), derive=lambda J, D, given: given[K],
+    ),
+    "discrete_momentum": Output(
+        "discrete momentum 𝒦, body axes", "kg m2", ("axis",), _MATRIX,
+        needs=frozenset({"momentum"}), derive=lambda J, D, given: given["momentum"],
     ),
     "integrals": Output(
         "momentum integrals", lambda n: ", ".join(_integrals(n).values()), ("integral",), ("integral",),

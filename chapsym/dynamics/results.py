@@ -255,7 +255,7 @@ class Trajectory:
 
     def to_xarray(self) -> Dataset:
         """The same as a Dataset, labelled as the result of a scene: SI units, names of axes, the ball; with `time` also
-        `omega` and `energy`.
+        `omega`, `energy` and K, `angular_momentum`.
 
         Its dimensions are `ball`, one for all axes of a batch, and `frame`; `chapsym.Result` draws and writes it.  Its
         `momentum` is K in kg m² s⁻¹ of the motion (`roll`), and 𝒦 in kg m² of the map: its unit says which.  Beyond
@@ -304,6 +304,11 @@ class Trajectory:
         ['ball', 'step', 'momentum_1', 'momentum_2', 'momentum_3', 'gamma_1', 'gamma_2', 'gamma_3']
         """
         return labelled.frame(labelled.of_run(self), balls)
+
+    @property
+    def discrete_momentum(self) -> Floats:
+        """`momentum` by its whole name: 𝒦 = εK of the map, in kg m², which is not the ball's own K."""
+        return self.momentum
 
     @property
     def t(self) -> Floats:

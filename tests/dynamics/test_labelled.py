@@ -9,11 +9,12 @@ import pytest
 import chapsym
 from chapsym.dynamics import results
 from chapsym.extras import MissingExtra
+from chapsym.scene import SceneError
 
 TENSOR = [[0.006, 0.001, 0], [0.001, 0.007, 0], [0, 0, 0.009]]
 BALL = chapsym.Ball.from_inertia(TENSOR, mass=2, radius=0.1)
 START = {"omega": [3.0, -2.0, 1.0], "gamma": ["2/7", "3/7", "6/7"]}
-OUTPUTS = ["momentum", "gamma", "attitude", "contact", "omega", "energy"]
+OUTPUTS = ["momentum", "angular_momentum", "gamma", "attitude", "contact", "omega", "energy"]
 
 
 def of_scene(**run):
@@ -124,3 +125,24 @@ def test_the_examples_of_its_docstrings_are_what_is_printed():
     found = doctest.testmod(results)
     assert found.failed == 0
     assert found.attempted > 5
+
+
+def test_the_momentum_of_the_ball_and_that_of_the_map_have_names_of_their_own():
+    """One state of one motion has one angular momentum, however often it is written down; 𝒦 is of the step."""
+    names = ["angular_momentum", "momentum"]
+    motion = [of_scene(time_step=step, steps=round(0.4 / step), outputs=names).dataset for step in (0.1, 0.05)]
+    for data in motion:
+        assert data["angular_momentum"].attrs["units"] == "kg m2 s-1"
+        np.testing.assert_array_equal(data["angular_momentum"], data["momentum"])
+        np.testing.assert_allclose(data["angular_momentum"][0, -1], motion[0]["angular_momentum"][0, -1], rtol=1e-5)
+    for step in (0.1, 0.05):
+        wanted = [*names, "discrete_momentum"]
+        data = of_scene(time_step=step, steps=round(0.4 / step), outputs=wanted).dataset  # which asks for the map
+        assert data["discrete_momentum"].attrs["units"] == "kg m2"
+        np.testing.assert_array_equal(data["discrete_momentum"], data["momentum"])
+        np.testing.assert_allclose(data["angular_momentum"] * step, data["momentum"], rtol=1e-15)
+        np.testing.assert_allclose(data["angular_momentum"][0, 0], motion[0]["angular_momentum"][0, 0], rtol=1e-14)
+    run = rolled(map=True)
+    assert run.discrete_momentum is run.momentum
+    with pytest.raises(SceneError, match=r"run\.accuracy is of the motion, and run\.outputs of the map"):
+        of_scene(accuracy=1e-7, outputs=["discrete_momentum"])

@@ -153,7 +153,7 @@ MOST_STEPS, MOST_FRAMES = 2**53, 10**8
 MOST_DIMENSIONS = 32
 Accurate = Annotated[float, Accuracy()]
 #: What the map has and the continuous motion has not.
-OF_THE_MAP = frozenset({"phase", "rotation_number"})
+OF_THE_MAP = frozenset({"discrete_momentum", "phase", "rotation_number"})
 Output = Literal[*OUTPUTS]  # type: ignore[valid-type]
 
 
