@@ -117,8 +117,9 @@ def test_a_run_to_an_npz_loads_nothing_for_other_files_and_other_screens(tmp_pat
         "    main()"
     )
     heavy = {"xarray", "pandas", "dask", "zarr", "h5py", "pyarrow", "rich", "pint", "sympy", "mpmath", "scipy"}
-    assert not heavy & loaded_by(program)
-    assert (tmp_path / "out.npz").exists()
+    for _ in range(2):  # and onto the same result
+        assert not heavy & loaded_by(program)
+        assert (tmp_path / "out.npz").exists()
 
 
 def test_every_public_name_is_there_and_documented():
