@@ -249,11 +249,15 @@ class Algebra:
 
     def normal(self, vector: Sequence[sp.Expr]) -> list[sp.Expr]:
         """The normal forms of a vector, times roots that it divides by: the span is the same."""
-        found = list(vector)
+        return self.cleared(vector)[0]
+
+    def cleared(self, vector: Sequence[sp.Expr]) -> tuple[list[sp.Expr], sp.Expr]:
+        """The same, and the product of these roots."""
+        found, times = list(vector), sp.S.One
         for letter in self.letters.arguments("sqrt"):
             while not all(x.is_polynomial(letter) for x in found):
-                found = [sp.expand(x * letter) for x in found]
-        return [self.ring.normal(x) for x in found]
+                found, times = [sp.expand(x * letter) for x in found], times * letter
+        return [self.ring.normal(x) for x in found], times
 
     def shown(self, state: Mapping[sp.Symbol, Any]) -> dict[str, str]:
         """A point as text: without the angles of which only sines and cosines are there."""

@@ -97,6 +97,28 @@ def flag(system: System) -> Flag:
     >>> print(flag(System("pulled", (x, y), dot(x)**2 + dot(y)**2, [x * dot(x) + y * dot(y)])))
     integrable: the flag has the dimensions 1 of 2; 1 function of the coordinates stays constant
     """
+    return spanned(system).flag
+
+
+@dataclass(frozen=True)
+class Span:
+    """What proves a flag: rows A, of which those in `kept` are independent, and fields and brackets that span.
+
+    Of each vector, `made` has the two of which it is the bracket, and the roots that this is multiplied by; `inside` has
+    brackets that the others span.
+    """
+
+    flag: Flag
+    algebra: Algebra
+    rows: sp.Matrix
+    kept: Sequence[int]
+    vectors: Sequence[Sequence[sp.Expr]]
+    made: Sequence[tuple[int, int, sp.Expr] | None]
+    inside: Sequence[tuple[Sequence[sp.Expr], tuple[int, int, sp.Expr]]]
+
+
+def spanned(system: System) -> Span:
+    """A flag with what proves it; as `flag`."""
     algebra = Algebra(system)
     with_time = any(not algebra.is_zero(b) for b in algebra.offsets)
     whole = algebra.rows.row_join(algebra.offsets) if with_time else algebra.rows
@@ -108,27 +130,31 @@ def flag(system: System) -> Flag:
     for i in set(range(rows.rows)) - set(kept):
         if not _inside(rows.extract(kept, list(range(rows.cols))).tolist(), list(rows[i, :]), point, algebra):
             raise BadSystem(f"{system.name}: it is not decided whether constraint {i + 1} depends on the others")
-    rows = rows.extract(kept, list(range(rows.cols)))
+    whole, rows = rows, rows.extract(kept, list(range(rows.cols)))
     fields = [algebra.normal(field) for field in kernel(rows, rows.xreplace(point))]
     if with_time and all(algebra.is_zero(field[-1]) for field in fields):
         raise BadSystem(f"{system.name}: the constraints contradict each other: no motion obeys them")
-    span, newest, growth = list(fields), list(fields), [len(fields)]
+    span, newest, growth = list(fields), list(range(len(fields))), [len(fields)]
+    made, inside = [None] * len(fields), []
     while newest and len(span) < dimension:
         before, newest = newest, []
-        for x, y in product(fields, before):
-            bracket = algebra.normal(bracket_of(x, y, algebra))
+        for i, j in product(range(len(fields)), before):
+            bracket, times = algebra.cleared(bracket_of(fields[i], span[j], algebra))
             larger = [*span, bracket]
             if rank(_matrix(larger), point) < len(larger):
                 if _inside(span, bracket, point, algebra):
+                    inside.append((bracket, (i, j, times)))
                     continue
                 point = next((p for p in algebra.points if rank(_matrix(larger), p) == len(larger)), {})
                 if not point:
                     raise BadSystem(f"{system.name}: it is not decided whether a bracket is in the span of others")
-            span, newest = larger, [*newest, bracket]
+            newest = [*newest, len(span)]
+            span, made = larger, [*made, (i, j, times)]
         growth += [len(span)] if newest else []
     minor = _matrix(span).extract(list(range(len(span))), pivots(_matrix(span).xreplace(point))) if span else sp.eye(0)
     condition = sp.factor(algebra.normal([determinant(minor)])[0])
-    return Flag(tuple(growth), tuple(map(tuple, fields)), condition, algebra.shown(point), dimension, with_time)
+    found = Flag(tuple(growth), tuple(map(tuple, fields)), condition, algebra.shown(point), dimension, with_time)
+    return Span(found, algebra, whole, kept, span, made, inside)
 
 
 def _rows_of_places(algebra: Algebra, with_time: bool) -> sp.Matrix:
