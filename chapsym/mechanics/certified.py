@@ -21,12 +21,15 @@ from chapsym.prove.witness import true_at
 
 from .algebra import Algebra, Point, adjugate, determinant, pivots
 from .brackets import bracket_of, flag, spanned
-from .density import MOST_LEVELS, Volume, volume
-from .equations import OnShell
+from .density import MOST_LEVELS, Volume, divergences, volume
+from .equations import OnShell, conserved
+from .judged import size
 from .system import BadSystem, System
 
 #: Letters of the name of a system in the id of a claim.
 LETTERS = 22
+#: Of what has more different parts, derivatives are not given to the checker.
+MOST_PARTS = 400
 
 
 @dataclass(frozen=True)
@@ -50,29 +53,41 @@ class Certified:
 
 @dataclass(frozen=True)
 class Case:
-    """What a claim says, what proves it, and a false variant of that; premises are in words."""
+    """What a claim says, what proves it, and a false variant of that; premises are in words.
+
+    Where the certificate is too large with `derived`, that some expressions are derivatives, it says so in words.
+    """
 
     said: str
     printed: Sequence[Statement]
-    control: Sequence[Statement]
+    control: Statement
     lemmas: Sequence[Statement] = ()
+    derived: Sequence[Statement | str] = ()
     premises: Sequence[str] = ()
     uses: Sequence[str] = ()
+    inferred: str = ""
 
-    def judged(self, verdict: str, id: str, points: Iterable[Point] = ()) -> Certified:
-        """By its own proof, run now, and by the checker; at the first of some points where all of it has a value."""
-        statements = [*self.printed, *self.lemmas]
+    def judged(self, verdict: str, id: str, points: Sequence[Point] = ()) -> Certified:
+        """By its own proof, run now, and by the checker; at one of some points, where it has a value."""
+        found = self._judged(verdict, id, points, [one for one in self.derived if not isinstance(one, str)])
+        return found if found.certificate or not self.derived else self._judged(verdict, id, points, [])
+
+    def _judged(self, verdict: str, id: str, points: Sequence[Point], derived: Sequence[Statement]) -> Certified:
+        places = sorted(filter(_is_rational, points), key=lambda point: [*point.values()].count(sp.S.Zero))
+        statements = [*derived, *self.lemmas, *self.printed]
         related = [one for one in statements if isinstance(one, Equation) and one.algebra.relations]
+        texts = (one if isinstance(one, str) else one.text for one in self.derived if one not in derived)
 
         def prove(p: Proof) -> None:
-            places = sorted(points, key=lambda point: [*point.values()].count(sp.S.Zero))  # the poor ones last
-            at = (x for x in places if _is_rational(x) and all(true_at(one, x) for one in related if _covers(x, one)))
+            at = (x for x in places if all(true_at(one, x) for one in related if _covers(x, one)))
             p.examples = Examples(numbers=next(at, {}))
-            for text in self.premises:
+            for text in (*self.premises, *(f"{text}: as chapsym forms them" for text in texts)):
                 p.assume(text)
-            p.lemma(*self.lemmas)
+            if self.inferred:
+                p.infers(self.inferred)
+            p.lemma(*statements[: -len(self.printed)])
             p.printed(*self.printed)
-            p.control(*self.control)
+            p.control(self.control)
             for one in statements:
                 if isinstance(one, Comparison):
                     p.witness("point", {x.name: str(v) for x, v in one.point.items()}, one)
@@ -108,11 +123,12 @@ def rate_along(algebra: Algebra, of: sp.Expr, directions: Sequence[sp.Expr]) -> 
 
 def slopes(
     algebra: Algebra, text: str, of: Sequence[tuple[sp.Expr, Sequence[sp.Expr]]], are: Sequence[sp.Expr]
-) -> Equation:
-    """That these are the derivatives of expressions, each along a direction, as a limit."""
+) -> Equation | str:
+    """That these are the derivatives of expressions, each along a direction, as a limit; of large ones the text."""
+    if size(e for one, along in of for e in (one, *along)) > MOST_PARTS:
+        return text
     symbols = set().union(*(e.free_symbols for one, along in of for e in (one, *along)), *(e.free_symbols for e in are))
-    taken = symbols | {*algebra.letters.meanings}
-    small, changes = fresh("e", taken), []
+    small, changes = fresh("e", symbols | {*algebra.letters.meanings}), []
     for one, along in of:
         by = {x: rate_along(algebra, x, along) for x in one.free_symbols}
         changes.append(one.xreplace({x: x + small * e for x, e in by.items() if e != 0}) - one)
@@ -142,6 +158,7 @@ class Moving(OnShell):
         taken = {*self.q, *self.v, *self.algebra.letters.meanings}
         self.change = [fresh(f"{x}_change", taken) for x in (*self.q, *self.v)]
         self.acceleration = [fresh(f"{x}_rate", taken) for x in self.v]
+        self.multipliers = [fresh(f"multiplier_{i + 1}", taken) for i in range(len(self.bindings))]
         self._rings: dict[tuple[sp.Symbol, ...], Quotient] = {}
 
     def ring(self, *expressions: sp.Expr) -> Quotient:
@@ -151,9 +168,19 @@ class Moving(OnShell):
         return self._rings.setdefault(more, Quotient((*own.symbols, *more), own.relations))
 
     def equal(self, text: str, left: Sequence[Any], right: Sequence[Any]) -> Equation:
-        """Where the constraints hold."""
-        sides = [[sp.sympify(e).xreplace(self.allowed) for e in side] for side in (left, right)]
+        """In the ring of the system."""
+        sides = [[sp.sympify(e, strict=True) for e in side] for side in (left, right)]
         return Equation(text, *sides, self.ring(*sides[0], *sides[1]))
+
+    @cached_property
+    def principle(self) -> list[sp.Expr]:
+        """d/dt ∂L/∂v - ∂L/∂q - F - Aᵀλ, of any acceleration and multipliers."""
+        held = self.algebra.rows.T * sp.Matrix(self.multipliers) if self.multipliers else sp.zeros(len(self.q), 1)
+        units = sp.eye(len(self.q)).tolist()
+        leaning = [
+            self.rate(p, self.now) - self.rate(self.lagrangian, e) for p, e in zip(self.momenta, units, strict=True)
+        ]
+        return [e - f - r for e, f, r in zip(leaning, self.forces, held, strict=True)]
 
     def rate(self, of: sp.Expr, directions: Sequence[sp.Expr]) -> sp.Expr:
         """The derivative of an expression along a change of coordinates and velocities."""
@@ -165,32 +192,18 @@ class Moving(OnShell):
         return [*self.v, *self.acceleration]
 
     @cached_property
-    def solved(self) -> tuple[list[sp.Expr], list[sp.Expr]]:
-        """The accelerations, and the multipliers, of which those of dependent constraints are 0."""
-        n, algebra = len(self.q), self.algebra
-        x = sp.Matrix(self.fields).T if self.fields else sp.zeros(n, 0)
-        below, inverse = determinant(self.square), adjugate(self.square)
-        found = sp.zeros(n, 1)
-        for i, value in zip(self.bound, inverse * self.turning.extract(self.kept, [0]), strict=True):
-            found[i] = value / below
-        if self.fields:
-            inner, pushed = x.T * self.mass * x, x.T * (self.forced - self.mass * found)
-            whole = determinant(inner)
-            if algebra.is_zero(whole):
-                raise BadSystem(
-                    f"{self.system.name}: the mass matrix is singular, so that the motion is not determined"
-                )
-            found += x * (adjugate(inner) * pushed) / whole
-        a = [algebra.ring.reduced(e.xreplace(self.allowed)) for e in found]
-        lack = (self.mass * sp.Matrix(a) - self.forced).extract(self.bound, [0])
-        held, multipliers = inverse.T * lack / below, [sp.S.Zero] * algebra.rows.rows
-        for i, value in zip(self.kept, held, strict=True):
-            multipliers[i] = algebra.ring.reduced(value.xreplace(self.allowed))
-        return a, multipliers
+    def solved(self) -> list[sp.Expr]:
+        """The accelerations."""
+        found, x = sp.zeros(len(self.q), 1), sp.Matrix(self.fields).T
+        for i, value in zip(self.bound, adjugate(self.square) * self.turning.extract(self.kept, [0]), strict=True):
+            found[i] = value / determinant(self.square)
+        inner, pushed = x.T * self.mass * x, x.T * (self.forced - self.mass * found)
+        found += x * (adjugate(inner) * pushed) / determinant(inner)
+        return [self.algebra.ring.reduced(e.xreplace(self.allowed)) for e in found]
 
     def in_motion(self, of: sp.Expr) -> sp.Expr:
         """The rate of an expression in the motion."""
-        return self.rate(of, [*self.v, *self.solved[0]])
+        return self.rate(of, [*self.v, *self.solved])
 
     @cached_property
     def premises(self) -> list[str]:
@@ -238,46 +251,50 @@ def certified(system: System) -> Iterator[Certified]:
 
 def _motion(system: System, _: str) -> tuple[Case, Algebra]:
     of = Moving(system)
-    units = [[int(i == j) for j in range(2 * len(of.q))] for i in range(2 * len(of.q))]
-    gradient = [of.rate(of.lagrangian, unit) for unit in units]
+    n, gradient = len(of.q), [of.rate(of.lagrangian, unit) for unit in sp.eye(2 * len(of.q)).tolist()]
     rates = [of.rate(e, of.now) for e in (*of.momenta, *of.bindings)]
-    accelerations, multipliers = of.solved
-    held = list(of.algebra.rows.T * sp.Matrix(multipliers)) if multipliers else [sp.S.Zero] * len(of.q)
-
-    def principle(text: str, by: Sequence[sp.Expr]) -> Equation:
-        moved = [e.xreplace(dict(zip(of.acceleration, by, strict=True))) for e in rates]
-        left = [p - f for p, f in zip(moved[: len(of.q)], gradient[: len(of.q)], strict=True)]
-        right = [f + r for f, r in zip(of.forces, held, strict=True)]
-        return of.equal(text, [*left, *moved[len(of.q) :]], [*right, *([sp.S.Zero] * len(of.bindings))])
-
-    lemmas = [
+    matrix = sp.Matrix(sp.BlockMatrix([[of.mass, -of.algebra.rows.T], [of.algebra.rows, sp.zeros(len(of.bindings))]]))
+    right = list(matrix * sp.Matrix([*of.acceleration, *of.multipliers]) - sp.Matrix([*of.forced, *of.turning]))
+    left, text = [*of.principle, *rates[n:]], "the equations are linear in the accelerations and multipliers"
+    numbers = [*range(n), *(n + i for i in of.kept)]
+    printed = [of.equal(text, left, right), _regular(matrix.extract(numbers, numbers), of.algebra)]
+    along = [(e, of.now) for e in (*of.momenta, *of.bindings)]
+    derived = [
         slopes(
             of.algebra, "the derivatives of L", [(of.lagrangian, of.change)], [sum(map(sp.Mul, gradient, of.change))]
         ),
-        slopes(of.algebra, "d/dt of ∂L/∂v and of A v + b", [(e, of.now) for e in (*of.momenta, *of.bindings)], rates),
-        *([of.equal("A v + b = 0", of.bindings, [sp.S.Zero] * len(of.bindings))] if of.bindings else []),
+        slopes(of.algebra, "d/dt of ∂L/∂v and of A v + b", along, rates),
     ]
     said = r"\frac{d}{dt}\frac{\partial L}{\partial v} - \frac{\partial L}{\partial q} = A^T\lambda + F, A v + b = 0"
-    wrong = principle(
-        "the same with a first acceleration that is larger by 1", [accelerations[0] + 1, *accelerations[1:]]
-    )
-    return Case(said, [principle("the accelerations and the multipliers solve the equations", accelerations)], [wrong],
-                lemmas, of.premises), of.algebra  # fmt: skip
+    wrong = of.equal(f"{text}, with 1 more in the first", left, [right[0] + 1, *right[1:]])
+    return Case(said, printed, wrong, [], derived, of.premises), of.algebra
 
 
-def _kept(of: Moving, what: str, quantity: sp.Expr, rate: sp.Expr, name: str) -> Case:
-    """What the rate of a quantity is in the motion."""
-    lemma = slopes(of.algebra, f"d/dt of {what}", [(quantity, of.now)], [of.rate(quantity, of.now)])
-    found = of.in_motion(quantity)
-    text = f"the rate of {what} in the motion"
-    return Case(text, [of.equal(text, [found], [rate])], [of.equal(f"{text}, larger by 1", [found], [rate + 1])],
-                [lemma], of.premises, [f"{name}-motion"])  # fmt: skip
+def _regular(matrix: sp.Matrix, algebra: Algebra) -> Comparison:
+    """That a matrix has an inverse at a point."""
+    for point in filter(_is_rational, algebra.points):
+        there = matrix.xreplace(point)
+        if not there.has(sp.zoo, sp.nan) and not there.free_symbols and len(pivots(there)) == there.rows:
+            product, unit = matrix * there.inv(), sp.eye(matrix.rows)
+            relations = [sp.Eq(a, b, evaluate=False) for a, b in zip(product, unit, strict=True)]
+            at = {x: point[x] for x in matrix.free_symbols}
+            return Comparison("they determine these at a point, where their matrix has an inverse", relations, at)
+    raise BadSystem("no rational point is found where the equations of motion are regular")
+
+
+def _kept(of: Moving, what: str, quantity: sp.Expr, balance: sp.Expr, name: str) -> Case:
+    """What the rate of a quantity is in the motion: a combination of what the equations set to 0, and more."""
+    rate, text = of.rate(quantity, of.now), f"the rate of {what}, by the equations of motion"
+    derived = [slopes(of.algebra, f"the rate of {what}", [(quantity, of.now)], [rate])]
+    wrong = of.equal(f"{text}, larger by 1", [rate], [balance + 1])
+    return Case(text, [of.equal(text, [rate], [balance])], wrong, [], derived, of.premises, [f"{name}-motion"])
 
 
 def _energy(system: System, name: str) -> tuple[Case, Algebra]:
     of = Moving(system)
-    power = sum(map(sp.Mul, of.forces, of.v)) - sum(map(sp.Mul, of.algebra.offsets, of.solved[1]))
-    return _kept(of, "the energy", of.energy, power, name), of.algebra
+    power = sum(map(sp.Mul, of.forces, of.v)) - sum(map(sp.Mul, of.algebra.offsets, of.multipliers))
+    along = sum(map(sp.Mul, of.v, of.principle)) + sum(map(sp.Mul, of.multipliers, of.bindings))
+    return _kept(of, "the energy", of.energy, power + along, name), of.algebra
 
 
 def _minor(vectors: Sequence[Sequence[sp.Expr]], points: Iterable[Point]) -> tuple[sp.Expr, Point, list[int]]:
@@ -296,13 +313,12 @@ def _not_0(text: str, minor: sp.Expr, point: Point) -> Comparison:
 
 def _bordering(
     algebra: Algebra, text: str, vectors: Sequence[Any], columns: Sequence[int], more: Sequence[Any]
-) -> Equation | None:
-    """That the minors that border one are 0."""
+) -> list[Statement]:
+    """That a vector is in a span, where one minor is not 0: those that border it are 0; nothing if that is seen."""
     matrix = sp.Matrix([*map(list, vectors), list(more)])
     others = [j for j in range(matrix.cols) if j not in columns]
     minors = [determinant(matrix.extract(list(range(matrix.rows)), [*columns, j])) for j in others]
-    minors = [e for e in minors if e != 0]
-    return Equation(text, minors, [sp.S.Zero] * len(minors), algebra.ring) if minors else None
+    return [_vanish(text, minors, algebra)] if any(minors) else []
 
 
 def _flag(system: System, _: str) -> tuple[Case, Algebra]:
@@ -310,123 +326,109 @@ def _flag(system: System, _: str) -> tuple[Case, Algebra]:
     algebra, growth, vectors = found.algebra, found.flag.growth, found.vectors
     if not vectors:
         raise BadSystem("there is no velocity that the constraints allow")
-    names = [f"X{i + 1}" for i in range(len(vectors))]
-    lemmas, printed = list[Statement](), list[Statement]()
-    if found.kept:
-        rows = found.rows.extract(list(found.kept), list(range(found.rows.cols))).tolist()
+    lemmas, rows = list[Statement](), found.rows.extract(list(found.kept), list(range(found.rows.cols))).tolist()
+    if rows:
         minor, point, columns = _minor(rows, algebra.points)
-        lemmas.append(_not_0("constraints are independent: a minor of theirs is not 0 at a point", minor, point))
-        more = (i for i in range(found.rows.rows) if i not in found.kept)
-        made = (
-            _bordering(algebra, f"constraint {i + 1} depends on the others", rows, columns, found.rows[i, :])
-            for i in more
-        )
-        lemmas += [one for one in made if one]
-        products = list(found.rows * sp.Matrix([list(x) for x in vectors[: growth[0]]]).T)
-        lemmas.append(
-            Equation(f"{', '.join(names[: growth[0]])} obey them", products, [sp.S.Zero] * len(products), algebra.ring)
-        )
-    lemmas += _brackets(algebra, dict(zip(names, vectors, strict=True)), [
-        *((name, x, made) for name, x, made in zip(names, vectors, found.made, strict=True) if made),
-        *((f"B{k + 1}", x, made) for k, (x, made) in enumerate(found.inside)),
-    ])  # fmt: skip
+        lemmas.append(_not_0("a minor of the constraints is not 0 at a point", minor, point))
+        for i in (i for i in range(found.rows.rows) if i not in found.kept):
+            lemmas += _bordering(algebra, f"constraint {i + 1} depends on others", rows, columns, found.rows[i, :])
+        products = list(found.rows * sp.Matrix(list(map(list, vectors[: growth[0]]))).T)
+        lemmas.append(_vanish("the fields obey the constraints", products, algebra))
+    names = [f"X{i + 1}" for i in range(len(vectors))]
+    inside = [(f"B{i + 1}", *one) for i, one in enumerate(found.inside)]
+    made = [(name, x, of) for name, x, of in zip(names, vectors, found.made, strict=True) if of]
+    lemmas += (more := _brackets(algebra, names, vectors, [*made, *inside]))[0]
+    printed = list[Statement]()
     for size in growth:
         minor, point, columns = _minor(vectors[:size], algebra.points)
         printed.append(_not_0(f"{', '.join(names[:size])} span {size} dimensions at a point", minor, point))
-    inside = (
-        _bordering(algebra, f"B{k + 1} is in the span of {', '.join(names)}", vectors, columns, x)
-        for k, (x, _) in enumerate(found.inside)
-    )
-    printed += [one for one in inside if one]
-    wrong = Equation(f"{', '.join(names)} are dependent", [minor], [sp.S.Zero], algebra.ring)
-    premises = [
-        f"{letter} is {stands}, and changes as that does" for letter, stands in algebra.letters.meanings.items()
-    ]
-    return Case(f"{found.flag}", printed, [wrong], lemmas, premises), algebra
+    for name, x, _ in inside:
+        printed += _bordering(algebra, f"{name} is in the span of {', '.join(names)}", vectors, columns, x)
+    wrong = _vanish(f"{', '.join(names)} are dependent", [minor], algebra)
+    premises = [f"{x} is {stands}, and changes as that does" for x, stands in algebra.letters.meanings.items()]
+    return Case(str(found.flag), printed, wrong, lemmas, more[1], premises), algebra
+
+
+def _vanish(text: str, what: Sequence[sp.Expr], algebra: Algebra) -> Equation:
+    return Equation(text, list(what), [sp.S.Zero] * len(what), algebra.ring)
+
+
+#: Vectors that are brackets, by a name, with the numbers of the two and the roots by which the bracket is multiplied.
+Made = Sequence[tuple[str, Sequence[sp.Expr], tuple[int, int, sp.Expr]]]
 
 
 def _brackets(
-    algebra: Algebra,
-    known: Mapping[str, Sequence[sp.Expr]],
-    made: Iterable[tuple[str, Sequence[sp.Expr], tuple[int, int, sp.Expr]]],
-) -> Iterator[Statement]:
-    """That vectors are brackets of known ones, but for those that are 0."""
+    algebra: Algebra, names: Sequence[str], vectors: Sequence[Sequence[sp.Expr]], made: Made
+) -> tuple[list[Statement], list[Statement | str]]:
+    """That vectors are brackets, but for those that are 0, and that what these are made of are derivatives."""
+    lemmas, derived = list[Statement](), list[Statement | str]()
     for name, bracket, (i, j, times) in made:
         if any(bracket):
-            (one, x), (other, y) = ([*known.items()][k] for k in (i, j))
-            along = [(e, x) for e in y], [(e, y) for e in x]
-            parts = [[rate_along(algebra, *e) for e in part] for part in along]
-            of = [*along[0], *along[1]]
-            yield slopes(
-                algebra,
-                f"the derivatives of {other} along {one}, and of {one} along {other}",
-                of,
-                [*parts[0], *parts[1]],
-            )
-            by = f"{times} " if times != 1 else ""
-            sides = [times * (a - b) for a, b in zip(*parts, strict=True)], list(bracket)
-            yield Equation(f"{name} = {by}[{one}, {other}]", *sides, algebra.ring)
+            along = [(e, vectors[i]) for e in vectors[j]], [(e, vectors[j]) for e in vectors[i]]
+            parts = [[rate_along(algebra, *one) for one in half] for half in along]
+            text = f"the derivatives of {names[i]} and {names[j]} along each other"
+            derived.append(slopes(algebra, text, [*along[0], *along[1]], [*parts[0], *parts[1]]))
+            by, sides = f"{times} " if times != 1 else "", [times * (a - b) for a, b in zip(*parts, strict=True)]
+            lemmas.append(Equation(f"{name} = {by}[{names[i]}, {names[j]}]", sides, list(bracket), algebra.ring))
+    return lemmas, derived
 
 
 def _volume(system: System, name: str) -> tuple[Case, Algebra]:
     kept = volume(system)
     if not kept.by:
         raise BadSystem("nothing moves")
-    factors = list(kept.density.as_powers_dict().items()) if kept.kept else []
+    if not kept.kept:
+        return _no_volume(system, kept, name)
+    factors = kept.density.as_powers_dict().items()
     of = Moving(system, *(factor for factor, _ in factors))
     variables, units = (*of.q, *of.v), sp.eye(2 * len(of.q)).tolist()
-    field = [v.xreplace(of.allowed) for v in of.v] + of.solved[0]
+    field = [v.xreplace(of.allowed) for v in of.v] + of.solved
     own = [(e, unit) for x, e, unit in zip(variables, field, units, strict=True) if x in {*of.q, *kept.by}]
     spread = [of.rate(*one) for one in own]
-    text = f"the divergence of the motion in {', '.join(map(str, (*of.q, *kept.by)))}"
-    lemmas = [
-        slopes(of.algebra, "the derivatives of each component of the motion by what it is the rate of", own, spread)
-    ]
-    uses = [f"{name}-motion"]
-    if not kept.kept:
-        printed, control, more = _no_volume(of, kept, sum(spread))
-        return Case(f"{kept}", printed, [control], [*lemmas, *more], of.premises, [*uses, f"{name}-flag"]), of.algebra
-    rate = sum((power * of.in_motion(e) / e for e, (_, power) in zip(of.quantities, factors, strict=True)), sp.S.Zero)
-    text += f" is less the rate of the logarithm of {kept.density}"
-    printed = [of.equal(text, [sum(spread)], [-rate])]
-    if not any(spread) and rate == 0:  # which is seen
+    logarithm = sum(
+        (power * of.in_motion(e) / e for e, (_, power) in zip(of.quantities, factors, strict=True)), sp.S.Zero
+    )
+    rate = logarithm.xreplace(of.allowed)
+    text = f"the divergence in {', '.join(map(str, (*of.q, *kept.by)))} is less the rate of log({kept.density})"
+    if not any(spread):  # then all derivatives say more
         change = [c if x in {*of.q, *kept.by} else sp.S.Zero for x, c in zip(variables, of.change, strict=True)]
-        along = [(e, change) for e, _ in own]
-        printed.append(slopes(of.algebra, "all derivatives", along, [of.rate(*one) for one in along]))
-    wrong = of.equal("the same with a rate that is larger by 1", [sum(spread)], [-1 - rate])
-    return Case(text, printed, [wrong], lemmas if any(spread) else [], of.premises, uses), of.algebra
+        own = [(e, change) for e, _ in own]
+    derivatives = slopes(of.algebra, "the derivatives of the motion", own, [of.rate(*one) for one in own])
+    printed = [of.equal(text, [sum(spread)], [-rate]), *([] if isinstance(derivatives, str) else [derivatives])]
+    wrong = of.equal(f"{text}, larger by 1", [sum(spread)], [1 - rate])
+    return Case(text, printed, wrong, [], [], of.premises, [f"{name}-motion"]), of.algebra
 
 
-def _no_volume(of: Moving, kept: Volume, spread: sp.Expr) -> tuple[list[Statement], Statement, list[Statement]]:
-    """Brackets of the fields with their divergences span more than those of the fields."""
-    reduced, most = of.algebra.ring.reduced, flag(of.system).growth[-1]
-    velocities = [v.xreplace(of.allowed) for v in of.v]
-    fields = {
-        f"X{i + 1}": [*(reduced(sp.diff(e, v)) for e in velocities), -reduced(sp.diff(spread, v))]
-        for i, v in enumerate(kept.by)
-    }
-    whole = sp.Matrix(list(fields.values())).T * sp.Matrix(kept.by)
-    lemmas = [of.equal("velocities and divergence, by the fields and less theirs", [*velocities, -spread], list(whole))]
-    made, names = list[Any](), [*fields]
+def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Algebra]:
+    """Brackets of fields with their divergences span more than those of the fields."""
+    of = Moving(system)
+    algebra, most = of.algebra, flag(system).growth[-1]
+    fields, spread, _, formed = divergences(of)
+    vectors = []
+    for field, one in zip(fields, spread, strict=True):
+        above, below = sp.fraction(one)
+        vectors.append(list(map(algebra.ring.normal, [*(below * e for e in field), -above])))
+    names, made = [f"Y{i + 1}" for i in range(len(vectors))], list[Any]()
+    newest = range(len(vectors))
     for level in range(MOST_LEVELS):
-        newest = names[:] if level == 0 else newer
-        newer = []
-        for a, b in (
-            (a, b) for i, a in enumerate([*fields][: len(kept.by)]) for j, b in enumerate(newest) if level or i < j
-        ):
-            bracket = list(map(reduced, bracket_of(fields[a], fields[b], of.algebra)))
-            if any(bracket):
-                newer.append(f"[{a}, {b}]")
-                made.append((newer[-1], bracket, (names.index(a), names.index(b), sp.S.One)))
-                names.append(newer[-1])
-                fields[newer[-1]] = bracket
-        for point in filter(_is_rational, of.algebra.points):
-            there = sp.Matrix(list(fields.values())).xreplace(point)
-            if there.has(sp.zoo, sp.nan) or there.free_symbols or len(rows := pivots(there.T)) <= most:
-                continue
-            rows = rows[: most + 1]
-            minor, point, _ = _minor([fields[names[i]] for i in rows], [point])
-            lemmas += _brackets(of.algebra, fields, made)
-            text = f"{', '.join(names[i] for i in rows)} span {most + 1} dimensions at a point"
-            return [_not_0(text, minor, point)], Equation("they do not", [minor], [sp.S.Zero], of.algebra.ring), lemmas
+        pairs = [(i, j) for i in range(len(fields)) for j in newest if level or i < j]
+        newest = range(len(vectors), len(vectors) + len(pairs))
+        for i, j in pairs:
+            vectors.append(list(map(algebra.ring.normal, bracket_of(vectors[i], vectors[j], algebra))))
+            names.append(f"[{names[i]}, {names[j]}]")
+            made.append((names[-1], vectors[-1], (i, j, sp.S.One)))
+        for point in filter(_is_rational, algebra.points):
+            if len(rows := pivots(sp.Matrix(vectors).xreplace(point).T)) > most:
+                rows = rows[: most + 1]
+                minor, point, _ = _minor([vectors[i] for i in rows], [point])
+                lemmas, derived = _brackets(algebra, names, vectors, made)
+                text = f"{', '.join(names[i] for i in rows)} span {most + 1} dimensions at a point"
+                lemmas.append(Equation("the divergence of each field", formed, spread, algebra.ring))
+                inferred = (
+                    "a density exp f of the place is kept only if X f = -θ for each field X with its divergence θ; "
+                )
+                inferred += "then multiples Y of (X, -θ), and their brackets, are tangent to the graph of f, which has "
+                inferred += f"at most {most} dimensions that brackets span"
+                return Case(str(kept), [_not_0(text, minor, point)], _vanish("they do not", [minor], algebra), lemmas,
+                            derived, of.premises, [f"{name}-motion", f"{name}-flag"], inferred), algebra  # fmt: skip
     raise BadSystem("no rational point is found where the brackets span more")

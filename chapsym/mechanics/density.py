@@ -125,17 +125,9 @@ def volume(system: System) -> Volume:
     by = tuple(x for i, x in enumerate(v) if i not in of.bound)
     if not by:
         return Volume(sp.S.One)
-    x, whole = sp.Matrix(of.fields).T, reduced(determinant(of.square))
-    inner = (x.T * of.mass * x).applyfunc(reduced)
-    inverse, below = adjugate(inner), reduced(determinant(inner))
+    whole, (fields, spread, below, _) = reduced(determinant(of.square)), divergences(of)
     if below == 0:
         raise BadSystem(f"{system.name}: the mass matrix is singular, so that the motion is not determined")
-    fields, spread = [list(map(reduced, one)) for one in of.fields], []
-    for one in of.fields:
-        brackets = sp.Matrix([bracket_of(one, other, algebra) for other in of.fields]).T
-        pushed = (inverse * (x.T * of.mass * brackets).applyfunc(reduced)).trace() / below
-        own = (algebra.letters.derivative(e, c) for e, c in zip(one, q, strict=True))
-        spread.append(reduced(sum(own, pushed)))
     lifted = (below, 1), (whole, -len(by))  # dq dp is the product of these powers times dq dv, v in `by`
     turned = [e - sum(n * along(one, p, algebra) / p for p, n in lifted) for one, e in zip(fields, spread, strict=True)]
     candidates = {p for e in (whole, below, *spread) for p in sp.fraction(e)}
@@ -158,6 +150,20 @@ def volume(system: System) -> Volume:
         not algebra.is_zero(sum(map(mul, one, push), sp.S.Zero)) for one in fields
     )
     return Volume(None, by, not drives, algebra.shown(point))
+
+
+def divergences(of: OnShell) -> tuple[list[list[sp.Expr]], list[sp.Expr], sp.Expr, list[sp.Expr]]:
+    """The fields X, the θ of each, det m, and the θ as they are formed; no θ where det m is 0."""
+    algebra, reduced, x = of.algebra, of.algebra.ring.reduced, sp.Matrix(of.fields).T
+    inner = (x.T * of.mass * x).applyfunc(reduced)
+    inverse, below = adjugate(inner), reduced(determinant(inner))
+    formed = list[sp.Expr]()
+    for one in of.fields if below != 0 else ():
+        brackets = sp.Matrix([bracket_of(one, other, algebra) for other in of.fields]).T
+        pushed = (inverse * (x.T * of.mass * brackets).applyfunc(reduced)).trace() / below
+        own = (algebra.letters.derivative(e, c) for e, c in zip(one, algebra.system.coordinates, strict=True))
+        formed.append(sum(own, pushed))
+    return [list(map(reduced, one)) for one in of.fields], list(map(reduced, formed)), below, formed
 
 
 def _density(
