@@ -10,7 +10,7 @@
 
 from .attitude import Quaternion, Turned
 from .brackets import Flag, flag
-from .certified import Certified, certified
+from .certified import Certified, certified, certified_method
 from .density import Volume, volume
 from .equations import Agreement, Conservation, agree, conserved, in_symbols, of_kane
 from .judged import Verdict, verdicts
@@ -20,7 +20,8 @@ from .motion import Motion, NotSolved, Runner, moved
 from .system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
 
 __all__ = [
-    "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Certified", "Conservation", "Discrete", "Flag", "Method", "Motion",
-    "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "Verdict", "Volume", "after", "agree",
-    "certified", "conserved", "dot", "flag", "in_symbols", "loaded", "measured", "moved", "of_kane", "rate", "verdicts", "volume",
+    "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Certified", "Conservation", "Discrete", "Flag", "Method",
+    "Motion", "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "Verdict", "Volume", "after",
+    "agree", "certified", "certified_method", "conserved", "dot", "flag", "in_symbols", "loaded", "measured",
+    "moved", "of_kane", "rate", "verdicts", "volume",
 ]  # fmt: skip

@@ -13,20 +13,29 @@ from functools import cached_property
 from typing import Any
 
 import sympy as sp
+from flint import fmpq, fmpq_series
 
 from chapsym.derive import Quotient
-from chapsym.prove import Claim, Comparison, Equation, Examples, Proof, Verdict, tends
+from chapsym.prove import Claim, Comparison, Equation, Examples, Identity, Proof, Verdict, tends
+from chapsym.prove.polynomials import parameters
 from chapsym.prove.statements import Statement
 from chapsym.prove.witness import true_at
 
 from .algebra import Algebra, Point, adjugate, determinant, pivots
 from .brackets import bracket_of, flag, spanned
 from .density import MOST_LEVELS, Volume, divergences, volume
-from .equations import OnShell, conserved
-from .system import BadSystem, System
+from .equations import OnShell
+from .judged import Combination, Decided, _quantities, decided
+from .methods import METHODS, Scheme
+from .series import Exact, _at, evaluated, replaced, terms
+from .system import STEP, BadSystem, System
 
 #: Letters of the name of a system in the id of a claim.
 LETTERS = 22
+#: The first cells of a method in the ids of its claims.
+CELLS = ("order", "adjoint", "returns")
+#: Of an equation in words.
+MOST_LETTERS = 3000
 #: Of what has more parts, derivatives are not given to the checker.
 MOST_PARTS = 1500
 
@@ -88,8 +97,9 @@ class Case:
             p.printed(*self.printed)
             p.control(self.control)
             for one in statements:
-                if isinstance(one, Comparison):
-                    p.witness("point", {x.name: str(v) for x, v in one.point.items()}, one)
+                if isinstance(one, Comparison | Identity):
+                    point = getattr(one, "point", {})
+                    p.witness("point", {x.name: str(v) for x, v in point.items()}, one)
 
         found = Claim(id, self.said, tuple(self.uses), prove).judge().certified()
         data, problems = found.certificate, found.proof.problems
@@ -431,3 +441,142 @@ def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Algebra]:
                 return Case(str(kept), [_not_0(text, minor, point)], _vanish("they do not", [minor], algebra), lemmas,
                             derived, of.premises, [f"{name}-motion", f"{name}-flag"], inferred), algebra  # fmt: skip
     raise BadSystem("no rational point is found where the brackets span more")
+
+
+def certified_method(system: System, method: str) -> Iterator[Certified]:
+    """The exact verdicts on a method, likewise.
+
+    Parameters
+    ----------
+    system : System
+    method : str
+        One of METHODS.
+
+    Yields
+    ------
+    Certified
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> from chapsym.mechanics import System, certified_method, dot
+    >>> x, y, z = symbols("x y z")
+    >>> particle = System("particle", (x, y, z), sum(dot(q) ** 2 for q in (x, y, z)) / 2, [dot(z) - y * dot(x)])
+    >>> [one.verdict for one in certified_method(particle, "dla") if one.certificate]
+    ['dla: order', 'dla: self-adjoint', 'dla: reversible', 'dla: keeps the energy']
+    """
+    scheme, name = METHODS[method].scheme(system), f"{name_of(system)}-{method}"
+    quantities = _quantities(system, scheme.integrals)
+    for i, (what, found) in enumerate(decided(system, scheme).items()):
+        verdict, id = f"{method}: {what}", f"{name}-{(*CELLS, *(f'keeps-{k + 1}' for k in range(i)))[i]}"
+        if found.verdict.verdict == "measured":
+            continue
+        try:
+            if found.verdict.verdict == "proved":
+                case = _combined(system, scheme, what, found)
+            elif what.startswith("keeps "):
+                case = _changed(system, scheme, quantities[what.removeprefix("keeps ")], what, found)
+            else:
+                raise BadSystem("the series of the exact motion or of a step back are not written down")
+        except (BadSystem, ArithmeticError, ValueError) as error:
+            yield Certified(verdict, None, str(error).removeprefix(f"{system.name}: "))
+        else:
+            yield case.judged(verdict, id)
+
+
+def _steps_in_words(scheme: Scheme, names: Mapping[sp.Symbol, sp.Symbol]) -> list[str]:
+    """The equations of a step."""
+    of = [(f"equation {i + 1} of a step", f"{e.xreplace(names)} = 0") for i, e in enumerate(scheme.residual)]
+    of += [
+        (f"after a step {x.xreplace(names)} is", str(e.xreplace(names)))
+        for x, e in zip(scheme.state, scheme.after, strict=True)
+    ]
+    return [f"{what}: {text}" for what, text in of if len(text) < MOST_LETTERS]
+
+
+def _named(symbols: Iterable[sp.Symbol]) -> dict[sp.Symbol, sp.Symbol]:
+    """Names that a certificate may have, for symbols such as `u 0`."""
+    found, taken = dict[sp.Symbol, sp.Symbol](), set(symbols)
+    for x in sorted((x for x in taken if " " in x.name), key=str):
+        found[x] = fresh(x.name.replace(" ", "_"), taken)
+        taken.add(found[x])
+    return found
+
+
+def _combined(system: System, scheme: Scheme, what: str, found: Decided) -> Case:
+    """What a method does is a combination of what its equations, constraints and the motion set to 0."""
+    proofs = [one for one in found.proofs if any(one.left)]
+    everything = (e for one in proofs for e in (*one.left, *one.right, *one.relations, *one.ends, *one.ends.values()))
+    names = _named(set().union(scheme.state, scheme.unknowns, *(e.free_symbols for e in everything)))
+    if not proofs:
+        raise BadSystem("it is an equation of the method, so that nothing is to be decided")
+    stated = [_stated(one, names, 0) for one in proofs]
+    said = {"order": f"the order is at least {found.verdict.said}"}.get(what, what)
+    meanings = {x: e for one in proofs for x, e in one.meanings.items()}
+    premises = [f"{x} is {e.xreplace(names)}" for x, e in meanings.items()]
+    wrong = _stated(proofs[-1], names, 1)
+    return Case(f"{system.name}: {said}", stated, wrong, premises=[*_steps_in_words(scheme, names), *premises])
+
+
+def _stated(one: Combination, names: Mapping[sp.Symbol, sp.Symbol], more: int) -> Statement:
+    """A combination as a statement; with `more` on the left."""
+    text = "what should be 0 is a combination of what the equations set to 0" + f", with {more} more" * (more > 0)
+    left, right, relations, ends = (
+        [e.xreplace(names) for e in part] for part in (one.left, one.right, one.relations, one.ends.values())
+    )
+    symbols = sorted(set().union(*(e.free_symbols for e in (*left, *right, *relations, *ends))), key=str)
+    if relations or not ends:
+        return Equation(text, [left[0] + more, *left[1:]], right, Quotient(symbols, relations))
+    at = [x.xreplace(names) for x in one.ends]
+    free = [x for x in symbols if x not in at]
+    values = dict(zip(free, parameters(" ".join(map(str, free))), strict=True))
+    whole = values[free[0]]
+
+    def number(p: int, q: int) -> Any:
+        return whole**0 * int(p) / (whole**0 * int(q))
+
+    values |= dict(zip(at, evaluated(ends, values, number), strict=True))
+    first, *rest = evaluated(left, values, number)
+    return Identity(text, [first + more, *rest], [x + 0 * whole for x in evaluated(right, values, number)])
+
+
+def _changed(system: System, scheme: Scheme, quantity: sp.Expr, what: str, found: Decided) -> Case:
+    """That a quantity changes, by the series of two steps from the exact state: polynomials in h, up to a power."""
+    if scheme.stages:
+        raise BadSystem("the series of the stages are not written down")
+    exact, most, text = Exact(system), found.by + 2, f"below h^{found.by + 2}"
+    ring, symbols = Quotient([STEP], [STEP**most]), (*scheme.state, *scheme.unknowns)
+
+    def polynomial(x: Any) -> sp.Expr:
+        coefficients = ((k, _at(x, k)) for k in range(most))
+        return sum((sp.Rational(int(c.p), int(c.q)) * STEP**k for k, c in coefficients if c != 0), sp.S.Zero)
+
+    def wave(of: sp.Expr) -> sp.Expr:
+        coefficients = [sp.Poly(of.args[0], STEP).nth(k) for k in range(most)]
+        value = fmpq_series([fmpq(int(c.p), int(c.q)) for c in coefficients])
+        return polynomial(getattr(value, of.func.__name__)())
+
+    def equal(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> Equation:
+        return Equation(text, left, right, ring)
+
+    with terms(most):
+        read = [exact.read(e) for e in (scheme.residual, scheme.after, (*scheme.place, *scheme.velocity), [quantity])]
+        first, there, *unknowns = ([polynomial(x) for x in one] for one in found.steps)
+        states = [dict(zip(symbols, (*x, *z), strict=True)) for x, z in zip((first, there), unknowns, strict=True)]
+        steps = [replaced(read[0], state, wave) for state in states]
+        seen = [map(sp.expand, replaced(read[2], state, wave)) for state in states]
+        values = [replaced(read[3], dict(zip(exact.symbols, at, strict=True)), wave)[0] for at in seen]
+        before, later = (evaluated([e], {STEP: fmpq_series([0, 1])})[0] for e in values)
+        change = polynomial(later - before)
+        ends = replaced(read[1], states[0], wave)
+    lemmas = [
+        equal(f"the equations of a step, {text}", steps[0], [sp.S.Zero] * len(steps[0])),
+        equal(f"what comes after it, {text}", ends, there),
+        equal(f"the equations of the next step, {text}", steps[1], [sp.S.Zero] * len(steps[1])),
+    ]
+    said = f"{what.removeprefix('keeps ')} changes in a step, {text}"
+    names = _named(symbols)
+    premises = [f"at the exact state {x} is {v}" for x, v in found.verdict.point.items()]
+    premises += ["h is step_length; of sines and cosines it is the series, of angles from the exact state"]
+    return Case(f"{system.name}: {said}", [equal(said, [values[1] - values[0]], [change])], equal(f"{said} by 0",
+                [values[1] - values[0]], [sp.S.Zero]), lemmas, premises=[*premises, *_steps_in_words(scheme, names)])  # fmt: skip

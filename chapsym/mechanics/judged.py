@@ -83,6 +83,42 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
     >>> found["order"].said, found["self-adjoint"].verdict, found["keeps the energy"].verdict
     ('2', 'proved', 'false')
     """
+    return {name: one.verdict for name, one in decided(system, scheme).items()}
+
+
+@dataclass(frozen=True)
+class Combination:
+    """That expressions are combinations of what equations set to 0: an identity where the relations hold.
+
+    `meanings` has what letters stand for, and `ends` what symbols for the end of a step stand for.
+    """
+
+    left: list[sp.Expr]
+    right: list[sp.Expr]
+    relations: Sequence[sp.Expr]
+    meanings: Mapping[sp.Symbol, sp.Expr]
+    ends: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
+
+
+#: Expressions whose first coefficients in the length of a step, so many, are what is combined; and symbols for ends.
+Shown = tuple[Sequence[tuple[sp.Expr, int]], Mapping[sp.Symbol, sp.Expr]]
+
+
+@dataclass(frozen=True)
+class Decided:
+    """A verdict with the combinations that prove it; or with series of two steps: their states and unknowns.
+
+    `by` is the power of the step by which the steps refute it.
+    """
+
+    verdict: Verdict
+    proofs: Sequence[Combination] = ()
+    steps: Sequence[State] = ()
+    by: int = 0
+
+
+def decided(system: System, scheme: Scheme) -> dict[str, Decided]:
+    """What `verdicts` has, with what shows it."""
     quantities = _quantities(system, scheme.integrals)
     names = ["order", "self-adjoint", "reversible", *(f"keeps {name}" for name in quantities)]
     looked = LOOKED_FURTHER if scheme.stages else LOOKED
@@ -90,18 +126,12 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
         try:
             judged = _Judged(_exact(system, system.digest()), scheme, looked)
         except (Undecided, BadSystem) as error:
-            return dict.fromkeys(names, Verdict("measured", str(error)))
-        adjoint = _decided(judged.returns, -1)
-        found = [_decided(judged.order, adjoint.verdict == "proved"), adjoint, _decided(judged.returns, 1)]
-        found += [_decided(judged.keeps, quantity) for quantity in quantities.values()]
+            return dict.fromkeys(names, Decided(Verdict("measured", str(error))))
+        adjoint = judged.decided(judged.returns, -1)
+        found = [judged.decided(judged.order, adjoint.verdict.verdict == "proved"), adjoint]
+        found += [judged.decided(judged.returns, 1)]
+        found += [judged.decided(judged.keeps, quantity) for quantity in quantities.values()]
     return dict(zip(names, found, strict=True))
-
-
-def _decided(judge: Callable[[Any], Verdict], of: Any) -> Verdict:
-    try:
-        return judge(of)
-    except (Undecided, BadSystem) as error:
-        return Verdict("measured", str(error))
 
 
 @lru_cache(maxsize=1)
@@ -129,6 +159,7 @@ class _Judged:
         self.system, self.scheme, self.exact, self.looked = exact.system, scheme, exact, looked
         self.n, self.state = exact.n, exact.state
         self.h: Series = fmpq_series([0, 1])
+        self.proofs, self.proofs_of_always, self.power = list[Combination](), list[Combination](), 0
         if size(scheme.residual) * len(scheme.unknowns) > MOST_OPERATIONS:
             raise Undecided("a step has more operations than its series may have")
         self.stepped = Stepped(exact, scheme)
@@ -139,6 +170,16 @@ class _Judged:
         rows = self.system.rows.T * sp.Matrix(self.reacting) if self.reacting else sp.zeros(self.n, 1)
         #: Momenta after the reaction at the place, by the state and the first multipliers.
         self.kicked = [*scheme.state[: self.n], *(p + x for p, x in zip(scheme.state[self.n :], rows, strict=True))]
+
+    def decided(self, judge: Callable[[Any], Verdict], of: Any) -> Decided:
+        """What one of the judges below says, with what it found."""
+        self.proofs, self.power = list[Combination](), 0
+        try:
+            verdict = judge(of)
+            steps = self.forth if verdict.verdict == "false" else ()
+        except (Undecided, BadSystem) as error:
+            return Decided(Verdict("measured", str(error)))
+        return Decided(verdict, [*self.proofs_of_always, *self.proofs], steps, self.power)
 
     @cached_property
     def forth(self) -> tuple[State, State, State, State]:
@@ -152,6 +193,7 @@ class _Judged:
         for k in range(self.looked):
             for name, one, other in pairs:
                 if (by := _at(one, k) - _at(other, k)) != 0:
+                    self.power = k
                     return Verdict("false", f"{what} {name} by {by} h^{k}", self.exact.shown)
         return None
 
@@ -247,14 +289,15 @@ class _Judged:
         residual, after = replaced(scheme.residual, put), replaced(scheme.after, put)
         if scheme.stages:
             return after == [*v, *goal] and self.spanned(residual, known)
-        powers = zip(coefficients(residual), shift, strict=True)
+        counts = [late + (2 if is_moving else 1) for late in shift]
         if not is_moving and any(e.subs(STEP, 0).has(*scheme.unknowns) for e in scheme.after):
             return False  # what these change by, which is not verified, would count
-        aims = [x for found, late in powers for x in found[: late + (2 if is_moving else 1)]]
         first_ones = (*system.coordinates, *replaced(p, {STEP: sp.S.Zero}))
-        for (first, second, _), before, further in zip(coefficients(after), first_ones, (*v, *goal), strict=True):
-            aims += [first - before, second - further]
-        return self.spanned(aims, known, on=True)
+        wholes = list(zip(residual, counts, strict=True))
+        wholes += [(e - x - STEP * y, 2) for e, x, y in zip(after, first_ones, (*v, *goal), strict=True)]
+        found_ones = coefficients(e for e, _ in wholes)
+        aims = [x for found, (_, count) in zip(found_ones, wholes, strict=True) for x in found[:count]]
+        return self.spanned(aims, known, True, lambda into: ([(into(e, _bent), count) for e, count in wholes], {}))
 
     @cached_property
     def vectors(self) -> tuple[list[sp.Expr], list[Named], list[Named]]:
@@ -340,11 +383,26 @@ class _Judged:
         ]
         begin, end = self._with(part, scheme.state, symbols), self._with(part, there, next_)
         around = self._with(turned, end, symbols)
+        ends = [sp.Symbol(f"end {i}") for i in range(len(end))]
+        there_again = dict(zip(ends, end, strict=True))
+
+        def missed(around: Sequence[Any], unknowns: Sequence[Any]) -> list[sp.Expr]:
+            """What should be 0 of the step back from a state, with unknowns."""
+            final = self._with(turned, self._with(scheme.after, around, unknowns, back), unknowns)
+            off = [x - y for x, y in zip(final, begin, strict=True)]
+            return [*self._with(scheme.residual, around, unknowns, back), *off]
+
+        def replaced_ends(wave: sp.Expr) -> sp.Expr:
+            return wave.func(*(sp.expand(x.xreplace(there_again)) for x in wave.args))
+
         for choice in islice(product(*choices), MOST_CHOICES):
             unknowns = [x for block in choice for x in block]
-            final = self._with(turned, self._with(scheme.after, around, unknowns, back), unknowns)
-            missed = [x - y for x, y in zip(final, begin, strict=True)]
-            if self.spanned([*self._with(scheme.residual, around, unknowns, back), *missed], known):
+
+            def shown(into: Callable[..., sp.Expr], unknowns: Sequence[Any] = unknowns) -> Shown:
+                of = missed(self._with(turned, ends, symbols), unknowns)
+                return [(into(e, replaced_ends), 0) for e in of], {x: into(e) for x, e in there_again.items()}
+
+            if self.spanned(missed(around, unknowns), known, False, shown):
                 return True
         return False
 
@@ -403,22 +461,47 @@ class _Judged:
         if not self.stepped.has_momenta:
             found += system.rows * sp.Matrix(system.velocities) + system.offsets
         after = dict(zip(self.scheme.state, there, strict=True))
-        known = [*self.scheme.residual, *links]
-        return [] if self.scheme.stages else [e for e in found if self.spanned(replaced([e], after), known)]
+        known, before = [*self.scheme.residual, *links], self.proofs
+        self.proofs = self.proofs_of_always
+        kept = [] if self.scheme.stages else [e for e in found if self.spanned(replaced([e], after), known)]
+        self.proofs = before
+        return kept
 
-    def spanned(self, aims: Iterable[sp.Expr], known: Iterable[sp.Expr], on: bool = False) -> bool:
+    def spanned(
+        self,
+        aims: Iterable[sp.Expr],
+        known: Iterable[sp.Expr],
+        on: bool = False,
+        shown: Callable[[Callable[..., sp.Expr]], Shown] | None = None,
+    ) -> bool:
         """Whether each of some expressions is a combination of known ones, with rational numbers.
 
-        With `on` that is so where holonomic constraints hold, their rates and the rates of these.
+        With `on` that is so where holonomic constraints hold, their rates and the rates of these.  `shown` gives what is
+        shown of it, by what puts letters into expressions.
         """
         relations = list(self.bound) if on else []
         parts = [replaced(part, self.exact.numbers) for part in (aims, known, relations)]
         letters = Letters(set().union(*(e.free_symbols for part in parts for e in part)), plain=True)
         one, other, zero = (list(map(letters.into, part)) for part in parts)
+        plain = other
         if zero:
             ring = Quotient(sorted(set().union(*(e.free_symbols for e in (*one, *other, *zero))), key=str), zero)
             one, other = ([ring.reduced(e) for e in part] for part in (one, other))
-        return _spanned(one, other)
+        if (factors := _spanned(one, other)) is None:
+            return False
+
+        def into(expr: sp.Expr, turned: Callable[[sp.Expr], sp.Expr] = lambda wave: wave) -> sp.Expr:
+            return letters.into(replaced([expr], self.exact.numbers, turned)[0])
+
+        sums = iter([sp.Add(*(c * plain[j] for j, c in row.items())) for row in factors])
+        wholes, ends = shown(into) if shown else ([(e, 0) for e in one], {})
+        for count in sorted({count for _, count in wholes}):
+            self.proofs.append(Combination([], [], [*zero, *([STEP**count] if count else [])], letters.meanings, ends))
+        for whole, count in wholes:
+            row = next(x for x in reversed(self.proofs) if (STEP**count in x.relations) or not count)
+            row.left.append(whole)
+            row.right.append(sum((STEP**k * next(sums) for k in range(max(count, 1))), sp.S.Zero))
+        return True
 
     @cached_property
     def bound(self) -> list[sp.Expr]:
@@ -429,10 +512,10 @@ class _Judged:
         return [*found, *rates, *known[self.n + m - count : self.n + m]]
 
 
-def _spanned(aims: Sequence[sp.Expr], known: Sequence[sp.Expr]) -> bool:
-    """Combinations are found at random points in a finite field, and proved as identities in all symbols."""
-    if not (aims := [e for e in aims if e != 0]):
-        return True
+def _spanned(aims: Sequence[sp.Expr], known: Sequence[sp.Expr]) -> list[dict[int, sp.Rational]] | None:
+    """The factors of combinations, found at random points in a finite field and proved as identities in all symbols."""
+    if not any(aims):
+        return [{} for _ in aims]
     symbols = sorted(set().union(*(e.free_symbols for e in (*aims, *known))), key=str)
     if len(known) > MOST_KNOWN or size([*aims, *known]) > MOST_OPERATIONS:
         raise Undecided("it has more operations than a proof may have")
@@ -445,17 +528,19 @@ def _spanned(aims: Sequence[sp.Expr], known: Sequence[sp.Expr]) -> bool:
     reduced, rank = nmod_mat([[int(x) for x in row] for row in table], PRIME).rref()
     bound = [next(j for j in range(count + len(aims)) if int(reduced[i, j])) for i in range(rank)]
     if any(j >= count for j in bound):
-        return False
+        return None
+    found = []
     for k, aim in enumerate(aims):
         factors = [_small(int(reduced[i, count + k])) for i in range(rank)]
         if None in factors:
-            return False
+            return None
+        found.append({j: f for f, j in zip(factors, bound, strict=True) if f})
         try:
             if not ring.is_zero(aim - sum((f * known[j] for f, j in zip(factors, bound, strict=True)), sp.S.Zero)):
-                return False
+                return None
         except ZeroDivisionError:
             raise Undecided("an equation divides by 0") from None
-    return True
+    return found
 
 
 def _small(x: int) -> sp.Rational | None:
@@ -493,6 +578,15 @@ def coefficients(expressions: Iterable[sp.Expr]) -> list[tuple[sp.Expr, sp.Expr,
 
 
 _ANY = sp.Symbol("any")
+
+
+def _bent(wave: sp.Expr) -> sp.Expr:
+    """A sine or cosine up to h², by those at h = 0."""
+    (of,) = wave.args
+    start = of.xreplace({STEP: sp.S.Zero})
+    turn, s, c = sp.expand(of - start), sp.sin(start), sp.cos(start)
+    s, c = s * (1 - turn**2 / 2) + c * turn, c * (1 - turn**2 / 2) - s * turn
+    return {sp.sin: s, sp.cos: c, sp.tan: s / c}[wave.func]
 
 
 def size(expressions: Iterable[sp.Expr]) -> int:

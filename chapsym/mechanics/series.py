@@ -94,6 +94,8 @@ def replaced(
         parts = [of(x) for x in expr.args]
         is_wave = isinstance(expr, sp.sin | sp.cos | sp.tan)
         new = expr.func(*map(sp.expand, parts) if is_wave else parts) if parts else expr
+        if isinstance(-new, sp.sin | sp.cos | sp.tan):
+            return -turned(-new)  # sin(-x)
         return turned(new) if isinstance(new, sp.sin | sp.cos | sp.tan) else new
 
     return by_parts(expressions, put, made)
