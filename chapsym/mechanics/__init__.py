@@ -10,7 +10,7 @@
 
 from .attitude import Quaternion, Turned
 from .brackets import Flag, flag
-from .certified import Certified, certified, certified_method
+from .certified import Certified, certified
 from .density import Volume, volume
 from .equations import Agreement, Conservation, agree, conserved, in_symbols, of_kane
 from .judged import Verdict, verdicts
@@ -22,6 +22,6 @@ from .system import STEP, BadSystem, Discrete, System, after, dot, loaded, rate
 __all__ = [
     "METHODS", "STEP", "Agreement", "BadSystem", "Cell", "Certified", "Conservation", "Discrete", "Flag", "Method",
     "Motion", "NotSolved", "Quaternion", "Runner", "Scheme", "System", "Turned", "Verdict", "Volume", "after",
-    "agree", "certified", "certified_method", "conserved", "dot", "flag", "in_symbols", "loaded", "measured",
+    "agree", "certified", "conserved", "dot", "flag", "in_symbols", "loaded", "measured",
     "moved", "of_kane", "rate", "verdicts", "volume",
 ]  # fmt: skip

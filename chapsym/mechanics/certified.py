@@ -24,14 +24,17 @@ from chapsym.prove.witness import true_at
 from .algebra import Algebra, Point, adjugate, determinant, pivots
 from .brackets import bracket_of, flag, spanned
 from .density import MOST_LEVELS, Volume, divergences, volume
-from .equations import OnShell
-from .judged import Combination, Decided, _quantities, decided
+from .equations import OnShell, conserved
+from .judged import Combination, Decided, _quantities, decided, tableau_conditions
+from .lab import keeps
 from .methods import METHODS, Scheme
 from .series import Exact, _at, evaluated, replaced, terms
 from .system import STEP, BadSystem, System
 
 #: Letters of the name of a system in the id of a claim.
 LETTERS = 22
+#: Why what a method says itself has no certificate.
+SAID = "an equation of the method says so, and nothing is to be decided"
 #: The first cells of a method in the ids of its claims.
 CELLS = ("order", "adjoint", "returns")
 #: Of an equation in words.
@@ -210,6 +213,13 @@ class Moving(OnShell):
         found += x * (adjugate(inner) * pushed) / determinant(inner)
         return [self.algebra.ring.reduced(e.xreplace(self.allowed)) for e in found]
 
+    @cached_property
+    def equations(self) -> tuple[sp.Matrix, sp.Matrix]:
+        """Matrix and right side of the equations for accelerations and multipliers, of independent constraints."""
+        rows = self.algebra.rows.extract(self.kept, list(range(len(self.q))))
+        matrix = self.mass.row_join(-rows.T).col_join(rows.row_join(sp.zeros(len(self.kept))))
+        return matrix, self.forced.col_join(self.turning.extract(self.kept, [0]))
+
     def in_motion(self, of: sp.Expr) -> sp.Expr:
         """The rate of an expression in the motion."""
         return self.rate(of, [*self.v, *self.solved])
@@ -225,16 +235,19 @@ class Moving(OnShell):
         ]
 
 
-def certified(system: System) -> Iterator[Certified]:
-    """The exact verdicts on a system, each with its certificate or with why it has none.
+def certified(system: System, methods: Sequence[str] = ()) -> Iterator[Certified]:
+    """The exact verdicts on a system and on methods, each with its certificate or with why it has none.
 
     Parameters
     ----------
     system : System
+    methods : sequence of str
+        Names of METHODS.
 
     Yields
     ------
     Certified
+        What `verdicts` leaves `measured` is none.
 
     Examples
     --------
@@ -242,31 +255,51 @@ def certified(system: System) -> Iterator[Certified]:
     >>> from chapsym.mechanics import System, certified, dot
     >>> x, y, z = symbols("x y z")
     >>> particle = System("particle", (x, y, z), sum(dot(q) ** 2 for q in (x, y, z)) / 2, [dot(z) - y * dot(x)])
-    >>> [(one.verdict, one.certificate["verdict"]) for one in certified(particle)]
-    [('motion', 'holds'), ('energy', 'holds'), ('flag', 'holds'), ('volume', 'holds')]
+    >>> [one.verdict for one in certified(particle, ["dla"]) if one.certificate]
+    ['motion', 'energy', 'flag', 'volume', 'dla: order', 'dla: self-adjoint', 'dla: reversible', 'dla: keeps the energy']
     """
     name = name_of(system)
-    makers: dict[str, Callable[[System, str], tuple[Case, Algebra]]] = {
-        "motion": _motion, "energy": _energy, "flag": _flag, "volume": _volume
-    }  # fmt: skip
-    for verdict, made in makers.items():
-        try:
-            case, algebra = made(system, name)
-        except (BadSystem, ArithmeticError, ValueError) as error:
-            yield Certified(verdict, None, str(error).removeprefix(f"{system.name}: "))
-        else:
-            yield case.judged(verdict, f"{name}-{verdict}", algebra.points)
+    own = {"motion": _motion, "energy": _energy, "flag": _flag, "volume": _volume}
+    for verdict, made in own.items():
+        yield _certified(system, verdict, f"{name}-{verdict}", made, system, name)
+    for i, (what, quantity) in enumerate(system.integrals.items()):
+        yield _certified(system, what, f"{name}-integral-{i + 1}", _integral, system, name, what, quantity)
+    for method in methods:
+        scheme = METHODS[method].scheme(system)
+        quantities = _quantities(system, scheme.integrals)
+        for i, (what, found) in enumerate(decided(system, scheme).items()):
+            id = f"{name}-{method}-{(*CELLS, *(f'keeps-{k + 1}' for k in range(i)))[i]}"
+            uses = (
+                [f"{name}-{method}-adjoint"]
+                if what == "order" and not scheme.stages and found.verdict.said > "1"
+                else []
+            )
+            more = system, scheme, what, found, quantities.get(what.removeprefix("keeps ")), uses
+            if found.verdict.verdict != "measured":
+                yield _certified(system, f"{method}: {what}", id, _of_method, *more)
+        if keeps(system, scheme):
+            yield Certified(f"{method}: keeps the constraints", None, SAID)
 
 
-def _motion(system: System, _: str) -> tuple[Case, Algebra]:
+def _certified(
+    system: System, verdict: str, id: str, made: Callable[..., tuple[Case, Sequence[Point]]], *of: Any
+) -> Certified:
+    """A verdict by the case that is made of it."""
+    try:
+        case, points = made(*of)
+        return case.judged(verdict, id, points)
+    except (BadSystem, ArithmeticError, ValueError) as error:
+        return Certified(verdict, None, str(error).removeprefix(f"{system.name}: "))
+
+
+def _motion(system: System, _: str) -> tuple[Case, Sequence[Point]]:
     of = Moving(system)
     n, gradient = len(of.q), [of.rate(of.lagrangian, unit) for unit in sp.eye(2 * len(of.q)).tolist()]
     rates = [of.rate(e, of.now) for e in (*of.momenta, *of.bindings)]
-    matrix = sp.Matrix(sp.BlockMatrix([[of.mass, -of.algebra.rows.T], [of.algebra.rows, sp.zeros(len(of.bindings))]]))
+    matrix = of.mass.row_join(-of.algebra.rows.T).col_join(of.algebra.rows.row_join(sp.zeros(len(of.bindings))))
     right = list(matrix * sp.Matrix([*of.acceleration, *of.multipliers]) - sp.Matrix([*of.forced, *of.turning]))
     left, text = [*of.principle, *rates[n:]], "the equations are linear in the accelerations and multipliers"
-    numbers = [*range(n), *(n + i for i in of.kept)]
-    printed = [of.equal(text, left, right), _regular(matrix.extract(numbers, numbers), of.algebra)]
+    printed = [of.equal(text, left, right), _regular(of.equations[0], of.algebra)]
     along = [(e, of.now) for e in (*of.momenta, *of.bindings)]
     derived = [
         slopes(
@@ -276,7 +309,7 @@ def _motion(system: System, _: str) -> tuple[Case, Algebra]:
     ]
     said = r"\frac{d}{dt}\frac{\partial L}{\partial v} - \frac{\partial L}{\partial q} = A^T\lambda + F, A v + b = 0"
     wrong = of.equal(f"{text}, with 1 more in the first", left, [right[0] + 1, *right[1:]])
-    return Case(said, printed, wrong, [], derived, of.premises), of.algebra
+    return Case(said, printed, wrong, [], derived, of.premises), of.algebra.points
 
 
 def _regular(matrix: sp.Matrix, algebra: Algebra) -> Comparison:
@@ -299,11 +332,49 @@ def _kept(of: Moving, what: str, quantity: sp.Expr, balance: sp.Expr, name: str)
     return Case(text, [of.equal(text, [rate], [balance])], wrong, [], derived, of.premises, [f"{name}-motion"])
 
 
-def _energy(system: System, name: str) -> tuple[Case, Algebra]:
+def _energy(system: System, name: str) -> tuple[Case, Sequence[Point]]:
     of = Moving(system)
     power = sum(map(sp.Mul, of.forces, of.v)) - sum(map(sp.Mul, of.algebra.offsets, of.multipliers))
     along = sum(map(sp.Mul, of.v, of.principle)) + sum(map(sp.Mul, of.multipliers, of.bindings))
-    return _kept(of, "the energy", of.energy, power + along, name), of.algebra
+    return _kept(of, "the energy", of.energy, power + along, name), of.algebra.points
+
+
+def _integral(system: System, name: str, what: str, quantity: sp.Expr) -> tuple[Case, Sequence[Point]]:
+    of, is_kept = Moving(system, quantity), conserved(system, quantity).kept
+    (quantity,), points = of.quantities, of.algebra.points
+    if not is_kept:
+        return _lost(of, what, quantity, name), points
+    slope, x = sp.Matrix([sp.diff(quantity, v) for v in of.v]), sp.Matrix(of.fields).T
+    inner = x.T * of.mass * x
+    along = x * (adjugate(inner) * x.T * slope) / determinant(inner)
+    rest = (slope - of.mass * along).extract(of.bound, [0])
+    across = adjugate(of.square).T * rest / determinant(of.square)
+    turning = [of.rate(of.bindings[i], of.now) for i in of.kept]
+    factors = [of.algebra.ring.reduced(e.xreplace(of.allowed)) for e in (*along, *across)]
+    balance = sum((f * e for f, e in zip(factors, (*of.principle, *turning), strict=True)), sp.S.Zero)
+    return _kept(of, what, quantity, balance, name), points
+
+
+def _lost(of: Moving, what: str, quantity: sp.Expr, name: str) -> Case:
+    """An exact state of the motion where a quantity changes."""
+    rate = of.rate(quantity, of.now)
+    zeros = [*of.principle, *of.bindings, *(of.rate(e, of.now) for e in of.bindings)]
+    matrix, right = of.equations
+    for point in filter(_is_rational, of.algebra.points):
+        at = point | {x: e.xreplace(point) for x, e in of.allowed.items()}
+        there = matrix.xreplace(at)
+        if any(e.has(sp.zoo, sp.nan) for e in (*at.values(), *there)) or len(pivots(there)) < there.rows:
+            continue
+        found = [*there.LUsolve(right.xreplace(at))]
+        at |= dict(zip([*of.acceleration, *(of.multipliers[i] for i in of.kept)], found, strict=True))
+        at |= {x: sp.S.Zero for x in of.multipliers if x not in at}
+        if rate.xreplace(at) != 0:
+            state = [sp.Eq(e, 0, evaluate=False) for e in zeros]
+            at = {x: v for x, v in at.items() if x in set().union(rate.free_symbols, *(e.free_symbols for e in zeros))}
+            text = f"the rate of {what} is not 0 at a state of the motion"
+            said, wrong = (Comparison(text, [*state, e(rate, 0, evaluate=False)], at) for e in (sp.Ne, sp.Eq))
+            return Case(text, [said], wrong, [], [], of.premises, [f"{name}-motion"])
+    raise BadSystem("no rational state is found where it changes")
 
 
 def _minor(vectors: Sequence[Sequence[sp.Expr]], points: Iterable[Point]) -> tuple[sp.Expr, Point, list[int]]:
@@ -330,7 +401,7 @@ def _bordering(
     return [_vanish(text, minors, algebra)] if any(minors) else []
 
 
-def _flag(system: System, _: str) -> tuple[Case, Algebra]:
+def _flag(system: System, _: str) -> tuple[Case, Sequence[Point]]:
     found = spanned(system)
     algebra, growth, vectors = found.algebra, found.flag.growth, found.vectors
     if not vectors:
@@ -355,7 +426,7 @@ def _flag(system: System, _: str) -> tuple[Case, Algebra]:
         printed += _bordering(algebra, f"{name} is in the span of {', '.join(names)}", vectors, columns, x)
     wrong = _vanish(f"{', '.join(names)} are dependent", [minor], algebra)
     premises = [f"{x} is {stands}, and changes as that does" for x, stands in algebra.letters.meanings.items()]
-    return Case(str(found.flag), printed, wrong, lemmas, more[1], premises), algebra
+    return Case(str(found.flag), printed, wrong, lemmas, more[1], premises), algebra.points
 
 
 def _vanish(text: str, what: Sequence[sp.Expr], algebra: Algebra) -> Equation:
@@ -382,7 +453,7 @@ def _brackets(
     return lemmas, derived
 
 
-def _volume(system: System, name: str) -> tuple[Case, Algebra]:
+def _volume(system: System, name: str) -> tuple[Case, Sequence[Point]]:
     kept = volume(system)
     if not kept.by:
         raise BadSystem("nothing moves")
@@ -405,10 +476,10 @@ def _volume(system: System, name: str) -> tuple[Case, Algebra]:
     derivatives = slopes(of.algebra, "the derivatives of the motion", own, [of.rate(*one) for one in own])
     printed = [of.equal(text, [sum(spread)], [-rate]), *([] if isinstance(derivatives, str) else [derivatives])]
     wrong = of.equal(f"{text}, larger by 1", [sum(spread)], [1 - rate])
-    return Case(text, printed, wrong, [], [], of.premises, [f"{name}-motion"]), of.algebra
+    return Case(text, printed, wrong, [], [], of.premises, [f"{name}-motion"]), of.algebra.points
 
 
-def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Algebra]:
+def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Sequence[Point]]:
     """Brackets of fields with their divergences span more than those of the fields."""
     of = Moving(system)
     algebra, most = of.algebra, flag(system).growth[-1]
@@ -439,49 +510,18 @@ def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Algebra]:
                 inferred += "then multiples Y of (X, -θ), and their brackets, are tangent to the graph of f, which has "
                 inferred += f"at most {most} dimensions that brackets span"
                 return Case(str(kept), [_not_0(text, minor, point)], _vanish("they do not", [minor], algebra), lemmas,
-                            derived, of.premises, [f"{name}-motion", f"{name}-flag"], inferred), algebra  # fmt: skip
+                            derived, of.premises, [f"{name}-motion", f"{name}-flag"], inferred), algebra.points  # fmt: skip
     raise BadSystem("no rational point is found where the brackets span more")
 
 
-def certified_method(system: System, method: str) -> Iterator[Certified]:
-    """The exact verdicts on a method, likewise.
-
-    Parameters
-    ----------
-    system : System
-    method : str
-        One of METHODS.
-
-    Yields
-    ------
-    Certified
-
-    Examples
-    --------
-    >>> from sympy import symbols
-    >>> from chapsym.mechanics import System, certified_method, dot
-    >>> x, y, z = symbols("x y z")
-    >>> particle = System("particle", (x, y, z), sum(dot(q) ** 2 for q in (x, y, z)) / 2, [dot(z) - y * dot(x)])
-    >>> [one.verdict for one in certified_method(particle, "dla") if one.certificate]
-    ['dla: order', 'dla: self-adjoint', 'dla: reversible', 'dla: keeps the energy']
-    """
-    scheme, name = METHODS[method].scheme(system), f"{name_of(system)}-{method}"
-    quantities = _quantities(system, scheme.integrals)
-    for i, (what, found) in enumerate(decided(system, scheme).items()):
-        verdict, id = f"{method}: {what}", f"{name}-{(*CELLS, *(f'keeps-{k + 1}' for k in range(i)))[i]}"
-        if found.verdict.verdict == "measured":
-            continue
-        try:
-            if found.verdict.verdict == "proved":
-                case = _combined(system, scheme, what, found)
-            elif what.startswith("keeps "):
-                case = _changed(system, scheme, quantities[what.removeprefix("keeps ")], what, found)
-            else:
-                raise BadSystem("the series of the exact motion or of a step back are not written down")
-        except (BadSystem, ArithmeticError, ValueError) as error:
-            yield Certified(verdict, None, str(error).removeprefix(f"{system.name}: "))
-        else:
-            yield case.judged(verdict, id)
+def _of_method(
+    system: System, scheme: Scheme, what: str, found: Decided, quantity: sp.Expr | None, uses: Sequence[str]
+) -> tuple[Case, Sequence[Point]]:
+    if found.verdict.verdict == "proved":
+        return _combined(system, scheme, what, found, uses), ()
+    if quantity is None:
+        raise BadSystem("the series of the exact motion and of a step back are not written down")
+    return _changed(system, scheme, quantity, what, found), ()
 
 
 def _steps_in_words(scheme: Scheme, names: Mapping[sp.Symbol, sp.Symbol]) -> list[str]:
@@ -503,41 +543,55 @@ def _named(symbols: Iterable[sp.Symbol]) -> dict[sp.Symbol, sp.Symbol]:
     return found
 
 
-def _combined(system: System, scheme: Scheme, what: str, found: Decided) -> Case:
+def _combined(system: System, scheme: Scheme, what: str, found: Decided, uses: Sequence[str]) -> Case:
     """What a method does is a combination of what its equations, constraints and the motion set to 0."""
     proofs = [one for one in found.proofs if any(one.left)]
-    everything = (e for one in proofs for e in (*one.left, *one.right, *one.relations, *one.ends, *one.ends.values()))
-    names = _named(set().union(scheme.state, scheme.unknowns, *(e.free_symbols for e in everything)))
+    made = (e for one in proofs for e in (*one.left, *one.relations, *one.ends, *one.ends.values()))
+    known = (x for one in proofs for row in one.right for pair in row for x in pair)
+    names = _named(set().union(scheme.state, scheme.unknowns, *(e.free_symbols for e in (*made, *known))))
     if not proofs:
-        raise BadSystem("it is an equation of the method, so that nothing is to be decided")
-    stated = [_stated(one, names, 0) for one in proofs]
-    said = {"order": f"the order is at least {found.verdict.said}"}.get(what, what)
+        raise BadSystem(SAID)
+    stated, wrong = [_stated(one, names, 0) for one in proofs], _stated(proofs[-1], names, 1)
     meanings = {x: e for one in proofs for x, e in one.meanings.items()}
-    premises = [f"{x} is {e.xreplace(names)}" for x, e in meanings.items()]
-    wrong = _stated(proofs[-1], names, 1)
-    return Case(f"{system.name}: {said}", stated, wrong, premises=[*_steps_in_words(scheme, names), *premises])
+    premises = [*_steps_in_words(scheme, names), *(f"{x} is {e.xreplace(names)}" for x, e in meanings.items())]
+    if what == "order":
+        what += f" is at least {found.verdict.said}"
+    if scheme.stages and what.startswith("order"):
+        stated.append(tableau := _tableau(scheme.stages, int(found.verdict.said)))
+        premises.append("the stages are by the weights a, the end by b, for rates that the equations give")
+        wrong = Comparison(f"{tableau.text}, with 2", [sp.Eq(e.lhs, 2) for e in tableau.relations], tableau.point)
+    return Case(f"{system.name}: {what}", stated, wrong, premises=premises, uses=uses)
+
+
+def _tableau(stages: Sequence[Sequence[sp.Rational]], order: int) -> Comparison:
+    """The conditions of rooted trees, of the weights as symbols."""
+    names = [f"a{i + 2}" for i in range(len(stages) - 1)] + ["b"]
+    symbols = [[sp.Symbol(f"{name}_{j + 1}") for j in range(len(row))] for name, row in zip(names, stages, strict=True)]
+    relations = [sp.Eq(e, 1, evaluate=False) for row in tableau_conditions(symbols)[:order] for e in row]
+    point = {x: v for row, values in zip(symbols, stages, strict=True) for x, v in zip(row, values, strict=True)}
+    return Comparison(f"the conditions of rooted trees up to order {order}", relations, point)
 
 
 def _stated(one: Combination, names: Mapping[sp.Symbol, sp.Symbol], more: int) -> Statement:
-    """A combination as a statement; with `more` on the left."""
+    """A combination as a statement, with operations as they are written where it has no relations."""
     text = "what should be 0 is a combination of what the equations set to 0" + f", with {more} more" * (more > 0)
-    left, right, relations, ends = (
-        [e.xreplace(names) for e in part] for part in (one.left, one.right, one.relations, one.ends.values())
-    )
-    symbols = sorted(set().union(*(e.free_symbols for e in (*left, *right, *relations, *ends))), key=str)
-    if relations or not ends:
+    left, relations, ends = ([e.xreplace(names) for e in part] for part in (one.left, one.relations, one.ends.values()))
+    rows = [[(c.xreplace(names), e.xreplace(names)) for c, e in row] for row in one.right]
+    right, at = [sp.Add(*(c * e for c, e in row)) for row in rows], [x.xreplace(names) for x in one.ends]
+    known = (x for row in rows for pair in row for x in pair)
+    symbols = sorted(set().union(*(e.free_symbols for e in (*left, *known, *relations, *ends))) - {*at}, key=str)
+    if relations:
         return Equation(text, [left[0] + more, *left[1:]], right, Quotient(symbols, relations))
-    at = [x.xreplace(names) for x in one.ends]
-    free = [x for x in symbols if x not in at]
-    values = dict(zip(free, parameters(" ".join(map(str, free))), strict=True))
-    whole = values[free[0]]
+    values = dict(zip(symbols, parameters(" ".join(map(str, symbols))), strict=True))
+    unit = values[symbols[0]] ** 0
 
-    def number(p: int, q: int) -> Any:
-        return whole**0 * int(p) / (whole**0 * int(q))
+    def made(expressions: Iterable[sp.Expr]) -> list[Any]:
+        return [unit * 0 + e for e in evaluated(expressions, values, lambda p, q: unit * int(p) / (unit * int(q)))]
 
-    values |= dict(zip(at, evaluated(ends, values, number), strict=True))
-    first, *rest = evaluated(left, values, number)
-    return Identity(text, [first + more, *rest], [x + 0 * whole for x in evaluated(right, values, number)])
+    values |= dict(zip(at, made(ends), strict=True))
+    first, *rest = made(left)
+    sums = [sum((c * e for c, e in zip(*map(made, zip(*row, strict=True)), strict=True)), unit * 0) for row in rows]
+    return Identity(text, [first + more, *rest], sums)
 
 
 def _changed(system: System, scheme: Scheme, quantity: sp.Expr, what: str, found: Decided) -> Case:

@@ -90,11 +90,12 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
 class Combination:
     """That expressions are combinations of what equations set to 0: an identity where the relations hold.
 
-    `meanings` has what letters stand for, and `ends` what symbols for the end of a step stand for.
+    `right` has factors, and what they are of; `meanings` what letters stand for, and `ends` what symbols for the end of
+    a step stand for.
     """
 
     left: list[sp.Expr]
-    right: list[sp.Expr]
+    right: list[list[tuple[sp.Expr, sp.Expr]]]
     relations: Sequence[sp.Expr]
     meanings: Mapping[sp.Symbol, sp.Expr]
     ends: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
@@ -493,14 +494,14 @@ class _Judged:
         def into(expr: sp.Expr, turned: Callable[[sp.Expr], sp.Expr] = lambda wave: wave) -> sp.Expr:
             return letters.into(replaced([expr], self.exact.numbers, turned)[0])
 
-        sums = iter([sp.Add(*(c * plain[j] for j, c in row.items())) for row in factors])
+        sums = iter([[(c, plain[j]) for j, c in row.items()] for row in factors])
         wholes, ends = shown(into) if shown else ([(e, 0) for e in one], {})
         for count in sorted({count for _, count in wholes}):
             self.proofs.append(Combination([], [], [*zero, *([STEP**count] if count else [])], letters.meanings, ends))
         for whole, count in wholes:
             row = next(x for x in reversed(self.proofs) if (STEP**count in x.relations) or not count)
             row.left.append(whole)
-            row.right.append(sum((STEP**k * next(sums) for k in range(max(count, 1))), sp.S.Zero))
+            row.right.append([(STEP**k * c, e) for k in range(max(count, 1)) for c, e in next(sums)])
         return True
 
     @cached_property
@@ -610,6 +611,12 @@ def _guessed(x: Sequence[fmpq], of: Sequence[Named]) -> Any:
 
 def _of_tableau(stages: Sequence[Sequence[sp.Rational]]) -> int:
     """The order of an explicit Runge-Kutta method, by the conditions of rooted trees, up to 4."""
+    holds = [all(sum_ == 1 for sum_ in row) for row in tableau_conditions(stages)]
+    return next((i for i, good in enumerate(holds) if not good), len(holds))
+
+
+def tableau_conditions(stages: Sequence[Sequence[sp.Expr]]) -> list[list[sp.Expr]]:
+    """What is 1 for the orders 1 to 4."""
     size = len(stages)
     A = sp.Matrix(size, size, lambda i, j: stages[i - 1][j] if i > 0 and j < i else sp.S.Zero)
     b, one = sp.Matrix([list(stages[-1])]), sp.ones(size, 1)
@@ -619,5 +626,4 @@ def _of_tableau(stages: Sequence[Sequence[sp.Rational]]) -> int:
     conditions = [
         [(one, 1)], [(c, 2)], [(squared, 3), (A * c, 6)], [(cubed, 4), (mixed, 8), (A * squared, 12), (A * A * c, 24)]
     ]  # fmt: skip
-    holds = [all((b * weight)[0] * count == 1 for weight, count in row) for row in conditions]
-    return next((i for i, good in enumerate(holds) if not good), len(holds))
+    return [[(b * weight)[0] * count for weight, count in row] for row in conditions]
