@@ -21,12 +21,13 @@ Later = Callable[..., Callable[[], Any]]
 
 
 class Begun(NamedTuple):
-    """A system, its key, what is said of it, and its cells, as what gives them."""
+    """A system, its key, what is said of it, its cells, and its certificates, as what gives them."""
 
     system: "System"
     key: str
     said: Callable[[], str]
     cells: list[Callable[[], Any]]
+    certified: Callable[[], Any] | None
 
 
 @app.command()
@@ -43,6 +44,9 @@ def lab(
     output: Annotated[
         Path | None, takes("FILE", "A .json, which is gone on with if it is there; or an .html.", "--output", "-o")
     ] = None,
+    certificates: Annotated[
+        Path | None, takes("FOLDER", "Write each exact verdict as a certificate, for the checker.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Measure methods on mechanical systems: energy, constraints, order, cost.
@@ -51,6 +55,7 @@ def lab(
     """
     from chapsym.files import write_text
     from chapsym.mechanics import METHODS, BadSystem, loaded
+    from chapsym.mechanics.certified import name_of
     from chapsym.show.lab import COLUMNS
 
     if output is not None and output.suffix not in (".json", ".html"):
@@ -60,17 +65,27 @@ def lab(
         fail(f"{strange[0]!r} is no method; those are {', '.join(METHODS)}", 2)
     done, keys = _there(output), set[str]()
     constraints: dict[str, str] = {}
+    certified: dict[str, Any] = {}
+    if certificates:
+        try:
+            certificates.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            fail(f"{certificates} cannot be written: {error.strerror or error}", 2)
     wrong: list[str] = []
 
     def started(path: Path, system: "System", later: Later) -> Begun:
         system.beginning  # noqa: B018, which refuses a start that breaks a constraint
         key, cells = system.digest(length, halve), list[Callable[[], Any]]()
-        for name in methods if method or system.discrete else [one for one in methods if one != "own"]:
+        of, own = path if jobs > 1 else system, methods
+        if not method and not system.discrete:
+            own = [one for one in methods if one != "own"]
+        for name in own:
             same = (c for c in done if (c["key"], c["method"], c["steps"]) == (key, name, steps))
             there = next((c for c in same if c["verdicts"] or not flags), None)
             more = name, steps, length, halve, flags
-            cells.append(partial(dict, there) if there else later(_cell, path if jobs > 1 else system, *more))
-        return Begun(system, key, later(_said, path if jobs > 1 else system, flags), cells)
+            cells.append(partial(dict, there) if there else later(_cell, of, *more))
+        written = later(_certify, of, own, certificates) if certificates else None
+        return Begun(system, key, later(_said, of, flags), cells, written)
 
     with _crew(jobs) as later:
         begun = list[Begun]()
@@ -79,10 +94,12 @@ def lab(
                 system = loaded(path)
                 if system.name in [one.name for one, *_ in begun]:
                     raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
+                if certificates and name_of(system) in [name_of(one) for one, *_ in begun]:
+                    raise BadSystem(f"{system.name} and another system would have certificates of one name: rename one")
                 begun.append(started(path, system, later))
             except BadSystem as error:
                 wrong.append(str(error))
-        for system, key, said, cells in begun:
+        for system, key, said, cells, written in begun:
             constraints[system.name] = said()
             keys.add(key)
             if not as_json:
@@ -102,13 +119,17 @@ def lab(
                     print(_row(cell))
                 if output is not None and output.suffix == ".json":
                     write_text(output, json.dumps({"cells": done}, allow_nan=False))
+            if written:
+                certified[system.name] = found = written()
+                if not as_json:
+                    print(_of_certificates(found, certificates))
     shown = [cell for cell in done if cell["key"] in keys and cell["method"] in methods and cell["steps"] == steps]
     if output is not None and output.suffix == ".html" and shown:
         from chapsym.show.lab import page
 
         write_text(output, page(shown, {name: m.title for name, m in METHODS.items()}, constraints))
     if as_json and shown:
-        print_json({"constraints": constraints, "cells": shown})
+        print_json({"constraints": constraints, "cells": shown} | ({"certificates": certified} if certified else {}))
     elif output is not None and shown:
         note(f"wrote {output}")
     for sentence in wrong[:-1]:
@@ -181,6 +202,32 @@ def _said(given: Any, decide: bool) -> str:
         kept = partial(conserved, system, quantity)
         found.append(of(kept, name, f"{name} is {{}}").partition(": its rate")[0])
     return "; ".join(found)
+
+
+def _certify(of: Any, methods: list[str], folder: Path) -> dict[str, Any]:
+    """Writes the certificates of a system, or of the file of one: their claims, and why other verdicts have none."""
+    from chapsym.files import CannotWrite
+    from chapsym.mechanics import certified, loaded
+    from chapsym.prove.certificates import write
+
+    claims, none = list[str](), dict[str, list[str]]()
+    for one in certified(loaded(of) if isinstance(of, Path) else of, methods):
+        if one.certificate is None:
+            none.setdefault(one.why, []).append(one.verdict)
+            continue
+        try:
+            write(dict(one.certificate), folder)
+        except CannotWrite as error:
+            fail(str(error), 2)
+        claims.append(one.certificate["claim"])
+    return {"claims": claims, "none": none}
+
+
+def _of_certificates(found: dict[str, Any], folder: Path | None) -> str:
+    """The line of a table on them."""
+    written, without = len(found["claims"]), sum(map(len, found["none"].values()))
+    line = f"  certificates in {folder}: {written}, of {written + without} exact verdicts"
+    return "; ".join([line, *(f"none for {', '.join(of)}: {why}" for why, of in found["none"].items())])
 
 
 def _there(output: Path | None) -> list[dict[str, Any]]:

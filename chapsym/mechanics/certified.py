@@ -34,7 +34,7 @@ from .system import STEP, BadSystem, System
 #: Letters of the name of a system in the id of a claim.
 LETTERS = 22
 #: Why what a method says itself has no certificate.
-SAID = "an equation of the method says so, and nothing is to be decided"
+SAID = "it is one of the equations, so that nothing is to be decided"
 #: The first cells of a method in the ids of its claims.
 CELLS = ("order", "adjoint", "returns")
 #: Of an equation in words.
@@ -108,7 +108,7 @@ class Case:
         data, problems = found.certificate, found.proof.problems
         left = [one["text"] for one in data["sentences"] if one["role"] in ("printed", "lemma")] if data else []
         if data is None or data["verdict"] != Verdict.HOLDS or left:
-            return Certified(verdict, None, next(iter([*problems, *left]), "it says nothing that is to be decided"))
+            return Certified(verdict, None, next(iter([*problems, *left]), SAID))
         return Certified(verdict, data)
 
 
