@@ -8,12 +8,12 @@ a rank is reached, by a minor that is not 0 at a rational point.
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import sympy as sp
-from flint import fmpq, fmpq_series
+from flint import fmpq, fmpq_poly, fmpq_series
 
 from chapsym.derive import Quotient
 from chapsym.prove import Claim, Comparison, Equation, Examples, Identity, Proof, Verdict, tends
@@ -66,7 +66,8 @@ class Certified:
 class Case:
     """What a claim says, what proves it, and a false variant of that; premises are in words.
 
-    Where the certificate is too large with `derived`, that some expressions are derivatives, it says so in words.
+    Where the certificate is too large there may be another `instead`, and `derived`, that some expressions are
+    derivatives, is said in words.
     """
 
     said: str
@@ -77,17 +78,23 @@ class Case:
     premises: Sequence[str] = ()
     uses: Sequence[str] = ()
     inferred: str = ""
+    instead: "Callable[[], Case] | None" = None
 
     def judged(self, verdict: str, id: str, points: Sequence[Point] = ()) -> Certified:
         """By its own proof, run now, and by the checker; at one of some points, where it has a value."""
-        found = self._judged(verdict, id, points, [one for one in self.derived if not isinstance(one, str)])
-        return found if found.certificate or not self.derived else self._judged(verdict, id, points, [])
+        found = self._judged(verdict, id, points)
+        if found.certificate:
+            return found
+        if self.instead:
+            return self.instead().judged(verdict, id, points)
+        texts = [one if isinstance(one, str) else one.text for one in self.derived]
+        return found if texts == self.derived else replace(self, derived=texts).judged(verdict, id, points)
 
-    def _judged(self, verdict: str, id: str, points: Sequence[Point], derived: Sequence[Statement]) -> Certified:
+    def _judged(self, verdict: str, id: str, points: Sequence[Point]) -> Certified:
         places = sorted(filter(_is_rational, points), key=lambda point: [*point.values()].count(sp.S.Zero))
-        statements = [*derived, *self.lemmas, *self.printed]
+        texts = [one for one in self.derived if isinstance(one, str)]
+        statements = [*(one for one in self.derived if not isinstance(one, str)), *self.lemmas, *self.printed]
         related = [one for one in statements if isinstance(one, Equation) and one.algebra.relations]
-        texts = (one if isinstance(one, str) else one.text for one in self.derived if one not in derived)
 
         def prove(p: Proof) -> None:
             at = (x for x in places if all(true_at(one, x) for one in related if _covers(x, one)))
@@ -518,7 +525,8 @@ def _of_method(
     system: System, scheme: Scheme, what: str, found: Decided, quantity: sp.Expr | None, uses: Sequence[str]
 ) -> tuple[Case, Sequence[Point]]:
     if found.verdict.verdict == "proved":
-        return _combined(system, scheme, what, found, uses), ()
+        case = _combined(system, scheme, what, found, uses, False)
+        return replace(case, instead=lambda: _combined(system, scheme, what, found, uses, True)), ()
     if quantity is None:
         raise BadSystem("the series of the exact motion and of a step back are not written down")
     return _changed(system, scheme, quantity, what, found), ()
@@ -543,9 +551,9 @@ def _named(symbols: Iterable[sp.Symbol]) -> dict[sp.Symbol, sp.Symbol]:
     return found
 
 
-def _combined(system: System, scheme: Scheme, what: str, found: Decided, uses: Sequence[str]) -> Case:
+def _combined(system: System, scheme: Scheme, what: str, found: Decided, uses: Sequence[str], plainly: bool) -> Case:
     """What a method does is a combination of what its equations, constraints and the motion set to 0."""
-    proofs = [one for one in found.proofs if any(one.left)]
+    proofs = [one for made in found.proofs for one in made(plainly) if any(one.left)]
     made = (e for one in proofs for e in (*one.left, *one.relations, *one.ends, *one.ends.values()))
     known = (x for one in proofs for row in one.right for pair in row for x in pair)
     names = _named(set().union(scheme.state, scheme.unknowns, *(e.free_symbols for e in (*made, *known))))
@@ -556,6 +564,8 @@ def _combined(system: System, scheme: Scheme, what: str, found: Decided, uses: S
     premises = [*_steps_in_words(scheme, names), *(f"{x} is {e.xreplace(names)}" for x, e in meanings.items())]
     if what == "order":
         what += f" is at least {found.verdict.said}"
+    if plainly:
+        premises.append("steps back, and the coefficients of h, are as chapsym forms them")
     if scheme.stages and what.startswith("order"):
         stated.append(tableau := _tableau(scheme.stages, int(found.verdict.said)))
         premises.append("the stages are by the weights a, the end by b, for rates that the equations give")
@@ -594,6 +604,10 @@ def _stated(one: Combination, names: Mapping[sp.Symbol, sp.Symbol], more: int) -
     return Identity(text, [first + more, *rest], sums)
 
 
+def _rational(c: fmpq) -> sp.Rational:
+    return sp.Rational(int(c.p), int(c.q))
+
+
 def _changed(system: System, scheme: Scheme, quantity: sp.Expr, what: str, found: Decided) -> Case:
     """That a quantity changes, by the series of two steps from the exact state: polynomials in h, up to a power."""
     if scheme.stages:
@@ -602,8 +616,7 @@ def _changed(system: System, scheme: Scheme, quantity: sp.Expr, what: str, found
     ring, symbols = Quotient([STEP], [STEP**most]), (*scheme.state, *scheme.unknowns)
 
     def polynomial(x: Any) -> sp.Expr:
-        coefficients = ((k, _at(x, k)) for k in range(most))
-        return sum((sp.Rational(int(c.p), int(c.q)) * STEP**k for k, c in coefficients if c != 0), sp.S.Zero)
+        return sum((_rational(_at(x, k)) * STEP**k for k in range(most)), sp.S.Zero)
 
     def wave(of: sp.Expr) -> sp.Expr:
         coefficients = [sp.Poly(of.args[0], STEP).nth(k) for k in range(most)]
@@ -611,7 +624,10 @@ def _changed(system: System, scheme: Scheme, quantity: sp.Expr, what: str, found
         return polynomial(getattr(value, of.func.__name__)())
 
     def equal(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> Equation:
-        return Equation(text, left, right, ring)
+        """With all that is beyond, which is shorter so than as a cofactor."""
+        beyond = [evaluated([e], {STEP: fmpq_poly([0, 1])}, lambda p, q: fmpq_poly([fmpq(p, q)]))[0] for e in left]
+        later = [sum((_rational(c) * STEP**k for k, c in enumerate(list(e)) if k >= most), sp.S.Zero) for e in beyond]
+        return Equation(text, left, [a + b for a, b in zip(right, later, strict=True)], ring)
 
     with terms(most):
         read = [exact.read(e) for e in (scheme.residual, scheme.after, (*scheme.place, *scheme.velocity), [quantity])]

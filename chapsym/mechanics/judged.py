@@ -107,13 +107,13 @@ Shown = tuple[Sequence[tuple[sp.Expr, int]], Mapping[sp.Symbol, sp.Expr]]
 
 @dataclass(frozen=True)
 class Decided:
-    """A verdict with the combinations that prove it; or with series of two steps: their states and unknowns.
+    """A verdict with what gives combinations that prove it; or with series of two steps: their states and unknowns.
 
-    `by` is the power of the step by which the steps refute it.
+    Combinations are of what is done, or plainly of what comes out of it.  `by` is the power of the step by which the steps refute it.
     """
 
     verdict: Verdict
-    proofs: Sequence[Combination] = ()
+    proofs: Sequence[Callable[[bool], list[Combination]]] = ()
     steps: Sequence[State] = ()
     by: int = 0
 
@@ -160,7 +160,11 @@ class _Judged:
         self.system, self.scheme, self.exact, self.looked = exact.system, scheme, exact, looked
         self.n, self.state = exact.n, exact.state
         self.h: Series = fmpq_series([0, 1])
-        self.proofs, self.proofs_of_always, self.power = list[Combination](), list[Combination](), 0
+        self.proofs, self.proofs_of_always, self.power = (
+            list[Callable[[bool], list[Combination]]](),
+            list[Callable[[bool], list[Combination]]](),
+            0,
+        )
         if size(scheme.residual) * len(scheme.unknowns) > MOST_OPERATIONS:
             raise Undecided("a step has more operations than its series may have")
         self.stepped = Stepped(exact, scheme)
@@ -174,7 +178,7 @@ class _Judged:
 
     def decided(self, judge: Callable[[Any], Verdict], of: Any) -> Decided:
         """What one of the judges below says, with what it found."""
-        self.proofs, self.power = list[Combination](), 0
+        self.proofs, self.power = list[Callable[[bool], list[Combination]]](), 0
         try:
             verdict = judge(of)
             steps = self.forth if verdict.verdict == "false" else ()
@@ -494,14 +498,18 @@ class _Judged:
         def into(expr: sp.Expr, turned: Callable[[sp.Expr], sp.Expr] = lambda wave: wave) -> sp.Expr:
             return letters.into(replaced([expr], self.exact.numbers, turned)[0])
 
-        sums = iter([[(c, plain[j]) for j, c in row.items()] for row in factors])
-        wholes, ends = shown(into) if shown else ([(e, 0) for e in one], {})
-        for count in sorted({count for _, count in wholes}):
-            self.proofs.append(Combination([], [], [*zero, *([STEP**count] if count else [])], letters.meanings, ends))
-        for whole, count in wholes:
-            row = next(x for x in reversed(self.proofs) if (STEP**count in x.relations) or not count)
-            row.left.append(whole)
-            row.right.append([(STEP**k * c, e) for k in range(max(count, 1)) for c, e in next(sums)])
+        def combinations(plainly: bool) -> list[Combination]:
+            sums = iter([[(c, plain[j]) for j, c in row.items()] for row in factors])
+            wholes, ends = shown(into) if shown and not plainly else ([(e, 0) for e in parts[0]], {})
+            found = {}
+            for whole, count in wholes:
+                relations = [*zero, *([STEP**count] if count else [])]
+                of = found.setdefault(count, Combination([], [], relations, letters.meanings, ends))
+                of.left.append(letters.into(whole))
+                of.right.append([(STEP**k * c, e) for k in range(max(count, 1)) for c, e in next(sums)])
+            return list(found.values())
+
+        self.proofs.append(combinations)
         return True
 
     @cached_property
