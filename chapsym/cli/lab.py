@@ -120,7 +120,11 @@ def lab(
                 if output is not None and output.suffix == ".json":
                     write_text(output, json.dumps({"cells": done}, allow_nan=False))
             if written:
-                certified[system.name] = found = written()
+                try:
+                    certified[system.name] = found = written()
+                except BadSystem as error:
+                    wrong.append(str(error))
+                    continue
                 if not as_json:
                     print(_of_certificates(found, certificates))
     shown = [cell for cell in done if cell["key"] in keys and cell["method"] in methods and cell["steps"] == steps]
@@ -207,7 +211,7 @@ def _said(given: Any, decide: bool) -> str:
 def _certify(of: Any, methods: list[str], folder: Path) -> dict[str, Any]:
     """Writes the certificates of a system, or of the file of one: their claims, and why other verdicts have none."""
     from chapsym.files import CannotWrite
-    from chapsym.mechanics import certified, loaded
+    from chapsym.mechanics import BadSystem, certified, loaded
     from chapsym.prove.certificates import write
 
     claims, none = list[str](), dict[str, list[str]]()
@@ -218,7 +222,7 @@ def _certify(of: Any, methods: list[str], folder: Path) -> dict[str, Any]:
         try:
             write(dict(one.certificate), folder)
         except CannotWrite as error:
-            fail(str(error), 2)
+            raise BadSystem(str(error)) from None
         claims.append(one.certificate["claim"])
     return {"claims": claims, "none": none}
 

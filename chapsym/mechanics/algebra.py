@@ -1,6 +1,7 @@
 """Expressions of a system in a ring: letters for sines, cosines and roots, with their relations and derivatives."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from functools import cached_property, partial
 from itertools import combinations, count
 from random import Random
@@ -19,6 +20,8 @@ from .system import BadSystem, System, rational, without
 
 #: Points that are looked at.
 MOST_POINTS = 24
+#: Points at which roots may be rational: of quotients of the legs of right triangles.
+MOST_LOOKED, LEGS = 200, tuple(Fraction(p, q) for p, q in ((3, 4), (4, 3), (5, 12), (12, 5), (8, 15), (15, 8), (7, 24)))
 
 Point = dict[sp.Symbol, Any]
 
@@ -217,14 +220,29 @@ class Algebra:
     @cached_property
     def points(self) -> list[Point]:
         """Exact points of the ring: rational numbers and positive roots of these; raises BadSystem if there is none."""
-        roots, found = self.letters.arguments("sqrt"), list[Point]()
-        for point in self._drawn(self._ring(self.letters.circles, roots.values())):
-            values = {r: of.xreplace(point) for r, of in roots.items()}
-            if all(x.is_Rational and x > 0 for x in values.values()):
-                found.append(point | {r: sp.sqrt(x) for r, x in values.items()})
+        roots = self.letters.arguments("sqrt")
+        found = list(self._rooted(self._drawn(self._ring(self.letters.circles, roots.values()))))
         if not found:
             raise BadSystem(f"{self.system.name}: no exact point is found where its relations hold")
         return found
+
+    @cached_property
+    def rational(self) -> list[Point]:
+        """Those of rational numbers, and some where roots are rational; those with the fewest zeros first."""
+        found, numbers = [p for p in self.points if all(x.is_Rational for x in p.values())], Random(0)
+        ring = self._ring(self.letters.circles, self.letters.arguments("sqrt").values())
+        for _ in range(MOST_LOOKED if self.letters.roots else 0):
+            point = drawn(ring, lambda _: numbers.choice(LEGS))
+            found += [p for p in self._rooted([point]) if all(x.is_Rational for x in p.values())]
+        return sorted(found, key=lambda point: [*point.values()].count(sp.S.Zero))
+
+    def _rooted(self, points: Iterable[Point]) -> Iterator[Point]:
+        """Points with the roots, which are positive."""
+        roots = self.letters.arguments("sqrt")
+        for point in points:
+            values = {r: of.xreplace(point) for r, of in roots.items()}
+            if all(x.is_Rational and x > 0 for x in values.values()):
+                yield point | {r: sp.sqrt(x) for r, x in values.items()}
 
     def _drawn(self, ring: Quotient) -> Iterator[Point]:
         """Points of small primes first, then drawn ones."""

@@ -39,8 +39,8 @@ SAID = "it is one of the equations, so that nothing is to be decided"
 CELLS = ("order", "adjoint", "returns")
 #: Of an equation in words.
 MOST_LETTERS = 3000
-#: Of what has more parts, derivatives are not given to the checker.
-MOST_PARTS = 1500
+#: Of what has more parts, derivatives are not given to the checker; those of what divides count more.
+MOST_PARTS, FRACTIONS = 1500, 5
 
 
 @dataclass(frozen=True)
@@ -91,13 +91,12 @@ class Case:
         return found if texts == self.derived else replace(self, derived=texts).judged(verdict, id, points)
 
     def _judged(self, verdict: str, id: str, points: Sequence[Point]) -> Certified:
-        places = sorted(filter(_is_rational, points), key=lambda point: [*point.values()].count(sp.S.Zero))
         texts = [one for one in self.derived if isinstance(one, str)]
         statements = [*(one for one in self.derived if not isinstance(one, str)), *self.lemmas, *self.printed]
         related = [one for one in statements if isinstance(one, Equation) and one.algebra.relations]
 
         def prove(p: Proof) -> None:
-            at = (x for x in places if all(true_at(one, x) for one in related if _covers(x, one)))
+            at = (x for x in points if all(true_at(one, x) for one in related if _covers(x, one)))
             p.examples = Examples(numbers=next(at, {}))
             for text in (*self.premises, *(f"{text}: as chapsym forms them" for text in texts)):
                 p.assume(text)
@@ -117,10 +116,6 @@ class Case:
         if data is None or data["verdict"] != Verdict.HOLDS or left:
             return Certified(verdict, None, next(iter([*problems, *left]), SAID))
         return Certified(verdict, data)
-
-
-def _is_rational(point: Point) -> bool:
-    return all(x.is_Rational for x in point.values())
 
 
 def _covers(point: Point, one: Equation) -> bool:
@@ -144,7 +139,9 @@ def slopes(
     algebra: Algebra, text: str, of: Sequence[tuple[sp.Expr, Sequence[sp.Expr]]], are: Sequence[sp.Expr]
 ) -> Equation | str:
     """That these are the derivatives of expressions, each along a direction, as a limit; of large ones the text."""
-    if sum(1 for pair in of for _ in sp.preorder_traversal(pair)) > MOST_PARTS:
+    parts = [part for pair in of for part in sp.preorder_traversal(pair)]
+    is_divided = any(isinstance(part, sp.Pow) and part.exp.is_negative for part in parts)
+    if len(parts) * (FRACTIONS if is_divided else 1) > MOST_PARTS:
         return text
     symbols = set().union(*(e.free_symbols for one, along in of for e in (one, *along)), *(e.free_symbols for e in are))
     small, changes = fresh("e", symbols | {*algebra.letters.meanings}), []
@@ -295,7 +292,7 @@ def _certified(
     try:
         case, points = made(*of)
         return case.judged(verdict, id, points)
-    except (BadSystem, ArithmeticError, ValueError) as error:
+    except (ArithmeticError, ValueError, sp.PolynomialError) as error:
         return Certified(verdict, None, str(error).removeprefix(f"{system.name}: "))
 
 
@@ -316,12 +313,12 @@ def _motion(system: System, _: str) -> tuple[Case, Sequence[Point]]:
     ]
     said = r"\frac{d}{dt}\frac{\partial L}{\partial v} - \frac{\partial L}{\partial q} = A^T\lambda + F, A v + b = 0"
     wrong = of.equal(f"{text}, with 1 more in the first", left, [right[0] + 1, *right[1:]])
-    return Case(said, printed, wrong, [], derived, of.premises), of.algebra.points
+    return Case(said, printed, wrong, [], derived, of.premises), of.algebra.rational
 
 
 def _regular(matrix: sp.Matrix, algebra: Algebra) -> Comparison:
     """That a matrix has an inverse at a point."""
-    for point in filter(_is_rational, algebra.points):
+    for point in algebra.rational:
         there = matrix.xreplace(point)
         if not there.has(sp.zoo, sp.nan) and not there.free_symbols and len(pivots(there)) == there.rows:
             product, unit = matrix * there.inv(), sp.eye(matrix.rows)
@@ -331,24 +328,27 @@ def _regular(matrix: sp.Matrix, algebra: Algebra) -> Comparison:
     raise BadSystem("no rational point is found where the equations of motion are regular")
 
 
-def _kept(of: Moving, what: str, quantity: sp.Expr, balance: sp.Expr, name: str) -> Case:
+def _kept(
+    of: Moving, what: str, quantity: sp.Expr, balance: sp.Expr, name: str, at: Mapping[sp.Symbol, sp.Expr] | None = None
+) -> Case:
     """What the rate of a quantity is in the motion: a combination of what the equations set to 0, and more."""
     rate, text = of.rate(quantity, of.now), f"the rate of {what}, by the equations of motion"
     derived = [slopes(of.algebra, f"the rate of {what}", [(quantity, of.now)], [rate])]
-    wrong = of.equal(f"{text}, larger by 1", [rate], [balance + 1])
-    return Case(text, [of.equal(text, [rate], [balance])], wrong, [], derived, of.premises, [f"{name}-motion"])
+    left, right = (e.xreplace(at or {}) for e in (rate, balance))
+    printed, wrong = of.equal(text, [left], [right]), of.equal(f"{text}, larger by 1", [left], [right + 1])
+    return Case(text, [printed], wrong, [], derived, of.premises, [f"{name}-motion"])
 
 
 def _energy(system: System, name: str) -> tuple[Case, Sequence[Point]]:
     of = Moving(system)
     power = sum(map(sp.Mul, of.forces, of.v)) - sum(map(sp.Mul, of.algebra.offsets, of.multipliers))
     along = sum(map(sp.Mul, of.v, of.principle)) + sum(map(sp.Mul, of.multipliers, of.bindings))
-    return _kept(of, "the energy", of.energy, power + along, name), of.algebra.points
+    return _kept(of, "the energy", of.energy, power + along, name), of.algebra.rational
 
 
 def _integral(system: System, name: str, what: str, quantity: sp.Expr) -> tuple[Case, Sequence[Point]]:
     of, is_kept = Moving(system, quantity), conserved(system, quantity).kept
-    (quantity,), points = of.quantities, of.algebra.points
+    (quantity,), points = of.quantities, of.algebra.rational
     if not is_kept:
         return _lost(of, what, quantity, name), points
     slope, x = sp.Matrix([sp.diff(quantity, v) for v in of.v]), sp.Matrix(of.fields).T
@@ -359,7 +359,7 @@ def _integral(system: System, name: str, what: str, quantity: sp.Expr) -> tuple[
     turning = [of.rate(of.bindings[i], of.now) for i in of.kept]
     factors = [of.algebra.ring.reduced(e.xreplace(of.allowed)) for e in (*along, *across)]
     balance = sum((f * e for f, e in zip(factors, (*of.principle, *turning), strict=True)), sp.S.Zero)
-    return _kept(of, what, quantity, balance, name), points
+    return _kept(of, what, quantity, balance, name, of.allowed), points
 
 
 def _lost(of: Moving, what: str, quantity: sp.Expr, name: str) -> Case:
@@ -367,7 +367,7 @@ def _lost(of: Moving, what: str, quantity: sp.Expr, name: str) -> Case:
     rate = of.rate(quantity, of.now)
     zeros = [*of.principle, *of.bindings, *(of.rate(e, of.now) for e in of.bindings)]
     matrix, right = of.equations
-    for point in filter(_is_rational, of.algebra.points):
+    for point in of.algebra.rational:
         at = point | {x: e.xreplace(point) for x, e in of.allowed.items()}
         there = matrix.xreplace(at)
         if any(e.has(sp.zoo, sp.nan) for e in (*at.values(), *there)) or len(pivots(there)) < there.rows:
@@ -387,7 +387,7 @@ def _lost(of: Moving, what: str, quantity: sp.Expr, name: str) -> Case:
 def _minor(vectors: Sequence[Sequence[sp.Expr]], points: Iterable[Point]) -> tuple[sp.Expr, Point, list[int]]:
     """A minor of all vectors, a rational point where it is not 0, and its columns."""
     matrix = sp.Matrix([list(one) for one in vectors])
-    for point in filter(_is_rational, points):
+    for point in points:
         there = matrix.xreplace(point)
         if not there.has(sp.zoo, sp.nan) and not there.free_symbols and len(columns := pivots(there)) == matrix.rows:
             return determinant(matrix.extract(list(range(matrix.rows)), columns)), point, columns
@@ -415,7 +415,7 @@ def _flag(system: System, _: str) -> tuple[Case, Sequence[Point]]:
         raise BadSystem("there is no velocity that the constraints allow")
     lemmas, rows = list[Statement](), found.rows.extract(list(found.kept), list(range(found.rows.cols))).tolist()
     if rows:
-        minor, point, columns = _minor(rows, algebra.points)
+        minor, point, columns = _minor(rows, algebra.rational)
         lemmas.append(_not_0("a minor of the constraints is not 0 at a point", minor, point))
         for i in (i for i in range(found.rows.rows) if i not in found.kept):
             lemmas += _bordering(algebra, f"constraint {i + 1} depends on others", rows, columns, found.rows[i, :])
@@ -427,13 +427,13 @@ def _flag(system: System, _: str) -> tuple[Case, Sequence[Point]]:
     lemmas += (more := _brackets(algebra, names, vectors, [*made, *inside]))[0]
     printed = list[Statement]()
     for size in growth:
-        minor, point, columns = _minor(vectors[:size], algebra.points)
+        minor, point, columns = _minor(vectors[:size], algebra.rational)
         printed.append(_not_0(f"{', '.join(names[:size])} span {size} dimensions at a point", minor, point))
     for name, x, _ in inside:
         printed += _bordering(algebra, f"{name} is in the span of {', '.join(names)}", vectors, columns, x)
     wrong = _vanish(f"{', '.join(names)} are dependent", [minor], algebra)
     premises = [f"{x} is {stands}, and changes as that does" for x, stands in algebra.letters.meanings.items()]
-    return Case(str(found.flag), printed, wrong, lemmas, more[1], premises), algebra.points
+    return Case(str(found.flag), printed, wrong, lemmas, more[1], premises), algebra.rational
 
 
 def _vanish(text: str, what: Sequence[sp.Expr], algebra: Algebra) -> Equation:
@@ -483,7 +483,7 @@ def _volume(system: System, name: str) -> tuple[Case, Sequence[Point]]:
     derivatives = slopes(of.algebra, "the derivatives of the motion", own, [of.rate(*one) for one in own])
     printed = [of.equal(text, [sum(spread)], [-rate]), *([] if isinstance(derivatives, str) else [derivatives])]
     wrong = of.equal(f"{text}, larger by 1", [sum(spread)], [1 - rate])
-    return Case(text, printed, wrong, [], [], of.premises, [f"{name}-motion"]), of.algebra.points
+    return Case(text, printed, wrong, [], [], of.premises, [f"{name}-motion"]), of.algebra.rational
 
 
 def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Sequence[Point]]:
@@ -494,20 +494,25 @@ def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Sequence[
     vectors = []
     for field, one in zip(fields, spread, strict=True):
         above, below = sp.fraction(one)
-        vectors.append(list(map(algebra.ring.normal, [*(below * e for e in field), -above])))
+        vectors.append(algebra.normal([*(below * e for e in field), -above]))
     names, made = [f"Y{i + 1}" for i in range(len(vectors))], list[Any]()
     newest = range(len(vectors))
     for level in range(MOST_LEVELS):
         pairs = [(i, j) for i in range(len(fields)) for j in newest if level or i < j]
         newest = range(len(vectors), len(vectors) + len(pairs))
         for i, j in pairs:
-            vectors.append(list(map(algebra.ring.normal, bracket_of(vectors[i], vectors[j], algebra))))
-            names.append(f"[{names[i]}, {names[j]}]")
-            made.append((names[-1], vectors[-1], (i, j, sp.S.One)))
-        for point in filter(_is_rational, algebra.points):
+            bracket, times = algebra.cleared(bracket_of(vectors[i], vectors[j], algebra))
+            made.append((f"[{names[i]}, {names[j]}]", bracket, (i, j, times)))
+            names.append(made[-1][0])
+            vectors.append(bracket)
+        for point in algebra.rational:
             if len(rows := pivots(sp.Matrix(vectors).xreplace(point).T)) > most:
                 rows = rows[: most + 1]
                 minor, point, _ = _minor([vectors[i] for i in rows], [point])
+                needed = set(rows)
+                for k, (_, _, (i, j, _)) in reversed([*enumerate(made, len(fields))]):
+                    needed |= {i, j} if k in needed else set()
+                made = [one for k, one in enumerate(made, len(fields)) if k in needed]
                 lemmas, derived = _brackets(algebra, names, vectors, made)
                 text = f"{', '.join(names[i] for i in rows)} span {most + 1} dimensions at a point"
                 lemmas.append(Equation("the divergence of each field", formed, spread, algebra.ring))
@@ -517,7 +522,7 @@ def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Sequence[
                 inferred += "then multiples Y of (X, -θ), and their brackets, are tangent to the graph of f, which has "
                 inferred += f"at most {most} dimensions that brackets span"
                 return Case(str(kept), [_not_0(text, minor, point)], _vanish("they do not", [minor], algebra), lemmas,
-                            derived, of.premises, [f"{name}-motion", f"{name}-flag"], inferred), algebra.points  # fmt: skip
+                            derived, of.premises, [f"{name}-motion", f"{name}-flag"], inferred), algebra.rational  # fmt: skip
     raise BadSystem("no rational point is found where the brackets span more")
 
 
@@ -621,7 +626,7 @@ def _changed(system: System, scheme: Scheme, quantity: sp.Expr, what: str, found
     def wave(of: sp.Expr) -> sp.Expr:
         coefficients = [sp.Poly(of.args[0], STEP).nth(k) for k in range(most)]
         value = fmpq_series([fmpq(int(c.p), int(c.q)) for c in coefficients])
-        return polynomial(getattr(value, of.func.__name__)())
+        return polynomial(evaluated([of.func(STEP)], {STEP: value})[0])
 
     def equal(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> Equation:
         """With all that is beyond, which is shorter so than as a cofactor."""

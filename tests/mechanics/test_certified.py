@@ -1,0 +1,156 @@
+"""Exact verdicts as certificates: what is written the checker accepts, and what is not so gets none."""
+
+import copy
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import sympy as sp
+from commands import answer, chapsym
+from sympy import cos, sin, sqrt, symbols
+
+from chapsym import checker
+from chapsym.mechanics import METHODS, System, certified, dot, loaded
+
+ROOT = Path(__file__).parents[2]
+SYSTEMS = ROOT / "docs/examples/systems"
+x, y, z, a = symbols("x y z a")
+FREE = sum(dot(q) ** 2 for q in (x, y, z)) / 2
+OWN = ["motion", "energy", "flag", "volume"]
+
+
+def particle(**more):
+    return System("particle", (x, y, z), FREE, [dot(z) - y * dot(x)], **more)
+
+
+def judged(*files):
+    """What the checker says without chapsym, and its exit status."""
+    command = [sys.executable, "-S", "-I", ROOT / "checker", *files]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout + done.stderr
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """The certificates of the sleigh and the disc that rolls upright, by the command."""
+    folder = tmp_path_factory.mktemp("certificates")
+    methods = [part for name in ("dla", "gni", "rk4") for part in ("--method", name)]
+    files = SYSTEMS / "sleigh.py", SYSTEMS / "vertical_disc.py"
+    said = answer("lab", *files, *methods, "--steps", 20, "--certificates", folder)["certificates"]
+    return folder, said
+
+
+def test_the_checker_accepts_what_the_command_wrote(written):
+    folder, said = written
+    claims = {claim for one in said.values() for claim in one["claims"]}
+    assert claims == {path.stem for path in folder.iterdir()}
+    assert {f"chaplygin-sleigh-{name}" for name in (*OWN, "dla-returns", "gni-keeps-1", "rk4-order")} <= claims
+    assert {f"vertical-rolling-disc-{name}" for name in (*OWN, "dla-order", "dla-keeps-2")} <= claims
+    status, text = judged(*folder.iterdir())
+    assert (status, text.count("accepted")) == (0, len(claims))
+
+
+def test_a_verdict_without_a_certificate_is_named_with_the_reason(written):
+    none = written[1]["Chaplygin sleigh"]["none"]
+    reasons = {verdict: why for why, verdicts in none.items() for verdict in verdicts}
+    assert reasons["dla: keeps the constraints"].startswith("it is one of the equations")
+    assert "stages" in reasons["rk4: keeps the energy"]
+
+
+@pytest.mark.parametrize("name", [*OWN, "dla-order", "dla-adjoint", "dla-returns", "dla-keeps-1", "rk4-order"])
+def test_what_is_tampered_with_is_refused(written, name, tmp_path):
+    """With the sentence and the digest of what it says now."""
+    folder, _ = written
+    data = json.loads((folder / f"chaplygin-sleigh-{name}.json").read_text(encoding="utf-8"))
+    tampered = 0
+    for part in ("statements", "comparisons"):
+        for i, one in enumerate(data[part]):
+            if one["role"] != "printed":
+                continue
+            wrong = copy.deepcopy(data)
+            if part == "statements":
+                wrong[part][i]["right"][0] = ["+", one["right"][0], 1]
+            else:
+                wrong[part][i]["relations"][0][0] = {"=": "!=", "!=": "="}[one["relations"][0][0]]
+            wrong["statement"] = checker.statement(wrong)
+            wrong["digest"] = checker.digest(wrong)
+            file = tmp_path / f"{part}-{i}.json"
+            file.write_text(json.dumps(wrong), encoding="utf-8")
+            used = [folder / f"{claim}.json" for claim in data["uses"]]
+            status, text = judged(file, *used)
+            assert status == 1
+            assert "rejected" in text
+            tampered += 1
+    assert tampered
+
+
+@pytest.mark.parametrize(("verdict", "part"), [("motion", "mass"), ("motion", "push"), ("energy", "energy")])
+def test_what_is_not_so_has_no_certificate(verdict, part):
+    """A wrong equation of the lab is no equation of the Lagrangian."""
+    system = System("bead", (x, y), dot(x) ** 2 + dot(y) ** 2 - x**2, [dot(y) - x * dot(x)])
+    assert all(one.certificate for one in certified(system))
+    wrong = System("bead", (x, y), dot(x) ** 2 + dot(y) ** 2 - x**2, [dot(y) - x * dot(x)])
+    wrong.__dict__[part] = getattr(system, part) + sp.ones(2, {"mass": 2, "push": 1}.get(part, 1)) * x if (
+        part != "energy") else system.energy + x  # fmt: skip
+    found = {one.verdict: one for one in certified(wrong)}
+    assert found[verdict].certificate is None
+    assert "not proved" in found[verdict].why
+
+
+SMALL = {
+    "affine, a function of time": System("belt", (x, y), dot(x) ** 2 + dot(y) ** 2, [dot(y) - x * dot(x) - 1]),
+    "integrable": System("pulled", (x, y), dot(x) ** 2 + dot(y) ** 2, [x * dot(x) + y * dot(y)]),
+    "dependent constraints": System("twice", (x, y, z), FREE, [dot(z) - y * dot(x), 2 * dot(z) - 2 * y * dot(x)]),
+    "no constraint, a force": System("damped", (x,), dot(x) ** 2 / 2, forces={x: -dot(x)}),
+    "a place on a circle": System("ring", (x, y), dot(x) ** 2 + dot(y) ** 2 - y, holonomic=[x**2 + y**2 - 1]),
+    "a root": System("bent", (x, y, z), FREE, [dot(z) - sqrt(1 + y**2) * dot(x)]),
+    "a turned edge": System("edge", (x, y, a), dot(x) ** 2 + dot(y) ** 2 + dot(a) ** 2 - cos(a),
+                            [sin(a) * dot(x) - cos(a) * dot(y)]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", SMALL)
+def test_systems_of_each_kind(what):
+    found = {one.verdict: one for one in certified(SMALL[what])}
+    for verdict in ("motion", "energy", "flag"):
+        assert found[verdict].certificate, found[verdict].why
+        checker.check(dict(found[verdict].certificate))
+
+
+def test_an_integral_is_kept_or_changes_at_a_state():
+    system = particle(integrals={"kept": (1 + y**2) * dot(x) ** 2, "lost": dot(x)})
+    found = {one.verdict: one.certificate for one in certified(system)}
+    assert [one["text"] for one in found["kept"]["statements"] if one["role"] == "printed"] == [
+        "the rate of kept, by the equations of motion"
+    ]
+    (lost,) = found["lost"]["comparisons"]
+    assert lost["relations"][-1][0] == "!="
+    assert found["kept"]["uses"] == found["lost"]["uses"] == ["particle-motion"]
+
+
+def test_a_quantity_that_changes_is_shown_by_the_power_that_the_lab_says():
+    found = {one.verdict: one for one in certified(particle(), [name for name in METHODS if name != "own"])}
+    data = found["midpoint: keeps the energy"].certificate
+    printed = [one for one in data["statements"] if one["role"] == "printed"]
+    assert "'step_length', 3" in str(printed[0]["right"])
+    assert "^', 'step_length', 2" not in str(printed[0]["right"])
+
+
+def test_two_systems_need_two_names(tmp_path):
+    for name in ("one", "two"):
+        text = (SYSTEMS / "particle.py").read_text(encoding="utf-8")
+        (tmp_path / f"{name}.py").write_text(
+            text.replace('"nonholonomic particle"', f'"a particle of many names {name}"')
+        )
+    done = chapsym("lab", tmp_path, "--method", "dla", "--steps", 5, "--certificates", tmp_path / "out")
+    assert done.returncode == 2
+    assert "certificates of one name" in done.stderr
+
+
+def test_suslov_has_its_own_and_they_are_no_equations_of_the_lab():
+    system = loaded(SYSTEMS / "suslov.py")
+    found = {one.verdict: one for one in certified(system)}
+    assert {verdict for verdict, one in found.items() if one.certificate} == set(OWN)
+    assert found["volume"].certificate["uses"] == ["suslov-flag", "suslov-motion"]
