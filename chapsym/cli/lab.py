@@ -55,7 +55,7 @@ def lab(
     """
     from chapsym.files import write_text
     from chapsym.mechanics import METHODS, BadSystem, loaded
-    from chapsym.mechanics.certified import name_of
+    from chapsym.mechanics.cases import name_of
     from chapsym.show.lab import COLUMNS
 
     if output is not None and output.suffix not in (".json", ".html"):

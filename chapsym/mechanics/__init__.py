@@ -10,7 +10,8 @@
 
 from .attitude import Quaternion, Turned
 from .brackets import Flag, flag
-from .certified import Certified, certified
+from .cases import Certified
+from .certified import certified
 from .density import Volume, volume
 from .equations import Agreement, Conservation, agree, conserved, in_symbols, of_kane
 from .judged import Verdict, verdicts

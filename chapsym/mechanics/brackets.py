@@ -100,12 +100,15 @@ def flag(system: System) -> Flag:
     return spanned(system).flag
 
 
+#: The numbers of two vectors, and the roots by which their bracket is multiplied.
+Bracketed = tuple[int, int, sp.Expr]
+
+
 @dataclass(frozen=True)
 class Span:
     """What proves a flag: rows A, of which those in `kept` are independent, and fields and brackets that span.
 
-    Of each vector, `made` has the two of which it is the bracket, and the roots that this is multiplied by; `inside` has
-    brackets that the others span.
+    `made` has of which two vectors one is a bracket; `inside` has brackets that the others span.
     """
 
     flag: Flag
@@ -113,8 +116,8 @@ class Span:
     rows: sp.Matrix
     kept: Sequence[int]
     vectors: Sequence[Sequence[sp.Expr]]
-    made: Sequence[tuple[int, int, sp.Expr] | None]
-    inside: Sequence[tuple[Sequence[sp.Expr], tuple[int, int, sp.Expr]]]
+    made: Sequence[Bracketed | None]
+    inside: Sequence[tuple[Sequence[sp.Expr], Bracketed]]
 
 
 def spanned(system: System) -> Span:
@@ -135,7 +138,8 @@ def spanned(system: System) -> Span:
     if with_time and all(algebra.is_zero(field[-1]) for field in fields):
         raise BadSystem(f"{system.name}: the constraints contradict each other: no motion obeys them")
     span, newest, growth = list(fields), list(range(len(fields))), [len(fields)]
-    made, inside = [None] * len(fields), []
+    made: list[Bracketed | None] = [None] * len(fields)
+    inside = []
     while newest and len(span) < dimension:
         before, newest = newest, []
         for i, j in product(range(len(fields)), before):

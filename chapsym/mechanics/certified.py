@@ -2,131 +2,37 @@
 
 The statements are equations between rational functions of coordinates, velocities and letters, with the numbers of the
 parameters: those of sines, cosines and roots, whose relations are hypotheses.  Velocities that the constraints bind are
-written by the others.  That something is the derivative of something is said as a limit, which is such an equation; that
-a rank is reached, by a minor that is not 0 at a rational point.
+written by the others.  That something is the derivative of something is said as a limit, which is such an equation;
+that a rank is reached, by a minor that is not 0 at a rational point.
 """
 
-import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
 import sympy as sp
-from flint import fmpq, fmpq_poly, fmpq_series
 
 from chapsym.derive import Quotient
-from chapsym.prove import Claim, Comparison, Equation, Examples, Identity, Proof, Verdict, tends
-from chapsym.prove.polynomials import parameters
+from chapsym.prove import Comparison, Equation, tends
 from chapsym.prove.statements import Statement
-from chapsym.prove.witness import true_at
 
 from .algebra import Algebra, Point, adjugate, determinant, pivots
-from .brackets import bracket_of, flag, spanned
+from .brackets import Bracketed, bracket_of, flag, spanned
+from .cases import MOST_LETTERS, Case, Certified, Made, fresh, made, name_of
+from .certified_steps import of_method
 from .density import MOST_LEVELS, Volume, divergences, volume
 from .equations import OnShell, conserved
-from .judged import Combination, Decided, _quantities, decided, tableau_conditions
-from .lab import keeps
-from .methods import METHODS, Scheme
-from .series import Exact, _at, evaluated, replaced, terms
-from .system import STEP, BadSystem, System
+from .system import BadSystem, System
 
-#: Letters of the name of a system in the id of a claim.
-LETTERS = 22
-#: Why what a method says itself has no certificate.
-SAID = "it is one of the equations, so that nothing is to be decided"
-#: The first cells of a method in the ids of its claims.
-CELLS = ("order", "adjoint", "returns")
-#: Of an equation in words.
-MOST_LETTERS = 3000
 #: Of what has more parts, derivatives are not given to the checker; those of what divides count more.
 MOST_PARTS, FRACTIONS = 1500, 5
 
 
-@dataclass(frozen=True)
-class Certified:
-    """An exact verdict, with its certificate or why it has none.
-
-    Attributes
-    ----------
-    verdict : str
-        Of what it is: "motion", "energy", "dla: order".
-    certificate : dict or None
-        As `chapsym.prove` writes it, accepted by the checker.
-    why : str
-        Why there is none.
-    """
-
-    verdict: str
-    certificate: Mapping[str, Any] | None = None
-    why: str = ""
-
-
-@dataclass(frozen=True)
-class Case:
-    """What a claim says, what proves it, and a false variant of that; premises are in words.
-
-    Where the certificate is too large there may be another `instead`, and `derived`, that some expressions are
-    derivatives, is said in words.
-    """
-
-    said: str
-    printed: Sequence[Statement]
-    control: Statement
-    lemmas: Sequence[Statement] = ()
-    derived: Sequence[Statement | str] = ()
-    premises: Sequence[str] = ()
-    uses: Sequence[str] = ()
-    inferred: str = ""
-    instead: "Callable[[], Case] | None" = None
-
-    def judged(self, verdict: str, id: str, points: Sequence[Point] = ()) -> Certified:
-        """By its own proof, run now, and by the checker; at one of some points, where it has a value."""
-        found = self._judged(verdict, id, points)
-        if found.certificate:
-            return found
-        if self.instead:
-            return self.instead().judged(verdict, id, points)
-        texts = [one if isinstance(one, str) else one.text for one in self.derived]
-        return found if texts == self.derived else replace(self, derived=texts).judged(verdict, id, points)
-
-    def _judged(self, verdict: str, id: str, points: Sequence[Point]) -> Certified:
-        texts = [one for one in self.derived if isinstance(one, str)]
-        statements = [*(one for one in self.derived if not isinstance(one, str)), *self.lemmas, *self.printed]
-        related = [one for one in statements if isinstance(one, Equation) and one.algebra.relations]
-
-        def prove(p: Proof) -> None:
-            at = (x for x in points if all(true_at(one, x) for one in related if _covers(x, one)))
-            p.examples = Examples(numbers=next(at, {}))
-            for text in (*self.premises, *(f"{text}: as chapsym forms them" for text in texts)):
-                p.assume(text)
-            if self.inferred:
-                p.infers(self.inferred)
-            p.lemma(*statements[: -len(self.printed)])
-            p.printed(*self.printed)
-            p.control(self.control)
-            for one in statements:
-                if isinstance(one, Comparison | Identity):
-                    point = getattr(one, "point", {})
-                    p.witness("point", {x.name: str(v) for x, v in point.items()}, one)
-
-        found = Claim(id, self.said, tuple(self.uses), prove).judge().certified()
-        data, problems = found.certificate, found.proof.problems
-        left = [one["text"] for one in data["sentences"] if one["role"] in ("printed", "lemma")] if data else []
-        if data is None or data["verdict"] != Verdict.HOLDS or left:
-            return Certified(verdict, None, next(iter([*problems, *left]), SAID))
-        return Certified(verdict, data)
-
-
-def _covers(point: Point, one: Equation) -> bool:
-    """Whether it has a value for each letter; other symbols are free."""
-    return set().union(*(e.free_symbols for e in (*one.left, *one.right))) <= point.keys()
-
-
-def name_of(system: System) -> str:
-    """The beginning of the ids of its claims."""
-    plain = re.sub(r"[^A-Za-z0-9]+", "-", system.name).strip("-")[:LETTERS].strip("-").lower()
-    return plain or "system"
+#: Why there is no volume.
+INFERRED = (
+    "a density exp f of the place is kept only if X f = -θ for each field X with its divergence θ; then multiples Y of "
+    "(X, -θ), and their brackets, are tangent to the graph of f, so that brackets span at most {} dimensions"
+)
 
 
 def rate_along(algebra: Algebra, of: sp.Expr, directions: Sequence[sp.Expr]) -> sp.Expr:
@@ -150,13 +56,6 @@ def slopes(
         changes.append(one.xreplace({x: x + small * e for x, e in by.items() if e != 0}) - one)
     symbols = set().union({small}, *(e.free_symbols for e in (*changes, *are)))
     return tends(text, changes, small, 1, list(are), Quotient(sorted(symbols, key=str)))
-
-
-def fresh(name: str, taken: Collection[sp.Symbol]) -> sp.Symbol:
-    """A symbol that is none of some others."""
-    while sp.Symbol(name) in taken:
-        name += "_"
-    return sp.Symbol(name)
 
 
 class Moving(OnShell):
@@ -185,8 +84,8 @@ class Moving(OnShell):
 
     def equal(self, text: str, left: Sequence[Any], right: Sequence[Any]) -> Equation:
         """In the ring of the system."""
-        sides = [[sp.sympify(e, strict=True) for e in side] for side in (left, right)]
-        return Equation(text, *sides, self.ring(*sides[0], *sides[1]))
+        left, right = ([sp.sympify(e, strict=True) for e in side] for side in (left, right))
+        return Equation(text, left, right, self.ring(*left, *right))
 
     @cached_property
     def principle(self) -> list[sp.Expr]:
@@ -230,12 +129,13 @@ class Moving(OnShell):
 
     @cached_property
     def premises(self) -> list[str]:
-        """What the letters are."""
+        """What the letters are, and the system."""
         meanings, bound = self.algebra.letters.meanings, ", ".join(map(str, self.allowed))
         return [
             *(f"{x} is {value}" for x, value in self.system.parameters.items()),
             *(f"{letter} is {stands}, and changes as that does" for letter, stands in meanings.items()),
-            *([f"the constraints bind {bound}, which are written by the other velocities"] if bound else []),
+            *([f"the constraints bind {bound}, which the other velocities determine"] if bound else []),
+            *(text for text in (f"L is {self.lagrangian}", f"A v + b is {self.bindings}") if len(text) < MOST_LETTERS),
         ]
 
 
@@ -259,53 +159,29 @@ def certified(system: System, methods: Sequence[str] = ()) -> Iterator[Certified
     >>> from chapsym.mechanics import System, certified, dot
     >>> x, y, z = symbols("x y z")
     >>> particle = System("particle", (x, y, z), sum(dot(q) ** 2 for q in (x, y, z)) / 2, [dot(z) - y * dot(x)])
-    >>> [one.verdict for one in certified(particle, ["dla"]) if one.certificate]
-    ['motion', 'energy', 'flag', 'volume', 'dla: order', 'dla: self-adjoint', 'dla: reversible', 'dla: keeps the energy']
+    >>> ", ".join(one.verdict for one in certified(particle, ["dla"]) if one.certificate)
+    'motion, energy, flag, volume, dla: self-adjoint, dla: order, dla: reversible, dla: keeps the energy'
     """
-    name = name_of(system)
+    name, known = name_of(system), set[str]()
     own = {"motion": _motion, "energy": _energy, "flag": _flag, "volume": _volume}
-    for verdict, made in own.items():
-        yield _certified(system, verdict, f"{name}-{verdict}", made, system, name)
+    for verdict, case_of in own.items():
+        yield made(system, verdict, f"{name}-{verdict}", known, case_of, system, name)
     for i, (what, quantity) in enumerate(system.integrals.items()):
-        yield _certified(system, what, f"{name}-integral-{i + 1}", _integral, system, name, what, quantity)
+        yield made(system, what, f"{name}-integral-{i + 1}", known, _integral, system, name, what, quantity)
     for method in methods:
-        scheme = METHODS[method].scheme(system)
-        quantities = _quantities(system, scheme.integrals)
-        for i, (what, found) in enumerate(decided(system, scheme).items()):
-            id = f"{name}-{method}-{(*CELLS, *(f'keeps-{k + 1}' for k in range(i)))[i]}"
-            uses = (
-                [f"{name}-{method}-adjoint"]
-                if what == "order" and not scheme.stages and found.verdict.said > "1"
-                else []
-            )
-            more = system, scheme, what, found, quantities.get(what.removeprefix("keeps ")), uses
-            if found.verdict.verdict != "measured":
-                yield _certified(system, f"{method}: {what}", id, _of_method, *more)
-        if keeps(system, scheme):
-            yield Certified(f"{method}: keeps the constraints", None, SAID)
+        yield from of_method(system, method, f"{name}-{method}")
 
 
-def _certified(
-    system: System, verdict: str, id: str, made: Callable[..., tuple[Case, Sequence[Point]]], *of: Any
-) -> Certified:
-    """A verdict by the case that is made of it."""
-    try:
-        case, points = made(*of)
-        return case.judged(verdict, id, points)
-    except (ArithmeticError, ValueError, sp.PolynomialError) as error:
-        return Certified(verdict, None, str(error).removeprefix(f"{system.name}: "))
-
-
-def _motion(system: System, _: str) -> tuple[Case, Sequence[Point]]:
+def _motion(system: System, _: str) -> Made:
     of = Moving(system)
     n, gradient = len(of.q), [of.rate(of.lagrangian, unit) for unit in sp.eye(2 * len(of.q)).tolist()]
     rates = [of.rate(e, of.now) for e in (*of.momenta, *of.bindings)]
     matrix = of.mass.row_join(-of.algebra.rows.T).col_join(of.algebra.rows.row_join(sp.zeros(len(of.bindings))))
     right = list(matrix * sp.Matrix([*of.acceleration, *of.multipliers]) - sp.Matrix([*of.forced, *of.turning]))
     left, text = [*of.principle, *rates[n:]], "the equations are linear in the accelerations and multipliers"
-    printed = [of.equal(text, left, right), _regular(of.equations[0], of.algebra)]
+    printed: list[Statement] = [of.equal(text, left, right), _regular(of.equations[0], of.algebra)]
     along = [(e, of.now) for e in (*of.momenta, *of.bindings)]
-    derived = [
+    derived: list[Statement | str] = [
         slopes(
             of.algebra, "the derivatives of L", [(of.lagrangian, of.change)], [sum(map(sp.Mul, gradient, of.change))]
         ),
@@ -316,15 +192,20 @@ def _motion(system: System, _: str) -> tuple[Case, Sequence[Point]]:
     return Case(said, printed, wrong, [], derived, of.premises), of.algebra.rational
 
 
+def _full(matrix: sp.Matrix, points: Iterable[Point]) -> Iterator[tuple[Point, sp.Matrix, list[int]]]:
+    """Points at which the rows of a matrix are independent, the matrix there, and columns that are."""
+    for point in points:
+        there = matrix.xreplace(point)
+        if not there.has(sp.zoo, sp.nan) and not there.free_symbols and len(columns := pivots(there)) == matrix.rows:
+            yield point, there, columns
+
+
 def _regular(matrix: sp.Matrix, algebra: Algebra) -> Comparison:
     """That a matrix has an inverse at a point."""
-    for point in algebra.rational:
-        there = matrix.xreplace(point)
-        if not there.has(sp.zoo, sp.nan) and not there.free_symbols and len(pivots(there)) == there.rows:
-            product, unit = matrix * there.inv(), sp.eye(matrix.rows)
-            relations = [sp.Eq(a, b, evaluate=False) for a, b in zip(product, unit, strict=True)]
-            at = {x: point[x] for x in matrix.free_symbols}
-            return Comparison("they determine these at a point, where their matrix has an inverse", relations, at)
+    for point, there, _ in _full(matrix, algebra.rational):
+        products = zip(matrix * there.inv(), sp.eye(matrix.rows), strict=True)
+        relations, at = [sp.Eq(a, b, evaluate=False) for a, b in products], {x: point[x] for x in matrix.free_symbols}
+        return Comparison("they determine these at a point, where their matrix has an inverse", relations, at)
     raise BadSystem("no rational point is found where the equations of motion are regular")
 
 
@@ -332,21 +213,22 @@ def _kept(
     of: Moving, what: str, quantity: sp.Expr, balance: sp.Expr, name: str, at: Mapping[sp.Symbol, sp.Expr] | None = None
 ) -> Case:
     """What the rate of a quantity is in the motion: a combination of what the equations set to 0, and more."""
-    rate, text = of.rate(quantity, of.now), f"the rate of {what}, by the equations of motion"
+    rate = of.rate(quantity, of.now)
+    text = f"the rate of {what} is {'what the equations set to 0' if at else '⟨F, v⟩ - ⟨b, λ⟩, and what they set to 0'}"
     derived = [slopes(of.algebra, f"the rate of {what}", [(quantity, of.now)], [rate])]
     left, right = (e.xreplace(at or {}) for e in (rate, balance))
     printed, wrong = of.equal(text, [left], [right]), of.equal(f"{text}, larger by 1", [left], [right + 1])
     return Case(text, [printed], wrong, [], derived, of.premises, [f"{name}-motion"])
 
 
-def _energy(system: System, name: str) -> tuple[Case, Sequence[Point]]:
+def _energy(system: System, name: str) -> Made:
     of = Moving(system)
     power = sum(map(sp.Mul, of.forces, of.v)) - sum(map(sp.Mul, of.algebra.offsets, of.multipliers))
     along = sum(map(sp.Mul, of.v, of.principle)) + sum(map(sp.Mul, of.multipliers, of.bindings))
     return _kept(of, "the energy", of.energy, power + along, name), of.algebra.rational
 
 
-def _integral(system: System, name: str, what: str, quantity: sp.Expr) -> tuple[Case, Sequence[Point]]:
+def _integral(system: System, name: str, what: str, quantity: sp.Expr) -> Made:
     of, is_kept = Moving(system, quantity), conserved(system, quantity).kept
     (quantity,), points = of.quantities, of.algebra.rational
     if not is_kept:
@@ -367,19 +249,21 @@ def _lost(of: Moving, what: str, quantity: sp.Expr, name: str) -> Case:
     rate = of.rate(quantity, of.now)
     zeros = [*of.principle, *of.bindings, *(of.rate(e, of.now) for e in of.bindings)]
     matrix, right = of.equations
-    for point in of.algebra.rational:
-        at = point | {x: e.xreplace(point) for x, e in of.allowed.items()}
-        there = matrix.xreplace(at)
-        if any(e.has(sp.zoo, sp.nan) for e in (*at.values(), *there)) or len(pivots(there)) < there.rows:
+    bound = sp.Matrix(list(of.allowed.values()))
+    for point, there, _ in _full(matrix, of.algebra.rational):
+        if (values := bound.xreplace(point)).has(sp.zoo, sp.nan):
             continue
-        found = [*there.LUsolve(right.xreplace(at))]
-        at |= dict(zip([*of.acceleration, *(of.multipliers[i] for i in of.kept)], found, strict=True))
-        at |= {x: sp.S.Zero for x in of.multipliers if x not in at}
+        at = point | dict(zip(of.allowed, values, strict=True)) | dict.fromkeys(of.multipliers, sp.S.Zero)
+        free = [*of.acceleration, *(of.multipliers[i] for i in of.kept)]
+        at |= dict(zip(free, there.LUsolve(right.xreplace(at)), strict=True))
         if rate.xreplace(at) != 0:
             state = [sp.Eq(e, 0, evaluate=False) for e in zeros]
             at = {x: v for x, v in at.items() if x in set().union(rate.free_symbols, *(e.free_symbols for e in zeros))}
             text = f"the rate of {what} is not 0 at a state of the motion"
-            said, wrong = (Comparison(text, [*state, e(rate, 0, evaluate=False)], at) for e in (sp.Ne, sp.Eq))
+            wrong, said = (
+                Comparison(text, [*state, e], at)
+                for e in (sp.Eq(rate, 0, evaluate=False), sp.Ne(rate, 0, evaluate=False))
+            )
             return Case(text, [said], wrong, [], [], of.premises, [f"{name}-motion"])
     raise BadSystem("no rational state is found where it changes")
 
@@ -387,10 +271,8 @@ def _lost(of: Moving, what: str, quantity: sp.Expr, name: str) -> Case:
 def _minor(vectors: Sequence[Sequence[sp.Expr]], points: Iterable[Point]) -> tuple[sp.Expr, Point, list[int]]:
     """A minor of all vectors, a rational point where it is not 0, and its columns."""
     matrix = sp.Matrix([list(one) for one in vectors])
-    for point in points:
-        there = matrix.xreplace(point)
-        if not there.has(sp.zoo, sp.nan) and not there.free_symbols and len(columns := pivots(there)) == matrix.rows:
-            return determinant(matrix.extract(list(range(matrix.rows)), columns)), point, columns
+    for point, _, columns in _full(matrix, points):
+        return determinant(matrix.extract(list(range(matrix.rows)), columns)), point, columns
     raise BadSystem("no rational point is found where the rank is what it is almost everywhere")
 
 
@@ -408,7 +290,7 @@ def _bordering(
     return [_vanish(text, minors, algebra)] if any(minors) else []
 
 
-def _flag(system: System, _: str) -> tuple[Case, Sequence[Point]]:
+def _flag(system: System, _: str) -> Made:
     found = spanned(system)
     algebra, growth, vectors = found.algebra, found.flag.growth, found.vectors
     if not vectors:
@@ -422,30 +304,30 @@ def _flag(system: System, _: str) -> tuple[Case, Sequence[Point]]:
         products = list(found.rows * sp.Matrix(list(map(list, vectors[: growth[0]]))).T)
         lemmas.append(_vanish("the fields obey the constraints", products, algebra))
     names = [f"X{i + 1}" for i in range(len(vectors))]
-    inside = [(f"B{i + 1}", *one) for i, one in enumerate(found.inside)]
-    made = [(name, x, of) for name, x, of in zip(names, vectors, found.made, strict=True) if of]
-    lemmas += (more := _brackets(algebra, names, vectors, [*made, *inside]))[0]
+    inside = [(f"B{i + 1}", x, of) for i, (x, of) in enumerate(found.inside)]
+    brackets = [(name, x, of) for name, x, of in zip(names, vectors, found.made, strict=True) if of]
+    more, derived = _brackets(algebra, names, vectors, [*brackets, *inside])
+    lemmas += more
     printed = list[Statement]()
     for size in growth:
         minor, point, columns = _minor(vectors[:size], algebra.rational)
         printed.append(_not_0(f"{', '.join(names[:size])} span {size} dimensions at a point", minor, point))
-    for name, x, _ in inside:
+    for name, x, *_parts in inside:
         printed += _bordering(algebra, f"{name} is in the span of {', '.join(names)}", vectors, columns, x)
     wrong = _vanish(f"{', '.join(names)} are dependent", [minor], algebra)
     premises = [f"{x} is {stands}, and changes as that does" for x, stands in algebra.letters.meanings.items()]
-    return Case(str(found.flag), printed, wrong, lemmas, more[1], premises), algebra.rational
+    return Case(str(found.flag), printed, wrong, lemmas, derived, premises), algebra.rational
 
 
 def _vanish(text: str, what: Sequence[sp.Expr], algebra: Algebra) -> Equation:
     return Equation(text, list(what), [sp.S.Zero] * len(what), algebra.ring)
 
 
-#: Vectors that are brackets, by a name, with the numbers of the two and the roots by which the bracket is multiplied.
-Made = Sequence[tuple[str, Sequence[sp.Expr], tuple[int, int, sp.Expr]]]
-
-
 def _brackets(
-    algebra: Algebra, names: Sequence[str], vectors: Sequence[Sequence[sp.Expr]], made: Made
+    algebra: Algebra,
+    names: Sequence[str],
+    vectors: Sequence[Sequence[sp.Expr]],
+    made: Iterable[tuple[str, Sequence[sp.Expr], Bracketed]],
 ) -> tuple[list[Statement], list[Statement | str]]:
     """That vectors are brackets, but for those that are 0, and that what these are made of are derivatives."""
     lemmas, derived = list[Statement](), list[Statement | str]()
@@ -460,11 +342,11 @@ def _brackets(
     return lemmas, derived
 
 
-def _volume(system: System, name: str) -> tuple[Case, Sequence[Point]]:
+def _volume(system: System, name: str) -> Made:
     kept = volume(system)
     if not kept.by:
         raise BadSystem("nothing moves")
-    if not kept.kept:
+    if kept.density is None:
         return _no_volume(system, kept, name)
     factors = kept.density.as_powers_dict().items()
     of = Moving(system, *(factor for factor, _ in factors))
@@ -486,7 +368,7 @@ def _volume(system: System, name: str) -> tuple[Case, Sequence[Point]]:
     return Case(text, printed, wrong, [], [], of.premises, [f"{name}-motion"]), of.algebra.rational
 
 
-def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Sequence[Point]]:
+def _no_volume(system: System, kept: Volume, name: str) -> Made:
     """Brackets of fields with their divergences span more than those of the fields."""
     of = Moving(system)
     algebra, most = of.algebra, flag(system).growth[-1]
@@ -516,142 +398,8 @@ def _no_volume(system: System, kept: Volume, name: str) -> tuple[Case, Sequence[
                 lemmas, derived = _brackets(algebra, names, vectors, made)
                 text = f"{', '.join(names[i] for i in rows)} span {most + 1} dimensions at a point"
                 lemmas.append(Equation("the divergence of each field", formed, spread, algebra.ring))
-                inferred = (
-                    "a density exp f of the place is kept only if X f = -θ for each field X with its divergence θ; "
-                )
-                inferred += "then multiples Y of (X, -θ), and their brackets, are tangent to the graph of f, which has "
-                inferred += f"at most {most} dimensions that brackets span"
-                return Case(str(kept), [_not_0(text, minor, point)], _vanish("they do not", [minor], algebra), lemmas,
-                            derived, of.premises, [f"{name}-motion", f"{name}-flag"], inferred), algebra.rational  # fmt: skip
+                printed, wrong = [_not_0(text, minor, point)], _vanish("they do not", [minor], algebra)
+                uses = [f"{name}-motion", f"{name}-flag"]
+                case = Case(str(kept), printed, wrong, lemmas, derived, of.premises, uses, INFERRED.format(most))
+                return case, algebra.rational
     raise BadSystem("no rational point is found where the brackets span more")
-
-
-def _of_method(
-    system: System, scheme: Scheme, what: str, found: Decided, quantity: sp.Expr | None, uses: Sequence[str]
-) -> tuple[Case, Sequence[Point]]:
-    if found.verdict.verdict == "proved":
-        case = _combined(system, scheme, what, found, uses, False)
-        return replace(case, instead=lambda: _combined(system, scheme, what, found, uses, True)), ()
-    if quantity is None:
-        raise BadSystem("the series of the exact motion and of a step back are not written down")
-    return _changed(system, scheme, quantity, what, found), ()
-
-
-def _steps_in_words(scheme: Scheme, names: Mapping[sp.Symbol, sp.Symbol]) -> list[str]:
-    """The equations of a step."""
-    of = [(f"equation {i + 1} of a step", f"{e.xreplace(names)} = 0") for i, e in enumerate(scheme.residual)]
-    of += [
-        (f"after a step {x.xreplace(names)} is", str(e.xreplace(names)))
-        for x, e in zip(scheme.state, scheme.after, strict=True)
-    ]
-    return [f"{what}: {text}" for what, text in of if len(text) < MOST_LETTERS]
-
-
-def _named(symbols: Iterable[sp.Symbol]) -> dict[sp.Symbol, sp.Symbol]:
-    """Names that a certificate may have, for symbols such as `u 0`."""
-    found, taken = dict[sp.Symbol, sp.Symbol](), set(symbols)
-    for x in sorted((x for x in taken if " " in x.name), key=str):
-        found[x] = fresh(x.name.replace(" ", "_"), taken)
-        taken.add(found[x])
-    return found
-
-
-def _combined(system: System, scheme: Scheme, what: str, found: Decided, uses: Sequence[str], plainly: bool) -> Case:
-    """What a method does is a combination of what its equations, constraints and the motion set to 0."""
-    proofs = [one for made in found.proofs for one in made(plainly) if any(one.left)]
-    made = (e for one in proofs for e in (*one.left, *one.relations, *one.ends, *one.ends.values()))
-    known = (x for one in proofs for row in one.right for pair in row for x in pair)
-    names = _named(set().union(scheme.state, scheme.unknowns, *(e.free_symbols for e in (*made, *known))))
-    if not proofs:
-        raise BadSystem(SAID)
-    stated, wrong = [_stated(one, names, 0) for one in proofs], _stated(proofs[-1], names, 1)
-    meanings = {x: e for one in proofs for x, e in one.meanings.items()}
-    premises = [*_steps_in_words(scheme, names), *(f"{x} is {e.xreplace(names)}" for x, e in meanings.items())]
-    if what == "order":
-        what += f" is at least {found.verdict.said}"
-    if plainly:
-        premises.append("steps back, and the coefficients of h, are as chapsym forms them")
-    if scheme.stages and what.startswith("order"):
-        stated.append(tableau := _tableau(scheme.stages, int(found.verdict.said)))
-        premises.append("the stages are by the weights a, the end by b, for rates that the equations give")
-        wrong = Comparison(f"{tableau.text}, with 2", [sp.Eq(e.lhs, 2) for e in tableau.relations], tableau.point)
-    return Case(f"{system.name}: {what}", stated, wrong, premises=premises, uses=uses)
-
-
-def _tableau(stages: Sequence[Sequence[sp.Rational]], order: int) -> Comparison:
-    """The conditions of rooted trees, of the weights as symbols."""
-    names = [f"a{i + 2}" for i in range(len(stages) - 1)] + ["b"]
-    symbols = [[sp.Symbol(f"{name}_{j + 1}") for j in range(len(row))] for name, row in zip(names, stages, strict=True)]
-    relations = [sp.Eq(e, 1, evaluate=False) for row in tableau_conditions(symbols)[:order] for e in row]
-    point = {x: v for row, values in zip(symbols, stages, strict=True) for x, v in zip(row, values, strict=True)}
-    return Comparison(f"the conditions of rooted trees up to order {order}", relations, point)
-
-
-def _stated(one: Combination, names: Mapping[sp.Symbol, sp.Symbol], more: int) -> Statement:
-    """A combination as a statement, with operations as they are written where it has no relations."""
-    text = "what should be 0 is a combination of what the equations set to 0" + f", with {more} more" * (more > 0)
-    left, relations, ends = ([e.xreplace(names) for e in part] for part in (one.left, one.relations, one.ends.values()))
-    rows = [[(c.xreplace(names), e.xreplace(names)) for c, e in row] for row in one.right]
-    right, at = [sp.Add(*(c * e for c, e in row)) for row in rows], [x.xreplace(names) for x in one.ends]
-    known = (x for row in rows for pair in row for x in pair)
-    symbols = sorted(set().union(*(e.free_symbols for e in (*left, *known, *relations, *ends))) - {*at}, key=str)
-    if relations:
-        return Equation(text, [left[0] + more, *left[1:]], right, Quotient(symbols, relations))
-    values = dict(zip(symbols, parameters(" ".join(map(str, symbols))), strict=True))
-    unit = values[symbols[0]] ** 0
-
-    def made(expressions: Iterable[sp.Expr]) -> list[Any]:
-        return [unit * 0 + e for e in evaluated(expressions, values, lambda p, q: unit * int(p) / (unit * int(q)))]
-
-    values |= dict(zip(at, made(ends), strict=True))
-    first, *rest = made(left)
-    sums = [sum((c * e for c, e in zip(*map(made, zip(*row, strict=True)), strict=True)), unit * 0) for row in rows]
-    return Identity(text, [first + more, *rest], sums)
-
-
-def _rational(c: fmpq) -> sp.Rational:
-    return sp.Rational(int(c.p), int(c.q))
-
-
-def _changed(system: System, scheme: Scheme, quantity: sp.Expr, what: str, found: Decided) -> Case:
-    """That a quantity changes, by the series of two steps from the exact state: polynomials in h, up to a power."""
-    if scheme.stages:
-        raise BadSystem("the series of the stages are not written down")
-    exact, most, text = Exact(system), found.by + 2, f"below h^{found.by + 2}"
-    ring, symbols = Quotient([STEP], [STEP**most]), (*scheme.state, *scheme.unknowns)
-
-    def polynomial(x: Any) -> sp.Expr:
-        return sum((_rational(_at(x, k)) * STEP**k for k in range(most)), sp.S.Zero)
-
-    def wave(of: sp.Expr) -> sp.Expr:
-        coefficients = [sp.Poly(of.args[0], STEP).nth(k) for k in range(most)]
-        value = fmpq_series([fmpq(int(c.p), int(c.q)) for c in coefficients])
-        return polynomial(evaluated([of.func(STEP)], {STEP: value})[0])
-
-    def equal(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> Equation:
-        """With all that is beyond, which is shorter so than as a cofactor."""
-        beyond = [evaluated([e], {STEP: fmpq_poly([0, 1])}, lambda p, q: fmpq_poly([fmpq(p, q)]))[0] for e in left]
-        later = [sum((_rational(c) * STEP**k for k, c in enumerate(list(e)) if k >= most), sp.S.Zero) for e in beyond]
-        return Equation(text, left, [a + b for a, b in zip(right, later, strict=True)], ring)
-
-    with terms(most):
-        read = [exact.read(e) for e in (scheme.residual, scheme.after, (*scheme.place, *scheme.velocity), [quantity])]
-        first, there, *unknowns = ([polynomial(x) for x in one] for one in found.steps)
-        states = [dict(zip(symbols, (*x, *z), strict=True)) for x, z in zip((first, there), unknowns, strict=True)]
-        steps = [replaced(read[0], state, wave) for state in states]
-        seen = [map(sp.expand, replaced(read[2], state, wave)) for state in states]
-        values = [replaced(read[3], dict(zip(exact.symbols, at, strict=True)), wave)[0] for at in seen]
-        before, later = (evaluated([e], {STEP: fmpq_series([0, 1])})[0] for e in values)
-        change = polynomial(later - before)
-        ends = replaced(read[1], states[0], wave)
-    lemmas = [
-        equal(f"the equations of a step, {text}", steps[0], [sp.S.Zero] * len(steps[0])),
-        equal(f"what comes after it, {text}", ends, there),
-        equal(f"the equations of the next step, {text}", steps[1], [sp.S.Zero] * len(steps[1])),
-    ]
-    said = f"{what.removeprefix('keeps ')} changes in a step, {text}"
-    names = _named(symbols)
-    premises = [f"at the exact state {x} is {v}" for x, v in found.verdict.point.items()]
-    premises += ["h is step_length; of sines and cosines it is the series, of angles from the exact state"]
-    return Case(f"{system.name}: {said}", [equal(said, [values[1] - values[0]], [change])], equal(f"{said} by 0",
-                [values[1] - values[0]], [sp.S.Zero]), lemmas, premises=[*premises, *_steps_in_words(scheme, names)])  # fmt: skip

@@ -109,7 +109,8 @@ Shown = tuple[Sequence[tuple[sp.Expr, int]], Mapping[sp.Symbol, sp.Expr]]
 class Decided:
     """A verdict with what gives combinations that prove it; or with series of two steps: their states and unknowns.
 
-    Combinations are of what is done, or plainly of what comes out of it.  `by` is the power of the step by which the steps refute it.
+    Combinations are of what is done, or plainly of what comes out of it.  `by` is the power of the length of a step by
+    which the steps refute it.
     """
 
     verdict: Verdict
@@ -120,7 +121,7 @@ class Decided:
 
 def decided(system: System, scheme: Scheme) -> dict[str, Decided]:
     """What `verdicts` has, with what shows it."""
-    quantities = _quantities(system, scheme.integrals)
+    quantities = quantities_of(system, scheme.integrals)
     names = ["order", "self-adjoint", "reversible", *(f"keeps {name}" for name in quantities)]
     looked = LOOKED_FURTHER if scheme.stages else LOOKED
     with terms(looked + BEYOND):
@@ -141,7 +142,7 @@ def _exact(system: System, digest: str) -> Exact:
     return Exact(system)
 
 
-def _quantities(system: System, of_method: Mapping[str, sp.Expr]) -> dict[str, sp.Expr]:
+def quantities_of(system: System, of_method: Mapping[str, sp.Expr]) -> dict[str, sp.Expr]:
     """What may be kept: the energy, momenta along which nothing pushes, what the system names, and the method."""
     found = {"the energy": system.energy} if system.keeps_energy else {}
     for i, (x, p) in enumerate(zip(system.coordinates, system.momenta, strict=True)):
@@ -481,8 +482,8 @@ class _Judged:
     ) -> bool:
         """Whether each of some expressions is a combination of known ones, with rational numbers.
 
-        With `on` that is so where holonomic constraints hold, their rates and the rates of these.  `shown` gives what is
-        shown of it, by what puts letters into expressions.
+        With `on` that is so where holonomic constraints hold, their rates and the rates of these.  `shown` gives what
+        is shown of it, by what puts letters into expressions.
         """
         relations = list(self.bound) if on else []
         parts = [replaced(part, self.exact.numbers) for part in (aims, known, relations)]
@@ -501,7 +502,7 @@ class _Judged:
         def combinations(plainly: bool) -> list[Combination]:
             sums = iter([[(c, plain[j]) for j, c in row.items()] for row in factors])
             wholes, ends = shown(into) if shown and not plainly else ([(e, 0) for e in parts[0]], {})
-            found = {}
+            found = dict[int, Combination]()
             for whole, count in wholes:
                 relations = [*zero, *([STEP**count] if count else [])]
                 of = found.setdefault(count, Combination([], [], relations, letters.meanings, ends))

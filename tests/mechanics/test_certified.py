@@ -123,7 +123,7 @@ def test_an_integral_is_kept_or_changes_at_a_state():
     system = particle(integrals={"kept": (1 + y**2) * dot(x) ** 2, "lost": dot(x)})
     found = {one.verdict: one.certificate for one in certified(system)}
     assert [one["text"] for one in found["kept"]["statements"] if one["role"] == "printed"] == [
-        "the rate of kept, by the equations of motion"
+        "the rate of kept is what the equations set to 0"
     ]
     (lost,) = found["lost"]["comparisons"]
     assert lost["relations"][-1][0] == "!="

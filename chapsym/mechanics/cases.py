@@ -1,0 +1,140 @@
+"""Claims from cases: what is said, what proves it, and a false variant; judged by the checker where they are made."""
+
+import re
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import sympy as sp
+
+from chapsym.derive import Quotient
+from chapsym.prove import Claim, Comparison, Equation, Examples, Identity, Proof, Verdict
+from chapsym.prove.statements import Statement
+from chapsym.prove.witness import true_at
+
+from .algebra import Point
+from .system import BadSystem, System
+
+#: Letters of the name of a system in the id of a claim.
+LETTERS = 22
+#: Why what a method says itself has no certificate.
+SAID = "it is one of the equations, so that nothing is to be decided"
+#: Of an equation in words.
+MOST_LETTERS = 3000
+
+
+@dataclass(frozen=True)
+class Certified:
+    """An exact verdict, with its certificate or why it has none.
+
+    Attributes
+    ----------
+    verdict : str
+        Of what it is: "motion", "energy", "dla: order".
+    certificate : dict or None
+        As `chapsym.prove` writes it, accepted by the checker.
+    why : str
+        Why there is none.
+    """
+
+    verdict: str
+    certificate: Mapping[str, Any] | None = None
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a claim says, what proves it, and a false variant of that; premises are in words.
+
+    Where the certificate is too large there may be another `instead`, and `derived`, that some expressions are
+    derivatives, is said in words.
+    """
+
+    said: str
+    printed: Sequence[Statement]
+    control: Statement
+    lemmas: Sequence[Statement] = ()
+    derived: Sequence[Statement | str] = ()
+    premises: Sequence[str] = ()
+    uses: Sequence[str] = ()
+    inferred: str = ""
+    instead: "Callable[[], Case] | None" = None
+
+    def judged(self, verdict: str, id: str, points: Sequence[Point] = ()) -> Certified:
+        """By its own proof, run now, and by the checker; at one of some points, where it has a value."""
+        found = self._judged(verdict, id, points)
+        if found.certificate:
+            return found
+        if self.instead:
+            return self.instead().judged(verdict, id, points)
+        texts = [one if isinstance(one, str) else one.text for one in self.derived]
+        return found if texts == self.derived else replace(self, derived=texts).judged(verdict, id, points)
+
+    def _judged(self, verdict: str, id: str, points: Sequence[Point]) -> Certified:
+        texts = [one for one in self.derived if isinstance(one, str)]
+        statements = [*(one for one in self.derived if not isinstance(one, str)), *self.lemmas, *self.printed]
+        related = [one for one in statements if isinstance(one, Equation) and isinstance(one.algebra, Quotient)]
+
+        def prove(p: Proof) -> None:
+            at = (x for x in points if all(true_at(one, x) for one in related if _covers(x, one)))
+            p.examples = Examples(numbers=next(at, {}))
+            for text in (*self.premises, *(f"{text}: as chapsym forms them" for text in texts)):
+                p.assume(text)
+            if self.inferred:
+                p.infers(self.inferred)
+            p.lemma(*statements[: -len(self.printed)])
+            p.printed(*self.printed)
+            p.control(self.control)
+            for one in statements:
+                if isinstance(one, Comparison | Identity):
+                    point = getattr(one, "point", {})
+                    p.witness("point", {x.name: str(v) for x, v in point.items()}, one)
+
+        found = Claim(id, self.said, tuple(self.uses), prove).judge().certified()
+        data, problems = found.certificate, found.proof.problems
+        left = [one["text"] for one in data["sentences"] if one["role"] in ("printed", "lemma")] if data else []
+        if data is None or data["verdict"] != Verdict.HOLDS or left:
+            return Certified(verdict, None, next(iter([*problems, *left]), SAID))
+        return Certified(verdict, data)
+
+
+def _covers(point: Point, one: Equation) -> bool:
+    """Whether it has a value for each letter; other symbols are free."""
+    return set().union(*(e.free_symbols for e in (*one.left, *one.right))) <= point.keys()
+
+
+#: With points at which it may have a value.
+Made = tuple[Case, Sequence[Point]]
+
+
+def made(
+    system: System,
+    verdict: str,
+    id: str,
+    known: set[str],
+    case_of: Callable[..., tuple[Case, Sequence[Point]]],
+    *of: Any,
+) -> Certified:
+    """A verdict by the case that is made of it, if it rests on known claims; its own is one then."""
+    try:
+        case, points = case_of(*of)
+        if lacking := [one for one in case.uses if one not in known]:
+            raise BadSystem(f"it rests on {lacking[0]}, which has none")
+        found = case.judged(verdict, id, points)
+    except (ArithmeticError, ValueError, sp.PolynomialError) as error:
+        return Certified(verdict, None, str(error).removeprefix(f"{system.name}: "))
+    known |= {id} if found.certificate else set()
+    return found
+
+
+def name_of(system: System) -> str:
+    """The beginning of the ids of its claims."""
+    plain = re.sub(r"[^A-Za-z0-9]+", "-", system.name).strip("-")[:LETTERS].strip("-").lower()
+    return plain or "system"
+
+
+def fresh(name: str, taken: Collection[sp.Symbol]) -> sp.Symbol:
+    """A symbol that is none of some others."""
+    while sp.Symbol(name) in taken:
+        name += "_"
+    return sp.Symbol(name)
