@@ -14,10 +14,10 @@ from chapsym.prove.polynomials import parameters
 from chapsym.prove.statements import Statement
 
 from .cases import MOST_LETTERS, SAID, Case, Certified, Made, fresh, made
-from .judged import Combination, Decided, decided, quantities_of, tableau_conditions
+from .judged import BEYOND, Combination, Decided, Judged, decided, quantities_of, tableau_conditions
 from .lab import keeps
 from .methods import METHODS, Scheme
-from .series import Exact, _at, evaluated, replaced, terms
+from .series import State, _at, evaluated, replaced, terms
 from .system import STEP, BadSystem, System
 
 #: Cells of a method in the ids of its claims.
@@ -44,9 +44,7 @@ def _case(system: System, scheme: Scheme, what: str, found: Decided, quantity: s
         uses = [adjoint] if what == "order" and not scheme.stages and found.verdict.said > "1" else []
         shown, plain = (partial(_combined, system, scheme, what, found, plainly, uses) for plainly in (False, True))
         return replace(shown(), instead=plain), ()
-    if quantity is None:
-        raise BadSystem("the series of the exact motion and of a step back are not written down")
-    return _changed(system, scheme, quantity, what, found), ()
+    return _refuted(system, quantity, what, found), ()
 
 
 def _steps_in_words(scheme: Scheme, names: Mapping[sp.Symbol, sp.Symbol]) -> list[str]:
@@ -127,48 +125,124 @@ def _rational(c: fmpq) -> sp.Rational:
     return sp.Rational(int(c.p), int(c.q))
 
 
-def _changed(system: System, scheme: Scheme, quantity: sp.Expr, what: str, found: Decided) -> Case:
-    """That a quantity changes, by the series of two steps from the exact state: polynomials in h, up to a power."""
-    if scheme.stages:
-        raise BadSystem("the series of the stages are not written down")
-    exact, most, text = Exact(system), found.by + 2, f"below h^{found.by + 2}"
-    ring, symbols = Quotient([STEP], [STEP**most]), (*scheme.state, *scheme.unknowns)
+class _Steps:
+    """Steps from the exact state as polynomials in h, up to a power, with the statements that they are steps."""
 
-    def polynomial(x: Any) -> sp.Expr:
-        return sum((_rational(_at(x, k)) * STEP**k for k in range(most)), sp.S.Zero)
+    def __init__(self, judged: Judged, most: int) -> None:
+        self.judged, self.scheme, self.stepped, self.most = judged, judged.scheme, judged.stepped, most
+        self.exact, self.below, self.lemmas = judged.exact, f"below h^{most}", list[Statement]()
+        self.ring = Quotient([STEP], [STEP**most])
+        self.symbols = (*self.scheme.state, *self.scheme.unknowns)
 
-    def wave(of: sp.Expr) -> sp.Expr:
-        coefficients = [sp.Poly(of.args[0], STEP).nth(k) for k in range(most)]
-        value = fmpq_series([fmpq(int(c.p), int(c.q)) for c in coefficients])
-        return polynomial(evaluated([of.func(STEP)], {STEP: value})[0])
+    def polynomial(self, x: Any) -> sp.Expr:
+        """A series, cut off."""
+        return sum((_rational(_at(x, k)) * STEP**k for k in range(self.most)), sp.S.Zero)
 
-    def equal(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> Equation:
+    def put(self, expressions: Iterable[sp.Expr], symbols: Iterable[sp.Symbol], values: Iterable[Any]) -> list[sp.Expr]:
+        """Expressions with polynomials in the place of symbols, and sines and cosines of these cut off."""
+
+        def wave(of: sp.Expr) -> sp.Expr:
+            coefficients = map(sp.Poly(of.args[0], STEP).nth, range(self.most))
+            value = fmpq_series([fmpq(int(c.p), int(c.q)) for c in coefficients])
+            return self.polynomial(evaluated([of.func(STEP)], {STEP: value})[0])
+
+        known = {x: v if isinstance(v, sp.Expr) else self.polynomial(v) for x, v in zip(symbols, values, strict=True)}
+        return replaced(self.exact.read(expressions), known, wave)
+
+    def equal(self, text: str, left: Sequence[sp.Expr], right: Sequence[Any]) -> Equation:
         """With all that is beyond, which is shorter so than as a cofactor."""
-        beyond = [evaluated([e], {STEP: fmpq_poly([0, 1])}, lambda p, q: fmpq_poly([fmpq(p, q)]))[0] for e in left]
-        later = [sum((_rational(c) * STEP**k for k, c in enumerate(list(e)) if k >= most), sp.S.Zero) for e in beyond]
-        return Equation(text, left, [a + b for a, b in zip(right, later, strict=True)], ring)
+        h, sides = fmpq_poly([0, 1]), [e if isinstance(e, sp.Expr) else self.polynomial(e) for e in right]
+        try:
+            found = evaluated(left, {STEP: h}, lambda p, q: fmpq_poly([fmpq(p, q)]))
+        except TypeError:
+            raise BadSystem("the equations of a step divide by series") from None
+        beyond = [[(k, c) for k, c in enumerate(list(e)) if k >= self.most] for e in found]
+        later = [sum((_rational(c) * STEP**k for k, c in row), sp.S.Zero) for row in beyond]
+        return Equation(f"{text}, {self.below}", left, [a + b for a, b in zip(sides, later, strict=True)], self.ring)
 
-    with terms(most):
-        read = [exact.read(e) for e in (scheme.residual, scheme.after, (*scheme.place, *scheme.velocity), [quantity])]
-        first, there, *unknowns = ([polynomial(x) for x in one] for one in found.steps)
-        states = [dict(zip(symbols, (*x, *z), strict=True)) for x, z in zip((first, there), unknowns, strict=True)]
-        steps = [replaced(read[0], state, wave) for state in states]
-        seen = [map(sp.expand, replaced(read[2], state, wave)) for state in states]
-        values = [replaced(read[3], dict(zip(exact.symbols, at, strict=True)), wave)[0] for at in seen]
-        before, later = (evaluated([e], {STEP: fmpq_series([0, 1])})[0] for e in values)
-        change = polynomial(later - before)
-        ends = replaced(read[1], states[0], wave)
-    lemmas = [
-        equal(f"the equations of a step, {text}", steps[0], [sp.S.Zero] * len(steps[0])),
-        equal(f"what comes after it, {text}", ends, there),
-        equal(f"the equations of the next step, {text}", steps[1], [sp.S.Zero] * len(steps[1])),
-    ]
-    said = f"{what.removeprefix('keeps ')} changes in a step, {text}"
-    names = _named(symbols)
+    def step(self, what: str, state: State, guess: State, back: int = 1) -> tuple[State, State]:
+        """The state after a step of length h, or -h, and its unknowns."""
+        scheme, length, stages = self.scheme, back * self.judged.h, list[tuple[State, State]]()
+
+        def rates(at: State) -> State:
+            stages.append((at, self.stepped.solved(at, guess, length)))
+            return self.stepped.of(self.stepped.after, *stages[-1], length)
+
+        end = scheme.step(state, rates(state), length, rates, lambda a: fmpq(a.p, a.q))
+        made = list[list[sp.Expr]]()
+        for i, (at, z) in enumerate(stages):
+            values = [*at, *z, back * STEP]
+            left = self.put(scheme.residual, (*self.symbols, STEP), values)
+            self.lemmas.append(self.equal(f"equations of {what}", left, [sp.S.Zero] * len(left)))
+            made.append(self.put(scheme.after, (*self.symbols, STEP), values))
+            ends = made[0]
+            if scheme.stages:
+                rates_of = zip(*made, strict=True)
+                sums = [sum(map(sp.Mul, scheme.stages[i], of), sp.S.Zero) for of in rates_of]
+                ends = [self.polynomial(x) + back * STEP * e for x, e in zip(state, sums, strict=True)]
+            there = end if at is stages[-1][0] else stages[i + 1][0]
+            self.lemmas.append(self.equal(f"what comes after {what}", ends, there))
+        return end, stages[0][1]
+
+    def forth(self) -> tuple[State, State, State, State]:
+        """As that of the judged method."""
+        first, guess = self.stepped.first(self.judged.state)
+        there, z = self.step("a step", first, guess)
+        return first, there, z, self.step("the next step", there, z)[1]
+
+
+def _refuted(system: System, quantity: sp.Expr | None, what: str, found: Decided) -> Case:
+    """That a quantity changes, or a step back misses, by the series of steps from the exact state."""
+    assert found.judged
+    if what == "order":
+        raise BadSystem("the series of the exact motion is not written down")
+    with terms(found.by + 2 + BEYOND):
+        of = _Steps(found.judged, found.by + 2)
+        if quantity is not None:
+            said = f"{what.removeprefix('keeps ')} changes in a step"
+            printed, wrong = _change(of, quantity, said)
+        else:
+            said = f"a step forth and one back{', turned,' * (what == 'reversible')} end elsewhere"
+            printed, wrong = _missed(of, 1 if what == "reversible" else -1, said)
     premises = [f"at the exact state {x} is {v}" for x, v in found.verdict.point.items()]
     premises += ["h is step_length; of sines and cosines it is the series, of angles from the exact state"]
-    premises += _steps_in_words(scheme, names)
-    printed, wrong = (
-        equal(f"{said}{more}", [values[1] - values[0]], [e]) for more, e in (("", change), (" by 0", 0 * STEP))
-    )
-    return Case(f"{system.name}: {said}", [printed], wrong, lemmas, premises=premises)
+    premises += _steps_in_words(of.scheme, _named(of.symbols))
+    return Case(f"{system.name}: {said}, {of.below}", [printed], wrong, of.lemmas, premises=premises)
+
+
+def _change(of: _Steps, quantity: sp.Expr, said: str) -> tuple[Equation, Equation]:
+    first, there, z, then = of.forth()
+    places, values = (*of.scheme.place, *of.scheme.velocity), list[sp.Expr]()
+    for state in ((*first, *z), (*there, *then)):
+        values += of.put([quantity], of.exact.symbols, map(sp.expand, of.put(places, of.symbols, state)))
+    before, later = evaluated(values, {STEP: of.judged.h})
+    left = [values[1] - values[0]]
+    return of.equal(said, left, [later - before]), of.equal(f"{said}: by 0", left, [sp.S.Zero])
+
+
+def _missed(of: _Steps, back: int, said: str) -> tuple[Equation, Equation]:
+    """The place and velocity after a step forth and one back, and that they are not those of the exact state."""
+    judged, stepped, n = of.judged, of.stepped, of.judged.n
+    _, there, z, then = of.forth()
+    part = judged.kicked if of.scheme.reflects and judged.reacting else of.scheme.state
+    turned = judged.turned if back > 0 else of.scheme.state
+    end = stepped.of(of.exact.read(part), there, then, judged.h)
+    start = stepped.of(of.exact.read(turned), end, z, judged.h)
+    seen = map(sp.expand, of.put(part, of.symbols, (*there, *then)))
+    of.lemmas.append(of.equal("where it turns", of.put(turned, of.scheme.state, seen), start))
+    around = [*judged.state[:n], *(-back * x for x in judged.state[n:])]
+    end, _ = of.step("the step back", start, stepped.first(around)[1], back)
+    if not stepped.has_momenta:
+        last = of.lemmas.pop()
+        return of.equal(said, last.left, end), of.equal(f"{said}: by 0", last.left, [_at(x, 0) for x in end])
+    final, system = stepped.of(of.exact.read(turned), end, z, judged.h), judged.system
+    of.lemmas.append(of.equal("turned again", of.put(turned, of.scheme.state, end), final))
+    reached, reaction = of.exact.velocities(final)
+    names = sp.Matrix([sp.Symbol(f"reaction {i}") for i in range(len(reaction))])
+    held = system.rows.T * names if reaction else sp.zeros(n, 1)
+    rows = [*system.coordinates, *(system.momenta + held)]
+    rows += [*(system.rows * sp.Matrix(system.velocities) + system.offsets)]
+    right = [*final, *([sp.S.Zero] * len(reaction))]
+    left, lost = (of.put(rows, (*of.exact.symbols, *names), (*x, *reaction)) for x in (reached, judged.state))
+    said = f"{said}, with velocities of these momenta"
+    return of.equal(said, left, right), of.equal(f"{said}: those of the exact state", lost, right)

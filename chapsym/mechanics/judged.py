@@ -107,15 +107,14 @@ Shown = tuple[Sequence[tuple[sp.Expr, int]], Mapping[sp.Symbol, sp.Expr]]
 
 @dataclass(frozen=True)
 class Decided:
-    """A verdict with what gives combinations that prove it; or with series of two steps: their states and unknowns.
+    """A verdict with what gives combinations that prove it; or what has the series that refute it, by a power of h.
 
-    Combinations are of what is done, or plainly of what comes out of it.  `by` is the power of the length of a step by
-    which the steps refute it.
+    Combinations are of what is done, or plainly of what comes out of it.
     """
 
     verdict: Verdict
     proofs: Sequence[Callable[[bool], list[Combination]]] = ()
-    steps: Sequence[State] = ()
+    judged: "Judged | None" = None
     by: int = 0
 
 
@@ -126,7 +125,7 @@ def decided(system: System, scheme: Scheme) -> dict[str, Decided]:
     looked = LOOKED_FURTHER if scheme.stages else LOOKED
     with terms(looked + BEYOND):
         try:
-            judged = _Judged(_exact(system, system.digest()), scheme, looked)
+            judged = Judged(_exact(system, system.digest()), scheme, looked)
         except (Undecided, BadSystem) as error:
             return dict.fromkeys(names, Decided(Verdict("measured", str(error))))
         adjoint = judged.decided(judged.returns, -1)
@@ -154,7 +153,7 @@ def quantities_of(system: System, of_method: Mapping[str, sp.Expr]) -> dict[str,
     return found | named
 
 
-class _Judged:
+class Judged:
     """A method on a system, with a step in symbols and as series from an exact state."""
 
     def __init__(self, exact: Exact, scheme: Scheme, looked: int) -> None:
@@ -182,10 +181,9 @@ class _Judged:
         self.proofs, self.power = list[Callable[[bool], list[Combination]]](), 0
         try:
             verdict = judge(of)
-            steps = self.forth if verdict.verdict == "false" else ()
         except (Undecided, BadSystem) as error:
             return Decided(Verdict("measured", str(error)))
-        return Decided(verdict, [*self.proofs_of_always, *self.proofs], steps, self.power)
+        return Decided(verdict, [*self.proofs_of_always, *self.proofs], self, self.power)
 
     @cached_property
     def forth(self) -> tuple[State, State, State, State]:
@@ -344,11 +342,7 @@ class _Judged:
         """
         stepped, scheme, n, h = self.stepped, self.scheme, self.n, self.h
         first, there, z, then = self.forth
-        rest = [-x for x in scheme.state[n:]]
-        if stepped.has_momenta:  # of -v
-            at_rest = self.system.momenta.xreplace(dict.fromkeys(self.system.velocities, sp.S.Zero))
-            rest = [2 * b + p for b, p in zip(at_rest, rest, strict=True)]
-        turned = self.exact.read([*scheme.state[:n], *rest] if back > 0 else scheme.state)
+        turned = self.exact.read(self.turned if back > 0 else scheme.state)
         _, around = stepped.first([*self.state[:n], *(-back * x for x in self.state[n:])])
         wrong = None
         for part in (scheme.state, self.kicked) if stepped.has_momenta and self.reacting else (scheme.state,):
@@ -362,6 +356,15 @@ class _Judged:
                 named = zip(map(str, self.exact.symbols), reached, self.state, strict=True)
                 wrong = self.wrong("a step forth and back misses", *named)
         return wrong or self._proved(False)
+
+    @property
+    def turned(self) -> list[sp.Expr]:
+        """The state with the velocities turned."""
+        rest = [-x for x in self.scheme.state[self.n :]]
+        if self.stepped.has_momenta:  # of -v
+            at_rest = self.system.momenta.xreplace(dict.fromkeys(self.system.velocities, sp.S.Zero))
+            rest = [2 * b + p for b, p in zip(at_rest, rest, strict=True)]
+        return [*self.scheme.state[: self.n], *rest]
 
     @staticmethod
     def _proved(is_proved: bool) -> Verdict:
