@@ -130,7 +130,7 @@ class _Steps:
 
     def __init__(self, judged: Judged, most: int) -> None:
         self.judged, self.scheme, self.stepped, self.most = judged, judged.scheme, judged.stepped, most
-        self.exact, self.below, self.lemmas = judged.exact, f"below h^{most}", list[Statement]()
+        self.exact, self.below, self.lemmas = judged.exact, f"below h^{most}", list[Equation]()
         self.ring = Quotient([STEP], [STEP**most])
         self.symbols = (*self.scheme.state, *self.scheme.unknowns)
 
@@ -207,20 +207,21 @@ def _refuted(system: System, quantity: sp.Expr | None, what: str, found: Decided
     premises = [f"at the exact state {x} is {v}" for x, v in found.verdict.point.items()]
     premises += ["h is step_length; of sines and cosines it is the series, of angles from the exact state"]
     premises += _steps_in_words(of.scheme, _named(of.symbols))
-    return Case(f"{system.name}: {said}, {of.below}", [printed], wrong, of.lemmas, premises=premises)
+    return Case(f"{system.name}: {said}, {of.below}", printed, wrong, of.lemmas, premises=premises)
 
 
-def _change(of: _Steps, quantity: sp.Expr, said: str) -> tuple[Equation, Equation]:
+def _change(of: _Steps, quantity: sp.Expr, said: str) -> tuple[list[Equation], Equation]:
+    """By how much a quantity changes, and that this is not 0."""
     first, there, z, then = of.forth()
     places, values = (*of.scheme.place, *of.scheme.velocity), list[sp.Expr]()
     for state in ((*first, *z), (*there, *then)):
         values += of.put([quantity], of.exact.symbols, map(sp.expand, of.put(places, of.symbols, state)))
     before, later = evaluated(values, {STEP: of.judged.h})
     left = [values[1] - values[0]]
-    return of.equal(said, left, [later - before]), of.equal(f"{said}: by 0", left, [sp.S.Zero])
+    return [of.equal(said, left, [later - before])], of.equal(f"{said}: by 0", left, [sp.S.Zero])
 
 
-def _missed(of: _Steps, back: int, said: str) -> tuple[Equation, Equation]:
+def _missed(of: _Steps, back: int, said: str) -> tuple[list[Equation], Equation]:
     """The place and velocity after a step forth and one back, and that they are not those of the exact state."""
     judged, stepped, n = of.judged, of.stepped, of.judged.n
     _, there, z, then = of.forth()
@@ -232,9 +233,10 @@ def _missed(of: _Steps, back: int, said: str) -> tuple[Equation, Equation]:
     of.lemmas.append(of.equal("where it turns", of.put(turned, of.scheme.state, seen), start))
     around = [*judged.state[:n], *(-back * x for x in judged.state[n:])]
     end, _ = of.step("the step back", start, stepped.first(around)[1], back)
+    after_it = of.lemmas.pop()
     if not stepped.has_momenta:
-        last = of.lemmas.pop()
-        return of.equal(said, last.left, end), of.equal(f"{said}: by 0", last.left, [_at(x, 0) for x in end])
+        left, lost = after_it.left, [_at(x, 0) for x in end]
+        return [of.equal(said, left, end)], of.equal(f"{said}: by 0", left, lost)
     final, system = stepped.of(of.exact.read(turned), end, z, judged.h), judged.system
     of.lemmas.append(of.equal("turned again", of.put(turned, of.scheme.state, end), final))
     reached, reaction = of.exact.velocities(final)
@@ -245,4 +247,5 @@ def _missed(of: _Steps, back: int, said: str) -> tuple[Equation, Equation]:
     right = [*final, *([sp.S.Zero] * len(reaction))]
     left, lost = (of.put(rows, (*of.exact.symbols, *names), (*x, *reaction)) for x in (reached, judged.state))
     said = f"{said}, with velocities of these momenta"
-    return of.equal(said, left, right), of.equal(f"{said}: those of the exact state", lost, right)
+    printed = [after_it, of.equal(said, left, right)]
+    return printed, of.equal(f"{said}: those of the exact state", lost, right)
