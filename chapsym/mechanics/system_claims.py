@@ -19,9 +19,9 @@ from chapsym.prove.statements import Statement
 from .algebra import Algebra, Point, adjugate, determinant, pivots
 from .brackets import Bracketed, bracket_of, flag, spanned
 from .cases import MOST_LETTERS, Case, Certified, Made, fresh, made, name_of
-from .certified_steps import of_method
 from .density import MOST_LEVELS, Volume, divergences, volume
 from .equations import OnShell, conserved
+from .method_claims import of_method
 from .system import BadSystem, System
 
 #: Of what has more parts, derivatives are not given to the checker; those of what divides count more.
