@@ -28,6 +28,8 @@ from .system import BadSystem, System
 MOST_PARTS, FRACTIONS = 1500, 5
 
 
+#: Of a quantity that is kept: what it is a combination with is too much work beyond.
+MOST_OF_A_QUANTITY = 100
 #: Why there is no volume.
 INFERRED = (
     "a density exp f of the place is kept only if X f = -θ for each field X with its divergence θ; then multiples Y of "
@@ -233,13 +235,16 @@ def _integral(system: System, name: str, what: str, quantity: sp.Expr) -> Made:
     (quantity,), points = of.quantities, of.algebra.rational
     if not is_kept:
         return _lost(of, what, quantity, name), points
-    slope, x = sp.Matrix([sp.diff(quantity, v) for v in of.v]), sp.Matrix(of.fields).T
-    inner = x.T * of.mass * x
-    along = x * (adjugate(inner) * x.T * slope) / determinant(inner)
-    rest = (slope - of.mass * along).extract(of.bound, [0])
-    across = adjugate(of.square).T * rest / determinant(of.square)
-    turning = [of.rate(of.bindings[i], of.now) for i in of.kept]
-    factors = [of.algebra.ring.reduced(e.xreplace(of.allowed)) for e in (*along, *across)]
+    if sum(1 for _ in sp.preorder_traversal(quantity)) > MOST_OF_A_QUANTITY:
+        raise BadSystem("it has more parts than a quantity whose factors are looked for")
+    reduced, x = of.algebra.ring.reduced, sp.Matrix(of.fields).T
+    slope = sp.Matrix([reduced(sp.diff(quantity, v).xreplace(of.allowed)) for v in of.v])
+    inner, whole = (x.T * of.mass * x).applyfunc(reduced), reduced(determinant(of.square))
+    pushed = (adjugate(inner) * (x.T * slope).applyfunc(reduced)).applyfunc(reduced)
+    along = (x * pushed / reduced(determinant(inner))).applyfunc(reduced)
+    rest = (slope - of.mass * along).extract(of.bound, [0]).applyfunc(reduced)
+    across = (adjugate(of.square).T * rest / whole).applyfunc(reduced)
+    turning, factors = [of.rate(of.bindings[i], of.now) for i in of.kept], [*along, *across]
     balance = sum((f * e for f, e in zip(factors, (*of.principle, *turning), strict=True)), sp.S.Zero)
     return _kept(of, what, quantity, balance, name, of.allowed), points
 
