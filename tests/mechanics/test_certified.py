@@ -157,6 +157,7 @@ def test_two_systems_need_two_names(tmp_path):
     assert "certificates of one name" in done.stderr
 
 
+@pytest.mark.thorough
 def test_suslov_has_its_own_and_they_are_no_equations_of_the_lab():
     system = loaded(SYSTEMS / "suslov.py")
     found = {one.verdict: one for one in certified(system)}
