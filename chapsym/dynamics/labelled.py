@@ -216,7 +216,7 @@ def structure(data: "Dataset | Arrays") -> dict[str, Any]:
 
 
 def batches(data: "Dataset | Arrays", told: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
-    """The columns of some balls after the others, each (rows,); what a ball has once stands in each of its rows."""
+    """The columns of some balls after the others, each (rows,); what a ball has once is in each of its rows."""
     frames = data.sizes["frame"]
     several = max(1, ROWS // frames)
     for first in range(0, data.sizes["ball"], several):

@@ -101,7 +101,7 @@ class Combination:
     ends: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
 
-#: Expressions whose first coefficients in the length of a step, so many, are what is combined; and symbols for ends.
+#: Expressions, with how many of their first coefficients in the length of a step are combined; and symbols for ends.
 Shown = tuple[Sequence[tuple[sp.Expr, int]], Mapping[sp.Symbol, sp.Expr]]
 
 

@@ -477,6 +477,15 @@ def test_a_path_of_a_tiny_ball_is_a_sum_of_rounded_parts():
     assert (chapsym.certify(run).contact_error <= run.proved.contact).all()
 
 
+def test_bounds_that_do_not_fit_into_memory(monkeypatch):
+    def full(*arguments, **options):
+        raise MemoryError
+
+    monkeypatch.setattr(level, "errors", full)
+    with pytest.raises(BadInput, match="4 frames of 1 balls do not fit into memory"):
+        chapsym.trajectory(BALL, momentum(0.1), GAMMA, 3, proved=True)
+
+
 def test_squares_that_underflow_are_not_lost():
     """Of a rotation that is none, for a momentum whose squares underflow."""
     one = [np.array([x], dtype=float) for x in ((2e-170, 0, 0), (0, 1, 0), (1, 1e-160, 1e-160))]

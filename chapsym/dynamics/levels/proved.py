@@ -9,10 +9,9 @@ import chapsym.dynamics.native as native
 from ..ball import Asked, Floats
 from ..loops import double_double as loop
 from ..loops import proved
+from ..loops.proved import PAIR, WIDER
 from .frames import Balls, Count, Frames, cores, share
 
-#: Beyond the roundings of a distance: relative to it, and to what is compared.
-WIDER, PAIR = 1.0 + 2.0**-40, 2.0**-98
 #: More than what a rounded subnormal number is off by, in each part of a sum.
 FLOOR = 2.0**-1070
 #: Balls of which a thread bounds a step in one call.

@@ -353,8 +353,8 @@ def march_pairs(
 
     state (ROWS), past (s, 8, 3), attitude (8) and contact (4) hold the present and move; shift and beyond are those of
     `scales`.  A name with _ is the low halves of its frames.  Returns (taken, status, reach).
-    spread (frames, 4), of no frame where nothing is proved: how far the exact orbit may be, as `proved.spread` writes
-    it; slopes (s, 2): m and radius² of each stage, box (`proved.ROWS`): the set that moves.
+    spread (frames, 4), of no frame where nothing is proved: how far the exact orbit may be, as `write_spread`
+    has it; slopes (s, 2): m and radius² of each stage, box (`proved.ROWS`): the set that moves.
     """
     proves = spread.shape[0] > 0
     period = max(1, PERIOD // c.shape[0])

@@ -78,7 +78,7 @@ def save(data: "Dataset | Arrays", path: Path) -> None:
 
     A CSV goes to standard output, too, as `STDOUT`.
 
-    Of a CSV or Parquet file each row is a ball and a frame; what is in no row stands in the column "chapsym", or in the
+    Of a CSV or Parquet file each row is a ball and a frame; what is in no row is in the column "chapsym", or in the
     metadata.  A .npz has an array for each variable, of one ball without its axis, and the rest as JSON in "chapsym".
     `pandas.read_csv(path)` has the same bits (older pandas with float_precision="round_trip").
     """
@@ -346,7 +346,7 @@ def _assembled(columns: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs
 
 
 def _dataset(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
-    """The Dataset of these arrays and what `structure` tells."""
+    """The Dataset of these arrays of a `structure`."""
     import xarray
 
     coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in told["labels"].items()}
