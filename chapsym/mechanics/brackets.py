@@ -7,6 +7,7 @@ theorem every place is reached from every other if the flag ends with all n dime
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from typing import Any
 
@@ -120,6 +121,7 @@ class Span:
     inside: Sequence[tuple[Sequence[sp.Expr], Bracketed]]
 
 
+@lru_cache(maxsize=1)
 def spanned(system: System) -> Span:
     """A flag with what proves it; as `flag`."""
     algebra = Algebra(system)
