@@ -283,7 +283,7 @@ def motion(
 def within(error: float | None, unit: str) -> str:
     """A bound in two digits, which are rounded up; none where a frame has no number."""
     if error is None or not isfinite(error):
-        return "has no number at some of these frames"
+        return "has no number or no bound at some of these frames"
     shown = Context(prec=2, rounding=ROUND_CEILING).create_decimal_from_float(error)
     return f"is within {float(shown):.2g}{unit} at these frames: proved"
 

@@ -62,7 +62,7 @@ def run(
         if as_json and destination == formats.STDOUT:
             fail("--json prints on standard output, where -o - writes the result: choose one", 2)
         formats.check_destination(destination)
-        exact = _exact(wanted, destination) if wanted.run.proved else None
+        exact = _exact(wanted, destination) if wanted.run.proved and not wanted.maps else None
         plan, answers = sweep.answering(plan_of(wanted), say)
         formats.check_size(plan, destination)
         if destination.is_file() and not fresh:
@@ -124,14 +124,14 @@ def _tell(
     plan: "Plan", destination: Path, outcome: Any, data: "Dataset | Arrays", answers: list[Any], as_json: bool
 ) -> None:
     """What was run and where it is; units that were not run are an error, balls that stopped early are none."""
-    from chapsym.scene.result.proved import PROVED, UNITS
+    from chapsym.scene.result.proved import PROVED, UNITS, UNITS_OF_MAP, bounds_of
     from chapsym.scene.result.summary import far, last_state, sentence, stopped
 
     from .certify import within
     from .trade import described, print_answer
 
     balls, failed = len(plan.members), outcome.failed
-    bounds = json.loads(data.attrs.get(PROVED, "{}"))
+    bounds = json.loads(data.attrs[PROVED]) if PROVED in data.attrs else bounds_of(data)
     one = last_state(data) if balls == 1 and not outcome.lost else {}
     answer = answers[0] if balls == len(answers) == 1 else None
     if as_json:
@@ -141,7 +141,7 @@ def _tell(
             "lost": [{"balls": list(which), "reason": why} for which, why in outcome.lost.items()],
         }  # fmt: skip
         found |= one | far(data) | ({} if answer is None else described(answer, plan.members))
-        print_json(found | ({PROVED: bounds} if PROVED in data.attrs else {}))
+        print_json(found | ({PROVED: bounds} if bounds else {}))
     else:
         _print(plan, destination, outcome, one)
         if answer is not None:
@@ -149,7 +149,8 @@ def _tell(
         elif (away := sentence(data)) is not None:
             print(": ".join(away))
         for name, error in bounds.items():
-            print(f"{name} {within(error, UNITS[name])}")
+            of_map = "" if PROVED in data.attrs else ", of the map"
+            print(f"{name} {within(error, (UNITS | UNITS_OF_MAP)[name])}{of_map}")
     if failed == balls == 1:
         fail(f"{stopped(data)}; the {one['steps']} steps before it are in {destination}", 2)
     if failed == balls:

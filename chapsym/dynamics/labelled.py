@@ -16,7 +16,7 @@ import numpy as np
 from chapsym.extras import need
 
 from .errors import Status
-from .outputs import OUTPUTS, labels
+from .outputs import BOUND, LOW, OUTPUTS, labels, whose
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 #: `taken` and `status` of balls whose turn has not come.
 NOT_RUN = -1
+#: What a run keeps of each frame.
+FRAMES = ("momentum", "gamma", "attitude", "contact")
 #: The attributes of the times of frames.
 TIME = {"units": "s", "long_name": "time"}
 #: Where tables have what is in no row, as JSON.
@@ -163,18 +165,22 @@ def of_run(run: Any) -> Arrays:
     """A `Trajectory` as the result of a scene with the same outputs; where it has times, with ω and the energy, too."""
     n, shape, count = run.gamma.shape[-1], run.status.shape, run.status.size
     motion = run.order == 0 and run.time_step is not None
-    columns = {name: getattr(run, name) for name in ("momentum", "gamma", "attitude", "contact")}
-    columns |= {f"{name}_low": getattr(run.low, name, None) for name in columns}
+    columns = {name: getattr(run, name) for name in FRAMES}
+    for end, more in ((LOW, run.low), (BOUND, run.proved)):
+        columns |= {f"{name}{end}": getattr(more, name, None) for name in FRAMES}
     if run.time_step is not None:
         K = run.angular_momentum()
-        columns |= run.derived() | {"angular_momentum": K} | ({"momentum": K} if motion else {})
+        columns |= run.derived() | {"angular_momentum": K}
+        if motion:
+            columns |= {"momentum": K, f"momentum{BOUND}": _of_quotient(columns[f"momentum{BOUND}"], K, run.time_step)}
     variables: dict[str, Labelled] = {}
-    for name in (part for one in OUTPUTS for part in (one, f"{one}_low")):
+    for name in (f"{one}{end}" for one in OUTPUTS for end in ("", LOW, BOUND)):
         if (values := columns.get(name)) is not None:
-            one = OUTPUTS[name.removesuffix("_low")]
+            one = OUTPUTS[whose(name)]
             inner = values.reshape(count, len(run.index), *values.shape[len(shape) + 1 :])
             inner = inner.astype(np.float64) if inner.dtype == np.float32 else inner
-            variables[name] = Labelled(("ball", "frame", *one.dims_in(n)), inner, one.attrs(n, motion, name))
+            dims = () if name.endswith(BOUND) else one.dims_in(n)
+            variables[name] = Labelled(("ball", "frame", *dims), inner, one.attrs(n, motion, name))
     variables |= {name: Labelled(("ball",), getattr(run, name).reshape(count), of) for name, of in OUTCOME.items()}
     if run.error is not None:
         found = about("estimate of the error, by comparison")
@@ -184,6 +190,13 @@ def of_run(run: Any) -> Arrays:
     coords = coordinates(names, variables, n) | moments(run.index, run.time_step)
     about_it = {"title": f"{'Chaplygin' if motion else 'Discrete Chaplygin'} ball: {count} ball{'s' * (count != 1)}"}
     return Arrays(variables | coords, coords, about_it | {"model": "motion of the ball" if motion else "the map"})
+
+
+def _of_quotient(bound: np.ndarray | None, K: np.ndarray, epsilon: float) -> np.ndarray | None:
+    """A bound for K = 𝒦/ε, rounded, from that of 𝒦."""
+    if bound is None:
+        return None
+    return np.nextafter(bound / epsilon, np.inf) + 2.0**-52 * np.abs(K).sum(axis=-1)
 
 
 # The table: a row for each ball and frame.

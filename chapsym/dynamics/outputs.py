@@ -11,6 +11,8 @@ from .n.ball_n import invariants_n
 #: K = 𝒦/ε in kg m²/s.  An output sees ε through it alone, so that whatever is made of it needs a run with times.  It is
 #: one quantity of the motion and of the map, and 𝒦 is `discrete_momentum`; `momentum` is the one or the other.
 K = "angular_momentum"
+#: The ends of the names of what a column may have with it: what lies beyond float64, and what its error is below.
+LOW, BOUND = "_low", "_bound"
 
 
 @dataclass(frozen=True)
@@ -44,12 +46,16 @@ class Output:
         return prod(len(labels(n)[dim]) for dim in self.dims_in(n))
 
     def attrs(self, n: int, motion: bool, name: str = "") -> dict[str, str]:
-        """Its units and its name in a result, of the motion of the ball or of the map; of `NAME_low` the rest."""
+        """Its units and its name in a result, of the motion of the ball or of the map; or those of what goes with it.
+
+        name: its own with the end `LOW` or `BOUND`.
+        """
         found = {"units": self.units if isinstance(self.units, str) else self.units(n), "long_name": self.long_name}
         if motion and self.motion is not None:
             found = dict(zip(("long_name", "units"), self.motion, strict=True))
-        low = name.endswith("_low")
-        return found | {"long_name": f"{found['long_name']}: what it has beyond float64"} if low else found
+        more = {LOW: "what it has beyond float64", BOUND: "a proved bound of the length of its error"}
+        ends = [about for end, about in more.items() if name.endswith(end)]
+        return found | {"long_name": ": ".join([found["long_name"], *ends])}
 
 
 def labels(n: int) -> dict[str, list[str]]:
@@ -128,6 +134,11 @@ OUTPUTS: dict[str, Output] = {
     "phase": Output("elliptic phase u", "1"),
     "rotation_number": Output("turns around the invariant curve, a step", "1", per_ball=True),
 }  # fmt: skip
+
+
+def whose(name: str) -> str:
+    """The output of which a column is, or with which it goes."""
+    return name.removesuffix(LOW).removesuffix(BOUND)
 
 
 def kernels_for(name: str) -> set[str]:

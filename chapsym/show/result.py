@@ -13,6 +13,7 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, kernels
 from chapsym.dynamics.labelled import frame
+from chapsym.dynamics.outputs import BOUND, LOW
 from chapsym.scene import Scene, SceneError, checked, load
 from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result import formats
@@ -199,7 +200,7 @@ def _rows(dataset: "Dataset") -> list[tuple[str, str]]:
         f"{name} from {data.min():.6g} to {data.max():.6g}{' ' + reading.readable(units) if units else ''}"
         for name, (data, units) in reading.parameters(dataset).items()
     )
-    stored = [str(name) for name in dataset.data_vars if name not in _ASIDE and not str(name).endswith("_low")]
+    stored = [str(name) for name in dataset.data_vars if name not in _ASIDE and not str(name).endswith((LOW, BOUND))]
     return [
         ("ball" if len(names) == 1 else "balls", "" if balls == "ball" else balls),
         ("varied", varied),

@@ -2,6 +2,7 @@
 
 import doctest
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -81,6 +82,28 @@ def test_digits_beyond_float64_are_kept():
     assert digits.to_pandas()["momentum_1"].iloc[-1] == digits.momentum[-1, 0]
     single = chapsym.trajectory(ball, *start, precision="single")
     assert single.to_xarray().gamma.dtype == np.float64
+
+
+def test_bounds_that_are_proved_are_kept():
+    ball = chapsym.Ball((1, 2, 4), 3, 1.0)
+    run = chapsym.trajectory(ball, (0.1, 0.05, 0), (0, 0, 1), 20, every=10, contact=True, time_step=0.1, proved=True)
+    data = run.to_xarray()
+    for name in ("momentum", "gamma", "attitude", "contact"):
+        assert data[f"{name}_bound"].dims == ("ball", "frame")
+        assert np.array_equal(data[f"{name}_bound"].values[0], getattr(run.proved, name))
+    assert data.contact_bound.attrs == {
+        "units": "m", "long_name": "contact point: a proved bound of the length of its error"
+    }  # fmt: skip
+
+
+def test_the_bound_of_a_rolled_ball_is_of_its_angular_momentum():
+    ball = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
+    run = chapsym.roll(ball, (3, -2, 1), 0.01, 20, proved=True)
+    data, K = run.to_xarray(), run.angular_momentum()
+    assert np.array_equal(data.momentum.values[0], K)
+    rounded = np.vectorize(lambda k, x: float(Fraction(k) - Fraction(x) / Fraction(0.01)))(K, run.momentum)
+    assert (data.momentum_bound.values[0] >= run.proved.momentum / 0.01 + np.linalg.norm(rounded, axis=1)).all()
+    assert (data.momentum_bound.values[0] <= run.proved.momentum / 0.01 + 1e-15).all()
 
 
 def test_in_n_dimensions_momentum_and_attitude_are_matrices():

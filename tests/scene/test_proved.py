@@ -7,10 +7,12 @@ import pytest
 from commands import answer, chapsym, refused
 from first import BALL
 
+import chapsym as library
 from chapsym.cli.certify import within
 from chapsym.dynamics.enclosed_motion import follow
 from chapsym.scene import SceneError, load
 from chapsym.scene.members.exactly import exact_motion
+from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result import formats
 from chapsym.scene.result.proved import check_scene, proved_errors
 
@@ -84,7 +86,8 @@ def test_a_scene_may_ask_for_the_proof_and_its_bounds_are_in_the_result(scene, b
 
 @pytest.mark.parametrize(("more", "output", "said"), [
     ("proved = true", "x.zarr", "run.proved writes its bounds into one file"),
-    ("proved = true\nmap = true", "x.npz", "run.proved is of the motion, and run.map of the map"),
+    ("proved = true\nmap = true\ntime_step = 0.125\noutputs = [\"energy\"]", "x.npz", "ask for one in run.outputs"),
+    ("proved = true\nprecision = \"single\"\ntime_step = 0.125", "x.npz", "bounds are proved in principal axes"),
     ("proved = true\noutputs = [\"energy\"]", "x.npz", "ask for one in its outputs"),
 ])  # fmt: skip
 def test_what_cannot_be_proved_is_refused_before_the_run(tmp_path, more, output, said):
@@ -96,10 +99,48 @@ def test_what_cannot_be_proved_is_refused_before_the_run(tmp_path, more, output,
 
 @pytest.mark.parametrize(("error", "said"), [
     (4.51e-8, "is within 4.6e-08 m at these frames: proved"), (0.0, "is within 0 m at these frames: proved"),
-    (float("inf"), "has no number at some of these frames"),
+    (float("inf"), "has no number or no bound at some of these frames"),
 ])  # fmt: skip
 def test_what_is_printed_is_a_bound_too(error, said):
     assert within(error, " m") == said
+
+
+MAP = "time = 1.0\ntime_step = 0.125\nmap = true\nproved = true\noutputs = ['momentum', 'gamma', 'contact', 'energy']\n"
+
+
+@pytest.mark.parametrize("more", ["", "precision = 'double-double'\n", "order = 4\n"])
+def test_a_scene_of_the_map_has_the_bounds_of_each_frame(tmp_path, more):
+    path, result = tmp_path / "map.toml", tmp_path / "map.csv"
+    path.write_text(f"{BALL}{MAP}{more}")
+    told = answer("run", path, "-o", result)
+    found = formats.load(result)
+    plan = plan_of(load(path))
+    assert told["model"] == "reduced map"
+    assert set(plan.refused.values()) == {"it proves no bounds of its error"}
+    one, task = plan.members, plan.task
+    ball = library.Ball(one.ball.mass_tensor[0], one.ball.D[0], one.ball.radius[0])
+    run = library.trajectory(
+        ball, one.momentum[0], one.gamma[0], 8, attitude=True, contact=True,
+        order=task.order, precision=task.precision, proved=True,
+    )  # fmt: skip
+    for name in ("momentum", "gamma", "contact"):
+        assert found[f"{name}_bound"].dims == ("ball", "frame")
+        bounds = getattr(run.proved, name)
+        assert np.array_equal(found[f"{name}_bound"].values[0], bounds)
+        assert told["proved"][name] == bounds.max() < 1e-14
+    assert "energy_bound" not in found
+    assert found.momentum_bound.units == "kg m2"
+
+
+def test_what_a_start_elsewhere_rounds_is_in_the_bound(tmp_path):
+    starts = {"here": "", "there": "position = [1000.0, 0.0]\n"}
+    bounds = {}
+    for name, place in starts.items():
+        path = tmp_path / f"{name}.toml"
+        path.write_text(f"{BALL.replace('[run]', place + '[run]')}{MAP}")
+        answer("run", path, "-o", path.with_suffix(".npz"))
+        bounds[name] = formats.load(path.with_suffix(".npz")).contact_bound.values[0, -1]
+    assert bounds["there"] > bounds["here"] + 2.0**-53 * 1000
 
 
 def test_a_frame_without_a_number_has_no_bound(scene, both, tmp_path):

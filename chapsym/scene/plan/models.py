@@ -16,6 +16,7 @@ from chapsym.dynamics import BadInput, Ball, BallN, Curve, Status, StepNotTaken,
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.closed import top
 from chapsym.dynamics.closed.top import Precession
+from chapsym.dynamics.outputs import BOUND, LOW, whose
 from chapsym.numbers.pairs import add
 
 from ..members.members import Members, one_ball
@@ -49,6 +50,7 @@ class Model(ABC):
     only, and a plan tells why it does not serve.
     stepwise: whether its cost grows with the steps (else with the frames).
     whole: whether it must run in one segment, as its state has more than float64 arrays.
+    proves: whether it bounds the error of each frame where that is asked for.
     unit_steps: steps of all balls in one unit of work: a second or two, which is what a killed run loses at most.
     """
 
@@ -62,6 +64,7 @@ class Model(ABC):
     reduction: ClassVar[bool] = False
     stepwise: ClassVar[bool] = True
     whole: ClassVar[bool] = False
+    proves: ClassVar[bool] = False
     unit_steps: ClassVar[int] = 2**27
 
     @classmethod
@@ -76,6 +79,8 @@ class Model(ABC):
         if self.motion != (task.accuracy is not None):
             own, other = ("motion of the ball", "map") if self.motion else ("map", "motion of the ball")
             return f"it is of the {own}, and the {other} is asked for"
+        if task.proved and not self.proves:
+            return "it proves no bounds of its error"
         if self.reduction and (task.order != 2 or task.precision != "double"):
             return "it has order 2 and float64 only"
         missing = sorted(needed - self.columns)
@@ -168,10 +173,16 @@ class Stepwise(Model):
                     values = values + here[name][:, np.newaxis]
                 columns[name][going], ends[name][going] = values[:, after:], values[:, -1]
                 if low is not None:
-                    columns.setdefault(f"{name}_low", np.full_like(columns[name], np.nan))
-                    columns[f"{name}_low"][going] = low[:, after:]
+                    columns.setdefault(f"{name}{LOW}", np.full_like(columns[name], np.nan))
+                    columns[f"{name}{LOW}"][going] = low[:, after:]
+                if task.proved:
+                    bound = getattr(run.proved, name)
+                    if name == "contact" and here[name].any():  # the sum with the start is rounded
+                        bound = np.nextafter(bound, np.inf) + 2.0**-52 * np.abs(values).sum(axis=-1)
+                    columns.setdefault(f"{name}{BOUND}", np.full((n, frames), np.nan))
+                    columns[f"{name}{BOUND}"][going] = bound[:, after:]
             ends["taken"][going], ends["status"][going] = first + run.taken, run.status
-        return {name: array for name, array in columns.items() if name.removesuffix("_low") in needed}, ends
+        return {name: array for name, array in columns.items() if whose(name) in needed}, ends
 
 
 class Rolling(Stepwise):
@@ -180,12 +191,19 @@ class Rolling(Stepwise):
     name = "reduced map"
     about = "𝒦 and γ step by step; attitude and contact point only if asked for"
     kernels = ROLLING
+    proves = True
+
+    def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
+        """Bounds in other axes or of fewer digits."""
+        if task.proved and (members.axes is not None or task.precision == "single"):
+            return "bounds are proved in principal axes, of double and double-double: give the principal moments"
+        return None
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
-        """Vector lanes for batches."""
+        """Vector lanes for batches; a proof goes along a second run, in double-double."""
         alone, in_lanes = (40.0, 14.0) if needed & {"attitude", "contact"} else (27.0, 8.0)
         step = in_lanes if len(members) >= BATCH and task.order == 2 else alone
-        step *= 4 if task.precision == "double-double" else 1
+        step = 1000.0 if task.proved else step * (4 if task.precision == "double-double" else 1)
         return 3e4 + len(members) * (task.steps * len(dynamics.substeps(task.order)) * step + task.frames * 10.0)
 
     def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Any:
@@ -196,7 +214,7 @@ class Rolling(Stepwise):
         return dynamics.trajectory(
             _ball(members), state["momentum"], state["gamma"], steps, every=task.every, order=task.order,
             attitude=attitude, contact="contact" in state,
-            precision=task.precision, time_step=task.time_step, progress=progress,
+            precision=task.precision, time_step=task.time_step, proved=task.proved, progress=progress,
         )  # fmt: skip
 
 
@@ -587,7 +605,7 @@ def _halves(name: str, exact: np.ndarray, place: np.ndarray | None, i: int) -> C
         exact = exact + np.vectorize(Fraction, otypes=[object])(place[i])
     high = exact.astype(np.float64)
     rest = exact - np.vectorize(Fraction, otypes=[object])(high)
-    return {name: high, f"{name}_low": rest.astype(np.float64)}
+    return {name: high, f"{name}{LOW}": rest.astype(np.float64)}
 
 
 #: Of those that do not refuse, the cheapest is taken; of two of one price the first.

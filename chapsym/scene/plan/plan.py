@@ -7,7 +7,7 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, Ball
 from chapsym.dynamics.ball import Floats
-from chapsym.dynamics.outputs import OUTPUTS, K, columns_for, kernels_for, timed
+from chapsym.dynamics.outputs import BOUND, LOW, OUTPUTS, K, columns_for, kernels_for, timed
 from chapsym.dynamics.principal_axes import attitude_from_principal, from_principal
 
 from ..members.members import Members, expand
@@ -69,7 +69,7 @@ class Plan:
     @property
     def segments(self) -> list[slice]:
         """The frames of each unit; the first holds the start."""
-        if self.model.whole or self.task.precision != "double":
+        if self.model.whole or self.task.precision != "double" or self.task.proved:
             return [slice(0, self.frames)]
         balls = min(CHUNK, len(self.members))
         by_steps = self.model.unit_steps // (balls * self.task.every) if self.model.stepwise else self.frames
@@ -163,6 +163,8 @@ def _check_outputs(members: Members, task: Task) -> None:
     untimed = [] if task.timed else sorted(name for name in task.outputs if timed(name))
     if untimed:
         raise BadInput(f"{untimed[0]} needs run.time_step, in seconds: 𝒦 = εK alone does not tell it")
+    if task.proved and all(OUTPUTS[name].derive is not None for name in task.outputs):
+        raise BadInput("run.proved bounds momentum, gamma, attitude and contact: ask for one in run.outputs")
     if members.axes is not None and task.precision == "double-double":
         raise BadInput(
             "31 digits are kept in principal axes only: give the principal moments, and the start in their axes"
@@ -181,8 +183,7 @@ def asked_for(members: Members, task: Task, columns: Columns) -> Columns:
     found: Columns = {}
     for name in task.outputs:
         found[name] = columns[name] if OUTPUTS[name].derive is None else _derived(name, members, task, columns)
-        if f"{name}_low" in columns:
-            found[f"{name}_low"] = columns[f"{name}_low"]
+        found |= {whole: columns[whole] for end in (LOW, BOUND) if (whole := f"{name}{end}") in columns}
     return in_given_axes(members, found)
 
 

@@ -74,6 +74,7 @@ class Scene(Table):
             run.names(), steps, every, run.time_step, run.order or 2, run.precision or "double",
             None if self.maps else float(run.accuracy or DEFAULT), None if self.maps or run.time_step else run.time,
             run.accurate_of() if searched else "state", 600.0 if run.limit is None else run.limit, searched,
+            run.proved and self.maps,
         )  # fmt: skip
 
     @property

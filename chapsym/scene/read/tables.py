@@ -318,7 +318,10 @@ class RunTable(Table):
     )
     of: Literal["state", "contact"] | None = Field(None, description="What the accuracy is of.")
     limit: Seconds | None = Field(None, description="Of the processor, for a run to an accuracy; default 600 s.")
-    proved: Switch = Field(False, description="Whether a bound of the error is proved after the run, of one ball.")
+    proved: Switch = Field(
+        False,
+        description="Whether bounds of the error are proved: of the map in each frame, of the motion of one ball.",
+    )
 
     @field_validator("precision", mode="before")
     @classmethod
@@ -335,8 +338,6 @@ class RunTable(Table):
             self._check_accuracy()
         elif told := self.given("limit", "of"):
             raise Misfit(f"run.{told[0]} goes with run.accuracy", told[0])
-        if self.proved and (key := self.of_the_map()) is not None:
-            raise Misfit(f"run.proved is of the motion, and run.{key} of the map: leave out one of them", "proved")
         if self.every is not None and self.frames is not None:
             raise Misfit("run: give either every or frames", "frames")
         if self.steps is None and self.time is None:

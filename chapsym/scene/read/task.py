@@ -18,6 +18,7 @@ class Task:
     Or, of the continuous motion, an accuracy at these frames, in the norm `of` ("state" or "contact"), within `limit` s
     of the processor.  Without a time_step the frames are at `steps` equal parts of `time` s.
     searched: whether the scene asks for that accuracy itself, so that all precisions may serve.
+    proved: of the map, whether each frame shall have bounds of its error.
     """
 
     outputs: tuple[str, ...]
@@ -31,6 +32,7 @@ class Task:
     of: str = "state"
     limit: float = 600.0
     searched: bool = False
+    proved: bool = False
 
     @property
     def frames(self) -> int:

@@ -26,7 +26,7 @@ from chapsym.dynamics.labelled import (
     moments,
     with_clock,
 )  # fmt: skip
-from chapsym.dynamics.outputs import OUTPUTS, labels
+from chapsym.dynamics.outputs import BOUND, LOW, OUTPUTS, labels
 
 from ..members.members import Body
 from ..members.members import bodies as bodies_of
@@ -62,8 +62,11 @@ def layout(plan: Plan) -> dict[str, Labelled]:
     for name in plan.task.outputs:
         one = OUTPUTS[name]
         dims = (*(("ball",) if one.per_ball else ("ball", "frame")), *one.dims_in(n))
-        for each in (name, f"{name}_low") if plan.doubled and one.derive is None else (name,):
-            add(each, dims, one.attrs(n, plan.task.accuracy is not None, each), np.nan)
+        followed = one.derive is None
+        for end, has in (("", True), (LOW, plan.doubled and followed), (BOUND, plan.task.proved and followed)):
+            if has:
+                attrs = one.attrs(n, plan.task.accuracy is not None, f"{name}{end}")
+                add(f"{name}{end}", dims[:2] if end == BOUND else dims, attrs, np.nan)
     for name, attrs in OUTCOME.items():
         add(name, ("ball",), attrs)
     if plan.task.accuracy is not None:
@@ -120,8 +123,10 @@ def provenance(plan: Plan) -> dict[str, Any]:
 
 def _fingerprint(plan: Plan) -> str:
     """A hash of all that the values depend on: bodies, starts and the task."""
-    members, ball = plan.members, plan.members.ball
-    found = hashlib.sha256(json.dumps([asdict(plan.task), list(members.names)]).encode())
+    members, ball, task = plan.members, plan.members.ball, asdict(plan.task)
+    if not task["proved"]:  # which results had not, whose values are the same
+        del task["proved"]
+    found = hashlib.sha256(json.dumps([task, list(members.names)]).encode())
     starts = (members.momentum, members.gamma, members.axes, members.attitude, members.place)
     for array in (ball.mass_tensor, ball.D, ball.radius, *starts):
         found.update(b"none" if array is None else np.ascontiguousarray(array).tobytes())

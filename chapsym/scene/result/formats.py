@@ -18,7 +18,7 @@ import numpy as np
 
 from chapsym import files
 from chapsym.dynamics.labelled import NOTES, Arrays, batches, in_rows, is_ours, plain, structure, with_clock
-from chapsym.dynamics.outputs import OUTPUTS, labels
+from chapsym.dynamics.outputs import OUTPUTS, labels, whose
 
 from ..plan.plan import Plan
 from ..read.errors import SceneError
@@ -380,7 +380,7 @@ def _old(columns: Mapping[str, np.ndarray]) -> "Dataset":
         coords["time"] = ("frame", found["time"], {"units": "s"})
     variables: dict[Any, Any] = {}
     for name, values in found.items():
-        of = OUTPUTS.get(name.removesuffix("_low"))
+        of = OUTPUTS.get(whose(name))
         if of is not None:
             (dim,) = of.dims
             coords[dim] = np.array(labels(3)[dim], dtype=object)

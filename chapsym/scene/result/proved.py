@@ -1,4 +1,4 @@
-"""How far the frames of a result are from a motion with proved digits: a bound, not an estimate."""
+"""How far frames are from a motion with proved digits, or from the orbit of the map: bounds, not estimates."""
 
 import json
 import math
@@ -10,6 +10,7 @@ import numpy as np
 
 from chapsym.dynamics import CertifiedMotion
 from chapsym.dynamics.enclosed_motion import follow
+from chapsym.dynamics.outputs import BOUND
 
 from ..read.errors import SceneError
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 #: What is compared, and its unit.
 UNITS = {"gamma": "", "omega": " rad/s", "attitude": "", "contact": " m"}
+#: Of the map there are bounds in a result for what is followed: its units.
+UNITS_OF_MAP = {"momentum": " kg m²", "gamma": "", "attitude": "", "contact": " m"}
 
 
 #: Of the differences: so that float64 is no part of them.
@@ -53,6 +56,14 @@ def check_scene(dataset: "Dataset", scene: str) -> None:
     check_outputs(map(str, dataset))
     if dataset.attrs.get("scene") != scene:
         raise SceneError("the result is of another scene: run this one, and compare its result")
+
+
+def bounds_of(data: "Dataset | Arrays") -> dict[str, float | None]:
+    """The greatest bound at any frame of a result of the map that has bounds; None where one is not finite."""
+    greatest = {
+        name: float(np.nanmax(data[name + BOUND].values)) for name in UNITS_OF_MAP if name + BOUND in data.variables
+    }
+    return {name: error if math.isfinite(error) else None for name, error in greatest.items()}
 
 
 def proved_errors(dataset: "Dataset | Arrays", found: CertifiedMotion) -> dict[str, float]:
