@@ -33,6 +33,7 @@ SCRIPTS = (
     "map.gyrostat_map",
     "map.modified",
     "map.order",
+    "map.rounding",
     "map.self_adjoint",
     "map.stable",
     "map.steady",
@@ -62,7 +63,8 @@ CLAIMS = (
 
 #: What the paper does not say and the map of chapsym rests on: judged like its claims, by name, outside its register.
 LEMMAS = (
-    "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "straight-path", "state-error", "step-bound", "self-adjoint", "reversible",
+    "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "straight-path", "state-error", "step-bound", "rounding",
+    "self-adjoint", "reversible",
     "momentum-integrals-composed", "composition-order", "vertical-rotation", "vertical-level", "vertical-top", "top-commutes", "top-precession",
     "stable-momentum", "stable-determinant", "stable-inverse", "steady", "steady-branch", "steady-axis", "steady-roll",
     "isotropic-spin", "straight", "symmetries", "chord", "resonance", "plateaus", "almost-every", "locked-circle",

@@ -24,7 +24,7 @@ from chapsym.prove import PROOFS, Register, Verdict
 from chapsym.prove.claims import Judgement, judgement_of, once
 from chapsym.prove.trees import tree
 
-from . import c_files, carriers, passes, printer
+from . import c_files, carriers, passes, printer, rounding
 from .kernels import Kernel
 from .passes import letters
 
@@ -122,7 +122,10 @@ class Package:
         functions = ", ".join(sorted({function for _, function, _ in passes.letters(kernel)}))
         imports = [f"from {printer.FUNCTIONS} import {functions}"] if functions else []
         text = _module(about, imports, [code(kernel)])
-        row = {"claims": kernel.claims, "operations": operations, "saved_by": passes.saved(kernel)}
+        point = [at(symbol.name) for symbol in kernel.inputs]
+        roundings = rounding.count(kernel, run(kernel, text), point)
+        row = {"claims": kernel.claims, "operations": operations, "roundings": roundings}
+        row["saved_by"] = passes.saved(kernel)
         row |= {"expression_sha256": digest, "text_sha256": _hash(text)}
         row["inputs"] = [symbol.name for symbol in kernel.inputs]
         if kernel.letters:
@@ -149,10 +152,11 @@ class Package:
         for name, (derived, values) in self.computed.items():
             if values(files[f"{name}.py"]) != derived:
                 raise ArithmeticError(f"the text of {name} does not compute its expression")
+        roundings = {name: row["roundings"] for name, row in rows.items()}
         if self.is_ours:
-            files |= c_files.build(partial(self.text, files), self.kernels)
+            files |= c_files.build(partial(self.text, files), self.kernels, roundings)
         else:
-            files |= c_files.kernels_alone(self.text(files, "chapsym.generated"), self.kernels, self.name)
+            files |= c_files.kernels_alone(self.text(files, "chapsym.generated"), self.kernels, self.name, roundings)
         parts = [f'"{key}": {_one_a_line(part)}' for key, part in table.items()]
         files[MANIFEST] = "{\n" + ",\n".join([f'"sympy": "{sp.__version__}"', *parts]) + "\n}\n"
         return files
@@ -353,18 +357,26 @@ def fingerprint(kernel: Kernel) -> list[str]:
 
 def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
     """The same values from the generated text, run on fractions."""
-    module, found = ast.parse(text), list[str]()
+    found = list[str]()
+
+    def letter(function: str, name: str, *of: Fraction) -> Fraction:
+        found.append(f"{function} {decimal(Fraction(1) if function == 'pi' else of[0])}")
+        return at(name)
+
+    result = run(kernel, text, letter)(*(at(symbol.name) for symbol in kernel.inputs))
+    return [decimal(value) for value in (result if isinstance(result, tuple) else (result,))] + found
+
+
+def run(kernel: Kernel, text: str, letter: Callable[..., Any] | None = None) -> Callable[..., Any]:
+    """The function of a module that was generated, whose letters are what `letter` makes of their function and name."""
+    module = ast.parse(text)
     module.body = [node for node in module.body if not isinstance(node, ast.ImportFrom)]
     for node in ast.walk(module):
         if isinstance(node, ast.Assign) and isinstance(call := node.value, ast.Call):
             call.args[:0] = [ast.Constant(ast.unparse(part)) for part in (call.func, *node.targets)]
             call.func = ast.Name(LETTER, ast.Load())
 
-    def letter(function: str, name: str, *of: Fraction) -> Fraction:
-        found.append(f"{function} {decimal(Fraction(1) if function == 'pi' else of[0])}")
-        return at(name)
-
     scope: dict[str, Any] = {LETTER: letter}
     exec(compile(ast.fix_missing_locations(module), f"{kernel.name}.py", "exec"), scope)  # our own text, never a user's
-    result = scope[kernel.name](*(at(symbol.name) for symbol in kernel.inputs))
-    return [decimal(value) for value in (result if isinstance(result, tuple) else (result,))] + found
+    found: Callable[..., Any] = scope[kernel.name]
+    return found

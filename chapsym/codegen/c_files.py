@@ -1,7 +1,7 @@
 """The files in C: the loops for two types of numbers, and a library of the kernels and a step for other languages."""
 
 import hashlib
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -242,7 +242,7 @@ def guarded(guard: str, text: str) -> str:
     return f"{guard}\n{text}#endif\n" if guard and text else text
 
 
-def build(load: Callable[[str], str], kernels: Sequence[Kernel]) -> dict[str, str]:
+def build(load: Callable[[str], str], kernels: Sequence[Kernel], roundings: Mapping[str, int | None]) -> dict[str, str]:
     """The files by name; `load` gives the text of a module of the loops, of the kernels or of what these import."""
     program = Program(load)
     exported = {
@@ -264,7 +264,7 @@ def build(load: Callable[[str], str], kernels: Sequence[Kernel]) -> dict[str, st
         "loops_single.c": HEAD.format("The loops in float32.", mine) + '#define SINGLE\n#include "loops.c"\n',
         "loops.h": HEAD.format("What the loops and what calls them agree on.", mine) + INTERFACE,
         "loops_text.py": f'{python}\n\nTEXT = "{digest}"\n',
-        **library(texts, kernels),
+        **library(texts, kernels, roundings),
     }
 
 
@@ -280,6 +280,13 @@ extern "C" {{
 }}
 #endif
 #endif
+"""
+#: What the declarations of kernels say.
+ABOUT_ROUNDINGS = """
+/* Of a kernel with N roundings each result is off by at most N 2^-53 (1 + 2^-10) of its terms, if nothing over- or
+   underflows and no divisor is below 2^-25 of its own terms (lemma `rounding` of chapsym).  Terms are a formula with
+   every sum taken absolutely: |x| of an argument, terms(a) + terms(b) of a + b and a - b, terms(a) terms(b) of a b,
+   terms(a) terms(b)/b^2 of a/b. */
 """
 #: What comes before the step of the library of chapsym.
 ABOUT_STEP = """
@@ -300,9 +307,9 @@ ALONE = "#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n"
 ALONE += "typedef double real;\n#define R(x) ((real)(x))\n#define INLINE static inline\n\n"
 
 
-def library(texts: Texts, kernels: Sequence[Kernel]) -> dict[str, str]:
+def library(texts: Texts, kernels: Sequence[Kernel], roundings: Mapping[str, int | None]) -> dict[str, str]:
     """chapsym.h and chapsym.c: every kernel as a function of arrays, and a step."""
-    declared, defined = interface(texts, kernels, "chapsym")
+    declared, defined = interface(texts, kernels, "chapsym", roundings)
     rows = texts.program.module(f"{PACKAGE}.loop").names["ROWS"]
     arrays = "(r1){momentum, 3}, (r1){gamma, 3}, (r1){tensor, 3}, D, (r1){state, @}, (r1){rotation, 4}"
     body = [
@@ -321,12 +328,14 @@ def library(texts: Texts, kernels: Sequence[Kernel]) -> dict[str, str]:
     }
 
 
-def kernels_alone(text: str, kernels: Sequence[Kernel], prefix: str) -> dict[str, str]:
+def kernels_alone(
+    text: str, kernels: Sequence[Kernel], prefix: str, roundings: Mapping[str, int | None]
+) -> dict[str, str]:
     """The same of the kernels of another register, whose functions are in a text: PREFIX.h and PREFIX.c."""
     program = Program(lambda path: text)
     functions = program.module("chapsym.generated").functions
     texts = Texts(program, [], [], [functions[kernel.name] for kernel in kernels])
-    declared, defined = interface(texts, kernels, prefix)
+    declared, defined = interface(texts, kernels, prefix, roundings)
     about = f"The kernels of {prefix}, each from a proved expression: for other languages."
     head = HEAD.format(f"{prefix}.h: compile it with -ffp-contract=off.", "the derivation")
     return {
@@ -335,21 +344,25 @@ def kernels_alone(text: str, kernels: Sequence[Kernel], prefix: str) -> dict[str
     }
 
 
-def interface(texts: Texts, kernels: Sequence[Kernel], prefix: str) -> tuple[str, str]:
+def interface(
+    texts: Texts, kernels: Sequence[Kernel], prefix: str, roundings: Mapping[str, int | None]
+) -> tuple[str, str]:
     """The declaration and the definition of every kernel as a function of arrays, PREFIX_kernel."""
     functions = texts.program.module("chapsym.generated").functions
     declared, defined = list[str](), list[str]()
     for kernel in sorted(kernels, key=lambda k: k.name):
-        function, count = functions[kernel.name], len(kernel.outputs)
+        function = functions[kernel.name]
         if function not in texts.groups:
             defined.append(texts.written(function))
         parameters, given = [], []
         for name, symbols in kernel.groups:
             parameters.append(f"double {name}" if len(symbols) == 1 else f"const double {name}[{len(symbols)}]")
             given += [name] if len(symbols) == 1 else [f"{name}[{i}]" for i in range(len(symbols))]
-        head = f"void {prefix}_{kernel.name}({', '.join(parameters)}, double result[{count}])"
+        head = f"void {prefix}_{kernel.name}({', '.join(parameters)}, double result[{len(kernel.outputs)}])"
         rows = f", {kernel.shape[0]} rows" if len(kernel.shape) > 1 else ""
-        comment = f"/* {kernel.summary} result: {', '.join(kernel.outputs)}{rows}. */"
+        count = roundings.get(kernel.name)
+        rounded = "" if count is None else f" Roundings: {count}."
+        comment = f"/* {kernel.summary} result: {', '.join(kernel.outputs)}{rows}.{rounded} */"
         declared.append("\n".join(["", *broken(comment), *broken(head + ";"), ""]))
         returned = texts.of[function].returned
         call = f"{c_type(returned)} got = {function.name}({', '.join(given)})"
@@ -361,4 +374,4 @@ def interface(texts: Texts, kernels: Sequence[Kernel], prefix: str) -> tuple[str
                 f"result[{i}] = {x.text}" for i, x in enumerate(got.parts if isinstance(returned, tuple) else [got])
             ]
         defined.append(block(head, call, *copied))
-    return "".join(declared), "".join(defined)
+    return ABOUT_ROUNDINGS + "".join(declared), "".join(defined)

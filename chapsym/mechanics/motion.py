@@ -347,7 +347,7 @@ class Runner:
     def library(self) -> Any:
         """The compiled steps; None where they cannot be compiled, which is said."""
         scheme = self.scheme
-        files = c_files.kernels_alone(_text(self.kernels), self.kernels, "system")
+        files = c_files.kernels_alone(_text(self.kernels), self.kernels, "system", {})
         stages = [*scheme.stages, *([[]] if not scheme.stages else [])]
         tableau = ", ".join(str(float(x)) for row in stages for x in row) or "0"
         sizes = {

@@ -7,6 +7,11 @@
 extern "C" {
 #endif
 
+/* Of a kernel with N roundings each result is off by at most N 2^-53 (1 + 2^-10) of its terms, if nothing over- or
+   underflows and no divisor is below 2^-25 of its own terms (lemma `rounding` of chapsym).  Terms are a formula with
+   every sum taken absolutely: |x| of an argument, terms(a) + terms(b) of a + b and a - b, terms(a) terms(b) of a b,
+   terms(a) terms(b)/b^2 of a/b. */
+
 /* The second derivatives of heading, lean and turn, in the rates of the angles. result: a1, a2, a3. */
 void rolling_disc_accelerations(double lean, const double rates[3], double radius, double gravity, double result[3]);
 
@@ -22,7 +27,7 @@ void rolling_disc_step_lack(const double middle[4], const double start[4], doubl
 void rolling_disc_step_slope(const double middle[4], const double start[4], double radius, double gravity, double
     step, double result[16]);
 
-/* The velocity of the centre along L.x and L.y, for which the disc does not slip. result: v1, v2. */
+/* The velocity of the centre along L.x and L.y, for which the disc does not slip. result: v1, v2. Roundings: 1. */
 void rolling_disc_velocity(const double spin[3], double radius, double result[2]);
 
 #ifdef __cplusplus
