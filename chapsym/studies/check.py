@@ -8,13 +8,15 @@ where T is the tangent Jacobian.  Roundings of D's term lie across γ, where T i
     κ = 1 + |T⁻¹| (|𝒦| + 2 I_max |q|) / |q|,
 
 and it is: q within `BUDGET`·κ ulps, 𝒦 and γ after the step within `BUDGET`·(1 + |q| κ) ulps.
-Norms of vectors are their largest components.
+Norms of vectors are their largest components.  What is promised is measured; the bounds of `proved=True` are proved for
+each state, and compared with the same errors.
 """
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+import mpmath
 import numpy as np
 
 from chapsym import jobs
@@ -42,7 +44,10 @@ class State:
 
 @dataclass(frozen=True)
 class Row:
-    """The worst errors of one stratum, in ulps, and as a fraction of what was promised."""
+    """The worst errors of one stratum, in ulps, and as a fraction of what was promised.
+
+    proved: the states with proved bounds; of_proved: the worst error as a fraction of its bound.
+    """
 
     stratum: str
     states: int
@@ -51,11 +56,13 @@ class Row:
     gamma_ulps: float
     condition: float
     of_budget: float
+    proved: int
+    of_proved: float
 
     @property
     def kept(self) -> bool:
-        """Whether the promise was kept."""
-        return self.of_budget <= 1.0
+        """Whether the promise was kept, and no proved bound was broken."""
+        return self.of_budget <= 1.0 and self.of_proved <= 1.0
 
 
 def _unit(rng: np.random.Generator) -> Floats:
@@ -112,10 +119,16 @@ STRATA: dict[str, Callable[[np.random.Generator], State]] = {
 }
 
 
-def compare(state: State, digits: int = 34) -> tuple[Floats, Floats, float]:
-    """One float64 step against the oracle: errors of q, 𝒦, γ and what was promised, in ulps; and κ."""
-    found = step(Ball(state.J, state.D), state.K, state.g)
-    truth: OracleStep = Oracle([*state.J], state.D, [*state.g], digits).step([*state.K])
+def compare(state: State, digits: int = 34) -> tuple[Floats, Floats, float, float]:
+    """One float64 step against the oracle: errors of q, 𝒦, γ and what was promised, in ulps; κ; of what is proved.
+
+    The last is the largest error as a fraction of its bound, NaN where nothing is proved.
+    """
+    found = step(Ball(state.J, state.D), state.K, state.g, proved=True)
+    vertical = mpmath.matrix(state.g)  # exactly; the map is of the unit vector
+    with mpmath.workdps(digits + 10):
+        vertical = list(vertical / mpmath.norm(vertical))
+    truth: OracleStep = Oracle([*state.J], state.D, vertical, digits).step([*state.K])
     q = found.rotation[1:]
     size, extent = np.abs(state.K).max() or 1.0, np.abs(q).max() or 1.0
 
@@ -127,15 +140,30 @@ def compare(state: State, digits: int = 34) -> tuple[Floats, Floats, float]:
     kappa = 1 + float(np.linalg.norm(np.linalg.inv(jacobian), 2) * (size / extent + 2 * top))
     errors = [ulps(q, truth.q, extent), ulps(found.momentum, truth.momentum, size), ulps(found.gamma, truth.gamma, 1.0)]
     promised = [BUDGET * kappa, BUDGET * (1 + extent * kappa), BUDGET * (1 + extent * kappa)]
-    return np.array(errors), np.array(promised), kappa
+    exact = [truth.q0, *truth.q], truth.momentum, truth.gamma
+    off = [_apart(*pair) for pair in zip((found.rotation, found.momentum, found.gamma), exact, strict=True)]
+    assert found.proved is not None
+    bounds = np.array([found.proved.rotation, found.proved.momentum, found.proved.gamma])
+    share = float(np.max(off / bounds)) if np.isfinite(bounds).all() else np.nan
+    return np.array(errors), np.array(promised), kappa, share
+
+
+def _apart(values: Floats, exact: list[Any]) -> float:
+    """The length of the error."""
+    return float(mpmath.norm([e - float(v) for v, e in zip(values, exact, strict=True)]))
 
 
 def check_stratum(name: str, states: int, seed: int) -> Row:
     """The worst of `states` seeded states of one stratum."""
     rng = np.random.default_rng([seed, list(STRATA).index(name)])
-    errors, promised, conditions = map(np.array, zip(*(compare(STRATA[name](rng)) for _ in range(states)), strict=True))
+    found = (compare(STRATA[name](rng)) for _ in range(states))
+    errors, promised, conditions, shares = map(np.array, zip(*found, strict=True))
     rotation, momentum, gamma = map(float, errors.max(axis=0))
-    return Row(name, states, rotation, momentum, gamma, float(conditions.max()), float((errors / promised).max()))
+    proved = int(np.isfinite(shares).sum())
+    return Row(
+        name, states, rotation, momentum, gamma, float(conditions.max()), float((errors / promised).max()),
+        proved, float(np.nanmax(shares)) if proved else 0.0,
+    )  # fmt: skip
 
 
 def check(states: int = 20, seed: int = 20071, on_row: Callable[[Row], None] = lambda row: None) -> list[Row]:
