@@ -4,10 +4,10 @@
     verdict = check(read("proofs/certificates/….json"))        what it rests on must be accepted, too: standing
 
 To be read in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map), then
-measure.py (with circle.py, branch.py), heteroclinic.py and orbit.py (what a certificate says and why it is proved);
-taylor.py (functions of the time), rolling.py (the continuous ball), drift.py, motion.py; document.py and form.py (the
-form of a file).  For the statements of the register: trees.py, polynomial.py, words.py, algebra.py, matrices.py,
-derivation.py (how what they are about is made), roots.py, register.py; shown.py prints what was judged.
+measure.py (with circle.py, branch.py), heteroclinic.py, orbit.py, run.py (what a certificate says and why it is
+proved); taylor.py (functions of the time), rolling.py (the continuous ball), drift.py, motion.py; document.py and
+form.py (the form of a file).  For the statements of the register: trees.py, polynomial.py, words.py, algebra.py,
+matrices.py, derivation.py (how what they are about is made), roots.py, register.py; shown.py prints what was judged.
 """
 
 from collections import Counter
@@ -15,7 +15,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from . import drift, heteroclinic, measure, motion, orbit, register
+from . import drift, heteroclinic, measure, motion, orbit, register, run
 from .document import FORMAT, Unreadable, digest, file_name, read
 from .interval import Rejected
 
@@ -41,6 +41,7 @@ KINDS = {
     "periodic-orbit": orbit,
     "energy-drift": drift,
     "motion": motion,
+    "map-run": run,
     "register-claim": register,
 }
 

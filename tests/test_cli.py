@@ -119,6 +119,7 @@ def test_help_shows_an_example_of_each_command():
         "check",
         "manifest",
         "motion",
+        "run",
     ]
     assert not [kind for kind in kinds if re.search("<[a-z]", chapsym("certify", kind, "-h").stdout)]
 

@@ -280,6 +280,37 @@ def motion(
         fail(found.stopped, 1)
 
 
+@certify.command("run")
+def run_of_map(
+    scene: Annotated[Path, argument("SCENE.toml", "One ball of the map, in double precision.")],
+    output: Output = None,
+    as_json: Json = False,
+) -> None:
+    """Certify how far the frames of a run of the map in float64 are from its exact orbit.
+
+    The checker repeats the run in integers, from the numbers as float64 has them.
+
+    Example: chapsym certify run map.toml -o run.json
+    """
+    from chapsym.certificates.run import map_run as search
+    from chapsym.dynamics import trajectory
+    from chapsym.scene import load
+    from chapsym.scene.members.members import one_ball
+    from chapsym.scene.plan.plan import plan_of
+
+    plan = plan_of(load(scene))
+    if plan.task.accuracy is not None:
+        fail(f"{scene} is of the motion of the ball: add map = true under [run], or take chapsym certify motion", 2)
+    if len(plan.members) > 1 or plan.members.axes is not None or plan.members.dimension > 3:
+        fail(f"{scene}: certify run takes one ball in three dimensions, by its principal moments", 2)
+    start = plan.members.momentum[0], plan.members.gamma[0]
+    ball, task = one_ball(plan.members, 0), plan.task
+    run = trajectory(
+        ball, *start, task.steps, every=task.every, order=task.order, precision=task.precision, proved=True
+    )  # fmt: skip
+    _deliver(output, as_json, search, run)
+
+
 def within(error: float | None, unit: str) -> str:
     """A bound in two digits, which are rounded up; none where a frame has no number."""
     if error is None or not isfinite(error):

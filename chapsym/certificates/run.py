@@ -1,0 +1,73 @@
+"""A certificate of how far a run of the map in float64 is from the exact orbit."""
+
+import math
+from collections.abc import Callable
+from decimal import ROUND_CEILING, Context
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from chapsym import checker
+from chapsym.dynamics import BadInput, Trajectory
+from chapsym.numbers import Double
+
+from .balls import shortest
+from .document import accepted, stated
+
+KIND = "map-run"
+#: Bits for numbers of the size of 1 and their bounds, and bits a step, in the order in which they are tried.
+GUARD, A_STEP = 128, (2.5, 4.0, 8.0)
+
+
+def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: None) -> dict[str, Any]:
+    """The certificate of a run of one ball in float64 with proved bounds, accepted by the checker.
+
+    The checker follows the orbit from the start in integers and compares each frame with it.  Raises BadInput for
+    other runs, and where the checker proves too little.
+    """
+    if run.order != 2 or not isinstance(run.precision, Double) or run.status.shape or run.proved is None:
+        raise BadInput("a certificate is of one ball, of the map itself, in double precision with proved=True")
+    bounds = np.stack([run.proved.momentum, run.proved.gamma])
+    if not np.isfinite(bounds).all():
+        raise BadInput(f"the bounds are proved up to step {run.proved.steps} only: take a run that ends there")
+    steps, most = int(run.index[-1]), checker.document.MOST_STEPS
+    if not 0 < steps <= most:
+        raise BadInput(f"the checker follows 1 to {most} steps, and the run has {steps}")
+    small = min(float(x) for x in (*run.ball.mass_tensor, run.ball.D, *bounds[:, 1:].ravel(), 1.0) if x > 0)
+    why = ""
+    for a_step in A_STEP:
+        bits = GUARD + math.ceil(a_step * steps - math.log2(small))
+        progress(f"the checker tries {bits} bits")
+        try:
+            return accepted(_document(run, bits))
+        except checker.Rejected as error:
+            why = str(error)
+    raise BadInput(f"the checker does not prove the bounds of this run: {why}")
+
+
+def _document(run: Trajectory, bits: int) -> dict[str, Any]:
+    """The certificate, for a checker with this many bits: not checked."""
+    assert run.proved is not None
+    rows = zip(run.index, run.momentum, run.gamma, run.proved.momentum, run.proved.gamma, strict=True)
+    (_, K, g, *_), *after = rows
+    ball = {"J": _exact(run.ball.mass_tensor), "D": shortest(Fraction(float(run.ball.D)))}
+    frames = [
+        {"step": int(i), **_state(k, v), "bounds": {"momentum": _above(off), "gamma": _above(turned)}}
+        for i, k, v, off, turned in after
+    ]
+    return stated(KIND, ball=ball, start=_state(K, g), bits=bits, frames=frames)
+
+
+def _state(momentum: np.ndarray, gamma: np.ndarray) -> dict[str, list[str]]:
+    return {"momentum": _exact(momentum), "gamma": _exact(gamma)}
+
+
+def _exact(v: np.ndarray) -> list[str]:
+    return [shortest(Fraction(x)) for x in v.tolist()]
+
+
+def _above(bound: float) -> str:
+    """A bound, rounded up to three digits."""
+    shown = Context(prec=3, rounding=ROUND_CEILING).create_decimal_from_float(float(bound))
+    return f"{shown:.2e}".replace("+", "")

@@ -1,0 +1,73 @@
+"""Certificates of kind map-run: how far the numbers of a run of the map, in float64 or any other, are from its orbit.
+
+The file has the ball, the numbers of the start, and frames: the step, 𝒦, γ, and a bound for the distance of each; and
+the bits that the checker shall work with, of which it loses some two in a step.  The orbit is that of step.py from 𝒦
+and γ/|γ|, on the small branch.  It is enclosed step by step, each root by Newton's test near that of the step before,
+and the distances of the frames from it are compared with their bounds.  The steps keep |𝒦| and |γ|, so that the small
+branch is proved for all of them at the start; a root with |u| < 1 for all of a box is that of the true state, which is
+in the box.
+"""
+
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from .document import STEPS, check_work, exact
+from .form import HEAD, check_shape
+from .interval import Interval, Rejected
+from .linear import Vector, dot, minus, times
+from .step import Ball, check_small_branch, gibbs_vector, moved
+
+NUMBERS = (exact,) * 3
+STATE = {"momentum": NUMBERS, "gamma": NUMBERS}
+FORM = HEAD | {
+    "ball": {"J": NUMBERS, "D": exact}, "start": STATE, "bits": range(64, 8193),
+    "frames": [{"step": STEPS, **STATE, "bounds": {"momentum": exact, "gamma": exact}}],
+}  # fmt: skip
+
+
+def statement(data: dict[str, Any]) -> str:
+    """What is proved, with the numbers of the file."""
+    ball, start, last = data["ball"], data["start"], data["frames"][-1]
+    return (
+        f"The ball with J = ({', '.join(ball['J'])}), D = {ball['D']}, that starts with 𝒦 = "
+        f"({', '.join(start['momentum'])}) and γ = ({', '.join(start['gamma'])}), divided by its length, is at "
+        f"{len(data['frames'])} steps of the map up to step {last['step']} as near to the 𝒦 and γ of the frames as "
+        f"their bounds say: at the last within {last['bounds']['momentum']} and {last['bounds']['gamma']}."
+    )
+
+
+def check_form(data: dict[str, Any]) -> None:
+    """Raises Rejected unless all numbers are there, in their form, and the frames one after the other."""
+    check_shape(data, FORM)
+    steps = [0, *(frame["step"] for frame in data["frames"])]
+    if len(steps) == 1 or any(x >= y for x, y in pairwise(steps)):
+        raise Rejected("frames must not be empty, and each of a later step than the one before")
+    if not any(Fraction(x) for x in data["start"]["gamma"]):
+        raise Rejected("the γ of the start is 0, and has no direction")
+
+
+def check(data: dict[str, Any]) -> dict[str, str]:
+    """Raises Rejected unless each frame is as near to the orbit as it says; returns the bounds of the last."""
+    J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
+    K, g = ([Fraction(x) for x in data["start"][name]] for name in STATE)
+    frames, steps = data["frames"], data["frames"][-1]["step"]
+    check_work(steps, bits := data["bits"])
+
+    def enclosed(v: list[Fraction]) -> Vector:
+        return [Interval.enclosing(x, x, bits) for x in v]
+
+    ball, momentum, vertical = Ball.within(J, D, Fraction(0), bits), enclosed(K), enclosed(g)
+    state = momentum, times(1 / dot(vertical, vertical).sqrt(), vertical)
+    check_small_branch(ball, dot(momentum, momentum).sqrt() if any(K) else momentum[0])
+    u: Vector = [x / y for x, y in zip(times(ball.D._of(1) / 2, momentum), ball.contact, strict=True)]
+    done = 0
+    for frame in frames:
+        while done < frame["step"]:
+            u, done = gibbs_vector(ball, state, [x.point() for x in u]), done + 1
+            state = moved(u, state)
+        for name, exactly in zip(STATE, state, strict=True):
+            off, bound = minus(exactly, enclosed([Fraction(x) for x in frame[name]])), Fraction(frame["bounds"][name])
+            if not dot(off, off) < Interval.enclosing(bound**2, bound**2, bits):
+                raise Rejected(f"{name} after step {done} is not proved to be within its bound")
+    return {f"{name} after step {done}, off by at most": frames[-1]["bounds"][name] for name in STATE}
