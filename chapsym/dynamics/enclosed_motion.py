@@ -50,8 +50,8 @@ class ExactBall:
         contact = exactly(D, "D")
         rho = None if radius is None else exactly(radius, "radius")
         moments: Any
-        rows = isinstance(mass_tensor, Sequence | np.ndarray) and len(mass_tensor) == 3
-        if rows and all(isinstance(x, list | tuple | np.ndarray) for x in mass_tensor):
+        listed = isinstance(mass_tensor, Sequence) or (isinstance(mass_tensor, np.ndarray) and mass_tensor.ndim)
+        if listed and len(mass_tensor) == 3 and all(isinstance(x, list | tuple | np.ndarray) for x in mass_tensor):
             moments = check_tensor([vector(row, "mass_tensor") for row in mass_tensor], contact)
         else:
             moments = vector(mass_tensor, "mass_tensor")

@@ -80,6 +80,7 @@ def least_rotation(x: Pair, y: Pair, z: Pair) -> list[Pair]:
     return [p0 / length, y / length, -x / length, Pair(0.0)] if length > 0 else list(map(Pair, (0.0, 1.0, 0.0, 0.0)))
 
 
+@np.errstate(all="ignore")  # of a momentum beyond what squares hold: the march does not take it
 def _add(rest: Floats, state: Floats, shift: int) -> None:
     """Gives the start what 𝒦 has beyond float64, and its integrals, to which it is restored."""
     state[1:6:2] = np.ldexp(rest, shift)
