@@ -36,6 +36,8 @@ def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
         with tempfile.NamedTemporaryFile("wb", dir=path.parent, prefix=f".{path.name}.", delete=False) as stream:
             temporary = Path(stream.name)
             write(stream)
+            stream.flush()
+            os.fsync(stream.fileno())  # else a power cut may leave the new name with an empty file
         os.umask(mask := os.umask(0))
         os.chmod(temporary, 0o666 & ~mask)
         os.replace(temporary, path)

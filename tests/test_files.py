@@ -16,6 +16,22 @@ def test_a_file_is_replaced_and_nothing_is_left_beside_it(tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
 
 
+def test_a_file_is_on_the_disk_before_it_has_its_name(tmp_path, monkeypatch):
+    """What a power cut between two calls leaves: the old file, or the new one whole."""
+    path, done = tmp_path / "one", []
+    path.write_text("old")
+    for name in ("fsync", "replace"):
+        honest = getattr(os, name)
+
+        def seen(*given, name=name, honest=honest):
+            done.append((name, path.read_text(), [p.read_text() for p in tmp_path.iterdir() if p != path]))
+            return honest(*given)
+
+        monkeypatch.setattr(os, name, seen)
+    write_whole(path, lambda stream: stream.write(b"new"))
+    assert done == [("fsync", "old", ["new"]), ("replace", "old", ["new"])]
+
+
 def test_a_failure_leaves_the_old_file(tmp_path):
     path = tmp_path / "a.txt"
     path.write_text("old", encoding="utf-8")
