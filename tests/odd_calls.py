@@ -24,8 +24,8 @@ from chapsym import BadInput, Digits, Enclosure, NotRetraced, StepNotTaken
 DOCUMENTED = (BadInput, StepNotTaken, NotRetraced)
 #: Functions that take other things: files, compiled functions, results (which are made here, `RESULTS`).
 OTHERS = {"implicit_step", "open_result", "run_scene", "interpolated"}
-#: Of these NaN is an answer: where there is no root there is no margin.
-MAY_BE_NAN = {"margin"}
+#: Of these NaN is an answer: where there is no root there is no margin, and no increment in a batch.
+MAY_BE_NAN = {"margin", "increment"}
 #: Seconds of the processor after which a call counts as one that hangs, in a run of this file alone.
 LONG = 20
 

@@ -45,3 +45,14 @@ def test_what_is_wrong_with_a_call_is_seen(monkeypatch):
 def test_an_exact_ball_of_what_is_no_tensor_is_refused(tensor):
     with pytest.raises(BadInput, match="mass_tensor"):
         chapsym.ExactBall(tensor, 1)
+
+
+def test_what_does_not_broadcast_is_refused():
+    with pytest.raises(BadInput, match="momentum and gamma do not broadcast"):
+        chapsym.invariants_n(np.zeros((2, 4, 4)), np.zeros((0, 4)))
+
+
+def test_a_ball_with_two_radii_is_a_batch():
+    ball = chapsym.Ball((1, 2, 4), 3, [0.1, 0.2])
+    with pytest.raises(BadInput, match="one ball and one gamma"):
+        chapsym.rotation_number(ball, 0.05, (2 / 7, 3 / 7, 6 / 7))

@@ -146,7 +146,7 @@ class Curve(Brief):
         """The curve through a unit γ, (3,); raises BadInput where the map fixes γ, and for a batch of balls."""
         in_principal_axes(ball)
         g = unit_vertical(gamma)
-        if ball.D.shape or ball.mass_tensor.shape != (3,) or g.shape != (3,):
+        if not ball.is_one or g.shape != (3,):
             raise BadInput("a curve is of one ball and one gamma, not of a batch")
         with np.errstate(all="ignore"):  # what float64 cannot hold is refused
             curve = cls._found(ball, g)

@@ -191,7 +191,8 @@ class Path:
         whole = float(left)
         unit_of_time = min(self.rough or _turn(a, k, J, D, s) or whole, whole)
         for _ in range(LOOKS):
-            found = motion(a, unit_of_time * k, J, D, unit_of_time * s)
+            with np.errstate(all="ignore"):  # a series that overflows has no reach
+                found = motion(a, unit_of_time * k, J, D, unit_of_time * s)
             rate = float(np.linalg.norm(found.w[:, 0])) / unit_of_time
             most = part * min(PART * unit_of_time * found.reach(), RADIANS / rate if rate else math.inf)
             if not most > 0:

@@ -95,8 +95,12 @@ def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
     """
     K = numbers(momentum, "momentum")
     K = skew_matrices(K, K.shape[-1] if K.ndim else 3)
-    with np.errstate(over="ignore", invalid="ignore"):  # which is refused
-        found = so_n.invariants(K, numbers(gamma, "gamma", K.shape[-1]))
+    g = numbers(gamma, "gamma", K.shape[-1])
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):  # which is refused
+            found = so_n.invariants(K, g)
+    except ValueError:
+        raise BadInput(f"momentum and gamma do not broadcast: {K.shape}, {g.shape}") from None
     if not np.isfinite(found).all():
         raise BadInput("the invariants are beyond the range of float64, about 1.8e308; take other units")
     return found
