@@ -158,7 +158,7 @@ def _name(cell: str) -> str:
 def _unit(text: str) -> float:
     """A unit of the last digit of a number as it is written."""
     mantissa, _, exponent = text.strip().lower().partition("e")
-    return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+    return 10.0 ** (int(exponent[:6] or 0) - len(mantissa.partition(".")[2]))  # float64 has no longer exponents
 
 
 def _places(file: Path, given: np.ndarray, times: np.ndarray) -> np.ndarray:

@@ -118,8 +118,10 @@ class Sweep:
     stream: str
 
     def __post_init__(self) -> None:
-        if len(self) > MOST_BALLS:
-            raise ValueError(f"the ranges make {len(self)} balls; a sweep has {MOST_BALLS} at most")
+        if (balls := prod(self.shape)) > MOST_BALLS:  # which may be more than len gives
+            raise ValueError(
+                f"the ranges make {float(min(balls, 10**300)):.10g} balls; a sweep has {MOST_BALLS} at most"
+            )
 
     @property
     def shape(self) -> tuple[int, ...]:

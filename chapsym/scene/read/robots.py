@@ -23,6 +23,8 @@ SUFFIXES = (".urdf", ".sdf", ".xml", ".mjcf")
 MOST_BYTES = 10_000_000
 #: An offset below this part of the radius is a rounding of who wrote the file.
 NO_OFFSET = Fraction(1, 10**9)
+#: The largest number that is read, whose square float64 has.
+MOST = 10**150
 #: Elements in each other at most.
 DEEPEST = 100
 #: Digits of what is turned by angles.
@@ -152,9 +154,12 @@ class _Reader:
 
     def _number(self, text: str, where: Element) -> Fraction:
         try:
-            return rational(text, f"<{where.tag}>")
+            found = rational(text, f"<{where.tag}>")
         except NotANumber as error:
             raise self._refused(where, str(error)) from None
+        if abs(found) > MOST:
+            raise self._refused(where, f"<{where.tag}>: {text.strip()!r:.40} is beyond what a ball has")
+        return found
 
     def _numbers(self, text: str, where: Element, count: int) -> Vector:
         parts = text.split()
