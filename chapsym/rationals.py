@@ -8,6 +8,8 @@ from numbers import Integral, Rational
 from typing import Any
 
 _FORM = re.compile(r"[+-]?(\d+/\d+|(\d+(\.\d*)?|\.\d+)([eE][+-]?\d{1,4})?)", re.ASCII)
+#: The largest exponent of 10 or 2.
+LARGEST = 100_000
 
 
 class NotANumber(ValueError):
@@ -43,12 +45,23 @@ def mass_tensor_from(inertia: Sequence[Fraction]) -> tuple[Fraction, ...]:
 
 
 def exact_fraction(x: Any) -> Fraction:
-    """A number as it is: a Fraction, a Decimal, one of SymPy's rationals or of mpmath's floats; else its float64."""
+    """A number as it is: a Fraction, a Decimal, one of SymPy's rationals or of mpmath's floats; else its float64.
+
+    Raises ValueError or OverflowError for one that is not finite, and OverflowError for an exponent beyond `LARGEST`.
+    """
     if isinstance(x, Integral):  # those of NumPy would stay inside
         return Fraction(int(x))
-    if isinstance(x, Rational | Decimal):
+    if isinstance(x, Rational):
+        return Fraction(x)
+    if isinstance(x, Decimal):
+        if x.is_finite() and abs(x.adjusted()) > LARGEST:
+            raise OverflowError(f"an exponent is {LARGEST} at most")
         return Fraction(x)
     if hasattr(x, "_mpf_"):
         sign, mantissa, exponent, _ = x._mpf_
+        if not mantissa and exponent:  # mpmath's infinities, and what is no number
+            raise ValueError("not finite")
+        if abs(exponent) > LARGEST:
+            raise OverflowError(f"an exponent is {LARGEST} at most")
         return (-1) ** sign * Fraction(int(mantissa)) * Fraction(2) ** exponent
     return Fraction(float(x))

@@ -136,7 +136,7 @@ def initial_attitudes(attitude: bool | ArrayLike, gamma: Floats, shape: tuple[in
         R = np.broadcast_to(R, (*shape, n, n)).reshape(-1, n, n)
     except ValueError:
         raise BadInput(f"attitude has the leading axes {R.shape[:-2]}, the states have {shape}") from None
-    if (np.abs(R @ R.mT - np.eye(n)) > AGREEMENT).any() or (np.linalg.det(R) < 0).any():
+    if (np.abs(R) > 2).any() or (np.abs(R @ R.mT - np.eye(n)) > AGREEMENT).any() or (np.linalg.det(R) < 0).any():
         raise BadInput("attitude must be rotations: R Rᵀ = 1 with determinant 1")
     if (np.abs((R @ gamma[..., np.newaxis])[..., 0] - np.eye(n)[-1]) > AGREEMENT).any():
         raise BadInput("attitude and gamma disagree: the attitude must turn gamma to (0, ..., 0, 1)")
