@@ -4,8 +4,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from chapsym.studies.harness import Contender, NotComparable, Timing
-
+from .harness import Contender, NotComparable, Timing
 from .results import Curve, Reached, Result
 
 __all__ = ["SECTIONS", "Contender", "Curve", "NotComparable", "Reached", "Result", "Timing", "run"]

@@ -6,9 +6,10 @@ from functools import partial
 
 import numpy as np
 
-from chapsym.studies.harness import Contender, available_cores, cores, interleaved
+from chapsym.dynamics.levels import frames
 
 from . import peers
+from .harness import Contender, cores, interleaved
 from .results import Reached, Result, beside
 from .trajectory import CHAPSYM, agreement, with_chapsym
 
@@ -39,7 +40,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
     state = states(balls)
     differ = agreement({name: partial(side, *state, COMPARED) for name, side in SIDES.items()}, state[0], AGREEMENT)
     kinds = {f"{name}, 1 core": (name, 1, time.process_time) for name in SIDES}
-    if available_cores() > 1:
+    if frames.cores() > 1:
         kinds[TWO] = CHAPSYM, 2, time.perf_counter
     contenders = [
         Contender(title, partial(_on, count, SIDES[name], *state, steps), balls * steps, clock)

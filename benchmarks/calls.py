@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 import chapsym
-from chapsym.studies.harness import Contender, NotComparable, cores, interleaved
 
+from .harness import Contender, NotComparable, cores, interleaved
 from .results import Reached, Result, beside
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 

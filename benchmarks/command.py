@@ -11,8 +11,9 @@ import benchmarks
 from chapsym.cli import measured
 from chapsym.cli.output import check_figure, check_known, console_for, fail, print_json, quiet, say
 from chapsym.numbers import in_words
-from chapsym.studies.harness import NotComparable, machine
+from chapsym.studies.checkout import machine, save_figures
 
+from .harness import NotComparable
 from .results import Result
 
 
@@ -39,8 +40,6 @@ def measure(
         if output is not None and page:  # after each section: what is measured is kept, whatever comes then
             measured.write(output, study.TITLE, study.ABOUT, [*_goals(results), *_tables(results)], _shown)
     if output is not None and not page:
-        from chapsym.studies.figures import save_figures
-
         drawn = {name: results[name] for name in study.DRAWN if name in results}
         save_figures(study.__name__, {output.name: "figure:draw"}, drawn, output.parent)
     quiet()

@@ -12,8 +12,8 @@ import numpy as np
 from chapsym import Ball, certified_motion, generated
 from chapsym.dynamics.levels.start import fraction
 from chapsym.dynamics.loops.vectors import cross
-from chapsym.studies.harness import NotComparable
 
+from .harness import NotComparable
 from .trajectory import MASS_TENSOR, D
 
 Peer = Callable[[np.ndarray, float, float], np.ndarray]

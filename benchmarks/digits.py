@@ -8,8 +8,8 @@ import numpy as np
 from mpmath import mp, mpf
 
 import chapsym
-from chapsym.studies.harness import NotComparable
 
+from .harness import NotComparable
 from .peers import MOST, SETTLED, moments_of, newton_in_u, turned
 from .results import Reached, Result, beside, timed
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D

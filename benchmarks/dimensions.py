@@ -9,8 +9,8 @@ import numpy as np
 import chapsym
 from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.branch_n import small_rotation
-from chapsym.studies.harness import NotComparable
 
+from .harness import NotComparable
 from .results import Reached, Result, beside, timed
 
 CONTINUED = "continued"

@@ -5,18 +5,19 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterable
 from functools import partial
+from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
 import chapsym
-from chapsym.studies.harness import BENCHMARKS, Contender, cores, installed, interleaved
 
 from . import problems
 from .batch import states
 from .calls import repeated
 from .continuous import LANES
+from .harness import Contender, cores, installed, interleaved
 from .problems import Runs, States
 from .results import Reached, Result
 
@@ -156,7 +157,7 @@ def first_calls(rounds: int, on_round: Say, missing: dict[str, str]) -> list[Rea
     runs: dict[str, Any] = {f"first call, {name}": ((), ("-c", START + call), 0.4) for name, call in FIRST.items()}
     found = []
     with TemporaryDirectory() as folder:
-        scene = str(BENCHMARKS.parent / "docs" / "first.toml")
+        scene = str(Path(__file__).parents[1] / "docs" / "first.toml")
         runs["chapsym run docs/first.toml"] = ("run", scene, "-o", f"{folder}/out.npz"), PROGRAM, 0.6
         if rounds > 1:
             runs["chapsym prove --jobs 1"] = ("prove", "--jobs", "1", "--records", f"{folder}/records"), PROGRAM, 20.0

@@ -5,7 +5,7 @@ They share nothing with the loop that they are compared with.
 
 import numpy as np
 
-from chapsym.studies.harness import NotComparable
+from .harness import NotComparable
 
 #: A Newton correction below this, relative to the rotation, is the last one: the next would be its square.
 SETTLED = 1e-9

@@ -9,8 +9,8 @@ import numpy as np
 
 import chapsym
 from chapsym.dynamics import TopMotion
-from chapsym.studies.harness import NotComparable
 
+from .harness import NotComparable
 from .results import Reached, Result, ratio_columns, timed
 
 FULL = "full model"

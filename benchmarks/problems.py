@@ -13,9 +13,9 @@ from chapsym import generated
 from chapsym.dynamics import kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.loops.vectors import cross
-from chapsym.studies.harness import installed
 
 from .continuous import LANES, adaptive, rates
+from .harness import installed
 
 #: heyoka.py's tolerances, from loose to tight.
 TOLERANCES = tuple(10.0 ** (-k / 2) for k in range(8, 28))

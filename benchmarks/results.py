@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from chapsym.studies.harness import Contender, Timing, cores, interleaved
+from .harness import Contender, Timing, cores, interleaved
 
 #: A unit of time, of seconds.
 UNITS = {"ns": 1e9, "µs": 1e6, "ms": 1e3}

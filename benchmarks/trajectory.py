@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 import chapsym
-from chapsym.studies.harness import NotComparable, available_cores
+from chapsym.dynamics.levels import frames
 
 from . import peers
+from .harness import NotComparable
 from .results import Reached, Result, beside, timed
 
 #: The ball of the measurements in the project's notes, and a generic state of it: 𝒦/ε and γ.
@@ -26,7 +27,7 @@ Peer = Callable[[np.ndarray, np.ndarray, np.ndarray, float, int], tuple[np.ndarr
 
 def with_chapsym(K: np.ndarray, g: np.ndarray, J: np.ndarray, D: Any, steps: int) -> tuple[np.ndarray, np.ndarray]:
     """The public trajectory, of one ball or of a batch, of which only the end is kept."""
-    end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1), threads=available_cores())
+    end = chapsym.trajectory(chapsym.Ball(J, D), K, g, steps, every=max(steps, 1), threads=frames.cores())
     return end.momentum[..., -1, :], end.gamma[..., -1, :]
 
 

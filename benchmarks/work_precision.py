@@ -11,9 +11,9 @@ import numpy as np
 
 import chapsym
 from chapsym import generated
-from chapsym.studies.harness import installed
 
 from . import continuous
+from .harness import installed
 from .results import Curve, Reached, Result, timed
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 

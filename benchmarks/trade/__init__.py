@@ -5,8 +5,8 @@ from functools import partial
 from typing import Any
 
 from benchmarks.kernels import Kernels
-from chapsym.studies.harness import NotComparable
 
+from ..harness import NotComparable
 from . import frontiers, requests
 from .frontier import Frontier, Point
 

@@ -12,7 +12,8 @@ from chapsym.accuracy.request import exact_values, lengths
 from chapsym.dynamics import Ball, Trajectory, certified_motion
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.levels.start import fraction
-from chapsym.studies.harness import NotComparable
+
+from ..harness import NotComparable
 
 #: Seconds after which there is no reference.
 LONGEST = 3600.0

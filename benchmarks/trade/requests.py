@@ -16,8 +16,8 @@ from chapsym.accuracy import Accurate, Method, Request, accurate, methods, take
 from chapsym.accuracy.answer import CHECKS, checks
 from chapsym.dynamics import BadInput, kernels
 from chapsym.numbers import NAMED
-from chapsym.studies.harness import Contender, interleaved
 
+from ..harness import Contender, interleaved
 from .reference import true_error, truth
 
 SEED, COUNT, QUICK = 2007, 50, 5

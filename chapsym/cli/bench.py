@@ -38,7 +38,7 @@ def bench(
 
     Example: chapsym bench trajectory --quick
     """
-    from chapsym.studies.harness import in_checkout
+    from chapsym.studies.checkout import in_checkout
 
     command = in_checkout("benchmarks", "command")
     own: dict[str, Any] = {}

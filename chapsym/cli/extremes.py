@@ -28,7 +28,7 @@ def extremes(
     Example: chapsym extremes --quick -o extremes.html
     """
     from chapsym import extras, files
-    from chapsym.studies.harness import in_checkout, machine
+    from chapsym.studies.checkout import in_checkout, machine
 
     study = in_checkout("research", "extremes")
     wanted = list(dict.fromkeys(groups or study.GROUPS))

@@ -30,7 +30,7 @@ def is_page(output: Path | None) -> bool:
 def write(output: Path, title: str, about: str, tables: Sequence[Table], shown: Callable[[Any], str] = str) -> None:
     """Writes the page, whole; `about` says in a sentence or two what was measured."""
     from chapsym import __version__, files
-    from chapsym.studies.harness import machine
+    from chapsym.studies.checkout import machine
 
     here = machine()
     versions = ", ".join(f"{name} {version}" for name, version in here["versions"].items())

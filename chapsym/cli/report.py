@@ -116,7 +116,7 @@ def _behind(questions: list[str], claims: dict[str, Any]) -> list[str]:
 def _evidence(name: str, folder: Path) -> Any:
     """What a study left in the folder; None if it left nothing."""
     from chapsym.report.questions import Evidence
-    from chapsym.studies.harness import in_checkout
+    from chapsym.studies.checkout import in_checkout
 
     data = folder / f"{name}.json"
     if not data.is_file():

@@ -34,13 +34,12 @@ def study(
     Example: chapsym study rotation --quick -o open
     """
     from chapsym import extras
-    from chapsym.studies import units
-    from chapsym.studies.harness import in_checkout
+    from chapsym.studies.checkout import in_checkout
 
     check_known("study", [name], STUDIES)
     if output is not None:
         extras.need("figures")
-    module = in_checkout("research", name)
+    module, units = in_checkout("research", name), in_checkout("research", "units")
     folder = None if output is None else units.folder(output)
     kept = None if folder is None else folder / f"{name}.jsonl"
     with progress_bar(name, 0) as shown:
@@ -59,9 +58,9 @@ def study(
 def _write(module: Any, name: str, found: dict[str, Any], folder: Path) -> list[Path]:
     """The data as JSON and the figures, each whole."""
     from chapsym import files
-    from chapsym.studies import figures
+    from chapsym.studies.checkout import save_figures
 
     data = folder / f"{name}.json"
     text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
     files.write_text(data, text)
-    return [data, *figures.save_figures(module.__name__, module.DRAWN, found, folder)]
+    return [data, *save_figures(module.__name__, module.DRAWN, found, folder)]

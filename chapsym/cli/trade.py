@@ -46,7 +46,7 @@ def trade(
 
     Example: chapsym trade --accuracy 1e-8 --time 1000
     """
-    from chapsym.studies.harness import in_checkout
+    from chapsym.studies.checkout import in_checkout
 
     given = {name: value for name, value in told.items() if value is not None}
     first = next((f"--{'D' if name == 'contact' else name.replace('_', '-')}" for name in given), None)

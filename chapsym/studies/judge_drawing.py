@@ -9,8 +9,8 @@ import numpy as np
 
 from chapsym import files
 from chapsym.dynamics.errors import BadInput
+from chapsym.show import figures
 from chapsym.show.drawing.style import WIDE, Picture, document, legend, new, styled
-from chapsym.studies.figures import save_figure
 
 from .judge import LIMITS, UNITS, Case, Convergence, Departure, limit_of, sentence, summary
 from .judge_tables import Trajectory
@@ -26,11 +26,12 @@ def save(
         raise BadInput(f"{str(output)!r} must end in {', '.join(FORMS)}")
     files.check_destination(output)
     data = {"case": case, "runs": runs, "found": found}
-    if output.suffix != ".html":
-        return save_figure(draw, data, output)
     with styled():
-        page = _page(case, runs, found, known, draw(data).svg())
-    files.write_text(output, page)
+        picture = draw(data)
+    if output.suffix == ".html":
+        files.write_text(output, _page(case, runs, found, known, picture.svg()))
+    else:
+        figures.save(picture, output)
 
 
 def draw(data: Mapping[str, Any]) -> Picture:

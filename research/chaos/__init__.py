@@ -6,9 +6,8 @@
 from itertools import product
 from typing import Any
 
-from chapsym.studies.units import Run, Unit, run_units
-
 from ..energy.section import packed
+from ..units import Run, Unit, run_units
 from .orbits import share
 
 TITLE = "How much of the map is chaotic"

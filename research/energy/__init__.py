@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from chapsym.studies.units import Run, Unit, run_units
-
+from ..units import Run, Unit, run_units
 from .continuous import Level
 from .section import packed
 

@@ -5,9 +5,9 @@ All in half turns of a circle (π in the amplitude, 2K in u), with which the map
 
 from typing import Any
 
-from chapsym.studies.harness import machine
-from chapsym.studies.units import Run, run_units
+from chapsym.studies.checkout import machine
 
+from ..units import Run, run_units
 from .plan import units
 from .words import sentences
 

@@ -3,7 +3,7 @@
 from math import gcd
 from typing import Any
 
-from chapsym.studies.units import Unit
+from ..units import Unit
 
 HERE = "research.rotation"
 

@@ -16,6 +16,7 @@ from benchmarks import (
     dimensions,
     figure,
     goals,
+    harness,
     long,
     memory,
     problems,
@@ -23,7 +24,8 @@ from benchmarks import (
     work_precision,
 )
 from chapsym import __version__
-from chapsym.studies import harness
+from chapsym.dynamics.levels import frames
+from chapsym.studies import checkout
 
 STATE = trajectory.MOMENTUM, trajectory.GAMMA
 
@@ -60,10 +62,10 @@ def test_ratios_are_taken_round_by_round():
 
 
 def test_one_core_is_one_core_and_is_given_back():
-    before = harness.available_cores()
+    before = frames.cores()
     with harness.cores(1):
-        assert harness.available_cores() == 1
-    assert harness.available_cores() == before
+        assert frames.cores() == 1
+    assert frames.cores() == before
 
 
 def test_a_ball_of_ones_own_is_measured(monkeypatch):
@@ -326,7 +328,7 @@ def test_what_cannot_be_measured_is_said_before_measuring(arguments, sentence, t
 def test_a_wheel_has_no_benchmarks_and_no_research_and_says_so(monkeypatch, tmp_path):
     """As seen by the commands that run them; a folder beside the wheel that has the name is not taken for ours."""
     (tmp_path / "benchmarks").mkdir()
-    monkeypatch.setattr(harness, "BENCHMARKS", tmp_path / "benchmarks")
+    monkeypatch.setattr(checkout, "ROOT", tmp_path)
     for folder, asked in (
         ("benchmarks", ["bench", "trajectory"]),
         ("benchmarks", ["trade", "contact", "--quick"]),

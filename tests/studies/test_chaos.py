@@ -7,7 +7,7 @@ import pytest
 
 import chapsym
 from chapsym.dynamics.loops import loop, tangent
-from chapsym.studies import figures
+from chapsym.studies import checkout
 from research import chaos
 from research.chaos.orbits import LIMIT, follow_orbits, sample, slab, starts
 from research.energy.continuous import Level
@@ -120,16 +120,16 @@ def test_share_has_wilson_s_interval():
 
 
 def test_sentences_and_figures(tmp_path, monkeypatch):
-    monkeypatch.setattr("chapsym.studies.units.cores", lambda: 1)
+    monkeypatch.setattr("research.units.cores", lambda: 1)
     monkeypatch.setattr(chaos, "_units", small_units)
     found = chaos.study(quick=True)
     json.dumps(found, allow_nan=False)
     assert "integrable: 0 of" in chaos.sentences(found)[0]
-    assert figures.save_figures("research.chaos", chaos.DRAWN, found, tmp_path)
+    assert checkout.save_figures("research.chaos", chaos.DRAWN, found, tmp_path)
 
 
 def small_units(quick, all_units=chaos._units):
     """The units of the quick study, each with few orbits and steps."""
-    from chapsym.studies.units import Unit
+    from research.units import Unit
 
     return [(group, Unit(u.function, {**u.arguments, "orbits": 16, "steps": 2000})) for group, u in all_units(quick)]

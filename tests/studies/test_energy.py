@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import chapsym
-from chapsym.studies import figures
+from chapsym.studies import checkout
 from research import energy
 from research.energy.amplitude import amplitude, drift, loop_change
 from research.energy.continuous import Level
@@ -120,19 +120,19 @@ def test_drift_finds_a_slope_and_its_error():
 
 
 def test_sentences_and_figures(tmp_path, monkeypatch):
-    monkeypatch.setattr("chapsym.studies.units.cores", lambda: 1)
+    monkeypatch.setattr("research.units.cores", lambda: 1)
     monkeypatch.setattr(energy, "_units", lambda resonant, quick: small_units(resonant, quick))
     found = energy.study(quick=True)
     json.dumps(found, allow_nan=False)
     text = " ".join(energy.sentences(found))
     assert "T = 24.64334" in text
-    first = [path.read_bytes() for path in figures.save_figures("research.energy", energy.DRAWN, found, tmp_path)]
+    first = [path.read_bytes() for path in checkout.save_figures("research.energy", energy.DRAWN, found, tmp_path)]
     assert all(b"<svg" in one for one in first)
 
 
 def small_units(resonant, quick, all_units=energy._units):
     """The units of the quick study, each with few steps."""
-    from chapsym.studies.units import Unit
+    from research.units import Unit
 
     def shorter(unit):
         arguments = {**unit.arguments}

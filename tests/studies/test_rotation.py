@@ -12,7 +12,7 @@ import chapsym
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.closed.elliptic import Curve, increment
 from chapsym.dynamics.closed.vertical import step_vertical
-from chapsym.studies import figures
+from chapsym.studies import checkout
 from research import rotation
 from research.rotation import average, digits, displacement, plateau, staircase
 from research.rotation.circle import Level, number
@@ -247,7 +247,7 @@ def test_every_unit_is_plain_data_and_the_full_study_has_more():
 @pytest.fixture(scope="module")
 def small():
     """A study of one or two units a section, in this process."""
-    from chapsym.studies.units import Unit, compute
+    from research.units import Unit, compute
 
     planned = units(True)
     cut = {"fifth": 4, "turns": 2, "small_D": 3, "farey": 4}
@@ -273,7 +273,7 @@ def small_arguments(unit):
 
 def test_the_figures_are_drawn_the_same_twice(small, tmp_path, thorough):
     small = json.loads(json.dumps(small, allow_nan=False))
-    written = figures.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
+    written = checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
     assert [x.name for x in written] == [
         f"rotation-{x}.svg" for x in ("staircase", "displacement", "widths", "digits", "numbers")
     ]
@@ -281,10 +281,10 @@ def test_the_figures_are_drawn_the_same_twice(small, tmp_path, thorough):
     first = [x.read_bytes() for x in written]
     if thorough:  # the same of every figure of results is seen in tests/report/test_figures.py
         assert [
-            x.read_bytes() for x in figures.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
+            x.read_bytes() for x in checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
         ] == first
     with pytest.raises(BadInput, match="does not exist"):
-        figures.save_figures("research.rotation", rotation.DRAWN, small, tmp_path / "nowhere")
+        checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path / "nowhere")
 
 
 def test_the_sentences_say_what_locks(small):

@@ -11,8 +11,8 @@ from waiting import GUARD, INTERRUPTIBLE, until
 
 from chapsym import sources
 from chapsym.dynamics import BadInput
-from chapsym.studies import units as units_module
-from chapsym.studies.units import Unit, folder, run_units
+from research import units as units_module
+from research.units import Unit, folder, run_units
 
 
 def units(count=4):
@@ -108,7 +108,7 @@ def test_a_study_that_was_ended_goes_on_and_leaves_no_process(tmp_path, sent):
     """An interrupt does not wait for the units in flight, and of a parent that is killed no child lives on."""
     path, script = tmp_path / "u.jsonl", tmp_path / "run.py"
     script.write_text(
-        INTERRUPTIBLE + "from chapsym.studies import units\nfrom pathlib import Path\nimport sys\n"
+        INTERRUPTIBLE + "from research import units\nfrom pathlib import Path\nimport sys\n"
         "if __name__ == '__main__':\n"
         "    units.cores = lambda: 2\n"
         "    units.run_units([units.Unit('builtins:dict', {}), units.Unit('slow:wait')], Path(sys.argv[1]))\n"

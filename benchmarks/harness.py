@@ -2,31 +2,15 @@
 
 import gc
 import os
-import platform
-import re
-import shutil
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib import import_module
-from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-from chapsym.dynamics import BadInput
-
-#: The packages whose versions belong to a measurement.
-NAMED = ("chapsym", "numpy", "scipy", "heyoka")
-
-
-#: Where the benchmarks lie, if this is a checkout: the wheel has none.
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
 class NotComparable(ArithmeticError):
@@ -122,63 +106,6 @@ def _pin(wanted: Sequence[int] | set[int]) -> None:
             continue
 
 
-def available_cores() -> int:
-    """The cores that this process may use."""
-    return len(_affinity()) or os.cpu_count() or 1
-
-
 def installed(package: str) -> str | None:
     """None if an optional peer can be imported, otherwise the sentence that says why not."""
     return None if find_spec(package) else f"{package} is not installed (pip install 'chapsym[bench]')"
-
-
-def in_checkout(package: str, module: str) -> Any:
-    """A module of `benchmarks` or `research`; raises BadInput where these are not, and MissingExtra."""
-    root = BENCHMARKS.parent
-    if not (root / package / "__init__.py").is_file():
-        raise BadInput(f"{package}/ is not in the wheel; run this from a checkout")
-    sys.path.insert(0, str(root))  # some wheels have a `benchmarks` of their own, pyarrow's among them
-    try:
-        return import_module(f"{package}.{module}")
-    finally:
-        sys.path.remove(str(root))
-
-
-def machine() -> dict[str, Any]:
-    """What a measurement must name: the processor, its cores, the compiler, and the versions."""
-    return {
-        "cpu": _cpu(),
-        "cores": available_cores(),
-        "system": f"{platform.system()} {platform.machine()}",
-        "compiler": _compiler_version(),
-        "python": f"{platform.python_implementation()} {platform.python_version()}",
-        "versions": {name: _version(name) for name in NAMED},
-    }
-
-
-def _cpu() -> str:
-    try:
-        fields = dict(
-            re.findall(r"^(model name|cpu family|model|stepping)\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
-        )
-    except OSError:
-        return platform.processor() or "unknown"
-    family = f"family {fields['cpu family']}, model {fields['model']}" if "cpu family" in fields else ""
-    return ", ".join(x for x in (fields.get("model name") or platform.processor(), family) if x) or "unknown"
-
-
-def _compiler_version() -> str:
-    """Of the C compiler: that of CC, or cc, gcc, clang."""
-    wanted = os.environ.get("CC")
-    path = next(filter(None, map(shutil.which, [wanted] if wanted else ["cc", "gcc", "clang"])), None)
-    if path is None:
-        return "none"
-    done = subprocess.run([path, "--version"], capture_output=True, text=True, check=False)
-    return (done.stdout.splitlines() or [path])[0]
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "not installed"
