@@ -3,18 +3,21 @@
 What a section finds has a `title`, the rows of a `table()`, `sentences()` under it, and `as_json()`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import benchmarks
 from chapsym.cli import measured
-from chapsym.cli.output import check_figure, check_known, console_for, fail, print_json, quiet, say
+from chapsym.cli.output import check_known, console_for, fail, print_json, quiet, say
 from chapsym.numbers import in_words
 from chapsym.studies.checkout import machine, save_figures
 
 from .harness import NotComparable
 from .results import Result
+
+#: What a figure may be written as.
+FIGURES = (".svg", ".png", ".pdf")
 
 
 def measure(
@@ -29,7 +32,7 @@ def measure(
     check_known("section", wanted, study.SECTIONS, hint)
     page = measured.is_page(output)
     if output is not None and not page:
-        check_figure(output, wanted, study.DRAWN)
+        _check_figure(output, wanted, study.DRAWN)
     results: dict[str, Any] = {}
     for name in wanted:
         try:
@@ -53,6 +56,19 @@ def measure(
     console.print(f"{here['cpu']}; {here['cores']} cores; {here['system']}; C: {here['compiler']}")
     console.print(f"{here['python']}; {versions}" + ("; quick" if quick else ""))
     return results
+
+
+def _check_figure(output: Path, sections: Iterable[str], drawn: Iterable[str]) -> None:
+    """Fails, before anything is measured, where a figure of these sections cannot be drawn or written."""
+    from chapsym import extras, files
+
+    extras.need("figures")
+    if output.suffix not in FIGURES:
+        fail(f"{str(output)!r}: a figure must end in {', '.join(FIGURES)}", 2)
+    if not set(sections) & set(drawn):
+        *some, last = drawn
+        fail(f"only {', '.join(some)} and {last} have a figure", 2)
+    files.check_destination(output)
 
 
 def plain(results: dict[str, Any], quick: bool) -> dict[str, Any]:

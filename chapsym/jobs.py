@@ -43,6 +43,13 @@ class Call:
 Chain = Generator[Call, Any, None]
 
 
+def duration(seconds: float) -> str:
+    """A time for a reader."""
+    units = (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3), ("µs", 1e-6))
+    unit, length = next(((unit, length) for unit, length in units if seconds >= length), units[-1])
+    return f"{float(f'{seconds / length:.2g}'):g} {unit}"
+
+
 class Lost(Exception):
     """A call that has no result: whoever made it was lost, each time."""
 

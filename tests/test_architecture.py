@@ -31,7 +31,7 @@ ROOMS = {
     "accuracy": {"dynamics", "files", "generated", "numbers"},
     "jobs": {"dynamics", "extras", "workers"},
     "scene": {"accuracy", "dynamics", "rationals", "extras", "files", "generated", "jobs", "numbers"},
-    "studies": {"dynamics", "files", "generated", "jobs", "scene", "show", "sources"},
+    "studies": {"dynamics", "files", "generated", "jobs", "scene", "show"},
     "proofs": {"certificates", "checker", "codegen", "derive", "dynamics", "prove"},
     "report": {"extras", "files"},
     "show": {"dynamics", "extras", "files", "scene"},

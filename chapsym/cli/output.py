@@ -5,11 +5,8 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any, NoReturn
 
-#: What a measured figure may be written as.
-FIGURES = (".svg", ".png", ".pdf")
 #: Seconds between two lines of progress where standard error is no terminal.
 PAUSE = 5.0
 
@@ -70,82 +67,55 @@ def check_known(kind: str, names: Iterable[str], known: Iterable[str], more: str
             fail(f"there is no {kind} {name!r}; there are {', '.join(known)}{more}", 2)
 
 
-def check_figure(output: Path, sections: Iterable[str], drawn: Iterable[str]) -> None:
-    """Fails, before anything is measured, where a figure of these sections cannot be drawn or written."""
-    from chapsym import extras, files
-
-    extras.need("figures")
-    if output.suffix not in FIGURES:
-        fail(f"{str(output)!r}: a figure must end in {', '.join(FIGURES)}", 2)
-    if not set(sections) & set(drawn):
-        *some, last = drawn
-        fail(f"only {', '.join(some)} and {last} have a figure", 2)
-    files.check_destination(output)
-
-
-def terminal() -> Any:
-    """Rich's console on standard error, or None where that is no terminal: then Rich need not be loaded."""
-    if not sys.stderr.isatty():
-        return None
-    from rich.console import Console
-
-    console = Console(stderr=True, highlight=False, markup=False)
-    return console if console.is_terminal else None
+@contextmanager
+def telling() -> Iterator[Callable[[str], None]]:
+    """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
+    try:
+        yield say if sys.stderr.isatty() else now_and_then()
+    finally:
+        quiet()
 
 
 @contextmanager
 def progress_bar(label: str, total: int) -> Iterator[Callable[..., None]]:
-    """A bar on standard error, when that is a terminal; yields a function of what is done, a new total, and a word."""
-    console = terminal()
-    if console is None:
-        yield lambda done, of=None, told="": None
+    """Yields a function of what is done, and of how many: on a terminal a line that changes, else nothing."""
+    if not sys.stderr.isatty():
+        yield lambda done, of=total: None
         return
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    told = TextColumn("{task.fields[told]}")
-    columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), told, TimeRemainingColumn()
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task(label, total=total, told="")
-        yield lambda done, of=None, told="": bar.update(task, completed=done, total=of, told=told)
+    left = _time_left()
+    try:
+        yield lambda done, of=total: say(f"{label}: {done} of {of}{left(done, of)}")
+    finally:
+        quiet()
 
 
 @contextmanager
-def following(as_json: bool) -> Iterator[Callable[[Any], None]]:
-    """Yields a function of the `Progress` of a run: a bar on a terminal, elsewhere a line every few seconds."""
-    if not as_json and terminal() is not None:
-        with progress_bar("rolling", 0) as shown:
-            yield lambda at: shown(at.steps, at.of, _balls(at))
-        return
-    from chapsym.scene.plan.plan import duration
+def following() -> Iterator[Callable[[Any], None]]:
+    """Yields a function of the `Progress` of a run, as `telling` does of a sentence."""
+    left = _time_left()
+    with telling() as tell:
+        yield lambda at: tell(f"rolling: {at.steps / max(at.of, 1):.0%}, {_balls(at)}{left(at.steps, at.of)}")
 
-    tell, first = now_and_then(), None
 
-    def report(at: Any) -> None:
+def _time_left() -> Callable[[float, float], str]:
+    """Takes what is done, and of how many: the end of a sentence on how long the rest will take, or nothing."""
+    from chapsym.jobs import duration
+
+    first: tuple[float, float] | None = None
+
+    def left(done: float, of: float) -> str:
         nonlocal first
         now = time.monotonic()
-        first = first or (now, at.steps)  # of a run that goes on, some are done already
+        first = first or (now, done)  # of what goes on, some is done already
         started, before = first
-        speed = (at.steps - before) / (now - started) if now > started else 0.0
-        left = f", about {duration((at.of - at.steps) / speed)} left" if speed > 0 else ""
-        tell(f"{at.steps / max(at.of, 1):.0%}, {_balls(at)}{left}")
+        speed = (done - before) / (now - started) if now > started else 0.0
+        return f", about {duration((of - done) / speed)} left" if speed > 0 and done < of else ""
 
-    yield report
+    return left
 
 
 def _balls(at: Any) -> str:
     return f"{at.balls} balls done" + (f", {at.failed} stopped early" if at.failed else "")
-
-
-@contextmanager
-def telling() -> Iterator[Callable[[str], None]]:
-    """Yields a function of a sentence: a line that changes on a terminal, elsewhere a line every few seconds."""
-    if not sys.stderr.isatty():
-        yield now_and_then()
-        return
-    try:
-        yield say
-    finally:
-        quiet()
 
 
 def console_for(width: int) -> Any:

@@ -68,7 +68,7 @@ def run(
         if destination.is_file() and not fresh:
             check_same(destination, plan)
         data: Dataset | Arrays
-        with following(as_json) as report:
+        with following() as report:
             if destination.suffix == ".zarr":
                 outcome = sweep.run_to_store(plan, destination, scheduler, fresh, report)
                 data = formats.load(destination)

@@ -163,7 +163,7 @@ def report(progress):
             signal.pthread_kill(threading.main_thread().ident, sent)
 
 @contextmanager
-def reporting(as_json):
+def reporting():
     yield report
 
 output.following = reporting

@@ -9,6 +9,7 @@ from chapsym.dynamics import BadInput, Ball
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.outputs import BOUND, LOW, OUTPUTS, K, columns_for, kernels_for, timed
 from chapsym.dynamics.principal_axes import attitude_from_principal, from_principal
+from chapsym.jobs import duration
 
 from ..members.members import Members, expand
 from ..read.scene import Scene, from_source
@@ -293,13 +294,6 @@ def _told(plan: Plan) -> str:
     while size >= 1000 and unit < len(_UNITS) - 1:
         size, unit = size / 1000, unit + 1
     return f"about {duration(predicted(plan))} of the processor, {size:.3g} {_UNITS[unit]}"
-
-
-def duration(seconds: float) -> str:
-    """A time for a reader."""
-    units = (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3), ("µs", 1e-6))
-    unit, length = next(((unit, length) for unit, length in units if seconds >= length), units[-1])
-    return f"{float(f'{seconds / length:.2g}'):g} {unit}"
 
 
 def _ratio(more: float, less: float) -> str:
