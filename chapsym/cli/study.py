@@ -1,18 +1,15 @@
 """chapsym study: numerical evidence about the questions that the paper left open."""
 
-import json
-from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from .app import app
 from .options import Json, argument, takes, writes
-from .output import check_known, print_json, progress_bar
+from .output import check_known
 
-#: The packages of research, in a checkout, that offer study(quick, run), run as `run_units`, sentences(found), and
-#: DRAWN, what draws each figure.
+#: Packages of research, in a checkout.
 STUDIES = ("rotation", "energy", "chaos")
 
 
@@ -33,34 +30,7 @@ def study(
 
     Example: chapsym study rotation --quick -o open
     """
-    from chapsym import extras
     from chapsym.studies.checkout import in_checkout
 
     check_known("study", [name], STUDIES)
-    if output is not None:
-        extras.need("figures")
-    module, units = in_checkout("research", name), in_checkout("research", "units")
-    folder = None if output is None else units.folder(output)
-    kept = None if folder is None else folder / f"{name}.jsonl"
-    with progress_bar(name, 0) as shown:
-        run = partial(units.run_units, path=kept, scheduler=scheduler, report=shown)
-        found = module.study(quick, run)
-    written = [] if folder is None else _write(module, name, found, folder)
-    if as_json:
-        print_json(found)
-        return
-    for sentence in module.sentences(found):
-        print(sentence)
-    for path in written:
-        print(f"wrote {path}")
-
-
-def _write(module: Any, name: str, found: dict[str, Any], folder: Path) -> list[Path]:
-    """The data as JSON and the figures, each whole."""
-    from chapsym import files
-    from chapsym.studies.checkout import save_figures
-
-    data = folder / f"{name}.json"
-    text = json.dumps(found, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
-    files.write_text(data, text)
-    return [data, *save_figures(module.__name__, module.DRAWN, found, folder)]
+    in_checkout("research", "command").study(name, quick, output, scheduler, as_json)
