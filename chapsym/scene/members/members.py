@@ -105,64 +105,53 @@ def expand(scene: Scene) -> Members:
 
 
 def bodies(scene: Scene) -> list["Body"]:
-    """The tables of a scene, in its order, each with its start and its ranges."""
-    return [Body(scene, i) for i in range(len(scene.ball))]
+    """The tables of a scene, in its order, each with its start and its ranges; raises SceneError for too many balls."""
+    return [Body.of(scene, i) for i in range(len(scene.ball))]
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """One [ball] of a scene, and its start."""
+    """One [ball] of a scene, and its start; name: its own, or what it is called without; sweep: its ranges."""
 
     scene: Scene
     index: int
+    start: StartTable
+    name: str
+    sweep: Sweep
 
-    @property
-    def ball(self) -> BallTable:
-        """Its table."""
-        return self.scene.ball[self.index]
-
-    @property
-    def start(self) -> StartTable:
-        """Its own start, or that of all."""
-        start = self.ball.start or self.scene.start
+    @classmethod
+    def of(cls, scene: Scene, index: int) -> Self:
+        """Its own start, or that of all; and its ranges, those of the ball first."""
+        ball, sweep = scene.ball[index], scene.sweep
+        start = ball.start or scene.start
         assert start is not None
-        return start
-
-    @property
-    def name(self) -> str:
-        """Its own name, or what it is called without."""
-        if self.ball.name is not None:
-            return self.ball.name
-        return "ball" if len(self.scene.ball) == 1 else f"ball {self.index + 1}"
+        try:
+            ranges = Sweep(ranges_of(ball, start), sweep.samples or 1, sweep.seed, str(index))
+        except ValueError as error:
+            raise SceneError(f"{_place(scene, index)}{error}") from None
+        name = ball.name or ("ball" if len(scene.ball) == 1 else f"ball {index + 1}")
+        return cls(scene, index, start, name, ranges)
 
     @property
     def names(self) -> tuple[str, ...]:
         """What each of its balls is called: those of a sweep are numbered."""
-        sweep = self.sweep()
-        return tuple(f"{self.name} {i}" for i in range(1, len(sweep) + 1)) if sweep.ranges else (self.name,)
-
-    def sweep(self) -> Sweep:
-        """Its ranges, those of the ball first."""
-        sweep = self.scene.sweep
-        try:
-            return Sweep(ranges_of(self.ball, self.start), sweep.samples or 1, sweep.seed, str(self.index))
-        except ValueError as error:
-            raise SceneError(f"{self._place()}{error}") from None
+        return tuple(f"{self.name} {i}" for i in range(1, len(self) + 1)) if self.sweep.ranges else (self.name,)
 
     def __len__(self) -> int:
-        return len(self.sweep())
+        return len(self.sweep)
 
     def members(self) -> Members:
         """Its members; raises SceneError with the name of the first that cannot be."""
-        if self.ball.rotor is not None:
+        ball, scale = self.scene.ball[self.index], self.scene.task().scale
+        at = partial(_place, self.scene, self.index)
+        if ball.rotor is not None:
             told = "ball.rotor goes with chapsym certify motion alone: no run, map or reduction has a rotor inside"
-            raise SceneError(f"{self._place()}{told}")
-        sweep = self.sweep()
-        values, count, names = sweep.values(), len(sweep), self.names
+            raise SceneError(f"{at()}{told}")
+        values, count, names = self.sweep.values(), len(self), self.names
 
         def made(chosen: slice) -> Members:
             given = Given({key: array[chosen] for key, array in values.items()}, len(range(count)[chosen]))
-            return members_of(self.ball, self.start, given, self.scene.task().scale, names[chosen])
+            return members_of(ball, self.start, given, scale, names[chosen])
 
         try:
             return replace(made(slice(0, count)), parameters=values)
@@ -171,16 +160,17 @@ class Body:
             told = ", ".join(f"{key} = {array[first]:.6g}" for key, array in list(values.items())[:4])
             of = f"{names[first]}{f' ({told})' if told else ''}: {why}"
             if not isinstance(why, Misfit):
-                raise SceneError(f"{self._place()}{of}") from None
-            key, where = ".".join(map(str, why.path)), self._place(*why.path)
+                raise SceneError(f"{at()}{of}") from None
+            key, where = ".".join(map(str, why.path)), at(*why.path)
             raise SceneError(f"{where}{key} of {of}" if where else f"{of} ({key})") from None
 
-    def _place(self, table: str | int = "ball", *key: str | int) -> str:
-        """The file, and the line on which a key of the ball or of its start stands."""
-        own = ("ball", self.index) if isinstance(self.scene._data.get("ball"), list) else ("ball",)
-        path = (*own, *key) if table == "ball" else (*own, table, *key) if self.ball.start else (table, *key)
-        where = place(self.scene.name, self.scene.toml, path)
-        return f"{where}: " if where else ""
+
+def _place(scene: Scene, index: int, table: str | int = "ball", *key: str | int) -> str:
+    """The file, and the line on which a key of a ball or of its start stands."""
+    own = ("ball", index) if isinstance(scene._data.get("ball"), list) else ("ball",)
+    path = (*own, *key) if table == "ball" else (*own, table, *key) if scene.ball[index].start else (table, *key)
+    where = place(scene.name, scene.toml, path)
+    return f"{where}: " if where else ""
 
 
 def _first_refused(made: Callable[[slice], Any], low: int, high: int) -> tuple[int, BadInput] | None:

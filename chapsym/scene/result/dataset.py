@@ -174,8 +174,8 @@ def grid(data: "Dataset") -> "Dataset":
     spans = _spans(tables[0])
     lengths = {"ball": len(tables)} if len(tables) > 1 else {}
     lengths |= {key: one.count for key, one in spans.items()}
-    if any(one.drawn for body in tables for one in body.sweep().ranges.values()):
-        lengths[SAMPLE] = tables[0].sweep().shape[-1]
+    if any(one.drawn for body in tables for one in body.sweep.ranges.values()):
+        lengths[SAMPLE] = tables[0].sweep.shape[-1]
     whole: dict[Any, Any] = {key: _spread(one, lengths) for key, one in data.variables.items()}
     whole["name"] = whole.pop("ball")
     if len(tables) > 1:
@@ -200,11 +200,11 @@ def _tables(data: "Dataset") -> list[Body]:
     tables = bodies_of(from_source(data.attrs["scene"]))
     if data["ball"].values.tolist() != [name for body in tables for name in body.names]:
         raise SceneError("this is a part of the sweep: make a grid of the whole result, then choose of that")
-    if any((_spans(body), body.sweep().shape) != (_spans(tables[0]), tables[0].sweep().shape) for body in tables):
+    if any((_spans(body), body.sweep.shape) != (_spans(tables[0]), tables[0].sweep.shape) for body in tables):
         raise SceneError("the balls of the scene have different ranges, which make no grid")
     return tables
 
 
 def _spans(body: Body) -> dict[str, Range]:
     """The ranges that span a dimension, by key."""
-    return {key: one for key, one in body.sweep().ranges.items() if not one.drawn}
+    return {key: one for key, one in body.sweep.ranges.items() if not one.drawn}

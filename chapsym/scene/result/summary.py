@@ -32,9 +32,9 @@ def summary(scene: Scene, members: Members) -> list[tuple[str, str]]:
         name = body.name + (f" 1 (of {count})" if count > 1 else "")
         rows.append(("ball", f"{name}: {_ball(members, first)}"))
         rows.append(("start", _start(scene, members, first)))
-        rows += [(key, _range(one, units_of(key))) for key, one in body.sweep().ranges.items()]
+        rows += [(key, _range(one, units_of(key))) for key, one in body.sweep.ranges.items()]
         first += count
-    if any(one.drawn for body in bodies(scene) for one in body.sweep().ranges.values()):
+    if any(one.drawn for body in bodies(scene) for one in body.sweep.ranges.values()):
         rows.append(("draws", f"{scene.sweep.samples} at each point of the other ranges, seed {scene.sweep.seed}"))
     rows.append(("run", _run(scene)))
     return rows
