@@ -10,7 +10,7 @@ EXTRAS = {
     ),
     "figures": ("figures and rolling pages need", ("matplotlib", "jinja2")),
     "cluster": ("a Dask cluster needs", ("distributed",)),
-    "report": ("the pages of a report need", ("jinja2", "latex2mathml")),
+    "report": ("the pages of a report need", ("jinja2", "math_core")),
     "test": ("chapsym.testing needs", ("hypothesis",)),
 }
 
