@@ -1,5 +1,6 @@
 """The command's contract, from outside: output, exit status, one sentence for an error."""
 
+import io
 import json
 import logging
 import os
@@ -7,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from first import FIRST
 from waiting import GUARD, INTERRUPTIBLE
 
 from chapsym import dynamics
+from chapsym.cli import output
 from chapsym.codegen import build
 from chapsym.prove import Verdict
 
@@ -295,3 +298,16 @@ def test_a_shell_completes_subcommands(words, offered):
     asked = {"_CHAPSYM_COMPLETE": "complete_bash", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
     assert set(child(env={**os.environ, **asked}).stdout.split()) == offered
     assert "--install-completion" in chapsym("--help").stdout
+
+
+def test_on_a_terminal_a_line_says_how_much_is_done_and_how_long_the_rest_takes(monkeypatch):
+    screen, ticks = io.StringIO(), iter([0.0, 1.0, 3.0])
+    screen.isatty = lambda: True
+    monkeypatch.setattr(sys, "stderr", screen)
+    monkeypatch.setattr(output, "time", SimpleNamespace(monotonic=lambda: next(ticks)))
+    with output.progress_bar("proving", 4) as shown:
+        for done in (1, 2, 4):
+            shown(done)
+    assert screen.getvalue().split("\r\033[K") == [
+        "", "proving: 1 of 4", "proving: 2 of 4, about 2 s left", "proving: 4 of 4", "",
+    ]  # fmt: skip
