@@ -7,7 +7,6 @@ from typing import Any
 
 from flint import arb, ctx
 
-from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.proved_root import upper
 from chapsym.dynamics.levels.start import fraction
 from chapsym.generated import gibbs_newton
@@ -36,11 +35,6 @@ def near_root(
 
 def _middles(v: Iterable[Any]) -> tuple[Any, ...]:
     return tuple(x.mid() for x in v)
-
-
-def ball(centre: Fraction, radius: Fraction = Fraction(0)) -> Any:
-    """An Arb ball that contains centre ± radius."""
-    return exact(centre) + arb(0, exact(radius).abs_upper())
 
 
 def rounded(x: Any, digits: int) -> str:

@@ -15,9 +15,10 @@ from chapsym import checker
 from chapsym.checker.document import MOST_DIGITS
 from chapsym.checker.heteroclinic import MOST_STEPS
 from chapsym.dynamics.errors import BadInput
+from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import fraction
 
-from .balls import ball, decade, decimal, shortest
+from .balls import decade, decimal, shortest
 from .document import accepted, stated, widest
 from .reduced import Top
 
@@ -34,18 +35,18 @@ class Orbits:
     """The map at the precision of flint's context."""
 
     def __init__(self, top: Top) -> None:
-        I1, I2, I3 = (ball(sum(top.J) - x) for x in top.J)
-        self.D, self.height, self.middle = ball(top.D), ball(top.height), I2
+        I1, I2, I3 = (exact(sum(top.J) - x) for x in top.J)
+        self.D, self.height, self.middle = exact(top.D), exact(top.height), I2
         self.kappa = ((I1 - I2) * (I2 - I3) / ((I1 + self.D) * (I3 + self.D))).sqrt()
         self.last = ((I2 + (I2**2 - self.height**2).sqrt()) / (self.height * self.kappa)).mid()
         self.growth = (self.last + 1) / (self.last - 1)
 
     def end(self, x: Fraction, digits: int) -> tuple[Any, int]:
         """e^Δ, and how many steps of both orbits find it to the digits."""
-        first, steps = self._half(ball(x), digits)
+        first, steps = self._half(exact(x), digits)
         if x == 1:
             return first * first, steps
-        other, more = self._half(ball(1 / x), digits)
+        other, more = self._half(exact(1 / x), digits)
         return first * other, max(steps, more)
 
     def _half(self, x: Any, digits: int) -> tuple[Any, int]:

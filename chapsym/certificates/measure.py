@@ -11,10 +11,9 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import pairwise
 from typing import Any
 
-from flint import arb, ctx
+from flint import ctx
 
 from chapsym import checker
 from chapsym.checker.branch import MOST_ARCS
@@ -22,13 +21,12 @@ from chapsym.checker.circle import Circle
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
 from chapsym.checker.measure import branch_of, tangent
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.levels.proved_root import TooWide
 from chapsym.dynamics.levels.start import fraction
 
 from . import resonance
-from .balls import NotProved, ball, decade, decimals, rounded, shortest
+from .balls import NotProved, decade, decimals, rounded, shortest
 from .document import accepted, stated, widest
-from .reduced import Reduced, Top, Vector, angle, cross
+from .reduced import Reduced, Top, Vector, cross
 from .resonance import Resonance, spare_bits
 
 KIND = "no-invariant-measure"
@@ -43,19 +41,15 @@ FEWEST_ARCS = 32
 
 @dataclass(frozen=True)
 class Orbit:
-    """q steps from a start, enclosed: the Gibbs vectors, γ after each step, and δ."""
+    """q steps from a start: the Gibbs vectors, γ after each step, and δ."""
 
     start: str
     gibbs: list[Vector]
     gammas: list[Vector]
     displacement: Any
 
-    def sign(self) -> int:
-        """The proved sign of δ; 0 where it may be either."""
-        return 1 if self.displacement > 0 else -1 if self.displacement < 0 else 0
-
     def write(self, digits: int) -> dict[str, Any]:
-        """For JSON, rounded; raises NotProved where the numbers of a ball do not round alike."""
+        """For JSON, rounded."""
         steps = [
             {name: [rounded(x, digits) for x in v] for name, v in (("u", u), ("gamma", gamma))}
             for u, gamma in zip(self.gibbs, self.gammas, strict=True)
@@ -73,7 +67,7 @@ def no_invariant_measure(
     level: l; in the middle of the plateau by default.  digits: decimals of the file; what the displacement needs.
     radius: how far each of J, D, h and l may be off; the largest power of 10 that is proved by default, and 0 where a
     component of J is 0, as it must not be negative.
-    Returns the object of the file (`document`), which `chapsym.checker`, whose intervals are wider, accepts, too.
+    Returns the object of the file (`document`), which `chapsym.checker` accepts.
     Raises BadInput, one sentence, for what has no certificate.
     """
     _check(top, steps, half_turns, digits, radius)
@@ -82,16 +76,16 @@ def no_invariant_measure(
             at = resonance.find(top, steps, half_turns or 1, progress)
         else:
             at = resonance.on_level(top, level, steps, half_turns)
-    except (NotProved, TooWide):
+        progress("following both orbits")
+        least = _least_digits(top, at)
+    except NotProved:
         raise BadInput(
             f"beyond the bound of lemma small-branch, at |h| = {abs(top.height)}, a step is not found; take a smaller "
             "height"
         ) from None
-    progress("enclosing both orbits")
-    least = _least_digits(top, at)
     if digits is not None and digits < least:
         raise BadInput(f"{digits} digits are too few for this displacement and level; take {least} or more")
-    if Reduced(top).bound is None:
+    if not Reduced(top).is_small:
         progress("proving the branch over the whole circle")
         at = replace(at, arcs=_arcs(top, at, least))
     return _largest(top, at, least if digits is None else digits, digits is not None, radius, progress)
@@ -125,40 +119,37 @@ def _check(top: Top, steps: int | None, half_turns: int | None, digits: int | No
 
 def _least_digits(top: Top, at: Resonance) -> int:
     """Decimals for the level, and SIGNIFICANT digits of both displacements; raises BadInput off the plateau."""
-    bits = spare_bits(at.steps)
+    spare = spare_bits(at.steps)
+    bits = spare
     while bits < MOST_DIGITS * 10 // 3:
         bits *= 2
         with ctx.workprec(bits):
-            try:
-                found = _orbits(top, at, Fraction(0))
-            except (NotProved, TooWide):
-                continue
-            signs = [x.sign() for x in found]
-            if signs[0] == signs[1] != 0:
-                raise BadInput(
-                    f"both displacements are {'positive' if signs[0] > 0 else 'negative'}: the level is outside of the "
-                    f"plateau of {resonance.turns(at.half_turns)} in {at.steps} steps"
-                )
-            if 0 not in signs:
-                least = min(fraction(abs(x.displacement)) for x in found)
-                digits = max(SIGNIFICANT - 1 - decade(least), decimals(at.level) or 0)
-                if digits <= MOST_DIGITS:
-                    return digits
+            found = [fraction(x.displacement) for x in _orbits(top, at)]
+        least = min(map(abs, found))
+        if least < Fraction(2) ** (spare - bits):
+            continue
+        if (found[0] > 0) == (found[1] > 0):
+            raise BadInput(
+                f"both displacements are {'positive' if found[0] > 0 else 'negative'}: the level is outside of the "
+                f"plateau of {resonance.turns(at.half_turns)} in {at.steps} steps"
+            )
+        digits = max(SIGNIFICANT - 1 - decade(least), decimals(at.level) or 0)
+        if digits <= MOST_DIGITS:
+            return digits
     raise BadInput(f"the displacement on this level is not told from 0 with {MOST_DIGITS} digits")
 
 
 def _arcs(top: Top, at: Resonance, digits: int) -> int:
     """The least power of 2 of arcs over which the checker accepts the branch; raises BadInput where none is found."""
-    with ctx.workprec(math.ceil(digits * 10 / 3) + spare_bits(at.steps)):
-        arcs, reason = FEWEST_ARCS, ""
-        while arcs <= MOST_ARCS:
-            try:
-                fields = _fields(top, replace(at, arcs=arcs), Fraction(0), digits)
-                branch_of(Circle(fields), fields)
-            except (checker.Rejected, NotProved) as error:
-                arcs, reason = 2 * arcs, str(error)
-            else:
-                return arcs
+    arcs, reason = FEWEST_ARCS, ""
+    while arcs <= MOST_ARCS:
+        try:
+            fields = _fields(top, replace(at, arcs=arcs), Fraction(0), digits)
+            branch_of(Circle(fields), fields)
+        except checker.Rejected as error:
+            arcs, reason = 2 * arcs, str(error)
+        else:
+            return arcs
     raise BadInput(f"the branch is not proved over the whole circle with {MOST_ARCS} arcs: {reason}")
 
 
@@ -166,28 +157,25 @@ def _largest(
     top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Callable[[str], None]
 ) -> dict[str, Any]:
     """The certificate with the largest radius, and the fewest digits for it."""
-    digits = [least] if only else list(range(least, min(least + MORE, MOST_DIGITS) + 1))
+    candidates = [least] if only else list(range(least, min(least + MORE, MOST_DIGITS) + 1))
     radii = _radii(top, at, least) if radius is None else [radius]
+    with _precise(at, candidates[-1]):
+        orbits = _orbits(top, at)
+
+    def found(off: Fraction) -> dict[str, Any]:
+        for n in candidates:
+            written = [x.write(n) for x in orbits]
+            with contextlib.suppress(checker.Rejected):
+                return accepted(stated(KIND, **_fields(top, at, off, n), orbits=written))
+        raise NotProved("the checker accepts none of these")
+
     try:
-        return widest(radii, lambda off: _accepted(top, at, off, digits), progress)
+        return widest(radii, found, progress)
     except NotProved:
         raise BadInput(
             f"the numbers do not round to {least} digits alike for all parameters within {shortest(radii[-1])}; "
             f"take a smaller radius, or another number of digits"
         ) from None
-
-
-def _accepted(top: Top, at: Resonance, radius: Fraction, candidates: list[int]) -> dict[str, Any]:
-    """The certificate with this radius and the fewest digits, proved, and accepted by the checker; or NotProved."""
-    with ctx.workprec(math.ceil(candidates[-1] * 10 / 3) + spare_bits(at.steps)):
-        try:
-            orbits = _orbits(top, at, radius)
-        except TooWide as error:
-            raise NotProved from error
-        for digits in candidates:
-            with contextlib.suppress(NotProved, checker.Rejected):
-                return accepted(_document(top, at, radius, orbits, digits))
-    raise NotProved("the numbers do not round alike in the whole box, or the checker does not accept them")
 
 
 def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
@@ -198,42 +186,19 @@ def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
     return [Fraction(1, 10**n) for n in range(digits, digits + LOST * at.steps + 2 * max(scales) + 20)]
 
 
-def _orbits(top: Top, at: Resonance, radius: Fraction) -> list[Orbit]:
-    reduced = Reduced(top, radius)
-    level = ball(at.level, radius)
-    return [_orbit(reduced, at, reduced.start(level, at.axes, tangent(x)), x) for x in at.starts]
+def _precise(at: Resonance, digits: int) -> Any:
+    """The precision that this many decimals need after the steps."""
+    return ctx.workprec(math.ceil(digits * 10 / 3) + spare_bits(at.steps))
 
 
-def _orbit(reduced: Reduced, at: Resonance, start: Vector, name: str) -> Orbit:
-    """Every step, proved; raises NotProved."""
-    gibbs: list[Vector] = []
-    gammas = [start]
-    for _ in range(at.steps):
-        near = gibbs[-1] if gibbs else None
-        u, gamma = reduced.image(reduced.root(gammas[-1], near), gammas[-1])
-        gibbs.append(u)
-        gammas.append(gamma)
-    s = direction([(cross(x, y, at.axes), angle(x, y, at.axes)) for x, y in pairwise(gammas)], at.half_turns)
-    return Orbit(name, gibbs, gammas[1:], s * (-1) ** at.half_turns * cross(start, gammas[-1], at.axes))
-
-
-def direction(turned: list[tuple[Any, Any]], half_turns: int) -> int:
-    """1 or -1: the sign of all steps, from their (sines times a length, angles); raises NotProved.
-
-    Each is proved to turn by less than half a turn in this direction, and all by about this many half turns.
-    """
-    s = 1 if turned[0][0] > 0 else -1
-    if not all(s * sine > 0 for sine, _ in turned):
-        raise NotProved("the steps are not proved to turn in one direction by less than half a turn")
-    if not abs(sum(s * x for _, x in turned) / arb.pi() - half_turns) < 0.5:
-        raise NotProved("the half turns are not proved")
-    return s
-
-
-def _document(top: Top, at: Resonance, radius: Fraction, orbits: list[Orbit], digits: int) -> dict[str, Any]:
-    if orbits[0].sign() * orbits[1].sign() >= 0:
-        raise NotProved("the signs of the displacements are not proved")
-    return stated(KIND, **_fields(top, at, radius, digits), orbits=[x.write(digits) for x in orbits])
+def _orbits(top: Top, at: Resonance) -> list[Orbit]:
+    """From both starts; δ as if all steps turned in the direction of the first."""
+    reduced, found = Reduced(top), list[Orbit]()
+    for name in at.starts:
+        gibbs, gammas = reduced.orbit(at.level, at.axes, tangent(name), at.steps)
+        sign = (-1) ** at.half_turns * (1 if cross(gammas[0], gammas[1], at.axes) > 0 else -1)
+        found.append(Orbit(name, gibbs, gammas[1:], (sign * cross(gammas[0], gammas[-1], at.axes)).mid()))
+    return found
 
 
 def _fields(top: Top, at: Resonance, radius: Fraction, digits: int) -> dict[str, Any]:
@@ -247,8 +212,8 @@ def _fields(top: Top, at: Resonance, radius: Fraction, digits: int) -> dict[str,
         "digits": digits,
     }
     if at.arcs:
-        reduced = Reduced(top, radius)
-        gamma = reduced.start(ball(at.level, radius), at.axes, Fraction(0))
-        u, _ = reduced.image(reduced.root(gamma), gamma)
-        fields["branch"] = {"arcs": at.arcs, "u": [rounded(x, digits) for x in u]}
+        reduced = Reduced(top)
+        with _precise(at, digits):
+            u = reduced.root(reduced.start(at.level, at.axes, Fraction(0)))
+            fields["branch"] = {"arcs": at.arcs, "u": [rounded(x, digits) for x in u]}
     return fields

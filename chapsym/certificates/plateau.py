@@ -3,7 +3,7 @@
 The displacement after q steps is least and largest at two `starts`, nearly: for odd q the points with γ_a = 0 and
 γ_b = 0, which reflections fix.  So the levels on which one of them returns to p half turns are the ends of the plateau;
 it is about as narrow,
-beside the range of levels, as the q-th power of the nome.  Nothing here is proved: that is for the balls to do.
+beside the range of levels, as the q-th power of the nome.  Nothing here is proved: that is for the checker to do.
 """
 
 import contextlib
@@ -17,11 +17,11 @@ from typing import Any
 from flint import acb, arb, ctx
 
 from chapsym.checker.measure import ZEROS
-from chapsym.dynamics.levels.proved_root import TooWide
+from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import exponent_of, fraction
 
-from .balls import NotProved, ball
-from .reduced import Axes, Reduced, Top, Vector, angle, cross
+from .balls import NotProved
+from .reduced import Axes, Reduced, Top, angle, cross
 
 #: The levels that are looked at have x/(1 - x) = e^t for this many t up to ±REACH, x from the separatrix to the axis.
 LEVELS, REACH = 29, 14.0
@@ -60,7 +60,7 @@ def staircases(top: Top, steps: int, progress: Callable[[str], None]) -> list[St
         counted = {}
         for number, level in enumerate(levels):
             progress(f"looking for the level: circle {number + 1} of {LEVELS} around axis {c + 1}")
-            with contextlib.suppress(NotProved, TooWide):
+            with contextlib.suppress(NotProved):
                 counted[level] = half_turns(top, level, axes, steps)
         found.append(Staircase(axes, list(counted), list(counted.values())))
     return found
@@ -69,21 +69,12 @@ def staircases(top: Top, steps: int, progress: Callable[[str], None]) -> list[St
 def half_turns(top: Top, level: Fraction, axes: Axes, steps: int) -> list[float]:
     """Half turns after 1, 2, ... steps from the point with γ_b = 0, in the direction of the motion."""
     with ctx.workprec(LOOK_BITS):
-        orbit = trajectory(Reduced(top), level, axes, ZEROS["b"], steps)
+        _, orbit = Reduced(top).orbit(level, axes, ZEROS["b"], steps)
         total, found = 0.0, []
         for before, after in pairwise(orbit):
             total += float(angle(before, after, axes)) / math.pi
             found.append(abs(total))
         return found
-
-
-def trajectory(reduced: Reduced, level: Fraction, axes: Axes, t: Fraction, steps: int) -> list[Vector]:
-    """γ from a start on, rounded after every step."""
-    orbit, near = [tuple(x.mid() for x in reduced.start(ball(level), axes, t))], None
-    for _ in range(steps):
-        near = reduced.root(orbit[-1], near)
-        orbit.append(tuple(x.mid() for x in reduced.image(near, orbit[-1])[1]))
-    return orbit
 
 
 def refined(top: Top, ends: tuple[Fraction, Fraction], axes: Axes, steps: int, turns: int) -> tuple[Fraction, Fraction]:
@@ -112,7 +103,7 @@ def starts(top: Top, level: Fraction, axes: Axes, steps: int) -> tuple[str, str]
     with ctx.workprec(LOOK_BITS):
         reduced = Reduced(top)
         for _ in range(MIDDLE_STEPS):
-            before, after = trajectory(reduced, level, axes, Fraction(t), 1)
+            _, (before, after) = reduced.orbit(level, axes, Fraction(t), 1)
             t = math.tan(-float(angle(before, after, axes)) / 4)
     return "b", str(Fraction(f"{t:.3g}"))
 
@@ -123,7 +114,7 @@ def end_of_plateau(
     """The level near two others on which a start is on its line through 0 again, by secants."""
 
     def off(level: Fraction) -> Fraction:
-        orbit = trajectory(reduced, level, axes, t, steps)
+        _, orbit = reduced.orbit(level, axes, t, steps)
         return fraction(cross(orbit[0], orbit[-1], axes))
 
     (x, y), limit = near, unit_in_last_place(near[0], bits)
@@ -154,4 +145,4 @@ def nome_power(top: Top, level: Fraction, axes: Axes, steps: int) -> float:
 
 
 def _quarter(k2: Fraction) -> Any:
-    return acb(ball(k2)).elliptic_k().real
+    return acb(exact(k2)).elliptic_k().real

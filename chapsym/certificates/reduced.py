@@ -1,4 +1,4 @@
-"""The reduced map G_h of an exact ball, 𝒦 = hγ, in Arb's balls: its level circles, and steps that are proved.
+"""The reduced map G_h of an exact ball, 𝒦 = hγ: its level circles, and steps on them.
 
 On the sphere a level ⟨γ,Λ⁻¹γ⟩ = l is two circles around a principal axis c.  With b the axis of the middle moment and
 a the third one, the reflections γ_a → -γ_a and γ_b → -γ_b reverse G_h, and the rotation by π about c commutes with it.
@@ -9,14 +9,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, cast
 
-from flint import arb, arb_mat, ctx
+from flint import arb
 
 from chapsym.checker.circle import direction
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.levels.proved_root import MATRIX_BITS, certified, inverse_slope, newton_enclosure, upper
-from chapsym.generated import gibbs_residual, turn
+from chapsym.dynamics.levels.balls import exact
+from chapsym.dynamics.levels.proved_root import certified
+from chapsym.generated import turn
 
-from .balls import NotProved, ball, near_root
+from .balls import NotProved, near_root
 
 Vector = tuple[Any, ...]
 Axes = tuple[int, int, int]
@@ -60,71 +61,53 @@ class Top:
 
 
 class Reduced:
-    """G_h for all J, D and h within `radius` of a top; with radius 0 for that top.
+    """G_h of a top at points, with nothing proved: which roots these are, and that they are some, is for the checker.
 
-    Where |h| is beyond the bound of lemma `small-branch`, `bound` is None: each step encloses a root near those of the
-    small branch, which is continued from h = 0; that it is one branch over the circle is for the checker to prove.
+    Where |h| is beyond the bound of lemma `small-branch`, `is_small` is False: each root is one near those of the small
+    branch, which is continued from h = 0.
     """
 
-    def __init__(self, top: Top, radius: Fraction = Fraction(0)) -> None:
-        J = [ball(x, radius) for x in top.J]
+    def __init__(self, top: Top) -> None:
+        J = [exact(x) for x in top.J]
         self.I = (J[1] + J[2], J[0] + J[2], J[0] + J[1])
-        self.D, self.half = ball(top.D, radius), ball(top.height, radius) / 2
-        self.bound = certified(2 * abs(self.half), self.I)
+        self.D, self.half = exact(top.D), exact(top.height) / 2
+        self.is_small = certified(2 * abs(self.half), self.I) is not None
 
-    def start(self, level: Any, axes: Axes, t: Fraction) -> Vector:
+    def start(self, level: Fraction, axes: Axes, t: Fraction) -> Vector:
         """The point of a level circle with tan ½φ = t, φ the angle in the plane of (a, b), and γ_c positive."""
         a, b, c = axes
-        cosine, sine = (ball(x) for x in direction(t))
+        cosine, sine = (exact(x) for x in direction(t))
         of_a, of_b, of_c = (1 / (self.I[i] + self.D) for i in axes)
-        square = (level - of_c) / ((of_a - of_c) * cosine**2 + (of_b - of_c) * sine**2)
+        square = (exact(level) - of_c) / ((of_a - of_c) * cosine**2 + (of_b - of_c) * sine**2)
         gamma = [arb(0)] * 3
         gamma[a], gamma[b], gamma[c] = square.sqrt() * cosine, square.sqrt() * sine, (1 - square).sqrt()
         if not (square > 0 and gamma[c] > 0):
             raise NotProved("the level may be at the end of its range")
-        return tuple(gamma)
+        return tuple(x.mid() for x in gamma)
 
     def root(self, gamma: Vector, near: Vector | None = None) -> Vector:
-        """The Gibbs vector of the step from the middle of γ, for the middle parameters: to rounding, no proof.
+        """The Gibbs vector of the step from γ.
 
         near: beyond the bound, that of a γ near by; without it the root is continued from h = 0.
         """
-        if self.bound is not None:
+        if self.is_small:
             return near_root(self._momentum(gamma), gamma, self.I, self.D)
         for part in range(1, CONTINUED + 1) if near is None else (CONTINUED,):
             momentum = tuple(arb(part) / CONTINUED * x for x in self._momentum(gamma))
             near = near_root(momentum, gamma, self.I, self.D, near)
         return cast(Vector, near)
 
-    def image(self, u: Vector, gamma: Vector) -> tuple[Vector, Vector]:
-        """Encloses the Gibbs vectors and G_h of all γ in a box, for all parameters; u: a point near these vectors.
-
-        Within the bound of lemma `small-branch` a root with |u| < 1 is the small branch's, and the one.
-        """
-        if self.bound is not None and not upper(u) <= self.bound[0]:
-            raise NotProved("the Gibbs vector is not within the bound of lemma small-branch")
-        state = (*self._momentum(gamma), *gamma, *self.I, self.D)
-        r = gibbs_residual(*(*u, *state))
-        if self.bound is None:
-            v = _newton_test(u, r, state)
-        else:
-            v = newton_enclosure(u, r, self.bound[1], state, 2 * MATRIX_BITS)
-        return v, tuple(x + y for x, y in zip(gamma, turn(1, *v, *gamma), strict=True))
+    def orbit(self, level: Fraction, axes: Axes, t: Fraction, steps: int) -> tuple[list[Vector], list[Vector]]:
+        """The Gibbs vectors of steps from a start, and γ before, between and after them."""
+        gibbs, gammas = list[Vector](), [self.start(level, axes, t)]
+        for _ in range(steps):
+            gibbs.append(self.root(gammas[-1], gibbs[-1] if gibbs else None))
+            turned = zip(gammas[-1], turn(1, *gibbs[-1], *gammas[-1]), strict=True)
+            gammas.append(tuple((x + y).mid() for x, y in turned))
+        return gibbs, gammas
 
     def _momentum(self, gamma: Vector) -> Vector:
         return tuple(self.half * x for x in gamma)
-
-
-def _newton_test(u: Vector, r: Vector, state: Vector) -> Vector:
-    """The root near a point u with the residual r, by Newton's test; raises NotProved where it fails."""
-    least = arb(2) ** -ctx.prec
-    with ctx.workprec(2 * MATRIX_BITS):
-        column = arb_mat(3, 1, r)
-        off = (2 * upper((inverse_slope(u, arb(0), state) * column).entries()) + least).abs_upper()
-        d = (inverse_slope(u, off, state) * column).entries()
-        if not upper(d) < off:
-            raise NotProved("Newton's test proves no root")
-    return tuple(x - y for x, y in zip(u, d, strict=True))
 
 
 def cross(x: Vector, y: Vector, axes: Axes) -> Any:

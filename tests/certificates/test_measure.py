@@ -6,11 +6,10 @@ from importlib.resources import files
 
 import pytest
 from commands import answer, chapsym, child, refused
-from flint import arb, ctx
+from flint import ctx
 
 from chapsym import checker
 from chapsym.certificates import document, measure, plateau, resonance
-from chapsym.certificates.balls import NotProved, ball
 from chapsym.certificates.measure import no_invariant_measure
 from chapsym.certificates.reduced import Reduced, Top
 from chapsym.cli import certify
@@ -195,58 +194,12 @@ def test_the_command_has_the_checker_judge(tmp_path):
     assert chapsym("certify", "check", str(tmp_path / "nowhere.json")).returncode == 2
 
 
-def orbits():
-    with ctx.workprec(200):
-        return measure._orbits(top(), resonance.Resonance((0, 1, 2), LEVEL, 9, 1, ("a", "b")), Fraction(0))
-
-
-def test_a_certificate_needs_opposite_signs():
-    at, (one, other) = resonance.Resonance((0, 1, 2), LEVEL, 9, 1, ("a", "b")), orbits()
-    assert measure._document(top(), at, Fraction(0), [one, other], 31) == no_invariant_measure(
-        top(), level=LEVEL, steps=9, radius=Fraction(0)
-    )
-    with pytest.raises(NotProved, match="signs"):
-        measure._document(top(), at, Fraction(0), [one, one], 31)
-
-
-def test_a_radius_that_the_checker_does_not_bear_is_not_taken(monkeypatch):
-    """Its intervals are the wider ones for this ball; without it the radius would be larger."""
-    ball = top(J="1,15,3/5", D="37/800", height="-3/5")
-    found = no_invariant_measure(ball)
-    assert checker.check(found).kind == found["kind"] == "no-invariant-measure"
-    monkeypatch.setattr(measure.checker, "check", lambda document: None)
-    other = no_invariant_measure(ball)
-    assert Fraction(other["radius"]) > Fraction(found["radius"])
-    monkeypatch.undo()
-    with pytest.raises(checker.Rejected):
-        checker.check(other)
-
-
-def test_steps_turn_in_one_direction_by_so_many_half_turns():
-    third = (arb(1), arb.pi() / 3)
-    back = (arb(-1), -arb.pi() / 3)
-    assert measure.direction([third] * 3, 1) == 1
-    assert measure.direction([back] * 6, 2) == -1
-    for wrong, half_turns in ((5 * [third], 1), ([third] * 3, 2), ([third] * 4 + [back], 1)):
-        with pytest.raises(NotProved):
-            measure.direction(wrong, half_turns)
-    with pytest.raises(NotProved, match="direction"):
-        measure.direction([third, (arb(0, 1), arb.pi() / 3), third], 1)
-    with pytest.raises(NotProved, match="direction"):
-        measure.direction([(arb(0, 1), arb.pi() / 3), third, third], 1)
-
-
-def test_a_step_is_enclosed_from_a_poor_point_too():
-    """One Newton iterate from there is far off; the ball is not."""
-    with ctx.workprec(200):
-        reduced = Reduced(top())
-        gamma = reduced.start(ball(LEVEL), (0, 1, 2), Fraction(1))
-        root = reduced.root(gamma)
-        poor = tuple(x + ball(Fraction(1, 1000)).mid() for x in root)
-        enclosed, there = reduced.image(poor, gamma)
-        assert all(x.overlaps(y) for x, y in zip(enclosed, root, strict=True))
-        wanted = reduced.image(tuple(x.mid() for x in root), gamma)[1]
-        assert all(x.overlaps(y) for x, y in zip(there, wanted, strict=True))
-        assert max(float(x.rad()) for x in enclosed) < 1e-3
-        with pytest.raises(NotProved, match="small-branch"):
-            reduced.image((ball(Fraction(2)),) * 3, gamma)
+def test_a_certificate_needs_opposite_signs(monkeypatch):
+    real = measure._orbits
+    assert no_invariant_measure(top(), level=LEVEL, steps=9, radius=Fraction(0))
+    monkeypatch.setattr(measure, "_orbits", lambda top, at: [real(top, at)[0]] * 2)
+    with pytest.raises(BadInput, match="both displacements are positive"):
+        no_invariant_measure(top(), level=LEVEL, steps=9, radius=Fraction(0))
+    monkeypatch.setattr(measure, "_least_digits", lambda top, at: 31)
+    with pytest.raises(BadInput, match="take a smaller radius"):
+        no_invariant_measure(top(), level=LEVEL, steps=9, radius=Fraction(0))
