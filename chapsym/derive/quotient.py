@@ -8,16 +8,10 @@ is decided by division by a Gröbner basis, in exact arithmetic (python-flint be
 from collections.abc import Sequence
 from functools import cached_property
 from math import prod
-from typing import Any
 
 import sympy as sp
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
-from sympy.polys.rings import PolyElement, PolyRing
-
-Monomial = tuple[int, ...]
-Terms = dict[Monomial, Any]
-#: The bits for an exponent, where a monomial is one integer.
-WIDE = 16
+from sympy.polys.rings import PolyRing
 
 
 class Quotient:
@@ -37,15 +31,23 @@ class Quotient:
         return PolyRing(self.symbols, sp.QQ, sp.grevlex)
 
     @cached_property
-    def _basis(self) -> list[PolyElement]:
+    def _context(self) -> fmpq_mpoly_ctx:
+        return fmpq_mpoly_ctx.get(tuple(f"x{i}" for i in range(len(self.symbols))), Ordering.degrevlex)
+
+    @cached_property
+    def _basis(self) -> list[fmpq_mpoly]:
         if not self.relations:
             return []
-        basis = sp.groebner(self.relations, *self.symbols, order="grevlex", domain="QQ")
-        return [self._ring.from_expr(g) for g in basis.exprs]
+        return list(map(self._read, sp.groebner(self.relations, *self.symbols, order="grevlex", domain="QQ").exprs))
+
+    def _read(self, expr: sp.Expr) -> fmpq_mpoly:
+        """A polynomial."""
+        terms = self._ring.from_expr(expr).to_dict()
+        return self._context.from_dict({m: fmpq(int(c.numerator), int(c.denominator)) for m, c in terms.items()})
 
     def normal(self, expr: sp.Expr | int) -> sp.Expr:
         """The normal form of a polynomial modulo the relations."""
-        return self._shown(self._ring.from_expr(sp.sympify(expr, strict=True)))
+        return self._shown(self._read(sp.sympify(expr, strict=True)))
 
     def reduced(self, expr: sp.Expr) -> sp.Expr:
         """A rational function as a quotient of normal forms, the one below with integers that have no common factor."""
@@ -62,16 +64,15 @@ class Quotient:
         """
         (numerator, _), divisors = self._fraction(sp.sympify(expr, strict=True))  # a text is not evaluated
         for written, divisor in divisors:
-            if not self._rest(divisor.to_dict()):
+            if self._rest(divisor) == 0:
                 raise ZeroDivisionError(f"the denominator {written} is zero under the hypotheses")
-        return not self._rest(numerator.to_dict())
+        return bool(self._rest(numerator) == 0)
 
     @cached_property
     def _known(self) -> dict[sp.Expr, tuple[fmpq_mpoly, fmpq_mpoly]]:
         """1 and the symbols as fractions."""
-        context = fmpq_mpoly_ctx.get(tuple(f"x{i}" for i in range(len(self.symbols))), Ordering.degrevlex)
-        one = context.constant(1)
-        known = {x: (gen, one) for x, gen in zip(self.symbols, context.gens(), strict=True)}
+        one = self._context.constant(1)
+        known = {x: (gen, one) for x, gen in zip(self.symbols, self._context.gens(), strict=True)}
         return {sp.S.One: (one, one), **known}
 
     def _fraction(self, expr: sp.Expr) -> tuple[tuple[fmpq_mpoly, fmpq_mpoly], list[tuple[sp.Expr, fmpq_mpoly]]]:
@@ -109,59 +110,16 @@ class Quotient:
 
         return of(expr), divisors
 
-    @cached_property
-    def _division(self) -> "Division":
-        return Division([g.to_dict() for g in self._basis], [g.leading_expv() for g in self._basis], len(self.symbols))
-
-    def _shown(self, polynomial: PolyElement | fmpq_mpoly) -> sp.Expr:
+    def _shown(self, polynomial: fmpq_mpoly) -> sp.Expr:
         """The normal form of a polynomial."""
-        rest = self._rest(polynomial.to_dict())
+        rest = self._rest(polynomial).to_dict()
         return self._ring.from_dict({m: sp.QQ(int(c.p), int(c.q)) for m, c in rest.items()}).as_expr()
 
-    def _rest(self, polynomial: Terms) -> Terms:
-        """The same of its terms; that by a Gröbner basis does not depend on their order."""
-        return self._division.divided(polynomial)[0]
-
-
-class Division:
-    """Division by polynomials {exponents: coefficient}, of each term by the first whose leading term divides it."""
-
-    def __init__(self, by: Sequence[Terms], leads: Sequence[Monomial], size: int) -> None:
-        self._size = size
-        self._borrows = sum(1 << WIDE * i + WIDE - 1 for i in range(size))  # no exponent has this bit
-        self._rules = []
-        for terms, lead in zip(by, leads, strict=True):
-            inverse, at = 1 / _rational(terms[lead]), _packed(lead)
-            rest = [(_packed(m) - at, -_rational(c) * inverse) for m, c in terms.items() if m != lead]
-            self._rules.append((at, inverse, rest))
-
-    def divided(self, polynomial: Terms) -> tuple[Terms, list[Terms]]:
-        """The remainder, and the quotient for each polynomial."""
-        quotients: list[dict[int, fmpq]] = [{} for _ in self._rules]
-        pending, settled = {_packed(m): _rational(c) for m, c in polynomial.items()}, dict[int, fmpq]()
-        while pending:
-            replaced: dict[int, fmpq] = {}
-            for monomial, factor in pending.items():
-                for (lead, inverse, terms), quotient in zip(self._rules, quotients, strict=True):
-                    if ((monomial | self._borrows) - lead) & self._borrows == self._borrows:
-                        quotient[monomial - lead] = quotient.get(monomial - lead, 0) + factor * inverse
-                        for offset, times in terms:
-                            replaced[monomial + offset] = replaced.get(monomial + offset, 0) + factor * times
-                        break
-                else:
-                    settled[monomial] = settled.get(monomial, 0) + factor
-            pending = {monomial: factor for monomial, factor in replaced.items() if factor != 0}
-        return self._terms(settled), list(map(self._terms, quotients))
-
-    def _terms(self, packed: dict[int, fmpq]) -> Terms:
-        one = (1 << WIDE) - 1
-        return {tuple(m >> WIDE * i & one for i in range(self._size)): c for m, c in packed.items() if c != 0}
-
-
-def _packed(monomial: Monomial) -> int:
-    return sum(int(e) << WIDE * i for i, e in enumerate(monomial))
-
-
-def _rational(c: Any) -> fmpq:
-    """A rational number of SymPy's domain, or one of python-flint."""
-    return c if isinstance(c, fmpq) else fmpq(int(c.numerator), int(c.denominator))
+    def _rest(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
+        """The same: what is left by division; by a Gröbner basis it does not depend on the order of its elements."""
+        before = None
+        while before != polynomial:
+            before = polynomial
+            for element in self._basis:
+                polynomial = divmod(polynomial, element)[1]
+        return polynomial

@@ -15,9 +15,8 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from chapsym.checker.matrices import Quotients
 from chapsym.checker.polynomial import FIELD, Quotient
-from chapsym.derive.quotient import Division, Monomial, Terms
 
-from .trees import factored
+from .trees import Monomial, factored
 
 
 @dataclass(frozen=True)
@@ -54,9 +53,10 @@ class Ideal:
 
     def cofactors(self, polynomial: Mapping[Monomial, Any]) -> tuple[fmpq_mpoly, ...] | None:
         """Those of a polynomial; None if it is not in the ideal."""
+        whole = self._context.from_dict(dict(polynomial))
         while True:
-            remainder, quotients = self._divided(dict(polynomial))
-            if not remainder:
+            remainder, quotients = self._divided(whole)
+            if remainder == 0:
                 total = self._none
                 for quotient, element in zip(quotients, self._basis, strict=True):
                     total = total.less(-quotient, element)
@@ -73,8 +73,8 @@ class Ideal:
         """Adds the next element of the Gröbner basis; whether there was one."""
         while self._pairs:
             found = self._s_polynomial(*self._pairs.pop(0))
-            remainder, quotients = self._divided(found.polynomial.to_dict())
-            if remainder:
+            remainder, quotients = self._divided(found.polynomial)
+            if remainder != 0:
                 for quotient, element in zip(quotients, self._basis, strict=True):
                     found = found.less(quotient, element)
                 self._extend(found)
@@ -89,12 +89,18 @@ class Ideal:
         )
         return self._none.less(left, a).less(right, b)
 
-    def _divided(self, polynomial: Terms) -> tuple[Terms, list[fmpq_mpoly]]:
-        """The remainder, and the quotient for each element of the basis."""
-        by = [element.polynomial.to_dict() for element in self._basis]
-        leads = [element.lead for element in self._basis]
-        remainder, quotients = Division(by, leads, len(self._context.names())).divided(polynomial)
-        return remainder, list(map(self._context.from_dict, quotients))
+    def _divided(self, polynomial: fmpq_mpoly) -> tuple[fmpq_mpoly, list[fmpq_mpoly]]:
+        """The remainder, and the quotient for each element: the first whose leading term divides a term divides it."""
+        remainder, quotients = self._none.polynomial, [self._none.polynomial] * len(self._basis)
+        leading = [self._context.from_dict({x.lead: x.polynomial.leading_coefficient()}) for x in self._basis]
+        while polynomial != 0:
+            made = self._none.polynomial
+            for i, term in enumerate(leading):
+                quotient, polynomial = divmod(polynomial, term)  # the rest has what this term does not divide
+                quotients[i] += quotient
+                made -= quotient * (self._basis[i].polynomial - term)
+            remainder, polynomial = remainder + polynomial, made
+        return remainder, quotients
 
 
 def ideal(of: Quotients) -> Ideal:
