@@ -5,12 +5,14 @@ Each operation is true of all matrices for which the rules and the transposes of
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from functools import reduce
+from operator import mul
 from typing import Any
 
 from .interval import Rejected
 from .polynomial import Work
-from .trees import divisors, plain, value
+from .trees import divisors, names_in, plain, value
 from .words import Number, Term, Words
 
 
@@ -18,7 +20,7 @@ class Algebra:
     """Letters for matrices and parameters for numbers, rules for products of two letters, transposes of letters."""
 
     def __init__(self, data: Mapping[str, Any], work: Work):
-        self.work, self.letters, self.parameters = work, set(data["letters"]), data["parameters"]
+        self.data, self.work, self.letters, self.parameters = data, work, set(data["letters"]), data["parameters"]
         self.none = (0,) * len(self.parameters)
         self.divisors: set[str] = set()  # parameters by which something is divided, though it may not be seen any more
         self.respected: list[Algebra] = []  # those whose rules have been seen to hold here, of the names of both
@@ -42,22 +44,14 @@ class Algebra:
         found: Words = value(tree, names, lambda x: self.scalar(self.none, plain(x)))
         return found
 
-    def about(self, names: Collection[str], where: str) -> tuple[list[tuple[str, str, Words]], list[tuple[str, Words]]]:
-        """The rules and the transposes of letters that are named; none may be of some of them and of others."""
-        rules = [(a, b, c) for (a, b), c in self.rules.items() if all_or_none({a, b, *c.letters()}, names, where)]
-        return rules, [(x, t) for x, t in self.transposes.items() if all_or_none({x, *t.letters()}, names, where)]
+    def is_value(self, tree: Any, words: Words) -> bool:
+        """Whether a tree in the names of the algebra is a sum of words, after the rules."""
+        return not self.total([words - self.read(tree, self.names)]).terms
 
     def among(self, words: Iterable[Words]) -> set[str]:
         """The parameters that occur in some words."""
         found = (zip(self.parameters, exponents, strict=True) for one in words for exponents, _ in one.terms)
         return {name for pairs in found for name, e in pairs if e}
-
-    def product(self, factors: Iterable[Words]) -> Words:
-        """The product, in this order."""
-        result = self.word()
-        for factor in factors:
-            result = result * factor
-        return result
 
     def total(self, parts: Iterable[Words]) -> Words:
         """The sum, after the rules."""
@@ -68,17 +62,12 @@ class Algebra:
             self.work.spend(len(terms))
         return Words(terms, self.work).rewritten(self.rules)
 
-    def image(self, of: Words, letters: Callable[[str], Words], scalar: Callable[[tuple[int, ...]], Words]) -> Words:
-        """`of` with other sums of words of this algebra in the place of its letters and of its parameters' powers."""
-        return self.total(
-            self.product([scalar(exponents) * self.scalar(self.none, c), *map(letters, word)])
-            for (exponents, word), c in of.terms.items()
-        )
-
     def transposed(self, of: Words) -> Words:
         """Each word turned round, with the transposes of its letters."""
-        turned = Words({(exponents, word[::-1]): c for (exponents, word), c in of.terms.items()}, self.work)
-        return self.image(turned, self.transpose, self.scalar)
+        return self.total(
+            reduce(mul, map(self.transpose, word[::-1]), self.scalar(exponents, c))
+            for (exponents, word), c in of.terms.items()
+        )
 
     def transpose(self, letter: str) -> Words:
         """That of a letter."""
@@ -155,12 +144,18 @@ class Algebra:
         return self.scalar(self.none, sum(signs)) * self.word(*least)
 
 
-def all_or_none(letters: set[str], names: Iterable[str], where: str) -> bool:
-    """Whether something is said of all of some letters, and not of none; raises Rejected if of a part of them."""
-    known = letters & set(names)
-    if known and known != letters:
-        raise Rejected(f"{where} says something of {min(known)} and nothing of {min(letters - known)}")
-    return bool(known)
+def about(data: Mapping[str, Any], names: Iterable[str], where: str) -> tuple[list[Any], list[Any]]:
+    """The rules and the transposes of letters that are named; raises Rejected if one is of others, too."""
+    named = {*data["letters"]}.intersection(names)
+
+    def is_about(*trees: Any) -> bool:
+        others = (names_in([0, *trees]) & {*data["letters"]}) - named
+        known = names_in([0, *trees]) & named
+        if known and others:
+            raise Rejected(f"{where} says something of {min(known)} and nothing of {min(others)}")
+        return bool(known)
+
+    return [rule for rule in data["rules"] if is_about(*rule)], [pair for pair in data["transposes"] if is_about(*pair)]
 
 
 def rotations(word: tuple[str, ...]) -> list[tuple[str, ...]]:

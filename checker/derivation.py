@@ -10,7 +10,7 @@ dual      of X, by a letter ξ with ξᵀ = -ξ: the S = -Sᵀ with tr X = ½ tr
 having, lacking   of X, by letters: its terms that have one of them, or none; together they are X
 matrix, entry     X in coordinates (matrices.py)
 
-It may have its value, as a tree in the names of its algebra, so that a reader need not take the steps.
+All but a matrix have their value, as a tree in the names of their algebra, so that a reader need not take the steps.
 
 All this is done here, each step in its own algebra: what was made without a rule need not obey it.  Rates and
 replacements must respect the rules and the transposes of the algebra of X; a name is used in another algebra only if
@@ -20,15 +20,14 @@ that has the letters and, for them, the rules.  What the texts say is not judged
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from fractions import Fraction
+from functools import partial
 from typing import Any, NamedTuple
 
-from .algebra import Algebra, having
-from .form import NUMBER, anything, check_shape, chosen, names, once, text, within
+from .algebra import Algebra, about, having
+from .form import NUMBER, check_shape, names, once, text
 from .interval import Rejected
-from .matrices import MOST_ROWS, Entry, Quotients, Rows, check_places, entry, placed, words_at
+from .matrices import Quotients, check_places, entry, placed
 from .polynomial import Quotient
-from .rational import number_at
 from .trees import check_known, check_name, check_tree, names_in
 from .words import Matrix, Words
 
@@ -38,112 +37,71 @@ PAIRS, LETTER, LETTERS = ("rate", "replaced"), ("gradient", "dual"), ("having", 
 
 
 class Defined(NamedTuple):
-    """What a name stands for."""
+    """What a name stands for: Words of an Algebra, a Matrix of Quotients or an entry; its tree, but for a matrix."""
 
-    words: Words
-    algebra: Algebra
+    value: Any
+    algebra: Any
+    tree: Any
 
 
-Made = Defined | Rows | Entry
+def check_pairs(data: Any, where: str) -> None:
+    """Raises Rejected unless names have trees, each once, and one at least."""
+    check_shape(data, [(check_name, check_tree), ...], where)
+    names([name for name, _ in data], where)
+
+
+def check_letters(data: Any, where: str) -> None:
+    """Raises Rejected unless these are names, one at least."""
+    check_shape(data, [check_name, ...], where)
+    names(data, where)
+
+
+#: What an operation is done by.
+BY = {
+    "written": (),
+    "rate": check_pairs,
+    "replaced": check_pairs,
+    "gradient": check_name,
+    "dual": check_name,
+    "having": check_letters,
+    "lacking": check_letters,
+    "matrix": check_places,
+    "entry": (NUMBER, NUMBER),
+}
 
 
 def check_definition(data: Any, where: str) -> None:
     """Raises Rejected unless this is a step of a derivation."""
-    check_shape(data, DEFINITION, where)
-    check_shape(data["by"], BY[data["operation"]], f"by of {where}")
+    operation = str(data.get("operation")) if isinstance(data, dict) else ""
+    check_shape(operation, tuple(BY), f"the operation of {where}")
+    value = {} if operation == "matrix" else {"value": check_tree}
+    of = check_tree if operation == "written" else check_name
+    head = {"name": check_name, "text": text, "algebra": NUMBER, "operation": str}
+    check_shape(data, head | {"of": of, "by": BY[operation]} | value, where)
 
 
-PAIRS_OF_NAMES = [(check_name, check_tree)]
-#: What an operation is done by.
-BY = {
-    "written": (),
-    "rate": PAIRS_OF_NAMES,
-    "replaced": PAIRS_OF_NAMES,
-    "gradient": check_name,
-    "dual": check_name,
-    "having": names,
-    "lacking": names,
-    "matrix": ([(check_name, anything)], [[[check_tree]]]),
-    "entry": (range(MOST_ROWS + 1), range(MOST_ROWS + 1)),
-}
-DEFINITION = {
-    "name": check_name, "text": text, "algebra": NUMBER, "operation": tuple(BY), "of": check_tree, "by": anything,
-    "value?": check_tree,
-}  # fmt: skip
-
-
-def check_form(
-    data: Any, algebras: Sequence[Mapping[str, Any]], known: Sequence[Collection[str]]
-) -> list[Collection[str]]:
-    """Raises Rejected unless each step is made of what there is, in algebras with these names.
-
-    Returns for each algebra the names that are defined and can be used there.
-    """
+def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotients]) -> dict[str, Defined]:
+    """What each name of a derivation stands for; raises Rejected for a step that cannot be done."""
     if len(data) > MOST_DEFINITIONS:
         raise Rejected(f"the derivation has more than {MOST_DEFINITIONS} definitions")
-    once([one["name"] for one in data], "the derivation")
-    taken = set().union(*known)
-    made: dict[str, dict[str, int]] = {"words": {}, "matrix": {}, "entry": {}}
-    for i, one in enumerate(data):
-        where, here, operation = f"definition {i}", one["algebra"], one["operation"]
-        algebra = within(here, algebras, where)
-        if one["name"] in taken:
-            raise Rejected(f"{where} has a name that is taken")
-        check_known([one.get("value", 0)], known[here], where)
-        kind = operation if operation in made else "words"
-        if (algebra["kind"] == "quotient") is (kind == "words"):
-            raise Rejected(f"{where} is in an algebra of another kind than its operation")
-        trees = [one["of"]]
-        if operation != "written":
-            chosen(one["of"], list(made["matrix" if kind == "entry" else "words"]), f"what {where} is made from")
-            trees = []
-        if kind == "matrix":
-            check_places(one["by"], algebras[made["words"][one["of"]]], algebra, where)
-        elif kind == "entry":
-            if made["matrix"][one["of"]] != here:
-                raise Rejected(f"{where} is in another algebra than its matrix")
-        elif operation != "written":
-            trees = _check_by(one, algebras[made["words"][one["of"]]], where)
-        check_known(trees, {*known[here], *made["words"]}, where)
-        made[kind][one["name"]] = here
-    return [
-        {name for name, there in made["entry"].items() if there == here} if one["kind"] == "quotient" else made["words"]
-        for here, one in enumerate(algebras)
-    ]
-
-
-def _check_by(one: dict[str, Any], source: Mapping[str, Any], where: str) -> list[Any]:
-    """That the other operand is of letters of the algebra of the first, each once; returns the trees in it."""
-    about = [*source["letters"], *(source["parameters"] if one["operation"] == "replaced" else [])]
-    if one["operation"] in LETTER:
-        chosen(one["by"], about, f"the letter of {where}")
-        return []
-    letters = [pair[0] for pair in one["by"]] if one["operation"] in PAIRS else one["by"]
-    names(letters, where)
-    check_known(letters, about, where)
-    if not letters:
-        raise Rejected(f"{where} must be by names of the algebra that it is made from")
-    return [pair[1] for pair in one["by"]] if one["operation"] in PAIRS else []
-
-
-def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotients]) -> dict[str, Made]:
-    """What each name of a derivation, whose form was checked, stands for."""
-    found: dict[str, Made] = {}
+    once([*(one["name"] for one in data), *set().union(*(algebra.names for algebra in algebras))], "the derivation")
+    found: dict[str, Defined] = {}
     for one in data:
-        algebra, where = algebras[one["algebra"]], f"the definition of {one['name']}"
-        of = found.get(one["of"]) if one["operation"] != "written" else None
-        if isinstance(algebra, Algebra):
-            words = _made(one, algebra, found, where)
-            if "value" in one and algebra.total([words - algebra.read(one["value"], algebra.names)]).terms:
-                raise Rejected(f"{where} has another value than it says")
-            found[one["name"]] = Defined(words, algebra)
-        elif isinstance(of, Defined):
-            found[one["name"]] = placed(of.words, of.algebra, algebra, one["by"], where)
-        elif isinstance(of, list):
-            made = entry(of, one["by"], where)
-            if "value" in one and (made.value - algebra.read(one["value"])).numerator.terms:
-                raise Rejected(f"{where} has another value than it says")
-            found[one["name"]] = made
+        algebra, operation, where = algebras[one["algebra"]], one["operation"], f"the definition of {one['name']}"
+        match operation, None if operation == "written" else found.get(one["of"]), algebra:
+            case "written", None, Algebra():
+                made: Any = algebra.total([algebra.read(one["of"], named([one["of"]], algebra, found, where))])
+            case "matrix", Defined(value=Words()) as of, Quotients():
+                made = placed(of.tree, of.algebra, algebra, one["by"], where)
+            case "entry", Defined(value=Matrix() as rows, algebra=there), Quotients() if there is algebra:
+                made = entry(rows, one["by"], where)
+            case _, Defined(value=Words()) as of, Algebra() if operation not in ("matrix", "entry"):
+                made = _made(one, of, algebra, found, where)
+            case _:
+                raise Rejected(f"{where} is made from what is not there, or in an algebra of another kind")
+        if "value" in one and not algebra.is_value(one["value"], made):
+            raise Rejected(f"{where} has another value than it says")
+        found[one["name"]] = Defined(made, algebra, one.get("value"))
     return found
 
 
@@ -171,31 +129,23 @@ def used(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> set[str]:
     return found
 
 
-def named(trees: Sequence[Any], algebra: Algebra, defined: Mapping[str, Made], where: str) -> dict[str, Words]:
-    """The names of an algebra, and what the defined names in some trees stand for in it."""
-    used = ((name, defined[name]) for name in sorted(set().union(*map(names_in, trees)) & defined.keys()))
-    return {**algebra.names, **{name: _brought(of, algebra, where) for name, of in used if isinstance(of, Defined)}}
+def named(trees: Sequence[Any], algebra: Algebra, defined: Mapping[str, Defined], where: str) -> dict[str, Words]:
+    """The names of an algebra, and what the defined names of words in some trees stand for in it."""
+    used = ((name, defined[name]) for name in sorted(names_in([0, *trees]) & defined.keys()))
+    brought = {name: _brought(of, algebra, where) for name, of in used if isinstance(of.value, Words)}
+    return {**algebra.names, **brought}
 
 
-def entries(trees: Sequence[Any], defined: Mapping[str, Made]) -> dict[str, Quotient]:
-    """What the defined names in some trees stand for in a quotient ring."""
-    used = ((name, defined[name]) for name in set().union(*map(names_in, trees)) & defined.keys())
-    return {name: of.value for name, of in used if isinstance(of, Entry)}
-
-
-def at(of: Made, point: Mapping[str, Fraction | Matrix], where: str) -> Fraction | Matrix:
-    """The value at a point."""
-    if isinstance(of, Defined):
-        return words_at(of.words, of.algebra, point, where)
-    if isinstance(of, Entry):
-        return number_at(of.value, point, where)
-    raise Rejected(f"{where} has a matrix where an entry must stand")
+def entries(trees: Sequence[Any], defined: Mapping[str, Defined]) -> dict[str, Quotient]:
+    """What the defined names of entries in some trees stand for."""
+    used = ((name, defined[name].value) for name in names_in([0, *trees]) & defined.keys())
+    return {name: value for name, value in used if isinstance(value, Quotient)}
 
 
 def _brought(of: Defined, algebra: Algebra, where: str) -> Words:
     """In another algebra, which has its letters and parameters and, for its own letters, the rules."""
     if of.algebra is algebra:
-        return of.words
+        return of.value
     if of.algebra not in algebra.respected:
         shared = of.algebra.names.keys() & algebra.names.keys()
         for name in shared:
@@ -203,80 +153,71 @@ def _brought(of: Defined, algebra: Algebra, where: str) -> Words:
                 raise Rejected(f"{where} has {name} as a number in one algebra and as a matrix in another")
         _respects(of.algebra, shared, algebra, algebra.names, where)
         algebra.respected.append(of.algebra)
-    return _image(of, algebra, algebra.names, where)
+    return _image(of, algebra, algebra.names)
 
 
-def _made(one: dict[str, Any], algebra: Algebra, found: Mapping[str, Made], where: str) -> Words:
-    """What a definition makes."""
+def _made(one: dict[str, Any], of: Defined, algebra: Algebra, found: Mapping[str, Defined], where: str) -> Words:
+    """What a definition makes of words."""
     operation, by = one["operation"], one["by"]
-    if operation == "written":
-        return algebra.total([algebra.read(one["of"], named([one["of"]], algebra, found, where))])
-    of = found[one["of"]]
-    assert isinstance(of, Defined)  # by its form
     if operation == "replaced":
-        images = _places(by, algebra, found, where)
+        images = _places(by, of.algebra.names, algebra, found, where)
         if nothing := sorted(name for name in images.keys() & of.algebra.divisors if not images[name].terms):
             raise Rejected(f"{where} puts 0 in the place of {nothing[0]}, by which something is divided")
-        kept = {name: word for name, word in algebra.names.items() if name in of.algebra.names}
-        _respects(of.algebra, of.algebra.names.keys(), algebra, kept | images, where)
-        return _image(of, algebra, kept | images, where)
+        images = {name: word for name, word in algebra.names.items() if name in of.algebra.names} | images
+        if any(images[name].letters() for name in of.algebra.parameters if name in images):
+            raise Rejected(f"{where} has a matrix in the place of a number")
+        _respects(of.algebra, of.algebra.names, algebra, images, where)
+        return _image(of, algebra, images)
     if of.algebra is not algebra:
         raise Rejected(f"{where} is in another algebra than what it is made from")
     if operation == "rate":
-        rates = _places(by, algebra, found, where)
+        rates = _places(by, algebra.letters, algebra, found, where)
         _respects_as_rates(algebra, rates, where)
-        return algebra.rate(of.words, rates)
+        return algebra.rate(of.value, rates)
     if operation in LETTERS:
-        return having(of.words, by, without=operation == "lacking")
-    return algebra.gradient(of.words, by) if operation == "gradient" else algebra.dual(of.words, by)
+        check_known(by, algebra.letters, where)
+        return having(of.value, by, without=operation == "lacking")
+    return algebra.gradient(of.value, by) if operation == "gradient" else algebra.dual(of.value, by)
 
 
-def _places(by: Sequence[tuple[str, Any]], algebra: Algebra, found: Mapping[str, Made], where: str) -> dict[str, Words]:
+def _places(
+    by: Sequence[tuple[str, Any]], known: Collection[str], algebra: Algebra, found: Mapping[str, Defined], where: str
+) -> dict[str, Words]:
+    """What is put in the place of known names, or their rates."""
+    check_known([name for name, _ in by], known, where)
     names = named([tree for _, tree in by], algebra, found, where)
     return {name: algebra.read(tree, names) for name, tree in by}
 
 
-def _image(of: Defined, algebra: Algebra, images: Mapping[str, Words], where: str) -> Words:
+def _image(of: Defined, algebra: Algebra, images: Mapping[str, Words]) -> Words:
     """With other words in the place of its letters and parameters."""
-
-    def place(name: str) -> Words:
-        if name not in images:
-            raise Rejected(f"{where} says nothing of {name}")
-        return images[name]
-
-    def scalar(exponents: tuple[int, ...]) -> Words:
-        powers = [(place(name), e) for name, e in zip(of.algebra.parameters, exponents, strict=True) if e]
-        if any(word for image, _ in powers for _, word in image.terms):
-            raise Rejected(f"{where} has a matrix in the place of a number")
-        return algebra.product(image**e for image, e in powers)
-
     algebra.divisors |= algebra.among(images[name] for name in of.algebra.divisors & images.keys())
-    return algebra.image(of.words, place, scalar)
+    return algebra.total([algebra.read(of.tree, images)])
 
 
 def _respects(
     source: Algebra, names: Collection[str], algebra: Algebra, images: Mapping[str, Words], where: str
 ) -> None:
     """Raises Rejected unless the rules and transposes among some names of an algebra hold of their images."""
-
-    def image(words: Words) -> Words:
-        return _image(Defined(words, source), algebra, images, where)
-
-    rules, transposes = source.about(names, where)
+    rules, transposes = about(source.data, names, where)
+    read = partial(algebra.read, names=images)
     _check_equal(
-        [(RULE.format(a, b), image(source.names[a]) * image(source.names[b]), image(c)) for a, b, c in rules]
-        + [(TURNED.format(x), image(t), algebra.transposed(image(source.names[x]))) for x, t in transposes],
+        [(RULE.format(a, b), read(["*", a, b]), read(c)) for a, b, c in rules]
+        + [(TURNED.format(x), read(t), algebra.transposed(read(x))) for x, t in transposes],
         algebra, where,
     )  # fmt: skip
 
 
 def _respects_as_rates(algebra: Algebra, rates: Mapping[str, Words], where: str) -> None:
     """Raises Rejected unless Leibniz' rule respects the rules and transposes among the letters that have rates."""
-    rules, transposes = algebra.about(rates.keys(), where)
-    products = [rates[a] * algebra.word(b) + algebra.word(a) * rates[b] for a, b, _ in rules]
+    rules, transposes = about(algebra.data, rates, where)
+
+    def rate(tree: Any) -> Words:
+        return algebra.rate(algebra.read(tree, algebra.names), rates)
+
     _check_equal(
-        [(RULE.format(a, b), made, algebra.rate(c, rates)) for (a, b, c), made in zip(rules, products, strict=True)]
-        + [(TURNED.format(x), algebra.transposed(rates[x]), algebra.rate(t, rates)) for x, t in transposes],
+        [(RULE.format(a, b), rate(["*", a, b]), rate(c)) for a, b, c in rules]
+        + [(TURNED.format(x), rate(t), algebra.transposed(rates[x])) for x, t in transposes],
         algebra, where,
     )  # fmt: skip
 

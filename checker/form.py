@@ -1,7 +1,7 @@
 """The form of what is in a certificate, said by shapes, which `check_shape` reads.
 
 {"name": shape, "name?": shape}   an object with these names and no others; one with ? may be missing
-[shape]                           a list, not too long
+[shape], [shape, ...]             a list, not too long; one that is not empty
 (shape, ...)                      a list of as many
 ("word", ...)                     one of these words
 range(...)                        an integer in it
@@ -16,10 +16,10 @@ from typing import Any
 
 from .document import check_names, count, sized
 from .interval import Rejected
-from .trees import check_known, check_name
+from .trees import check_name
 
-#: Of each list in a file, the letters of a text, and the names of an algebra.
-MOST, MOST_LETTERS, MOST_NAMES = 2_000, 4_000, 200
+#: Of each list in a file, the letters of a text, the names of an algebra, and rows and columns of a matrix.
+MOST, MOST_LETTERS, MOST_NAMES, MOST_ROWS = 2_000, 4_000, 200, 5
 #: The number of something in a list.
 NUMBER = range(MOST)
 
@@ -35,6 +35,8 @@ def check_shape(data: Any, shape: Any, where: str = "") -> None:
     elif isinstance(shape, list):
         for i, one in enumerate(many(data, where)):
             check_shape(one, shape[0], f"{where} {i}")
+        if not data and shape[1:]:
+            raise Rejected(f"{where} must not be empty")
     elif isinstance(shape, tuple) and all(isinstance(one, str) for one in shape[:1] or [0]):
         chosen(data, shape, where)
     elif isinstance(shape, tuple):
@@ -100,10 +102,8 @@ def within(number: int, of: Sequence[Any], where: str) -> Any:
     return of[count(number, 0, len(of) - 1, where)]
 
 
-def define(definitions: Sequence[Any], known: set[str], made: Collection[str], where: str) -> None:
-    """Adds names that are defined, each by those before, to those known; raises Rejected if one has a meaning."""
-    for name, tree in definitions:
-        if name in known or name in made:
-            raise Rejected(f"{where} defines a name that has a meaning")
-        check_known([tree], known, where)
-        known.add(name)
+def check_rows(data: Any, of: Any, where: str) -> None:
+    """Raises Rejected unless these are rows of one length, not too many, of what has a shape."""
+    check_shape(data, [[of, ...], ...], where)
+    if len(set(map(len, data))) > 1 or max(len(data), len(data[0])) > MOST_ROWS:
+        raise Rejected(f"{where} has a matrix whose rows are not of one length, or more than {MOST_ROWS}")

@@ -8,7 +8,7 @@ from typing import Any
 
 from . import derivation
 from .algebra import Algebra
-from .derivation import Made
+from .derivation import Defined
 from .form import check_shape
 from .formulas import (
     ROOT,
@@ -28,7 +28,7 @@ from .formulas import (
     transposed,
 )
 from .interval import Rejected
-from .matrices import Entry, Quotients, quotients
+from .matrices import Quotients, quotients
 from .polynomial import FIELD, Polynomial, Quotient, Ring
 from .trees import check_known, check_tree, names_in, value
 
@@ -255,10 +255,10 @@ def _is_nothing(zeros: list[Tree], one: Mapping[str, Any], examples: Sequence[Ma
         return True
     point = {name: x for name, x in examples[one["refuted"]]["point"].items() if not isinstance(x, list)}
     numbers = {name: Fraction(x) for name, x in point.items()}
+    if not names_in([0, *zeros]) <= numbers.keys():
+        return True
     try:
         return all(value(tree, numbers, Fraction) == 0 for tree in zeros)
-    except ValueError:  # a name without a value
-        return True
     except ZeroDivisionError:
         return False
 
@@ -270,7 +270,7 @@ Differences = tuple[list[Any], list[Polynomial]]
 class Comparer:
     """Compares differences of words, by the rules; or their traces."""
 
-    def __init__(self, algebra: Algebra, made: Mapping[str, Made], traces: bool):
+    def __init__(self, algebra: Algebra, made: Mapping[str, Defined], traces: bool):
         self.algebra, self.made, self._settled = algebra, made, algebra.traced if traces else lambda x: x
         self.names = {*algebra.names, *made}  # which an equation may have
         self._known: dict[str, Differences] = {}
@@ -321,7 +321,7 @@ class _InRing(Comparer):
     the formula is said where that is not 0.
     """
 
-    def __init__(self, ring: Quotients, made: Mapping[str, Made], root: Tree | None = None):
+    def __init__(self, ring: Quotients, made: Mapping[str, Defined], root: Tree | None = None):
         self.ring, self.made, self.root = ring, made, root
         self.names, self._known = {*ring.ring.variables, *made, ROOT}, {}
 
@@ -354,14 +354,14 @@ class _InRing(Comparer):
 
 
 def comparers(
-    data: Mapping[str, Any], algebras: Sequence[Algebra | Quotients], made: Mapping[str, Made]
+    data: Mapping[str, Any], algebras: Sequence[Algebra | Quotients], made: Mapping[str, Defined]
 ) -> list[Comparer]:
     """What compares equations, in each algebra."""
     own = [{one["name"] for one in data["derivation"] if one["algebra"] == i} for i in range(len(algebras))]
     return [
         Comparer(algebra, made, data["algebras"][i]["kind"] == "traces")
         if isinstance(algebra, Algebra)
-        else _InRing(algebra, {name: of for name, of in made.items() if name in own[i] and isinstance(of, Entry)})
+        else _InRing(algebra, {name: made[name] for name in own[i] if isinstance(made[name].value, Quotient)})
         for i, algebra in enumerate(algebras)
     ]
 

@@ -159,6 +159,8 @@ class Quotient(Arithmetic):
         return result
 
     def __add__(self, other: Quotient) -> Quotient:
+        if not isinstance(other, Quotient):  # a matrix of quotients
+            return NotImplemented
         if (self.scale, self.factors) == (other.scale, other.factors):
             return Quotient(self.numerator + other.numerator, self.scale, self.factors)
         scale, factors = lcm(self.scale, other.scale), _powers(max, self.factors, other.factors)
@@ -168,6 +170,8 @@ class Quotient(Arithmetic):
         return Quotient(self.numerator.times(-1), self.scale, self.factors)
 
     def __mul__(self, other: Quotient) -> Quotient:
+        if not isinstance(other, Quotient):
+            return NotImplemented
         factors = _powers(int.__add__, self.factors, other.factors)
         return Quotient(self.numerator * other.numerator, self.scale * other.scale, factors)
 

@@ -29,12 +29,12 @@ from operator import add, mul
 from typing import Any
 
 from .document import count
-from .form import check_shape, sized, within
+from .form import check_shape, once, sized
 from .interval import Rejected
 from .linear import dot
 from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
 from .rational import cofactors, determinant
-from .trees import check_known, names_in, rational, value
+from .trees import names_in, rational, value
 
 #: What is found: different solutions, and each as often as its multiplicity.
 NUMBERS = ("real", "complex", "real_with_multiplicity", "complex_with_multiplicity")
@@ -44,30 +44,18 @@ Dense = list[int]
 
 
 def check_form(
-    one: dict[str, Any],
-    algebras: Sequence[dict[str, Any]],
-    points: Sequence[dict[str, Any]],
-    defined: Sequence[Collection[str]],
-    made: Collection[str],
-    where: str,
+    one: dict[str, Any], algebra: Mapping[str, Any], point: Mapping[str, Any], made: Collection[str], where: str
 ) -> None:
-    """Raises Rejected unless a count is of what there is; its relations are looked at elsewhere.
-
-    `defined` are the names with a value, by algebra, and `made` all that the derivation makes.
-    """
-    unknowns, size = set(one["unknowns"]), len(one["unknowns"])
+    """Raises Rejected unless a count is of what there is; its relations are looked at elsewhere."""
+    size = len(one["unknowns"])
     count(size, 2, MOST_UNKNOWNS, f"the number of unknowns of {where}")
-    algebra, point = within(one["algebra"], algebras, where), within(one["point"], points, where)
-    numbers = {name for name, entry in point.items() if not isinstance(entry, list)}
-    if algebra["kind"] != "quotient" or not set(algebra["variables"]) <= numbers | unknowns:
+    numbers = [name for name, entry in point.items() if not isinstance(entry, list)]
+    if algebra["kind"] != "quotient" or not set(algebra["variables"]) <= {*numbers, *one["unknowns"]}:
         raise Rejected(f"{where} must be in a quotient, with a number for every variable that is no unknown")
-    if twice := numbers & unknowns | (numbers | unknowns).intersection(made):
-        raise Rejected(f"{where} has two meanings for {min(twice)}")
-    check_known([*one["equations"], *one["nonzero"]], {*numbers, *unknowns, *defined[one["algebra"]]}, where)
+    once([*numbers, *one["unknowns"], *made], where)
     check_shape(one["chart"], ((rational,) * size,) * size, where)
     for combination in one["combinations"]:
         sized(combination, len(one["equations"]), where)
-        check_known(combination, _coordinates(size), where)
 
 
 def solutions(
@@ -92,10 +80,8 @@ def solutions(
     def forms(y: Sequence[Quotient]) -> list[Quotient]:
         """The equations, and what must not vanish, where the unknowns are A y."""
         names = known | {x: dot(row, y) for x, row in zip(one["unknowns"], chart, strict=True)}
-        for name in set().union(*map(names_in, trees)) & values.keys():
-            if missing := names_in(values[name]) - names.keys():
-                raise Rejected(f"{where} has no value for {min(missing)}")
-            names[name] = value(values[name], names, ring.number)
+        made = names_in([0, *trees]) & values.keys()
+        names |= {name: value(values[name], names, ring.number) for name in made}
         return [value(tree, names, ring.number) for tree in trees]
 
     y, last = ring.names(), len(one["equations"])

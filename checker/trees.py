@@ -86,10 +86,15 @@ def check_known(trees: Sequence[Any], names: Collection[str], where: str) -> Non
 
 
 def value(tree: Any, names: Mapping[str, Any], number: Callable[[Fraction], Any]) -> Any:
-    """The value of a tree in any arithmetic with + * **: of its names, and of its rational numbers."""
+    """The value of a tree in any arithmetic with + * **: of its names, and of its rational numbers.
+
+    Raises Rejected for a name that has no value: so each tree has no names but those that are known where it stands.
+    """
     if isinstance(tree, str) and tree in names:
         return names[tree]
     if not isinstance(tree, list):
+        if isinstance(tree, str) and _is_name(tree):
+            raise Rejected(f"the name {tree!a:.40} has no value where it stands")
         return number(Fraction(tree))
     if tree[0] == "^":
         return bounded(value(tree[1], names, number) ** tree[2])

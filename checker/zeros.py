@@ -10,12 +10,12 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from .form import define, sized
+from .form import once, sized
 from .interval import Interval, Rejected
 from .linear import solve, units
 from .polynomial import Work
 from .taylor import Dual, derivatives
-from .trees import check_known, size, value
+from .trees import size, value
 
 #: Unknowns.
 MOST_UNKNOWNS = 20
@@ -29,10 +29,8 @@ def check_form(one: dict[str, Any], point: Mapping[str, Any], made: Collection[s
         raise Rejected(f"{where} must have from 1 to {MOST_UNKNOWNS} unknowns, with values at its point")
     if any(isinstance(entry, list) for entry in point.values()):
         raise Rejected(f"{where} has a matrix where a number must stand")
-    known = set(point)
-    define(one["definitions"], known, made, where)
+    once([*(name for name, _ in one["definitions"]), *point, *made], where)
     sized(one["equations"], len(one["unknowns"]), where)
-    check_known([*one["equations"], *one["nonzero"]], known, where)
     if Fraction(one["radius"]) <= 0:
         raise Rejected(f"{where} must have a radius above 0")
 

@@ -88,8 +88,8 @@ def of_entry(valued=True):
     """A count about an entry of a matrix, s = 4/5: s x² = w²."""
     turn = {"A": [["c", times(-1, "s")], ["s", "c"]], "B": [["c", "s"], [times(-1, "s"), "c"]]}
     data = copy.deepcopy(in_coordinates(turn))
-    if valued:
-        data["derivation"][-1]["value"] = "s"
+    if not valued:
+        data["derivation"][-1].pop("value")
     data["algebras"].append(data["algebras"][2])
     data["statements"] = []
     data["counts"] = [count([less(times("q", square("x")), square("w"))], [["=", "real", 2]], algebra=2, point=1)]

@@ -1,6 +1,13 @@
 """Small certificates with a derivation: each operation at work, and each thing that it must refuse."""
 
+from fractions import Fraction
+
 from certificate_changes import resealed
+
+from chapsym.checker import Rejected, derivation
+from chapsym.checker.algebra import Algebra
+from chapsym.checker.matrices import quotients
+from chapsym.checker.polynomial import FIELD, Quotient, Ring, Work
 
 #: A and B are transposes and inverses of one another, S is skew, C symmetric, X and N any matrices, P a projection.
 LETTERS = {
@@ -30,15 +37,56 @@ def step(name, operation, of, by=(), algebra=0):
     return {"name": name, "text": "x", "algebra": algebra, "operation": operation, "of": of, "by": by or []}
 
 
+def valued(steps, algebras):
+    """The steps with their values, where they can be taken; else with 0."""
+    found = []
+    for one in steps:
+        if one["operation"] != "matrix" and "value" not in one:
+            one = one | {"value": _value([*found, one], algebras)}
+        found.append(one)
+    return found
+
+
+def _value(steps, algebras):
+    try:
+        arithmetics = [
+            quotients(one, Ring(one["variables"], Work())) if one["kind"] == "quotient" else Algebra(one, Work())
+            for one in algebras
+        ]
+        of = derivation.values(steps, arithmetics)[steps[-1]["name"]]
+    except (Rejected, LookupError, TypeError, ValueError):
+        return 0
+    if isinstance(of.value, Quotient):
+        assert not of.value.factors
+        scale = Fraction(1, of.value.scale)
+        terms = [
+            ([m >> FIELD * i & 0xFFFF for i in range(99)], (), c * scale) for m, c in of.value.numerator.terms.items()
+        ]
+        names = of.algebra.ring.variables
+    else:
+        terms, names = [(*term, Fraction(c)) for term, c in of.value.terms.items()], of.algebra.parameters
+    parts = []
+    for exponents, word, c in terms:
+        number = c.numerator if c.denominator == 1 else str(c)
+        powers = [["^", x, e] for x, e in zip(names, exponents, strict=False) if e]
+        parts.append(_joined("*", [number, *powers, *word]))
+    return _joined("+", parts) if parts else 0
+
+
+def _joined(operation, parts):
+    return [operation, *parts] if len(parts) > 1 else parts[0]
+
+
 def made(steps, left, right, kind="words", at=0, more=(), **changes):
     """That left = right, about what some steps define; the algebras are LETTERS, its traces, and `more`."""
     one = {"role": "lemma", "text": "x", "algebra": {"words": 0, "traces": 1}.get(kind, kind)}
     one |= {"left": [left], "right": [right], "point": at} | changes
+    algebras = [LETTERS, LETTERS | {"kind": "traces"}, *more]
     return resealed({
         "format": "chapsym-certificate/1", "kind": "register-claim", "claim": "0", "verdict": "open",
         "printed": "x", "corrected": None, "glossary": [], "uses": [],
-        "hypotheses": [], "comparisons": [], "counts": [], "derivation": [*steps],
-        "algebras": [LETTERS, LETTERS | {"kind": "traces"}, *more],
+        "hypotheses": [], "comparisons": [], "counts": [], "derivation": valued(steps, algebras),
+        "algebras": algebras,
         "points": [POINT, UNIT, {"m": 1, "U": [[0, 1], [-1, 0]]}, POINT | {"P": [[0, 0], [0, 0]]}],
         "statements": [one], "counterexamples": [], "zeros": [], "rests": [],
         "sentences": [], "statement": "",

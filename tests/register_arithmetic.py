@@ -89,7 +89,7 @@ def evaluations(module):
     sizes = module.size([["x"], [["^", "x", 2]], []]), module.size([["x"], [1], []]), module.size([["<", "x", 0]])
     found = module.evaluations({
         "statements": [first, second], "hypotheses": [relations], "comparisons": [relations, relations],
-        "points": [{}, {}, {}], "counterexamples": [example, example],
+        "points": [{}, {}, {}], "counterexamples": [example, example], "derivation": [],
     })  # fmt: skip
     assert sizes == (10, 6, 5)
     assert found == 10 + 6 + (3 + 2) * 5 + 2 * 5 + 2 * (10 + 6 + 5)

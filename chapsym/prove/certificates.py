@@ -179,7 +179,7 @@ class _Maker:
         for _, one, _ in proof.decided:
             expressions += [*one.equations, *one.nonzero] if isinstance(one, Count) else []
         self._steps = list(needed(expressions))
-        self._defined: dict[str, derivation.Made] = {}
+        self._defined: dict[str, derivation.Defined] = {}
         self.derivation += map(self._definition, self._steps)
         self._defined = derivation.values(self.derivation, [self._arithmetic(one) for one in self.algebras])
 
