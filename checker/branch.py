@@ -24,7 +24,7 @@ from typing import Any
 
 from .circle import Circle, direction
 from .document import check_rounded, decimals
-from .interval import Rejected
+from .interval import Interval, Rejected
 from .linear import Matrix, Vector, cross, image, isolated, minus, solve, times, transposed, units
 from .step import Pair, gibbs_vector, jacobian, residual, source, turned
 
@@ -97,7 +97,7 @@ def _root(circle: Circle, gamma: Vector, near: Vector) -> Vector:
 def _check_meant(circle: Circle, state: Pair, given: list[Fraction], digits: int) -> None:
     """Raises Rejected unless one root alone rounds to the numbers of the file."""
     half = Fraction(1, 2 * 10**digits)
-    cell = [circle.number(x - half).hull(circle.number(x + half)).wider(1) for x in given]
+    cell = [Interval.about(x, circle.level.bits, half).wider(1) for x in given]
     try:
         isolated(lambda u: residual(circle.ball, state, u), lambda u: jacobian(circle.ball, state, u), cell)
     except Rejected:

@@ -27,7 +27,7 @@ class Circle:
         bits = scale(data["digits"], data["steps"], [*J, D, height, level])
         check_work(2 * data["steps"] + (data["branch"]["arcs"] if "branch" in data else 0), bits)
         self.ball = Ball.within(J, D, radius, bits)
-        self.height, self.level = (Interval.enclosing(x - radius, x + radius, bits) for x in (height, level))
+        self.height, self.level = (Interval.about(x, bits, radius) for x in (height, level))
         if not self.height.sign:
             raise Rejected("the height is not proved to differ from 0")
         self.a, self.b, self.c = (i - 1 for i in data["axes"])
@@ -55,7 +55,7 @@ class Circle:
 
     def number(self, x: Fraction) -> Interval:
         """A rational number, enclosed."""
-        return Interval.enclosing(x, x, self.level.bits)
+        return Interval.about(x, self.level.bits)
 
     def state(self, gamma: Vector) -> Pair:
         """(𝒦, γ), 𝒦 = hγ."""

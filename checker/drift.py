@@ -31,7 +31,7 @@ from .document import exact
 from .form import HEAD, anything, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector, cross, dot, plus, solve, units
-from .rolling import BITS, Flow, Rolling, number
+from .rolling import BITS, Flow, Rolling
 from .step import Ball
 from .taylor import Model, derivatives
 
@@ -129,7 +129,7 @@ class Orbit:
         ball = [sum(J) - x for x in J], D
         weights = [max(map(abs, momentum))] * 3 + [Fraction(1)] * 3
         fine, self.coarse = (Modified.of(*ball, partial(Model.constant, bits=n)) for n in (self.bits, self.bits // 2))
-        boxes, self.ball = (Rolling.of(*ball, partial(number, bits=n)) for n in (BITS, self.bits))
+        boxes, self.ball = (Rolling.of(*ball, partial(Interval.about, bits=n)) for n in (BITS, self.bits))
         self.flow = Flow(fine, boxes, weights, data["order"])
 
     def returned(self, low: int, high: int, integrals: bool) -> tuple[Vector, Vector, Vector]:

@@ -79,7 +79,7 @@ class Separatrix:
         bits = scale(data["digits"], FIRST, [*J, D, h])
         check_work(sum(one["steps"] for one in data["orbits"]), bits)
         ball = Ball.within(J, D, radius, bits)
-        height = Interval.enclosing(h - radius, h + radius, bits)
+        height = Interval.about(h, bits, radius)
         first, middle, third = ball.inertia
         if not (first > middle and middle > third):
             raise Rejected("I1 > I2 > I3, that is J1 < J2 < J3, is not proved")
@@ -149,7 +149,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     separatrix = Separatrix.of(data)
     for one in data["orbits"]:
         start = Fraction(one["start"])
-        halves = [Interval.enclosing(x, x, separatrix.D.bits) for x in (start, 1 / start)]
+        halves = [Interval.about(x, separatrix.D.bits) for x in (start, 1 / start)]
         end = separatrix.half_orbit(halves[0], one["steps"])
         end = end * (end if start == 1 else separatrix.half_orbit(halves[1], one["steps"]))
         check_rounded([end], [decimal(one["end"], digits, "end")], digits, "end")

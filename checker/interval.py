@@ -56,6 +56,11 @@ class Interval(Arithmetic):
         """The least interval of these bits that contains lo ≤ x ≤ hi."""
         return cls((lo.numerator << bits) // lo.denominator, -((-hi.numerator << bits) // hi.denominator), bits)
 
+    @classmethod
+    def about(cls, x: Fraction, bits: int, radius: Fraction | int = 0) -> Interval:
+        """The numbers within a radius of x; without, one number."""
+        return cls.enclosing(x - radius, x + radius, bits)
+
     def rescaled(self, bits: int) -> Interval:
         """The least interval of these bits that contains this one."""
         return Interval.enclosing(Fraction(self.lo, 2**self.bits), Fraction(self.hi, 2**self.bits), bits)

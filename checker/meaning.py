@@ -9,7 +9,7 @@ from typing import Any
 from . import derivation
 from .algebra import Algebra
 from .derivation import Defined
-from .form import check_shape
+from .form import check_rows, check_shape
 from .formulas import (
     ROOT,
     WORDS,
@@ -48,9 +48,7 @@ def check_form(data: Any, names: Collection[str]) -> None:
             check_shape(of, {"trace": check_tree}, f"the glossary, in {one[0]},")
             of = of["trace"]
         rows = of if rank == 2 else [of] if rank == 1 else [[of]]
-        check_shape(rows, [[check_tree]], f"the glossary, in {one[0]},")
-        if not 1 <= min(map(len, rows)) == max(map(len, rows)):
-            raise Rejected(f"the glossary has for {one[0]} rows of different lengths")
+        check_rows(rows, check_tree, f"the glossary, in {one[0]},")
         check_known([tree for row in rows for tree in row], names, f"the glossary, in {one[0]},")
     plain = {tuple(token for token in symbol if token not in ("{", "}")) for symbol in seen}
     if len(plain) < len(data) or () in plain or len(data) > MOST_SYMBOLS:

@@ -24,7 +24,7 @@ from .document import DIGITS, exact
 from .form import HEAD, check_shape
 from .interval import Interval, Rejected
 from .linear import Vector, dot
-from .rolling import BITS, Flow, Rolling, number
+from .rolling import BITS, Flow, Rolling
 from .taylor import Model
 
 #: What a frame has, and how many numbers; `contact` where the ball has a radius.
@@ -114,7 +114,7 @@ class Piece(NamedTuple):
 
     def at(self, moment: Fraction) -> tuple[Vector, Vector]:
         """The attitude and the place at a time within."""
-        s = number((moment - self.begin) / self.length, self.attitude[0].bits)
+        s = Interval.about((moment - self.begin) / self.length, self.attitude[0].bits)
         return [x.at(s) for x in self.attitude], [x.at(s) for x in self.place]
 
 
@@ -133,21 +133,21 @@ class Motion:
         rotor = [x * time / 2 for x in rotor]
         self.units = {"angular_momentum": mass / time, "omega": 1 / time, "time": time}
         self.units["contact"] = Fraction(data["ball"].get("radius", "1"))
-        start = [enclosed(x, by, bits) for x, by in zip(a, off, strict=True)]
+        start = [Interval.about(x, bits, by) for x, by in zip(a, off, strict=True)]
         length = dot(start, start).sqrt()
         self.start = [x / length for x in start]
-        half = [enclosed(x * time / mass / 2, by * time / mass / 2, bits) for x, by in zip(K, wide, strict=True)]
+        half = [Interval.about(x * time / mass / 2, bits, by * time / mass / 2) for x, by in zip(K, wide, strict=True)]
         half = [dot(row, half) for row in rotation(self.start)]
         one, fine_one, rough_one = (
-            partial(number, bits=bits),
+            partial(Interval.about, bits=bits),
             partial(Model.constant, bits=bits),
-            partial(number, bits=BITS),
+            partial(Interval.about, bits=BITS),
         )
         self.ball = Turning.of(*ball, one, half, [one(x) for x in rotor])
         fine = Turning.of(*ball, fine_one, [Model.enclosing(x) for x in half], [fine_one(x) for x in rotor])
         rough = Turning.of(*ball, rough_one, [x.rescaled(BITS) for x in half], [rough_one(x) for x in rotor])
         self.flow = Flow(fine, rough, [Fraction(1)] * 4, data["order"])
-        self.place = [number(Fraction(x) / self.units["contact"], bits) for x in data["start"].get("position", ())]
+        self.place = [one(Fraction(x) / self.units["contact"]) for x in data["start"].get("position", ())]
 
     def frames(self, times: Sequence[Fraction]) -> Iterator[dict[str, Vector]]:
         """The frames at these times, enclosed, in their units."""
@@ -217,11 +217,6 @@ def rate(ball: Rolling, momentum: Sequence[Fraction], attitude: Sequence[Fractio
         return max(map(abs, ball.spin([*momentum, *rotation(attitude)[2]])))
     except ZeroDivisionError:
         raise Rejected("the rotation at the start does not follow from the momentum") from None
-
-
-def enclosed(x: Fraction, off: Fraction, bits: int) -> Interval:
-    """All numbers that are off from one by so much, at most."""
-    return Interval.enclosing(x - off, x + off, bits)
 
 
 def power(x: Fraction) -> Fraction:

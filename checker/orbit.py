@@ -69,20 +69,16 @@ class Search:
         bits = scale(self.digits, q, [*J, D, *integrals])
         check_work(6 * q, bits)
         radius = Fraction(data.get("radius", "0"))
-
-        def enclosed(x: Fraction) -> Interval:
-            return Interval.enclosing(x, x, bits)
-
         self.ball = Ball.within(J, D, radius, bits)
-        self.size, self.height = (Interval.enclosing(x - radius, x + radius, bits) for x in integrals)
+        self.size, self.height = (Interval.about(x, bits, radius) for x in integrals)
         check_small_branch(self.ball, self.size.sqrt())
         self.gibbs = []
         for i, given in enumerate(data["orbit"], 1):
             self.gibbs.append(decimals(given["u"], self.digits, f"u of step {i}"))
-        self.near = [[enclosed(x).point() for x in u] for u in self.gibbs]
+        self.near = [[Interval.about(x, bits).point() for x in u] for u in self.gibbs]
         self.given = [decimals(data["start"][name], self.digits, name) for name in ("momentum", "gamma")]
         self.stated = {name: decimal(data[name], self.digits, name) for name in MULTIPLIERS if name in data}
-        self.centre = [enclosed(x).point() for v in self.given for x in v]
+        self.centre = [Interval.about(x, bits).point() for v in self.given for x in v]
         self.units = units(3, self.size)
 
     def after(self, x: Vector, vectors: list[Pair]) -> tuple[Vector, list[Pair], list[Vector]]:

@@ -130,7 +130,7 @@ class Flow:
 
     def __init__(self, fine: Rolling, boxes: Rolling, weights: Sequence[Fraction], order: int):
         self.fine, self.boxes, self.bits, self.order, self.weights = fine, boxes, fine.D.bits, order, weights
-        self.ratios = [[number(v / w, BITS) for v in self.weights] for w in self.weights]
+        self.ratios = [[Interval.about(v / w, BITS) for v in self.weights] for w in self.weights]
         self.steps = 0
 
     def step(self, start: Sequence[int], error: Fraction, most: int) -> tuple[list[Model], int, Fraction]:
@@ -183,7 +183,7 @@ class Flow:
             s = Interval.enclosing(Fraction(part, PARTS), Fraction(part + 1, PARTS), BITS)
             tube = [x.at(s).wider(ceil(TUBE * w * 2**BITS)) for x, w in zip(rough, self.weights, strict=True)]
             total += max(self.norm(tube), Fraction(0)) / PARTS
-        root = number(1 - total * Fraction(length, 2 ** (self.bits + ROOTS)), BITS)
+        root = Interval.about(1 - total * Fraction(length, 2 ** (self.bits + ROOTS)), BITS)
         if not root > 0:
             raise Rejected("a step is too long for its bound")
         for _ in range(ROOTS):
@@ -202,8 +202,3 @@ class Flow:
 def newest(x: Sequence[int], y: Sequence[int]) -> int:
     """The last coefficient of the product of two series of as many terms."""
     return sum(map(mul, x, reversed(y)))
-
-
-def number(x: Fraction, bits: int) -> Interval:
-    """One number."""
-    return Interval.enclosing(x, x, bits)

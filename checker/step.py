@@ -35,8 +35,8 @@ class Ball:
         """Every J and D within `radius` of these; raises Rejected unless J ≥ 0, I > 0 and D > 0 for all of them."""
         if min(J) < radius:
             raise Rejected("the mass tensor J must not be negative anywhere within the radius")
-        mass = [Interval.enclosing(x - radius, x + radius, bits) for x in J]
-        ball = cls([mass[i - 2] + mass[i - 1] for i in range(3)], Interval.enclosing(D - radius, D + radius, bits))
+        mass = [Interval.about(x, bits, radius) for x in J]
+        ball = cls([mass[i - 2] + mass[i - 1] for i in range(3)], Interval.about(D, bits, radius))
         if not ball.D > 0 or not all(x > 0 for x in ball.inertia):
             raise Rejected("D and the moments of inertia must be positive everywhere within the radius")
         return ball

@@ -28,8 +28,7 @@ class Model(Arithmetic):
     @classmethod
     def constant(cls, x: Fraction, bits: int) -> Model:
         """A number, as a polynomial of one term."""
-        scaled = x * 2**bits
-        return cls([scaled.numerator // scaled.denominator], int(scaled.denominator > 1), bits)
+        return cls.enclosing(Interval.about(x, bits))
 
     @classmethod
     def enclosing(cls, x: Interval) -> Model:

@@ -6,13 +6,14 @@ other names, and a radius.  Names may be defined for what occurs often.  What is
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from .form import once, sized
 from .interval import Interval, Rejected
-from .linear import solve, units
+from .linear import Matrix, Vector, isolated, units
 from .polynomial import Work
 from .taylor import Dual, derivatives
 from .trees import size, value
@@ -36,38 +37,33 @@ def check_form(one: dict[str, Any], point: Mapping[str, Any], made: Collection[s
 
 
 def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: str) -> None:
-    """Raises Rejected unless there is one solution, and no other, within the radius in each unknown.
-
-    For x, y in the box X about the centre c is f(x) - f(y) = A(x, y)(x - y), where A lies in the derivative over X.
-    If all matrices there are regular and N = c - f′(X)⁻¹f(c) lies inside X, then x ↦ c - A(x, c)⁻¹f(c) takes X into N:
-    it has a fixed point (Brouwer), a solution, in N, and two solutions x, y in X would be equal (linear.py).
-    """
+    """Raises Rejected unless there is one solution, and no other, within the radius in each unknown (linear.py)."""
     radius = Fraction(one["radius"])
     bits = 64 + 2 * max(radius.denominator.bit_length(), *(x.denominator.bit_length() for x in point.values()))
     unknowns, parts = one["unknowns"], size([one["definitions"], one["equations"], one["nonzero"]])
     work.spend((len(unknowns) + 3) * parts * (1 + (bits + LARGE) // 64))
-    numbers = {name: Dual(Interval.enclosing(x, x, bits)) for name, x in point.items()}
-    centre = [numbers[name].value for name in unknowns]
-    box = [Interval.enclosing(point[name] - radius, point[name] + radius, bits) for name in unknowns]
+    numbers = {name: Dual(Interval.about(x, bits)) for name, x in point.items()}
+    box = [Interval.about(point[name], bits, radius) for name in unknowns]
 
-    def trees(part: str) -> Callable[[Sequence[Any]], list[Any]]:
-        def at(values: Sequence[Any]) -> list[Any]:
-            known = {**numbers, **dict(zip(unknowns, values, strict=True))}
+    def of(part: str, values: Sequence[Any]) -> list[Any]:
+        known = {**numbers, **dict(zip(unknowns, values, strict=True))}
 
-            def number(x: Fraction) -> Dual:
-                return Dual(Interval.enclosing(x, x, bits))
+        def number(x: Fraction) -> Dual:
+            return Dual(Interval.about(x, bits))
 
-            for name, tree in one["definitions"]:
-                known[name] = value(tree, known, number)
-            return [value(tree, known, number) for tree in one[part]]
+        for name, tree in one["definitions"]:
+            known[name] = value(tree, known, number)
+        return [value(tree, known, number) for tree in one[part]]
 
-        return at
+    def residual(at: Vector) -> Vector:
+        return [x.value for x in of("equations", list(map(Dual, at)))]
 
-    equations = trees("equations")
-    rows = [x.slopes for x in derivatives(equations, box, units(len(unknowns), box[0]))]
-    found = solve(rows, [[x.value] for x in equations(list(map(Dual, centre)))])
-    near = [x - s for x, (s,) in zip(centre, found, strict=True)]
-    if not all(x.inside(y) for x, y in zip(near, box, strict=True)):
-        raise Rejected(f"{where} is not proved to have one solution within its radius")
-    if not all(x.value.sign for x in trees("nonzero")(list(map(Dual, near)))):
+    def jacobian(over: Vector) -> Matrix:
+        return [x.slopes for x in derivatives(partial(of, "equations"), over, units(len(over), over[0]))]
+
+    try:
+        near = isolated(residual, jacobian, box)
+    except Rejected:
+        raise Rejected(f"{where} is not proved to have one solution within its radius") from None
+    if not all(x.value.sign for x in of("nonzero", list(map(Dual, near)))):
         raise Rejected(f"{where} has something that is not proved to differ from 0 at the solution")

@@ -39,19 +39,19 @@ def right():
 
 @pytest.fixture(scope="module")
 def ball():
-    return drift.Modified.of(INERTIA, D, lambda x: rolling.number(x, BITS))
+    return drift.Modified.of(INERTIA, D, lambda x: Interval.about(x, BITS))
 
 
 @pytest.fixture
 def flow():
     """Of so many terms."""
     fine = rolling.Rolling.of(INERTIA, D, lambda x: Model.constant(x, BITS))
-    boxes = rolling.Rolling.of(INERTIA, D, lambda x: rolling.number(x, rolling.BITS))
+    boxes = rolling.Rolling.of(INERTIA, D, lambda x: Interval.about(x, rolling.BITS))
     return lambda order: rolling.Flow(fine, boxes, [Fraction(3)] * 3 + [Fraction(1)] * 3, order)
 
 
 def enclosed(state):
-    return [rolling.number(x, BITS) for x in state]
+    return [Interval.about(x, BITS) for x in state]
 
 
 def middle(x):
@@ -117,7 +117,7 @@ def test_all_starts_that_are_near_enough_are_enclosed(flow):
 def test_the_norm_bounds_the_growth_of_what_is_near(flow):
     """Against the eigenvalues of the symmetric part of the derivative, by differences in floats."""
     one, h = flow(8), 1e-6
-    box = [rolling.number(x, rolling.BITS) for x in START]
+    box = [Interval.about(x, rolling.BITS) for x in START]
     weights = np.array(one.weights, float)
 
     def field(x):

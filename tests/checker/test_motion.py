@@ -88,7 +88,7 @@ def test_a_certificate_is_accepted_with_what_it_proves(right, truth):
 
 
 def interval(x, bits=128):
-    return rolling.number(Fraction(x), bits)
+    return Interval.about(Fraction(x), bits)
 
 
 def middle(x):
