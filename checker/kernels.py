@@ -25,7 +25,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -70,9 +70,7 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
             said = carrier["statement"]
             raise Rejected(f"{where} computes in its result {i} something else than «{said}» says")
     for i, carrier in enumerate(row["carriers"]):
-        point = carrier.get("point", {})
-        check_point(one, i, point, where)
-        check_carrier(carrier, certificates, {x: rational(v, where) for x, v in point.items()}, where)
+        check_point(one, i, carrier.get("point", {}), where)
     return [_said(carrier) for carrier in row["carriers"]]
 
 
@@ -95,18 +93,15 @@ def _hides(entry: Path) -> bool:
 
 
 class Carried(NamedTuple):
-    """A function, what it computes in a ring, and for each carrier its entries, and the ring with its relations."""
+    """The inputs of a function, what it computes in a ring, and for each carrier its entries, the ring with its
+    relations, and what it and the text divide by."""
 
-    function: ast.FunctionDef
+    inputs: list[str]
     computed: list[Quotient]
     entries: list[list[Quotient]]
     rings: list[Quotients]
+    divisors: list[list[Quotient]]
     letters: list[Letter]
-
-    @property
-    def inputs(self) -> list[str]:
-        """The names of the arguments."""
-        return [argument.arg for argument in self.function.args.args]
 
 
 class Difference(NamedTuple):
@@ -129,25 +124,19 @@ def carried(row: dict[str, Any], written: str, certificates: Certificates, where
     names = {*inputs, *own}.union(*(_names(one, certificates, where) for one in row["carriers"]))
     ring = Ring(sorted(names), Work())
     adjoined = letters.read(row.get("letters", []), ring, where)
-
-    def letter(name: str, function: str, of: Quotient) -> Quotient:
-        for one in adjoined:
-            if (one.name, one.function) == (name, function) and not (of - one.of).numerator.terms:
-                return ring.names()[name]
-        raise Rejected(f"{where} has no letter {name} that is this {function}")
-
-    computed = _run(function, {name: ring.names()[name] for name in inputs}, ring.number, letter, where)
+    computed = _run(function, ring, adjoined, where)
+    divisors = _divisors(ring)
     made = [entries(one, certificates, ring, where, adjoined) for one in row["carriers"]]
-    if len(computed) != sum(len(found) for found, _ in made):
-        total = sum(len(found) for found, _ in made)
+    if len(computed) != (total := sum(len(found) for found, *_ in made)):
         raise Rejected(f"{where} has {len(computed)} results, and its carriers make {total}")
     _check_head(ast.get_docstring(ast.parse(written)) or "", row["carriers"], where)
     more = letters.relations(adjoined, ring)
-    for carrier, (_, relations) in zip(row["carriers"], made, strict=True):
+    for carrier, (_, relations, _) in zip(row["carriers"], made, strict=True):
         if not all(letters.follows(relation, adjoined) for relation in relations):
             raise Rejected(f"{where} has a letter of which a relation of «{carrier['statement']}» does not follow")
-    rings = [Quotients(ring, ring.names(), [*relations, *more]) for _, relations in made]
-    return Carried(function, computed, [found for found, _ in made], rings, adjoined)
+    rings = [Quotients(ring, ring.names(), [*relations, *more]) for _, relations, _ in made]
+    divided = [[*divisors, *own] for *_, own in made]
+    return Carried(inputs, computed, [found for found, *_ in made], rings, divided, adjoined)
 
 
 def differences(one: Carried, where: str) -> list[Difference]:
@@ -171,13 +160,8 @@ def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> N
     for relation in one.rings[i].relations:
         if number_at(relation, numbers, where) != 0:
             raise Rejected(f"{where} has a point at which a relation fails")
-    for entry in one.entries[i]:
-        number_at(entry, numbers, where)
-    try:
-        known = {name: numbers[name] for name in one.inputs}
-        _run(one.function, known, Fraction, lambda name, _function, _of: numbers[name], where)
-    except ZeroDivisionError:
-        raise Rejected(f"{where} divides by 0 at its point") from None
+    if any(number_at(divisor, numbers, where) == 0 for divisor in one.divisors[i]):
+        raise Rejected(f"{where}, or what carries it, divides by 0 at its point")
 
 
 def _check_head(head: str, carriers: Sequence[Mapping[str, Any]], where: str) -> None:
@@ -294,8 +278,8 @@ def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -
 
 def entries(
     carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, where: str, adjoined: Sequence[Letter] = ()
-) -> tuple[list[Quotient], list[Quotient]]:
-    """What a carrier makes, in the variables of the ring, and the relations that hold there."""
+) -> tuple[list[Quotient], list[Quotient], list[Quotient]]:
+    """What a carrier makes, in the variables of the ring, the relations that hold there, and what it divides by."""
     statement, data = _statement(carrier, certificates, where)
     # A name of an argument or of a letter that the certificate derives, or does not know, is none of the statement's.
     names = {name: ring.names()[name] for name in data["algebras"][statement["algebra"]]["variables"]}
@@ -308,52 +292,37 @@ def entries(
     for name, tree in (*derivation.valued(data["derivation"]).items(), *statement.get("definitions", [])):
         if names_in(tree) <= names.keys():
             names[name] = value(tree, names, ring.number)
-    if strange := set().union(*map(names_in, statement[carrier["side"]])) - names.keys():
+    if strange := names_in([0, *statement["left"], *statement["right"]]) - names.keys():
         raise Rejected(f"{where} is carried by «{statement['text']}», which has {min(strange)!a:.40} without a value")
-    found = [value(tree, names, ring.number) for tree in statement[carrier["side"]]]
+    sides = {side: [value(tree, names, ring.number) for tree in statement[side]] for side in ("left", "right")}
+    found, divisors = sides[carrier["side"]], _divisors(ring)
     relations = [value(r, names, ring.number) for r in data["algebras"][statement["algebra"]]["relations"]]
     for step, by in steps:
+        images = [{name: value(tree, ring.names(), ring.number) for name, tree in pairs} for pairs in moves(step, by)]
         if step == "entries":
             if max(by, default=0) >= len(found):
                 raise Rejected(f"{where} wants an entry that «{statement['text']}» does not have")
             found = [found[i] for i in by]
         elif step == "solved":
-            matrix, others = entries(by, certificates, ring, where, adjoined)
-            found, relations = solved(matrix, found, where), [*relations, *others]
+            matrix, others, divided = entries(by, certificates, ring, where, adjoined)
+            found, relations, divisors = solved(matrix, found, where), [*relations, *others], [*divisors, *divided]
+        elif step == "at":
+            whole = found, relations, divisors
+            found, relations, divisors = ([placed(x, images[0]) for x in group] for group in whole)
         else:
-            images = [
-                {name: value(tree, ring.names(), ring.number) for name, tree in pairs} for pairs in moves(step, by)
-            ]
-            if step == "at":
-                found, relations = ([placed(x, images[0]) for x in group] for group in (found, relations))
-                continue
             if any(rate(relation, image).numerator.terms for relation in relations for image in images):
                 raise Rejected(f"{where} is differentiated along what leaves a relation of «{statement['text']}»")
             letters.check_moves(adjoined, images, where)
             found = [rate(x, image) for x in found for image in images]
-    return found, relations
+        divisors += _divisors(ring)
+    return found, relations, divisors
 
 
-def check_carrier(
-    carrier: Mapping[str, Any], certificates: Certificates, point: Mapping[str, Fraction], where: str
-) -> None:
-    """Raises Rejected if the statement of a carrier, or a step from it, divides by 0 at a point of what it makes."""
-    statement, data = _statement(carrier, certificates, where)
-    names = dict(point)
-    try:
-        for step, by in reversed(carrier["steps"]):
-            if step == "solved":
-                check_carrier(by, certificates, names, where)
-            for pairs in moves(step, by):
-                images = {name: value(tree, names, Fraction) for name, tree in pairs}
-                names |= images if step == "at" else {}
-        for name, tree in (*derivation.valued(data["derivation"]).items(), *statement.get("definitions", [])):
-            if names_in(tree) <= names.keys():
-                names[name] = value(tree, names, Fraction)
-        for tree in (*statement["left"], *statement["right"]):
-            value(tree, names, Fraction)
-    except ZeroDivisionError:
-        raise Rejected(f"{where} is carried by what divides by 0 at its point") from None
+def _divisors(ring: Ring) -> list[Quotient]:
+    """What was divided by in a ring since this was asked last."""
+    found = [Quotient(ring.factors[i], 1, {}) for i in sorted(ring.used)]
+    ring.used.clear()
+    return found
 
 
 def straight_line(written: str, where: str) -> ast.FunctionDef:
@@ -387,16 +356,10 @@ def _is_text(node: ast.stmt) -> bool:
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
 
 
-def _run(
-    function: ast.FunctionDef,
-    known: dict[str, Any],
-    number: Callable[[Fraction], Any],
-    letter: Callable[[str, str, Any], Any],
-    where: str,
-) -> list[Any]:
-    """What a function returns, of the values of its arguments; `letter` has that of a name, a function and a value."""
-
+def _run(function: ast.FunctionDef, ring: Ring, adjoined: Sequence[Letter], where: str) -> list[Quotient]:
+    """What a function returns, in a ring that has its arguments and its letters as variables."""
     inputs = {one.arg for one in function.args.args}
+    known, number = {name: ring.names()[name] for name in inputs}, ring.number
     whole: set[str] = set()  # names of whole numbers, of which Python makes others in its own way: 1 / 3 is a float
 
     def is_whole(node: ast.expr) -> bool:
@@ -434,6 +397,12 @@ def _run(
                 case [one] if not is_whole(one):
                     return of(one)
         raise Rejected(f"{where} has a {called} of something that is none")
+
+    def letter(name: str, called: str, of: Quotient) -> Quotient:
+        for one in adjoined:
+            if (one.name, one.function) == (name, called) and not (of - one.of).numerator.terms:
+                return ring.names()[name]
+        raise Rejected(f"{where} has no letter {name} that is this {called}")
 
     body = [node for node in function.body if not _is_text(node)]
     try:
