@@ -42,7 +42,6 @@ class Verdict(StrEnum):
     REFUTED = "refuted"
     SETTLED = "settled"
     DEFINITION = "definition"
-    CITED = "cited"
     OPEN = "open"
 
 

@@ -19,7 +19,6 @@ VERDICTS = {
     "refuted": "false, and no small correction saves it",
     "settled": "left open in the paper; readings of it are decided here, machine-checked or by hand",
     "definition": "a definition, with nothing to prove",
-    "cited": "a result of other authors, taken over from them",
     "open": "not decided",
 }
 ERRORS = ("corrected", "conditional", "refuted")

@@ -87,7 +87,7 @@ def no_integral(p: Proof) -> None:
 
 def no_density(p: Proof) -> None:
     """The theorem on densities."""
-    stated = Theorem((terms.NEAR_IT,), (terms.SMALL_BRANCH, terms.DRIFT_OF_DENSITY), (no(terms.DENSITIES),))
+    stated = Theorem((terms.NEAR_THE_OTHER,), (terms.SMALL_BRANCH, terms.DRIFT_OF_DENSITY), (no(terms.DENSITIES),))
     p.state(stated, readings.DENSITY)
     p.say(
         "Densities.  On R³ × S² with dK dγ the continuous ball keeps μ = τ^(-1/2) (modified-measure). By modified-field, in",
@@ -99,7 +99,7 @@ def no_density(p: Proof) -> None:
         "   g = g(|K|², ⟨K,γ⟩), the sum over one period is r(x_ε) - r(Φ_ε^n(x_ε)) = ε²∮div_μ X₃ dt + o(ε²): as in 4., |dr| does",
         "   not tend to 0.  div_μ X₃ has the degree 3 in ω, so that 1. holds for it.",
     )
-    p.step(no(terms.DENSITIES), DENSITY_STEP, terms.DRIFT_OF_DENSITY, terms.NEAR_IT)
+    p.step(no(terms.DENSITIES), DENSITY_STEP, terms.DRIFT_OF_DENSITY, terms.NEAR_THE_OTHER)
 
 
 def certificates(p: Proof) -> None:

@@ -56,4 +56,8 @@ THIRD = "C¹ integral of the map with a differential independent of those of |γ
 #: What joins the parts of 6-open.
 DRIFT = "the continuous ball has a closed orbit with ∮X₃(H)dt ≠ 0, X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩"
 DRIFT_OF_DENSITY = "the continuous ball has a closed orbit with ∮div_μ X₃ dt ≠ 0"
-NEAR_IT = "for every neighbourhood U of the orbit in R³ × S² and every sequence ε_j → 0, ε_j > 0"
+NEAR_IT, NEAR_THE_OTHER = (
+    f"for every neighbourhood U in R³ × S² of a closed orbit of the continuous ball with ∮{of} ≠ 0 and every sequence "
+    "ε_j → 0, ε_j > 0"
+    for of in ("X₃(H)dt", "div_μ X₃ dt")
+)

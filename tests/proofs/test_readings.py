@@ -53,6 +53,7 @@ def test_every_reading_that_is_not_open_is_proved(id, records):
     assert [row["asked"] for row in evidence["readings"]] == [one.asked for one in readings.READINGS[id]]
     for row, one in zip(evidence["readings"], readings.READINGS[id], strict=True):
         assert (row["theorem"] is None) == (one.answer == "open")
+        assert "of the orbit" not in (row["text"] or ""), "which orbit?"
         assert all(name in load(lemmas=True) or name.startswith(f"{id}: ") for name in one.by)
     assert evidence["settled"]["word"] == "by hand"
     assert set(evidence["settled"]["proofs"]) == {id, *QUESTIONS[id].LEMMAS}

@@ -44,7 +44,7 @@ RECORDS = [
          conjectures=["never"],
          certificates=[{"file": "c.json", "statement": "two signs", "digest": "0", "accepted": True}]),
     make("3.1", "definition", r"\mathcal D", reason="It names the principle."),
-    make("3.5", "cited", "E", reason="Taken from the literature."),
+    make("3.5", "definition", "E", reason="It names the energy."),
     make("5.9", "open", "u = f(s)", tried=["a polynomial ansatz"], open_in_paper=True),
 ]  # fmt: skip
 

@@ -32,7 +32,7 @@ def test_the_page_has_a_default_name(report, tmp_path):
     done = report()
     assert done.returncode == 0, done.stderr
     assert done.stdout == (
-        "wrote chapsym-report.html: 8 claims: 1 cited, 1 conditional, 1 corrected, 1 definition, 1 holds, 1 open, "
+        "wrote chapsym-report.html: 8 claims: 1 conditional, 1 corrected, 2 definition, 1 holds, 1 open, "
         "1 refuted, 1 settled\n"
     )
     assert [path.name for path in tmp_path.iterdir()] == ["chapsym-report.html"]
