@@ -28,8 +28,8 @@ from .formulas import (
     transposed,
 )
 from .interval import Rejected
-from .matrices import Quotients, quotients
-from .polynomial import FIELD, Polynomial, Quotient, Ring
+from .matrices import Quotients
+from .polynomial import FIELD, Polynomial, Quotient
 from .trees import check_known, check_tree, names_in, value
 
 #: Symbols of a glossary, and letters of each.
@@ -167,7 +167,11 @@ def _read(
     for relation, left, right in relations(part, reader):
         if relation != "=":
             raise NotRead("it is not what was decided")
-        found |= _statements((left, right), among, of, reader, data)
+        of.root = reader.root
+        try:
+            found |= _statements((left, right), among, of, reader, data)
+        finally:
+            of.root = None
     return found
 
 
@@ -205,7 +209,6 @@ def _statements(
         positive = [of[2:] for one in data["hypotheses"] for of in one["relations"] if of[:2] == ["<", 0]]
         if not (reader.both or (lefts == [ROOT] and rights in positive) or (rights == [ROOT] and lefts in positive)):
             among = {i: one for i, one in among.items() if "refuted" in one}  # a² = b² is true where a = -b is
-        of, among = of.rooted(names, among, reader.root)
     among = {i: one for i, one in among.items() if len(one["left"]) == most and one["left"] != one["right"]}
     among = {i: one for i, one in among.items() if _is_nothing(zeros, one, data["counterexamples"])}
     sides = list(zip(lefts, rights, strict=True))
@@ -268,24 +271,24 @@ Differences = tuple[list[Any], list[Polynomial]]
 class Comparer:
     """Compares differences of words, by the rules; or their traces."""
 
+    root: Tree | None = None  # what stands under the root of the formula that is read
+
     def __init__(self, algebra: Algebra, made: Mapping[str, Defined], traces: bool):
         self.algebra, self.made, self._settled = algebra, made, algebra.traced if traces else lambda x: x
         self.names = {*algebra.names, *made}  # which an equation may have
         self._known: dict[str, Differences] = {}
 
-    def rooted(self, names: set[str], among: Mapping[int, Any], root: Tree) -> "tuple[Comparer, Mapping[int, Any]]":
-        """What compares equations with a root, and the statements with which it does."""
-        raise NotRead("a root is of no words")
-
     def differences(
         self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any] = (), folded: bool = False
     ) -> Differences:
         """Left - right; `local`: names for parts, with their trees; `folded`: what derivations make as letters."""
-        if (text := repr((sides, local, folded))) not in self._known:
+        if (text := repr((sides, local, folded, self.root))) not in self._known:
             self._known[text] = self._differences(sides, local, folded)
         return self._known[text]
 
     def _differences(self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any], folded: bool) -> Differences:
+        if self.root is not None:
+            raise NotRead("a root is of no words")
         algebra = self.algebra
         of = dict(algebra.names) | {name: algebra.word(name) for name in self.made}
         if not folded:
@@ -319,18 +322,9 @@ class _InRing(Comparer):
     the formula is said where that is not 0.
     """
 
-    def __init__(self, ring: Quotients, made: Mapping[str, Defined], root: Tree | None = None):
-        self.ring, self.made, self.root = ring, made, root
-        self.names, self._known = {*ring.ring.variables, *made, ROOT}, {}
-
-    def rooted(self, names: set[str], among: Mapping[int, Any], root: Tree) -> "tuple[Comparer, Mapping[int, Any]]":
-        """What compares equations with a root, and the statements with which it does."""
-        made = self.made.keys()
-        if names & made:
-            raise NotRead("the glossary gives a symbol a value of another algebra")
-        among = {i: one for i, one in among.items() if made.isdisjoint(names_in([0, *one["left"], *one["right"]]))}
-        ring = Ring([*self.ring.ring.variables, ROOT], self.ring.ring.work)
-        return _InRing(quotients({"relations": []}, ring), {}, root), among
+    def __init__(self, ring: Quotients, made: Mapping[str, Defined]):
+        self.ring, self.made = ring, made
+        self.names, self._known = {*ring.names, *made}, {}
 
     def _differences(self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any], folded: bool) -> Differences:
         trees = [*(tree for pair in sides for tree in pair), *(tree for _, tree in local)]

@@ -46,6 +46,7 @@ from . import derivation, meaning, roots, zeros
 from .algebra import Algebra, about
 from .derivation import Defined
 from .form import HEAD, MOST, NUMBER, anything, check_rows, check_shape, names, once, sized, text, within
+from .formulas import ROOT
 from .interval import Rejected
 from .matrices import Quotients, quotients
 from .polynomial import Polynomial, Ring, Work
@@ -328,7 +329,7 @@ def read(
 ) -> tuple[list[Algebra | Quotients], dict[str, Defined], list[meaning.Comparer]]:
     """The algebras of a certificate, what is defined in them, and what compares their equations."""
     algebras = [
-        quotients(one, Ring(one["variables"], work)) if one["kind"] == "quotient" else Algebra(one, work)
+        quotients(one, Ring([*one["variables"], ROOT], work)) if one["kind"] == "quotient" else Algebra(one, work)
         for one in data["algebras"]
     ]
     defined = derivation.values(data["derivation"], algebras)
