@@ -31,8 +31,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import derivation, letters
+from .derivation import check_pairs
 from .document import Unreadable, read
-from .form import anything, check_shape, names, text
+from .form import anything, check_shape, text
 from .interval import Rejected
 from .letters import Letter
 from .matrices import Quotients
@@ -214,8 +215,6 @@ def check_step(data: Any, where: str) -> None:
     check_shape(data, (tuple(BY), anything), where)
     step, by = data
     check_shape(by, BY[step], where)
-    for pairs in moves(step, by):
-        names([name for name, _ in pairs], where)
 
 
 def check_carrier_form(data: Any, where: str) -> None:
@@ -223,8 +222,7 @@ def check_carrier_form(data: Any, where: str) -> None:
     check_shape(data, CARRIER, where)
 
 
-PLACES = [(anything, check_tree)]
-BY = {"at": PLACES, "along": [PLACES], "solved": check_carrier_form, "entries": [LINE]}
+BY = {"at": check_pairs, "along": [check_pairs], "solved": check_carrier_form, "entries": [LINE]}
 CARRIER = {
     "claim": text, "certificate": text, "statement": text, "side": ("left", "right"), "steps": [check_step],
     "cofactors?": [(LINE, [check_tree])], "point?": dict,

@@ -37,7 +37,7 @@ relation that it supposes.  The sentences are not judged: they are what else the
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from typing import Any
@@ -161,22 +161,6 @@ def check_point(data: Any, where: str) -> None:
             rational(entry, where)
 
 
-def check_statement(data: Any, where: str) -> None:
-    """Raises Rejected unless this is a statement, with what proves it or the number of what refutes it."""
-    refuted = isinstance(data, dict) and "refuted" in data
-    check_shape(data, STATEMENT | (REFUTED if refuted else PROVED), where)
-    check_shape(data["role"], ("printed",) if refuted else ROLES, f"the role of {where}")
-
-
-def check_comparison(data: Any, where: str) -> None:
-    """Raises Rejected unless this is a comparison; only what is printed may be refuted."""
-    check_shape(data, SAID | {"point": NUMBER, "relations": RELATIONS, "refuted?": bool}, where)
-    if "refuted" in data:
-        check_shape(data["role"], ("printed",), f"the role of {where}, which is refuted,")
-        if not data["refuted"]:
-            raise Rejected(f"{where} is refuted or has no such name")
-
-
 SAID = {"role": ROLES, "text": text, "words?": bool}
 SIDES = {"left": [check_tree, ...], "right": [check_tree, ...]}
 DEFINITIONS = [(check_name, check_tree)]
@@ -188,8 +172,9 @@ WORDS = {
 }  # fmt: skip
 #: What the numbers of a part count.
 COUNTED = {"algebra": "algebras", "point": "points", "refuted": "counterexamples"}
-STATEMENT = SAID | SIDES | {"algebra": NUMBER, "definitions?": DEFINITIONS}
-REFUTED, PROVED = {"refuted": NUMBER}, {"point": NUMBER, "cofactors?": [[check_tree]]}
+STATEMENT = SAID | SIDES | {
+    "algebra": NUMBER, "definitions?": DEFINITIONS, "refuted?": NUMBER, "point?": NUMBER, "cofactors?": [[check_tree]],
+}  # fmt: skip
 EQUATIONS = SAID | {"point": NUMBER, "unknowns": names, "equations": [check_tree], "nonzero": [check_tree]}
 COUNT = EQUATIONS | {"algebra": NUMBER, "chart": [[rational]], "combinations": [[check_tree]], "relations": RELATIONS}
 FORM = HEAD | {
@@ -203,8 +188,8 @@ FORM = HEAD | {
     "algebras": [check_algebra],
     "derivation": [derivation.check_definition],
     "points": [check_point],
-    "statements": [check_statement],
-    "comparisons": [check_comparison],
+    "statements": [STATEMENT],
+    "comparisons": [SAID | {"point": NUMBER, "relations": RELATIONS, "refuted?": bool}],
     "counts": [COUNT | {"holds": bool}],
     "zeros": [EQUATIONS | {"definitions": DEFINITIONS, "radius": rational}],
     "counterexamples": [
@@ -224,41 +209,62 @@ def check_form(data: dict[str, Any]) -> None:
     if data["claim"] in data["uses"]:
         raise Rejected("uses must be ids of other claims")
     once(data["uses"], "uses")
-    algebras, made = [{*names_of(one)} for one in data["algebras"]], {one["name"] for one in data["derivation"]}
-    contradicting = [one["point"] for one in data["counterexamples"]]
-    points = [*data["points"], *contradicting]
-    meaning.check_form(data["glossary"], made.union(roots.NUMBERS if data["counts"] else (), *points, *algebras))
+    made, points = {one["name"] for one in data["derivation"]}, points_of(data)
+    known = made.union(roots.NUMBERS if data["counts"] else (), *points, *map(names_of, data["algebras"]))
+    meaning.check_form(data["glossary"], known)
     if twice := made & set().union(*points):
         raise Rejected(f"a point has a value for {min(twice)}, which the derivation makes")
+    check_numbers(data)
+    if any(meaning.is_false(one) and (one["role"] != "printed" or one.get("refuted") is False) for one in said(data)):
+        raise Rejected("something is refuted that is not printed, or is said not to be refuted")
+    for one in equations(data):
+        sized(one["right"], len(one["left"]), "the right of what is stated")
+    for i, one in enumerate(data["statements"]):
+        check_statement(one, data["algebras"][one["algebra"]], made, f"statement {i}")
+    for i, one in enumerate(data["counts"]):
+        roots.check_form(one, data["algebras"][one["algebra"]], data["points"][one["point"]], made, f"count {i}")
+    for i, one in enumerate(data["zeros"]):
+        zeros.check_form(one, data["points"][one["point"]], made, f"zero {i}")
+    for algebra in data["algebras"]:
+        for point in points:
+            check_kinds(algebra, point)
+
+
+def check_numbers(data: dict[str, Any]) -> None:
+    """Raises Rejected where a part has the number of what is not there, or one of what it refutes twice."""
     for part in ("derivation", "statements", "comparisons", "counts", "zeros"):
         for i, one in enumerate(data[part]):
             for name, of in COUNTED.items():
                 if type(one.get(name)) is int:
                     within(one[name], data[of], f"{name} of {part} {i}")
     for i, one in enumerate(data["counterexamples"]):
-        for part in (one["refutes"], one["agrees"]):
-            once(part, f"counterexample {i}")
-            for number in part:
+        for numbers in (one["refutes"], one["agrees"]):
+            once(numbers, f"counterexample {i}")
+            for number in numbers:
                 within(number, data["statements"], f"counterexample {i}")
-    for one in equations(data):
-        sized(one["right"], len(one["left"]), "the right of what is stated")
-    for i, one in enumerate(data["statements"]):
-        quotient = data["algebras"][one["algebra"]]["kind"] == "quotient"
-        if ("cofactors" in one) is not (quotient and "refuted" not in one) or ("definitions" in one and not quotient):
-            raise Rejected(f"statement {i} must have cofactors where it is proved in a quotient, and none in words")
-        own = [name for name, _ in one.get("definitions", ())]
-        once([*own, *made | algebras[one["algebra"]]], f"statement {i}, which defines what has a meaning,")
-    for i, one in enumerate(data["counts"]):
-        check_shape(one["role"], ROLES if one["holds"] else ("printed",), f"the role of count {i}")
-        roots.check_form(one, data["algebras"][one["algebra"]], data["points"][one["point"]], made, f"count {i}")
-    for i, one in enumerate(data["zeros"]):
-        zeros.check_form(one, data["points"][one["point"]], made, f"zero {i}")
-    for algebra in data["algebras"]:
-        letters = algebra.get("letters", ())
-        for point in points:
-            for name in point.keys() & names_of(algebra):
-                if isinstance(point[name], list) is not (name in letters):
-                    raise Rejected(f"a point has a matrix where a number must stand, or a number for a matrix: {name}")
+
+
+def check_statement(one: dict[str, Any], algebra: Mapping[str, Any], made: Collection[str], where: str) -> None:
+    """Raises Rejected unless a statement has what its algebra needs, and gives no name a second meaning."""
+    proved, quotient = "refuted" not in one, algebra["kind"] == "quotient"
+    if ("point" in one) is not proved or ("cofactors" in one) is not (proved and quotient):
+        raise Rejected(f"{where} must have a point, and cofactors in a quotient, just where it is proved")
+    if "definitions" in one and not quotient:
+        raise Rejected(f"{where} has definitions, and is not one of a quotient")
+    own = [name for name, _ in one.get("definitions", ())]
+    once([*own, *{*made, *names_of(algebra)}], f"{where}, which defines what has a meaning,")
+
+
+def check_kinds(algebra: Mapping[str, Any], point: Mapping[str, Any]) -> None:
+    """Raises Rejected where a letter of an algebra is no matrix at a point, or another name is one."""
+    for name in point.keys() & names_of(algebra):
+        if isinstance(point[name], list) is not (name in algebra.get("letters", ())):
+            raise Rejected(f"a point has a matrix where a number must stand, or a number for a matrix: {name}")
+
+
+def points_of(data: Mapping[str, Any]) -> list[Any]:
+    """All points, those of counterexamples among them."""
+    return [*data["points"], *(one["point"] for one in data["counterexamples"])]
 
 
 def equations(data: Mapping[str, Any]) -> list[Any]:
