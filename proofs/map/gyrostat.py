@@ -5,7 +5,7 @@ import sympy as sp
 from chapsym.derive import continuous, gyrostat, motion, three
 from chapsym.derive.gyrostat import ALGEBRA, RATES, A, rotor
 from chapsym.derive.limits import omega
-from chapsym.derive.motion import D, Gamma, J, commutator, rate
+from chapsym.derive.motion import D, Gamma, J, commutator
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, gamma
 from chapsym.derive.words import Traces, evaluate
@@ -92,7 +92,11 @@ def equations_of_motion(p: Proof) -> None:
             moving("K_rotor", momentum, RATES, ALGEBRA) + commutator(spin, momentum),
             whole,
         ),
-        words("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(spin, Gamma), 0),
+        words(
+            "Γ̇ + [ω,Γ] = 0",
+            moving("vertical_rotor", motion.gamma * motion.gammaT, RATES, ALGEBRA) + commutator(spin, Gamma),
+            0,
+        ),
     )
     p.say("For n = 3, A = a× and (A₃₂, A₁₃, A₂₁) of K:")
     values = {spin: omega.hat(), J: three.J, Gamma: gamma * gamma.T, A: rotor.hat(), D: three.D}

@@ -30,7 +30,7 @@ def motion_symbols() -> Symbols:
         r"\gamma": (motion.gamma, "the unit vector from the centre to the plane (2.9 as corrected)"),
         r"\dot\gamma": (motion.rate(motion.gamma), "its rate, as it is fixed in space"),
         r"\Gamma": (motion.Gamma, "γγᵀ (2.12)"),
-        r"\dot\Gamma": (motion.rate(motion.Gamma), "its rate, as γ is fixed in space"),
+        r"\dot\Gamma": (moving("vertical", motion.gamma * motion.gammaT), "its rate, as γ is fixed in space"),
         "v_C": (motion.v, "the velocity of the centre, in the body (2.8)"),
         r"\dot v_C": (motion.a, "its rate"),
         "M": (motion.J * motion.omega + motion.omega * motion.J, "Jω + ωJ (2.10)"),
@@ -43,6 +43,12 @@ def moving(
 ) -> sp.Symbol:
     """The rate of an expression, as a step of the certificate."""
     return derivation.rate(f"{name}_rate", "d/dt", derivation.written(name, "as in the claim", expr, algebra), rates)
+
+
+def still_vertical() -> Equation:
+    """Γ = γγᵀ is fixed in space, by the rate of γ."""
+    rate_of_vertical = moving("vertical", motion.gamma * motion.gammaT)
+    return equation("Γ̇ + [ω,Γ] = 0", rate_of_vertical + commutator(omega, Gamma), 0)
 
 
 def motion_point() -> Point:
@@ -152,7 +158,7 @@ def eliminated_force(p: Proof) -> None:
     momentum = J * omega + omega * J
     balance = rate(momentum) + commutator(omega, momentum)
     lifted = D * (alpha * Gamma + Gamma * alpha)
-    p.lemma(equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), 0))
+    p.printed(still_vertical())
     p.printed(equation("Ṁ + [ω,M] - D(ω̇Γ + Γω̇) is what vanishes in a motion", balance - lifted, motion.eliminated()))
     p.corrected(
         r"\dot M + [\omega, M] = -D(\dot\omega\Gamma + \Gamma\dot\omega)",
@@ -178,7 +184,7 @@ def conservation(p: Proof) -> None:
             "K̇ + [ω,K] is the principle", moving("K_here", momentum) + commutator(omega, momentum), motion.eliminated()
         ),
     )
-    p.lemma(equation("Γ̇ + [ω,Γ] = 0", rate(Gamma) + commutator(omega, Gamma), 0))
+    p.printed(still_vertical())
     p.control(equation("K̇ - [ω,K] is the principle", rate(momentum) - commutator(omega, momentum), motion.eliminated()))
     wrong = J * omega + omega * J - D * (Gamma * omega + omega * Gamma)
     p.control(equation("the same with -D in K", rate(wrong) + commutator(omega, wrong), motion.eliminated()))
