@@ -1,8 +1,10 @@
 """What the site needs beside Sphinx: formulas as MathML, the project's docstrings, the command's own help."""
 
 import re
+import runpy
 import textwrap
 from functools import reduce
+from pathlib import Path
 
 import typer
 from docutils import nodes
@@ -13,6 +15,7 @@ from chapsym.cli.app import app as typer_app
 from chapsym.cli.app import plain
 from chapsym.report import formulas
 
+HERE = Path(__file__).parent
 #: A line of a docstring that says what an argument is: "momentum, gamma: unit vectors, ...".
 ARGUMENT = re.compile(r"(\w+(?:, \w+)*): +(?=\S)")
 
@@ -22,7 +25,14 @@ def setup(app):
     app.add_html_math_renderer("mathml", (inline_formula, None), (shown_formula, None))
     app.connect("autodoc-process-docstring", docstring)
     app.add_directive("command-help", CommandHelp)
+    app.connect("build-finished", in_browser)
     return {"parallel_read_safe": True}
+
+
+def in_browser(app, failed):
+    """What the page in the browser loads."""
+    if not failed and app.builder.format == "html":
+        runpy.run_path(str(HERE / "browser" / "make.py"))["write"](app.outdir / "browser")
 
 
 def inline_formula(writer, node):

@@ -7,17 +7,18 @@ are computed.  Double-double is in `numbers.loose`.
 """
 
 from collections.abc import Callable
-from typing import TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
-import numpy as np
+if TYPE_CHECKING:  # the names are read, not used: the text runs without NumPy, too
+    import numpy as np
 
-Vector: TypeAlias = np.ndarray
-Matrix: TypeAlias = np.ndarray
-Cube: TypeAlias = np.ndarray
-Tensor: TypeAlias = np.ndarray
+Vector: TypeAlias = "np.ndarray"
+Matrix: TypeAlias = "np.ndarray"
+Cube: TypeAlias = "np.ndarray"
+Tensor: TypeAlias = "np.ndarray"
 #: int64, and float64 in loops of float32, too; one axis.
-Integers: TypeAlias = np.ndarray
-Doubles: TypeAlias = np.ndarray
+Integers: TypeAlias = "np.ndarray"
+Doubles: TypeAlias = "np.ndarray"
 #: Vectors, quaternions and matrices as tuples: the fields of records.
 Three: TypeAlias = tuple[float, float, float]
 Four: TypeAlias = tuple[float, float, float, float]
