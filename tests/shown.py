@@ -19,7 +19,7 @@ class Shown:
     """A tab with everything that its console and the network said, and the pages it was sent to."""
 
     def __init__(self, browser, **options):
-        self.tab = browser.new_context(offline=True, **options).new_page()
+        self.tab = browser.new_context(**{"offline": True, **options}).new_page()
         self.tab.set_default_timeout(chromium.PATIENCE)
         self.said, self.paths = [], []
         self.tab.on("console", lambda message: self.said.append(message.text))

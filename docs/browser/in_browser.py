@@ -55,7 +55,7 @@ def positive(given: dict[str, str], name: str, count: int = 1) -> Vector:
 
 
 def steps(body: tuple[Vector, float, float], K: Vector, count: int) -> tuple[list[Frame], list[Vector]]:
-    """The frames of `count` steps from rest attitude with 𝒦 = K, and the turn of each in space; body: (J, D, radius)."""
+    """The frames of `count` steps that begin with 𝒦 = K and γ = e₃, and the turns between; body: (J, D, radius)."""
     (J, D, radius), frames, turns = body, [Frame(K, (0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0), (0.0, 0.0))], []
     for n in range(count):
         k, g, a, (x, y) = frames[-1]
@@ -118,7 +118,7 @@ def judge(given: dict[str, str]) -> dict[str, Any]:
     """What the checker says of the certificate of a claim, with those that it rests on; and the formulas judged."""
     folder = Path(chapsym.__file__).parent / "proofs"
     names = {name: file for file, name in read(folder / "manifest.json")["files"].items()}
-    files = [f"certificates/register/{file_name(given["claim"])}"]
+    files = [f"certificates/register/{file_name(given['claim'])}"]
     for file in files:  # grows while it is read
         rests = read(folder / file).get("rests", [])
         files += [found for one in rests if (found := names[one["certificate"]]) not in files]
@@ -126,7 +126,8 @@ def judge(given: dict[str, str]) -> dict[str, Any]:
     with redirect_stdout(out), redirect_stderr(out):
         check([str(folder / file) for file in files])
     formulas = [f"{name}: {own[name]}" for name in ("printed", "corrected") if own[name]]
-    return {"said": out.getvalue().replace(f"{folder}/", "").splitlines(), "formulas": [*formulas, *lines(own)]}
+    formulas += sorted(lines(own), key=lambda line: line.startswith("algebra "))  # what is assumed at the end
+    return {"said": out.getvalue().replace(f"{folder}/", "").splitlines(), "formulas": formulas}
 
 
 def called(name: str, text: str) -> str:
