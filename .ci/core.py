@@ -1,5 +1,6 @@
 """What the core alone is and does, run by the Python of an environment that has the wheel and no extra."""
 
+import csv
 import subprocess
 import sys
 import sysconfig
@@ -12,13 +13,13 @@ import chapsym
 from chapsym.dynamics import native
 from chapsym.generated import momentum
 
-PACKAGES, MEGABYTES = 16, 250
+PACKAGES, MEGABYTES = 21, 250
 #: What a new environment has by itself.
 OWN = {"pip", "setuptools"}
 INPUT = ["--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
 #: The extra that a command names where it is absent.
 ABSENT = {
-    "scenes": ["scene", "new", "ball.toml"],
+    "scenes": ["run", "ball.toml", "-o", "ball.nc"],
     "figures": ["show", "ball.toml"],
     "report": ["report"],
 }
@@ -47,6 +48,7 @@ assert size <= MEGABYTES, size
 
 for work in (
     ["step", *INPUT, "--digits", "50", "--json"], ["branches", *INPUT], ["prove", "prop-4"], ["codegen", "--check"],
+    ["scene", "new", "ball.toml"], ["run", "ball.toml", "-o", "ball.csv"], ["run", "ball.toml", "-o", "ball.npz"],
 ):  # fmt: skip
     done = run(*work)
     assert done.returncode == 0, done.stderr
@@ -55,7 +57,6 @@ for name in ("", "prove", "report", "codegen", "step", "branches", "scene", "run
              "extremes", "study", "bench"):  # fmt: skip
     done = run(*filter(None, [name]), "--help")
     assert (done.returncode, done.stderr) == (0, ""), (name, done.stderr)
-Path("ball.toml").touch()
 for extra, arguments in ABSENT.items():
     done = run(*arguments)
     assert (done.returncode, done.stdout) == (2, ""), (arguments, done.stdout)
@@ -83,3 +84,9 @@ many = chapsym.step(ball, path.momentum, path.gamma)
 found = momentum(*many.rotation.T, *path.gamma.T, 1, 2, 4, 3)  # the generated kernel, on arrays
 assert abs(np.transpose(found) - path.momentum).max() < 1e-14
 print(f"Python: {len(path.gamma)} frames; the contact goes to {rolled.contact[-1]}")
+
+arrays = np.load("ball.npz")
+rows = list(csv.DictReader(Path("ball.csv").read_text(encoding="utf-8").splitlines()))
+for axis in range(3):
+    assert [float(row[f"omega_{axis + 1}"]) for row in rows] == arrays["omega"][:, axis].tolist()
+print(f"a scene: {len(rows)} rows of a CSV, the same bits as in the .npz")

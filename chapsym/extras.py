@@ -5,8 +5,8 @@ from importlib.util import find_spec
 #: extra: what needs it, and the packages that it is made of; a test compares them with the project's metadata.
 EXTRAS = {
     "scenes": (
-        "scenes and their results need",
-        ("pydantic", "pint", "xarray", "zarr", "google_crc32c", "h5netcdf", "h5py", "pyarrow", "pandas"),
+        "labelled results, and files other than .csv and .npz, need",
+        ("xarray", "zarr", "google_crc32c", "h5netcdf", "h5py", "pyarrow", "pandas"),
     ),
     "figures": ("figures and rolling pages need", ("matplotlib", "jinja2")),
     "cluster": ("a Dask cluster needs", ("distributed",)),

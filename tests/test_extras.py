@@ -101,9 +101,10 @@ def test_the_sentence_of_an_extra_tells_of_what_it_installs(extra):
 
 def test_an_absent_package_is_told_with_its_extra_and_a_present_one_is_not(monkeypatch):
     need("scenes")
+    results = "labelled results, and files other than .csv and .npz, need"
     for absent, told in (
-        (["pint"], "scenes and their results need pint, which is not installed: pip install 'chapsym[scenes]'"),
-        (["pint", "zarr"], "scenes and their results need pint and zarr, which are not installed: pip install "),
+        (["pandas"], f"{results} pandas, which is not installed: pip install 'chapsym[scenes]'"),
+        (["pandas", "zarr"], f"{results} zarr and pandas, which are not installed: pip install "),
     ):
         for name in absent:
             monkeypatch.setitem(sys.modules, name, None)
@@ -153,14 +154,20 @@ def found_without(absent, *commands):
 
 
 def test_the_core_alone_does_its_work_and_what_needs_more_names_the_extra(tmp_path):
-    work = [["step", *INPUT, "--digits", "50", "--json"], ["branches", *INPUT, "--json"], ["prove", "prop-2"]]
+    scene, figure, new = str(ROOT / "docs" / "first.toml"), str(tmp_path / "x.svg"), str(tmp_path / "new.toml")
+    runs = [
+        ["run", new, "-o", str(tmp_path / f"x.{end}"), *more] for end in ("csv", "npz") for more in ([], ["--json"])
+    ]
+    work = [
+        ["step", *INPUT, "--digits", "50", "--json"], ["branches", *INPUT, "--json"], ["prove", "prop-2"],
+        ["scene", "new", new], ["scene", "check", scene], ["scene", "schema"], *runs,
+        ["trade", "--accuracy", "1e-8", "--time", "10"],
+    ]  # fmt: skip
     names = [[], *([name] for name in typer.main.get_command(app).commands)]
     helps = [[*name, "--help"] for name in names]
-    scene, figure = str(ROOT / "docs" / "first.toml"), str(tmp_path / "x.svg")
     refused = {
         "scenes": (
-            ["run", scene, "-o", str(tmp_path / "x.npz")], ["scene", "new", str(tmp_path / "x.toml")],
-            ["scene", "check", scene], ["scene", "schema"], ["trade", "--accuracy", "1e-8", "--time", "10"],
+            ["run", scene, "-o", str(tmp_path / "x.nc")], ["run", scene, "-o", str(tmp_path / "x.zarr")],
         ),
         "figures": (
             ["show", scene, "-o", str(tmp_path)], ["trade", "rounding", "-o", figure],
@@ -179,7 +186,7 @@ def test_the_core_alone_does_its_work_and_what_needs_more_names_the_extra(tmp_pa
             status, said, told = alone[" ".join(one)]
             assert (status, said, told.count("\n")) == (2, "", 1), (one, status, said, told)
             assert re.match(rf"chapsym: .* not installed: pip install 'chapsym\[{extra}\]'\n", told), told
-    assert not list(tmp_path.iterdir())
+    assert {path.suffix for path in tmp_path.iterdir()} == {".toml", ".json", ".csv", ".npz"}
     assert re.match(r"MissingExtra: .*pip install 'chapsym\[figures\]'", alone["run_scene"])
     here = {}
     exec(BITS, here)

@@ -2,4 +2,5 @@
 
 from chapsym import extras
 
-extras.need("figures")
+extras.need("figures")  # which installs those of scenes, too
+extras.need("scenes")

@@ -3,6 +3,8 @@
 CSV and Parquet are one table, a row for each ball and frame; `structure` is what no row says.
 """
 
+import codecs
+import csv
 import json
 import math
 import re
@@ -10,13 +12,13 @@ import sys
 import warnings
 import zipfile
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
-from chapsym import files
+from chapsym import extras, files
 from chapsym.dynamics.labelled import NOTES, Arrays, batches, in_rows, is_ours, plain, structure, with_clock
 from chapsym.dynamics.outputs import OUTPUTS, labels, whose
 
@@ -29,14 +31,16 @@ if TYPE_CHECKING:
 #: What readers raise of a file that is damaged, or made by somebody else.
 DAMAGED = (
     ValueError, KeyError, TypeError, EOFError, AttributeError, IndexError, RecursionError, NotImplementedError,
-    zipfile.BadZipFile, zlib.error,
+    csv.Error, zipfile.BadZipFile, zlib.error,
 )  # fmt: skip
-#: Bytes that are read at once of a CSV, of which the first row has all of that.
+#: Bytes that are read at once of a CSV, and the most that its first row may have of what no row has.
 BLOCK = 2**24
 #: Where a CSV goes that is to have no file.
 STDOUT = Path("-")
 #: More rows make a CSV that nothing opens.
 MOST_ROWS = 10**7
+#: Files that the core alone writes.
+ALONE = (".csv", ".npz")
 #: The share of this machine's memory that a result may take before it goes to Zarr.
 SHARE = 0.25
 
@@ -52,6 +56,8 @@ def check_destination(path: Path) -> None:
         return
     if path.suffix not in _READERS:
         raise SceneError(f"{str(path)!r}: the output must end in {', '.join(some)} or {last}, or be - for a CSV")
+    if path.suffix not in ALONE:
+        extras.need("scenes")
     if path.suffix != ".zarr":
         try:
             files.check_destination(path)
@@ -108,6 +114,7 @@ def load(path: Path) -> "Dataset":
         raise SceneError(f"{str(path)!r} is no result: one ends in {', '.join(_READERS)}")
     if path.is_fifo():
         raise SceneError(f"{path} is a pipe, not a file with a result")
+    extras.need("scenes")
     try:
         path.stat()
         data = with_clock(read(path))
@@ -130,6 +137,8 @@ def attributes(path: Path) -> dict[str, Any]:
         if path.suffix == ".npz" and path.is_file():  # without xarray, which takes longer to load than a run
             with np.load(path) as data:
                 return dict(json.loads(str(data[NOTES]))["attrs"])
+        if path.suffix == ".csv" and path.is_file() and (about := _about_csv(path)):
+            return dict(about["attrs"])
         if path.is_file():
             return load(path).attrs
         found = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
@@ -162,37 +171,33 @@ def _write_netcdf(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     stream.write(whole.to_netcdf(engine="h5netcdf"))
 
 
-def _write_rows(parts: Iterable[dict[str, Any]], begin: Callable[[Any], Any], about: Any = None) -> None:
-    """Writes the parts of a table, one after the other, with the writer that `begin` makes for its schema."""
-    import pyarrow
-
-    writer = None
-    for columns in parts:
-        texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
-        table = pyarrow.table({**columns, **texts}).replace_schema_metadata(about)
-        writer = writer or begin(table.schema)
-        writer.write_table(table)
-    if writer is not None:
-        writer.close()
-
-
 def _about(data: "Dataset | Arrays", told: dict[str, Any]) -> dict[str, Any]:
     return {"structure": told, "attrs": plain(data.attrs)}
 
 
 def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
+    import pyarrow
     from pyarrow import parquet
 
-    told = structure(data)
+    told, writer = structure(data), None
     about = {NOTES: json.dumps(_about(data, told), ensure_ascii=False)}
-    _write_rows(batches(data, told), lambda schema: parquet.ParquetWriter(stream, schema, compression="zstd"), about)
+    for columns in batches(data, told):
+        texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
+        table = pyarrow.table({**columns, **texts}).replace_schema_metadata(about)
+        writer = writer or parquet.ParquetWriter(stream, table.schema, compression="zstd")
+        writer.write_table(table)
+    if writer is not None:
+        writer.close()
 
 
 def _write_csv(stream: IO[bytes], data: "Dataset | Arrays") -> None:
-    from pyarrow import csv
-
-    options = csv.WriteOptions(quoting_style="needed")
-    _write_rows(_with_notes(data), lambda schema: csv.CSVWriter(stream, schema, write_options=options))
+    """Numbers as Python writes them, which every reader that rounds correctly has to the bit."""
+    writer, begun = csv.writer(codecs.getwriter("utf-8")(stream), lineterminator="\n"), False
+    for columns in _with_notes(data):
+        if not begun:
+            writer.writerow(columns)
+        begun = True
+        writer.writerows(zip(*(values.tolist() for values in columns.values()), strict=True))
 
 
 def _with_notes(data: "Dataset | Arrays") -> Iterator[dict[str, np.ndarray]]:
@@ -254,7 +259,7 @@ def _read_parquet(path: Path) -> "Dataset":
 
 def _read_csv(path: Path) -> "Dataset":
     import pyarrow
-    from pyarrow import csv
+    from pyarrow.csv import ConvertOptions, ParseOptions, ReadOptions, read_csv
 
     with path.open(encoding="utf-8", newline="") as stream:
         first = stream.readline()
@@ -263,16 +268,14 @@ def _read_csv(path: Path) -> "Dataset":
         raise NotOurs(f"{path} was not written by chapsym: {told}")
     if first.startswith("# "):
         return _with_lines(path)
-    if NOTES not in first:
-        return _old(_columns(csv.read_csv(path)))
-    reading, parsing = csv.ReadOptions(block_size=BLOCK), csv.ParseOptions(newlines_in_values=True)
-    only = csv.ConvertOptions(include_columns=[NOTES], column_types={NOTES: pyarrow.string()})
-    with csv.open_csv(path, reading, parsing, only) as begun:
-        about = json.loads(begun.read_next_batch()[NOTES][0].as_py())
+    about = _about_csv(path)
+    if not about:
+        return _old(_columns(read_csv(path)))
     told = about["structure"]
     rows = {name: one for name, one in told["variables"].items() if in_rows(one)}
     types = _types(rows) | {NOTES: pyarrow.string()}
-    columns = _columns(csv.read_csv(path, reading, parsing, csv.ConvertOptions(column_types=types)))
+    reading, parsing = ReadOptions(block_size=BLOCK), ParseOptions(newlines_in_values=True)
+    columns = _columns(read_csv(path, reading, parsing, ConvertOptions(column_types=types)))
     notes = [json.loads(text) for text in columns[NOTES][:: told["frames"]]]
     for name, one in told["variables"].items():
         if name not in rows:
@@ -283,6 +286,14 @@ def _read_csv(path: Path) -> "Dataset":
     return _assembled(columns, told, about["attrs"])
 
 
+def _about_csv(path: Path) -> dict[str, Any]:
+    """What the first row of a CSV has of all of them; nothing of one without the column `NOTES`."""
+    csv.field_size_limit(BLOCK)
+    with path.open(encoding="utf-8", newline="") as stream:
+        rows = csv.DictReader(stream)
+        return dict(json.loads(next(rows, {})[NOTES])) if NOTES in (rows.fieldnames or ()) else {}
+
+
 def _types(variables: Mapping[str, Any]) -> dict[str, Any]:
     import pyarrow
 
@@ -291,7 +302,7 @@ def _types(variables: Mapping[str, Any]) -> dict[str, Any]:
 
 def _with_lines(path: Path) -> "Dataset":
     """A file of before: what no row has is in `# ` lines, and what a ball has once in each of its rows."""
-    from pyarrow import csv
+    from pyarrow.csv import ConvertOptions, ParseOptions, ReadOptions, read_csv
 
     attrs: dict[str, Any] = {}
     lines = 0
@@ -300,9 +311,9 @@ def _with_lines(path: Path) -> "Dataset":
             key, _, value = line[2:].partition(": ")
             attrs[key], lines = json.loads(value), lines + 1
     told = attrs.pop("structure")
-    table = csv.read_csv(
-        path, csv.ReadOptions(skip_rows=lines), csv.ParseOptions(newlines_in_values=True),
-        csv.ConvertOptions(column_types=_types(told["variables"])),
+    table = read_csv(
+        path, ReadOptions(skip_rows=lines), ParseOptions(newlines_in_values=True),
+        ConvertOptions(column_types=_types(told["variables"])),
     )  # fmt: skip
     return _assembled(_columns(table), told, attrs)
 
