@@ -38,13 +38,13 @@ def judge(
 
     if (against is None) == (body is None):
         fail("give either --against, a case or a scene, or --body, a ball that starts as the first row does", 2)
+    tables = [table_of(file) for file in results]  # before a motion is certified, which may take a minute
     if body is not None:
-        tables = [table_of(file).from_zero() for file in results]
+        tables = [table.from_zero() for table in tables]
         case = case_of_body(body, min(tables, key=lambda table: len(table.times)))
     else:
         assert against is not None
         case = case_of_scene(against) if against.suffix == ".toml" else read_case(against)
-        tables = [table_of(file) for file in results]
     runs = [table.at(case.time) for table in tables]
     if against is not None:
         for run in runs:

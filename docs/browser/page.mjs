@@ -41,6 +41,7 @@ try {
   for (const [id, title] of Object.entries(claims)) judging.elements.claim.add(new Option(`${id}: ${title}`, id));
   for (const form of [rolling, judging]) form.addEventListener("submit", submitted);
   for (const button of document.querySelectorAll("form.browser button")) button.disabled = false;
+  say(rolling, []);
 } catch (error) {
   say(rolling, [`The files of this page cannot be read: ${error.message}`]);
 }

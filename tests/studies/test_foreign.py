@@ -99,6 +99,11 @@ def test_what_is_no_trajectory_is_one_sentence(tmp_path, result):
         table_of(tmp_path / "part.csv")
 
 
+def test_a_file_is_read_before_a_motion_is_certified(tmp_path, monkeypatch):
+    monkeypatch.setattr("chapsym.studies.comparable.case_of_scene", lambda _: pytest.fail("a motion is certified"))
+    assert "cannot be read: No such file" in refused("judge", tmp_path / "none.csv", "--against", FIRST)
+
+
 def test_a_result_is_a_trajectory_up_to_where_its_one_ball_stopped(tmp_path):
     ball, momenta = chapsym.Ball((0.1, 0.5, 1.6), 0.7, 0.1), [(0.5, 0.3, 0.2), (1.44, 0.96, 0.3)]
     run = chapsym.trajectory(ball, momenta, (2 / 7, 3 / 7, 6 / 7), 60, contact=True, time_step=0.1)
