@@ -3,19 +3,23 @@
 The terms of a formula are it with every sum taken absolutely: |x| of a number x, terms(a) + terms(b) of a ± b,
 terms(a) terms(b) of ab, terms(a) terms(b)/b² of a/b.  A result whose formula has n roundings one after the other is off
 by at most n 2⁻⁵³ (1 + 2⁻¹⁰) of its terms (lemma `rounding`), where nothing over- or underflows and no divisor is below
-2⁻²⁵ of its own terms: those are `MOST` and `DIVISOR`.  Products by a power of 2 are exact.
+2⁻²⁵ of its own terms: those are `MOST` and `DIVISOR`.  Products by a power of 2 are exact.  Nothing overflows where no
+terms are above `LARGEST`.  What underflows is off by 2⁻¹⁰⁷⁵, at most 2⁻¹⁰⁶ of terms that are not below `SMALLEST`: the
+part 2⁻¹⁰ covers this, too.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, nextafter
+from math import inf, isfinite, nextafter
 from typing import Any
 
 from .kernels import Kernel
 
 #: Half an ulp of 1, what covers the products of roundings, and the least part of its terms that a divisor may be.
 UNIT, MOST, DIVISOR = Fraction(1, 2**53), 1 + Fraction(1, 2**10), Fraction(1, 2**25)
+#: Between these are the terms of products and quotients, unless they are 0, and below the greater those of sums.
+SMALLEST, LARGEST = Fraction(1, 2**969), Fraction(2**1023)
 #: The most roundings, and operations one after the other, of which the lemma is.
 DEEPEST = 256
 
@@ -24,7 +28,7 @@ DEEPEST = 256
 class Rounded:
     """A number of a kernel, exactly, with its terms and the roundings that lead to it.
 
-    steep: the least part of its terms that a divisor on the way is.
+    steep: the least part of its terms that a divisor on the way is; 0 where something may over- or underflow.
     """
 
     value: Fraction
@@ -35,7 +39,8 @@ class Rounded:
     def __add__(self, other: "Number") -> "Rounded":
         other = _number(other)
         count = max(self.count, other.count) + 1
-        return Rounded(self.value + other.value, self.terms + other.terms, count, min(self.steep, other.steep))
+        value, terms = self.value + other.value, self.terms + other.terms
+        return _made(value, terms, count, min(self.steep, other.steep), terms <= LARGEST)
 
     def __neg__(self) -> "Rounded":
         return Rounded(-self.value, self.terms, self.count, self.steep)
@@ -50,15 +55,19 @@ class Rounded:
         other = _number(other)
         exact = any(x.count == 0 and _is_power_of_two(x.value) for x in (self, other))
         count = self.count + other.count + (not exact)
-        return Rounded(self.value * other.value, self.terms * other.terms, count, min(self.steep, other.steep))
+        value, terms = self.value * other.value, self.terms * other.terms
+        return _made(value, terms, count, min(self.steep, other.steep), _in_range(terms))
 
     def __truediv__(self, other: "Number") -> "Rounded":
         other = _number(other)
         if other.count == 0 and _is_power_of_two(other.value):
             return self * (1 / other.value)
+        count = self.count + other.count + 1
+        if not other.value:
+            return Rounded(Fraction(0), Fraction(0), count, Fraction(0))
         steep = min(self.steep, other.steep, abs(other.value) / other.terms)
         terms = self.terms * other.terms / other.value**2
-        return Rounded(self.value / other.value, terms, self.count + other.count + 1, steep)
+        return _made(self.value / other.value, terms, count, steep, _in_range(terms))
 
     def __rtruediv__(self, other: "Number") -> "Rounded":
         return _number(other) / self
@@ -69,8 +78,22 @@ class Rounded:
 Number = Rounded | int | Fraction
 
 
+def _made(value: Fraction, terms: Fraction, count: int, steep: Fraction, in_range: bool) -> Rounded:
+    return Rounded(value, terms, count, steep if in_range else Fraction(0))
+
+
+def _in_range(terms: Fraction) -> bool:
+    """Of a product or a quotient."""
+    return not terms or SMALLEST <= terms <= LARGEST
+
+
 def _number(x: Number) -> Rounded:
-    return x if isinstance(x, Rounded) else Rounded(Fraction(x), abs(Fraction(x)))
+    """A whole number of a text is rounded, too, where it has more than 53 bits."""
+    if isinstance(x, Rounded):
+        return x
+    value = Fraction(x)
+    in_range = abs(value) <= LARGEST
+    return _made(value, abs(value), int(in_range and Fraction(float(value)) != value), Fraction(1), in_range)
 
 
 def _is_power_of_two(x: Fraction) -> bool:
@@ -80,17 +103,16 @@ def _is_power_of_two(x: Fraction) -> bool:
 
 
 def count(kernel: Kernel, function: Callable[..., Any], point: Sequence[Fraction]) -> int | None:
-    """The most roundings of a result of a kernel's text; None where it calls functions, which round as they like.
+    """The most roundings of a result of a kernel's text.
 
+    None where it calls functions, which round as they like, or where there are more than the lemma is of.
     point: any arguments that are no powers of 2, at which nothing is divided by 0.
     """
     if kernel.letters:
         return None
     results = function(*(Rounded(x, abs(x)) for x in point))
     found = max(_number(x).count for x in (results if isinstance(results, tuple) else (results,)))
-    if found > DEEPEST:
-        raise ArithmeticError(f"{kernel.name} has {found} roundings one after the other, of {DEEPEST} at most")
-    return found
+    return found if found <= DEEPEST else None
 
 
 def bounds(function: Callable[..., Any], *arguments: float) -> list[float]:
@@ -106,7 +128,13 @@ def bounds(function: Callable[..., Any], *arguments: float) -> list[float]:
     Returns
     -------
     list of float
-        One for each result; inf where a divisor is too near to 0 for the lemma.  Underflow and overflow are left out.
+        One for each result; inf where a divisor is too near to 0 for the lemma, where something may over- or underflow,
+        and of more than 256 roundings.
+
+    Raises
+    ------
+    ValueError
+        For an argument that is not finite.
 
     Examples
     --------
@@ -115,8 +143,10 @@ def bounds(function: Callable[..., Any], *arguments: float) -> list[float]:
     >>> max(bounds(rotate, 0.5, 0.5, 0.5, 0.5, 0.1, 0.2, 0.3)) < 1e-15
     True
     """
-    given = [Rounded(Fraction(x), abs(Fraction(x))) for x in arguments]
+    if strange := [x for x in arguments if not isfinite(x)]:
+        raise ValueError(f"an argument is {strange[0]}; bounds are of finite numbers")
+    given = [_number(Fraction(float(x))) for x in arguments]
     results = function(*given)
     numbers = [_number(x) for x in (results if isinstance(results, tuple) else (results,))]
-    parts = [x.count * UNIT * MOST * x.terms if x.steep >= DIVISOR else inf for x in numbers]
+    parts = [x.count * UNIT * MOST * x.terms if x.steep >= DIVISOR and x.count <= DEEPEST else inf for x in numbers]
     return [nextafter(float(part), inf) if part else 0.0 for part in parts]

@@ -7,7 +7,7 @@ from math import inf
 import pytest
 
 import chapsym.generated as kernels
-from chapsym.codegen.rounding import DIVISOR, MOST, Rounded, bounds
+from chapsym.codegen.rounding import DIVISOR, MOST, Rounded, bounds, count
 from chapsym.proofs.kernels import KERNELS
 
 
@@ -110,4 +110,33 @@ def test_a_divisor_that_cancels_has_no_bound():
 
     assert bounds(quotient, 1.0, 1.0 - 2.0**-26) == [inf, 0.0]
     assert bounds(quotient, 1.0, 0.5)[0] < inf
+    assert bounds(quotient, 1.0, 1.0) == [inf, 0.0]
     assert float(DIVISOR) == 2.0**-25
+
+
+def test_a_number_of_more_bits_than_float64_is_rounded_too():
+    def product(x):
+        return (2**53 + 3) * x
+
+    for x in (1.0 + 2.0**-52, 1.3, 1.7, 1.9):
+        assert abs(F(product(x)) - product(F(x))) <= F(bounds(product, x)[0])
+    assert Rounded(F(1, 3), F(1, 3)).__mul__(2**53 + 1).count == 2
+
+
+@pytest.mark.parametrize(("formula", "x"), [
+    (lambda x: x * x, 1e200), (lambda x: x * x, 1e-200), (lambda x: x + x, 1.7e308), (lambda x: x / 2, 5e-324),
+    (lambda x: 1 / x, 1e308), (lambda x: 10**400 * x, 1.0), (lambda x: sum([x * x] * 257), 0.3),
+    (lambda x: 1 / x + 1, 0.0), (lambda x: 0 / x + 1 / (x - x), 0.0),
+])  # fmt: skip
+def test_what_the_lemma_is_not_of_has_no_bound(formula, x):
+    assert bounds(formula, x) == [inf]
+
+
+def test_an_argument_that_is_not_finite_is_refused():
+    with pytest.raises(ValueError, match="an argument is nan; bounds are of finite numbers"):
+        bounds(lambda x: x, float("nan"))
+
+
+def test_a_kernel_of_more_roundings_than_the_lemma_has_no_count():
+    assert count(KERNELS[0], lambda *x: sum([x[0]] * 256), [F(1, 3)]) == 256  # the first sum is with 0
+    assert count(KERNELS[0], lambda *x: sum([x[0]] * 257), [F(1, 3)]) is None
