@@ -17,7 +17,7 @@ from .document import accepted, stated
 
 KIND = "map-run"
 #: Bits for numbers of the size of 1 and their bounds, and bits a step, in the order in which they are tried.
-GUARD, A_STEP = 128, (2.5, 4.0, 8.0)
+GUARD, A_STEP = 128, (2.5, 4.0, 8.0, 24.0)
 
 
 def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: None) -> dict[str, Any]:
@@ -33,7 +33,7 @@ def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: 
         raise BadInput(f"the bounds are proved up to step {run.proved.steps} only: take a run that ends there")
     steps, most = int(run.index[-1]), checker.document.MOST_STEPS
     if not 0 < steps <= most:
-        raise BadInput(f"the checker follows 1 to {most} steps, and the run has {steps}")
+        raise BadInput(f"the checker follows 1 to {most} steps, and the last frame of the run is at {steps}")
     small = min(float(x) for x in (*run.ball.mass_tensor, run.ball.D, *bounds[:, 1:].ravel(), 1.0) if x > 0)
     why = ""
     for a_step in A_STEP:
@@ -42,7 +42,7 @@ def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: 
         try:
             return accepted(_document(run, bits))
         except checker.Rejected as error:
-            why = str(error)
+            why = why or str(error)
     raise BadInput(f"the checker does not prove the bounds of this run: {why}")
 
 

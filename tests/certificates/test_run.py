@@ -43,6 +43,7 @@ def test_a_bound_that_is_too_small_is_refused(found, part):
     place = ("frames", 1, "bounds", part)
     less, more = (f"{np.linalg.norm(off) * share:.20f}" for share in (0.999, 1.001))
     assert refused(resealed(replaced(found, place, less)))
+    assert refused(resealed(replaced(found, place, "-1")))
     assert checker.check(resealed(replaced(found, place, more)))
 
 
@@ -74,12 +75,24 @@ def test_what_is_refused_is_said(found, place, value, said):
 @pytest.mark.parametrize(("run", "said"), [
     (lambda: chapsym.trajectory(BODY, *START, 4), "of one ball, of the map itself, in double precision"),
     (lambda: made(4, 1, order=4), "of the map itself"), (lambda: made(4, 1, precision="double-double"), "in double"),
-    (lambda: made(1001, 1001), "the checker follows 1 to 1000 steps"), (lambda: made(0, 1), "the run has 0"),
+    (lambda: made(1001, 1001), "the checker follows 1 to 1000 steps"),
+    (lambda: made(4, 5), "the last frame of the run is at 0"),
     (lambda: chapsym.trajectory(BODY, (0.6, 0.1, 0), (0, 0, 1), 4, proved=True), "small branch is not proved"),
 ])  # fmt: skip
 def test_runs_of_which_there_is_none(run, said):
     with pytest.raises(BadInput, match=said):
         certificates.map_run(run())
+
+
+@pytest.mark.parametrize(
+    ("size", "turning", "D"), [(1e-45, 1.0, 0.7), (1e150, 1.0, 0.7), (1.0, 0.0, 0.7), (1.0, 1.0, 1e6)]
+)
+def test_runs_in_other_units_at_rest_and_of_heavy_balls_are_judged(size, turning, D):
+    ball, (momentum, gamma) = chapsym.Ball(BODY.mass_tensor * size, D * size), START
+    run = chapsym.trajectory(ball, np.array(momentum) * size * turning, gamma, 20, every=20, proved=True)
+    bounds = certificates.map_run(run)["frames"][0]["bounds"]
+    assert run.proved.momentum[1] <= float(bounds["momentum"]) <= 1.01 * run.proved.momentum[1] + 5e-324
+    assert run.proved.gamma[1] <= float(bounds["gamma"]) <= 1.01 * run.proved.gamma[1]
 
 
 def test_the_command_makes_one_of_a_scene(tmp_path):
