@@ -167,7 +167,7 @@ def process(*arguments):
     """A process that is killed in the end, with all that it started."""
     running = subprocess.Popen(
         [sys.executable, "-m", *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-        start_new_session=True, env=os.environ | {"DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"},
+        start_new_session=True, env=os.environ | {"DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "0"},
     )  # fmt: skip
     try:
         yield running
