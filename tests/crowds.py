@@ -6,6 +6,8 @@ import chapsym
 from chapsym import Ball, Status, StepNotTaken
 from chapsym.dynamics.loops import block
 
+NAMES = ("momentum", "gamma", "attitude", "contact")
+
 
 def balls(n, tiny=1e-310, heavy=1e14):
     """Balls at random, some of each kind: D = 0, at rest, beyond the certificate, folding, tiny, heavy."""
@@ -46,7 +48,7 @@ def beyond(n):
 def floats_of(run):
     """All arrays of a run; of pairs both halves."""
     halves = [run] if run.low is None else [run, run.low]
-    found = (getattr(half, name) for half in halves for name in ("momentum", "gamma", "attitude", "contact"))
+    found = (getattr(half, name) for half in halves for name in NAMES)
     return [array for array in found if array is not None]
 
 
@@ -57,3 +59,12 @@ def alone(*arguments, **options):
     except StepNotTaken as stopped:
         return stopped.trajectory, stopped.status, stopped.index
     return run, Status.TAKEN, run.taken
+
+
+def same(state, other, frame=None):
+    """Whether two have the same state, to the bit; of a trajectory its frame."""
+    for name in NAMES:
+        a, b = getattr(state, name), getattr(other, name)
+        assert (a is None) == (b is None), name
+        assert a is None or np.array_equal(a, b if frame is None else b[frame]), name
+    return True

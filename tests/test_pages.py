@@ -87,20 +87,6 @@ def test_every_link_of_a_page_leads_somewhere(name):
             assert unquote(url.fragment) in slugs(path.read_text(encoding="utf-8")), target
 
 
-def test_every_page_is_reached_from_the_index():
-    """What the tables of contents list, from the first page on."""
-    found, pending = set(), [ROOT / "docs" / "index.md"]
-    while pending:
-        page = pending.pop()
-        found.add(page)
-        for block in blocks(page.read_text(encoding="utf-8")):
-            if block.kind == "{toctree}":
-                listed = [line for line in block.text.splitlines() if line and not line.startswith(":")]
-                pending += [(page.parent / re.sub(r".*<(.+)>", r"\1", line)).with_suffix(".md") for line in listed]
-    written = {path for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts}
-    assert {path.resolve() for path in found} == written
-
-
 def test_every_public_name_and_every_command_has_its_place_in_the_reference():
     python, command = (TEXTS[f"docs/reference/{name}.md"] for name in ("python", "command"))
     described = re.findall(r"^\.\. auto\w+:: chapsym\.(\w+)$", python, re.MULTILINE)

@@ -8,6 +8,7 @@ import threading
 import numpy as np
 import pytest
 from balls_n import SIZES, UNIT_ROUNDOFF, batch
+from crowds import NAMES
 
 import chapsym
 from chapsym import Ball, BallN, Status, StepNotTaken, axial, skew, step_n, substeps, trajectory_n
@@ -15,7 +16,6 @@ from chapsym.dynamics.n import run_n
 from chapsym.dynamics.n.near_n import limits
 
 ORDERS = (4, 6, 8)
-NAMES = ("momentum", "gamma", "attitude", "contact")
 
 
 @pytest.mark.parametrize("order", ORDERS)

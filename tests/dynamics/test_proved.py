@@ -5,7 +5,7 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
-from crowds import balls, beyond, floats_of, long_steps
+from crowds import NAMES, balls, beyond, floats_of, long_steps
 from orbits import context, orbit
 
 import chapsym
@@ -19,7 +19,6 @@ from chapsym.numbers.loose import Loose
 
 BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 GAMMA = (2 / 7, 3 / 7, 6 / 7)
-NAMES = "momentum", "gamma", "attitude", "contact"
 
 
 def momentum(size):

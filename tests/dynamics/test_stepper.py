@@ -7,6 +7,7 @@ import threading
 import numpy as np
 import pytest
 from budget import slow
+from crowds import NAMES, same
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, Stepper
@@ -15,20 +16,10 @@ from chapsym.dynamics.levels import double
 BALL, K, GAMMA = Ball((1, 2, 4), 3, radius=0.5), np.array([0.2, -0.1, 0.15]), np.array([2, 3, 6]) / 7
 #: Starts whose branch folds after a few steps of each order; of a composition at a stage in the midst of a step.
 FOLDING = {order: np.array([4.32, -2.16, 3.24]) * size for order, size in ((2, 1.0), (4, 1.35), (8, 1.5))}
-NAMES = ("momentum", "gamma", "attitude", "contact")
 TRACED, ORDERS = (
     {"contact": True},
     [{}, {"attitude": True}, {"contact": True}, {"order": 4, "contact": True}, *slow({"order": 8, "contact": True})],
 )
-
-
-def same(state, other, frame=None):
-    """Whether two have the same state, to the bit; of a trajectory its frame."""
-    for name in NAMES:
-        a, b = getattr(state, name), getattr(other, name)
-        assert (a is None) == (b is None), name
-        assert a is None or np.array_equal(a, b if frame is None else b[frame]), name
-    return True
 
 
 @pytest.mark.parametrize("options", ORDERS, ids=str)

@@ -5,25 +5,16 @@ import copy
 import numpy as np
 import pytest
 from balls_n import batch
+from crowds import same
 
 from chapsym import BadInput, BallN, Status, StepNotTaken, StepperN, trajectory_n
 
-NAMES = ("momentum", "gamma", "attitude", "contact")
 OPTIONS = [{}, {"attitude": True}, {"contact": True}, {"order": 6}, {"order": 4, "contact": True}]
 
 
 def alone(n=4, size=0.2, seed=7):
     ball, K, gamma = batch(n, 1, size, seed)
     return BallN(ball.mass_tensor[0], ball.D[0], radius=ball.radius[0]), K[0], gamma[0]
-
-
-def same(state, other, frame=None):
-    """Whether two have the same state, to the bit; of a trajectory its frame."""
-    for name in NAMES:
-        a, b = getattr(state, name), getattr(other, name)
-        assert (a is None) == (b is None), name
-        assert a is None or np.array_equal(a, b if frame is None else b[frame]), name
-    return True
 
 
 @pytest.mark.parametrize("size", [0.2, 1.3], ids=["below the bound", "above it"])

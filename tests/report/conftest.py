@@ -105,3 +105,9 @@ def opened(tabs):
 def command():
     """Runs `chapsym` in this process."""
     return commands.chapsym
+
+
+@pytest.fixture
+def show(command):
+    """Runs `chapsym show`."""
+    return partial(command, "show")

@@ -2,7 +2,6 @@
 
 import io
 import os
-from functools import partial
 
 import numpy as np
 import pytest
@@ -15,12 +14,6 @@ from chapsym.dynamics import BadInput, kernels
 from chapsym.show import moving
 from chapsym.show.moving import ACROSS, MOST, RATE, TURN, save_motion
 from chapsym.show.result import Result
-
-
-@pytest.fixture
-def show(command):
-    """Runs `chapsym show`."""
-    return partial(command, "show")
 
 
 @pytest.fixture

@@ -34,15 +34,6 @@ def test_a_page_of_the_check_has_the_table_that_is_printed(tmp_path, monkeypatch
     assert len(rows) == 2
 
 
-def test_a_page_of_the_extremes_has_every_condition_of_its_group(tmp_path):
-    page = tmp_path / "extremes.md"
-    done = chapsym("extremes", "vertical", "--quick", "-o", page)
-    assert done.returncode == 0, done.stderr
-    conditions = [row[0] for row in table(page.read_text(encoding="utf-8"))[2:]]
-    assert conditions
-    assert all(condition in done.stdout for condition in conditions)
-
-
 def test_a_page_of_a_benchmark_has_its_rows_its_peers_and_what_was_to_be_reached(tmp_path, monkeypatch):
     reach = [benchmarks.Reached("speed", 2.0, 1.0, True)]
     one = benchmarks.Result("A_title", [{"name": "x|y", "value": 1.23456}], {"peer": "not installed"}, reach)
