@@ -7,8 +7,8 @@ from fractions import Fraction
 import numpy as np
 
 from chapsym.accuracy import Request
-from chapsym.accuracy.answer import CHECKS
-from chapsym.accuracy.request import exact_values, lengths
+from chapsym.accuracy.answer import CHECKS, exact_values
+from chapsym.accuracy.motion import lengths
 from chapsym.dynamics import Ball, Trajectory, certified_motion
 from chapsym.dynamics.ball import Floats
 from chapsym.dynamics.levels.start import fraction

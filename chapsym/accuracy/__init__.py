@@ -1,7 +1,6 @@
 """A ball rolled to an accuracy: precision, order and steps by a law, the error estimated by the run itself."""
 
-from .answer import Accurate, Attempt, Choice, Method, accurate, foreseen, methods, take
-from .request import Request, distance
+from .answer import Accurate, Attempt, Choice, Method, Request, accurate, distance, foreseen, methods, take
 from .rolled import roll
 
 __all__ = [

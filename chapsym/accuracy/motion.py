@@ -1,27 +1,32 @@
-"""The continuous motion of balls at equal times, to an accuracy: long steps of order 12, each ball with its own.
+"""The continuous motion of balls at equal times, to an accuracy.
 
-The steps are as long as the accuracy allows; frames inside are interpolated (`loops.following`).  The error that is
-stated is what the flow makes of the errors of all steps together (`loops.carried`).  It is an estimate in that the size
-of the error of a step (`loops.following.left`) and its direction are.  A ball whose error is larger than the accuracy
-is followed again with shorter steps; where the roundings of long steps are too many, by compositions of the map
-(`composed`).
+Long steps of order 12, each ball with its own, as long as the accuracy allows; frames inside are interpolated
+(`loops.following`).  The error that is stated is what the flow makes of the errors of all steps together
+(`loops.carried`).  It is an estimate in that the size of the error of a step (`loops.following.left`) and its direction
+are.  A ball whose error is larger than the accuracy is followed again with shorter steps.
+
+Where the roundings of long steps are too many: compositions of the map.  The error of an order p after t seconds is
+about c (|ω|h)^p (1 + |ω|t), with nearly the same c for every ball that is not near a separatrix.  A run is compared
+with one of fewer steps, and by Richardson's rule its own error is their difference / (r^p - 1), where r is the ratio of
+the steps; it is taken `SAFETY` times as large.  A run that fails teaches the law, and is taken again with more steps.
+One whose predecessor, of half as many steps, has stopped is not believed: errors do not yet fall as they should there,
+and may be alike by chance.
 """
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, Status, is_steady, kernels, native
-from chapsym.dynamics.ball import Floats
+from chapsym.dynamics import BadInput, Ball, Status, is_steady, kernels, native, substeps, trajectory
+from chapsym.dynamics.ball import Asked, Floats, checked_before
 from chapsym.dynamics.extrapolation import FEW, loop_weights
 from chapsym.dynamics.levels.frames import Count, cores, share
-from chapsym.dynamics.loops.expected import ALLOWED, FIRST, FLOOR, MOST, START, STILL, estimated
+from chapsym.dynamics.loops.expected import ALLOWED, FIRST, FLOOR, FOUND, MOST, RATE, START, STILL, estimated, surveyed
 from chapsym.dynamics.loops.following import REPORTED, STEPS, follow
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
-
-from .composed import composed
-from .problem import EXTRAPOLATED, Motion, Problem, nothing, of, omega_of, put
 
 #: The accuracy where none is asked for: nobody sees or measures an error of that size.
 DEFAULT = 1e-6
@@ -29,13 +34,155 @@ DEFAULT = 1e-6
 FINEST, ROUNDING = 1e-12, 0.5
 #: How many times a ball is followed by long steps, at most, and what part of the accuracy those after the first aim
 #: at.
-ATTEMPTS, AIM = 4, 0.4
+TRIES, AIM = 4, 0.4
 #: How many roundings of the start those of a composition are, after which they grow as it does.
 SENSITIVE = 16.0
 #: By what part, at least, the error of a step is lowered at once.
 FINER = 1e-6
 #: Balls that a core takes at once, and seconds of a long step and of a frame.
 TOGETHER, STEP, FRAME = 64, 1.5e-6, 2e-7
+#: What an accuracy may be of.
+PARTS = frozenset({"momentum", "gamma", "omega", "attitude", "contact"})
+#: The order of long steps with all columns; lower ones are of the map and its compositions.
+EXTRAPOLATED = 2 * MOST_COLUMNS
+_UP = np.array([0.0, 0.0, 1.0])
+#: c of each order, measured on balls of all shapes; and the part of the accuracy that the law is to give.
+LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
+#: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
+SAFETY, RATIO = 4.0, 1.5
+#: How many roundings beside the start a run begins that verifies another.
+ROUNDED = 8
+#: A direction that nothing prefers.
+ASIDE = np.array([0.6, 0.64, 0.48])
+#: Runs that are tried, and how many times the steps of one, at least and at most, the next of the same order has.
+ATTEMPTS, LEAST_FINER, MOST_FINER = 8, 1.2, 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """n balls at frames + 1 equal times.
+
+    angular_momentum: K in kg m²/s, (n, frames + 1, 3).  gamma: (n, frames + 1, 3).  attitude: (n, frames + 1, 4), or
+    None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.
+    reached: the last frame of each ball, (n,); later ones are NaN.  status: why it stopped, a `Status`, (n,).
+    error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`.
+    order, steps, total: of each ball, (n,), the steps between two frames, at most, and all; 0 of a steady rotation,
+    which needs none.
+    """
+
+    angular_momentum: Floats
+    gamma: Floats
+    attitude: Asked
+    contact: Asked
+    reached: np.ndarray
+    status: np.ndarray
+    error: Floats
+    order: np.ndarray
+    steps: np.ndarray
+    total: np.ndarray
+
+    def of(self, some: np.ndarray) -> "Motion":
+        """Some of the balls."""
+        arrays: dict[str, Any] = {name: None if array is None else array[some] for name, array in vars(self).items()}
+        return Motion(**arrays)
+
+    def put(self, where: np.ndarray, other: "Motion") -> None:
+        """Copies balls to their place among these."""
+        for name, array in vars(other).items():
+            if array is not None:
+                getattr(self, name)[where] = array
+
+
+@dataclass(eq=False)
+class Problem:
+    """What is asked for: n balls from K and γ, `frames` times `interval` seconds apart, to an accuracy.
+
+    attitude: (n, 4) or None, where it is not followed.  contact: whether it is.
+    parts: what the accuracy is of; with metres in metres, of relative errors and angles times the radius.
+    """
+
+    ball: Ball
+    K: Floats
+    gamma: Floats
+    interval: float
+    frames: int
+    accuracy: float
+    attitude: Asked
+    contact: bool
+    metres: bool = False
+    parts: frozenset[str] = PARTS
+    threads: int = 0
+
+    def __post_init__(self) -> None:
+        """Finds `units`, and what `loops.expected` finds of each ball at the start: `survey`, (FOUND, n)."""
+        ball, n = self.ball, len(self.K)
+        #: What a relative error of each ball comes to in the norm, (n,): 1, or the radius in m.
+        self.units = ball.radius if self.metres and ball.radius is not None else np.full(n, 1.0)
+        self.survey: Floats = np.empty((FOUND, n))
+        survey = native.loop(surveyed)
+        #: What rounding alone may leave of any ball, and whether one may rotate steadily.
+        self.floor, self.single = survey(
+            self.K, self.gamma, np.ascontiguousarray(ball.mass_tensor), ball.D, self.units, self.end, self.accuracy,
+            self.survey,
+        )  # fmt: skip
+
+    def __len__(self) -> int:
+        return len(self.K)
+
+    def of(self, some: np.ndarray) -> "Problem":
+        """Some of the balls."""
+        ball = self.ball
+        few = checked_before(ball.mass_tensor[some], ball.D[some], None if ball.radius is None else ball.radius[some])
+        attitude = None if self.attitude is None else self.attitude[some]
+        return replace(self, ball=few, K=self.K[some], gamma=self.gamma[some], attitude=attitude)
+
+    @property
+    def end(self) -> float:
+        """The time of the last frame, in s."""
+        return self.frames * self.interval
+
+    @property
+    def rate(self) -> Floats:
+        """|ω| at the start in rad/s, (n,)."""
+        return self.survey[RATE]
+
+    @property
+    def expected(self) -> float:
+        """About how many long steps all balls take."""
+        return float((self.end / self.survey[FIRST]).sum()) if self.frames else 0.0
+
+    def nothing(self) -> Motion:
+        """Room for the motion, with the start as the first frame."""
+        n, kept = len(self), self.frames + 1
+        reached, status, order, steps, total = np.zeros((5, n), dtype=np.int64)
+        try:
+            found = Motion(
+                np.empty((n, kept, 3)), np.empty((n, kept, 3)),
+                None if self.attitude is None else np.empty((n, kept, 4)),
+                np.empty((n, kept, 2)) if self.contact else None, reached, status, np.zeros(n), order, steps, total,
+            )  # fmt: skip
+        except (MemoryError, ValueError):
+            raise BadInput(
+                f"{kept} states of {n} balls do not fit into memory: keep fewer, by a larger `every`"
+            ) from None
+        found.angular_momentum[:, 0], found.gamma[:, 0] = self.K, self.gamma
+        if found.attitude is not None:
+            found.attitude[:, 0] = self.attitude
+        if found.contact is not None:
+            found.contact[:, 0] = 0.0
+        return found
+
+    def take(self, order: int, steps: int, stride: int = 1) -> Motion:
+        """The balls at every `stride`-th frame, by `steps` steps of a composition from one to the next."""
+        step, total = stride * self.interval / steps, steps * (self.frames // stride)
+        run = trajectory(
+            self.ball, step * self.K, self.gamma, total, order=order, every=steps, time_step=step,
+            attitude=False if self.attitude is None else self.attitude, contact=self.contact, threads=self.threads,
+        )  # fmt: skip
+        how = (np.full(len(self), x) for x in (np.nan, order, steps, total))
+        return Motion(
+            run.angular_momentum(), run.gamma, run.attitude, run.contact, run.taken // steps, run.status, *how
+        )
 
 
 def nominal(problem: Problem) -> float:
@@ -49,12 +196,12 @@ def moved(problem: Problem, progress: Callable[[float], None] = lambda done: Non
     if steady is None:
         found = _follow(problem, progress)
     else:
-        found = nothing(problem)
+        found = problem.nothing()
         some, others, done = np.flatnonzero(steady), np.flatnonzero(~steady), int(steady.sum())
         _spin(problem, some, found)
         progress(done)
         if len(others):
-            put(found, others, _follow(problem.of(others), lambda part: progress(done + part)))
+            found.put(others, _follow(problem.of(others), lambda part: progress(done + part)))
     found.steps[:] = -(-found.total // max(problem.frames, 1))
     return found
 
@@ -99,7 +246,7 @@ def _check(problem: Problem) -> np.ndarray | None:
 
 def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     """Balls that do not rotate steadily."""
-    found, accuracy = nothing(problem), problem.accuracy
+    found, accuracy = problem.nothing(), problem.accuracy
     if not problem.frames:
         found.error[:] = problem.survey[FLOOR]
         return found
@@ -107,7 +254,7 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     if worst <= accuracy:
         return found
     first, allowed = problem.survey[FIRST].copy(), problem.survey[ALLOWED].copy()
-    for attempt in range(1, ATTEMPTS):
+    for attempt in range(1, TRIES):
         given_up = (found.reached < problem.frames) & (found.status == Status.TAKEN)
         some = np.flatnonzero((found.error > accuracy) & (noise <= ROUNDING * accuracy) | given_up)
         if not len(some):
@@ -115,12 +262,12 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         more = np.minimum(np.maximum(AIM * accuracy / found.error[some], FINER), 0.5)
         allowed[some] *= more
         first[some] *= more ** (1 / (EXTRAPOLATED - 1))
-        part, last = problem.of(some), attempt + 1 == ATTEMPTS
-        again = nothing(part)
+        part, last = problem.of(some), attempt + 1 == TRIES
+        again = part.nothing()
         _, noise[some], started[some] = _run(part, first[some], allowed[some], again, lambda done: None, last)
         # Where the steps are not shorter, they are as short as rounding lets them be.
         noise[some[(again.total <= found.total[some]) & ~given_up[some]]] = np.inf
-        put(found, some, again)
+        found.put(some, again)
     poor = np.flatnonzero((found.error > accuracy) & (SENSITIVE * started <= accuracy) | (found.status != Status.TAKEN))
     if len(poor):
         part = problem.of(poor)
@@ -128,7 +275,7 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         other.error[:] += np.nan_to_num(SENSITIVE * started[poor])
         # That estimate may miss how sensitive a ball is: it is believed where it is within the accuracy, or alone.
         better = (other.error <= accuracy) | (found.status[poor] != Status.TAKEN)
-        put(found, poor[better], of(other, better))
+        found.put(poor[better], other.of(better))
     return found
 
 
@@ -171,3 +318,142 @@ def _run(
     counted = turned, "omega" in asked_of, traced and "contact" in asked_of
     worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, found.error, noise, started)
     return worst, noise, started
+
+
+def composed(problem: Problem, progress: Callable[[float], None] = lambda part: None) -> Motion:
+    """Runs all balls until each is verified, with more steps those that are not.
+
+    Steps and estimates of a ball depend on it alone; balls of the same steps share a run.  A ball that more steps do
+    not help keeps the error that it has: rounding alone is larger than the accuracy.
+    """
+    n = len(problem)
+    found, left, factor, before = problem.nothing(), np.arange(n), np.ones(n), np.full(n, np.inf)
+    gain, stopped = np.ones(n), np.zeros(n, dtype=bool)
+    found.order[:], found.steps[:] = cheapest(problem, factor)
+    for attempt in range(ATTEMPTS):
+        for order, steps in sorted(set(zip(found.order[left].tolist(), found.steps[left].tolist(), strict=True))):
+            some = left[(found.order[left] == order) & (found.steps[left] == steps)]
+            part = problem.of(some)
+            run = part.take(order, steps)
+            run.error[:] = _verified(part, order, steps, run)
+            found.put(some, run)
+        error = found.error[left]
+        fell, error = np.isfinite(error), np.where(stopped[left], np.inf, error)
+        found.error[left], stopped[left] = np.where(found.status[left] == Status.TAKEN, error, np.nan), ~fell
+        there = error <= problem.accuracy
+        there |= np.isfinite(before[left]) & np.isfinite(error) & (error > before[left] / gain[left])
+        before[left], left = error, left[~there]
+        progress(n - len(left))
+        if not len(left) or attempt + 1 == ATTEMPTS:
+            break
+        part, order, steps = problem.of(left), found.order[left], found.steps[left]
+        expected = _error(part, order, problem.interval / steps)
+        known = np.isfinite(before[left])
+        factor[left] = np.where(known, np.maximum(factor[left], before[left] / (SAFETY * expected)), factor[left])
+        wanted, finer = cheapest(part, factor[left])
+        least, most = LEAST_FINER * steps, MOST_FINER * steps
+        finer = np.where(wanted == order, shared(np.minimum(np.maximum(finer, least), most)), finer)
+        # One that stopped has no estimate of what it needs.
+        found.order[left], found.steps[left] = np.where(known, wanted, order), np.where(known, finer, 2 * steps)
+        # Of what more steps should gain half, in decades, shows that they help.
+        gain[left] = np.where(found.order[left] == order, (found.steps[left] / steps) ** (order / 2), 2.0)
+    return found
+
+
+def _error(problem: Problem, order: Any, step: Any) -> Floats:
+    """The error by the law, of each ball."""
+    rate, law = problem.rate, np.vectorize(LAW.get, otypes=[float])(order)
+    return np.asarray(law * (rate * step) ** order * (1 + rate * problem.end) * problem.units)
+
+
+def cheapest(problem: Problem, factor: Floats) -> tuple[np.ndarray, np.ndarray]:
+    """The order of the fewest stages that is expected to do, and its steps, of each ball, at `factor` times the law.
+
+    The steps are so many that the last frame is one that can be compared: an error may grow a thousandfold within one.
+    """
+    found = []
+    for order in LAW:
+        expected = factor * _error(problem, order, problem.interval)
+        found.append(shared((expected / (MARGIN * problem.accuracy)) ** (1 / order), 1 + problem.frames % 2))
+    steps, stages = np.array(found), np.array([[len(substeps(order))] for order in LAW])
+    best = (steps * stages).argmin(axis=0)
+    return np.array(list(LAW))[best], np.take_along_axis(steps, best[np.newaxis], axis=0)[0]
+
+
+def shared(steps: Floats, least: int = 1) -> np.ndarray:
+    """Whole steps, rounded up to one of four numbers between powers of two: balls that need as many share them."""
+    part, exponent = np.frexp(steps)
+    return np.maximum(np.ceil(np.ldexp(np.ceil(8 * part), exponent - 3)), least).astype(np.int64)
+
+
+def _verified(problem: Problem, order: int, steps: int, run: Motion) -> Floats:
+    """The error of each ball by a run of fewer steps, infinite if one has stopped; and what rounding may leave.
+
+    That run starts a few roundings beside the other, so that a ball that is sensitive to its start shows it.
+    """
+    stride, fewer = (2, 1) if steps == 1 else (1, 1 if steps == 2 else round(steps / RATIO))
+    left = (stride * steps / fewer) ** order - 1
+    share = min(SAFETY / left, max(1.0, 2 / left))
+    moved = ROUNDED * 2.0**-53 / share * lengths(problem.K)[:, np.newaxis] * ASIDE
+    beside = replace(problem, K=problem.K + moved).take(order, fewer, stride)
+    off = apart(problem, run, beside, stride).max(axis=-1)
+    off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
+    rounded = problem.survey[FLOOR]
+    if run.contact is not None and problem.ball.radius is not None and "contact" in problem.parts:
+        # The way of the contact point is a sum of as many terms as there are steps of the map, and each turns with the
+        # attitude, which is a product of as many.
+        way = np.nan_to_num(np.abs(run.contact)).max(axis=(-2, -1)) / problem.ball.radius + problem.rate * problem.end
+        rounded = rounded + problem.units * way * 2.0**-53 * (problem.frames * len(substeps(order)) * steps) ** 0.5
+    return np.asarray(off * share + rounded)
+
+
+def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
+    """ω of (n, 3) or (n, frames, 3); NaN where K is."""
+    tensor, D = problem.ball.mass_tensor, problem.ball.D
+    if K.ndim == 3:
+        tensor, D = tensor[:, np.newaxis], D[:, np.newaxis]
+    missing = np.isnan(K)
+    if not missing.any():
+        return kernels.angular_velocity(K, gamma, tensor, D)
+    omega = kernels.angular_velocity(np.where(missing, 0.0, K), np.where(missing, _UP, gamma), tensor, D)
+    return np.where(missing, np.nan, omega)
+
+
+@np.errstate(all="ignore")  # frames that were not reached are NaN
+def apart(problem: Problem, run: Motion, other: Motion, stride: int = 1) -> Floats:
+    """How far two runs are apart at each common frame, (n, frames): other has every `stride`-th frame of run.
+
+    The largest of the parts that are asked for: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle
+    between the attitudes in radians, and the distance of the contact points in radii; times the radius, if the accuracy
+    is in metres.
+    """
+    radius = 1.0 if problem.ball.radius is None else problem.ball.radius[:, np.newaxis]
+    K, L, gamma = run.angular_momentum[:, ::stride], other.angular_momentum, run.gamma[:, ::stride]
+    found, parts = [np.zeros(gamma.shape[:2])], problem.parts
+    if "gamma" in parts:
+        found.append(lengths(gamma - other.gamma))
+    if "momentum" in parts:
+        found.append(_over(lengths(K - L), lengths(problem.K)[:, np.newaxis]))
+    if "omega" in parts:
+        omega = omega_of(problem, K, gamma)
+        off = lengths(omega - omega_of(problem, L, other.gamma))
+        found.append(_over(off, np.nanmax(lengths(omega), axis=-1, keepdims=True)))
+    if "attitude" in parts and problem.attitude is not None:
+        q, p = run.attitude[:, ::stride], other.attitude
+        found.append(4 * np.arcsin(np.minimum(np.minimum(lengths(q - p), lengths(q + p)) / 2, 1.0)))
+    if "contact" in parts and problem.contact:
+        found.append(lengths(run.contact[:, ::stride] - other.contact) / radius)
+    return np.asarray(np.max(found, axis=0) * (radius if problem.metres else 1.0))
+
+
+def _over(a: Floats, size: Floats) -> Floats:
+    """a / size; of a ball at rest a itself, which is 0."""
+    return np.asarray(a / np.where(size > 0, size, 1.0))
+
+
+def lengths(v: np.ndarray) -> Floats:
+    """The lengths of vectors, (..., n) floats or Fractions, whose squares float64 need not hold; (...)."""
+    v = v.astype(float)
+    largest = abs(v).max(axis=-1, keepdims=True)
+    unit = v / np.where(largest > 0, largest, 1.0)
+    return np.asarray(np.sqrt((unit * unit).sum(axis=-1)) * largest[..., 0])

@@ -19,8 +19,7 @@ from chapsym.dynamics.trajectories import flag, rolling_radius, seconds, whole_n
 from chapsym.generated import contact_momentum
 from chapsym.numbers import Precision
 
-from .motion import DEFAULT, FINEST, moved
-from .problem import Problem
+from .motion import DEFAULT, FINEST, Problem, moved
 
 #: Where the contact point begins.
 HERE = (0.0, 0.0)

@@ -12,7 +12,7 @@ import chapsym
 import chapsym.numbers
 from benchmarks.trade.reference import continuous, true_error, truth
 from chapsym.accuracy import Method, Request, accurate, answer, distance, take
-from chapsym.accuracy.request import exact_values
+from chapsym.accuracy.answer import exact_values
 from chapsym.dynamics import BadInput, kernels
 from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.certified import exactly

@@ -8,9 +8,8 @@ import pytest
 from commands import chapsym as command
 
 import chapsym
-from chapsym.accuracy import composed, motion
-from chapsym.accuracy.motion import moved
-from chapsym.accuracy.problem import EXTRAPOLATED, Problem, apart, omega_of
+from chapsym.accuracy import motion
+from chapsym.accuracy.motion import EXTRAPOLATED, LAW, Problem, apart, composed, moved, omega_of
 from chapsym.dynamics import BadInput, Ball, Status, kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.scene import checked
@@ -56,7 +55,7 @@ def test_an_accuracy_is_met_and_the_estimate_is_above_the_error(accuracy, frames
     assert found.order[0] == EXTRAPOLATED
 
 
-@pytest.mark.parametrize("by", [moved, composed.composed])
+@pytest.mark.parametrize("by", [moved, composed])
 def test_estimates_are_above_the_errors_of_balls_of_all_shapes(by, thorough):
     """With steps so few that errors do not yet fall as they should, and an odd number of frames, too."""
     rng, orders = np.random.default_rng(11), set()
@@ -72,7 +71,7 @@ def test_estimates_are_above_the_errors_of_balls_of_all_shapes(by, thorough):
         found = by(asked)
         assert true(asked, found) < found.error <= accuracy, i
         orders.add(int(found.order[0]))
-    assert orders == ({EXTRAPOLATED} if by is moved else set(composed.LAW))
+    assert orders == ({EXTRAPOLATED} if by is moved else set(LAW))
 
 
 @pytest.mark.parametrize(
@@ -129,17 +128,17 @@ def test_two_runs_of_a_rod_that_are_both_far_from_the_motion_are_not_believed():
 
 def test_a_run_whose_predecessor_stopped_is_not_believed(monkeypatch):
     estimates = iter([np.inf, 1e-9, 1e-9])
-    monkeypatch.setattr(composed, "_verified", lambda *run: np.array([next(estimates)]))
-    assert composed.composed(problem([14.0, -6.0, 3.0])).error == 1e-9
+    monkeypatch.setattr(motion, "_verified", lambda *run: np.array([next(estimates)]))
+    assert composed(problem([14.0, -6.0, 3.0])).error == 1e-9
     assert next(estimates, None) is None
 
 
 def test_by_compositions_a_ball_has_the_same_bits_alone_and_in_a_batch():
     asked = problem(np.random.default_rng(5).standard_normal((12, 3)) * 5, 10, 0.5, 1e-6)
-    together = composed.composed(asked)
+    together = composed(asked)
     assert len(set(together.steps)) > 3
     for i in range(12):
-        alone = composed.composed(asked.of(np.array([i])))
+        alone = composed(asked.of(np.array([i])))
         assert alone.steps == together.steps[i]
         assert alone.error == together.error[i]
         assert (alone.angular_momentum == together.angular_momentum[i]).all()

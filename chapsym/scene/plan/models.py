@@ -9,9 +9,8 @@ import numpy as np
 
 from chapsym import dynamics
 from chapsym.accuracy import Accurate, accurate, foreseen
-from chapsym.accuracy.motion import FINEST, moved, nominal
-from chapsym.accuracy.problem import PARTS, Problem
-from chapsym.accuracy.request import exact_values
+from chapsym.accuracy.answer import exact_values
+from chapsym.accuracy.motion import FINEST, PARTS, Problem, moved, nominal
 from chapsym.dynamics import BadInput, Ball, BallN, Curve, Status, StepNotTaken, TopMotion
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.closed import top
