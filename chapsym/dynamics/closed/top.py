@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -93,7 +94,7 @@ class TopMotion(Brief):
         exponent = int(np.frexp(largest)[1])
         scaled = np.ldexp(K, -exponent)
         length = float(np.sqrt(scaled @ scaled))
-        return cls._through(ball, float(np.ldexp(length, exponent)), scaled / length, (scaled, exponent))
+        return cls._through(ball, float(np.ldexp(length, exponent)), scaled / length, K)
 
     @classmethod
     def vertical(cls, ball: Ball, height: float, gamma: ArrayLike) -> Self:
@@ -111,8 +112,8 @@ class TopMotion(Brief):
         return cls._through(ball, float(h), g, None)
 
     @classmethod
-    def _through(cls, ball: Ball, size: float, axis: Floats, scaled: tuple[Floats, int] | None) -> Self:
-        """From the direction, and the 𝒦 = vector·2^exponent that gives it exactly; else the direction is exact."""
+    def _through(cls, ball: Ball, size: float, axis: Floats, momentum: Floats | None) -> Self:
+        """From the direction, and the 𝒦 that gives it exactly; else the direction is exact."""
         unit = axis / np.sqrt(axis @ axis)
         if not moves(ball.mass_tensor, ball.D, unit):
             raise BadInput("the map fixes this direction of the momentum, or nearly so; it has no curve")
@@ -125,7 +126,7 @@ class TopMotion(Brief):
         if np.abs(curve.point(start + 2.0 * half) - step.gamma).max() > AGREEMENT:
             raise BadInput("the step of the map is not on the branch of the increment; take a shorter time step")
         with Enclosure(BITS).working():
-            exact = ExactCurve.of(curve, axis, scaled, size, 2.0 * half, step.rotation)
+            exact = ExactCurve.of(curve, axis, momentum, size, 2.0 * half, step.rotation)
             found = as_pair(exact.increment / (4 * exact.quarter))
             curve = exact.nearest()
         return cls(curve, size, float(exact.start.mid()), axis, found, exact)
@@ -150,6 +151,47 @@ class TopMotion(Brief):
     def momenta(self, index: ArrayLike) -> Floats:
         """𝒦 at the step numbers in kg m², (frames, 3)."""
         return self.size * self.directions(index)
+
+    @cached_property
+    def precession(self) -> tuple[tuple[float, float], Floats]:
+        """Ψ/(2π) as a pair, between -1/2 and 1/2, and P(u) = Σ series_j sin(jπu/K), j = 1, 2, ...
+
+        Raises BadInput so near to the separatrix that the series has too many terms.
+        """
+        with Enclosure(BITS).working():
+            mean = _mean(self.exact)
+        return mean, _series(self)
+
+    def rotations(self, index: np.ndarray) -> Floats:
+        """Unit quaternions Q with R_k = R₀Q_k at the step numbers, (frames, 4), the scalar ≥ 0."""
+        (high, low), _ = self.precession
+        angle = 2.0 * np.pi * turns.fraction(np.asarray(high), np.asarray(low), index)
+        angle = angle + self._wave(self.phase(index)) - self._wave(np.asarray(self.start))
+        here = self.directions(index)
+        first = self.direction / np.sqrt(self.direction @ self.direction)
+        # The least rotation from the direction now to the first one, and the rest about that.
+        middle = first + here
+        length = np.sqrt((middle * middle).sum(axis=-1))
+        least = (
+            np.concatenate([(middle @ first)[:, np.newaxis], np.cross(here, first)], axis=-1) / length[:, np.newaxis]
+        )
+        tensor, moments, _ = _scaled(self)
+        before = across(tensor, moments, first)
+        after = kernels.rotate(least, across(tensor, moments, here))
+        rest = angle - np.arctan2(np.cross(before, after) @ first, after @ before)
+        about = np.concatenate([np.cos(rest / 2.0)[:, np.newaxis], np.sin(rest / 2.0)[:, np.newaxis] * first], axis=-1)
+        whole = kernels.compose(about, least)
+        whole *= np.where(whole[:, :1] < 0.0, -1.0, 1.0) / np.sqrt((whole * whole).sum(axis=-1, keepdims=True))
+        whole[index == 0] = [1.0, 0.0, 0.0, 0.0]
+        return whole
+
+    def _wave(self, u: Floats) -> Floats:
+        """P(u) by Clenshaw's recurrence."""
+        x = 4.0 * np.pi * u / self.curve.period
+        twice, b, c = 2.0 * np.cos(x), np.zeros_like(x), np.zeros_like(x)
+        for a in self.precession[1][::-1]:
+            b, c = a + twice * b - c, b
+        return np.asarray(b * np.sin(x))
 
 
 def moves(tensor: Floats, contact: Floats, direction: Floats) -> np.ndarray:
@@ -193,17 +235,17 @@ class ExactCurve:
 
     @classmethod
     def of(
-        cls, curve: Curve, axis: Floats, scaled: tuple[Floats, int] | None, size: float, near: float, rotation: Floats
+        cls, curve: Curve, axis: Floats, momentum: Floats | None, size: float, near: float, rotation: Floats
     ) -> Self:
         """From the increment and the rotation of the first step in float64: the Gibbs vector by Newton, then u."""
         from flint import acb, arb
 
         tensor, contact = [arb(float(x)) for x in curve.ball.mass_tensor], arb(float(curve.ball.D))
         moments = [tensor[(i + 1) % 3] + tensor[(i + 2) % 3] + contact for i in curve.axes]
-        vector = [arb(float(x)) for x in (axis if scaled is None else scaled[0])]
+        vector = [arb(float(x)) for x in (axis if momentum is None else momentum)]
         length = sum((x * x for x in vector), arb(0)).sqrt()
         direction = [x / length for x in vector]
-        height = arb(size) if scaled is None else length * arb(2) ** scaled[1]
+        height = arb(size) if momentum is None else length
         squares = (direction[i] ** 2 / m for i, m in zip(curve.axes, moments, strict=True))
         level = sum(squares, arb(0))
         k2, square, *_ = curve_increment(*(*moments, level))
@@ -249,58 +291,6 @@ def as_pair(value: Any) -> tuple[float, float]:
 
     high = float(value.mid())
     return high, float((value.mid() - arb(high)).mid())
-
-
-@dataclass(frozen=True, eq=False)
-class Precession:
-    """The rotations from the first attitude of a top to the later ones.
-
-    turns: Ψ/(2π) as a pair, between -1/2 and 1/2; series: P(u) = Σ series_j sin(jπu/K), j = 1, 2, ...
-    """
-
-    motion: TopMotion
-    turns: tuple[float, float]
-    series: Floats
-
-    @classmethod
-    def of(cls, motion: TopMotion) -> Self:
-        """Of a motion; raises BadInput so near to the separatrix that the series has too many terms."""
-        exact = motion.exact
-        with Enclosure(BITS).working():
-            mean = _mean(exact)
-        return cls(motion, mean, _series(motion))
-
-    def rotations(self, index: np.ndarray) -> Floats:
-        """Unit quaternions Q with R_k = R₀Q_k at the step numbers, (frames, 4), the scalar ≥ 0."""
-        motion, high = self.motion, self.turns
-        u = motion.phase(index)
-        angle = 2.0 * np.pi * turns.fraction(np.asarray(high[0]), np.asarray(high[1]), index)
-        angle = angle + self.wave(u) - self.wave(np.asarray(motion.start))
-        here = motion.directions(index)
-        first = motion.direction / np.sqrt(motion.direction @ motion.direction)
-        # The least rotation from the direction now to the first one, and the rest about that.
-        middle = first + here
-        length = np.sqrt((middle * middle).sum(axis=-1))
-        least = (
-            np.concatenate([(middle @ first)[:, np.newaxis], np.cross(here, first)], axis=-1) / length[:, np.newaxis]
-        )
-        tensor, moments, _ = _scaled(motion)
-        before = across(tensor, moments, first)
-        after = kernels.rotate(least, across(tensor, moments, here))
-        rest = angle - np.arctan2(np.cross(before, after) @ first, after @ before)
-        about = np.concatenate([np.cos(rest / 2.0)[:, np.newaxis], np.sin(rest / 2.0)[:, np.newaxis] * first], axis=-1)
-        whole = kernels.compose(about, least)
-        whole *= np.where(whole[:, :1] < 0.0, -1.0, 1.0) / np.sqrt((whole * whole).sum(axis=-1, keepdims=True))
-        whole[index == 0] = [1.0, 0.0, 0.0, 0.0]
-        return whole
-
-    def wave(self, u: Floats) -> Floats:
-        """P(u) by Clenshaw's recurrence."""
-        x = 4.0 * np.pi * u / self.motion.curve.period
-        twice, b, c = 2.0 * np.cos(x), np.zeros_like(x), np.zeros_like(x)
-        for a in self.series[::-1]:
-            b, c = a + twice * b - c, b
-        return np.asarray(b * np.sin(x))
 
 
 def _scaled(motion: TopMotion) -> tuple[Floats, Floats, float]:
@@ -431,7 +421,7 @@ def top_frames(
             continue
         momenta[i, later] = motion.momenta(numbered)[later]
         if follow or D[i] == 0.0:
-            turned[i, later] = Precession.of(motion).rotations(numbered)[later]
+            turned[i, later] = motion.rotations(numbered)[later]
         directions = kernels.transport(turned[i], g[i]) if D[i] == 0.0 else motion.directions(numbered)
         verticals[i, later] = directions[later]
     attitudes = None

@@ -14,7 +14,6 @@ from chapsym.accuracy.motion import FINEST, PARTS, Problem, moved, nominal
 from chapsym.dynamics import BadInput, Ball, BallN, Curve, Status, StepNotTaken, TopMotion
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.closed import top
-from chapsym.dynamics.closed.top import Precession
 from chapsym.dynamics.outputs import BOUND, LOW, whose
 from chapsym.numbers.pairs import add
 
@@ -414,7 +413,7 @@ class Top(Direct):
                 if _turned(members, needed):
                     if motion.curve.complement < NEAREST_TOP:
                         return f"{name} is near the separatrix, where an attitude at once loses digits"
-                    Precession.of(motion)
+                    motion.rotations(np.zeros(1, dtype=np.int64))
             except BadInput as error:
                 return f"{name}: {error}"
             except StepNotTaken:
