@@ -224,7 +224,7 @@ def test_an_image_that_leaves_its_box_proves_nothing():
     """Of F with F(0) = 1 and F' = 1/(1 + r) in the box of radius r: the image is beyond r for every r."""
     from flint import arb
 
-    from chapsym.dynamics.levels.newton import isolated
+    from chapsym.dynamics.levels.proved_root import isolated
 
     assert isolated([arb(1)], lambda box: [1 / (1 + box[0].abs_upper())]) is None
     assert isolated([arb(1)], lambda box: [arb("0.5", "0.4")])[0].contains(-2)

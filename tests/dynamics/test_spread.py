@@ -9,7 +9,7 @@ import pytest
 
 import chapsym
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.dynamics.levels import balls, proved_root, spread
+from chapsym.dynamics.levels import balls, proved_root
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.generated import compose
 
@@ -114,11 +114,11 @@ def test_a_broken_form_is_seen(name, monkeypatch):
         plain = proved_root.inverse_slope
         monkeypatch.setattr(balls, name, lambda *given: plain(*given) * flint.arb("1.01"))
     elif name == "cross_matrix":
-        plain = spread.cross_matrix
-        monkeypatch.setattr(spread, name, lambda v: plain(v).transpose())
+        plain = balls.cross_matrix
+        monkeypatch.setattr(balls, name, lambda v: plain(v).transpose())
     else:
-        plain = spread.Spread.moved
-        monkeypatch.setattr(spread.Spread, "moved", lambda self, M, more: plain(self, M * flint.arb("0.99"), more))
+        plain = balls.Spread.moved
+        monkeypatch.setattr(balls.Spread, "moved", lambda self, M, more: plain(self, M * flint.arb("0.99"), more))
     assert not contained(STATES["large"], steps=1)[0]
 
 

@@ -9,7 +9,7 @@ from budget import examples
 from hypothesis import given
 
 from chapsym import BadInput, StepNotTaken, generated, testing
-from chapsym.dynamics.levels import newton, start
+from chapsym.dynamics.levels import proved_root, start
 from chapsym.dynamics.loops import branch
 from chapsym.dynamics.map import exact_step
 from chapsym.dynamics.oracle import Oracle
@@ -97,7 +97,7 @@ def test_the_slope_of_the_enclosure_is_the_derivative(q, gamma, ball):
         return [m - k * scale for m, k in zip(moved, K, strict=True)]
 
     tangent, hessian = (f(*q, *gamma, *J, D) for f in (generated.tangent_jacobian, generated.tangent_hessian))
-    slope = newton._slope(tangent, hessian, K, w)
+    slope = proved_root._slope(tangent, hessian, K, w)
     for j in range(3):
         ahead, behind = ([x + s * step * (i == j) for i, x in enumerate(w)] for s in (1, -1))
         difference = [(a - b) / (2 * step) for a, b in zip(value(ahead), value(behind), strict=True)]
@@ -106,11 +106,11 @@ def test_the_slope_of_the_enclosure_is_the_derivative(q, gamma, ball):
 
 def test_the_interval_test_itself_finds_the_root(monkeypatch):
     """Without refinement the float64 root is off by 1e-16, and the one interval Newton step must put that right."""
-    monkeypatch.setattr(newton, "refined", lambda q, *_: tuple(x.mid() for x in newton.unit(q)))
+    monkeypatch.setattr(proved_root, "refined", lambda q, *_: tuple(x.mid() for x in proved_root.unit(q)))
     precision, near = Enclosure(200), start.start(K, GAMMA, J, D)
     with flint.ctx.workprec(400):
         given = [tuple(map(precision.number, x)) for x in (near, K, GAMMA, J, (D,))]
-        for enclosure, value in zip(newton.enclosed(*given), truth(J, D, K, GAMMA, 80)[:4], strict=True):
+        for enclosure, value in zip(proved_root.enclosed(*given), truth(J, D, K, GAMMA, 80)[:4], strict=True):
             assert enclosure.overlaps(flint.arb(str(value)) + flint.arb(0, "1e-70"))
             assert enclosure.rad() < flint.arb("1e-28")
 

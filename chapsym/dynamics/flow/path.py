@@ -19,10 +19,9 @@ from flint import arb, arb_poly, arb_series, ctx
 from chapsym import generated
 
 from ..errors import TooWide
+from ..levels.balls import Spread, point, unit
 from ..levels.balls import exact as ball
-from ..levels.balls import point, unit
 from ..levels.proved_root import MATRIX_BITS, highest, upper
-from ..levels.spread import Spread
 from ..levels.start import exponent_of
 from ..loops.vectors import cross, dot
 from .deviation import Body, Defects, bound, defects, deviation, exact

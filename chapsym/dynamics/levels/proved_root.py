@@ -1,20 +1,24 @@
-"""What proves a root in Arb's balls: a point near it, and a slope with which G is monotone there.
+"""What proves a root in Arb's balls: a point near it, and a slope with which G is monotone there; or an interval test.
 
 ⟨x, G(v + x) - G(v)⟩ ≥ m|x|² in a ball of Gibbs vectors: so the root is within |G(u)|/m of any u, for all 𝒦 and γ in
 their balls.  m is that of lemma `small-branch`, for all γ, or beyond its bound that of lemma `straight-path`, for
 every step.  As ∂G/∂u is affine in u, the root is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.
+
+Where neither holds, the interval Newton test proves that a box has one root: `enclosed` in Euler parameters, and
+`isolated` of any equations.  Newton's iteration finds the point, with the bits of the context.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache, reduce
 from typing import Any
 
 from flint import arb, arb_mat, ctx
 
-from chapsym.generated import gibbs_newton
+from chapsym.generated import compose, gibbs_newton, residual, tangent_hessian, tangent_jacobian
 
 from ..errors import TooWide
 from ..loops import path
+from ..loops.branch import inverse, product
 from ..loops.twins import twin
 
 Numbers = tuple[Any, ...]
@@ -23,6 +27,10 @@ Numbers = tuple[Any, ...]
 MATRIX_BITS = 64
 #: The box in which `straight-path` is looked at has this many times |G(u)|/I_min: enough if m is not much below I_min.
 WIDER = 1024
+#: Refinement must stay this near to the float64 root, else another branch may have been met.
+NEAR = 1e-6
+MOST_REFINEMENTS = 60
+MOST_INFLATIONS = 12
 
 
 def upper(v: Sequence[Any]) -> Any:
@@ -106,3 +114,79 @@ def certified(size: Any, inertia: Numbers) -> tuple[Any, Any] | None:
     radius = (radius if radius < 1 else arb(1)).abs_upper()
     m = (least - radius * slope).abs_lower()
     return (radius, m) if least - radius * slope > 0 else None
+
+
+def refined(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+    """The one root near a rotation, by midpoints: Newton squares a correction, up to what the conditioning costs."""
+    q = tuple(x.mid() for x in unit(q))
+    settled = arb(2) ** (-ctx.prec // 2 - 2)
+    for _ in range(MOST_REFINEMENTS):
+        r = residual(*q, *K, *g, *J, *D)
+        w = tuple((-x).mid() for x in product(inverse(q, g, J, *D)[1], r))  # q becomes q ∘ (1, w)
+        change = max(abs(x) for x in w)
+        if not change < NEAR:
+            return None
+        q = tuple(x.mid() for x in unit(compose(*(*q, arb(1), *w))))
+        if change <= max(abs(x) for x in q[1:]) * settled:
+            return q
+    return None
+
+
+def unit(v: Iterable[Any]) -> tuple[Any, ...]:
+    """A vector divided by its length."""
+    balls = list(v)
+    length = sum(x * x for x in balls).sqrt()
+    return tuple(x / length for x in balls)
+
+
+def enclosed(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+    """Unit Euler parameters as balls that contain the one root near the float64 root, by the interval Newton test."""
+    point = refined(q, K, g, J, D)
+    if point is None:
+        return None
+    q = point
+    # F(w) = 𝒦(q ∘ (1, w)) - |q|²(1 + |w|²)𝒦 vanishes exactly at the root; q is a point that is nearly unit.
+    norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
+    value = residual(*q, *(norm * x for x in K), *g, *J, *D)
+    tangent = tangent_jacobian(*q, *g, *J, *D)
+    hessian = tangent_hessian(*q, *g, *J, *D)
+    image = isolated(value, lambda box: _slope(tangent, hessian, tuple(norm * x for x in K), box))
+    return None if image is None else unit(compose(*(*q, arb(1), *image)))
+
+
+def isolated(value: Sequence[Any], slope: Callable[[Sequence[Any]], Sequence[Any]]) -> list[Any] | None:
+    """The zero of a map F of which F(0) = `value`, in balls; None if it is not proved.
+
+    slope: of a box round 0, what contains F' in it, row by row.  The interval Newton test: where the image of a box is
+    inside it, the box contains one zero, and the image contains that.  The box is widened until it does.
+    """
+    size, least = len(value), arb(2) ** -ctx.prec
+    target = arb_mat(size, 1, value)
+    try:
+        largest = max(x.abs_upper() for x in _divided(target, slope([arb(0)] * size)))
+        radius = 4 * largest if largest > 0 else least  # where the value is exactly 0 the box needs a size of its own
+        for _ in range(MOST_INFLATIONS):
+            box = [arb(0, radius)] * size
+            image = [-x for x in _divided(target, slope(box))]
+            if all(b.contains_interior(x) for b, x in zip(box, image, strict=True)):
+                return image
+            radius = radius * 4
+    except ZeroDivisionError:  # the matrix may be singular
+        pass
+    return None
+
+
+def _divided(target: arb_mat, matrix: Sequence[Any]) -> list[Any]:
+    """The solution of a linear system for every matrix in balls; raises ZeroDivisionError where one may be singular."""
+    return arb_mat(target.nrows(), target.nrows(), matrix).solve(target).entries()
+
+
+def _slope(tangent: tuple, hessian: tuple, K: tuple, box: Sequence[Any]) -> list:
+    """F'(w) for every w in the box, row by row: T + H w - 2|q|²𝒦 wᵀ."""
+    place = {(0, 0): 0, (1, 1): 1, (2, 2): 2, (1, 2): 3, (0, 2): 4, (0, 1): 5}
+    rows = []
+    for i in range(3):
+        for j in range(3):
+            bent = sum(hessian[3 * place[min(j, k), max(j, k)] + i] * box[k] for k in range(3))
+            rows.append(tangent[3 * i + j] + bent - 2 * K[i] * box[j])
+    return rows

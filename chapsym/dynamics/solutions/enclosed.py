@@ -2,7 +2,7 @@
 
 The rotations are the real common points of three quadrics (5.2).  Where these have finitely many complex points in
 common, `common_points` counts the real ones exactly and gives each as a rational function of an algebraic number,
-which is enclosed to any precision; each simple one must also pass the interval Newton test of `newton`.
+which is enclosed to any precision; each simple one must also pass the interval Newton test of `proved_root`.
 
 The forms of degree 4 in the ideal are the row space of a Macaulay matrix, and a common point x is a functional on
 S₄ that it kills.  Let N hold all functionals that it kills, and h be a linear form for which N restricted to h·S₃
@@ -32,7 +32,7 @@ from chapsym.numbers.precisions import flint_bits
 from ..ball import Asked, Ball
 from ..errors import StepNotTaken
 from ..levels.balls import exact
-from ..levels.newton import enclosed
+from ..levels.proved_root import enclosed
 from ..levels.start import fraction
 from ..map import in_float64, step, unit_exactly
 from .candidates import Quadric, momentum_forms, quadrics
