@@ -13,7 +13,7 @@ from .extrapolation import Extrapolated, extrapolate
 from .implicit import implicit_step
 from .map import compose_step, step
 from .n.ball_n import BallN, axial, invariants_n, skew
-from .n.trajectory_n import StepN, StepperN, TrajectoryN, step_n, trajectory_n
+from .n.run_n import StepN, StepperN, TrajectoryN, step_n, trajectory_n
 from .results import Bounds, Step, Trajectory
 from .reversal import NotRetraced, retrace_error, reverse, reverse_n
 from .solutions.continuation import Fold, Followed, fold, follow, margin

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from chapsym import generated
 
 from . import kernels
-from .ball import SINGLE_TOLERANCE, UNIT_TOLERANCE, Floats, in_single, numbers
+from .ball import SINGLE_TOLERANCE, UNIT_TOLERANCE, Floats, in_single, numbers, over_states
 from .errors import BadInput
 
 #: How far R γ may be from e₃ for an attitude that is given with its γ.
@@ -60,11 +60,7 @@ def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
     if isinstance(attitude, bool | np.bool_):
         return attitude_with(gamma)
     given = numbers(attitude, "attitude", 4)
-    try:
-        np.broadcast_to(given, (*gamma.shape[:-1], 4))
-    except ValueError:
-        told = f"attitude has the leading axes {given.shape[:-1]}, the states have {gamma.shape[:-1]}"
-        raise BadInput(told) from None
+    over_states(given, "attitude", gamma.shape[:-1])
     single = in_single(attitude)
     squared = (given * given).sum(axis=-1)
     if (np.abs(squared - 1) > (SINGLE_TOLERANCE if single else UNIT_TOLERANCE)).any():

@@ -307,6 +307,15 @@ def common_shape(shapes: Sequence[tuple[int, ...]], names: str) -> tuple[int, ..
         raise BadInput(f"the leading axes of {names} do not broadcast: {listed}") from None
 
 
+def over_states(array: Floats, name: str, shape: tuple[int, ...], axes: int = 1) -> Floats:
+    """An array with `axes` of its own, for states with the leading axes `shape`; raises BadInput if it has others."""
+    own = array.ndim - axes
+    try:
+        return np.broadcast_to(array, (*shape, *array.shape[own:]))
+    except ValueError:
+        raise BadInput(f"{name} has the leading axes {array.shape[:own]}, the states have {shape}") from None
+
+
 def inertia_of(tensor: Floats) -> Floats:
     """(J2 + J3, J1 + J3, J1 + J2), (..., 3): sums, as J1 + J2 + J3 - J1 would lose what is small beside it."""
     return np.stack([tensor[..., i] + tensor[..., j] for i, j in ((1, 2), (0, 2), (0, 1))], axis=-1)

@@ -22,10 +22,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import chapsym.dynamics.native as native
-from chapsym.numbers import NAMED, Double, DoubleDouble, Pair, Precision
+from chapsym.numbers import Double, DoubleDouble, Pair, Precision
 
 from .attitudes import first_attitudes
-from .ball import Asked, Ball, Floats, batch, is_followed, numbers, unit_vertical
+from .ball import Asked, Ball, Floats, batch, in_shape, is_followed, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double, double_double
 from .levels.dispatch import begun, precision_of
@@ -130,35 +130,31 @@ def extrapolate(
     One ball raises StepNotTaken where the map has no step of length time_step/n; a batch reports `status`.
     Raises BadInput as `step` does, for a time_step that is not one finite number, and for counts out of range.
     """
-    of_pairs = precision != "double" and _is_doubled(precision)
+    level = precision_of(precision)
+    if not isinstance(level, Double | DoubleDouble):
+        raise BadInput('long steps have the precisions "double" and "double-double"')
+    of_pairs = isinstance(level, DoubleDouble)
     most = MOST_OF_PAIRS if of_pairs else MOST_COLUMNS
     columns = most if columns is None else whole_number(columns, "columns", 2, most)
-    steps, threads, h = (
-        whole_number(steps, "steps", 0),
-        whole_number(threads, "threads", 0),
-        seconds(time_step, positive=False),
-    )
+    steps, threads = whole_number(steps, "steps", 0), whole_number(threads, "threads", 0)
+    h = seconds(time_step, positive=False)
     kept = max(steps, 1) if every is None else min(whole_number(every, "every", 1), steps + 1)
     shape, (K, g, J, D) = batch(ball, numbers(angular_momentum, "angular_momentum", 3), unit_vertical(gamma))
     follows = flag(contact, "contact") or is_followed(attitude)
     radius = np.broadcast_to(rolling_radius(ball), shape).reshape(-1).copy() if contact else D
     first = first_attitudes(attitude, g, shape) if follows else None
     balls, count = Balls(K, g, J, D, radius), steps // kept + 1
-    level = NAMED["double-double" if of_pairs else "double"]
     frames = begun(level, balls, count, first, isinstance(attitude, bool | np.bool_))
     if of_pairs:
         pair = Pair.of(time_step) if isinstance(time_step, Fraction) else Pair(h)
-        doubt = double_double.run_long(
-            balls, pair, steps, kept, frames, weights_of_pairs(columns), threads, progress
-        )  # fmt: skip
+        doubt = double_double.run_long(balls, pair, steps, kept, frames, weights_of_pairs(columns), threads, progress)
     else:
         doubt = _march(frames, balls, (h, steps, kept, follows, contact), columns, threads, not shape, progress)
     if not shape and frames.status[0]:
         raise StepNotTaken(Status(int(frames.status[0])), float(frames.reach[0]), int(frames.taken[0]))
 
     def shaped(array: Floats) -> Floats:
-        array = array[:, -1] if every is None else array
-        return array.reshape(shape + array.shape[1:]) if shape else array[0]
+        return in_shape(shape, array[:, -1] if every is None else array)
 
     def result(kept_frames: Frames, low: Extrapolated | None = None) -> Extrapolated:
         attitudes = shaped(kept_frames.attitude) if follows else None
@@ -169,14 +165,6 @@ def extrapolate(
         )  # fmt: skip
 
     return result(frames, None if frames.low is None else result(frames.low))
-
-
-def _is_doubled(precision: str | Precision) -> bool:
-    """Whether it is double-double; raises BadInput for what is neither that nor double."""
-    found = precision_of(precision)
-    if not isinstance(found, Double | DoubleDouble):
-        raise BadInput('long steps have the precisions "double" and "double-double"')
-    return isinstance(found, DoubleDouble)
 
 
 def _march(

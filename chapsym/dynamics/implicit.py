@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Double, Enclosure, Precision, Single, named
 
-from .ball import numbers
+from .ball import common_shape, numbers
 from .errors import BadInput
 from .kernels import Row, parts_of
 
@@ -96,11 +96,7 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
                 f"{residual[0].__name__} takes {len(groups)} arrays, {_listed(groups)}, not {len(known) + 1}"
             )
         given = [_array(value, *group) for value, group in zip((guess, *known), groups, strict=True)]
-        try:
-            leading = np.broadcast_shapes(*(array.shape[:-1] for array in given))
-        except ValueError:
-            shapes = ", ".join(str(array.shape) for array in given)
-            raise BadInput(f"the leading axes of the arrays do not broadcast: {shapes}") from None
+        leading = common_shape([array.shape[:-1] for array in given], "the arrays")
         rows, names = math.prod(leading), [name for name, _ in groups]
         flat = [np.broadcast_to(x, (*leading, x.shape[-1])).reshape(rows, x.shape[-1]) for x in given]
         with level.working():

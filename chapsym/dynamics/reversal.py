@@ -14,7 +14,7 @@ from chapsym.numbers import Digits, DoubleDouble, Enclosure
 from .ball import Ball, Floats
 from .errors import BadInput
 from .map import compose_step, step
-from .n.trajectory_n import trajectory_n
+from .n.run_n import trajectory_n
 from .results import Trajectory
 from .trajectories import trajectory
 

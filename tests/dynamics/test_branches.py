@@ -22,7 +22,7 @@ from chapsym.derive.three import placed
 from chapsym.dynamics import BadInput, Ball, branches, fold
 from chapsym.dynamics.loops.branch import inverse
 from chapsym.dynamics.oracle import Oracle
-from chapsym.dynamics.solutions import candidates, enclosed, multivalued
+from chapsym.dynamics.solutions import enclosed, multivalued
 from chapsym.numbers import Digits, Double, Enclosure
 from chapsym.prove import REAL, REAL_MULTIPLE, Count
 from chapsym.prove.elimination import NotCounted
@@ -286,10 +286,10 @@ def test_two_candidates_for_one_root_are_not_complete():
     points = np.linalg.qr(rng.normal(size=(8, 8)))[0][:, :4] + 1j * rng.normal(size=(8, 4))
     points /= np.linalg.norm(points, axis=1, keepdims=True)
     small, sound = np.full((1, 8), 1e-12), np.array([True])
-    whole = candidates.Candidates(points[np.newaxis], small, small + 1, sound)
+    whole = multivalued.Candidates(points[np.newaxis], small, small + 1, sound)
     assert multivalued._classified(whole)[1] == [True]
     points[3] = 1j * points[5]
-    whole = candidates.Candidates(points[np.newaxis], small, small + 1, sound)
+    whole = multivalued.Candidates(points[np.newaxis], small, small + 1, sound)
     assert multivalued._classified(whole)[1] == [False]
 
 

@@ -76,10 +76,10 @@ def test_a_step_that_is_not_taken_leaves_the_state_before_it():
 @pytest.mark.parametrize("order", [2, 4])
 def test_nor_does_one_that_the_safe_way_refuses_below_the_bound(order, monkeypatch):
     """What is refused here is not known to be met: the corrections are never small enough, the third call fails."""
-    from chapsym.dynamics.n import run_n, trajectory_n
+    from chapsym.dynamics.n import run_n
 
-    start, honest, calls, taken = alone(), trajectory_n.limits, [], run_n.small_rotation
-    monkeypatch.setattr(trajectory_n, "limits", lambda *at: (honest(*at)[0], 0 * honest(*at)[1]))
+    start, honest, calls, taken = alone(), run_n.limits, [], run_n.small_rotation
+    monkeypatch.setattr(run_n, "limits", lambda *at: (honest(*at)[0], 0 * honest(*at)[1]))
     stepper, steps = StepperN(*start, order=order), StepperN(*start, order=order)
     fails = 3 if order == 2 else 3 * 5 - 2
 

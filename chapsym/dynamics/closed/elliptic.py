@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Ball, Floats, in_principal_axes, numbers, unit_vertical
+from ..ball import Ball, Floats, common_shape, in_principal_axes, numbers, unit_vertical
 from ..errors import BadInput
 from ..shown import Brief
 
@@ -274,10 +274,9 @@ def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
     """
     if not isinstance(curve, Curve):
         raise BadInput(f"curve must be a chapsym.Curve, not {type(curve).__name__}")
-    try:
-        h, start = np.broadcast_arrays(numbers(height, "height"), numbers(u, "u"))
-    except ValueError:
-        raise BadInput(f"height and u do not broadcast: {np.shape(height)}, {np.shape(u)}") from None
+    h, start = numbers(height, "height"), numbers(u, "u")
+    shape = common_shape([h.shape, start.shape], "height and u")
+    h, start = np.broadcast_to(h, shape), np.broadcast_to(start, shape)
     half = np.asarray(curve.rate * h / (2.0 * curve.slack))
     settled, lost = np.zeros(half.shape, dtype=bool), np.zeros(half.shape, dtype=bool)
     for _ in range(MOST_CORRECTIONS):

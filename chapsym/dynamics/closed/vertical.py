@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 import chapsym.dynamics.native as native
 from chapsym.numbers import NAMED
 
-from ..ball import Ball, Floats, batch, in_shape, numbers, unit_vertical
+from ..ball import Ball, Floats, batch, common_shape, in_shape, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels import dispatch, double
 from ..levels.frames import Balls, Frames
@@ -91,10 +91,7 @@ def trajectory_vertical(
 def _flat(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, ...], list[Floats]]:
     """The common leading shape, and γ (n, 3), J (n, 3), D (n,), h (n,) as fresh flat arrays."""
     h, g = numbers(height, "height"), unit_vertical(gamma)
-    try:
-        lead = np.broadcast_shapes(h.shape, g.shape[:-1])
-    except ValueError:
-        raise BadInput(f"height of shape {h.shape} and gamma of shape {g.shape} do not broadcast") from None
+    lead = common_shape([h.shape, g.shape[:-1]], "height and gamma")
     shape, (flat, J, D) = batch(ball, np.broadcast_to(g, (*lead, 3)))
     return shape, [flat, J, D, np.broadcast_to(h, shape).reshape(-1).copy()]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..ball import Floats, Parameters, common_shape, keep, largest_moment, numbers
+from ..ball import Floats, Parameters, common_shape, keep, largest_moment, numbers, over_states
 from ..errors import BadInput
 from . import so_n
 
@@ -132,10 +132,7 @@ def initial_attitudes(attitude: bool | ArrayLike, gamma: Floats, shape: tuple[in
     R = numbers(attitude, "attitude")
     if R.shape[-2:] != (n, n):
         raise BadInput(f"attitude must be rotations of the shape (..., {n}, {n}), not {R.shape}")
-    try:
-        R = np.broadcast_to(R, (*shape, n, n)).reshape(-1, n, n)
-    except ValueError:
-        raise BadInput(f"attitude has the leading axes {R.shape[:-2]}, the states have {shape}") from None
+    R = over_states(R, "attitude", shape, 2).reshape(-1, n, n)
     if (np.abs(R) > 2).any() or (np.abs(R @ R.mT - np.eye(n)) > AGREEMENT).any() or (np.linalg.det(R) < 0).any():
         raise BadInput("attitude must be rotations: R Rᵀ = 1 with determinant 1")
     if (np.abs((R @ gamma[..., np.newaxis])[..., 0] - np.eye(n)[-1]) > AGREEMENT).any():

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.generated import compose, residual, tangent_hessian, tangent_jacobian
 
-from ..ball import UNIT_TOLERANCE, Ball, Floats, batch, largest_moment, numbers, unit_vertical
+from ..ball import UNIT_TOLERANCE, Ball, Floats, batch, largest_moment, numbers, over_states, unit_vertical
 from ..errors import BadInput, Status
 from ..loops.branch import CONTRACTION, ROUNDINGS, SETTLED, SINGULAR, SMALLEST, UNIT_ROUNDOFF
 from ..shown import Brief
@@ -160,11 +160,7 @@ class Marchers:
     @classmethod
     def at(cls, rotation: ArrayLike, shape: tuple, K: Floats, g: Floats, J: Floats, D: Floats) -> Marchers:
         """Balls at a rotation that must have the momentum K, polished; raises BadInput if it does not."""
-        given = numbers(rotation, "rotation", 4)
-        try:
-            q = np.broadcast_to(given, (*shape, 4)).reshape(-1, 4).copy()
-        except ValueError:
-            raise BadInput(f"rotation has the leading axes {given.shape[:-1]}, the states have {shape}") from None
+        q = over_states(numbers(rotation, "rotation", 4), "rotation", shape).reshape(-1, 4).copy()
         if (np.abs((q * q).sum(axis=1) - 1) > UNIT_TOLERANCE).any():
             raise BadInput("rotation must be unit Euler parameters (scalar first); divide by the length")
         exponent = np.frexp(largest_moment(J, D))[1]
