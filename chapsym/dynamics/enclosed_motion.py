@@ -293,32 +293,27 @@ class _Search:
         """Follows the motion with this many bits; returns how many more are needed, or None: the time is up."""
         from flint import ctx
 
-        missing, kept = -math.inf, 0
-        frames: list[dict[str, tuple[Any, ...]]] = []
+        missing, frames = -math.inf, list[dict[str, tuple[Any, ...]]]()
         with ctx.workprec(bits):
             try:
                 path = self.start.path(bits)
             except TooWide:
                 return bits
             path.tick = lambda: self._tell(path, bits)
-            for end in self.times:
-                while path.time < end:
-                    try:
+            try:
+                for end in self.times:
+                    while path.time < end:
                         path.advance(self.times[-1])
-                    except TooWide:
-                        return self._more(path, bits)
-                    except _TimeUp:
-                        return None
-                    except (np.linalg.LinAlgError, ArithmeticError):  # of the floats that propose the steps
-                        raise BadInput("the numbers are too far apart in size to find steps of the motion") from None
-                try:
                     frames.append(_signed(path.frame(end)))
-                except TooWide:
-                    return self._more(path, bits)
-                missing = max(missing, _missing(frames[-1], self.digits, self.start.radius))
-                kept = len(frames) if missing <= 0 else kept
-                if kept > self.kept:
-                    self.frames, self.kept, self.bits, self.steps = frames, kept, bits, path.steps
+                    missing = max(missing, _missing(frames[-1], self.digits, self.start.radius))
+                    if missing <= 0 and len(frames) > self.kept:
+                        self.frames, self.kept, self.bits, self.steps = frames, len(frames), bits, path.steps
+            except TooWide:
+                return self._more(path, bits)
+            except _TimeUp:
+                return None
+            except (np.linalg.LinAlgError, ArithmeticError):  # of the floats that propose the steps
+                raise BadInput("the numbers are too far apart in size to find steps of the motion") from None
         return math.ceil(missing) + MARGIN if math.isfinite(missing) else bits
 
     def _more(self, path: Any, bits: int) -> int:
