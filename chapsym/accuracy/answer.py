@@ -29,8 +29,8 @@ from chapsym.dynamics.ball import Floats, batch, checked_before, numbers, unit_v
 from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
 from chapsym.dynamics.loops.double_double import FIRST
+from chapsym.dynamics.map import whole_number
 from chapsym.dynamics.results import some_frames
-from chapsym.dynamics.trajectories import whole_number
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, in_words, pairs
 
 from .motion import (

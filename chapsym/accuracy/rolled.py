@@ -14,8 +14,8 @@ from chapsym.dynamics import BadInput, Ball, Trajectory, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import SMALLEST, Floats, batch, checked_before, numbers, unit_vertical
 from chapsym.dynamics.enclosed_motion import of_motion
+from chapsym.dynamics.map import flag, rolling_radius, seconds, whole_number
 from chapsym.dynamics.results import finished, in_given_axes, of_balls
-from chapsym.dynamics.trajectories import flag, rolling_radius, seconds, whole_number
 from chapsym.generated import contact_momentum
 from chapsym.numbers import Precision
 

@@ -11,7 +11,7 @@ from .enclosed_motion import CertifiedMotion, ExactBall, certified_motion
 from .errors import BadInput, Status, StepNotTaken
 from .extrapolation import Extrapolated, extrapolate
 from .implicit import implicit_step
-from .map import compose_step, step
+from .map import compose_step, step, trajectory
 from .n.ball_n import BallN, axial, invariants_n, skew
 from .n.run_n import StepN, StepperN, TrajectoryN, step_n, trajectory_n
 from .results import Bounds, Step, Trajectory
@@ -19,7 +19,6 @@ from .reversal import NotRetraced, retrace_error, reverse, reverse_n
 from .solutions.continuation import Fold, Followed, fold, follow, margin
 from .solutions.multivalued import Branches, branches
 from .stepper import Stepper
-from .trajectories import trajectory
 
 __all__ = [
     "BadInput", "Ball", "BallN", "Bounds", "Branches", "Certificate", "CertifiedMotion", "Curve", "ExactBall",

@@ -19,9 +19,9 @@ from .levels import dispatch, high
 from .levels.frames import Balls, Frames
 from .levels.frames import exactly as exact_numbers
 from .levels.start import fraction
+from .map import whole_number
 from .results import Trajectory
 from .shown import Brief
-from .trajectories import whole_number
 
 #: What a certificate is about; `contact` in metres.
 NAMES = ("momentum", "gamma", "attitude", "contact")

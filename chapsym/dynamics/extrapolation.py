@@ -34,9 +34,9 @@ from .loops.double_double import FIRST
 from .loops.guess import guess_weights
 from .loops.lanes import CHANGES, EIGHT, LAST, MOST_COLUMNS
 from .loops.lanes import march as march_lanes
+from .map import flag, rolling_radius, seconds, whole_number
 from .results import in_given_axes
 from .shown import Brief
-from .trajectories import flag, rolling_radius, seconds, whole_number
 
 #: From this many balls on a block of eight is faster than one after another.
 FEW = 6

@@ -13,10 +13,9 @@ from chapsym.numbers import Digits, DoubleDouble, Enclosure
 
 from .ball import Ball, Floats
 from .errors import BadInput
-from .map import compose_step, step
+from .map import compose_step, step, trajectory
 from .n.run_n import trajectory_n
 from .results import Trajectory
-from .trajectories import trajectory
 
 #: Where the way back is this far from the way there, it is looked whether a step back took another branch.
 FAR = 1e-6

@@ -21,8 +21,8 @@ from .levels.dispatch import no_room
 from .levels.frames import Balls
 from .loops import loop
 from .loops.loop import G, K
+from .map import flag, rolling_radius, seconds, whole_number
 from .results import Bounds, Trajectory, finished
-from .trajectories import flag, rolling_radius, seconds, whole_number
 
 
 class UnderWay:

@@ -21,8 +21,8 @@ from ..ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
 from ..errors import BadInput, Status
 from ..failure import explain
 from ..loops.vectors import dot
+from ..map import rolling_radius, step_numbers
 from ..results import Trajectory, finished, of_balls
-from ..trajectories import rolling_radius, step_numbers
 from . import turns
 
 #: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).

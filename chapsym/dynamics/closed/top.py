@@ -33,9 +33,9 @@ from ..attitudes import first_attitudes
 from ..ball import Ball, Floats, batch, in_principal_axes, inertia_of, is_followed, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops.vectors import cross, dot
+from ..map import step_numbers
 from ..results import Trajectory, finished, of_balls
 from ..shown import Brief
-from ..trajectories import step_numbers
 from . import turns
 from .elliptic import Curve, across, height_of, increment
 from .vertical import step_vertical

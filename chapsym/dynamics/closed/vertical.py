@@ -16,9 +16,9 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..levels import dispatch, double
 from ..levels.frames import Balls, Frames
 from ..loops import loop, vertical_loop
+from ..map import whole_number
 from ..results import Step, finished
 from ..shown import Brief
-from ..trajectories import whole_number
 from .elliptic import Curve, increment
 
 #: Turns over which the rotation number is a mean, and the least and most steps for them.

@@ -25,9 +25,9 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count, cores, share
 from ..loops import loop_n
+from ..map import flag, rolling_radius, whole_number
 from ..results import Step, Trajectory, finished, of_balls
 from ..stepper import UnderWay
-from ..trajectories import flag, rolling_radius, whole_number
 from . import so_n
 from .ball_n import BallN, initial_attitudes, skew_matrices
 from .branch_n import small_rotation

@@ -30,9 +30,8 @@ from chapsym.generated import momentum as momentum_kernel
 
 from ..ball import Ball, Floats, batch, largest_moment, numbers, unit_vertical
 from ..errors import Status
-from ..map import step
+from ..map import flag, step
 from ..shown import Brief
-from ..trajectories import flag
 from .continuation import Marchers, nonsingular
 
 #: Most rotations that can have one momentum: the Bézout number of three quadrics.
