@@ -1,7 +1,7 @@
 """A ball rolled to an accuracy: precision, order and steps by a law, the error estimated by the run itself."""
 
 from .answer import Accurate, Attempt, Choice, Method, Request, accurate, distance, foreseen, methods, take
-from .rolled import roll
+from .motion import roll
 
 __all__ = [
     "Accurate", "Attempt", "Choice", "Method", "Request", "accurate", "distance", "foreseen", "methods", "roll", "take",

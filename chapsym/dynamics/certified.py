@@ -15,7 +15,7 @@ from chapsym.numbers.precisions import MOST_BITS
 from .ball import Asked, Floats, batch, in_shape
 from .coefficients import COMPOSITIONS
 from .errors import BadInput, Status
-from .levels import dispatch, high
+from .levels import dispatch
 from .levels.frames import Balls, Frames
 from .levels.frames import exactly as exact_numbers
 from .levels.start import fraction
@@ -116,6 +116,8 @@ def _orbit(
     trajectory: Trajectory, given: dict[str, Any], bits: int, progress: Callable[[int], None]
 ) -> tuple[dict[str, np.ndarray | None], np.ndarray]:
     """The frames of the true orbit, and how many rotations of each ball were selected."""
+    from .levels.balls import run  # 40 ms, with mpmath and flint
+
     index, count = trajectory.index, len(trajectory.index)
     every = int(index[1] - index[0]) if count > 1 else 1
     start = [np.asarray(getattr(trajectory, name)[..., 0, :], dtype=float) for name in ("momentum", "gamma")]
@@ -141,7 +143,7 @@ def _orbit(
         balls = Balls(*(x[one] for x in vars(every_ball).values() if x is not None))
         ours: Any = *(x[one, :kept] for x in arrays), *(x[one] for x in ends), frames.with_body
         part = Frames(*ours)
-        selected += high.run(precision, balls, (kept - 1) * every, every, part, trajectory.order, progress)
+        selected += run(precision, balls, (kept - 1) * every, every, part, trajectory.order, progress)
         if part.status[0] != Status.TAKEN:
             raise BadInput(
                 f"the true orbit{f' of ball {i}' if shape else ''} does not take step {int(part.taken[0])}:"

@@ -20,7 +20,7 @@ from chapsym import BadInput, StepNotTaken, testing
 from chapsym.dynamics import certified
 from chapsym.dynamics.certified import proved_digits
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.dynamics.levels import balls, high, proved_root
+from chapsym.dynamics.levels import balls, proved_root
 from chapsym.dynamics.loops import path
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.numbers import Digits, Enclosure
@@ -246,7 +246,7 @@ def test_what_cannot_be_certified_is_refused_in_one_sentence(monkeypatch):
         chapsym.certify(run).digits("attitude")
     with pytest.raises(BadInput, match="certify takes orders"):
         chapsym.certify(replace(run, order=0))
-    monkeypatch.setattr(high, "MOST_GUARD", 10)
+    monkeypatch.setattr(balls, "MOST_GUARD", 10)
     monkeypatch.setattr(certified, "Enclosure", partial(Enclosure, guard=10))
     with pytest.raises(BadInput, match="grow too much: after step"):
         chapsym.certify(chapsym.trajectory(BALL, K, GAMMA, 300))

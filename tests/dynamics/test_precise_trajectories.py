@@ -251,7 +251,7 @@ def test_progress_counts_the_steps_of_all_balls():
 
 
 def test_more_bits_than_can_be_carried_are_refused_in_one_sentence(monkeypatch):
-    monkeypatch.setattr("chapsym.dynamics.levels.high.MOST_GUARD", 10)
+    monkeypatch.setattr("chapsym.dynamics.levels.balls.MOST_GUARD", 10)
     with pytest.raises(
         BadInput, match=r"the balls grow too much: after step \d+ of 1000, 70 bits leave less than 60"
     ) as caught:

@@ -13,7 +13,7 @@ from ..coefficients import substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops import double_double as pairs_loop
 from ..results import Bounds, Step
-from . import double, double_double, high, proved
+from . import double, double_double, proved
 from .frames import Balls, Frames
 from .start import exponent_of, fraction
 
@@ -65,7 +65,9 @@ def run(
     """`double.run` at a precision.  Frame 0 is given in float64; others write it anew, γ divided by its length."""
     substeps(order)  # raises BadInput for no order
     if isinstance(precision, Digits | Enclosure):
-        high.run(precision, balls, steps, every, frames, order, progress)
+        from .balls import run as run_in_arb  # 40 ms, with mpmath and flint
+
+        run_in_arb(precision, balls, steps, every, frames, order, progress)
     else:
         LEVELS[type(precision)](balls, steps, every, frames, order, threads, progress)
 
