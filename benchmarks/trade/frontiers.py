@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from chapsym.accuracy import Method, Request, methods, take
-from chapsym.accuracy.answer import CHECKS, EXTRAPOLATED, label_of
+from chapsym.accuracy.answer import CHECKS, label_of
+from chapsym.accuracy.motion import EXTRAPOLATED
 from chapsym.dynamics import Ball, Trajectory, extrapolate, kernels, trajectory
 from chapsym.dynamics.certified import exactly
 from chapsym.numbers import NAMED, Digits, Enclosure, Precision

@@ -13,40 +13,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.dynamics import (
-    BadInput,
-    Ball,
-    Status,
-    StepNotTaken,
-    Trajectory,
-    extrapolate,
-    kernels,
-    substeps,
-    trajectory,
-)
+from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, extrapolate, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import Floats, batch, checked_before, numbers, unit_vertical
 from chapsym.dynamics.certified import exactly
+from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
 from chapsym.dynamics.loops.double_double import FIRST
 from chapsym.dynamics.map import whole_number
 from chapsym.dynamics.results import some_frames
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, in_words, pairs
 
-from .motion import (
-    ATTEMPTS,
-    EXTRAPOLATED,
-    FINEST,
-    LEAST_FINER,
-    MARGIN,
-    MOST_FINER,
-    ROUNDING,
-    Motion,
-    Problem,
-    lengths,
-    moved,
-    nominal,
-)  # fmt: skip
+from . import motion
+from .motion import MARGIN, Motion, Problem, lengths
 
 #: What the accuracy may be of.
 NORMS = ("state", "contact")
@@ -227,7 +206,7 @@ def methods(precision: Precision) -> list[Method]:
     if precision == NAMED["double-double"]:
         found.append(Method(precision, OF_PAIRS))
     if precision == NAMED["double"]:
-        found.append(Method(precision, EXTRAPOLATED))
+        found.append(Method(precision, motion.EXTRAPOLATED))
     return found
 
 
@@ -392,7 +371,7 @@ def accurate(
     progress(choice.sentence())
     attempts: list[Attempt] = []
     if problem is not None:
-        found = moved(problem)
+        found = motion.moved(problem)
         if found.status[0] == Status.TAKEN:
             steps = max(int(found.total[0]), 1)
             made = Choice(Method(NAMED["double"], int(found.order[0])), steps, request.time / steps, choice.seconds)
@@ -429,10 +408,10 @@ def _foreseen(request: Request, limit: Any) -> tuple[Problem | None, Choice]:
         raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
     in_range(request.time, request.angular_momentum)
     problem = _problem(request)
-    if request.accuracy >= FINEST * request.unit and problem.floor <= ROUNDING * request.accuracy:
-        seconds = nominal(problem)
+    if request.accuracy >= motion.FINEST * request.unit and problem.floor <= motion.ROUNDING * request.accuracy:
+        seconds = motion.nominal(problem)
         steps = max(round(problem.expected), 1)
-        method = Method(NAMED["double"], EXTRAPOLATED)
+        method = Method(NAMED["double"], motion.EXTRAPOLATED)
         return problem, _within(Choice(method, steps, request.time / steps, seconds), limit)
     return None, _doubled(request, limit)
 
@@ -487,7 +466,7 @@ def _doubled(request: Request, limit: float, finer: float = 1.0, noisy: float = 
         every = checks(request, method)
         steps = every * max(1, math.ceil(wanted / every))
         seconds = steps * (method.stages + coarse.stages) * STAGE
-        if noisy * _rounded(request, columns, steps) <= ROUNDING * request.accuracy:
+        if noisy * _rounded(request, columns, steps) <= motion.ROUNDING * request.accuracy:
             found.append(Choice(method, steps, request.time / steps, seconds))
     if not found:
         raise BadInput(
@@ -509,7 +488,7 @@ def _rounded(request: Request, columns: int, steps: int) -> float:
 def _by_double_double(request: Request, limit: float, attempts: list[Attempt]) -> Trajectory:
     """Long steps in double-double, verified by the same with fewer columns, and shorter until they are."""
     finer, noisy, before = 1.0, 1.0, math.inf
-    for _ in range(ATTEMPTS):
+    for _ in range(motion.ATTEMPTS):
         started = clock.thread_time()
         choice = _doubled(request, limit, finer, noisy)
         method, every = choice.method, checks(request, choice.method)
@@ -529,9 +508,9 @@ def _by_double_double(request: Request, limit: float, attempts: list[Attempt]) -
         if before / 2 < apart < math.inf:  # it is what the motion makes of roundings: fewer columns have less
             noisy = max(noisy, LIKELY * apart / rounded)
         else:
-            finer *= min(max(LEAST_FINER, longer), MOST_FINER)
+            finer *= min(max(motion.LEAST_FINER, longer), motion.MOST_FINER)
         before = apart
     best = min(one.estimate for one in attempts)
     raise BadInput(
-        f"no run was verified to {request.accuracy:g} in {ATTEMPTS} attempts; the best differed by {best:.2g}"
+        f"no run was verified to {request.accuracy:g} in {motion.ATTEMPTS} attempts; the best differed by {best:.2g}"
     )

@@ -42,18 +42,7 @@ from ..loops.integrals import WEIGHTS
 from ..loops.path import joined
 from ..loops.vectors import adjoint, cross, dot, minus, scaled
 from .frames import Balls, Frames
-from .proved_root import (
-    MATRIX_BITS,
-    Numbers,
-    certified,
-    enclosed,
-    inverse_slope,
-    on_path,
-    refined,
-    stretch,
-    unit,
-    upper,
-)  # fmt: skip
+from .proved_root import MATRIX_BITS, certified, enclosed, inverse_slope, on_path, refined, stretch, unit, upper
 from .start import Exact, exponent_of, fraction, least, magnitude, start
 
 #: What a ball starts from: `_given`.
@@ -191,7 +180,7 @@ def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, floa
 
 #: Up to this many bits, corrections by the float64 Jacobian; beyond, Newton's, each with twice the bits of the last.
 CHORD_BITS = 300
-#: Numbers of this many bits below 1 are in the range of float64.
+#: Vector of this many bits below 1 are in the range of float64.
 FLOAT_BITS = 1000
 #: What the first correction by the float64 Jacobian is taken to leave.
 GAIN = 2.0**-40
@@ -409,17 +398,17 @@ class _UnderWay:
         self.size = size_of(K, self.exponent)
         self.unit = arb(2) ** self.size
         scale = Fraction(2) ** -self.exponent
-        self.k: Numbers = tuple(exact(x * scale / 2) for x in K)
+        self.k: Vector = tuple(exact(x * scale / 2) for x in K)
         self.g = unit(map(exact, g))
         self.J = tuple(exact(x * scale) for x in J)
         self.I = moments(self.J)
         self.D = exact(D * scale)
-        self.a: Numbers = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
+        self.a: Vector = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
         self.x = (arb(0), arb(0))
         self.stages = [None if c == 1 else exact(c) for c in stages]
         self.past: list[deque[Any]] = [deque(maxlen=len(WEIGHTS)) for _ in stages]
 
-    def _root(self, k: Numbers, past: deque) -> Any:
+    def _root(self, k: Vector, past: deque) -> Any:
         """A point near the Gibbs vector, and its float64 value; None where no iteration finds it."""
         state = *k, *self.g, *self.I, self.D
         try:
@@ -427,17 +416,17 @@ class _UnderWay:
         except ArithmeticError:
             return None
 
-    def _near(self, K: Numbers, g: Numbers) -> Numbers:
+    def _near(self, K: Vector, g: Vector) -> Vector:
         """The rotation of a step by the float64 continuation."""
         k, vertical, tensor = (list(map(fraction, v)) for v in (K, g, self.J))
         return tuple(map(exact, start(k, vertical, tensor, fraction(self.D))))
 
-    def _follow(self, q: Numbers, g: Numbers) -> None:
+    def _follow(self, q: Vector, g: Vector) -> None:
         """Moves the contact point by the rotation q; g: γ of all states."""
         x, y, _ = rotate(*self._attitude(), *centre_step(*q, *g))
         self.x = (self.x[0] + x, self.x[1] + y)
 
-    def _attitude(self) -> Numbers:
+    def _attitude(self) -> Vector:
         return self.a
 
 
@@ -476,7 +465,7 @@ class DigitsBall(_UnderWay):
                 tuple((x + y).mid() for x, y in zip(v, turn(*p, *v), strict=True)) for v in (self.k, self.g)
             )
 
-    def _gibbs(self, k: Numbers, bound: float, past: deque) -> Any:
+    def _gibbs(self, k: Vector, bound: float, past: deque) -> Any:
         """The Gibbs vector where `small-branch` or `straight-path` says that it is that of the branch; else None."""
         found = self._root(k, past) if bound >= 0.0 or bound == BEYOND else None
         if found is None:
@@ -489,14 +478,14 @@ class DigitsBall(_UnderWay):
         past.appendleft(start)
         return u
 
-    def _on_path(self, root: Numbers, k: Numbers) -> bool:
+    def _on_path(self, root: Vector, k: Vector) -> bool:
         """Whether the straight path joins a root to no rotation: an inequality with room, looked at in float64."""
         u, half, g = (tuple(map(float, v)) for v in (root, k, self.g))
         spread = 0.5 * (max(self.floats[:3]) - min(self.floats[:3]))
         proved, _ = joined(u, dot(u, u), half, math.hypot(*half), g, self.floats[:3], self.floats[3], spread)
         return proved > 0
 
-    def _rotation(self, k: Numbers) -> Numbers:
+    def _rotation(self, k: Vector) -> Vector:
         """The rotation where neither lemma holds, refined."""
         K = tuple(2 * x for x in k)
         q = refined(self._near(K, self.g), K, self.g, self.J, (self.D,))
@@ -504,7 +493,7 @@ class DigitsBall(_UnderWay):
             raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
         return q
 
-    def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+    def frame(self, bits: int) -> tuple[Vector, Vector, Vector, Vector]:
         """𝒦, γ, the attitude and the contact point, rounded to this many bits, in the context of the precision."""
 
         momentum = tuple(in_context(self.context, x, bits, self.exponent + 1) for x in self.k)
@@ -542,13 +531,13 @@ class ArbBall(_UnderWay):
                 tuple(x + y for x, y in zip(v, turn(*self.p, *v), strict=True)) for v in (self.first_k, self.first_g)
             )
 
-    def _all(self) -> tuple[Numbers, Numbers]:
+    def _all(self) -> tuple[Vector, Vector]:
         """k and γ of all states that there may be: a turn by ξ moves a vector by 2|ξ| of its length at most."""
         off = 2 * self.spread.size
         along, across = arb(0, (off * self.length).abs_upper()), arb(0, off.abs_upper())
         return tuple(x + along for x in self.k), tuple(x + across for x in self.g)
 
-    def _proved(self, k: Numbers, every: Numbers, bound: tuple[Any, Any] | None, past: deque) -> Any:
+    def _proved(self, k: Vector, every: Vector, bound: tuple[Any, Any] | None, past: deque) -> Any:
         """A point, and how far the branch's Gibbs vectors of all states are from it; None where that is not proved.
 
         k: that of the point that is followed; every: k, γ, I and D of all states.
@@ -565,7 +554,7 @@ class ArbBall(_UnderWay):
             past.appendleft(start)
             return u, (length / slope).abs_upper()
 
-    def _selected(self, every: Numbers, bound: Any, past: deque) -> Any:
+    def _selected(self, every: Vector, bound: Any, past: deque) -> Any:
         """The same for the root that the continuation selects; None where its rotation is too long: it is taken here.
 
         A root that is proved to be the branch's after all serves the next steps as a guess.
@@ -587,7 +576,7 @@ class ArbBall(_UnderWay):
         self.spread.restart(far)
         return None
 
-    def _turn_by(self, u: Numbers, off: Any, k: Numbers, every: Numbers) -> None:
+    def _turn_by(self, u: Vector, off: Any, k: Vector, every: Vector) -> None:
         """Turns by the rotation whose Gibbs vector is within `off` of u, by the mean-value form.
 
         As ∂G/∂u is affine in u, that of the point is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.
@@ -607,7 +596,7 @@ class ArbBall(_UnderWay):
             # p∘(1, ε)∘(1, ξ) is p∘(1, ξ'), |ξ' - ξ| ≤ |ε|(1 + |ξ| + |ξ|²)/(1 - |ε||ξ|) ≤ 2|ε|.
             self.spread.moved(M, more + 2 * far)
 
-    def _rotation(self, every: Numbers) -> Numbers:
+    def _rotation(self, every: Vector) -> Vector:
         """The rotations of all states, where neither lemma holds."""
         K, g = tuple(2 * x for x in every[:3]), every[3:6]
         q = enclosed(self._near(K, g), K, g, self.J, (self.D,))
@@ -620,7 +609,7 @@ class ArbBall(_UnderWay):
         off = arb(0, self.spread.size)
         return compose(*(*self.p, 1, off, off, off))
 
-    def _attitude(self) -> Numbers:
+    def _attitude(self) -> Vector:
         return unit(compose(*(*self.a, *self._turned())))
 
     def bits(self) -> float:
@@ -629,7 +618,7 @@ class ArbBall(_UnderWay):
         widest = [max(map(log_radius, v), default=-math.inf) for v in vectors]
         return -max(widest[0] - self.size, *widest[1:])
 
-    def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+    def frame(self, bits: int) -> tuple[Vector, Vector, Vector, Vector]:
         """𝒦, γ, the attitude and the contact point, rounded to this many bits."""
         scale = arb(2) ** (self.exponent + 1)
         k, g = self._all()
@@ -642,7 +631,7 @@ class ArbBall(_UnderWay):
             ctx.prec = self.precision
 
 
-def point(p: Iterable[Any]) -> tuple[Numbers, Any]:
+def point(p: Iterable[Any]) -> tuple[Vector, Any]:
     """The middle of a quaternion in balls, and a bound of how far it is off, beside its length."""
     balls = list(p)
     middle = tuple(x.mid() for x in balls)
