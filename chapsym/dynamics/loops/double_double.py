@@ -244,15 +244,9 @@ ROWS = 28
 
 @out_of_line
 def prepare_pairs(
-    momentum: Vector,
-    g: Vector,
-    tensor: Vector,
-    contact: float,
-    c: Matrix,
-    state: Vector,
-    radius: Vector,
+    momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Matrix, state: Vector, radius: Vector,
     enough: Vector,
-):
+):  # fmt: skip
     """Writes the state of a ball at the start and the bounds of its stages; returns the exponents of `scales`."""
     shift, beyond = scales(momentum, tensor, contact)
     size = beyond - shift - 1
