@@ -10,7 +10,7 @@ from hypothesis import given
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
 from chapsym.dynamics import kernels
-from chapsym.dynamics.failure import largest_momentum
+from chapsym.dynamics.errors import largest_momentum
 from chapsym.dynamics.loops.branch import small_rotation, tangent
 from chapsym.dynamics.loops.gibbs import HEAVY
 from chapsym.studies.check import State, compare

@@ -18,8 +18,7 @@ from chapsym.numbers.loose import Loose
 from .. import kernels
 from ..attitudes import first_attitudes
 from ..ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
-from ..errors import BadInput, Status
-from ..failure import explain
+from ..errors import BadInput, Status, explain
 from ..loops.vectors import dot
 from ..map import rolling_radius, step_numbers
 from ..results import Trajectory, finished, of_balls

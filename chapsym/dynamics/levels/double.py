@@ -16,8 +16,7 @@ import chapsym.dynamics.native as native
 
 from ..ball import Floats, largest_moment
 from ..coefficients import substeps
-from ..errors import BadInput, Status
-from ..failure import explain
+from ..errors import BadInput, Status, explain
 from ..loops import block, gibbs, loop
 from ..loops.guess import stage_weights
 from .frames import Balls, Count, Frames, cores, share

@@ -11,8 +11,7 @@ from chapsym.numbers import Pair
 
 from ..ball import Floats
 from ..coefficients import COMPOSITIONS
-from ..errors import Status
-from ..failure import explain
+from ..errors import Status, explain
 from ..loops import double_double as loop
 from ..loops import proved as loops_proved
 from . import proved

@@ -14,8 +14,7 @@ import numpy as np
 
 from chapsym.rationals import exact_fraction
 
-from ..errors import Status, StepNotTaken
-from ..failure import explain
+from ..errors import Status, StepNotTaken, explain
 from ..loops import branch, vectors
 from ..loops.twins import twin
 
