@@ -47,7 +47,8 @@ class WithAnyCompiler(build_ext):
         def at_once(sources: list[str], **options: Any) -> list[str]:
             """What each source is compiled to; those of float64 and of float32 take half a minute each."""
             with ThreadPoolExecutor() as pool:
-                return sum(pool.map(lambda source: compiled([source], **options), sources), [])
+                found = pool.map(lambda source: compiled([source], **options), sources)
+                return [path for paths in found for path in paths]
 
         self.compiler.compile = at_once
         super().build_extensions()

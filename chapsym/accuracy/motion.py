@@ -147,8 +147,8 @@ def _start(
     if gamma is not None or isinstance(turned, bool):
         vertical = unit_vertical((0.0, 0.0, 1.0) if gamma is None else gamma)
     else:
-        length = np.sqrt((turned * turned).sum(axis=-1, keepdims=True))
-        if not (length > 0).all():
+        length = np.sqrt((np.clip(turned, -2.0, 2.0) ** 2).sum(axis=-1, keepdims=True))
+        if not (length > 0).all() or (np.abs(turned) > 2.0).any():
             raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")
         vertical = kernels.rotate(turned / length * _INVERSE, _UP)
     if not isinstance(ball, Ball):

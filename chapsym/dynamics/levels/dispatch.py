@@ -80,7 +80,7 @@ def run_proved(
 
     A run in double-double carries the proof; that in float64 is compared with it.
     """
-    n, count = frames.momentum.shape[:2]
+    n, count, stages = *frames.momentum.shape[:2], len(substeps(order))
     pairs = frames
     try:
         spread = np.full((n, count, 4), np.inf)
@@ -90,8 +90,7 @@ def run_proved(
             start = frames.attitude[:, 0] if frames.with_body else None
             pairs = begun(NAMED["double-double"], balls, count, start)
         double_double.run(balls, steps, every, pairs, order, threads, progress, spread)
-        index, stages = np.arange(0.0, count) * every, len(substeps(order))
-        found = proved.errors(balls, index, frames, pairs, spread, stages)
+        found = proved.errors(balls, np.arange(0.0, count) * every, frames, pairs, spread, stages)
     except MemoryError:
         raise no_room(count, n) from None
     open_at = np.logical_or.reduce([~np.isfinite(x) for x in found if x is not None])
