@@ -203,7 +203,7 @@ class _Maker:
                 if isinstance(algebra, QuotientRing):
                     exact = next(candidates(algebra.symbols, algebra.relations, self.proof.examples, exact), exact)
                 else:
-                    exact = _with_transposes(exact, algebra)
+                    exact = witness.closed(dict(exact), algebra)
         return exact
 
     def add(self, role: str, statement: Statement, holds: bool) -> None:
@@ -443,18 +443,6 @@ def _alike(one: Any, other: WordAlgebra) -> bool:
     """Whether an algebra is another one, or that of its traces."""
     one = _letters_of(one)
     return isinstance(one, WordAlgebra) and bool((one.transposes, one.rules) == (other.transposes, other.rules))
-
-
-def _with_transposes(exact: Mapping[sp.Symbol, Any], algebra: Any) -> dict[sp.Symbol, Any]:
-    """With the matrices that the transposes and the rules give, for letters of the algebra that have none."""
-    whole = dict(exact)
-    for x, image in algebra.transposes.items():
-        if x in exact and image.is_Symbol:
-            whole.setdefault(image, exact[x].T)
-    for (a, b), image in algebra.rules.items():
-        if a in whole and b in whole and image.is_Symbol:
-            whole.setdefault(image, whole[a] * whole[b])
-    return whole
 
 
 def _used(step: Step) -> list[sp.Expr]:

@@ -121,7 +121,7 @@ def searched(symbols: set[sp.Symbol], algebra: WordAlgebra) -> Iterator[Exact]:
         failing = sorted({x for pair in algebra.rules for x in pair if x not in given}, key=str)
         one = sp.eye(n)
         for values in product((one, sp.zeros(n, n), sp.diag(1, *[0] * (n - 1))), repeat=min(len(failing), 4)):
-            if _sound(tried := point | _closed(dict(zip(failing, values, strict=False)), algebra), algebra):
+            if _sound(tried := point | closed(dict(zip(failing, values, strict=False)), algebra), algebra):
                 yield tried
 
 
@@ -146,11 +146,11 @@ def _by_kind(letters: Sequence[sp.Symbol], algebra: WordAlgebra, n: int) -> Exac
             found[x] = (sp.eye(n) - skew / 4).inv() * (sp.eye(n) + skew / 4)
         else:
             found[x] = a
-        found = _closed(found, algebra)
+        found = closed(found, algebra)
     return found
 
 
-def _closed(found: Exact, algebra: WordAlgebra) -> Exact:
+def closed(found: Exact, algebra: WordAlgebra) -> Exact:
     """With the transposes of matrices, and the letters that rules make of two."""
     for x in list(found):
         image = algebra.transposes.get(x)
