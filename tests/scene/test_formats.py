@@ -1,7 +1,9 @@
 """Results in NetCDF, CSV and Parquet: the same bits when they are read back, whole files, one sentence of refusal."""
 
+import gc
 import json
 import os
+import re
 import warnings
 from pathlib import Path
 
@@ -290,3 +292,22 @@ def test_a_table_of_another_program_is_answered_by_the_command_that_reads_it(tmp
         SceneError, match="was not written by chapsym: it has no column chapsym; chapsym show and chapsym judge"
     ):
         formats.load(path)
+
+
+def test_a_file_that_is_no_netcdf_is_refused_without_a_traceback(tmp_path, capfd):
+    """h5netcdf prints one of its own where HDF5 does not open the file."""
+    path = tmp_path / "one.nc"
+    path.write_bytes(b"CDF\x01 and no more")
+    with pytest.raises(SceneError, match="is damaged, or no result of chapsym"):
+        formats.load(path)
+    gc.collect()
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_sentence_is_not_as_long_as_what_is_wrong_in_a_file(tmp_path):
+    path = tmp_path / "one.csv"
+    formats.save(sweep.run(plan_from(f"{BALL}time_step = 0.01\nsteps = 2\n")), path)
+    path.write_text(re.sub(r"(?m)^ball,2,", f"ball,{'9' * 5000},", path.read_text()))
+    with pytest.raises(SceneError) as refused:
+        formats.load(path)
+    assert len(str(refused.value)) < 500

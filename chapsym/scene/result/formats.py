@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 #: What readers raise of a file that is damaged, or made by somebody else.
 DAMAGED = (
-    ValueError, KeyError, TypeError, EOFError, AttributeError, IndexError, RecursionError, NotImplementedError,
-    csv.Error, zipfile.BadZipFile, zlib.error,
+    ValueError, KeyError, TypeError, EOFError, AttributeError, OverflowError, IndexError, RecursionError,
+    NotImplementedError, csv.Error, zipfile.BadZipFile, zlib.error,
 )  # fmt: skip
 #: Bytes that are read at once of a CSV, and the most that its first row may have of what no row has.
 BLOCK = 2**24
@@ -124,7 +124,7 @@ def load(path: Path) -> "Dataset":
         reason = error.strerror or str(error).splitlines()[0]
         raise SceneError(f"{path} cannot be read: {reason}") from None
     except DAMAGED as error:
-        told = (str(error).splitlines() or [type(error).__name__])[0]
+        told = (str(error).splitlines() or [type(error).__name__])[0][:200]
         raise SceneError(f"{path} is damaged, or no result of chapsym: {told}") from None
     for one in data.variables.values():
         one.attrs = plain(one.attrs)
@@ -246,7 +246,14 @@ def _read_netcdf(path: Path) -> "Dataset":
     import xarray
 
     with path.open("rb"):  # so that a missing file has the system's sentence
-        return xarray.load_dataset(path, engine="h5netcdf")
+        pass
+    import h5py
+
+    try:
+        with h5py.File(path):  # h5netcdf prints a traceback for a file that is none
+            return xarray.load_dataset(path, engine="h5netcdf")
+    except (OSError, RuntimeError) as error:
+        raise ValueError(str(error)) from None
 
 
 def _read_parquet(path: Path) -> "Dataset":
