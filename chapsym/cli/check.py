@@ -49,7 +49,7 @@ def check(
     if as_json:
         print_json(result)
     else:
-        print_table(console_for(120), TITLE, table, _shown)
+        print_table(console_for(160), TITLE, table, _shown)
         print("\n".join(sentences))
     if not result["kept"]:
         fail("the float64 map is outside its budget", 1)
