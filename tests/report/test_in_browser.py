@@ -92,7 +92,7 @@ def test_a_claim_is_judged_by_the_standard_library(call, claim):
 
 def test_the_claims_of_the_list_are_all_that_have_a_certificate(site):
     claims = json.loads((site / "browser" / "claims.json").read_text())
-    assert len(claims) == len(list((site / "python/chapsym/proofs/certificates/register").glob("*.json")))
+    assert len(claims) == len(list((pages.ROOT / "proofs/certificates/register").glob("*.json")))
 
 
 @pytest.fixture
