@@ -33,7 +33,7 @@ from chapsym.dynamics.loops.expected import ALLOWED, FIRST, FLOOR, FOUND, MOST, 
 from chapsym.dynamics.loops.following import REPORTED, STEPS, follow
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 from chapsym.dynamics.map import flag, rolling_radius, seconds, whole_number
-from chapsym.dynamics.results import finished, in_given_axes, of_balls
+from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
 from chapsym.generated import contact_momentum
 from chapsym.numbers import Precision
 
@@ -132,7 +132,7 @@ def roll(
     if proved and not by_map:
         run = replace(run, proved=of_motion(run))
     if contact and place is not None:
-        run.contact[...] += place[..., np.newaxis, :]
+        run = put_at(run, place)
     return run
 
 

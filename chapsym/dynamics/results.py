@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.numbers import NAMED, Double, Pair, Precision, Single, named
+from chapsym.numbers.pairs import add
 
 from . import kernels, labelled, principal_axes
 from .attitudes import initial_attitude
@@ -118,7 +119,8 @@ class Bounds(Brief):
 
     The exact orbit starts at the numbers that were given, as float64 has them (a momentum of Fractions in a run as it
     is), with γ and the attitude divided by their lengths; it is that of the map, or of its composition.  Of `roll` it
-    is the motion of the ball.
+    is the motion of the ball.  An attitude that was not given is that of frame 0: what float64 rounds in the least
+    rotation is in no bound.
 
     momentum, gamma: (..., frames) of a run, and (...) of a step.
     attitude, contact: of a run, where it has them; else None.
@@ -185,6 +187,19 @@ def some_frames(run: Any, which: np.ndarray | slice) -> Any:
     kept = {name: array[which] for name in names if (array := getattr(run, name)) is not None}
     more = {name: getattr(run, name, None) for name in ("low", "proved")}
     return replace(run, **kept, **{name: some_frames(x, which) for name, x in more.items() if x is not None})
+
+
+def put_at(run: Any, place: Floats) -> Any:
+    """A run of any kind with a contact point that starts at a place, (..., m); its bounds cover what the sum rounds."""
+    low, bounds, place = getattr(run, "low", None), getattr(run, "proved", None), place[..., np.newaxis, :]
+    if low is None:
+        run.contact[...] += place
+    else:
+        run.contact[...], low.contact[...] = add(run.contact, low.contact, place, 0.0)
+    if bounds is None or not place.any():
+        return run
+    rounded = (2.0**-52 if low is None else 2.0**-103) * np.abs(run.contact).sum(axis=-1)
+    return replace(run, proved=replace(bounds, contact=np.nextafter(bounds.contact, np.inf) + rounded))
 
 
 def finished(run: Any, reach: Floats) -> Any:

@@ -498,3 +498,22 @@ def test_a_heavy_ball_is_followed():
     run = chapsym.trajectory(ball, (0.3, 0.2, 0.15), (0, 0.6, 0.8), 40, every=8, proved=True)
     assert run.proved.steps == 40
     assert (chapsym.certify(run).gamma_error <= run.proved.gamma * (1 + 1e-9)).all()
+
+
+@pytest.mark.parametrize("options", [{}, {"map": True}, {"map": True, "precision": "double-double"}])
+def test_a_position_at_the_start_is_in_the_bounds_of_a_rolled_ball(options):
+    """What the sum with it rounds; in double-double it keeps 31 digits."""
+    ball, place = Ball.from_mass_tensor((0.003, 0.005, 0.009), mass=2.0, radius=0.1), np.array([1000.3, -7.1])
+    runs = [
+        chapsym.roll(ball, (1.0, 2.0, 3.0), 0.1, 6, contact=True, proved=True, **options, **more)
+        for more in ({}, {"position": place})
+    ]
+    spots = [[F(float(x)) for x in run.contact.flat] for run in runs]
+    if runs[0].low is not None:
+        spots = [[x + F(float(y)) for x, y in zip(one, run.low.contact.flat, strict=True)]
+                 for one, run in zip(spots, runs, strict=True)]  # fmt: skip
+    moved = np.array([float(y - x - F(float(place[i % 2]))) for i, (x, y) in enumerate(zip(*spots, strict=True))])
+    rounded = np.linalg.norm(moved.reshape(-1, 2), axis=1)
+    here, there = (run.proved.contact for run in runs)
+    assert (rounded <= there - here).all()
+    assert (there - here < 1e-12 if runs[0].low is None else there < 1e-26).all()

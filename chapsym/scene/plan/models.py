@@ -2,6 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, ClassVar
 
@@ -15,7 +16,7 @@ from chapsym.dynamics import BadInput, Ball, BallN, Curve, Status, StepNotTaken,
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.closed import top
 from chapsym.dynamics.outputs import BOUND, LOW, whose
-from chapsym.numbers.pairs import add
+from chapsym.dynamics.results import put_at
 
 from ..members.members import Members, one_ball
 from ..read.task import Columns, Task
@@ -162,23 +163,18 @@ class Stepwise(Model):
         if len(going):
             here = {name: array[going] for name, array in state.items()}
             run = self.run(members.of(going) if len(going) < n else members, task, here, last - first, progress)
+            if "contact" in here:
+                run = put_at(replace(run, contact=np.asarray(run.contact, dtype=np.float64)), here["contact"])
             for name in followed:
                 values = np.asarray(getattr(run, name), dtype=np.float64)
                 low = None if getattr(run, "low", None) is None else getattr(run.low, name)
-                if name == "contact" and low is not None:
-                    values, low = add(values, low, here[name][:, np.newaxis], 0.0)
-                elif name == "contact":
-                    values = values + here[name][:, np.newaxis]
                 columns[name][going], ends[name][going] = values[:, after:], values[:, -1]
                 if low is not None:
                     columns.setdefault(f"{name}{LOW}", np.full_like(columns[name], np.nan))
                     columns[f"{name}{LOW}"][going] = low[:, after:]
                 if task.proved:
-                    bound = getattr(run.proved, name)
-                    if name == "contact" and here[name].any():  # the sum with the start is rounded
-                        bound = np.nextafter(bound, np.inf) + 2.0**-52 * np.abs(values).sum(axis=-1)
                     columns.setdefault(f"{name}{BOUND}", np.full((n, frames), np.nan))
-                    columns[f"{name}{BOUND}"][going] = bound[:, after:]
+                    columns[f"{name}{BOUND}"][going] = getattr(run.proved, name)[:, after:]
             ends["taken"][going], ends["status"][going] = first + run.taken, run.status
         return {name: array for name, array in columns.items() if whose(name) in needed}, ends
 
