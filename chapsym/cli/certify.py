@@ -239,8 +239,7 @@ def motion(
     from chapsym.scene.result.proved import UNITS, check_scene, proved_errors
 
     for path in filter(None, (output, certificate)):
-        if path.resolve() in {other.resolve() for other in (scene, against) if other}:
-            fail(f"{path} is what is read: choose another name", 2)
+        _not_read(path, scene, against)
         files.check_destination(path)
     given = load(scene)
     start, times = exact_motion(given)
@@ -298,6 +297,7 @@ def run_of_map(
     from chapsym.scene.members.members import one_ball
     from chapsym.scene.plan.plan import plan_of
 
+    _not_read(output, scene)
     plan = plan_of(load(scene))
     if plan.task.accuracy is not None:
         fail(f"{scene} is of the motion of the ball: add map = true under [run], or take chapsym certify motion", 2)
@@ -309,6 +309,12 @@ def run_of_map(
         ball, *start, task.steps, every=task.every, order=task.order, precision=task.precision, proved=True
     )  # fmt: skip
     _deliver(output, as_json, search, run)
+
+
+def _not_read(path: Path | None, *read: Path | None) -> None:
+    """Fails where what is written would replace what is read."""
+    if path is not None and path.resolve() in {other.resolve() for other in read if other}:
+        fail(f"{path} is what is read: choose another name", 2)
 
 
 def within(error: float | None, unit: str) -> str:

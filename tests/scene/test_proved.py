@@ -87,7 +87,7 @@ def test_a_scene_may_ask_for_the_proof_and_its_bounds_are_in_the_result(scene, b
 @pytest.mark.parametrize(("more", "output", "said"), [
     ("proved = true", "x.zarr", "run.proved writes its bounds into one file"),
     ("proved = true\nmap = true\ntime_step = 0.125\noutputs = [\"energy\"]", "x.npz", "ask for one in run.outputs"),
-    ("proved = true\nprecision = \"single\"\ntime_step = 0.125", "x.npz", "bounds are proved in principal axes"),
+    ("proved = true\nprecision = \"single\"\ntime_step = 0.125", "x.npz", "bounds are proved in double and"),
     ("proved = true\noutputs = [\"energy\"]", "x.npz", "ask for one in its outputs"),
 ])  # fmt: skip
 def test_what_cannot_be_proved_is_refused_before_the_run(tmp_path, more, output, said):

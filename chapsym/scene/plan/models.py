@@ -189,8 +189,10 @@ class Rolling(Stepwise):
 
     def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
         """Bounds in other axes or of fewer digits."""
-        if task.proved and (members.axes is not None or task.precision == "single"):
-            return "bounds are proved in principal axes, of double and double-double: give the principal moments"
+        if task.proved and members.axes is not None:
+            return "bounds are proved in principal axes: give the principal moments"
+        if task.proved and task.precision == "single":
+            return "bounds are proved in double and double-double precision, not in single"
         return None
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
