@@ -1,11 +1,11 @@
 """Certificates of kind map-run: how far the numbers of a run of the map, in float64 or any other, are from its orbit.
 
 The file has the ball, the numbers of the start, and frames: the step, 𝒦, γ, and a bound for the distance of each; and
-the bits that the checker shall work with, of which it loses some two in a step, more of a heavy ball.  The orbit is that
-of step.py from 𝒦 and γ/|γ|, on the small branch.  It is enclosed step by step, each root by Newton's test near that of
-the step before, and the distances of the frames from it are compared with their bounds.  The steps keep |𝒦| and |γ|, so
-that the small branch is proved for all of them at the start; a root with |u| < 1 for all of a box is that of the true
-state, which is in the box.
+the bits that the checker shall work with, of which it loses some two in a step, more of a heavy ball.  The orbit is
+that of step.py from 𝒦 and γ/|γ|, on the small branch.  It is enclosed step by step, each root by Newton's test near
+that of the step before, and the distances of the frames from it are compared with their bounds.  The steps keep |𝒦| and
+|γ|, so that the small branch is proved for all of them at the start; a root with |u| < 1 for all of a box is that of
+the true state, which is in the box.
 """
 
 from fractions import Fraction
