@@ -457,7 +457,7 @@ def test_the_text_of_the_loops_has_a_hash_of_its_own():
         text = build.ours().text(files, path)
         return text.replace("total - a", "total + a", 1) if path == "chapsym.numbers.pairs" else text
 
-    assert c_files.build(flipped, build.ours().kernels)["loops_text.py"] != files["loops_text.py"]
+    assert c_files.build(flipped, build.ours().kernels, {})["loops_text.py"] != files["loops_text.py"]
 
 
 def test_what_takes_many_steps_has_its_vector_clones():
