@@ -23,7 +23,18 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.dynamics import BadInput, Ball, Status, Trajectory, is_steady, kernels, native, substeps, trajectory
+from chapsym.dynamics import (
+    BadInput,
+    Ball,
+    Status,
+    StepNotTaken,
+    Trajectory,
+    is_steady,
+    kernels,
+    native,
+    substeps,
+    trajectory,
+)  # fmt: skip
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import SMALLEST, Asked, Floats, batch, checked_before, numbers, unit_vertical
 from chapsym.dynamics.enclosed_motion import of_motion
@@ -123,12 +134,17 @@ def roll(
         raise BadInput("accuracy is of the motion of the ball; leave out order, precision and map")
     if flag(proved, "proved") and (ball.axes is not None or not ball.is_one or spin.ndim > 1 or vertical.ndim > 1):
         raise BadInput("proved=True takes one ball in principal axes, and all vectors in these")
-    run = _rolled(
-        ball, spin, vertical, turned, flag(contact, "contact"), "double" if precision is None else precision,
-        seconds(time_step), whole_number(steps, "steps", 0), whole_number(every, "every", 1),
-        2 if order is None else order, None if by_map else _accuracy(accuracy), whole_number(threads, "threads", 0),
-        progress, bool(proved) and by_map,
-    )  # fmt: skip
+    try:
+        run = _rolled(
+            ball, spin, vertical, turned, flag(contact, "contact"), "double" if precision is None else precision,
+            seconds(time_step), whole_number(steps, "steps", 0), whole_number(every, "every", 1),
+            2 if order is None else order, None if by_map else _accuracy(accuracy),
+            whole_number(threads, "threads", 0), progress, bool(proved) and by_map,
+        )  # fmt: skip
+    except StepNotTaken as error:
+        if contact and place is not None:
+            error.trajectory = put_at(error.trajectory, place)
+        raise
     if proved and not by_map:
         run = replace(run, proved=of_motion(run))
     if contact and place is not None:

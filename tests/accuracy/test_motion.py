@@ -10,7 +10,7 @@ from commands import chapsym as command
 import chapsym
 from chapsym.accuracy import motion
 from chapsym.accuracy.motion import EXTRAPOLATED, LAW, Problem, apart, composed, moved, omega_of
-from chapsym.dynamics import BadInput, Ball, Status, kernels
+from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.scene import checked
 from chapsym.scene.plan.models import accurate_parts
@@ -246,6 +246,13 @@ def test_roll_starts_in_space_with_an_attitude_and_a_position():
                         ({"attitude": [0.0] * 4}, "attitude must be unit quaternions")]:  # fmt: skip
         with pytest.raises(BadInput, match=told):
             chapsym.roll(ball, spatial, 0.01, 5, **wrong)
+
+
+def test_a_ball_that_stops_keeps_its_position():
+    with pytest.raises(StepNotTaken) as stopped:
+        chapsym.roll(Ball((1, 2, 4), 3, 1.0), (0.66, -0.4, 0.94), 1.0, 9, gamma=GAMMA, map=True, contact=True,
+                     position=(5.0, 6.0))  # fmt: skip
+    assert stopped.value.trajectory.contact[0].tolist() == [5.0, 6.0]
 
 
 @pytest.mark.parametrize(

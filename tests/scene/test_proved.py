@@ -146,6 +146,16 @@ def test_what_a_start_elsewhere_rounds_is_in_the_bound(tmp_path, more, least, mo
     assert bounds["here"] + least < bounds["there"] < most
 
 
+def test_units_of_many_balls_with_bounds_fit_into_memory(tmp_path):
+    """All frames of a ball are proved in one piece."""
+    path = tmp_path / "many.toml"
+    many = BALL.replace("omega = [3.0,", "omega = [{linspace = [3.0, 4.0, 5000]},")
+    path.write_text(f"{many}time_step = 0.01\nsteps = 20_000\nmap = true\nproved = true\n")
+    plan = plan_of(load(path))
+    assert len(plan.segments) == 1
+    assert max(chunk.stop - chunk.start for chunk in plan.chunks) * plan.frames * plan.numbers <= 2**24
+
+
 def test_a_frame_without_a_number_has_no_bound(scene, both, tmp_path):
     other = both[0].copy(deep=True)
     other["contact"].values[0, -1] = np.nan

@@ -20,7 +20,7 @@ from .models import MODELS, Chosen, General, Model, Rolling
 CHUNK = 4096
 #: Numbers kept by one unit, 32 MB.
 UNIT_NUMBERS = 2**22
-#: Balls and numbers of a unit whose model runs all frames at once: less would be lost, but more verified.
+#: Balls and numbers of a unit whose model, or proof, runs all frames at once: less would be lost, but more verified.
 WHOLE_BALLS, WHOLE_NUMBERS = 1024, 2**24
 
 
@@ -63,7 +63,7 @@ class Plan:
     def chunks(self) -> list[slice]:
         """The balls of each unit."""
         size = 1 if isinstance(self.model, Chosen) else CHUNK
-        if self.model.whole and size > 1:
+        if (self.model.whole or self.task.proved) and size > 1:
             size = max(1, min(CHUNK, WHOLE_BALLS, WHOLE_NUMBERS // (self.frames * max(self.numbers, 1))))
         return [slice(i, min(i + size, len(self.members))) for i in range(0, len(self.members), size)]
 
