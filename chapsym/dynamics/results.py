@@ -275,7 +275,7 @@ class Trajectory:
         Its dimensions are `ball`, one for all axes of a batch, and `frame`; `chapsym.Result` draws and writes it.  Its
         `momentum` is K in kg m² s⁻¹ of the motion (`roll`), and 𝒦 in kg m² of the map: its unit says which.  Beyond
         float64 the numbers are those of the precision.  Of a run with `proved=True` there is `gamma_bound`, as of the
-        others, (ball, frame).
+        others, (ball, frame): in double-double of the sum with `gamma_low`.
 
         Raises
         ------
