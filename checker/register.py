@@ -44,7 +44,6 @@ from typing import Any
 
 from . import derivation, meaning, roots, zeros
 from .algebra import Algebra, about
-from .derivation import Defined
 from .form import HEAD, MOST, NUMBER, anything, check_rows, check_shape, names, once, sized, text, within
 from .formulas import ROOT
 from .interval import Rejected
@@ -277,7 +276,8 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     check_verdict(data)
     work = Work()
     work.spend(evaluations(data))
-    algebras, defined, deciding = read(data, work)
+    algebras, deciding = read(data, work)
+    values = derivation.valued(data["derivation"])
     formulas = meaning.check(data, deciding)
     points = [entries(one) for one in data["points"]]
     for i, one in enumerate(data["algebras"]):
@@ -295,20 +295,20 @@ def check(data: dict[str, Any]) -> dict[str, str]:
         elif any(x.terms for x in differences):
             raise Rejected(f"{where} is not proved: left - right does not become 0 by the rules")
         check_hypotheses(algebra, point, where, whole=True)
-        if not holds(one, algebra, point, defined, where):
+        if not holds(one, algebra, point, values, where):
             raise Rejected(f"{where} fails at its point")
     for role in STATED if data["verdict"] != "open" else ():
         proved = {i for i, one in enumerate(data["statements"]) if one["role"] == role and "refuted" not in one}
         if proved and proved <= supposed and not any(one["role"] == role for one in said(data, "statements")):
             raise Undecided(f"all that is {role} is among the relations that it supposes")
     for i, one in enumerate(data["comparisons"]):
-        if compared(one, points[one["point"]], f"comparison {i}") is ("refuted" in one):
+        if compared(one["relations"], points[one["point"]], {}, f"comparison {i}") is ("refuted" in one):
             raise Rejected(f"comparison {i} says something else than the numbers at its point")
     for i, one in enumerate(data["counts"]):
         algebra, point, where = data["algebras"][one["algebra"]], points[one["point"]], f"count {i}"
-        values = derivation.valued([step for step in data["derivation"] if step["algebra"] == one["algebra"]])
-        numbers = roots.solutions(one, algebra, point, values, work, where)
-        if compared(one, numbers, where) is not one["holds"]:
+        own = derivation.valued([step for step in data["derivation"] if step["algebra"] == one["algebra"]])
+        numbers = roots.solutions(one, algebra, point, own, work, where)
+        if compared(one["relations"], numbers, {}, where) is not one["holds"]:
             raise Rejected(f"{where} says something else than the numbers {', '.join(map(str, numbers.values()))}")
     for i, one in enumerate(data["zeros"]):
         zeros.check(one, points[one["point"]], work, f"zero {i}")
@@ -316,7 +316,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     for i, one in enumerate(data["hypotheses"]):
         check_hypothesis(one, [*points, *contradicting], contradicting, f"hypothesis {i}")
     for i, one in enumerate(data["counterexamples"]):
-        check_counterexample(one, i, data, defined)
+        check_counterexample(one, i, data, values)
     trees = [tree for one in equations(data) for tree in (*one["left"], *one["right"])]
     trees += [tree for one in data["counts"] for tree in (*one["equations"], *one["nonzero"])]
     derivation.check_use(data["derivation"], trees)
@@ -330,16 +330,13 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     return {name: str(number) for name, number in (counted | formulas).items() if number}
 
 
-def read(
-    data: Mapping[str, Any], work: Work
-) -> tuple[list[Algebra | Quotients], dict[str, Defined], list[meaning.Comparer]]:
-    """The algebras of a certificate, what is defined in them, and what compares their equations."""
+def read(data: Mapping[str, Any], work: Work) -> tuple[list[Algebra | Quotients], list[meaning.Comparer]]:
+    """The algebras of a certificate, and what compares their equations."""
     algebras = [
         quotients(one, Ring([*one["variables"], ROOT], work)) if one["kind"] == "quotient" else Algebra(one, work)
         for one in data["algebras"]
     ]
-    defined = derivation.values(data["derivation"], algebras)
-    return algebras, defined, meaning.comparers(data, algebras, defined)
+    return algebras, meaning.comparers(data, algebras, derivation.values(data["derivation"], algebras))
 
 
 def evaluations(data: dict[str, Any]) -> int:
@@ -376,10 +373,10 @@ def entries(data: dict[str, Any]) -> dict[str, Value]:
     }
 
 
-def at(tree: Any, point: Mapping[str, Value], defined: Mapping[str, Defined], where: str) -> Value:
-    """The value of a tree at a point."""
+def at(tree: Any, point: Mapping[str, Value], values: Mapping[str, Any], where: str) -> Value:
+    """The value of a tree at a point; `values`: the trees of what derivations make."""
     try:
-        made = {name: value(defined[name].tree, point, Fraction) for name in names_in(tree) & defined.keys()}
+        made = {name: value(values[name], point, Fraction) for name in names_in(tree) & values.keys()}
         found: Value = value(tree, {**point, **made}, Fraction)
     except ZeroDivisionError:
         raise Rejected(f"{where} has a point at which a denominator vanishes") from None
@@ -390,27 +387,30 @@ def holds(
     one: dict[str, Any],
     algebra: Mapping[str, Any] | None,
     point: Mapping[str, Value],
-    defined: Mapping[str, Defined],
+    values: Mapping[str, Any],
     where: str,
 ) -> bool:
     """Whether left = right at a point, in every entry; or whether the traces are equal."""
     point = dict(point)
     for name, tree in one.get("definitions", []):
-        point[name] = at(tree, point, defined, where)
-    sides = [
-        (at(left, point, defined, where), at(right, point, defined, where))
-        for left, right in zip(one["left"], one["right"], strict=True)
-    ]  # each is looked at: none has a denominator that vanishes
-    if algebra is not None and algebra["kind"] == "traces":
-        return all(trace(left) == trace(right) for left, right in sides)
-    return all(same(left, right) for left, right in sides)
+        point[name] = at(tree, point, values, where)
+    equations = [("=", left, right) for left, right in zip(one["left"], one["right"], strict=True)]
+    return compared(equations, point, values, where, traces=algebra is not None and algebra["kind"] == "traces")
 
 
-def compared(one: dict[str, Any], point: Mapping[str, Value], where: str) -> bool:
+def compared(
+    relations: Sequence[Any],
+    point: Mapping[str, Value],
+    values: Mapping[str, Any],
+    where: str,
+    traces: bool = False,
+) -> bool:
     """Whether all relations hold at a point; of matrices, whether they are equal or not."""
     found = []
-    for relation, left, right in one["relations"]:
-        a, b = at(left, point, {}, where), at(right, point, {}, where)
+    for relation, left, right in relations:
+        a, b = at(left, point, values, where), at(right, point, values, where)
+        if traces:
+            a, b = trace(a), trace(b)
         if relation in ("=", "!="):
             found.append(same(a, b) == (relation == "="))
         elif isinstance(a, Matrix) or isinstance(b, Matrix):
@@ -437,7 +437,7 @@ def check_hypothesis(
             raise Rejected(f"{where} is not tested at a counterexample, which has no value for {min(missing)}")
     if not tested:
         raise Rejected(f"{where} is tested at no point")
-    if not all(compared(one, point, where) for point in tested):
+    if not all(compared(one["relations"], point, {}, where) for point in tested):
         raise Rejected(f"{where} is violated at a point")
 
 
@@ -450,7 +450,7 @@ def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Any], where: s
             raise Rejected(f"{where} has a point at which a relation fails")
         return
     rules, transposes = about(algebra, point, where)
-    if not all(same(at(["*", a, b], point, {}, where), at(image, point, {}, where)) for a, b, image in rules):
+    if not compared([("=", ["*", a, b], image) for a, b, image in rules], point, {}, where):
         raise Rejected(f"{where} has matrices for which a rule fails")
     if not all(same(point[letter].transposed, at(image, point, {}, where)) for letter, image in transposes):
         raise Rejected(f"{where} has matrices that are not transposes as it is said")
@@ -468,19 +468,19 @@ def check_counterexample(
     one: dict[str, Any],
     i: int,
     data: dict[str, Any],
-    defined: Mapping[str, Defined],
+    values: Mapping[str, Any],
 ) -> None:
     """The hypotheses hold there, what it refutes fails, and what is correct holds."""
     where, point = f"counterexample {i}", entries(one["point"])
 
     def true(number: int) -> bool:
         statement = data["statements"][number]
-        return holds(statement, data["algebras"][statement["algebra"]], point, defined, where)
+        return holds(statement, data["algebras"][statement["algebra"]], point, values, where)
 
     if not one["refutes"]:
         raise Rejected(f"{where} refutes nothing")
     for hypothesis in one["hypotheses"]:
-        if not holds(hypothesis, None, point, defined, where):
+        if not holds(hypothesis, None, point, values, where):
             raise Rejected(f"{where} violates a hypothesis")
     for number in one["refutes"]:
         refuted = data["statements"][number]

@@ -329,6 +329,8 @@ def derivations():
             product, "Z", "c", 2, 1, [CIRCLE], cofactors=[[0]], definitions=[["Z", "c"]]),
         "a value for what the derivation makes": hidden(made(product, "Z", ["*", "A", "X"]), "Z"),
         "a value at a counterexample for what the derivation makes": contradicting(product, POINT | {"Z": [[0]]}),
+        "a matrix in a hypothesis": contradicting(
+            [*product, step("Q", "matrix", "Z", [pairs(A=TURN, B=BACK, X=TURN, Y=BACK), ON_CIRCLE], 2)], POINT, "Q"),
         "an unknown that the derivation makes": hiding_unknown(),
         "a local name of a zero that the derivation makes": hiding_local_name(made(product, "Z", ["*", "A", "X"])),
         "0 for a number that was divided by": replacing(["*", "m", ["^", "m", -1], "A"], "A", m=0),
@@ -346,11 +348,12 @@ def derivations():
     }  # fmt: skip
 
 
-def contradicting(steps, point):
-    """Z = X is refuted at a point."""
+def contradicting(steps, point, zero=0):
+    """Z = X is refuted at a point, where something is 0."""
     one = {"role": "printed", "text": "x", "algebra": 0, "left": ["Z"], "right": ["X"], "refuted": 0}
-    example = {"point": point, "hypotheses": [], "refutes": [0], "agrees": []}
-    return resealed(made(steps, "Z", "X") | {"statements": [one], "counterexamples": [example]})
+    hypothesis = {"text": "x", "left": [zero], "right": [0]}
+    example = {"point": point, "hypotheses": [hypothesis], "refutes": [0], "agrees": []}
+    return resealed(made(steps, "Z", "X", more=[CIRCLE]) | {"statements": [one], "counterexamples": [example]})
 
 
 def hidden(data, name):

@@ -65,7 +65,7 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
         "hypotheses": hypotheses, **made.parts,
     }  # fmt: skip
     for role in ("printed", "corrected") if data["glossary"] else ():
-        decided, found, _ = meaning.said(role, data, register.read(data, Work())[2])
+        decided, found, _ = meaning.said(role, data, register.read(data, Work())[1])
         for i, one in enumerate(decided):
             one |= {} if i in found else {"words": True}
     try:
@@ -281,7 +281,7 @@ class _Maker:
         try:
             if not refutes:
                 register.check_hypotheses(self.algebras[one["algebra"]], point, "", whole=False)
-            agrees = register.holds(one, self.algebras[one["algebra"]], point, self._defined, "")
+            agrees = register.holds(one, self.algebras[one["algebra"]], point, derivation.valued(self.derivation), "")
         except checker.Rejected:  # the point says nothing of some variable
             return
         if refutes and not agrees:
@@ -401,7 +401,7 @@ class _Maker:
         for exact in allowed(symbols, relations, self.proof.assumed, self.proof.examples):
             entries = {x.name: _entry(v) for x, v in exact.items()}
             try:
-                if register.holds(one, None, register.entries(entries), self._defined, ""):
+                if register.holds(one, None, register.entries(entries), derivation.valued(self.derivation), ""):
                     return self._point(exact)
             except checker.Rejected:  # a denominator vanishes there
                 continue
