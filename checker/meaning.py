@@ -202,7 +202,7 @@ def _statements(
         raise NotRead("its sides have different sizes")
     if lefts == rights:
         return set()
-    names = names_in([0, *lefts, *rights, *zeros, reader.root or 0])
+    names = names_in([0, *lefts, *rights, *zeros])
     if not names <= of.names:
         raise NotRead("the glossary gives a symbol a value of another algebra")
     if reader.root is not None:
