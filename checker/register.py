@@ -343,16 +343,17 @@ def evaluations(data: dict[str, Any]) -> int:
     """The parts of trees that are evaluated at points, those of the names that derivations make among them."""
     values = {name: size(tree) for name, tree in derivation.valued(data["derivation"]).items()}
 
-    def parts(*trees: Any) -> int:
-        return size([*trees]) + sum(values[name] for name in names_in([0, *trees]) & values.keys())
+    def parts(one: Mapping[str, Any]) -> int:
+        trees = [*one["left"], *one["right"], *(tree for _, tree in one.get("definitions", ()))]
+        return size(trees) + sum(values[name] for name in names_in([0, *trees]) & values.keys())
 
-    stated = [parts(one["left"], one["right"], one.get("definitions", [])) for one in data["statements"]]
+    stated = list(map(parts, data["statements"]))
     assumed = sum(size(one["relations"]) for one in data["hypotheses"])
     total = sum(stated) + assumed * (len(data["points"]) + len(data["counterexamples"]))
     total += sum(size(one["relations"]) for one in data["comparisons"])
     for one in data["counterexamples"]:
         total += sum(stated[i] for i in (*one["refutes"], *one["agrees"]))
-        total += sum(parts(h["left"], h["right"]) for h in one["hypotheses"])
+        total += sum(map(parts, one["hypotheses"]))
     return total
 
 

@@ -81,18 +81,19 @@ def polynomials(module, refused):
 
 
 def evaluations(module):
-    """Parts of trees that are evaluated: 10 and 6 of the statements, 5 of what is compared or assumed."""
+    """Parts of trees that are evaluated: 7, 3 and 3 of what is stated, 5 of what is compared; 4 of the value of x."""
     first = {"left": ["x"], "right": [["^", "x", 2]], "definitions": []}
     second = {"left": ["x"], "right": [1]}
     relations = {"relations": [["<", "x", 0]]}
     example = {"refutes": [0], "agrees": [1], "hypotheses": [{"left": ["x"], "right": [1]}]}
-    sizes = module.size([["x"], [["^", "x", 2]], []]), module.size([["x"], [1], []]), module.size([["<", "x", 0]])
+    sizes = module.size(["x", ["^", "x", 2]]), module.size(["x", 1]), module.size([["<", "x", 0]])
     found = module.evaluations({
         "statements": [first, second], "hypotheses": [relations], "comparisons": [relations, relations],
-        "points": [{}, {}, {}], "counterexamples": [example, example], "derivation": [],
+        "points": [{}, {}, {}], "counterexamples": [example, example],
+        "derivation": [{"name": "x", "value": ["+", "y", 1]}, {"name": "z", "value": 1}],
     })  # fmt: skip
-    assert sizes == (10, 6, 5)
-    assert found == 10 + 6 + (3 + 2) * 5 + 2 * 5 + 2 * (10 + 6 + 5)
+    assert (*sizes, module.size(["+", "y", 1])) == (7, 3, 5, 4)
+    assert found == 11 + 7 + (3 + 2) * 5 + 2 * 5 + 2 * (11 + 7 + 7)
     assert module.size(["^", "x", -60]) == 60 + 3
 
 
