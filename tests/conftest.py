@@ -84,21 +84,26 @@ def forgotten(tmp_path, monkeypatch):
             del sys.modules[name]
 
 
-def once(name, made, tmp_path_factory):
+@pytest.fixture(scope="session")
+def made_once(tmp_path_factory):
     """What `made` returns, made once for all processes of a run: the first makes it, the others wait."""
     folder = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         folder = folder.parent  # that of the whole run
-    kept = folder / f"{name}.pickle"
-    with open(folder / f"{name}.lock", "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not kept.exists():
-            kept.write_bytes(pickle.dumps(made()))
-    return pickle.loads(kept.read_bytes())
+
+    def kept(name, made):
+        file = folder / f"{name}.pickle"
+        with open(folder / f"{name}.lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not file.exists():
+                file.write_bytes(pickle.dumps(made()))
+        return pickle.loads(file.read_bytes())
+
+    return kept
 
 
 @pytest.fixture(scope="session")
-def all_judged(tmp_path_factory):
+def all_judged(made_once, tmp_path_factory):
     """Every claim and every lemma, judged once in one process, where none is judged again for those that rest on it.
 
     records: and the texts of the certificates, by id.  rests: that the lemmas of the two questions are proved, as the
@@ -126,7 +131,7 @@ def all_judged(tmp_path_factory):
             found.rests = {id: claims.judged(id) for id in {**measure.LEMMAS, **energy.LEMMAS}}
         return found
 
-    return once("judged", made, tmp_path_factory)
+    return made_once("judged", made)
 
 
 @pytest.fixture(scope="session")

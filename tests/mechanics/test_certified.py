@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 import sympy as sp
+from budget import slow
 from commands import answer, chapsym
 from sympy import cos, sin, sqrt, symbols
 
@@ -37,8 +38,8 @@ def judged(*files):
 def written(tmp_path_factory):
     """The certificates of the sleigh and the disc that rolls upright, by the command; those of rk4 take long."""
     folder, said = tmp_path_factory.mktemp("certificates"), {}
-    for name, slow in (("sleigh", ("--method", "rk4")), ("vertical_disc", ())):
-        words = "lab", SYSTEMS / f"{name}.py", "--method", "dla", "--method", "gni", *slow
+    for name, more in (("sleigh", ("--method", "rk4")), ("vertical_disc", ())):
+        words = "lab", SYSTEMS / f"{name}.py", "--method", "dla", "--method", "gni", *more
         said |= answer(*words, "--steps", 20, "--certificates", folder)["certificates"]
     return folder, said
 
@@ -138,7 +139,7 @@ def test_a_quantity_that_changes_is_shown_by_the_power_that_the_lab_says(method,
     assert least == power
 
 
-@pytest.mark.parametrize("method", ["dla", "gni", "leapfrog", "spark", "dla-left", "rk4"])
+@pytest.mark.parametrize("method", ["dla", "gni", "leapfrog", "spark", "dla-left", *slow("rk4")])
 def test_a_step_back_that_misses_is_shown_for_states_of_momenta_and_of_velocities(method):
     found = {one.verdict: one for one in certified(loaded(SYSTEMS / "contact.py"), [method])}
     one = found[f"{method}: reversible"]

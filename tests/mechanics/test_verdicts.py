@@ -31,7 +31,7 @@ def proved(found):
         ("sleigh", "dla"), ("snakeboard", "midpoint"), ("transmission", "rk4"), ("vertical_disc", "dla-left"),
         ("veselova", "gni"), ("ball", "leapfrog"), ("falling_disc", "spark"),
         *slow(
-            ("suslov", "dla"), ("rattleback", "dla-left"),
+            ("suslov", "dla"), ("rattleback", "dla-left"), ("rattleback", "rk4"),
             *((name, method) for name in ("sleigh", "vertical_disc", "snakeboard", "transmission")
               for method in ANYWHERE),
         ),

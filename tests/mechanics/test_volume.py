@@ -91,11 +91,10 @@ def test_the_density_of_the_ball_is_chaplygins():
 
 
 def test_what_keeps_none():
-    """Suslov's body and the sleigh tend to steady motions; of a rattleback, which has weight, less is proved."""
-    for name in ("suslov", "sleigh"):
-        found = volume(example(name))
-        assert str(found) == "keeps no smooth volume"
-        assert found.point
+    """The sleigh tends to a steady motion, as Suslov's body does below; of one that has weight less is proved."""
+    found = volume(example("sleigh"))
+    assert str(found) == "keeps no smooth volume"
+    assert found.point
     pulled = volume(sleigh(1, potential=x))
     assert str(pulled) == "keeps no volume whose density depends on the place alone"
     assert volume(sleigh(1, forces={a: sp.Integer(1)})).at_all is False
@@ -108,7 +107,8 @@ def test_a_suslov_body_about_a_principal_axis_keeps_one():
     products = [s for s in system.parameters if s.name in ("I13", "I23")]
     free = dataclasses.replace(system, parameters={**system.parameters, **dict.fromkeys(products, 0)})
     assert volume(free).kept
-    assert not volume(dataclasses.replace(free, parameters={**free.parameters, products[0]: "1/10"})).kept
+    found = volume(dataclasses.replace(free, parameters={**free.parameters, products[0]: "1/10"}))
+    assert (str(found), bool(found.point)) == ("keeps no smooth volume", True)
 
 
 def test_what_is_not_judged_is_said():

@@ -21,15 +21,19 @@ def make():
 
 
 @pytest.fixture(scope="module")
-def texts(make, verdicts, all_judged, tmp_path_factory):
+def texts(make, verdicts, all_judged, made_once, tmp_path_factory):
     """The files by name, from the verdicts of this test run."""
     folder, known, check = tmp_path_factory.mktemp("note"), all_judged.checked, checker.check
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(checker, "check", lambda data: known[data["digest"]] if data["digest"] in known else check(data))
-        make.main(folder, [verdicts[id] for id in (*make.LEMMAS, *readings.READINGS)])
-    return {path.name: path.read_text(encoding="ascii") for path in folder.glob("*.tex")} | {
-        path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.bib")
-    }
+
+    def made():
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(checker, "check", lambda data: known.get(data["digest"]) or check(data))
+            make.main(folder, [verdicts[id] for id in (*make.LEMMAS, *readings.READINGS)])
+        return {path.name: path.read_text(encoding="ascii") for path in folder.glob("*.tex")} | {
+            path.name: path.read_text(encoding="utf-8") for path in folder.glob("*.bib")
+        }
+
+    return made_once("note", made)
 
 
 def faults(text):
