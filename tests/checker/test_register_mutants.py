@@ -89,20 +89,25 @@ MUTANTS = [(name, i) for name in FILES for i, _ in enumerate(places(ast.parse((C
 
 
 @pytest.fixture(scope="module")
-def battery(tmp_path_factory):
+def battery(made_once, tmp_path_factory):
     """Certificates that are right, and others, as a file: small ones first, which see most mutants."""
-    samples = {id: checker.read(FOLDER / checker.file_name(id)) for id in (*SAMPLES, "2.1", "4.10", "remark-3", "5.11")}
-    rng = random.Random(7)
-    wrong = [changed(samples[id], change) for id, change in CHANGES.values()]
-    wrong += [forged(id, change) for id, change in FORGED.values()]
-    wrong += [slip(samples[rng.choice(SAMPLES)], rng)[0] for _ in range(40)]
-    right, more = (a | b | c for a, b, c in zip(small(), derivations(), counts(), strict=True))
-    right = [[data, checker.check(data).numbers] for data in (*samples.values(), *right.values())]
-    file = tmp_path_factory.mktemp("battery") / "battery.json"
-    file.write_text(
-        json.dumps([sorted(part, key=lambda one: len(json.dumps(one))) for part in (right, [*wrong, *more.values()])])
-    )
-    return file
+
+    def made():
+        samples = {
+            id: checker.read(FOLDER / checker.file_name(id)) for id in (*SAMPLES, "2.1", "4.10", "remark-3", "5.11")
+        }
+        rng = random.Random(7)
+        wrong = [changed(samples[id], change) for id, change in CHANGES.values()]
+        wrong += [forged(id, change) for id, change in FORGED.values()]
+        wrong += [slip(samples[rng.choice(SAMPLES)], rng)[0] for _ in range(40)]
+        right, more = (a | b | c for a, b, c in zip(small(), derivations(), counts(), strict=True))
+        right = [[data, checker.check(data).numbers] for data in (*samples.values(), *right.values())]
+        parts = [sorted(part, key=lambda one: len(json.dumps(one))) for part in (right, [*wrong, *more.values()])]
+        file = tmp_path_factory.mktemp("battery") / "battery.json"
+        file.write_text(json.dumps(parts))
+        return file
+
+    return made_once("battery", made)
 
 
 def survives(folder, file, number, battery):

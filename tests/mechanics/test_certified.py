@@ -35,13 +35,17 @@ def judged(*files):
 
 
 @pytest.fixture(scope="module")
-def written(tmp_path_factory):
+def written(made_once, tmp_path_factory):
     """The certificates of the sleigh and the disc that rolls upright, by the command; those of rk4 take long."""
-    folder, said = tmp_path_factory.mktemp("certificates"), {}
-    for name, more in (("sleigh", ("--method", "rk4")), ("vertical_disc", ())):
-        words = "lab", SYSTEMS / f"{name}.py", "--method", "dla", "--method", "gni", *more
-        said |= answer(*words, "--steps", 20, "--certificates", folder)["certificates"]
-    return folder, said
+
+    def made():
+        folder, said = tmp_path_factory.mktemp("certificates"), {}
+        for name, more in (("sleigh", ("--method", "rk4")), ("vertical_disc", ())):
+            words = "lab", SYSTEMS / f"{name}.py", "--method", "dla", "--method", "gni", *more
+            said |= answer(*words, "--steps", 20, "--certificates", folder)["certificates"]
+        return folder, said
+
+    return made_once("certificates", made)
 
 
 def test_the_checker_accepts_what_the_command_wrote(written):
