@@ -158,17 +158,6 @@ def test_a_pickle_in_a_result_is_not_read(tmp_path, monkeypatch):
     assert not Path("executed").exists()
 
 
-def test_markup_in_a_title_is_text_on_the_page(tmp_path):
-    scene, page = tmp_path / "one.toml", tmp_path / "page.html"
-    text = "</title><script>alert(1)</script>"
-    ball = BALL.replace("[ball]", f"[ball]\nname = {text!r}")
-    run = "time = 1.0\nframes = 8\noutputs = ['gamma', 'attitude', 'contact']\n"
-    scene.write_text(f"title = '{text}'\n{ball}{run}")
-    chapsym.run_scene(scene).page(page)
-    assert "alert(1)" in page.read_text(encoding="utf-8")
-    assert text not in page.read_text(encoding="utf-8")
-
-
 def test_the_page_on_trust_names_tests_that_are_there():
     page = (ROOT / "docs" / "explanation" / "trust.md").read_text(encoding="utf-8")
     named = re.findall(r"\(\.\./\.\./(tests/\S+?\.py)\) `(\w+)`", page)
