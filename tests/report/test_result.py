@@ -12,7 +12,6 @@ from commands import refused
 from first import BALL, FIRST
 
 import chapsym
-from chapsym.dynamics import BadInput
 from chapsym.scene import SceneError
 from chapsym.show.result import Result
 
@@ -41,8 +40,6 @@ def test_figures_and_the_table_tell_what_there_is_sweeps_and_balls_that_stopped(
     result = Result(results.folded())
     assert result.figures()["omega"] == 'no ω: add "omega" to run.outputs (and give run.time_step)'
     assert len(result.figure("contact", ball="slow").axes[0].lines) == 3
-    with pytest.raises(BadInput, match="no ball 'x'"):
-        result.figure("contact", ball="x")
     told = dict(Result(results.folded()).rows())
     assert told["balls"] == "2, 1 of them stopped early"
     assert dict(Result(results.folded().isel(ball=[1])).rows())["stopped"].startswith("after ")
