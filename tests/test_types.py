@@ -17,7 +17,7 @@ run = chapsym.roll(ball, omega=(2.0, 30.0, 5.0), time_step=1e-3, steps=20, conta
 RIGHT = "print(run.contact[-1], run.gamma[0])\n"
 WRONG = ("chapsym.no_such", "run.no_such", "chapsym.Ball((1, 2, 4), D=None)", "import chapsym.no_such_room")
 #: What these files show does not depend on them, and they would take half a minute.
-HEAVY = "chapsym.scene.*,chapsym.show.*,flint.*,mpmath.*,numba.*"
+HEAVY = "chapsym.scene.*,chapsym.show.*,flint.*,mpmath.*,numba.*,xarray.*"
 
 
 def test_a_script_that_is_right_is_right_to_mypy_and_what_chapsym_does_not_have_is_an_error(tmp_path):
