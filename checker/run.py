@@ -57,7 +57,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     def enclosed(v: list[Fraction]) -> Vector:
         return [Interval.enclosing(x, x, bits) for x in v]
 
-    ball, momentum, vertical = Ball.within(J, D, Fraction(0), bits), enclosed(K), enclosed(g)
+    ball, momentum, vertical = Ball.within(J, D, Fraction(0), bits, True), enclosed(K), enclosed(g)
     state = momentum, times(1 / dot(vertical, vertical).sqrt(), vertical)
     check_small_branch(ball, dot(momentum, momentum).sqrt() if any(K) else momentum[0])
     u: Vector = [x / y for x, y in zip(times(ball.D._of(1) / 2, momentum), ball.contact, strict=True)]

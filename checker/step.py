@@ -31,13 +31,16 @@ class Ball:
     D: Interval
 
     @classmethod
-    def within(cls, J: Sequence[Fraction], D: Fraction, radius: Fraction, bits: int) -> "Ball":
-        """Every J and D within `radius` of these; raises Rejected unless J ≥ 0, I > 0 and D > 0 for all of them."""
+    def within(cls, J: Sequence[Fraction], D: Fraction, radius: Fraction, bits: int, top: bool = False) -> "Ball":
+        """Every J and D within `radius` of these; raises Rejected unless J ≥ 0, I > 0 and D > 0 for all of them.
+
+        top: whether D may be 0, too.
+        """
         if min(J) < radius:
             raise Rejected("the mass tensor J must not be negative anywhere within the radius")
         mass = [Interval.about(x, bits, radius) for x in J]
         ball = cls([mass[i - 2] + mass[i - 1] for i in range(3)], Interval.about(D, bits, radius))
-        if not ball.D > 0 or not all(x > 0 for x in ball.inertia):
+        if not (ball.D > 0 or (top and D == radius == 0)) or not all(x > 0 for x in ball.inertia):
             raise Rejected("D and the moments of inertia must be positive everywhere within the radius")
         return ball
 
@@ -50,7 +53,7 @@ class Ball:
 def check_small_branch(ball: Ball, size: Interval) -> None:
     """Raises Rejected unless (1) has one root with |u| < 1 for |𝒦| = `size` and every |γ| = 1, and no other near it.
 
-    A root has ⟨u, F(u)⟩ = 0, and ⟨u, Λu - D⟨γ, u⟩γ⟩ ≥ ⟨u, Iu⟩ as |γ| = 1, D > 0: so I_min|u| ≤ ½|𝒦|(1 + |u|²).  For
+    A root has ⟨u, F(u)⟩ = 0, and ⟨u, Λu - D⟨γ, u⟩γ⟩ ≥ ⟨u, Iu⟩ as |γ| = 1, D ≥ 0: so I_min|u| ≤ ½|𝒦|(1 + |u|²).  For
     x = |𝒦|/I_min < 1 this says |u| ≤ ϱ or |u| ≥ 1/ϱ, ϱ = tan(½ arcsin x) = x/(1 + √(1 - x²)) < 1.  On the ball |u| ≤ ϱ
     ⟨d, F′(u)d⟩ = ⟨d, Λd - D⟨γ, d⟩γ⟩ - ⟨u, d × Id⟩ - ⟨d, 𝒦⟩⟨u, d⟩ ≥ (I_min - ϱ(½(I_max - I_min) + |𝒦|))|d|², for
     |d × Id| = |d × (I - c)d| ≤ ½(I_max - I_min)|d|² with c in the middle: positive under the second condition, so F is

@@ -104,3 +104,11 @@ def test_the_command_makes_one_of_a_scene(tmp_path):
     path.write_text(f"{BALL}time_step = 0.01\nsteps = 30\n")
     assert "is of the motion of the ball: add map = true" in refused_command("certify", "run", path)
     assert "is what is read: choose another name" in refused_command("certify", "run", path, "-o", path)
+
+
+def test_a_top_is_followed_too():
+    """D = 0, where the map is the discrete Euler top."""
+    run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 0), (0.3, -0.5, 0.2), START[1], 10, every=5, proved=True)
+    found = certificates.map_run(run)
+    assert found["ball"]["D"] == "0"
+    assert refused(resealed(replaced(found, ("frames", 1, "momentum", 0), "0.3")))
