@@ -318,6 +318,7 @@ def small():
     wrong = said("x", 2, 1, refuted=0)
     right = {
         "x = 1 where x - 1 = 0": by_hand([identity], [point], [ONE]),
+        "a question that a claim settles": resealed(by_hand([]) | {"verdict": "settled", "uses": ["1"]}),
         "x = 2 fails at 1": by_hand([identity, wrong], [point], [ONE, FREE], [contradicted(1, point, [0])]),
         "AB = 1": of_words(["*", "A", "B"], 1),
         "mAB/m = AB": of_words(["*", "m", "A", "B", ["^", "m", -1]], ["*", "A", "B"]),
