@@ -1,4 +1,4 @@
-"""`chapsym bench`: what the map costs beside what a user would take instead, measured in one process."""
+"""`chapsym bench`: what the map costs, compared with what a user would take instead, measured in one process."""
 
 from collections.abc import Callable
 from importlib import import_module
@@ -9,10 +9,10 @@ from .results import Curve, Reached, Result
 
 __all__ = ["SECTIONS", "Contender", "Curve", "NotComparable", "Reached", "Result", "Timing", "run"]
 
-NAME, TITLE = "bench", "Speed beside other methods"
+NAME, TITLE = "bench", "Speed compared with other methods"
 ABOUT = (
-    "The map beside other ways, all in one process and interleaved. Ratios are of medians; times depend on the machine "
-    "and on what else it does."
+    "The map compared with other ways, all in one process and interleaved. Ratios are of medians; times depend on the "
+    "machine and on what else it does."
 )
 #: The sections, each of which has a module; those that are measured by default, and those that have a figure.
 SECTIONS = DEFAULT = (
@@ -23,7 +23,7 @@ DRAWN = ("work-precision", "long")
 
 
 def run(section: str, quick: bool, on_round: Callable[[str], None] = lambda text: None, **own: Any) -> Result:
-    """Measures one section; `quick` is for a look, in seconds.  Raises NotComparable where two sides disagree.
+    """Measures one section; `quick` takes seconds.  Raises NotComparable where two sides disagree.
 
     own: of the section `trajectory`, the ball and its start, as `trajectory.Start`.
     """

@@ -24,7 +24,7 @@ STEP, LOOP = "chapsym.step", "Stepper: momentum, step, momentum and gamma"
 
 
 def repeated(name: str, run: Callable[[], Any], seconds: float) -> Contender:
-    """As many calls in a row as take so many seconds."""
+    """As many calls in a row as take this many seconds."""
 
     def calls(count: int) -> None:
         for _ in range(count):
@@ -38,7 +38,7 @@ def repeated(name: str, run: Callable[[], Any], seconds: float) -> Contender:
 
 
 def sides(steps: int, contact: bool) -> dict[str, Callable[[], Any]]:
-    """A call of so many steps by each way; those of a Stepper go on from where it is."""
+    """A call of `steps` steps by each way; those of a Stepper go on from where it is."""
     ball, K = chapsym.Ball(MASS_TENSOR, D, RADIUS), EPSILON * MOMENTUM
     moved, framed, looped = (chapsym.Stepper(ball, K, GAMMA, contact=contact) for _ in range(3))
     found: dict[str, Callable[[], Any]] = {

@@ -1,4 +1,4 @@
-"""Many digits: a step of one ball in `Digits`, beside Newton's iteration in the Gibbs vector on mpmath's numbers."""
+"""Many digits: a step of one ball in `Digits`, and Newton's iteration in the Gibbs vector on mpmath's numbers."""
 
 from collections.abc import Callable
 from functools import partial
@@ -14,7 +14,7 @@ from .peers import MOST, SETTLED, moments_of, newton_in_u, turned
 from .results import Reached, Result, beside, timed
 from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
-#: Decimals, and what a step is to cost at most in ms: a fifth of what it did on Python's integers.
+#: Digits, and the most that a step may cost in ms: a fifth of its cost on Python's integers.
 DIGITS = {50: None, 1000: 0.38}
 EPSILON = 0.05
 CHAPSYM, PEER = "chapsym", "mpmath, Newton in u"

@@ -1,4 +1,4 @@
-"""n dimensions: a trajectory beside the same steps, each continued from the identity, as they are above the bound."""
+"""n dimensions: a trajectory, and the same steps, each continued from the identity, as they are above the bound."""
 
 from collections.abc import Callable
 from functools import partial

@@ -1,4 +1,4 @@
-"""What each reduction saves: its time beside that of the full model, for every frame and for a few far ones."""
+"""What each reduction saves: its time and that of the full model, for every frame and for a few far ones."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -48,7 +48,7 @@ def _at_once(frames: Run, ball: chapsym.Ball, K: np.ndarray, steps: int, every: 
 
 
 def pairs() -> list[Pair]:
-    """Every reduction with the full model that it stands for."""
+    """Every reduction with the full model that it replaces."""
     K, up = EPSILON * MOMENTUM, EPSILON * GAMMA
     steady, tops = partial(_at_once, chapsym.steady_frames), partial(_at_once, chapsym.top_frames)
     equal, many = _ball((1, 1, 1), 0.7), _ball((1, 1, 1), 0.7, BATCH)
@@ -69,7 +69,7 @@ def pairs() -> list[Pair]:
 
 
 def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) -> Result:
-    """Times each reduction beside the full model, all frames and 1 of 1000; their ends are compared before."""
+    """Times each reduction and the full model, all frames and 1 of 1000; their ends are compared before."""
     rounds = 5 if quick else 15
     rows: list[dict[str, Any]] = []
     for pair in pairs():
@@ -80,7 +80,7 @@ def measure(quick: bool, on_round: Callable[[str], None] = lambda text: None) ->
         rows.append(_row(pair, steps, steps // 10, rounds, on_round))
     few = [row for row in rows if row["steps"] > 20 * row["frames"]]
     reach = [Reached(f"{row['name']}, few frames: to the full model", row[f"to {FULL}"], 1.0, False) for row in few]
-    return Result("the reductions beside the full model, one core", rows, reach=reach)
+    return Result("the reductions and the full model, one core", rows, reach=reach)
 
 
 def _row(pair: Pair, steps: int, every: int, rounds: int, on_round: Callable[[str], None]) -> dict[str, Any]:

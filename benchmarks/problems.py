@@ -85,14 +85,14 @@ def accurate(p: Problem, accuracy: float) -> Any:
 
 
 def extrapolated(p: Problem, steps: int, contact: bool = True) -> States:
-    """`extrapolate` with so many steps a frame."""
+    """`extrapolate` with this many steps a frame."""
     every = p.frames * steps
     run = chapsym.extrapolate(p.ball, p.momentum, p.gamma, p.end / every, every, every=steps, contact=contact)
     return run.angular_momentum, run.gamma, run.contact
 
 
 def composed(p: Problem, steps: int, contact: bool = True, order: int = 2) -> States:
-    """`trajectory` with so many steps of an order a frame."""
+    """`trajectory` with this many steps of an order a frame."""
     count, epsilon = p.frames * steps, p.end / (p.frames * steps)
     run = chapsym.trajectory(p.ball, epsilon * p.momentum, p.gamma, count, order=order, every=steps, contact=contact)
     return run.momentum / epsilon, run.gamma, run.contact

@@ -13,7 +13,7 @@ from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
 
 class Case(NamedTuple):
-    """Steps of the length |𝒦| of so many balls."""
+    """Steps with this |𝒦| of this many balls."""
 
     epsilon: float
     order: int
@@ -28,7 +28,7 @@ MANY = 1000
 SIZES = [(2, balls) for balls in (1, 2, 8, 9, 40, 41, MANY)] + [(order, MANY) for order in (4, 6, 8)]
 CASES = [Case(epsilon, *size, contact) for epsilon in (SHORT, LONG) for size in SIZES for contact in (False, True)]
 BEYOND = [Case(epsilon, 2, balls) for epsilon in (0.5, 0.6, 0.8) for balls in (1, MANY)]
-#: A state is kept every so many steps.
+#: The number of steps from one state that is kept to the next.
 EVERY = 50
 #: At most: with the contact point, to the same without; a stage of order 8, to a step; a step beyond the bound, to one
 #: below it.

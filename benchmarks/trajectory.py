@@ -1,4 +1,4 @@
-"""One trajectory on one core: nanoseconds a step, chapsym beside what a user might write."""
+"""One trajectory on one core: nanoseconds a step, chapsym and what a user might write."""
 
 from collections.abc import Callable
 from functools import partial

@@ -1,4 +1,4 @@
-"""What chapsym needs beside its core for some of what it does: the extras, and the sentence where one is absent."""
+"""The extras: packages that parts of chapsym need besides its core, and the sentence where one is absent."""
 
 from importlib.util import find_spec
 

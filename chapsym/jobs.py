@@ -23,7 +23,7 @@ from chapsym.workers import begin
 
 try:
     import fcntl
-except ImportError:  # Windows: two writers are not told apart there
+except ImportError:  # Windows: a second writer is not noticed there
     fcntl = None  # type: ignore[assignment]
 
 #: How often a call is tried whose worker was lost.

@@ -1,4 +1,4 @@
-"""What a result is made of: the sources of a module, of all of chapsym that it imports, and of what lies beside it."""
+"""The sources of a result: a module, all of chapsym that it imports, and the modules of its own folder."""
 
 import ast
 import hashlib
@@ -17,7 +17,7 @@ def fingerprint(module: str, besides: Collection[str] = (), more: str = "") -> s
 
 
 def closure(module: str, besides: Collection[str] = (), own: bool = False) -> set[str]:
-    """The module and all modules that it imports, directly or through others, of chapsym or beside it; but some.
+    """The module and all that it imports, directly or through others, of chapsym or of its own folder; but some.
 
     own: without chapsym, for a module that is not of it.
     """
@@ -33,7 +33,7 @@ def closure(module: str, besides: Collection[str] = (), own: bool = False) -> se
 
 @cache
 def imports(module: str) -> tuple[str, ...]:
-    """The modules of chapsym, or beside it, that a module imports, at the top and inside functions."""
+    """The modules of chapsym, or of its own folder, that a module imports, at the top and inside functions."""
     package = module if Path(str(file(module))).name == "__init__.py" else module.rpartition(".")[0]
     found: set[str] = set()
     for node in _statements(ast.parse(source(module))):

@@ -1,4 +1,4 @@
-"""What the site needs beside Sphinx: formulas as MathML, the project's docstrings, the command's own help."""
+"""What the site needs besides Sphinx: formulas as MathML, the project's docstrings, the command's own help."""
 
 import re
 import runpy

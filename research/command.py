@@ -64,7 +64,7 @@ def _print_matrix(page: Any, matrix: dict[str, Any]) -> None:
 def study(name: str, quick: bool, output: Path | None, scheduler: str | None, as_json: bool) -> None:
     """Runs the study of that name; with an output also its data and figures, and what an unfinished one goes on with.
 
-    A study is a package beside this file: study(quick, run), run as `units.run_units`, sentences(found), and DRAWN.
+    A study is a package next to this file: study(quick, run), run as `units.run_units`, sentences(found), and DRAWN.
     """
     if output is not None:
         extras.need("figures")

@@ -44,7 +44,7 @@ _sources = cache(sources.fingerprint)
 
 
 def compute(function: str, arguments: dict[str, Any], key: str) -> Any:
-    """The result of a unit, of which `key` tells the sources: in another process these must be the same."""
+    """The result of a unit, of which `key` identifies the sources: in another process these must be the same."""
     if Unit(function, arguments).key != key:
         raise BadInput(f"a worker has another chapsym ({chapsym.__version__}): give all the same")
     module, name = function.split(":")

@@ -16,7 +16,7 @@ EVERY = (3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 50, 100)
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """What is measured: its name (precision and order), how its error is found, and a run of so many steps.
+    """What is measured: its name (precision and order), how its error is found, and a run of a number of steps.
 
     step: |ω|ε in radians; time: of the run, in seconds of the ball.
     """
@@ -73,7 +73,7 @@ class Frontier:
         return sorted(self.points, key=lambda p: (p.per_time, -p.digits))
 
     def cheapest(self, digits: float) -> Point | None:
-        """The cheapest point with so many digits, or None."""
+        """The cheapest point with at least this many digits, or None."""
         return next((p for p in self._sorted() if p.digits >= digits), None)
 
     def table(self) -> list[dict[str, Any]]:
@@ -114,7 +114,7 @@ def frontier(
     title: str, question: str, notes: list[str], choices: Iterable[Choice], most: float, rounds: int, say: Say,
     balls: int = 1,
 ) -> Frontier:  # fmt: skip
-    """Measures choices, on one core, each for so many balls; those whose steps are not taken are left out.
+    """Measures choices, on one core, each for a number of balls; those whose steps are not taken are left out.
 
     most: the digits that the reference can tell.
     """

@@ -17,7 +17,7 @@ from ..harness import NotComparable
 
 #: Seconds after which there is no reference.
 LONGEST = 3600.0
-#: The reference has so many digits beyond the accuracy, and those that the flow may cost.
+#: The digits of the reference beyond the accuracy and those that the flow may cost.
 BEYOND = 3
 
 

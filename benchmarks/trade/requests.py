@@ -23,7 +23,7 @@ from .reference import true_error, truth
 SEED, COUNT, QUICK = 2007, 50, 5
 #: The finest accuracy of most requests, and of one in FINER⁻¹.
 COARSE, FINE, FINER = 1e-12, 1e-20, 0.25
-#: A method whose steps would take longer than so many times the delivered run cannot be the best.
+#: A method whose steps would take longer than this many times the delivered run cannot be the best.
 DEAREST = 1.2
 #: Seconds below which no run is too long to try.
 SHORT = 3e-3
@@ -69,7 +69,7 @@ def _named(method: Method, steps: int) -> str:
 
 
 def drawn(count: int, quick: bool) -> Iterator[Request]:
-    """Random requests: 0.3 to 6 rad/s, 1 to 1000 s (20 s for a look), 1e-3 to 1e-12 or finer; conditions up to 100."""
+    """Random requests: 0.3 to 6 rad/s, 1 to 1000 s (20 s if quick), 1e-3 to 1e-12 or finer; conditions up to 100."""
     random = np.random.default_rng(SEED)
     for _ in range(count):
         ball, omega, gamma = problems.rolling(random)
@@ -144,7 +144,7 @@ class Outcomes:
 
 
 def measure(quick: bool, say: Callable[[str], None] = lambda text: None, count: int = 0) -> Outcomes:
-    """The outcomes of random requests: 5 short ones for a look, or 50."""
+    """The outcomes of random requests: 5 short ones if quick, or 50."""
     wanted, found = count or (QUICK if quick else COUNT), []
     for i, request in enumerate(drawn(wanted, quick)):
         say(f"request {i + 1} of {wanted}: {request.accuracy:.1g} after {request.time:.3g} s")

@@ -35,7 +35,7 @@ LEAST = 1e-30
 COMPOSED, OF_PAIRS, STEADY = (2, 4, 6, 8), 2 * MOST_OF_PAIRS, 0
 #: Below this not all 106 bits of double-double, of a stage of a composition, are within the range of float64.
 SMALLEST = 2.0**-900
-#: Runs are compared at so many times at least: a difference that is small by chance at one is not so at all.
+#: The least number of times at which runs are compared: a difference may be small by chance at one, not at each.
 CHECKS, FEW = 16, 4
 
 

@@ -16,7 +16,7 @@ from chapsym.dynamics.ball import Floats, in_principal_axes
 
 #: Stages of the map that the finer run of a pilot takes, all balls together.
 MOST = 2**16
-#: Of more balls so many are followed: enough for the lanes in which the run itself may be.
+#: The largest number of balls that are followed: enough for the lanes in which the run itself may be.
 BALLS = 8
 
 
@@ -94,7 +94,7 @@ def discretisation(
     return Discretisation(pilot * time_step, steps * time_step, **far, balls=int(there.sum()))
 
 
-@np.errstate(all="ignore")  # a ball beyond the range of float64 has no finite distance, and none is told
+@np.errstate(all="ignore")  # a ball beyond the range of float64 has no finite distance, and none is reported
 def _apart(coarse: Trajectory, fine: Trajectory, there: np.ndarray, factor: float) -> dict[str, Any]:
     """The distances of two runs, times a factor."""
 

@@ -77,7 +77,7 @@ _UP, _INVERSE = np.array([0.0, 0.0, 1.0]), np.array([1.0, -1.0, -1.0, -1.0])
 LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
 #: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
 SAFETY, RATIO = 4.0, 1.5
-#: How many roundings beside the start a run begins that verifies another.
+#: By how many roundings the start of a verifying run differs from that of the run.
 ROUNDED = 8
 #: A direction that nothing prefers.
 ASIDE = np.array([0.6, 0.64, 0.48])
@@ -124,7 +124,7 @@ def roll(
     at the numbers of frame 0, by `certified_motion`, which takes a thousand times as long; with `map`, as
     `trajectory` does.  Of one ball in principal axes.
 
-    One ball that cannot be followed raises StepNotTaken; in a batch the others go on, and `status` tells.
+    One ball that cannot be followed raises StepNotTaken; in a batch the others go on, and `status` says which stopped.
     Raises BadInput for what no ball or run can have, and for an accuracy that double precision has not.
     """
     spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
@@ -559,7 +559,7 @@ def _error(problem: Problem, order: Any, step: Any) -> Floats:
 def cheapest(problem: Problem, factor: Floats) -> tuple[np.ndarray, np.ndarray]:
     """The order of the fewest stages that is expected to do, and its steps, of each ball, at `factor` times the law.
 
-    The steps are so many that the last frame is one that can be compared: an error may grow a thousandfold within one.
+    There are enough steps for the last frame to be compared: an error may grow a thousandfold within one.
     """
     found = []
     for order in LAW:
@@ -579,7 +579,7 @@ def shared(steps: Floats, least: int = 1) -> np.ndarray:
 def _verified(problem: Problem, order: int, steps: int, run: Motion) -> Floats:
     """The error of each ball by a run of fewer steps, infinite if one has stopped; and what rounding may leave.
 
-    That run starts a few roundings beside the other, so that a ball that is sensitive to its start shows it.
+    That run starts a few roundings away from the other, so that a ball that is sensitive to its start shows it.
     """
     stride, fewer = (2, 1) if steps == 1 else (1, 1 if steps == 2 else round(steps / RATIO))
     left = (stride * steps / fewer) ** order - 1

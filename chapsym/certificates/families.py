@@ -4,7 +4,7 @@ A reversor (𝒦, γ) ↦ -R(𝒦, γ), R the rotation by π about an axis a, ke
 γ_a = 0.  If x is fixed by that of a, and after n steps is fixed by that of b, or is mapped by it to the next state,
 then x is back after 2n or 2n + 1 steps, up to R_aR_b.  On M such a point is an accident: there are two conditions
 for one unknown.  But ⟨𝒦, γ⟩ may vary: through each leads a family of periodic orbits, mirrored by the reversor, so
-with a fold of ⟨𝒦, γ⟩ in the middle; beside it the orbits are not symmetric.  As the map is near an integrable one,
+with a fold of ⟨𝒦, γ⟩ in the middle; elsewhere the orbits are not symmetric.  As the map is near an integrable one,
 ⟨𝒦, γ⟩ hardly changes along it.
 """
 

@@ -132,7 +132,7 @@ def _digits(top: Top, starts: tuple[Fraction, Fraction], progress: Callable[[str
         if off > Fraction(10) ** (SIGNIFICANT - digits):
             return SIGNIFICANT - 1 - decade(off)
         digits *= 2
-    raise BadInput(f"the difference of the two ends is not told from 0 with {MOST_DIGITS} digits; take a larger height")
+    raise BadInput(f"{MOST_DIGITS} digits do not distinguish the difference of the two ends from 0; take larger h")
 
 
 def _orbit(orbits: Orbits, x: Fraction, digits: int) -> dict[str, Any]:

@@ -136,7 +136,7 @@ def _least_digits(top: Top, at: Resonance) -> int:
         digits = max(SIGNIFICANT - 1 - decade(least), decimals(at.level) or 0)
         if digits <= MOST_DIGITS:
             return digits
-    raise BadInput(f"the displacement on this level is not told from 0 with {MOST_DIGITS} digits")
+    raise BadInput(f"{MOST_DIGITS} digits do not distinguish the displacement on this level from 0")
 
 
 def _arcs(top: Top, at: Resonance, digits: int) -> int:

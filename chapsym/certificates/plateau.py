@@ -3,7 +3,7 @@
 The displacement after q steps is least and largest at two `starts`, nearly: for odd q the points with γ_a = 0 and
 γ_b = 0, which reflections fix.  So the levels on which one of them returns to p half turns are the ends of the plateau;
 it is about as narrow,
-beside the range of levels, as the q-th power of the nome.  Nothing here is proved: that is for the checker to do.
+relative to the range of levels, as the q-th power of the nome.  Nothing here is proved: the checker does that.
 """
 
 import contextlib

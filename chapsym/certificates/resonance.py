@@ -109,7 +109,7 @@ def _middle(
             return simplest(low, high)
         bits *= 2
     raise BadInput(
-        f"the displacement after {steps} steps is not told from 0 with {MOST_DIGITS} digits; take fewer, or a larger D"
+        f"{MOST_DIGITS} digits do not distinguish the displacement after {steps} steps from 0; take fewer, or larger D"
     )
 
 

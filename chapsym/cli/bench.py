@@ -1,4 +1,4 @@
-"""chapsym bench: what the map costs, beside what a user would take instead."""
+"""chapsym bench: what the map costs, compared with what a user would take instead."""
 
 from pathlib import Path
 from typing import Annotated, Any

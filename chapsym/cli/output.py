@@ -22,7 +22,7 @@ def note(sentence: str) -> None:
 
 
 def counted(n: int, noun: str) -> str:
-    """So many of them: 1 claim, 2 claims."""
+    """A number with its noun: 1 claim, 2 claims."""
     return f"{n} {noun}{'' if n == 1 else 's'}"
 
 

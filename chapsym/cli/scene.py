@@ -30,7 +30,7 @@ def new(
     from_: Annotated[
         Path | None, takes("ROBOT", "Its ball: a .urdf, a .sdf or MuJoCo's .xml, with one sphere.", "--from")
     ] = None,
-    schema: Annotated[bool, typer.Option(help="Write the schema for editors beside it, and name it.")] = True,
+    schema: Annotated[bool, typer.Option(help="Write the schema for editors next to it, and name it.")] = True,
     force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
 ) -> None:
     """Write a scene with comments, to change.

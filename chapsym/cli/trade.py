@@ -86,7 +86,7 @@ def _answer(
             formats.check_destination(output)
         wanted = scenes.load_for(scene, accuracy, time) if scene else _described(accuracy, time, given)
         changed: dict[str, Any] = {"limit": limit, "of": of or wanted.run.of}
-        if of == "state":  # what is kept beside it is followed, and not to an accuracy of its own
+        if of == "state":  # further outputs are followed, and not to an accuracy of their own
             kept = [name for name in wanted.run.names() if name != "contact"]
             changed |= {"contact": None, "attitude": None, "outputs": kept or ["momentum", "gamma"]}
         plan, answers = sweep.answering(plan_of(wanted.with_run(**changed)), say)

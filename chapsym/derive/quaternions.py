@@ -23,7 +23,7 @@ TURN = Turning(
     {Q: Q * W / 2, Q_bar: -Q_bar * W_bar / 2, W: sp.S.Zero, W_bar: sp.S.Zero},
 )
 
-#: Beside it q_a = exp(½ε²a), which has q_a' = ε q_a a.
+#: Also q_a = exp(½ε²a), which has q_a' = ε q_a a.
 Q_a, A, eps = matrix_symbols("Q_a A eps")
 FREE = WordAlgebra({})
 BOTH_TURN = Turning(

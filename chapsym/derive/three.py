@@ -138,7 +138,7 @@ Steps = list[tuple[sp.Matrix, sp.Matrix]]
 
 
 def placed(*pairs: tuple[Iterable[sp.Symbol], Iterable[Any]]) -> dict[sp.Symbol, Any]:
-    """What stands in the place of the entries of each vector of symbols."""
+    """The expressions that replace the entries of each vector of symbols."""
     return {symbol: value for symbols, values in pairs for symbol, value in zip(symbols, values, strict=True)}
 
 

@@ -34,7 +34,7 @@ def matrix_symbols(names: str) -> tuple[sp.Symbol, ...]:
 
 
 def unfolded(expr: sp.Expr) -> sp.Expr:
-    """With what each defined letter stands for in its place."""
+    """The expression with each defined letter replaced by its definition."""
     return expr.xreplace(DEFINED) if expr.free_symbols & DEFINED.keys() else expr
 
 

@@ -35,7 +35,7 @@ def attitude_with(gamma: Floats) -> Floats:
         return np.array(_least(*gamma.tolist()))
     x, y, z = gamma[..., 0], gamma[..., 1], gamma[..., 2]
     zero = np.zeros_like(z)
-    # Components that are so small that their squares vanish are nothing beside a half turn.
+    # Components that are so small that their squares vanish are negligible for a half turn.
     x, y = (np.where(np.abs(v) < 1e-150, 0.0, v) for v in (x, y))
     upper = np.stack([1 + z, y, -x, zero], axis=-1)
     # Upside down, the axis of the half turn is free: take e₁.  1 + z cancels there, so use x² + y² = (1-z)(1+z).

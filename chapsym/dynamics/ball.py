@@ -317,7 +317,7 @@ def over_states(array: Floats, name: str, shape: tuple[int, ...], axes: int = 1)
 
 
 def inertia_of(tensor: Floats) -> Floats:
-    """(J2 + J3, J1 + J3, J1 + J2), (..., 3): sums, as J1 + J2 + J3 - J1 would lose what is small beside it."""
+    """(J2 + J3, J1 + J3, J1 + J2), (..., 3): sums, as J1 + J2 + J3 - J1 would lose what is small relative to J1."""
     return np.stack([tensor[..., i] + tensor[..., j] for i, j in ((1, 2), (0, 2), (0, 1))], axis=-1)
 
 

@@ -32,7 +32,7 @@ class Status(IntEnum):
 _SENTENCES = {
     Status.TAKEN: "the step was taken",
     Status.FOLDED: "the small-rotation branch folds before it reaches this momentum; take a shorter time step",
-    Status.NOT_CONVERGED: "float64 cannot resolve the rotation: D is too large beside J, or the state is at a fold",
+    Status.NOT_CONVERGED: "float64 cannot resolve the rotation: D is too large for this J, or the state is at a fold",
     Status.UNREACHABLE: "no rotation of this ball has this momentum at this gamma; take a shorter time step",
     Status.NO_INERTIA: "the ball has no inertia about the vertical at this gamma (all its mass lies on that axis)",
 }
@@ -63,7 +63,7 @@ class StepNotTaken(ArithmeticError):
 def explain(status: int, K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float) -> Status:
     """Why a step was not taken: UNREACHABLE if no rotation at all has this momentum."""
     inertia = np.array(moments(J))
-    rounded = status == Status.NO_INERTIA and (g * g * inertia).sum() > 0.0  # it has some, but beside D it is not
+    rounded = status == Status.NO_INERTIA and (g * g * inertia).sum() > 0.0  # it has some, which D rounds away
     if rounded or status in (Status.FOLDED, Status.NOT_CONVERGED):
         # Scaled so that Λmax is below 1: then no rotation has a component above 2, and nothing overflows.
         shift = -int(np.frexp(J.sum() + D)[1])

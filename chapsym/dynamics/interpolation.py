@@ -12,9 +12,9 @@ from .shown import Brief
 
 #: Frames with more turning than this between them, in radians, tell too little of what is between.
 MOST_TURN = 1.5
-#: 𝒦 with a horizontal part below this, relatively, tells no directions on the plane.
+#: 𝒦 with a horizontal part below this, relatively, gives no directions on the plane.
 VERTICAL = 1e-9
-#: What stands in the place of frames that are not there: where it is not 0.
+#: What replaces frames that are not there: where it is not 0.
 RESTING = {"gamma": [0.0, 0.0, 1.0], "attitude": [1.0, 0.0, 0.0, 0.0]}
 
 _torque = kernels.kernel("torque")
@@ -40,7 +40,7 @@ class Moments(Brief):
 class States:
     """The frames of a run in principal axes: clock (frames,), K in the unit of the clock, and the rest as `Moments`.
 
-    there: which frames there are, (..., frames); what stands in the others is not looked at, but finite (`standing`).
+    there: which frames there are, (..., frames); the values of the others are not used, but finite (`standing`).
     """
 
     ball: Ball
@@ -103,7 +103,7 @@ class States:
         if self.attitude is not None:
             x, y = (kernels.transport(self.attitude, np.broadcast_to(e, self.gamma.shape)) for e in np.eye(3)[:2])
             return radius * _rolled(spin, x, y), radius * _rolled(bent, x, y)
-        # Without the attitude: 𝒦 stays in space, so its horizontal part tells the directions, but for one angle.
+        # Without the attitude: 𝒦 stays in space, so its horizontal part gives the directions, but for one angle.
         level = self.momentum - (self.momentum * self.gamma).sum(axis=-1, keepdims=True) * self.gamma
         vertical = (level**2).sum(axis=-1) <= VERTICAL**2 * (self.momentum**2).sum(axis=-1)
         if (vertical & self.there).any():

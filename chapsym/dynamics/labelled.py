@@ -209,7 +209,7 @@ def plain(attrs: Mapping[Any, Any]) -> dict[str, Any]:
 
 
 def structure(data: "Dataset | Arrays") -> dict[str, Any]:
-    """What the rows do not tell, as plain data: labels of components; the columns and attributes of each variable."""
+    """What the rows lack, as plain data: labels of components; the columns and attributes of each variable."""
     dims = [str(dim) for dim in data.dims if dim not in ("ball", "frame") and dim in data]
     labels = {dim: data[dim].values.tolist() for dim in dims}
     variables = {

@@ -103,7 +103,7 @@ def trajectory(
     Floats that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double", and
     "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64; at higher
     precisions they are the 40 digits of `coefficients`, and the map composed with those is what an Enclosure
-    encloses: `bits` are correct in every frame, beside the length of each vector.  Its branch is proved by the lemmas
+    encloses: `bits` are correct in every frame, for the length of each vector.  Its branch is proved by the lemmas
     `small-branch` and `straight-path`; where neither reaches, as near a fold, the float64 continuation selects it
     (`Certificate.selected`).
     proved: whether `Trajectory.proved` shall have bounds of what every frame is off by from the exact orbit of the map:

@@ -19,7 +19,7 @@ LOW, BOUND = "_low", "_bound"
 class Output:
     """long_name, units (in n dimensions): as files have them of the map; `motion` has both of the motion.
 
-    dims: beside ball and frame; dims_n: the same in more than three dimensions, None where it is not known there.
+    dims: besides ball and frame; dims_n: the same in more than three dimensions, None where it is not known there.
     derive: its values from J, D and what it `needs`, other outputs or `K`; of these, `with_D` enter with D alone.
     Without `derive` it is a column that models follow.  kernels: the generated ones that `derive` evaluates.
     per_ball: one value a ball, not one a frame.  radius: whether the ball must have one.
@@ -38,7 +38,7 @@ class Output:
     motion: tuple[str, str] | None = None
 
     def dims_in(self, n: int) -> tuple[str, ...]:
-        """Its dimensions beside ball and frame in n dimensions."""
+        """Its dimensions besides ball and frame in n dimensions."""
         return self.dims if n == 3 or self.dims_n is None else self.dims_n
 
     def width(self, n: int) -> int:

@@ -44,7 +44,7 @@ class NotRetraced(ArithmeticError):
 def reverse(run: Trajectory) -> Trajectory:
     """The way back: the trajectory that starts where `run` ends, with the momentum reversed, and ends where it began.
 
-    What is returned is a motion of its own, forward in its time: frame j is beside frame -1-j of the run, `gamma`,
+    What is returned is a motion of its own, forward in its time: frame j corresponds to frame -1-j of the run: `gamma`,
     `attitude` and `contact` are those of the run up to rounding, and `momentum` is the opposite (the ball turns the
     other way).  So `reverse(reverse(run))` is the run again.  It has the order, the frames and the time step of the
     run; a contact point starts where that of the run ended.  For one state there is nothing to do but to change the
@@ -54,7 +54,7 @@ def reverse(run: Trajectory) -> Trajectory:
     by which the run stretches a small change of its start: about the angle turned, in radians, or less, but near an
     unstable rotation exponential.
 
-    Raises BadInput if a ball of the run stopped early, or if the run has no frame beside its first; NotRetraced if a
+    Raises BadInput if a ball of the run stopped early, or if the run has no frame besides its first; NotRetraced if a
     step back takes another branch than the step there: never where |𝒦| is below the bound of the lemma `small-branch`,
     and otherwise met only for D > 0, within 1% of a fold; it is looked for in three dimensions.  StepNotTaken as
     `trajectory` and `trajectory_n` do.
@@ -83,7 +83,7 @@ reverse_n = reverse
 
 
 def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
-    """How far the way back is from the run beside each frame of the run, (..., frames).
+    """The distance between the way back and the run at each frame of the run, (..., frames).
 
     The largest of the errors of 𝒦, relative to its largest component, of γ and, if there, of the attitude.
     """
@@ -110,7 +110,7 @@ def _frames(run: Trajectory) -> tuple[int, int]:
     if isinstance(run.precision, DoubleDouble | Digits | Enclosure):
         raise BadInput("reverse goes back in float32 or float64 only: a run starts from floats, not from finer numbers")
     if len(run.index) < 2:
-        raise BadInput("the run has no frame beside its first, so there is no way back")
+        raise BadInput("the run has no frame besides its first, so there is no way back")
     return int(run.index[-1] - run.index[0]), int(run.index[1] - run.index[0])
 
 

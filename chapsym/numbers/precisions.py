@@ -28,7 +28,7 @@ FLINT = RLock()
 
 @contextmanager
 def flint_bits(bits: int) -> Iterator[None]:
-    """Within it flint's numbers have so many bits, and no other thread that asks here changes them."""
+    """Sets the bits of flint's numbers within a `with` block; other threads that use this function wait for it."""
     from flint import ctx
 
     with FLINT, ctx.workprec(bits):

@@ -32,7 +32,7 @@ class Theorem:
 
 @dataclass(frozen=True)
 class Step:
-    """That something follows from what it needs, by so many sentences; the statements that were decided beside them."""
+    """That `gives` follows from what it needs: the number of sentences, and the statements decided besides them."""
 
     gives: str
     needs: tuple[str, ...]

@@ -113,7 +113,7 @@ def _value(of: Any) -> Any:
     return [tree(x) for x in of] if of.cols == 1 else [[tree(x) for x in row] for row in of.tolist()]
 
 
-#: What a record counts beside statements, and the words for it.
+#: What a record counts besides statements, and the words for it.
 COUNTED = {
     "derivation": "steps from the premises", "comparisons": "comparisons", "counts": "counts of solutions",
     "hypotheses": "hypotheses", "zeros": "solutions near points", "rests": "rests on other certificates",
@@ -195,7 +195,7 @@ class _Maker:
         self.counterexamples.append({"point": exact, "hypotheses": hypotheses, "refutes": [], "agrees": []})
 
     def _completed(self, point: Point) -> Mapping[sp.Symbol, Any]:
-        """With values of the variables that the relations have beside those of the printed statements."""
+        """The point with values of the variables that the relations have besides those of the printed statements."""
         exact = point.exact
         for _, statement, holds in self.proof.decided:
             if isinstance(statement, Equation) and not holds:
@@ -426,7 +426,7 @@ class _Maker:
 
 
 class NotFound(Exception):
-    """What a certificate needs beside the statement was not found; the message says what."""
+    """What a certificate needs besides the statement was not found; the message says what."""
 
 
 def _sides(equation: Equation) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from .evidence import Proof, Verdict
 from .statements import Rest
 from .witness import Examples
 
-#: What a record says beside the verdict, in this order: what a `Proof` collects, and what is known of its claim.
+#: What a record says besides the verdict, in this order: what a `Proof` collects, and what is known of its claim.
 EVIDENCE = (
     "title", "slip", "hypotheses", "inferences", "condition", "reason", "open_in_paper", "tried", "question", "answer",
     "readings", "settled", "theorems", "certificates", "measured", "conjectures", "derivation", "checks", "controls",
@@ -51,7 +51,7 @@ class Claim:
 
     @property
     def _examples_module(self) -> str | None:
-        """`examples` beside the proof's script, or above it, if there is one."""
+        """`examples` next to the proof's script, or above it, if there is one."""
         names = self.prove.__module__.split(".")
         places = (".".join([*names[:i], "examples"]) for i in range(len(names) - 1, 0, -1))
         return next((name for name in places if sources.file(name)), None)

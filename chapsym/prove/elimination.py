@@ -1,7 +1,7 @@
 """What proves a count of solutions (checker/roots.py): a chart and combinations, by linear algebra.
 
 The forms of one degree in the ideal of the equations are the row space of a Macaulay matrix.  Its rows are reduced
-with the unwanted monomials in front: what is left below has none of these.  The combinations are read off beside it.
+with the unwanted monomials in front: the rows below have none of these, and the columns next to them the combinations.
 """
 
 import itertools

@@ -294,7 +294,7 @@ class Proof:
         return "  ".join(one["text"] for one in self.readings if one["theorem"]) or None
 
     def measure(self, *findings: str) -> None:
-        """Numerical evidence beside what is proved, with its digits; no verdict rests on it."""
+        """Numerical evidence besides what is proved, with its digits; no verdict rests on it."""
         self.measured += map(str, findings)
 
     def conjecture(self, *texts: str) -> None:

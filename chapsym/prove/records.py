@@ -21,7 +21,7 @@ from .claims import Claim
 from .evidence import Verdict
 from .registers import PROOFS, Register
 
-#: What decides beside this package.
+#: What decides besides this package.
 LIBRARIES = ("sympy", "python-flint", "numpy")
 
 #: How records are run, printed and kept does not change what they say.
@@ -35,7 +35,7 @@ class BrokenRecords(ValueError):
 def default_path(register: Register = PROOFS) -> Path:
     """Where the records are kept unless a file is named: CHAPSYM_RECORDS, or else the user's cache.
 
-    Those of another register than chapsym's lie beside it, in a file of their own.
+    Those of another register than chapsym's are next to it, in a file of their own.
     """
     named = os.environ.get("CHAPSYM_RECORDS")
     path = Path(named) if named else platformdirs.user_cache_path("chapsym") / "verdicts.jsonl"

@@ -88,7 +88,7 @@ class Register:
         return str(getattr(self._head(), name, default))
 
     def module(self, name: str) -> ModuleType | None:
-        """A module beside the scripts, such as `kernels`, or None; raises BrokenScript as `load` does."""
+        """A module next to the scripts, such as `kernels`, or None; raises BrokenScript as `load` does."""
         full = f"{self._head().__name__}.{name}"
         if sources.file(full) is None:
             return None
@@ -107,7 +107,7 @@ class Register:
 
     @property
     def key(self) -> str:
-        """A short name in letters that tells this place from others."""
+        """A short name in letters that distinguishes this place from others."""
         path = self._path()
         digest = hashlib.sha256(str(path or self.place).encode()).hexdigest()[:8]
         return re.sub(r"\W", "_", path.stem if path else self.place) + f"_{digest}"
@@ -138,7 +138,7 @@ class Register:
             assert spec is not None
             spec.submodule_search_locations = [str(folder)]
             sys.modules[name] = module = importlib.util.module_from_spec(spec)
-            if str(folder) not in sys.path:  # scripts may import what lies beside them, as when they run alone
+            if str(folder) not in sys.path:  # scripts may import from their folder, as when they run alone
                 sys.path.append(str(folder))
             if spec.loader:
                 _guarded(name, partial(spec.loader.exec_module, module))
@@ -241,7 +241,7 @@ def _taken(name: str, id: str, other: str) -> BrokenScript:
 
 
 def _said(name: str, error: BaseException) -> str:
-    """What went wrong, and in which line of the script, or of a file beside it."""
+    """What went wrong, and in which line of the script, or of a file next to it."""
     if isinstance(error, SystemExit):
         return "it leaves Python; what ends it, such as main(__file__), stands under if __name__ == '__main__'"
     said = f"{type(error).__name__}: {error}"

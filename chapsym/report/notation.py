@@ -14,7 +14,7 @@ _SYMBOLS = {
     "sm": "sn ū", "cm": "cn ū", "dm": "dn ū", "sh": "sn δu", "ch": "cn δu", "dh": "dn δu",
     "R_-": "R_{k-1}", "R": "R_k", "R_+": "R_{k+1}", "r_-": "r_{k-1}", "r": "r_k", "r_+": "r_{k+1}",
 }  # fmt: skip
-#: Names that mean this only beside the first: the argument u, and the parts of the relation for the increment.
+#: Names with this meaning only next to the first: the argument u, and the parts of the relation for the increment.
 _BESIDE = {
     "sh": {"s": "sn u", "c": "cn u", "d": "dn u"},
     "Dscr": {"Dscr": "𝒟", "y": "sn²δu", "e": "cn²δu dn²δu", "w": "w(δu)", "lam": "l - μ sn²δu"},
@@ -137,7 +137,7 @@ _CAPITALS = ("Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon"
 
 
 def latex(text: str) -> str:
-    """Plain text with Unicode formulas as ASCII LaTeX, formulas in $...$; an unknown character is told by its code."""
+    """Plain text with Unicode formulas as ASCII LaTeX, formulas in $...$; an unknown character is given by its code."""
     out: list[str] = []
     formula: list[str] = []
 

@@ -73,7 +73,7 @@ def sentences(found: dict[str, Any]) -> list[str]:
     told = []
     control = [s for s in found["samples"] if s["D"] == 0]
     wrong, of = sum(s["chaotic"] for s in control), sum(s["counted"] for s in control)
-    told.append(f"D = 0, integrable: {wrong} of {of} orbits told chaotic (at most {share(of, wrong)[2]:.1e}, 95%)")
+    told.append(f"D = 0, integrable: {wrong} of {of} orbits called chaotic (at most {share(of, wrong)[2]:.1e}, 95%)")
     for near, where in ((False, "starts at random"), (True, "starts near the unstable rotation")):
         for J, D in sorted({(tuple(s["mass_tensor"]), s["D"]) for s in found["samples"] if s["D"] > 0}):
             runs = [s for s in found["samples"] if (tuple(s["mass_tensor"]), s["D"], s["near"]) == (J, D, near)]

@@ -1,6 +1,6 @@
 """Samples of orbits, chaotic or regular by the derivative of the map, and pictures of the section: units of the study.
 
-A deviation grows at most like n on a torus, and like e^{λn} in chaos: an orbit is told chaotic if in n steps it has
+A deviation grows at most like n on a torus, and like e^{λn} in chaos: an orbit counts as chaotic if in n steps it has
 grown by more than n^LIMIT.  D = 0, which is integrable, measures how often that is wrong.
 """
 
@@ -18,7 +18,7 @@ from ..energy.continuous import Level
 from ..energy.section import coordinates, rising, state
 
 LIMIT = 2.5
-#: A start near the unstable rotation is this many powers of ten beside axis 2, at most.
+#: A start near the unstable rotation is this many powers of ten away from axis 2, at most.
 NEAREST = 4.0
 #: Points with |K₂| below this share of |K| are moved to the section along the motion: off by its square.
 SLAB = 0.01

@@ -35,7 +35,7 @@ SMALL = 0.1
 GENERIC = 3
 SWINGS = 4
 LONGER = 16
-#: Where a swing takes so many steps that a run would be longer than this, it is left out.
+#: The most steps of a run: where its swings take more, it is left out.
 LONGEST = 5 * 10**6
 #: The island is drawn at this ε, and the long run in it taken.
 SHOWN = 0.05
@@ -72,7 +72,7 @@ def _widest(resonances: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def _table(levels: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
-    """What is told of every resonance."""
+    """The sentences on every resonance."""
     names = ("ball", "returns", "period", "energy", "beta", "width", "libration")
     return [{**{n: r[n] for n in names}, "loop": max(r["loop"], key=abs)} for level in levels for r in level]
 

@@ -1,4 +1,4 @@
-"""The continuous ball (2.3) beside the map: its flow, and X₃(H), the drift of the energy.
+"""The continuous ball (2.3), for comparison with the map: its flow, and X₃(H), the drift of the energy.
 
 With K = 𝒦/ε a step is the time-ε flow of a field X + ε²X₃ + ..., in every power of ε, with X that of (2.3).  So it
 changes H (2.5 as corrected) by ε³X₃(H) + O(ε⁴), and n = T/ε steps over a closed orbit by ε²∮X₃(H)dt + O(ε³).

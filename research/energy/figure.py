@@ -15,7 +15,7 @@ LABELS = {"generic": "generic starts", "resonant": "in the widest resonances"}
 
 
 def draw_amplitudes(found: dict[str, Any]) -> Picture:
-    """The range of H over each run against ε, with lines ε and ε²; and the change by a loop beside the quadrature."""
+    """The range of H over each run against ε, with lines ε and ε²; and the change by a loop against the quadrature."""
     figure, (left, right) = new("", 1, 2, height=4.6, width=WIDE)
     for name in ("generic", "resonant"):
         x, y = np.array([(run["epsilon"], run["range"]) for run in found[name]]).T

@@ -23,7 +23,7 @@ STEP = 0.04
 CLOSED = 1e-7
 #: The mean of A around a torus is 0, by reversibility; where it is not below this share of max |A|, phases are missing.
 BALANCED = 0.1
-#: A neighbouring torus goes through all phases in about so many loops.
+#: The number of loops in which a neighbouring torus goes through about all phases.
 LOOPS = 48
 MOST_TRIES = 12
 
@@ -235,6 +235,6 @@ def _turn_of(away: Floats) -> float:
     at = first + int(np.argmin(away[first : first + max(3, first // 4)]))
     if not 0 < at < len(away) - 1:
         return 3.0 * len(away)
-    # Beside the minimum the distance is |linear|: two lines of equal and opposite slope meet there.
+    # Near the minimum the distance is |linear|: two lines of equal and opposite slope meet there.
     left, here, right = away[at - 1 : at + 2]
     return at + float((left - right) / (2 * (max(left, right) - here)))

@@ -44,8 +44,8 @@ class Group(NamedTuple):
 _BATCHED = tuple(level for level in LEVELS if not level.guarded)
 _DOUBLE = (DOUBLE,)
 _TITLES = {
-    "momentum": "the size of the momentum", "rotation": "large rotations", "fold": "beside the fold of the branch",
-    "D": "D beside the inertia", "inertia": "the shape of the body",
+    "momentum": "the size of the momentum", "rotation": "large rotations", "fold": "near the fold of the branch",
+    "D": "D relative to the inertia", "inertia": "the shape of the body",
     "directions": "directions of γ and of the momentum",
 }  # fmt: skip
 
@@ -55,7 +55,7 @@ GROUPS = {
         name: Group(f"One step: {title}", steps.judge, lambda name=name: states.conditions()[name])  # type: ignore[misc]
         for name, title in _TITLES.items()
     },
-    "runs": Group("Ten steps of a trajectory, beside ten of the oracle", runs.ten_steps, states.starts),
+    "runs": Group("Ten steps of a trajectory, compared with ten of the oracle", runs.ten_steps, states.starts),
     "batch": Group(
         "The same in a batch of 4096", partial(runs.ten_steps, balls=runs.BATCH), states.starts, _BATCHED
     ),
@@ -104,7 +104,7 @@ def row(group: str, condition: str, quick: bool) -> list[Cell]:
 def extremes(
     quick: bool = False, groups: Sequence[str] | None = None, on_row: Callable[[int], None] = lambda done: None
 ) -> list[Cell]:
-    """All cells, row by row, computed side by side on the cores; `on_row` is told how many rows are done.
+    """All cells, row by row, computed side by side on the cores; `on_row` is called with the number of rows done.
 
     quick: shorter runs and smaller batches; groups: which rows, all by default.
     """

@@ -10,7 +10,7 @@ import mpmath
 
 from chapsym.numbers import Digits, Double, DoubleDouble, Enclosure, Pair, Precision, Single
 
-#: Everything is compared with so many digits.
+#: The digits with which everything is compared.
 mp = mpmath.MPContext()
 mp.dps = 140
 #: The truth is known to this, relatively, and better.
@@ -134,7 +134,7 @@ def compared(
     level: Level, kappa: float | None, name: str, found: Iterable[Any], truth: Sequence[Any], promised: float,
     size: Any = None,
 ) -> Judged:  # fmt: skip
-    """A vector beside the truth: an enclosure must contain it, and its radius is its error.
+    """A vector compared with the truth: an enclosure must contain it, and its radius is its error.
 
     promised: in ulps of its size, which is its largest component unless it is said.
     """
@@ -160,6 +160,6 @@ def compared(
 def state(
     level: Level, kappa: float | None, found: Sequence[Any], exact: Sequence[Any], ulps: float, *more: Judged
 ) -> Judged:
-    """𝒦 and γ beside the truth, with one promise, and what more is judged."""
+    """𝒦 and γ compared with the truth, with one promise, and what more is judged."""
     momentum = compared(level, kappa, "the momentum", found[0], exact[0], ulps)
     return worst([*more, momentum, compared(level, kappa, "gamma", found[1], exact[1], ulps, 1)])

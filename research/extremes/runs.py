@@ -1,4 +1,4 @@
-"""Runs: a few steps beside a chain of the oracle's, alone and in a batch; orders, the way back; and long ones."""
+"""Runs: a few steps against a chain of the oracle's, alone and in a batch; orders, the way back; and long ones."""
 
 from collections.abc import Callable
 from typing import Any
@@ -17,14 +17,14 @@ from .truth import State, chain, promised, scaled
 BATCH = 4096
 STEPS = 10
 TEN = (mp.one,) * STEPS
-#: ⟨𝒦,γ⟩, |𝒦|² and |γ|² are put right every so many steps; in between sums are compensated, so that only the
+#: ⟨𝒦,γ⟩, |𝒦|² and |γ|² are restored after this many steps; in between sums are compensated, so that only the
 #: roundings of their increments add up: half an ulp of the angle θ of a step each, like √n.  Pairs and the numbers
 #: of any precision are summed as they are: half an ulp of the whole each.
 RESTORED = 1024
 
 
 def ends(level: Level, given: State, stages: tuple[Any, ...], run: Trajectory) -> Judged:
-    """𝒦 and γ after a run, of one ball or the first of a batch, beside the end of the oracle's chain."""
+    """𝒦 and γ after a run, of one ball or the first of a batch, compared with the end of the oracle's chain."""
     exact = chain(given, stages)
     last = [whole(run, name) for name in ("momentum", "gamma")]
     found = [array.reshape(-1, *array.shape[-2:])[0, -1] for array in last]
@@ -40,7 +40,7 @@ def ten_steps(given: State, level: Level, quick: bool, balls: int = 0) -> Judged
 
 
 def composed(item: State | Callable[[int], State], level: Level, quick: bool) -> Judged:
-    """A step of order 8, 4 when quick, beside the oracle's composition with the same decimal coefficients."""
+    """A step of order 8, 4 when quick, compared with the oracle's composition with the same decimal coefficients."""
     order = 4 if quick else 8
     given = item(order) if callable(item) else item
     stages = tuple(number(c) for c in COMPOSITIONS[order].exact)

@@ -86,7 +86,7 @@ HEAVY = ("1e6", "1e12", "1e15")
 
 @cache
 def conditions() -> dict[str, dict[str, Sequence[State | Callable[[Level], State]]]]:
-    """The states of a single step, by group and condition; those beside a fold are made for a precision."""
+    """The states of a single step, by group and condition; those near a fold are made for a precision."""
     return {
         "momentum": {
             "generic": [halfway(), halfway((0.1, 0.5, 1.6), 0.7, (0.3, 0.2, -1.0))],

@@ -78,7 +78,7 @@ def bounded(given: State, exact: Truth) -> list[Judged]:
 
 
 def beside(level: Level, found: Found, exact: Truth | None) -> Judged:
-    """q, 𝒦 and γ beside the truth; a precision with guard digits promises as if κ were 1."""
+    """q, 𝒦 and γ compared with the truth; a precision with guard digits promises as if κ were 1."""
     if exact is None:
         return Judged(FAILED, reason="a rotation is given where the branch has folded: there is none")
     kappa = 1.0 if level.guarded else exact.condition

@@ -21,7 +21,7 @@ CAPTIONS = {
     "rotation-displacement.svg": "How far nine steps miss one half turn, along the circle where they make it in the "
     "mean. For D = 1 the displacement takes both signs, so the map locks; for D = 0 it is zero to all 60 digits.",
     "rotation-widths.svg": "Widths of the locked intervals (resonance tongues at fixed h): exponentially small in q "
-    "beside a given rotation number, and proportional to D² as D tends to 0 (lines: the law, no fitted constant).",
+    "near a given rotation number, and proportional to D² as D tends to 0 (lines: the law, no fitted constant).",
     "rotation-digits.svg": "The digits with which each locked interval is seen first, and what a step costs then.",
     "rotation-numbers.svg": "Digits of the weighted Birkhoff average against steps, and the rotation number over "
     "levels and heights.",

@@ -37,7 +37,7 @@ def angles(level: Level, steps: int) -> list[Any]:
 
 
 def mean(found: list[Any], steps: int) -> Any:
-    """The weighted average of the first so many angles, in half turns."""
+    """The weighted average of the first `steps` angles, in half turns."""
     return middle(sum(w * x for w, x in zip(weights(steps), found, strict=False)) / arb.pi())
 
 

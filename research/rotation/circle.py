@@ -197,7 +197,7 @@ class Level:
         return middle(t3 * s1 / (t2 * s4)), middle(t4 * s2 / (t2 * s4)), middle(t4 * s3 / (t3 * s4))
 
     def lift(self, phase: Any, steps: int) -> Any:
-        """The phase after so many steps, going on from turn to turn."""
+        """The phase after this many steps, going on from turn to turn."""
         gamma, total = self.point(phase), float(phase)
         for _ in range(steps):
             after = self.step(gamma)

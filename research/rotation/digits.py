@@ -1,4 +1,4 @@
-"""Which digits a plateau needs, and what a step costs at so many digits."""
+"""How many digits a plateau needs, and the cost of a step at a number of digits."""
 
 from collections.abc import Sequence
 from statistics import median
@@ -35,7 +35,7 @@ def needed(found: dict[str, Any]) -> int:
 
 
 def seen(found: dict[str, Any], digits: int) -> bool:
-    """Whether both symmetric orbits are displaced as they should be, computed with so many digits."""
+    """Whether both symmetric orbits are displaced as they should be, computed with this many digits."""
     with ctx.workdps(digits):
         level = Level(found["tensor"], found["D"], found["height"], found["level"])
         steps, turns = found["steps"], found["half_turns"]
@@ -48,7 +48,7 @@ def seen(found: dict[str, Any], digits: int) -> bool:
 
 
 def times(tensor: Sequence[Any], D: Any, height: Any, level: Any, digits: Sequence[int]) -> list[dict[str, Any]]:
-    """Seconds of a processor for a step on the sphere at so many digits: the median of some runs."""
+    """Seconds of a processor for a step on the sphere at this many digits: the median of some runs."""
     found = []
     for n in digits:
         with ctx.workdps(n):

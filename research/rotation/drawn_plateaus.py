@@ -13,7 +13,7 @@ from .words import decimal, log10, named
 
 BLUE, RED, GREEN = COLOURS[:3]
 GREY = "0.45"
-#: float64's roundings, beside 1.
+#: float64's roundings, relative to 1.
 FLOAT64 = -15.95
 #: The law is drawn for D to this.
 SMALL = 0.25
@@ -101,7 +101,7 @@ def _stems(axis: Any, seen: list[tuple[int, int, float, float]], colour: str, la
 
 
 def widths(found: dict[str, Any]) -> Picture:
-    """Widths against q near one rotation number, with the law; against D; and what is measured beside the law."""
+    """Widths against q near one rotation number, with the law; against D; and what is measured, with the law."""
     figure, axes = new("", 2, 2, height=3.7, width=WIDE)
     _against_q(axes[0], found["fifth"])
     _against_D(axes[1], axes[3], found["small_D"])
@@ -162,7 +162,7 @@ def _one_half_turn(axis: Any, found: list[dict[str, Any]]) -> None:
 
 
 def digits(found: dict[str, Any]) -> Picture:
-    """The digits at which each plateau is first seen, and the time of a step at so many digits."""
+    """The digits at which each plateau is first seen, and the time of a step against the number of digits."""
     figure, axes = new("", 1, 2, height=4.2, width=WIDE)
     seen = [
         (-log10(x["displacement"][0]), x["needed"])

@@ -14,7 +14,7 @@ BALL = {"tensor": [1, 2, 4], "D": "1", "height": "12/5"}
 SOLID = {"tensor": [1, 2, 4], "D": "7", "height": "12/5"}
 LONG = {"tensor": [0, 1, 10], "D": "1/2", "height": "3/2"}
 
-#: τ of the perturbed top beside the ball, and of the one whose staircase the eye sees.
+#: τ of the perturbed top next to the ball, and of the one whose staircase the eye sees.
 WEAK, STRONG = "1/100", "9/20"
 #: The top whose perturbation float64 sees: steps as long as its own small branch has them.
 TOP = {"tensor": [0, 1, 3], "D": "0", "height": "19/20"}
@@ -66,7 +66,7 @@ def units(quick: bool) -> dict[str, list[Unit]]:
             for D in ("0", "1/2", "2")
             for i in range(1, rows + 1)
         ],
-        # The displacement over the circle, each beside D = 0 with the same q; and the perturbed top.
+        # The displacement over the circle, each with D = 0 and the same q; and the perturbed top.
         "displacement": [
             Unit(f"{HERE}.displacement:displacement", {**case, "turns": 1, "samples": 64 if case["steps"] < 16 else 96})
             for case in DISPLACED[: 4 if quick else None]

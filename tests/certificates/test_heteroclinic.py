@@ -91,7 +91,7 @@ def test_what_has_no_certificate_is_one_sentence(ball, arguments, sentence):
 def test_ends_that_are_one_are_not_told_apart_forever(monkeypatch):
     """Δ(-u) = Δ(u)."""
     monkeypatch.setattr(search, "MOST_DIGITS", 40)
-    with pytest.raises(BadInput, match="not told from 0 with 40 digits"):
+    with pytest.raises(BadInput, match="40 digits do not distinguish the difference"):
         heteroclinic(top(), starts=(Fraction(2), Fraction(1, 2)))
 
 

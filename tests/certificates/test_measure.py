@@ -167,7 +167,7 @@ def test_what_has_no_certificate_is_one_sentence(ball, arguments, sentence):
 
 def test_a_displacement_that_is_too_small_is_not_looked_for_forever(monkeypatch):
     monkeypatch.setattr(resonance, "MOST_DIGITS", 100)
-    with pytest.raises(BadInput, match="not told from 0 with 100 digits"):
+    with pytest.raises(BadInput, match="100 digits do not distinguish the displacement"):
         no_invariant_measure(top(D="1e-90"), steps=9)
 
 

@@ -103,7 +103,7 @@ def test_a_wrong_range_is_refused(given, sentence):
 def test_ranges_that_do_not_fit_are_refused():
     many = {"linspace": [0, 1, 10**4]}
     for given, sentence in (
-        ({"inertia": {"grid": [[1, 1, 1], [2, 2, 2]]}}, "a range stands in the place of one number, not of a list"),
+        ({"inertia": {"grid": [[1, 1, 1], [2, 2, 2]]}}, "a range replaces one number, not a list"),
         ({"omega": (many, many, 1)}, "the ranges make 100000000 balls; a sweep has 10000000 at most"),
         ({"omega": (1, many, 0), "sweep": {"samples": 3}}, "sweep.samples goes with a range that is drawn"),
     ):

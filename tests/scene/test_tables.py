@@ -395,7 +395,7 @@ def test_a_centre_of_mass_in_the_middle_and_a_gyration_of_a_thirtieth_are_taken(
             "ball.inertia must have 3 numbers, or 3 rows of 3: six have two orders (URDF and SDF: ixx",
         ),
         ("0.006 0.007 0.009", "ball.inertia must be a list of numbers in brackets: [0.006, 0.007, 0.009]"),
-        ({"linspace": [1, 2, 3]}, "ball.inertia: a range stands in the place of one number"),
+        ({"linspace": [1, 2, 3]}, "ball.inertia: a range replaces one number"),
     ],
 )
 def test_a_tensor_as_other_formats_write_it_is_answered_with_the_rows(inertia, said):

@@ -123,7 +123,7 @@ class Curve(Brief):
     """γ = (C_a cn u, C_b sn u, C_c dn u) on the axes (a, b, c), a level ⟨γ,Λ⁻¹γ⟩ = l on the sphere, for one ball.
 
     axes: which component has cn, sn, dn: decreasing Λ for l > 1/Λ_b, the middle one, else increasing.
-    amplitudes: C_a, C_b > 0 and C_c, whose sign tells the half of the sphere.
+    amplitudes: C_a, C_b > 0 and C_c, whose sign selects the half of the sphere.
     modulus, complement: k and k' = √(1 - k²); k' is known to its own last digits, also near the separatrix k = 1.
     level: l; rate: V of (5.13-V) with its sign, so that u' = V along γ' = γ × Λ⁻¹γ.
     inertia: (Λ_a, Λ_b, Λ_c); gaps: (Λ_b - Λ_c, Λ_a - Λ_c, Λ_a - Λ_b), from J, which a large D does not round.

@@ -52,7 +52,7 @@ class VerticalTrajectory(Brief):
         return np.asarray((self.gamma * self.gamma / inertia).sum(axis=-1))
 
 
-@np.errstate(over="ignore", under="ignore", invalid="ignore")  # as compiled: `status` tells
+@np.errstate(over="ignore", under="ignore", invalid="ignore")  # as compiled: `status` reports it
 def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     """One step of the reduced map G_h (5.6 as corrected): γ ↦ Ωᵀγ with 𝒦(q, γ) = hγ, on the small-rotation branch.
 

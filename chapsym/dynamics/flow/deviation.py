@@ -43,9 +43,9 @@ from .series import Series, bend
 UNIT = arb(0.5, 0.5)
 #: Pieces of a step on which the size of A is bounded apart.
 PIECES = 8
-#: What is too small beside 1 to count in the choice of S.
+#: Sums of entries below this do not count in the choice of S.
 FLAT = 1e-9
-#: What stands beside 1 in the bound of |ξ| that is tried first.
+#: The factor of the bound of |ξ| that is tried first.
 ROOM = 1.5
 
 

@@ -46,7 +46,7 @@ class Series(NamedTuple):
         )  # fmt: skip
 
     def sizes(self) -> Floats:
-        """The size of each coefficient, (n,): of w beside its first."""
+        """The size of each coefficient, (n,): of w relative to its first."""
         turning = max(np.abs(self.w[:, 0]).max(), 1.0)
         return np.asarray(np.max([np.abs(x).max(axis=0) for x in (self.a, self.gamma, self.w / turning)], axis=0))
 

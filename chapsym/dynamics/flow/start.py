@@ -66,7 +66,7 @@ def exactly(value: Any, name: str) -> Fraction:
 
 
 def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
-    """So many of them."""
+    """A vector of exact numbers with this many components."""
     try:
         listed = [] if isinstance(values, str) else list(values)
     except TypeError:
@@ -110,7 +110,7 @@ def principal(tensor: Sequence[Sequence[Any]]) -> Principal:
     try:
         moments, vectors = acb_mat([list(row) for row in tensor]).eig(right=True)
     except ValueError:
-        raise TooWide("the principal moments are not told apart") from None
+        raise TooWide("the principal moments are not proved to differ") from None
     columns = []
     for j in range(2):
         v = [vectors[i, j] for i in range(3)]
@@ -120,7 +120,7 @@ def principal(tensor: Sequence[Sequence[Any]]) -> Principal:
     turn = tuple(quaternions(np.array(columns, dtype=object).T))
     found = Principal(tuple(x.real for x in moments), turn)
     if not all(x.is_finite() for x in (*found.moments, *found.turn)):
-        raise TooWide("the principal moments are not told apart")
+        raise TooWide("the principal moments are not proved to differ")
     return found
 
 

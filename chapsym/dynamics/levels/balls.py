@@ -354,7 +354,7 @@ def carried(u: Sequence[Any], inverse: Any, k: Sequence[Any], g: Sequence[Any], 
 
     u: the Gibbs vector of the point; inverse: A⁻¹ for every middle between it and another state's; k, γ: for all
     states.  By lemma `state-error` the Gibbs vector at ξ is ũ + δ with Aδ = -Sξ, S by what ξ changes in k and γ,
-    v - ṽ = 2[ṽ + ṽ × ξ]ₓξ/(1 + |ξ|²); and (1, -ũ)(1, ξ)(1, ũ + δ) is a multiple of (1, ξ').  What stands beside
+    v - ṽ = 2[ṽ + ṽ × ξ]ₓξ/(1 + |ξ|²); and (1, -ũ)(1, ξ)(1, ũ + δ) is a multiple of (1, ξ').  The vector after
     the 2 is within 2|ξ||v| of ṽ, as the v of all states are.
     """
     (u1, u2, u3), (g1, g2, g3) = u, g
@@ -613,7 +613,7 @@ class ArbBall(_UnderWay):
         return unit(compose(*(*self.a, *self._turned())))
 
     def bits(self) -> float:
-        """The correct bits of 𝒦, γ and the attitude, each beside the length of its vector."""
+        """The correct bits of 𝒦, γ and the attitude, each relative to the length of its vector."""
         vectors = *self._all(), self._attitude() if self.a else ()
         widest = [max(map(log_radius, v), default=-math.inf) for v in vectors]
         return -max(widest[0] - self.size, *widest[1:])
@@ -632,7 +632,7 @@ class ArbBall(_UnderWay):
 
 
 def point(p: Iterable[Any]) -> tuple[Vector, Any]:
-    """The middle of a quaternion in balls, and a bound of how far it is off, beside its length."""
+    """The middle of a quaternion in balls, and a bound of how far it is off, relative to its length."""
     balls = list(p)
     middle = tuple(x.mid() for x in balls)
     with ctx.workprec(MATRIX_BITS):

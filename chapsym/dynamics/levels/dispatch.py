@@ -143,7 +143,7 @@ def step(
 def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
     """The two frames of a run of one step, with attitudes that start as the identity and end as the rotation."""
     frames = _two_frames(precision, balls, order)
-    if isinstance(precision, Enclosure):  # an attitude has its bits beside 1; a small rotation wants them beside itself
+    if isinstance(precision, Enclosure):  # bits of an attitude are relative to 1; a small rotation needs them of itself
         lacking = max(map(partial(_lacking, precision.bits), frames.attitude[frames.status == 0, 1, 1:]), default=0)
         if lacking:
             frames.attitude[:] = _two_frames(replace(precision, bits=precision.bits + lacking), balls, order).attitude
@@ -161,7 +161,7 @@ def _two_frames(precision: Precision, balls: Balls, order: int) -> Frames:
 
 
 def _lacking(bits: int, vector: np.ndarray) -> int:
-    """How many more bits beside 1 an enclosed vector needs to have `bits` beside itself."""
+    """How many more bits relative to 1 an enclosed vector needs to have `bits` relative to its length."""
     size = max(abs(x.mid()) for x in vector)
     if not any(x.rad() > size * 2.0 ** (3 - bits) for x in vector):
         return 0

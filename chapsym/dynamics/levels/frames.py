@@ -81,7 +81,7 @@ class Frames:
 
 
 class Count:
-    """Adds up the steps that the threads have taken, and tells them when to stop."""
+    """Adds up the steps that the threads have taken; they end where `stopped` is set."""
 
     def __init__(self, progress: Callable[[int], None]) -> None:
         self._progress, self._lock, self._done = progress, threading.Lock(), 0

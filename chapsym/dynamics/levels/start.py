@@ -1,7 +1,7 @@
 """Where a step on a high precision starts: the rotation that the continuation finds, in float64 or in mpmath's numbers.
 
 float64 says which branch it is wherever it can.  Where it fails, or might, by the range of its exponents or because D
-is large beside J, the same continuation, the text of `branch` read once more, runs on numbers with enough digits.
+is large relative to J, the same continuation, the text of `branch` read once more, runs on numbers with enough digits.
 """
 
 import math
@@ -22,7 +22,7 @@ Exact = Sequence[Fraction]
 
 #: With a ratio of the moments of inertia above this, or a momentum below or above this, float64 is not asked.
 STIFF, TINY, HUGE = 1e8, 2.0**-900, 2.0**10
-#: Beside 1, float64 has smaller numbers, but not with all their bits.
+#: Of a least moment, in units of the largest: float64 has smaller numbers, but not with all their bits.
 LEAST_EXPONENT = -1000
 #: The digits of the continuation beyond those that the ratio of the moments costs twice.
 DIGITS = 40

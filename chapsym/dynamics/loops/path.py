@@ -21,7 +21,7 @@ LEVEL = 0.75
 MOST_ROUNDS = 6
 #: Before the least stretch is known it is taken to be this times I_max + D, which no stretch exceeds.
 NEAR = 0.0625
-#: A correction whose square is below this, beside |u|², has found a root: another round would not prove more.
+#: A correction whose square is below this, relative to |u|², has found a root: another round would not prove more.
 FOUND = 1e-26
 
 

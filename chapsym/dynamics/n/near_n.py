@@ -30,7 +30,7 @@ from ..ball import Floats, largest_moment
 ANGLES = np.array((0.25, 0.5, 0.75, 0.9))
 #: What |𝒦| and |γ| may change in a trajectory, relative to themselves, by roundings.
 DRIFT = 1e-6
-#: Where a momentum or a least moment is so small beside the largest moment, the step is taken as for larger momenta.
+#: Where a momentum or a least moment is below this times the largest moment, the step is as for larger momenta.
 LEAST_MOMENTUM, LEAST_MOMENT = 2.0**-200, 2.0**-30
 #: Nor are balls served whose moments are beyond 2^±MOST.
 MOST = 900

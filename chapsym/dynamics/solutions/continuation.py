@@ -67,7 +67,7 @@ class Followed(Brief):
     fold: Fold
 
 
-@np.errstate(all="ignore")  # what overflows settles nowhere: `status` tells
+@np.errstate(all="ignore")  # what overflows settles nowhere: `status` reports it
 def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> Followed:
     """Follows the rotation with the first momentum of the path along straight lines from each to the next.
 

@@ -1,4 +1,4 @@
-"""python -m rocq CERTIFICATES DIR, beside this folder: with Python alone, from the certificates that a folder keeps."""
+"""python -m rocq CERTIFICATES DIR, next to this folder: with Python alone, from the certificates in a folder."""
 
 import json
 import sys

@@ -26,7 +26,7 @@ State = dict[str, np.ndarray]
 Progress = Callable[[int], None]
 
 FOLLOWED = ("momentum", "gamma", "attitude", "contact")
-#: From so many balls on a batch runs in vector lanes.
+#: The number of balls from which on a batch runs in vector lanes.
 BATCH = 16
 #: How far 𝒦 may be from hγ, relatively: 𝒦 was rounded, and its motion stays as near as that to the one with 𝒦 = hγ.
 VERTICAL = 4 * np.finfo(np.float64).eps
@@ -42,11 +42,11 @@ ROLLING = {"momentum": STEP, "attitude": ("compose",), "contact": ("compose", "c
 class Model(ABC):
     """A way to follow balls; its name says all that the values depend on.
 
-    name: as the plan tells it; title: what a reader sees in its place.  about: what it leaves out or knows, one clause.
+    name: as in the plan; title: as readers see it.  about: what it leaves out or knows, one clause.
     columns: what it can follow.  kernels: the generated ones in its loops, for each column that it follows.
     motion: whether it is of the motion of the ball to an accuracy, else of the map; high: whether of balls in more than
     three dimensions.  reduction: whether it is less than the model that serves every such ball, has order 2 and float64
-    only, and a plan tells why it does not serve.
+    only, and a plan says why it does not serve.
     stepwise: whether its cost grows with the steps (else with the frames).
     whole: whether it must run in one segment, as its state has more than float64 arrays.
     proves: whether it bounds the error of each frame where that is asked for.
@@ -90,7 +90,7 @@ class Model(ABC):
         return None
 
     def unfit(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """The same, by a look at each ball that may take as long as its run: asked of the cheapest models only."""
+        """The same, by a test of each ball that may take as long as its run: for the cheapest models only."""
         return None
 
     def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
@@ -133,7 +133,7 @@ class Stepwise(Model):
 
     @abstractmethod
     def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Any:
-        """A trajectory of so many steps from a state, of all the balls; its contact point starts at the origin."""
+        """A trajectory of `steps` steps from a state, of all the balls; its contact point starts at the origin."""
 
     def attitude(self, members: Members) -> np.ndarray:
         """The attitude at the start where none was given: the least rotation with R γ = e₃."""
@@ -287,7 +287,7 @@ class Vertical(Stepwise):
         return len(members) * (task.steps * 25.0 + task.frames * frame + turns)
 
     def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
-        """γ and h; and the rotation number, which every segment tells and one computes."""
+        """γ and h; and the rotation number, which is computed once and is in every segment."""
         height = _heights(members)
         state = Model.begin(self, members, task, needed) | {"gamma": members.gamma, "height": height}
         if "rotation_number" in needed:

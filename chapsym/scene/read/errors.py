@@ -29,7 +29,7 @@ class SceneError(BadInput):
 
 
 class Misfit(BadInput):
-    """What does not fit, a whole sentence, and the keys to where it stands in the table that is checked, or the scene.
+    """What does not fit, a whole sentence, and the keys to its place in the table that is checked, or the scene.
 
     Of a ball that cannot be these are its table, "ball" or "start", and the name of the key.
     """

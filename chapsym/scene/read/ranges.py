@@ -108,7 +108,7 @@ class Sweep:
     """The values of some ranges for every ball: the product of those that span a dimension, the last of them the
     fastest, times `samples` where any is drawn.
 
-    Each drawn range has a stream of random numbers of its own, told by `seed`, `stream` and its key, so that another
+    Each drawn range has a stream of random numbers of its own, given by `seed`, `stream` and its key, so that another
     range added to a scene changes no draw.  Raises ValueError for more than `MOST_BALLS` balls.
     """
 

@@ -96,7 +96,7 @@ def _listed(given: Any) -> Any:
     if isinstance(given, dict):
         if any(_OF_A_TENSOR.fullmatch(str(key)) for key in given):
             raise ValueError(ROWS)
-        raise ValueError("a range stands in the place of one number, not of a list: [{ linspace = [a, b, n] }, 0, 0]")
+        raise ValueError("a range replaces one number, not a list: [{ linspace = [a, b, n] }, 0, 0]")
     return given
 
 
@@ -300,8 +300,8 @@ class RunTable(Table):
     time_step: Seconds | None = Field(
         None, description="ε; without it momentum is 𝒦 of one step, and there is no time."
     )
-    every: Whole | None = Field(None, description="Keep every so many steps; default 1.")
-    frames: Whole | None = Field(None, description="Keep so many states beside the start, in the place of every.")
+    every: Whole | None = Field(None, description="Keep every n-th state; default 1.")
+    frames: Whole | None = Field(None, description="Keep this many states besides the start, instead of every.")
     outputs: tuple[Output, ...] | None = Field(None, description="What to keep; default momentum and gamma.")
     attitude: Switch = Field(False, description='Short for "attitude" in outputs.')
     contact: Switch = Field(False, description='Short for "contact" in outputs.')

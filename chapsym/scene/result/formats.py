@@ -231,7 +231,7 @@ def _read_zarr(path: Path) -> "Dataset":
     from .chunks import CheckedStore
 
     check_ours(path)
-    with warnings.catch_warnings():  # of a group that lacks what it should have, which is told in a sentence
+    with warnings.catch_warnings():  # of a group that lacks what it should have: a sentence reports it
         warnings.filterwarnings("ignore", message="Failed to open Zarr store with consolidated metadata")
         data = xarray.open_zarr(CheckedStore(path, read_only=True))
     for one in data.variables.values():

@@ -1,6 +1,6 @@
 """A result in Zarr that is written unit by unit: created whole, resumable, never mixed with another run.
 
-Beside the arrays the folder `.chapsym` has the lock and the marks: for each chunk how many segments are written, with
+Next to the arrays, the folder `.chapsym` has the lock and the marks: for each chunk how many segments are written, with
 the state for the next, in one file.
 """
 
@@ -261,7 +261,7 @@ def _data(text: Any) -> Any:
     return text
 
 
-# A new store is made beside its place with all its metadata, then renamed, so that it is there whole or not at all.
+# A new store is made next to its place with all its metadata, then renamed, so that it is there whole or not at all.
 
 
 def _check_place(path: Path) -> None:
@@ -406,7 +406,7 @@ def _refusals(path: Path, names: Iterable[str] = (), creating: bool = False) -> 
     except (OSError, files.CannotWrite) as error:
         _wait_for_zarr()
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
-        causes = (error, error.__cause__, error.__context__)  # of a CannotWrite the error inside tells
+        causes = (error, error.__cause__, error.__context__)  # of a CannotWrite the error inside says it
         full = any(isinstance(e, OSError) and e.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) for e in causes)
         if not creating and not (path / "zarr.json").exists():
             for name in names:

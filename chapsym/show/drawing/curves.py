@@ -13,7 +13,7 @@ FINE = 0.1
 MOST_POINTS = 200_000
 #: More balls than this have no curves of their own.
 LINES = 60
-#: Of more balls than this, so many tell how far their frames are apart.
+#: The largest number of balls from which the distance of frames is found.
 SAMPLE = 50
 
 
@@ -40,7 +40,7 @@ def finer(dataset: Dataset, fine: float = FINE, most: int = MOST_POINTS) -> Data
 
 
 def apart(dataset: Dataset) -> float:
-    """How far next frames are apart in radians of turning, at least; 0 where there is no time, or nothing tells."""
+    """A lower bound of the turning between next frames, in radians; 0 where there is no time, or it is not known."""
     if "time" not in dataset.coords or dataset.sizes.get("frame", 0) < 2:
         return 0.0
     some = np.unique(np.linspace(0, dataset.sizes["ball"] - 1, min(dataset.sizes["ball"], SAMPLE)).round().astype(int))

@@ -10,13 +10,13 @@ from chapsym.dynamics.ball import Floats
 
 from .style import COLOURS, FEW
 
-#: A line has at most so many vertices; of more frames the range in each of as many intervals is drawn.
+#: The most vertices of a line; of more frames the range in each of as many intervals is drawn.
 MOST = 1500
 #: A line that swings more often than this in a panel would be a striped block.
 SWINGS = 100
-#: Of a series with more swings, so many are drawn as a line.
+#: How many swings of a series with more than that are drawn as a line.
 SOME = 20
-#: Percentiles are taken at so many frames at most.
+#: The largest number of frames at which percentiles are taken.
 INSTANTS = 600
 #: Bands around a median: from and to which percentile, how opaque, and the name in the legend.
 BANDS = ((0, 100, 0.13, None), (5, 95, 0.2, None), (25, 75, 0.3, None))
@@ -58,7 +58,7 @@ def line(
 
 
 def _range(axis: Axes, t: Floats, y: Floats, intervals: int, **options: object) -> None:
-    """The range of a series in so many intervals."""
+    """The range of a series in each of this many intervals."""
     edges = np.linspace(0, len(t), intervals + 1).astype(int)[:-1]
     low, high = np.fmin.reduceat(y, edges), np.fmax.reduceat(y, edges)
     # Next intervals share an end, so that a slow series is a line without gaps.
@@ -68,7 +68,7 @@ def _range(axis: Axes, t: Floats, y: Floats, intervals: int, **options: object) 
 
 
 def instants(frames: int, most: int = INSTANTS) -> np.ndarray:
-    """At most so many of the frames, evenly, with the first and the last."""
+    """At most this many of the frames, evenly, with the first and the last."""
     return np.unique(np.linspace(0, frames - 1, min(frames, most)).round().astype(int))
 
 

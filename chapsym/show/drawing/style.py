@@ -21,16 +21,16 @@ from .reading import RAISED, literal
 
 #: Okabe and Ito's colours.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
-#: So many balls have a colour and a name each; more share a colour scale.
+#: The most balls with a colour and a name each; more share a colour scale.
 FEW = 6
-#: So many vertices are drawn as such; with more, the layer is rasterised: an SVG stays below 1 MB.
+#: The most vertices that are drawn as such; with more, the layer is rasterised: an SVG stays below 1 MB.
 VERTICES = 16_000
 #: Inches: on a screen of 390 px the letters are still 10 px high.
 WIDTH = 5.6
 #: Inches of a figure for a desk, with two panels side by side.
 WIDE = 10.4
 MAP = "viridis"
-#: So many letters fit below a figure.
+#: How many letters fit below a figure.
 LETTERS = 66
 
 #: What differs from the defaults of matplotlib.
@@ -75,7 +75,7 @@ class Picture(Figure):
 
 
 def empty(height: float, width: float = WIDTH) -> Picture:
-    """A figure without axes, so many inches high and wide."""
+    """A figure without axes, with this height and width in inches."""
     return Picture(figsize=(width, height), layout="constrained")
 
 

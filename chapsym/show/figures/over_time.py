@@ -16,7 +16,7 @@ from ..drawing.style import COLOURS, FEW, VERTICES, Picture, add_note, at_least,
 
 #: A change below this part of the largest component is drawn flat.
 FLAT = 1e-3
-#: Four lines that swing more often than this in one panel cannot be told apart.
+#: Four lines that swing more often than this in one panel cannot be distinguished.
 SWINGS = 40
 #: The least range of an axis for what should stay, in ulps of the value: a wobble of the last digit looks like one.
 ULPS = 20

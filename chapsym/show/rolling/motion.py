@@ -12,7 +12,7 @@ from chapsym.dynamics.ball import Floats
 from ..drawing import curves, reading
 from ..drawing.invariant import unit
 
-#: So many balls are told apart by their colours.
+#: The most balls that are distinguished by their colours.
 MOST_BALLS = 20
 #: Frames of all balls together, and the least and the most of one.
 FRAMES, LEAST, MOST = 40_000, 2_000, 8_000
