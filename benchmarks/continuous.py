@@ -31,7 +31,7 @@ def rates(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
 
 
 def right_side(t: float, y: np.ndarray) -> tuple[float, ...]:
-    """As SciPy wants it, in plain Python on floats."""
+    """The right side in SciPy's form, in plain Python on floats."""
     return rates(*y.tolist(), *BALL)
 
 

@@ -47,7 +47,7 @@ def with_mpmath(digits: int, steps: int) -> tuple[Any, Any]:
 
 
 def difference(digits: int, steps: int) -> float:
-    """Of the two ends, in the last of the digits; raises NotComparable where it is not small."""
+    """The difference of the two ends, in units of the last digit; raises NotComparable where it is not small."""
     ends = [side(digits, steps) for side in (with_chapsym, with_mpmath)]
     with mp.workdps(digits + 10):
         most = max(abs(mpf(x) - y) for one, two in zip(*ends, strict=True) for x, y in zip(one, two, strict=True))

@@ -25,7 +25,7 @@ def by_columns(K, g, J, D, steps):
 
 
 def _run(K, g, J, D, steps, everywhere):
-    """By the Gibbs vector u = q/q₀, extrapolated from six steps, corrected and checked."""
+    """A run by the Gibbs vector u = q/q₀, extrapolated from six steps, corrected and checked."""
     past: list = []
     moments = moments_of(*J)
     for _ in range(steps):

@@ -1,4 +1,4 @@
-"""What each reduction saves: its time and that of the full model, for every frame and for a few far ones."""
+"""The savings of each reduction: its time and that of the full model, for every frame and for a few far ones."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -211,7 +211,7 @@ def loosest(problem: Problem, truth: States, accuracy: float) -> Callable[[], St
 
 
 def truth_of(p: Problem) -> States:
-    """By heyoka.py in long double; where it is missing, by `extrapolate` in steps of a fifth of a radian."""
+    """The truth by heyoka.py in long double; where it is missing, by `extrapolate` in steps of a fifth of a radian."""
     if installed("heyoka") is None:
         return taylor(p, 1e-19, "long double")()
     return extrapolated(p, 1 + round(5 * p.end / p.frames * float(np.linalg.norm(p.omega))))

@@ -1,4 +1,4 @@
-"""What a section of the benchmarks found: a table, the figures to reach, and the lines of a figure."""
+"""The results of a section of the benchmarks: a table, the figures to reach, and the lines of a figure."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
@@ -12,7 +12,7 @@ UNITS = {"ns": 1e9, "µs": 1e6, "ms": 1e3}
 
 @dataclass(frozen=True)
 class Result:
-    """What a section found.
+    """The results of a section.
 
     rows: the table, dictionaries with the same keys; missing: the peers that could not run, and why;
     reach: what the project set out to reach, `Reached`; curves: what the figure draws.
@@ -58,7 +58,7 @@ class Reached:
 
     @property
     def bound(self) -> str:
-        """What is wanted, in words."""
+        """The bound that is wanted, in words."""
         return f"{'at least' if self.at_least else 'at most'} {self.wanted:.3g}"
 
 

@@ -60,13 +60,13 @@ class Crew(Protocol):
     lost: tuple[type[BaseException], ...]
 
     def room(self) -> int:
-        """How many calls it is to have in hand; raises BadInput if it is gone."""
+        """The number of calls that it should have in hand; raises BadInput if it is gone."""
 
     def submit(self, call: Call) -> Any:
         """Begins a call; a future."""
 
     def landed(self, futures: Collection[Any]) -> Iterable[Any]:
-        """Those that are done, of some; it may wait, and return none."""
+        """The calls that are done, of some; it may wait, and return none."""
 
 
 def run(chains: Iterable[Chain], crew: Crew) -> None:

@@ -1,4 +1,4 @@
-"""What `chapsym extremes` and `chapsym study` do: they measure, write and print."""
+"""The work of `chapsym extremes` and `chapsym study`: they measure, write and print."""
 
 import json
 from collections.abc import Sequence

@@ -35,7 +35,7 @@ class Unit:
 
     @property
     def key(self) -> str:
-        """What its result depends on: the call, the version of chapsym, and the sources that it is made of."""
+        """A key of all that its result depends on: the call, the version of chapsym, and the sources of both."""
         made_by = [chapsym.__version__, _sources(self.function.partition(":")[0]), self.function]
         return json.dumps([*made_by, self.arguments], sort_keys=True, ensure_ascii=False)
 

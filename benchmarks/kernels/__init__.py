@@ -188,7 +188,7 @@ class Kernels:
         ]  # fmt: skip
 
     def sentences(self) -> list[str]:
-        """What the columns are."""
+        """The meaning of the columns."""
         return ["errors against 90 digits"]
 
     def as_json(self) -> dict[str, Any]:

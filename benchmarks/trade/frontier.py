@@ -16,7 +16,7 @@ EVERY = (3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 50, 100)
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """What is measured: its name (precision and order), how its error is found, and a run of a number of steps.
+    """A choice to measure: its name (precision and order), how its error is found, and a run of a number of steps.
 
     step: |ω|ε in radians; time: of the run, in seconds of the ball.
     """
@@ -45,7 +45,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Frontier:
-    """What a section found: all points, and what is to be said of them.
+    """The results of a section: all points, and the notes on them.
 
     question: what the digits are of.  notes: the reference and how it was confirmed.
     """
@@ -88,7 +88,7 @@ class Frontier:
         ]  # fmt: skip
 
     def sentences(self) -> list[str]:
-        """What is dominated, and the notes."""
+        """The sentences on dominated points, and the notes."""
         named = [f"dominated: {name} (by {better})" for name, better in self.dominated.items()]
         return [self.question, *named, *self.notes]
 

@@ -104,7 +104,7 @@ class Request:
 
     @cached_property
     def condition(self) -> float:
-        """Of Λ - Dγγᵀ, at most."""
+        """An upper bound of the condition number of Λ - Dγγᵀ."""
         ball = self._scaled()[0]
         least = float(ball.inertia.min())
         return float(ball.inertia.max() + ball.D) / least if least > 0 else math.inf
@@ -122,7 +122,7 @@ class Request:
 
     @property
     def unit(self) -> float:
-        """What a relative error of the motion comes to in the norm: 1, or the radius in metres."""
+        """The size in the norm of a relative error 1 of the motion: 1, or the radius in metres."""
         return float(self.ball.radius) if self.of == "contact" else 1.0  # type: ignore[arg-type]
 
 
@@ -134,7 +134,7 @@ def _positive(value: Any, name: str) -> float:
 
 
 def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:
-    """How far apart two runs of the same steps are in the request's norm, at each frame but the first, (frames,).
+    """The distance of two runs with the same steps in the request's norm, at each frame but the first, (frames,).
 
     Both are in float64 or in double-double.
     """
@@ -155,7 +155,7 @@ def _difference(run: Trajectory, other: Trajectory, name: str) -> Floats:
 
 
 def _rest(run: Trajectory, name: str) -> Any:
-    """What double-double numbers have beyond float64."""
+    """The low halves of double-double numbers."""
     return 0.0 if run.low is None else getattr(run.low, name)
 
 
@@ -182,7 +182,7 @@ class Method:
 
     @property
     def columns(self) -> int:
-        """Of `extrapolate`; 0 for the others."""
+        """The columns of `extrapolate`; 0 for the other methods."""
         return self.order // 2 if self.order > COMPOSED[-1] else 0
 
     @property
@@ -320,12 +320,12 @@ class Accurate:
 
     @property
     def choice(self) -> Choice:
-        """What was delivered: precision, order and steps."""
+        """The choice that was run: precision, order and steps."""
         return self.attempts[-1].choice
 
     @property
     def estimate(self) -> float:
-        """Of the error, at the worst of the times, in the norm of the request."""
+        """The estimate of the error, at the worst of the times, in the norm of the request."""
         return self.attempts[-1].estimate
 
     def final(self) -> dict[str, list[Any]]:
@@ -396,7 +396,7 @@ def foreseen(
     attitude: bool | ArrayLike = False,
     limit: float = 600.0,
 ) -> Choice:
-    """What `accurate` would try first; arguments and errors as there."""
+    """The choice that `accurate` would try first; arguments and errors as there."""
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
     return _foreseen(request, limit)[1]
 
@@ -417,7 +417,7 @@ def _foreseen(request: Request, limit: Any) -> tuple[Problem | None, Choice]:
 
 
 def _problem(request: Request) -> Problem:
-    """What is asked of double precision."""
+    """The request as a problem for double precision."""
     ball, metres, body, attitude = request.ball, request.of == "contact", request.body, request.attitude
     start = None if body is False else attitude_with(request.gamma) if isinstance(attitude, bool) else attitude
     given = (ball.mass_tensor, ball.D, ball.radius, request.angular_momentum, request.gamma, start)

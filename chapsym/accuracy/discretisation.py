@@ -1,4 +1,4 @@
-"""How far a run of the map is from the motion of the ball: by a pilot of it with these steps and with halves of them.
+"""The distance of a run of the map from the motion of the ball, by a pilot run with these steps and half of them.
 
 The integrals of the map, which it keeps whatever the step, do not tell that.  The error of an order p falls by 2^p
 where the step is halved, so the motion is 2^p/(2^p - 1) times as far as the finer run is (Richardson).
@@ -38,7 +38,7 @@ class Discretisation:
     balls: int
 
     def sentence(self) -> str:
-        """For a reader."""
+        """The estimate as a sentence."""
         units = {"gamma": "in gamma", "omega": "rad/s in omega", "attitude": "degrees", "contact": "m on the plane"}
         far = [f"{x:.2g} {unit}" for name, unit in units.items() if (x := getattr(self, name)) is not None]
         whole = f" of {self.end:.6g} s" if self.time < self.end else " s"
@@ -46,12 +46,12 @@ class Discretisation:
         return f"about {', '.join(far)} off the motion of the ball, up to {self.time:.6g}{whole}{balls}"
 
     def write(self) -> str:
-        """As JSON, for a file."""
+        """The estimate as JSON, for a file."""
         return json.dumps(asdict(self))
 
 
 def read(text: object) -> Discretisation | None:
-    """What `write` gave; None for anything else."""
+    """Reads the text of `write`; None for anything else."""
     try:
         found = Discretisation(**json.loads(text))  # type: ignore[arg-type]
         numbers = [float(x) for x in vars(found).values() if x is not None]

@@ -285,7 +285,7 @@ class Motion:
 
 @dataclass(eq=False)
 class Problem:
-    """What is asked for: n balls from K and γ, `frames` times `interval` seconds apart, to an accuracy.
+    """A problem: n balls from K and γ, `frames` times `interval` seconds apart, to an accuracy.
 
     attitude: (n, 4) or None, where it is not followed.  contact: whether it is.
     parts: what the accuracy is of; with metres in metres, of relative errors and angles times the radius.
@@ -342,7 +342,7 @@ class Problem:
         return float((self.end / self.survey[FIRST]).sum()) if self.frames else 0.0
 
     def nothing(self) -> Motion:
-        """Room for the motion, with the start as the first frame."""
+        """An empty motion, whose first frame is the start."""
         n, kept = len(self), self.frames + 1
         reached, status, order, steps, total = np.zeros((5, n), dtype=np.int64)
         try:
@@ -611,7 +611,7 @@ def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
 
 @np.errstate(all="ignore")  # frames that were not reached are NaN
 def apart(problem: Problem, run: Motion, other: Motion, stride: int = 1) -> Floats:
-    """How far two runs are apart at each common frame, (n, frames): other has every `stride`-th frame of run.
+    """The distance of two runs at each common frame, (n, frames): other has every `stride`-th frame of run.
 
     The largest of the parts that are asked for: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle
     between the attitudes in radians, and the distance of the contact points in radii; times the radius, if the accuracy

@@ -118,12 +118,12 @@ def refined(fields: Mapping[str, Any], digits: int, progress: Callable[[str], No
 
 
 def missed(orbit: Orbit, start: Vector, found: Vector) -> Interval:
-    """By how much the component `along` misses its start on the section."""
+    """The difference of the component `along` from its start on the section."""
     return found[orbit.along] - start[orbit.along]
 
 
 def middle(x: Interval) -> Fraction:
-    """Of an interval."""
+    """The middle of an interval."""
     return Fraction(x.lo + x.hi, 2 << x.bits)
 
 

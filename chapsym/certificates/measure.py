@@ -49,7 +49,7 @@ class Orbit:
     displacement: Any
 
     def write(self, digits: int) -> dict[str, Any]:
-        """For JSON, rounded."""
+        """The orbit for JSON, rounded."""
         steps = [
             {name: [rounded(x, digits) for x in v] for name, v in (("u", u), ("gamma", gamma))}
             for u, gamma in zip(self.gibbs, self.gammas, strict=True)
@@ -192,7 +192,7 @@ def _precise(at: Resonance, digits: int) -> Any:
 
 
 def _orbits(top: Top, at: Resonance) -> list[Orbit]:
-    """From both starts; δ as if all steps turned in the direction of the first."""
+    """The orbits from both starts; δ as if all steps turned in the direction of the first."""
     reduced, found = Reduced(top), list[Orbit]()
     for name in at.starts:
         gibbs, gammas = reduced.orbit(at.level, at.axes, tangent(name), at.steps)

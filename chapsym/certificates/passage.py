@@ -35,7 +35,7 @@ class Level:
 
 @dataclass(frozen=True)
 class Passage:
-    """Of q steps: the product T of their rotations, and how it changes with the start.
+    """A passage of q steps: the product T of their rotations, and its change with the start.
 
     quaternion: of T, which takes the start to the end.  turned: T, (3, 3).  change: the ω of dT = [ω]×T for four
     variations of the start, (3, 4): (w × 𝒦, w × γ) for w = e1, e2, e3, and ((𝒦 × γ) × 𝒦, 0), which turns 𝒦 alone,

@@ -154,7 +154,7 @@ def _row(cell: dict[str, Any]) -> str:
 
 @contextmanager
 def _crew(jobs: int) -> Iterator[Later]:
-    """What makes a call when its result is asked for, or begins it in one of some processes."""
+    """A crew that makes each call when its result is needed, or begins it in one of some processes."""
     if jobs == 1:
         yield partial
         return
@@ -183,7 +183,7 @@ def _cell(of: Any, *how: Any) -> Any:
 
 
 def _said(given: Any, decide: bool) -> str:
-    """What is said of a system, or of that of a file: whether its motion keeps its energy.
+    """The sentences on a system, or on that of a file: whether its motion keeps its energy.
 
     With `decide` also what is exact, or why it is not.
     """

@@ -1,4 +1,4 @@
-"""What every command does with its output: one sentence for an error, one JSON object, a bar."""
+"""The output of every command: one sentence for an error, one JSON object, a progress bar."""
 
 import json
 import sys

@@ -229,6 +229,6 @@ def all_claims(lemmas: bool = False, register: "Register | None" = None) -> dict
 
 
 def tally(records: list[dict[str, Any]]) -> str:
-    """How many claims have each verdict."""
+    """The number of claims with each verdict."""
     counts = Counter(record["verdict"] for record in records)
     return f"{counted(len(records), 'claim')}: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))

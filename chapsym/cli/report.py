@@ -114,7 +114,7 @@ def _behind(questions: list[str], claims: dict[str, Any]) -> list[str]:
 
 
 def _evidence(name: str, folder: Path) -> Any:
-    """What a study left in the folder; None if it left nothing."""
+    """The evidence of a study in the folder; None if there is none."""
     from chapsym.report.questions import Evidence
     from chapsym.studies.checkout import in_checkout
 

@@ -123,7 +123,7 @@ def _named(scene: Path, name: str | None) -> Path:
 def _tell(
     plan: "Plan", destination: Path, outcome: Any, data: "Dataset | Arrays", answers: list[Any], as_json: bool
 ) -> None:
-    """What was run and where it is; units that were not run are an error, balls that stopped early are none."""
+    """Prints what was run and where it is; units that were not run are an error, balls that stopped early are none."""
     from chapsym.scene.result.proved import PROVED, UNITS, UNITS_OF_MAP, bounds_of
     from chapsym.scene.result.summary import far, last_state, sentence, stopped
 

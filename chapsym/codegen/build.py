@@ -76,7 +76,7 @@ class Package:
 
     @property
     def name(self) -> str:
-        """What its functions in C begin with: the name of the register's folder."""
+        """The prefix of its functions in C: the name of the register's folder."""
         return "chapsym" if self.is_ours else re.sub(r"\W", "_", self.register.folder.name, flags=re.ASCII)
 
     @property
@@ -169,7 +169,7 @@ class Package:
 
     @cached_property
     def computed(self) -> dict[str, Computed]:
-        """What the kernels compute."""
+        """The expressions that the kernels compute."""
         return {kernel.name: (fingerprint(kernel), partial(text_fingerprint, kernel)) for kernel in self.kernels}
 
     @cached_property
@@ -178,7 +178,7 @@ class Package:
         return {name: derived for name, (derived, _) in self.computed.items()}
 
     def distrusted(self, place: Path) -> dict[str, str]:
-        """What the trusted fingerprints say against the derivation: a sentence for each kernel."""
+        """The kernels whose trusted fingerprints contradict the derivation, with a sentence for each."""
         trusted, problems = stored_fingerprints(place), {}
         for name, value in self.fingerprints.items():
             if name not in trusted:
@@ -324,7 +324,7 @@ def _one_a_line(table: Mapping[str, Any]) -> str:
 
 
 def _doubts(what: str, derived: list[str], values: Callable[[str], list[str]], text: bytes) -> list[str]:
-    """What a changed text does otherwise than the derivation, if anything."""
+    """The differences of a changed text from the derivation, if there are any."""
     try:
         return [] if values(text.decode()) == derived else [f"{what} computes another value than the derivation"]
     except Exception as error:

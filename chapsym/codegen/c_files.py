@@ -133,7 +133,7 @@ class Texts:
     def reached(
         self, functions: Iterable[Function], numbers: str, done: dict[Function, None] | None = None
     ) -> dict[Function, None]:
-        """What some functions call for a type of numbers, with themselves, each after those that it calls."""
+        """Some functions and all that they call for a type of numbers, each after those that it calls."""
         done = {} if done is None else done
         for function in functions:
             if function not in done:
@@ -175,12 +175,12 @@ class Texts:
             yield ("r", "r")
 
     def external(self) -> list[tuple[Function, Printer]]:
-        """What float32 calls in float64."""
+        """The functions in float64 that float32 calls."""
         found = {f for g in self.groups for f in self.of[g].calls if is_external(g, f)}
         return [(f, self.of[f]) for f in self.groups if f in found]
 
     def varying(self) -> str:
-        """What has another value, or is another function, in float32."""
+        """The names that have another value, or are another function, in float32."""
 
         def definition(name: str, value: Any) -> str:
             text = value.name if isinstance(value, Function) else number(value).text

@@ -1,4 +1,4 @@
-"""What carries a kernel: the side of a statement that a claim has decided, and what is made of it step by step.
+"""The carriers of kernels: the side of a statement that a claim has decided, and the steps from there.
 
 The checker judges it (`chapsym.checker.kernels`): it makes the same of the statement in the claim's certificate, and
 compares that with the text of the kernel.
@@ -47,7 +47,7 @@ class Carrier:
     steps: tuple[tuple[str, Any], ...] = ()
 
     def at(self, places: Places) -> "Carrier":
-        """With expressions in the place of variables."""
+        """The carrier with expressions in the place of variables."""
         return self._then("at", _places(places))
 
     def along(self, *moves: Places) -> "Carrier":
@@ -76,7 +76,7 @@ class Carrier:
         return [self.claim, *(id for step, by in self.steps if step == "solved" for id in by.claims)]
 
     def data(self, digest: Callable[[str], str]) -> dict[str, Any]:
-        """As the checker reads it, with the digest of the certificate of each claim; raises NotAlgebra."""
+        """The carrier as the checker reads it, with the digest of the certificate of each claim; raises NotAlgebra."""
         steps = [[step, by.data(digest) if isinstance(by, Carrier) else _trees(by)] for step, by in self.steps]
         return {
             "claim": self.claim, "certificate": digest(self.claim), "statement": self.statement, "side": self.side,

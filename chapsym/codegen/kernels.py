@@ -76,7 +76,7 @@ class Kernel:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Of the result; one output is a number."""
+        """The shape of the result; one output is a number."""
         if self.rows_of_three:
             return len(self.outputs) // 3, 3
         return (len(self.outputs),) if len(self.outputs) > 1 else ()
@@ -121,7 +121,7 @@ class Kernel:
 
     @cached_property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """What is computed, derived once."""
+        """The expressions that are computed, derived once."""
         return tuple(sp.sympify(e, strict=True) if e is not None else e for e in self.build())
 
     @cached_property
@@ -136,7 +136,7 @@ class Kernel:
 
 
 def adjoined(stands: sp.Expr) -> tuple[str, sp.Expr] | None:
-    """What a letter stands for, as the name of a function and its argument, 1 for π; None for anything else."""
+    """The meaning of a letter, as the name of a function and its argument, 1 for π; None for anything else."""
     if stands is sp.pi:
         return "pi", sp.S.One
     if isinstance(stands, sp.sin | sp.cos):

@@ -83,7 +83,7 @@ def _made(value: Fraction, terms: Fraction, count: int, steep: Fraction, in_rang
 
 
 def _in_range(terms: Fraction) -> bool:
-    """Of a product or a quotient."""
+    """Whether the terms of a product or a quotient are in range."""
     return not terms or SMALLEST <= terms <= LARGEST
 
 
@@ -116,7 +116,7 @@ def count(kernel: Kernel, function: Callable[..., Any], point: Sequence[Fraction
 
 
 def bounds(function: Callable[..., Any], *arguments: float) -> list[float]:
-    """What each result of a kernel is off by at most in float64, for these arguments.
+    """Upper bounds of the error of each result of a kernel in float64, for these arguments.
 
     Parameters
     ----------

@@ -80,7 +80,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Varying:
-    """What has another value, or is another function, in float32; its name in C stands for either."""
+    """A name that has another value, or is another function, in float32; its name in C is for either."""
 
     name: str
     double: Any
@@ -89,7 +89,7 @@ class Varying:
 
 @dataclass(eq=False)
 class Module:
-    """What a module defines and imports, by name: functions, numbers, modules, or the path of something outside."""
+    """The names that a module defines and imports: functions, numbers, modules, or the path of something outside."""
 
     name: str
     functions: dict[str, Function] = field(default_factory=dict)
@@ -153,7 +153,7 @@ ARITHMETIC: dict[type, Callable[[Any, Any], Any]] = {
 
 
 def meaning(node: ast.expr, names: dict[str, Any]) -> Any:
-    """What a name, or a name in a module, stands for; None where it is neither."""
+    """The meaning of a name, or of a name in a module; None where it is neither."""
     match node:
         case ast.Name(id=name):
             return names.get(name)

@@ -60,7 +60,7 @@ def product(left: Series, right: Series) -> Series:
 
 
 def defects(coefficients: Sequence[Any], order: int) -> Series:
-    """By how much the composition misses the flow, for each word of weight 1 to `order`.
+    """The difference of the composition from the flow, for each word of weight 1 to `order`.
 
     coefficients: c₁, ..., cₛ as any numbers that divide: Fraction (then this is exact), mpf or arb.
     """

@@ -28,7 +28,7 @@ Places = Mapping[sp.Symbol, sp.Expr]
 
 @dataclass(frozen=True)
 class Step:
-    """How a letter came to be: in which algebra, what it is in words, by which operation on which letter."""
+    """The step that defines a letter: its algebra, its meaning in words, the operation and the letter operated on."""
 
     text: str
     algebra: Any

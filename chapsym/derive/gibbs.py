@@ -152,17 +152,17 @@ def newton_heavy_steps() -> tuple[Steps, list[sp.Expr]]:
 
 
 def second() -> sp.Matrix:
-    """What N loses by the second correction, after a Newton correction d: Cᵀ(d × Id - |d|²k)."""
+    """The term that the second correction subtracts from N, after a Newton correction d: Cᵀ(d × Id - |d|²k)."""
     return C.T * bilinear(d)
 
 
 def second_steps() -> tuple[Steps, sp.Matrix]:
-    """The same by what the Newton correction leaves of G."""
+    """The same by the G that is left after the Newton correction."""
     return [(R, bilinear(d))], C.T * R
 
 
 def mixed() -> sp.Matrix:
-    """What N loses when a correction e follows d with the cofactors from before d: Cᵀ times `polar` at d, times e."""
+    """The term subtracted from N for a correction e after d, with cofactors from before: Cᵀ · `polar` at d · e."""
     return C.T * (polar(d) * e)
 
 

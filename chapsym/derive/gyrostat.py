@@ -36,7 +36,7 @@ RING = Quotient((*three.RING.symbols, *rotor), three.RING.relations)
 
 
 def added_torque() -> sp.Symbol:
-    """What the rotor adds to the principle of `motion.dalembert`.
+    """The term that the rotor adds to the principle of `motion.dalembert`.
 
     δ(½ tr(Aᵀω)) for δR = Rη, where δω = η̇ + [ω,η], less the derivative of ½ tr(Aᵀη), which the ends of the path take.
     """
@@ -78,7 +78,7 @@ def discrete_term(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 
 
 def rotor_balance() -> sp.Symbol:
-    """What the rotor adds to `principle.momentum_balance`: it belongs to dR = ξR, whatever the centre does."""
+    """The term that the rotor adds to `principle.momentum_balance`: it belongs to dR = ξR, whatever the centre does."""
     path = discrete_term(space.R0, space.R) + discrete_term(space.R, space.R1)
     action = written("rotor_action", "tr of it is the rotor's part of 𝕃(k-1,k) + 𝕃(k,k+1)", path, FREE)
     still = dict.fromkeys((step_A, space.R0, space.R0T, space.R1, space.R1T), sp.S.Zero)
@@ -124,7 +124,7 @@ def vector_momentum() -> sp.ImmutableMatrix:
 
 
 def added_momentum() -> sp.Matrix:
-    """What the rotor adds to 𝒦(q, γ): q₀²a + q₀ q × a - ⟨a,q⟩q."""
+    """The term that the rotor adds to 𝒦(q, γ): q₀²a + q₀ q × a - ⟨a,q⟩q."""
     return three.q0**2 * rotor + three.q0 * three.q.cross(rotor) - rotor.dot(three.q) * three.q
 
 

@@ -72,7 +72,7 @@ def expand_words(of: sp.Symbol, turning: Turning) -> Remainder:
 
 
 def remainder(coefficients: list, vanishes) -> Remainder:
-    """From the coefficients of ε⁻¹, 1, ε, ...; the first must vanish, otherwise there is no limit."""
+    """The remainder from the coefficients of ε⁻¹, 1, ε, ...; the first must vanish, otherwise there is no limit."""
     if not vanishes(coefficients[0]):
         raise ArithmeticError(f"there is no limit: the expansion begins with ({coefficients[0]})/epsilon")
     for order, leading in enumerate(coefficients[2:], start=1):

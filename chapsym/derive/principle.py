@@ -127,7 +127,7 @@ def momentum_balance(factor: sp.Expr) -> sp.Symbol:
 
 
 def _with_factor(of: sp.Symbol, factor: sp.Expr) -> sp.Symbol:
-    """With a value in the place of the factor c of the Lagrangian."""
+    """An expression with a value in the place of the factor c of the Lagrangian."""
     if factor == c:
         return of
     number = sp.Rational(factor)

@@ -75,7 +75,7 @@ def expansion() -> tuple[sp.Symbol, list[sp.Matrix]]:
 
 
 def remainders() -> tuple[Remainder, Remainder]:
-    """Of q/ε and of q₀."""
+    """The remainders of q/ε and of q₀."""
     _, columns = expansion()
     zero = sp.zeros(3, 1)
     vectors, scalars = [zero, *(c[1:, :] for c in columns)], [zero, sp.ones(1, 1), *(c[:1, :] for c in columns)]

@@ -143,7 +143,7 @@ def placed(*pairs: tuple[Iterable[sp.Symbol], Iterable[Any]]) -> dict[sp.Symbol,
 
 
 def unrolled(steps: Steps, value: sp.Matrix) -> sp.Matrix:
-    """What steps compute, in their inputs alone."""
+    """The results of steps, in their inputs alone."""
     for names, expressions in reversed(steps):
         value = value.subs(placed((names, expressions)), simultaneous=True)
     return value

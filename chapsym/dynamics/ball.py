@@ -101,13 +101,13 @@ def _not_numbers(value: Any, name: str) -> BadInput:
 
 
 def brief(value: Any) -> str:
-    """What a sentence says of a value that is refused."""
+    """A short text of a value that is refused, for a sentence."""
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "..."
 
 
 class Parameters(Brief):
-    """What balls of every dimension have: those with the same parameters are equal; a copy is checked anew."""
+    """The parameters of balls of every dimension: those with the same parameters are equal; a copy is checked anew."""
 
     def _values(self) -> tuple[Asked, ...]:
         return tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
@@ -299,7 +299,7 @@ def checked_before(mass_tensor: Floats, D: Floats, radius: Asked = None) -> Ball
 
 
 def common_shape(shapes: Sequence[tuple[int, ...]], names: str) -> tuple[int, ...]:
-    """What leading axes broadcast to; raises BadInput if they do not."""
+    """The shape to which leading axes broadcast; raises BadInput if they do not."""
     try:
         return np.broadcast_shapes(*shapes)
     except ValueError:

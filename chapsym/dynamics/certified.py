@@ -29,7 +29,7 @@ NAMES = ("momentum", "gamma", "attitude", "contact")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Brief):
-    """The frames of a trajectory as balls that contain the true orbit, and bounds of what the trajectory is off by.
+    """The frames of a trajectory as balls that contain the true orbit, and bounds of the errors of the trajectory.
 
     The true orbit is that of the map, the small-rotation branch, from the very numbers of frame 0: 𝒦 as it is, γ and
     the attitude divided by their lengths, without any rounding after that; for the orders 4, 6 and 8 with the stage

@@ -90,7 +90,7 @@ class CertifiedMotion(Brief):
     stopped: str | None = None
 
     def write(self) -> dict[str, Any]:
-        """For JSON: each number as [middle, radius], decimal strings; the true number is between their sums."""
+        """For JSON: each number as [middle, radius], decimal strings; the true number is in that interval."""
         arrays = {name: array for name in PARTS if (array := getattr(self, name)) is not None}
         frames = [
             {
@@ -331,7 +331,7 @@ class _Search:
         self.progress(f"{bits} bits: {float(path.time):.6g} s of {float(self.times[-1]):.6g} s, {part:.0%}")
 
     def found(self, why: str | None) -> CertifiedMotion:
-        """What is proved; `why`: not all of it is, as a part of a sentence."""
+        """The frames that are proved; `why`: the reason why not all are, as a part of a sentence."""
         kept, frames = self.times[: self.kept], self.frames[: self.kept]
         stopped = None
         if why is not None:
@@ -348,7 +348,7 @@ class _Search:
 
 
 def _signed(frame: dict[str, tuple[Any, ...]]) -> dict[str, tuple[Any, ...]]:
-    """With that of the two quaternions whose first component that is proved not to be 0 is positive."""
+    """The frame with the sign of its quaternion for which the first component proved not to be 0 is positive."""
     a = frame["attitude"]
     first = next((x for x in a if not x.contains(0)), None)
     return frame | {"attitude": tuple(-x for x in a)} if first is not None and first < 0 else frame

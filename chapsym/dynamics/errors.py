@@ -1,4 +1,4 @@
-"""What can go wrong, each with one sentence for the user; and why a step was not taken."""
+"""The errors, each with one sentence for the user; and why a step was not taken."""
 
 from enum import IntEnum
 from typing import Any

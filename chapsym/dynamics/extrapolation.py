@@ -82,7 +82,7 @@ def weights(columns: int, first: int = 0) -> tuple[Fraction, ...]:
 
 @cache
 def weights_of_pairs(columns: int) -> Floats:
-    """What `march_long_pairs` takes: the weights, and the differences that the last column makes, (columns, 4)."""
+    """The arguments of `march_long_pairs`: the weights, and the changes by the last column, (columns, 4)."""
     whole, fewer = (weights(n, FIRST) for n in (columns, columns - 1))
     return np.array([
         [*Pair.of(w).halves(), *Pair.of(w - v).halves()] for w, v in zip(whole, (*fewer, Fraction(0)), strict=True)
@@ -197,7 +197,7 @@ def _march(
 
 @cache
 def loop_weights(columns: int) -> tuple[Floats, Floats, Floats]:
-    """What the loops take: the weights of the columns, as of `march_lanes`, and those of the guesses."""
+    """The arguments of the loops: the weights of the columns, as of `march_lanes`, and those of the guesses."""
     rows = [
         np.array((Fraction(0),) * fewer + weights(columns - fewer), dtype=float)[:columns]
         for fewer in range(2 + CHANGES)

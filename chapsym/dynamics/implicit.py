@@ -123,7 +123,7 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
 
 
 class Equations(NamedTuple):
-    """What vanishes, its derivatives by the unknowns row by row, how many unknowns there are, and a least size of x."""
+    """The function that vanishes, its derivatives by the unknowns row by row, their number, and a least size of x."""
 
     function: Callable[..., Any]
     slope: Callable[..., Any]
@@ -184,7 +184,7 @@ class Equations(NamedTuple):
         raise BadInput(f"number {index} does not settle: the root is nearly singular, or more digits are needed")
 
     def _at(self, x: np.ndarray, known: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-        """What vanishes (N, n), and the derivatives (N, n, n)."""
+        """The function that vanishes (N, n), and its derivatives (N, n, n)."""
         with np.errstate(all="ignore"):
             value = np.stack(_values(self.function, [x, *known]), axis=-1)
             slope = np.stack(_values(self.slope, [x, *known]), axis=-1)

@@ -155,7 +155,7 @@ class Quintic:
 
 
 def _half(value: Floats, rate: Floats, second: Floats, h: Floats, s: Floats, r: Floats) -> Floats:
-    """What one end adds, s from it and r = 1 - s from the other, in parts of the interval."""
+    """The share of one end, s from it and r = 1 - s from the other, in parts of the interval."""
     return np.asarray(
         r**3 * ((1 + 3 * s + 6 * s * s) * value + h * s * (1 + 3 * s) * rate + h * h * s * s / 2 * second)
     )

@@ -108,7 +108,7 @@ def _fill(result: np.ndarray, parts: list[Any]) -> np.ndarray:
 
 
 def parts_of(result: Any) -> list[Any]:
-    """What a generated function returns, one or several numbers."""
+    """The results of a generated function, one or several numbers."""
     return list(result) if isinstance(result, tuple) else [result]
 
 

@@ -1,4 +1,4 @@
-"""What a scene can ask for: all that is known of an output, its unit, size and columns, in one record of `OUTPUTS`."""
+"""The outputs of scenes: all that is known of each, its unit, size and columns, in one record of `OUTPUTS`."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -42,7 +42,7 @@ class Output:
         return self.dims if n == 3 or self.dims_n is None else self.dims_n
 
     def width(self, n: int) -> int:
-        """How many numbers it has, of one frame of one ball in n dimensions."""
+        """The count of its numbers, of one frame of one ball in n dimensions."""
         return prod(len(labels(n)[dim]) for dim in self.dims_in(n))
 
     def attrs(self, n: int, motion: bool, name: str = "") -> dict[str, str]:

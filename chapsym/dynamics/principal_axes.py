@@ -107,7 +107,7 @@ def _of_a_body(moments: Floats, least: float) -> Floats:
 
 
 def no_body(inertia: Floats) -> BadInput:
-    """What is said of principal moments of inertia, (3,), that no body has."""
+    """The sentence on principal moments of inertia, (3,), that no body has."""
     listed = ", ".join(f"{x:g}" for x in inertia)
     return BadInput(f"no body has the inertia ({listed}): each principal moment is at most the sum of the other two")
 

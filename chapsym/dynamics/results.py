@@ -1,4 +1,4 @@
-"""What steps and runs return: states of one ball or of a batch, in the numbers of a precision."""
+"""The results of steps and runs: states of one ball or of a batch, in the numbers of a precision."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Bounds(Brief):
-    """Proved upper bounds of what a result is off by from the exact orbit of the map, in the units of its arrays.
+    """Proved upper bounds of the distance of a result from the exact orbit of the map, in the units of its arrays.
 
     The exact orbit starts at the numbers that were given, as float64 has them (a momentum of Fractions in a run as it
     is), with γ and the attitude divided by their lengths; it is that of the map, or of its composition.  Of `roll` it
@@ -125,7 +125,7 @@ class Bounds(Brief):
     momentum, gamma: (..., frames) of a run, and (...) of a step.
     attitude, contact: of a run, where it has them; else None.
     rotation: of a step; else None.
-    steps: of a run, up to which step all is proved, (...); inf stands where nothing is, NaN where there is no frame.
+    steps: of a run, up to which step all is proved, (...).  A bound is inf where none is proved, NaN without a frame.
     """
 
     momentum: Floats
@@ -145,8 +145,8 @@ class Step(Brief):
     status: a `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
     reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
     precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
-    low: for DoubleDouble, what the numbers have beyond float64, as a step of its own; else None.
-    proved: with `proved=True`, bounds of what the numbers are off by.
+    low: for DoubleDouble, the low halves of the numbers, as a step of its own; else None.
+    proved: with `proved=True`, bounds of the errors of the numbers.
     """
 
     rotation: Floats
@@ -235,10 +235,10 @@ class Trajectory:
     order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`roll`,
     `exact_top`), of which `index` counts time steps.
     precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
-    low: for DoubleDouble, a record of what the numbers have beyond float64, each at most half an ulp of its number:
+    low: for DoubleDouble, a record of the low halves of the numbers, each at most half an ulp of its number:
     `momentum` + `low.momentum` is 𝒦, and so on; else None.
     error: of `roll`, an estimate of the largest error at any frame, (...); else None.
-    proved: with `proved=True`, bounds of what each frame is off by.
+    proved: with `proved=True`, bounds of the error of each frame.
     """
 
     ball: Ball

@@ -1,4 +1,4 @@
-"""How results show themselves: a line in a terminal, a small table and the trace on the plane in a notebook."""
+"""The display of results: a line in a terminal, a small table and the trace on the plane in a notebook."""
 
 from dataclasses import fields
 from html import escape

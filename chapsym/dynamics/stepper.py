@@ -105,7 +105,7 @@ class UnderWay:
 
     @property
     def taken(self) -> int:
-        """How many steps were taken since the start, the last restart, or the last new momentum."""
+        """The number of steps since the start, the last restart, or the last new momentum."""
         return self._taken
 
     def _go_on(self, momentum: ArrayLike) -> None:
@@ -147,7 +147,7 @@ class Stepper(UnderWay):
         self.restart(momentum, gamma, attitude)
 
     def _prepare(self, ball: Ball, order: int, follows: bool, traced: bool, time_step: float | None) -> None:
-        """What never changes, and the buffers."""
+        """Sets the constants of the loop, and its buffers."""
         self.ball, self.order, self.time_step, self._follows, self._traced = ball, order, time_step, follows, traced
         self._J, self._D = ball.mass_tensor.copy(), float(ball.D)
         self._radius = float(rolling_radius(ball)) if traced else 0.0
@@ -241,7 +241,7 @@ class Stepper(UnderWay):
         return why
 
     def _moving(self) -> list[Floats]:
-        """What the loop moves."""
+        """The numbers that the loop changes."""
         return [self._state[0], self._state[-1], self._spin, self._spot]
 
     def _show(self) -> None:
@@ -282,7 +282,7 @@ class Proof:
         return dispatch.begun(NAMED[precision], self._balls, 2, None if attitude is None else attitude[np.newaxis])
 
     def bounds(self, ball: Stepper) -> Bounds:
-        """Of the present state of a Stepper."""
+        """The bounds of the present state of a Stepper."""
         steps, now = ball._taken - self._taken, min(ball._taken, 1)
         if steps:
             went, _, _ = self._run.take(0, steps, steps, self._frames, self._frames.low, 0, self._spread)

@@ -44,7 +44,7 @@ class Letters:
 
     @property
     def meanings(self) -> dict[sp.Symbol, sp.Expr]:
-        """What each letter stands for, in letters before it."""
+        """The meaning of each letter, in letters before it."""
         return {letter: stands for stands, letter in self._of.items()}
 
     def into(self, expr: Any) -> sp.Expr:
@@ -228,7 +228,7 @@ class Algebra:
 
     @cached_property
     def rational(self) -> list[Point]:
-        """Those of rational numbers, and some where roots are rational; those with the fewest zeros first."""
+        """Points of rational numbers, and some where roots are rational; those with the fewest zeros first."""
         found, numbers = [p for p in self.points if all(x.is_Rational for x in p.values())], Random(0)
         ring = self._ring(self.letters.circles, self.letters.arguments("sqrt").values())
         for _ in range(MOST_LOOKED if self.letters.roots else 0):

@@ -94,7 +94,7 @@ class Quaternion:
 
     @cached_property
     def rotation(self) -> sp.Matrix:
-        """From the axes of the body to those of space."""
+        """The rotation from the axes of the body to those of space."""
         scalar, vector = self._scalar, self._vector
         turned = (scalar**2 - vector.dot(vector)) * sp.eye(3) + 2 * vector * vector.T + 2 * scalar * vector.hat()
         return turned.applyfunc(sp.expand)

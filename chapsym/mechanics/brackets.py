@@ -19,7 +19,7 @@ from .system import BadSystem, System
 
 @dataclass(frozen=True)
 class Flag:
-    """What the brackets of a system's constraints span, with the numbers of its parameters.
+    """The span of the brackets of a system's constraints, with the numbers of its parameters.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Flag:
 
     @property
     def functions(self) -> int:
-        """How many functions of the coordinates, and of time, stay constant."""
+        """The number of functions of the coordinates, and of time, that stay constant."""
         return self.dimension - self.growth[-1]
 
     def __str__(self) -> str:
@@ -107,7 +107,7 @@ Bracketed = tuple[int, int, sp.Expr]
 
 @dataclass(frozen=True)
 class Span:
-    """What proves a flag: rows A, of which those in `kept` are independent, and fields and brackets that span.
+    """The proof of a flag: rows A, of which those in `kept` are independent, and fields and brackets that span.
 
     `made` has of which two vectors one is a bracket; `inside` has brackets that the others span.
     """

@@ -44,7 +44,7 @@ class Certified:
 
 @dataclass(frozen=True)
 class Case:
-    """What a claim says, what proves it, and a false variant of that; premises are in words.
+    """A claim with its statement, its proof, and a false variant of it; premises are in words.
 
     Where the certificate is too large there may be another `instead`, and `derived`, that some expressions are
     derivatives, is said in words.

@@ -205,7 +205,7 @@ def _shown(value: sp.Expr, algebra: Algebra, bound: Mapping[sp.Symbol, sp.Expr])
 
 
 def in_symbols(expr: Any) -> Any:
-    """What `sympy.physics.mechanics` gives, in symbols: x for x(t), x_dot for its derivative; also of matrices.
+    """Expressions of `sympy.physics.mechanics` in symbols: x for x(t), x_dot for its derivative; also of matrices.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a method does to a system, decided: its order, whether its steps return, what it keeps; proved, or refuted.
+"""The properties of a method on a system: its order, whether its steps return, what it keeps; proved, or refuted.
 
 A statement is refuted by the series of a step in its length h from an exact state (`series`): where a coefficient is
 not 0 there, the statement is wrong for all small h.  It is proved by equations: what should vanish is a combination,
@@ -42,7 +42,7 @@ Named = tuple[Any, list[fmpq]]
 
 @dataclass(frozen=True)
 class Verdict:
-    """Of a property of a method on a system.
+    """The verdict on a property of a method on a system.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Verdict:
 
 
 def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
-    """What is decided of a method on a system, with its numbers.
+    """The verdicts on a method on a system, with its numbers.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
 
 @dataclass(frozen=True)
 class Combination:
-    """That expressions are combinations of what equations set to 0: an identity where the relations hold.
+    """Expressions as combinations of those that equations set to 0: an identity where the relations hold.
 
     `right` has factors, and what they are of; `meanings` what letters stand for, and `ends` what symbols for the end of
     a step stand for.
@@ -119,7 +119,7 @@ class Decided:
 
 
 def decided(system: System, scheme: Scheme) -> dict[str, Decided]:
-    """What `verdicts` has, with what shows it."""
+    """The verdicts of `verdicts`, with their proofs."""
     quantities = quantities_of(system, scheme.integrals)
     names = ["order", "self-adjoint", "reversible", *(f"keeps {name}" for name in quantities)]
     looked = LOOKED_FURTHER if scheme.stages else LOOKED
@@ -142,7 +142,7 @@ def _exact(system: System, digest: str) -> Exact:
 
 
 def quantities_of(system: System, of_method: Mapping[str, sp.Expr]) -> dict[str, sp.Expr]:
-    """What may be kept: the energy, momenta along which nothing pushes, what the system names, and the method."""
+    """Quantities that may be kept: energy, momenta along which no force acts, those of the system and the method."""
     found = {"the energy": system.energy} if system.keeps_energy else {}
     for i, (x, p) in enumerate(zip(system.coordinates, system.momenta, strict=True)):
         if system.push[i] == 0 and not any(system.rows[:, i]):
@@ -177,7 +177,7 @@ class Judged:
         self.kicked = [*scheme.state[: self.n], *(p + x for p, x in zip(scheme.state[self.n :], rows, strict=True))]
 
     def decided(self, judge: Callable[[Any], Verdict], of: Any) -> Decided:
-        """What one of the judges below says, with what it found."""
+        """The verdict of one of the judges below, with its findings."""
         self.proofs, self.power = list[Callable[[bool], list[Combination]]](), 0
         try:
             verdict = judge(of)
@@ -202,7 +202,7 @@ class Judged:
         return None
 
     def order(self, adjoint: bool) -> Verdict:
-        """That of the local error, of place and velocity, less one; false where a step does not follow the motion."""
+        """The order of the local error, of place and velocity, less one; false if a step does not follow the motion."""
         final = self.after(self.state, self.reactions)[0]
         pairs = list(zip(map(str, self.exact.symbols), final, self.exact.moved, strict=True))
         looked = 4 if self.reactions else self.looked  # c₃ is not known
@@ -305,7 +305,7 @@ class Judged:
 
     @cached_property
     def vectors(self) -> tuple[list[sp.Expr], list[Named], list[Named]]:
-        """What is 0; and what velocities and momenta may change by, as symbols and at the exact state.
+        """The expressions that are 0; possible changes of velocities and momenta, as symbols and at the exact state.
 
         Those are accelerations a; the rest r of the rate of ∂L/∂v without mass, M r = d/dt ∂L/∂v - M a; accelerations e
         of fixed mass and constraints, M e - Aᵀκ = ∂L/∂q + F, A e = 0; and the reactions λ and κ.
@@ -396,7 +396,7 @@ class Judged:
         there_again = dict(zip(ends, end, strict=True))
 
         def missed(around: Sequence[Any], unknowns: Sequence[Any]) -> list[sp.Expr]:
-            """What should be 0 of the step back from a state, with unknowns."""
+            """The expressions that should be 0 in the step back from a state, with unknowns."""
             final = self._with(turned, self._with(scheme.after, around, unknowns, back), unknowns)
             off = [x - y for x, y in zip(final, begin, strict=True)]
             return [*self._with(scheme.residual, around, unknowns, back), *off]
@@ -567,7 +567,7 @@ def _small(x: int) -> sp.Rational | None:
 
 
 def coefficients(expressions: Iterable[sp.Expr]) -> list[tuple[sp.Expr, sp.Expr, sp.Expr]]:
-    """Those of 1, h and h² of expressions in the length of a step; of shared parts once."""
+    """The coefficients of 1, h and h² of expressions in the length of a step; of shared parts once."""
 
     def made(expr: sp.Expr, of: Callable[[sp.Expr], tuple[Any, Any, Any]]) -> tuple[Any, Any, Any]:
         if not expr.args:
@@ -603,7 +603,7 @@ def _bent(wave: sp.Expr) -> sp.Expr:
 
 
 def size(expressions: Iterable[sp.Expr]) -> int:
-    """How many different parts expressions have."""
+    """The number of different parts of expressions."""
     seen, left = set[sp.Expr](), list(expressions)
     while left:
         if (expr := left.pop()) not in seen:
@@ -628,7 +628,7 @@ def _of_tableau(stages: Sequence[Sequence[sp.Rational]]) -> int:
 
 
 def tableau_conditions(stages: Sequence[Sequence[sp.Expr]]) -> list[list[sp.Expr]]:
-    """What is 1 for the orders 1 to 4."""
+    """The expressions that are 1 for the orders 1 to 4."""
     size = len(stages)
     A = sp.Matrix(size, size, lambda i, j: stages[i - 1][j] if i > 0 and j < i else sp.S.Zero)
     b, one = sp.Matrix([list(stages[-1])]), sp.ones(size, 1)

@@ -1,4 +1,4 @@
-"""What a method makes of a system, measured: its energy over many steps, its constraints, its order, its cost."""
+"""Measurements of a method on a system: its energy over many steps, its constraints, its order, its cost."""
 
 import math
 from contextlib import suppress
@@ -91,12 +91,12 @@ class Cell:
     verdicts: dict[str, Verdict] = field(default_factory=dict)
 
     def data(self) -> dict[str, Any]:
-        """As JSON, which has no NaN."""
+        """The cell for JSON, which has no NaN."""
         return _finite(asdict(self))
 
     @classmethod
     def of(cls, data: dict[str, Any]) -> "Cell":
-        """From that."""
+        """The cell with these data."""
         curves = {name: tuple((float(x), float(y)) for x, y in data.get(name, ())) for name in ("curve", "work")}
         decided = {name: Verdict(**one) for name, one in data.get("verdicts", {}).items()}
         unknown = {x.name: math.nan for x in fields(cls) if x.default is math.nan and data[x.name] is None}
@@ -111,7 +111,7 @@ def measured(
     halve: bool = False,
     decide: bool = False,
 ) -> Cell:
-    """What a method makes of a system.
+    """Measures a method on a system.
 
     Parameters
     ----------
@@ -212,7 +212,7 @@ def _figures(motion: Motion) -> dict[str, Any]:
 
 
 def _returns(runner: Runner, h: float) -> float:
-    """How far the place is from its start after steps forth and back."""
+    """The distance of the place from its start after steps forth and back."""
     there = runner.march(BACK, h).final
     back = runner.march(BACK, h, start=runner.turned(there, h)).final
     n = len(runner.system.coordinates)

@@ -67,7 +67,7 @@ def _named(symbols: Iterable[sp.Symbol]) -> dict[sp.Symbol, sp.Symbol]:
 
 
 def _combined(system: System, scheme: Scheme, what: str, found: Decided, plainly: bool, uses: Sequence[str]) -> Case:
-    """What a method does is a combination of what its equations, constraints and the motion set to 0."""
+    """The case that a method's change is a combination of what its equations, constraints and the motion set to 0."""
     proofs = [one for of in found.proofs for one in of(plainly) if any(one.left)]
     if not plainly and sum(1 for one in proofs for _ in sp.preorder_traversal(one.left) if one.relations) > MOST_SHOWN:
         return _combined(system, scheme, what, found, True, uses)
@@ -185,7 +185,7 @@ class _Steps:
         return end, stages[0][1]
 
     def forth(self) -> tuple[State, State, State, State]:
-        """As that of the judged method."""
+        """The step forth of the judged method."""
         first, guess = self.stepped.first(self.judged.state)
         there, z = self.step("a step", first, guess)
         return first, there, z, self.step("the next step", there, z)[1]
@@ -211,7 +211,7 @@ def _refuted(system: System, quantity: sp.Expr | None, what: str, found: Decided
 
 
 def _change(of: _Steps, quantity: sp.Expr, said: str) -> tuple[list[Equation], Equation]:
-    """By how much a quantity changes, and that this is not 0."""
+    """The change of a quantity, and that it is not 0."""
     first, there, z, then = of.forth()
     places, values = (*of.scheme.place, *of.scheme.velocity), list[sp.Expr]()
     for state in ((*first, *z), (*there, *then)):

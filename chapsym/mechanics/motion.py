@@ -111,7 +111,7 @@ class Runner:
 
     @cached_property
     def kernels(self) -> list[Kernel]:
-        """What vanishes, its derivatives by the unknowns, what comes after, and where the step is looked at."""
+        """The equations, their derivatives by the unknowns, the next state, and where the step is evaluated."""
         residual, after, place, velocity = map(self._read, ("residual", "after", "place", "velocity"))
         terms, values = shared(residual)
         unknowns = self._groups["unknowns"]
@@ -282,7 +282,7 @@ class Runner:
         return [[columns.pop(0) for _ in range(count)] for count in counts]
 
     def _of(self, name: str, q: Sequence[Any], v: Sequence[Any], fixed: np.ndarray) -> list[Any]:
-        """What a kernel gives at a place and velocity."""
+        """The result of a kernel at a place and velocity."""
         unknowns = [0] * len(self.scheme.unknowns)  # which it has not
         return [0 * fixed[-1] + x for x in parts_of(self.functions[name](*unknowns, *q, *v, *fixed))]
 

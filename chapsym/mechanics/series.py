@@ -31,7 +31,7 @@ State = list[Series]
 
 
 class Undecided(ArithmeticError):
-    """What exact series do not decide; the message says why."""
+    """Exact series do not decide it; the message says why."""
 
 
 @contextmanager

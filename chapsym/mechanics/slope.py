@@ -11,7 +11,7 @@ Terms = dict[sp.Symbol, sp.Expr]
 
 
 def shared(expressions: Sequence[sp.Expr]) -> tuple[Terms, list[sp.Expr]]:
-    """What some expressions have in common, by the names s0, s1, ..., and the expressions by these names."""
+    """The common parts of some expressions, by the names s0, s1, ..., and the expressions by these names."""
     terms, rest = sp.cse(list(expressions), symbols=sp.numbered_symbols("s"), order="none")
     return dict(terms), rest
 
@@ -39,7 +39,7 @@ def differentiated(
 
 
 def needed(terms: Mapping[sp.Symbol, sp.Expr], results: Sequence[sp.Expr]) -> Terms:
-    """Those terms that the results need, and those that these need, in order."""
+    """The terms that the results need, and those that these need, in order."""
     wanted = set().union(*(e.free_symbols for e in results))
     for name in reversed([*terms]):
         if name in wanted:

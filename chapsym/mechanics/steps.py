@@ -47,7 +47,7 @@ class Steps:
         return self.level.number(Fraction(value.p, value.q))
 
     def of(self, name: str, unknowns: Sequence[Any], at: Sequence[Any]) -> Numbers:
-        """What a kernel gives."""
+        """The result of a kernel."""
         return [0 * self.fixed[-1] + x for x in parts_of(self.functions[name](*unknowns, *at, *self.fixed))]
 
     def root(self, at: Sequence[Any]) -> Numbers:
@@ -123,7 +123,7 @@ class Sets(Steps):
         return self.of("seen", root, at), (point, frame, (inverse * turned) * box + inverse * rest)
 
     def _moved(self, root: Numbers, rows: Sequence[np.ndarray]) -> list[np.ndarray]:
-        """What comes after rows of a number and its derivatives by the first state, as such rows.
+        """The next rows after rows of a number and its derivatives by the first state.
 
         For the unknowns z, F(z, y) = 0: z' = -F_z⁻¹ F_y, and so that of G(z, y) is G_y - G_z F_z⁻¹ F_y.
         """

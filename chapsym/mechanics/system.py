@@ -207,7 +207,7 @@ class System:
 
     @property
     def velocities(self) -> tuple[sp.Symbol, ...]:
-        """Those of the coordinates."""
+        """The velocities of the coordinates."""
         return tuple(dot(x) for x in self.coordinates)
 
     @cached_property

@@ -79,7 +79,7 @@ class Moving(OnShell):
         self._rings: dict[tuple[sp.Symbol, ...], Quotient] = {}
 
     def ring(self, *expressions: sp.Expr) -> Quotient:
-        """That of the system with further symbols of some expressions."""
+        """The ring of the system with further symbols of some expressions."""
         own = self.algebra.ring
         more = tuple(sorted(set().union(*(e.free_symbols for e in expressions)) - set(own.symbols), key=str))
         return self._rings.setdefault(more, Quotient((*own.symbols, *more), own.relations))
@@ -131,7 +131,7 @@ class Moving(OnShell):
 
     @cached_property
     def premises(self) -> list[str]:
-        """What the letters are, and the system."""
+        """The meanings of the letters, and the system."""
         meanings, bound = self.algebra.letters.meanings, ", ".join(map(str, self.allowed))
         return [
             *(f"{x} is {value}" for x, value in self.system.parameters.items()),
@@ -214,7 +214,7 @@ def _regular(matrix: sp.Matrix, algebra: Algebra) -> Comparison:
 def _kept(
     of: Moving, what: str, quantity: sp.Expr, balance: sp.Expr, name: str, at: Mapping[sp.Symbol, sp.Expr] | None = None
 ) -> Case:
-    """What the rate of a quantity is in the motion: a combination of what the equations set to 0, and more."""
+    """The case on the rate of a quantity: a combination of expressions that the equations set to 0, and more."""
     rate = of.rate(quantity, of.now)
     text = f"the rate of {what} is {'what the equations set to 0' if at else '⟨F, v⟩ - ⟨b, λ⟩, and what they set to 0'}"
     derived = [slopes(of.algebra, f"the rate of {what}", [(quantity, of.now)], [rate])]

@@ -188,7 +188,7 @@ def own_name(name: Any) -> Any:
 
 
 def in_words(identifier: str) -> str:
-    """What a reader sees for a precision of JSON: there "quad" is double-double, and "Ball" an enclosure."""
+    """The name for readers of a precision of JSON: there "quad" is double-double, and "Ball" an enclosure."""
     return identifier.replace("quad", "double-double").replace("Ball(", "Enclosure(")
 
 

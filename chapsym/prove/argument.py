@@ -1,4 +1,4 @@
-"""What a proof concludes, as data: hypotheses and conclusions, the steps between them, and readings of a question.
+"""The conclusions of a proof, as data: hypotheses and conclusions, the steps between them, and readings of a question.
 
 The texts are names: two say the same where they are equal, letter for letter.  That the steps join and that nothing is
 left out is decided; what a sentence says is not.
@@ -26,7 +26,7 @@ class Theorem:
 
     @property
     def given(self) -> tuple[str, ...]:
-        """What its proof may use."""
+        """The statements that its proof may use."""
         return (*self.quantifiers, *self.hypotheses)
 
 
@@ -59,7 +59,7 @@ class Reading:
 
     @property
     def goal(self) -> str:
-        """What must be concluded."""
+        """The statements that must be concluded."""
         return no(self.thing) if self.answer == NO else there_is(self.thing)
 
 
@@ -78,7 +78,7 @@ def no(thing: str) -> str:
 
 
 def sentences(texts: Iterable[str]) -> int:
-    """How many sentences a text has, as stops and colons end them; the numbers of its paragraphs are none."""
+    """The number of sentences of a text, ended by stops and colons; the numbers of its paragraphs do not count."""
     whole = re.sub(r"(^|\n)\s*\d+\.\s", r"\1", "\n".join(texts))
     return sum(any(map(str.isalpha, part)) for part in re.split(r"[.:](?:\s|$)", whole))
 
@@ -99,7 +99,7 @@ def gaps(theorem: Theorem, steps: Sequence[Step], known: Collection[str]) -> lis
 
 
 def assembled(reading: Reading, theorems: Mapping[str, Theorem]) -> Theorem:
-    """What answers a reading: with all that its lemmas need and none before them gives; raises Gap if none does."""
+    """The answer to a reading, with all that its lemmas need and no earlier one gives; raises Gap if there is none."""
     quantifiers: dict[str, None] = {}
     hypotheses: dict[str, None] = {}
     given: dict[str, str] = {}
@@ -137,7 +137,7 @@ def told(reading: Reading, theorem: Theorem) -> str:
 
 @dataclass(frozen=True)
 class Grounds:
-    """What a proof states, and what carries it: decided statements, accepted certificates, sentences."""
+    """The theorem of a proof, and its grounds: decided statements, accepted certificates, sentences."""
 
     theorem: Theorem | None
     statements: int
@@ -146,7 +146,7 @@ class Grounds:
 
 
 def settlement(of: Mapping[str, Grounds]) -> dict[str, Any]:
-    """What carries proofs together: the word for it, the number of each, and both as text."""
+    """The grounds of several proofs: the word for them, the number of each, and both as text."""
     names = "statements", "certificates", "sentences"
     total = {name: sum(getattr(one, name) for one in of.values()) for name in names}
     word = BY_HAND if total["sentences"] else MACHINE_CHECKED

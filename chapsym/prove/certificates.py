@@ -1,4 +1,4 @@
-"""What a claim's proof decided, as data that the checker judges without it: a certificate of kind register-claim.
+"""The statements that a proof decided, as data for the checker: a certificate of kind register-claim.
 
 What is no equation of an algebra, or could not be exported, is listed as a sentence; the checker counts those.
 """
@@ -77,7 +77,7 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
 
 
 def _sealed(data: dict[str, Any]) -> dict[str, Any]:
-    """With its statement and its digest."""
+    """The object with its statement and its digest."""
     data = data | {"statement": checker.statement(data)}
     return data | {"digest": checker.digest(data)}
 
@@ -121,7 +121,7 @@ COUNTED = {
 
 
 def carried(data: dict[str, Any]) -> dict[str, Any]:
-    """What the checker judged of a certificate that it accepted, counted and as text; the sentences that it did not."""
+    """The judged parts of a certificate that the checker accepted, counted and as text; the sentences, not judged."""
     sizes = {name: len(part) for name, part in data.items() if isinstance(part, list)}
     identical = sum(one["left"] == one["right"] for one in data["statements"])
     failing = sum("refuted" in one for one in data["comparisons"])
@@ -311,7 +311,7 @@ class _Maker:
         self.counterexamples[:] = kept
 
     def _leave_out_algebras(self) -> None:
-        """Those in which nothing is left."""
+        """Leaves out algebras in which nothing is left."""
         using = [*self.statements, *self.parts["counts"], *self.derivation]
         kept = sorted({one["algebra"] for one in using})
         for one in using:
@@ -446,7 +446,7 @@ def _alike(one: Any, other: WordAlgebra) -> bool:
 
 
 def _used(step: Step) -> list[sp.Expr]:
-    """What a step writes down, its letters unfolded."""
+    """The expression that a step writes down, its letters unfolded."""
     by = step.by.values() if isinstance(step.by, Mapping) else ()
     return [unfolded(x) for x in (step.of, *by)]
 

@@ -63,7 +63,7 @@ class Claim:
 
     @property
     def examples(self) -> Examples:
-        """What the register of the proof has in `examples.py` as EXAMPLES, if anything."""
+        """The EXAMPLES of `examples.py` in the register of the proof, if there are any."""
         module = importlib.import_module(self._examples_module) if self._examples_module else None
         found = getattr(module, "EXAMPLES", None)
         return found if isinstance(found, Examples) else Examples()
@@ -109,13 +109,13 @@ class Judgement:
 
     @property
     def grounds(self) -> Grounds:
-        """What the claim states, and what carries it, but for what it rests on."""
+        """The theorem of the claim and its grounds, without those of the claims that it rests on."""
         proof = self.proof
         decided = [statement for _, statement, holds in proof.decided if holds and not isinstance(statement, Rest)]
         return Grounds(proof.stated.get(""), len(decided), len(proof.certificates), argument.sentences(proof.said))
 
     def _settled(self) -> dict[str, Any]:
-        """What carries the claim, with the claims that were proved anew for it."""
+        """The grounds of the claim, with the claims that were proved anew for it."""
         rests = [statement for _, statement, _ in self.proof.decided if isinstance(statement, Rest)]
         return argument.settlement(
             {self.claim.id: self.grounds} | {one.name: one.grounds for one in rests if one.grounds}
@@ -141,7 +141,7 @@ class Judgement:
 
 
 def _theorem(proof: Proof, part: str) -> dict[str, Any]:
-    """What a proof states, with its steps."""
+    """The theorem of a proof, with its steps."""
     return {"part": part, **asdict(proof.stated[part]), "steps": [asdict(step) for step in proof.steps[part]]}
 
 

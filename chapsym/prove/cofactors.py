@@ -1,4 +1,4 @@
-"""How a polynomial of an ideal is made from the relations: p = Σ cofactor · relation.
+"""A polynomial of an ideal by the relations: p = Σ cofactor · relation.
 
 Division by the relations gives the cofactors.  Where it leaves a remainder, the relations are completed towards a
 Gröbner basis, each new element with its own cofactors (Buchberger's algorithm), until it leaves none.
@@ -52,7 +52,7 @@ class Ideal:
                 self._extend(Element(self._context.from_dict(dict(relation)), ones))
 
     def cofactors(self, polynomial: Mapping[Monomial, Any]) -> tuple[fmpq_mpoly, ...] | None:
-        """Those of a polynomial; None if it is not in the ideal."""
+        """The cofactors of a polynomial; None if it is not in the ideal."""
         whole = self._context.from_dict(dict(polynomial))
         while True:
             remainder, quotients = self._divided(whole)

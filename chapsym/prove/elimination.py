@@ -1,4 +1,4 @@
-"""What proves a count of solutions (checker/roots.py): a chart and combinations, by linear algebra.
+"""The data that prove a count of solutions (checker/roots.py): a chart and combinations, by linear algebra.
 
 The forms of one degree in the ideal of the equations are the row space of a Macaulay matrix.  Its rows are reduced
 with the unwanted monomials in front: the rows below have none of these, and the columns next to them the combinations.
@@ -45,7 +45,7 @@ class Elimination(NamedTuple):
 
 @cache
 def eliminate(equations: tuple[Key, ...], size: int) -> Elimination:
-    """For homogeneous equations in that many unknowns; raises NotCounted."""
+    """The elimination for homogeneous equations in a number of unknowns; raises NotCounted."""
     ring = fmpq_mpoly_ctx.get(tuple(f"y{i}" for i in range(size)), Ordering.degrevlex)
     for chart in itertools.islice(_charts(size), CHARTS):
         places = [sum((x * c for c, x in zip(row, ring.gens(), strict=True)), ring.constant(0)) for row in chart]
@@ -167,7 +167,7 @@ def _linear(combination: Sequence[Mapping[Monomial, int]], forms: Sequence[fmpq_
 
 
 def _cofactors(rows: Sequence[Sequence[fmpq_poly]]) -> list[fmpq_poly]:
-    """Those of a row below these, up to one sign."""
+    """The cofactors of a row below these, up to one sign."""
     if not rows:
         return [fmpq_poly([1])]
     found = []

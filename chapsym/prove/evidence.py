@@ -34,7 +34,7 @@ SLIPS = ("serious", "typo", "convention", "reading")
 
 
 class Verdict(StrEnum):
-    """What is said of a printed claim."""
+    """The verdict on a printed claim."""
 
     HOLDS = "holds"
     CORRECTED = "corrected"
@@ -87,7 +87,7 @@ class Proof:
         self.lines += map(str, texts)
 
     def infers(self, *texts: str) -> None:
-        """What leads in words from what is decided to the formula as printed or corrected; no machine judges it."""
+        """Adds the argument in words from decided statements to the printed or corrected formula, not machine-judged."""
         self.inferences += map(str, texts)
 
     def show(self, name: str, value: Any) -> None:
@@ -109,7 +109,7 @@ class Proof:
             self.assumed.append(Comparison(text, relations))
 
     def reads(self, *given: Mapping[str, tuple[Any, str]] | tuple[str, Any, str]) -> None:
-        """What the symbols of the formulas stand for, so that the checker reads these and compares what was decided.
+        """Sets the meanings of symbols, so that the checker reads the formulas and compares them with what was decided.
 
         given: (TeX, an expression, a column or a matrix in the letters of the statements, what it is), or tables of
         these, {TeX: (value, what it is)}.
@@ -125,7 +125,7 @@ class Proof:
             self.glossary[str(symbol)] = value, meaning
 
     def lemma(self, *statements: Statement) -> None:
-        """What must hold for the proof to stand."""
+        """Decides statements that must hold for the proof to stand."""
         self.problems += [f"lemma fails: {s.text}" for s in statements if not self._decide(s)]
 
     def route(self, name: str, *statements: Statement) -> None:
@@ -138,7 +138,7 @@ class Proof:
             self.problems.append(f"the second route fails: {name}")
 
     def printed(self, *statements: Statement) -> None:
-        """What the paper states; each is decided as printed.
+        """Decides statements of the paper, each as printed.
 
         A count or a comparison that is false is its own counterexample, but for a count that also says where something
         does not vanish.
@@ -155,12 +155,12 @@ class Proof:
         self._corrected += [(s, self._decide(s, "corrected")) for s in statements]
 
     def under(self, condition: str, *statements: Statement) -> None:
-        """What is printed under a hypothesis that the paper leaves out."""
+        """Decides the printed statements under a hypothesis that the paper leaves out."""
         self.condition = str(condition)
         self._corrected += [(s, self._decide(s, "under", f"under {condition}: ")) for s in statements]
 
     def slips(self, kind: str, *follows: str) -> None:
-        """What kind of error this is, by our judgement; and the errors from which it follows, of claims that it uses.
+        """Sets the kind of the error, by our judgement; and the errors from which it follows, of claims that it uses.
 
         kind: `serious`, it misleads who computes with it; `typo`, a misprint that the text around it mends;
         `convention`, a sign or an order that the paper takes otherwise elsewhere; `reading`, true or false as one
@@ -247,12 +247,12 @@ class Proof:
             self.problems.append(f"the checker does not accept {file}")
 
     def state(self, theorem: Theorem, part: str = "") -> None:
-        """What the lemma says, as data, or a part of the proof under its name; the steps to its conclusions follow."""
+        """Sets the theorem of the lemma, or a part of the proof under its name, as data; its steps follow."""
         self.stated[part], self.steps[part] = theorem, []
         self._since = len(self.said), len(self.decided)
 
     def step(self, gives: str, *needs: str) -> None:
-        """What follows, by the sentences said since the last step, from what it needs.
+        """Adds a conclusion from the statements that it needs, by the sentences said since the last step.
 
         needs: of what the theorem is given, of what a step before gives, ids that the claim uses, files of accepted
         certificates, texts of decided statements.
@@ -290,7 +290,7 @@ class Proof:
 
     @property
     def answer(self) -> str | None:
-        """What is answered of a question: the theorems, made from the statements of the lemmas."""
+        """Sets the answer to a question: the theorems, made from the statements of the lemmas."""
         return "  ".join(one["text"] for one in self.readings if one["theorem"]) or None
 
     def measure(self, *findings: str) -> None:
@@ -298,7 +298,7 @@ class Proof:
         self.measured += map(str, findings)
 
     def conjecture(self, *texts: str) -> None:
-        """What is believed and not proved; no verdict rests on it."""
+        """Adds a statement that is believed and not proved; no verdict rests on it."""
         self.conjectures += map(str, texts)
 
     def verdict(self) -> Verdict:

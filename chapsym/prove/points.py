@@ -69,7 +69,7 @@ def some(ring: Quotient, examples: Examples) -> Iterator[Exact]:
 def look(
     equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples
 ) -> tuple[list[dict[str, Any]], list[str]]:
-    """As `witness.look`, at points that are found for the relations of each equation, where the examples have none."""
+    """As `witness.look`, at points found for the relations of each equation, where the examples have none."""
     found: dict[tuple[Any, ...], dict[str, Any]] = {}
     wrong = []
     for equation in equations:

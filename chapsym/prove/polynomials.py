@@ -93,7 +93,7 @@ class Ratio(Arithmetic):
 
     @classmethod
     def _lowest(cls, numerator: fmpq_mpoly, denominator: fmpq_mpoly, made: Made) -> "Ratio":
-        """Of two polynomials that are known to have no common factor, the second monic."""
+        """The lowest terms of two polynomials that are known to have no common factor, the second monic."""
         ratio = object.__new__(cls)
         ratio.numerator, ratio.denominator, ratio.made = numerator, denominator, made
         return ratio

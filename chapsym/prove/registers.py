@@ -84,7 +84,7 @@ class Register:
         return found
 
     def told(self, name: str, default: str) -> str:
-        """What the `__init__.py` says under a name: PAPER or NOTE."""
+        """The value of a name in `__init__.py`: PAPER or NOTE."""
         return str(getattr(self._head(), name, default))
 
     def module(self, name: str) -> ModuleType | None:
@@ -197,7 +197,7 @@ def register_of(script: str) -> Register:
 
 
 def reached(id: str, claims: Mapping[str, Claim]) -> set[str]:
-    """What a claim uses, directly or through others."""
+    """All claims that a claim uses, directly or through others."""
     found: set[str] = set()
     new = {id}
     while new := {used for one in new & claims.keys() for used in claims[one].uses} - found:
@@ -241,7 +241,7 @@ def _taken(name: str, id: str, other: str) -> BrokenScript:
 
 
 def _said(name: str, error: BaseException) -> str:
-    """What went wrong, and in which line of the script, or of a file next to it."""
+    """The error, and in which line of the script, or of a file next to it."""
     if isinstance(error, SystemExit):
         return "it leaves Python; what ends it, such as main(__file__), stands under if __name__ == '__main__'"
     said = f"{type(error).__name__}: {error}"
@@ -263,7 +263,7 @@ def _is(file: str | None, path: Path) -> bool:
 
 
 def _listed(head: ModuleType, name: str) -> list[str] | None:
-    """What the package says of its scripts or claims; None where it says nothing."""
+    """The list of scripts or claims in the package; None where it has none."""
     given = getattr(head, name, None)
     if given is not None and (not isinstance(given, list | tuple) or not all(isinstance(one, str) for one in given)):
         raise BrokenScript(f"{head.__file__}: {name} must be a list of texts")

@@ -37,7 +37,7 @@ def prove_one(id: str, folder: Path | None = None, register: Register = PROOFS) 
 
 
 def _record(judgement: Judgement, register: Register) -> dict[str, Any]:
-    """With its fingerprint, and what uses it: a claim of the paper in the paper, a lemma anywhere."""
+    """The record with its fingerprint, and its users: for a claim of the paper in the paper, for a lemma anywhere."""
     id, paper = judgement.claim.id, register.load()
     record = judgement.record(downstream(id, paper if id in paper else register.load(lemmas=True)))
     record["evidence"]["fingerprint"] = fingerprint(judgement.claim)

@@ -96,7 +96,7 @@ class Fact:
     method: str = "exact arithmetic"
 
     def holds(self) -> bool:
-        """What was decided; an undecided relation raises TypeError."""
+        """Whether the statement holds; an undecided relation raises TypeError."""
         return bool(self.truth)
 
 
@@ -163,7 +163,7 @@ class Comparison:
 
     @property
     def symbols(self) -> set[sp.Symbol]:
-        """What must have a value."""
+        """The symbols that must have a value."""
         return set().union(*(relation.free_symbols for relation in self.relations))
 
     def holds(self) -> bool:
@@ -171,7 +171,7 @@ class Comparison:
         return self.true_at(self.point)
 
     def sides(self) -> tuple[list[str], list[str]]:
-        """What the relations compare, at its point."""
+        """The sides of the relations, at its point."""
         values = [_values(relation, self.point) for relation in self.relations]
         return [_exact(left) for left, _ in values], [_exact(right) for _, right in values]
 
@@ -203,7 +203,7 @@ REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE = NUMBERS = sp.symbols(
 
 @dataclass(frozen=True)
 class Count:
-    """What is said of the number of solutions of equations that are homogeneous in some unknowns, in projective space.
+    """A count: the number of solutions of equations that are homogeneous in some unknowns, in projective space.
 
     The relations are between REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE and integers.  The point has rational
     numbers for all other symbols, those of the algebra among them; equations may have letters of a derivation.
@@ -230,7 +230,7 @@ class Count:
         return Comparison(self.text, self.relations).true_at(self.numbers())
 
     def sides(self) -> tuple[list[str], list[str]]:
-        """What the relations compare."""
+        """The sides of the relations."""
         return Comparison(self.text, self.relations, self.numbers()).sides()
 
     def numbers(self) -> dict[sp.Symbol, sp.Integer]:
@@ -243,7 +243,7 @@ class Count:
         return {name: sp.Integer(sum(n)) for name, n in zip(NUMBERS, zip((0,) * 4, *counts, strict=True), strict=True)}
 
     def elimination(self) -> Elimination:
-        """What proves the numbers."""
+        """The elimination that proves the numbers."""
         return eliminate(tuple(tuple(form.items()) for form in self._forms(self.equations)), len(self.unknowns))
 
     def _forms(self, expressions: Sequence[sp.Expr]) -> list[Form]:

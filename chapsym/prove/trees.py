@@ -30,7 +30,7 @@ def tree(expr: Any) -> Any:
 
 
 def number(x: Any) -> int | str:
-    """A rational number as it stands in a tree: an integer, or a quotient in quotes."""
+    """A rational number as written in a tree: an integer, or a quotient in quotes."""
     if isinstance(x, int):
         return x
     return int(x.p) if x.q == 1 else f"{x.p}/{x.q}"
@@ -69,7 +69,7 @@ def shared(wholes: Sequence[Ratio | int]) -> tuple[list[list[Any]], list[Any]]:
 
 
 def _count(of: Ratio | int, uses: "Counter[int]") -> None:
-    """How often each part occurs; what is below one that is named is counted once."""
+    """The number of times each part occurs; parts of one that is named are counted once."""
     if isinstance(of, Ratio) and not isinstance(of.made, str | int):
         uses[id(of)] += 1
         if uses[id(of)] == 1 and of.made:

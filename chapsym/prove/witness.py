@@ -151,7 +151,7 @@ def _by_kind(letters: Sequence[sp.Symbol], algebra: WordAlgebra, n: int) -> Exac
 
 
 def closed(found: Exact, algebra: WordAlgebra) -> Exact:
-    """With the transposes of matrices, and the letters that rules make of two."""
+    """The matrices with their transposes, and the letters that rules make of two."""
     for x in list(found):
         image = algebra.transposes.get(x)
         if image is not None and image.is_Symbol and image != x:

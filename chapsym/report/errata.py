@@ -30,7 +30,7 @@ def markdown(records: Sequence[Record], version: str, source: Source = FEDOROV) 
 
 
 def _introduction(records: Sequence[Record], version: str, source: Source, written: Callable[[str], str]) -> list[str]:
-    """What stands above the entries, a blank line after each paragraph."""
+    """The text above the entries, a blank line after each paragraph."""
     by_kind = kinds(records)
     return [
         f"To {written(source.paper)}.",
@@ -44,13 +44,13 @@ def _introduction(records: Sequence[Record], version: str, source: Source, writt
 
 
 def kind(record: Record) -> str:
-    """What kind of error it is, and from which it follows; empty where no kind is given."""
+    """The kind of error, and the error from which it follows; empty where no kind is given."""
     name, follows = slip_of(record)
     return f"{name}{', follows from ' if follows else ''}{' and '.join(map(label, follows))}"
 
 
 def _said(record: Record) -> Iterator[tuple[str, str, bool]]:
-    """What an entry says, each with its name, and whether it is a formula."""
+    """The parts of an entry, each with its name, and whether it is a formula."""
     formula, words = truth(record)
     condition = "Condition" if record["verdict"] == "conditional" else "True"
     said = [
@@ -140,7 +140,7 @@ def entries(written: str) -> dict[str, Entry]:
 
 
 def _entry(record: Record, source: Source) -> Entry:
-    """What an entry says, without its states."""
+    """The parts of an entry without its states."""
     formula, prose = truth(record)
     number, title = section(record) or (None, None)
     conditional = record["verdict"] == "conditional"

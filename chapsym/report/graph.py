@@ -1,4 +1,4 @@
-"""What uses what, as an arc diagram: the claims down the left in the order of the paper, an arc for each use.
+"""The uses of claims, as an arc diagram: the claims down the left in the order of the paper, an arc for each use.
 
 Plain SVG with the names of classes that the page's style colours; the page's script highlights.
 """

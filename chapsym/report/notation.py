@@ -76,7 +76,7 @@ def plain(text: str) -> str:
 
 
 def in_line(shown: str | Matrix) -> str:
-    """What `value` gives, in one line."""
+    """The result of `value`, in one line."""
     return shown if isinstance(shown, str) else "[" + "; ".join(" ".join(row) for row in shown) + "]"
 
 
@@ -251,7 +251,7 @@ def value_latex(text: str) -> str:
 
 
 def shown_latex(shown: str | Matrix) -> str:
-    """What `value` gives as a formula: a matrix in small type, a rational as it is, a break after each comma."""
+    """The result of `value` as a formula: a matrix in small type, a rational as it is, a break after each comma."""
     if isinstance(shown, str):
         return symbol_latex(shown).replace(", ", r",\allowbreak\ ")
     rows = r"\\".join("&".join(symbol_latex(x) for x in row) for row in shown)

@@ -78,7 +78,7 @@ class Page:
         return Markup(self._templates.get_template(template).render(**context))
 
     def section(self, name: str, title: str, template: str, **context: Any) -> Markup:
-        """What the template gives, or a box that says why there is nothing."""
+        """The section by its template, or a box that says why there is none."""
         try:
             return self.render(template, **context)
         except Exception as error:  # whatever a record or a template does, the rest of the page stays

@@ -20,7 +20,7 @@ GIVEN = ("radius", "half_turns", "digits")
 
 @dataclass(frozen=True)
 class Evidence:
-    """What a study found: its name, a title, sentences, and figures as (caption, SVG text)."""
+    """The findings of a study: its name, a title, sentences, and figures as (caption, SVG text)."""
 
     name: str
     title: str
@@ -38,7 +38,7 @@ class Checked:
     rejected: str = ""
 
     def rows(self) -> list[tuple[str, str]]:
-        """What it says about itself, and what is proved: names and values."""
+        """The rows of the certificate: names and values of its ball and of what is proved."""
         given = {name: self.data[name] for name in GIVEN if name in self.data}
         said = {**self.data.get("ball", {}), **given, **self.proved}
         return [(name.replace("_", " "), ", ".join(v) if isinstance(v, list) else v) for name, v in said.items()]

@@ -103,13 +103,13 @@ def label(id: str) -> str:
 
 
 def counts(records: Iterable[Record]) -> dict[str, int]:
-    """How many claims have each verdict, in the order of VERDICTS; verdicts that nothing has are left out."""
+    """The number of claims with each verdict, in the order of VERDICTS; verdicts that nothing has are left out."""
     found = Counter(record["verdict"] for record in records)
     return {verdict: found[verdict] for verdict in [*VERDICTS, *found] if verdict in found}
 
 
 def carried(records: Iterable[Record]) -> dict[str, int]:
-    """What carries the verdicts, counted over all claims: what the checker of certificates accepted, and sentences."""
+    """The grounds of the verdicts, counted over all claims: statements that the checker accepted, and sentences."""
     counts = [record["evidence"].get("carried") or {} for record in records]
     found = {
         name: sum(one.get(name, 0) for one in counts)
@@ -124,7 +124,7 @@ def errors(records: Iterable[Record]) -> list[Record]:
 
 
 def truth(record: Record) -> tuple[str, str]:
-    """What is true in the place of a printed error, as LaTeX, and in prose the condition or the whole truth."""
+    """The true statement in the place of a printed error, as LaTeX, and in prose the condition or the whole truth."""
     name = "true_statement" if record["verdict"] == "refuted" else "condition"
     return record.get("corrected") or "", record["evidence"].get(name) or ""
 
@@ -136,7 +136,7 @@ def slip_of(record: Record) -> tuple[str, list[str]]:
 
 
 def slips(records: Iterable[Record]) -> dict[str, tuple[int, int]]:
-    """How many errors there are of each kind, and how many of these follow from no other."""
+    """The number of errors of each kind, and the number of these that follow from no other."""
     found = [slip_of(record) for record in errors(records)]
     count = {kind: [not follows for each, follows in found if each == kind] for kind in SLIPS}
     return {kind: (len(those), sum(those)) for kind, those in count.items() if those}
@@ -164,13 +164,13 @@ def unproved(records: Iterable[Record]) -> list[str]:
 
 
 def uses(records: Sequence[Record]) -> dict[str, list[str]]:
-    """What each claim uses itself, among the records that are there."""
+    """The claims that each claim uses directly, among the records that are there."""
     known = {record["id"] for record in records}
     return {r["id"]: [id for id in r["evidence"].get("uses", []) if id in known] for r in records}
 
 
 def users(records: Sequence[Record]) -> dict[str, list[str]]:
-    """What uses each claim itself."""
+    """The claims that use each claim directly."""
     used = uses(records)
     return {record["id"]: [id for id in used if record["id"] in used[id]] for record in records}
 
@@ -195,11 +195,11 @@ class Source:
 
     @property
     def option(self) -> str:
-        """What a command needs to find the claims."""
+        """The option of a command that finds the claims."""
         return f" --register {self.register}" if self.register else ""
 
     def cite(self, version: str) -> str:
-        """How to cite the list of errata."""
+        """The citation of the list of errata."""
         return f"Errata to {self.short}, computed by chapsym {version}"
 
     def reproduce(self, id: str) -> str:

@@ -75,7 +75,7 @@ def figures(cell: Mapping[str, Any]) -> list[str]:
 
 
 def decided(cell: Mapping[str, Any]) -> list[str]:
-    """What is proved of a cell, with its order; what is false, with the power of the step; what is neither."""
+    """The proved properties of a cell, with its order; the false, with the power of the step; the undecided."""
     found: dict[str, list[str]] = {"proved": [], "false": [], "not decided": []}
     for name, one in cell.get("verdicts", {}).items():
         if one["verdict"] == "measured":

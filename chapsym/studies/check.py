@@ -181,7 +181,7 @@ def check(states: int = 20, seed: int = 20071, on_row: Callable[[Row], None] = l
 
 @dataclass(frozen=True)
 class Drift:
-    """How far the invariants moved over a trajectory, relative to their size."""
+    """The changes of the invariants over a trajectory, relative to their size."""
 
     steps: int
     height: float

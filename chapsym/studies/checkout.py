@@ -1,4 +1,4 @@
-"""What is measured in a checkout alone, `benchmarks` and `research`, and on which machine."""
+"""The measurements of a checkout, `benchmarks` and `research`, and the machine they are from."""
 
 import os
 import platform
@@ -53,7 +53,7 @@ def save_figures(package: str, drawn: Mapping[str, str], found: dict[str, Any], 
 
 
 def machine() -> dict[str, Any]:
-    """What a measurement must name: the processor, its cores, the compiler, and the versions."""
+    """The machine, as a measurement must name it: the processor, its cores, the compiler, and the versions."""
     return {
         "cpu": _cpu(),
         "cores": cores(),
@@ -76,7 +76,7 @@ def _cpu() -> str:
 
 
 def _compiler_version() -> str:
-    """Of the C compiler: that of CC, or cc, gcc, clang."""
+    """The version of the C compiler: that of CC, or cc, gcc, clang."""
     wanted = os.environ.get("CC")
     path = next(filter(None, map(shutil.which, [wanted] if wanted else ["cc", "gcc", "clang"])), None)
     if path is None:

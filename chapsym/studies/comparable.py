@@ -89,7 +89,7 @@ Start = dict[str, np.ndarray]
 
 
 def _rolling(place: np.ndarray, radius: float, attitude: np.ndarray, omega: np.ndarray) -> Start:
-    """That of a ball on the plane, at its point of contact."""
+    """The start of a ball that rolls on the plane, from its point of contact."""
     centre = np.array([*place, radius])
     return {"centre": centre, "attitude": attitude, "velocity": rolling(radius, omega), "omega": omega}
 

@@ -1,4 +1,4 @@
-"""How far an engine's trajectory is from a motion that is certified (benchmarks/rolling)."""
+"""The distance of an engine's trajectory from a certified motion (benchmarks/rolling)."""
 
 import json
 from collections.abc import Sequence
@@ -81,7 +81,7 @@ Departure = dict[str, np.ndarray]
 
 
 def summary(found: Departure, time: np.ndarray) -> dict[str, Any]:
-    """Of each part the greatest, that at the end, and when the limit is passed: for JSON."""
+    """The greatest error of each part, that at the end, and when the limit is passed: for JSON."""
     told: dict[str, Any] = {}
     for name, part in found.items():
         told[name] = {"greatest": float(np.abs(part).max()), "end": float(part[-1]), "unit": UNITS[name]}
@@ -141,7 +141,7 @@ def _carried(
 
 @dataclass(frozen=True)
 class Convergence:
-    """Of the path, or of the attitude, over steps that are divided by one ratio.
+    """The convergence of the path, or of the attitude, over steps that are divided by one ratio.
 
     order: from how the differences between neighbouring steps fall; None where they do not fall.
     of_the_step: how far the finest run is from the limit of the runs.  floor: how far that limit is from the truth: the
@@ -154,7 +154,7 @@ class Convergence:
 
 
 def convergence(case: Case, runs: Sequence[Trajectory], of: str = "path") -> Convergence:
-    """From three runs or more, each with its step, of the path or of the attitude.
+    """The convergence of three runs or more, each with its step, of the path or of the attitude.
 
     Where runs with the steps h, h/r and h/r² differ by d and d' at most, the order is log(d/d')/log r; the last run and
     its difference from the one before, over r^order - 1, give the limit of the runs at each frame.  Raises BadInput
@@ -192,7 +192,7 @@ def _distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def sentence(found: Convergence, unit: str) -> str:
-    """What several steps say, estimated."""
+    """The sentence on several steps, estimated."""
     if found.order is None:
         return "the differences between steps do not fall: no order"
     return (

@@ -57,7 +57,7 @@ class Table:
     digit: Mapping[str, float]
 
     def from_zero(self) -> "Table":
-        """With times from the first row on, and these exactly."""
+        """The table with times from the first row on, and these exactly."""
         exact = self.exact_times()
         return replace(self, columns={**self.columns, "time": np.array([float(at) for at in exact])})
 

@@ -69,7 +69,7 @@ def _units(quick: bool) -> list[tuple[str, Unit]]:
 
 
 def sentences(found: dict[str, Any]) -> list[str]:
-    """What was found, a line each."""
+    """The findings, a line each."""
     told = []
     control = [s for s in found["samples"] if s["D"] == 0]
     wrong, of = sum(s["chaotic"] for s in control), sum(s["counted"] for s in control)

@@ -56,7 +56,7 @@ def follow_orbits(ball: Any, momenta: np.ndarray, gammas: np.ndarray, steps: int
 def sample(
     mass_tensor: list[float], D: float, epsilon: float, near: bool, orbits: int, steps: int, seed: int
 ) -> dict[str, Any]:
-    """How many of `orbits` orbits with |𝒦| = ε I_min are chaotic, and how fast; what the phase volume does.
+    """The number of chaotic orbits of `orbits` with |𝒦| = ε I_min, and their rate; the change of the phase volume.
 
     folded: orbits that met a fold, which are not counted.  growth: quantiles of log(growth)/log(steps) of the regular
     ones, at most LIMIT.  exponent: the mean and the largest Lyapunov exponent of the chaotic ones, a step.

@@ -136,7 +136,7 @@ def _exponent(runs: list[dict[str, Any]]) -> dict[str, float]:
 
 
 def sentences(found: dict[str, Any]) -> list[str]:
-    """What was found, a line each."""
+    """The findings, a line each."""
     powers = found["powers"]
     told = [
         f"in long runs H ranges by a part ∝ ε^{powers[name]['power']:.3f}"

@@ -76,7 +76,7 @@ SHARED = ("runs", "batch", "reverse")
 
 
 def judged(judge: Judge, level: Level, quick: bool) -> Judged:
-    """What is judged; a refusal is one, and an exception that is none a failure, whatever it is."""
+    """The judgement of a call; a refusal is one, and any other exception is a failure."""
     try:
         return judge(level, quick)
     except (BadInput, StepNotTaken) as refusal:
@@ -133,7 +133,7 @@ def _named(groups: Sequence[str] | None) -> list[tuple[str, str]]:
 
 
 def rows(groups: Sequence[str] | None = None) -> int:
-    """How many rows there are in some groups, in all by default."""
+    """The number of rows in some groups, in all by default."""
     return len(_named(groups))
 
 

@@ -42,7 +42,7 @@ def shown(cell: Mapping[str, Any]) -> Shown:
 
 
 def about(matrix: Mapping[str, Any]) -> str:
-    """What the cells say, and how many say what."""
+    """The meanings of the cells, and the number of each."""
     signs = "; ".join(f"{sign} {verdict}: {meaning}" for verdict, (sign, meaning) in VERDICTS.items())
     counted = ", ".join(f"{count} {verdict}" for verdict, count in matrix["counts"].items())
     return (

@@ -65,7 +65,7 @@ def judge(given: State | Callable[[Level], State], level: Level, quick: bool) ->
 
 
 def bounded(given: State, exact: Truth) -> list[Judged]:
-    """What is wrong with the proved bounds of a step in float64: one below the error."""
+    """The proved bounds of a step in float64 that are wrong, being below the error."""
     found = step(given.ball, given.K, given.g, proved=True)
     assert found.proved is not None
     wrong = []
@@ -92,7 +92,7 @@ def beside(level: Level, found: Found, exact: Truth | None) -> Judged:
 
 
 def _lie(status: Status, level: Level, given: State, exact: Truth | None) -> str:
-    """What is not true of a refusal, or nothing."""
+    """The part of a refusal that is not true, or nothing."""
     out_of_reach = status in (Status.FOLDED, Status.UNREACHABLE) and not blurred(level, given)
     if exact is not None and (out_of_reach or status is Status.NO_INERTIA):
         return f'says "{status.sentence}", but the oracle reaches it'

@@ -72,7 +72,7 @@ def displacement(
 
 
 def second_route(level: Level, phases: list[Any], values: list[Any], steps: int, turns: int) -> dict[str, Any]:
-    """How far (5.15) and its chord form are from the sphere, in half turns."""
+    """The distances of (5.15) and its chord form from the result on the sphere, in half turns."""
     relation = Relation(level)
     chosen = range(0, len(phases), max(1, len(phases) // COMPARED))
     routes = max(abs(values[i] - relation.displacement(phases[i], steps, turns)) for i in chosen)

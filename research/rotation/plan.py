@@ -1,4 +1,4 @@
-"""What is measured, quickly and in full, as independent units of work."""
+"""The measurements, quick and full, as independent units of work."""
 
 from math import gcd
 from typing import Any

@@ -1,4 +1,4 @@
-"""What the study found, in sentences, measured, not proved; and its numbers and names as the figures have them, too."""
+"""The findings of the study in sentences, measured, not proved; and its numbers and names, for the figures, too."""
 
 import math
 from decimal import Decimal

@@ -1,4 +1,4 @@
-"""What the adapters share: the start of a case as an engine takes it, and the file that it writes."""
+"""The common parts of the adapters: the start of a case as an engine takes it, and the file that it writes."""
 
 import argparse
 from collections.abc import Callable, Iterable

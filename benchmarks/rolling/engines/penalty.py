@@ -19,7 +19,7 @@ def run(case: Case, step: float, best: bool = False) -> Rows:
     mass, radius, (j1, j2, j3) = case.mass, case.radius, case.inertia.tolist()
 
     def rate(state: np.ndarray) -> np.ndarray:
-        """Of the centre, the quaternion (scalar first), the velocity and ω, in space."""
+        """The rates of the centre, the quaternion (scalar first), the velocity and ω, in space."""
         _, _, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz = state.tolist()
         depth = radius - z
         press = max(0.0, STIFFNESS * depth - DAMPING * vz) if depth > 0 else 0.0  # of a kg

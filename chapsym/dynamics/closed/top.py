@@ -113,7 +113,7 @@ class TopMotion(Brief):
 
     @classmethod
     def _through(cls, ball: Ball, size: float, axis: Floats, momentum: Floats | None) -> Self:
-        """From the direction, and the 𝒦 that gives it exactly; else the direction is exact."""
+        """The motion from the direction, and the 𝒦 that gives it exactly; else the direction is exact."""
         unit = axis / np.sqrt(axis @ axis)
         if not moves(ball.mass_tensor, ball.D, unit):
             raise BadInput("the map fixes this direction of the momentum, or nearly so; it has no curve")
@@ -214,7 +214,7 @@ def _one(ball: Ball, vector: Floats) -> None:
 
 @dataclass(frozen=True, eq=False)
 class ExactCurve:
-    """What a motion is in Arb's numbers, with 𝒦 and the mass tensor taken as exact.
+    """A motion in Arb's numbers, with 𝒦 and the mass tensor taken as exact.
 
     moments: Λ in the order of the curve; direction: of 𝒦, unit, (3,); gibbs: the Gibbs vector of the first step;
     after: the direction after it.  level: l; rate: V with its sign; k2: k²; quarter: K(k).
@@ -237,7 +237,7 @@ class ExactCurve:
     def of(
         cls, curve: Curve, axis: Floats, momentum: Floats | None, size: float, near: float, rotation: Floats
     ) -> Self:
-        """From the increment and the rotation of the first step in float64: the Gibbs vector by Newton, then u."""
+        """The motion by the increment and the rotation of the first step in float64: Gibbs vector by Newton, then u."""
         from flint import acb, arb
 
         tensor, contact = [arb(float(x)) for x in curve.ball.mass_tensor], arb(float(curve.ball.D))

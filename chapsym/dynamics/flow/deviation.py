@@ -1,4 +1,4 @@
-"""How far the motion is from polynomials in time, proved from what they leave of the equations.
+"""Bounds of the distance of the motion from polynomials in time, proved from their defects in the equations.
 
 The motion: R turns with the angular velocity ω of the body, B(γ)ω + a = K, B(γ) = I + D(1 - γγᵀ), where K = Rᵀk and
 γ = Rᵀe₃ are fixed in space, and a, the angular momentum of a rotor, in the body.  Time is τ in [0, 1], and k and a are
@@ -82,7 +82,7 @@ class Body(NamedTuple):
         return moments(self.J)
 
     def during(self, length: Any) -> "Body":
-        """With a of a step of that length."""
+        """The body with a in the unit of time of a step of that length."""
         return self._replace(rotor=tuple(length * x for x in self.rotor))
 
     def bent(self, w: Sequence[Any], x: Sequence[Any]) -> list[Any]:
@@ -91,7 +91,7 @@ class Body(NamedTuple):
 
 
 class Defects(NamedTuple):
-    """What polynomials leave: e, κ with |p|²R in the place of R, and |p|² - 1, polynomials.
+    """The defects of polynomials in the equations: e, κ with |p|²R in the place of R, and |p|² - 1, polynomials.
 
     R: |p|²R row by row; unit: contains 1/|p|².
     """
@@ -104,7 +104,7 @@ class Defects(NamedTuple):
 
 
 def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, degree: int) -> Defects:
-    """Those of exact polynomials p and w, R cut to a degree; raises TooWide where |p| may be far from 1."""
+    """The defects of exact polynomials p and w, R cut to a degree; raises TooWide where |p| may be far from 1."""
     off = dot_four(p, p) - 1
     most = bound([off])
     if not most < 0.5:
@@ -120,7 +120,7 @@ def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, de
 
 
 class Step(NamedTuple):
-    """What a step does to ξ: M, all that ξ(1) may differ from Mξ(0) by, and on [0, 1] a bound of |ξ|.
+    """The effect of a step on ξ: M, all that ξ(1) - Mξ(0) may be, and on [0, 1] a bound of |ξ|.
 
     slip: what ϖ may differ from w by.
     """

@@ -54,7 +54,7 @@ class Neighbours:
             self.phi, self.psi = ([_exact(row) for row in x] for x in (phi, _product(psi, twice)))
 
     def correction(self, p: Row, w: Row, found: Defects, terms: int) -> tuple[list[Any], list[Any]]:
-        """What takes away the defects of p and w to the first order, if it is added."""
+        """The correction that removes the defects of p and w to the first order when it is added."""
         with capped(terms):
             a, omega = _series(p), _series(w)
             e, kappa, (off,) = map(_series, (found.e, found.kappa, [found.off]))

@@ -100,7 +100,7 @@ class Principal(NamedTuple):
 
 
 def principal(tensor: Sequence[Sequence[Any]]) -> Principal:
-    """Of a symmetric matrix of balls; raises TooWide where they do not tell three different moments apart.
+    """The principal axes of a symmetric matrix of balls; raises TooWide where its moments may be equal.
 
     An eigenvector of a real eigenvalue that is simple is a real one times a complex number, so its components divided
     by one of them are real.  The third axis is normal to two others.

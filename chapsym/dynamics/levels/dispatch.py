@@ -54,7 +54,7 @@ def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None
 
 
 def no_room(frames: int, balls: int) -> BadInput:
-    """What is raised where the frames do not fit into memory."""
+    """The error for frames that do not fit into memory."""
     return BadInput(f"{frames} frames of {balls} balls do not fit into memory; keep fewer with every=")
 
 

@@ -134,7 +134,7 @@ def begun(K: Floats, g: Floats, J: Floats, D: float, of: Numbers, stages: Floats
 
 
 def _weights(stages: Floats, of: Numbers) -> Floats:
-    """Those of the guesses of a composition, in the type of the loops."""
+    """The weights of the guesses of a composition, in the type of the loops."""
     return stage_weights(tuple(stages.tolist())).astype(of.dtype, copy=False)
 
 

@@ -1,4 +1,4 @@
-"""What a run is given, what it fills, and how its work is shared among threads."""
+"""The start of a run, its frames, and how its work is shared among threads."""
 
 import os
 import threading
@@ -36,7 +36,7 @@ class Balls:
 
 
 def exactly(given: ArrayLike, floats: Floats, shape: tuple[int, ...]) -> Any:
-    """What was given, as Fractions in the shape of the floats, where it is of exact numbers; else the floats."""
+    """The given numbers, as Fractions in the shape of the floats, where they are exact; else the floats."""
     array = np.asarray(given)
     if array.dtype != object:
         return floats
@@ -61,7 +61,7 @@ def given(
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """What a run fills: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
+    """The frames of a run: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
 
     attitude and contact have no frames unless `with_body`.  The arrays are of the numbers of the precision: float32,
     float64, or objects; `low` has the second halves of double-double numbers.  least: the attitudes start as the least

@@ -19,7 +19,7 @@ MANY = 12_500
 
 
 def begun(state: Floats, stages: Floats, beyond: int) -> tuple[Floats, Floats]:
-    """What the march takes: m and radius² of each stage, (s, 2), and the set of one point that moves."""
+    """The arguments of the march: m and radius² of each stage, (s, 2), and the set of one point that moves."""
     box = np.zeros(proved.ROWS)
     box[[0, 4, 8]] = 1.0
     box[[proved.G_OFF, proved.A_OFF]] = PAIR

@@ -1,4 +1,4 @@
-"""What proves a root in Arb's balls: a point near it, and a slope with which G is monotone there; or an interval test.
+"""Proofs of a root in Arb's balls: by a point near it and a slope with which G is monotone there; or an interval test.
 
 ⟨x, G(v + x) - G(v)⟩ ≥ m|x|² in a ball of Gibbs vectors: so the root is within |G(u)|/m of any u, for all 𝒦 and γ in
 their balls.  m is that of lemma `small-branch`, for all γ, or beyond its bound that of lemma `straight-path`, for

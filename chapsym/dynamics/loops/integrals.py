@@ -42,7 +42,7 @@ def remember(state):
 
 
 def shares(unit, height, squared, one, h, n):
-    """What takes the three integrals (one, h, n) up by (unit, height, squared): (stretch, along_k, along_gamma).
+    """The changes that raise the integrals (one, h, n) by (unit, height, squared): (stretch, along_k, along_gamma).
 
     γ is to become (1 + stretch)γ, and k to become k + along_k k + along_gamma γ.
     """
@@ -58,7 +58,7 @@ def shares(unit, height, squared, one, h, n):
 
 
 def missing(state):
-    """What k and γ, with their compensations state[6:12], are short of the integrals in state[12:18]."""
+    """The integrals in state[12:18] less those of k and γ with their compensations state[6:12]."""
     k1, k2, k3, g1, g2, g3 = state[0], state[1], state[2], state[3], state[4], state[5]
     x1, x2, x3, y1, y2, y3 = state[6], state[7], state[8], state[9], state[10], state[11]
     unit, _ = inner(g1, g2, g3, -g1, -g2, -g3, state[12], state[13])

@@ -181,7 +181,7 @@ class Marchers:
         return np.abs(np.linalg.det(self.tangent())) > SINGULAR
 
     def march(self, A: Floats, B: Floats) -> tuple[Floats, np.ndarray]:
-        """From A to B; returns the fraction t of the way and a status for each."""
+        """Continues from A to B; returns the fraction t of the way and a status for each."""
         A, E = self._scaled(A), self._scaled(B) - self._scaled(A)
         n = len(self.D)
         t, status = np.zeros(n), np.full(n, Status.NOT_CONVERGED, dtype=np.int64)

@@ -382,7 +382,7 @@ def _confirmed(branches: Sequence[Branch], given: Sequence[Sequence[Fraction]]) 
 
 
 def _order(a: Branch, b: Branch) -> int:
-    """By angle; for equal angles by q0, q1, q2, q3, the larger first."""
+    """The order by angle; for equal angles by q0, q1, q2, q3, the larger first."""
     if a.angle < b.angle or b.angle < a.angle:
         return -1 if a.angle < b.angle else 1
     for x, y in zip(a.rotation, b.rotation, strict=True):

@@ -135,7 +135,7 @@ def _nonzero(trees: list[Any]) -> list[Fact]:
 
 
 def _hypotheses(algebra: dict[str, Any], point: Mapping[str, Any]) -> list[Fact]:
-    """What an algebra assumes, of the names that a point gives."""
+    """The hypotheses of an algebra, of the names that a point gives."""
     if algebra["kind"] == "quotient":
         return [("=", [(relation, 0)]) for relation in algebra["relations"]]
     rules = [rule for rule in algebra["rules"] if quotients.names_in(["+", *rule]) <= point.keys()]

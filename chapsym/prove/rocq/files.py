@@ -25,7 +25,7 @@ ENDINGS = {"Points": "", "Traces": "_words", "Matrices": "_matrices"}
 
 @dataclass
 class Written:
-    """What was written, counted; the files by the library that they need, with their theorems."""
+    """The statements that were written, counted; the files by the library that they need, with their theorems."""
 
     claims: int = 0
     theorems: Counter[str] = field(default_factory=Counter)

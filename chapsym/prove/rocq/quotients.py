@@ -62,7 +62,7 @@ def names_in(tree: Tree) -> set[str]:
 
 
 def denominators(trees: Iterable[Tree]) -> list[Tree]:
-    """What must not be 0 in these expressions, each once."""
+    """The denominators that must not be 0 in these expressions, each once."""
     found: dict[str, Tree] = {}
 
     def below(tree: Tree, inverted: bool) -> None:
@@ -96,7 +96,7 @@ def listed(parts: Iterable[str]) -> str:
 
 
 def value(tree: Tree, point: Mapping[str, Any]) -> Fraction:
-    """Of an expression at rational numbers."""
+    """The value of an expression at rational numbers."""
     if not isinstance(tree, list):
         return Fraction(point.get(tree, tree))
     if tree[0] == "^":

@@ -1,1 +1,1 @@
-"""What a scene asks for, by which model, and what it costs."""
+"""The plan of a scene: its outputs, the model, and the cost."""

@@ -68,7 +68,7 @@ class Model(ABC):
 
     @classmethod
     def in_words(cls) -> str:
-        """What a reader sees; `name` is what results and JSON have."""
+        """The title for readers; `name` is in results and JSON."""
         return cls.title or cls.name
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
@@ -99,14 +99,14 @@ class Model(ABC):
         return {"taken": np.zeros(n, dtype=np.int64), "status": np.zeros(n, dtype=np.int64)}
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
-        """What it costs in nanoseconds of one core: nominal, so that a plan does not depend on the machine.
+        """The cost in nanoseconds of one core: nominal, so that a plan does not depend on the machine.
 
         The prices are those of `chapsym bench plans`; the default is of models that tell `seconds`.
         """
         return 1.0
 
     def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float | None:
-        """What a run is expected to take, where that is more than its price."""
+        """The expected duration of a run, where that is more than its price."""
         return None
 
     @abstractmethod
@@ -223,7 +223,7 @@ class General(Stepwise):
     unit_steps = 2**14
 
     def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """What `trajectory_n` does not have."""
+        """The outputs that `trajectory_n` does not have."""
         return None if task.precision == "double" else "more than three dimensions have float64 only"
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
@@ -517,7 +517,7 @@ class Moving(Model):
 
 
 def accurate_parts(outputs: tuple[str, ...]) -> frozenset[str]:
-    """What of the motion is kept, and so has the accuracy."""
+    """The parts of the motion that are kept, to which the accuracy applies."""
     made = {"momentum", "gamma"} if any(name not in PARTS for name in outputs) else set()
     return PARTS & (made | set(outputs))
 
@@ -563,7 +563,7 @@ class Chosen(Model):
         return columns, state | {"taken": state["taken"] + task.steps, "error": np.array([error for _, error in runs])}
 
     def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float:
-        """What the choice for the first ball is expected to take, for all."""
+        """The expected duration of the choice for the first ball, for all."""
         ball, start, options = self._request(members, 0, task, needed)
         return foreseen(ball, *start, **options).seconds * len(members)
 

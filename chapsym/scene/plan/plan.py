@@ -45,12 +45,12 @@ class Plan:
 
     @property
     def frames(self) -> int:
-        """How many states are kept of each ball."""
+        """The number of states that are kept of each ball."""
         return self.task.frames
 
     @property
     def numbers(self) -> int:
-        """How many numbers are kept of one frame of one ball."""
+        """The count of numbers that are kept of one frame of one ball."""
         outputs = (OUTPUTS[name] for name in self.task.outputs)
         return sum(one.width(self.members.dimension) for one in outputs if not one.per_ball)
 
@@ -79,7 +79,7 @@ class Plan:
 
     @property
     def bytes(self) -> int:
-        """What the outputs take, uncompressed."""
+        """The size of the outputs, uncompressed."""
         once = sum(OUTPUTS[name].per_ball for name in self.task.outputs)
         return 8 * len(self.members) * (self.frames * self.numbers + once)
 

@@ -98,7 +98,7 @@ def _check(holds: np.ndarray | np.bool_, sentence: str) -> None:
 
 
 def rounded_by(inertia: Any) -> float:
-    """How much of a moment of ∫xxᵀdm the rounding of an inertia to its digits may be; 0 where it is of whole numbers.
+    """The error that rounding an inertia to its digits may make in a moment of ∫xxᵀdm; 0 for whole numbers.
 
     Each entry is off by half a unit of its last digit: of principal moments J by ¾ of a unit; of a tensor ½ tr I by ¾
     and I by 3/2 of one.  At most a hundredth of the largest is believed.

@@ -1,4 +1,4 @@
-"""What is wrong with a scene, in sentences: the file, the line, the key, and what would be right."""
+"""The errors of a scene, in sentences: the file, the line, the key, and what would be right."""
 
 import re
 import tomllib
@@ -41,7 +41,7 @@ class Misfit(BadInput):
 
 @contextmanager
 def said_by(table: str, key: str) -> Iterator[None]:
-    """What is refused inside is refused for this key."""
+    """Errors raised inside are those of this key."""
     try:
         yield
     except Misfit:

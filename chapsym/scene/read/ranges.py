@@ -1,4 +1,4 @@
-"""What may stand in a scene in the place of a number: a range, which makes a sweep."""
+"""Ranges: values in a scene in the place of a number, which make a sweep."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -220,7 +220,7 @@ class _Reader:
         return _turned(angles, sequence, degrees=unit == "degree")
 
     def _compiler(self, name: str, default: str) -> tuple[str, Element]:
-        """What the last <compiler> with an attribute says of the whole file, and where."""
+        """The value that the last <compiler> with an attribute gives it for the whole file, and where."""
         told = [one for one in self.root.iter("compiler") if name in one.attrib]
         return (told[-1].attrib[name], told[-1]) if told else (default, self.root)
 

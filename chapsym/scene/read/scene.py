@@ -63,11 +63,11 @@ class Scene(Table):
 
     @property
     def source(self) -> str:
-        """What it was made of: the TOML text of its file, or else JSON."""
+        """The source of the scene: the TOML text of its file, or else JSON."""
         return self._toml if self._toml is not None else json.dumps(self._data, ensure_ascii=False, default=str)
 
     def task(self) -> Task:
-        """What is asked for, with the defaults filled in."""
+        """The task of the run, with the defaults filled in."""
         run, (steps, every) = self.run, self.run.counts()
         searched = run.accuracy is not None
         return Task(

@@ -1,4 +1,4 @@
-"""For who writes a scene: its JSON Schema, from the tables that check it, and the scenes that ship as examples."""
+"""Help for writing a scene: its JSON Schema, from the tables that check it, and the scenes that ship as examples."""
 
 from difflib import get_close_matches
 from importlib.resources import files

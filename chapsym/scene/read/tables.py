@@ -169,7 +169,7 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def given(self, *names: str) -> list[str]:
-        """Those of the keys that are given."""
+        """The keys, of these, that are given."""
         return [name for name in names if getattr(self, name) is not None]
 
 
@@ -435,7 +435,7 @@ KEYS: dict[str, Any] = {
 
 
 def _dimension(annotation: Any) -> Dimension | None:
-    """What the first quantity in a type measures."""
+    """The dimension of the first quantity in a type."""
     own = (part.dimension for part in getattr(annotation, "__metadata__", ()) if isinstance(part, Quantity))
     return next(own, None) or next(filter(None, map(_dimension, get_args(annotation))), None)
 

@@ -1,4 +1,4 @@
-"""What a run is asked for."""
+"""The task of a run."""
 
 from dataclasses import dataclass
 
@@ -36,7 +36,7 @@ class Task:
 
     @property
     def frames(self) -> int:
-        """How many states are kept, with the first."""
+        """The number of states that are kept, with the first."""
         return self.steps // self.every + 1
 
     @property
@@ -64,5 +64,5 @@ class Task:
 
     @property
     def scale(self) -> float:
-        """What divides the momentum of a start to give K: ε, or 1 where it is K itself."""
+        """The divisor of the momentum of a start that gives K: ε, or 1 where it is K itself."""
         return 1.0 if self.time_step is None else self.time_step

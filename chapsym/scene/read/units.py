@@ -12,7 +12,7 @@ from chapsym.rationals import NotANumber, rational
 
 @dataclass(frozen=True)
 class Dimension:
-    """What a key measures.
+    """The dimension of a key.
 
     name: as a sentence calls it.  units: SI, as written to files.  words: of the unit.  pint: the unit, as pint reads
     it.  example: a number, and a text with another unit.
@@ -123,7 +123,7 @@ def _registry() -> Any:
 
 
 def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
-    """What the unit is in SI; raises ValueError for what is no unit, or one of another dimension."""
+    """The unit in SI; raises ValueError for what is no unit, or one of another dimension."""
     shown = text if len(text) <= 40 else text[:37] + "..."
     write = f"write {dimension.words}, such as {dimension.example[0]}, or '{dimension.example[1]}'"
     if len(unit) > 40 or not _UNIT.fullmatch(unit):

@@ -1,1 +1,1 @@
-"""What a run gives: data sets, file formats, a summary."""
+"""The results of runs: data sets, file formats, a summary."""

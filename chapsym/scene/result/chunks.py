@@ -50,7 +50,7 @@ class CheckedStore(LocalStore):
         return False
 
     async def get(self, key: str, *args: Any, **options: Any) -> Any:
-        """What is in a file, or None; raises SceneError for a chunk that is missing or damaged."""
+        """The contents of a file, or None; raises SceneError for a chunk that is missing or damaged."""
         found = await super().get(key, *args, **options)
         name, _, chunk = key.partition("/")
         if chunk.split("/")[0] == "c" and name in self._checked:

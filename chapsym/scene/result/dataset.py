@@ -141,7 +141,7 @@ def _code_hash(kernel: str) -> str:
 
 
 def _accuracy(plan: Plan) -> dict[str, Any]:
-    """What a result says of its error: the accuracy that was asked for, or the estimate of a pilot."""
+    """The attributes of a result on its error: the accuracy that was asked for, or the estimate of a pilot."""
     members, task = plan.members, plan.task
     if task.accuracy is not None:
         return {"accuracy": task.accuracy, "accuracy_of": task.of}

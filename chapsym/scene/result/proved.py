@@ -1,4 +1,4 @@
-"""How far frames are from a motion with proved digits, or from the orbit of the map: bounds, not estimates."""
+"""Distances of frames from a motion with proved digits, or from the orbit of the map: bounds, not estimates."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""For a reader: what a scene says, its balls, starts and ranges; and what its run came to."""
+"""Summaries for readers: the balls, starts and ranges of a scene, and the result of its run."""
 
 import math
 from dataclasses import asdict
@@ -110,7 +110,7 @@ def refusals(scene: Scene, members: Members) -> list[str]:
 
 
 def last_state(data: "Dataset | Arrays") -> dict[str, Any]:
-    """Of the result of one ball: its steps, its last state, and the drift of the momentum integrals.
+    """The end of the result of one ball: its steps, its last state, and the drift of the momentum integrals.
 
     The drift is the largest change of each, relative to the scale of the momentum, of the frames that were kept.
     """
@@ -184,7 +184,7 @@ def sentence(data: "Dataset | Arrays") -> tuple[str, str] | None:
 
 
 def _how(order: tuple[int, int] = (0, 0), substeps: tuple[int, int] | None = None) -> str:
-    """What was chosen, where it is known."""
+    """The method that was chosen, where it is known."""
     if substeps is None:
         return ""
     if order[1] == 0:

@@ -254,7 +254,7 @@ def _first_difference(one: Any, other: Any, key: str = "") -> str | None:
 
 
 def _data(text: Any) -> Any:
-    """What a scene says, apart from its comments; as it is, where it is neither TOML nor JSON."""
+    """The data of a scene, apart from its comments; as it is, where it is neither TOML nor JSON."""
     for read in (tomllib.loads, json.loads):
         with suppress(ValueError, TypeError, AttributeError, RecursionError):
             return read(text)

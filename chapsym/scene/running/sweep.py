@@ -116,7 +116,7 @@ class Tally:
 
     @property
     def progress(self) -> Progress:
-        """How far the run is."""
+        """The progress of the run."""
         whole = len(self.plan.members) * self.plan.frames * self.plan.task.every
         return Progress(sum(self._done.values()), whole, self._finished, sum(self._failed.values()))
 

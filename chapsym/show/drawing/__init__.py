@@ -1,1 +1,1 @@
-"""What the figures are drawn with: readings of a result, the style, the sphere."""
+"""The means of drawing the figures: readings of a result, the style, the sphere."""

@@ -60,6 +60,6 @@ def too_far(dataset: Dataset) -> bool:
 
 
 def note(dataset: Dataset) -> str:
-    """What a figure of such frames says; nothing where they are near."""
+    """The note on a figure of such frames; nothing where they are near."""
     turn = apart(dataset)
     return f"frames are {turn:.2g} rad of turning apart: what is between is not seen" if turn > MOST_TURN else ""

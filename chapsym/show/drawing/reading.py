@@ -1,4 +1,4 @@
-"""What a figure reads from a result: checked arrays, (balls, frames, ...), the clock, and names for its labels."""
+"""Readings of a result for figures: checked arrays, (balls, frames, ...), the clock, and names for its labels."""
 
 import re
 from typing import TYPE_CHECKING, Any
@@ -49,7 +49,7 @@ def begun(dataset: "Dataset") -> "Dataset":
 
 
 def unfinished(dataset: "Dataset") -> str | None:
-    """How much there is of a run that was interrupted, such as "40 % of the run"; None where it came to its end."""
+    """The finished part of a run that was interrupted, such as "40 % of the run"; None for a finished run."""
     if dataset.attrs.get("complete", True) or "frame" not in dataset.dims:
         return None
     there, ended = reached(dataset), stopped(dataset)
@@ -96,12 +96,12 @@ def clock(dataset: "Dataset") -> tuple[Floats, str]:
 
 
 def span(t: Floats, label: str) -> str:
-    """How long readings of the clock last: "12 s", "40 steps"."""
+    """The duration of readings of the clock: "12 s", "40 steps"."""
     return f"{t[-1] - t[0]:.3g} {'s' if label == 'time, s' else 'steps'}"
 
 
 def of_span(dataset: "Dataset", part: int) -> str:
-    """What a figure says of a line through the first frames alone; nothing if there are no others."""
+    """The note on a line through the first frames alone; nothing if there are no others."""
     t, label = clock(dataset)
     return f"line: the first {span(t[:part], label)} of {span(t, label)}" if part < len(t) else ""
 
@@ -156,7 +156,7 @@ def last_frames(dataset: "Dataset") -> np.ndarray:
 
 
 def parameters(dataset: "Dataset") -> dict[str, tuple[Floats, str]]:
-    """What a sweep varied: dotted name: values (balls,), unit; only numbers that differ."""
+    """The parameters that a sweep varied: dotted name: values (balls,), unit; only numbers that differ."""
     found = {}
     for name, coord in dataset.coords.items():
         if name != "ball" and coord.dims == ("ball",) and coord.dtype.kind in "iuf" and len(np.unique(coord)) > 1:

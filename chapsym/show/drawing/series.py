@@ -23,14 +23,14 @@ BANDS = ((0, 100, 0.13, None), (5, 95, 0.2, None), (25, 75, 0.3, None))
 
 
 def swings(y: Floats) -> int:
-    """How often a series (frames,) goes up and down."""
+    """The number of times that a series (frames,) goes up and down."""
     ways = np.sign(np.diff(y[np.isfinite(y)]))
     ways = ways[ways != 0]
     return int(np.count_nonzero(ways[1:] != ways[:-1]) + 1) // 2
 
 
 def start(series: Floats) -> int:
-    """How many frames of several series, (frames, k), are the first twenty swings of that with the most."""
+    """The number of frames of several series, (frames, k), in the first twenty swings of that with the most."""
     ways = [np.sign(np.diff(y)) for y in np.nan_to_num(series).T]
     turns = max((np.flatnonzero(way[1:] * way[:-1] < 0) for way in ways), key=len)
     return int(turns[2 * SOME]) + 2 if len(turns) > 2 * SOME else len(series)

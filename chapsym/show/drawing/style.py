@@ -1,4 +1,4 @@
-"""How the figures look, and their bytes: one style, colours that the colour-blind tell apart, no dates in files."""
+"""The style of the figures, and their bytes: colours that the colour-blind can distinguish, no dates in files."""
 
 import io
 import re
@@ -120,7 +120,7 @@ def legend(figure: Figure, axes: Sequence[Axes]) -> None:
 
 
 def power(size: float) -> tuple[float, str]:
-    """What to divide values of this size by so that ticks are short, and how to say so: (1e-6, "10⁻⁶")."""
+    """The power of ten that makes ticks of values of this size short, and its text: (1e-6, "10⁻⁶")."""
     if not np.isfinite(size) or size == 0.0 or 1e-2 <= size < 1e5:
         return 1.0, ""
     exponent = 3 * int(np.floor(np.log10(size) / 3))
@@ -142,7 +142,7 @@ def at_least(axis: Axes, span: float) -> None:
 
 
 def colour_bar(mapped: ScalarMappable, axes: Sequence[Axes], label: str) -> None:
-    """What the colours below some axes mean."""
+    """The meaning of the colours, below some axes."""
     bar = axes[0].figure.colorbar(mapped, ax=axes, location="bottom", aspect=40, pad=0.02, fraction=0.06)
     bar.set_label(label, parse_math=False)
     bar.outline.set_visible(False)

@@ -35,7 +35,7 @@ class Kind(NamedTuple):
 
 
 def _needs(*needed: "tuple[Callable[[Dataset], Any], str]") -> "Callable[[Dataset], str | None]":
-    """What a figure needs of a result, each with the sentence that says why it cannot be drawn without."""
+    """The needs of a figure, each with the sentence that says why it cannot be drawn without."""
     return lambda dataset: next((sentence for there, sentence in needed if not there(dataset)), None)
 
 

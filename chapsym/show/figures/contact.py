@@ -64,7 +64,7 @@ def _pairs(dataset: Dataset, trace: Floats, text: str) -> Picture:
 
 
 def sideways(trace: Floats, last: np.ndarray) -> list[tuple[Floats, Floats]]:
-    """Of each ball how far it is along the line from its start to its end, and off it to the left, (frames,) each.
+    """The distance of each ball along the line from its start to its end, and to the left of it, (frames,) each.
 
     Nothing where the traces are not so straight that a picture with equal axes hides how they bend.
     """
@@ -143,7 +143,7 @@ def _arrows(axis: Axes, path: Floats, colour: str, count: int) -> None:
 
 
 def _density(axis: Axes, trace: Floats) -> None:
-    """How often each place was visited, the mean path, and ellipses that hold 50 and 90 % of the balls."""
+    """The number of visits of each place, the mean path, and ellipses that hold 50 and 90 % of the balls."""
     going = np.asarray(np.isfinite(trace).all(axis=-1))
     flat = trace[going]
     low, high = flat.min(axis=0), flat.max(axis=0)

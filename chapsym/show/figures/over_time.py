@@ -262,5 +262,5 @@ def mean(points: Floats) -> Floats:
 
 
 def _chord(points: Floats, centre: Floats) -> Floats:
-    """How far each ball is from a point, (balls, frames)."""
+    """The distance of each ball from a point, (balls, frames)."""
     return np.asarray(np.sqrt(((points - centre) ** 2).sum(axis=-1)))

@@ -57,7 +57,7 @@ def periods(dataset: Dataset) -> Floats | None:
 
 
 def gains(u: Floats, apart: np.ndarray, period: Floats | None, turns: Floats | None) -> tuple[Floats, bool]:
-    """What u gains from frame to frame, (balls, frames - 1), and whether whole periods are counted.
+    """The increment of u from frame to frame, (balls, frames - 1), and whether whole periods are counted.
 
     apart: steps between frames; period: of each ball, if known; turns: the rotation numbers, which tell how many pass
     between two frames.  Without them a step is taken to gain less than half a period; 300 random balls, up to their

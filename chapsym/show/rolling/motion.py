@@ -1,4 +1,4 @@
-"""What the page shows of a result: attitudes, contact points and vectors of a few balls, at a few thousand frames."""
+"""The parts of a result for the page: attitudes, contact points and vectors of a few balls at a few thousand frames."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field

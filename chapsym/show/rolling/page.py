@@ -116,7 +116,7 @@ def _plan_line(dataset: Dataset, found: Motion) -> str:
 
 
 def _notes(found: Motion) -> list[str]:
-    """What the page must say, of single balls under their names, of all of them once."""
+    """The notes of the page, of single balls under their names, of all of them once."""
     told = [note for ball in found.balls for note in ball.notes]
     common = [note for note in dict.fromkeys(told) if told.count(note) == len(found.balls)]
     single = [f"{ball.name}: {note}" for ball in found.balls for note in ball.notes if note not in common]
