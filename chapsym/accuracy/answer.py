@@ -353,15 +353,15 @@ def accurate(
     limit: float = 600.0,
     progress: Callable[[str], None] = lambda text: None,
 ) -> Accurate:
-    """Follows the continuous ball (2.3) for `time` seconds to an absolute `accuracy`, by what costs least.
+    """Follows the continuous ball (2.3) for `time` seconds to an absolute `accuracy`, by the cheapest method.
 
     angular_momentum: K in kg m²/s, (3,); gamma: the unit vertical, upwards, (3,).
     of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance of the contact points in metres (it needs
-    `ball.radius`).  frames: how many equal times, the last of them `time`; the accuracy is promised at each.
+    `ball.radius`).  frames: the number of equal intervals of `time`; the accuracy is promised at the end of each.
     attitude: True or a unit quaternion, (4,), to be followed; its angle counts, too.
-    limit: seconds that the run may be expected to take.
+    limit: the longest expected duration of the run, in seconds.
 
-    In double precision the error is estimated as by `roll`; where that has not the accuracy, long steps in
+    In double precision the error is estimated as by `roll`; where that is not accurate enough, long steps in
     double-double are compared with those of a lower order.  Raises BadInput for a request that cannot be met: one that
     would take longer than the limit, or that is finer than every precision.
     """

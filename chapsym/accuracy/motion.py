@@ -109,23 +109,23 @@ def roll(
 
     omega: the angular velocity at the start in rad/s, shape (..., 3), in body axes (those of the inertia tensor), or in
     those of space.
-    time_step, steps: when the states are kept, and how long; the steps in between are chosen.
-    gamma: the unit vertical, upwards, in body axes, (..., 3); without, that of the attitude, or (0, 0, 1).
+    time_step, steps: the run lasts `steps` times `time_step` seconds; the steps of the solver are chosen.
+    gamma: the unit vertical, upwards, in body axes, (..., 3); by default that of the attitude, or (0, 0, 1).
     attitude: True (from the least rotation with R γ = e₃) or unit quaternions, body to space, (..., 4), to be followed.
     contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
     position: the contact point at the start in m, (..., 2).
     accuracy: of γ, of K, ω and the contact point relative to |K|, the largest |ω| and the radius, and of the attitude
-    in radians, at every frame; 1e-6 without.  `error` of the result is an estimate of what was reached: what the flow
-    makes of the errors of all steps together.  It is larger than what was asked for where a start is too near to a
+    in radians, at every frame; default 1e-6.  `error` of the result is an estimate of the error that was reached: the
+    errors of all steps, carried on by the flow.  It is larger than the accuracy where a start is too near to a
     separatrix.
-    order, precision, map: any of them takes the map in steps of `time_step` in the place of the motion, as `trajectory`
+    order, precision, map: any of them replaces the motion by the map in steps of `time_step`, as `trajectory`
     does, with 𝒦 = ε(Λω - D⟨ω,γ⟩γ).  threads, progress: as of `trajectory`.
-    proved: whether `Trajectory.proved` shall bound what every frame is off by: from the motion of the ball that starts
+    proved: whether `Trajectory.proved` bounds the error of every frame: against the motion of the ball that starts
     at the numbers of frame 0, by `certified_motion`, which takes a thousand times as long; with `map`, as
-    `trajectory` does.  Of one ball in principal axes.
+    `trajectory` does.  Only for one ball in principal axes.
 
     One ball that cannot be followed raises StepNotTaken; in a batch the others go on, and `status` says which stopped.
-    Raises BadInput for what no ball or run can have, and for an accuracy that double precision has not.
+    Raises BadInput for what no ball or run can have, and for an accuracy beyond double precision.
     """
     spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
     place = None if position is HERE else numbers(position, "position", 2)

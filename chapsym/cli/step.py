@@ -35,7 +35,7 @@ def step(
     ] = None,
     ball: Bits = None,
     proved: Annotated[
-        bool, typer.Option("--proved", help="Prove what each is off by at most, for the numbers as float64 has them.")
+        bool, typer.Option("--proved", help="Prove a bound of the error of each, for the numbers as float64 has them.")
     ] = False,
     as_json: Json = False,
     **body: str | None,

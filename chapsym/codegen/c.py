@@ -77,7 +77,7 @@ def is_loose(kind: Any) -> bool:
 
 
 def widened(kind: tuple[Any, ...]) -> tuple[Any, ...]:
-    """What a function of float64 returns, as float32 sees it."""
+    """The kind of the result of a function of float64, called in float32."""
     return tuple(widened(x) if isinstance(x, tuple) else "d" if x == "r" else x for x in kind)
 
 
@@ -177,7 +177,7 @@ class Printer:
     # -- expressions
 
     def outside(self, node: ast.expr) -> Any:
-        """What a name, or a name in a module, stands for outside of the function."""
+        """The meaning of a name, or of a name in a module, outside of the function."""
         inside = node.value if isinstance(node, ast.Attribute) else node
         return None if isinstance(inside, ast.Name) and inside.id in self.own else meaning(node, self.module.names)
 
@@ -398,7 +398,7 @@ class Printer:
         return array
 
     def callee(self, func: ast.expr) -> Any:
-        """What is called: a function, a record, the path of a function of a library, or the name of a method."""
+        """The callee: a function, a record, the path of a function of a library, or the name of a method."""
         known = self.outside(func)
         return known if known is not None else func.id if isinstance(func, ast.Name) else func.attr  # type: ignore[attr-defined]
 

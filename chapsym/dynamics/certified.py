@@ -1,4 +1,4 @@
-"""Certificates: the true orbit of a float trajectory in Arb's balls, and what the trajectory is off by, as a proof."""
+"""Certificates: the true orbit of a float trajectory in Arb's balls, and proved bounds of the errors of the trajectory."""
 
 import math
 from collections.abc import Callable
@@ -40,7 +40,7 @@ class Certificate(Brief):
     difference between the trajectory and the true orbit, in the unit of the array.  NaN after the last step.
     selected: how many rotations (one a step for order 2), (...), are those that the float64 continuation selects: each
     is proved to be a root, and the only one near by, but not the small rotation.  0: the whole orbit is proved.
-    trajectory: what was certified.
+    trajectory: the certified trajectory.
     """
 
     trajectory: Trajectory
@@ -83,7 +83,7 @@ def certify(
     """Encloses the true orbit of a trajectory, and bounds the errors of the trajectory, rigorously.
 
     trajectory: at any precision, of one ball or a batch, of the order 2, 4, 6 or 8, with its attitude and contact.
-    bits: how many correct bits the balls shall have; the run is repeated with as many more as its length costs.
+    bits: the number of correct bits of the balls; the run is repeated with as many more as its length costs.
     progress: called with the steps done so far (of all balls together); a run that is repeated counts again.
 
     The branch is proved by lemma `small-branch` where |𝒦| is within its bound, and beyond it by lemma `straight-path`,

@@ -32,12 +32,12 @@ MARGIN = 6
 
 @dataclass(frozen=True)
 class ExactBall:
-    """A ball whose numbers are taken as they are written; `Ball` has the nearest float64.
+    """A ball with exact numbers; `Ball` has the nearest float64.
 
     mass_tensor: J = ∫xxᵀdm in kg m²: three numbers in principal axes, or a symmetric tensor, three rows, in any axes.
     D: m ρ² in kg m²; radius: ρ in m, for the contact point only.
     A number is an int, a Fraction, a Decimal, or a text such as "0.1" or "2/7"; a float is the binary number it is.
-    Raises BadInput for what no ball has.
+    Raises BadInput for numbers that no ball has.
     """
 
     mass_tensor: tuple[Fraction, ...] | tuple[tuple[Fraction, ...], ...]
@@ -129,7 +129,7 @@ def certified_motion(
     limit: seconds for all attempts.  progress: called with sentences.
 
     Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
-    until the digits are there.  Where that cannot be within the limit, the times that were reached are returned, and
+    until the digits are there.  Where that takes longer than the limit, the times that were reached are returned, and
     `stopped` says why.  Raises BadInput for what is no motion.
     """
     from chapsym.numbers import Digits
@@ -158,7 +158,7 @@ def certified_motion(
 
 
 def of_motion(run: Trajectory, limit: float = 600.0) -> Bounds:
-    """Bounds of what the frames of one ball are off by from the motion that starts at the numbers of frame 0.
+    """Bounds of the distance of the frames of one ball from the motion that starts at the numbers of frame 0.
 
     run: in float64, with a time step, in principal axes.  Enclosed are the digits that it may have, and two more.
     A frame that is not reached within `limit` seconds has inf.

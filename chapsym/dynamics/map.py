@@ -37,12 +37,12 @@ def step(
     𝒦 and γ to Ωᵀ𝒦 and Ωᵀγ.
 
     momentum: 𝒦 = ε K of the paper, in kg m², shape (..., 3); gamma: unit verticals upwards, (..., 3).
-    Both broadcast with each other and with the balls.  Of a ball with axes they, and what is
-    returned, are in these.
+    Both broadcast with each other and with the balls.  For a ball with `axes` they, and the
+    results, are in these axes.
     precision: "single", "double", "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
     Floats that are given are taken as exact at every precision, and on `Digits` and `Enclosure` so are Fractions,
     Decimals and numbers of mpmath and SymPy, of the ball, too; but γ is divided by its length on all but "double".
-    proved: whether `Step.proved` shall bound what the rotation, 𝒦 and γ are off by from the exact step: a proof by the
+    proved: whether `Step.proved` bounds the distance of the rotation, 𝒦 and γ from the exact step: a proof by the
     residual at the rotation, whatever found it, with lemma `small-branch` and beyond its bound `straight-path`.  It is
     of "double" and principal axes, and inf where the lemmas do not reach, as near a fold.
 
@@ -106,15 +106,15 @@ def trajectory(
     encloses: `bits` are correct in every frame, for the length of each vector.  Its branch is proved by the lemmas
     `small-branch` and `straight-path`; where neither reaches, as near a fold, the float64 continuation selects it
     (`Certificate.selected`).
-    proved: whether `Trajectory.proved` shall have bounds of what every frame is off by from the exact orbit of the map:
+    proved: whether `Trajectory.proved` has bounds of the distance of every frame from the exact orbit of the map:
     a proof that a second run, in double-double, carries along.  It takes some ten times as long as the run in "double";
     it is of "double" and "double-double", and of principal axes.
     threads: how many cores a batch may use; 0 for all.  Digits and Enclosure use one.
     progress: called with the steps done so far (of all balls together), every 200 000 steps or so.
 
     One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
-    In a batch the others go on, and `status` and `taken` say which stopped, where.
-    Of a ball with axes, momentum, γ and attitude, and what is returned, are in these.
+    In a batch the others go on, and `status` and `taken` say which stopped, and where.
+    For a ball with `axes`, momentum, γ and attitude, and the results, are in these axes.
     Raises BadInput as `step` does, and for counts that are not positive integers.
     """
     steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)

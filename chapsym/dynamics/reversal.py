@@ -44,10 +44,10 @@ class NotRetraced(ArithmeticError):
 def reverse(run: Trajectory) -> Trajectory:
     """The way back: the trajectory that starts where `run` ends, with the momentum reversed, and ends where it began.
 
-    What is returned is a motion of its own, forward in its time: frame j corresponds to frame -1-j of the run: `gamma`,
+    The result is a motion of its own, forward in its time: frame j corresponds to frame -1-j of the run: `gamma`,
     `attitude` and `contact` are those of the run up to rounding, and `momentum` is the opposite (the ball turns the
     other way).  So `reverse(reverse(run))` is the run again.  It has the order, the frames and the time step of the
-    run; a contact point starts where that of the run ended.  For one state there is nothing to do but to change the
+    run; a contact point starts where that of the run ended.  To reverse a single state, change the
     sign of its momentum.
 
     How near it comes is `retrace_error`: at most 2⁻⁵³·√(2·stages)·(1 + growth) was measured, where growth is the factor

@@ -182,7 +182,7 @@ class Stepper(UnderWay):
 
     @property
     def proved(self) -> Bounds:
-        """Bounds of what the present state is off by from the exact orbit of the map, from the last start on.
+        """Bounds of the distance of the present state from the exact orbit of the map, from the last start on.
 
         A start is that of the object, a restart, or a new momentum; the exact orbit begins at the numbers there.  A run
         in double-double carries the proof: it goes on from where it was asked last, and takes about 1 µs a step.

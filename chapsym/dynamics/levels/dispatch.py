@@ -76,7 +76,7 @@ def run_proved(
     precision: Precision, balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int,
     progress: Callable[[int], None],
 ) -> Bounds:  # fmt: skip
-    """`run` in float64 or double-double, with proved bounds of what its frames are off by, (n, frames) each.
+    """`run` in float64 or double-double, with proved bounds of the errors of its frames, (n, frames) each.
 
     A run in double-double carries the proof; that in float64 is compared with it.
     """

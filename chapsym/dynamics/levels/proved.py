@@ -12,7 +12,7 @@ from ..loops import proved
 from ..loops.proved import PAIR, WIDER
 from .frames import Balls, Count, Frames, cores, share
 
-#: More than what a rounded subnormal number is off by, in each part of a sum.
+#: More than the error of a rounded subnormal number, in each part of a sum.
 FLOOR = 2.0**-1070
 #: Balls of which a thread bounds a step in one call.
 MANY = 12_500
@@ -33,7 +33,7 @@ def begun(state: Floats, stages: Floats, beyond: int) -> tuple[Floats, Floats]:
 def errors(
     balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floats, stages: int = 1
 ) -> list[Asked]:  # fmt: skip
-    """Upper bounds, (n, frames), of what a run is off by: in 𝒦, γ, the attitude and the contact point.
+    """Upper bounds, (n, frames), of the errors of a run: in 𝒦, γ, the attitude and the contact point.
 
     pairs: the run in double-double from the same start, and `spread`: how far the exact orbit may be from that.
     """
@@ -60,7 +60,7 @@ def errors(
 
 
 def of_step(balls: Balls, q: Floats, K: Floats, g: Floats) -> Floats:
-    """Upper bounds of what a step of each ball is off by, in 𝒦, γ and the rotation, (n, 3); inf where none is proved.
+    """Upper bounds of the errors of a step of each ball in 𝒦, γ and the rotation, (n, 3); inf where none is proved.
 
     balls: before the step; q, K, g: the rotations, 𝒦 and γ after it, in float64.
     """

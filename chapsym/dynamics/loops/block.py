@@ -116,7 +116,7 @@ def on_path(S, P, ok):
 
 
 def unsettled(ok):
-    """How many lanes did not settle: counted apart, as a wide counter would narrow the registers of the others."""
+    """Counts the lanes that did not settle: apart, as a wide counter would narrow the registers of the others."""
     bad = 0
     for i in lanes(whole(ok)):
         bad += 1 - ok[i]
@@ -124,7 +124,7 @@ def unsettled(ok):
 
 
 def uncertified(radius, ok):
-    """How many lanes no round by the lemma can settle, and how many of them are beyond its bound."""
+    """The number of lanes that no round by the lemma can settle, and the number of them beyond its bound."""
     count, beyond = 0, 0
     for i in range(len(ok)):
         count += 0 if radius[i] >= 0.0 else 1

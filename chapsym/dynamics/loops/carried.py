@@ -1,4 +1,4 @@
-"""How the flow carries errors: what the long steps of a ball leave, and what their roundings do, side by side.
+"""Errors carried by the flow: those of the long steps of a ball, and those of their roundings, side by side.
 
 An error of a step turns the body by a small φ, in its axes, and leaves K and γ where they are in space.  With
 Bω = Λω - D⟨γ,ω⟩γ = K and the rate δω that follows from φ, B δω = Λω × φ + D⟨ω × γ, φ⟩γ, it goes on as φ' = δω + φ × ω,
@@ -177,7 +177,7 @@ def applied(columns, v):
 
 
 def changes(S, E, B):
-    """What the last columns have changed in the step of every ball that is not lost, into `TWIST` and `SLIP`."""
+    """Writes the changes by the last columns in the step of every ball that is not lost into `TWIST` and `SLIP`."""
     for i in lanes(LANES * B):
         a, b = four_in(S, DONE, i), four_in(S, Q, i)
         one, two = 1.0 / sqrt(square_of_four(a)), 1.0 / sqrt(square_of_four(b))

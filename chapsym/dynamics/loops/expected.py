@@ -1,4 +1,4 @@
-"""What long steps of a ball are expected to cost it, and what to make of what they tell.  Plain code, compiled."""
+"""The expected cost of long steps of a ball, and the evaluation of the errors they estimate.  Plain code, compiled."""
 
 from math import frexp, inf, ldexp, sqrt
 
@@ -32,7 +32,7 @@ ENDLESS = 2.0**1000
 def surveyed(
     momenta: Matrix, verticals: Matrix, J0: Matrix, D0: Vector, unit: Vector, end: float, accuracy: float, found: Matrix
 ):
-    """What can be said of each ball at the start, (FOUND, balls); unit: what a relative error comes to, (balls,).
+    """Estimates for each ball at the start, (FOUND, balls); unit: the size of a relative error 1, (balls,).
 
     Rounding of J, D and K turns with the ball; that of the forty stages in a radian walks; ω along γ loses the digits
     of the condition.  Returns the largest of FLOOR and of SINGLE.

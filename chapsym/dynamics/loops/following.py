@@ -231,7 +231,7 @@ RESTING, AGAIN, STOPS, STAYS = 0.0, 1.0, 2.0, 3.0
 
 
 class Asked(NamedTuple):
-    """Of each ball, (balls,): the length of its first step, in seconds, and the error that it may make in a second.
+    """The request of each ball, (balls,): the length of its first step, in seconds, and its permitted error a second.
 
     most: what all of them may have made at the end.  start: how far its start may be off by a rounding.
     """
@@ -273,7 +273,7 @@ def lengthened(ratio):
 
 
 def left(S, b, start):
-    """How large the error of a step is, and how large its last three changes are: (size, x, y, z).
+    """The size of the error of a step, and those of its last three changes: (size, x, y, z).
 
     The last column gains on the one before as that on its own, times `GAIN`.  Where the last change is rounding, or
     smaller than the two before let expect, these say how large it would be.
@@ -355,7 +355,7 @@ def through(S, b, body, now, traced, lane, V, first, last, curve):
 
 
 def spinning(E, B, b):
-    """By how much an error of the attitude changes ω, at most: the root of the sum of the squares of its derivative."""
+    """A bound of the change of ω by an error of the attitude: the root of the sum of the squares of its derivative."""
     found = 0.0
     for lane in range(3):
         for c in range(3):

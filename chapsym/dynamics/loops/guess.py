@@ -98,7 +98,7 @@ COUNTS = (1, 2, 4, 7, 12)
 
 
 def _stage_moments(c: Floats) -> Floats:
-    """By what the rates of the stages c, one after the other, differ up to the fourth order, (stages, 12).
+    """The terms in which the rates of the stages c, one after the other, differ up to the fourth order, (stages, 12).
 
     A stage is exp(cX₁ + c³X₃ + ...), and its rate an even series in c at its middle.  So they are the coefficients of
     words in X₁ and X₃ up to the middle, times powers of c².  That of X₁ is t, that of X₃ is the sum of the c³, and

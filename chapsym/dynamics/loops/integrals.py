@@ -1,4 +1,4 @@
-"""What every loop carries on: compensated sums, the filter that guesses the next Gibbs vector, and the integrals.
+"""The common state of all loops: compensated sums, the filter that guesses the next Gibbs vector, and the integrals.
 
 Sums and filter are written for one number, so that loops of one ball and of lanes do the same to each, with the same
 roundings.  ⟨γ,γ⟩, ⟨𝒦,γ⟩ and ⟨𝒦,𝒦⟩ are known to twice the working precision, and restored without a bias.

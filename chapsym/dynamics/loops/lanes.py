@@ -109,7 +109,7 @@ BEHIND = 18.2
 
 
 class Weights(NamedTuple):
-    """Of the columns and of the differences that the last three make, (1 + CHANGES, columns); of guesses (`guess`)."""
+    """The weights of the columns and of the changes by the last three, (1 + CHANGES, columns); of guesses (`guess`)."""
 
     sums: Matrix
     following: Cube
@@ -436,7 +436,7 @@ def long_step(body, half, radius, sums, state):
 
 
 def twist(q, d):
-    """By which small vector, in the axes at the end, a unit quaternion q turns otherwise for a change d of it."""
+    """The small rotation vector, in the axes at the end, by which a change d of a unit quaternion q changes it."""
     return scaled(2.0, compose(*conjugate(q), *d)[1:4])
 
 

@@ -1,4 +1,4 @@
-"""How far the exact orbit of the map may be from a march in double-double: a proof in float64, step by step.
+"""Bounds of the distance of the exact orbit of the map from a march in double-double: proved in float64, step by step.
 
 The march takes Gibbs vectors ũ in pairs, and any vector turns by an exact rotation: they make an orbit R̃ of rotations,
 from which k̃ and γ̃ in pairs are off by the roundings of their turns, summed.  The exact orbit is R̃ times a small
@@ -135,7 +135,7 @@ class Root(NamedTuple):
 
 
 def root_near(u, k, g, I, D, slope, radius, xi, k_off, g_off):
-    """How near the root is to u, for all k and γ within |ξ| ≤ xi of k and γ in pairs, which are off by k_off and g_off.
+    """A bound of the distance of the root from u, for all k and γ within |ξ| ≤ xi of pairs off by k_off and g_off.
 
     slope: m by `small-branch` in |u|² ≤ radius; `BEYOND` for the radius where its bound is passed.  w is infinite where
     nothing is proved.
@@ -232,7 +232,7 @@ def nearer(u, k, g, I, D, slope, radius):
 
 
 def turned_off(u, v, after):
-    """What v turned by the step with the Gibbs vector u, in pairs, is more than `after`."""
+    """The vector v turned by the step with the Gibbs vector u, less `after`, in pairs."""
     y = turn(1, *exact(u), *exact(v))
     return floats(
         plus(y, (Loose(v[0]) - Loose(after[0]), Loose(v[1]) - Loose(after[1]), Loose(v[2]) - Loose(after[2])))
@@ -243,7 +243,7 @@ def bound_steps(
     momenta: Matrix, verticals: Matrix, tensors: Matrix, contacts: Vector, q: Matrix, momenta_after: Matrix,
     verticals_after: Matrix, errors: Matrix,
 ):  # fmt: skip
-    """Writes upper bounds of what a step of each ball is off by, in 𝒦, γ and the rotation, (n, 3); inf for none.
+    """Writes upper bounds of the errors of a step of each ball in 𝒦, γ and the rotation, (n, 3); inf for none.
 
     momenta, verticals: before the step, (n, 3), as the tensors; q: the rotations of the step, (n, 4).
     """
@@ -281,7 +281,7 @@ def squared(box):
 
 
 def write_spread(row, box):
-    """How far 𝒦, in parts of |𝒦|, γ, the attitude and the contact point, in radii, may be from those of the march."""
+    """Writes bounds of the distances to the march: of 𝒦 in parts of |𝒦|, γ, the attitude, the contact in radii."""
     xi = extent(box)
     row[0] = WIDER * (2.0 * xi + 3.0 * xi * xi + box[K_OFF])
     row[1] = WIDER * (2.0 * xi + 3.0 * xi * xi + box[G_OFF])

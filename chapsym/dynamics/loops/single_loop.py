@@ -1,4 +1,4 @@
-"""What the loops do otherwise in float32.  Plain scalar Python, read in float32 with the loops (`single`)."""
+"""The parts of the loops that differ in float32.  Plain scalar Python, read in float32 with the loops (`single`)."""
 
 from math import sqrt
 

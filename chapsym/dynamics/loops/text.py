@@ -1,4 +1,4 @@
-"""What the loops are written in: Python on numbers, tuples and arrays that runs as it is, and that codegen prints as C.
+"""The language of the loops: Python on numbers, tuples and arrays that runs as it is, and that codegen prints as C.
 
 A function whose parameters are all annotated may be called from outside; the types of the others follow.  The names
 below say how many axes an array has, the last one contiguous; its elements are the numbers of the loops, float64 or

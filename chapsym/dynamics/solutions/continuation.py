@@ -135,7 +135,7 @@ def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike 
 
 
 def margin(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike | None = None) -> Floats:
-    """How much larger the momentum may become before the branch of the state folds: t - 1 for the fold at t𝒦.
+    """The relative increase of the momentum at which the branch of the state folds: t - 1 for the fold at t𝒦.
 
     The arguments are those of `fold`; shape (...).  Negative if the small rotation folds before it reaches 𝒦, NaN
     where float64 cannot tell.
