@@ -32,7 +32,7 @@ def rolled(
 def integrals(momenta: np.ndarray, verticals: np.ndarray, J: np.ndarray, D: float) -> dict[str, np.ndarray]:
     """The relative change of each integral in each frame, (frames,), in the long double of the machine.
 
-    ⟨𝒦,γ⟩ and |𝒦|²; at D = 0, where the map is the discrete Euler top, ⟨𝒦, J²𝒦⟩ in the place of the energy: with
+    ⟨𝒦,γ⟩ and |𝒦|²; at D = 0, where the map is the discrete Euler top, ⟨𝒦, J²𝒦⟩ instead of the energy: with
     |𝒦|² it spans the coefficients of det(λ² - λ𝒦 - J²), which the top keeps.
     """
     K, g, weight = (x.astype(np.longdouble) for x in (momenta, verticals, J))

@@ -19,7 +19,7 @@ def check_destination(path: Path) -> None:
             raise CannotWrite(f"{path}: the folder {folder} does not exist")
         if path.is_dir() or not os.access(folder, os.W_OK):
             raise CannotWrite(f"{path} cannot be written: choose a file in a folder that is writable")
-        if path.exists() and not path.is_file():  # a rename would put a file in the place of a device or a pipe
+        if path.exists() and not path.is_file():  # a rename would replace a device or a pipe by a file
             raise CannotWrite(f"{path} cannot be written: it is a device or a pipe, not a file")
     except OSError as error:
         raise CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None

@@ -148,7 +148,7 @@ def of_ring(draw: st.DrawFn, ring: Any, *assumed: Any) -> dict[str, Fraction]:
     ring: a `chapsym.derive.Quotient`; assumed: relations of SymPy, such as x > 0, for which positive numbers are drawn.
     Raises ArithmeticError where no rational point of the relations is known.
     """
-    from chapsym.prove.points import drawn  # a second, with SymPy, which who rolls balls need not wait for
+    from chapsym.prove.points import drawn  # a second, with SymPy, which tests that roll balls do not need
     from chapsym.prove.search import true
 
     small = st.fractions(-3, 3, max_denominator=6)

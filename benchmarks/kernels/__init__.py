@@ -110,7 +110,7 @@ def grouped(kernel: str, arguments: Sequence[Any]) -> Groups:
 
 
 def seen(kernel: str, function: Kernel, point: Sequence[Any], at: Sequence[Any] | None = None) -> dict[str, Seen]:
-    """The views of what a text of the kernel makes of a point, as mpf; `at`: the point as mpf, if it is of floats."""
+    """The views of the results of a kernel's text at a point, as mpf; `at`: the point as mpf, if it is of floats."""
     result, groups = function(*point), grouped(kernel, point if at is None else at)
     output = [CONTEXT.mpf(x) for x in (result if isinstance(result, tuple) else (result,))]
     found = {}

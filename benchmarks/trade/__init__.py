@@ -1,4 +1,4 @@
-"""`chapsym trade`: what speed costs in accuracy, measured, and whether the chooser meets what is asked of it."""
+"""`chapsym trade`: the cost of speed in accuracy, measured, and whether the chooser meets its requests."""
 
 from collections.abc import Callable
 from functools import partial

@@ -1,7 +1,7 @@
 """A ball in SI units: its continuous motion at equal times, to an accuracy, or the map in its place.
 
 Long steps of order 12, each ball with its own, as long as the accuracy allows; frames inside are interpolated
-(`loops.following`).  The error that is stated is what the flow makes of the errors of all steps together
+(`loops.following`).  The stated error is that of all steps together, carried on by the flow
 (`loops.carried`).  It is an estimate in that the size of the error of a step (`loops.following.left`) and its direction
 are.  A ball whose error is larger than the accuracy is followed again with shorter steps.
 
@@ -54,7 +54,7 @@ HERE = (0.0, 0.0)
 ORDINARY = 1e-290, 1e290
 #: The reach of a ball that stops.
 UNKNOWN = np.full(1, np.nan)
-#: The accuracy where none is asked for: nobody sees or measures an error of that size.
+#: The default accuracy: an error of that size is neither seen nor measured.
 DEFAULT = 1e-6
 #: What double precision can be asked for; rounding may take this part of an accuracy.
 FINEST, ROUNDING = 1e-12, 0.5
@@ -543,7 +543,7 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
         wanted, finer = cheapest(part, factor[left])
         least, most = LEAST_FINER * steps, MOST_FINER * steps
         finer = np.where(wanted == order, shared(np.minimum(np.maximum(finer, least), most)), finer)
-        # One that stopped has no estimate of what it needs.
+        # One that stopped has no estimate of the steps it needs.
         found.order[left], found.steps[left] = np.where(known, wanted, order), np.where(known, finer, 2 * steps)
         # Of what more steps should gain half, in decades, shows that they help.
         gain[left] = np.where(found.order[left] == order, (found.steps[left] / steps) ** (order / 2), 2.0)

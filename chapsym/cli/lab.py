@@ -21,7 +21,7 @@ Later = Callable[..., Callable[[], Any]]
 
 
 class Begun(NamedTuple):
-    """A system, its key, what is said of it, its cells, and its certificates, as what gives them."""
+    """A system, its key, its sentences, its cells, and its certificates, each by the call that gives it."""
 
     system: "System"
     key: str

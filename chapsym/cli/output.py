@@ -61,7 +61,7 @@ def quiet() -> None:
 
 
 def check_known(kind: str, names: Iterable[str], known: Iterable[str], more: str = "") -> None:
-    """Fails for a name that is none of those that there are."""
+    """Fails for an unknown name."""
     for name in names:
         if name not in known:
             fail(f"there is no {kind} {name!r}; there are {', '.join(known)}{more}", 2)

@@ -332,7 +332,7 @@ def _doubts(what: str, derived: list[str], values: Callable[[str], list[str]], t
 
 
 DIGITS = 40
-#: What a text calls in the place of its functions: no kernel may have a name that begins so.
+#: The prefix of the names that replace functions in a text: no kernel may have a name that begins so.
 LETTER = "__letter"
 
 

@@ -47,7 +47,7 @@ class Carrier:
     steps: tuple[tuple[str, Any], ...] = ()
 
     def at(self, places: Places) -> "Carrier":
-        """The carrier with expressions in the place of variables."""
+        """The carrier with its variables replaced by expressions."""
         return self._then("at", _places(places))
 
     def along(self, *moves: Places) -> "Carrier":

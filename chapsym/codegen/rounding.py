@@ -1,4 +1,4 @@
-"""How many roundings lead to the results of a kernel, counted on its text: a bound of what float64 makes of it.
+"""The number of roundings that lead to the results of a kernel, counted on its text: a bound of its error in float64.
 
 The terms of a formula are it with every sum taken absolutely: |x| of a number x, terms(a) + terms(b) of a ± b,
 terms(a) terms(b) of ab, terms(a) terms(b)/b² of a/b.  A result whose formula has n roundings one after the other is off

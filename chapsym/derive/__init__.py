@@ -3,7 +3,7 @@
     >>> from chapsym import derive
     >>> derive.momentum()  # 𝒦(q, γ) of (5.2), in the symbols q0, q1, ..., g1, ..., J1, ..., D
 
-What is exported is what the paper has a number for; the rest of each step lies in the module of its section.
+The objects with a number in the paper are exported; the rest of each step is in the module of its section.
 """
 
 import sympy as sp

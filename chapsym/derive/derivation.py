@@ -7,7 +7,7 @@ it stands for in its place.  A certificate has the steps, and the checker takes 
 The operations, on the sum X of words that a letter stands for:
 
 rate      the derivative of X by Leibniz' rule, from the rates of the letters: also the variation of X
-replaced  X with expressions in the place of letters and parameters
+replaced  X with letters and parameters replaced by expressions
 gradient  G with tr X = tr(Gᵀ Y) + (what has no Y), for a letter Y
 dual      the skew S with tr X = ½ tr(ξ S) for a skew letter ξ in which X is linear; tr X = 0 for every ξ if S = 0
 having, lacking   the terms of X with, or without, one of some letters
@@ -60,7 +60,7 @@ def rate(name: str, text: str, of: sp.Symbol, rates: Places) -> sp.Symbol:
 
 
 def replaced(name: str, text: str, of: sp.Symbol, places: Places, algebra: WordAlgebra) -> sp.Symbol:
-    """A letter for a defined one with expressions in the place of letters, in the algebra of these."""
+    """A letter for a defined one whose letters are replaced by expressions, in the algebra of these."""
     whole = {letter: unfolded(image) for letter, image in places.items()}
     value = algebra.normal(sp.expand(DEFINED[of].xreplace(whole)))
     return _defined(name, Step(text, algebra, "replaced", of, dict(places)), value)

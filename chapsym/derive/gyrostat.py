@@ -129,7 +129,7 @@ def added_momentum() -> sp.Matrix:
 
 
 def relative(momentum: sp.Matrix = three.K) -> dict[sp.Symbol, sp.Expr]:
-    """K - a in the place of K: B(γ)ω = K - a, in what `continuous` says of the ball."""
+    """K - a, which replaces K: B(γ)ω = K - a, in the formulas of `continuous`."""
     return three.placed((three.K, momentum - rotor))
 
 

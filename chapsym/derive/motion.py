@@ -65,7 +65,7 @@ def inertial_force() -> sp.Symbol:
 
 
 def on_rolling(name: str, of: sp.Symbol, more: Mapping[sp.Symbol, sp.Expr] | None = None) -> sp.Symbol:
-    """Replaces v and v̇ by what the rolling condition makes of them; and `more`."""
+    """Replaces v and v̇ by their values under the rolling condition; and `more`."""
     velocity = written("velocity", "v of the rolling condition, v + ρωγ = 0", rolling_velocity(), ALGEBRA)
     acceleration = derivation.rate("acceleration", "its derivative: γ̇ = -ωγ, ω̇ = α", velocity, RATES)
     places = {v: velocity, vT: ALGEBRA.transpose(velocity), a: acceleration, aT: ALGEBRA.transpose(acceleration)}

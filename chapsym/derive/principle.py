@@ -127,7 +127,7 @@ def momentum_balance(factor: sp.Expr) -> sp.Symbol:
 
 
 def _with_factor(of: sp.Symbol, factor: sp.Expr) -> sp.Symbol:
-    """An expression with a value in the place of the factor c of the Lagrangian."""
+    """An expression with the factor c of the Lagrangian replaced by a value."""
     if factor == c:
         return of
     number = sp.Rational(factor)
@@ -153,7 +153,7 @@ def spatial_momentum(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 
 
 def on_constraint(name: str, text: str, of: sp.Symbol, more: Mapping[sp.Symbol, sp.Expr] | None = None) -> sp.Symbol:
-    """Replaces r_{k+1} and r_{k-1} by what the discrete constraint (4.9) makes of them; and `more`."""
+    """Replaces r_{k+1} and r_{k-1} by their values under the discrete constraint (4.9); and `more`."""
     steps = (("k", "k+1", "after", (R, R1, r, r1), r1, -1), ("k-1", "k", "before", (R0, R, r0, r), r0, 1))
     places = dict(more or {})
     for start, end, when, path, centre, sign in steps:

@@ -1,7 +1,7 @@
 """Exact zero tests for n = 3: rational functions over Q modulo polynomial constraints.
 
 A statement about Euler parameters and a unit vertical is one about a quotient ring: it holds when
-its numerator lies in the ideal of |q|² + q₀² = 1, |γ|² = 1 and what else is assumed.  Membership
+its numerator is in the ideal of |q|² + q₀² = 1, |γ|² = 1 and what else is assumed.  Membership
 is decided by division by a Gröbner basis, in exact arithmetic (python-flint behind SymPy's QQ).
 """
 

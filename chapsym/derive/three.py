@@ -74,7 +74,7 @@ def rotation() -> sp.ImmutableMatrix:
 
 @cache
 def momentum_matrix() -> sp.ImmutableMatrix:
-    """(4.13) with the rotation of the Euler parameters in the place of Ω, as a skew 3×3 matrix."""
+    """(4.13) with the rotation of the Euler parameters instead of Ω, as a skew 3×3 matrix."""
     return DEFINED[_turned(ball.momentum())]
 
 

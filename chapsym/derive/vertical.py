@@ -36,7 +36,7 @@ def excess() -> sp.Expr:
 
 @cache
 def next_left_side() -> sp.ImmutableMatrix:
-    """Ωᵀ (left side), with |q|² + q₀² = 1: the left side with q in the place of -q, but for q₀q."""
+    """Ωᵀ (left side), with |q|² + q₀² = 1: the left side with -q replaced by q, but for q₀q."""
     vector = sp.Matrix(three.rotation()).T * sp.Matrix(left_side())
     unit = Quotient((q0, *q, J1, J2, J3, D), [three.UNIT_QUATERNION])
     return sp.ImmutableMatrix(vector.applyfunc(unit.normal))

@@ -272,7 +272,7 @@ class Ball(Parameters):
 
 
 def in_principal_axes(ball: Ball) -> Ball:
-    """The ball; raises BadInput for what is none, and for one with axes, whose vectors are in other axes."""
+    """The ball; raises BadInput for any other object, and for one with axes, whose vectors are in other axes."""
     if not isinstance(ball, Ball):
         raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
     if ball.axes is not None:
@@ -416,7 +416,7 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
 
 
 def in_shape(shape: tuple[int, ...], array: Asked) -> Asked:
-    """A flat array (n, ...) with the leading axes `shape` in the place of n; None stays None."""
+    """A flat array (n, ...) with the leading axes `shape` instead of n; None stays None."""
     return None if array is None else array.reshape(shape + array.shape[1:])
 
 

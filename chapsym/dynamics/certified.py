@@ -1,4 +1,4 @@
-"""Certificates: the true orbit of a float trajectory in Arb's balls, and proved bounds of the errors of the trajectory."""
+"""Certificates: the true orbit of a float trajectory in Arb's balls, and proved bounds of its errors."""
 
 import math
 from collections.abc import Callable

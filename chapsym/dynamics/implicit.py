@@ -201,7 +201,7 @@ class Equations(NamedTuple):
 
     def _enclosed(self, x: list[Any], known: list[Any]) -> list[Any]:
         """The root near a point, in balls; raises BadInput if it is not proved to be one, and the only one near it."""
-        from .levels.proved_root import isolated  # 40 ms with flint, which who runs on float64 need not wait for
+        from .levels.proved_root import isolated  # 40 ms with flint, which runs on float64 do not need
 
         def slope(box: Sequence[Any]) -> list[Any]:
             return parts_of(self.slope(*(a + b for a, b in zip(x, box, strict=True)), *known))

@@ -18,7 +18,7 @@ from chapsym.prove.points import drawn, small, some
 
 from .system import BadSystem, System, rational, without
 
-#: Points that are looked at.
+#: The number of points that are tried.
 MOST_POINTS = 24
 #: Points at which roots may be rational: of quotients of the legs of right triangles.
 MOST_LOOKED, LEGS = 200, tuple(Fraction(p, q) for p, q in ((3, 4), (4, 3), (5, 12), (12, 5), (8, 15), (15, 8), (7, 24)))
@@ -48,7 +48,7 @@ class Letters:
         return {letter: stands for stands, letter in self._of.items()}
 
     def into(self, expr: Any) -> sp.Expr:
-        """An expression with letters in the place of its functions; raises BadSystem for others than these."""
+        """An expression with its functions replaced by letters; raises BadSystem for others than these."""
         expr = sp.sympify(expr, strict=True)  # a text is not evaluated
         if expr not in self._read:
             self._read[expr] = self._made(expr)

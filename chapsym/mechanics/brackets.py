@@ -31,7 +31,7 @@ class Flag:
     condition : sympy.Expr
         Where it is not 0, the dimensions are at least these; where it is, they may be.
     point : mapping
-        The exact point, with sines and cosines in the place of angles.
+        The exact point, with sines and cosines instead of angles.
     dimension : int
         That of the places, as the holonomic constraints leave them, and of time.
     with_time : bool

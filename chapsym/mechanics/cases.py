@@ -1,4 +1,4 @@
-"""Claims from cases: what is said, what proves it, and a false variant; judged by the checker where they are made."""
+"""Claims from cases: a statement, its proof, and a false variant; judged by the checker where they are made."""
 
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -134,7 +134,7 @@ def name_of(system: System) -> str:
 
 
 def fresh(name: str, taken: Collection[sp.Symbol]) -> sp.Symbol:
-    """A symbol that is none of some others."""
+    """A symbol that differs from some others."""
     while sp.Symbol(name) in taken:
         name += "_"
     return sp.Symbol(name)

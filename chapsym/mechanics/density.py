@@ -57,7 +57,7 @@ class Volume:
         If there is none: whether no smooth density of place and velocity is kept either, rest included; it is proved
         where nothing drives the system.
     point : mapping of str to str
-        An exact place, with sines and cosines in the place of angles.
+        An exact place, with sines and cosines instead of angles.
     """
 
     density: sp.Expr | None = None

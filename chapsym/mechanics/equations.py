@@ -24,7 +24,7 @@ class Agreement:
     what : str
         Which equation they break.
     point : mapping of str to str
-        An exact state at which they do, with sines and cosines in the place of angles (an angle that stands outside of
+        An exact state at which they do, with sines and cosines instead of angles (an angle that stands outside of
         them, too, is free of them there); empty where they break none.
     value : str
         What should be 0 there.

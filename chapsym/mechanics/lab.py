@@ -16,7 +16,7 @@ from .system import System, number
 
 #: Of all steps, the part at each end whose means are compared; and how many points of the energy a cell keeps.
 END, KEPT = 10, 240
-#: Steps that are looked at.
+#: The number of steps that are examined.
 MOST = 1_000_000
 #: Steps on which the order is measured, and differences that are rounding; steps forth and back.
 SHORT, ROUNDING, BACK = 16, 1e-12, 100

@@ -139,7 +139,7 @@ class _Steps:
         return sum((_rational(_at(x, k)) * STEP**k for k in range(self.most)), sp.S.Zero)
 
     def put(self, expressions: Iterable[sp.Expr], symbols: Iterable[sp.Symbol], values: Iterable[Any]) -> list[sp.Expr]:
-        """Expressions with polynomials in the place of symbols, and sines and cosines of these cut off."""
+        """Expressions with symbols replaced by polynomials, and sines and cosines of these cut off."""
 
         def wave(of: sp.Expr) -> sp.Expr:
             coefficients = map(sp.Poly(of.args[0], STEP).nth, range(self.most))

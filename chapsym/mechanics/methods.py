@@ -30,7 +30,7 @@ class Scheme:
     after : sequence of sympy.Expr
         The next state, by state and unknowns; for an explicit method the rates of the state, at any state.
     place, velocity : sequence of sympy.Expr
-        Coordinates and velocities at which the step is looked at: its energy, its constraints.
+        Coordinates and velocities at which the step is evaluated: its energy, its constraints.
     when : sympy.Rational
         The part of the step after which they are.
     start, guess : sequence of sympy.Expr
@@ -40,7 +40,7 @@ class Scheme:
     stages : sequence of sequence of sympy.Rational
         Of an explicit Runge-Kutta method, the rows of its tableau, then its weights; none for another.
     integrals : mapping
-        {name: quantity of this method alone}, in coordinates and velocities where the step is looked at, and `STEP`.
+        {name: quantity of this method alone}, in coordinates and velocities where the step is evaluated, and `STEP`.
     """
 
     state: Sequence[sp.Symbol]

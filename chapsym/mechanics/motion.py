@@ -101,7 +101,7 @@ class Runner:
 
     @property
     def integrals(self) -> dict[str, sp.Expr]:
-        """The quantities that are looked at, by name."""
+        """The quantities that are recorded, by name."""
         return {**self.system.integrals, **self.scheme.integrals}
 
     @property

@@ -45,7 +45,7 @@ def terms(count: int) -> Iterator[None]:
 
 
 def by_parts(expressions: Iterable[Any], known: Mapping[sp.Expr, Any], made: Callable[..., Any]) -> list[Any]:
-    """What `made` makes of expressions, by what it makes of their parts, which `of` gives; of shared parts once."""
+    """The results of `made` for expressions, by its results for their parts, which `of` gives; of shared parts once."""
     found = dict(known)
 
     def of(expr: sp.Expr) -> Any:
@@ -88,7 +88,7 @@ def series(x: Any) -> Series:
 def replaced(
     expressions: Iterable[Any], put: Mapping[sp.Symbol, Any], turned: Callable[[sp.Expr], sp.Expr] = lambda wave: wave
 ) -> list[sp.Expr]:
-    """Expressions with others in the place of symbols, and sines and cosines of expanded sums; shared parts once."""
+    """Expressions with symbols replaced by others, and sines and cosines of expanded sums; shared parts once."""
 
     def made(expr: sp.Expr, of: Callable[[sp.Expr], sp.Expr]) -> sp.Expr:
         parts = [of(x) for x in expr.args]

@@ -66,7 +66,7 @@ class Steps:
         return self.scheme.step(at, found, self.fixed[-1], lambda x: self.of("after", self.root(x), x), self.number)
 
     def step(self, state: Any) -> tuple[Numbers, Any]:
-        """Place and velocity where the step is looked at, and the next state."""
+        """Place and velocity where the step is evaluated, and the next state."""
         root = self.root(state)
         return self.of("seen", root, state), self.after(root, state)
 

@@ -20,7 +20,7 @@ NEAR = 1e-9
 
 
 class BadSystem(ValueError):
-    """A system that is none; the message says what is wrong and what would be right."""
+    """An invalid system; the message says what is wrong and what would be right."""
 
 
 def without(where: str, strange: Set[sp.Basic], what: str = "no coordinate, velocity or parameter") -> None:
@@ -334,7 +334,7 @@ def loaded(path: str | Path) -> System:
 
 
 def rational(value: Any, what: str) -> sp.Rational:
-    """A number of a system, exactly; raises BadSystem with what it is, if it is none."""
+    """A number of a system, exactly; raises BadSystem with the value, if it is not a number."""
     try:
         is_long = isinstance(value, sp.Float) and value._prec > sp.Float(0.5)._prec
         is_float = isinstance(value, float | sp.Float)

@@ -123,6 +123,6 @@ def _each(function: Any, array: Any) -> Any:
 
 def _pair(x: Any) -> Pair:
     """The pair nearest to a number of mpmath."""
-    from mpmath.libmp import to_rational  # 15 ms, which who has no pairs need not wait for
+    from mpmath.libmp import to_rational  # 15 ms, which numbers without pairs do not need
 
     return Pair.of(Fraction(*to_rational(x._mpf_)))

@@ -35,7 +35,7 @@ def flint_bits(bits: int) -> Iterator[None]:
         yield
 
 
-#: Beyond these a run ends for want of memory, which nobody could catch.
+#: Beyond these a run ends because memory is exhausted, an error that cannot be caught.
 MOST_DIGITS, MOST_BITS = 1_000_000, 10_000_000
 
 
@@ -125,7 +125,7 @@ class Digits(Precision):
     @cached_property
     def context(self) -> Any:
         """The mpmath context that the numbers belong to."""
-        import mpmath  # 40 ms with flint, which who runs on float64 need not wait for
+        import mpmath  # 40 ms with flint, which runs on float64 do not need
 
         context = mpmath.MPContext()
         context.dps = self.count + self.guard

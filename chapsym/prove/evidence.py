@@ -87,7 +87,7 @@ class Proof:
         self.lines += map(str, texts)
 
     def infers(self, *texts: str) -> None:
-        """Adds the argument in words from decided statements to the printed or corrected formula; it is by hand."""
+        """Adds the argument in words from decided statements to the printed or corrected formula, by hand."""
         self.inferences += map(str, texts)
 
     def show(self, name: str, value: Any) -> None:

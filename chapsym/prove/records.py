@@ -103,7 +103,7 @@ def _parsed(line: str) -> dict[str, Any] | None:
 
 
 def update(path: Path, records: Iterable[dict[str, Any]], claims: dict[str, Claim]) -> None:
-    """Puts new records in the place of old ones, in the order of the claims; records of unknown claims go.
+    """Replaces old records by new ones, in the order of the claims; records of unknown claims go.
 
     The file is written whole; raises CannotWrite if it cannot be.
     """

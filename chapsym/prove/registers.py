@@ -218,7 +218,7 @@ def _import(name: str) -> None:
 
 
 def _guarded(name: str, run: Callable[[], object]) -> None:
-    """Runs what imports a module, its output on standard error; what it raises becomes a sentence with the file."""
+    """Runs the import of a module, its output on standard error; an error becomes a sentence with the file."""
     try:
         with contextlib.redirect_stdout(sys.stderr):
             run()

@@ -26,7 +26,7 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
     seed : int
         Of the random numbers: the same seed finds the same point.
     tries : int
-        How many points are looked at.
+        The number of points that are tried.
 
     Returns
     -------

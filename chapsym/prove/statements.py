@@ -1,4 +1,4 @@
-"""Statements that exact arithmetic decides, and the exact points at which they are looked at."""
+"""Statements that exact arithmetic decides, and the exact points at which they are evaluated."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field

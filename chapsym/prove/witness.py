@@ -30,7 +30,7 @@ class Examples:
     numbers: Mapping[sp.Symbol, sp.Rational] = field(default_factory=dict)
     matrices: Mapping[sp.Symbol, sp.Matrix] = field(default_factory=dict)
     cases: Mapping[str, Exact] = field(default_factory=dict)
-    #: Numbers in the place of others, for relations that these do not obey.
+    #: Numbers that replace others, for relations that these do not obey.
     others: Mapping[sp.Symbol, sp.Rational] = field(default_factory=dict)
 
     def of(self, symbols: Collection[sp.Symbol]) -> Exact:

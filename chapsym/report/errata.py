@@ -190,7 +190,7 @@ def _withdrawn(earlier: Mapping[str, Entry], current: set[str], version: str) ->
 
 
 def _states(earlier: list[State], verdict: str, digest: str, version: str) -> list[State]:
-    """The states with the newest last: one more if this one is new, in the place of another of the same release."""
+    """The states with the newest last: one more if this one is new; it replaces another of the same release."""
     released = [state for state in earlier if state["since"] != version]
     for known in (earlier, released):
         if known and (known[-1]["verdict"], known[-1]["digest"]) == (verdict, digest):

@@ -124,7 +124,7 @@ def errors(records: Iterable[Record]) -> list[Record]:
 
 
 def truth(record: Record) -> tuple[str, str]:
-    """The true statement in the place of a printed error, as LaTeX, and in prose the condition or the whole truth."""
+    """The true statement that replaces a printed error, as LaTeX, and in prose the condition or the whole truth."""
     name = "true_statement" if record["verdict"] == "refuted" else "condition"
     return record.get("corrected") or "", record["evidence"].get(name) or ""
 

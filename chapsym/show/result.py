@@ -104,7 +104,7 @@ class Result:
         write_page(self.dataset, path, balls=None if ball is None else [ball])
 
     def grid(self) -> "Dataset":
-        """The dataset of a sweep with a dimension for each range in the place of `ball`, and `sample` for the draws.
+        """The dataset of a sweep with a dimension for each range instead of `ball`, and `sample` for the draws.
 
         `grid()["energy"].sel({"start.omega.1": 3.0}, method="nearest")`; raises SceneError for a part of a sweep.
         """

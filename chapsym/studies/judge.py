@@ -37,7 +37,7 @@ class Case:
 
 
 def read_case(file: Path) -> Case:
-    """Raises BadInput, one sentence, for a file that is none."""
+    """Raises BadInput, one sentence, for a file that is not such data."""
     try:
         data = json.loads(file.read_text(encoding="utf-8"))
         if isinstance(data, dict) and "frames" in data and "ball" not in data:

@@ -135,7 +135,7 @@ def _cells(line: str) -> list[str]:
 
 
 def _number(text: str) -> float:
-    """The number; NaN of what is none."""
+    """The number; NaN for a text that is not a number."""
     try:
         return float(text)
     except ValueError:

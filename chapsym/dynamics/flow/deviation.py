@@ -91,7 +91,7 @@ class Body(NamedTuple):
 
 
 class Defects(NamedTuple):
-    """The defects of polynomials in the equations: e, κ with |p|²R in the place of R, and |p|² - 1, polynomials.
+    """The defects of polynomials in the equations: e, κ with R replaced by |p|²R, and |p|² - 1, polynomials.
 
     R: |p|²R row by row; unit: contains 1/|p|².
     """

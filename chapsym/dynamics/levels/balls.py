@@ -51,7 +51,7 @@ Given = tuple[Exact, Exact, Exact, Fraction, Exact, Any, float]
 CHUNK = 200
 #: Steps between two looks at the radii.
 LOOK = 16
-#: Times that more bits may not help before it is given up: a root that cannot be proved with some may be with more.
+#: How often more bits may not help before the run stops: a root that cannot be proved with some may be with more.
 MOST_STUCK = 4
 #: How often over a root may lose the bits that the conditioning costs.
 CONDITION = 3
@@ -152,7 +152,7 @@ def _enclosed(precision: Enclosure, given: Given, way: _Way) -> int:
 def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, float, int]:
     """Runs with this many bits while those that are wanted are left.
 
-    Returns the step where they were last looked at, the bits left there, and how many rotations were selected.  None
+    Returns the step where they were last counted, the bits left there, and how many rotations were selected.  None
     are left where a step could not be proved.
     """
     seen: tuple[int, float] = (0, math.inf)
@@ -479,7 +479,7 @@ class DigitsBall(_UnderWay):
         return u
 
     def _on_path(self, root: Vector, k: Vector) -> bool:
-        """Whether the straight path joins a root to no rotation: an inequality with room, looked at in float64."""
+        """Whether the straight path joins a root to no rotation: an inequality with room, evaluated in float64."""
         u, half, g = (tuple(map(float, v)) for v in (root, k, self.g))
         spread = 0.5 * (max(self.floats[:3]) - min(self.floats[:3]))
         proved, _ = joined(u, dot(u, u), half, math.hypot(*half), g, self.floats[:3], self.floats[3], spread)

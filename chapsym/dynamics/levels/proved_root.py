@@ -25,7 +25,7 @@ Numbers = tuple[Any, ...]
 
 #: The precision of the matrices beyond what a determinant can lose: what they multiply is as small as the radii.
 MATRIX_BITS = 64
-#: The box in which `straight-path` is looked at has this many times |G(u)|/I_min: enough if m is not much below I_min.
+#: The box in which `straight-path` is tested has this many times |G(u)|/I_min: enough if m is not much below I_min.
 WIDER = 1024
 #: Refinement must stay this near to the float64 root, else another branch may have been met.
 NEAR = 1e-6
@@ -61,7 +61,7 @@ def newton_enclosure(u: Numbers, r: Numbers, slope: Any, state: Numbers, matrix_
 
 @cache
 def joined() -> Any:
-    """`path.joined` in balls: what its comparisons say is certain."""
+    """`path.joined` in balls: its comparisons are certain."""
     with ctx.workprec(MATRIX_BITS):
         return twin(path, lambda x: arb(repr(x)), max=highest, min=lowest, sqrt=arb.sqrt)["joined"]
 

@@ -2,7 +2,7 @@
 
 Lemma `straight-path` joins the root u at hand to no rotation by the path su, t(s) = s + cs(1 - s), 0 ≤ s ≤ 1.  There
 G = s(1 - s)R(s), and the Jacobian stretches by m(s) at least; with σ = ½(I_max - I_min) + |𝒦| the root is that of the
-branch if 4σs(1 - s)|R(s)| < m(s)² for all s.  That is looked at on a few intervals.  m(1) also bounds what a
+branch if 4σs(1 - s)|R(s)| < m(s)² for all s.  That is tested on a few intervals.  m(1) also bounds what a
 correction leaves.  Near a fold m(1) goes to 0, and the check fails: such a step is left to the continuation.
 """
 

@@ -32,13 +32,13 @@ class Claim:
             self._counterexample(f"{self.name}_counterexample_{i}", example)
 
     def _unfolded(self, one: dict[str, Any]) -> dict[str, Any]:
-        """With the values of what the derivation defines in the place of its names."""
+        """An expression with the names that the derivation defines replaced by their values."""
         sides = {side: [_placed(tree, self._values) for tree in one[side]] for side in ("left", "right")}
         names = [[name, _placed(tree, self._values)] for name, tree in one.get("definitions", [])]
         return one | sides | ({"definitions": names} if names else {})
 
     def _at_a_point(self, one: dict[str, Any]) -> dict[str, Any]:
-        """With trees in the place of the names of parts, and traces of matrices for what is said of their traces."""
+        """A statement with names of parts replaced by trees, and traces of matrices for what is said of their traces."""
         one, values = self._unfolded(one), dict[str, Any]()
         for name, tree in one.get("definitions", []):
             values[name] = _placed(tree, values)
@@ -117,7 +117,7 @@ class Claim:
 
 
 def _placed(tree: Any, values: Mapping[str, Any]) -> Any:
-    """A tree with other trees in the place of some names."""
+    """A tree with some names replaced by other trees."""
     if isinstance(tree, list):
         return [tree[0], _placed(tree[1], values), tree[2]] if tree[0] == "^" else [
             tree[0], *(_placed(part, values) for part in tree[1:])

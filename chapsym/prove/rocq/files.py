@@ -78,7 +78,7 @@ def _axioms(files: dict[str, list[str]]) -> str:
 
 
 def _makefile(written: Written) -> str:
-    """Has Rocq judge every file, and says what it found."""
+    """Runs Rocq on every file, and prints its findings."""
     lists = "".join(
         f"{library.upper()} := {' '.join(files)}\n$({library.upper()}:%=%.vo): {library}.vo\n"
         f"axioms_{library}.out: $({library.upper()}:%=%.vo)\n"

@@ -280,7 +280,7 @@ def predicted(plan: Plan) -> float:
 
 
 def _beside(plan: Plan) -> str:
-    """What the model that follows everything costs, where it follows what is asked for."""
+    """The cost of the model that follows everything, where it follows the outputs asked for."""
     whole = full(plan)
     unknown = sorted(plan.needed - whole.model.columns)
     if unknown:

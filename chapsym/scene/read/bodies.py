@@ -137,12 +137,12 @@ def check_inside(mass_tensor: Floats, mass: Floats, radius: Floats) -> None:
         lengths = f"{1e3 * np.sqrt(found / m[low].flat[0]):.2g} mm, and its radius is {1e3 * rho[low].flat[0]:.4g} mm"
         raise BadInput(
             f"its moments of inertia are {told}: its radius of gyration is {lengths}; "
-            "did you mean other units? (for such a body give D = mass radius² in the place of mass)"
+            "did you mean other units? (for such a body give D = mass radius² instead of mass)"
         )
     outside = trace > most * (1 + ROUNDING)
     if outside.any():
         raise BadInput(
             f"some of its mass is outside of the ball: J1 + J2 + J3 = {trace[outside].flat[0]:.4g} kg m² is more than "
             f"mass radius² = {most[outside].flat[0]:.4g}; did you mean other units? (for a body that reaches beyond "
-            "its rolling radius, give D = mass radius² in the place of mass)"
+            "its rolling radius, give D = mass radius² instead of mass)"
         )

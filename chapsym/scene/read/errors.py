@@ -128,7 +128,7 @@ def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
 
 
 def _unknown(path: Path, keys: dict[str, Iterable[str]]) -> str:
-    """A key that is none: the one that was meant, or the table in which it is one."""
+    """The hint for an unknown key: the similar key that was meant, or the table that has this key."""
     wrong, table = str(path[-1]), _key(path[:-1])
     kind = next((str(part) for part in reversed(path[:-1]) if isinstance(part, str)), "")
     near = get_close_matches(wrong, list(keys[kind]), 1, 0.6)

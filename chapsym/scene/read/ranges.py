@@ -1,4 +1,4 @@
-"""Ranges: values in a scene in the place of a number, which make a sweep."""
+"""Ranges: they replace numbers in a scene, and make a sweep."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -21,7 +21,7 @@ from .errors import SceneError
 SUFFIXES = (".urdf", ".sdf", ".xml", ".mjcf")
 #: A longer file has no ball that anybody wrote.
 MOST_BYTES = 10_000_000
-#: An offset below this part of the radius is a rounding of who wrote the file.
+#: An offset below this part of the radius is a rounding by the file's author.
 NO_OFFSET = Fraction(1, 10**9)
 #: The largest number that is read, whose square float64 has.
 MOST = 10**150

@@ -118,7 +118,7 @@ def names() -> list[str]:
 
 
 def example(name: str = DEFAULT) -> str:
-    """The text of an example, with a header for who changes it; raises SceneError if there is none of that name."""
+    """The text of an example, with a header for editing it; raises SceneError if there is none of that name."""
     known = names()
     if name not in known:
         near = get_close_matches(name, known, 1)

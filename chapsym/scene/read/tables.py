@@ -92,7 +92,7 @@ ROWS = "write the tensor as rows: [[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, 
 
 
 def _listed(given: Any) -> Any:
-    """A list as it is; a range in the place of a whole list is a frequent slip."""
+    """A list as it is; a range instead of a whole list is a frequent slip."""
     if isinstance(given, dict):
         if any(_OF_A_TENSOR.fullmatch(str(key)) for key in given):
             raise ValueError(ROWS)
@@ -194,7 +194,7 @@ class StartTable(Table):
     quaternion_xyzw: Quaternion | None = Field(None, description="The same with the scalar last, as in ROS and SciPy.")
     rpy: Angles3 | None = Field(
         None,
-        description="Roll, pitch, yaw, in the place of attitude: the body is turned about the fixed x, then y, then z "
+        description="Roll, pitch, yaw, instead of attitude: the body is turned about the fixed x, then y, then z "
         "axes of space (extrinsic xyz; the same as about its own z, y', x'', intrinsic), so that the rotation from "
         "body to space is Rz(yaw) Ry(pitch) Rx(roll), as in URDF.",
     )
@@ -230,7 +230,7 @@ class BallTable(Table):
     center_of_mass: Lengths3 | None = Field(
         None, description="From the centre of the ball, which it must be: the ball is balanced."
     )
-    D: Moment | None = Field(None, description="m ρ², in the place of mass; 0 for a top.")
+    D: Moment | None = Field(None, description="m ρ², instead of mass; 0 for a top.")
     thickness: Length | None = Field(None, description="Of the shell; thin by default. Presets shell and dumbbell.")
     point_mass: Mass | None = Field(None, description="Each of the two masses of a dumbbell.")
     separation: Length | None = Field(None, description="Of the two masses of a dumbbell.")
@@ -240,7 +240,7 @@ class BallTable(Table):
     rotor: Turnings3 | None = Field(
         None, description="Angular momentum of a rotor inside, constant in the body's axes. For certify motion alone."
     )
-    start: StartTable | None = Field(None, description="Its own start, in the place of [start].")
+    start: StartTable | None = Field(None, description="Its own start, instead of [start].")
 
     @model_validator(mode="after")
     def _balanced(self) -> Self:
@@ -293,10 +293,10 @@ def ranges_of(ball: BallTable, start: StartTable) -> dict[str, Range]:
 
 
 class RunTable(Table):
-    """How long, what to keep, and where to write it; or, in the place of steps, an accuracy."""
+    """How long, what to keep, and where to write it; or, instead of steps, an accuracy."""
 
     steps: Count | None = Field(None, description="How many steps; or give time.")
-    time: Seconds | None = Field(None, description="How long, in the place of steps: a whole number of time steps.")
+    time: Seconds | None = Field(None, description="How long, instead of steps: a whole number of time steps.")
     time_step: Seconds | None = Field(
         None, description="ε; without it momentum is 𝒦 of one step, and there is no time."
     )
@@ -424,7 +424,7 @@ class SweepTable(Table):
     )
 
 
-#: The keys of each table, for what is close to a key that is none.
+#: The keys of each table, for suggestions where a key is unknown.
 KEYS: dict[str, Any] = {
     "": ("title", "description", "ball", "start", "run", "sweep"),
     "ball": tuple(BallTable.model_fields),

@@ -161,7 +161,7 @@ SAMPLE = "sample"
 
 
 def grid(data: "Dataset") -> "Dataset":
-    """The result of a whole sweep with dimensions of its own in the place of `ball`.
+    """The result of a whole sweep with dimensions of its own instead of `ball`.
 
     Each range that spans a dimension, linspace or grid, is one, named by its key and with its values, such as
     "start.omega.1", in the order of the scene; `sample` is that of the draws, after them.  Of several [[ball]] with the
@@ -186,7 +186,7 @@ def grid(data: "Dataset") -> "Dataset":
 
 
 def _spread(one: Any, lengths: dict[str, int]) -> Any:
-    """A variable with these dimensions in the place of `ball`, if it has that; the others are left as they are."""
+    """A variable with these dimensions instead of `ball`, if it has that; the others are left as they are."""
     if "ball" not in one.dims:
         return one
     one = one.transpose("ball", ...)
