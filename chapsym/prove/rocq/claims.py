@@ -32,13 +32,13 @@ class Claim:
             self._counterexample(f"{self.name}_counterexample_{i}", example)
 
     def _unfolded(self, one: dict[str, Any]) -> dict[str, Any]:
-        """An expression with the names that the derivation defines replaced by their values."""
+        """A statement with the names that the derivation defines replaced by their values."""
         sides = {side: [_placed(tree, self._values) for tree in one[side]] for side in ("left", "right")}
         names = [[name, _placed(tree, self._values)] for name, tree in one.get("definitions", [])]
         return one | sides | ({"definitions": names} if names else {})
 
     def _at_a_point(self, one: dict[str, Any]) -> dict[str, Any]:
-        """A statement with names of parts replaced by trees, and traces of matrices for what is said of their traces."""
+        """A statement with names of parts replaced by trees, and the traces of matrices computed."""
         one, values = self._unfolded(one), dict[str, Any]()
         for name, tree in one.get("definitions", []):
             values[name] = _placed(tree, values)
