@@ -34,20 +34,52 @@ def step(
     """One step of the map (5.3) on the small-rotation branch: the first step of `trajectory`, to the bit.
 
     Solves 𝒦(q, γ) = 𝒦 for the rotation Ω (5.2) that is continued from the identity, and carries
-    𝒦 and γ to Ωᵀ𝒦 and Ωᵀγ.
+    𝒦 and γ to Ωᵀ𝒦 and Ωᵀγ.  𝒦 and γ broadcast with each other and with the balls.  For a ball with `axes` they, and
+    the results, are in these axes.
 
-    momentum: 𝒦 = ε K of the paper, in kg m², shape (..., 3); gamma: unit verticals upwards, (..., 3).
-    Both broadcast with each other and with the balls.  For a ball with `axes` they, and the
-    results, are in these axes.
-    precision: "single", "double", "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
-    Floats that are given are taken as exact at every precision, and on `Digits` and `Enclosure` so are Fractions,
-    Decimals and numbers of mpmath and SymPy, of the ball, too; but γ is divided by its length on all but "double".
-    proved: whether `Step.proved` bounds the distance of the rotation, 𝒦 and γ from the exact step: a proof by the
-    residual at the rotation, whatever found it, with lemma `small-branch` and beyond its bound `straight-path`.  It is
-    of "double" and principal axes, and inf where the lemmas do not reach, as near a fold.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch, (...).
+    momentum : array_like
+        𝒦 = ε K of the paper, in kg m², shape (..., 3).
+    gamma : array_like
+        Unit verticals upwards, shape (..., 3).
+    precision : str or Precision, optional
+        "single", "double" (the default), "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
+        Floats that are given are taken as exact at every precision, and on `Digits` and `Enclosure` so are Fractions,
+        Decimals and numbers of mpmath and SymPy, of the ball, too; but γ is divided by its length on all but "double".
+    proved : bool, optional
+        Whether `Step.proved` bounds the distance of the rotation, 𝒦 and γ from the exact step: a proof by the residual
+        at the rotation, whatever found it, with lemma `small-branch` and beyond its bound `straight-path`.  It is of
+        "double" and principal axes, and inf where the lemmas do not reach, as near a fold.
 
-    One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
-    Raises BadInput for shapes, NaN, infinities, and a gamma that is not unit.
+    Returns
+    -------
+    Step
+        The rotation, and 𝒦 and γ after the step.
+
+    Raises
+    ------
+    StepNotTaken
+        If one ball (no leading axis) has no step; a batch reports `status` instead.
+    BadInput
+        For shapes, NaN, infinities, and a gamma that is not unit.
+
+    References
+    ----------
+    Equations (5.2) and (5.3) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> chapsym.step(ball, (0.1, 0.05, 0), (0, 0, 1)).gamma.round(9).tolist()
+    [-0.006249912, 0.011111155, 0.999918737]
+    >>> chapsym.step(ball, [(0.1, 0.05, 0), (100, 0, 0)], (0, 0, 1)).status.tolist()
+    [0, 3]
+    >>> chapsym.Status(3).name
+    'UNREACHABLE'
     """
     level = dispatch.precision_of(precision)
     _only_in_double(flag(proved, "proved"), level)
@@ -64,11 +96,39 @@ def _only_in_double(proved: bool, precision: Precision) -> None:
 
 @in_given_axes
 def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) -> Step:
-    """One step of the composition of order 2, 4, 6 or 8; arguments, result and errors as for `step`.
+    """One step of the composition of order 2, 4, 6 or 8.
 
     All momentum integrals stay exact: every stage turns 𝒦 and γ by one rotation (lemma `momentum-integrals-composed`).
-    `rotation` is the product of the rotations of the stages; where a stage is not taken, `reach` is the fraction of
-    its momentum that the small-rotation branch attains.
+
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch, (...).
+    momentum, gamma : array_like
+        𝒦 and γ, as for `step`, shape (..., 3).
+    order : int
+        2, 4, 6 or 8.
+
+    Returns
+    -------
+    Step
+        `rotation` is the product of the rotations of the stages; where a stage is not taken, `reach` is the fraction
+        of its momentum that the small-rotation branch attains.
+
+    Raises
+    ------
+    StepNotTaken, BadInput
+        As `step` does; BadInput also for another order.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> after = chapsym.compose_step(ball, (0.1, 0.05, 0), (0, 0, 1), 8)
+    >>> after.gamma.round(9).tolist()
+    [-0.006249745, 0.011110856, 0.999918741]
+    >>> round(float(after.momentum @ after.momentum), 12)
+    0.0125
     """
     return composed(ball, momentum, gamma, order, NAMED["double"])
 
@@ -92,30 +152,72 @@ def trajectory(
 ) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
-    momentum, gamma: as for `step`; both broadcast with the balls.  A momentum of Fractions keeps 106 bits in
-    double-double and at higher precisions, so that εK may be exact there.
-    order: 2, or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`): 𝒦, γ, the attitude and
-    the contact point then converge with that order to those of the continuous ball (2.3), and the momentum integrals
-    stay exact.
-    attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
-    contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
-    precision: "single", "double", "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
-    Floats that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double", and
-    "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64; at higher
-    precisions they are the 40 digits of `coefficients`, and the map composed with those is what an Enclosure
-    encloses: `bits` are correct in every frame, for the length of each vector.  Its branch is proved by the lemmas
-    `small-branch` and `straight-path`; where neither reaches, as near a fold, the float64 continuation selects it
-    (`Certificate.selected`).
-    proved: whether `Trajectory.proved` has bounds of the distance of every frame from the exact orbit of the map:
-    a proof that a second run, in double-double, carries along.  It takes some ten times as long as the run in "double";
-    it is of "double" and "double-double", and of principal axes.
-    threads: how many cores a batch may use; 0 for all.  Digits and Enclosure use one.
-    progress: called with the steps done so far (of all balls together), every 200 000 steps or so.
-
-    One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
-    In a batch the others go on, and `status` and `taken` say which stopped, and where.
     For a ball with `axes`, momentum, γ and attitude, and the results, are in these axes.
-    Raises BadInput as `step` does, and for counts that are not positive integers.
+
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch, (...).
+    momentum, gamma : array_like
+        𝒦 in kg m² and γ, as for `step`, shape (..., 3); both broadcast with the balls.  A momentum of Fractions keeps
+        106 bits in double-double and at higher precisions, so that εK may be exact there.
+    steps : int
+        The number of steps.
+    order : int, optional
+        2 (the default), or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`): 𝒦, γ, the
+        attitude and the contact point then converge with that order to those of the continuous ball (2.3), and the
+        momentum integrals stay exact.
+    every : int, optional
+        The number of steps from one frame to the next; by default 1.
+    attitude : bool or array_like, optional
+        True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
+    contact : bool, optional
+        Whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
+    time_step : float, optional
+        ε in seconds, for what follows from it: `Trajectory.time`, K and ω.
+    precision : str or Precision, optional
+        "single", "double" (the default), "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
+        Floats that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double",
+        and "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64;
+        at higher precisions they are the 40 digits of `coefficients`, and the map composed with those is what an
+        Enclosure encloses: `bits` are correct in every frame, for the length of each vector.  Its branch is proved by
+        the lemmas `small-branch` and `straight-path`; where neither reaches, as near a fold, the float64 continuation
+        selects it (`Certificate.selected`).
+    proved : bool, optional
+        Whether `Trajectory.proved` has bounds of the distance of every frame from the exact orbit of the map: a proof
+        that a second run, in double-double, carries along.  It takes some ten times as long as the run in "double"; it
+        is of "double" and "double-double", and of principal axes.
+    threads : int, optional
+        How many cores a batch may use; 0, the default, for all.  Digits and Enclosure use one.
+    progress : callable, optional
+        Called with the steps done so far (of all balls together), every 200 000 steps or so.
+
+    Returns
+    -------
+    Trajectory
+        The start and every `every`-th state.  In a batch in which a ball cannot take a step the others go on, and
+        `status` and `taken` say which stopped, and where.
+
+    Raises
+    ------
+    StepNotTaken
+        If one ball cannot take a step, with `index` and the `trajectory` before it.
+    BadInput
+        As `step` does, and for counts that are not positive integers.
+
+    References
+    ----------
+    Equation (5.3) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> run = chapsym.trajectory(ball, (0.1, 0.05, 0), (0, 0, 1), 1000, every=100)
+    >>> run
+    <Trajectory of 1 ball: 11 frames in 1000 steps; momentum, gamma>
+    >>> bool(abs(run.invariants() - (0, 0.0125, 1)).max() < 1e-13)
+    True
     """
     steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
     threads = whole_number(threads, "threads", 0)
