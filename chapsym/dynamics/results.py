@@ -120,12 +120,28 @@ class Bounds(Brief):
     The exact orbit starts at the numbers that were given, as float64 has them (a momentum of Fractions in a run as it
     is), with γ and the attitude divided by their lengths; it is that of the map, or of its composition.  Of `roll` it
     is the motion of the ball.  An attitude that was not given is that of frame 0: what float64 rounds in the least
-    rotation is in no bound.
+    rotation is in no bound.  A bound is inf where none is proved, NaN without a frame.
 
-    momentum, gamma: (..., frames) of a run, and (...) of a step.
-    attitude, contact: of a run, where it has them; else None.
-    rotation: of a step; else None.
-    steps: of a run, up to which step all is proved, (...).  A bound is inf where none is proved, NaN without a frame.
+    Attributes
+    ----------
+    momentum, gamma : ndarray
+        Of a run, shape (..., frames); of a step, (...).
+    attitude, contact : ndarray or None
+        Of a run, where it has them, shape (..., frames); else None.
+    rotation : ndarray or None
+        Of a step, shape (...); else None.
+    steps : ndarray or None
+        Of a run, up to which step all is proved, shape (...).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> run = chapsym.trajectory(ball, (0.1, 0.05, 0), (0, 0, 1), 20, every=10, proved=True)
+    >>> run.proved.gamma.shape, int(run.proved.steps)
+    ((3,), 20)
+    >>> bool(run.proved.gamma.max() < 1e-15)
+    True
     """
 
     momentum: Floats
@@ -140,13 +156,37 @@ class Bounds(Brief):
 class Step(Brief):
     """The outcome of one step, for one ball or a batch with the leading axes (...).
 
-    rotation: the Euler parameters (q0, q1, q2, q3) of the step in the body, q0 ≥ 0, shape (..., 4).
-    momentum, gamma: 𝒦 and γ after the step, shape (..., 3).  In n dimensions Ω and 𝒦 are (..., n, n), and γ (..., n).
-    status: a `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
-    reach: the fraction of the momentum that the small-rotation branch attains, shape (...).
-    precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
-    low: for DoubleDouble, the low halves of the numbers, as a step of its own; else None.
-    proved: with `proved=True`, bounds of the errors of the numbers.
+    In n dimensions Ω and 𝒦 have the shape (..., n, n), and γ (..., n).
+
+    Attributes
+    ----------
+    rotation : ndarray
+        The Euler parameters (q0, q1, q2, q3) of the step in the body, q0 ≥ 0, shape (..., 4).
+    momentum, gamma : ndarray
+        𝒦 and γ after the step, shape (..., 3).
+    status : ndarray
+        A `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
+    reach : ndarray
+        The fraction of the momentum that the small-rotation branch attains, shape (...).
+    precision : Precision
+        That of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
+    low : Step or None
+        For DoubleDouble, the low halves of the numbers, as a step of its own; else None.
+    proved : Bounds or None
+        With `proved=True`, bounds of the errors of the numbers.
+
+    References
+    ----------
+    Equations (5.2) and (5.3) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> after = chapsym.step(chapsym.Ball((1, 2, 4), 3), (0.1, 0.05, 0), (0, 0, 1))
+    >>> after.rotation.round(9).tolist(), float(after.reach)
+    ([0.999979684, 0.005555672, 0.003125051, 5.787e-06], 1.0)
+    >>> list(after.write())
+    ['q0', 'q', 'momentum', 'gamma']
     """
 
     rotation: Floats
@@ -225,20 +265,44 @@ class Trajectory:
     In n dimensions, of `trajectory_n`: 𝒦 and the attitude R, R γ = eₙ, are (..., frames, n, n), γ is (..., frames, n),
     and the contact point (..., frames, n-1), from 0; there is no time step, and what follows from one.
 
-    index: the step number of each frame, (frames,).
-    momentum, gamma: 𝒦 (kg m²) and γ, (..., frames, 3).
-    attitude: unit quaternions, body to space, scalar first, (..., frames, 4), or None.
-    contact: the contact point on the plane in metres, from (0, 0), (..., frames, 2), or None.
-    taken: the number of steps that were taken, (...); frames after it are NaN.
-    status: why a ball stopped, a `Status`, (...).
-    time_step: ε in seconds, if the run has one.
-    order: of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`roll`,
-    `exact_top`), of which `index` counts time steps.
-    precision: of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
-    low: for DoubleDouble, a record of the low halves of the numbers, each at most half an ulp of its number:
-    `momentum` + `low.momentum` is 𝒦, and so on; else None.
-    error: of `roll`, an estimate of the largest error at any frame, (...); else None.
-    proved: with `proved=True`, bounds of the error of each frame.
+    Attributes
+    ----------
+    ball : Ball
+        The ball, or the balls.
+    index : ndarray
+        The step number of each frame, shape (frames,).
+    momentum, gamma : ndarray
+        𝒦 (kg m²) and γ, shape (..., frames, 3).
+    attitude : ndarray or None
+        Unit quaternions, body to space, scalar first, shape (..., frames, 4).
+    contact : ndarray or None
+        The contact point on the plane in metres, from (0, 0), shape (..., frames, 2).
+    taken : ndarray
+        The number of steps that were taken, shape (...); frames after it are NaN.
+    status : ndarray
+        Why a ball stopped, a `Status`, shape (...).
+    time_step : float or None
+        ε in seconds, if the run has one.
+    order : int
+        That of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`roll`,
+        `exact_top`), of which `index` counts time steps.
+    precision : Precision
+        That of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
+    low : Trajectory or None
+        For DoubleDouble, a record of the low halves of the numbers, each at most half an ulp of its number:
+        `momentum` + `low.momentum` is 𝒦, and so on; else None.
+    error : ndarray or None
+        Of `roll`, an estimate of the largest error at any frame, shape (...); else None.
+    proved : Bounds or None
+        With `proved=True`, bounds of the error of each frame.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> run = chapsym.trajectory(ball, (0.1, 0.05, 0), (0, 0, 1), 4, every=2, time_step=0.5)
+    >>> run.gamma.shape, run.index.tolist(), run.time.tolist()
+    ((3, 3), [0, 2, 4], [0.0, 1.0, 2.0])
     """
 
     ball: Ball
@@ -277,6 +341,11 @@ class Trajectory:
         float64 the numbers are those of the precision.  Of a run with `proved=True` there is `gamma_bound`, as of the
         others, (ball, frame): in double-double of the sum with `gamma_low`.
 
+        Returns
+        -------
+        Dataset
+            The frames, with the unit of each variable in its attributes.
+
         Raises
         ------
         MissingExtra
@@ -299,7 +368,7 @@ class Trajectory:
 
         Parameters
         ----------
-        balls
+        balls : bool, optional
             Whether to have what a ball has once, as J, D, and why it stopped, a row for each ball.
 
         Returns
@@ -339,12 +408,40 @@ class Trajectory:
     def at(self, times: ArrayLike) -> Moments:
         """The states at any times between the frames, as `solve_ivp`'s dense output: 𝒦, γ, ω, attitude and contact.
 
-        times: one number or a list, in seconds, or in steps where the run has no time step.
         Between two frames each is a quintic with the states, and the rates and their rates that (2.3) gives for them:
         of order 6 in the time h between frames, with errors up to (|ω|h)⁶/46080 of its size, or of a radius: 10⁻⁵ at
         one radian a frame.  A run of the map passes through its frames in the same way; there (2.3) gives the rates up
         to an error of the map's own.  In float64, whatever the precision of the run.
-        Raises BadInput for times beyond the frames, and where a ball turns by more than 1.5 radians between frames.
+
+        Parameters
+        ----------
+        times : array_like
+            One number or a list, in seconds, or in steps where the run has no time step.
+
+        Returns
+        -------
+        Moments
+            The states, (..., times, ...), or without that axis for one number.
+
+        Raises
+        ------
+        BadInput
+            For times beyond the frames, where a ball turns by more than 1.5 radians between frames, and in n
+            dimensions.
+
+        References
+        ----------
+        Equation (2.3) of Fedorov (2007).
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> ball = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
+        >>> run = chapsym.roll(ball, (3, -2, 1), 0.1, 10)
+        >>> run.at([0.05, 0.15]).omega.shape
+        (2, 3)
+        >>> bool(abs(run.at(0.2).gamma - run.gamma[2]).max() < 1e-15)
+        True
         """
         if not isinstance(self.ball, Ball):
             raise BadInput("the states between frames are found in three dimensions only")
@@ -363,9 +460,24 @@ class Trajectory:
         return replace(found, momentum=found.momentum * self._time_step()) if timed else found
 
     def invariants(self) -> Floats:
-        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame, (..., frames, 3); on DoubleDouble in float64, of the first halves.
+        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame; on DoubleDouble in float64, of the first halves.
 
-        In n dimensions those of `invariants_n`, (..., frames, m).  Raises BadInput if a ball stopped early.
+        Returns
+        -------
+        ndarray
+            Shape (..., frames, 3).  In n dimensions those of `invariants_n`, (..., frames, m).
+
+        Raises
+        ------
+        BadInput
+            If a ball stopped early.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), (0.5, 0, 0), (0, 0, 1), 5)
+        >>> abs(run.invariants()[-1]).round(12).tolist()
+        [0.0, 0.25, 1.0]
         """
         self._check_finite()
         of = kernels.invariants if isinstance(self.ball, Ball) else so_n.invariants
