@@ -48,15 +48,35 @@ MOST_OF_PAIRS = 12
 class Extrapolated(Brief):
     """States of the continuous ball after a number of equal times, for one ball or a batch (...).
 
-    angular_momentum: K in kg m²/s, shape (..., 3); gamma: the vertical upwards, (..., 3).
-    attitude: unit quaternions, body to space, scalar first, (..., 4), or None.
-    contact: the contact point on the plane in m, from (0, 0), (..., 2), or None.
-    index: None; or the steps after which the frames are, (frames,), and those above are (..., frames, 3), ...
-    doubt: the sum over the steps of the angle between the rotation and the one with a column less, in radians,
-    (...): an estimate of the error that one column less would have made, so a large one of the error.
-    status: a `Status` for each ball, (...); from where it is not TAKEN on the numbers above are NaN.
-    taken: the steps of each ball before that, (...).
-    low: in double-double, what the numbers above have beyond float64, as a record of its own; else None.
+    Attributes
+    ----------
+    angular_momentum : ndarray
+        K in kg m²/s, shape (..., 3).
+    gamma : ndarray
+        The vertical upwards, shape (..., 3).
+    attitude : ndarray or None
+        Unit quaternions, body to space, scalar first, shape (..., 4).
+    contact : ndarray or None
+        The contact point on the plane in m, from (0, 0), shape (..., 2).
+    index : ndarray or None
+        None; or the steps after which the frames are, shape (frames,), and those above are (..., frames, 3), ...
+    doubt : ndarray
+        The sum over the steps of the angle between the rotation and the one with a column less, in radians, shape
+        (...): an estimate of the error that one column less would have made, so a large one of the error.
+    status : ndarray
+        A `Status` for each ball, shape (...); from where it is not TAKEN on the numbers above are NaN.
+    taken : ndarray
+        The steps of each ball before that, shape (...).
+    low : Extrapolated or None
+        In double-double, what the numbers above have beyond float64, as a record of its own; else None.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> run = chapsym.extrapolate(ball, (1, -0.5, 0.75), (2/7, 3/7, 6/7), 0.5, 20, every=10)
+    >>> run.index.tolist(), run.gamma.shape, int(run.taken)
+    ([0, 10, 20], (3, 3), 20)
     """
 
     angular_momentum: Floats
@@ -113,22 +133,62 @@ def extrapolate(
 ) -> Extrapolated:
     """Follows the continuous ball (2.12, 2.13) for `steps` times `time_step`, to the order 2 `columns`.
 
-    angular_momentum: K in kg m²/s, shape (..., 3); gamma: unit verticals upwards, (..., 3).  Both broadcast with
-    each other and with the balls.  time_step: seconds, negative for back in time; a Fraction keeps 106 bits in
-    double-double.
-    columns: 2 to 6, the default.  A step is 8 - columns, ..., 6 and 7 steps of the map, side by side; its error is
-    of the order time_step^(2 columns), ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.  In double-double 2 to 12, the
-    default, of 3, 4, ..., columns + 2 steps of the map.
-    every: without it only the end is kept; with it the start and every `every`-th state.
-    attitude: True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
-    contact: whether to trace the contact point, to the same order; it needs `ball.radius`, and implies the attitude.
-    precision: "double" or "double-double", in which γ (and an attitude) is divided by its length.
-    threads: how many cores a batch may use; 0 for all.
-    progress: called with the steps done so far, of all balls together, whenever one ball or eight have all of theirs.
-
     A ball has the same bits alone and in a batch, whatever ran before.
-    One ball raises StepNotTaken where the map has no step of length time_step/n; a batch reports `status`.
-    Raises BadInput as `step` does, for a time_step that is not one finite number, and for counts out of range.
+
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch, (...).
+    angular_momentum : array_like
+        K in kg m²/s, shape (..., 3); it broadcasts with γ and with the balls.
+    gamma : array_like
+        Unit verticals upwards, shape (..., 3).
+    time_step : float or Fraction
+        Seconds, negative for back in time; a Fraction keeps 106 bits in double-double.
+    steps : int
+        The number of steps.
+    columns : int, optional
+        2 to 6, the default.  A step is 8 - columns, ..., 6 and 7 steps of the map, side by side; its error is of the
+        order time_step^(2 columns), ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.  In double-double 2 to 12, the default,
+        of 3, 4, ..., columns + 2 steps of the map.
+    every : int, optional
+        Without it only the end is kept; with it the start and every `every`-th state.
+    attitude : bool or array_like, optional
+        True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
+    contact : bool, optional
+        Whether to trace the contact point, to the same order; it needs `ball.radius`, and implies the attitude.
+    precision : str or Precision, optional
+        "double" (the default) or "double-double", in which γ (and an attitude) is divided by its length.
+    threads : int, optional
+        How many cores a batch may use; 0, the default, for all.
+    progress : callable, optional
+        Called with the steps done so far, of all balls together, whenever one ball or eight have all of theirs.
+
+    Returns
+    -------
+    Extrapolated
+        The end, or the frames that `every` asks for.
+
+    Raises
+    ------
+    StepNotTaken
+        For one ball, where the map has no step of length time_step/n; a batch reports `status`.
+    BadInput
+        As `step` does, for a time_step that is not one finite number, and for counts out of range.
+
+    References
+    ----------
+    Equations (2.12) and (2.13) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> end = chapsym.extrapolate(ball, (1, -0.5, 0.75), (2/7, 3/7, 6/7), 0.5, 20)
+    >>> end.gamma.round(9).tolist()
+    [0.844567314, -0.535330877, 0.011265216]
+    >>> bool(end.doubt < 1e-8)
+    True
     """
     level = precision_of(precision)
     if not isinstance(level, Double | DoubleDouble):
