@@ -40,7 +40,23 @@ class UnderWay:
     def step(self, steps: int = 1) -> None:
         """Takes `steps` steps; only the end is kept.
 
-        Raises StepNotTaken where one cannot be taken, with its `index` in this call; the state is then that before it.
+        Parameters
+        ----------
+        steps : int, optional
+            The number of steps; by default 1.
+
+        Raises
+        ------
+        StepNotTaken
+            Where one cannot be taken, with its `index` in this call; the state is then that before it.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> moving = chapsym.Stepper(chapsym.Ball((1, 2, 4), 3), (0.1, 0.05, 0), (0, 0, 1))
+        >>> moving.step()
+        >>> moving.gamma.round(9).tolist()
+        [-0.006249912, 0.011111155, 0.999918737]
         """
         steps = whole_number(steps, "steps", 0)
         taken, status, reach = self._take(steps, steps or 1, self._ends)
@@ -50,7 +66,30 @@ class UnderWay:
     def trajectory(self, steps: int, every: int = 1) -> Trajectory:
         """Takes `steps` steps; returns the present state and every `every`-th after it, `index` counting from here.
 
-        Raises StepNotTaken as `step`, with the `trajectory` before.
+        Parameters
+        ----------
+        steps : int
+            The number of steps.
+        every : int, optional
+            The number of steps from one frame to the next; by default 1.
+
+        Returns
+        -------
+        Trajectory
+            As of `trajectory`, from the present state on.
+
+        Raises
+        ------
+        StepNotTaken
+            As `step`, with the `trajectory` before.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> moving = chapsym.Stepper(chapsym.Ball((1, 2, 4), 3), (0.1, 0.05, 0), (0, 0, 1))
+        >>> moving.step(100)
+        >>> moving.trajectory(20, every=10).index.tolist(), moving.taken
+        ([0, 10, 20], 120)
         """
         steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
         every = min(every, steps + 1)
@@ -76,7 +115,21 @@ class UnderWay:
     def momentum(self) -> Floats:
         """𝒦 in kg m², (3,), or (n, n) in n dimensions, a copy.
 
-        Another may be given: γ, the attitude and the contact point stay.  Raises BadInput; the state is then as before.
+        Another may be given: γ, the attitude and the contact point stay.
+
+        Raises
+        ------
+        BadInput
+            For another that is no momentum; the state is then as before.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> moving = chapsym.Stepper(chapsym.Ball((1, 2, 4), 3), (0.1, 0.05, 0), (0, 0, 1))
+        >>> moving.step(100)
+        >>> moving.momentum = 2 * moving.momentum
+        >>> moving.taken
+        0
         """
         return self._ends["momentum"][1].copy()
 
@@ -123,16 +176,41 @@ class UnderWay:
 class Stepper(UnderWay):
     """One ball under way, for control loops and other integrators: steps of the map without the price of a call.
 
-    ball, momentum, gamma, order, attitude, contact, time_step: as for `trajectory`, of one ball in principal axes, in
-    float64.  All is checked here.
-
     The states are those of `trajectory` from the same start, to the bit, however the steps are shared out to calls; so
     they are after a restart or a new momentum.
 
     Objects share nothing that changes: each may run in a thread of its own, and compiled steps let other threads run.
     One object is for one thread at a time.  `copy.copy` makes another that goes on from the same state.
 
-    Raises BadInput as `trajectory` does, and for a batch.
+    Parameters
+    ----------
+    ball : Ball
+        One ball in principal axes.
+    momentum, gamma : array_like
+        𝒦 in kg m² and the unit vertical upwards, as for `trajectory`, shape (3,), in float64.  All is checked here.
+    order : int, optional
+        As for `trajectory`: 2 (the default), 4, 6 or 8.
+    attitude : bool or array_like, optional
+        As for `trajectory`: True or a unit quaternion, (4,), to be followed.
+    contact : bool, optional
+        As for `trajectory`: whether to trace the contact point.
+    time_step : float, optional
+        As for `trajectory`: ε in seconds, which `omega` needs.
+
+    Raises
+    ------
+    BadInput
+        As `trajectory` does, and for a batch.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball, momentum, gamma = chapsym.Ball((1, 2, 4), 3), (0.1, 0.05, 0), (0, 0, 1)
+    >>> moving = chapsym.Stepper(ball, momentum, gamma)
+    >>> moving.step(600)
+    >>> moving.step(400)
+    >>> bool((moving.gamma == chapsym.trajectory(ball, momentum, gamma, 1000).gamma[-1]).all())
+    True
     """
 
     def __init__(
@@ -160,9 +238,28 @@ class Stepper(UnderWay):
         self._proof: Proof | None = None
 
     def restart(self, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = True) -> None:
-        """Starts anew from 𝒦 (3,), γ (3,) and, where they are followed, an attitude (4,) and the contact point (0, 0).
+        """Starts anew from 𝒦, γ and, where they are followed, an attitude and the contact point (0, 0).
 
-        attitude: True for the least rotation with R γ = e₃.  Raises BadInput; then the state is as before.
+        Parameters
+        ----------
+        momentum, gamma : array_like
+            𝒦 in kg m² and the unit vertical upwards, shape (3,).
+        attitude : bool or array_like, optional
+            A unit quaternion, (4,), or True, the default, for the least rotation with R γ = e₃.
+
+        Raises
+        ------
+        BadInput
+            As the object does when it is made; then the state is as before.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> moving = chapsym.Stepper(chapsym.Ball((1, 2, 4), 3), (0.1, 0.05, 0), (0, 0, 1))
+        >>> moving.step(100)
+        >>> moving.restart((0.2, 0, 0), (0, 0, 1))
+        >>> moving.momentum.tolist(), moving.taken
+        ([0.2, 0.0, 0.0], 0)
         """
         k = momentum if is_vector(momentum) else _one("momentum", numbers(momentum, "momentum", 3))
         g = gamma if is_vector(gamma) and is_unit(*gamma.tolist()) else _one("gamma", unit_vertical(gamma))
@@ -186,6 +283,14 @@ class Stepper(UnderWay):
 
         A start is that of the object, a restart, or a new momentum; the exact orbit begins at the numbers there.  A run
         in double-double carries the proof: it goes on from where it was asked last, and takes about 1 µs a step.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> moving = chapsym.Stepper(chapsym.Ball((1, 2, 4), 3), (0.1, 0.05, 0), (0, 0, 1))
+        >>> moving.step(100)
+        >>> int(moving.proved.steps), bool(moving.proved.gamma < 1e-14)
+        (100, True)
         """
         if self._proof is None:
             self._proof = Proof(self)
