@@ -107,25 +107,76 @@ def roll(
 ) -> Trajectory:
     """Rolls a ball without slipping (2.3), and keeps its state every `every` times `time_step` seconds.
 
-    omega: the angular velocity at the start in rad/s, shape (..., 3), in body axes (those of the inertia tensor), or in
-    those of space.
-    time_step, steps: the run lasts `steps` times `time_step` seconds; the steps of the solver are chosen.
-    gamma: the unit vertical, upwards, in body axes, (..., 3); by default that of the attitude, or (0, 0, 1).
-    attitude: True (from the least rotation with R γ = e₃) or unit quaternions, body to space, (..., 4), to be followed.
-    contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
-    position: the contact point at the start in m, (..., 2).
-    accuracy: of γ, of K, ω and the contact point relative to |K|, the largest |ω| and the radius, and of the attitude
-    in radians, at every frame; default 1e-6.  `error` of the result is an estimate of the error that was reached: the
-    errors of all steps, carried on by the flow.  It is larger than the accuracy where a start is too near to a
-    separatrix.
-    order, precision, map: any of them replaces the motion by the map in steps of `time_step`, as `trajectory`
-    does, with 𝒦 = ε(Λω - D⟨ω,γ⟩γ).  threads, progress: as of `trajectory`.
-    proved: whether `Trajectory.proved` bounds the error of every frame: against the motion of the ball that starts
-    at the numbers of frame 0, by `certified_motion`, which takes a thousand times as long; with `map`, as
-    `trajectory` does.  Only for one ball in principal axes.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch, (...).
+    omega : array_like
+        The angular velocity at the start in rad/s, shape (..., 3), in body axes (those of the inertia tensor), or in
+        those of space.
+    time_step : float
+        Seconds: the run lasts `steps` times `time_step`; the steps of the solver are chosen.
+    steps : int
+        The number of time steps.
+    gamma : array_like, optional
+        The unit vertical, upwards, in body axes, shape (..., 3); by default that of the attitude, or (0, 0, 1).
+    axes : str, optional
+        The axes of `omega`: "body" (the default) or "space".
+    every : int, optional
+        The number of time steps from one frame to the next; by default 1.
+    attitude : bool or array_like, optional
+        True (from the least rotation with R γ = e₃) or unit quaternions, body to space, (..., 4), to be followed.
+    contact : bool, optional
+        Whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
+    position : array_like, optional
+        The contact point at the start in m, shape (..., 2); by default (0, 0).
+    accuracy : float, optional
+        That of γ, of K, ω and the contact point relative to |K|, the largest |ω| and the radius, and of the attitude
+        in radians, at every frame; by default 1e-6.  `error` of the result is an estimate of the error that was
+        reached: the errors of all steps, carried on by the flow.  It is larger than the accuracy where a start is too
+        near to a separatrix.
+    order : int, optional
+        As of `trajectory`; it replaces the motion by the map, as `map` does.
+    precision : str or Precision, optional
+        As of `trajectory`; it replaces the motion by the map, as `map` does.
+    map : bool, optional
+        Whether to replace the motion by the map in steps of `time_step`, as `trajectory` does, with
+        𝒦 = ε(Λω - D⟨ω,γ⟩γ).
+    proved : bool, optional
+        Whether `Trajectory.proved` bounds the error of every frame: against the motion of the ball that starts at the
+        numbers of frame 0, by `certified_motion`, which takes a thousand times as long; with `map`, as `trajectory`
+        does.  Only for one ball in principal axes.
+    threads : int, optional
+        As of `trajectory`.
+    progress : callable, optional
+        As of `trajectory`.
 
-    One ball that cannot be followed raises StepNotTaken; in a batch the others go on, and `status` says which stopped.
-    Raises BadInput for what no ball or run can have, and for an accuracy beyond double precision.
+    Returns
+    -------
+    Trajectory
+        The states; of the motion, with `error`.  In a batch in which a ball cannot be followed the others go on, and
+        `status` says which stopped.
+
+    Raises
+    ------
+    StepNotTaken
+        For one ball that cannot be followed.
+    BadInput
+        For what no ball or run can have, and for an accuracy beyond double precision.
+
+    References
+    ----------
+    Equation (2.3) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball.from_inertia((0.006, 0.007, 0.009), mass=2.0, radius=0.1)
+    >>> run = chapsym.roll(ball, (3, -2, 1), 0.01, 100, contact=True)
+    >>> float(run.time[-1]), run.contact[-1].round(5).tolist()
+    (1.0, [-0.19825, -0.2945])
+    >>> bool(run.error < 1e-6)
+    True
     """
     spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
     place = None if position is HERE else numbers(position, "position", 2)
