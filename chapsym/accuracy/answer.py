@@ -308,9 +308,26 @@ class Attempt:
 class Accurate:
     """A run that meets its request.
 
-    trajectory: at the times asked for; its order is 12 or more for long steps, 0 for a steady rotation.
-    attempts: all that was tried, the last of them the one that is delivered.
-    seconds: of the processor, for everything.
+    Attributes
+    ----------
+    trajectory : Trajectory
+        The states at the times asked for; its order is 12 or more for long steps, 0 for a steady rotation.
+    request : Request
+        What was asked for.
+    attempts : list of Attempt
+        All that was tried, the last of them the one that is delivered.
+    seconds : float
+        Those of the processor, for everything.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> found = chapsym.accurate(ball, (1, -0.5, 0.75), (2/7, 3/7, 6/7), 10, 1e-9, frames=4)
+    >>> found.trajectory.time.tolist()
+    [0.0, 2.5, 5.0, 7.5, 10.0]
+    >>> found.estimate < 1e-9
+    True
     """
 
     trajectory: Trajectory
@@ -355,15 +372,57 @@ def accurate(
 ) -> Accurate:
     """Follows the continuous ball (2.3) for `time` seconds to an absolute `accuracy`, by the cheapest method.
 
-    angular_momentum: K in kg m²/s, (3,); gamma: the unit vertical, upwards, (3,).
-    of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance of the contact points in metres (it needs
-    `ball.radius`).  frames: the number of equal intervals of `time`; the accuracy is promised at the end of each.
-    attitude: True or a unit quaternion, (4,), to be followed; its angle counts, too.
-    limit: the longest expected duration of the run, in seconds.
-
     In double precision the error is estimated as by `roll`; where that is not accurate enough, long steps in
-    double-double are compared with those of a lower order.  Raises BadInput for a request that cannot be met: one that
-    would take longer than the limit, or that is finer than every precision.
+    double-double are compared with those of a lower order.
+
+    Parameters
+    ----------
+    ball : Ball
+        One ball.
+    angular_momentum : array_like
+        K in kg m²/s, shape (3,).
+    gamma : array_like
+        The unit vertical, upwards, shape (3,).
+    time : float
+        The length of the motion, in seconds.
+    accuracy : float
+        The largest error, in the norm that `of` names.
+    of : str, optional
+        "state" (the default), the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance of the contact points in
+        metres (it needs `ball.radius`).
+    frames : int, optional
+        The number of equal intervals of `time`, by default 1; the accuracy is promised at the end of each.
+    attitude : bool or array_like, optional
+        True or a unit quaternion, (4,), to be followed; its angle counts, too.
+    limit : float, optional
+        The longest expected duration of the run, in seconds; by default 600.
+    progress : callable, optional
+        Called with a sentence on the method, before each precision is tried.
+
+    Returns
+    -------
+    Accurate
+        The trajectory, and an estimate of its error.
+
+    Raises
+    ------
+    BadInput
+        For a request that cannot be met: one that would take longer than the limit, or that is finer than every
+        precision.
+
+    References
+    ----------
+    Equation (2.3) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> found = chapsym.accurate(ball, (1, -0.5, 0.75), (2/7, 3/7, 6/7), 10, 1e-20)
+    >>> found.choice.sentence()
+    'double-double, extrapolated to order 24, 4 steps of 2.5 s'
+    >>> [x[:20] for x in found.final()["gamma"]]
+    ['0.844567313551555566', '-0.53533087692888346', '0.011265215792919715']
     """
     started = clock.thread_time()
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
