@@ -113,9 +113,12 @@ class UnderWay:
 
     @property
     def momentum(self) -> Floats:
-        """𝒦 in kg m², (3,), or (n, n) in n dimensions, a copy.
+        """𝒦 in kg m², a copy; another may be given: γ, the attitude and the contact point stay.
 
-        Another may be given: γ, the attitude and the contact point stay.
+        Returns
+        -------
+        ndarray
+            Shape (3,), or (n, n) in n dimensions.
 
         Raises
         ------
@@ -145,9 +148,19 @@ class UnderWay:
 
     @property
     def attitude(self) -> Asked:
-        """The attitude, from the body to space: a unit quaternion, scalar first, (4,), or R, (n, n), in n dimensions.
+        """The attitude, from the body to space, a copy; None if it is not followed.
 
-        A copy; None if it is not followed.
+        Returns
+        -------
+        ndarray or None
+            A unit quaternion, scalar first, shape (4,), or R, (n, n), in n dimensions.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> moving = chapsym.Stepper(chapsym.Ball((1, 2, 4), 3), (0.1, 0.05, 0), (0.6, 0, 0.8), attitude=True)
+        >>> moving.attitude.round(6).tolist()
+        [0.948683, 0.0, -0.316228, 0.0]
         """
         return self._ends["attitude"][1].copy() if self._follows else None
 
@@ -283,6 +296,11 @@ class Stepper(UnderWay):
 
         A start is that of the object, a restart, or a new momentum; the exact orbit begins at the numbers there.  A run
         in double-double carries the proof: it goes on from where it was asked last, and takes about 1 µs a step.
+
+        Returns
+        -------
+        Bounds
+            Those of one state, with `steps` those since the start if all is proved, and else 0.
 
         Examples
         --------
