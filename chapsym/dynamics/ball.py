@@ -131,15 +131,36 @@ class Parameters(Brief):
 class Ball(Parameters):
     """A ball, or an array of balls, that rolls without slipping; balanced: its centre of mass is its centre.
 
-    mass_tensor: J = (J1, J2, J3) of Sections 4 and 5, ∫ xᵢ² dm, shape (..., 3), in kg m²: the diagonal of the
-        second-moment (pseudo-inertia) matrix of robotics, not of the inertia tensor.
-    D: m ρ² in kg m², shape (...); D = 0 is the Euler top.
-    radius: ρ in m; needed for the trace of the contact point only.
-    axes: unit quaternions, (..., 4), that turn the principal axes of the body, in which J is, to the axes in which
-    vectors and attitudes are given and returned (`from_inertia` finds them); None where these are the same.
     Fractions, Decimals and numbers of mpmath and SymPy are kept as they are for `Digits` and `Enclosure`.
 
-    Raises BadInput for a mass moment below 0, a D below 0, or a momentum operator that is singular.
+    Parameters
+    ----------
+    mass_tensor : array_like
+        J = (J1, J2, J3), ∫ xᵢ² dm, shape (..., 3), in kg m²: the diagonal of the second-moment (pseudo-inertia) matrix
+        of robotics, not of the inertia tensor.
+    D : array_like
+        m ρ² in kg m², shape (...); D = 0 is the Euler top.
+    radius : array_like, optional
+        ρ in m, shape (...); needed for the trace of the contact point only.
+    axes : array_like, optional
+        Unit quaternions, (..., 4), that turn the principal axes of the body, in which J is, to the axes in which
+        vectors and attitudes are given and returned (`from_inertia` finds them); None where these are the same.
+
+    Raises
+    ------
+    BadInput
+        For a mass moment below 0, a D below 0, or a momentum operator that is singular.
+
+    References
+    ----------
+    Sections 4 and 5 of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball(mass_tensor=(1, 2, 4), D=3)
+    >>> ball.inertia.tolist()
+    [6.0, 5.0, 3.0]
     """
 
     mass_tensor: Floats
@@ -190,14 +211,39 @@ class Ball(Parameters):
     ) -> Self:  # fmt: skip
         """A ball with an inertia tensor or principal moments (kg m²), and its mass (kg) and radius (m), or D.
 
-        inertia: a symmetric tensor (3, 3), or one for each ball, (..., 3, 3): it is diagonalised, its `axes` are kept,
-        and all vectors and attitudes, given or returned, are in the axes in which it is given.  Off its diagonal it
-        has -∫xy dm, ..., as ixy, ... of URDF, SDF and MJCF; SolidWorks shows both signs, and calls this one negative.
-        Or principal moments I1 = J2 + J3, ..., (3,), or a row for each ball, (..., 3), where that is not symmetric and
-        3 x 3.
-        batch: whether inertia is rows of principal moments, also where it is symmetric and 3 x 3.
+        Parameters
+        ----------
+        inertia : array_like
+            A symmetric tensor (3, 3), or one for each ball, (..., 3, 3): it is diagonalised, its `axes` are kept,
+            and all vectors and attitudes, given or returned, are in the axes in which it is given.  Off its diagonal it
+            has -∫xy dm, ..., as ixy, ... of URDF, SDF and MJCF; SolidWorks shows both signs, and calls this one
+            negative.  Or principal moments I1 = J2 + J3, ..., (3,), or a row for each ball, (..., 3), where that is not
+            symmetric and 3 x 3.
+        mass : array_like, optional
+            In kg, with the radius in the place of D.
+        radius : array_like, optional
+            ρ in m.
+        D : array_like, optional
+            m ρ² in kg m², in the place of the mass.
+        batch : bool, optional
+            Whether inertia is rows of principal moments, also where it is symmetric and 3 x 3.
 
-        Raises BadInput for an inertia that no body has, and as `Ball`.
+        Returns
+        -------
+        Ball
+
+        Raises
+        ------
+        BadInput
+            For an inertia that no body has, and as `Ball`.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> chapsym.Ball.from_inertia((3, 3, 2), mass=2, radius=0.5)
+        Ball(mass_tensor=(1.0, 1.0, 2.0), D=0.5, radius=0.5)
+        >>> chapsym.Ball.from_inertia([[3, 0.5, 0], [0.5, 4, 0], [0, 0, 5]], mass=2, radius=0.5).inertia.round(6)
+        array([2.792893, 4.207107, 5.      ])
         """
         contact, given = contact_term(mass, radius, D), numbers(inertia, "inertia")
         if batch or not principal_axes.is_tensor(given):
@@ -221,7 +267,31 @@ class Ball(Parameters):
     ) -> Self:  # fmt: skip
         """A ball with the mass tensor J = (J1, J2, J3) (kg m²), and its mass (kg) and radius (m), or D.
 
-        J is in principal axes, a row for each ball, (..., 3); a tensor that is not diagonal goes with `from_inertia`.
+        Parameters
+        ----------
+        mass_tensor : array_like
+            J in principal axes, a row for each ball, (..., 3); a tensor that is not diagonal goes with `from_inertia`.
+        mass : array_like, optional
+            In kg, with the radius in the place of D.
+        radius : array_like, optional
+            ρ in m.
+        D : array_like, optional
+            m ρ² in kg m², in the place of the mass.
+
+        Returns
+        -------
+        Ball
+
+        Raises
+        ------
+        BadInput
+            As `Ball`.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> chapsym.Ball.from_mass_tensor((1, 2, 4), mass=3, radius=1)
+        Ball(mass_tensor=(1.0, 2.0, 4.0), D=3.0, radius=1.0)
         """
         return cls(mass_tensor, contact_term(mass, radius, D), radius)
 
@@ -250,9 +320,31 @@ class Ball(Parameters):
         return self if self.axes is None else Ball(self.mass_tensor, self.D, self.radius)
 
     def to_principal(self, vectors: ArrayLike, *, frames: bool = False) -> Floats:
-        """Vectors (momentum, omega, gamma) in principal axes from those in the axes of the user, (..., 3).
+        """Vectors (momentum, omega, gamma) in principal axes from those in the axes of the user.
 
-        frames: whether there is an axis of frames before the last, (balls..., frames, 3).
+        Parameters
+        ----------
+        vectors : array_like
+            In the axes of the user, (..., 3).
+        frames : bool, optional
+            Whether there is an axis of frames before the last, (balls..., frames, 3).
+
+        Returns
+        -------
+        numpy.ndarray
+            In principal axes, (..., 3); the same vectors for a ball without `axes`.
+
+        Raises
+        ------
+        BadInput
+            For what is not such vectors, where the ball has `axes`.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> ball = chapsym.Ball.from_inertia([[3, 0.5, 0], [0.5, 4, 0], [0, 0, 5]], D=0.5)
+        >>> ball.to_principal((1, 0, 0)).round(6).tolist()
+        [0.92388, 0.382683, 0.0]
         """
         return self._turned(principal_axes.to_principal, vectors, frames)
 
