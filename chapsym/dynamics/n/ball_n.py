@@ -21,12 +21,31 @@ AGREEMENT = 1e-9
 class BallN(Parameters):
     """A ball in n ≥ 3 dimensions, or an array of such balls, that rolls without slipping on a hyperplane.
 
-    mass_tensor: the diagonal of J = ∫ x xᵀ dm about the centre (Section 4), shape (..., n), in kg m².
-    D: m ρ² in kg m², shape (...); D = 0 is the Euler top on SO(n).
-    radius: ρ in m, shape (...); needed for the trace of the contact point only.
+    Parameters
+    ----------
+    mass_tensor : array_like
+        The diagonal of J = ∫ x xᵀ dm about the centre, shape (..., n), in kg m².
+    D : array_like
+        m ρ² in kg m², shape (...); D = 0 is the Euler top on SO(n).
+    radius : array_like, optional
+        ρ in m, shape (...); needed for the trace of the contact point only.
 
-    Raises BadInput for a moment below 0, a D below 0, a radius that is not positive, and for moments with
-    which the momentum operator is singular at every γ: at most one may vanish, two if D > 0.
+    Raises
+    ------
+    BadInput
+        For a moment below 0, a D below 0, a radius that is not positive, and for moments with which the momentum
+        operator is singular at every γ: at most one may vanish, two if D > 0.
+
+    References
+    ----------
+    Section 4 of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.BallN(mass_tensor=(1, 2, 0.5, 3), D=3, radius=0.1)
+    >>> ball.n
+    4
     """
 
     mass_tensor: Floats
@@ -63,13 +82,61 @@ class BallN(Parameters):
 
 
 def skew(vector: ArrayLike) -> Floats:
-    """The skew matrix of a vector in three dimensions, (..., 3, 3): skew(v) x = v × x, as in Section 5."""
+    """The skew matrix of a vector in three dimensions: skew(v) x = v × x.
+
+    Parameters
+    ----------
+    vector : array_like
+        v, (..., 3).
+
+    Returns
+    -------
+    numpy.ndarray
+        (..., 3, 3)
+
+    Raises
+    ------
+    BadInput
+        For what is not finite vectors of three real numbers.
+
+    References
+    ----------
+    Section 5 of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> chapsym.skew((1, 2, 3)).tolist()
+    [[0.0, -3.0, 2.0], [3.0, 0.0, -1.0], [-2.0, 1.0, 0.0]]
+    """
     v = numbers(vector, "vector", 3)
     return so_n.from_coordinates(np.stack([v[..., 2], -v[..., 1], v[..., 0]], axis=-1), 3)
 
 
 def axial(matrix: ArrayLike) -> Floats:
-    """The vector (A₃₂, A₁₃, A₂₁) of a skew 3×3 matrix, (..., 3): the inverse of `skew`."""
+    """The vector (A₃₂, A₁₃, A₂₁) of a skew 3×3 matrix A: the inverse of `skew`.
+
+    Parameters
+    ----------
+    matrix : array_like
+        A, (..., 3, 3).
+
+    Returns
+    -------
+    numpy.ndarray
+        (..., 3)
+
+    Raises
+    ------
+    BadInput
+        For what is not finite matrices of this shape, skew to 1e-12 of their largest entry.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> chapsym.axial([[0, -3, 2], [3, 0, -1], [-2, 1, 0]]).tolist()
+    [1.0, 2.0, 3.0]
+    """
     lower = so_n.coordinates(skew_matrices(matrix, 3, "matrix"))
     return np.stack([lower[..., 2], -lower[..., 1], lower[..., 0]], axis=-1)
 
@@ -89,9 +156,33 @@ def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
 def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
     """What the map keeps on every branch (prop-2): functions of 𝒦 and γ that no rotation of both changes.
 
-    momentum: skew, (..., n, n); gamma: (..., n).  Returns (..., m): tr 𝒦²ʲ for j = 1, ..., ⌊n/2⌋, then
-    γᵀ𝒦²ʲγ for j = 1, ..., ⌊(n-1)/2⌋, then |γ|²: as many as are independent.
-    Raises BadInput as `step_n` does.
+    Parameters
+    ----------
+    momentum : array_like
+        𝒦, skew, (..., n, n).
+    gamma : array_like
+        γ, (..., n); both broadcast.
+
+    Returns
+    -------
+    numpy.ndarray
+        (..., m): tr 𝒦²ʲ for j = 1, ..., ⌊n/2⌋, then γᵀ𝒦²ʲγ for j = 1, ..., ⌊(n-1)/2⌋, then |γ|²: as many as are
+        independent.
+
+    Raises
+    ------
+    BadInput
+        As `step_n` does, but not for a γ that is not unit, and for invariants beyond the range of float64.
+
+    References
+    ----------
+    Proposition 2 of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> chapsym.invariants_n(chapsym.skew((1, 2, 2)), (0, 0.6, 0.8)).round(12).tolist()
+    [-18.0, -1.16, 1.0]
     """
     K = numbers(momentum, "momentum")
     K = skew_matrices(K, K.shape[-1] if K.ndim else 3)
