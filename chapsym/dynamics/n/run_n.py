@@ -69,12 +69,40 @@ StepN, TrajectoryN = Step, Trajectory
 def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Precision = "double") -> Step:
     """One step of the map (4.11), (4.12), (4.13) on the small-rotation branch: the first step of `trajectory_n`.
 
-    momentum: 𝒦 = ε K of the paper, skew, in kg m², (..., n, n); gamma: unit verticals, (..., n).
-    Both broadcast with each other and with the balls.
-    precision: "double", or `Digits(N)` for N digits in mpmath's numbers, from the floats that are given.
+    Parameters
+    ----------
+    ball : BallN
+        One ball or a batch, (...).
+    momentum : array_like
+        𝒦 = ε K of the paper, skew, in kg m², (..., n, n).
+    gamma : array_like
+        Unit verticals, (..., n).  Both broadcast with each other and with the balls.
+    precision : str or Precision, optional
+        "double", or `Digits(N)` for N digits in mpmath's numbers, from the floats that are given.
 
-    One ball (no leading axis) raises StepNotTaken if it has no step; a batch reports `status` instead.
-    Raises BadInput for shapes, NaN, infinities, a momentum that is not skew, and a gamma that is not unit.
+    Returns
+    -------
+    Step
+        With the rotation Ω and 𝒦, (..., n, n), and γ, (..., n).
+
+    Raises
+    ------
+    StepNotTaken
+        If one ball (no leading axis) has no step; a batch reports `status` instead.
+    BadInput
+        For shapes, NaN, infinities, a momentum that is not skew, and a gamma that is not unit.
+
+    References
+    ----------
+    Equations (4.11), (4.12) and (4.13) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.BallN(mass_tensor=(1, 2, 4), D=3)  # for n = 3 it is the step of `chapsym.step`
+    >>> after = chapsym.step_n(ball, chapsym.skew((1, -0.5, 0.75)), (2 / 7, 3 / 7, 6 / 7))
+    >>> chapsym.axial(after.momentum).round(6).tolist()
+    [0.908481, -0.604107, 0.788807]
     """
     shape, state = start(ball, momentum, gamma)
     state["attitude"] = np.broadcast_to(np.eye(ball.n), state["momentum"].shape)
@@ -100,19 +128,57 @@ def trajectory_n(
 ) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
-    momentum, gamma: as for `step_n`.
-    order: 2, or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`), as for `trajectory`.
-    attitude: True (from the least rotation with R γ = eₙ) or rotations, (..., n, n), to be followed.
-    contact: whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
-    threads: how many cores a batch may use where its steps are compiled; 0 for all.
-    precision: "double", or `Digits(N)` for N digits in mpmath's numbers, at milliseconds a step.  That starts from the
-    floats that are given, γ divided by its length, and the attitude from the rotation nearest to that of float64.
-
     A ball below the bound of `near_n` begins each step at a guess by the last ones, compiled;
     one above it is continued from the identity at each step.
-    One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it.
-    In a batch the others go on, and `status` and `taken` say which stopped, where.
-    Raises BadInput as `step_n` does, and for counts that are not whole numbers.
+
+    Parameters
+    ----------
+    ball : BallN
+        One ball or a batch, (...).
+    momentum : array_like
+        𝒦, skew, in kg m², (..., n, n).
+    gamma : array_like
+        Unit verticals, (..., n).  Both broadcast with each other and with the balls.
+    steps : int
+        The number of steps.
+    order : int, optional
+        2, or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`), as for `trajectory`.
+    every : int, optional
+        The steps from one frame to the next.
+    attitude : bool or array_like, optional
+        True (from the least rotation with R γ = eₙ) or rotations, (..., n, n), to be followed.
+    contact : bool, optional
+        Whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
+    threads : int, optional
+        How many cores a batch may use where its steps are compiled; 0 for all.
+    precision : str or Precision, optional
+        "double", or `Digits(N)` for N digits in mpmath's numbers, at milliseconds a step.  That starts from the floats
+        that are given, γ divided by its length, and the attitude from the rotation nearest to that of float64.
+
+    Returns
+    -------
+    Trajectory
+        In a batch the others go on where a ball stops, and `status` and `taken` say which stopped, where.
+
+    Raises
+    ------
+    StepNotTaken
+        If one ball cannot take a step, with `index` and the `trajectory` before it.
+    BadInput
+        As `step_n` does, and for counts that are not whole numbers.
+
+    References
+    ----------
+    Equations (4.11), (4.12) and (4.13) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym, numpy
+    >>> K = numpy.zeros((4, 4))
+    >>> K[1, 0], K[3, 2] = 0.3, -0.2
+    >>> run = chapsym.trajectory_n(chapsym.BallN((1, 2, 0.5, 3), 3), K - K.T, (0.1, 0.1, 0.7, 0.7), 100)
+    >>> run.invariants()[[0, -1]].round(12).tolist()  # tr 𝒦², tr 𝒦⁴, γᵀ𝒦²γ, |γ|²
+    [[-0.26, 0.0194, -0.041, 1.0], [-0.26, 0.0194, -0.041, 1.0]]
     """
     steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
     threads = whole_number(threads, "threads", 0)
@@ -130,12 +196,40 @@ def trajectory_n(
 class StepperN(UnderWay):
     """One ball in n dimensions under way, as `Stepper` in three: steps of the map without the price of a call.
 
-    ball, momentum, gamma, order, attitude, contact: as for `trajectory_n`, of one ball.  All is checked here.
-
     The states are those of `trajectory_n` from the same start, to the bit, however the steps are shared out to calls.
 
     Objects share nothing that changes: each may run in a thread of its own.  `copy.copy` makes another that goes on
-    from the same state.  Raises BadInput as `trajectory_n` does, and for a batch.
+    from the same state.
+
+    Parameters
+    ----------
+    ball : BallN
+        One ball.  What is given is as for `trajectory_n`, and all is checked here.
+    momentum : array_like
+        𝒦, skew, in kg m², (n, n).
+    gamma : array_like
+        γ, (n,).
+    order : int, optional
+        2, 4, 6 or 8.
+    attitude : bool or array_like, optional
+        True or a rotation, (n, n), to be followed.
+    contact : bool, optional
+        Whether to trace the contact point.
+
+    Raises
+    ------
+    BadInput
+        As `trajectory_n` does, and for a batch.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.BallN(mass_tensor=(1, 2, 4), D=3)
+    >>> stepper = chapsym.StepperN(ball, chapsym.skew((0.1, 0.2, 0.3)), (0, 0, 1))
+    >>> stepper.step(40); stepper.step(60)
+    >>> run = chapsym.trajectory_n(ball, chapsym.skew((0.1, 0.2, 0.3)), (0, 0, 1), 100)
+    >>> bool((stepper.momentum == run.momentum[-1]).all())
+    True
     """
 
     def __init__(
@@ -148,9 +242,30 @@ class StepperN(UnderWay):
         self.restart(momentum, gamma, attitude)
 
     def restart(self, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = True) -> None:
-        """Starts anew from 𝒦 (n, n), γ (n,) and, where they are followed, an attitude (n, n) and the contact point 0.
+        """Starts anew from 𝒦, γ and, where they are followed, an attitude and the contact point 0.
 
-        attitude: True for the least rotation with R γ = eₙ.  Raises BadInput; then the state is as before.
+        Parameters
+        ----------
+        momentum : array_like
+            𝒦, (n, n).
+        gamma : array_like
+            γ, (n,).
+        attitude : bool or array_like, optional
+            A rotation, (n, n), or True for the least rotation with R γ = eₙ.
+
+        Raises
+        ------
+        BadInput
+            As StepperN does; then the state is as before.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> stepper = chapsym.StepperN(chapsym.BallN((1, 2, 4), 3), chapsym.skew((0.1, 0.2, 0.3)), (0, 0, 1))
+        >>> stepper.step(10)
+        >>> stepper.restart(chapsym.skew((0.3, 0.2, 0.1)), (0, 0, 1))
+        >>> stepper.taken, chapsym.axial(stepper.momentum).tolist()
+        (0, [0.3, 0.2, 0.1])
         """
         shape, state = start(self.ball, momentum, gamma, attitude if self._follows else False, self._traced)
         if shape:
