@@ -24,8 +24,24 @@ FAR = 1e-6
 class NotRetraced(ArithmeticError):
     """The way back takes another way: a step is so near a fold that the small rotation back is another one.
 
-    index: the step of the run (0 is the first) that is not undone; balls: the indices of the balls, `()` for one ball,
-    the first of which `index` is about; trajectory: the whole way back, as the map goes it.
+    Attributes
+    ----------
+    index : int
+        The step of the run (0 is the first) that is not undone, of the first of the balls.
+    balls : list of tuple of int
+        The indices of the balls, `()` for one ball.
+    trajectory : Trajectory
+        The whole way back, as the map goes it.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> run = chapsym.trajectory(chapsym.Ball((0.01, 0.5, 1.1), 2), (1.29, -0.85, 0.9), (2 / 7, 3 / 7, 6 / 7), 1)
+    >>> try:
+    ...     chapsym.reverse(run)
+    ... except chapsym.NotRetraced as error:
+    ...     error.index, error.balls
+    (0, [()])
     """
 
     def __init__(self, index: int, balls: list[tuple[int, ...]], trajectory: Trajectory) -> None:
@@ -44,20 +60,40 @@ class NotRetraced(ArithmeticError):
 def reverse(run: Trajectory) -> Trajectory:
     """The way back: the trajectory that starts where `run` ends, with the momentum reversed, and ends where it began.
 
-    The result is a motion of its own, forward in its time: frame j corresponds to frame -1-j of the run: `gamma`,
-    `attitude` and `contact` are those of the run up to rounding, and `momentum` is the opposite (the ball turns the
-    other way).  So `reverse(reverse(run))` is the run again.  It has the order, the frames and the time step of the
-    run; a contact point starts where that of the run ended.  To reverse a single state, change the
-    sign of its momentum.
-
     How near it comes is `retrace_error`: at most 2⁻⁵³·√(2·stages)·(1 + growth) was measured, where growth is the factor
     by which the run stretches a small change of its start: about the angle turned, in radians, or less, but near an
-    unstable rotation exponential.
+    unstable rotation exponential.  To reverse a single state, change the sign of its momentum.
 
-    Raises BadInput if a ball of the run stopped early, or if the run has no frame besides its first; NotRetraced if a
-    step back takes another branch than the step there: never where |𝒦| is below the bound of the lemma `small-branch`,
-    and otherwise met only for D > 0, within 1% of a fold; it is looked for in three dimensions.  StepNotTaken as
-    `trajectory` and `trajectory_n` do.
+    Parameters
+    ----------
+    run : Trajectory
+        Of `trajectory` or `trajectory_n`, of one ball or a batch, in float32 or float64.
+
+    Returns
+    -------
+    Trajectory
+        A motion of its own, forward in its time: frame j corresponds to frame -1-j of the run: `gamma`, `attitude` and
+        `contact` are those of the run up to rounding, and `momentum` is the opposite (the ball turns the other way).
+        So `reverse(reverse(run))` is the run again.  It has the order, the frames and the time step of the run; a
+        contact point starts where that of the run ended.
+
+    Raises
+    ------
+    BadInput
+        If a ball of the run stopped early, or if the run has no frame besides its first.
+    NotRetraced
+        If a step back takes another branch than the step there: never where |𝒦| is below the bound of the lemma
+        `small-branch`, and otherwise met only for D > 0, within 1% of a fold; it is looked for in three dimensions.
+    StepNotTaken
+        As `trajectory` and `trajectory_n` do.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (0, 0, 1), 100)
+    >>> back = chapsym.reverse(run)
+    >>> back.momentum[-1].round(12).tolist()
+    [-0.1, -0.2, -0.3]
     """
     steps, every = _frames(run)
     three = isinstance(run.ball, Ball)
@@ -83,9 +119,32 @@ reverse_n = reverse
 
 
 def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
-    """The distance between the way back and the run at each frame of the run, (..., frames).
+    """The distance between the way back and the run at each frame of the run.
 
-    The largest of the errors of 𝒦, relative to its largest component, of γ and, if there, of the attitude.
+    Parameters
+    ----------
+    run : Trajectory
+        The way there.
+    back : Trajectory
+        The way back, `reverse(run)`.
+
+    Returns
+    -------
+    numpy.ndarray
+        The largest of the errors of 𝒦, relative to its largest component, of γ and, if there, of the attitude,
+        (..., frames).
+
+    Raises
+    ------
+    BadInput
+        For what is not two trajectories of equal shape.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (0, 0, 1), 100)
+    >>> bool(chapsym.retrace_error(run, chapsym.reverse(run)).max() < 1e-14)
+    True
     """
     if not isinstance(run, Trajectory) or not isinstance(back, Trajectory) or run.gamma.shape != back.gamma.shape:
         raise BadInput("retrace_error compares a trajectory with its way back, of equal shape: give it reverse(run)")
