@@ -11,11 +11,43 @@ from .loops.branch import moments
 
 
 class BadInput(ValueError):
-    """The input has no answer: what was wrong, where, and what would be right."""
+    """The input has no answer: what was wrong, where, and what would be right.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> chapsym.Ball((1, 2, 4), -3)
+    Traceback (most recent call last):
+    chapsym.dynamics.errors.BadInput: D = m ρ² must not be negative, but it is -3
+    """
 
 
 class Status(IntEnum):
-    """How a step ended, for each ball of a batch."""
+    """How a step ended, for each ball of a batch.
+
+    Attributes
+    ----------
+    TAKEN : int
+        The step was taken.
+    FOLDED : int
+        The small-rotation branch folds before it reaches the momentum.
+    NOT_CONVERGED : int
+        float64 cannot resolve the rotation: D is too large for this J, or the state is at a fold.
+    UNREACHABLE : int
+        No rotation of the ball has the momentum at this γ.
+    NO_INERTIA : int
+        The ball has no inertia about the vertical at this γ: all its mass lies on that axis.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> momenta = [(1, -0.5, 0.75), (5, -2.5, 3.75), (20, -10, 15)]
+    >>> after = chapsym.step(chapsym.Ball((1, 2, 4), 3), momenta, (2 / 7, 3 / 7, 6 / 7))
+    >>> [chapsym.Status(status).name for status in after.status]
+    ['TAKEN', 'FOLDED', 'UNREACHABLE']
+    >>> chapsym.Status.FOLDED.sentence
+    'the small-rotation branch folds before it reaches this momentum; take a shorter time step'
+    """
 
     TAKEN = 0
     FOLDED = 1
@@ -45,8 +77,25 @@ class TooWide(ArithmeticError):
 class StepNotTaken(ArithmeticError):
     """A step of one ball that cannot be taken.
 
-    `status` says why, `index` which step of a trajectory it was (0 is the first), `reach` the fraction
-    of the momentum that the branch attains, and `trajectory` holds the states before it, if there are any.
+    Attributes
+    ----------
+    status : Status
+        Why it cannot be taken.
+    reach : float
+        The fraction of the momentum that the branch attains.
+    index : int or None
+        Which step of a trajectory it was (0 is the first).
+    trajectory : Trajectory or None
+        The states before it, if there are any.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> try:
+    ...     chapsym.step(chapsym.Ball((1, 2, 4), 3), (5, -2.5, 3.75), (2 / 7, 3 / 7, 6 / 7))
+    ... except chapsym.StepNotTaken as error:
+    ...     error.status.name, round(error.reach, 5)
+    ('FOLDED', 0.86464)
     """
 
     def __reduce__(self) -> tuple[Any, ...]:
