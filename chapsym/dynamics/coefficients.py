@@ -82,9 +82,33 @@ COMPOSITIONS = {
 
 
 def substeps(order: int) -> Floats:
-    """The stage coefficients of the composition of order 2, 4, 6 or 8, shape (1, 5, 9 or 17,).
+    """The stage coefficients cᵢ of a symmetric composition of the map.
 
-    Raises BadInput for any other order.
+    Parameters
+    ----------
+    order : int
+        2, 4, 6 or 8.
+
+    Returns
+    -------
+    numpy.ndarray
+        c₁, ..., cₛ, shape (1,), (5,), (9,) or (17,); read-only.
+
+    Raises
+    ------
+    BadInput
+        For any other order.
+
+    References
+    ----------
+    Order 4: M. Suzuki, Phys. Lett. A 146 (1990) 319.
+    Orders 6 and 8: W. Kahan and R.-C. Li, Math. Comp. 66 (1997) 1089, s9odr6a and s17odr8a.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> chapsym.substeps(4).round(6).tolist()
+    [0.414491, 0.414491, -0.657963, 0.414491, 0.414491]
     """
     if isinstance(order, bool) or not isinstance(order, int | np.integer) or order not in COMPOSITIONS:
         raise BadInput(f"order must be one of {', '.join(map(str, COMPOSITIONS))}, not {order!r}")
