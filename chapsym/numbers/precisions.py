@@ -113,7 +113,25 @@ class DoubleDouble(Precision):
 class Digits(Precision):
     """mpmath numbers, correct to `count` significant digits; a context of its own, no global state.
 
-    The arithmetic carries `guard` digits more.
+    Parameters
+    ----------
+    count : int
+        Significant digits, from 1 to 1 000 000.
+    guard : int, optional
+        How many more the arithmetic carries.
+
+    Raises
+    ------
+    ValueError
+        For a count that is not such a number.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> after = chapsym.step(ball, (0.25, 0.5, 0.75), (0, 0, 1), precision=chapsym.Digits(30))
+    >>> after.write()["momentum"][0]
+    '0.324168252003759331987446324081'
     """
 
     count: int
@@ -145,7 +163,28 @@ class Digits(Precision):
 
 @dataclass(frozen=True)
 class Enclosure(Precision):
-    """Arb balls: rigorous enclosures, with about `bits` correct bits; the arithmetic carries `guard` more."""
+    """Arb balls: rigorous enclosures, with about `bits` correct bits.
+
+    Parameters
+    ----------
+    bits : int
+        About how many bits are correct, from 2 to 10 000 000.
+    guard : int, optional
+        How many more the arithmetic carries.
+
+    Raises
+    ------
+    ValueError
+        For bits that are not such a number.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.Ball((1, 2, 4), 3)
+    >>> after = chapsym.step(ball, (0.25, 0.5, 0.75), (0, 0, 1), precision=chapsym.Enclosure(60))
+    >>> after.write()["momentum"][0]
+    '[0.324168252003759332 +/- 5.62e-19]'
+    """
 
     bits: int
     guard: int = 40
