@@ -40,10 +40,22 @@ PAIR = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2]])
 class Fold(Brief):
     """Where a branch turns back, for one ball or a batch with the leading axes (...).
 
-    reach: the parameter t of the path there, shape (...).
-    rotation: the Euler parameters there, q0 ≥ 0, shape (..., 4).
-    settled: whether Newton found a simple fold, shape (...).  Otherwise the Jacobian is singular near `reach`, which
-    is a lower bound, as where branches cross.
+    Attributes
+    ----------
+    reach : numpy.ndarray
+        The parameter t of the path there, shape (...).
+    rotation : numpy.ndarray
+        The Euler parameters there, q0 ≥ 0, shape (..., 4).
+    settled : numpy.ndarray
+        Whether Newton found a simple fold, shape (...).  Otherwise the Jacobian is singular near `reach`, which is a
+        lower bound, as where branches cross.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> found = chapsym.fold(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1))
+    >>> found.rotation.round(6).tolist(), bool(found.settled)
+    ([0.707107, 0.707107, 0.0, 0.0], True)
     """
 
     reach: Floats
@@ -55,10 +67,24 @@ class Fold(Brief):
 class Followed(Brief):
     """A branch along a path of m momenta, for one ball or a batch with the leading axes (...).
 
-    rotation: the Euler parameters at each of the momenta, q0 ≥ 0, shape (..., m, 4), NaN beyond a fold.
-    status: TAKEN if the end was reached, FOLDED if not, NOT_CONVERGED where float64 cannot tell, shape (...).
-    reach: how far the branch goes: k + s at the fraction s between the momenta k and k + 1, shape (...).
-    fold: where it folds, NaN for those that do not.
+    Attributes
+    ----------
+    rotation : numpy.ndarray
+        The Euler parameters at each of the momenta, q0 ≥ 0, shape (..., m, 4), NaN beyond a fold.
+    status : numpy.ndarray
+        TAKEN if the end was reached, FOLDED if not, NOT_CONVERGED where float64 cannot tell, shape (...).
+    reach : numpy.ndarray
+        How far the branch goes: k + s at the fraction s between the momenta k and k + 1, shape (...).
+    fold : Fold
+        Where it folds, NaN for those that do not.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> path = [(0, 0, 0), (5, 0, 0), (10, 0, 0)]
+    >>> found = chapsym.follow(chapsym.Ball((1, 2, 4), 3), path, (0, 0, 1))
+    >>> found.rotation[:, 0].round(6).tolist()
+    [1.0, 0.956943, nan]
     """
 
     rotation: Floats
@@ -71,10 +97,38 @@ class Followed(Brief):
 def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> Followed:
     """Follows the rotation with the first momentum of the path along straight lines from each to the next.
 
-    path: momenta 𝒦 in kg m², shape (..., m, 3), m ≥ 2; gamma: (..., 3); rotation: (..., 4), a solution of (5.2) for
-    the first momentum: by default the identity, which has the momentum 0.  All broadcast with the balls.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch, (...), in principal axes.
+    path : array_like
+        Momenta 𝒦 in kg m², shape (..., m, 3), m ≥ 2.
+    gamma : array_like
+        Unit verticals upwards, shape (..., 3).
+    rotation : array_like, optional
+        A solution of (5.2) for the first momentum, shape (..., 4): by default the identity, which has the momentum 0.
+        All broadcast with the balls.
 
-    Raises BadInput as `step` does, and for a rotation that does not have the first momentum or is singular there.
+    Returns
+    -------
+    Followed
+
+    Raises
+    ------
+    BadInput
+        As `step` does, and for a rotation that does not have the first momentum or is singular there.
+
+    References
+    ----------
+    Equation (5.2) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> path = [(0, 0, 0), (5, 0, 0), (10, 0, 0)]
+    >>> found = chapsym.follow(chapsym.Ball((1, 2, 4), 3), path, (0, 0, 1))
+    >>> chapsym.Status(found.status).name, round(float(found.reach), 6)
+    ('FOLDED', 1.8)
     """
     points = numbers(path, "path", 3)
     if points.ndim < 2 or points.shape[-2] < 2:
@@ -110,10 +164,39 @@ def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = 
 def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike | None = None) -> Fold:
     """The fold of a branch along t𝒦: the largest t to which it can be continued, and the rotation there.
 
-    momentum, gamma: as for `step`.  rotation: a solution of (5.2) for 𝒦, shape (..., 4), to be followed from t = 1
-    upwards; by default the small rotation, from t = 0.  There always is a fold, as no rotation has more than 2Λmax.
+    There always is a fold, as no rotation has more than 2Λmax.
 
-    Raises BadInput as `follow` does, and for a momentum of 0.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch, (...), in principal axes.
+    momentum : array_like
+        𝒦 in kg m², shape (..., 3).
+    gamma : array_like
+        Unit verticals upwards, shape (..., 3).
+    rotation : array_like, optional
+        A solution of (5.2) for 𝒦, shape (..., 4), to be followed from t = 1 upwards; by default the small rotation,
+        from t = 0.
+
+    Returns
+    -------
+    Fold
+
+    Raises
+    ------
+    BadInput
+        As `follow` does, and for a momentum of 0.
+
+    References
+    ----------
+    Equation (5.2) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> found = chapsym.fold(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1))
+    >>> round(float(found.reach), 6)
+    90.0
     """
     K = numbers(momentum, "momentum", 3)
     shape, (flat, _, J, D) = batch(ball, K, unit_vertical(gamma))
@@ -137,8 +220,32 @@ def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike 
 def margin(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike | None = None) -> Floats:
     """The relative increase of the momentum at which the branch of the state folds: t - 1 for the fold at t𝒦.
 
-    The arguments are those of `fold`; shape (...).  Negative if the small rotation folds before it reaches 𝒦, NaN
-    where float64 cannot tell.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch, (...), in principal axes.
+    momentum : array_like
+        𝒦 in kg m², shape (..., 3).
+    gamma : array_like
+        Unit verticals upwards, shape (..., 3).
+    rotation : array_like, optional
+        As for `fold`.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (...).  Negative if the small rotation folds before it reaches 𝒦, NaN where float64 cannot tell.
+
+    Raises
+    ------
+    BadInput
+        As `fold` does.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> round(float(chapsym.margin(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1))), 6)
+    89.0
     """
     return fold(ball, momentum, gamma, rotation).reach - 1
 
