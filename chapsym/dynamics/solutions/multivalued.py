@@ -55,13 +55,31 @@ POLISHINGS = 2
 class Branches(Brief):
     """All rotations with a momentum, by angle, for one ball or a batch with the leading axes (...).
 
-    rotation: Euler parameters (q0, q1, q2, q3), q0 ≥ 0, and at q0 = 0 the first of the others that is not 0 is
-    positive; shape (..., 8, 4), NaN beyond the count.
-    angle: of the rotations, in [0, π], shape (..., 8), NaN beyond the count.
-    multiplicity: of the roots, shape (..., 8), 0 beyond the count; above 1 at a fold.
-    count: the number of rotations, shape (...).
-    small: the place of the rotation that `step` takes, or -1 if it takes none, shape (...).
-    complete: whether the rotations are known to be all, shape (...).
+    Attributes
+    ----------
+    rotation : numpy.ndarray
+        Euler parameters (q0, q1, q2, q3), q0 ≥ 0, and at q0 = 0 the first of the others that is not 0 is positive;
+        shape (..., 8, 4), NaN beyond the count.
+    angle : numpy.ndarray
+        Of the rotations, in [0, π], shape (..., 8), NaN beyond the count.
+    multiplicity : numpy.ndarray
+        Of the roots, shape (..., 8), 0 beyond the count; above 1 at a fold.
+    count : numpy.ndarray
+        The number of rotations, shape (...).
+    small : numpy.ndarray
+        The place of the rotation that `step` takes, or -1 if it takes none, shape (...).
+    complete : numpy.ndarray
+        Whether the rotations are known to be all, shape (...).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball, K, gamma = chapsym.Ball((1, 2, 4), 3), (1, -0.5, 0.75), (2 / 7, 3 / 7, 6 / 7)
+    >>> found = chapsym.branches(ball, K, gamma)
+    >>> found.rotation[found.small].round(6).tolist()
+    [0.991972, 0.065361, -0.017642, 0.106812]
+    >>> found.multiplicity.tolist()
+    [1, 1, 1, 1, 0, 0, 0, 0]
     """
 
     rotation: Floats
@@ -76,11 +94,39 @@ class Branches(Brief):
 def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool = True) -> Branches:
     """Every rotation Ω with 𝒦(q, γ) = 𝒦 (5.2): all branches of the map.
 
-    momentum: 𝒦 in kg m², shape (..., 3); gamma: unit verticals upwards, (..., 3).  Both broadcast with the balls.
-    settle: whether a ball that float64 does not settle is counted exactly, in some 0.1 s each; otherwise it is
-    not complete, and its rotations are a guess.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch, (...), in principal axes.
+    momentum : array_like
+        𝒦 in kg m², shape (..., 3).
+    gamma : array_like
+        Unit verticals upwards, shape (..., 3).  Both broadcast with the balls.
+    settle : bool, optional
+        Whether a ball that float64 does not settle is counted exactly, in some 0.1 s each; otherwise it is not
+        complete, and its rotations are a guess.
 
-    Raises BadInput as `step` does.
+    Returns
+    -------
+    Branches
+
+    Raises
+    ------
+    BadInput
+        As `step` does.
+
+    References
+    ----------
+    Equation (5.2) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> found = chapsym.branches(chapsym.Ball((1, 2, 4), 3), (1, -0.5, 0.75), (2 / 7, 3 / 7, 6 / 7))
+    >>> int(found.count), bool(found.complete)
+    (4, True)
+    >>> found.angle[:4].round(6).tolist()
+    [0.253599, 2.95257, 3.01505, 3.026705]
     """
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     n = len(D)
