@@ -11,7 +11,13 @@ project = "chapsym"
 author = copyright = "the chapsym developers"
 release = version = chapsym.__version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "sphinxcontrib.bibtex", "extension"]
+# `extension` escapes what means itself in docstrings, before napoleon reads their sections.
+extensions = [
+    "myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "sphinxcontrib.bibtex", "extension",
+    "sphinx.ext.napoleon",
+]  # fmt: skip
+napoleon_google_docstring = False
+napoleon_custom_sections = [("Attributes", "params_style")]
 exclude_patterns = ["_build"]
 myst_enable_extensions = ["deflist", "dollarmath"]
 smartquotes = False  # "..." is code more often than not

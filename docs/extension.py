@@ -18,6 +18,8 @@ from chapsym.report import formulas
 HERE = Path(__file__).parent
 #: A line of a docstring that says what an argument is: "momentum, gamma: unit vectors, ...".
 ARGUMENT = re.compile(r"(\w+(?:, \w+)*): +(?=\S)")
+#: The head of a section of numpydoc's, which napoleon reads after this.
+SECTION = re.compile(r"^(\w+)\n-{3,}\n", re.MULTILINE)
 
 
 def setup(app):
@@ -57,7 +59,11 @@ def mathml(node):
 
 def docstring(app, what, name, obj, options, lines):
     """A docstring of the project as reStructuredText: a list item for each argument, `code`, nothing else is a sign."""
-    lines[:] = [line for block in "\n".join(lines).split("\n\n") for line in [*restructured(block), ""]]
+    text, *sections = SECTION.split("\n".join(lines))
+    lines[:] = [line for block in text.split("\n\n") for line in [*restructured(block), ""]]
+    for name, body in zip(sections[::2], sections[1::2], strict=True):
+        kept = body if name == "Examples" else "\n".join(map(escaped, body.splitlines()))
+        lines += [name, "-" * len(name), *kept.splitlines(), ""]
 
 
 def restructured(block):
