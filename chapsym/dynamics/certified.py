@@ -35,12 +35,26 @@ class Certificate(Brief):
     the attitude divided by their lengths, without any rounding after that; for the orders 4, 6 and 8 with the stage
     coefficients as the 40 digits that are written in `coefficients`.  For `roll` it starts at the 𝒦 of frame 0.
 
-    momentum, gamma, attitude, contact: Arb's balls, shaped as those of the trajectory; None where it has none.
-    momentum_error, gamma_error, attitude_error, contact_error: upper bounds, (..., frames), of the length of the
-    difference between the trajectory and the true orbit, in the unit of the array.  NaN after the last step.
-    selected: how many rotations (one a step for order 2), (...), are those that the float64 continuation selects: each
-    is proved to be a root, and the only one near by, but not the small rotation.  0: the whole orbit is proved.
-    trajectory: the certified trajectory.
+    Attributes
+    ----------
+    trajectory : Trajectory
+        The certified trajectory.
+    momentum, gamma, attitude, contact : numpy.ndarray or None
+        Arb's balls, shaped as those of the trajectory; None where it has none.
+    momentum_error, gamma_error, attitude_error, contact_error : numpy.ndarray or None
+        Upper bounds, (..., frames), of the length of the difference between the trajectory and the true orbit, in the
+        unit of the array.  NaN after the last step.
+    selected : numpy.ndarray
+        How many rotations (one a step for order 2), (...), are those that the float64 continuation selects: each is
+        proved to be a root, and the only one near by, but not the small rotation.  0: the whole orbit is proved.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1), 1)
+    >>> proved = chapsym.certify(run)
+    >>> bool(proved.gamma_error.max() < 1e-16), proved.gamma.shape
+    (True, (2, 3))
     """
 
     trajectory: Trajectory
@@ -57,8 +71,27 @@ class Certificate(Brief):
     def digits(self, name: str) -> np.ndarray:
         """The true values as decimal strings, each rounded to the digits that its ball proves: all are right.
 
-        name: "momentum", "gamma", "attitude" or "contact".  A value that may be 0 is "0E-n": it is below 10^-n.
-        Raises BadInput for another name, and for what the trajectory does not have.
+        Parameters
+        ----------
+        name : str
+            "momentum", "gamma", "attitude" or "contact".
+
+        Returns
+        -------
+        numpy.ndarray
+            Of strings, shaped as the array.  A value that may be 0 is "0E-n": it is below 10^-n.
+
+        Raises
+        ------
+        BadInput
+            For another name, and for what the trajectory does not have.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1), 1)
+        >>> chapsym.certify(run).digits("gamma")[1, 2][:30]
+        '0.9999382696996232792980030216'
         """
         values = getattr(self, name) if name in NAMES else None
         if values is None:
@@ -82,15 +115,36 @@ def certify(
 ) -> Certificate:
     """Encloses the true orbit of a trajectory, and bounds the errors of the trajectory, rigorously.
 
-    trajectory: at any precision, of one ball or a batch, of the order 2, 4, 6 or 8, with its attitude and contact.
-    bits: the number of correct bits of the balls; the run is repeated with as many more as its length costs.
-    progress: called with the steps done so far (of all balls together); a run that is repeated counts again.
-
     The branch is proved by lemma `small-branch` where |𝒦| is within its bound, and beyond it by lemma `straight-path`,
     step by step.  Where that does not reach, as near a fold, the float64 continuation selects the root; it is proved
     only that this is a root, and the only one near by: `selected` counts such steps.
-    Raises BadInput, one sentence, for what is no such trajectory, and where the true orbit cannot be followed to the
-    end: balls that grow too much, or a step that the true orbit does not have.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+        At any precision, of one ball or a batch, of the order 2, 4, 6 or 8, with its attitude and contact.
+    bits : int, optional
+        The number of correct bits of the balls; the run is repeated with as many more as its length costs.
+    progress : callable, optional
+        Called with the steps done so far (of all balls together); a run that is repeated counts again.
+
+    Returns
+    -------
+    Certificate
+
+    Raises
+    ------
+    BadInput
+        One sentence, for what is no such trajectory, and where the true orbit cannot be followed to the end: balls that
+        grow too much, or a step that the true orbit does not have.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> run = chapsym.trajectory(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1), 5)
+    >>> proved = chapsym.certify(run)
+    >>> bool(proved.momentum_error.max() < 1e-16), int(proved.selected)
+    (True, 0)
     """
     if not isinstance(trajectory, Trajectory):
         raise BadInput(f"certify takes what `trajectory` and `roll` return, not {type(trajectory).__name__}")
