@@ -34,10 +34,28 @@ MARGIN = 6
 class ExactBall:
     """A ball with exact numbers; `Ball` has the nearest float64.
 
-    mass_tensor: J = ∫xxᵀdm in kg m²: three numbers in principal axes, or a symmetric tensor, three rows, in any axes.
-    D: m ρ² in kg m²; radius: ρ in m, for the contact point only.
     A number is an int, a Fraction, a Decimal, or a text such as "0.1" or "2/7"; a float is the binary number it is.
-    Raises BadInput for numbers that no ball has.
+
+    Parameters
+    ----------
+    mass_tensor : sequence
+        J = ∫xxᵀdm in kg m²: three numbers in principal axes, or a symmetric tensor, three rows, in any axes.
+    D : number
+        m ρ² in kg m².
+    radius : number, optional
+        ρ in m, for the contact point only.
+
+    Raises
+    ------
+    BadInput
+        For numbers that no ball has.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball = chapsym.ExactBall(("1/3", "0.1", 1), 3, radius="2/7")
+    >>> [str(x) for x in ball.mass_tensor], str(ball.radius), ball.diagonal
+    (['1/3', '1/10', '1'], '2/7', True)
     """
 
     mass_tensor: tuple[Fraction, ...] | tuple[tuple[Fraction, ...], ...]
@@ -71,11 +89,29 @@ class ExactBall:
 class CertifiedMotion(Brief):
     """The motion at the times that were reached, in Arb's balls that contain it.
 
-    times: in s, exact.  gamma, angular_momentum (K in kg m²/s), omega (rad/s): (frames, 3).
-    attitude: (frames, 4), unit, its first component that is proved not to be 0 positive.
-    contact: in m, (frames, 2), or None.
-    digits: every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
-    steps, bits: of the run that proved it.  stopped: one sentence, where not all times were reached; else None.
+    Attributes
+    ----------
+    times : tuple of Fraction
+        In s, exact.
+    gamma, angular_momentum, omega : numpy.ndarray
+        γ, K in kg m²/s and ω in rad/s, (frames, 3).
+    attitude : numpy.ndarray
+        (frames, 4), unit, its first component that is proved not to be 0 positive.
+    contact : numpy.ndarray or None
+        In m, (frames, 2).
+    digits : int
+        Every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
+    steps, bits : int
+        Of the run that proved it.
+    stopped : str or None
+        One sentence, where not all times were reached; else None.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> found = chapsym.certified_motion(chapsym.ExactBall((1, 2, 4), 3), (3, 1, 4), ("2/7", "3/7", "6/7"), "0.5", 12)
+    >>> found.digits, found.omega.shape, found.write()["frames"][0]["omega"][0]
+    (12, (1, 3), ['0.4946655671989195', '1.3e-15'])
     """
 
     times: tuple[Fraction, ...]
@@ -117,20 +153,53 @@ def certified_motion(
 ) -> CertifiedMotion:
     """Encloses the motion of the continuous ball (2.3) at some times: the digits are proved.
 
-    ball: an `ExactBall`, or one `Ball` in principal axes, whose floats are taken exactly.  The axes of a tensor that is
-    not diagonal are enclosed: it must have three different principal moments, and all vectors are in its own axes.
-    angular_momentum: K in kg m²/s, in the axes of the body.  gamma: the unit vertical, upwards; it is divided by its
-    length.  times: one in s from 0 on, or several in ascending order.  All as exact numbers (see `ExactBall`).
-    digits: every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
-    attitude: a quaternion, scalar first, which turns γ up and is divided by its length; the least rotation by default.
-    It and γ may differ by rounding, 1e-5 at most: then the attitude is taken.
-    rotor: a in kg m²/s, the constant angular momentum of a rotor inside, in the axes of the body (lemmas
-    `gyrostat-rotor`, `gyrostat-motion`); then K = B(γ)ω + a, and K ≠ a.
-    limit: seconds for all attempts.  progress: called with sentences.
-
     Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
     until the digits are there.  Where that takes longer than the limit, the times that were reached are returned, and
-    `stopped` says why.  Raises BadInput for what is no motion.
+    `stopped` says why.  All numbers are exact (see `ExactBall`).
+
+    Parameters
+    ----------
+    ball : ExactBall or Ball
+        An `ExactBall`, or one `Ball` in principal axes, whose floats are taken exactly.  The axes of a tensor that is
+        not diagonal are enclosed: it must have three different principal moments, and all vectors are in its own axes.
+    angular_momentum : array_like
+        K in kg m²/s, in the axes of the body.
+    gamma : array_like
+        The unit vertical, upwards; it is divided by its length.
+    times : number or sequence of numbers
+        One in s from 0 on, or several in ascending order.
+    digits : int, optional
+        Every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
+    attitude : array_like, optional
+        A quaternion, scalar first, which turns γ up and is divided by its length; the least rotation by default.
+        It and γ may differ by rounding, 1e-5 at most: then the attitude is taken.
+    rotor : array_like, optional
+        a in kg m²/s, the constant angular momentum of a rotor inside, in the axes of the body (lemmas `gyrostat-rotor`,
+        `gyrostat-motion`); then K = B(γ)ω + a, and K ≠ a.
+    limit : float, optional
+        Seconds for all attempts.
+    progress : callable, optional
+        Called with sentences.
+
+    Returns
+    -------
+    CertifiedMotion
+
+    Raises
+    ------
+    BadInput
+        For what is no motion.
+
+    References
+    ----------
+    Equation (2.3) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> found = chapsym.certified_motion(chapsym.ExactBall((1, 2, 4), 3), (3, 1, 4), ("2/7", "3/7", "6/7"), ["0.5"], 12)
+    >>> print(found.omega[0, 0].str(12))
+    [0.494665567199 +/- 8.18e-14]
     """
     from chapsym.numbers import Digits
 
