@@ -122,12 +122,39 @@ SETTLED = 1e-9
 class Curve(Brief):
     """γ = (C_a cn u, C_b sn u, C_c dn u) on the axes (a, b, c), a level ⟨γ,Λ⁻¹γ⟩ = l on the sphere, for one ball.
 
-    axes: which component has cn, sn, dn: decreasing Λ for l > 1/Λ_b, the middle one, else increasing.
-    amplitudes: C_a, C_b > 0 and C_c, whose sign selects the half of the sphere.
-    modulus, complement: k and k' = √(1 - k²); k' is known to its own last digits, also near the separatrix k = 1.
-    level: l; rate: V of (5.13-V) with its sign, so that u' = V along γ' = γ × Λ⁻¹γ.
-    inertia: (Λ_a, Λ_b, Λ_c); gaps: (Λ_b - Λ_c, Λ_a - Λ_c, Λ_a - Λ_b), from J, which a large D does not round.
-    slack: F = 1 - Dl, as a sum of positive terms (lemma `stable-inverse`).
+    `Curve.through` makes it from a ball and a γ.
+
+    Attributes
+    ----------
+    ball : Ball
+        The ball.
+    axes : tuple of int
+        Which component has cn, sn, dn: decreasing Λ for l > 1/Λ_b, the middle one, else increasing.
+    amplitudes : tuple of float
+        C_a, C_b > 0 and C_c, whose sign selects the half of the sphere.
+    modulus, complement : float
+        k and k' = √(1 - k²); k' is known to its own last digits, also near the separatrix k = 1.
+    level : float
+        l.
+    rate : float
+        V of (5.13-V) with its sign, so that u' = V along γ' = γ × Λ⁻¹γ.
+    inertia : tuple of float
+        (Λ_a, Λ_b, Λ_c).
+    gaps : tuple of float
+        (Λ_b - Λ_c, Λ_a - Λ_c, Λ_a - Λ_b), from J, which a large D does not round.
+    slack : float
+        F = 1 - Dl, as a sum of positive terms (lemma `stable-inverse`).
+
+    References
+    ----------
+    Equations (5.7) and (5.8) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> curve = chapsym.Curve.through(chapsym.Ball((1, 2, 4), 3), (0.6, 0, 0.8))
+    >>> round(curve.period, 6), curve.point([0.0, 1.0]).round(6).tolist()
+    (6.613503, [[0.6, 0.0, 0.8], [0.336949, 0.573255, 0.74689]])
     """
 
     ball: Ball
@@ -143,7 +170,24 @@ class Curve(Brief):
 
     @classmethod
     def through(cls, ball: Ball, gamma: ArrayLike) -> Self:
-        """The curve through a unit γ, (3,); raises BadInput where the map fixes γ, and for a batch of balls."""
+        """The curve through a unit γ.
+
+        Parameters
+        ----------
+        ball : Ball
+            One ball.
+        gamma : array_like
+            γ, (3,).
+
+        Returns
+        -------
+        Curve
+
+        Raises
+        ------
+        BadInput
+            For a batch of balls, where the map fixes γ, and where float64 cannot hold the curve.
+        """
         in_principal_axes(ball)
         g = unit_vertical(gamma)
         if not ball.is_one or g.shape != (3,):
@@ -209,9 +253,24 @@ class Curve(Brief):
         return gamma
 
     def argument(self, gamma: ArrayLike) -> Floats:
-        """u in [-2K, 2K] with γ(u) = γ, shape (...), for γ on the curve, (..., 3).
+        """u in [-2K, 2K] with γ(u) = γ, for γ on the curve.
 
-        An error of γ along the curve is one of u divided by |dγ/du|.  Raises BadInput for a γ off the curve.
+        An error of γ along the curve is one of u divided by |dγ/du|.
+
+        Parameters
+        ----------
+        gamma : array_like
+            Shape (..., 3).
+
+        Returns
+        -------
+        numpy.ndarray
+            Shape (...).
+
+        Raises
+        ------
+        BadInput
+            For a γ off the curve.
         """
         g = unit_vertical(gamma)
         cn, sn, dn = (g[..., axis] / size for axis, size in zip(self.axes, self.amplitudes, strict=True))
@@ -266,11 +325,40 @@ def height_of(curve: Curve, half: ArrayLike, mean: ArrayLike = 0.0) -> tuple[Flo
 
 @np.errstate(all="ignore")  # what overflows is off the branch
 def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
-    """2δu of the step of G_h from γ(u), on the branch that starts at δu = 0 for h = 0: u ↦ u + 2δu; shape (...).
+    """2δu of the step of G_h from γ(u), on the branch that starts at δu = 0 for h = 0: u ↦ u + 2δu.
 
-    height: h in kg m², (...); u: (...).  Solves (5.15) as corrected for δu by Newton's iteration from
-    δu = Vh/(2(1 - Dl)), the rate of the continuous ball.  For D = 0 it does not depend on u (5.15-euler).
-    Where the iteration leaves the branch, as it does beyond its fold, raises BadInput; in a batch that entry is NaN.
+    Solves (5.15) as corrected for δu by Newton's iteration from δu = Vh/(2(1 - Dl)), the rate of the continuous ball.
+    For D = 0 it does not depend on u (5.15-euler).
+
+    Parameters
+    ----------
+    curve : Curve
+        The curve of γ.
+    height : array_like
+        h in kg m², (...).
+    u : array_like
+        The arguments of the γ, (...).
+
+    Returns
+    -------
+    numpy.ndarray
+        2δu, (...).
+
+    Raises
+    ------
+    BadInput
+        Where the iteration leaves the branch, as it does beyond its fold; in a batch that entry is NaN.
+
+    References
+    ----------
+    Equation (5.15) of Fedorov (2007), as corrected.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> curve = chapsym.Curve.through(chapsym.Ball((1, 2, 4), 3), (0.6, 0, 0.8))
+    >>> chapsym.increment(curve, [0.1, 100.0], 0.0).round(8).tolist()
+    [-0.00687438, nan]
     """
     if not isinstance(curve, Curve):
         raise BadInput(f"curve must be a chapsym.Curve, not {type(curve).__name__}")
