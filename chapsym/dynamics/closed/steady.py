@@ -31,13 +31,35 @@ CHUNK, BLOCK = 2**16, 2**13
 
 
 def is_steady(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
-    """Which states rotate steadily, (...), so that `steady_frames` has them.
+    """Which states rotate steadily, so that `steady_frames` has them.
 
     Where J₁ = J₂ = J₃; where 𝒦 = 0; where 𝒦 has one component only and D = 0 or γ is along it; and where γ is across
     it, if 2(J₂ - J₃)² ≤ (2J₁ + J₂ + J₃)²: then no fold comes before a quarter turn (lemma `steady-roll`).  There is no
     tolerance: moments or components that differ by an ulp turn the axis by about an ulp a step, which adds up; and from
     the middle principal axis roundings lead away, exponentially, in a run of the map, but not here.
-    momentum, gamma: 𝒦 (kg m²) and γ, (..., 3); they broadcast with the balls.  Raises BadInput as `step` does.
+
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch.
+    momentum, gamma : array_like
+        𝒦 (kg m²) and γ, (..., 3); they broadcast with the balls.
+
+    Returns
+    -------
+    numpy.ndarray
+        Of bool, (...).
+
+    Raises
+    ------
+    BadInput
+        As `step` does.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> chapsym.is_steady(chapsym.Ball((1, 2, 4), 3), [(0, 0, 0.1), (0.1, 0.2, 0)], (0, 0, 1)).tolist()
+    [True, False]
     """
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     return _equivalent(K, g, J, D)[0].reshape(shape)
@@ -69,9 +91,35 @@ def steady_frames(
     ulps of |𝒦|, of 1, and of the length of the path, for k below 10¹⁴.  γ counts as divided by its length, as on the
     higher precisions.
 
-    index: ascending whole numbers from 0 on, (frames,).  The other arguments, what is raised (StepNotTaken for one ball
-    beyond the fold, a `status` in a batch) and the result are those of `trajectory`.
-    Raises BadInput for a ball that does not rotate steadily, too.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch.
+    momentum, gamma : array_like
+        𝒦 (kg m²) and γ, (..., 3), as for `trajectory`.
+    index : array_like
+        Ascending whole numbers from 0 on, (frames,).
+    attitude, contact, time_step
+        As for `trajectory`.
+
+    Returns
+    -------
+    Trajectory
+        That of `trajectory`; in a batch `status` says which balls are beyond the fold.
+
+    Raises
+    ------
+    BadInput
+        As `trajectory` does, and for a ball that does not rotate steadily.
+    StepNotTaken
+        For one ball beyond the fold.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> run = chapsym.steady_frames(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1), [0, 10**9])
+    >>> run.gamma[1].round(6).tolist()
+    [0.0, -0.790878, -0.611974]
     """
     numbered = step_numbers(index)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
