@@ -64,10 +64,33 @@ NODES = 32
 class TopMotion(Brief):
     """The motion of one Moser-Veselov top, or of a ball with vertical momentum and two equal J.
 
-    curve: the curve of 𝒦/|𝒦| (of γ where 𝒦 = hγ); size: what makes 𝒦 of its points, in kg m².
-    start: u at the step 0; direction: the point there, as it was given.
-    turns: the increment of u over the period 4K(k), with its sign, as a pair: `rotation_number` and what it lacks.
-    exact: the same motion in Arb's numbers.
+    `TopMotion.free` and `TopMotion.vertical` make it.
+
+    Attributes
+    ----------
+    curve : Curve
+        The curve of 𝒦/|𝒦| (of γ where 𝒦 = hγ).
+    size : float
+        What makes 𝒦 of its points, in kg m².
+    start : float
+        u at the step 0.
+    direction : numpy.ndarray
+        The point there, as it was given.
+    turns : tuple of float
+        The increment of u over the period 4K(k), with its sign, as a pair: `rotation_number` and what it lacks.
+    exact : ExactCurve
+        The same motion in Arb's numbers.
+
+    References
+    ----------
+    Equation (5.7) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> motion = chapsym.TopMotion.free(chapsym.Ball((1, 2, 4), 0), (0.1, 0.2, 0.3))
+    >>> round(motion.rotation_number, 12), motion.momenta([0, 10**9])[1].round(6).tolist()
+    (-0.007241633201, [0.200138, -0.049305, 0.312272])
     """
 
     curve: Curve
@@ -79,10 +102,25 @@ class TopMotion(Brief):
 
     @classmethod
     def free(cls, ball: Ball, momentum: ArrayLike) -> Self:
-        """The top with D = 0 and 𝒦, (3,), in kg m².
+        """The top with D = 0.
 
-        Raises BadInput for D > 0, a batch, and where 𝒦 stays (`is_steady`) or is on a separatrix, and StepNotTaken as
-        `step_vertical` does.
+        Parameters
+        ----------
+        ball : Ball
+            One ball with D = 0.
+        momentum : array_like
+            𝒦, (3,), in kg m².
+
+        Returns
+        -------
+        TopMotion
+
+        Raises
+        ------
+        BadInput
+            For D > 0, a batch, and where 𝒦 stays (`is_steady`) or is on a separatrix.
+        StepNotTaken
+            As `step_vertical` does.
         """
         K = numbers(momentum, "momentum", 3)
         _one(ball, K)
@@ -98,9 +136,27 @@ class TopMotion(Brief):
 
     @classmethod
     def vertical(cls, ball: Ball, height: float, gamma: ArrayLike) -> Self:
-        """The ball with 𝒦 = hγ, h in kg m², γ (3,) divided by its length, where D = 0 or two J are equal.
+        """The ball with 𝒦 = hγ, where D = 0 or two J are equal.
 
-        Raises BadInput for other balls and as `free` does.
+        Parameters
+        ----------
+        ball : Ball
+            One ball.
+        height : float
+            h in kg m².
+        gamma : array_like
+            γ, (3,), which is divided by its length.
+
+        Returns
+        -------
+        TopMotion
+
+        Raises
+        ------
+        BadInput
+            For other balls and as `free` does.
+        StepNotTaken
+            As `step_vertical` does.
         """
         h, g = numbers(height, "height"), unit_vertical(gamma)
         _one(ball, g)
@@ -156,7 +212,15 @@ class TopMotion(Brief):
     def precession(self) -> tuple[tuple[float, float], Floats]:
         """Ψ/(2π) as a pair, between -1/2 and 1/2, and P(u) = Σ series_j sin(jπu/K), j = 1, 2, ...
 
-        Raises BadInput so near to the separatrix that the series has too many terms.
+        Returns
+        -------
+        (float, float), numpy.ndarray
+            The pair, and the series of P.
+
+        Raises
+        ------
+        BadInput
+            So near to the separatrix that the series has too many terms.
         """
         with Enclosure(BITS).working():
             mean = _mean(self.exact)
@@ -359,12 +423,34 @@ def _gibbs_vector(rotation: Floats, half: list[Any], direction: list[Any], J: li
 
 
 def is_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
-    """Which states `top_frames` has, (...): those of the free top, and vertical 𝒦 on a ball with two equal J.
+    """Which states `top_frames` has: those of the free top, and vertical 𝒦 on a ball with two equal J.
 
     That is D = 0, or 𝒦 = hγ to its last rounding and two of the J equal; and 𝒦 moves in the body (else `is_steady`).
     Two J that differ by an ulp are different.  A 𝒦 that is off hγ by its rounding is taken as vertical: the motion that
     was meant differs by a rounding of the start, which is what a run of the map makes of every start.
-    momentum, gamma: 𝒦 (kg m²) and γ, (..., 3); they broadcast with the balls.  Raises BadInput as `step` does.
+
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch.
+    momentum, gamma : array_like
+        𝒦 (kg m²) and γ, (..., 3); they broadcast with the balls.
+
+    Returns
+    -------
+    numpy.ndarray
+        Of bool, (...).
+
+    Raises
+    ------
+    BadInput
+        As `step` does.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> chapsym.is_top(chapsym.Ball((1, 2, 4), [0, 3]), (0.1, 0.2, 0.3), (0, 0, 1)).tolist()
+    [True, False]
     """
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     return _is_top(K, g, J, D).reshape(shape)
@@ -394,9 +480,39 @@ def top_frames(
     γ counts as divided by its length, as at the higher precisions.  The sign of an attitude's quaternion is that of the
     scalar of the rotation since frame 0, taken as positive.
 
-    index: ascending whole numbers from 0 on, (frames,).  The other arguments, what is raised (StepNotTaken for one ball
-    beyond the fold, a `status` in a batch) and the result are those of `trajectory`, without the contact point.
-    Raises BadInput for a ball that is no such top, on a separatrix, or too near to one, too.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch.
+    momentum, gamma : array_like
+        𝒦 (kg m²) and γ, (..., 3), as for `trajectory`.
+    index : array_like
+        Ascending whole numbers from 0 on, (frames,).
+    attitude, time_step
+        As for `trajectory`.
+
+    Returns
+    -------
+    Trajectory
+        That of `trajectory`, without the contact point; in a batch `status` says which balls are beyond the fold.
+
+    Raises
+    ------
+    BadInput
+        As `trajectory` does, and for a ball that is no such top, on a separatrix, or too near to one.
+    StepNotTaken
+        For one ball beyond the fold.
+
+    References
+    ----------
+    Equation (5.7) of Fedorov (2007).
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> run = chapsym.top_frames(chapsym.Ball((1, 2, 4), 0), (0.1, 0.2, 0.3), (0, 0, 1), [0, 10**9])
+    >>> run.momentum[1].round(6).tolist()
+    [0.200138, -0.049305, 0.312272]
     """
     numbered = step_numbers(index)
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
@@ -445,9 +561,25 @@ def motion_of(ball: Ball, K: Floats, g: Floats) -> TopMotion:
 class ExactTop(Brief):
     """A top with D = 0 whose discrete motion is the continuous motion of `origin`, sampled once a step.
 
-    ball: the top, with the mass tensor J + D/2; momentum: its 𝒦 in kg m², (3,), along that of `origin`.
-    twist: the angle about 𝒦 by which each step must still be turned, in radians.
-    origin: the ball; size: its εK along 𝒦's direction, in kg m².
+    Attributes
+    ----------
+    ball : Ball
+        The top, with the mass tensor J + D/2.
+    momentum : numpy.ndarray
+        Its 𝒦 in kg m², (3,), along that of `origin`.
+    twist : float
+        The angle about 𝒦 by which each step must still be turned, in radians.
+    origin : Ball
+        The ball.
+    size : float
+        Its εK along 𝒦's direction, in kg m².
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> top = chapsym.exact_top(chapsym.Ball((1, 2, 4), 3), (0.06, 0, 0.08), (0.6, 0, 0.8))
+    >>> top.ball.mass_tensor.tolist(), top.size
+    ([2.5, 3.5, 5.5], 0.1)
     """
 
     ball: Ball
@@ -459,9 +591,31 @@ class ExactTop(Brief):
     def restore(self, run: Trajectory) -> Trajectory:
         """The continuous motion of `origin` from a trajectory of `ball` with `momentum`: εK, γ and the attitude.
 
-        Step k is turned by k `twist` about 𝒦, so that nothing adds up.  The contact point is left out: its discrete
-        steps are chords.  The order of the result is 0: its steps are no composition of the map.
-        Raises BadInput for a run of another ball, momentum or order, or from a γ that this top was not made for.
+        Step k is turned by k `twist` about 𝒦, so that nothing adds up.
+
+        Parameters
+        ----------
+        run : Trajectory
+            Of `ball` with `momentum`, from the γ for which this top was made.
+
+        Returns
+        -------
+        Trajectory
+            Without the contact point: its discrete steps are chords.  The order is 0: the steps are no composition of
+            the map.
+
+        Raises
+        ------
+        BadInput
+            For a run of another ball, momentum or order, or from a γ that this top was not made for.
+
+        Examples
+        --------
+        >>> import chapsym
+        >>> top = chapsym.exact_top(chapsym.Ball((1, 2, 4), 3), (0.06, 0, 0.08), (0.6, 0, 0.8))
+        >>> run = chapsym.trajectory(top.ball, top.momentum, (0.6, 0, 0.8), 100)
+        >>> top.restore(run).order
+        0
         """
         momentum = run.momentum[0] if run.momentum.ndim == 2 else None
         if run.ball is not self.ball or momentum is None or not (momentum == self.momentum).all() or run.order != 2:
@@ -486,10 +640,36 @@ class ExactTop(Brief):
 def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
     """The top whose discrete motion from γ is the continuous motion of `ball` with the momentum εK.
 
-    momentum: εK in kg m², (3,), for one step; for D > 0 it must be along γ.  gamma: unit, (3,).
     Then `trajectory(top.ball, top.momentum, gamma, steps)` costs what the map costs, and `top.restore` of it has no
     error but roundings, for every ε up to the fold of the top's branch.
-    Raises BadInput for a batch, for D > 0 with a momentum that is not vertical, and for a step beyond the fold.
+
+    Parameters
+    ----------
+    ball : Ball
+        One ball.
+    momentum : array_like
+        εK in kg m², (3,), for one step; for D > 0 it must be along γ.
+    gamma : array_like
+        γ, unit, (3,).
+
+    Returns
+    -------
+    ExactTop
+
+    Raises
+    ------
+    BadInput
+        For a batch, for D > 0 with a momentum that is not vertical, and for a step beyond the fold.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball, gamma = chapsym.Ball((1, 2, 4), 3), (0.6, 0, 0.8)
+    >>> for steps in (10, 100):
+    ...     top = chapsym.exact_top(ball, (6 / steps, 0, 8 / steps), gamma)
+    ...     print(top.restore(chapsym.trajectory(top.ball, top.momentum, gamma, steps)).gamma[-1].round(9).tolist())
+    [0.467253142, -0.434625512, 0.769918935]
+    [0.467253142, -0.434625512, 0.769918935]
     """
     K, g = numbers(momentum, "momentum", 3), unit_vertical(gamma)
     if (in_principal_axes(ball).D.shape, ball.mass_tensor.shape, K.shape, g.shape) != ((), (3,), (3,), (3,)):
