@@ -27,11 +27,27 @@ TURNS, LEAST, MOST = 100, 2**11, 2**18
 
 @dataclass(frozen=True, eq=False, repr=False)
 class VerticalTrajectory(Brief):
-    """States γ of one ball, shape (frames, 3), or of a batch, (balls..., frames, 3), with 𝒦 = hγ.
+    """States γ of one ball, or of a batch, with 𝒦 = hγ.
 
-    height: h in kg m², shape (...).
-    index: the step number of each frame, (frames,).
-    taken, status: as in `Trajectory`.
+    Attributes
+    ----------
+    ball : Ball
+        The balls.
+    height : numpy.ndarray
+        h in kg m², shape (...).
+    index : numpy.ndarray
+        The step number of each frame, (frames,).
+    gamma : numpy.ndarray
+        γ, (frames, 3) of one ball, (balls..., frames, 3) of a batch.
+    taken, status : numpy.ndarray
+        As in `Trajectory`.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> run = chapsym.trajectory_vertical(chapsym.Ball((1, 2, 4), 3), 0.1, (0.6, 0, 0.8), 1000, every=500)
+    >>> run.index.tolist(), run.gamma.shape, run.level().round(12).tolist()
+    ([0, 500, 1000], (3, 3), [0.146666666667, 0.146666666667, 0.146666666667])
     """
 
     ball: Ball
@@ -56,8 +72,34 @@ class VerticalTrajectory(Brief):
 def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     """One step of the reduced map G_h (5.6 as corrected): γ ↦ Ωᵀγ with 𝒦(q, γ) = hγ, on the small-rotation branch.
 
-    height: h = ⟨𝒦,γ⟩ = εH in kg m², shape (...); gamma: unit verticals, (..., 3).  Both broadcast with the balls.
-    The step has the momentum hγ.  Raises BadInput and StepNotTaken as `step` does; a batch reports `status`.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch.
+    height : array_like
+        h = ⟨𝒦,γ⟩ = εH in kg m², shape (...).
+    gamma : array_like
+        Unit verticals, (..., 3).  Both broadcast with the balls.
+
+    Returns
+    -------
+    Step
+        With the momentum hγ.
+
+    Raises
+    ------
+    BadInput, StepNotTaken
+        As `step` does; a batch reports `status`.
+
+    References
+    ----------
+    Equation (5.6) of Fedorov (2007), as corrected.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> chapsym.step_vertical(chapsym.Ball((1, 2, 4), 3), 0.1, (0.6, 0, 0.8)).gamma.round(6).tolist()
+    [0.599986, -0.004763, 0.799996]
     """
     shape, given = _flat(ball, height, gamma)
     frames = _taken(given, 1, 1, rotation=True)
@@ -76,9 +118,38 @@ def trajectory_vertical(
 ) -> VerticalTrajectory:
     """Takes `steps` steps of the reduced map G_h and keeps every `every`-th γ.
 
-    height, gamma: as for `step_vertical`; -h runs backwards.
-    One ball that cannot take a step raises StepNotTaken with `index` and the `trajectory` before it; in a batch
-    the others go on, and frames after the stop are NaN.  Raises BadInput as `trajectory` does.
+    Parameters
+    ----------
+    ball : Ball
+        One ball or a batch.
+    height, gamma : array_like
+        As for `step_vertical`; -h runs backwards.
+    steps : int
+        The number of steps.
+    every : int, optional
+        Of which a frame is kept, next to frame 0.
+
+    Returns
+    -------
+    VerticalTrajectory
+        In a batch frames after a stop are NaN, and the others go on.
+
+    Raises
+    ------
+    BadInput
+        As `trajectory` does.
+    StepNotTaken
+        For one ball that cannot take a step, with `index` and the `trajectory` before it.
+
+    References
+    ----------
+    Equation (5.6) of Fedorov (2007), as corrected.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> chapsym.trajectory_vertical(chapsym.Ball((1, 2, 4), 3), 0.1, (0.6, 0, 0.8), 1000).gamma[-1].round(6).tolist()
+    [0.579783, -0.178334, 0.795015]
     """
     steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
     every = min(every, steps + 1)
@@ -147,10 +218,36 @@ def phases(curve: Curve, height: float, gamma: ArrayLike) -> Floats:
 def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
     """Turns around the curve of γ a step of G_h with 𝒦 = hγ, in the mean over infinitely many; negative against u.
 
-    height: h in kg m²; gamma: (3,).  A mean with weights exp(-1/t(1-t)) over some hundred turns, whose error falls
-    faster than any power of their number (Das and Yorke's weighted Birkhoff average): to about 1e-12 turns for a curve
-    that is not next to the separatrix.  For D = 0 every increment is the same, and this is one of them.
-    Raises BadInput for a batch, a γ that the map fixes and a curve on the separatrix, and StepNotTaken.
+    A mean with weights exp(-1/t(1-t)) over some hundred turns, whose error falls faster than any power of their number
+    (Das and Yorke's weighted Birkhoff average): to about 1e-12 turns for a curve that is not next to the separatrix.
+    For D = 0 every increment is the same, and this is one of them.
+
+    Parameters
+    ----------
+    ball : Ball
+        One ball.
+    height : float
+        h in kg m².
+    gamma : array_like
+        γ, (3,).
+
+    Returns
+    -------
+    float
+        Turns a step.
+
+    Raises
+    ------
+    BadInput
+        For a batch, a γ that the map fixes and a curve on the separatrix.
+    StepNotTaken
+        As `step_vertical` does.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> round(chapsym.rotation_number(chapsym.Ball((1, 2, 4), 3), 0.5, (0.6, 0, 0.8)), 10)
+    -0.0052185687
     """
     if numbers(height, "height").ndim:
         raise BadInput("a rotation number is of one height, not of a batch")
