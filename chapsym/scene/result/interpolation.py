@@ -24,12 +24,35 @@ RATE = "kg m2 s-1"
 def interpolated(run: Any, times: ArrayLike) -> Any:
     """The states of a run at any times between its frames, as `solve_ivp`'s dense output.
 
-    run: the result of a scene (`Result`, or its Dataset), or a `Trajectory`, of which it is `at`.
-    times: one number or a list, in seconds, or in steps where the run has no times.
-    A Dataset comes with these times as its frames; 𝒦, γ, ω, attitude and contact are between them what `Trajectory.at`
-    says, to the order 6 in the time between frames, and what is known at the frames only is left out.  The result must
-    have γ or the attitude, and 𝒦 or ω.  A contact point whose 𝒦 is vertical is left out without the attitude.
-    Raises BadInput where it has not, for times beyond the frames, and for frames over 1.5 radians of turning apart.
+    𝒦, γ, ω, attitude and contact are between the frames what `Trajectory.at` says, to the order 6 in the time between
+    frames, and what is known at the frames only is left out.  The result must have γ or the attitude, and 𝒦 or ω.  A
+    contact point whose 𝒦 is vertical is left out without the attitude.
+
+    Parameters
+    ----------
+    run : Result, Dataset or Trajectory
+        The result of a scene, or its Dataset; or a `Trajectory`, of which this is `at`.
+    times : array_like
+        One number or a list, in seconds, or in steps where the run has no times.
+
+    Returns
+    -------
+    Dataset
+        With these times as its frames; of a `Trajectory` what its `at` gives.
+
+    Raises
+    ------
+    BadInput
+        Where the result does not have what it must, for times beyond the frames, and for frames over 1.5 radians of
+        turning apart.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball, start = {"mass_tensor": [1, 2, 4], "D": 3}, {"omega": [1, 0, 0], "gamma": [0, 0, 1]}
+    >>> result = chapsym.run_scene({"ball": ball, "start": start, "run": {"time": 1.0, "time_step": 0.1}})
+    >>> chapsym.interpolated(result, [0.25, 0.5]).gamma.values[0].round(6).tolist()
+    [[0.0, 0.247404, 0.968912], [0.0, 0.479426, 0.877583]]
     """
     if hasattr(run, "at"):
         return run.at(times)
