@@ -39,9 +39,22 @@ MOST = 10_000_000
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """The result of a scene: `dataset`, an xarray.Dataset with dimensions `ball` and `frame`, and its pictures.
+    """The result of a scene, with its pictures.
 
     Frames are found by their time: `result.dataset.sel(time=5.0, method="nearest")`.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        With dimensions `ball` and `frame`.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball, start = {"mass_tensor": [1, 2, 4], "D": 3}, {"omega": [1, 0, 0], "gamma": [0, 0, 1]}
+    >>> result = chapsym.run_scene({"ball": ball, "start": start, "run": {"time": 1.0, "time_step": 0.1}})
+    >>> result.dataset.gamma.dims, result.dataset.sizes["frame"]
+    (('ball', 'frame', 'axis'), 11)
     """
 
     dataset: "Dataset"
@@ -68,6 +81,11 @@ class Result:
         """Displays all figures that can be drawn below a notebook's cell; elsewhere opens a folder with them.
 
         Outside of a notebook the folder is a temporary one, whose name is printed.
+
+        Parameters
+        ----------
+        ball : str or int, optional
+            The name or the index of one ball; by default all.
         """
         one = reading.with_balls(self.dataset, ball)
         wanted = [name for name, reason in figures.available(one).items() if reason is None]
@@ -85,7 +103,20 @@ class Result:
     def at(self, times: "ArrayLike") -> "Dataset":
         """The result at any times between its frames, to the order 6 in the time between them: `chapsym.interpolated`.
 
-        times: one number or a list, in seconds, or in steps where the run has no times.  Raises BadInput.
+        Parameters
+        ----------
+        times : array_like
+            One number or a list, in seconds, or in steps where the run has no times.
+
+        Returns
+        -------
+        xarray.Dataset
+            With these times as its frames.
+
+        Raises
+        ------
+        BadInput
+            As `chapsym.interpolated` does.
         """
         found: Dataset = interpolated(self.dataset, times)
         return found
@@ -106,7 +137,16 @@ class Result:
     def grid(self) -> "Dataset":
         """The dataset of a sweep with a dimension for each range instead of `ball`, and `sample` for the draws.
 
-        `grid()["energy"].sel({"start.omega.1": 3.0}, method="nearest")`; raises SceneError for a part of a sweep.
+        `grid()["energy"].sel({"start.omega.1": 3.0}, method="nearest")` is the energy for one value of a range.
+
+        Returns
+        -------
+        xarray.Dataset
+
+        Raises
+        ------
+        SceneError
+            For a part of a sweep.
         """
         return grid(self.dataset)
 
@@ -147,10 +187,36 @@ class Result:
 
 
 def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callable[[Any], None] | None = None) -> Result:
-    """Runs a scene, a .toml file or the same as a dictionary, in memory on all cores.
+    """Runs a scene in memory on all cores.
 
-    Raises SceneError for a scene that cannot be run as it is written, and BadInput as its plan does.  A ball that meets
-    a fold stops there: `status` and `taken` in the result say so.
+    A ball that meets a fold stops there: `status` and `taken` in the result say so.
+
+    Parameters
+    ----------
+    scene : str, Path, mapping or Scene
+        A .toml file, the same as a dictionary, or what `chapsym.scene.load` makes of it.
+    progress : callable, optional
+        Called with the progress of the run: the `steps` that all balls together took `of` theirs, the `balls` that are
+        done, and how many of them `failed`, that is stopped early.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    SceneError
+        For a scene that cannot be run as it is written.
+    BadInput
+        As its plan does.
+
+    Examples
+    --------
+    >>> import chapsym
+    >>> ball, start = {"mass_tensor": [1, 2, 4], "D": 3}, {"omega": [1, 0, 0], "gamma": [0, 0, 1]}
+    >>> result = chapsym.run_scene({"ball": ball, "start": start, "run": {"time": 1.0, "time_step": 0.1}})
+    >>> result.dataset.gamma.values[0, -1].round(6).tolist()
+    [0.0, 0.841471, 0.540302]
     """
     if isinstance(scene, Mapping):
         scene = checked(dict(scene))
@@ -161,9 +227,31 @@ def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callabl
 
 
 def open_result(path: str | Path) -> Result:
-    """Opens a result, .zarr, .nc, .npz, .csv or .parquet; arrays of .zarr are read when they are used.
+    """Opens a result; arrays of .zarr are read when they are used.
 
-    Raises SceneError for a file that is not there, or is no result.
+    Parameters
+    ----------
+    path : str or Path
+        A .zarr, .nc, .npz, .csv or .parquet.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    SceneError
+        For a file that is not there, or is no result.
+
+    Examples
+    --------
+    >>> import chapsym, tempfile
+    >>> ball, start = {"mass_tensor": [1, 2, 4], "D": 3}, {"omega": [1, 0, 0], "gamma": [0, 0, 1]}
+    >>> result = chapsym.run_scene({"ball": ball, "start": start, "run": {"time": 1.0, "time_step": 0.1}})
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     result.save(f"{folder}/ball.csv")
+    ...     print(chapsym.open_result(f"{folder}/ball.csv").dataset.sizes["frame"])
+    11
     """
     return Result(formats.load(Path(path)))
 
