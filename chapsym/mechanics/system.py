@@ -30,17 +30,69 @@ def without(where: str, strange: Set[sp.Basic], what: str = "no coordinate, velo
 
 
 def dot(x: sp.Symbol) -> sp.Symbol:
-    """The velocity of a coordinate: the symbol `x_dot` for x."""
+    """The velocity of a coordinate: the symbol `x_dot` for x.
+
+    Parameters
+    ----------
+    x : sympy.Symbol
+        The coordinate.
+
+    Returns
+    -------
+    sympy.Symbol
+
+    Examples
+    --------
+    >>> from sympy import Symbol
+    >>> dot(Symbol("x"))
+    x_dot
+    """
     return sp.Symbol(f"{x.name}_dot")
 
 
 def rate(expr: Any, coordinates: Sequence[sp.Symbol]) -> Any:
-    """d/dt of an expression, or of a matrix of them, in coordinates and constants."""
+    """d/dt of an expression, or of a matrix of them, in coordinates and constants.
+
+    Parameters
+    ----------
+    expr : sympy.Expr or sympy.Matrix
+        In coordinates and constants.
+    coordinates : sequence of sympy.Symbol
+        Those symbols that change; the others are constants.
+
+    Returns
+    -------
+    sympy.Expr or sympy.Matrix
+        In the coordinates and their velocities `dot(x)`.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> x, c = symbols("x c")
+    >>> rate(c * x**2, [x])
+    2*c*x*x_dot
+    """
     return sum((sp.diff(expr, x) * dot(x) for x in coordinates), 0 * expr)
 
 
 def after(x: sp.Symbol) -> sp.Symbol:
-    """A coordinate after a step: the symbol `x_after` for x."""
+    """A coordinate after a step: the symbol `x_after` for x.
+
+    Parameters
+    ----------
+    x : sympy.Symbol
+        The coordinate.
+
+    Returns
+    -------
+    sympy.Symbol
+
+    Examples
+    --------
+    >>> from sympy import Symbol
+    >>> after(Symbol("x"))
+    x_after
+    """
     return sp.Symbol(f"{x.name}_after")
 
 
@@ -56,6 +108,17 @@ class Discrete:
         What vanishes at a step, one for each constraint of the system on velocities.
     integrals : mapping, optional
         {name: quantity of a step} to look at, in the same symbols.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> from chapsym.mechanics import STEP, Discrete, System, after, dot, moved
+    >>> x, y = symbols("x y")
+    >>> own = Discrete(((after(x) - x) ** 2 + (after(y) - y) ** 2) / (2 * STEP), [after(y) - y - (after(x) - x)])
+    >>> energy = (dot(x) ** 2 + dot(y) ** 2) / 2
+    >>> sled = System("sled", (x, y), energy, [dot(y) - dot(x)], start={dot(x): 1}, discrete=own)
+    >>> moved(sled, "own", steps=10).velocity[-1].round(9).tolist()
+    [1.0, 1.0]
     """
 
     lagrangian: sp.Expr
@@ -311,10 +374,25 @@ def loaded(path: str | Path) -> System:
 
     The file is code, and is run, as the script of a register is.
 
+    Parameters
+    ----------
+    path : str or Path
+        A Python file.
+
+    Returns
+    -------
+    System
+
     Raises
     ------
     BadSystem
         If there is none.
+
+    Examples
+    --------
+    >>> loaded("no-such-file.py")
+    Traceback (most recent call last):
+    chapsym.mechanics.system.BadSystem: no-such-file.py is no file of a system: a Python file with SYSTEM = System(...)
     """
     path = Path(path)
     spec = importlib.util.spec_from_file_location(f"system_{path.stem}", path) if path.suffix == ".py" else None
