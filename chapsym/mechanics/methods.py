@@ -69,7 +69,25 @@ class Scheme:
 
 @dataclass(frozen=True)
 class Method:
-    """A method: its name in tables, what it is, its source, and its equations for a system."""
+    """A method for systems.
+
+    Attributes
+    ----------
+    name : str
+        Its name in tables.
+    title : str
+        What it is.
+    source : str
+        Where it comes from.
+    scheme : callable
+        Its equations for a system: System to Scheme.
+
+    Examples
+    --------
+    >>> from chapsym.mechanics import METHODS
+    >>> METHODS["gni"].title
+    'geometric nonholonomic integrator'
+    """
 
     name: str
     title: str
