@@ -123,6 +123,10 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
     quantity : sympy.Expr
         In coordinates, velocities and parameters.
 
+    Returns
+    -------
+    Conservation
+
     Raises
     ------
     BadSystem
@@ -205,7 +209,22 @@ def _shown(value: sp.Expr, algebra: Algebra, bound: Mapping[sp.Symbol, sp.Expr])
 
 
 def in_symbols(expr: Any) -> Any:
-    """Expressions of `sympy.physics.mechanics` in symbols: x for x(t), x_dot for its derivative; also of matrices.
+    """Expressions of `sympy.physics.mechanics` in symbols: x for x(t), x_dot for its derivative.
+
+    Parameters
+    ----------
+    expr : sympy.Expr, sympy.Matrix, list or tuple
+        An expression, or several.
+
+    Returns
+    -------
+    sympy.Expr, sympy.Matrix, list or tuple
+        The same in symbols.
+
+    Raises
+    ------
+    BadSystem
+        For what is no real expression of SymPy, and for a second derivative, which has no symbol.
 
     Examples
     --------
