@@ -229,6 +229,7 @@ def in_symbols(expr: Any) -> Any:
     Examples
     --------
     >>> from sympy.physics.mechanics import dynamicsymbols
+    >>> from chapsym.mechanics import in_symbols
     >>> x = dynamicsymbols("x")
     >>> in_symbols(x.diff() ** 2 - x)
     -x + x_dot**2

@@ -44,6 +44,7 @@ def dot(x: sp.Symbol) -> sp.Symbol:
     Examples
     --------
     >>> from sympy import Symbol
+    >>> from chapsym.mechanics import dot
     >>> dot(Symbol("x"))
     x_dot
     """
@@ -68,6 +69,7 @@ def rate(expr: Any, coordinates: Sequence[sp.Symbol]) -> Any:
     Examples
     --------
     >>> from sympy import symbols
+    >>> from chapsym.mechanics import rate
     >>> x, c = symbols("x c")
     >>> rate(c * x**2, [x])
     2*c*x*x_dot
@@ -90,6 +92,7 @@ def after(x: sp.Symbol) -> sp.Symbol:
     Examples
     --------
     >>> from sympy import Symbol
+    >>> from chapsym.mechanics import after
     >>> after(Symbol("x"))
     x_after
     """
@@ -390,6 +393,7 @@ def loaded(path: str | Path) -> System:
 
     Examples
     --------
+    >>> from chapsym.mechanics import loaded
     >>> loaded("no-such-file.py")
     Traceback (most recent call last):
     chapsym.mechanics.system.BadSystem: no-such-file.py is no file of a system: a Python file with SYSTEM = System(...)
