@@ -83,6 +83,15 @@ class Runner:
         Whether C takes the steps; by default where there is a compiler.
     precision : str or Precision, optional
         Of the numbers, as for `moved`.
+
+    Examples
+    --------
+    >>> from sympy import symbols
+    >>> from chapsym.mechanics import Runner, System, dot
+    >>> x, y = symbols("x y")
+    >>> sled = System("sled", (x, y), (dot(x) ** 2 + dot(y) ** 2) / 2, [dot(y) - dot(x)], start={dot(x): 1})
+    >>> Runner(sled, "dla").march(10).velocity[-1].round(9).tolist()
+    [1.0, 1.0]
     """
 
     def __init__(
@@ -211,6 +220,10 @@ class Runner:
             Of which one is recorded.
         start : numpy.ndarray, optional
             Another state to start from, as `Motion.final` is one, in the numbers of the precision.
+
+        Returns
+        -------
+        Motion
 
         Raises
         ------
