@@ -130,7 +130,27 @@ def parameters(names: str) -> list[Ratio]:
 
 @dataclass(frozen=True)
 class Identity:
-    """left = right, entry by entry, for all values of the free parameters for which both sides are defined."""
+    """left = right, entry by entry, for all values of the free parameters for which both sides are defined.
+
+    Parameters
+    ----------
+    text : str
+        The statement in words or signs.
+    left, right : sequence of Ratio or int
+        The entries of the sides, rational functions of parameters.
+
+    Raises
+    ------
+    ValueError
+        If the sides do not have the same number of entries, or have none.
+
+    Examples
+    --------
+    >>> from chapsym.prove import Identity
+    >>> s, t = parameters("s t")
+    >>> Identity("a square", [(s + t) ** 2], [s * s + 2 * s * t + t * t]).holds()
+    True
+    """
 
     text: str
     left: Sequence[Ratio | int]

@@ -25,13 +25,42 @@ class Algebra(Protocol):
 
 @dataclass(frozen=True)
 class Equation:
-    """left = right, entry by entry, exactly, in an algebra; a side is an expression, a matrix or a list of entries."""
+    """left = right, entry by entry, exactly, in an algebra.
+
+    Parameters
+    ----------
+    text : str
+        The statement in words or signs.
+    left, right : sympy.Expr, sympy.Matrix or list
+        The sides: an expression, a matrix or a list of entries.
+    algebra : Algebra
+        Where it is decided: words for every n, or a quotient ring.
+
+    Attributes
+    ----------
+    written : tuple of list
+        The sides with the letters that derivation.py defined.
+
+    Raises
+    ------
+    ValueError
+        If the sides do not have the same number of entries, or have none.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.derive import Quotient
+    >>> from chapsym.prove import Equation
+    >>> x, y = sp.symbols("x y")
+    >>> circle = Quotient((x, y), [x**2 + y**2 - 1])
+    >>> Equation("x² = 1 - y²", x**2, 1 - y**2, circle).holds(), Equation("x² = 1", x**2, 1, circle).holds()
+    (True, False)
+    """
 
     text: str
     left: Any
     right: Any
     algebra: Algebra
-    #: The sides with the letters that derivation.py defined.
     written: tuple[list[Any], list[Any]] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -59,7 +88,28 @@ class Equation:
 
 
 def equations(usual: Algebra) -> Callable[..., Equation]:
-    """Makes equations in one algebra, where no other is named."""
+    """Makes equations in one algebra, where no other is named.
+
+    Parameters
+    ----------
+    usual : Algebra
+        The algebra.
+
+    Returns
+    -------
+    callable
+        ``equation(text, left, right, algebra=usual)``, which returns an `Equation`.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.derive import Quotient
+    >>> from chapsym.prove import equations
+    >>> x, y = sp.symbols("x y")
+    >>> equal = equations(Quotient((x, y), [x**2 + y**2 - 1]))
+    >>> equal("x² = 1 - y²", x**2, 1 - y**2).holds()
+    True
+    """
 
     def equation(text: str, left: Any, right: Any, algebra: Algebra = usual) -> Equation:
         return Equation(text, left, right, algebra)
@@ -71,6 +121,27 @@ def in_field(text: str, left: Sequence[Any], right: Sequence[Any], relation: sp.
     """left = right at a root of a polynomial in one symbol, which may have no rational one.
 
     An identity for every number in its place: left = right + (a multiple of the polynomial).
+
+    Parameters
+    ----------
+    text : str
+        The statement in words or signs.
+    left, right : sequence of sympy.Expr
+        The entries of the sides, in the symbol.
+    relation : sympy.Expr
+        The polynomial.
+
+    Returns
+    -------
+    Equation
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.prove import in_field
+    >>> x = sp.Symbol("x")
+    >>> in_field("(1 + √2)(√2 - 1) = 1", [(1 + x) * (x - 1)], [1], x**2 - 2).holds()
+    True
     """
     (x,) = relation.free_symbols
     moved = []
@@ -89,7 +160,24 @@ def _entries(side: Any) -> list[Any]:
 
 @dataclass(frozen=True)
 class Fact:
-    """A decided statement that is no equation: a count, an order, a strict inequality of rationals."""
+    """A decided statement that is no equation: a count, an order, a strict inequality of rationals.
+
+    Parameters
+    ----------
+    text : str
+        The statement in words or signs.
+    truth : bool
+        Whether it is true.
+    method : str, optional
+        How it was decided.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from chapsym.prove import Fact
+    >>> Fact("1/3 < 2/5", Fraction(1, 3) < Fraction(2, 5)).holds()
+    True
+    """
 
     text: str
     truth: bool
@@ -125,7 +213,26 @@ class Rest:
 class Zero:
     """That equations have one solution within `radius` in each unknown, and no other, where `nonzero` is not 0.
 
-    The equations say what vanishes, in the unknowns, in the other symbols of the point and in names defined in order.
+    Parameters
+    ----------
+    text : str
+        The statement in words or signs.
+    unknowns : sequence of sympy.Symbol
+        The unknowns.
+    definitions : sequence of (sympy.Symbol, sympy.Expr)
+        Names for expressions, defined in order.
+    equations : sequence of sympy.Expr
+        What vanishes, in the unknowns, in the other symbols of the point and in the names.
+    nonzero : sequence of sympy.Expr
+        What is not 0.
+    point : mapping
+        {symbol: rational number}: the middle of the unknowns, and the other symbols.
+    radius : sympy.Rational
+        How far the solution may be from the point, in each unknown.
+    truth : bool
+        What was decided.
+    method : str
+        How it was decided.
     """
 
     text: str
@@ -148,6 +255,30 @@ class Comparison:
     """Relations <, ≤, = and ≠ at an exact point, as SymPy writes them: `x < y`, `sp.Eq(x, y)`, `sp.Ne(x, y)`.
 
     A hypothesis has no point of its own: it must hold wherever a claim is evaluated.
+
+    Parameters
+    ----------
+    text : str
+        The statement in words or signs.
+    relations : sequence of sympy relational
+        Relations with symbols.
+    point : mapping, optional
+        {symbol: rational number or matrix}.
+    method : str, optional
+        How it is decided.
+
+    Raises
+    ------
+    TypeError
+        If SymPy has decided one of the relations already.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.prove import Comparison
+    >>> x, y = sp.symbols("x y")
+    >>> Comparison("x < y < 1", [x < y, y < 1], {x: "1/3", y: "2/5"}).holds()
+    True
     """
 
     text: str
@@ -205,10 +336,37 @@ REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE = NUMBERS = sp.symbols(
 class Count:
     """A count: the number of solutions of equations that are homogeneous in some unknowns, in projective space.
 
-    The relations are between REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE and integers.  The point has rational
-    numbers for all other symbols, those of the algebra among them; equations may have letters of a derivation.
-    What is in `nonzero`, homogeneous too, vanishes at no solution.  Deciding raises NotCounted if the solutions are
-    infinitely many, or none, complex ones with them, or if a multiple one has no tangent line of its own.
+    Deciding raises NotCounted if the solutions are infinitely many, or none, complex ones with them, or if a multiple
+    one has no tangent line of its own.
+
+    Parameters
+    ----------
+    text : str
+        The statement in words or signs.
+    equations : sequence of sympy.Expr
+        What vanishes; they may have letters of a derivation.
+    unknowns : sequence of sympy.Symbol
+        The unknowns, in which the equations are homogeneous.
+    point : mapping
+        {symbol: rational number} for all other symbols, those of the algebra among them.
+    relations : sequence of sympy relational
+        Between REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE and integers.
+    algebra : Quotient
+        The ring of the other symbols.
+    nonzero : sequence of sympy.Expr, optional
+        What vanishes at no solution, homogeneous, too.
+    method : str, optional
+        How it is decided.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.derive import Quotient
+    >>> from chapsym.prove import REAL, Count
+    >>> x, y, z = sp.symbols("x y z")
+    >>> conic, line = x**2 + y**2 - 2 * z**2, x - y
+    >>> Count("they meet twice", [conic, line], [x, y, z], {}, [sp.Eq(REAL, 2)], Quotient(())).holds()
+    True
     """
 
     text: str
@@ -271,7 +429,25 @@ def _evaluated(expr: Any, exact: Mapping[sp.Symbol, Any]) -> Any:
 
 @dataclass(frozen=True)
 class Point:
-    """An exact rational point: how it is shown, its rational numbers and matrices, and what must hold there."""
+    """An exact rational point.
+
+    Parameters
+    ----------
+    values : dict of str to str
+        How it is shown.
+    exact : mapping
+        {symbol: rational number or matrix}.
+    hypotheses : sequence of Equation, optional
+        What must hold there.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.prove import Point
+    >>> x = sp.Symbol("x")
+    >>> Point({"x": "3/5"}, {x: sp.Rational(3, 5)}).evaluate(x + 1)
+    8/5
+    """
 
     values: dict[str, str]
     exact: Mapping[sp.Symbol, Any]
@@ -287,7 +463,28 @@ class Point:
 
 
 def rational_point(values: dict[sp.Symbol, Any], hypotheses: Sequence[Equation] = ()) -> Point:
-    """A point given by rational numbers for commuting symbols."""
+    """A point given by rational numbers for commuting symbols.
+
+    Parameters
+    ----------
+    values : dict
+        {symbol: number}, each what `sympy.Rational` takes, such as "3/5".
+    hypotheses : sequence of Equation, optional
+        What must hold there.
+
+    Returns
+    -------
+    Point
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.prove import rational_point
+    >>> x, y = sp.symbols("x y")
+    >>> point = rational_point({x: "3/5", y: "4/5"})
+    >>> point.values, point.evaluate(x + y)
+    ({'x': '3/5', 'y': '4/5'}, 7/5)
+    """
     exact = {symbol: sp.Rational(value) for symbol, value in values.items()}
     return Point({str(k): str(v) for k, v in exact.items()}, exact, hypotheses)
 

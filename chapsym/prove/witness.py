@@ -25,7 +25,27 @@ Exact = dict[sp.Symbol, Any]
 
 @dataclass(frozen=True)
 class Examples:
-    """Values of the symbols of a register: rational numbers, matrices for letters, and what degenerate cases change."""
+    """Values of the symbols of a register.
+
+    Parameters
+    ----------
+    numbers : mapping, optional
+        {symbol: rational number}.
+    matrices : mapping, optional
+        {letter: matrix}.
+    cases : mapping, optional
+        {name of a degenerate case: the values that it changes}.
+    others : mapping, optional
+        {symbol: rational number} in the place of others, for relations that these do not obey.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.prove import Examples
+    >>> x, y = sp.symbols("x y")
+    >>> Examples({x: sp.Rational(3, 5), y: sp.Rational(4, 5)}).of([x])
+    {x: 3/5}
+    """
 
     numbers: Mapping[sp.Symbol, sp.Rational] = field(default_factory=dict)
     matrices: Mapping[sp.Symbol, sp.Matrix] = field(default_factory=dict)
