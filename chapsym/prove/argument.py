@@ -18,7 +18,19 @@ MACHINE_CHECKED, BY_HAND = "machine-checked", "by hand"
 
 @dataclass(frozen=True)
 class Theorem:
-    """Where the letters are as quantified and the hypotheses hold, the conclusions do; other letters are arbitrary."""
+    """Where the letters are as quantified and the hypotheses hold, the conclusions do; other letters are arbitrary.
+
+    Parameters
+    ----------
+    quantifiers, hypotheses, conclusions : tuple of str
+        Texts: two say the same where they are equal, letter for letter.
+
+    Examples
+    --------
+    >>> from chapsym.prove import Theorem
+    >>> Theorem(("x is real",), ("x > 0",), ("x is a square",)).given
+    ('x is real', 'x > 0')
+    """
 
     quantifiers: tuple[str, ...]
     hypotheses: tuple[str, ...]
@@ -44,8 +56,27 @@ class Step:
 class Reading:
     """One way to read a question: whether there is such a thing, and what answers it, in the order in which it joins.
 
-    asked: the reading in words.  thing: what is asked for, after "there is a".  by: lemmas, and parts of the question's
-    own proof; none if it is open.
+    Parameters
+    ----------
+    asked : str
+        The reading in words.
+    thing : str
+        What is asked for, after "there is a".
+    answer : str
+        "no", "yes", "trivially yes" or "open".
+    by : tuple of str, optional
+        Lemmas, and parts of the question's own proof; none if it is open.
+
+    Raises
+    ------
+    ValueError
+        For another answer, and if it is open and something answers it, or neither.
+
+    Examples
+    --------
+    >>> from chapsym.prove import Reading
+    >>> Reading("a real number whose square is -1", "real root", "no", ("positive",)).goal
+    'there is no real root'
     """
 
     asked: str
@@ -68,12 +99,44 @@ class Gap(Exception):
 
 
 def there_is(thing: str) -> str:
-    """That a thing exists, as a conclusion."""
+    """That a thing exists, as a conclusion.
+
+    Parameters
+    ----------
+    thing : str
+        What there is, after "there is a".
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from chapsym.prove import there_is
+    >>> there_is("real root")
+    'there is a real root'
+    """
     return f"there is a {thing}"
 
 
 def no(thing: str) -> str:
-    """That a thing does not exist."""
+    """That a thing does not exist.
+
+    Parameters
+    ----------
+    thing : str
+        What there is not, after "there is no".
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from chapsym.prove import no
+    >>> no("real root")
+    'there is no real root'
+    """
     return f"there is no {thing}"
 
 
