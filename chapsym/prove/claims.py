@@ -30,7 +30,21 @@ EVIDENCE = (
 
 @dataclass(frozen=True)
 class Claim:
-    """One row of the list of claims: how it is printed, what it uses, its proof, and the files that the proof reads."""
+    """One row of the list of claims.
+
+    Attributes
+    ----------
+    id : str
+        The name of the claim.
+    printed : str
+        How it is printed: the formula in LaTeX.
+    uses : tuple of str
+        The ids of the claims on which it rests.
+    prove : callable
+        Its proof, a function of a `Proof`.
+    files : tuple of Path
+        The files that the proof reads.
+    """
 
     id: str
     printed: str
@@ -83,7 +97,21 @@ def _docstring(function: Callable[..., object]) -> str:
 
 @dataclass(frozen=True)
 class Judgement:
-    """A claim with its computed verdict and evidence."""
+    """A claim with its computed verdict and evidence.
+
+    Attributes
+    ----------
+    claim : Claim
+        The claim.
+    verdict : Verdict
+        The verdict.
+    proof : Proof
+        The evidence.
+    seconds : float
+        How long the proof took.
+    certificate : dict or None
+        What was decided, as data that the checker accepted.
+    """
 
     claim: Claim
     verdict: Verdict
@@ -159,10 +187,42 @@ _REGISTER: dict[str, Claim] = {}
 def claim(
     id: str, printed: str, uses: Sequence[str] = (), files: Sequence[Path] = ()
 ) -> Callable[[Callable[[Proof], None]], Callable]:
-    """Registers a proof as the judge of the claim `id`; `files` are what it reads, and its records depend on them.
+    """Registers a proof as the judge of the claim `id`.
 
-    printed: the formula in LaTeX.  uses: the ids of the claims on which it rests.  Raises TypeError where these are
-    of another type, and TwoProofs, on the proof, if another one has the id.
+    Parameters
+    ----------
+    id : str
+        The name of the claim.
+    printed : str
+        The formula in LaTeX.
+    uses : sequence of str, optional
+        The ids of the claims on which it rests.
+    files : sequence of Path, optional
+        What the proof reads; its records depend on them.
+
+    Returns
+    -------
+    callable
+        A decorator of the proof, a function of a `Proof`.
+
+    Raises
+    ------
+    TypeError
+        Where these are of another type.
+    TwoProofs
+        On the proof, if another one has the id.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.derive import Quotient
+    >>> from chapsym.prove import claim, equations
+    >>> x, y = sp.symbols("x y")
+    >>> equal = equations(Quotient((x, y)))
+    >>> @claim("square", "(x + y)^2 = x^2 + 2xy + y^2")
+    ... def square(p):
+    ...     p.printed(equal("(x + y)² = x² + 2xy + y²", (x + y) ** 2, x**2 + 2 * x * y + y**2))
+    ...     p.control(equal("without 2xy", (x + y) ** 2, x**2 + y**2))
     """
     if not isinstance(id, str) or not isinstance(printed, str) or isinstance(uses, str):
         raise TypeError("@claim takes an id and a formula, as text, and in uses a list of ids")
@@ -203,7 +263,23 @@ def judgement_of(claim: Claim) -> Judgement:
 
 
 def judged(id: str) -> Rest:
-    """That a claim is proved, by its own proof, run now; its script must have been imported, else LookupError."""
+    """That a claim is proved, by its own proof, run now.
+
+    Parameters
+    ----------
+    id : str
+        The name of the claim.
+
+    Returns
+    -------
+    Rest
+        A statement, for `Proof.lemma`.
+
+    Raises
+    ------
+    LookupError
+        If the script of the claim has not been imported.
+    """
     if id not in _REGISTER:
         raise LookupError(f"no proof of {id!r} is loaded: import its script first")
     proved = (Verdict.HOLDS, Verdict.CORRECTED, Verdict.CONDITIONAL)
