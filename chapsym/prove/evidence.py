@@ -34,7 +34,14 @@ SLIPS = ("serious", "typo", "convention", "reading")
 
 
 class Verdict(StrEnum):
-    """The verdict on a printed claim."""
+    """The verdict on a printed claim.
+
+    Examples
+    --------
+    >>> from chapsym.prove import Verdict
+    >>> [str(one) for one in Verdict]
+    ['holds', 'corrected', 'conditional', 'refuted', 'settled', 'definition', 'open']
+    """
 
     HOLDS = "holds"
     CORRECTED = "corrected"
@@ -47,7 +54,22 @@ class Verdict(StrEnum):
 
 @dataclass
 class Proof:
-    """Collects the derivation and the decided statements of one claim."""
+    """Collects the derivation and the decided statements of one claim.
+
+    A proof is a function that receives one, and calls its methods.
+
+    Examples
+    --------
+    >>> import sympy as sp
+    >>> from chapsym.derive import Quotient
+    >>> from chapsym.prove import Proof, equations
+    >>> x, y = sp.symbols("x y")
+    >>> p, equal = Proof(), equations(Quotient((x, y)))
+    >>> p.printed(equal("(x + y)² = x² + 2xy + y²", (x + y) ** 2, x**2 + 2 * x * y + y**2))
+    >>> p.control(equal("without 2xy", (x + y) ** 2, x**2 + y**2))
+    >>> str(p.verdict()), p.problems
+    ('holds', [])
+    """
 
     lines: list[str] = field(default_factory=list)
     checks: list[dict[str, Any]] = field(default_factory=list)
@@ -99,10 +121,17 @@ class Proof:
         self.lines.append(f"    {name} = {value}")
 
     def assume(self, text: str, *relations: Relational) -> None:
-        """A hypothesis under which the claim is judged, and what it says as relations: `0 < x`, `sp.Ne(x, 0)`.
+        """A hypothesis under which the claim is judged.
 
         The relations must hold at every witness that has values for their symbols, and at one at least.  A
         counterexample that has a value for one of the symbols must have one for each, and they hold there.
+
+        Parameters
+        ----------
+        text : str
+            The hypothesis in words or signs.
+        *relations : sympy relational
+            What it says as relations: `0 < x`, `sp.Ne(x, 0)`.
         """
         self.hypotheses.append(str(text))
         if relations:
@@ -111,8 +140,16 @@ class Proof:
     def reads(self, *given: Mapping[str, tuple[Any, str]] | tuple[str, Any, str]) -> None:
         """Sets the meanings of symbols, so that the checker reads the formulas and compares them with what was decided.
 
-        given: (TeX, an expression, a column or a matrix in the letters of the statements, what it is), or tables of
-        these, {TeX: (value, what it is)}.
+        Parameters
+        ----------
+        *given : tuple or mapping
+            (TeX, an expression, a column or a matrix in the letters of the statements, what it is), or tables of these,
+            {TeX: (value, what it is)}.
+
+        Raises
+        ------
+        TypeError
+            For a value that is no expression or matrix of SymPy, and without a meaning.
         """
         tables = ({one[0]: one[1:]} if isinstance(one, tuple) else one for one in given)
         for symbol, one in chain.from_iterable(table.items() for table in tables):
@@ -142,6 +179,11 @@ class Proof:
 
         A count or a comparison that is false is its own counterexample, but for a count that also says where something
         does not vanish.
+
+        Parameters
+        ----------
+        *statements : Statement
+            Such as an `Equation`, a `Comparison` or a `Count`.
         """
         decided = [(s, self._decide(s, "printed")) for s in statements]
         self._printed += decided
@@ -160,11 +202,23 @@ class Proof:
         self._corrected += [(s, self._decide(s, "under", f"under {condition}: ")) for s in statements]
 
     def slips(self, kind: str, *follows: str) -> None:
-        """Sets the kind of the error, by our judgement; and the errors from which it follows, of claims that it uses.
+        """Sets the kind of the error, by our judgement.
 
-        kind: `serious`, it misleads who computes with it; `typo`, a misprint that the text around it mends;
-        `convention`, a sign or an order that the paper takes otherwise elsewhere; `reading`, true or false as one
-        reads it, or under what is left out.  Whether it is an error the proof decides, not this.
+        Whether it is an error the proof decides, not this.
+
+        Parameters
+        ----------
+        kind : str
+            `serious`, it misleads who computes with it; `typo`, a misprint that the text around it mends;
+            `convention`, a sign or an order that the paper takes otherwise elsewhere; `reading`, true or false as
+            one reads it, or under what is left out.
+        *follows : str
+            The errors from which it follows, of claims that it uses.
+
+        Raises
+        ------
+        ValueError
+            For another kind, and for an error of a claim that is not used.
         """
         if kind not in SLIPS:
             raise ValueError(f"a slip is one of {', '.join(SLIPS)}, not {kind!r}")
@@ -176,6 +230,11 @@ class Proof:
         """Evaluates every printed and corrected formula that was stated so far at an exact point.
 
         The hypotheses must hold there, some printed formula must fail, every corrected one must hold.
+
+        Parameters
+        ----------
+        point : Point
+            The point.
         """
         self.points.append(point)
         self.problems += [f"the counterexample violates the hypothesis {failure}" for failure in point.failures()]
@@ -254,8 +313,13 @@ class Proof:
     def step(self, gives: str, *needs: str) -> None:
         """Adds a conclusion from the statements that it needs, by the sentences said since the last step.
 
-        needs: of what the theorem is given, of what a step before gives, ids that the claim uses, files of accepted
-        certificates, texts of decided statements.
+        Parameters
+        ----------
+        gives : str
+            The conclusion.
+        *needs : str
+            Of what the theorem is given, of what a step before gives, ids that the claim uses, files of accepted
+            certificates, texts of decided statements.
         """
         said, decided = self._since
         checks = tuple(statement.text for _, statement, _ in self.decided[decided:])
