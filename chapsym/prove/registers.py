@@ -37,21 +37,48 @@ class NoRegister(ValueError):
 
 @dataclass(frozen=True)
 class Register:
-    """Claims in one place: a folder with Python scripts, the path of one script, or the name of a package.
+    """Claims in one place.
 
     A package, or a folder with an `__init__.py`, may say there: `SCRIPTS`, their names in order (without it, all files
     that end in .py and do not begin with _, but for kernels.py); `CLAIMS`, the ids in order; `LEMMAS`, ids of what is
     judged only when it is named; `PAPER`, what the claims are of; and `NOTE`, how its formulas are to be read.
+
+    Parameters
+    ----------
+    place : str
+        A folder with Python scripts, the path of one script, or the name of a package.
+    package : bool, optional
+        Whether it is a name, even where a file or a folder is called so.
+
+    Examples
+    --------
+    >>> from chapsym.prove import Register
+    >>> Register("no-such-folder").load()
+    Traceback (most recent call last):
+    chapsym.prove.registers.NoRegister: there is no folder no-such-folder, and no package of that name; a register ...
     """
 
     place: str
     package: bool = False  # that it is a name, even where a file or a folder is called so
 
     def load(self, lemmas: bool = False) -> dict[str, Claim]:
-        """Imports every script and returns the claims by id, in order; then the lemmas, if asked.
+        """Imports every script and returns the claims by id, in order.
 
-        Raises NoRegister if there is no such place, or no claim in it; BrokenScript if a script raises on import, or
-        if an id is taken, or listed without a proof, or used and not judged.
+        Parameters
+        ----------
+        lemmas : bool, optional
+            Whether the lemmas follow.
+
+        Returns
+        -------
+        dict of str to Claim
+
+        Raises
+        ------
+        NoRegister
+            If there is no such place, or no claim in it.
+        BrokenScript
+            If a script raises on import, or if an id is taken, or listed without a proof, or used and not judged.
         """
         head = self._head()
         for name in self._scripts(head):
@@ -206,9 +233,23 @@ def reached(id: str, claims: Mapping[str, Claim]) -> set[str]:
 
 
 def load(lemmas: bool = False, register: Register = PROOFS) -> dict[str, Claim]:
-    """The claims of a register by id, in order, that of chapsym if no other is named; then the lemmas, if asked.
+    """The claims of a register by id, in order, that of chapsym if no other is named.
 
-    Raises NoRegister and BrokenScript as `Register.load` does.
+    Parameters
+    ----------
+    lemmas : bool, optional
+        Whether the lemmas follow.
+    register : Register, optional
+        The register.
+
+    Returns
+    -------
+    dict of str to Claim
+
+    Raises
+    ------
+    NoRegister, BrokenScript
+        As `Register.load` does.
     """
     return register.load(lemmas)
 

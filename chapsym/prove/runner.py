@@ -68,10 +68,30 @@ def prove_all(
     folder: Path | None = None,
     register: Register = PROOFS,
 ) -> list[dict[str, Any]]:
-    """Judges claims of a register in parallel processes; `on_result` sees each record as it arrives.
+    """Judges claims of a register in parallel processes.
 
-    Returns the records in the order of `ids`.  The certificates are written to the folder, if one is named; raises
-    CannotWrite if they cannot be.
+    Parameters
+    ----------
+    ids : sequence of str
+        The names of the claims.
+    jobs : int, optional
+        How many processes; by default as many as there are processors.
+    on_result : callable, optional
+        Sees each record as it arrives.
+    folder : Path, optional
+        Where the certificates are written.
+    register : Register, optional
+        Where the claims are; by default that of chapsym.
+
+    Returns
+    -------
+    list of dict
+        The records in the order of `ids`.
+
+    Raises
+    ------
+    CannotWrite
+        If the certificates cannot be written.
     """
     jobs = min(jobs or os.cpu_count() or 1, len(ids))
     records: dict[str, dict[str, Any]] = {}
@@ -152,7 +172,10 @@ def explain(record: dict[str, Any]) -> str:
 def main(script: str) -> None:
     """Runs the claims of one proof script, prints their derivations, and exits 1 if one is not proved.
 
-    script: `__file__` of a script of `chapsym.proofs`, or of one of your own, anywhere, with ids of its own.
+    Parameters
+    ----------
+    script : str
+        `__file__` of a script of `chapsym.proofs`, or of one of your own, anywhere, with ids of its own.
     """
     register = register_of(script)
     try:
@@ -171,5 +194,21 @@ def report(records: Iterable[dict[str, Any]]) -> int:
 
 
 def unproved(records: Iterable[dict[str, Any]]) -> list[str]:
-    """The ids whose proof failed: `open`, and not a question that the paper itself leaves open."""
+    """The ids whose proof failed: `open`, and not a question that the paper itself leaves open.
+
+    Parameters
+    ----------
+    records : iterable of dict
+        Records, as `prove_all` returns them.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> from chapsym.prove import unproved
+    >>> unproved([{"id": "mine", "verdict": "open", "evidence": {"open_in_paper": False}}])
+    ['mine']
+    """
     return [r["id"] for r in records if r["verdict"] == Verdict.OPEN and not r["evidence"]["open_in_paper"]]
