@@ -58,6 +58,17 @@ class Proof:
 
     A proof is a function that receives one, and calls its methods.
 
+    Attributes
+    ----------
+    lines : list of str
+        The derivation.
+    checks : list of dict
+        The decided statements: `statement`, `holds` and `method` of each.
+    controls : list of dict
+        The mutated statements: `statement` and `rejected` of each.
+    problems : list of str
+        Why the verdict is `open`, where something failed or is missing.
+
     Examples
     --------
     >>> import sympy as sp

@@ -98,7 +98,7 @@ def equations(usual: Algebra) -> Callable[..., Equation]:
     Returns
     -------
     callable
-        ``equation(text, left, right, algebra=usual)``, which returns an `Equation`.
+        `equation(text, left, right, algebra=usual)`, which returns an `Equation`.
 
     Examples
     --------
