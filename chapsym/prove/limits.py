@@ -37,12 +37,14 @@ def tends(text: str, expression: Any, along: sp.Symbol, order: int, to: Any, rin
     ----------
     text : str
         What is said, in the certificate, too.
-    expression, to : sympy.Expr, or a matrix or list of them
-        What tends, rational in `along`, and what it tends to.
+    expression : sympy.Expr, or a matrix or list of them
+        What tends, rational in `along`.
     along : sympy.Symbol
         What tends to 0: a variable of the ring that is in none of its relations.
     order : int
         The power by which the expression is divided.
+    to : sympy.Expr, or a matrix or list of them
+        What it tends to.
     ring : Quotient
         Where the equation is decided.
 
