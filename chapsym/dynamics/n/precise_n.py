@@ -5,7 +5,7 @@ its digits.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -20,7 +20,6 @@ from ..errors import Status
 from ..levels.balls import GUARD, exact, in_context
 from . import so_n
 from .branch_n import small_rotation
-from .run_n import continued
 
 #: Corrections of Newton from a float64 rotation: each doubles the digits.
 MOST_ROUNDS = 100
@@ -35,8 +34,12 @@ def run(
     stages: Sequence[Fraction],
     steps: int,
     every: int,
+    continued: Callable[..., None],
 ) -> tuple[np.ndarray, np.ndarray, Floats]:
-    """`run_n.run` at N digits: writes the frames, of objects, and returns (taken, status, reach), (b,)."""
+    """`run_n.run` at N digits: writes the frames, of objects, and returns (taken, status, reach), (b,).
+
+    continued: `run_n.continued`, which takes the steps.
+    """
     balls, context = len(state["gamma"]), precision.context
     taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
     # The roundings of the steps add up to the square of their number, as frequencies drift.

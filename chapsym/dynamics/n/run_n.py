@@ -59,7 +59,7 @@ def _stepped(
         return frames, *run(state, frames, stages, steps, every, threads)
     from . import precise_n  # mpmath takes 40 ms
 
-    return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every)
+    return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every, continued)
 
 
 #: What `step_n` and `trajectory_n` return.

@@ -35,7 +35,7 @@ from ..levels.balls import exact
 from ..levels.proved_root import enclosed
 from ..levels.start import fraction
 from ..map import in_float64, step, unit_exactly
-from .multivalued import Quadric, momentum_forms, quadrics
+from .candidates import Quadric, momentum_forms, quadrics
 
 #: A form with rational coefficients, each under the ascending indices of the variables of its monomial.
 Form = Mapping[tuple[int, ...], fmpq]
