@@ -34,7 +34,7 @@ def run(
     stages: Sequence[Fraction],
     steps: int,
     every: int,
-    continued: Callable[..., None],
+    continued: Callable[..., Any],
 ) -> tuple[np.ndarray, np.ndarray, Floats]:
     """`run_n.run` at N digits: writes the frames, of objects, and returns (taken, status, reach), (b,).
 
