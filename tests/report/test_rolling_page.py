@@ -366,7 +366,7 @@ def test_in_a_notebook_the_page_stands_below_the_table_and_the_ball_rolls_there(
     assert inner.evaluate("chapsym.position(100)") == pytest.approx(results["one"][1]["contact"].values[0, 100])
     assert inner.evaluate("document.documentElement.scrollWidth <= innerWidth")
     page.drawn(inner)
-    assert pixels(frame.screenshot()).std() > 0.1
+    until(lambda: pixels(frame.screenshot()).std() > 0.1)  # the browser shows a frame after it is drawn
     assert page.ask("(() => { try { return Boolean(frames[0].chapsym); } catch { return 'closed'; } })()") == "closed"
 
 
