@@ -1,12 +1,12 @@
 // The two forms of the page: what they ask of Python (worker.mjs), and where its answers are shown.
 const [rolling, judging] = document.querySelectorAll("form.browser");
 const iframe = document.querySelector("iframe.rolling"), formulas = document.querySelector("details.formulas");
-const beside = (name) => new URL(name, import.meta.url);
+const near = (name) => new URL(name, import.meta.url);
 let worker, answered;
 
 // The page of a motion with another one in it.
 async function roll({ data, plan }) {
-  const page = await (await fetch(beside("rolling.html"))).text();
+  const page = await (await fetch(near("rolling.html"))).text();
   iframe.srcdoc = page
     .replace(/(<p class="plan">).*?(?=<\/p>)/s, (_, begin) => begin + plan)
     .replace(/(<script type="application\/json" id="data">).*?(?=<\/script>)/s, (_, begin) => begin + JSON.stringify(data));
@@ -35,9 +35,9 @@ async function submitted(event) {
 }
 
 try {
-  worker = new Worker(beside("worker.mjs"), { type: "module" });
+  worker = new Worker(near("worker.mjs"), { type: "module" });
   worker.onmessage = ({ data }) => answered(data);
-  const claims = await (await fetch(beside("claims.json"))).json();
+  const claims = await (await fetch(near("claims.json"))).json();
   for (const [id, title] of Object.entries(claims)) judging.elements.claim.add(new Option(`${id}: ${title}`, id));
   for (const form of [rolling, judging]) form.addEventListener("submit", submitted);
   for (const button of document.querySelectorAll("form.browser button")) button.disabled = false;

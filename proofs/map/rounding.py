@@ -2,21 +2,20 @@
 
 import sympy as sp
 
+from chapsym.codegen.rounding import DEEPEST, DIVISOR, MOST, UNIT
 from chapsym.derive.quotient import Quotient
 from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, main
 
 #: Exact numbers, what the computed ones are more by, and the rounding of the operation.
 a, b, e, f, delta = NUMBERS = sp.symbols("a b e f delta")
 FREE = Quotient(NUMBERS, [])
-#: The most roundings one after the other; what an error is of its terms at most; and what one operation and all of
-#: them take beyond the first order.
-DEEPEST = 256
+#: What an error is of its terms at most, and what one operation, sixteen and all of them take beyond the first order.
 m, one, sixteen, whole = sp.symbols("m one sixteen all")
 AT = {
     one: sp.Rational(1, 2**19),
     sixteen: 1 + sp.Rational(2**10 + 1, 2**25),
-    whole: sp.Rational(1, 2**10),
-    m: sp.Rational(2**10 + 1, 2**55),
+    whole: MOST - 1,
+    m: DEEPEST * UNIT * MOST,
 }
 ROUNDED = "each operation gives its exact result times 1 + δ, |δ| ≤ 2⁻⁵³: nothing over- or underflows"
 WIDE = "no divisor is below 2⁻²⁵ of its terms, and n ≤ 256"
@@ -46,8 +45,8 @@ def rounding(p: Proof) -> None:
     )
     p.say("α 2⁻⁵³M ≤ 2⁻⁴⁵(1 + 2⁻¹⁰), and of a divisor |f|/|b| ≤ 2⁻⁴⁵(1 + 2⁻¹⁰)·2²⁵:")
     p.lemma(
-        Comparison("m = 256·2⁻⁵³(1 + 2⁻¹⁰)", [sp.Eq(m, DEEPEST * sp.Rational(1, 2**53) * (1 + whole))], AT),
-        Comparison("1/(1 - 2²⁵m) + 3m ≤ 1 + 2⁻¹⁹", [1 / (1 - 2**25 * m) + 3 * m <= 1 + one], AT),
+        Comparison("m = 256·2⁻⁵³(1 + 2⁻¹⁰)", [sp.Eq(m, 256 * sp.Rational(1, 2**53) * (1 + whole))], AT),
+        Comparison("1/(1 - 2²⁵m) + 3m ≤ 1 + 2⁻¹⁹", [1 / (1 - m / DIVISOR) + 3 * m <= 1 + one], AT),
         Comparison("(1 + 2⁻¹⁹)²⁵⁶ ≤ 1 + 2⁻¹⁰", [(1 + one) ** 16 <= sixteen, sixteen**16 <= 1 + whole], AT),
     )
     p.step(BOUND, ROUNDED, WIDE)

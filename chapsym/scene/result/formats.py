@@ -250,7 +250,8 @@ def _read_netcdf(path: Path) -> "Dataset":
     import h5py
 
     try:
-        with h5py.File(path):  # h5netcdf prints a traceback for a file that is none
+        with h5py.File(path) as file:
+            file.visititems(lambda name, item: None)  # h5netcdf prints a traceback where it cannot open all of a file
             return xarray.load_dataset(path, engine="h5netcdf")
     except (OSError, RuntimeError) as error:
         raise ValueError(str(error)) from None
@@ -295,10 +296,13 @@ def _read_csv(path: Path) -> "Dataset":
 
 def _about_csv(path: Path) -> dict[str, Any]:
     """What the first row of a CSV has of all of them; nothing of one without the column `NOTES`."""
-    csv.field_size_limit(BLOCK)
-    with path.open(encoding="utf-8", newline="") as stream:
-        rows = csv.DictReader(stream)
-        return dict(json.loads(next(rows, {})[NOTES])) if NOTES in (rows.fieldnames or ()) else {}
+    limit = csv.field_size_limit(BLOCK)
+    try:
+        with path.open(encoding="utf-8", newline="") as stream:
+            rows = csv.DictReader(stream)
+            return dict(json.loads(next(rows, {})[NOTES])) if NOTES in (rows.fieldnames or ()) else {}
+    finally:
+        csv.field_size_limit(limit)  # which is that of the whole process
 
 
 def _types(variables: Mapping[str, Any]) -> dict[str, Any]:
