@@ -111,6 +111,7 @@ typedef struct { int64_t a0; real a1; t_p4 a2; t_r2 a3, a4; } t_ir_p4_p2;
 typedef struct { int64_t a0; real a1; t_r4 a2; } t_ir_r4_;
 typedef struct { int64_t a0; real a1; t_r4 a2; t_r3 a3; } t_ir_r4__r3_;
 typedef struct { t_r2 a0, a1, a2; } t_q3;
+typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11; } t_r12;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12; } t_r13;
 typedef struct { real a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17; } t_r18;
 typedef struct { real a0, a1, a2; t_r3 a3; } t_r3_r3_;
@@ -1228,12 +1229,14 @@ INLINE void lanes_entered(r2 S, int64_t at, int64_t i, r1 body, real half, int64
     real spread = R(0.5) * (max_r(max_r(inertia.a0, inertia.a1), inertia.a2) - min_r(min_r(inertia.a0, inertia.a1),
         inertia.a2));
     t_r3 k = vectors_scaled(part, vectors_three(body, 0)); real size = vectors_length(k);
-    t_r2 within = gibbs_certificate(k, inertia, contact);
+    t_r2 within = gibbs_bound(k, inertia, contact);
     real least = gibbs_LEFT * size / (max_r(max_r(inertia.a0, inertia.a1), inertia.a2) + contact + spread);
-    real anywhere = gibbs_is_heavy(inertia, contact) ? R(-1.0) : R(1.0715086071862673e+301); AT2(S, at, i) = part;
-    AT2(S, at + 1, i) = part != R(0.0) ? R(1.0) / part : R(0.0); AT2(S, at + 2, i) = size; AT2(S, 82, i) = spread;
-    AT2(S, at + 3, i) = within.a0 >= R(0.0) ? within.a0 : anywhere; AT2(S, at + 4, i) = least * least / R(18.2);
-    AT2(S, at + 5, i) = R(1.0) / (n * n);
+    int light = gibbs_is_heavy(inertia, contact) && !(min_r(min_r(inertia.a0, inertia.a1), inertia.a2) >=
+        gibbs_LIGHTEST && size >= gibbs_LIGHTEST);
+    AT2(S, at, i) = part; AT2(S, at + 1, i) = part != R(0.0) ? R(1.0) / part : R(0.0); AT2(S, at + 2, i) = size;
+    AT2(S, 82, i) = spread;
+    AT2(S, at + 3, i) = light ? R(-1.0) : (within.a0 >= R(0.0) ? within.a0 : R(1.0715086071862673e+301));
+    AT2(S, at + 4, i) = least * least / R(18.2); AT2(S, at + 5, i) = R(1.0) / (n * n);
 }
 
 INLINE void lanes_resized(r2 S, int64_t B, int64_t b, int64_t columns, real half, r1 body, r1 state) {
@@ -1253,7 +1256,9 @@ OUT_OF_LINE int64_t lanes_enter(r2 S, int64_t B, int64_t b, int64_t i, Balls bal
     int64_t columns = weights.sums.n1, least = 8 - columns;
     for (int64_t lane = 0; lane < 4; lane++) {
         j = lane * B + b; first = max_i(7 - lane, least); vectors_put_in(S, 27, j, vectors_three(state, 21));
-        AT2(S, 30, j) = state.p[24]; one = 7 - lane >= least; two = lane >= least;
+        AT2(S, 30, j) = state.p[24];
+        AT2(S, 139, j) = gibbs_is_heavy(vectors_three(state, 21), state.p[24]) ? R(1.0) : R(0.0);
+        one = 7 - lane >= least; two = lane >= least;
         for (int64_t c = 0; c < 3; c++) { AT2(S, 79 + c, j) = AT2(weights.beginning, first, c); }
         for (int64_t c = 0; c < 4; c++) {
             AT2(S, 71 + 2 * c, j) = one ? AT2(weights.sums, c, first - least) : R(0.0);
@@ -1374,14 +1379,29 @@ INLINE void lanes_begin_second(r2 S, int64_t B, int64_t lane, r2 weights) {
     }
 }
 
-INLINE int64_t lanes_checked(r2 S, int64_t B, int again) {
-    t_r3 u, k, g, inertia; real contact, squares, p0, first, bent; Round r; t__r4__r3_r p; t_r9 c;
-    int settled, closed;
+INLINE Round lanes_iterate(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, int heavy, int one_is_heavy) {
+    t_r13 stable;
+    t_r13 found = kernel_gibbs_newton(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D);
+    real det = found.a0;
+    if (one_is_heavy) {
+        stable = kernel_gibbs_newton_heavy(u.a0, u.a1, u.a2, k.a0, k.a1, k.a2, g.a0, g.a1, g.a2, I.a0, I.a1, I.a2, D);
+        det = heavy ? stable.a0 : det;
+    }
+    t_r12 t_1 = (t_r12){found.a1, found.a2, found.a3, found.a4, found.a5, found.a6, found.a7, found.a8, found.a9,
+        found.a10, found.a11, found.a12};
+    return gibbs_round_from(u, (t_r13){det, t_1.a0, t_1.a1, t_1.a2, t_1.a3, t_1.a4, t_1.a5, t_1.a6, t_1.a7, t_1.a8,
+        t_1.a9, t_1.a10, t_1.a11});
+}
+
+INLINE int64_t lanes_checked(r2 S, int64_t B, int again, int one_is_heavy) {
+    t_r3 u, k, g, inertia; real contact, squares, p0, first, bent; int heavy, settled, closed; Round r; t__r4__r3_r p;
+    t_r9 c;
     INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
         u = vectors_three_in(S, 6, i); k = vectors_three_in(S, 0, i); g = vectors_three_in(S, 3, i);
-        inertia = vectors_three_in(S, 27, i); contact = AT2(S, 30, i);
-        if (!again) { r = gibbs_newton_round(u, k, g, inertia, contact, 0); u = r.w; }
-        r = gibbs_newton_round(u, k, g, inertia, contact, 0); p = gibbs_second_round(r, k, inertia); c = r.cofactors;
+        inertia = vectors_three_in(S, 27, i); contact = AT2(S, 30, i); heavy = AT2(S, 139, i) != R(0.0);
+        if (!again) { r = lanes_iterate(u, k, g, inertia, contact, heavy, one_is_heavy); u = r.w; }
+        r = lanes_iterate(u, k, g, inertia, contact, heavy, one_is_heavy); p = gibbs_second_round(r, k, inertia);
+        c = r.cofactors;
         squares = vectors_dot((t_r3){c.a0, c.a1, c.a2}, (t_r3){c.a0, c.a1, c.a2}) + vectors_dot((t_r3){c.a3, c.a4,
             c.a5}, (t_r3){c.a3, c.a4, c.a5});
         p0 = p.a0.a0; first = r.first;
@@ -1402,6 +1422,11 @@ INLINE int64_t lanes_checked(r2 S, int64_t B, int again) {
         left = left + (AT2(S, 57, i) != R(0.0) ? 1 : 0);
     }
     return left;
+}
+
+INLINE int64_t lanes_looked_for(r2 S, int64_t B, int again, int one_is_heavy) {
+    if (one_is_heavy) { return lanes_checked(S, B, again, 1); }
+    return lanes_checked(S, B, again, 0);
 }
 
 INLINE void lanes_lose(r2 S, int64_t B) {
@@ -1485,7 +1510,8 @@ INLINE void lanes_gather(r2 S, int64_t B) {
 
 INLINE int lanes_side_by_side(r2 S, int64_t B, int traced, Weights weights) {
     int64_t lane, left, rounds, i; real weight; int64_t columns = weights.sums.n1, first = 8 - columns, second = 3;
-    lanes_rates(S, B, first); lanes_begin(S, B); int lost = 0;
+    lanes_rates(S, B, first); lanes_begin(S, B); int lost = 0, one_is_heavy = 0;
+    for (int64_t b = 0, end_b = B; b < end_b; b++) { one_is_heavy = one_is_heavy || AT2(S, 139, b) != R(0.0); }
     for (int64_t slot = 0; slot < 7; slot++) {
         lane = 7 - slot;
         if (lane < 4) {
@@ -1501,8 +1527,8 @@ INLINE int lanes_side_by_side(r2 S, int64_t B, int traced, Weights weights) {
                 INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) { AT2(S, 47 + j, c * B + b) = weight; }
             }
         }
-        left = lanes_checked(S, B, 0); rounds = 0;
-        while (left > 0 && rounds < 6) { left = lanes_checked(S, B, 1); rounds = rounds + 1; }
+        left = lanes_looked_for(S, B, 0, one_is_heavy); rounds = 0;
+        while (left > 0 && rounds < 6) { left = lanes_looked_for(S, B, 1, one_is_heavy); rounds = rounds + 1; }
         if (left > 0) {
             lost = 1; lanes_lose(S, B);
             if (B == 1) { return 1; }
@@ -1623,8 +1649,8 @@ INLINE void lanes_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, Fra
 
 INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int64_t steps, int64_t every, Weights
     weights, r1 doubt, i1 taken, i1 status, d1 reach) {
-    int64_t i; t_ir stopped; ALIGNED real S_[139 * (4 * B)]; memset(S_, 0, sizeof S_);
-    r2 S = {S_, 139, (4 * B), (4 * B)}; int64_t count = status.n0; ALIGNED real states_[B * 27];
+    int64_t i; t_ir stopped; ALIGNED real S_[140 * (4 * B)]; memset(S_, 0, sizeof S_);
+    r2 S = {S_, 140, (4 * B), (4 * B)}; int64_t count = status.n0; ALIGNED real states_[B * 27];
     memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B];
     memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B}; ALIGNED real body_[24];
     memset(body_, 0, sizeof body_); r1 body = {body_, 24};
@@ -3560,16 +3586,16 @@ INLINE real following_lengthened(real ratio) {
 }
 
 INLINE void following_judged(r2 S, r2 E, int64_t b, int lost, real start, r2 sums, r1 state, r1 lane) {
-    int heavy; int64_t stopped; real reached;
+    int always; int64_t stopped; real reached;
     real step = lane.p[1], tries = lane.p[6], size = lane.p[2] * R(sqrt(vectors_square(vectors_three_in(S, 37, b))));
     lane.p[11] = size; lane.p[12] = R(3.0); lane.p[14] = R(0.0); lane.p[15] = R(0.0);
     if (lost && AT2(S, 58, b) != R(0.0)) {
-        heavy = AT2(S, 62, b) < R(0.0); stopped = 0;
-        if (heavy || tries >= 40) {
+        always = AT2(S, 62, b) < R(0.0); stopped = 0;
+        if (always || tries >= 40) {
             t_ir t_1 = lanes_safely(S, b, sums, state); stopped = t_1.a0; reached = t_1.a1; lane.p[16] = stopped;
             lane.p[17] = reached; lane.p[12] = stopped == 0 ? R(3.0) : R(2.0);
         }
-        if (tries < 40 && (stopped != 0 || !heavy)) { lane.p[12] = R(1.0); lane.p[10] = R(0.9) * step; }
+        if (tries < 40 && (stopped != 0 || !always)) { lane.p[12] = R(1.0); lane.p[10] = R(0.9) * step; }
     }
     t_r4 error = following_left(S, b, start); AT2(E, 79, b) = error.a1 > R(0.0) ? error.a0 / error.a1 : R(0.0);
     AT2(E, 80, b) = error.a2 > R(0.0) ? error.a0 / error.a2 : R(0.0);
@@ -3921,8 +3947,8 @@ INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, 
 
 INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real interval, Asked asked, int patient,
     Weights weights, r2 reported, i1 reached, i1 status, d1 reach) {
-    int lost, done, there, alike; int64_t i, frame; real fate, part, wish; ALIGNED real S_[139 * (4 * B)];
-    memset(S_, 0, sizeof S_); r2 S = {S_, 139, (4 * B), (4 * B)}; ALIGNED real E_[115 * (4 * B)];
+    int lost, done, there, alike; int64_t i, frame; real fate, part, wish; ALIGNED real S_[140 * (4 * B)];
+    memset(S_, 0, sizeof S_); r2 S = {S_, 140, (4 * B), (4 * B)}; ALIGNED real E_[115 * (4 * B)];
     memset(E_, 0, sizeof E_); r2 E = {E_, 115, (4 * B), (4 * B)}; int64_t columns = weights.sums.n1;
     ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27};
     ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B};
@@ -4194,5 +4220,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "8dc12946c91a7699944a9db84fcfae69fa034f4ef33b0c0d25eefcb62489e134";
+const char loops_text[] = "d8dc542d5e0712239998cfd8108a9e996bb391dbfab5acedd2bcf0844b91901e";
 #endif

@@ -3,15 +3,16 @@
 import mpmath
 import numpy as np
 import pytest
+from plain import in_plain_python
 
-from chapsym import BadInput, Ball, Curve, increment, roll, step, step_vertical
+from chapsym import BadInput, Ball, Curve, extrapolate, increment, roll, step, step_vertical
 from chapsym.dynamics import kernels
 from chapsym.dynamics.closed import elliptic
 from chapsym.dynamics.closed.elliptic import height_of
-from chapsym.dynamics.loops import branch, gibbs, loop
+from chapsym.dynamics.loops import branch, gibbs, lanes, loop
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.oracle import Oracle
-from chapsym.generated import tangent_jacobian
+from chapsym.generated import gibbs_newton, tangent_jacobian
 
 ULP = 2.0**-52
 MP = mpmath.MPContext()
@@ -86,6 +87,25 @@ def test_the_safe_way_needs_both_forms(D, monkeypatch):
         _, _, q0, *q = small_rotation(*K, *g, *J, D)
         errors.append(off(np.array(q) / q0, root(K, g, J, D)))
     assert max(errors) > 0.01 * D
+
+
+@pytest.mark.parametrize("D", HEAVY)
+def test_long_steps_of_a_heavy_ball_have_their_digits(D, monkeypatch):
+    """Eight ulps after four of them; by the determinant along a row they lose up to D/I."""
+
+    def worst():
+        found = []
+        for J, K, g in states(D):
+            run, true = (
+                extrapolate(Ball(J, D), K, g, 0.5, 4, attitude=True, precision=p) for p in ("double", "double-double")
+            )
+            found += [abs(getattr(run, name) - getattr(true, name)).max() for name in ("gamma", "attitude")]
+        return max(found)
+
+    assert worst() <= 8 * ULP
+    with in_plain_python():
+        monkeypatch.setattr(lanes, "gibbs_newton_heavy", gibbs_newton)
+        assert D < 1e4 or worst() > 1e-3 * D * ULP
 
 
 @pytest.mark.parametrize("D", HEAVY)

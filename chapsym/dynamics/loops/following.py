@@ -309,13 +309,13 @@ def judged(S, E, b, lost, start, sums, state, lane):
     size = lane[UNIT] * sqrt(square(three_in(S, at.OMEGA, b)))
     lane[SPEED], lane[FATE], lane[OFF], lane[OUT] = size, STAYS, 0.0, 0.0
     if lost and S[at.LOST, b] != 0.0:
-        heavy = S[at.FIRSTS + 3, b] < 0.0  # always takes the safe way
+        always = S[at.FIRSTS + 3, b] < 0.0  # products of its numbers would underflow
         stopped = 0
-        if heavy or tries >= MOST_TRIES:
+        if always or tries >= MOST_TRIES:
             stopped, reached = safely(S, b, sums, state)
             lane[STATUS], lane[REACH] = stopped, reached
             lane[FATE] = STAYS if stopped == 0 else STOPS
-        if tries < MOST_TRIES and (stopped != 0 or not heavy):
+        if tries < MOST_TRIES and (stopped != 0 or not always):
             lane[FATE], lane[SETTLED] = AGAIN, 0.9 * step
     error, x, y, z = left(S, b, start)
     E[PART, b], E[PART + 1, b] = error / x if x > 0.0 else 0.0, error / y if y > 0.0 else 0.0

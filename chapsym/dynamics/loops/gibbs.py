@@ -6,8 +6,9 @@ below a bound, a root with |u| < 1 is that of the small-rotation branch, for eve
 at once for a trajectory.  A Newton correction d leaves an error of at most c|d|², c = (½(I_max - I_min) + |k|)/m,
 a second one e with the same cofactors at most 3c|d||e|.  That is compared with |u| ≥ |k|/(Λmax + ½(I_max - I_min)).
 
-For D ≫ I the sum over a row of A leaves det A, and with it u, roundings of D/I: such a ball is `heavy`, has no
-certificate, and takes the safe way, with the determinant of lemma `stable-determinant`.
+For D ≫ I the sum over a row of A leaves det A, and with it u, roundings of D/I: such a ball is `heavy`, and needs the
+determinant of lemma `stable-determinant`.  Long steps have it side by side (`lanes.iterate`); a step of the map has no
+certificate for such a ball, and takes the safe way.
 """
 
 from math import frexp, ldexp, sqrt

@@ -26,11 +26,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from chapsym.generated import angular_velocity, centre_step, compose, rotate, turn
+from chapsym.generated import (
+    angular_velocity,
+    centre_step,
+    compose,
+    gibbs_newton,
+    gibbs_newton_heavy,
+    rotate,
+    turn,
+)
 
 from . import loop
 from .branch import NOT_CONVERGED
-from .gibbs import LEFT, certificate, is_heavy, newton_round, second_round, settle
+from .gibbs import LEFT, LIGHTEST, bound, certificate, is_heavy, round_from, second_round, settle
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import (
     conjugate,
@@ -97,7 +105,9 @@ KEPT, DONE, SUMS = 84, 87, 94
 MOVED = SUMS + 11
 LENGTH, RADIUS, TENSOR = MOVED + MOVING, MOVED + MOVING + 1, MOVED + MOVING + 2
 CONTACT, RESTS, LATER = MOVED + MOVING + 5, MOVED + MOVING + 6, MOVED + MOVING + 7
-ROWS = MOVED + MOVING + 10
+#: Of every lane, whether its ball is heavy (`gibbs.is_heavy`).
+HEAVY = MOVED + MOVING + 10
+ROWS = HEAVY + 1
 #: (|A⁻¹| c |d|)² may be this: Kantorovich's number, 2|A⁻¹|c|d|, is then at most 1/4.
 KANTOROVICH = 1.0 / 64.0
 #: Rounds of a slot that are tried before the long step is left to the safe way.
@@ -135,15 +145,25 @@ class Frames(NamedTuple):
     traced: bool
 
 
-def checked(S, B, again):
+def iterate(u, k, g, I, D, heavy, one_is_heavy):
+    """A Newton iterate from u, with the determinant of a ball that may be `heavy`."""
+    found = gibbs_newton(*u, *k, *g, *I, D)
+    det = found[0]
+    if one_is_heavy:
+        stable = gibbs_newton_heavy(*u, *k, *g, *I, D)
+        det = stable[0] if heavy else det
+    return round_from(u, (det, *found[1:13]))
+
+
+def checked(S, B, again, one_is_heavy):
     """Two Newton iterates, or one `again`, and a second correction in every open lane; returns how many stay open."""
     for i in lanes(LANES * B):
         u, k, g = three_in(S, U, i), three_in(S, K, i), three_in(S, G, i)
-        inertia, contact = three_in(S, BALL, i), S[BALL + 3, i]
+        inertia, contact, heavy = three_in(S, BALL, i), S[BALL + 3, i], S[HEAVY, i] != 0.0
         if not again:
-            r = newton_round(u, k, g, inertia, contact)
+            r = iterate(u, k, g, inertia, contact, heavy, one_is_heavy)
             u = r.w
-        r = newton_round(u, k, g, inertia, contact)
+        r = iterate(u, k, g, inertia, contact, heavy, one_is_heavy)
         p, w, second = second_round(r, k, inertia)
         c = r.cofactors
         squares = dot(c[0:3], c[0:3]) + dot(c[3:6], c[3:6])
@@ -160,6 +180,13 @@ def checked(S, B, again):
     for i in lanes(LANES * B):
         left += 1 if S[OPEN, i] != 0.0 else 0
     return left
+
+
+def looked_for(S, B, again, one_is_heavy):
+    """`checked`, in a loop of its own where no ball is heavy, which has less to compute."""
+    if one_is_heavy:
+        return checked(S, B, again, True)
+    return checked(S, B, again, False)
 
 
 def moved(S, B, traced):
@@ -296,7 +323,9 @@ def side_by_side(S, B, traced, weights):
     first, second = LAST + 1 - columns, LAST - LANES  # the largest of the second columns
     rates(S, B, first)
     begin(S, B)
-    lost = False
+    lost, one_is_heavy = False, False
+    for b in range(B):
+        one_is_heavy = one_is_heavy or S[HEAVY, b] != 0.0
     for slot in range(LAST):
         lane = LAST - slot
         if lane < LANES:  # it has finished its first column, n = slot
@@ -311,9 +340,9 @@ def side_by_side(S, B, traced, weights):
                 weight = weights.following[slot, j, c]
                 for b in lanes(B):
                     S[WEIGHT + j, c * B + b] = weight
-        left, rounds = checked(S, B, False), 0
+        left, rounds = looked_for(S, B, False, one_is_heavy), 0
         while left > 0 and rounds < MOST_ROUNDS:
-            left, rounds = checked(S, B, True), rounds + 1
+            left, rounds = looked_for(S, B, True, one_is_heavy), rounds + 1
         if left > 0:
             lost = True
             lose(S, B)
@@ -505,6 +534,7 @@ def enter(S, B, b, i, balls, h, weights, body, state):
         j, first = lane * B + b, max(LAST - lane, least)
         put_in(S, BALL, j, three(state, loop.I))
         S[BALL + 3, j] = state[loop.D]
+        S[HEAVY, j] = 1.0 if is_heavy(three(state, loop.I), state[loop.D]) else 0.0
         one, two = LAST - lane >= least, lane >= least
         for c in range(DERIVATIVES):
             S[GUESS + c, j] = weights.beginning[first, c]
@@ -534,11 +564,12 @@ def entered(S, at, i, body, half, n, state):
     spread = 0.5 * (max(*inertia) - min(*inertia))
     k = scaled(part, three(body, 0))
     size = length(k)
-    within, _ = certificate(k, inertia, contact)
+    within, _ = bound(k, inertia, contact)
     least = LEFT * size / (max(*inertia) + contact + spread)
-    anywhere = -1.0 if is_heavy(inertia, contact) else ANYWHERE  # a heavy ball takes the safe way
+    # A heavy ball takes the safe way where products of its numbers would underflow.
+    light = is_heavy(inertia, contact) and not (min(*inertia) >= LIGHTEST and size >= LIGHTEST)
     S[at, i], S[at + 1, i], S[at + 2, i], S[SPREAD, i] = part, 1.0 / part if part != 0.0 else 0.0, size, spread
-    S[at + 3, i], S[at + 4, i] = within if within >= 0.0 else anywhere, least * least / BEHIND
+    S[at + 3, i], S[at + 4, i] = -1.0 if light else within if within >= 0.0 else ANYWHERE, least * least / BEHIND
     S[at + 5, i] = 1.0 / (n * n)
 
 
