@@ -3757,8 +3757,13 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real
     }
     if (lane.p[12] == R(3.0)) {
         real t_4 = min_r(R(1.05) * lane.p[20], R(1e+300)), t_5 = min_r(R(1.05) * lane.p[10], R(1e+300));
-        lane.p[20] = t_4; lane.p[10] = t_5; rounding = R(27.1) * start; AT2(E, 78, b) = lane.p[1] * lane.p[2];
-        AT2(E, 82, b) = rounding * rounding; AT2(S, 117, b) = R(0.0);
+        lane.p[20] = t_4; lane.p[10] = t_5; rounding = R(27.1) * start;
+        if (AT2(E, 16, b) == R(0.0) && AT2(E, 17, b) == R(0.0) && AT2(E, 18, b) == R(0.0)) {
+            lane.p[21] = lane.p[21] + R(1.0);
+            rounding = R(1.6653345369377348e-14) * R(sqrt(R(2.0) * lane.p[21] - R(1.0)));
+        }
+        else { lane.p[21] = R(0.0); }
+        AT2(E, 78, b) = lane.p[1] * lane.p[2]; AT2(E, 82, b) = rounding * rounding; AT2(S, 117, b) = R(0.0);
     }
     else { AT2(E, 79, b) = R(0.0); AT2(E, 80, b) = R(0.0); AT2(E, 81, b) = R(0.0); }
     if (lane.p[12] == R(1.0)) { lanes_put_back(S, b, body); }
@@ -3954,8 +3959,8 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
     ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B};
     ALIGNED real bodies_[B * 24]; memset(bodies_, 0, sizeof bodies_); r2 bodies = {bodies_, B, 24, 24};
     ALIGNED real now_[24]; memset(now_, 0, sizeof now_); r1 now = {now_, 24}; ALIGNED real found_[24];
-    memset(found_, 0, sizeof found_); r1 found = {found_, 24}; ALIGNED real lanes_[B * 21];
-    memset(lanes_, 0, sizeof lanes_); r2 lanes = {lanes_, B, 21, 21}; ALIGNED real ends_[(2 * B) * 6 * 6];
+    memset(found_, 0, sizeof found_); r1 found = {found_, 24}; ALIGNED real lanes_[B * 22];
+    memset(lanes_, 0, sizeof lanes_); r2 lanes = {lanes_, B, 22, 22}; ALIGNED real ends_[(2 * B) * 6 * 6];
     memset(ends_, 0, sizeof ends_); r3 ends = {ends_, (2 * B), 6, 6, 6 * 6, 6}; ALIGNED real V_[16 * 6];
     memset(V_, 0, sizeof V_); r2 V = {V_, 16, 6, 6}; ALIGNED real curves_[B * 12 * 6];
     memset(curves_, 0, sizeof curves_); r3 curves = {curves_, B, 12, 6, 12 * 6, 6};
@@ -4220,5 +4225,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "d8dc542d5e0712239998cfd8108a9e996bb391dbfab5acedd2bcf0844b91901e";
+const char loops_text[] = "3da1071d234dc8a2006831eda8dd9cc344ab006a26ff72c2d823245d48f870b7";
 #endif

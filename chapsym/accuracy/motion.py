@@ -256,9 +256,10 @@ def _rolled(
     body = checked_before(J, D, radius)
     problem = Problem(body, flat, g, every * epsilon, steps // every, accuracy, turned, contact, threads=threads)
     found = moved(problem, lambda balls: progress(int(balls * steps)))
-    taken = found.reached * every
-    taken[found.reached == problem.frames] = steps
-    found.angular_momentum[...] *= epsilon
+    taken = found.reached
+    if every > 1:
+        taken = np.where(found.reached == problem.frames, steps, found.reached * every)
+    found.angular_momentum *= epsilon
     run = of_balls(
         Trajectory, shape, ball, np.arange(0, steps + 1, every), found.angular_momentum, found.gamma, found.attitude,
         found.contact, taken, found.status, time_step=epsilon, order=0, error=found.error.reshape(shape),
@@ -299,7 +300,7 @@ def _accuracy(given: float | None) -> float:
     return float(found)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Motion:
     """n balls at frames + 1 equal times.
 
@@ -307,8 +308,7 @@ class Motion:
     None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.
     reached: the last frame of each ball, (n,); later ones are NaN.  status: why it stopped, a `Status`, (n,).
     error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`.
-    order, steps, total: of each ball, (n,), the steps between two frames, at most, and all; 0 of a steady rotation,
-    which needs none.
+    order, total: of each ball, (n,), and its steps; 0 of a steady rotation, which needs none.
     """
 
     angular_momentum: Floats
@@ -319,8 +319,13 @@ class Motion:
     status: np.ndarray
     error: Floats
     order: np.ndarray
-    steps: np.ndarray
     total: np.ndarray
+
+    @property
+    def steps(self) -> np.ndarray:
+        """The steps between two frames, at most, of each ball, (n,)."""
+        found: np.ndarray = -(-self.total // max(self.gamma.shape[1] - 1, 1))
+        return found
 
     def of(self, some: np.ndarray) -> Motion:
         """Some of the balls."""
@@ -358,7 +363,7 @@ class Problem:
         """Finds `units`, and what `loops.expected` finds of each ball at the start: `survey`, (FOUND, n)."""
         ball, n = self.ball, len(self.K)
         #: What a relative error of each ball comes to in the norm, (n,): 1, or the radius in m.
-        self.units = ball.radius if self.metres and ball.radius is not None else np.full(n, 1.0)
+        self.units = ball.radius if self.metres and ball.radius is not None else np.ones(n)
         self.survey: Floats = np.empty((FOUND, n))
         survey = native.loop(surveyed)
         #: What rounding alone may leave of any ball, and whether one may rotate steadily.
@@ -395,12 +400,12 @@ class Problem:
     def nothing(self) -> Motion:
         """An empty motion, whose first frame is the start."""
         n, kept = len(self), self.frames + 1
-        reached, status, order, steps, total = np.zeros((5, n), dtype=np.int64)
+        reached, status, order, total = np.zeros((4, n), dtype=np.int64)
         try:
             found = Motion(
                 np.empty((n, kept, 3)), np.empty((n, kept, 3)),
                 None if self.attitude is None else np.empty((n, kept, 4)),
-                np.empty((n, kept, 2)) if self.contact else None, reached, status, np.zeros(n), order, steps, total,
+                np.empty((n, kept, 2)) if self.contact else None, reached, status, np.zeros(n), order, total,
             )  # fmt: skip
         except (MemoryError, ValueError):
             raise BadInput(
@@ -420,7 +425,7 @@ class Problem:
             self.ball, step * self.K, self.gamma, total, order=order, every=steps, time_step=step,
             attitude=False if self.attitude is None else self.attitude, contact=self.contact, threads=self.threads,
         )  # fmt: skip
-        how = (np.full(len(self), x) for x in (np.nan, order, steps, total))
+        how = (np.full(len(self), x) for x in (np.nan, order, total))
         return Motion(
             run.angular_momentum(), run.gamma, run.attitude, run.contact, run.taken // steps, run.status, *how
         )
@@ -443,7 +448,6 @@ def moved(problem: Problem, progress: Callable[[float], None] = lambda done: Non
         progress(done)
         if len(others):
             found.put(others, _follow(problem.of(others), lambda part: progress(done + part)))
-    found.steps[:] = -(-found.total // max(problem.frames, 1))
     return found
 
 
@@ -553,7 +557,8 @@ def _run(
 
         count, parts = Count(progress), range(0, n, width)
         share(task, parts, min(problem.threads or cores(), len(parts)), count)
-    found.order[:], found.total[:] = EXTRAPOLATED, reported[:, STEPS]
+    found.order.fill(EXTRAPOLATED)
+    found.total[:] = reported[:, STEPS]
     (noise, started), asked_of = np.empty((2, n)), problem.parts
     turned = not asked_of or bool(asked_of & {"momentum", "gamma", "attitude"})
     counted = turned, "omega" in asked_of, traced and "contact" in asked_of
@@ -570,13 +575,13 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
     n = len(problem)
     found, left, factor, before = problem.nothing(), np.arange(n), np.ones(n), np.full(n, np.inf)
     gain, stopped = np.ones(n), np.zeros(n, dtype=bool)
-    found.order[:], found.steps[:] = cheapest(problem, factor)
+    found.order[:], steps = cheapest(problem, factor)
     for attempt in range(ATTEMPTS):
-        for order, steps in sorted(set(zip(found.order[left].tolist(), found.steps[left].tolist(), strict=True))):
-            some = left[(found.order[left] == order) & (found.steps[left] == steps)]
+        for order, count in sorted(set(zip(found.order[left].tolist(), steps[left].tolist(), strict=True))):
+            some = left[(found.order[left] == order) & (steps[left] == count)]
             part = problem.of(some)
-            run = part.take(order, steps)
-            run.error[:] = _verified(part, order, steps, run)
+            run = part.take(order, count)
+            run.error[:] = _verified(part, order, count, run)
             found.put(some, run)
         error = found.error[left]
         fell, error = np.isfinite(error), np.where(stopped[left], np.inf, error)
@@ -587,17 +592,17 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
         progress(n - len(left))
         if not len(left) or attempt + 1 == ATTEMPTS:
             break
-        part, order, steps = problem.of(left), found.order[left], found.steps[left]
-        expected = _error(part, order, problem.interval / steps)
+        part, order, taken = problem.of(left), found.order[left], steps[left]
+        expected = _error(part, order, problem.interval / taken)
         known = np.isfinite(before[left])
         factor[left] = np.where(known, np.maximum(factor[left], before[left] / (SAFETY * expected)), factor[left])
         wanted, finer = cheapest(part, factor[left])
-        least, most = LEAST_FINER * steps, MOST_FINER * steps
+        least, most = LEAST_FINER * taken, MOST_FINER * taken
         finer = np.where(wanted == order, shared(np.minimum(np.maximum(finer, least), most)), finer)
         # One that stopped has no estimate of the steps it needs.
-        found.order[left], found.steps[left] = np.where(known, wanted, order), np.where(known, finer, 2 * steps)
+        found.order[left], steps[left] = np.where(known, wanted, order), np.where(known, finer, 2 * taken)
         # Of what more steps should gain half, in decades, shows that they help.
-        gain[left] = np.where(found.order[left] == order, (found.steps[left] / steps) ** (order / 2), 2.0)
+        gain[left] = np.where(found.order[left] == order, (steps[left] / taken) ** (order / 2), 2.0)
     return found
 
 

@@ -384,6 +384,8 @@ def step_numbers(index: ArrayLike) -> np.ndarray:
 
 def seconds(value: Any, positive: bool = True) -> float:
     """A time step in seconds; raises BadInput for what is not one number, or not a positive one."""
+    if type(value) is float and 0.0 < value < math.inf:
+        return value
     epsilon = value if isinstance(value, float) and -math.inf < value < math.inf else numbers(value, "time_step")
     if np.ndim(epsilon) or (positive and not epsilon > 0):
         raise BadInput(f"time_step must be one {'positive ' if positive else ''}number of seconds, not {value!r}")

@@ -254,8 +254,7 @@ def of_balls(
     kind: Callable[..., R], shape: tuple[int, ...], ball: Any, index: np.ndarray, *flat: Asked, **more: Any
 ) -> R:
     """A run of any kind, from flat arrays (n, ...): momentum, gamma, attitude, contact, taken and status."""
-    names = ("momentum", "gamma", "attitude", "contact", "taken", "status")
-    return kind(ball, index, **{name: in_shape(shape, x) for name, x in zip(names, flat, strict=True)}, **more)
+    return kind(ball, index, *[in_shape(shape, x) for x in flat], **more)
 
 
 @dataclass(frozen=True, eq=False)
