@@ -153,3 +153,19 @@ def test_every_public_function_has_a_docstring():
                 if not (ast.get_docstring(node) or inherited):
                     missing.append(f"{path.name}:{node.lineno} {node.name}")
     assert not missing
+
+
+#: What reads the clock on the wall, which may be set back; `time.monotonic` and `perf_counter` may not.
+WALL = {"time.time", "time.time_ns", "datetime.date.today", "datetime.datetime.now", "os.stat", "st_mtime", "getmtime"}
+
+
+def test_nothing_but_a_date_depends_on_the_clock_on_the_wall():
+    """A clock that is set back changes no result, no resumption and no lock; a page of figures has its date."""
+    reading = set()
+    for file in (*ROOT.rglob("*.py"), *(ROOT.parent / "checker").glob("*.py")):
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        names = {ast.unparse(node) for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+        names |= {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+        if names & WALL:
+            reading.add(file.relative_to(ROOT).as_posix())
+    assert reading == {"cli/measured.py"}
