@@ -3760,7 +3760,7 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real
         lane.p[20] = t_4; lane.p[10] = t_5; rounding = R(27.1) * start;
         if (AT2(E, 16, b) == R(0.0) && AT2(E, 17, b) == R(0.0) && AT2(E, 18, b) == R(0.0)) {
             lane.p[21] = lane.p[21] + R(1.0);
-            rounding = R(1.6653345369377348e-14) * R(sqrt(R(2.0) * lane.p[21] - R(1.0)));
+            rounding = max_r(rounding, R(1.6653345369377348e-14)) * R(sqrt(R(2.0) * lane.p[21] - R(1.0)));
         }
         else { lane.p[21] = R(0.0); }
         AT2(E, 78, b) = lane.p[1] * lane.p[2]; AT2(E, 82, b) = rounding * rounding; AT2(S, 117, b) = R(0.0);
@@ -4058,8 +4058,9 @@ INLINE void following_follow(int alone, r3 momenta, r3 verticals, r3 attitudes, 
 }
 
 INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
-    t_ri size, weight; t_r3 k, J, w, inertia; real D, rate, least, condition, turned, root, walked, allowed, part;
-    int64_t zeros; int known; real floor = R(0.0), single = R(0.0);
+    t_ri size, weight; t_r3 k, J, w, inertia;
+    real D, rate, least, condition, turned, root, walked, allowed, part, across; int64_t zeros; int known;
+    real floor = R(0.0), single = R(0.0);
     for (int64_t i = 0, end_i = momenta.n0; i < end_i; i++) {
         size = real_frexp(vectors_largest(vectors_three(r2_row(momenta, i), 0)));
         weight = real_frexp(max_r(max_r(max_r(AT2(J0, i, 0), AT2(J0, i, 1)), AT2(J0, i, 2)), D0.p[i]));
@@ -4084,7 +4085,9 @@ INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
             R(1.0);
         part = R(1.7) * part * R(sqrt(part)); AT2(found, 5, i) = rate * end > part ? min_r(part / rate, end) : end;
         AT2(found, 6, i) = allowed; AT2(found, 7, i) = accuracy / unit.p[i];
-        AT2(found, 8, i) = R(2.220446049250313e-16) * root; known = AT2(found, 3, i) <= R(1.0715086071862673e+301);
+        across = least * vectors_length(w) > R(0.0) ? vectors_length(k) / (least * vectors_length(w)) : R(0.0);
+        AT2(found, 8, i) = R(2.220446049250313e-16) * max_r(root, R(0.125) * across);
+        known = AT2(found, 3, i) <= R(1.0715086071862673e+301);
         floor = max_r(floor, known ? AT2(found, 3, i) : R(INFINITY)); single = max_r(single, AT2(found, 2, i));
     }
     return (t_r2){floor, single};
@@ -4225,5 +4228,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "3da1071d234dc8a2006831eda8dd9cc344ab006a26ff72c2d823245d48f870b7";
+const char loops_text[] = "1212c2631f3b87204edcef7ba2e25855b39cb0b7a183b71b27298f5da6625772";
 #endif

@@ -1,6 +1,6 @@
 """Runs of `roll` near unstable rotations, seeded: the stated error is compared with the true one.
 
-`python tests/unstable_starts.py FIRST COUNT` prints each start; one in `CERTIFIED`, and each whose true error
+`python tests/unstable_starts.py FIRST COUNT [heavy]` prints each start; one in `CERTIFIED`, and each whose true error
 is more than a tenth of the stated one, is judged by the certified motion as well.
 """
 
@@ -16,6 +16,8 @@ import chapsym
 FRAMES, CERTIFIED, TENTH = 4, 20, 0.1
 #: Radians after which a start is left that is more stable than most, and by what part a run becomes longer.
 SHORTEST, LONGEST, LONGER = 12.0, 100.0, 1.1
+#: The powers of ten that D is between, of moments of inertia up to 2.
+LIGHT, HEAVY = (-2, 1), (1, 4.5)
 #: Radians of a step in double-double.
 TURN = 0.25
 
@@ -34,7 +36,8 @@ class Start:
     enough: float
 
 
-def start(seed):
+def start(seed, heavy=False):
+    """The start of a seed; heavy: of a ball whose D is up to a million times its least moment of inertia."""
     rng = random.Random(seed)
     tensor = sorted(rng.uniform(0.02, 1) for _ in range(3))
     omega, aside, gamma = ([rng.gauss(0, 1) for _ in range(3)] for _ in range(3))
@@ -45,7 +48,7 @@ def start(seed):
         gamma = [off * aside[2], 1.0, off * aside[0]]
     if kind == 2:
         gamma[1] = 0.0
-    ball = chapsym.Ball(tensor, 10 ** rng.uniform(-2, 1), 1.0)
+    ball = chapsym.Ball(tensor, 10 ** rng.uniform(*(HEAVY if heavy else LIGHT)), 1.0)
     accuracy = 10 ** rng.uniform(-11, -3)
     return Start(
         ball, tuple(omega), np.array(gamma) / np.linalg.norm(gamma), accuracy, 10 ** rng.uniform(-1, 3) * accuracy
@@ -106,9 +109,9 @@ def distance(asked, run, true):
     )
 
 
-def judged(seed):
+def judged(seed, heavy=False):
     """(accuracy, stated error, true error, that by the certified motion or None); None of a refused accuracy."""
-    asked = start(seed)
+    asked = start(seed, heavy)
     if (run := rolled(asked)) is None:
         return None
     certified, error = None, distance(asked, run, by_extrapolation(asked, run))
@@ -118,9 +121,9 @@ def judged(seed):
 
 
 if __name__ == "__main__":
-    first, count = map(int, sys.argv[1:])
-    for seed in range(first, first + count):
-        if found := judged(seed):
+    first, count, *heavy = sys.argv[1:]
+    for seed in range(int(first), int(first) + int(count)):
+        if found := judged(seed, bool(heavy)):
             accuracy, stated, *errors = found
             parts = [error / stated for error in errors if error is not None]
             true, below = ", ".join(f"{part:.2g}" for part in parts), " BELOW" if max(parts) >= 1 else ""

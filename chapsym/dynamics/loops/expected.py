@@ -23,6 +23,8 @@ GROWTH = 30.0
 UNIT_ERROR, AIM = 3e-9, 0.5
 #: The roundings of steps that go one way turn a ball as those of its parameters do, and this many times as far.
 TURNING = 3.0
+#: What part of that is the rounding of a step, where it is more than the root of the condition.
+ACROSS = 0.125
 #: Of a ball of a larger condition the roundings of long steps are not known.
 CONDITIONED = 1e4
 #: What has no bound.
@@ -60,7 +62,10 @@ def surveyed(
         part = sqrt(sqrt(sqrt(sqrt(min(allowed / (UNIT_ERROR * rate), 1.0))))) if rate > 0.0 else 1.0
         part = FARTHEST * part * sqrt(part)
         found[FIRST, i] = min(part / rate, end) if rate * end > part else end
-        found[ALLOWED, i], found[MOST, i], found[START, i] = allowed, accuracy / unit[i], 2.0 * UNIT * root
+        found[ALLOWED, i], found[MOST, i] = allowed, accuracy / unit[i]
+        # A rounding of K is one of ω times |K|/(I_min |ω|), which is up to the condition where K is across γ.
+        across = length(k) / (least * length(w)) if least * length(w) > 0.0 else 0.0
+        found[START, i] = 2.0 * UNIT * max(root, ACROSS * across)
         known = found[FLOOR, i] <= ENDLESS  # not where it is NaN
         floor, single = max(floor, found[FLOOR, i] if known else inf), max(single, found[SINGLE, i])
     return floor, single

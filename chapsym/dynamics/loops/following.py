@@ -421,7 +421,7 @@ def looked_at(
         if E[GRADIENT, b] == 0.0 and E[GRADIENT + 1, b] == 0.0 and E[GRADIENT + 2, b] == 0.0:
             # The mean squares of n roundings that are one and the same are n² times its square: here the n-th is added.
             lane[ALIKE_STEPS] += 1.0
-            rounding = ROUNDED_ALIKE * sqrt(2.0 * lane[ALIKE_STEPS] - 1.0)
+            rounding = max(rounding, ROUNDED_ALIKE) * sqrt(2.0 * lane[ALIKE_STEPS] - 1.0)
         else:
             lane[ALIKE_STEPS] = 0.0
         E[WHOLE, b], E[ROUNDING, b] = lane[STEP] * lane[UNIT], rounding * rounding
