@@ -91,21 +91,22 @@ def test_the_safe_way_needs_both_forms(D, monkeypatch):
 
 @pytest.mark.parametrize("D", HEAVY)
 def test_long_steps_of_a_heavy_ball_have_their_digits(D, monkeypatch):
-    """Eight ulps after four of them; by the determinant along a row they lose up to D/I."""
+    """Eight ulps after four of them; by the determinant along a row they would lose up to D/I."""
 
-    def worst():
+    def worst(count):
         found = []
-        for J, K, g in states(D):
+        for J, K, g in states(D, count):
             run, true = (
                 extrapolate(Ball(J, D), K, g, 0.5, 4, attitude=True, precision=p) for p in ("double", "double-double")
             )
             found += [abs(getattr(run, name) - getattr(true, name)).max() for name in ("gamma", "attitude")]
         return max(found)
 
-    assert worst() <= 8 * ULP
-    with in_plain_python():
+    assert worst(12) <= 8 * ULP
+    if D == 1e9:
         monkeypatch.setattr(lanes, "gibbs_newton_heavy", gibbs_newton)
-        assert D < 1e4 or worst() > 1e-3 * D * ULP
+        with in_plain_python():
+            assert worst(2) > 1e-3 * D * ULP
 
 
 @pytest.mark.parametrize("D", HEAVY)
