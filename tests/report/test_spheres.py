@@ -143,6 +143,17 @@ def test_a_view_is_a_right_handed_frame_that_sees_its_eye(eye):
     assert view.up[2] >= 0
 
 
+def test_a_small_orbit_is_in_front_and_a_great_circle_is_never_seen_from_its_edge():
+    turn = np.linspace(0, 2 * np.pi, 360, endpoint=False)
+    circle = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=-1)
+    for turned in np.linalg.qr(np.random.default_rng(42).standard_normal((200, 3, 3)))[0]:
+        small, great = unit(0.3 * circle + [0, 0, 1]) @ turned, circle @ turned
+        assert (sphere.View.of(small).project(small)[2] > 0).all()
+        x, y, _ = sphere.View.of(great).project(great)
+        longest, shortest = np.linalg.svd(np.stack([x, y], axis=-1), compute_uv=False)
+        assert shortest > 0.15 * longest  # 0.19 of 2000 is the least
+
+
 def test_many_balls_are_a_cloud_in_the_colour_of_time():
     dataset = results.batch(50, 200, 1)
     gamma, _, bar = figures.draw(dataset, "spheres").axes
