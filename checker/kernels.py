@@ -298,7 +298,7 @@ def entries(
     for step, by in steps:
         images = [{name: value(tree, ring.names(), ring.number) for name, tree in pairs} for pairs in moves(step, by)]
         if step == "entries":
-            if max(by, default=0) >= len(found):
+            if any(i >= len(found) for i in by):
                 raise Rejected(f"{where} wants an entry that «{statement['text']}» does not have")
             found = [found[i] for i in by]
         elif step == "solved":
