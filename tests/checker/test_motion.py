@@ -117,6 +117,13 @@ def test_balls_with_one_moment_keep_the_distance_of_their_motions():
     assert all(x.lo == x.hi == 0 for column in one.stretch(box) for x in column)
 
 
+def test_no_step_of_a_ball_with_one_moment_makes_an_error_larger(right, monkeypatch):
+    honest, found = rolling.Flow.growth, []
+    monkeypatch.setattr(rolling.Flow, "growth", lambda *given: found.append(honest(*given)) or found[-1])
+    ends(replaced(right, ("ball", "J"), ["2", "2", "2"]))
+    assert set(found) == {1}
+
+
 def random_start(rng):
     def number(most):
         return Fraction(rng.randrange(-100, 101), 100) * most

@@ -119,6 +119,10 @@ def test_what_was_judged_is_shown_and_one_change_is_seen(samples):
         data, path = slip(samples[id], rng)
         if {"cofactors", "chart", "combinations"}.isdisjoint(path):
             assert [*shown.lines(data)] != [*shown.lines(samples[id])], (id, path)
+    for data in (samples[id] for id in SAMPLES):
+        heads = [line for line in shown.lines(data) if "[in algebra " in line]
+        said = ["which only words of the formula say" in head for head in heads]
+        assert said == [bool(one.get("words")) for one in data["statements"]]
     difference = ["+", "a", ["*", -1, ["+", "b", ["*", -2, "c"]]], ["^", ["+", "a", "1/2"], -1], -3]
     assert shown.formula(difference) == "a - (b + (-2)·c) + (a + 1/2)^(-1) - 3"
     assert shown.formula(["^", ["*", -1, "a"], 2]) == "(-a)^2"

@@ -292,6 +292,13 @@ def test_what_no_floats_can_propose_is_one_sentence(change, sentence):
         certified_motion(**given | change)
 
 
+@pytest.mark.parametrize("power", ["e400", "e-400"])
+def test_moments_of_any_size_are_those_of_a_body_or_none(power):
+    assert ExactBall(("1" + power, "2" + power, "4" + power), "3" + power).mass_tensor[2] == F("4" + power)
+    with pytest.raises(BadInput, match="mass_tensor"):
+        ExactBall(("1" + power, "2" + power, "-4" + power), 3)
+
+
 def test_times_are_written_as_decimals_where_they_are_such():
     assert [decimal(F(x)) for x in ("2", "0", "1/8", "1/3", "12.50")] == ["2", "0", "0.125", "1/3", "12.5"]
 

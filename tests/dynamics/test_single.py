@@ -60,6 +60,10 @@ def test_a_slow_step_has_all_its_digits(size):
     assert np.abs(found / exact - 1).max() <= 4 * ULP
 
 
+def test_a_vector_is_divided_by_its_length_and_rounded():
+    assert (double.unit(np.array([[0.0, 3.0, 4.0]])) == np.array([0, 0.6, 0.8], np.float32)).all()
+
+
 def test_all_arrays_are_float32():
     run = chapsym.trajectory(BALL, K, G, 10, contact=True, precision="single")
     assert {x.dtype for x in (run.momentum, run.gamma, run.attitude, run.contact)} == {np.dtype(np.float32)}

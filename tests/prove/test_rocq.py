@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from commands import chapsym
 
 from chapsym import proofs
 from chapsym.checker import file_name
-from chapsym.prove.rocq import write
+from chapsym.prove.rocq import quotients, words, write
 from chapsym.prove.rocq.claims import COUNT, SAME
 from chapsym.prove.rocq.names import comment, identifier
 
@@ -105,6 +106,21 @@ def test_without_rocq_one_sentence_says_what_to_install(tmp_path):
 
 def test_a_text_cannot_end_its_comment():
     assert comment('f*) "g (**) \n h') == "(* f* ) ''g ( ** )   h *)"
+
+
+def test_sums_and_powers_are_what_they_say():
+    letters = {"A": (0, ("n", "n"), "A"), "B": (1, ("n", "n"), "B")}
+    algebra = words.Algebra(letters, {}, 1)
+    assert algebra.matrix(["+", "A", ["^", "B", 2]])[0] == "(A + (B *m B))"
+    assert quotients.value(["^", ["+", "x", 1], 3], {"x": "1/2"}) == Fraction(27, 8)
+
+
+def test_words_that_are_numbers_are_left_out():
+    data = certificate("prop-2")
+    one, algebra = data["statements"][0], data["algebras"][0]
+    point = dict.fromkeys(algebra["letters"], [[1, 0], [0, 1]])
+    with pytest.raises(words.LeftOut, match="of no size"):
+        words.statement("numbers", one | {"left": [["^", 2, 2]], "right": [4]}, algebra, point)
 
 
 def test_names_stay_apart():
