@@ -118,7 +118,7 @@ def test_sums_and_powers_are_what_they_say():
 def test_words_that_are_numbers_are_left_out():
     data = certificate("prop-2")
     one, algebra = data["statements"][0], data["algebras"][0]
-    point = dict.fromkeys(algebra["letters"], [[1, 0], [0, 1]])
+    point = {name: [[1, 0], [0, 1]] for name in algebra["letters"]}
     with pytest.raises(words.LeftOut, match="of no size"):
         words.statement("numbers", one | {"left": [["^", 2, 2]], "right": [4]}, algebra, point)
 
