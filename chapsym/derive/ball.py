@@ -19,7 +19,7 @@ K = matrix_symbols("K")[0]
 D = space.D
 
 ALGEBRA = WordAlgebra(
-    {Omega: OmegaT, OmegaT: Omega, J: J, Gamma: Gamma, gamma: gammaT, gammaT: gamma, K: -K, omega: -omega},
+    {Omega: OmegaT, J: J, Gamma: Gamma, gamma: gammaT, K: -K, omega: -omega},
     {(Omega, OmegaT): 1, (OmegaT, Omega): 1, (gamma, gammaT): Gamma},
 )
 
@@ -56,12 +56,16 @@ def split(balance: sp.Symbol, name: str, suffix: str, algebra: WordAlgebra) -> t
 
 
 def momentum_in_space(now: bool) -> sp.Symbol:
-    """𝒦_k or 𝒦_{k-1}: `momentum()` with Ω = R_kᵀR_{k+1} or R_{k-1}ᵀR_k, and γ = Rᵀγ⃗ at the start of the step."""
-    a, aT, b, bT = (space.R, space.RT, space.R1, space.R1T) if now else (space.R0, space.R0T, space.R, space.RT)
-    places = {Omega: aT * b, OmegaT: bT * a, gamma: aT * space.gamma, gammaT: space.gammaT * a}
-    places[Gamma] = aT * space.gamma * space.gammaT * a
+    """𝒦_k or 𝒦_{k-1}: `momentum()` in attitudes."""
     text = f"by Ω = R_{{{'k' if now else 'k-1'}}}ᵀR_{{{'k+1' if now else 'k'}}} and γ = Rᵀγ⃗"
-    return replaced(f"momentum_{'k' if now else 'before'}", text, momentum(), places, BOTH)
+    return replaced(f"momentum_{'k' if now else 'before'}", text, momentum(), in_attitudes(now), BOTH)
+
+
+def in_attitudes(now: bool) -> dict[sp.Symbol, sp.Expr]:
+    """Ω = R_kᵀR_{k+1} or R_{k-1}ᵀR_k, and γ = Rᵀγ⃗ at the start of the step."""
+    back, end = (space.RT, space.R1) if now else (space.R0T, space.R)
+    vertical = back * space.gamma
+    return BOTH.with_transposes({Omega: back * end, gamma: vertical, Gamma: vertical * BOTH.transpose(vertical)})
 
 
 def momentum() -> sp.Symbol:
@@ -87,11 +91,8 @@ def in_step_symbols(name: str, of: sp.Symbol, at_start: bool, algebra: WordAlgeb
     `at_start`: the step begins at k, so R_{k+1} = R_k Ω.  Otherwise it ends there: R_k = R_{k-1} Ω.
     """
     if at_start:
-        text = "by R_{k+1} = R_k Ω and γ⃗ = R_k γ"
-        places = {space.R1: space.R * Omega, space.R1T: OmegaT * space.RT}
-        places |= {space.gamma: space.R * gamma, space.gammaT: gammaT * space.RT}
+        text, start, end = "by R_{k+1} = R_k Ω and γ⃗ = R_k γ", space.R, space.R1
     else:
-        text = "by R_k = R_{k-1} Ω and γ⃗ = R_{k-1} γ"
-        places = {space.R: space.R0 * Omega, space.RT: OmegaT * space.R0T}
-        places |= {space.gamma: space.R0 * gamma, space.gammaT: gammaT * space.R0T}
+        text, start, end = "by R_k = R_{k-1} Ω and γ⃗ = R_{k-1} γ", space.R0, space.R
+    places = BOTH.with_transposes({end: start * Omega, space.gamma: start * gamma})
     return replaced(name, text, of, places, algebra)

@@ -12,6 +12,10 @@ gradient  G with tr X = tr(Gᵀ Y) + (what has no Y), for a letter Y
 dual      the skew S with tr X = ½ tr(ξ S) for a skew letter ξ in which X is linear; tr X = 0 for every ξ if S = 0
 having, lacking   the terms of X with, or without, one of some letters
 matrix, entry     X at explicit matrices, which obey the rules in a quotient ring, and an entry of that
+
+With these a principle of mechanics is said for any system and every n.  The rate of an action, for free increments, is
+its variation, which vanishes on solutions for all increments that constraints allow: by multipliers (`equations`), or
+with the increments replaced by some that obey the constraints (`allowed`), of which the dual is taken.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -84,6 +88,26 @@ def terms(name: str, text: str, of: sp.Symbol, letters: Collection[sp.Symbol], h
     step = Step(text, STEPS[of].algebra, "having" if having else "lacking", of, tuple(letters))
     chosen = (term for term in sp.Add.make_args(DEFINED[of]) if term.has(*letters) is having)
     return _defined(name, step, sp.Add(*chosen))
+
+
+def equations(
+    varied: sp.Symbol, holding: sp.Symbol, increments: Mapping[str, sp.Symbol], algebra: WordAlgebra
+) -> list[sp.Symbol]:
+    """Letters for the gradients of tr(a variation) less those of what multipliers hold: they vanish on solutions."""
+    found = []
+    for name, by in increments.items():
+        slope = gradient(f"slope_{name}", f"of tr variation in {by}", varied, by)
+        held = gradient(f"held_{name}", f"of tr holding in {by}", holding, by)
+        found.append(written(f"equation_{name}", "it vanishes on solutions", slope - held, algebra))
+    return found
+
+
+def allowed(name: str, text: str, turn: Places, rolling: sp.Symbol, dr: sp.Symbol, algebra: WordAlgebra) -> Places:
+    """Increments, which the text says, and with them dr by what a constraint sets to 0: dr and terms in the others."""
+    turn = algebra.with_transposes(turn)
+    turning = terms(f"turning{name}", f"-{dr} by that", rolling, [dr], having=False)
+    slipping = replaced(f"slipping{name}", f"-{dr} for {text}", turning, turn, algebra)
+    return {**turn, **algebra.with_transposes({dr: -slipping})}
 
 
 def coordinates(name: str, text: str, of: sp.Symbol, places: Mapping[sp.Symbol, Any], ring: Quotient) -> sp.Symbol:

@@ -81,11 +81,10 @@ def rotor_balance() -> sp.Symbol:
     """The term that the rotor adds to `principle.momentum_balance`: it belongs to dR = ξR, whatever the centre does."""
     path = discrete_term(space.R0, space.R) + discrete_term(space.R, space.R1)
     action = written("rotor_action", "tr of it is the rotor's part of 𝕃(k-1,k) + 𝕃(k,k+1)", path, FREE)
-    still = dict.fromkeys((step_A, space.R0, space.R0T, space.R1, space.R1T), sp.S.Zero)
-    varied = rate(
-        "rotor_variation", "for increments dR of R_k", action, still | {space.R: space.dR, space.RT: space.dRT}
-    )
-    turn = {space.dR: space.xi * space.R, space.dRT: SPACE.transpose(space.xi * space.R)}
+    still = dict.fromkeys((step_A, space.R0, space.R1), sp.S.Zero)
+    increments = SPACE.with_transposes({**still, space.R: space.dR})
+    varied = rate("rotor_variation", "for increments dR of R_k", action, increments)
+    turn = SPACE.with_transposes({space.dR: space.xi * space.R})
     work = replaced("rotor_turned", "for dR = ξR", varied, turn, SPACE)
     return dual("rotor_balance", "it vanishes when the rotor's part does for every skew ξ", work, space.xi)
 

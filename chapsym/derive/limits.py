@@ -45,13 +45,13 @@ class Turning(NamedTuple):
 
 #: Ω = exp(ε ω) in the body, and R_{k+1} = exp(ε ω̄) R_k in space.
 STEP = Turning(
-    {ball.Omega: sp.S.One, ball.OmegaT: sp.S.One},
-    {ball.Omega: ball.Omega * ball.omega, ball.OmegaT: -ball.omega * ball.OmegaT}
+    ball.ALGEBRA.with_transposes({ball.Omega: sp.S.One}),
+    ball.ALGEBRA.with_transposes({ball.Omega: ball.Omega * ball.omega})
     | dict.fromkeys((ball.omega, ball.J, ball.K, ball.Gamma, ball.gamma, ball.gammaT), sp.S.Zero),
 )
 SPACE_STEP = Turning(
-    {principle.R1: principle.R, principle.R1T: principle.RT},
-    {principle.R1: omega_space * principle.R1, principle.R1T: -principle.R1T * omega_space}
+    principle.ALGEBRA.with_transposes({principle.R1: principle.R}),
+    principle.ALGEBRA.with_transposes({principle.R1: omega_space * principle.R1})
     | dict.fromkeys((omega_space, principle.R, principle.RT, principle.gamma, principle.gammaT), sp.S.Zero),
 )
 

@@ -20,15 +20,15 @@ m, rho, D = sp.symbols("m rho D")
 ALGEBRA = WordAlgebra(
     {
         **{omega: -omega, alpha: -alpha, eta: -eta, J: J, Gamma: Gamma, K: -K},
-        **{gamma: gammaT, gammaT: gamma, v: vT, vT: v, a: aT, aT: a, F: FT, FT: F},
+        **{gamma: gammaT, v: vT, a: aT, F: FT},
     },
     {(gamma, gammaT): Gamma, (gammaT, gamma): 1, (Gamma, gamma): gamma, (gammaT, Gamma): gammaT, (Gamma, Gamma): Gamma},
 )
 
 #: d/dt of the letters: Ṙ = Rω makes γ̇ = -ωγ for a γ fixed in space.
 RATES: dict[sp.Symbol, sp.Expr] = {
-    **{omega: alpha, v: a, vT: aT, J: sp.S.Zero},
-    **{gamma: -omega * gamma, gammaT: gammaT * omega, Gamma: Gamma * omega - omega * Gamma},
+    **ALGEBRA.with_transposes({omega: alpha, v: a, J: sp.S.Zero, gamma: -omega * gamma}),
+    Gamma: Gamma * omega - omega * Gamma,
 }
 
 
@@ -68,7 +68,7 @@ def on_rolling(name: str, of: sp.Symbol, more: Mapping[sp.Symbol, sp.Expr] | Non
     """Replaces v and v̇ by their values under the rolling condition; and `more`."""
     velocity = written("velocity", "v of the rolling condition, v + ρωγ = 0", rolling_velocity(), ALGEBRA)
     acceleration = derivation.rate("acceleration", "its derivative: γ̇ = -ωγ, ω̇ = α", velocity, RATES)
-    places = {v: velocity, vT: ALGEBRA.transpose(velocity), a: acceleration, aT: ALGEBRA.transpose(acceleration)}
+    places = ALGEBRA.with_transposes({v: velocity, a: acceleration})
     return replaced(name, "on the rolling condition", of, places | dict(more or {}), ALGEBRA)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from .derivation import STEPS, dual, gradient, rate, replaced, terms, written
+from .derivation import STEPS, allowed, dual, equations, rate, replaced, terms, written
 from .words import WordAlgebra, matrix_symbols
 
 # Attitudes and centres at times k-1, k, k+1; J is diagonal, gamma the unit normal in space.
@@ -25,9 +25,7 @@ m, rho, c = sp.symbols("m rho c")
 D = sp.Symbol("D")  # m rho^2
 
 TRANSPOSES = {
-    **{R0: R0T, R0T: R0, R: RT, RT: R, R1: R1T, R1T: R1},
-    **{r0: r0T, r0T: r0, r: rT, rT: r, r1: r1T, r1T: r1},
-    **{dR: dRT, dRT: dR, dr: drT, drT: dr, f: fT, fT: f, gamma: gammaT, gammaT: gamma},
+    **{R0: R0T, R: RT, R1: R1T, r0: r0T, r: rT, r1: r1T, dR: dRT, dr: drT, f: fT, gamma: gammaT},
     **{J: J, Lam: Lam, xi: -xi, omega_space: -omega_space},
 }
 ALGEBRA = WordAlgebra(TRANSPOSES, {pair: 1 for a, b in [(R0, R0T), (R, RT), (R1, R1T)] for pair in [(a, b), (b, a)]})
@@ -83,12 +81,11 @@ def variation() -> sp.Symbol:
         lagrangian(c, R0, R, r0, r) + lagrangian(c, R, R1, r, r1),
         FREE,
     )
-    increments = dict.fromkeys((R0, R0T, R1, R1T, r0, r0T, r1, r1T, J), sp.S.Zero)
-    increments |= {R: dR, RT: dRT, r: dr, rT: drT}
+    increments = FREE.with_transposes({**dict.fromkeys((R0, R1, r0, r1, J), sp.S.Zero), R: dR, r: dr})
     return rate("variation_c", "for increments dR of R_k and dr of r_k", action, increments)
 
 
-def multiplier_equations(factor: sp.Expr) -> tuple[sp.Symbol, sp.Symbol]:
+def multiplier_equations(factor: sp.Expr) -> list[sp.Symbol]:
     """D₁𝕃 + D₂𝕃 - (multiplier terms), in R_k and in r_k; both vanish on solutions.
 
     The multipliers are a symmetric Λ for R Rᵀ = 1 and a column for the rolling constraint.  That
@@ -100,13 +97,7 @@ def multiplier_equations(factor: sp.Expr) -> tuple[sp.Symbol, sp.Symbol]:
         -rolling_constraint(dr, dR) * fT + (dR * RT + R * dRT) * Lam / 2,
         FREE,
     )
-    varied = _with_factor(variation(), factor)
-    rows = []
-    for place, increment in (("R", dR), ("r", dr)):
-        slope = gradient(f"slope_{place}", f"of tr variation in {increment}", varied, increment)
-        held = gradient(f"held_{place}", f"of tr holding in {increment}", holding, increment)
-        rows.append(written(f"equation_{place}", "it vanishes on solutions", slope - held, ALGEBRA))
-    return rows[0], rows[1]
+    return equations(_with_factor(variation(), factor), holding, {"R": dR, "r": dr}, ALGEBRA)
 
 
 def momentum_balance(factor: sp.Expr) -> sp.Symbol:
@@ -118,11 +109,8 @@ def momentum_balance(factor: sp.Expr) -> sp.Symbol:
     rolling = written(
         "rolling", "(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes", rolling_constraint(dr, dR), FREE
     )
-    turning = terms("turning", "-dr by that", rolling, [dr], having=False)
-    turn = {dR: xi * R, dRT: ALGEBRA.transpose(xi * R)}
-    slipping = replaced("slipping", "-dr for dR = ξR", turning, turn, ALGEBRA)
-    centre = {dr: -slipping, drT: -ALGEBRA.transpose(slipping)}
-    work = replaced("work", "tr of it is the variation for dR = ξR and that dr", variation(), turn | centre, ALGEBRA)
+    increments = allowed("", "dR = ξR", {dR: xi * R}, rolling, dr, ALGEBRA)
+    work = replaced("work", "tr of it is the variation for dR = ξR and that dr", variation(), increments, ALGEBRA)
     return _with_factor(dual("balance_c", "it vanishes when the variation does for every skew ξ", work, xi), factor)
 
 
@@ -155,11 +143,11 @@ def spatial_momentum(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 def on_constraint(name: str, text: str, of: sp.Symbol, more: Mapping[sp.Symbol, sp.Expr] | None = None) -> sp.Symbol:
     """Replaces r_{k+1} and r_{k-1} by their values under the discrete constraint (4.9); and `more`."""
     steps = (("k", "k+1", "after", (R, R1, r, r1), r1, -1), ("k-1", "k", "before", (R0, R, r0, r), r0, 1))
-    places = dict(more or {})
+    centres = dict[sp.Symbol, sp.Expr]()
     for start, end, when, path, centre, sign in steps:
         holds = written(
             f"rolls_{when}", f"(4.9) from {start} to {end}: it vanishes", discrete_constraint(*path), ALGEBRA
         )
         rest = terms(f"rest_{when}", f"it without {centre}", holds, [centre], having=False)
-        places |= {centre: sign * rest, ALGEBRA.transposes[centre]: sign * ALGEBRA.transpose(rest)}
-    return replaced(name, text, of, places, ALGEBRA)
+        centres[centre] = sign * rest
+    return replaced(name, text, of, {**(more or {}), **ALGEBRA.with_transposes(centres)}, ALGEBRA)

@@ -85,9 +85,8 @@ def turned_entries(name: str, of: sp.Symbol) -> sp.ImmutableMatrix:
 
 
 def _turned(of: sp.Symbol) -> sp.Symbol:
-    om = sp.Matrix(rotation())
-    text = "n = 3: Ω in Euler parameters, J = diag(J₁, J₂, J₃)"
-    return coordinates(f"{of}_matrix", text, of, BALL | {ball.Omega: om, ball.OmegaT: om.T}, RING)
+    turn = ball.ALGEBRA.with_transposes({ball.Omega: sp.Matrix(rotation())})
+    return coordinates(f"{of}_matrix", "n = 3: Ω in Euler parameters, J = diag(J₁, J₂, J₃)", of, BALL | turn, RING)
 
 
 def axial_entries(name: str, skew: sp.Symbol) -> sp.ImmutableMatrix:

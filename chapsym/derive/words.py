@@ -41,7 +41,7 @@ def unfolded(expr: sp.Expr) -> sp.Expr:
 class WordAlgebra:
     """Sums of words over Q(commuting parameters), modulo rewriting rules on adjacent pairs.
 
-    `transposes` maps each symbol to its transpose (an expression: `{J: J, xi: -xi, R: RT, RT: R}`).
+    `transposes` maps symbols to their transposes (expressions: `{J: J, xi: -xi, R: RT}`, and so that of RT is R).
     `rules` maps an adjacent pair to the expression that replaces it: `{(R, RT): 1}`.
 
     `example` maps letters to matrices, and parameters to numbers, for which the rules hold: that there are some is part
@@ -57,7 +57,11 @@ class WordAlgebra:
         rules: Mapping[tuple[sp.Symbol, sp.Symbol], sp.Expr | int] | None = None,
         example: Mapping[sp.Symbol, Any] | None = None,
     ) -> None:
-        self.transposes = dict(transposes)
+        self.transposes: dict[sp.Symbol, sp.Expr] = {}
+        for symbol, image in transposes.items():
+            self.transposes[symbol] = image
+            if image.is_Symbol:
+                self.transposes.setdefault(image, symbol)
         self.example = {x: _rational(x, value) for x, value in (example or {}).items()}
         self.rules = {pair: sp.sympify(value, strict=True) for pair, value in (rules or {}).items()}
         for symbol in self.transposes:
@@ -112,6 +116,21 @@ class WordAlgebra:
         return sp.Add(
             *(c * sp.Mul(*(self.transposes[letter] for letter in reversed(word))) for c, word in _terms(expr))
         )
+
+    def with_transposes(self, places: Mapping[sp.Symbol, Any]) -> dict[sp.Symbol, Any]:
+        """What is put for letters, words or matrices, each followed by what is put for the transpose of the letter."""
+        whole: dict[sp.Symbol, Any] = {}
+        for letter, image in places.items():
+            whole[letter] = image
+            other = self.transposes.get(letter, letter)
+            if other == letter or not other.is_Symbol:
+                continue
+            if isinstance(image, sp.MatrixBase):
+                whole[other] = image.T
+            else:
+                number, word = image.as_coeff_Mul()  # the number stays in front: certificates have it so
+                whole[other] = number * self.transpose(word)
+        return whole
 
     def rate(self, expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
         """The derivative of a sum of words by Leibniz' rule, from those of the letters."""

@@ -4,6 +4,8 @@ from functools import cached_property
 
 import sympy as sp
 
+from chapsym.derive import three
+
 from .system import dot
 
 _TURNS = {"x": sp.rot_ccw_axis1, "y": sp.rot_ccw_axis2, "z": sp.rot_ccw_axis3}
@@ -73,28 +75,27 @@ class Quaternion:
 
     def __init__(self, name: str) -> None:
         self.coordinates = sp.symbols(f"{name}0:4")
-        self._scalar, self._vector = self.coordinates[0], sp.Matrix(self.coordinates[1:])
-        self._rate, self._rates = dot(self._scalar), sp.Matrix([dot(x) for x in self.coordinates[1:]])
+        whole = sp.Matrix(self.coordinates)
+        self._conjugate, self._rate = sp.diag(1, -1, -1, -1) * whole, whole.applyfunc(dot)
         self.norm = sum(x**2 for x in self.coordinates)
         self.swelling = sum(x * dot(x) for x in self.coordinates)
 
     @cached_property
     def spin(self) -> sp.Matrix:
         """The angular velocity in the axes of the body."""
-        return self._doubled(-1)
+        return self._spin(self._conjugate, self._rate)
 
     @cached_property
     def spin_in_space(self) -> sp.Matrix:
         """The angular velocity in the axes of space."""
-        return self._doubled(1)
+        return self._spin(self._rate, self._conjugate)
 
-    def _doubled(self, sign: int) -> sp.Matrix:
-        half = self._scalar * self._rates - self._rate * self._vector + sign * self._vector.cross(self._rates)
-        return (2 * half).applyfunc(sp.expand)
+    @staticmethod
+    def _spin(a: sp.Matrix, b: sp.Matrix) -> sp.Matrix:
+        return (2 * three.quaternion_product(a, b)[1:, :]).applyfunc(sp.expand)
 
     @cached_property
     def rotation(self) -> sp.Matrix:
         """The rotation from the axes of the body to those of space."""
-        scalar, vector = self._scalar, self._vector
-        turned = (scalar**2 - vector.dot(vector)) * sp.eye(3) + 2 * vector * vector.T + 2 * scalar * vector.hat()
-        return turned.applyfunc(sp.expand)
+        own = dict(zip((three.q0, *three.q), self.coordinates, strict=True))
+        return sp.Matrix(three.rotation().xreplace(own))

@@ -154,8 +154,8 @@ def volume(system: System) -> Volume:
 
 def divergences(of: OnShell) -> tuple[list[list[sp.Expr]], list[sp.Expr], sp.Expr, list[sp.Expr]]:
     """The fields X, the θ of each, det m, and the θ as they are formed; no θ where det m is 0."""
-    algebra, reduced, x = of.algebra, of.algebra.ring.reduced, sp.Matrix(of.fields).T
-    inner = (x.T * of.mass * x).applyfunc(reduced)
+    algebra, reduced, (x, _, inner, _) = of.algebra, of.algebra.ring.reduced, of.along
+    inner = inner.applyfunc(reduced)
     inverse, below = adjugate(inner), reduced(determinant(inner))
     formed = list[sp.Expr]()
     for one in of.fields if below != 0 else ():

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import sympy as sp
@@ -149,11 +150,7 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
     slope = [sp.diff(quantity, v) for v in system.velocities]
     of = OnShell(system, rate(quantity, system.coordinates), *slope)
     alone, slope = of.more[0], sp.Matrix([of.more[1:]])
-    x = sp.Matrix(of.fields).T if of.fields else sp.zeros(slope.cols, 0)
-    first = sp.zeros(slope.cols, 1)  # accelerations that the constraints bind, where the others are 0
-    for i, value in zip(of.bound, adjugate(of.square) * of.turning.extract(of.kept, [0]), strict=True):
-        first[i] = value / determinant(of.square)
-    inner, pushed = x.T * of.mass * x, x.T * (of.forced - of.mass * first)
+    x, first, inner, pushed = of.along
     whole = (alone + (slope * first)[0]) * sp.eye(1)
     bordered = sp.Matrix(sp.BlockMatrix([[inner, pushed], [slope * x, -whole]])) if of.fields else -whole
     below, above = (determinant(m.xreplace(of.allowed)) for m in (inner, bordered))
@@ -193,6 +190,14 @@ class OnShell:
         if not all(map(algebra.is_zero, kept)):
             raise BadSystem(f"{system.name}: the constraints contradict each other, or depend on each other in places")
         self.fields = kernel(rows, rows.xreplace(point))
+
+    @cached_property
+    def along(self) -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
+        """The fields X; an acceleration a that the constraints allow; ⟨X, M X⟩, and Xᵀ(forced - M a)."""
+        x, first = sp.Matrix(self.fields).T.reshape(self.mass.rows, len(self.fields)), sp.zeros(self.mass.rows, 1)
+        for i, value in zip(self.bound, adjugate(self.square) * self.turning.extract(self.kept, [0]), strict=True):
+            first[i] = value / determinant(self.square)
+        return x, first, x.T * self.mass * x, x.T * (self.forced - self.mass * first)
 
 
 def _shown(value: sp.Expr, algebra: Algebra, bound: Mapping[sp.Symbol, sp.Expr]) -> tuple[dict[str, str], str]:

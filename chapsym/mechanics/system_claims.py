@@ -111,11 +111,8 @@ class Moving(OnShell):
     @cached_property
     def solved(self) -> list[sp.Expr]:
         """The accelerations."""
-        found, x = sp.zeros(len(self.q), 1), sp.Matrix(self.fields).T
-        for i, value in zip(self.bound, adjugate(self.square) * self.turning.extract(self.kept, [0]), strict=True):
-            found[i] = value / determinant(self.square)
-        inner, pushed = x.T * self.mass * x, x.T * (self.forced - self.mass * found)
-        found += x * (adjugate(inner) * pushed) / determinant(inner)
+        x, first, inner, pushed = self.along
+        found = first + x * (adjugate(inner) * pushed) / determinant(inner)
         return [self.algebra.ring.reduced(e.xreplace(self.allowed)) for e in found]
 
     @cached_property
@@ -237,9 +234,9 @@ def _integral(system: System, name: str, what: str, quantity: sp.Expr) -> Made:
         return _lost(of, what, quantity, name), points
     if sum(1 for _ in sp.preorder_traversal(quantity)) > MOST_OF_A_QUANTITY:
         raise BadSystem("it has more parts than a quantity whose factors are looked for")
-    reduced, x = of.algebra.ring.reduced, sp.Matrix(of.fields).T
+    reduced, (x, _, inner, _) = of.algebra.ring.reduced, of.along
     slope = sp.Matrix([reduced(sp.diff(quantity, v).xreplace(of.allowed)) for v in of.v])
-    inner, whole = (x.T * of.mass * x).applyfunc(reduced), reduced(determinant(of.square))
+    inner, whole = inner.applyfunc(reduced), reduced(determinant(of.square))
     pushed = (adjugate(inner) * (x.T * slope).applyfunc(reduced)).applyfunc(reduced)
     along = (x * pushed / reduced(determinant(inner))).applyfunc(reduced)
     rest = (slope - of.mass * along).extract(of.bound, [0]).applyfunc(reduced)

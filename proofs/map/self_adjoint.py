@@ -7,7 +7,7 @@ knows which end of a step is first.
 import sympy as sp
 
 from chapsym.derive import ball, principle, three
-from chapsym.derive.ball import ALGEBRA, D, Gamma, K, Omega, OmegaT, gamma, gammaT
+from chapsym.derive.ball import ALGEBRA, D, Gamma, K, Omega, OmegaT, gamma
 from chapsym.derive.derivation import replaced
 from chapsym.derive.principle import R1, R, r, r1
 from chapsym.derive.words import Traces, WordAlgebra, matrix_symbols, unfolded
@@ -18,10 +18,7 @@ equation = equations(ALGEBRA)
 
 
 #: The step that goes back: Ωᵀ in the place of Ω, and the vertical where the step has ended.
-RETURN = {
-    **{Omega: OmegaT, OmegaT: Omega, Gamma: OmegaT * Gamma * Omega},
-    **{gamma: OmegaT * gamma, gammaT: gammaT * Omega},
-}
+RETURN = ALGEBRA.with_transposes({Omega: OmegaT, Gamma: OmegaT * Gamma * Omega, gamma: OmegaT * gamma})
 
 
 def with_ends_swapped(expr: sp.Expr, vertical: sp.Expr = RETURN[Gamma]) -> sp.Expr:
@@ -144,8 +141,7 @@ def reversible(p: Proof) -> None:
 def composed_integrals(p: Proof) -> None:
     """A composition keeps the trace integrals whatever its coefficients, for every n."""
     X, XT, Y, YT, S, ST = matrix_symbols("X X^T Y Y^T S S^T")
-    transposes = {X: XT, XT: X, Y: YT, YT: Y, S: ST, ST: S}
-    algebra = WordAlgebra(ALGEBRA.transposes | transposes, {**ALGEBRA.rules, (S, ST): 1, (ST, S): 1})
+    algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, Y: YT, S: ST}, {**ALGEBRA.rules, (S, ST): 1, (ST, S): 1})
     equation, trace = equations(algebra), algebra.trace
 
     def carried(expr: sp.Expr) -> sp.Expr:

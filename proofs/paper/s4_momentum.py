@@ -23,13 +23,8 @@ def printed_forms() -> tuple[sp.Expr, sp.Expr]:
     return first, second
 
 
-def in_attitudes(form: sp.Expr, now: bool = True) -> sp.Expr:
-    """Words in Ω_k and Γ_k by Ω_k = R_kᵀR_{k+1} and γ_k = R_kᵀγ⃗; or those of the step before."""
-    attitudes = (principle.R, principle.R1) if now else (principle.R0, principle.R)
-    (R, RT), (R1, R1T) = ((at, principle.ALGEBRA.transpose(at)) for at in attitudes)
-    return form.xreplace({Omega: RT * R1, OmegaT: R1T * R, Gamma: RT * principle.gamma * principle.gammaT * R})
-
-
+#: Words of a step in the attitudes at its ends; and of the step before.
+NOW, BEFORE = ball.in_attitudes(True), ball.in_attitudes(False)
 #: What vanishes along every path.
 BALANCE = {"0": (ball.body_balance(), "the principle in the body, on the discrete constraint, by the derivation")}
 
@@ -68,7 +63,7 @@ def compact_form(p: Proof) -> None:
     conserved = ball.momentum_in_space(now=True) - carried
     p.printed(
         Equation("𝒦_k - Ωᵀ𝒦_{k-1}Ω = the balance in the body", conserved, ball.body_balance(), ball.BOTH),
-        *(Equation(f"(4.13), {name} form, in the attitudes", in_attitudes(form), ball.momentum_in_space(now=True), ball.BOTH)
+        *(Equation(f"(4.13), {name} form, in the attitudes", form.xreplace(NOW), ball.momentum_in_space(now=True), ball.BOTH)
           for name, form in (("first", first), ("second", second))),
     )  # fmt: skip
     turned = step * ball.momentum_in_space(now=False) * principle.RT * principle.R0
@@ -116,7 +111,7 @@ def inside_the_proof(p: Proof) -> None:
         lifted = Gamma * Omega + OmegaT * Gamma * Omega**2 - sign * (OmegaT**2 * Gamma * Omega + OmegaT * Gamma)
         return ball.carried(centre) + D / 2 * lifted
 
-    both = in_attitudes(left) - in_attitudes(right(), now=False)
+    both = left.xreplace(NOW) - right().xreplace(BEFORE)
     p.printed(Equation("left - right = the balance in the body", both, ball.body_balance(), ball.BOTH))
     p.lemma(
         equation("the left side = the part of the balance that belongs to the step k", left, now),
@@ -150,9 +145,9 @@ def discrete_euler_top(p: Proof) -> None:
     own = equations(ball.BOTH)
     p.printed(
         own("M_k - Ω_{k-1}ᵀM_{k-1}Ω_{k-1} is the balance at D = 0", now - back * before * step, balance),
-        own("𝒦_k at D = 0 is M_k = Ω_kJ - JΩ_kᵀ", now, in_attitudes(centre)),
-        own("𝒦_{k-1} at D = 0 is M_{k-1}, that a step before", before, in_attitudes(centre, now=False)),
-        own("M_k - (JΩ_{k-1} - Ω_{k-1}ᵀJ) is the balance", now - in_attitudes(swapped, now=False), balance),
+        own("𝒦_k at D = 0 is M_k = Ω_kJ - JΩ_kᵀ", now, centre.xreplace(NOW)),
+        own("𝒦_{k-1} at D = 0 is M_{k-1}, that a step before", before, centre.xreplace(BEFORE)),
+        own("M_k - (JΩ_{k-1} - Ω_{k-1}ᵀJ) is the balance", now - swapped.xreplace(BEFORE), balance),
     )
     p.lemma(equation("Ωᵀ(ΩJ - JΩᵀ)Ω = JΩ - ΩᵀJ", ball.carried(centre), swapped))
     p.control(equation("Ωᵀ(ΩJ - JΩᵀ)Ω = ΩJ - JΩᵀ", ball.carried(centre), centre))
@@ -181,7 +176,7 @@ def several_solutions(p: Proof) -> None:
     p.lemma(Comparison("𝒦⃗ is not 0", [sp.Ne(momentum[0], 0)], at))
     X, XT = matrix_symbols("X X^T")
     other = unfolded(ball.momentum()).xreplace({Omega: X, OmegaT: XT})
-    algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X}, {**ALGEBRA.rules, (X, XT): 1, (XT, X): 1})
+    algebra = WordAlgebra({**ALGEBRA.transposes, X: XT}, {**ALGEBRA.rules, (X, XT): 1, (XT, X): 1})
     p.control(equation("any two rotations have the same 𝒦", other, ball.momentum(), algebra))
 
 
@@ -196,7 +191,7 @@ def trace_integrals(p: Proof) -> None:
     """The trace integrals, for every n, every s and l, and whatever the branch."""
     p.infers("By induction on the exponents, for every s and l. Odd powers of a skew matrix have the trace 0.")
     X, XT, Y, YT = matrix_symbols("X X^T Y Y^T")
-    algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, XT: X, Y: YT, YT: Y}, ALGEBRA.rules)
+    algebra = WordAlgebra({**ALGEBRA.transposes, X: XT, Y: YT}, ALGEBRA.rules)
     carried = ball.carried
     p.say("The only fact about the step is (4.12): 𝒦_k = Ωᵀ𝒦_{k-1}Ω, Γ_k = ΩᵀΓ_{k-1}Ω with ΩΩᵀ = 1.")
     p.lemma(

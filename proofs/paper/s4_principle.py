@@ -72,16 +72,12 @@ TURN_3 = sp.Matrix([["3/5", "-4/5", 0], ["4/5", "3/5", 0], [0, 0, 1]])
 
 def path_point(values: dict, *hypotheses: Equation) -> Point:
     """Explicit rational attitudes, centres and parameters; the transposes are filled in."""
-    full = dict(values)
     for attitude in (R0, R, R1):
         if attitude in values and values[attitude].det() != 1:
             raise ValueError(f"{attitude} is no rotation: its determinant is {values[attitude].det()}")
-    for symbol, value in values.items():
-        if isinstance(value, sp.MatrixBase) and symbol in ALGEBRA.transposes:
-            full[ALGEBRA.transposes[symbol]] = value.T
     orthogonal = [equation(f"{a}·{a}ᵀ = 1", a * ALGEBRA.transposes[a], 1) for a in (R0, R, R1) if a in values]
     shown = {str(k): str(v.tolist() if isinstance(v, sp.MatrixBase) else v) for k, v in values.items()}
-    return Point(shown, full, (*orthogonal, *hypotheses))
+    return Point(shown, {**values, **ALGEBRA.with_transposes(values)}, (*orthogonal, *hypotheses))
 
 
 def skew_part_of_4_3() -> sp.Expr:

@@ -3,7 +3,7 @@
 import sympy as sp
 
 from chapsym.derive import continuous, principle, three, vertical
-from chapsym.derive.principle import ALGEBRA, R1, R1T, RT, R, r, r1
+from chapsym.derive.principle import ALGEBRA, R1, R, r, r1
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import D, K
 from chapsym.derive.vertical import RING, h
@@ -58,10 +58,9 @@ def left_right(p: Proof) -> None:
         "the group is the direct product SO(n) × Rⁿ: (S, a) acts by (SR, a + r) from the left, (RS, r + a) from the right"
     )
     S, ST, a, aT = matrix_symbols("S S^T a a^T")
-    algebra = WordAlgebra({**ALGEBRA.transposes, S: ST, ST: S, a: aT, aT: a}, {**ALGEBRA.rules, (S, ST): 1, (ST, S): 1})
-    left = {R: S * R, R1: S * R1, RT: RT * ST, R1T: R1T * ST}
-    right = {R: R * S, R1: R1 * S, RT: ST * RT, R1T: ST * R1T}
-    moved = {x: x + a for x in (r, r1)} | {algebra.transposes[x]: algebra.transposes[x] + aT for x in (r, r1)}
+    algebra = WordAlgebra({**ALGEBRA.transposes, S: ST, a: aT}, {**ALGEBRA.rules, (S, ST): 1, (ST, S): 1})
+    left, right = (algebra.with_transposes(places) for places in ({R: S * R, R1: S * R1}, {R: R * S, R1: R1 * S}))
+    moved = algebra.with_transposes({r: r + a, r1: r1 + a})
 
     def lagrangian(places: dict, factor: sp.Expr) -> sp.Expr:
         """𝕃 after the action: the trace of this."""

@@ -29,6 +29,14 @@ def test_rules_apply_until_none_matches():
     assert ALGEBRA.normal((R * RT) ** 2 * J * RT * R * R) == J * R
 
 
+def test_a_letter_and_its_transpose_are_given_once():
+    one = WordAlgebra({R: RT, J: J, X: XT, xi: -xi}, ALGEBRA.rules)
+    assert [*one.transposes.items()] == [*ALGEBRA.transposes.items()]
+    square = sp.Matrix([[1, 2], [3, 4]])
+    found = one.with_transposes({R: square, xi: J, X: -R * J})
+    assert found == {R: square, RT: square.T, xi: J, X: -R * J, XT: -J * RT}
+
+
 def test_a_rule_may_have_several_terms():
     algebra = WordAlgebra({X: XT, XT: X, J: J}, {(X, J): X + 2 * J})
     assert algebra.normal(X * J * X) == sp.expand(X * X + 2 * J * X)
