@@ -315,6 +315,16 @@ def generic(matrix: sp.Matrix, points: Sequence[Point]) -> Point:
     return next(full, None) or max(points, key=lambda point: rank(matrix, point))
 
 
+def size(expressions: Iterable[sp.Expr]) -> int:
+    """The number of different parts of expressions."""
+    seen, left = set[sp.Expr](), list(expressions)
+    while left:
+        if (expr := left.pop()) not in seen:
+            seen.add(expr)
+            left += expr.args
+    return len(seen)
+
+
 def _no_square(x: sp.Expr) -> bool:
     """Whether a number is defined, and no square of a rational one."""
     return bool(x.is_Rational) and not (x >= 0 and sp.sqrt(x).is_Rational)

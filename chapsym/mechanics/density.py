@@ -24,10 +24,9 @@ import numpy as np
 import sympy as sp
 from flint import arb, ctx
 
-from .algebra import Algebra, Point, adjugate, determinant
+from .algebra import Algebra, Point, adjugate, determinant, size
 from .brackets import along, bracket_of, flag
 from .equations import OnShell
-from .judged import size
 from .series import evaluated
 from .system import BadSystem, System
 

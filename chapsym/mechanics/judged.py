@@ -10,8 +10,9 @@ with p = ∂L/∂v + Aᵀc and A v + b = 0.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from itertools import islice, product
 from operator import mul
 from typing import Any
@@ -21,7 +22,9 @@ from flint import fmpq, fmpq_mat, fmpq_series, nmod, nmod_mat
 
 from chapsym.derive import Quotient
 
-from .algebra import Letters
+from .algebra import Letters, size
+from .contraction import has_volume, logarithm
+from .density import Volume, volume
 from .methods import Scheme
 from .series import Exact, Series, State, Stepped, Undecided, _at, by_parts, evaluated, inverse, replaced, terms
 from .system import STEP, BadSystem, System, rate
@@ -34,6 +37,10 @@ MOST_CHOICES = 64
 #: How many coefficients of a series are looked at, for methods with equations of a step and for explicit ones, whose
 #: order is higher; and terms beyond, as the last are not those of a step.
 LOOKED, LOOKED_FURTHER, BEYOND = 6, 7, 2
+#: How many of them of a volume, at first, and if these show nothing.
+LOOKED_AT_VOLUMES = 4, 7
+#: Volumes, which are no quantities of a state.
+VOLUMES = "the volume", "a smooth volume"
 
 
 #: Symbols, and their numbers at the exact state.
@@ -122,6 +129,8 @@ def decided(system: System, scheme: Scheme) -> dict[str, Decided]:
     """The verdicts of `verdicts`, with their proofs."""
     quantities = quantities_of(system, scheme.integrals)
     names = ["order", "self-adjoint", "reversible", *(f"keeps {name}" for name in quantities)]
+    kept = _volume(system, system.digest())
+    names += [f"keeps {VOLUMES[not kept.kept]}"] if kept else []
     looked = LOOKED_FURTHER if scheme.stages else LOOKED
     with terms(looked + BEYOND):
         try:
@@ -132,6 +141,8 @@ def decided(system: System, scheme: Scheme) -> dict[str, Decided]:
         found = [judged.decided(judged.order, adjoint.verdict.verdict == "proved"), adjoint]
         found += [judged.decided(judged.returns, 1)]
         found += [judged.decided(judged.keeps, quantity) for quantity in quantities.values()]
+        is_consistent = found[0].verdict.verdict == "proved" or "at least" in found[0].verdict.said
+        found += [judged.decided(judged.keeps_volume, (kept, is_consistent))] if kept else []
     return dict(zip(names, found, strict=True))
 
 
@@ -141,6 +152,15 @@ def _exact(system: System, digest: str) -> Exact:
     return Exact(system)
 
 
+@lru_cache(maxsize=1)
+def _volume(system: System, digest: str) -> Volume | None:
+    """The volume that its exact motion keeps, or that it keeps none; None where that is not decided."""
+    with suppress(BadSystem):
+        found = volume(system)
+        return found if found.by else None
+    return None
+
+
 def quantities_of(system: System, of_method: Mapping[str, sp.Expr]) -> dict[str, sp.Expr]:
     """Quantities that may be kept: energy, momenta along which no force acts, those of the system and the method."""
     found = {"the energy": system.energy} if system.keeps_energy else {}
@@ -148,7 +168,7 @@ def quantities_of(system: System, of_method: Mapping[str, sp.Expr]) -> dict[str,
         if system.push[i] == 0 and not any(system.rows[:, i]):
             found[f"the momentum of {x}"] = p
     named = {**system.integrals, **of_method}
-    if taken := found.keys() & named.keys():
+    if taken := {*found, *VOLUMES} & named.keys():
         raise BadSystem(f"{system.name}: {min(taken)} is a quantity of every system: give the integral another name")
     return found | named
 
@@ -434,6 +454,22 @@ class Judged:
         wrong = self.wrong("it changes", ("in a step", after, before))
         return wrong or self._proved(self.is_kept(quantity))
 
+    def keeps_volume(self, of: tuple[Volume, bool]) -> Verdict:
+        """Whether a volume is kept: that of the exact motion, or any, where a method of order 1 follows that."""
+        kept, is_consistent = of
+        has_volume(self.system, self.scheme, len(self.always))
+        if kept.density is None:
+            if kept.at_all and is_consistent:
+                return Verdict("false", "by the first order in velocities, as the motion keeps none", kept.point)
+            return Verdict("measured", f"the exact motion {kept}")
+        for count in LOOKED_AT_VOLUMES:
+            with terms(2 * count + BEYOND):
+                again = Judged(self.exact, self.scheme, self.looked)  # with an h of that many terms
+                change = logarithm(self.exact, kept.density, kept.by, partial(again.after, reaction=[]), count)
+            if wrong := self.wrong("its logarithm changes", ("in a step", change, 0)):
+                return wrong
+        return self._proved(False)
+
     def is_kept(self, quantity: sp.Expr) -> bool:
         """Whether that is proved: by the equations of two steps, also times an unknown or a momentum."""
         scheme, symbols = self.scheme, self.exact.symbols
@@ -600,16 +636,6 @@ def _bent(wave: sp.Expr) -> sp.Expr:
     turn, s, c = sp.expand(of - start), sp.sin(start), sp.cos(start)
     s, c = s * (1 - turn**2 / 2) + c * turn, c * (1 - turn**2 / 2) - s * turn
     return {sp.sin: s, sp.cos: c, sp.tan: s / c}[wave.func]
-
-
-def size(expressions: Iterable[sp.Expr]) -> int:
-    """The number of different parts of expressions."""
-    seen, left = set[sp.Expr](), list(expressions)
-    while left:
-        if (expr := left.pop()) not in seen:
-            seen.add(expr)
-            left += expr.args
-    return len(seen)
 
 
 def _guessed(x: Sequence[fmpq], of: Sequence[Named]) -> Any:

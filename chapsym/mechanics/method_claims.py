@@ -14,14 +14,16 @@ from chapsym.prove.polynomials import parameters
 from chapsym.prove.statements import Statement
 
 from .cases import MOST_LETTERS, SAID, Case, Certified, Made, fresh, made
-from .judged import BEYOND, Combination, Decided, Judged, decided, quantities_of, tableau_conditions
+from .judged import BEYOND, VOLUMES, Combination, Decided, Judged, decided, quantities_of, tableau_conditions
 from .lab import keeps
 from .methods import METHODS, Scheme
 from .series import State, _at, evaluated, replaced, terms
 from .system import STEP, BadSystem, System
 
 #: Cells of a method in the ids of its claims.
-CELLS = {"order": "order", "self-adjoint": "adjoint", "reversible": "returns"}
+CELLS = {"order": "order", "self-adjoint": "adjoint", "reversible": "returns"} | {
+    f"keeps {name}": "volume" for name in VOLUMES
+}
 #: What has more parts is shown by what comes out of it.
 MOST_SHOWN = 4000
 
@@ -196,6 +198,8 @@ def _refuted(system: System, quantity: sp.Expr | None, what: str, found: Decided
     assert found.judged
     if what == "order":
         raise BadSystem("the series of the exact motion is not written down")
+    if what.removeprefix("keeps ") in VOLUMES:
+        raise BadSystem("the derivatives of a step are not written down")
     with terms(found.by + 2 + BEYOND):
         of = _Steps(found.judged, found.by + 2)
         if quantity is not None:

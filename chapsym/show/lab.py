@@ -81,7 +81,8 @@ def decided(cell: Mapping[str, Any]) -> list[str]:
         if one["verdict"] == "measured":
             found["not decided"].append(f"{name} ({one['said']})" if name == "order" else name)
         else:
-            shown = {"proved": one["said"], "false": one["said"].rpartition(" ")[2]}[one["verdict"]]
+            last = one["said"].rpartition(" ")[2]
+            shown = one["said"] if one["verdict"] == "proved" else last if last.startswith("h^") else ""
             found[one["verdict"]].append(f"{name} {shown}".rstrip())
     return [f"{verdict}: {', '.join(of)}" for verdict, of in found.items() if of]
 

@@ -61,7 +61,8 @@ def test_the_checker_accepts_what_the_command_wrote(written):
 def test_a_verdict_without_a_certificate_is_named_with_the_reason(written):
     none = written[1]["Chaplygin sleigh"]["none"]
     said = "it is one of the equations, so that nothing is to be decided"
-    assert none == {said: ["dla: keeps the constraints", "gni: keeps the constraints"]}
+    assert none.pop(said) == ["dla: keeps the constraints", "gni: keeps the constraints"]
+    assert none == {"the derivatives of a step are not written down": ["dla: keeps a smooth volume"]}
 
 
 @pytest.mark.parametrize("name", [*OWN, "dla-order", "dla-adjoint", "dla-returns", "dla-keeps-1", "rk4-returns"])

@@ -275,6 +275,7 @@ def test_the_map_of_the_paper_is_judged_as_what_was_typed():
     found = judged("ball", "own")
     assert proved(found) == ["order", "self-adjoint", "reversible"]
     assert found["order"].said == "2"
+    assert found["keeps the volume"].said == "its logarithm changes in a step by 165240076/4463495229375 h^3"
     assert [found[f"keeps {name}"].verdict for name in ("|K|²", "⟨K,γ⟩")] == ["false", "false"]
     assert [found[f"keeps {name}"].said for name in ("|𝒦|²", "⟨𝒦,γ⟩")] == ["no difference is found"] * 2
     kept = Runner(example("ball"), "own").march(500).integrals

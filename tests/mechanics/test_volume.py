@@ -4,11 +4,13 @@ import dataclasses
 from itertools import pairwise
 
 import mpmath as mp
+import numpy as np
 import pytest
 import sympy as sp
+from budget import slow
 from systems import a, example, va, vx, vy, vz, x, y, z
 
-from chapsym.mechanics import BadSystem, Quaternion, System, conserved, flag, volume
+from chapsym.mechanics import METHODS, BadSystem, Quaternion, Runner, System, conserved, flag, verdicts, volume
 
 KEPT = ["ball", "contact", "falling_disc", "particle", "snakeboard", "transmission", "veselova", "vertical_disc"]
 
@@ -164,3 +166,98 @@ def test_the_density_is_of_the_velocities_that_are_named():
     with mp.workdps(30):
         spread, along = divergence(system, found, found.density)
         assert abs(spread + along) < mp.mpf(10) ** -15
+
+
+def of_steps(system, method):
+    """The verdict on the volume that the steps of a method keep, and its name."""
+    found = verdicts(system, METHODS[method].scheme(system))
+    return next((name, one) for name, one in found.items() if name.endswith("volume"))
+
+
+@pytest.mark.parametrize(
+    ("name", "method", "power"),
+    [
+        ("particle", "dla", 3), ("particle", "dla-left", 2), ("particle", "spark", 3), ("contact", "dla", 3),
+        ("transmission", "spark", 3), ("vertical_disc", "dla", 3),
+        *slow(("snakeboard", "dla", 3), ("falling_disc", "spark", 3), ("ball", "dla-left", 3), ("ball", "spark", 3)),
+    ],
+)  # fmt: skip
+def test_a_step_loses_the_volume_with_the_power_of_its_order(name, method, power):
+    """Where that is an error of the method at all; `dla-left` is of order 2 on the ball."""
+    what, found = of_steps(example(name), method)
+    assert (what, found.verdict) == ("keeps the volume", "false")
+    assert found.said.startswith("its logarithm changes in a step by ")
+    assert found.said.endswith(f" h^{power}")
+    assert found.point
+
+
+def test_what_keeps_the_volume_is_not_refuted_and_what_is_near_it_is():
+    """Symplectic steps, and those on a disc that is upright; rk4 loses area with h^6."""
+    spring = System("spring", (x,), (vx**2 - x**4) / 2)
+    said = {method: of_steps(spring, method)[1].said for method in METHODS if method != "own"}
+    assert said.pop("rk4") == "its logarithm changes in a step by -16523/729 h^6"
+    assert set(said.values()) == {"no difference is found"}
+    assert of_steps(example("vertical_disc"), "spark")[1].said == "no difference is found"
+
+
+@pytest.mark.thorough
+def test_the_discrete_ball_with_equal_moments_keeps_the_volume():
+    """As Fedorov's paper has it; that of the documentation, whose moments differ, loses it."""
+    moments = dict.fromkeys((s for s in example("ball").parameters if s.name.startswith("J")), "3/4")
+    even = dataclasses.replace(example("ball"), parameters={**example("ball").parameters, **moments})
+    assert of_steps(even, "own")[1].said == "no difference is found"
+
+
+@pytest.mark.parametrize(("method", "h"), [("dla-left", 0.02), ("dla", 0.03)])
+def test_the_determinant_of_a_step_in_floats_is_what_the_series_says(method, h):
+    system, (_, found) = example("particle"), of_steps(example("particle"), method)
+    point = [float(sp.Rational(found.point[str(s)])) for s in (*system.coordinates, *system.velocities[1:])]
+    runner, kept = Runner(system, method, False), volume(system)
+    weigh = sp.lambdify(system.coordinates, sp.log(sp.Abs(kept.density)))
+    assert kept.by == system.velocities[1:]
+
+    def moved(at, length):
+        """The particle has the mass 1, and z' = y x'."""
+        start = np.array([*at[:3], at[4] / at[1], *at[3:]])
+        q, p = np.split(runner.march(1, length, start=start).final, [3])
+        row = np.array([-q[1], 0, 1])
+        return np.array([*q, *(p - row * (row @ p) / (row @ row))[1:]])
+
+    def changed(length):
+        columns = [(moved(point + e, length) - moved(point - e, length)) / 2e-4 for e in 1e-4 * np.eye(5)]
+        ends = weigh(*moved(point, length)[:3]) - weigh(*point[:3])
+        return np.log(np.linalg.det(np.array(columns).T)) + ends
+
+    by, power = found.said.removeprefix("its logarithm changes in a step by ").split(" h^")
+    coarse, fine = (changed(length) / length ** int(power) for length in (h, h / 2))
+    assert 2 * fine - coarse == pytest.approx(float(sp.Rational(by)), rel=0.05)
+
+
+def test_where_the_motion_keeps_none_a_step_that_follows_it_keeps_none():
+    for system in (example("sleigh"), sleigh(1)):
+        for method in ("dla", "dla-left", "spark"):
+            what, found = of_steps(system, method)
+            assert (what, found.verdict, bool(found.point)) == ("keeps a smooth volume", "false", True)
+    pulled = of_steps(sleigh(1, potential=x), "dla")[1]
+    assert pulled.verdict == "measured"
+    assert pulled.said == "the exact motion keeps no volume whose density depends on the place alone"
+    assert of_steps(sleigh(0), "dla")[0] == "keeps the volume"
+    scheme = METHODS["dla"].scheme(example("sleigh"))
+    slow_one = dataclasses.replace(scheme, after=[*scheme.after[:-1], scheme.after[-1] * 2])
+    assert verdicts(example("sleigh"), slow_one)["keeps a smooth volume"].verdict == "measured"
+
+
+@pytest.mark.parametrize(
+    ("method", "why"),
+    [("gni", "a reaction"), ("leapfrog", "a reaction"), ("midpoint", "leave the constraints"), ("rk4", "leave the")],
+)
+def test_steps_of_other_states_have_no_verdict_and_say_why(method, why):
+    found = of_steps(example("particle"), method)[1]
+    assert found.verdict == "measured"
+    assert why in found.said
+
+
+def test_no_integral_is_called_a_volume():
+    named = System("named", (x,), vx**2 / 2, integrals={"the volume": vx})
+    with pytest.raises(BadSystem, match="the volume is a quantity of every system"):
+        verdicts(named, METHODS["rk4"].scheme(named))
