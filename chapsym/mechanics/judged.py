@@ -78,7 +78,8 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
     Returns
     -------
     dict
-        {"order", "self-adjoint", "reversible", and "keeps " with the name of what the exact motion keeps: Verdict}.
+        {"order", "self-adjoint", "reversible", and "keeps " with the name of what the exact motion keeps: Verdict}; of
+        volumes "keeps the volume" that the motion keeps, or "keeps a smooth volume" where it keeps none.
 
     Examples
     --------
