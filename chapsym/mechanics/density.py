@@ -17,7 +17,7 @@ equation for f(q, p) say that exp f(q, 0) is kept.
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial, reduce
+from functools import lru_cache, partial, reduce
 from operator import mul
 
 import numpy as np
@@ -112,6 +112,12 @@ def volume(system: System) -> Volume:
     >>> print(found, found.density, found.by)
     keeps a smooth volume 1/sin(a) (y_dot, a_dot)
     """
+    return _decided(system, system.digest())
+
+
+@lru_cache(maxsize=1)
+def _decided(system: System, digest: str) -> Volume:
+    """The volume of a system, as it is now, which the verdicts on all methods share."""
     q, v = system.coordinates, system.velocities
     if any(sp.expand(b) != 0 for b in system.offsets):
         raise BadSystem(f"{system.name}: volumes are for constraints that are linear in the velocities")
