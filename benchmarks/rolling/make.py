@@ -34,14 +34,15 @@ def made(scene: Path) -> dict[str, Any]:
     """The case of a scene: body, frames with proved radii, and how they were proved."""
     given = load(scene)
     start, times = exact_motion(given)
-    assert start.radius is not None
     found = follow(start, times, DIGITS, limit=3600.0)
     if found.stopped:
         raise RuntimeError(f"{scene.name}: {found.stopped}")
-    mass = start.D / start.radius**2
     whole = sum(start.mass_tensor)
-    moments = [decimal(whole - x) for x in start.mass_tensor]
-    body = {"mass": decimal(mass), "radius": decimal(start.radius), "inertia": moments}
+    body: dict[str, Any] = {"inertia": [decimal(whole - x) for x in start.mass_tensor]}
+    if start.radius is not None:  # else nothing touches the body
+        body = {"mass": decimal(start.D / start.radius**2), "radius": decimal(start.radius)} | body
+    if any(map(any, start.rotor)):
+        body["rotor"] = [decimal(x.rational) for x in start.rotor]
     return {"case": scene.stem, "title": given.title, "ball": body, **found.write()}
 
 
@@ -55,14 +56,16 @@ def text(case: dict[str, Any]) -> str:
 def table(case: dict[str, Any]) -> str:
     """The frames as CSV, in space: the centre, the attitude from body to space, the velocity and ω."""
     mpmath.mp.dps = DIGITS + 10
-    radius = mpmath.mpf(Fraction(case["ball"]["radius"]).numerator) / Fraction(case["ball"]["radius"]).denominator
+    given = Fraction(case["ball"].get("radius", 0))
+    radius = mpmath.mpf(given.numerator) / given.denominator
     stream = io.StringIO()
     print("# m, s, rad; z is up; q turns the axes of the body into those of space", file=stream)
     rows = csv.writer(stream, lineterminator="\n")
     rows.writerow(COLUMNS.split())
     for frame in case["frames"]:
         (x, y), q, spin = (
-            [mpmath.mpf(middle) for middle, _ in frame[part]] for part in ("contact", "attitude", "omega")
+            [mpmath.mpf(middle) for middle, _ in frame.get(part, [(0, 0)] * 2)]
+            for part in ("contact", "attitude", "omega")
         )
         w = generated.rotate(*q, *spin)
         velocity = [radius * w[1], -radius * w[0], mpmath.mpf(0)]

@@ -100,7 +100,7 @@ def _apart(run: Trajectory, start: Start, soft: float) -> list[str]:
     for part, unit in (("centre", "m"), ("attitude", "degrees"), ("velocity", "m/s"), ("omega", "rad/s")):
         if (values := getattr(run, part)) is None:
             continue
-        size = start["centre"][2] if part == "centre" else np.linalg.norm(start[part])
+        size = (start["centre"][2] if part == "centre" else np.linalg.norm(start[part])) or 1.0  # what is 0 has none
         limit = 2 * (run.digit or {}).get(part, 0.0) + NEAR * size + soft * size * (part == "velocity")
         if part == "attitude":
             off = float(angle(start[part], values[0]))
@@ -149,7 +149,7 @@ def _check(
 
 def check_start(case: Case, run: Trajectory) -> None:
     """Raises BadInput unless the first row is the start of the case, and names the convention in which it would be."""
-    start = _rolling(case.path[0], case.radius, case.attitude[0], case.omega[0])
+    start = _rolling(case.path[0], case.radius, case.attitude[0], case.omega[0]) | {"velocity": case.moving[0]}
     _check(run, case.name, lambda read: start, lambda read: case.attitude[1], 0.0)
 
 
@@ -212,11 +212,14 @@ def case_of_scene(file: Path, limit: float = 600.0) -> Case:
 
 def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], limit: float = 600.0) -> Case:
     """The certified motion from an exact start of a scene, at these times; raises BadInput where it is not reached."""
+    from flint import arb
+
     from chapsym.dynamics.enclosed_motion import follow
+    from chapsym.dynamics.flow.start import ball
     from chapsym.dynamics.principal_axes import from_principal
     from chapsym.scene.members.members import expand, one_ball
 
-    if start.radius is None:
+    if start.radius is None and start.D:
         raise BadInput(f"{name}: the contact point needs the radius: give the ball its mass and radius")
     members = expand(scene)
     moments = one_ball(members, 0).inertia
@@ -226,9 +229,11 @@ def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], limi
     found = follow(start, times, DIGITS, limit=limit)
     if found.stopped:
         raise BadInput(f"{name}: the motion is certified to {float(found.times[-1]):g} s only: {found.stopped}")
-    parts: list[Any] = [found.contact, found.attitude, found.omega]
+    still = [[arb(0)] * 2] * len(times)  # of a body that nothing touches
+    parts: list[Any] = [still if found.contact is None else found.contact, found.attitude, found.omega]
     path, attitude, omega = (np.array([[float(x.mid()) for x in row] for row in part]) for part in parts)
     attitude /= np.linalg.norm(attitude, axis=-1, keepdims=True)
     time = np.array([float(at) for at in times])
-    mass, radius = float(start.D / start.radius**2), float(start.radius)
-    return Case(name, mass, radius, moments, time, path, attitude, in_space(attitude, omega))
+    mass, radius = (float(start.D / start.radius**2), float(start.radius)) if start.radius else (0.0, 0.0)
+    rotor = np.array([float(ball(x).mid()) for x in start.rotor])
+    return Case(name, mass, radius, moments, time, path, attitude, in_space(attitude, omega), rotor)

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -24,6 +24,10 @@ class Case:
     mass in kg, radius in m, inertia: the principal moments about the centre in kg m², (3,), or the tensor, (3, 3).
     time in s, (frames,).  path: the point of contact in m, (frames, 2).  attitude: unit quaternions, scalar first, from
     the axes of the body to space, (frames, 4).  omega: rad/s in space, (frames, 3).
+    mass and radius 0: a body that nothing touches, with its centre at the origin.  rotor: the angular momentum of one
+    inside in kg m²/s, (3,).  velocity: of the centre of a ball that slides, m/s in space, (frames, 3); None: it rolls.
+    offset: of the mass centre from that of the ball, to which `inertia` belongs, in m, (3,).  gravity in m/s².  Rotor
+    and offset are in the axes of the body.
     """
 
     name: str
@@ -34,6 +38,15 @@ class Case:
     path: np.ndarray
     attitude: np.ndarray
     omega: np.ndarray
+    rotor: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    velocity: np.ndarray | None = None
+    offset: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    gravity: float = 0.0
+
+    @property
+    def moving(self) -> np.ndarray:
+        """The velocity of the centre, (frames, 3)."""
+        return rolling(self.radius, self.omega) if self.velocity is None else self.velocity
 
 
 def read_case(file: Path) -> Case:
@@ -43,19 +56,30 @@ def read_case(file: Path) -> Case:
         if isinstance(data, dict) and "frames" in data and "ball" not in data:
             raise BadInput(f"{file} does not say of which ball it is: give the scene, --against SCENE.toml")
         ball, frames = data["ball"], data["frames"]
-        mass, radius, *inertia = (float(Fraction(x)) for x in (ball["mass"], ball["radius"], *ball["inertia"]))
-        time = np.array([float(Fraction(frame["time"])) for frame in frames])
-        path, attitude, omega = (
-            np.array([[float(middle) for middle, _ in frame[part]] for frame in frames])
-            for part in ("contact", "attitude", "omega")
+        touched = "contact" in frames[0]
+        mass, radius = (float(Fraction(ball[key])) if touched else 0.0 for key in ("mass", "radius"))
+        inertia, rotor, offset = (
+            np.array([float(Fraction(x)) for x in ball.get(key, [0, 0, 0])]) for key in ("inertia", "rotor", "offset")
         )
-        shapes = [path.shape, attitude.shape, omega.shape]
-        numbers = (mass, radius, *inertia, *time, *path.flat, *attitude.flat, *omega.flat)
-        if shapes != [(len(time), n) for n in (2, 4, 3)] or len(inertia) != 3 or not np.isfinite(numbers).all():
+        time = np.array([float(Fraction(frame["time"])) for frame in frames])
+        path, attitude, omega, velocity = (
+            np.array([[float(middle) for middle, _ in frame.get(part, [(0, 0)] * size)] for frame in frames])
+            for part, size in (("contact", 2), ("attitude", 0), ("omega", 0), ("velocity", 3))
+        )
+        gravity = float(Fraction(data.get("gravity", 0)))
+        shapes = [part.shape for part in (path, attitude, omega, velocity)]
+        if shapes != [(len(time), n) for n in (2, 4, 3, 3)] or {len(x) for x in (inertia, rotor, offset)} != {3}:
             raise ValueError
-        if len(time) < 2 or min(mass, radius) <= 0:
+        numbers = (path, attitude, omega, velocity, inertia, rotor, offset, time, [mass, radius, gravity])
+        if not np.isfinite(np.concatenate([np.ravel(x) for x in numbers])).all():
             raise ValueError
-        return Case(str(data["case"]), mass, radius, np.array(inertia), time, path, attitude, in_space(attitude, omega))
+        if len(time) < 2 or (min(mass, radius) <= 0 if touched else {"mass", "radius"} & ball.keys()):
+            raise ValueError
+        sliding = velocity if "velocity" in frames[0] else None
+        return Case(
+            str(data["case"]), mass, radius, inertia, time, path, attitude, in_space(attitude, omega), rotor, sliding,
+            offset, gravity,
+        )  # fmt: skip
     except OSError as error:
         raise BadInput(f"{file} cannot be read: {error.strerror or error}") from None
     except BadInput:
@@ -95,21 +119,27 @@ def departure(case: Case, found: Trajectory) -> Departure:
     """Compares a trajectory with a case, frame by frame.
 
     path: from the point of contact to that below the centre, m.  attitude: the angle between the two, degrees.
-    Where the file has velocities, energy, momentum: of the energy, and of the momentum about the contact point as a
-    vector fixed in space, from those at the start, per cent.  height: of the centre above the radius, m.  slip, with
-    velocities: the speed of the ball's point at the floor, m/s.
+    Where the file has velocities, energy, momentum: how far the energy, and the momentum about the contact point as a
+    vector in space, are from the true ones, per cent of those at the start.  height: of the centre above the radius, m.
+    slip, with velocities: the velocity of the ball's point at the floor less the true one, which is 0 in rolling, m/s.
+    A body that nothing touches has neither height nor slip, its path is from the centre to where it stays, and its
+    momentum is about the centre.
     """
-    path = np.linalg.norm(found.centre[:, :2] - case.path, axis=-1)
+    free = not case.radius
+    place = np.column_stack([case.path, np.full(len(case.path), case.radius)])
+    path = np.linalg.norm((found.centre - place)[:, : 3 if free else 2], axis=-1)
     parts = {"path": path, "attitude": angle(case.attitude, found.attitude)}
-    height = {"height": found.centre[:, 2] - case.radius}
+    height = {} if free else {"height": found.centre[:, 2] - case.radius}
     if found.velocity is None or found.omega is None:
         return parts | height
-    known = _carried(case, case.attitude, rolling(case.radius, case.omega), case.omega)
-    own = _carried(case, found.attitude, found.velocity, found.omega)
-    slip = np.linalg.norm(found.velocity[:, :2] - rolling(case.radius, found.omega)[:, :2], axis=-1)
-    parts["energy"] = 100 * (own[0] / known[0][0] - 1)
-    parts["momentum"] = 100 * np.linalg.norm(own[1] - known[1][0], axis=-1) / np.linalg.norm(known[1][0])
-    return parts | height | {"slip": slip}
+    known = carried(case, case.attitude, case.moving, case.omega)
+    own = carried(case, found.attitude, found.velocity, found.omega)
+    parts["energy"] = 100 * (own[0] - known[0]) / known[0][0]
+    parts["momentum"] = 100 * np.linalg.norm(own[1] - known[1], axis=-1) / np.linalg.norm(known[1][0])
+    if free:
+        return parts
+    slip = found.velocity - rolling(case.radius, found.omega) - case.moving + rolling(case.radius, case.omega)
+    return parts | height | {"slip": np.linalg.norm(slip[:, :2], axis=-1)}
 
 
 def angle(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -124,16 +154,23 @@ def rolling(radius: float, omega: np.ndarray) -> np.ndarray:
     return radius * np.stack([omega[..., 1], -omega[..., 0], np.zeros(omega.shape[:-1])], axis=-1)
 
 
-def _carried(
+def carried(
     case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The kinetic energy, J, and the momentum about the point of contact, kg m²/s in space."""
+    """The energy, J, and the momentum about the point of contact, kg m²/s in space, of a state of the body.
+
+    The energy is the kinetic one, and that of the height of a mass centre that is off the centre.  A rotor is in the
+    momentum and not in the energy: with K = Bω + a and K' = K × ω it is ½⟨Bω,ω⟩ that is kept (lemma `gyrostat-integrals`).
+    """
     back = attitude * np.array([1, -1, -1, -1])
     turning = in_space(back, omega)
     turning = case.inertia * turning if case.inertia.ndim == 1 else np.einsum("ij,fj->fi", case.inertia, turning)
-    spin = in_space(attitude, turning)
-    energy = (case.mass * (velocity**2).sum(axis=-1) + (omega * spin).sum(axis=-1)) / 2
-    return energy, spin + case.mass * case.radius * np.cross([0, 0, 1], velocity)
+    spin, inside, offset = (in_space(attitude, part) for part in (turning, case.rotor, case.offset))
+    moved = velocity + np.cross(omega, offset)
+    energy = (case.mass * (moved**2).sum(axis=-1) + (omega * spin).sum(axis=-1)) / 2
+    lever = offset + np.array([0, 0, case.radius])
+    raised = case.mass * case.gravity * offset[:, 2]
+    return energy + raised, spin + inside + case.mass * np.cross(lever, moved)
 
 
 # What several steps of one engine say: its order, and the part of its distance that no step takes away.
