@@ -1,6 +1,6 @@
 """Makes the data set anew from its cases: python -m benchmarks.rolling.make [NAME ...], some minutes.
 
-cases/NAME.toml is the scene; data/NAME.json has its frames as [middle, radius], and what is needed to set up an engine;
+cases/NAME.toml is the scene, sliding.py has the ball that slides; data/NAME.json has its frames as [middle, radius], and what is needed to set up an engine;
 data/NAME.csv the same in the units and names of engines.  data/SHA256SUMS has the digests of all files.
 """
 
@@ -19,6 +19,8 @@ from chapsym import files, generated
 from chapsym.dynamics.enclosed_motion import decimal, follow
 from chapsym.scene import load
 from chapsym.scene.members.exactly import exact_motion
+
+from . import sliding
 
 HERE = Path(__file__).parent
 CASES, DATA = HERE / "cases", HERE / "data"
@@ -69,6 +71,8 @@ def table(case: dict[str, Any]) -> str:
         )
         w = generated.rotate(*q, *spin)
         velocity = [radius * w[1], -radius * w[0], mpmath.mpf(0)]
+        if "velocity" in frame:  # it slides
+            velocity = [mpmath.mpf(middle) for middle, _ in frame["velocity"]]
         numbers = [x, y, radius, *q, *velocity, *w]
         rows.writerow([frame["time"], *(mpmath.nstr(v if abs(v) > NOTHING else 0, SHOWN) for v in numbers)])
     return stream.getvalue()
@@ -76,13 +80,13 @@ def table(case: dict[str, Any]) -> str:
 
 def main(names: list[str]) -> None:
     DATA.mkdir(exist_ok=True)
-    for scene in sorted(CASES.glob("*.toml")):
-        if names and scene.stem not in names:
+    for name in sorted({*sliding.CASES, *(scene.stem for scene in CASES.glob("*.toml"))}):
+        if names and name not in names:
             continue
-        print(scene.stem, file=sys.stderr)
-        case = made(scene)
-        files.write_text(DATA / f"{scene.stem}.json", text(case))
-        files.write_text(DATA / f"{scene.stem}.csv", table(case))
+        print(name, file=sys.stderr)
+        case = sliding.made(name, DIGITS) if name in sliding.CASES else made(CASES / f"{name}.toml")
+        files.write_text(DATA / f"{name}.json", text(case))
+        files.write_text(DATA / f"{name}.csv", table(case))
     sums = [f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p.name}\n" for p in sorted(DATA.glob("*.*"))]
     files.write_text(DATA / "SHA256SUMS", "".join(sums))
 

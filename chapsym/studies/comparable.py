@@ -217,11 +217,12 @@ def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], limi
     from chapsym.dynamics.enclosed_motion import follow
     from chapsym.dynamics.flow.start import ball
     from chapsym.dynamics.principal_axes import from_principal
+    from chapsym.scene.members.exactly import without_rotors
     from chapsym.scene.members.members import expand, one_ball
 
     if start.radius is None and start.D:
         raise BadInput(f"{name}: the contact point needs the radius: give the ball its mass and radius")
-    members = expand(scene)
+    members = expand(without_rotors(scene))
     moments = one_ball(members, 0).inertia
     if members.axes is not None:
         turn = from_principal(members.axes, np.eye(3)).T

@@ -154,9 +154,7 @@ def rolling(radius: float, omega: np.ndarray) -> np.ndarray:
     return radius * np.stack([omega[..., 1], -omega[..., 0], np.zeros(omega.shape[:-1])], axis=-1)
 
 
-def carried(
-    case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def carried(case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The energy, J, and the momentum about the point of contact, kg m²/s in space, of a state of the body.
 
     The energy is the kinetic one, and that of the height of a mass centre that is off the centre.  A rotor is in the

@@ -37,4 +37,6 @@ def command(run: Callable[[Case, float, bool], Rows], about: str) -> None:
     parser.add_argument("--best", action="store_true", help="the settings that we found best, instead of the defaults")
     given = parser.parse_args()
     case = read_case(DATA / f"{given.case}.json")
+    if not case.radius or case.rotor.any() or case.velocity is not None:
+        raise SystemExit(f"{given.case} is no ball that rolls by itself: the adapters are for those alone")
     files.write_text(given.output, text(given.step, run(case, given.step, given.best)))

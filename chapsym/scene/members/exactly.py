@@ -37,11 +37,15 @@ def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
         raise SceneError(f"{name}: {error}") from None
 
 
+def without_rotors(scene: Scene) -> Scene:
+    """A scene whose balls have no rotor, which runs in float64 refuse."""
+    return scene.model_copy(update={"ball": tuple(one.model_copy(update={"rotor": None}) for one in scene.ball)})
+
+
 def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]:
     if scene.toml is None:
         raise SceneError(f"{name}: certified digits need the numbers as a scene file writes them")
-    still = tuple(one.model_copy(update={"rotor": None}) for one in scene.ball)
-    if len(expand(scene.model_copy(update={"ball": still}))) != 1:
+    if len(expand(without_rotors(scene))) != 1:
         raise SceneError(f"{name}: certify motion takes one ball; this scene has several, or a range")
     if scene.maps:
         raise SceneError(

@@ -1,0 +1,157 @@
+"""The cases of benchmarks/rolling that do more than roll: the closed form, and integrations by another method."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import sympy as sp
+from commands import answer
+from scipy.integrate import solve_ivp
+
+from benchmarks.rolling import make, sliding
+from chapsym.studies.judge import carried, read_case
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+def matrix(q):
+    w, u = q[0], np.asarray(q[1:])
+    return (2 * w * w - 1) * np.eye(3) + 2 * np.outer(u, u) + 2 * w * np.cross(np.eye(3), u)
+
+
+def turning(q, omega):
+    """q' of ω in space."""
+    return np.concatenate([[-omega @ q[1:]], q[0] * omega + np.cross(omega, q[1:])]) / 2
+
+
+def integrated(times, slope, state, until=None):
+    return solve_ivp(
+        slope, (times[0], times[-1]), state, "DOP853", times, rtol=1e-13, atol=1e-15, max_step=0.01, events=until
+    )
+
+
+def rolled(case, rotor):
+    """The path and the attitude by the momentum about the point of contact, which space keeps; ω by a linear system."""
+
+    def omega(q):
+        R = matrix(q)
+        whole = R @ np.diag(case.inertia) @ R.T + case.mass * case.radius**2 * (np.eye(3) - np.outer(UP, UP))
+        return np.linalg.solve(whole, kept - R @ rotor)
+
+    R = matrix(case.attitude[0])
+    kept = R @ (case.inertia * (R.T @ case.omega[0]) + rotor)
+    kept = kept + case.mass * case.radius**2 * case.omega[0] * [1, 1, 0]
+
+    def slope(_, y):
+        w = omega(y[:4])
+        return np.concatenate([turning(y[:4], w), case.radius * np.array([w[1], -w[0]])])
+
+    y = integrated(case.time, slope, [*case.attitude[0], *case.path[0]]).y.T
+    return y[:, :4], y[:, 4:]
+
+
+def slid(case, friction):
+    """By Newton's and Euler's equations with Coulomb's friction along the slip until it is 1 µm/s; then it rolls."""
+
+    def slip(y):
+        return y[6:9] + np.cross(y[9:], -case.radius * UP)
+
+    def slope(_, y):
+        force = -friction * case.mass * case.gravity * slip(y) / np.linalg.norm(slip(y))
+        torque = np.cross(-case.radius * UP, force)
+        return np.concatenate([turning(y[:4], y[9:]), y[6:8], force / case.mass, torque / case.inertia[0]])
+
+    def left(_, y):
+        return np.linalg.norm(slip(y)) - 1e-6
+
+    left.terminal = True
+    start = [*case.attitude[0], *case.path[0], *case.moving[0], *case.omega[0]]
+    found = integrated(case.time, slope, start, left)
+    end, (last,) = found.t_events[0][0], found.y_events[0]
+    after = case.time > end
+    rest = replace(
+        case, time=np.array([end, *case.time[after]]), attitude=last[None, :4], path=last[None, 4:6],
+        omega=last[None, 9:],
+    )  # fmt: skip
+    q, path = rolled(rest, case.rotor)
+    before = found.y.T[: (~after).sum()]
+    return np.concatenate([before[:, :4], q[1:]]), np.concatenate([before[:, 4:6], path[1:]]), end
+
+
+def rolls_from(name):
+    return float(json.loads((make.DATA / f"{name}.json").read_text("utf-8")).get("rolls_from", [0])[0])
+
+
+def apart(case, found):
+    """The greatest differences of attitudes and paths."""
+    q = found[0] * np.sign((found[0] * case.attitude).sum(axis=1))[:, None]
+    return abs(q - case.attitude).max(), abs(found[1] - case.path).max()
+
+
+@pytest.mark.parametrize("name", ["free-top", "rotor"])
+def test_another_integration_finds_the_same(name):
+    case = read_case(make.DATA / f"{name}.json")
+    assert max(apart(case, rolled(case, case.rotor))) < 1e-9
+    other = case.rotor + [1e-4, 0, 0] if case.rotor.any() else case.rotor
+    if name == "free-top":
+        case = replace(case, inertia=case.inertia * [1.001, 1, 1])
+    assert max(apart(case, rolled(case, other))) > 1e-3
+
+
+def test_another_integration_slides_and_rolls_alike():
+    case = read_case(make.DATA / "sliding.json")
+    found = slid(case, 0.2)
+    assert max(apart(case, found)) < 1e-4  # a slip of 1 µm/s is left, of 35 rad/s that the ball turns
+    assert found[2] == pytest.approx(rolls_from("sliding"), abs=1e-6)
+    assert max(apart(case, slid(case, 0.2001))) > 0.01
+
+
+@pytest.mark.parametrize("name", ["free-top", "rotor", "sliding"])
+def test_what_the_motion_keeps_is_kept_and_nothing_else(name):
+    case = read_case(make.DATA / f"{name}.json")
+    energy, momentum = carried(case, case.attitude, case.moving, case.omega)
+    assert np.ptp(momentum, axis=0).max() < 1e-13 * np.linalg.norm(momentum[0])
+    rolls = case.time >= rolls_from(name)
+    assert np.ptp(energy[rolls]) < 1e-13 * energy[0]
+    assert (np.diff(energy[~rolls]) < 0).all()
+    if case.rotor.any():
+        without = carried(replace(case, rotor=0 * case.rotor), case.attitude, case.moving, case.omega)[1]
+        assert np.ptp(without, axis=0).max() > 0.1 * np.linalg.norm(without[0])
+
+
+def test_the_closed_form_is_the_motion_exactly():
+    t, m, r, mu, g, v, w, k = sp.symbols("t m r mu g v w k", positive=True)
+    c = sp.Rational(3, 5)
+    slide = sliding.Slide("", m, r, mu, g, (c, sp.Rational(4, 5)), v, w, part=k)
+    d = sp.Matrix([*slide.direction, 0])
+    up = sp.Matrix([0, 0, 1])
+    n = up.cross(d)
+    for state, friction in ((slide.slides(t), mu), (slide.rolls(t), 0), (slide.slides(t), 2 * mu)):
+        force = -friction * m * g * d
+        newton = m * sp.diff(state.velocity, t) * d - force
+        euler = k * m * r**2 * sp.diff(state.rate, t) * n - (-r * up).cross(force)
+        paths = [sp.diff(state.way, t) - state.velocity, sp.diff(state.angle, t) - state.rate]
+        solved = all(sp.expand(x) == 0 for x in (*newton, *euler, *paths))
+        assert solved == (friction != 2 * mu)
+    slip = lambda state: (state.velocity * d + (state.rate * n).cross(-r * up)).dot(d)  # noqa: E731
+    assert sp.simplify(slip(slide.slides(t)) - (v - r * w) * (1 - t / slide.end)) == 0  # of one sign until the end
+    assert sp.simplify(slip(slide.rolls(t))) == 0
+    for before, after in zip(slide.slides(slide.end), slide.rolls(slide.end), strict=True):
+        assert sp.simplify(before - after) == 0
+    start = slide.slides(sp.S.Zero)
+    assert start == (0, v, 0, w)
+
+
+def test_judge_compares_by_what_a_case_has():
+    for name, parts in (
+        ("free-top", ["path", "attitude", "energy", "momentum"]),
+        ("sliding", ["path", "attitude", "energy", "momentum", "height", "slip"]),
+    ):
+        file = make.DATA / f"{name}.json"
+        found = answer("judge", file.with_suffix(".csv"), "--against", file)["results"][0]["departure"]
+        assert list(found) == parts
+        assert max(part["greatest"] for part in found.values()) < 1e-9
+    for name in ("free-top", "rotor"):
+        found = answer("judge", make.DATA / f"{name}.csv", "--against", make.CASES / f"{name}.toml")
+        assert max(part["greatest"] for part in found["results"][0]["departure"].values()) < 1e-9
