@@ -1,7 +1,8 @@
 """Makes the data set anew from its cases: python -m benchmarks.rolling.make [NAME ...], some minutes.
 
-cases/NAME.toml is the scene, sliding.py has the ball that slides; data/NAME.json has its frames as [middle, radius], and what is needed to set up an engine;
-data/NAME.csv the same in the units and names of engines.  data/SHA256SUMS has the digests of all files.
+cases/NAME.toml is the scene, sliding.py has the ball that slides; data/NAME.json has its frames as [middle, radius],
+and what is needed to set up an engine; data/NAME.csv the same in the units and names of engines.  data/SHA256SUMS has
+the digests of all files.
 """
 
 import csv

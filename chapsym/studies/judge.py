@@ -25,9 +25,8 @@ class Case:
     time in s, (frames,).  path: the point of contact in m, (frames, 2).  attitude: unit quaternions, scalar first, from
     the axes of the body to space, (frames, 4).  omega: rad/s in space, (frames, 3).
     mass and radius 0: a body that nothing touches, with its centre at the origin.  rotor: the angular momentum of one
-    inside in kg m²/s, (3,).  velocity: of the centre of a ball that slides, m/s in space, (frames, 3); None: it rolls.
-    offset: of the mass centre from that of the ball, to which `inertia` belongs, in m, (3,).  gravity in m/s².  Rotor
-    and offset are in the axes of the body.
+    inside in kg m²/s, in the axes of the body, (3,).  velocity: of the centre of a ball that slides, m/s in space,
+    (frames, 3); None: it rolls.  friction: Coulomb's coefficient, and gravity in m/s², of a ball that slides.
     """
 
     name: str
@@ -40,8 +39,8 @@ class Case:
     omega: np.ndarray
     rotor: np.ndarray = field(default_factory=lambda: np.zeros(3))
     velocity: np.ndarray | None = None
-    offset: np.ndarray = field(default_factory=lambda: np.zeros(3))
-    gravity: float = 0.0
+    friction: float | None = None
+    gravity: float | None = None
 
     @property
     def moving(self) -> np.ndarray:
@@ -58,27 +57,27 @@ def read_case(file: Path) -> Case:
         ball, frames = data["ball"], data["frames"]
         touched = "contact" in frames[0]
         mass, radius = (float(Fraction(ball[key])) if touched else 0.0 for key in ("mass", "radius"))
-        inertia, rotor, offset = (
-            np.array([float(Fraction(x)) for x in ball.get(key, [0, 0, 0])]) for key in ("inertia", "rotor", "offset")
+        inertia, rotor = (
+            np.array([float(Fraction(x)) for x in numbers]) for numbers in (ball["inertia"], ball.get("rotor", [0] * 3))
         )
         time = np.array([float(Fraction(frame["time"])) for frame in frames])
         path, attitude, omega, velocity = (
             np.array([[float(middle) for middle, _ in frame.get(part, [(0, 0)] * size)] for frame in frames])
             for part, size in (("contact", 2), ("attitude", 0), ("omega", 0), ("velocity", 3))
         )
-        gravity = float(Fraction(data.get("gravity", 0)))
+        sliding = "velocity" in frames[0]
+        forces = [float(Fraction(data[key])) for key in ("friction", "gravity")] if sliding else []
         shapes = [part.shape for part in (path, attitude, omega, velocity)]
-        if shapes != [(len(time), n) for n in (2, 4, 3, 3)] or {len(x) for x in (inertia, rotor, offset)} != {3}:
+        if shapes != [(len(time), n) for n in (2, 4, 3, 3)] or {len(inertia), len(rotor)} != {3}:
             raise ValueError
-        numbers = (path, attitude, omega, velocity, inertia, rotor, offset, time, [mass, radius, gravity])
+        numbers = (path, attitude, omega, velocity, inertia, rotor, time, [mass, radius], forces)
         if not np.isfinite(np.concatenate([np.ravel(x) for x in numbers])).all():
             raise ValueError
         if len(time) < 2 or (min(mass, radius) <= 0 if touched else {"mass", "radius"} & ball.keys()):
             raise ValueError
-        sliding = velocity if "velocity" in frames[0] else None
         return Case(
-            str(data["case"]), mass, radius, inertia, time, path, attitude, in_space(attitude, omega), rotor, sliding,
-            offset, gravity,
+            str(data["case"]), mass, radius, inertia, time, path, attitude, in_space(attitude, omega), rotor,
+            velocity if sliding else None, *forces,
         )  # fmt: skip
     except OSError as error:
         raise BadInput(f"{file} cannot be read: {error.strerror or error}") from None
@@ -155,20 +154,17 @@ def rolling(radius: float, omega: np.ndarray) -> np.ndarray:
 
 
 def carried(case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The energy, J, and the momentum about the point of contact, kg m²/s in space, of a state of the body.
+    """The kinetic energy, J, and the momentum about the point of contact, kg m²/s in space, of a state of the body.
 
-    The energy is the kinetic one, and that of the height of a mass centre that is off the centre.  A rotor is in the
-    momentum and not in the energy: with K = Bω + a and K' = K × ω it is ½⟨Bω,ω⟩ that is kept (lemma `gyrostat-integrals`).
+    A rotor is in the momentum and not in the energy: with K = Bω + a and K' = K × ω it is ½⟨Bω,ω⟩ that is kept
+    (lemma `gyrostat-integrals`).
     """
     back = attitude * np.array([1, -1, -1, -1])
     turning = in_space(back, omega)
     turning = case.inertia * turning if case.inertia.ndim == 1 else np.einsum("ij,fj->fi", case.inertia, turning)
-    spin, inside, offset = (in_space(attitude, part) for part in (turning, case.rotor, case.offset))
-    moved = velocity + np.cross(omega, offset)
-    energy = (case.mass * (moved**2).sum(axis=-1) + (omega * spin).sum(axis=-1)) / 2
-    lever = offset + np.array([0, 0, case.radius])
-    raised = case.mass * case.gravity * offset[:, 2]
-    return energy + raised, spin + inside + case.mass * np.cross(lever, moved)
+    spin, inside = (in_space(attitude, part) for part in (turning, case.rotor))
+    energy = (case.mass * (velocity**2).sum(axis=-1) + (omega * spin).sum(axis=-1)) / 2
+    return energy, spin + inside + case.mass * case.radius * np.cross([0, 0, 1], velocity)
 
 
 # What several steps of one engine say: its order, and the part of its distance that no step takes away.

@@ -47,8 +47,8 @@ def judge(run: Any, of: str | Case) -> dict[str, Any]:
     Returns
     -------
     dict
-        path, attitude, height, and with velocities energy, momentum, slip, as far as the case has them: each the greatest, that at the end, the
-        unit; for four of them the limit, and the time when it is passed, or None.
+        path, attitude, height, and with velocities energy, momentum, slip, as far as the case has them: each the
+        greatest, that at the end, the unit; for four of them the limit, and the time when it is passed, or None.
     """
     truth = case(of) if isinstance(of, str) else of
     if isinstance(run, dict):
