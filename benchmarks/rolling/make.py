@@ -1,8 +1,8 @@
 """Makes the data set anew from its cases: python -m benchmarks.rolling.make [NAME ...], some minutes.
 
 cases/NAME.toml is the scene, sliding.py has the ball that slides; data/NAME.json has its frames as [middle, radius],
-and what is needed to set up an engine; data/NAME.csv the same in the units and names of engines.  data/SHA256SUMS has
-the digests of all files.
+and what is needed to set up an engine; data/NAME.csv the same in the units and names of engines; data/NAME.urdf and
+data/NAME.xml (MJCF) a ball that rolls by itself, as engines load it.  data/SHA256SUMS has the digests of all files.
 """
 
 import csv
@@ -30,6 +30,30 @@ DIGITS = 30
 SHOWN = 20
 #: What is less is 0, but for rounding.
 NOTHING = mpmath.mpf("1e-30")
+#: The ball as engines load it: the mass, the radius, and ixx, ixy, ...: entries of the tensor in the axes of the body.
+URDF = """<robot name="{name}">
+  <link name="{name}">
+    <inertial>
+      <mass value="{mass}"/>
+      <inertia ixx="{ixx}" ixy="{ixy}" ixz="{ixz}" iyy="{iyy}" iyz="{iyz}" izz="{izz}"/>
+    </inertial>
+    <collision>
+      <geometry><sphere radius="{radius}"/></geometry>
+    </collision>
+  </link>
+</robot>
+"""
+MJCF = """<mujoco model="{name}">
+  <worldbody>
+    <body name="{name}">
+      <freejoint/>
+      <inertial pos="0 0 0" mass="{mass}" fullinertia="{ixx} {iyy} {izz} {ixy} {ixz} {iyz}"/>
+      <geom type="sphere" size="{radius}"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+BODIES = {"urdf": URDF, "xml": MJCF}
 COLUMNS = "time x y z qw qx qy qz vx vy vz wx wy wz"
 
 
@@ -79,6 +103,13 @@ def table(case: dict[str, Any]) -> str:
     return stream.getvalue()
 
 
+def body(case: dict[str, Any], form: str) -> str:
+    """The ball of a case, its axes the principal ones, in a form of BODIES."""
+    ball = case["ball"]
+    tensor = dict.fromkeys(("ixy", "ixz", "iyz"), "0") | dict(zip(("ixx", "iyy", "izz"), ball["inertia"], strict=True))
+    return BODIES[form].format(name=case["case"], mass=ball["mass"], radius=ball["radius"], **tensor)
+
+
 def main(names: list[str]) -> None:
     DATA.mkdir(exist_ok=True)
     for name in sorted({*sliding.CASES, *(scene.stem for scene in CASES.glob("*.toml"))}):
@@ -88,6 +119,9 @@ def main(names: list[str]) -> None:
         case = sliding.made(name, DIGITS) if name in sliding.CASES else made(CASES / f"{name}.toml")
         files.write_text(DATA / f"{name}.json", text(case))
         files.write_text(DATA / f"{name}.csv", table(case))
+        if "radius" in case["ball"] and "rotor" not in case["ball"] and "friction" not in case:
+            for form in BODIES:
+                files.write_text(DATA / f"{name}.{form}", body(case, form))
     sums = [f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p.name}\n" for p in sorted(DATA.glob("*.*"))]
     files.write_text(DATA / "SHA256SUMS", "".join(sums))
 

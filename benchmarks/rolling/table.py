@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 from chapsym.studies.judge import Case, convergence, departure, read_case
 from chapsym.studies.judge_tables import read_trajectory
 
-from .engines.common import DATA, text
+from .engines.common import DATA, start_of, text
 
 OUTPUT = Path(__file__).parents[2] / "docs" / "reference" / "measured" / "engines.md"
 CASES = ("bowling", "random-3", "robot", "heavy-axis", "separatrix")
@@ -42,11 +42,12 @@ COLUMNS = "| engine | settings | step, ms | path, m | attitude, degrees | energy
 def rows(case: Case, module: str, steps: tuple[float, ...], best: bool) -> Iterator[str]:
     """A row of the table for each step; the last one has the order and the floor."""
     run = importlib.import_module(f".engines.{module}", __package__).run
+    body, start = DATA / f"{case.name}.urdf", start_of(case)
     runs, found = [], []
     with TemporaryDirectory() as folder:
         for step in steps:
             file = Path(folder, f"{step!r}.csv")
-            file.write_text(text(step, run(case, step, best)), encoding="utf-8")
+            file.write_text(text(step, run(body, start, step, best)), encoding="utf-8")
             runs.append(read_trajectory(file, case.time))
             found.append(departure(case, runs[-1]))
     known = convergence(case, runs)

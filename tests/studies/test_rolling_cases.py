@@ -1,7 +1,10 @@
 """The cases of benchmarks/rolling that do more than roll: the closed form, and integrations by another method."""
 
 import json
+import subprocess
+import sys
 from dataclasses import replace
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -10,6 +13,8 @@ from commands import answer
 from scipy.integrate import solve_ivp
 
 from benchmarks.rolling import make, sliding
+from benchmarks.rolling.engines.common import DATA
+from chapsym.scene.read import robots
 from chapsym.studies.judge import carried, read_case
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -155,3 +160,35 @@ def test_judge_compares_by_what_a_case_has():
     for name in ("free-top", "rotor"):
         found = answer("judge", make.DATA / f"{name}.csv", "--against", make.CASES / f"{name}.toml")
         assert max(part["greatest"] for part in found["results"][0]["departure"].values()) < 1e-9
+
+
+@pytest.mark.parametrize("form", make.BODIES)
+def test_the_file_of_a_ball_has_exactly_its_numbers(form):
+    files = sorted(DATA.glob(f"*.{form}"))
+    assert len(files) == 31
+    for file in files:
+        wanted, found = json.loads(file.with_suffix(".json").read_text("utf-8"))["ball"], robots.table(file)
+        numbers = [Decimal(str(found[name])) for name in ("mass", "radius")]
+        assert numbers == [Decimal(wanted[name]) for name in ("mass", "radius")], file
+        tensor = [[Decimal(str(x)) for x in row] for row in found["inertia"]]
+        assert tensor == np.diag([Decimal(x) for x in wanted["inertia"]]).tolist(), file
+
+
+def test_one_command_takes_a_ball_from_its_file_to_the_verdict(tmp_path):
+    """The engine is the control, a contact by penalty: it slips, and keeps the momentum."""
+
+    def rolled(*args):
+        command = [sys.executable, "-m", "benchmarks.rolling.engines", "penalty", *map(str, args)]
+        return subprocess.run(command, cwd=DATA.parents[2], capture_output=True, encoding="utf-8", check=False)
+
+    done = rolled(DATA / "robot.urdf", "--time", 0.4, "-o", tmp_path / "robot.csv")
+    assert done.returncode == 0, done.stderr
+    found = {line.split()[0]: line for line in done.stdout.splitlines()[1:]}
+    assert "within 1 %" in found["momentum"]
+    assert float(found["slip"].split()[3]) > 1e-3
+    for wrong, said in ((tmp_path / "none.urdf", "none.urdf"), ("rotor", "no ball that rolls by itself")):
+        done = rolled(wrong, "-o", tmp_path / "never.csv")
+        assert done.returncode == 1
+        assert said in done.stderr
+        assert "Traceback" not in done.stderr
+        assert not (tmp_path / "never.csv").exists()

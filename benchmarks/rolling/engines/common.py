@@ -1,11 +1,12 @@
-"""The common parts of the adapters: the start of a case as an engine takes it, and the file that it writes."""
+"""The common parts of the adapters: the start as an engine takes it, and the file that it writes."""
 
-import argparse
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
-from chapsym import files
-from chapsym.studies.judge import Case, read_case
+import numpy as np
+
+from chapsym.studies.judge import Case, rolling
 from chapsym.studies.judge_tables import MORE, NEEDED
 
 DATA = Path(__file__).parents[1] / "data"
@@ -13,12 +14,38 @@ DATA = Path(__file__).parents[1] / "data"
 Rows = Iterable[Iterable[float]]
 
 
-def steps_between(case: Case, step: float) -> int:
-    """The steps from a frame to the next; raises SystemExit where the step does not divide it."""
-    count = round(case.time[1] / step)
-    if abs(count * step - case.time[1]) > 1e-9:
-        raise SystemExit(f"the step must divide {case.time[1]:g} s, the time between two frames")
-    return count
+@dataclass(frozen=True, eq=False)
+class Start:
+    """The centre in m, the attitude (scalar first), the velocity in m/s and ω in rad/s in space; the frames' times."""
+
+    centre: np.ndarray
+    attitude: np.ndarray
+    velocity: np.ndarray
+    omega: np.ndarray
+    time: np.ndarray
+
+    def steps_between(self, step: float) -> int:
+        """The steps from a frame to the next; raises SystemExit where the step does not divide it."""
+        apart = self.time[1]
+        count = round(apart / step)
+        if abs(count * step - apart) > 1e-9:
+            raise SystemExit(f"the step must divide {apart:g} s, the time between two frames")
+        return count
+
+
+def start_of(case: Case) -> Start:
+    """The first frame of a case, and its times; raises SystemExit for what no adapter sets up."""
+    if not case.radius or case.rotor.any() or case.velocity is not None:
+        raise SystemExit(f"{case.name} is no ball that rolls by itself: the adapters are for those alone")
+    spin = case.omega[0]
+    centre = np.array([*case.path[0], case.radius])
+    return Start(centre, case.attitude[0], rolling(case.radius, spin), spin, case.time)
+
+
+def check_centre(offset: np.ndarray) -> None:
+    """Raises SystemExit where the centre of mass is not the origin of the body, whose motion is written."""
+    if np.abs(offset).max() > 0:
+        raise SystemExit(f"the origin of the body must be its centre of mass, and that is at {offset.tolist()} m")
 
 
 def text(step: float, rows: Rows) -> str:
@@ -26,17 +53,3 @@ def text(step: float, rows: Rows) -> str:
     lines = [f"# time_step = {step!r}", ",".join((*NEEDED, *MORE))]
     lines += [",".join(repr(float(x)) for x in row) for row in rows]
     return "\n".join(lines) + "\n"
-
-
-def command(run: Callable[[Case, float, bool], Rows], about: str) -> None:
-    """The command line of an adapter."""
-    parser = argparse.ArgumentParser(description=about.splitlines()[0])
-    parser.add_argument("case")
-    parser.add_argument("step", type=float)
-    parser.add_argument("output", type=Path)
-    parser.add_argument("--best", action="store_true", help="the settings that we found best, instead of the defaults")
-    given = parser.parse_args()
-    case = read_case(DATA / f"{given.case}.json")
-    if not case.radius or case.rotor.any() or case.velocity is not None:
-        raise SystemExit(f"{given.case} is no ball that rolls by itself: the adapters are for those alone")
-    files.write_text(given.output, text(given.step, run(case, given.step, given.best)))

@@ -1,22 +1,25 @@
-"""A contact by penalty as the control: python -m benchmarks.rolling.engines.penalty CASE STEP OUTPUT.csv
+"""A contact by penalty as the control.
 
 The floor is a spring with a damper; the friction is a force against the slip, in proportion to it (viscous).  Runge and
 Kutta's method of order 4 with a fixed step, in space.
 """
 
+from pathlib import Path
+
 import numpy as np
 
 from chapsym import generated
-from chapsym.studies.judge import Case, rolling
+from chapsym.scene.read import robots
 
-from .common import Rows, command, steps_between
+from .common import Rows, Start
 
 GRAVITY, STIFFNESS, DAMPING, VISCOSITY = 9.81, 1e6, 1e3, 3e2  # m/s², N/m, N s/m, N s/m, each a kg of the ball
 
 
-def run(case: Case, step: float, best: bool = False) -> Rows:
-    """There is one setting only."""
-    mass, radius, (j1, j2, j3) = case.mass, case.radius, case.inertia.tolist()
+def run(body: Path, start: Start, step: float, best: bool = False) -> Rows:
+    """The tensor must be diagonal; there is one setting only."""
+    ball = robots.table(body)
+    mass, radius, (j1, j2, j3) = float(ball["mass"]), float(ball["radius"]), np.diag(ball["inertia"]).astype(float)
 
     def rate(state: np.ndarray) -> np.ndarray:
         """The rates of the centre, the quaternion (scalar first), the velocity and ω, in space."""
@@ -36,10 +39,10 @@ def run(case: Case, step: float, best: bool = False) -> Rows:
                 qw * wz + wx * qy - wy * qx]  # fmt: skip
         return np.array([vx, vy, vz, *(x / 2 for x in spun), ax, ay, press - GRAVITY, *turning])
 
-    sunk = GRAVITY / STIFFNESS
-    start = [[*case.path[0], case.radius - sunk], case.attitude[0], rolling(case.radius, case.omega[0]), case.omega[0]]
-    state, count, h = np.concatenate(start), steps_between(case, step), step
-    for time in case.time:
+    state = np.concatenate([start.centre, start.attitude, start.velocity, start.omega])
+    state[2] -= GRAVITY / STIFFNESS  # where the spring holds its weight
+    count, h = start.steps_between(step), step
+    for time in start.time:
         for _ in range(count if time else 0):
             a = rate(state)
             b = rate(state + h / 2 * a)
@@ -47,7 +50,3 @@ def run(case: Case, step: float, best: bool = False) -> Rows:
             state = state + h / 6 * (a + 2 * b + 2 * c + rate(state + h * c))
             state[3:7] /= np.linalg.norm(state[3:7])
         yield [time, *state]
-
-
-if __name__ == "__main__":
-    command(run, __doc__)

@@ -1,46 +1,54 @@
-"""PyBullet: python -m benchmarks.rolling.engines.pybullet_ball CASE STEP OUTPUT.csv [--best]
+"""PyBullet: the ball of a URDF or MJCF file, as PyBullet's own loader reads it, on a plane.
 
-A free sphere with the moments of the case on a plane, with the settings as they come, of which the damping of 0.04 is
-one; with --best no damping, more friction than can be used, and 500 iterations of the solver to a residual of 1e-14.
+The settings are as they come, of which the damping of 0.04 is one; the best are no damping, more friction than can be
+used, and 500 iterations of the solver to a residual of 1e-14.  Of a URDF the inertia is that of the file: without that
+flag, and of an MJCF always, PyBullet takes that of a homogeneous sphere.
 """
 
+from pathlib import Path
+
+import numpy as np
 import pybullet
 
-from chapsym.studies.judge import Case, rolling
-
-from .common import Rows, command, steps_between
+from .common import Rows, Start, check_centre
 
 
-def run(case: Case, step: float, best: bool) -> Rows:
+def loaded(body: Path, client: int) -> int:
+    if body.suffix != ".urdf":
+        return int(pybullet.loadMJCF(str(body), physicsClientId=client)[0])
+    flags = pybullet.URDF_USE_INERTIA_FROM_FILE
+    return int(pybullet.loadURDF(str(body), flags=flags, physicsClientId=client))
+
+
+def run(body: Path, start: Start, step: float, best: bool) -> Rows:
     client = pybullet.connect(pybullet.DIRECT)
     try:
         pybullet.setGravity(0, 0, -9.81, client)
         pybullet.setTimeStep(step, client)
         plane = pybullet.createMultiBody(0, pybullet.createCollisionShape(pybullet.GEOM_PLANE, physicsClientId=client))
-        sphere = pybullet.createCollisionShape(pybullet.GEOM_SPHERE, radius=case.radius, physicsClientId=client)
-        w, *xyz = case.attitude[0]
-        ball = pybullet.createMultiBody(
-            case.mass, sphere, -1, [*case.path[0], case.radius], [*xyz, w], physicsClientId=client
-        )
-        pybullet.changeDynamics(ball, -1, localInertiaDiagonal=list(case.inertia), physicsClientId=client)
+        ball = loaded(body, client)
+        # PyBullet's pose is of the principal axes, at the centre of mass.
+        place, axes = pybullet.getDynamicsInfo(ball, -1, client)[3:5]
+        check_centre(np.array(place))
+        back = pybullet.invertTransform([0, 0, 0], axes)[1]
+        w, *xyz = start.attitude
+        turned = pybullet.multiplyTransforms([0, 0, 0], [*xyz, w], [0, 0, 0], axes)[1]
+        pybullet.resetBasePositionAndOrientation(ball, list(start.centre), turned, client)
         if best:
             pybullet.changeDynamics(ball, -1, linearDamping=0, angularDamping=0, physicsClientId=client)
             pybullet.setPhysicsEngineParameter(
                 numSolverIterations=500, solverResidualThreshold=1e-14, physicsClientId=client
             )
-            for body in (plane, ball):
-                pybullet.changeDynamics(body, -1, lateralFriction=10, physicsClientId=client)
-        pybullet.resetBaseVelocity(ball, list(rolling(case.radius, case.omega[0])), list(case.omega[0]), client)
-        count = steps_between(case, step)
-        for time in case.time:
+            for one in (plane, ball):
+                pybullet.changeDynamics(one, -1, lateralFriction=10, physicsClientId=client)
+        pybullet.resetBaseVelocity(ball, list(start.velocity), list(start.omega), client)
+        count = start.steps_between(step)
+        for time in start.time:
             for _ in range(count if time else 0):
                 pybullet.stepSimulation(client)
-            place, (*xyz, w) = pybullet.getBasePositionAndOrientation(ball, client)
+            place, turned = pybullet.getBasePositionAndOrientation(ball, client)
+            *xyz, w = pybullet.multiplyTransforms([0, 0, 0], turned, [0, 0, 0], back)[1]
             velocity, omega = pybullet.getBaseVelocity(ball, client)
             yield [time, *place, w, *xyz, *velocity, *omega]
     finally:
         pybullet.disconnect(client)
-
-
-if __name__ == "__main__":
-    command(run, __doc__)
