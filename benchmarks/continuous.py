@@ -50,9 +50,9 @@ def lsoda(y: np.ndarray, end: float, tolerance: float) -> np.ndarray:
     from scipy.integrate import odeint
 
     times, options = np.array([0.0, end]), {"rtol": tolerance, "atol": tolerance, "mxstep": 10**7}
-    found, told = odeint(right_side, y, times, tfirst=True, full_output=True, **options)
-    if told["message"] != "Integration successful.":
-        raise NotComparable(f"LSODA fails at the tolerance {tolerance:g}: {told['message']}")
+    found, report = odeint(right_side, y, times, tfirst=True, full_output=True, **options)
+    if report["message"] != "Integration successful.":
+        raise NotComparable(f"LSODA fails at the tolerance {tolerance:g}: {report['message']}")
     return found[-1]
 
 

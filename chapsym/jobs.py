@@ -216,13 +216,13 @@ class Workers:
             threads = sum(self.client.nthreads(callback_timeout=ANSWERED).values())
         except (OSError, TimeoutError, ValueError, RuntimeError):
             self.flying.clear()  # there is nobody who could cancel them
-            told = "is lost; the same command goes on from what is written"
-            raise BadInput(f"the Dask scheduler at {self.address} {told}") from None
+            clause = "is lost; the same command goes on from what is written"
+            raise BadInput(f"the Dask scheduler at {self.address} {clause}") from None
         now = time.monotonic()
         self.alone_since = None if threads else self.alone_since or now
         if self.alone_since is not None and now - self.alone_since > ABANDONED:
-            told = f"has had no workers for {ABANDONED:.0f} s; the same command goes on from what is written"
-            raise BadInput(f"the Dask scheduler at {self.address} {told}")
+            clause = f"has had no workers for {ABANDONED:.0f} s; the same command goes on from what is written"
+            raise BadInput(f"the Dask scheduler at {self.address} {clause}")
         return 2 * threads
 
     def submit(self, call: Call) -> Any:

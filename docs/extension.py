@@ -73,9 +73,9 @@ def restructured(block):
         return ["::", "", *textwrap.indent(textwrap.dedent(block), "   ").splitlines()]
     found = []
     for line in block.splitlines():
-        told = ARGUMENT.match(line)
-        if told:
-            found += ["", f"- **{told[1]}**: {escaped(line[told.end() :])}"]
+        clause = ARGUMENT.match(line)
+        if clause:
+            found += ["", f"- **{clause[1]}**: {escaped(line[clause.end() :])}"]
         else:
             found.append(("  " if any(one.startswith("- **") for one in found) else "") + escaped(line.strip()))
     return found

@@ -136,8 +136,8 @@ def _written(write: Callable[[], Any]) -> Any:
 
 
 def _name(unit: Unit) -> str:
-    told = ", ".join(f"{name} = {value}" for name, value in unit.arguments.items())
-    return f"{unit.function.rpartition(':')[2]}({told})"
+    arguments_shown = ", ".join(f"{name} = {value}" for name, value in unit.arguments.items())
+    return f"{unit.function.rpartition(':')[2]}({arguments_shown})"
 
 
 def folder(path: Path) -> Path:

@@ -16,20 +16,20 @@ from chapsym.cli import main, output
 
 def chapsym(*arguments, cwd="."):
     """What the command writes and its exit status, as of a child that starts in the folder `cwd`."""
-    said, told = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2))
+    said, words = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2))
     handlers, level = list(logging.root.handlers), logging.getLogger("chapsym").level
     logging.root.handlers.clear()  # so that the command takes its own, as in a new process
     try:
         with (
             mock.patch.object(sys, "argv", ["chapsym", *map(str, arguments)]),
             contextlib.redirect_stdout(said),
-            contextlib.redirect_stderr(told),
+            contextlib.redirect_stderr(words),
             contextlib.chdir(cwd),
             mock.patch.object(output, "PAUSE", math.inf),  # no line that a slow machine alone prints
         ):
             main()
     except SystemExit as ended:
-        return subprocess.CompletedProcess(arguments, ended.code, _text(said), _text(told))
+        return subprocess.CompletedProcess(arguments, ended.code, _text(said), _text(words))
     finally:
         logging.root.handlers[:] = handlers
         logging.getLogger("chapsym").setLevel(level)
@@ -54,7 +54,7 @@ def answer(*arguments):
 
 
 def refused(*arguments, run=chapsym, status=2, **options):
-    """The one sentence of an error; before it a slow machine may have told how far a run was."""
+    """The one sentence of an error; before it a slow machine may have words how far a run was."""
     done = run(*arguments, **options)
     assert (done.returncode, done.stdout) == (status, ""), done.stdout + done.stderr
     said = re.sub(r"(?m)^chapsym: \d+%, .*\n", "", done.stderr)

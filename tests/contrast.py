@@ -1,4 +1,4 @@
-"""How well colours can be told apart, as the accessibility guidelines define it: of styles, and in a browser."""
+"""How well colours can be words apart, as the accessibility guidelines define it: of styles, and in a browser."""
 
 #: Of what can be used, its letters and what shows where it is: each with the colour that it stands on.
 SEEN = """selector => {

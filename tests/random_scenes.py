@@ -77,14 +77,14 @@ def moments(r, mass, radius, strongly):
 
 
 def principal(r, strongly):
-    told, mass, radius = sized(r)
+    words, mass, radius = sized(r)
     x, y, z = moments(r, mass, radius, strongly)
-    return {"inertia": [float(f"{a:.6g}") for a in (y + z, x + z, x + y)], **told}
+    return {"inertia": [float(f"{a:.6g}") for a in (y + z, x + z, x + y)], **words}
 
 
 def pseudo(r, strongly):
-    told, mass, radius = sized(r)
-    return {"mass_tensor": [float(f"{a:.6g}") for a in moments(r, mass, radius, strongly)], **told}
+    words, mass, radius = sized(r)
+    return {"mass_tensor": [float(f"{a:.6g}") for a in moments(r, mass, radius, strongly)], **words}
 
 
 def with_units(r):
@@ -98,7 +98,7 @@ def with_units(r):
 
 def tensor(r, strongly):
     """A full tensor of inertia, symmetric to the last bit."""
-    told, mass, radius = sized(r)
+    words, mass, radius = sized(r)
     J, (w, x, y, z) = moments(r, mass, radius, strongly), quaternion(r)
     Q = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -106,10 +106,10 @@ def tensor(r, strongly):
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
     second = [[sum(Q[i][k] * J[k] * Q[j][k] for k in range(3)) for j in range(3)] for i in range(3)]
-    told["inertia"] = [
+    words["inertia"] = [
         [float(f"{(sum(J) if i == j else 0.0) - second[min(i, j)][max(i, j)]:.9g}") for j in range(3)] for i in range(3)
     ]
-    return told
+    return words
 
 
 def top(r):
@@ -127,9 +127,9 @@ def shell(r):
 
 
 def dumbbell(r):
-    told, mass, radius = sized(r)
+    words, mass, radius = sized(r)
     inside = {"point_mass": number(r, 0.1, 0.45) * mass, "separation": number(r, 0.5, 1.6) * radius}
-    return {"preset": "dumbbell", **told, **inside, "thickness": 0.1 * radius}
+    return {"preset": "dumbbell", **words, **inside, "thickness": 0.1 * radius}
 
 
 def bowling(r):
@@ -222,13 +222,13 @@ def run(r, n, rate, least=0.0):
     length = r.choice([0.004, 0.02, 0.1])
     step = float(f"{(max(length, turned / 2000) if kind == 0 else length) / rate:.2g}")
     steps = max(round(turned / rate / step), 12)
-    told = {"time_step": step if r.random() < 0.5 else f"{1000 * step:.6g} ms"}
+    words = {"time_step": step if r.random() < 0.5 else f"{1000 * step:.6g} ms"}
     if kind == 0:
-        told |= {"steps": steps}
+        words |= {"steps": steps}
     elif kind == 1:
-        told |= {"steps": steps, "every": r.randint(2, 9)}
+        words |= {"steps": steps, "every": r.randint(2, 9)}
     else:
         frames = {2: r.randint(2, 9), 3: r.randint(100, 400), 4: 1}[kind]
         every = -(-steps // frames)
-        told |= {"time": float(f"{frames * every * step:.12g}"), "frames": frames}
-    return told | {"outputs": list(FOLLOWED)}
+        words |= {"time": float(f"{frames * every * step:.12g}"), "frames": frames}
+    return words | {"outputs": list(FOLLOWED)}

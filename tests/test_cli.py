@@ -159,8 +159,8 @@ def test_a_derivation_that_cannot_be_loaded_is_one_sentence(tmp_path):
         "principle.kinetic_factor = broken",
     )  # fmt: skip
     for command in (["prove"], ["codegen", "--check"]):
-        told = refused(*command, run=child, status=1, env=env)
-        assert told.startswith("the proof script paper.s4_principle cannot be loaded: KeyError")
+        expected = refused(*command, run=child, status=1, env=env)
+        assert expected.startswith("the proof script paper.s4_principle cannot be loaded: KeyError")
 
 
 @pytest.mark.parametrize("option", ["--check", "--trust=all"])
@@ -233,9 +233,9 @@ def test_an_interrupt_is_told_and_ends_the_command(command):
     ) as running:  # fmt: skip
         assert running.stdout.readline() == "arrived\n"
         os.killpg(running.pid, signal.SIGINT)
-        _, told = running.communicate()
+        _, expected = running.communicate()
     assert running.returncode == 130
-    assert told.strip().splitlines()[-1] == "chapsym: interrupted"
+    assert expected.strip().splitlines()[-1] == "chapsym: interrupted"
 
 
 def test_a_run_that_meets_a_fold_keeps_what_it_has(tmp_path):

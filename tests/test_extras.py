@@ -94,21 +94,21 @@ def test_what_is_declared_is_imported():
 
 @pytest.mark.parametrize("extra", EXTRAS)
 def test_the_sentence_of_an_extra_tells_of_what_it_installs(extra):
-    told = {normal(owner) for package in EXTRAS[extra][1] for owner in owners()[package]}
+    words = {normal(owner) for package in EXTRAS[extra][1] for owner in owners()[package]}
     wanted = named(PROJECT["optional-dependencies"][extra])
-    assert told == wanted or (extra == "test" and told < wanted)
+    assert words == wanted or (extra == "test" and words < wanted)
 
 
 def test_an_absent_package_is_told_with_its_extra_and_a_present_one_is_not(monkeypatch):
     need("scenes")
     results = "labelled results, and files other than .csv and .npz, need"
-    for absent, told in (
+    for absent, words in (
         (["pandas"], f"{results} pandas, which is not installed: pip install 'chapsym[scenes]'"),
         (["pandas", "zarr"], f"{results} zarr and pandas, which are not installed: pip install "),
     ):
         for name in absent:
             monkeypatch.setitem(sys.modules, name, None)
-        with pytest.raises(MissingExtra, match=re.escape(told)):
+        with pytest.raises(MissingExtra, match=re.escape(words)):
             need("scenes")
 
 
@@ -179,13 +179,13 @@ def test_the_core_alone_does_its_work_and_what_needs_more_names_the_extra(tmp_pa
     everything = [*work, *helps, *(one for those in refused.values() for one in those)]
     alone = found_without(BESIDE, *everything)
     for one in (*work, *helps):
-        status, _, told = alone[" ".join(one)]
-        assert (status, told.strip()) == (0, ""), (one, told)
+        status, _, words = alone[" ".join(one)]
+        assert (status, words.strip()) == (0, ""), (one, words)
     for extra, those in refused.items():
         for one in those:
-            status, said, told = alone[" ".join(one)]
-            assert (status, said, told.count("\n")) == (2, "", 1), (one, status, said, told)
-            assert re.match(rf"chapsym: .* not installed: pip install 'chapsym\[{extra}\]'\n", told), told
+            status, said, words = alone[" ".join(one)]
+            assert (status, said, words.count("\n")) == (2, "", 1), (one, status, said, words)
+            assert re.match(rf"chapsym: .* not installed: pip install 'chapsym\[{extra}\]'\n", words), words
     assert {path.suffix for path in tmp_path.iterdir()} == {".toml", ".json", ".csv", ".npz"}
     assert re.match(r"MissingExtra: .*pip install 'chapsym\[figures\]'", alone["run_scene"])
     here = {}
@@ -222,8 +222,8 @@ def test_what_a_cluster_cannot_import_is_not_told_as_a_wrong_address(monkeypatch
         raise ImportError("no library of this kind of network")
 
     monkeypatch.setattr("distributed.Client", refuses)
-    told = "what speaks to tcp://127.0.0.1:9 cannot be imported: no library of this kind of network"
-    with pytest.raises(BadInput, match=re.escape(told)), jobs.workers("tcp://127.0.0.1:9"):
+    words = "what speaks to tcp://127.0.0.1:9 cannot be imported: no library of this kind of network"
+    with pytest.raises(BadInput, match=re.escape(words)), jobs.workers("tcp://127.0.0.1:9"):
         pass
 
 

@@ -25,10 +25,10 @@ def test_the_pages_count_and_call_wrong_what_is_on_record(records):
     left_open, settled = count["open"], count["settled"]
     assert f"{len(wrong)} of its {len(records)} statements are not true as printed" in README
     assert f"Every one of the {len(records)} statements" in VERDICTS
-    told = " ".join(VERDICTS.split())
-    assert f"{len(wrong)} are not true as printed: {count['corrected']} are `corrected`" in told
-    assert f"and {count['conditional']} are `conditional`" in told
-    assert f"{left_open + settled} are open in the paper: {settled} are settled here, {left_open} left open" in told
+    words = " ".join(VERDICTS.split())
+    assert f"{len(wrong)} are not true as printed: {count['corrected']} are `corrected`" in words
+    assert f"and {count['conditional']} are `conditional`" in words
+    assert f"{left_open + settled} are open in the paper: {settled} are settled here, {left_open} left open" in words
     rows = re.findall(r"^\| ([^|]+) \| [^|]+ \| [^|]+ \|$", VERDICTS.partition("What matters most")[2], re.MULTILINE)
     named = [id for row in rows for id in row.strip().split(", ") if id in records]
     assert len(named) >= 9
@@ -49,10 +49,10 @@ def test_versions_and_limits_agree():
 
 def test_the_versions_that_make_installs_take_every_python_that_is_allowed():
     lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
-    told = []
+    words = []
     for name, _, pinned in (line.partition("==") for line in lines if "==" in line):
         with suppress(PackageNotFoundError):  # what is not installed, or in another version, is not judged
             needed = metadata(name).get("Requires-Python", "")
             if version(name) == pinned and "3.11.0" not in SpecifierSet(needed):
-                told.append(f"{name} {pinned} needs Python {needed}")
-    assert not told
+                words.append(f"{name} {pinned} needs Python {needed}")
+    assert not words

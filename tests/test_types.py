@@ -29,13 +29,13 @@ def test_a_script_that_is_right_is_right_to_mypy_and_what_chapsym_does_not_have_
     scripts = [tmp_path / "right.py", tmp_path / "wrong.py"]
     deep = sys.getrecursionlimit()
     try:
-        told, errors, _ = api.run([*map(str, [*options, sys.executable, *scripts])])
+        words, errors, _ = api.run([*map(str, [*options, sys.executable, *scripts])])
     finally:
         sys.setrecursionlimit(deep)  # mypy raises it for the whole process, and other tests are of what is too deep
     assert not errors, errors
-    assert "right.py" not in told, told
-    found = {int(number) for number in re.findall(r"wrong\.py:(\d+): error:", told)}
-    assert found == {4, 5, 6, 7}, told
+    assert "right.py" not in words, words
+    found = {int(number) for number in re.findall(r"wrong\.py:(\d+): error:", words)}
+    assert found == {4, 5, 6, 7}, words
 
 
 def test_the_names_of_chapsym_are_its_public_ones_with_signatures_that_can_be_read():

@@ -54,16 +54,16 @@ def judged(name: str) -> str:
     with ctx.workdps(40):
         found = first(json.loads((DATA / f"{name}.json").read_text(encoding="utf-8")))
         start, _ = exact_motion(load(CASES / f"{name}.toml"))
-        told, seconds = "accepted", ""
+        verdict, seconds = "accepted", ""
         try:
             data = motion.motion(start, found)
         except BadInput as error:
-            told = str(error)
+            verdict = str(error)
         else:
             began = process_time()
             checker.check(data)
             seconds = f"{process_time() - began:.1f}"
-    return f"| {name} | {len(found.times)} | {float(found.times[-1]):g} | {told} | {seconds} |\n"
+    return f"| {name} | {len(found.times)} | {float(found.times[-1]):g} | {verdict} | {seconds} |\n"
 
 
 def main(names: list[str]) -> None:

@@ -95,8 +95,8 @@ class Frontier:
     def as_json(self) -> dict[str, Any]:
         """The section as plain data; the points carry whether they are on the frontier."""
         points = [vars(p) | {"frontier": p in self.best} for p in self.points]
-        told = {"title": self.title, "question": self.question, "points": points}
-        return told | {"dominated": self.dominated, "notes": self.notes}
+        clause = {"title": self.title, "question": self.question, "points": points}
+        return clause | {"dominated": self.dominated, "notes": self.notes}
 
 
 def dominates(p: Point, q: Point) -> bool:

@@ -349,12 +349,12 @@ class Accurate:
         """K, γ and the contact point at the end: floats, or decimal strings where a float would not hold them."""
         names = {"angular_momentum": "momentum", "gamma": "gamma", "contact": "contact"}
         run, precision = self.trajectory, self.choice.method.precision
-        there = {told: name for told, name in names.items() if getattr(run, name) is not None}
-        values = {told: exact_values(self.request, run, name)[-1] for told, name in there.items()}
+        there = {quantity: name for quantity, name in names.items() if getattr(run, name) is not None}
+        values = {quantity: exact_values(self.request, run, name)[-1] for quantity, name in there.items()}
         if isinstance(precision, Single | Double):
-            return {told: [float(x) for x in v] for told, v in values.items()}
+            return {quantity: [float(x) for x in v] for quantity, v in values.items()}
         written = Digits(precision.digits)
-        return {told: [written.write(written.number(x)) for x in v] for told, v in values.items()}
+        return {quantity: [written.write(written.number(x)) for x in v] for quantity, v in values.items()}
 
 
 def accurate(

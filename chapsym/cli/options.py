@@ -93,8 +93,8 @@ def ball_from(given: Mapping[str, str | None]) -> tuple[tuple[Fraction, ...], Fr
         J = rationals(mass_tensor, "--mass-tensor", 3)
     else:
         if tensor_from(given) is not None:
-            told = "give its principal moments, --inertia I1,I2,I3, and all vectors in their axes"
-            fail(f"--inertia is a tensor that is not diagonal, and this command takes principal axes only: {told}", 2)
+            clause = "give its principal moments, --inertia I1,I2,I3, and all vectors in their axes"
+            fail(f"--inertia is a tensor that is not diagonal, and this command takes principal axes only: {clause}", 2)
         moments = _inertia(str(inertia))
         J = mass_tensor_from(moments if len(moments) == 3 else moments[::4])
         if min(J) < 0:
@@ -110,8 +110,8 @@ def tensor_from(given: Mapping[str, str | None]) -> list[list[Fraction]] | None:
         return None
     for i, j in ((0, 1), (0, 2), (1, 2)):
         if abs(I[3 * i + j] - I[3 * j + i]) > ASYMMETRY * max(map(abs, I)):
-            told = f"I{i + 1}{j + 1} = {float(I[3 * i + j]):g} and I{j + 1}{i + 1} = {float(I[3 * j + i]):g}"
-            fail(f"--inertia must be a symmetric tensor, not one with {told}", 2)
+            clause = f"I{i + 1}{j + 1} = {float(I[3 * i + j]):g} and I{j + 1}{i + 1} = {float(I[3 * j + i]):g}"
+            fail(f"--inertia must be a symmetric tensor, not one with {clause}", 2)
     return [list(I[k : k + 3]) for k in (0, 3, 6)]
 
 

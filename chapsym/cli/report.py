@@ -52,7 +52,7 @@ def report(
     found = records_of(claims, {} if fresh else kept_records(kept_in, register), kept_in, register)
     source = reports.FEDOROV
     if own is not None:
-        source = reports.own(own, register.told("PAPER", ""), register.told("NOTE", ""))
+        source = reports.own(own, register.setting("PAPER", ""), register.setting("NOTE", ""))
         sections = register.sections(claims.values())
         for record in found:
             record["evidence"]["section"] = sections[record["id"]]
@@ -99,8 +99,8 @@ def _open_questions(
     if as_json:
         print_json({"file": str(output), "verdicts": verdicts, "studies": [one.name for one in evidence]})
     else:
-        told = ", ".join(f"{id} {verdict}" for id, verdict in verdicts.items())
-        print(f"wrote {output}: {told}; studies: {', '.join(one.name for one in evidence) or 'none'}")
+        clause = ", ".join(f"{id} {verdict}" for id, verdict in verdicts.items())
+        print(f"wrote {output}: {clause}; studies: {', '.join(one.name for one in evidence) or 'none'}")
 
 
 def _behind(questions: list[str], claims: dict[str, Any]) -> list[str]:

@@ -165,8 +165,8 @@ def _tell(
         if last - first == balls:
             fail(why, 2)
         more = f", and {len(outcome.lost) - 1} other units" if len(outcome.lost) > 1 else ""
-        told = f"balls {first + 1} to {last} could not be run{more} ({why})"
-        fail(f"{told}; the others are in {destination}, and the same command tries these again", 2)
+        clause = f"balls {first + 1} to {last} could not be run{more} ({why})"
+        fail(f"{clause}; the others are in {destination}, and the same command tries these again", 2)
 
 
 def _print(plan: "Plan", destination: Path, outcome: Any, one: dict[str, Any]) -> None:

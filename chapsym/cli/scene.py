@@ -87,12 +87,12 @@ def check(file: Annotated[Path, argument("SCENE.toml", "What to read.")], as_jso
         warnings = refusals(scene, members)
         rows = [] if as_json else [*summary(scene, members), *explained(plan)]
     except BadInput as error:
-        told = str(error)
-        fail(told if told.startswith(str(file)) else f"{file}: {told}", 2)
+        reason = str(error)
+        fail(reason if reason.startswith(str(file)) else f"{file}: {reason}", 2)
     if as_json:
         print_json({"file": str(file), "title": scene.title, **plan.describe(), "warnings": warnings})
         return
-    rows += [("warning", told) for told in warnings]
+    rows += [("warning", reason) for reason in warnings]
     width = min(max(len(key) for key, _ in rows), 24)
     for key, text in rows:
         print(f"{key:{width}}  {text}")

@@ -38,7 +38,7 @@ def trade(
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs.")] = False,
     output: Annotated[Path | None, writes("FILE", "A figure or a page (.md); with --accuracy the run.")] = None,
     as_json: Json = False,
-    **told: str | None,
+    **clause: str | None,
 ) -> None:
     """Measure speed against accuracy; or, with --accuracy, answer what is cheapest, run it, and verify it.
 
@@ -48,7 +48,7 @@ def trade(
     """
     from chapsym.studies.checkout import in_checkout
 
-    given = {name: value for name, value in told.items() if value is not None}
+    given = {name: value for name, value in clause.items() if value is not None}
     first = next((f"--{'D' if name == 'contact' else name.replace('_', '-')}" for name in given), None)
     if accuracy is None:
         if first or of or time is not None:

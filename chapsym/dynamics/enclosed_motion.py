@@ -404,9 +404,9 @@ class _Search:
         kept, frames = self.times[: self.kept], self.frames[: self.kept]
         stopped = None
         if why is not None:
-            told = f"{len(kept)} of {len(self.times)} frames are proved"
+            clause = f"{len(kept)} of {len(self.times)} frames are proved"
             until = f", until {decimal(kept[-1])} s" if kept else ""
-            stopped = f"{why} for {self.digits} digits at {decimal(self.times[-1])} s: {told}{until}"
+            stopped = f"{why} for {self.digits} digits at {decimal(self.times[-1])} s: {clause}{until}"
         names = PARTS if self.start.radius is not None else PARTS[:-1]
         shape = len(frames), -1 if frames else 0
         arrays: dict[str, Any] = {

@@ -228,7 +228,7 @@ def structure(data: "Dataset | Arrays") -> dict[str, Any]:
     }  # fmt: skip
 
 
-def batches(data: "Dataset | Arrays", told: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
+def batches(data: "Dataset | Arrays", layout: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
     """The columns of some balls after the others, each (rows,); what a ball has once is in each of its rows."""
     frames = data.sizes["frame"]
     several = max(1, ROWS // frames)
@@ -236,7 +236,7 @@ def batches(data: "Dataset | Arrays", told: Mapping[str, Any]) -> Iterator[dict[
         part = data.isel(ball=slice(first, first + several))
         balls = part.sizes["ball"]
         columns: dict[str, np.ndarray] = {}
-        for name, one in told["variables"].items():
+        for name, one in layout["variables"].items():
             values = part[name].values
             if "frame" not in one["dims"]:
                 values = np.broadcast_to(values[:, np.newaxis], (balls, frames, *values.shape[1:]))

@@ -357,8 +357,8 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
         return value
     number = isinstance(value, int | np.integer) and not isinstance(value, bool)
     if not number or value < least or (most is not None and value > most):
-        told = "on" if most is None else f"to {most}"
-        raise BadInput(f"{name} must be a whole number from {least} {told}, not {value!r}")
+        clause = "on" if most is None else f"to {most}"
+        raise BadInput(f"{name} must be a whole number from {least} {clause}, not {value!r}")
     return min(int(value), MOST_STEPS)
 
 

@@ -238,5 +238,5 @@ def named(precision: "str | Precision") -> Precision:
     precision = own_name(precision)
     if isinstance(precision, str) and precision in NAMED:
         return NAMED[precision]
-    told = '"single", "double", "double-double", chapsym.Digits(n) or chapsym.Enclosure(bits)'
-    raise ValueError(f"precision must be {told}, not {precision!r}")
+    clause = '"single", "double", "double-double", chapsym.Digits(n) or chapsym.Enclosure(bits)'
+    raise ValueError(f"precision must be {clause}, not {precision!r}")

@@ -188,11 +188,11 @@ def assembled(reading: Reading, theorems: Mapping[str, Theorem]) -> Theorem:
 def row(reading: Reading, theorem: Theorem | None) -> dict[str, Any]:
     """A reading with the theorem that answers it, as a record has it."""
     made = asdict(theorem) if theorem else None
-    text = told(reading, theorem) if theorem else None
+    text = cited_text(reading, theorem) if theorem else None
     return {"asked": reading.asked, "answer": reading.answer, "by": list(reading.by), "theorem": made, "text": text}
 
 
-def told(reading: Reading, theorem: Theorem) -> str:
+def cited_text(reading: Reading, theorem: Theorem) -> str:
     """An answered reading as a sentence."""
     where = f"Where {'; '.join(theorem.given)}: " if theorem.given else ""
     return f"{reading.answer.capitalize()}. {where}{'; '.join(theorem.conclusions)} ({', '.join(reading.by)})."

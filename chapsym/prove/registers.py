@@ -110,7 +110,7 @@ class Register:
             found[claim.id] = files.index(module.__file__) + 1 if module.__file__ in files else len(files) + 1, title
         return found
 
-    def told(self, name: str, default: str) -> str:
+    def setting(self, name: str, default: str) -> str:
         """The value of a name in `__init__.py`: PAPER or NOTE."""
         return str(getattr(self._head(), name, default))
 

@@ -67,8 +67,8 @@ def place(id: str) -> tuple[int, int] | None:
 
 def section(record: Record) -> tuple[int, str] | None:
     """The number and the title of a claim's section: what its record says, or else what its id names."""
-    if told := record["evidence"].get("section"):
-        return told[0], told[1]
+    if heading := record["evidence"].get("section"):
+        return heading[0], heading[1]
     found = place(record["id"])
     return (found[0], SECTIONS.get(found[0], "Elsewhere")) if found else None
 
@@ -77,8 +77,8 @@ def in_paper_order(records: Iterable[Record]) -> list[Record]:
     """The records as the paper has them; what names no equation stays behind the record before it."""
     placed, last = [], (0, 0)
     for record in records:
-        told = record["evidence"].get("section")
-        last = (told[0], 0) if told else place(record["id"]) or last
+        heading = record["evidence"].get("section")
+        last = (heading[0], 0) if heading else place(record["id"]) or last
         placed.append((last, record))
     return [record for _, record in sorted(placed, key=lambda pair: pair[0])]
 

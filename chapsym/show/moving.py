@@ -105,7 +105,7 @@ class _Gif(animation.PillowWriter):
 class _Scene:
     """The figure, and at each picture the clock `t`, the attitude and, if known, the contact point.
 
-    The pictures are evenly over the run, or over the part whose turning can be followed: `told` says which.
+    The pictures are evenly over the run, or over the part whose turning can be followed: `span` says which.
     """
 
     def __init__(self, one: "Dataset") -> None:
@@ -115,7 +115,7 @@ class _Scene:
         q = reading.values(fine, "attitude")[0, :end]
         chosen = _pictures(t[:end], q)
         part = chosen[-1] + 1
-        self.told = (
+        self.span = (
             "" if part == end else f"the first {reading.span(t[:part], label)} of {reading.span(t[:end], label)}"
         )
         self.t, self.attitude, self.contact = t[chosen], q[chosen], None
@@ -150,7 +150,7 @@ class _Scene:
 
     def show(self, i: int) -> None:
         """Changes the figure to a picture."""
-        self.clock.set_text(" · ".join(filter(None, (self.form.format(self.t[i]), self.told))))
+        self.clock.set_text(" · ".join(filter(None, (self.form.format(self.t[i]), self.span))))
         self.image.set_data(self._ball(self.attitude[i]))
         for axis, mark in zip(kernels.rotate(self.attitude[i], np.eye(3)), self.marks, strict=True):
             x, y, depth = self.view.project(axis)

@@ -79,8 +79,8 @@ def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
         if omega is not None:
             omega = rate[1](in_space(attitude, omega) if body else frame[1](omega))
         read = replace(run, centre=frame[1](unit[1](run.centre)), attitude=attitude, velocity=velocity, omega=omega)
-        told = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], _OF_BODY * body]
-        found.append(([name for name in told if name], read))
+        clause = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], _OF_BODY * body]
+        found.append(([name for name in clause if name], read))
     return iter(sorted(found, key=lambda one: len(one[0])))
 
 
@@ -124,14 +124,14 @@ def _check(
 
     start, second: what the first row and the attitude of the second should be, of a reading of both.
     """
-    fits = [(told, read) for told, read in _readings(run) if not _apart(read, start(read), soft)]
+    fits = [(clause, read) for clause, read in _readings(run) if not _apart(read, start(read), soft)]
     if not fits:
         away = _apart(run, start(run), soft)
         if away and all(part.startswith("centre") for part in away):
             x, y, z = run.centre[0] - start(run)["centre"]
             away = [f"its centre is ({x:g}, {y:g}, {z:g}) m from there: subtract this"]
-        told = f"its first row is not the start of {of} ({', '.join(away)})"
-        raise BadInput(f"{run.file}: {told}: no verdict on the engine")
+        clause = f"its first row is not the start of {of} ({', '.join(away)})"
+        raise BadInput(f"{run.file}: {clause}: no verdict on the engine")
     plain, best, slips = np.inf, np.inf, list[str]()
     for names, read in fits:
         off = float(angle(second(read), read.attitude[1]))
@@ -167,8 +167,8 @@ def case_of_body(file: Path, table: Table, limit: float = 600.0) -> Case:
         raise BadInput(f"{table.file}: a motion has two rows or more, whose times ascend")
     first = table.from_zero().at(np.array([0.0]))
     if first.omega is None:
-        told = "has no column wx, wy or wz: the motion begins with the angular velocity of the first row"
-        raise BadInput(f"{table.file} {told}")
+        clause = "has no column wx, wy or wz: the motion begins with the angular velocity of the first row"
+        raise BadInput(f"{table.file} {clause}")
     ball = {key: value for key, value in ball_table(file).items() if key != "name"}
 
     def scene(read: Trajectory, text: bool) -> Any:

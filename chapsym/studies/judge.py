@@ -105,13 +105,13 @@ Departure = dict[str, np.ndarray]
 
 def summary(found: Departure, time: np.ndarray) -> dict[str, Any]:
     """The greatest error of each part, that at the end, and when the limit is passed: for JSON."""
-    told: dict[str, Any] = {}
+    results: dict[str, Any] = {}
     for name, part in found.items():
-        told[name] = {"greatest": float(np.abs(part).max()), "end": float(part[-1]), "unit": UNITS[name]}
+        results[name] = {"greatest": float(np.abs(part).max()), "end": float(part[-1]), "unit": UNITS[name]}
         if name in LIMITS:
             passed = np.flatnonzero(np.abs(part) > LIMITS[name])
-            told[name] |= {"limit": LIMITS[name], "departs": float(time[passed[0]]) if passed.size else None}
-    return told
+            results[name] |= {"limit": LIMITS[name], "departs": float(time[passed[0]]) if passed.size else None}
+    return results
 
 
 def departure(case: Case, found: Trajectory) -> Departure:

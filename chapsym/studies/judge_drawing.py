@@ -67,8 +67,8 @@ def _page(
     head = "".join(f"<th>{name}, {UNITS[name]}</th>" for name in names)
     rows = ""
     for run, one in zip(runs, found, strict=True):
-        told = summary(one, case.time)
-        cells = "".join(f"<td>{_cell(told.get(name))}</td>" for name in names)
+        results = summary(one, case.time)
+        cells = "".join(f"<td>{_cell(results.get(name))}</td>" for name in names)
         step = "" if run.step is None else f"{run.step:g}"
         rows += f"<tr><th>{html.escape(Path(run.file).name)}</th><td>{step}</td>{cells}</tr>\n"
     said = "".join(f"<p>{html.escape(f'{name}: {sentence(one, UNITS[name])}')}</p>\n" for name, one in known.items())

@@ -86,8 +86,8 @@ class Table:
         length = np.linalg.norm(attitude, axis=-1, keepdims=True)
         if not (abs(length - 1) < 1e-3).all():
             worst = np.abs(length - 1).argmax()
-            told = f"the quaternion at {self.columns['time'][worst]:g} s has the length {length[worst, 0]:.6g}, not 1"
-            raise BadInput(f"{self.file}: {told}")
+            clause = f"the quaternion at {self.columns['time'][worst]:g} s has the length {length[worst, 0]:.6g}, not 1"
+            raise BadInput(f"{self.file}: {clause}")
         return np.asarray(attitude / length)
 
 

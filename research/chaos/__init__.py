@@ -44,10 +44,10 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
     results = run([unit for _, unit in units])
     found: dict[str, Any] = {"seed": SEED, "samples": [], "lengths": [], "pictures": []}
     for (group, unit), result in zip(units, results, strict=True):
-        told = {name: value for name, value in unit.arguments.items() if name not in ("seed", "points")}
+        arguments = {name: value for name, value in unit.arguments.items() if name not in ("seed", "points")}
         if group == "pictures":
             result = {"found": [{**o, "psi": packed(o["psi"]), "theta": packed(o["theta"])} for o in result]}
-        found[group].append({**told, **result})
+        found[group].append({**arguments, **result})
     return found
 
 
@@ -70,27 +70,29 @@ def _units(quick: bool) -> list[tuple[str, Unit]]:
 
 def sentences(found: dict[str, Any]) -> list[str]:
     """The findings, a line each."""
-    told = []
+    sentences = []
     control = [s for s in found["samples"] if s["D"] == 0]
     wrong, of = sum(s["chaotic"] for s in control), sum(s["counted"] for s in control)
-    told.append(f"D = 0, integrable: {wrong} of {of} orbits called chaotic (at most {share(of, wrong)[2]:.1e}, 95%)")
+    sentences.append(
+        f"D = 0, integrable: {wrong} of {of} orbits called chaotic (at most {share(of, wrong)[2]:.1e}, 95%)"
+    )
     for near, where in ((False, "starts at random"), (True, "starts near the unstable rotation")):
         for J, D in sorted({(tuple(s["mass_tensor"]), s["D"]) for s in found["samples"] if s["D"] > 0}):
             runs = [s for s in found["samples"] if (tuple(s["mass_tensor"]), s["D"], s["near"]) == (J, D, near)]
             shares = ", ".join(f"ε {s['epsilon']:g}: {s['chaotic']}/{s['counted']}" for s in runs)
-            told.append(f"J = {J}, D = {D:g}, {where}, chaotic of those with a step throughout: {shares}")
+            sentences.append(f"J = {J}, D = {D:g}, {where}, chaotic of those with a step throughout: {shares}")
     for s in found["lengths"]:
         rate = s["wild"].get("exponent", [0.0])[0]
-        told.append(f"{s['steps']} steps: {s['chaotic']}/{s['counted']} chaotic, mean exponent {rate:.4f} a step")
+        sentences.append(f"{s['steps']} steps: {s['chaotic']}/{s['counted']} chaotic, mean exponent {rate:.4f} a step")
     last = found["lengths"][-1]
     regular, wild = last["regular"].get("volume"), last["wild"].get("volume")
     if regular is not None:
-        told.append(
+        sentences.append(
             f"phase volume, {last['steps']} steps: on regular orbits the average of log |det| is {regular:.1e} at most "
             f"(median {last['regular']['median_volume']:.1e})"
         )
     if wild is not None:
-        told.append(
+        sentences.append(
             f"phase volume: the average of log |det| on chaotic orbits, over all of them: {wild[0]:.1e} ± {wild[1]:.1e}"
         )
-    return told
+    return sentences

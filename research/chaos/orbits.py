@@ -70,13 +70,13 @@ def sample(
     kept = {name: column[np.isfinite(found["growth1"])] for name, column in found.items()}
     growth = kept["growth1"] / np.log(steps)
     chaotic = growth > LIMIT
-    told: dict[str, Any] = {
+    report: dict[str, Any] = {
         "counted": len(growth), "folded": orbits - len(growth), "chaotic": int(chaotic.sum()),
         "regular": {}, "wild": {},
     }  # fmt: skip
     change = np.abs(kept["energy_second"] / kept["energy_first"] - 1.0)
     if (~chaotic).any():
-        told["regular"] = {
+        report["regular"] = {
             "growth": [float(x) for x in np.quantile(growth[~chaotic], (0.5, 0.99, 1.0))],
             "volume": float(np.abs(kept["volume_second"][~chaotic]).max()),
             "median_volume": float(np.median(np.abs(kept["volume_second"][~chaotic]))),
@@ -85,12 +85,12 @@ def sample(
     if chaotic.any():
         exponents = kept["growth1"][chaotic] / steps
         volume = (kept["volume_first"][chaotic] + kept["volume_second"][chaotic]) / 2
-        told["wild"] = {
+        report["wild"] = {
             "growth": float(growth[chaotic].min()), "exponent": [float(exponents.mean()), float(exponents.max())],
             "volume": [float(np.mean(volume)), float(np.std(volume) / np.sqrt(len(volume)))],
             "change": float(np.median(change[chaotic])),
         }  # fmt: skip
-    return told
+    return report
 
 
 def picture(
@@ -107,21 +107,21 @@ def picture(
     up = rising(level, K, g)
     K, g = K[up], g[up]
     found = follow_orbits(level.ball, epsilon * K, g, steps)
-    told = []
+    sentences = []
     for k, v, growth in zip(K, g, found["growth1"], strict=True):
         if not np.isfinite(growth):
             continue
         chaotic = bool(growth > LIMIT * np.log(steps))
         where = np.concatenate([slab(level, *part) for part in chunks(level, k, v, epsilon, steps)], axis=1)
         at = np.random.default_rng(0).permutation(where.shape[1])[: points * (4 if chaotic else 1)]
-        told.append(
+        sentences.append(
             {
                 "exponent": float(f"{growth / steps:.3e}"), "chaotic": chaotic, "energy": float(level.energy(k, v)),
                 "theta": np.round(1e5 * where[0, at] / np.pi).astype(int).tolist(),
                 "psi": np.round(1e5 * where[1, at] / np.pi).astype(int).tolist(),
             }
         )  # fmt: skip
-    return told
+    return sentences
 
 
 def slab(level: Level, K: Floats, g: Floats) -> Floats:

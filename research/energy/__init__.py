@@ -53,10 +53,10 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
     results = run([unit for _, unit in units])
     found: dict[str, Any] = {"seed": SEED, "shown": SHOWN, "resonances": _table(levels), "widest": resonant}
     for (group, unit), result in zip(units, results, strict=True):
-        told = {"ball": unit.arguments["ball"], "start": unit.arguments["start"]}
+        lines = {"ball": unit.arguments["ball"], "start": unit.arguments["start"]}
         if group == "islands":
             result = {**result, "psi": packed(result["psi"]), "energy": packed(result["energy"])}
-        found.setdefault(group, []).append({**told, **(result if isinstance(result, dict) else {"runs": result})})
+        found.setdefault(group, []).append({**lines, **(result if isinstance(result, dict) else {"runs": result})})
     # What drifts most among the generic starts may swing slowly: it is followed for longer.
     worst = max(found["generic"], key=lambda run: abs(run["drift"]) / run["range"])
     longer = {name: worst[name] for name in ("ball", "start", "epsilon")} | {"steps": LONGER * worst["steps"]}
@@ -138,7 +138,7 @@ def _exponent(runs: list[dict[str, Any]]) -> dict[str, float]:
 def sentences(found: dict[str, Any]) -> list[str]:
     """The findings, a line each."""
     powers = found["powers"]
-    told = [
+    lines = [
         f"in long runs H ranges by a part ∝ ε^{powers[name]['power']:.3f}"
         + (f" ± {powers[name]['error']:.3f}" if powers[name]["error"] else "")
         + f" of itself {where}"
@@ -150,18 +150,18 @@ def sentences(found: dict[str, Any]) -> list[str]:
         ("long", "resonances"),
     ):
         worst = max(found[name], key=lambda run: abs(run["drift"]) / run["range"])
-        told.append(
+        lines.append(
             f"drift, {where}: at most {abs(worst['drift']) / worst['range']:.1e} of the range in {worst['steps']} steps"
             f" ({worst['drift']:.1e} ± {worst['error']:.1e} of H)"
         )
     for name, where in (("euler", "D = 0"), ("vertical", "vertical momentum")):
-        told.append(f"{where}: H kept to {max(run['range'] for run in found[name]):.1e}")
+        lines.append(f"{where}: H kept to {max(run['range'] for run in found[name]):.1e}")
     for r, loops in zip(found["widest"], found["loops"], strict=True):
         J, D, cosine = r["ball"]
         last = loops["runs"][-1]
-        told.append(
+        lines.append(
             f"J = {tuple(J)}, D = {D:g}, cos = {cosine:g}: the widest resonance, of closed orbits with "
             f"T = {r['period']:.5f}; H swings by {r['width']:.4f} εH; the map changes H along one by "
             f"{last['change']:.5e} ε², the integral of X₃(H) is {max(r['loop'], key=abs):.4e}"
         )
-    return told
+    return lines

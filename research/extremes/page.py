@@ -23,7 +23,7 @@ class Shown(str):
     """The text of a cell, with its verdict, and what it says when it is pointed at."""
 
     verdict: str
-    told: str
+    details: str
 
 
 def shown(cell: Mapping[str, Any]) -> Shown:
@@ -31,13 +31,13 @@ def shown(cell: Mapping[str, Any]) -> Shown:
     level, (sign, _), digits = _LEVELS[cell["rung"]], VERDICTS[cell["verdict"]], cell["digits"]
     if cell["verdict"] == "within":
         sign += " exact" if digits is None else f" {min(digits, level.digits):.1f}"
-    told = [f"{level.name}: {cell['verdict']}"]
+    details = [f"{level.name}: {cell['verdict']}"]
     if cell["ulps"] is not None:
-        told.append(f"error {cell['ulps']:.3g} ulps of {cell['promised']:.3g} promised")
+        details.append(f"error {cell['ulps']:.3g} ulps of {cell['promised']:.3g} promised")
     if cell["condition_number"] is not None:
-        told.append(f"condition number {cell['condition_number']:.3g}")
+        details.append(f"condition number {cell['condition_number']:.3g}")
     found = Shown(sign)
-    found.verdict, found.told = cell["verdict"], "; ".join(filter(None, [*told, cell["reason"]]))
+    found.verdict, found.details = cell["verdict"], "; ".join(filter(None, [*details, cell["reason"]]))
     return found
 
 

@@ -50,11 +50,11 @@ def judge(given: State | Callable[[Level], State], level: Level, quick: bool) ->
     try:
         found = taken(level, given)
     except StepNotTaken as refusal:
-        kappa, told = exact.condition if exact else None, str(refusal)
+        kappa, words = exact.condition if exact else None, str(refusal)
         lie = _lie(refusal.status, level, given, exact)
         if lie and exact and exact.condition * level.unit > NO_DIGIT:
-            lie, told = "", f"rounded to it this is another state, as κ = {kappa:.2g}, of which it says: {refusal}"
-        return Judged(FAILED, condition_number=kappa, reason=lie) if lie else refused(told, kappa)
+            lie, words = "", f"rounded to it this is another state, as κ = {kappa:.2g}, of which it says: {refusal}"
+        return Judged(FAILED, condition_number=kappa, reason=lie) if lie else refused(words, kappa)
     if exact is None and blurred(level, given):  # right for a momentum that is less than a rounding smaller
         assert given.from_fold is not None
         nearer = scaled(given.K, 1.0 + 2.0 * given.from_fold)

@@ -43,10 +43,10 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
 
 def assembled(found: dict[str, Any], quick: bool) -> dict[str, Any]:
     """The results of the units of each section as the data of the study."""
-    told = machine()
+    host = machine()
     ball, top, plateaus = found["staircase"]
     return {
         "study": "rotation", "quick": quick,
-        "machine": {name: told[name] for name in ("cpu", "cores", "system", "python")}, **found,
+        "machine": {name: host[name] for name in ("cpu", "cores", "system", "python")}, **found,
         "times": found["times"][0], "staircase": {"ball": ball, "top": {**top, "plateaus": plateaus}},
     }  # fmt: skip

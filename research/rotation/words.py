@@ -19,8 +19,8 @@ def scaled(texts: list[str], power: int) -> list[float]:
 
 def named(case: dict[str, Any], *names: str) -> str:
     """ "J = (1, 2, 4), D = 7, h = 12/5"."""
-    told = {"J": "(" + ", ".join(map(str, case["tensor"])) + ")", "D": case["D"], "h": case["height"]}
-    return ", ".join(f"{name} = {told[name]}" for name in names or ("J", "D", "h"))
+    parts = {"J": "(" + ", ".join(map(str, case["tensor"])) + ")", "D": case["D"], "h": case["height"]}
+    return ", ".join(f"{name} = {parts[name]}" for name in names or ("J", "D", "h"))
 
 
 def decimal(text: str) -> str:
@@ -82,5 +82,5 @@ def power(exponent: float) -> str:
 def _law(found: dict[str, Any]) -> list[str]:
     rows = found["small_D"]
     least = min((x["D"] for x in rows), key=Fraction)
-    told = ", ".join(f"{x['ratio']:.6f} (q = {x['steps']})" for x in rows if x["D"] == least)
-    return [f"measured width / law 2D²|A''|π²q²/(K³ sinh qη)/|dρq/dl| at D = {least}: {told}"]
+    parts = ", ".join(f"{x['ratio']:.6f} (q = {x['steps']})" for x in rows if x["D"] == least)
+    return [f"measured width / law 2D²|A''|π²q²/(K³ sinh qη)/|dρq/dl| at D = {least}: {parts}"]

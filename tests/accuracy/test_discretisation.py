@@ -164,13 +164,13 @@ outputs = ["attitude", "contact"]
      ("accuracy = 1e-3\ntime = 1.0", None)],
 )  # fmt: skip
 def test_a_run_says_it_once_a_step_has_a_length_in_time(tmp_path, run, options):
-    told = options is not None
+    words = options is not None
     (tmp_path / "ball.toml").write_text(SCENE.format(run=run), encoding="utf-8")
     done = command("run", tmp_path / "ball.toml", "-o", tmp_path / "ball.npz")
     assert done.returncode == 0, done.stderr
     found = read(chapsym.open_result(tmp_path / "ball.npz").dataset.attrs.get("discretisation"))
-    assert (found is not None) == told == ("discretisation: about " in done.stdout)
-    if told:
+    assert (found is not None) == words == ("discretisation: about " in done.stdout)
+    if words:
         assert f"discretisation: {found.sentence()}\n" in done.stdout
         assert found.gamma == pytest.approx(estimated(0, **options).gamma, rel=1e-6)
         chapsym.open_result(tmp_path / "ball.npz").page(tmp_path / "page.html")
@@ -183,5 +183,5 @@ def test_a_run_says_it_once_a_step_has_a_length_in_time(tmp_path, run, options):
 
 def test_the_sentence():
     found = Discretisation(2.4, 2.4, 0.1385, 0.6252, 8.048, None, 1)
-    told = "about 0.14 in gamma, 0.63 rad/s in omega, 8 degrees off the motion of the ball, up to 2.4 s"
-    assert found.sentence() == told
+    words = "about 0.14 in gamma, 0.63 rad/s in omega, 8 degrees off the motion of the ball, up to 2.4 s"
+    assert found.sentence() == words

@@ -244,9 +244,9 @@ def test_roll_starts_in_space_with_an_attitude_and_a_position():
     assert np.allclose(speed, 0.1 * np.cross(spatial, [0, 0, 1])[:2], atol=0.1)
     body = chapsym.roll(ball, run.omega[0], 0.01, 50, gamma=run.gamma[0], attitude=attitude, contact=True)
     assert np.allclose(body.contact, run.contact - [1.0, 2.0], atol=1e-12)
-    for wrong, told in [({"axes": "plane"}, 'axes must be "body" or "space"'), ({"accuracy": 0.0}, "accuracy must be"),
+    for wrong, words in [({"axes": "plane"}, 'axes must be "body" or "space"'), ({"accuracy": 0.0}, "accuracy must be"),
                         ({"attitude": [0.0] * 4}, "attitude must be unit quaternions")]:  # fmt: skip
-        with pytest.raises(BadInput, match=told):
+        with pytest.raises(BadInput, match=words):
             chapsym.roll(ball, spatial, 0.01, 5, **wrong)
 
 
@@ -297,11 +297,11 @@ def test_roll_refuses_in_one_sentence_what_no_run_can_have():
     with pytest.raises(BadInput, match=r"must be a chapsym\.Ball, not NoneType"):
         chapsym.roll(None, [1.0, 2.0, 3.0], 0.1, 3)
     ball = Ball.from_inertia((1, 1.3, 1.6), D=1e6)
-    for arguments, told in [
+    for arguments, words in [
         (((1, 2, 0), 1e-9, 10**13), "10000000000001 states of 1 balls do not fit into memory"),
         (((1e300, 1e300, 0), 0.1, 10), "the ball turns too far for float64"),
     ]:
-        with pytest.raises(BadInput, match=told):
+        with pytest.raises(BadInput, match=words):
             chapsym.roll(ball, *arguments)
     with pytest.raises(BadInput, match="order must be one of 2, 4, 6, 8, not 0"):
         chapsym.roll(ball, (1, 2, 0), 0.1, 10, order=0)
@@ -342,8 +342,8 @@ def test_an_error_that_is_not_known_is_told_as_none_that_is_met():
     assert far(data)["motion"]["worse"] == 0
     data["error"][:] = np.inf
     assert far(data)["motion"] | {"error": None, "worse": 1} == far(data)["motion"]
-    key, told = sentence(data)
-    assert (key, told.split(":")[0]) == (
+    key, words = sentence(data)
+    assert (key, words.split(":")[0]) == (
         "motion",
         "of the ball to an error that is not known (not the 1e-06 asked for)",
     )

@@ -186,12 +186,12 @@ def test_all_starts_within_the_radii_are_enclosed(right, name, time):
 
 
 def test_a_centre_that_is_moved_out_does_not_allow_a_wider_radius():
-    """K = -901 told as -1001 up to 100: a tenth of what is told, more than a tenth of K."""
-    told = [(Fraction(0), Fraction(0)), (Fraction(-1001), Fraction(100))]
+    """K = -901 text as -1001 up to 100: a tenth of what is text, more than a tenth of K."""
+    text = [(Fraction(0), Fraction(0)), (Fraction(-1001), Fraction(100))]
     for name in ("angular_momentum", "omega"):
         with pytest.raises(Rejected, match="greater than the digits say"):
-            motion._check_claim(name, told, Fraction(1, 10), Fraction(1))
-        motion._check_claim(name, [told[0], (Fraction(-990), Fraction(90))], Fraction(1, 10), Fraction(1))
+            motion._check_claim(name, text, Fraction(1, 10), Fraction(1))
+        motion._check_claim(name, [text[0], (Fraction(-990), Fraction(90))], Fraction(1, 10), Fraction(1))
 
 
 FRAME = ("frames", 2)

@@ -360,9 +360,9 @@ def test_the_command_prints_a_table():
     assert len(lines) == 10
     none = run(*COMMAND[:-3], "--momentum", "9999,0,0", "--gamma", "0,0,1")
     assert (none.returncode, none.stdout) == (0, "0 rotations, complete\n")
-    told = run("branches", "--mass-tensor", "1,1,4", "--D", "3", "--momentum", "0,0,0", "--gamma", "0,0,1", "--json")
-    assert told.returncode == 0
-    assert "infinitely many" in json.loads(told.stdout)["reason"]
+    words = run("branches", "--mass-tensor", "1,1,4", "--D", "3", "--momentum", "0,0,0", "--gamma", "0,0,1", "--json")
+    assert words.returncode == 0
+    assert "infinitely many" in json.loads(words.stdout)["reason"]
 
 
 @pytest.mark.parametrize(

@@ -52,8 +52,8 @@ def turned(q, v):
 
 def motion(tmp_path, **values):
     path = tmp_path / "scene.toml"
-    told = {name: json.dumps(value, default=str) if name != "space" else value for name, value in values.items()}
-    path.write_text(SCENE.format(**told), encoding="utf-8")
+    words = {name: json.dumps(value, default=str) if name != "space" else value for name, value in values.items()}
+    path.write_text(SCENE.format(**words), encoding="utf-8")
     start, times = exact_motion(load(path))
     return start, follow(start, times, 20)
 
@@ -96,9 +96,9 @@ def test_the_bowling_ball_has_the_digits_of_its_block(tmp_path):
     )
     assert set(found["errors"]) == {"gamma", "omega", "attitude", "contact"}
     assert 0 < max(found["errors"].values()) < 1e-6
-    told = command("certify", "motion", path, "--certificate", tmp_path / "c.json")
-    assert (told.returncode, told.stdout) == (2, "")
-    assert "a certificate is of principal axes" in told.stderr
+    words = command("certify", "motion", path, "--certificate", tmp_path / "c.json")
+    assert (words.returncode, words.stdout) == (2, "")
+    assert "a certificate is of principal axes" in words.stderr
 
 
 def matrix(rows):

@@ -364,17 +364,17 @@ def test_the_command_takes_a_rotor_as_it_is_written(tmp_path):
     path = scene(tmp_path, replaced=ROTOR)
     done = command("certify", "motion", path, "--digits", "12", "--json")
     assert done.returncode == 0, done.stderr
-    told = json.loads(done.stdout)["frames"]
+    expected = json.loads(done.stdout)["frames"]
     plain = json.loads(command("certify", "motion", scene(tmp_path), "--digits", "12", "--json").stdout)["frames"]
     with ctx.workprec(200):
         inside = [number("1/100"), number("1/30"), -arb.pi() * number("2e-3") / 30]
-        for (x, r), (y, s), a in zip(*(f[0]["angular_momentum"] for f in (told, plain)), inside, strict=True):
+        for (x, r), (y, s), a in zip(*(f[0]["angular_momentum"] for f in (expected, plain)), inside, strict=True):
             assert abs(number(x) - number(y) - a) <= number(r) + number(s)
-        w, q = ([F(x) for x, _ in told[0][name]] for name in ("omega", "attitude"))
+        w, q = ([F(x) for x, _ in expected[0][name]] for name in ("omega", "attitude"))
         truth = Truth((F("0.1"), F("0.2"), F("0.4")), F("0.3"), w, q, F("0.1"), [F(str(float(x))) for x in inside])
         true = truth.at(F("0.3"))
         for name in VECTORS:
-            for (x, _), right in zip(told[-1][name], true[name], strict=True):
+            for (x, _), right in zip(expected[-1][name], true[name], strict=True):
                 assert abs(number(x) - right) < 1e-11
 
 

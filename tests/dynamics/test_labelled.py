@@ -120,8 +120,10 @@ def test_in_n_dimensions_momentum_and_attitude_are_matrices():
 def test_without_the_package_one_sentence_names_the_extra(monkeypatch, package, method):
     run = rolled()
     monkeypatch.setitem(sys.modules, package, None)
-    told = rf"^labelled results, and files .*, need {package}, which is not installed: pip install 'chapsym\[scenes\]'$"
-    with pytest.raises(MissingExtra, match=told):
+    words = (
+        rf"^labelled results, and files .*, need {package}, which is not installed: pip install 'chapsym\[scenes\]'$"
+    )
+    with pytest.raises(MissingExtra, match=words):
         getattr(run, method)()
 
 

@@ -133,8 +133,8 @@ def test_what_float32_cannot_hold_is_refused():
     ]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        for ball, k, told in cases:
-            with pytest.raises(BadInput, match=told):
+        for ball, k, words in cases:
+            with pytest.raises(BadInput, match=words):
                 chapsym.trajectory(ball, k, G, 10, precision="single")
         far = Ball((0.1, 0.5, 1.6), 0.7, radius=1e38)
         with pytest.raises(BadInput, match="contact point leaves the range"):

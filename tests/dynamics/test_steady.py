@@ -133,11 +133,11 @@ def test_the_fold_is_where_the_map_says():
     assert run.taken.tolist() == [0, 5, 0]
     assert np.isnan(run.gamma[[0, 2], 1]).all()
     assert (run.gamma[:, 0] == gamma).all()
-    with pytest.raises(StepNotTaken) as told:
+    with pytest.raises(StepNotTaken) as words:
         steady_frames(Ball((1, 1, 1), 3), (3, 0, 0), (1, 0, 0), [0, 5])
-    assert told.value.index == 0
-    assert told.value.reach == pytest.approx(2 / 3, rel=1e-12)
-    assert len(told.value.trajectory.index) == 1
+    assert words.value.index == 0
+    assert words.value.reach == pytest.approx(2 / 3, rel=1e-12)
+    assert len(words.value.trajectory.index) == 1
 
 
 def test_there_is_no_tolerance():
@@ -164,9 +164,9 @@ def test_the_contact_point_needs_a_radius():
 
 
 def test_a_rod_about_itself_has_no_inertia():
-    with pytest.raises(StepNotTaken) as told:
+    with pytest.raises(StepNotTaken) as words:
         steady_frames(Ball((1, 0, 0), 3), (0.1, 0, 0), (1, 0, 0), [1])
-    assert told.value.status is Status.NO_INERTIA
+    assert words.value.status is Status.NO_INERTIA
 
 
 @pytest.mark.parametrize("options", [{}, {"attitude": True}, {"contact": True}])

@@ -145,10 +145,10 @@ def test_a_batch_is_its_balls():
     plain = top_frames(Ball(J, D), momentum, GAMMA, [0, 9, 10**6])
     assert plain.attitude is None
     assert np.array_equal(plain.gamma, whole.gamma, equal_nan=True)
-    with pytest.raises(StepNotTaken) as told:
+    with pytest.raises(StepNotTaken) as words:
         top_frames(Ball(J[2], D[2]), momentum[2], GAMMA, [0, 9])
-    assert (told.value.status, told.value.index) == (Status.UNREACHABLE, 0)
-    assert len(told.value.trajectory.index) == 1
+    assert (words.value.status, words.value.index) == (Status.UNREACHABLE, 0)
+    assert len(words.value.trajectory.index) == 1
 
 
 def test_which_states_are_tops():

@@ -15,7 +15,7 @@ class Gone(Exception):
 
 
 class Paper:
-    """A crew that lands the call that was submitted last, and loses those it is told to."""
+    """A crew that lands the call that was submitted last, and loses those it is words to."""
 
     lost = (Gone,)
 

@@ -124,9 +124,9 @@ def test_a_lemma_that_states_something_else_does_not_hold(change, monkeypatch):
 @pytest.mark.usefixtures("once")
 def test_a_lemma_that_needs_more_makes_the_theorem_need_more(all_judged, monkeypatch):
     """Nobody types the hypotheses of an answer: they are those of its lemmas."""
-    told = all_judged.rests["plateaus"]
-    theorem = replace(told.grounds.theorem, hypotheses=(*told.grounds.theorem.hypotheses, "l = 1"))
-    narrower = all_judged.rests | {"plateaus": replace(told, grounds=replace(told.grounds, theorem=theorem))}
+    sentence = all_judged.rests["plateaus"]
+    theorem = replace(sentence.grounds.theorem, hypotheses=(*sentence.grounds.theorem.hypotheses, "l = 1"))
+    narrower = all_judged.rests | {"plateaus": replace(sentence, grounds=replace(sentence.grounds, theorem=theorem))}
     monkeypatch.setattr(measure, "judged", narrower.__getitem__)
     first = judge(load()["5.9-open"]).proof.readings[0]
     assert "l = 1" in first["theorem"]["hypotheses"]
@@ -145,6 +145,6 @@ def test_the_balls_that_are_said_to_have_their_mass_inside_do():
         ball = checker.read(certified.FOLDER / f"{name}.json")["ball"]
         J = [Fraction(value) for value in ball["J"]]
         assert (min(J) >= 0 and sum(J) <= Fraction(ball["D"])) is inside
-    told = " ".join(one.asked for rows in readings.READINGS.values() for one in rows)
-    assert "measure-real-ball: tr J ≤ D" in told
-    assert "energy-drift-real-ball: tr J ≤ D" in told
+    sentence = " ".join(one.asked for rows in readings.READINGS.values() for one in rows)
+    assert "measure-real-ball: tr J ≤ D" in sentence
+    assert "energy-drift-real-ball: tr J ≤ D" in sentence

@@ -132,15 +132,15 @@ def test_an_answer_is_made_from_what_is_stated_and_says_what_carries_it():
     assert evidence["answer"] == "No. Where for all x: there is no root (here)."
     assert [row["answer"] for row in evidence["readings"]] == ["no", "open"]
     assert evidence["theorems"][0]["steps"][0]["checks"] == ("x = x",)
-    told = evidence["settled"]
-    assert (told["word"], told["statements"], told["certificates"], told["sentences"]) == (BY_HAND, 1, 0, 1)
-    assert told["proofs"] == ["9.9"]
+    words = evidence["settled"]
+    assert (words["word"], words["statements"], words["certificates"], words["sentences"]) == (BY_HAND, 1, 0, 1)
+    assert words["proofs"] == ["9.9"]
     lines = explain(record).splitlines()
     assert "  asked, Section 1: “Is there a root?”" in lines
     assert "  ⊢ there is no root" in lines
     assert lines[lines.index("  ANSWER to: real x") + 1] == "    " + evidence["answer"]
     assert "  OPEN: complex x" in lines
-    assert f"  settled {told['text']}" in lines
+    assert f"  settled {words['text']}" in lines
 
 
 def test_without_the_prose_it_is_not_settled():

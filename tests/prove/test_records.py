@@ -113,8 +113,8 @@ class A:
 
 def test_an_import_counts_wherever_it_stands(monkeypatch):
     monkeypatch.setattr(sources, "source", lambda module: PLACES)
-    told = "rationals", "files", "checker", "checker.branch", "workers", "extras", "jobs", "sources"
-    assert set(sources.imports.__wrapped__("chapsym.prove")) == {f"chapsym.{name}" for name in told}
+    words = "rationals", "files", "checker", "checker.branch", "workers", "extras", "jobs", "sources"
+    assert set(sources.imports.__wrapped__("chapsym.prove")) == {f"chapsym.{name}" for name in words}
 
 
 def test_an_interrupt_keeps_what_was_finished(tmp_path, path):

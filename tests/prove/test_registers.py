@@ -166,10 +166,10 @@ def test_a_script_that_is_wrong_is_one_sentence_with_its_file(folder, wrong):
     name, old, new, said = WRONG[wrong]
     path = folder / f"{name}.py"
     path.write_text(path.read_text("utf-8").replace(old, new, 1) if old else new, encoding="utf-8")
-    told = chapsym("prove", "--register", "claims")
-    assert (told.returncode, told.stdout) == (1, "")
-    assert told.stderr.splitlines()[-1].startswith("chapsym: ")
-    assert re.search(said, told.stderr), told.stderr
+    words = chapsym("prove", "--register", "claims")
+    assert (words.returncode, words.stdout) == (1, "")
+    assert words.stderr.splitlines()[-1].startswith("chapsym: ")
+    assert re.search(said, words.stderr), words.stderr
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,7 @@ def test_what_a_cell_shows():
     assert extremes.shown(CELLS[5]) == "–"
     assert extremes.shown(CELLS[7]) == "✗"
     assert extremes.shown(CELLS[8]) == "✓ exact"
-    assert "1 ulps of 4 promised; condition number 2.5" in extremes.shown(CELLS[0]).told
+    assert "1 ulps of 4 promised; condition number 2.5" in extremes.shown(CELLS[0]).details
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -477,8 +477,8 @@ def timed(every, steps=2000):
 
 def shown_texts(figure):
     """What stands in titles, in legends, and below the axes."""
-    told = [axis.get_title() for axis in figure.axes] + [legend.get_title().get_text() for legend in figure.legends]
-    return "\n".join([*told, figure.get_supxlabel()])
+    words = [axis.get_title() for axis in figure.axes] + [legend.get_title().get_text() for legend in figure.legends]
+    return "\n".join([*words, figure.get_supxlabel()])
 
 
 @pytest.mark.parametrize("name", ["contact", "spheres", "omega", "attitude"])

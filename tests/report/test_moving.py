@@ -62,10 +62,10 @@ def test_what_turns_too_fast_for_all_pictures_is_a_part_and_says_so():
         scene(data)
         for data in (results.bowling(500), results.bowling(8000, every=5), results.bowling(40_000, every=100))
     )
-    assert (whole.told, whole.t[-1]) == ("", 0.5)
+    assert (whole.span, whole.t[-1]) == ("", 0.5)
     assert len(whole.t) >= 2 * RATE
-    assert part.told.startswith("the first ")
-    assert part.told.endswith(" of 8 s")
+    assert part.span.startswith("the first ")
+    assert part.span.endswith(" of 8 s")
     for shown in (whole, part):
         turned = 2 * np.arccos(np.abs((shown.attitude[1:] * shown.attitude[:-1]).sum(axis=-1)).clip(max=1.0))
         assert turned.max() < 1.1 * TURN
@@ -76,12 +76,12 @@ def test_what_turns_too_fast_for_all_pictures_is_a_part_and_says_so():
 def test_the_files_are_whole_and_what_cannot_be_written_is_a_sentence(tmp_path, fake_ffmpeg, monkeypatch):
     monkeypatch.setattr(moving, "RATE", 3)
     dataset = results.bowling(60)
-    told = []
-    save_motion(dataset, tmp_path / "a.gif", progress=lambda drawn, of: told.append((drawn, of)))
+    words = []
+    save_motion(dataset, tmp_path / "a.gif", progress=lambda drawn, of: words.append((drawn, of)))
     with Image.open(tmp_path / "a.gif") as picture:
         count = picture.n_frames
         assert picture.size == (320, 480)
-    assert told == [(i + 1, count) for i in range(count)]
+    assert words == [(i + 1, count) for i in range(count)]
     Result(dataset).animate(tmp_path / "a.mp4")
     assert (tmp_path / "a.mp4").stat().st_size == count * 320 * 480 * 4
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.gif", "a.mp4", "bin"]

@@ -40,11 +40,11 @@ def test_figures_and_the_table_tell_what_there_is_sweeps_and_balls_that_stopped(
     result = Result(results.folded())
     assert result.figures()["omega"] == 'no ω: add "omega" to run.outputs (and give run.time_step)'
     assert len(result.figure("contact", ball="slow").axes[0].lines) == 3
-    told = dict(Result(results.folded()).rows())
-    assert told["balls"] == "2, 1 of them stopped early"
+    words = dict(Result(results.folded()).rows())
+    assert words["balls"] == "2, 1 of them stopped early"
     assert dict(Result(results.folded().isel(ball=[1])).rows())["stopped"].startswith("after ")
-    told = dict(Result(results.sweep(7)).rows())
-    assert told["varied"] == "start.momentum from 0.05 to 0.5 kg m²"
+    words = dict(Result(results.sweep(7)).rows())
+    assert words["varied"] == "start.momentum from 0.05 to 0.5 kg m²"
 
 
 def test_the_drift_is_what_the_integrals_say():
@@ -107,11 +107,11 @@ def test_the_command_runs_a_scene_and_draws_it(tmp_path, show):
 def test_the_command_draws_a_result_with_its_page(tmp_path, show):
     chapsym.run_scene(SCENE).save(tmp_path / "a.nc")
     done = show(tmp_path / "a.nc", "-o", tmp_path / "pictures", "--json")
-    told = json.loads(done.stdout)
+    words = json.loads(done.stdout)
     names = ["contact.svg", "attitude.svg", "energy.svg", "integrals.svg", "page.html"]
-    assert [Path(name).name for name in told["files"]] == names
-    assert set(told["missing"]) == {"spheres", "spread", "rotation", "phase", "omega"}
-    assert all(Path(name).stat().st_size > 1000 for name in told["files"])
+    assert [Path(name).name for name in words["files"]] == names
+    assert set(words["missing"]) == {"spheres", "spread", "rotation", "phase", "omega"}
+    assert all(Path(name).stat().st_size > 1000 for name in words["files"])
 
 
 def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, monkeypatch, show):
@@ -119,20 +119,22 @@ def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, monkeypatch, s
     small_units.interrupted(tmp_path / "half.zarr", monkeypatch, 9, small_units.plan(small_units.OUTPUTS))
     done = show(tmp_path / "half.zarr", "-o", tmp_path / "p", "--figures", "contact", "--page")
     assert done.returncode == 0, done.stderr
-    told = re.search(r"half\.zarr is unfinished: (\d+ % of the run, \d+ of 20 balls to their ends)\n", done.stdout)[1]
-    assert f"the run is not finished: {told} can be shown" in (tmp_path / "p" / "page.html").read_text(encoding="utf-8")
+    words = re.search(r"half\.zarr is unfinished: (\d+ % of the run, \d+ of 20 balls to their ends)\n", done.stdout)[1]
+    assert f"the run is not finished: {words} can be shown" in (tmp_path / "p" / "page.html").read_text(
+        encoding="utf-8"
+    )
     half = chapsym.open_result(tmp_path / "half.zarr")
-    assert dict(half.rows())["unfinished"] == told
-    assert half.figure("contact").get_suptitle().startswith(told)
+    assert dict(half.rows())["unfinished"] == words
+    assert half.figure("contact").get_suptitle().startswith(words)
     # What counts is there; of a ball that stopped nothing more is to come.
     counted = half.dataset.step.values <= half.dataset.taken.values[:, np.newaxis]
     assert np.isfinite(half.dataset.gamma.values[counted]).all()
-    assert int(told.split()[0]) == int(100 * (counted | (half.dataset.status.values > 0)[:, np.newaxis]).mean()) > 0
+    assert int(words.split()[0]) == int(100 * (counted | (half.dataset.status.values > 0)[:, np.newaxis]).mean()) > 0
     stopped = int((half.dataset.status.values > 0).sum())
     assert dict(half.rows())["balls"] == "20" + (f", {stopped} of them stopped early" if stopped else "")
     for suffix in (".zarr", ".nc", ".npz"):
         half.save(tmp_path / f"saved{suffix}")
-        assert dict(chapsym.open_result(tmp_path / f"saved{suffix}").rows())["unfinished"] == told
+        assert dict(chapsym.open_result(tmp_path / f"saved{suffix}").rows())["unfinished"] == words
 
 
 def test_a_run_of_which_no_ball_has_begun_is_shown_as_a_table_only(tmp_path, monkeypatch):

@@ -1,4 +1,4 @@
-"""What the page of a rolling ball is given: it rolls, its turns are whole, and what cannot be shown is told."""
+"""What the page of a rolling ball is given: it rolls, its turns are whole, and what cannot be shown is words."""
 
 import hashlib
 import re
@@ -261,8 +261,8 @@ def test_three_js_is_unmodified_and_packaged():
     project = Path(chapsym.__file__).parents[1] / "pyproject.toml"
     if not project.is_file():
         pytest.skip("an installed wheel has no pyproject.toml")
-    told = tomllib.loads(project.read_text(encoding="utf-8"))["tool"]["setuptools"]
-    packaged = {path for glob in told["package-data"]["chapsym.show.rolling"] for path in FOLDER.glob(glob)}
-    assert "chapsym.*" in told["packages"]["find"]["include"]
+    words = tomllib.loads(project.read_text(encoding="utf-8"))["tool"]["setuptools"]
+    packaged = {path for glob in words["package-data"]["chapsym.show.rolling"] for path in FOLDER.glob(glob)}
+    assert "chapsym.*" in words["packages"]["find"]["include"]
     assert (FOLDER / "__init__.py").is_file()
     assert packaged == {path for path in FOLDER.rglob("*") if path.is_file() and not path.suffix.startswith(".py")}

@@ -23,7 +23,7 @@ SINGLE = float(np.finfo(np.float32).eps)
 
 
 class Rolling:
-    """A page with its ball, which is at rest until it is told to roll."""
+    """A page with its ball, which is at rest until it is words to roll."""
 
     def __init__(self, shown):
         self.tab, self.drawn, self.ask, self.said = shown.tab, shown.drawn, shown.ask, shown.said
@@ -542,8 +542,8 @@ def test_frames_too_far_apart_are_shown_as_they_are(rolling, tmp_path):
     assert TOO_FAR in page.tab.locator(".notes").inner_text()
     assert page.ask("chapsym.quaternion(3.7)") == page.ask("chapsym.quaternion(3)")
     assert page.ask("chapsym.position(3.7)") != page.ask("chapsym.position(3)")
-    write_page(rolled(3900, every=60, ball=EVEN), tmp_path / "told.html")
-    page = rolling(tmp_path / "told.html")
+    write_page(rolled(3900, every=60, ball=EVEN), tmp_path / "words.html")
+    page = rolling(tmp_path / "words.html")
     assert page.tab.locator(".notes").count() == 0
     half = page.ask("[3, 3.5, 4].map(i => chapsym.quaternion(i))")
     first, second = (2 * np.arccos(min(1, abs(np.dot(a, b)))) for a, b in ((half[0], half[1]), (half[1], half[2])))

@@ -121,22 +121,22 @@ def test_workers_with_another_chapsym_are_one_sentence(two, path, monkeypatch):
         return real(plan) | ({} if here else {"chapsym_version": "0.0.9"})
 
     monkeypatch.setattr(sweep, "provenance", provenance)
-    with pytest.raises(SceneError, match="is of another version of chapsym") as told:
+    with pytest.raises(SceneError, match="is of another version of chapsym") as words:
         sweep.run_to_store(plan_from(SCENE), path, two)
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(words.value)
     assert (formats.load(path).taken.values == -1).all()
 
 
 @pytest.mark.parametrize(
-    ("address", "told"),
+    ("address", "words"),
     [
         ("tcp://127.0.0.1:9", "no Dask scheduler answers at tcp://127.0.0.1:9"),
         ("nonsense://x", "is no address of a Dask"),
     ],
 )
-def test_a_scheduler_that_is_not_there_is_one_sentence(path, monkeypatch, address, told):
+def test_a_scheduler_that_is_not_there_is_one_sentence(path, monkeypatch, address, words):
     monkeypatch.setattr(jobs, "REACHED", 1.0)
-    with pytest.raises(BadInput, match=told):
+    with pytest.raises(BadInput, match=words):
         sweep.run_to_store(plan_from(SCENE), path, address)
 
 

@@ -108,7 +108,7 @@ def test_omega_in_space_axes_is_turned_to_the_body():
     ],
 )
 def test_a_body_given_in_other_axes_rolls_the_same_way(start):
-    """The same body, told in axes that are turned by Q: its start told in the same axes gives the same trace."""
+    """The same body, words in axes that are turned by Q: its start words in the same axes gives the same trace."""
     turn = np.array([0.9, 0.1, 0.3, -0.3])
     turn /= np.linalg.norm(turn)
     Q = matrix(turn)

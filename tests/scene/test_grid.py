@@ -57,13 +57,13 @@ def test_balls_with_the_same_ranges_are_a_dimension_and_what_is_not_varied_is_no
 
 def test_what_makes_no_grid_is_one_sentence():
     result = chapsym.run_scene(SCENE)
-    for data, told in (
+    for data, words in (
         (result.dataset.isel(ball=slice(5)), "a part of the sweep"),
         (result.dataset.isel(ball=slice(None, None, -1)), "a part of the sweep"),
         (result.dataset.assign_attrs(scene=""), "does not say of which scene"),
         (result.dataset.assign_attrs(scene="{"), "no scene"),
     ):
-        with pytest.raises(SceneError, match=told):
+        with pytest.raises(SceneError, match=words):
             chapsym.Result(data).grid()
     two = [{**SCENE["ball"]}, {**SCENE["ball"], "mass": 2.0}]
     with pytest.raises(SceneError, match="different ranges"):

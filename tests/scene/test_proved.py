@@ -79,9 +79,9 @@ def test_the_command_has_the_bound_and_takes_no_other_scene(scene, tmp_path):
 def test_a_scene_may_ask_for_the_proof_and_its_bounds_are_in_the_result(scene, both, tmp_path):
     path, result = tmp_path / "proved.toml", tmp_path / "proved.nc"
     path.write_text(f"{BALL}{RUN}proved = true\n")
-    told = answer("run", path, "-o", result)["proved"]
-    assert told == json.loads(formats.load(result).attrs["proved"])
-    assert told == pytest.approx(proved_errors(*both))  # of 18 digits and of 20
+    words = answer("run", path, "-o", result)["proved"]
+    assert words == json.loads(formats.load(result).attrs["proved"])
+    assert words == pytest.approx(proved_errors(*both))  # of 18 digits and of 20
 
 
 @pytest.mark.parametrize(("more", "output", "said"), [
@@ -112,10 +112,10 @@ MAP = "time = 1.0\ntime_step = 0.125\nmap = true\nproved = true\noutputs = ['mom
 def test_a_scene_of_the_map_has_the_bounds_of_each_frame(tmp_path, more):
     path, result = tmp_path / "map.toml", tmp_path / "map.csv"
     path.write_text(f"{BALL}{MAP}{more}")
-    told = answer("run", path, "-o", result)
+    words = answer("run", path, "-o", result)
     found = formats.load(result)
     plan = plan_of(load(path))
-    assert told["model"] == "reduced map"
+    assert words["model"] == "reduced map"
     assert set(plan.refused.values()) == {"it proves no bounds of its error"}
     one, task = plan.members, plan.task
     ball = library.Ball(one.ball.mass_tensor[0], one.ball.D[0], one.ball.radius[0])
@@ -127,7 +127,7 @@ def test_a_scene_of_the_map_has_the_bounds_of_each_frame(tmp_path, more):
         assert found[f"{name}_bound"].dims == ("ball", "frame")
         bounds = getattr(run.proved, name)
         assert np.array_equal(found[f"{name}_bound"].values[0], bounds)
-        assert told["proved"][name] == bounds.max() < 1e-14
+        assert words["proved"][name] == bounds.max() < 1e-14
     assert "energy_bound" not in found
     assert found.momentum_bound.units == "kg m2"
 

@@ -50,7 +50,7 @@ def small_disk(folder, size):
 def test_a_disk_that_fills_up_loses_nothing_and_the_same_run_goes_on(whole, tmp_path):
     """A disk that grows a little after each refusal; what was written is never written again."""
     disk = tmp_path / "disk"
-    kept, told = [], []
+    kept, words = [], []
     with small_disk(disk, "40k"):
         path = disk / "run.zarr"
         for size in range(100, 4000, 150):
@@ -58,12 +58,12 @@ def test_a_disk_that_fills_up_loses_nothing_and_the_same_run_goes_on(whole, tmp_
                 sweep.run_to_store(plan(), path)
                 break
             except SceneError as error:
-                told.append(str(error))
+                words.append(str(error))
             kept.append(len(list(path.glob(".chapsym/chunk-*"))))
             subprocess.run(["mount", "-o", f"remount,size={size}k", str(disk)], check=True)
         equal_to_the_bit(formats.load(path).load(), whole)
         assert os.listdir(disk) == ["run.zarr"]
-    assert [one for one in told if "No space left on device" not in one or "\n" in one] == []
+    assert [one for one in words if "No space left on device" not in one or "\n" in one] == []
     assert kept == sorted(kept)
     assert kept[0] == 0 < kept[-1]
 
@@ -117,8 +117,8 @@ def test_a_read_only_disk_is_one_sentence(tmp_path):
         sweep.run_to_store(plan(), done)
         subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
         for name in ("run.zarr", "run.nc", "run.parquet", "run.csv", "run.npz"):
-            told = refused("run", FIRST, "-o", disk / name)
-            assert re.search(rf"{name} cannot be written", told)
+            words = refused("run", FIRST, "-o", disk / name)
+            assert re.search(rf"{name} cannot be written", words)
         assert sweep.run_to_store(plan(), done).nothing_to_do
         with pytest.raises(SceneError, match="Read-only file system"):
             sweep.run_to_store(plan(), done, fresh=True)
@@ -142,8 +142,8 @@ def test_a_limit_of_the_file_size_is_one_sentence(tmp_path):
     scene.write_text(FIRST.read_text() + "map = true\n")  # with nothing to compile, which cannot be kept either
     for suffix in (".nc", ".zarr"):  # one file, and many
         with file_size(20_000):
-            told = refused("run", scene, "-o", tmp_path / f"run{suffix}")
-        assert "File too large" in told
+            words = refused("run", scene, "-o", tmp_path / f"run{suffix}")
+        assert "File too large" in words
     assert chapsym("run", scene, "-o", tmp_path / "run.zarr").returncode == 0
     assert {p.name for p in tmp_path.iterdir()} == {"first.toml", "run.zarr"}
 
@@ -188,8 +188,8 @@ def test_an_interrupted_command_stops_and_goes_on(tmp_path, path):
         "failed": 0, "complete": True, "lost": [],
     }  # fmt: skip
     again = chapsym("run", scene, "-o", path)
-    told = f"45000 balls, 13 frames, reduced map; {path} was complete already\ndiscretisation: about "
-    assert again.stdout.startswith(told)
+    words = f"45000 balls, 13 frames, reduced map; {path} was complete already\ndiscretisation: about "
+    assert again.stdout.startswith(words)
     scene.write_text(LONG.replace("4.0, 45_000", "5.0, 45_000"))
     assert "holds another scene (start.omega differs)" in refused("run", scene, "-o", path)
 

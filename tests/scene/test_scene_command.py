@@ -154,7 +154,7 @@ def test_one_ball_is_run_and_told_the_same_whatever_the_suffix(tmp_path):
         "[ball]\ninertia = [0.01, 0.01, 0.01]\nmass = 2\nradius = 0.1\n[start]\nomega = [1, 2, 3]\n"
         "[run]\ntime_step = 0.01\nsteps = 1000000000\nevery = 500000000\ncontact = true\nmap = true\n"
     )
-    told = set()
+    words = set()
     for suffix in (".npz", ".csv", ".zarr"):
         found = answer("run", path, "-o", tmp_path / f"run{suffix}")
         assert found.pop("output") == str(tmp_path / f"run{suffix}")
@@ -162,8 +162,8 @@ def test_one_ball_is_run_and_told_the_same_whatever_the_suffix(tmp_path):
         assert (found["steps"], found["frames"], found["complete"]) == (10**9, 3, True)
         assert set(found["final"]) == {"momentum", "gamma", "contact"}
         assert len(found["drift"]) == 3
-        told.add(json.dumps(found))
-    assert len(told) == 1
+        words.add(json.dumps(found))
+    assert len(words) == 1
     with np.load(tmp_path / "run.npz") as data:
         assert data["radius"] == 0.1
         assert [name for name in data.files if name.startswith("momentum")] == ["momentum"]
@@ -179,8 +179,8 @@ def test_an_accuracy_that_cannot_be_had_or_needs_the_radius_is_one_sentence_befo
     (tmp_path / "ball.toml").write_text(f"{ACCURATE}accuracy = 1e-30\n")
     assert "an accuracy of 1e-30 after 1 s cannot be had" in refused("scene", "check", tmp_path / "ball.toml")
     (tmp_path / "ball.toml").write_text(f'{ACCURATE}accuracy = 1e-8\nof = "contact"\n')
-    told = refused("run", tmp_path / "ball.toml", "-o", tmp_path / "out.zarr")
-    assert told == "the contact point needs the radius: give the ball its mass and radius"
+    words = refused("run", tmp_path / "ball.toml", "-o", tmp_path / "out.zarr")
+    assert words == "the contact point needs the radius: give the ball its mass and radius"
     assert not (tmp_path / "out.zarr").exists()
 
 

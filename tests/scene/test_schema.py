@@ -101,15 +101,15 @@ def mutated(data, path, value, way):
 
 def holds(make):
     """A scene with finite balls, or one sentence."""
-    told = None
+    words = None
     try:
         scene = make()
         members = expand(scene)
     except SceneError as error:
-        told = str(error)
-    if told is not None:
-        assert told.strip()
-        assert "\n" not in told
+        words = str(error)
+    if words is not None:
+        assert words.strip()
+        assert "\n" not in words
         return
     assert isinstance(scene, Scene)
     for array in (members.momentum, members.gamma, members.ball.mass_tensor, members.ball.D):

@@ -213,7 +213,7 @@ def test_every_moment_of_the_creation_may_be_the_last(whole, tmp_path, monkeypat
 
 
 @pytest.mark.parametrize(
-    ("changed", "told"),
+    ("changed", "words"),
     [
         ({"scene": 'a = 1\nb = {c = "x"}'}, "another scene (b.c differs)"),
         ({"scene": "a = 1"}, "another scene (b differs)"),
@@ -221,13 +221,13 @@ def test_every_moment_of_the_creation_may_be_the_last(whole, tmp_path, monkeypat
         ({"outputs": ("momentum",)}, "another plan"),
     ],
 )
-def test_a_store_of_another_run_is_not_touched(path, monkeypatch, changed, told):
+def test_a_store_of_another_run_is_not_touched(path, monkeypatch, changed, words):
     scene = 'a = 1\nb = {c = "y"}'
     interrupted(path, monkeypatch, 3, plan(scene=scene))
     before = {p: p.read_bytes() for p in path.rglob("*") if p.is_file()}
     with pytest.raises(SceneError, match="choose another name, or replace it with --fresh") as caught:
         sweep.run_to_store(plan(**({"scene": scene} | changed)), path)
-    assert told in str(caught.value)
+    assert words in str(caught.value)
     assert {p: p.read_bytes() for p in path.rglob("*") if p.is_file()} == before
 
 

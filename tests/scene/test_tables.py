@@ -222,10 +222,10 @@ def test_many_problems_are_told_with_their_lines_and_not_without_end(write):
     path = write('[ball]\nmas = 1\n[start]\nomga = 3\n[run]\nsteps = "x"\n' + "".join(f"k{i} = 1\n" for i in range(9)))
     with pytest.raises(SceneError) as caught:
         scene.load(path)
-    told = str(caught.value)
-    assert told.startswith(f"{path}, line 2: ball.mas is not a key of [ball]; did you mean mass?; line 4: start.omga")
-    assert told.endswith("; and 7 more")
-    assert "line 6: run.steps must be a whole number" in told
+    words = str(caught.value)
+    assert words.startswith(f"{path}, line 2: ball.mas is not a key of [ball]; did you mean mass?; line 4: start.omga")
+    assert words.endswith("; and 7 more")
+    assert "line 6: run.steps must be a whole number" in words
 
 
 def test_a_refusal_of_a_ball_tells_its_line(write):

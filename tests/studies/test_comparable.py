@@ -75,10 +75,10 @@ def test_another_convention_is_named_and_there_is_no_verdict(rows, body, tmp_pat
     change, said = OTHERWISE[name]
     file = write(tmp_path, change(rows))
     case = body if own else short(tmp_path, rows)
-    told = refused("judge", file, "--body" if own else "--against", case)
-    assert f"{file} cannot be judged as it is written: " in told
-    assert said in told
-    assert ";" not in told, "one thing only is otherwise"
+    words = refused("judge", file, "--body" if own else "--against", case)
+    assert f"{file} cannot be judged as it is written: " in words
+    assert said in words
+    assert ";" not in words, "one thing only is otherwise"
 
 
 def short(folder, rows):
@@ -97,8 +97,8 @@ def test_a_path_that_begins_elsewhere_and_a_start_that_is_another_are_said(rows,
     assert "its centre is (5, 0, 0) m from there: subtract this" in refused(
         "judge", write(tmp_path, rows | {"x": rows["x"] + 5}), "--against", case
     )
-    told = refused("judge", write(tmp_path, rows | {"wx": rows["wx"] * 1.01}), "--against", case)
-    assert "its first row is not the start of robot (omega 0.209 rad/s): no verdict on the engine" in told
+    words = refused("judge", write(tmp_path, rows | {"wx": rows["wx"] * 1.01}), "--against", case)
+    assert "its first row is not the start of robot (omega 0.209 rad/s): no verdict on the engine" in words
     rounded = {name: np.round(column, 3) for name, column in rows.items()}
     assert (
         answer("judge", write(tmp_path, rounded), "--against", case)["results"][0]["departure"]["path"]["greatest"]

@@ -251,13 +251,13 @@ def test_what_is_wrong_is_said_before_anything_is_computed(arguments, sentence):
     assert sentence in refused("extremes", *arguments)
 
 
-@pytest.mark.parametrize(("verdict", "told"), [("within", "✓ 15.0"), ("failed", "✗ a condition (double)")])
-def test_the_exit_status_is_1_if_a_cell_failed_and_the_page_has_its_row(monkeypatch, tmp_path, verdict, told):
+@pytest.mark.parametrize(("verdict", "words"), [("within", "✓ 15.0"), ("failed", "✗ a condition (double)")])
+def test_the_exit_status_is_1_if_a_cell_failed_and_the_page_has_its_row(monkeypatch, tmp_path, verdict, words):
     reason = "off" * (verdict == "failed")
     judge = [lambda level, quick: judging.Judged(verdict, 3.0, 4.0, 15.0, 1.0, reason)]
     cell = study.cell("fold", "a condition", judge, DOUBLE, True)
     monkeypatch.setattr(study, "extremes", lambda *_, **__: [cell])
     done = chapsym("extremes", "--quick", "-o", tmp_path / "page.md")
     assert bool(done.returncode) == (verdict == "failed")
-    assert told in " ".join(done.stdout.split())
+    assert words in " ".join(done.stdout.split())
     assert "\n| a condition |" in (tmp_path / "page.md").read_text(encoding="utf-8")

@@ -288,11 +288,11 @@ def test_the_figures_are_drawn_the_same_twice(small, tmp_path, thorough):
 
 
 def test_the_sentences_say_what_locks(small):
-    told = rotation.sentences(small)
-    assert any("zero but for rounding" in x for x in told)
-    assert any("D = 1, h = 12/5, 1/9 half turns, 60 digits: the displacement reaches 1.4e-28" in x for x in told)
-    assert any("kicked by 1/100 sin 2φ: the displacement reaches 1.4e-17: it locks" in x for x in told)
-    assert any("(resonance tongues at fixed h) measured: 13, each of positive width" in x for x in told)
+    words = rotation.sentences(small)
+    assert any("zero but for rounding" in x for x in words)
+    assert any("D = 1, h = 12/5, 1/9 half turns, 60 digits: the displacement reaches 1.4e-28" in x for x in words)
+    assert any("kicked by 1/100 sin 2φ: the displacement reaches 1.4e-17: it locks" in x for x in words)
+    assert any("(resonance tongues at fixed h) measured: 13, each of positive width" in x for x in words)
 
 
 @pytest.mark.parametrize("quick", [True, False])

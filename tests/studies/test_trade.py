@@ -122,8 +122,8 @@ def test_the_end_is_told_in_the_axes_of_an_inertia_tensor(tmp_path):
     np.testing.assert_allclose(found["final"]["gamma"], data["gamma"][-1], rtol=1e-14)
     body = "[ball]\ninertia = [[2, 0.1, 0], [0.1, 3, 0], [0, 0, 4]]\nD = 1\n[start]\nomega = [1, 2, 3]\n"
     (tmp_path / "b.toml").write_text(f"{body}[run]\naccuracy = 1e-6\ntime = 1\n", encoding="utf-8")
-    told = command("run", tmp_path / "b.toml", "-o", tmp_path / "b.npz", "--json").stdout
-    found, data = json.loads(told), np.load(tmp_path / "b.npz")
+    words = command("run", tmp_path / "b.toml", "-o", tmp_path / "b.npz", "--json").stdout
+    found, data = json.loads(words), np.load(tmp_path / "b.npz")
     np.testing.assert_allclose(found["final"]["gamma"], data["gamma"][-1], rtol=1e-14)
 
 
@@ -186,11 +186,11 @@ def test_an_estimate_is_told_as_one_with_the_digits_it_is_about(capsys):
         estimate=4.0e-9, attempts=[SimpleNamespace(seconds=1.0)], seconds=1.0, final=lambda: final,
     )  # fmt: skip
     print_answer(answer, SimpleNamespace(axes=None, place=None))
-    told = capsys.readouterr().out
-    assert "at most" not in told
-    assert "off by 4.0e-09 (m), estimated" in told
-    assert told.endswith("angular_momentum 0.0639508  20  (not compared)\ncontact   -249.562570746  0.100000000\n")
+    words = capsys.readouterr().out
+    assert "at most" not in words
+    assert "off by 4.0e-09 (m), estimated" in words
+    assert words.endswith("angular_momentum 0.0639508  20  (not compared)\ncontact   -249.562570746  0.100000000\n")
     answer.request.of = "state"
     print_answer(answer, SimpleNamespace(axes=None, place=None))
-    told = capsys.readouterr().out
-    assert told.endswith("angular_momentum 0.06395079  20.00000000\ncontact   -249.563  0.1  (not compared)\n")
+    words = capsys.readouterr().out
+    assert words.endswith("angular_momentum 0.06395079  20.00000000\ncontact   -249.563  0.1  (not compared)\n")

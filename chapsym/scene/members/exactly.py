@@ -53,21 +53,25 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
         )
     data = tomllib.loads(scene.toml, parse_float=lambda text: text.replace("_", ""))
     table = data["ball"][0] if isinstance(data["ball"], list) else data["ball"]
-    told = table.get("start") or data["start"]
+    beginning = table.get("start") or data["start"]
     moments, D, tensor = _body(table)
     if tensor is None:
         check_body(moments, D)
     radius = _rational(table, "radius") if "radius" in table else None
-    attitude = _attitude(told)
+    attitude = _attitude(beginning)
     rotor = _numbers(table, "rotor") if "rotor" in table else NO_ROTOR
-    if "velocity" in told:
+    if "velocity" in beginning:
         assert radius is not None
-        momentum = _rolling(told, D, radius, rotor)
+        momentum = _rolling(beginning, D, radius, rotor)
     else:
-        momentum = turning(_numbers(told, "omega"), D, told.get("axes") == "space", rotor)
-    place = tuple(x.rational for x in _numbers(told, "position")) if "position" in told else (Fraction(0), Fraction(0))
-    moving = _numbers(told, "velocity" if "velocity" in told else "omega")
-    if any(map(any, rotor)) and not any(map(any, (*moving, _number(told.get("spin", 0), RATE)))):
+        momentum = turning(_numbers(beginning, "omega"), D, beginning.get("axes") == "space", rotor)
+    place = (
+        tuple(x.rational for x in _numbers(beginning, "position"))
+        if "position" in beginning
+        else (Fraction(0), Fraction(0))
+    )
+    moving = _numbers(beginning, "velocity" if "velocity" in beginning else "omega")
+    if any(map(any, rotor)) and not any(map(any, (*moving, _number(beginning.get("spin", 0), RATE)))):
         raise SceneError(f"{name}: without angular velocity the ball stays at rest, whatever the rotor")
     start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, tensor)
     return start, _times(scene, data["run"])

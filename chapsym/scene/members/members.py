@@ -145,8 +145,8 @@ class Body:
         ball, scale = self.scene.ball[self.index], self.scene.task().scale
         at = partial(_place, self.scene, self.index)
         if ball.rotor is not None:
-            told = "ball.rotor goes with chapsym certify motion alone: no run, map or reduction has a rotor inside"
-            raise SceneError(f"{at()}{told}")
+            clause = "ball.rotor goes with chapsym certify motion alone: no run, map or reduction has a rotor inside"
+            raise SceneError(f"{at()}{clause}")
         values, count, names = self.sweep.values(), len(self), self.names
 
         def made(chosen: slice) -> Members:
@@ -157,8 +157,8 @@ class Body:
             return replace(made(slice(0, count)), parameters=values)
         except BadInput as error:
             first, why = _first_refused(made, 0, count) or (0, error)
-            told = ", ".join(f"{key} = {array[first]:.6g}" for key, array in list(values.items())[:4])
-            of = f"{names[first]}{f' ({told})' if told else ''}: {why}"
+            clause = ", ".join(f"{key} = {array[first]:.6g}" for key, array in list(values.items())[:4])
+            of = f"{names[first]}{f' ({clause})' if clause else ''}: {why}"
             if not isinstance(why, Misfit):
                 raise SceneError(f"{at()}{of}") from None
             key, where = ".".join(map(str, why.path)), at(*why.path)
@@ -267,37 +267,37 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
 
 def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
     """The balls, and what turns their principal axes to those of the table, if these are others."""
-    told, contact = _sizes(table, given)
+    sizes, contact = _sizes(table, given)
     axes, least = None, 0.0
     (shape,) = table.given("mass_tensor", "inertia", "preset")
     with said_by("ball", shape):
         if table.mass_tensor is not None:
             tensor = given.array(table.mass_tensor, "ball.mass_tensor")
         elif table.preset is not None:
-            tensor = PRESETS[table.preset](**told)
+            tensor = PRESETS[table.preset](**sizes)
         else:
             inertia = given.array(table.inertia, "ball.inertia")
             least = rounded_by(table.inertia)
             tensor = mass_tensor_of(inertia, least) if inertia.ndim == 2 else from_inertia_tensor(inertia)
         if tensor.ndim == 3:
             tensor, axes = principal(numbers(tensor, "inertia"), least)
-        if "mass" in told:
-            check_inside(tensor, told["mass"], told["radius"])
-    with said_by("ball", _no_size(told) or shape):
-        return Ball(tensor, contact, told.get("radius")), axes
+        if "mass" in sizes:
+            check_inside(tensor, sizes["mass"], sizes["radius"])
+    with said_by("ball", _no_size(sizes) or shape):
+        return Ball(tensor, contact, sizes.get("radius")), axes
 
 
 def _sizes(table: BallTable, given: Given) -> tuple[dict[str, Floats], Floats]:
     """The masses and lengths of a table that are given, as arrays, and D."""
-    told = {key: given.array(getattr(table, key), f"ball.{key}") for key in table.given("mass", "radius", "D", *KEYS)}
-    with said_by("ball", _no_size(told) or ("D" if "D" in told else "mass")):
-        return told, np.asarray(contact_term(told.get("mass"), told.get("radius"), told.get("D")))
+    sizes = {key: given.array(getattr(table, key), f"ball.{key}") for key in table.given("mass", "radius", "D", *KEYS)}
+    with said_by("ball", _no_size(sizes) or ("D" if "D" in sizes else "mass")):
+        return sizes, np.asarray(contact_term(sizes.get("mass"), sizes.get("radius"), sizes.get("D")))
 
 
-def _no_size(told: Mapping[str, Floats]) -> str | None:
+def _no_size(sizes: Mapping[str, Floats]) -> str | None:
     """The key of a size that no ball has, if there is one."""
     bad = {"mass": np.less_equal, "radius": np.less_equal, "D": np.less}
-    return next((key for key, fails in bad.items() if key in told and fails(told[key], 0).any()), None)
+    return next((key for key, fails in bad.items() if key in sizes and fails(sizes[key], 0).any()), None)
 
 
 def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats | None, Floats, bool]:
@@ -376,10 +376,10 @@ def _members_n(ball: BallTable, start: StartTable, given: Given, scale: float, n
             raise BadInput(f"start.{key} is for three dimensions; give omega or momentum, a skew matrix, and gamma")
     if start.axes == "space":
         raise BadInput('axes = "space" is for three dimensions')
-    tensor, (told, contact) = given.array(ball.mass_tensor, "ball.mass_tensor"), _sizes(ball, given)
-    if "mass" in told:
-        check_inside(tensor, told["mass"], told["radius"])
-    body = BallN(tensor, contact, told.get("radius"))
+    tensor, (sizes, contact) = given.array(ball.mass_tensor, "ball.mass_tensor"), _sizes(ball, given)
+    if "mass" in sizes:
+        check_inside(tensor, sizes["mass"], sizes["radius"])
+    body = BallN(tensor, contact, sizes.get("radius"))
     gamma = unit_vertical(given.unit(start.gamma or (*[0.0] * (n - 1), 1.0), "start.gamma"), n)
     key = "omega" if start.momentum is None else "momentum"
     motion = skew_matrices(given.array(getattr(start, key), f"start.{key}"), n, f"start.{key}")

@@ -141,8 +141,8 @@ def planned(members: Members, task: Task) -> Plan:
         del prices[chosen.name]
     else:
         able = [model.name for model in MODELS if needed <= model.columns] or list(refused)
-        told = "; ".join(f"{name}: {refused[name]}" for name in able)
-        raise BadInput(f"no model yields {', '.join(task.outputs)} for these balls: {told}")
+        clause = "; ".join(f"{name}: {refused[name]}" for name in able)
+        raise BadInput(f"no model yields {', '.join(task.outputs)} for these balls: {clause}")
     dearer = {
         name: f"it would cost {price / prices[chosen.name]:.1f} times as much"
         for name, price in prices.items()
@@ -250,7 +250,7 @@ def explained(plan: Plan) -> list[tuple[str, str]]:
         ("kernels", ", ".join(plan.kernels()) or "none"),
         ("keeps", f"{', '.join(plan.task.outputs)}: {plan.frames} frames of {len(plan.members)} {of}"),
     ]
-    rows.append(("cost", _told(plan)))
+    rows.append(("cost", _cost(plan)))
     if plan.task.accuracy is None:
         rows.append(("full model", _beside(plan)))
     balls, frames = len(plan.chunks), len(plan.segments)
@@ -284,12 +284,12 @@ def _beside(plan: Plan) -> str:
     whole = full(plan)
     unknown = sorted(plan.needed - whole.model.columns)
     if unknown:
-        return f"{_told(whole)}; it does not follow {' and '.join(unknown)}"
+        return f"{_cost(whole)}; it does not follow {' and '.join(unknown)}"
     ratios = _ratio(predicted(whole), predicted(plan)), _ratio(whole.bytes, plan.bytes)
-    return f"{_told(whole)}: {ratios[0]} time, {ratios[1]} storage"
+    return f"{_cost(whole)}: {ratios[0]} time, {ratios[1]} storage"
 
 
-def _told(plan: Plan) -> str:
+def _cost(plan: Plan) -> str:
     size, unit = float(plan.bytes), 0
     while size >= 1000 and unit < len(_UNITS) - 1:
         size, unit = size / 1000, unit + 1

@@ -63,15 +63,15 @@ def described(errors: Sequence[Any], name: str, text: str | None, data: Any, key
     """All problems that pydantic found in `data`, one sentence each; `keys` has those of each table."""
     one_ball = not isinstance(data.get("ball"), list)
     errors = [error for error in errors if error["type"] != "too_short" or not _inside(error, errors)]
-    told: list[str] = []
+    words: list[str] = []
     for error in errors[:MOST_PROBLEMS]:
         path = _path(error)
         path = (path[0], *path[2:]) if one_ball and path[:2] == ("ball", 0) else path  # [ball] is a table, and no list
-        where = place(name if not told else "", text, path)
-        told.append(f"{where}: {_sentence(error, keys)}" if where else _sentence(error, keys))
+        where = place(name if not words else "", text, path)
+        words.append(f"{where}: {_sentence(error, keys)}" if where else _sentence(error, keys))
     if len(errors) > MOST_PROBLEMS:
-        told.append(f"and {len(errors) - MOST_PROBLEMS} more")
-    return "; ".join(told)
+        words.append(f"and {len(errors) - MOST_PROBLEMS} more")
+    return "; ".join(words)
 
 
 def _inside(whole: Any, errors: Sequence[Any]) -> bool:
@@ -122,9 +122,9 @@ def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
         "string_too_short": "must not be empty",
         "string_too_long": f"must have at most {limits.get('max_length')} characters",
     }
-    told = kinds.get(error["type"], ": " + error["msg"].removeprefix("Value error, "))
-    told = told.removeprefix(": it ")
-    return f"{key}{told}" if told.startswith(":") else f"{key} {told}"
+    words = kinds.get(error["type"], ": " + error["msg"].removeprefix("Value error, "))
+    words = words.removeprefix(": it ")
+    return f"{key}{words}" if words.startswith(":") else f"{key} {words}"
 
 
 def _unknown(path: Path, keys: dict[str, Iterable[str]]) -> str:

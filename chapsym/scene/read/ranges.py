@@ -57,10 +57,10 @@ def value(given: Any, dimension: Dimension) -> Value:
     if not isinstance(given, dict):
         return number(given, dimension)
     if len(given) != 1 or (kind := next(iter(given))) not in get_args(Kind):
-        told = ", ".join(map(str, given)) or "nothing"
+        clause = ", ".join(map(str, given)) or "nothing"
         raise ValueError(
             f"a range is one of {{ linspace = [a, b, n] }}, {{ grid = [v1, v2, ...] }}, {{ random = [a, b] }} and "
-            f"{{ normal = [mean, deviation] }}, but the table has {told[:40]}"
+            f"{{ normal = [mean, deviation] }}, but the table has {clause[:40]}"
         )
     numbers = given[kind]
     if not isinstance(numbers, list | tuple):
@@ -72,8 +72,8 @@ def _range(kind: Kind, given: Any, read: Callable[[Any], float]) -> Range:
     """The range of a list of numbers; raises ValueError with what the kind takes."""
     if kind == "linspace":
         if len(given) != 3 or isinstance(given[2], bool) or not isinstance(given[2], int) or given[2] < 1:
-            told = "the first value, the last, and how many (a whole number from 1 on)"
-            raise ValueError(f"linspace takes [a, b, n]: {told}")
+            clause = "the first value, the last, and how many (a whole number from 1 on)"
+            raise ValueError(f"linspace takes [a, b, n]: {clause}")
         if given[2] > MOST_BALLS:
             raise ValueError(f"linspace of {given[2]} values: a sweep has {MOST_BALLS} balls at most")
         return Range(kind, (read(given[0]), read(given[1])), given[2])

@@ -98,8 +98,8 @@ class _Reader:
         found = [(body, sphere) for body in self.root.iter(tag) if (sphere := self._sphere(body)) is not None]
         if len(found) != 1:
             names = ", ".join(body.get("name", "without a name") for body, _ in found)
-            told = f"has {len(found)} with one ({names})" if found else "has none"
-            raise SceneError(f"{self.path}: the ball is the <{tag}> with a sphere to roll on, and this file {told}")
+            clause = f"has {len(found)} with one ({names})" if found else "has none"
+            raise SceneError(f"{self.path}: the ball is the <{tag}> with a sphere to roll on, and this file {clause}")
         ((body, (radius, centre)),) = found
         name = {"name": body.attrib["name"]} if body.get("name") else {}
         inertial = body.find("inertial")
@@ -182,8 +182,10 @@ class _Reader:
                 turn = _turned(self._numbers(where.get("rpy", "0 0 0"), where, 3))
             return self._numbers(where.get("xyz", "0 0 0"), where, 3), turn
         if where.get("relative_to", "") not in ("", body.get("name")):
-            told = f"relative_to = {where.attrib['relative_to']!r} is not read: give the pose in the frame of its link"
-            raise self._refused(where, f"<pose>: {told}")
+            clause = (
+                f"relative_to = {where.attrib['relative_to']!r} is not read: give the pose in the frame of its link"
+            )
+            raise self._refused(where, f"<pose>: {clause}")
         form = self._one_of(where, "rotation_format", ("euler_rpy", "quat_xyzw"))
         in_degrees = self._one_of(where, "degrees", ("false", "true", "0", "1")) in ("true", "1")
         numbers = self._numbers(where.text or "", where, 7 if form == "quat_xyzw" else 6)
@@ -221,18 +223,18 @@ class _Reader:
 
     def _compiler(self, name: str, default: str) -> tuple[str, Element]:
         """The value that the last <compiler> with an attribute gives it for the whole file, and where."""
-        told = [one for one in self.root.iter("compiler") if name in one.attrib]
-        return (told[-1].attrib[name], told[-1]) if told else (default, self.root)
+        clause = [one for one in self.root.iter("compiler") if name in one.attrib]
+        return (clause[-1].attrib[name], clause[-1]) if clause else (default, self.root)
 
     def _check_masses(self) -> None:
         """Raises SceneError where <compiler> makes masses of MJCF, or places, others than those that are written."""
         for name, plain in PLAIN.items():
             value, where = self._compiler(name, plain)
             if value != plain:
-                told = (
+                clause = (
                     f"{name} = {value!r} makes others of the numbers in the file, and is not read: write the ball's own"
                 )
-                raise self._refused(where, f"<compiler>: {told}")
+                raise self._refused(where, f"<compiler>: {clause}")
 
     def _tensor(self, inertial: Element, turn: Vector) -> list[list[str]]:
         """The rows in the axes of the body: R I Rᵀ of the one in the axes of <inertial>."""

@@ -121,8 +121,8 @@ class Scene(Table):
         motion = start.given("momentum", "vertical_momentum", "omega", "velocity")[0]
         of_one_step = motion.endswith("momentum")
         if run.accuracy is not None and of_one_step:
-            told = "run.accuracy needs start.omega, in rad/s: it is a motion in time that is approximated"
-            raise Misfit(told, *path, motion)
+            clause = "run.accuracy needs start.omega, in rad/s: it is a motion in time that is approximated"
+            raise Misfit(clause, *path, motion)
         if run.time_step is None and run.time is None and not of_one_step:
             raise Misfit(f"start.{motion} needs run.time_step, in seconds, or run.time", *path, motion)
         if run.time_step is None and run.time is not None and self.maps:
@@ -239,10 +239,10 @@ def _parsed(text: str, path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(text, parse_float=toml_float)
     except (ValueError, RecursionError) as error:  # tomllib: wrong syntax, huge integers, deep nesting
-        told = str(error).splitlines()[0]
-        found = re.search(r" \(at line (\d+), column (\d+)\)$", told)
+        clause = str(error).splitlines()[0]
+        found = re.search(r" \(at line (\d+), column (\d+)\)$", clause)
         where = f"{path}, line {found[1]}, column {found[2]}" if found else str(path)
-        raise SceneError(f"{where}: this is not TOML: {told[: found.start()] if found else told}") from None
+        raise SceneError(f"{where}: this is not TOML: {clause[: found.start()] if found else clause}") from None
 
 
 def toml_float(text: str) -> Any:

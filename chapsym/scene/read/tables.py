@@ -173,9 +173,9 @@ class Table(BaseModel):
         return [name for name in names if getattr(self, name) is not None]
 
 
-def _one_of(told: list[str], table: str, names: str) -> None:
-    if len(told) != 1:
-        raise Misfit(f"{table}: give either {names}" + (f", not {' and '.join(told)}" if told else ""), *told[1:2])
+def _one_of(given: list[str], table: str, names: str) -> None:
+    if len(given) != 1:
+        raise Misfit(f"{table}: give either {names}" + (f", not {' and '.join(given)}" if given else ""), *given[1:2])
 
 
 class StartTable(Table):
@@ -208,9 +208,9 @@ class StartTable(Table):
             raise Misfit("start.spin goes with start.velocity; omega holds the spin, too", "spin")
         if self.momentum is None and self.omega is None and "axes" in self.model_fields_set:
             raise Misfit("start.axes goes with start.omega or start.momentum", "axes")
-        if len(told := self.given("gamma", *ATTITUDES)) > 1:
+        if len(keys := self.given("gamma", *ATTITUDES)) > 1:
             names = "gamma or attitude, which turns gamma to (0, 0, 1) (or quaternion_xyzw, or rpy)"
-            raise Misfit(f"start: give either {names}, not {' and '.join(told)}", told[1])
+            raise Misfit(f"start: give either {names}, not {' and '.join(keys)}", keys[1])
         return self
 
 
@@ -254,17 +254,17 @@ class BallTable(Table):
     @model_validator(mode="after")
     def _one_body(self) -> Self:
         _one_of(self.given("mass_tensor", "inertia", "preset"), "ball", "mass_tensor or inertia (or a preset)")
-        told = self.given(*sorted(set(bodies.KEYS)))
+        keys = self.given(*sorted(set(bodies.KEYS)))
         if self.mass_tensor is not None and len(self.mass_tensor) > MOST_DIMENSIONS:
             told_n = (
                 f"ball.mass_tensor has {len(self.mass_tensor)} numbers, and {MOST_DIMENSIONS} dimensions are the most"
             )
             raise Misfit(f"{told_n}: a step of more takes a second and longer", "mass_tensor")
         if self.preset is None:
-            if told:
-                raise Misfit(f"ball.{told[0]} goes with ball.preset", told[0])
+            if keys:
+                raise Misfit(f"ball.{keys[0]} goes with ball.preset", keys[0])
             return self._with_contact()
-        if wrong := [key for key in told if key not in bodies.keys_of(self.preset)]:
+        if wrong := [key for key in keys if key not in bodies.keys_of(self.preset)]:
             raise Misfit(f"ball.{wrong[0]} does not go with the preset {self.preset}", wrong[0])
         if missing := [
             key for key in ("mass", "radius", *bodies.keys_of(self.preset, required=True)) if getattr(self, key) is None
@@ -336,8 +336,8 @@ class RunTable(Table):
             raise Misfit(f"run.outputs is empty: choose of {', '.join(OUTPUTS)}", "outputs")
         if self.accuracy is not None:
             self._check_accuracy()
-        elif told := self.given("limit", "of"):
-            raise Misfit(f"run.{told[0]} goes with run.accuracy", told[0])
+        elif keys := self.given("limit", "of"):
+            raise Misfit(f"run.{keys[0]} goes with run.accuracy", keys[0])
         if self.every is not None and self.frames is not None:
             raise Misfit("run: give either every or frames", "frames")
         if self.steps is None and self.time is None:
@@ -356,8 +356,8 @@ class RunTable(Table):
         """The key by which the map is meant, if there is one."""
         if self.map:
             return "map"
-        told = self.given("order", "precision")
-        return told[0] if told else "outputs" if set(self.names()) & OF_THE_MAP else None
+        keys = self.given("order", "precision")
+        return keys[0] if keys else "outputs" if set(self.names()) & OF_THE_MAP else None
 
     def _check_accuracy(self) -> None:
         if (key := self.of_the_map()) is not None:
@@ -365,11 +365,11 @@ class RunTable(Table):
         if self.time is None and self.time_step is None:
             raise Misfit("run.accuracy needs run.time, in seconds", "accuracy")
         if self.time_step is not None and self.accuracy is not None and self.accuracy < FINEST:
-            told = f"run.accuracy below {FINEST:g} takes more digits than float64 has: give run.time and run.frames"
-            raise Misfit(f"{told} without run.time_step", "accuracy")
+            clause = f"run.accuracy below {FINEST:g} takes more digits than float64 has: give run.time and run.frames"
+            raise Misfit(f"{clause} without run.time_step", "accuracy")
         if isinstance(self.accuracy, Metres) and self.accurate_of() == "state":
-            told = 'of the state it is relative; a length goes with of = "contact"'
-            raise Misfit(f"run.accuracy has a unit, but {told}", "accuracy")
+            clause = 'of the state it is relative; a length goes with of = "contact"'
+            raise Misfit(f"run.accuracy has a unit, but {clause}", "accuracy")
 
     def _counted(self) -> tuple[int, int]:
         """The steps, and how many between two frames; raises where they are not whole."""
@@ -396,8 +396,8 @@ class RunTable(Table):
             return steps, self.every or 1
         if steps % self.frames:
             near = [n for n in range(self.frames, 0, -1) if steps % n == 0][:1] if self.frames < 10**6 else []
-            told = f"; {near[0]} do" if near else ""
-            raise Misfit(f"run.frames: {steps} steps do not divide into {self.frames} equal parts{told}", "frames")
+            clause = f"; {near[0]} do" if near else ""
+            raise Misfit(f"run.frames: {steps} steps do not divide into {self.frames} equal parts{clause}", "frames")
         return steps, max(steps // self.frames, 1)
 
     def counts(self) -> tuple[int, int]:

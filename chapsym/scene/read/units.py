@@ -105,8 +105,8 @@ def _amount(text: str, dimension: Dimension) -> tuple[Fraction, Fraction]:
     try:
         amount = rational(parts[1] if parts and unit else text, "value")
     except NotANumber as error:
-        told = str(error).removeprefix("value: ")
-        raise ValueError(told + ("" if unit or dimension is PURE else _or(dimension))) from None
+        clause = str(error).removeprefix("value: ")
+        raise ValueError(clause + ("" if unit or dimension is PURE else _or(dimension))) from None
     return amount, _factor(unit, text.strip(), dimension) if unit else Fraction(1)
 
 
@@ -141,11 +141,11 @@ def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
         if _SHORT.search(spelled):
             raise ValueError(f"it is {dimension.name}, but {shown!r} says no unit, only how many; {write}")
         names = [known.name for known in KNOWN if _is(known, found)]
-        told = f"is {names[0]}" if names else "measures something else"
-        raise ValueError(f"it is {dimension.name}, but {shown!r} {told}; {write}")
+        clause = f"is {names[0]}" if names else "measures something else"
+        raise ValueError(f"it is {dimension.name}, but {shown!r} {clause}; {write}")
     if not _is(dimension, found):
-        told = f"does not say which angle; write {ANGULAR[dimension]}"
-        raise ValueError(f"it is {dimension.name}, but {shown!r} {told}")
+        clause = f"does not say which angle; write {ANGULAR[dimension]}"
+        raise ValueError(f"it is {dimension.name}, but {shown!r} {clause}")
     return Fraction(registry.Quantity(Fraction(1), found).to_base_units().magnitude)
 
 

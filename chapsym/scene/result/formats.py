@@ -69,14 +69,14 @@ def check_size(plan: Plan, path: Path) -> None:
     """Raises SceneError, before anything is computed, if the result is too large for a file of this kind."""
     _check_rows(path, len(plan.members) * plan.frames)
     if path.suffix != ".zarr" and plan.bytes > SHARE * _memory():
-        told = "which is too much to be written at once on this machine; write to .zarr"
-        raise SceneError(f"{path}: the result has {plan.bytes / 1e9:.3g} GB, {told}")
+        layout = "which is too much to be written at once on this machine; write to .zarr"
+        raise SceneError(f"{path}: the result has {plan.bytes / 1e9:.3g} GB, {layout}")
 
 
 def _check_rows(path: Path, rows: int) -> None:
     if (path == STDOUT or path.suffix == ".csv") and rows > MOST_ROWS:
-        told = f"{rows} rows, and a CSV of more than {MOST_ROWS} is of no use; write to .parquet or .zarr"
-        raise SceneError(f"{path}: the result has {told}, or keep fewer frames with run.every")
+        layout = f"{rows} rows, and a CSV of more than {MOST_ROWS} is of no use; write to .parquet or .zarr"
+        raise SceneError(f"{path}: the result has {layout}, or keep fewer frames with run.every")
 
 
 def save(data: "Dataset | Arrays", path: Path) -> None:
@@ -124,8 +124,8 @@ def load(path: Path) -> "Dataset":
         reason = error.strerror or str(error).splitlines()[0]
         raise SceneError(f"{path} cannot be read: {reason}") from None
     except DAMAGED as error:
-        told = (str(error).splitlines() or [type(error).__name__])[0][:200]
-        raise SceneError(f"{path} is damaged, or no result of chapsym: {told}") from None
+        layout = (str(error).splitlines() or [type(error).__name__])[0][:200]
+        raise SceneError(f"{path} is damaged, or no result of chapsym: {layout}") from None
     for one in data.variables.values():
         one.attrs = plain(one.attrs)
     return data.assign_attrs(plain(data.attrs))
@@ -143,8 +143,8 @@ def attributes(path: Path) -> dict[str, Any]:
             return load(path).attrs
         found = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
     except (SceneError, OSError, *DAMAGED):
-        told = "choose another name" + (", or replace it with --fresh" if path.is_file() else "")
-        raise SceneError(f"{path} is there, but it is no result of chapsym; {told}") from None
+        layout = "choose another name" + (", or replace it with --fresh" if path.is_file() else "")
+        raise SceneError(f"{path} is there, but it is no result of chapsym; {layout}") from None
     return found if isinstance(found, dict) else {}
 
 
@@ -171,17 +171,17 @@ def _write_netcdf(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     stream.write(whole.to_netcdf(engine="h5netcdf"))
 
 
-def _about(data: "Dataset | Arrays", told: dict[str, Any]) -> dict[str, Any]:
-    return {"structure": told, "attrs": plain(data.attrs)}
+def _about(data: "Dataset | Arrays", layout: dict[str, Any]) -> dict[str, Any]:
+    return {"structure": layout, "attrs": plain(data.attrs)}
 
 
 def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     import pyarrow
     from pyarrow import parquet
 
-    told, writer = structure(data), None
-    about = {NOTES: json.dumps(_about(data, told), ensure_ascii=False)}
-    for columns in batches(data, told):
+    layout, writer = structure(data), None
+    about = {NOTES: json.dumps(_about(data, layout), ensure_ascii=False)}
+    for columns in batches(data, layout):
         texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
         table = pyarrow.table({**columns, **texts}).replace_schema_metadata(about)
         writer = writer or parquet.ParquetWriter(stream, table.schema, compression="zstd")
@@ -206,14 +206,14 @@ def _with_notes(data: "Dataset | Arrays") -> Iterator[dict[str, np.ndarray]]:
     It has what the ball has once, and in that of the first ball all that no row has.  The other rows have a sign, as
     pandas takes a column that is empty from some row on for two kinds of data.
     """
-    told, ball = structure(data), 0
-    once = {name: data[name].values for name, one in told["variables"].items() if not in_rows(one)}
-    rows = {name: one for name, one in told["variables"].items() if name not in once}
+    layout, ball = structure(data), 0
+    once = {name: data[name].values for name, one in layout["variables"].items() if not in_rows(one)}
+    rows = {name: one for name, one in layout["variables"].items() if name not in once}
     for columns in batches(data, {"variables": rows}):
         notes = np.full(len(next(iter(columns.values()))), "-", dtype=object)
-        for row in range(0, len(notes), told["frames"]):
+        for row in range(0, len(notes), layout["frames"]):
             note = {name: _written(values[ball].tolist()) for name, values in once.items()}
-            note |= {} if ball else _about(data, told)
+            note |= {} if ball else _about(data, layout)
             notes[row], ball = json.dumps(note, ensure_ascii=False), ball + 1
         yield columns | {NOTES: notes}
 
@@ -272,26 +272,26 @@ def _read_csv(path: Path) -> "Dataset":
     with path.open(encoding="utf-8", newline="") as stream:
         first = stream.readline()
     if first.strip() and not is_ours(first):
-        told = f"it has no column {NOTES}; chapsym show and chapsym judge read the trajectory of another program"
-        raise NotOurs(f"{path} was not written by chapsym: {told}")
+        layout = f"it has no column {NOTES}; chapsym show and chapsym judge read the trajectory of another program"
+        raise NotOurs(f"{path} was not written by chapsym: {layout}")
     if first.startswith("# "):
         return _with_lines(path)
     about = _about_csv(path)
     if not about:
         return _old(_columns(read_csv(path)))
-    told = about["structure"]
-    rows = {name: one for name, one in told["variables"].items() if in_rows(one)}
+    layout = about["structure"]
+    rows = {name: one for name, one in layout["variables"].items() if in_rows(one)}
     types = _types(rows) | {NOTES: pyarrow.string()}
     reading, parsing = ReadOptions(block_size=BLOCK), ParseOptions(newlines_in_values=True)
     columns = _columns(read_csv(path, reading, parsing, ConvertOptions(column_types=types)))
-    notes = [json.loads(text) for text in columns[NOTES][:: told["frames"]]]
-    for name, one in told["variables"].items():
+    notes = [json.loads(text) for text in columns[NOTES][:: layout["frames"]]]
+    for name, one in layout["variables"].items():
         if name not in rows:
             kind = {"double": np.float64, "int64": np.int64}.get(one["type"], object)
             values = np.array([note[name] for note in notes], dtype=kind).reshape(len(notes), -1)
-            values = np.repeat(values, told["frames"], axis=0)
+            values = np.repeat(values, layout["frames"], axis=0)
             columns |= {column: values[:, i] for i, column in enumerate(one["columns"])}
-    return _assembled(columns, told, about["attrs"])
+    return _assembled(columns, layout, about["attrs"])
 
 
 def _about_csv(path: Path) -> dict[str, Any]:
@@ -321,21 +321,21 @@ def _with_lines(path: Path) -> "Dataset":
         while (line := stream.readline()).startswith("# "):
             key, _, value = line[2:].partition(": ")
             attrs[key], lines = json.loads(value), lines + 1
-    told = attrs.pop("structure")
+    layout = attrs.pop("structure")
     table = read_csv(
         path, ReadOptions(skip_rows=lines), ParseOptions(newlines_in_values=True),
-        ConvertOptions(column_types=_types(told["variables"])),
+        ConvertOptions(column_types=_types(layout["variables"])),
     )  # fmt: skip
-    return _assembled(_columns(table), told, attrs)
+    return _assembled(_columns(table), layout, attrs)
 
 
 def _write_npz(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     """The arrays of all variables; of one ball without the axis of the balls."""
-    told = structure(data)
-    whole = data.isel(ball=0) if told["balls"] == 1 else data
-    arrays: dict[str, Any] = {name: whole[name].values for name in told["variables"]}
+    layout = structure(data)
+    whole = data.isel(ball=0) if layout["balls"] == 1 else data
+    arrays: dict[str, Any] = {name: whole[name].values for name in layout["variables"]}
     arrays = {name: np.array(a.tolist(), dtype=str) if a.dtype.kind in "OT" else a for name, a in arrays.items()}
-    about = json.dumps(_about(data, told), ensure_ascii=False)
+    about = json.dumps(_about(data, layout), ensure_ascii=False)
     np.savez(stream, chapsym=np.array(about), **arrays)
 
 
@@ -345,35 +345,35 @@ def _read_npz(path: Path) -> "Dataset":
     if NOTES not in arrays:
         return _old(arrays)
     about = json.loads(str(arrays[NOTES]))
-    told = about["structure"]
-    for name, one in told["variables"].items():
+    layout = about["structure"]
+    for name, one in layout["variables"].items():
         values = arrays[name].astype(object) if arrays[name].dtype.kind == "U" else arrays[name]
-        arrays[name] = np.expand_dims(values, 0) if told["balls"] == 1 and "ball" in one["dims"] else values
-    return _dataset(arrays, told, about["attrs"])
+        arrays[name] = np.expand_dims(values, 0) if layout["balls"] == 1 and "ball" in one["dims"] else values
+    return _dataset(arrays, layout, about["attrs"])
 
 
 def _columns(table: Any) -> dict[str, np.ndarray]:
     return {name: table[name].to_numpy() for name in table.column_names}
 
 
-def _assembled(columns: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+def _assembled(columns: Mapping[str, np.ndarray], layout: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
     """The Dataset of a table; raises KeyError, ValueError or TypeError if the table is not whole."""
     arrays = {}
-    for name, one in told["variables"].items():
-        inner = [len(told["labels"][dim]) for dim in one["dims"] if dim in told["labels"]]
+    for name, one in layout["variables"].items():
+        inner = [len(layout["labels"][dim]) for dim in one["dims"] if dim in layout["labels"]]
         values = np.stack([columns[column] for column in one["columns"]], axis=-1)
-        values = values.reshape(told["balls"], told["frames"], *inner)
+        values = values.reshape(layout["balls"], layout["frames"], *inner)
         arrays[name] = values[:, 0] if "frame" not in one["dims"] else values if "ball" in one["dims"] else values[0]
-    return _dataset(arrays, told, attrs)
+    return _dataset(arrays, layout, attrs)
 
 
-def _dataset(arrays: Mapping[str, np.ndarray], told: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+def _dataset(arrays: Mapping[str, np.ndarray], layout: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
     """The Dataset of these arrays of a `structure`."""
     import xarray
 
-    coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in told["labels"].items()}
+    coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in layout["labels"].items()}
     variables: dict[Any, Any] = {}
-    for name, one in told["variables"].items():
+    for name, one in layout["variables"].items():
         (coords if one["coordinate"] else variables)[name] = (one["dims"], arrays[name], one["attrs"])
     return xarray.Dataset(variables, coords, dict(attrs))
 

@@ -42,16 +42,16 @@ def summary(scene: Scene, members: Members) -> list[tuple[str, str]]:
 
 def _ball(members: Members, i: int) -> str:
     ball = members.ball
-    told = f"J = {_vector(ball.mass_tensor[i])}"
+    words = f"J = {_vector(ball.mass_tensor[i])}"
     if isinstance(ball, Ball):
-        told += f", I = {_vector(ball.inertia[i])}"
-    told += f", D = {ball.D[i]:.6g} kg m²"
+        words += f", I = {_vector(ball.inertia[i])}"
+    words += f", D = {ball.D[i]:.6g} kg m²"
     if ball.radius is not None:
-        told += f", radius {ball.radius[i]:.6g} m"
+        words += f", radius {ball.radius[i]:.6g} m"
     if members.axes is not None:
         angle = 2 * np.degrees(np.arccos(min(abs(members.axes[i, 0]), 1.0)))
-        told += f", principal axes turned by {angle:.4g}°" if angle else ""
-    return told
+        words += f", principal axes turned by {angle:.4g}°" if angle else ""
+    return words
 
 
 def _start(scene: Scene, members: Members, i: int) -> str:
@@ -101,12 +101,12 @@ def refusals(scene: Scene, members: Members) -> list[str]:
     some = members.of(slice(0, TRIED))
     take: Any = step if isinstance(some.ball, Ball) else step_n
     status = take(some.ball, some.momentum, some.gamma).status
-    told = []
+    words = []
     for reason in sorted(set(status[status != Status.TAKEN].tolist())):
         which = np.flatnonzero(status == reason)
         balls = some.names[which[0]] + ("" if len(which) == 1 else f" and {len(which) - 1} more of {len(some)}")
-        told.append(f"{balls} cannot take the first step: {Status(reason).sentence}")
-    return told
+        words.append(f"{balls} cannot take the first step: {Status(reason).sentence}")
+    return words
 
 
 def last_state(data: "Dataset | Arrays") -> dict[str, Any]:
@@ -154,8 +154,8 @@ def far(data: "Dataset | Arrays") -> dict[str, Any]:
     accuracy, of = float(data.attrs["accuracy"]), str(data.attrs.get("accuracy_of"))
     chosen = {name: [int(f(data[name].values[there])) for f in (min, max)] for name in _CHOSEN if name in data}
     largest, worse = float(error[there].max()), int((error[there] > accuracy).sum())
-    told = largest if math.isfinite(largest) else None
-    return {"motion": {"accuracy": accuracy, "of": of, "error": told, "worse": worse, **chosen}}
+    words = largest if math.isfinite(largest) else None
+    return {"motion": {"accuracy": accuracy, "of": of, "error": words, "worse": worse, **chosen}}
 
 
 _CHOSEN = ("order", "substeps")

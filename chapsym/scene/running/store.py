@@ -220,21 +220,21 @@ def check_same(path: Path, plan: Plan) -> None:
     key = _first_difference(_data(found.get("scene")), _data(wanted["scene"]))
     if key is not None:
         raise SceneError(f"{path} holds another scene ({key} differs); {ELSE}")
-    told = difference(found, wanted)
-    if told is not None:
-        raise SceneError(f"{path} {told}; {ELSE}")
+    clause = difference(found, wanted)
+    if clause is not None:
+        raise SceneError(f"{path} {clause}; {ELSE}")
 
 
 def difference(found: dict[str, Any], wanted: dict[str, Any]) -> str | None:
     """What differs of two runs apart from the text of the scene, as a verb and its object; None if nothing does."""
-    for name, told in (
+    for name, clause in (
         ("chapsym_version", "is of another version of chapsym"),
         ("plan", "is of another plan"),
         ("kernels", "is of other kernels"),
         ("inputs_sha256", "is of other balls or starts"),
     ):
         if found.get(name) != wanted.get(name):
-            return told
+            return clause
     return None
 
 
@@ -413,9 +413,9 @@ def _refusals(path: Path, names: Iterable[str] = (), creating: bool = False) -> 
                 shutil.rmtree(path / name, ignore_errors=True)
             with suppress(OSError):  # not empty, or not there: not ours
                 path.rmdir()
-            told = f"{path} was deleted or moved while it was written; the same command begins anew"
+            clause = f"{path} was deleted or moved while it was written; the same command begins anew"
         elif full:
-            told = f"{path}: {reason}; what was written stays: make room, and the same command goes on from there"
+            clause = f"{path}: {reason}; what was written stays: make room, and the same command goes on from there"
         else:
-            told = f"{path} cannot be written: {reason}; what was written stays"
-        raise SceneError(told) from None
+            clause = f"{path} cannot be written: {reason}; what was written stays"
+        raise SceneError(clause) from None

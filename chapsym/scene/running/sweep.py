@@ -106,13 +106,13 @@ class Tally:
         """The progress of a unit: a function of the steps that its balls have taken; it raises Stopped."""
         before, after = self.work(chunk, segment), self.work(chunk, segment + 1)
 
-        def told(steps: int) -> None:
+        def clause(steps: int) -> None:
             if self.stopped:
                 raise Stopped
             self._done[chunk] = min(before + steps, after)
             self._tell()
 
-        return told
+        return clause
 
     @property
     def progress(self) -> Progress:
@@ -241,11 +241,11 @@ def unit(text: str, about: dict[str, Any], path: str, chunk: int, segment: int, 
     """
     try:
         plan = _plan(text)
-        told = difference(provenance(plan), about)
-        if told is not None:
+        clause = difference(provenance(plan), about)
+        if clause is not None:
             version = f"chapsym {chapsym.__version__}, and {about['chapsym_version']} here"
             raise SceneError(
-                f"what a worker of the cluster would compute {told} ({version}): give all the same chapsym"
+                f"what a worker of the cluster would compute {clause} ({version}): give all the same chapsym"
             )
         columns, after = computed(plan, chunk, segment, state)
         check_same(Path(path), plan)  # this worker may be late, and the store by now another's

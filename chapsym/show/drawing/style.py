@@ -100,8 +100,8 @@ def entitle(figure: Figure, title: str) -> None:
 def add_note(figure: Figure, text: str) -> None:
     """A line below the axes of a figure, after what stands there, or above its legend: both have one place."""
     if text and figure.legends:
-        told = figure.legends[0].get_title().get_text()
-        figure.legends[0].set_title("\n".join(filter(None, (told, text))))
+        before = figure.legends[0].get_title().get_text()
+        figure.legends[0].set_title("\n".join(filter(None, (before, text))))
         figure.legends[0].get_title().set_fontsize(10)
     elif text:
         figure.supxlabel("\n".join(filter(None, (figure.get_supxlabel(), text))), fontsize=10, color="0.35")

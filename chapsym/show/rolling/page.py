@@ -117,8 +117,8 @@ def _plan_line(dataset: Dataset, found: Motion) -> str:
 
 def _notes(found: Motion) -> list[str]:
     """The notes of the page, of single balls under their names, of all of them once."""
-    told = [note for ball in found.balls for note in ball.notes]
-    common = [note for note in dict.fromkeys(told) if told.count(note) == len(found.balls)]
+    every_note = [note for ball in found.balls for note in ball.notes]
+    common = [note for note in dict.fromkeys(every_note) if every_note.count(note) == len(found.balls)]
     single = [f"{ball.name}: {note}" for ball in found.balls for note in ball.notes if note not in common]
     return [*found.notes, *common, *single]
 
