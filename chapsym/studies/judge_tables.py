@@ -22,10 +22,15 @@ SAME_TIME = 1e-9
 CALLED = {
     "w": r"w|omega|ang ?vel|angular|angular velocity",
     "": r"p|pos|position|translation|com|cent(?:er|re)",
-    "q": r"q|quat|quaternion|orientation|rot|rotation|attitude",
+    "q": r"q|quat|quaternion|ori|orientation|rot|rotation|attitude",
     "v": r"v|vel|velocity|lin ?vel|linear|linear velocity",
 }
-_TIME = re.compile(r"t|time|timestamp|stamp|sim time|(?:time |t )?s(?:ec(?:onds)?)?")
+#: What has numbers for its components: the free joint of MuJoCo, and Euler parameters.
+INDEXED = {"qpos": NEEDED[1:], "qvel": MORE, "e": NEEDED[4:]}
+_INDEX = re.compile(r"(?:.*\W)?(qpos|qvel|e)[\W_]?(\d)\W?")
+_TIME = re.compile(r"t|time|(?:.* )?(?:time)?stamp|sim time|(?:time |t )?(?:n?s|n?sec(?:onds)?)")
+#: Times in nanoseconds: EuRoC and others, and the tables of `rostopic echo -p`.
+_NANOSECONDS = re.compile(r"%time|.*(?:\bns|\bnsec|_ns|nanoseconds)\W*")
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +113,7 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
     rows = [line for line in lines if line.strip() and not line.startswith("#")]
     if len(rows) > 1 and np.isnan([*map(_number, _cells(rows[1]))]).all():  # after a title
         rows = rows[1:]
+    rows = [*_commented(lines, rows), *rows]
     names = [_name(cell) for cell in _cells(rows[0])] if rows else []
     if rows and len(names) == len(TUM) and not np.isnan([*map(_number, _cells(rows[0]))]).any():
         names, rows = list(TUM), ["", *rows]
@@ -116,6 +122,10 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
     if twice := [name for name in names if name in (*NEEDED, *MORE) and names.count(name) > 1]:
         raise BadInput(f"{file} has the column {twice[0]} twice")
     texts = [_cells(line) for line in rows[1:]]
+    where = names.index("time")
+    if rows[0] and _NANOSECONDS.fullmatch(_cells(rows[0])[where].strip().lower()):
+        for cells in texts:
+            cells[where : where + 1] = [f"{text.strip()}e-9" for text in cells[where : where + 1]]
     numbers = [[_number(text) for text in row] for row in texts]
     for i, row in enumerate(numbers, 1):
         if len(row) != len(names) or not (np.abs(row) < LARGEST).all():
@@ -126,8 +136,16 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
     parts = {"centre": NEEDED[1:4], "attitude": NEEDED[4:], "velocity": MORE[:3], "omega": MORE[3:]}
     digit = {part: max((units.get(name, 0.0) for name in some), default=0.0) for part, some in parts.items()}
     columns = {name: array[:, i] for i, name in enumerate(names)}
-    where = names.index("time")
     return Table(file, columns, [row[where].strip() for row in texts], _step(file, lines), digit)
+
+
+def _commented(lines: Sequence[str], rows: Sequence[str]) -> list[str]:
+    """The line of names that is written as a comment above numbers alone."""
+    if not rows or np.isnan([*map(_number, _cells(rows[0]))]).any():
+        return []
+    above = [line.lstrip("# ") for line in lines[: lines.index(rows[0])] if line.startswith("#")]
+    width = len(_cells(rows[0]))
+    return [line for line in above[-1:] if len(_cells(line)) == width and "time" in map(_name, _cells(line))]
 
 
 def _cells(line: str) -> list[str]:
@@ -145,10 +163,15 @@ def _number(text: str) -> float:
 def _name(cell: str) -> str:
     """The name of a column here; its own, where it is none of an engine."""
     own = cell.strip().strip('"').strip()
+    if (indexed := _INDEX.fullmatch(own.lower())) and int(indexed[2]) < len(INDEXED[indexed[1]]):
+        return INDEXED[indexed[1]][int(indexed[2])]
     words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", re.sub(r"\[[^\]]*\]|\([^)]*\)", "", own))
     words = re.sub(r"[\W_]+", " ", words).strip().lower()
+    words = re.sub(r" rs( r)?\b", "", words)  # EuRoC's frames
     if words in (*NEEDED, *MORE) or _TIME.fullmatch(words):
         return words if words in (*NEEDED, *MORE) else "time"
+    if rate := re.fullmatch(r"([xyz]) (?:dt|dot)", words):
+        return "v" + rate[1]
     for short, called in CALLED.items():
         if found := re.fullmatch(rf"(?:.* )?(?:{called}) ?([{'w' if short == 'q' else ''}xyz])", words):
             return short + found[1]

@@ -131,9 +131,35 @@ def test_mujoco_makes_the_inertia_of_the_geom_where_its_compiler_says_so(put):
     assert table(put(text, ".xml")) == {"name": "ball", "preset": "homogeneous", "mass": "0.5", "radius": "0.105"}
 
 
-def test_a_geom_with_a_mass_is_homogeneous_as_mujoco_makes_it(put):
-    text = '<mujoco><worldbody><body><geom type="sphere" size="0.1" mass="0.5"/></body></worldbody></mujoco>'
-    assert table(put(text, ".xml")) == {"preset": "homogeneous", "mass": "0.5", "radius": "0.1"}
+GEOM = '<mujoco><worldbody><body><geom type="sphere" size="0.1"/></body></worldbody></mujoco>'
+
+
+@pytest.mark.parametrize(("said", "mass"), [('mass="0.5"', 0.5), ("", 4 / 3 * np.pi), ('density="250"', np.pi / 3)])
+def test_a_geom_alone_is_homogeneous_as_mujoco_makes_it(put, said, mass):
+    """Without a mass by its density, 1000 kg/m³ unless it says another; here the mass of a ball of .1 m."""
+    found = table(put(GEOM.replace('"0.1"', f'"0.1" {said}'), ".xml"))
+    assert abs(float(found.pop("mass")) - mass) < 1e-15
+    assert found == {"preset": "homogeneous", "radius": "0.1"}
+
+
+@pytest.mark.parametrize("joint", ["fixed", "floating"])
+def test_a_link_without_mass_does_not_hold_a_ball(put, joint):
+    text = f'<joint name="j" type="{joint}"><parent link="floor"/><child link="ball"/></joint></robot>'
+    assert table(put(URDF.replace("</robot>", text)))["inertia"] == ROWS
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("<worldbody>", "<default><geom density='2'/></default><worldbody>", "<default> gives geoms their density"),
+        ("<worldbody>", '<include file="a.xml"/><worldbody>', "<include> is not read"),
+        ("<body>", '<body><joint name="h"/>', "<joint> h holds the ball"),
+        ("</body>", '<body name="rotor"/></body>', "<body> rotor holds the ball"),
+    ],
+)
+def test_what_mujoco_would_make_another_ball_of_is_refused(put, old, new, said):
+    with pytest.raises(SceneError, match=f"line 1: {said}"):
+        table(put(GEOM.replace(old, new), ".xml"))
 
 
 @pytest.mark.parametrize(
@@ -146,7 +172,18 @@ def test_a_geom_with_a_mass_is_homogeneous_as_mujoco_makes_it(put):
         ),
         ('<mass value="1.9"/>', "", ", line 3: <inertial> has no mass"),
         ('ixz="-2e-4"', "", ", line 6: <inertia> has no ixz"),
-        ('"0.0046"', '"${ixx}"', ", line 6: <inertia>: '${ixx}' is not a number"),
+        ('"0.0046"', '"${ixx}"', ", line 6: <inertia>: '${ixx}' is to be filled in: expand the file"),
+        (
+            "</robot>",
+            """<link name="arm"><inertial/></link>
+            <joint name="j" type="fixed"><parent link="arm"/><child link="ball"/></joint></robot>""",
+            ", line 10: <joint> j of arm and ball holds the ball, and that of chapsym rolls alone",
+        ),
+        (
+            "</robot>",
+            '<joint name="j" type="revolute"><parent link="floor"/><child link="ball"/></joint></robot>',
+            ", line 9: <joint> j of floor and ball holds the ball",
+        ),
         ("<robot ", "<!DOCTYPE r [<!ENTITY a 'b'>]><robot ", ", line 2: a DOCTYPE is not read"),
         ("</robot>", "", ", line 9: this is not XML: no element found"),
         (

@@ -144,3 +144,36 @@ def test_tables_of_trackers_and_other_engines_are_read(rows, tmp_path):
     table = read_table(write(tmp_path, rows, head=head, mark=";"))
     assert set(table.columns) == set(rows)
     np.testing.assert_array_equal(table.columns["vz"], rows["vz"])
+
+
+@pytest.mark.parametrize(
+    ("head", "columns", "scale"),
+    [
+        ("time," + ",".join([*(f"qpos[{i}]" for i in range(7)), *(f"qvel_{i}" for i in range(6))]), None, 1),
+        ("t,x,y,z,e0,e1,e2,e3,x_dt,y_dt,z_dt,wx,wy,wz", None, 1),
+        (
+            "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z [],"
+            "v_RS_R_x [m s^-1],v_RS_R_y [m s^-1],v_RS_R_z [m s^-1]",
+            [*["time", "x", "y", "z"], *Q, *V], 1e9,
+        ),
+        (
+            "%time," + ",".join(f"field.pose.pose.position.{c}" for c in "xyz") + ","
+            + ",".join(f"field.pose.pose.orientation.{c}" for c in "xyzw"),
+            TUM, 1e9,
+        ),
+        ("header.stamp,posX,posY,posZ,oriX,oriY,oriZ,oriW", TUM, 1),
+    ],
+)  # fmt: skip
+def test_names_of_mujoco_chrono_euroc_ros_and_pybullet_are_read(head, columns, scale, rows, tmp_path):
+    """Times in nanoseconds are whole numbers of 19 digits, and are read as they are written."""
+    columns = columns or list(rows)
+    given = {name: rows[name] * (scale if name == "time" else 1) for name in columns}
+    file = write(tmp_path, given, head=[head])
+    if scale != 1:
+        first, *lines = file.read_text("utf-8").splitlines()
+        cells = [line.split(",", 1) for line in lines]
+        whole = [f"{1708447572000000000 + int(float(time))},{rest}" for time, rest in cells]
+        file.write_text("\n".join([first, *whole]) + "\n", encoding="utf-8")
+    found = read_table(file).from_zero()
+    for name in columns:
+        np.testing.assert_array_equal(found.columns[name], rows[name])

@@ -33,6 +33,10 @@ DIGITS = 40
 PLAIN = {
     "settotalmass": "-1", "boundmass": "0", "boundinertia": "0", "balanceinertia": "false", "coordinate": "local",
 }  # fmt: skip
+#: What a <default> of MJCF may give a geom that changes the ball.
+OF_A_GEOM = ("type", "size", "mass", "density", "pos", "quat", "euler", "axisangle")
+#: kg/m³ of a geom of MJCF that says neither mass nor density.
+DENSITY = "1000"
 ENTRIES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 Vector = tuple[Fraction, ...]
 #: A place, and the quaternion of a turn, of any length, scalar first.
@@ -96,11 +100,14 @@ class _Reader:
         """The one body that has a sphere."""
         tag = "body" if self.kind == "mjcf" else "link"
         found = [(body, sphere) for body in self.root.iter(tag) if (sphere := self._sphere(body)) is not None]
+        if self.kind == "mjcf":
+            self._check_defaults([body for body, _ in found])
         if len(found) != 1:
             names = ", ".join(body.get("name", "without a name") for body, _ in found)
             clause = f"has {len(found)} with one ({names})" if found else "has none"
             raise SceneError(f"{self.path}: the ball is the <{tag}> with a sphere to roll on, and this file {clause}")
         ((body, (radius, centre)),) = found
+        self._check_free(body)
         name = {"name": body.attrib["name"]} if body.get("name") else {}
         inertial = body.find("inertial")
         if self.kind == "mjcf":
@@ -120,12 +127,53 @@ class _Reader:
         mass = self._value(inertial, "mass", "value")
         return name | {"inertia": self._tensor(inertial, turn), "mass": mass, "radius": radius}
 
+    def _check_defaults(self, balls: list[Element]) -> None:
+        """Raises SceneError where a <default> of MJCF gives a ball what its geom does not say; or another file."""
+        if (other := next(self.root.iter("include"), None)) is not None:
+            raise self._refused(other, "<include> is not read: put what that file says about the ball into this one")
+        said = [set(geom.attrib) for body in balls for geom in body.findall("geom")] or [set[str]()]
+        for geom in (one for default in self.root.iter("default") for one in default.findall("geom")):
+            for key in OF_A_GEOM:
+                if key in geom.attrib and not all(key in own for own in said):
+                    clause = f"gives geoms their {key}, and is not read: write it in the <geom> of the ball"
+                    raise self._refused(geom, f"<default> {clause}")
+
+    def _check_free(self, body: Element) -> None:
+        """Raises SceneError where a joint, or another body, holds the ball: a link without mass does not."""
+        if self.kind == "mjcf":
+            held = [one for one in self.root.iter("body") if body in list(one)] + body.findall("body")
+            held += [joint for joint in body.findall("joint") if joint.get("type", "hinge") != "free"]
+            if held:
+                what = f"<{held[0].tag}> {held[0].get('name', 'without a name')}"
+                raise self._refused(held[0], f"{what} holds the ball, and that of chapsym rolls alone")
+            return
+        massive = {link.get("name") for link in self.root.iter("link") if link.find("inertial") is not None}
+        for joint in self.root.iter("joint"):
+            ends = [self._value(joint, end, "link") for end in ("parent", "child") if joint.find(end) is not None]
+            others = massive.union({"world"} if self.kind == "sdf" else ()).intersection(ends) - {body.get("name")}
+            fixed = joint.get("type") == "fixed" and not others
+            if body.get("name") in ends and not fixed and joint.get("type") != "floating":
+                what = f"<joint> {joint.get('name', 'without a name')} of {' and '.join(ends)}"
+                raise self._refused(joint, f"{what} holds the ball, and that of chapsym rolls alone")
+
     def _of_one_material(self, body: Element) -> dict[str, Any]:
-        """MJCF makes the inertia of a geom of its mass; the other formats have none without <inertial>."""
+        """MJCF makes mass and inertia of a geom alone; the other formats have none without <inertial>."""
         geoms = body.findall("geom")
-        if len(geoms) == 1 and "mass" in geoms[0].attrib:
-            return {"preset": "homogeneous", "mass": geoms[0].attrib["mass"]}
-        raise self._refused(body, "the ball has no <inertial> with its mass and inertia")
+        if len(geoms) != 1:
+            raise self._refused(body, "the ball has no <inertial> with its mass and inertia")
+        (geom,) = geoms
+        mass = geom.get("mass") or self._of_density(geom)
+        return {"preset": "homogeneous", "mass": mass}
+
+    def _of_density(self, geom: Element) -> str:
+        """The mass of a sphere, in many digits."""
+        import mpmath
+
+        density = self._number(geom.get("density", DENSITY), geom)
+        radius = self._number(geom.attrib["size"].split()[0], geom)
+        volume = density * radius**3 * Fraction(4, 3)
+        with mpmath.workdps(2 * DIGITS):
+            return str(mpmath.nstr(mpmath.pi * volume.numerator / volume.denominator, DIGITS))
 
     def _sphere(self, body: Element) -> tuple[str, Vector] | None:
         """The radius of the sphere on which it rolls, and its centre."""
@@ -153,6 +201,9 @@ class _Reader:
         return found
 
     def _number(self, text: str, where: Element) -> Fraction:
+        if "${" in text or "$(" in text or "{{" in text:
+            clause = "is to be filled in: expand the file first, as by xacro FILE > ball.urdf"
+            raise self._refused(where, f"<{where.tag}>: {text.strip()!r:.60} {clause}")
         try:
             found = rational(text, f"<{where.tag}>")
         except NotANumber as error:
