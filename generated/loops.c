@@ -4058,7 +4058,7 @@ INLINE void following_follow(int alone, r3 momenta, r3 verticals, r3 attitudes, 
 }
 
 INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
-    t_ri size, weight; t_r3 k, J, w, inertia;
+    t_ri size, weight; t_r3 k, J, w, inertia, a, b, c, moved;
     real D, rate, least, condition, turned, root, walked, allowed, part, across; int64_t zeros; int known;
     real floor = R(0.0), single = R(0.0);
     for (int64_t i = 0, end_i = momenta.n0; i < end_i; i++) {
@@ -4085,8 +4085,16 @@ INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, r
             R(1.0);
         part = R(1.7) * part * R(sqrt(part)); AT2(found, 5, i) = rate * end > part ? min_r(part / rate, end) : end;
         AT2(found, 6, i) = allowed; AT2(found, 7, i) = accuracy / unit.p[i];
-        across = least * vectors_length(w) > R(0.0) ? vectors_length(k) / (least * vectors_length(w)) : R(0.0);
-        AT2(found, 8, i) = R(2.220446049250313e-16) * max_r(root, R(0.125) * across);
+        t_r3 t_2 = vectors_three(r2_row(verticals, i), 0);
+        a = kernel_angular_velocity(k.a0, R(0.0), R(0.0), t_2.a0, t_2.a1, t_2.a2, J.a0, J.a1, J.a2, D);
+        t_r3 t_3 = vectors_three(r2_row(verticals, i), 0);
+        b = kernel_angular_velocity(R(0.0), k.a1, R(0.0), t_3.a0, t_3.a1, t_3.a2, J.a0, J.a1, J.a2, D);
+        t_r3 t_4 = vectors_three(r2_row(verticals, i), 0);
+        c = kernel_angular_velocity(R(0.0), R(0.0), k.a2, t_4.a0, t_4.a1, t_4.a2, J.a0, J.a1, J.a2, D);
+        moved = (t_r3){R(fabs(a.a0)) + R(fabs(b.a0)) + R(fabs(c.a0)), R(fabs(a.a1)) + R(fabs(b.a1)) + R(fabs(c.a1)),
+            R(fabs(a.a2)) + R(fabs(b.a2)) + R(fabs(c.a2))};
+        across = vectors_length(w) > R(0.0) ? vectors_length(moved) / vectors_length(w) : R(0.0);
+        AT2(found, 8, i) = R(2.220446049250313e-16) * max_r(root, R(0.25) * across);
         known = AT2(found, 3, i) <= R(1.0715086071862673e+301);
         floor = max_r(floor, known ? AT2(found, 3, i) : R(INFINITY)); single = max_r(single, AT2(found, 2, i));
     }
@@ -4228,5 +4236,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "1212c2631f3b87204edcef7ba2e25855b39cb0b7a183b71b27298f5da6625772";
+const char loops_text[] = "7783d12e819cacc998ce1cdd1f156b1f3394f9af1a36a25ea0a5dd5d4030f424";
 #endif

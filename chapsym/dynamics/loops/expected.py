@@ -24,7 +24,7 @@ UNIT_ERROR, AIM = 3e-9, 0.5
 #: The roundings of steps that go one way turn a ball as those of its parameters do, and this many times as far.
 TURNING = 3.0
 #: What part of that is the rounding of a step, where it is more than the root of the condition.
-ACROSS = 0.125
+ACROSS = 0.25
 #: Of a ball of a larger condition the roundings of long steps are not known.
 CONDITIONED = 1e4
 #: What has no bound.
@@ -63,8 +63,12 @@ def surveyed(
         part = FARTHEST * part * sqrt(part)
         found[FIRST, i] = min(part / rate, end) if rate * end > part else end
         found[ALLOWED, i], found[MOST, i] = allowed, accuracy / unit[i]
-        # A rounding of K is one of ω times |K|/(I_min |ω|), which is up to the condition where K is across γ.
-        across = length(k) / (least * length(w)) if least * length(w) > 0.0 else 0.0
+        # By a rounding of each component of K, which counts up to the condition times in ω where K is across γ.
+        a = angular_velocity(k[0], 0.0, 0.0, *three(verticals[i], 0), *J, D)
+        b = angular_velocity(0.0, k[1], 0.0, *three(verticals[i], 0), *J, D)
+        c = angular_velocity(0.0, 0.0, k[2], *three(verticals[i], 0), *J, D)
+        moved = abs(a[0]) + abs(b[0]) + abs(c[0]), abs(a[1]) + abs(b[1]) + abs(c[1]), abs(a[2]) + abs(b[2]) + abs(c[2])
+        across = length(moved) / length(w) if length(w) > 0.0 else 0.0
         found[START, i] = 2.0 * UNIT * max(root, ACROSS * across)
         known = found[FLOOR, i] <= ENDLESS  # not where it is NaN
         floor, single = max(floor, found[FLOOR, i] if known else inf), max(single, found[SINGLE, i])
