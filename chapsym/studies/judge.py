@@ -56,6 +56,8 @@ def read_case(file: Path) -> Case:
             raise BadInput(f"{file} does not say of which ball it is: give the scene, --against SCENE.toml")
         ball, frames = data["ball"], data["frames"]
         touched = "contact" in frames[0]
+        if any(frame.keys() != frames[0].keys() for frame in frames):
+            raise ValueError("a frame has other parts than the first")
         mass, radius = (float(Fraction(ball[key])) if touched else 0.0 for key in ("mass", "radius"))
         inertia, rotor = (
             np.array([float(Fraction(x)) for x in numbers]) for numbers in (ball["inertia"], ball.get("rotor", [0] * 3))
