@@ -39,9 +39,9 @@ def run(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 packages = {found.name for found in distributions()}
 library = Path(sysconfig.get_path("purelib"))
-beside = megabytes(*(library / name for name in OWN))
-size = megabytes(library) - beside
-clause = f"{len(packages - OWN)} packages, {size:.0f} MB; apart from these {', '.join(sorted(OWN))}, {beside:.0f} MB"
+rest = megabytes(*(library / name for name in OWN))
+size = megabytes(library) - rest
+clause = f"{len(packages - OWN)} packages, {size:.0f} MB; apart from these {', '.join(sorted(OWN))}, {rest:.0f} MB"
 print(f"the core: {clause}")
 assert len(packages - OWN) <= PACKAGES, packages
 assert size <= MEGABYTES, size

@@ -81,7 +81,7 @@ def planned(path):
 TEXTS = {
     "scene.toml": (BALL + "time = 1.0\nframes = 8\n", planned, (BadInput,)),
     "spread.toml": (SPREAD, planned, (BadInput,)),
-    "ball.urdf": ((ROOT / "benchmarks/rolling/examples/robot.urdf").read_bytes(), ball_table, (BadInput,)),
+    "ball.urdf": ((ROOT / "benchmarks/rolling/data/robot.urdf").read_bytes(), ball_table, (BadInput,)),
     "ball.xml": (MUJOCO, ball_table, (BadInput,)),
     "ball.sdf": (SDF, ball_table, (BadInput,)),
     "engine.csv": (

@@ -79,8 +79,8 @@ def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
         if omega is not None:
             omega = rate[1](in_space(attitude, omega) if body else frame[1](omega))
         read = replace(run, centre=frame[1](unit[1](run.centre)), attitude=attitude, velocity=velocity, omega=omega)
-        clause = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], _OF_BODY * body]
-        found.append(([name for name in clause if name], read))
+        differences = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], _OF_BODY * body]
+        found.append(([name for name in differences if name], read))
     return iter(sorted(found, key=lambda one: len(one[0])))
 
 
@@ -124,7 +124,7 @@ def _check(
 
     start, second: what the first row and the attitude of the second should be, of a reading of both.
     """
-    fits = [(clause, read) for clause, read in _readings(run) if not _apart(read, start(read), soft)]
+    fits = [(differences, read) for differences, read in _readings(run) if not _apart(read, start(read), soft)]
     if not fits:
         away = _apart(run, start(run), soft)
         if away and all(part.startswith("centre") for part in away):

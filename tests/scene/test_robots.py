@@ -172,7 +172,7 @@ def test_what_mujoco_would_make_another_ball_of_is_refused(put, old, new, said):
         ),
         ('<mass value="1.9"/>', "", ", line 3: <inertial> has no mass"),
         ('ixz="-2e-4"', "", ", line 6: <inertia> has no ixz"),
-        ('"0.0046"', '"${ixx}"', ", line 6: <inertia>: '${ixx}' is to be filled in: expand the file"),
+        ('"0.0046"', '"${ixx}"', ", line 6: <inertia>: '${ixx}' is to be filled in: give the file that xacro"),
         (
             "</robot>",
             """<link name="arm"><inertial/></link>

@@ -17,6 +17,7 @@ from benchmarks.rolling.engines.common import DATA
 from chapsym.scene.read import robots
 from chapsym.studies.judge import carried, read_case
 
+EXAMPLES = DATA.parent / "examples"
 UP = np.array([0.0, 0.0, 1.0])
 
 
@@ -192,3 +193,21 @@ def test_one_command_takes_a_ball_from_its_file_to_the_verdict(tmp_path):
         assert said in done.stderr
         assert "Traceback" not in done.stderr
         assert not (tmp_path / "never.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        (["penalty", "robot", "--step", "0"], "0 is no positive number of seconds"),
+        (["penalty", "robot", "--time", "nan"], "nan is no positive number of seconds"),
+        (["penalty", "robot", "--step", "0.003"], "the step must divide 0.25 s"),
+        (["penalty", EXAMPLES / "turned.urdf"], "must have an inertia in its principal axes"),
+    ],
+)
+def test_what_no_engine_can_take_is_refused_in_one_sentence(args, said, tmp_path):
+    command = [sys.executable, "-m", "benchmarks.rolling.engines", *map(str, args), "-o", str(tmp_path / "never.csv")]
+    done = subprocess.run(command, cwd=DATA.parents[2], capture_output=True, encoding="utf-8", check=False)
+    assert done.returncode in (1, 2)
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / "never.csv").exists()

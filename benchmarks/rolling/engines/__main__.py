@@ -6,6 +6,7 @@ case, which starts as that case does and is judged against it.
 
 import argparse
 import importlib
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -23,6 +24,13 @@ from .common import DATA, Start, start_of, text
 ENGINES = {name: f"{name}_ball" for name in ("mujoco", "pybullet", "drake")} | {"penalty": "penalty"}
 
 
+def seconds(text: str) -> float:
+    """A positive time."""
+    if not 0 < (found := float(text)) < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is no positive number of seconds")
+    return found
+
+
 def start_of_ball(body: Path, omega: list[float], time: float) -> Start:
     """A ball that rolls over the origin, its axes those of space, and 40 frames."""
     radius, spin = float(robots.table(body)["radius"]), np.array(omega)
@@ -34,9 +42,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.rolling.engines", description=__doc__.splitlines()[0])
     parser.add_argument("engine", choices=ENGINES)
     parser.add_argument("ball", help="a URDF or MJCF file, or the name of a case")
-    parser.add_argument("--step", type=float, default=0.001, help="in s")
+    parser.add_argument("--step", type=seconds, default=0.001, help="in s")
     parser.add_argument("--omega", type=float, nargs=3, default=[4, -6, 3], help="of a file's ball, in space, rad/s")
-    parser.add_argument("--time", type=float, default=10, help="of a file's ball, in s")
+    parser.add_argument("--time", type=seconds, default=10, help="of a file's ball, in s")
     parser.add_argument("--best", action="store_true", help="the settings that we found best, instead of the defaults")
     parser.add_argument("-o", "--output", type=Path, help="the trajectory: BALL-ENGINE.csv here")
     given = parser.parse_args()
@@ -44,9 +52,17 @@ def main() -> None:
     if known := (DATA / f"{given.ball}.json").exists():
         body, truth = DATA / f"{given.ball}.urdf", ["--against", str(DATA / f"{given.ball}.json")]
     start = start_of(read_case(Path(truth[1]))) if known else start_of_ball(body, given.omega, given.time)
-    run = importlib.import_module(f".{ENGINES[given.engine]}", __package__).run
     output = given.output or Path(f"{body.stem}-{given.engine}.csv")
-    files.write_text(output, text(given.step, run(body, start, given.step, given.best)))
+    try:
+        run = importlib.import_module(f".{ENGINES[given.engine]}", __package__).run
+        table = text(given.step, run(body, start, given.step, given.best))
+    except ImportError as error:
+        sys.exit(f"{given.engine} is not installed ({error}): pip install 'chapsym[engines]'")
+    except Exception as error:  # of a loader of another program, each with its own kinds
+        sys.exit(
+            f"{given.engine} does not take {body}: {str(error).splitlines()[0] if str(error) else type(error).__name__}"
+        )
+    files.write_text(output, table)
     sys.exit(subprocess.run([sys.executable, "-m", "chapsym", "judge", output, *truth], check=False).returncode)
 
 

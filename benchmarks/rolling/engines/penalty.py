@@ -19,7 +19,10 @@ GRAVITY, STIFFNESS, DAMPING, VISCOSITY = 9.81, 1e6, 1e3, 3e2  # m/s², N/m, N s/
 def run(body: Path, start: Start, step: float, best: bool = False) -> Rows:
     """The tensor must be diagonal; there is one setting only."""
     ball = robots.table(body)
-    mass, radius, (j1, j2, j3) = float(ball["mass"]), float(ball["radius"]), np.diag(ball["inertia"]).astype(float)
+    tensor = np.array(ball.get("inertia", np.ones((3, 3)))).astype(float)
+    if (tensor != np.diag(tensor.diagonal())).any():
+        raise SystemExit(f"{body} must have an inertia in its principal axes: this control takes no other")
+    mass, radius, (j1, j2, j3) = float(ball["mass"]), float(ball["radius"]), tensor.diagonal()
 
     def rate(state: np.ndarray) -> np.ndarray:
         """The rates of the centre, the quaternion (scalar first), the velocity and ω, in space."""

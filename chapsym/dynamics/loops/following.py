@@ -203,7 +203,7 @@ SIGMAS = 2.0
 #: The rounding of a step, in roundings of a start: the sum of its |weights|, 54.2, over 2.
 ROUNDINGS = 27.1
 #: The rounding of a step, over `SIGMAS`, in a rotation that is steady to `carried.STEADY`: its steps are alike, and so
-#: are their roundings, which add up.  The largest of 1200 steps of |ω|h = 1.7 was 293 times 2⁻⁵³.
+#: are their roundings, which add up.  The largest of 300 steps of |ω|h = 1.7 was 293 times 2⁻⁵³.
 ROUNDED_ALIKE = 150.0 * 2.0**-53
 #: What part of an accuracy the interpolation of the frames may take.
 BEARABLE = 0.4

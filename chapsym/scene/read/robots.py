@@ -202,7 +202,7 @@ class _Reader:
 
     def _number(self, text: str, where: Element) -> Fraction:
         if "${" in text or "$(" in text or "{{" in text:
-            clause = "is to be filled in: expand the file first, as by xacro FILE > ball.urdf"
+            clause = "is to be filled in: give the file that xacro, or the template's own program, makes of it"
             raise self._refused(where, f"<{where.tag}>: {text.strip()!r:.60} {clause}")
         try:
             found = rational(text, f"<{where.tag}>")

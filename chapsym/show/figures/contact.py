@@ -166,8 +166,8 @@ def _density(axis: Axes, trace: Floats) -> None:
     for part in MOMENTS:
         k = int(frames[round(part * (len(frames) - 1))])
         for share in SHARES:
-            clause = f"{SHARES[0]} and {SHARES[1]} % of them" if part == MOMENTS[0] and share == SHARES[0] else None
-            axis.plot(*ellipse(trace[going[:, k], k], share).T, color=COLOURS[1], linewidth=1.3, label=clause, zorder=4)
+            entry = f"{SHARES[0]} and {SHARES[1]} % of them" if part == MOMENTS[0] and share == SHARES[0] else None
+            axis.plot(*ellipse(trace[going[:, k], k], share).T, color=COLOURS[1], linewidth=1.3, label=entry, zorder=4)
 
 
 def ellipse(points: Floats, share: float) -> Floats:

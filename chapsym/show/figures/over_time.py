@@ -69,8 +69,8 @@ def _components(dataset: Dataset, array: Floats, names: list[str], symbol: str, 
     else:
         figure, axes = new(reading.title(dataset), len(names), height=1.9, sharex=True)
         for k, axis in enumerate(axes):
-            clause = reading.labels(dataset) if k == 0 else [None] * FEW
-            series.balls(axis, t, array[:, :, k], COLOURS[k % len(COLOURS)], clause, points=points)
+            caption = reading.labels(dataset) if k == 0 else [None] * FEW
+            series.balls(axis, t, array[:, :, k], COLOURS[k % len(COLOURS)], caption, points=points)
         symbols = names
     for axis, name in zip(axes, symbols, strict=True):
         axis.set_ylabel(in_power(name, units, text))
@@ -111,8 +111,8 @@ def draw_attitude(dataset: Dataset) -> Picture:
         shown = min(shown, part if part < len(path) else shown)
     for i in range(3):
         above.plot([], [], "o", color=COLOURS[i], markersize=5, label=f"body axis {i + 1}")
-    clause = "body axes in space (ring: start, square: end)"
-    above.set_title("\n".join(filter(None, (clause, reading.of_span(dataset, shown)))))
+    caption = "body axes in space (ring: start, square: end)"
+    above.set_title("\n".join(filter(None, (caption, reading.of_span(dataset, shown)))))
     above.legend(loc="upper center", bbox_to_anchor=(0.5, 0.02), ncols=3, columnspacing=1.0)
     points = curves.too_far(dataset)
     part = len(t) if points or not any(series.swings(y) > SWINGS for y in whole.T) else series.start(whole)
@@ -136,9 +136,9 @@ def draw_energy(dataset: Dataset) -> Picture:
     """(E - E₀)/E₀; the map keeps the energy up to an oscillation, and for D = 0 to roundoff."""
     energy = reading.values(dataset, "energy")
     low, high = float(energy[:, 0].min()), float(energy[:, 0].max())
-    clause = f"{low:.6g}" if low == high else f"{low:.4g} to {high:.4g}"
+    caption = f"{low:.6g}" if low == high else f"{low:.4g} to {high:.4g}"
     changes = {"largest change of E": relative(energy, np.abs(energy[:, 0]))}
-    return _changes(dataset, changes, f"kinetic energy, {clause} J at the start", 3.4)
+    return _changes(dataset, changes, f"kinetic energy, {caption} J at the start", 3.4)
 
 
 def no_integrals(dataset: Dataset) -> str | None:
@@ -206,13 +206,13 @@ def _changes(dataset: Dataset, changes: dict[str, Floats], title: str, height: f
     largest, least = max(sizes, default=0.0), ULPS * ULP / 2
     factor, text = power(max(largest, least))
     for colour, (name, change), size in zip(COLOURS, changes.items(), sizes, strict=False):
-        clause = f"{name}: " + (f"{size:.1e}".replace("e-0", "e-") if size else "0")
+        caption = f"{name}: " + (f"{size:.1e}".replace("e-0", "e-") if size else "0")
         if len(change) == 1:
-            series.line(axis, t, change[0] / factor, colour, clause, points=points)
+            series.line(axis, t, change[0] / factor, colour, caption, points=points)
         elif len(changes) == 1 and len(change) <= FEW:
             series.balls(axis, t, change / factor, colour, reading.labels(dataset), points=points)
         else:
-            series.fan(axis, t, change / factor, colour, clause)
+            series.fan(axis, t, change / factor, colour, caption)
     if largest <= least:
         axis.set_ylim(-least / factor, least / factor)
     axis.axhline(0.0, color="0.6", linewidth=0.8, zorder=0.5)
@@ -239,7 +239,7 @@ def draw_spread(dataset: Dataset) -> Picture:
     return figure
 
 
-def _spread(axis: Axes, t: Floats, far: Floats, colour: str, clause: str, unit: str) -> None:
+def _spread(axis: Axes, t: Floats, far: Floats, colour: str, caption: str, unit: str) -> None:
     low, half = series.percentiles(far, (SPREAD[0][0], 50))
     going = half[np.isfinite(half)]
     # The median grows by orders between a tenth of the run and its end: linear growth does not.
@@ -251,7 +251,7 @@ def _spread(axis: Axes, t: Floats, far: Floats, colour: str, clause: str, unit: 
         axis.set_ylim(bottom=0.5 * float(np.nanmin(low[1:][low[1:] > ROUNDOFF * np.nanmax(far)])))
     else:
         axis.set_ylim(bottom=0.0)
-    axis.set_ylabel(in_power(clause, unit, text))
+    axis.set_ylabel(in_power(caption, unit, text))
 
 
 def mean(points: Floats) -> Floats:

@@ -30,8 +30,8 @@ def draw_phase(dataset: Dataset) -> Picture:
     u[:, :-1][np.isnan(gained)] = np.nan  # a gap where it jumps by a period
     figure, axes = new(reading.title(dataset), 2, height=2.4, sharex=True)
     names = reading.labels(dataset) if len(u) > 1 else [None] * len(u)
-    clause = ("phase u", names), ("increment a step" if known else "gain a frame", [None] * len(u))
-    for axis, array, (name, balls) in zip(axes, (u, each), clause, strict=True):
+    panels = ("phase u", names), ("increment a step" if known else "gain a frame", [None] * len(u))
+    for axis, array, (name, balls) in zip(axes, (u, each), panels, strict=True):
         factor, text = power(reading.size_of(array))
         series.balls(axis, t[: array.shape[1]], array / factor, COLOURS[0], balls)
         axis.set_ylabel(in_power(name, "", text))
