@@ -32,7 +32,7 @@ def judge(
 
     Example: chapsym judge mine.csv --body mine.urdf
     """
-    from chapsym.studies.comparable import case_of_body, case_of_scene, check_start
+    from chapsym.studies.comparable import case_of_body, case_of_scene, check_axes, check_start
     from chapsym.studies.foreign import table_of
     from chapsym.studies.judge import convergence, departure, read_case, sentence, summary
 
@@ -46,9 +46,10 @@ def judge(
         assert against is not None
         case = case_of_scene(against) if against.suffix == ".toml" else read_case(against)
     runs = [table.at(case.time) for table in tables]
-    if against is not None:
-        for run in runs:
+    for run in runs:
+        if against is not None:
             check_start(case, run)
+        check_axes(case, run)
     found = [departure(case, run) for run in runs]
     known: dict[str, Convergence] = {}
     if len(runs) > 2:

@@ -17,7 +17,7 @@ import numpy as np
 from chapsym.dynamics.errors import BadInput
 
 from .judge import Case, angle, rolling
-from .judge_tables import Table, Trajectory, in_space
+from .judge_tables import MORE, NEEDED, Table, Trajectory, in_space
 
 #: How far the first row may be from the start, relatively, beyond its digits: more than float32 rounds; and where a
 #: soft contact gives way: the height of the centre, and the velocity of a ball that starts by itself.
@@ -25,6 +25,12 @@ NEAR, SOFT = 1e-5, 0.02
 #: Another convention is meant where it is nearer by the first factor and this one is off by more than the second, in
 #: degrees; none is sought beyond one that is as near as the last number says.
 NEARER, FAR, FITS = 5.0, 10.0, 0.1
+#: Of two readings the later is better where it is off by less than this part of what the earlier is, as they round.
+SAME = 0.999
+#: Velocities are of the body where, read in space, they are off by more than this part of the greatest.
+OFF = 0.01
+#: The times are in another unit where they are so many times what the way and the speed say, to within a factor.
+UNIT, STEADY = 300.0, 1.5
 #: Rows of a file that are judged at most, and radians that are turned until a convention shows.
 MOST_ROWS, TURNED = 2000, 0.5
 
@@ -35,6 +41,17 @@ PLAIN: Way = ("", np.asarray)
 def _upright(vectors: np.ndarray) -> np.ndarray:
     """Vectors with y up as vectors with z up."""
     return np.stack([vectors[..., 0], -vectors[..., 2], vectors[..., 1]], axis=-1)
+
+
+def _upside(vectors: np.ndarray) -> np.ndarray:
+    """Vectors with z down as vectors with z up."""
+    return vectors * [1.0, -1.0, -1.0]
+
+
+def _upside_turn(q: np.ndarray) -> np.ndarray:
+    """A turn to axes with z down as one to axes with z up: after it, 180 degrees about x."""
+    w, x, y, z = np.moveaxis(q, -1, 0)
+    return np.stack([-x, w, -z, y], axis=-1)
 
 
 def _upright_turn(q: np.ndarray) -> np.ndarray:
@@ -48,7 +65,9 @@ _MOVED = "its quaternion has the scalar in the column qx: one with the scalar fi
 _BACK = "its quaternion turns space to body, not body to space: write the conjugate"
 _Y_UP = "its y is up, and not z: write (x, -z, y) for (x, y, z)"
 _DEGREES = "its angular velocity is in degrees per second: write rad/s"
+_Z_DOWN = "its z is down: write (x, -y, -z) for (x, y, z)"
 _OF_BODY = "its angular velocity is in the axes of the body, as MuJoCo gives it: turn it by the quaternion"
+_TWIST = "its velocities are in the axes of the body, as in ROS's Odometry: turn both by the quaternion"
 ORDERS: tuple[Way, ...] = (
     PLAIN,
     (_LAST, partial(np.roll, shift=1, axis=-1)),
@@ -60,26 +79,33 @@ UNITS: tuple[Way, ...] = (
     ("its lengths are in mm: divide them by 1000", partial(np.multiply, 1e-3)),
     ("its lengths are in cm: divide them by 100", partial(np.multiply, 1e-2)),
 )
+_TOO = ", of the quaternion, too"
+#: What is up: of vectors, and of the turn.
+AXES: tuple[tuple[Way, Way], ...] = (
+    (PLAIN, PLAIN),
+    *((way, turn) for way, too in (((_Y_UP, _upright), _upright_turn), ((_Z_DOWN, _upside), _upside_turn))
+      for turn in (PLAIN, (_TOO, too))),
+)  # fmt: skip
 TURNING: tuple[Way, ...] = (PLAIN, (_DEGREES, np.radians))
 
 
 def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
     """A trajectory as it is and in all other conventions, with what each does otherwise, the fewest first."""
-    axes = (PLAIN, PLAIN), ((_Y_UP, _upright), PLAIN), ((_Y_UP, _upright), (", of the quaternion, too", _upright_turn))
     found = []
     for (frame, upturn), order, sense, unit, speed, rate, body in product(
-        axes, ORDERS, SENSES, UNITS, (False, True), TURNING, (False, True)
+        AXES, ORDERS, SENSES, UNITS, (False, True), TURNING, ("", _OF_BODY, _TWIST)
     ):
         if speed and unit is PLAIN:
             continue
         attitude = upturn[1](sense[1](order[1](run.attitude)))
         velocity, omega = run.velocity, run.omega
         if velocity is not None:
-            velocity = frame[1](unit[1](velocity) if speed else velocity)
+            velocity = unit[1](velocity) if speed else velocity
+            velocity = in_space(attitude, velocity) if body is _TWIST else frame[1](velocity)
         if omega is not None:
             omega = rate[1](in_space(attitude, omega) if body else frame[1](omega))
         read = replace(run, centre=frame[1](unit[1](run.centre)), attitude=attitude, velocity=velocity, omega=omega)
-        differences = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], _OF_BODY * body]
+        differences = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], body]
         found.append(([name for name in differences if name], read))
     return iter(sorted(found, key=lambda one: len(one[0])))
 
@@ -139,7 +165,7 @@ def _check(
             plain = off
             if off <= FAR:
                 return
-        if off < best:
+        if off < SAME * best:
             best, slips = off, names
         if best <= FITS:
             break
@@ -151,6 +177,39 @@ def check_start(case: Case, run: Trajectory) -> None:
     """Raises BadInput unless the first row is the start of the case, and names the convention in which it would be."""
     start = _rolling(case.path[0], case.radius, case.attitude[0], case.omega[0]) | {"velocity": case.moving[0]}
     _check(run, case.name, lambda read: start, lambda read: case.attitude[1], 0.0)
+
+
+def check_axes(case: Case, run: Trajectory) -> None:
+    """Raises BadInput where velocities are those of the case if they are turned by the attitude of their own row.
+
+    The first row does not show it, if its attitude is no turn.
+    """
+    near = angle(case.attitude, run.attitude) <= FAR
+    for part, truth, said in (("velocity", case.moving, _TWIST), ("omega", case.omega, _OF_BODY)):
+        values, size = getattr(run, part), np.abs(truth).max()
+        if values is None or not size or not near.any():
+            continue
+        plain, of_body = (
+            float(np.linalg.norm((read - truth)[near], axis=-1).max() / size)
+            for read in (values, in_space(run.attitude, values))
+        )
+        if plain > OFF and of_body * NEARER < plain:
+            raise BadInput(f"{run.file} cannot be judged as it is written: {said}")
+
+
+def _check_times(table: Table, radius: float) -> None:
+    """Raises BadInput where the times are steadily longer than the way between rows, and the speed, say."""
+    centre, omega = (np.asarray(table.vectors(names)) for names in (NEEDED[1:4], MORE[3:]))
+    speed = np.linalg.norm(rolling(radius, omega), axis=-1)[:-1]
+    way = np.linalg.norm(np.diff(centre, axis=0), axis=-1)
+    moved = way > 0
+    if not moved.any():
+        return
+    low, middle, high = np.quantile((speed * np.diff(table.columns["time"]))[moved] / way[moved], [0.25, 0.5, 0.75])
+    if middle > UNIT and high < STEADY * low:
+        times = float(f"{middle:.3g}")
+        clause = f"its times are {times:.0f} times what the way between its rows and its angular velocity say"
+        raise BadInput(f"{table.file}: {clause}: write seconds and rad/s")
 
 
 def case_of_body(file: Path, table: Table, limit: float = 600.0) -> Case:
@@ -185,6 +244,7 @@ def case_of_body(file: Path, table: Table, limit: float = 600.0) -> Case:
     radius = expand(scene(first, text=False)).ball.radius
     if radius is None:
         raise BadInput(f"{file}: the ball needs its radius, with its mass")
+    _check_times(table.from_zero(), float(radius[0]))
     chosen = times[:: -(-len(times) // MOST_ROWS)]
     speed = float(np.linalg.norm(first.omega))
     probe = next((at for at in chosen[1:] if float(at) * speed >= TURNED), chosen[-1])

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 
@@ -25,12 +26,20 @@ CALLED = {
     "q": r"q|quat|quaternion|ori|orientation|rot|rotation|attitude",
     "v": r"v|vel|velocity|lin ?vel|linear|linear velocity",
 }
-#: What has numbers for its components: the free joint of MuJoCo, and Euler parameters.
-INDEXED = {"qpos": NEEDED[1:], "qvel": MORE, "e": NEEDED[4:]}
-_INDEX = re.compile(r"(?:.*\W)?(qpos|qvel|e)[\W_]?(\d)\W?")
-_TIME = re.compile(r"t|time|(?:.* )?(?:time)?stamp|sim time|(?:time |t )?(?:n?s|n?sec(?:onds)?)")
-#: Times in nanoseconds: EuRoC and others, and the tables of `rostopic echo -p`.
-_NANOSECONDS = re.compile(r"%time|.*(?:\bns|\bnsec|_ns|nanoseconds)\W*")
+#: What has numbers for its components: the free joint of MuJoCo, Euler parameters, and the messages of PX4.
+INDEXED = {
+    "qpos": NEEDED[1:], "qvel": MORE, "e": NEEDED[4:],
+    "q": NEEDED[4:], "position": NEEDED[1:4], "velocity": MORE[:3], "angular_velocity": MORE[3:],
+}  # fmt: skip
+_INDEX = re.compile(rf"(?:.*\W)?({'|'.join(INDEXED)})[\W_]?(\d)\W?")
+_TIME = re.compile(r"t|time|(?:.* )?(?:time)?stamp|sim time|(?:time(?:stamp)? |t )?(?:[mnuµμ]?s|n?sec(?:onds)?)")
+#: A time whose unit is said, in its name, to be a part of a second.
+_PART = re.compile(r".*(?:\b|_)(milli|micro|nano|[mnuµμ])s(?:ec(?:ond)?s?)?\W*")
+_LONG = re.compile(r"[eE][+-]?\d{4}")
+#: The digits by which such a time is moved.  EuRoC and others have ns.
+PARTS = {"milli": 3, "m": 3, "micro": 6, "u": 6, "µ": 6, "μ": 6, "nano": 9, "n": 9}
+#: What separates cells; where none of them is in a line, spaces.  With the first two a comma is the decimal point.
+MARKS = "\t;,"
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,29 +123,35 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
     if len(rows) > 1 and np.isnan([*map(_number, _cells(rows[1]))]).all():  # after a title
         rows = rows[1:]
     rows = [*_commented(lines, rows), *rows]
-    names = [_name(cell) for cell in _cells(rows[0])] if rows else []
-    if rows and len(names) == len(TUM) and not np.isnan([*map(_number, _cells(rows[0]))]).any():
-        names, rows = list(TUM), ["", *rows]
+    head = _cells(rows[0]) if rows else []
+    names = _names(head)
+    if rows and len(names) == len(TUM) and not np.isnan([*map(_number, head)]).any():
+        names, head, rows = list(TUM), list(TUM), ["", *rows]
     if missing := [name for name in needed if name not in names]:
         raise BadInput(f"{file} has no column {missing[0]}: its first row must name {','.join((*NEEDED, *MORE))}")
-    if twice := [name for name in names if name in (*NEEDED, *MORE) and names.count(name) > 1]:
+    where = {name: i for i, name in enumerate(names) if name in (*NEEDED, *MORE)}
+    if twice := [name for name in where if names.count(name) > 1]:
         raise BadInput(f"{file} has the column {twice[0]} twice")
-    texts = [_cells(line) for line in rows[1:]]
-    where = names.index("time")
-    if rows[0] and _NANOSECONDS.fullmatch(_cells(rows[0])[where].strip().lower()):
-        for cells in texts:
-            cells[where : where + 1] = [f"{text.strip()}e-9" for text in cells[where : where + 1]]
-    numbers = [[_number(text) for text in row] for row in texts]
-    for i, row in enumerate(numbers, 1):
-        if len(row) != len(names) or not (np.abs(row) < LARGEST).all():
-            raise BadInput(f"{file}: row {i} must have {len(names)} numbers, separated by commas, below {LARGEST:g}")
-    array = np.array(numbers).reshape(-1, len(names))
+    texts = [_texts(file, i, _cells(line, _mark(rows[0])), names, where) for i, line in enumerate(rows[1:], 1)]
+    if power := _power(head[where["time"]]):
+        for row in texts:
+            row["time"] = str(Decimal(row["time"]).scaleb(-power))
     # A column that ends in 0 at the start may have more digits later.
-    units = {name: min(map(_unit, column)) for name, column in zip(names, zip(*texts, strict=True), strict=False)}
+    units = {name: min((_unit(row[name]) for row in texts), default=0.0) for name in where}
     parts = {"centre": NEEDED[1:4], "attitude": NEEDED[4:], "velocity": MORE[:3], "omega": MORE[3:]}
     digit = {part: max((units.get(name, 0.0) for name in some), default=0.0) for part, some in parts.items()}
-    columns = {name: array[:, i] for i, name in enumerate(names)}
-    return Table(file, columns, [row[where].strip() for row in texts], _step(file, lines), digit)
+    columns = {name: np.array([_number(row[name]) for row in texts]) for name in where}
+    return Table(file, columns, [row["time"] for row in texts], _step(file, lines), digit)
+
+
+def _texts(file: Path, i: int, cells: Sequence[str], names: Sequence[str], where: Mapping[str, int]) -> dict[str, str]:
+    """The numbers of row i in the columns that are known, as texts; others may have anything."""
+    if len(cells) != len(names):
+        raise BadInput(f"{file}: row {i} has {len(cells)} cells, and the row of names {len(names)}")
+    for name, at in where.items():
+        if not abs(_number(cells[at])) < LARGEST:
+            raise BadInput(f"{file}: row {i}: {name} must be a number below {LARGEST:g}, not {cells[at]!r:.40}")
+    return {name: cells[at] for name, at in where.items()}
 
 
 def _commented(lines: Sequence[str], rows: Sequence[str]) -> list[str]:
@@ -148,26 +163,54 @@ def _commented(lines: Sequence[str], rows: Sequence[str]) -> list[str]:
     return [line for line in above[-1:] if len(_cells(line)) == width and "time" in map(_name, _cells(line))]
 
 
-def _cells(line: str) -> list[str]:
-    return next((line.split(mark) for mark in (",", ";", "\t") if mark in line), line.split())
+def _mark(line: str, first: str = "") -> str:
+    return next((mark for mark in (first, *MARKS) if mark and mark in line), "")
+
+
+def _cells(line: str, first: str = "") -> list[str]:
+    """The cells, without their quotes; `first` separates them, if it is there."""
+    mark = _mark(line, first)
+    parts = line.split(mark) if mark else line.split()
+    decimal = "," if mark == "," else "."
+    return [part.strip().strip('"').strip().replace(",", decimal) for part in parts]
 
 
 def _number(text: str) -> float:
-    """The number; NaN for a text that is not a number."""
+    """The number; NaN for a text that is not a number, or has an exponent that float64 has not."""
     try:
-        return float(text)
+        return np.nan if _LONG.search(text) else float(text)
     except ValueError:
         return np.nan
 
 
-def _name(cell: str) -> str:
+def _power(head: str) -> int:
+    """The digits by which a time is to be moved to be in seconds; `rostopic echo -p` writes %time in ns."""
+    found = _PART.fullmatch(head.lower())
+    return PARTS[found[1]] if found else 9 * (head.lower() == "%time")
+
+
+def _names(cells: Sequence[str]) -> list[str]:
+    """The names of columns: where several mean one part, that of the very name has it, and the first of the times.
+
+    tx, ty, tz are the place, as the heads of TUM call it, where nothing else is: elsewhere they are a torque.
+    """
+    names = [_name(cell) for cell in cells]
+    for name in (*NEEDED, *MORE):
+        several = [i for i, found in enumerate(names) if found == name]
+        meant = [i for i in several if cells[i].lower() == name] or several[: 1 if name == "time" else None]
+        for i in set(several).difference(meant):
+            names[i] = cells[i]
+    place = {} if "x" in names else {"tx": "x", "ty": "y", "tz": "z"}
+    return [place.get(name.lower(), name) for name in names]
+
+
+def _name(own: str) -> str:
     """The name of a column here; its own, where it is none of an engine."""
-    own = cell.strip().strip('"').strip()
     if (indexed := _INDEX.fullmatch(own.lower())) and int(indexed[2]) < len(INDEXED[indexed[1]]):
         return INDEXED[indexed[1]][int(indexed[2])]
     words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", re.sub(r"\[[^\]]*\]|\([^)]*\)", "", own))
     words = re.sub(r"[\W_]+", " ", words).strip().lower()
-    words = re.sub(r" rs( r)?\b", "", words)  # EuRoC's frames
+    words = re.sub(r" rs( r)?\b| w(?= [wxyz]$)", "", words)  # the frames of EuRoC, and the world of Isaac Lab
     if words in (*NEEDED, *MORE) or _TIME.fullmatch(words):
         return words if words in (*NEEDED, *MORE) else "time"
     if rate := re.fullmatch(r"([xyz]) (?:dt|dot)", words):
@@ -181,7 +224,7 @@ def _name(cell: str) -> str:
 def _unit(text: str) -> float:
     """A unit of the last digit of a number as it is written."""
     mantissa, _, exponent = text.strip().lower().partition("e")
-    return 10.0 ** (int(exponent[:6] or 0) - len(mantissa.partition(".")[2]))  # float64 has no longer exponents
+    return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
 
 
 def _places(file: Path, given: np.ndarray, times: np.ndarray) -> np.ndarray:

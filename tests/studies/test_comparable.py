@@ -7,9 +7,9 @@ import pytest
 from commands import answer, refused
 
 from benchmarks.rolling.make import CASES, DATA
-from chapsym.studies.comparable import case_of_body
+from chapsym.studies.comparable import case_of_body, case_of_scene
 from chapsym.studies.judge import read_case
-from chapsym.studies.judge_tables import NEEDED, TUM, read_table
+from chapsym.studies.judge_tables import MORE, NEEDED, TUM, read_table
 
 FILE = DATA / "robot.json"
 BODY = """<robot name="r"><link name="ball">
@@ -44,10 +44,10 @@ def with_parts(rows, names, values):
     return rows | dict(zip(names, values, strict=True))
 
 
-def of_body(rows):
-    w, u, omega = rows["qw"], np.stack([rows[x] for x in Q[1:]]), np.stack([rows[x] for x in W])
-    back = 2 * (u * omega).sum(0) * u + (2 * w**2 - 1) * omega - 2 * w * np.cross(u, omega, axis=0)
-    return with_parts(rows, W, back)
+def of_body(rows, names=W):
+    w, u, vector = rows["qw"], np.stack([rows[x] for x in Q[1:]]), np.stack([rows[x] for x in names])
+    back = 2 * (u * vector).sum(0) * u + (2 * w**2 - 1) * vector - 2 * w * np.cross(u, vector, axis=0)
+    return with_parts(rows, names, back)
 
 
 def y_up(rows):
@@ -55,6 +55,15 @@ def y_up(rows):
         x, y, z = (rows[name] for name in names)
         rows = with_parts(rows, names, (x, z, -y))
     return rows
+
+
+def z_down(rows):
+    """The axes of space alone: after the turn, 180 degrees about x."""
+    for names in (P, V, W):
+        x, y, z = (rows[name] for name in names)
+        rows = with_parts(rows, names, (x, -y, -z))
+    w, x, y, z = (rows[name] for name in Q)
+    return with_parts(rows, Q, (-x, w, -z, y))
 
 
 #: What each file does otherwise, and what is said of it.
@@ -66,6 +75,8 @@ OTHERWISE = {
     "degrees": (lambda r: with_parts(r, W, [np.degrees(r[x]) for x in W]), "is in degrees per second"),
     "mm": (lambda r: with_parts(r, P, [1000 * r[x] for x in P]), "its lengths are in mm: divide them by 1000"),
     "y up": (y_up, "its y is up, and not z"),
+    "z down": (z_down, "its z is down: write (x, -y, -z) for (x, y, z), of the quaternion, too"),
+    "twist": (lambda r: of_body(of_body(r), V), "its velocities are in the axes of the body, as in ROS's Odometry"),
 }
 
 
@@ -79,6 +90,38 @@ def test_another_convention_is_named_and_there_is_no_verdict(rows, body, tmp_pat
     assert f"{file} cannot be judged as it is written: " in words
     assert said in words
     assert ";" not in words, "one thing only is otherwise"
+
+
+@pytest.mark.parametrize("name", ["of the body", "twist"])
+def test_velocities_of_the_body_show_later_where_the_first_attitude_is_no_turn(tmp_path, name):
+    """MuJoCo's qvel, of a free joint that begins with the quaternion 1 0 0 0."""
+    change, said = OTHERWISE[name]
+    scene = tmp_path / "mine.toml"
+    text = (
+        (CASES / "robot.toml")
+        .read_text("utf-8")
+        .replace("time = 10.0", "time = 1")
+        .replace("frames = 40", "frames = 4")
+    )
+    scene.write_text(text.replace("[0.8, 0.0, 0.6, 0.0]", "[1.0, 0.0, 0.0, 0.0]"), encoding="utf-8")
+    case = case_of_scene(scene)
+    centre = np.column_stack([case.path, np.full(len(case.time), case.radius)])
+    parts = np.column_stack([case.time, centre, case.attitude, case.moving, case.omega]).T
+    rows = dict(zip((*NEEDED, *MORE), parts, strict=True))
+    assert answer("judge", write(tmp_path, rows), "--against", scene)["results"][0]["departure"]["momentum"]
+    for option, of in (("--against", scene), ("--body", scene)):
+        assert said in refused("judge", write(tmp_path, change(rows)), option, of)
+
+
+@pytest.mark.parametrize("scale", [1e3, 1e9])
+def test_times_in_another_unit_are_seen_by_the_way_of_the_ball(rows, body, tmp_path, scale):
+    """Else a motion of a million seconds is certified."""
+    dense = {name: column[:2] for name, column in rows.items()}
+    dense["time"] = dense["time"] * 1e-3 * scale
+    way = 1e-3 * 0.25 * np.stack([rows[x][0] for x in V])
+    dense |= {x: dense[x][0] + np.array([0.0, step]) for x, step in zip(P, way, strict=True)}
+    words = refused("judge", write(tmp_path, dense), "--body", body)
+    assert f"its times are {scale:.0f} times what the way between its rows and its angular velocity say" in words
 
 
 def short(folder, rows):
@@ -144,6 +187,47 @@ def test_tables_of_trackers_and_other_engines_are_read(rows, tmp_path):
     table = read_table(write(tmp_path, rows, head=head, mark=";"))
     assert set(table.columns) == set(rows)
     np.testing.assert_array_equal(table.columns["vz"], rows["vz"])
+
+
+ODOMETRY = "%time,field.header.seq,field.header.stamp,field.header.frame_id," + ",".join(
+    f"field.{part}.{c}" for part, axes in (("pose.pose.position", "xyz"), ("pose.pose.orientation", "xyzw"),
+                                           ("twist.twist.linear", "xyz"), ("twist.twist.angular", "xyz")) for c in axes
+)  # fmt: skip
+LOGS = {
+    "rostopic": (ODOMETRY, ",", (*TUM[1:], *V, *W), "{i}000000000,{i},{i}000000000,odom,{row}"),
+    "TUM's head": ("# timestamp tx ty tz qx qy qz qw", " ", TUM[1:], "{i} {row}"),
+    "torques": ("time,x,y,z,qx,qy,qz,qw,tx,ty,tz,contact_pos_x", ",", TUM[1:], "{i},{row},7,7,7,7"),
+    "decimal commas": ("t;x;y;z;qx;qy;qz;qw", ";", TUM[1:], "{i},0;{row}"),
+    "quotes": ('"time","x","y","z","qx","qy","qz","qw"', ",", TUM[1:], '"{i}",{row}'),
+    "texts": (
+        "\t".join(["Vehicle", "time [ms]", *(f"POS_{c}" for c in "XYZ"), *(f"Q_{c}" for c in "XYZW"), "Image"]),
+        "\t", TUM[1:], "b,1\t{i}000\t{row}\ta;b",
+    ),
+    "PX4": (
+        ",".join(["timestamp_us", *(f"o.position[{i}]" for i in range(3)), *(f"o.q[{i}]" for i in range(4))]),
+        ",", NEEDED[1:], "{i}000000,{row}",
+    ),
+    "Isaac Lab": (
+        ",".join(["sim_time", *(f"root_pos_w_{c}" for c in "xyz"), *(f"root_quat_w_{c}" for c in "wxyz")]),
+        ",", NEEDED[1:], "{i},{row}",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LOGS)
+def test_public_logs_are_read_with_their_texts_commas_and_units(name, rows, tmp_path):
+    """Each as a file that was found writes it (docs/reference/measured/public_files.md)."""
+    head, mark, names, line = LOGS[name]
+    lines = [head]
+    for i, row in enumerate(zip(*(rows[name] for name in names), strict=True)):
+        cells = mark.join(repr(float(x)) for x in row)
+        lines.append(line.format(i=i, row=cells.replace(".", ",") if mark == ";" else cells))
+    file = tmp_path / "log.csv"
+    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    found = read_table(file).from_zero()
+    np.testing.assert_array_equal(found.columns["time"], np.arange(len(rows["time"])))
+    for name in names:
+        np.testing.assert_array_equal(found.columns[name], rows[name])
 
 
 @pytest.mark.parametrize(
