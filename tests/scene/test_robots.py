@@ -142,6 +142,53 @@ def test_a_geom_alone_is_homogeneous_as_mujoco_makes_it(put, said, mass):
     assert found == {"preset": "homogeneous", "radius": "0.1"}
 
 
+@pytest.mark.parametrize(
+    ("geom", "around", "mass"),
+    [
+        ('class="b"', "", 0.5), ('class="b" mass="2"', "", 2), ("", 'childclass="b"', 0.5),
+        ('class="c"', "", 0.5), ('size="0.1"', "", 4 / 3 * np.pi * 0.003),
+    ],
+)  # fmt: skip
+def test_a_geom_has_what_the_default_of_its_class_says(put, geom, around, mass):
+    """Inherited from the class around the class, and by a body's childclass, as in MuJoCo's own models."""
+    text = f"""<mujoco><default><geom density="3"/><default class="b"><geom size="0.1" mass="0.5"/>
+     <default class="c"><geom type="sphere" rgba="1 0 0 1"/></default></default>
+     <default class="seen"><geom type="box" mass="0" contype="0" conaffinity="0"/></default></default>
+     <worldbody><body {around}><body><geom {geom}/><geom class="seen" size="1 1 1"/></body></body></worldbody>
+    </mujoco>"""
+    found = table(put(text, ".xml"))
+    assert abs(float(found.pop("mass")) - mass) < 1e-15
+    assert found == {"preset": "homogeneous", "radius": "0.1"}
+
+
+INSIDE = '<collision><origin xyz="0 0.05 0"/><geometry><sphere radius="{}"/></geometry></collision></link>'
+
+
+def test_a_link_that_touches_with_more_than_one_sphere_is_no_ball(put):
+    """Three balls of one link, and a cube on eight, were read as the first of them."""
+    assert table(put(URDF.replace("</link></robot>", INSIDE.format("0.055") + "</robot>")))["radius"] == "0.105"
+    with pytest.raises(
+        SceneError, match="line 10: <collision>: a ball that rolls touches with one sphere, and this has 2"
+    ):
+        table(put(URDF.replace("</link></robot>", "\n" + INSIDE.format("0.056") + "</robot>")))
+    with pytest.raises(SceneError, match="has 2 shapes to touch with: take out those that touch nothing"):
+        table(put(SDF.replace("</link>", "<collision><geometry><box/></geometry></collision></link>"), ".sdf"))
+
+
+def test_the_file_that_xacro_is_to_make_is_asked_for(put):
+    """What its macros will say is missing here."""
+    text = URDF.replace('<mass value="1.9"/>', '<xacro:mass m="1.9"/>').replace("<robot ", "<robot xmlns:xacro='x' ")
+    with pytest.raises(SceneError, match="line 5: <xacro:mass> is to be filled in: give the file that xacro makes"):
+        table(put(text))
+    assert table(put(URDF.replace("</robot>", "<xacro:include filename='a'/></robot>")))["mass"] == "1.9"
+
+
+def test_of_many_balls_some_are_named(put):
+    body = '<body><geom size="0.1"/></body>'
+    with pytest.raises(SceneError, match=r"this file has 9 with one \((without a name, ){8}…\)"):
+        table(put(f"<mujoco><worldbody>{9 * body}</worldbody></mujoco>", ".xml"))
+
+
 @pytest.mark.parametrize("joint", ["fixed", "floating"])
 def test_a_link_without_mass_does_not_hold_a_ball(put, joint):
     text = f'<joint name="j" type="{joint}"><parent link="floor"/><child link="ball"/></joint></robot>'
@@ -151,7 +198,11 @@ def test_a_link_without_mass_does_not_hold_a_ball(put, joint):
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("<worldbody>", "<default><geom density='2'/></default><worldbody>", "<default> gives geoms their density"),
+        ("<geom", '<geom class="ball"', "<geom>: its class 'ball' has no <default>"),
+        ("</body>", '<frame><geom type="box" size="1 1 1"/></frame></body>', "<frame> is not read"),
+        ("</body>", '<geom type="box" size="1 1 1"/></body>', "<geom>: a ball that rolls touches with one sphere"),
+        ("</body>", '<geom type="mesh" contype="0" conaffinity="0"/></body>', "the ball has 2 geoms and no <inertial>"),
+        ("<body>", '<body name="arm"><freejoint/></body><body><joint/>', "<joint> without a name holds the ball"),
         ("<worldbody>", '<include file="a.xml"/><worldbody>', "<include> is not read"),
         ("<body>", '<body><joint name="h"/>', "<joint> h holds the ball"),
         ("</body>", '<body name="rotor"/></body>', "<body> rotor holds the ball"),

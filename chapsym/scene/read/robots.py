@@ -32,11 +32,14 @@ DIGITS = 40
 #: What <compiler> of MJCF says where it changes no number.
 PLAIN = {
     "settotalmass": "-1", "boundmass": "0", "boundinertia": "0", "balanceinertia": "false", "coordinate": "local",
+    "inertiagrouprange": "0 5",
 }  # fmt: skip
-#: What a <default> of MJCF may give a geom that changes the ball.
-OF_A_GEOM = ("type", "size", "mass", "density", "pos", "quat", "euler", "axisangle")
 #: kg/m³ of a geom of MJCF that says neither mass nor density.
 DENSITY = "1000"
+#: What a <body> of MJCF has that is more than a frame for those in it.
+MATTER = ("geom", "inertial", "joint", "freejoint")
+#: What may have more shapes in it.
+UNREAD = ("frame", "replicate", "composite", "flexcomp", "attach")
 ENTRIES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 Vector = tuple[Fraction, ...]
 #: A place, and the quaternion of a turn, of any length, scalar first.
@@ -50,7 +53,12 @@ def table(path: Path) -> dict[str, Any]:
     Raises SceneError, with the line, where the file has no ball, or several; where its centre of mass is not that of
     the sphere; and where a number is missing.
     """
-    return _Reader(path).table()
+    reader = _Reader(path)
+    try:
+        return reader.table()
+    except SceneError:
+        reader.check_filled_in()
+        raise
 
 
 class _Reader:
@@ -98,16 +106,19 @@ class _Reader:
 
     def table(self) -> dict[str, Any]:
         """The one body that has a sphere."""
+        if self.kind == "mjcf":
+            self._take_defaults()
         tag = "body" if self.kind == "mjcf" else "link"
         found = [(body, sphere) for body in self.root.iter(tag) if (sphere := self._sphere(body)) is not None]
-        if self.kind == "mjcf":
-            self._check_defaults([body for body, _ in found])
         if len(found) != 1:
-            names = ", ".join(body.get("name", "without a name") for body, _ in found)
+            names = ", ".join(
+                [*(body.get("name", "without a name") for body, _ in found[:8]), *["…"] * (len(found) > 8)]
+            )
             clause = f"has {len(found)} with one ({names})" if found else "has none"
             raise SceneError(f"{self.path}: the ball is the <{tag}> with a sphere to roll on, and this file {clause}")
         ((body, (radius, centre)),) = found
         self._check_free(body)
+        self._check_alone(body, radius, centre)
         name = {"name": body.attrib["name"]} if body.get("name") else {}
         inertial = body.find("inertial")
         if self.kind == "mjcf":
@@ -127,21 +138,64 @@ class _Reader:
         mass = self._value(inertial, "mass", "value")
         return name | {"inertia": self._tensor(inertial, turn), "mass": mass, "radius": radius}
 
-    def _check_defaults(self, balls: list[Element]) -> None:
-        """Raises SceneError where a <default> of MJCF gives a ball what its geom does not say; or another file."""
+    def check_filled_in(self) -> None:
+        """Raises SceneError where xacro has not yet made the file that is meant."""
+        if (macro := next((one for one in self.root.iter() if one.tag.startswith("xacro:")), None)) is not None:
+            raise self._refused(macro, f"<{macro.tag}> is to be filled in: give the file that xacro makes of it")
+
+    def _take_defaults(self) -> None:
+        """Writes into the geoms of MJCF what the <default> of their class says, or of the class of what is around."""
         if (other := next(self.root.iter("include"), None)) is not None:
             raise self._refused(other, "<include> is not read: put what that file says about the ball into this one")
-        said = [set(geom.attrib) for body in balls for geom in body.findall("geom")] or [set[str]()]
-        for geom in (one for default in self.root.iter("default") for one in default.findall("geom")):
-            for key in OF_A_GEOM:
-                if key in geom.attrib and not all(key in own for own in said):
-                    clause = f"gives geoms their {key}, and is not read: write it in the <geom> of the ball"
-                    raise self._refused(geom, f"<default> {clause}")
+        said = dict[str, dict[str, str]](main={})
+
+        def gather(default: Element, name: str, inherited: dict[str, str]) -> None:
+            said[name] = inherited.copy()
+            for geom in default.findall("geom"):
+                said[name] |= geom.attrib
+            for nested in default.findall("default"):
+                gather(nested, nested.get("class", ""), said[name])
+
+        def fill_in(where: Element, around: str) -> None:
+            around = where.get("childclass", around)
+            for child in where:
+                name = child.get("class", around)
+                if child.tag == "geom" and name not in said:
+                    raise self._refused(child, f"<geom>: its class {name!r} has no <default>")
+                if child.tag == "geom":
+                    child.attrib = said[name] | child.attrib
+                fill_in(child, around)
+
+        for default in self.root.findall("default"):
+            gather(default, "main", said["main"])
+        for world in self.root.findall("worldbody"):
+            fill_in(world, "main")
+
+    def _check_alone(self, body: Element, radius: str, centre: Vector) -> None:
+        """Raises SceneError where the ball touches the plane with other shapes, too: not with spheres inside of it."""
+        for tag in UNREAD:
+            if (hidden := body.find(tag)) is not None:
+                raise self._refused(hidden, f"<{tag}> is not read: put what it says about the ball into its <body>")
+        shapes = [one for one in body.findall("geom") if self._touches(one)] or body.findall("collision")
+        for shape in shapes:
+            other = self._sphere_of(shape, body)
+            if other is not None:
+                away = sum((a - b) ** 2 for a, b in zip(other[1], centre, strict=True))
+                room = self._number(radius, shape) - self._number(other[0], shape)
+                if room >= 0 and away <= room**2:
+                    continue
+            clause = f"a ball that rolls touches with one sphere, and this has {len(shapes)} shapes to touch with"
+            raise self._refused(shape, f"<{shape.tag}>: {clause}: take out those that touch nothing")
+
+    def _touches(self, geom: Element) -> bool:
+        """Whether a geom of MJCF is there for contacts, or to be seen only."""
+        return any(geom.get(name, "1") != "0" for name in ("contype", "conaffinity"))
 
     def _check_free(self, body: Element) -> None:
         """Raises SceneError where a joint, or another body, holds the ball: a link without mass does not."""
         if self.kind == "mjcf":
-            held = [one for one in self.root.iter("body") if body in list(one)] + body.findall("body")
+            held = [one for one in self.root.iter("body") if body in list(one) and any(map(one.findall, MATTER))]
+            held += body.findall("body")
             held += [joint for joint in body.findall("joint") if joint.get("type", "hinge") != "free"]
             if held:
                 what = f"<{held[0].tag}> {held[0].get('name', 'without a name')}"
@@ -158,9 +212,10 @@ class _Reader:
 
     def _of_one_material(self, body: Element) -> dict[str, Any]:
         """MJCF makes mass and inertia of a geom alone; the other formats have none without <inertial>."""
-        geoms = body.findall("geom")
+        geoms = [one for one in body.findall("geom") if self._number(one.get("mass", "1"), one)]
         if len(geoms) != 1:
-            raise self._refused(body, "the ball has no <inertial> with its mass and inertia")
+            clause = f"has {len(geoms)} geoms and " if geoms else "has "
+            raise self._refused(body, f"the ball {clause}no <inertial> with its mass and inertia")
         (geom,) = geoms
         mass = geom.get("mass") or self._of_density(geom)
         return {"preset": "homogeneous", "mass": mass}
@@ -176,19 +231,18 @@ class _Reader:
             return str(mpmath.nstr(mpmath.pi * volume.numerator / volume.denominator, DIGITS))
 
     def _sphere(self, body: Element) -> tuple[str, Vector] | None:
-        """The radius of the sphere on which it rolls, and its centre."""
+        """The radius of the sphere on which it rolls, and its centre: of shapes to touch with, before those to see."""
+        geoms = sorted(body.findall("geom"), key=self._touches, reverse=True)
+        shapes = geoms if self.kind == "mjcf" else [*body.findall("collision"), *body.findall("visual")]
+        return next((found for shape in shapes if (found := self._sphere_of(shape, body)) is not None), None)
+
+    def _sphere_of(self, shape: Element, body: Element) -> tuple[str, Vector] | None:
         if self.kind == "mjcf":
-            for one in body.findall("geom"):
-                size = one.get("size", "").split()
-                if one.get("type", "sphere") == "sphere" and size:
-                    return size[0], self._pose(one, body)[0]
-            return None
-        for tag in ("collision", "visual"):
-            for shape in body.findall(tag):
-                sphere = next(shape.iter("sphere"), None)
-                if sphere is not None:
-                    return self._value(sphere, "radius"), self._pose(shape, body)[0]
-        return None
+            radius = (shape.get("size", "").split() or [""])[0] if shape.get("type", "sphere") == "sphere" else ""
+        else:
+            sphere = next(shape.iter("sphere"), None)
+            radius = "" if sphere is None else self._value(sphere, "radius")
+        return (radius, self._pose(shape, body)[0]) if radius else None
 
     def _value(self, parent: Element, name: str, attribute: str | None = None) -> str:
         """A number of an element: the text of a child, an attribute, or that of a child."""
