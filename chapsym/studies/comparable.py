@@ -151,13 +151,6 @@ def _check(
     start, second: what the first row and the attitude of the second should be, of a reading of both.
     """
     fits = [(differences, read) for differences, read in _readings(run) if not _apart(read, start(read), soft)]
-    if not fits:
-        away = _apart(run, start(run), soft)
-        if away and all(part.startswith("centre") for part in away):
-            x, y, z = run.centre[0] - start(run)["centre"]
-            away = [f"its centre is ({x:g}, {y:g}, {z:g}) m from there: subtract this"]
-        clause = f"its first row is not the start of {of} ({', '.join(away)})"
-        raise BadInput(f"{run.file}: {clause}: no verdict on the engine")
     plain, best, slips = np.inf, np.inf, list[str]()
     for names, read in fits:
         off = float(angle(second(read), read.attitude[1]))
@@ -169,8 +162,15 @@ def _check(
             best, slips = off, names
         if best <= FITS:
             break
-    if slips and (plain == np.inf or (best <= FAR and best * NEARER < plain)):
+    if slips and best <= FAR and best * NEARER < plain:
         raise BadInput(f"{run.file} cannot be judged as it is written: {'; '.join(slips)}")
+    if plain == np.inf:
+        away = _apart(run, start(run), soft)
+        if all(part.startswith("centre") for part in away):
+            x, y, z = run.centre[0] - start(run)["centre"]
+            away = [f"its centre is ({x:g}, {y:g}, {z:g}) m from there: subtract this"]
+        clause = f"its first row is not the start of {of} ({', '.join(away)})"
+        raise BadInput(f"{run.file}: {clause}: no verdict on the engine")
 
 
 def check_start(case: Case, run: Trajectory) -> None:

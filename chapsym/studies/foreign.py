@@ -36,7 +36,8 @@ def table_of(file: Path) -> Table:
 
     data = formats.load(file)
     if lacking := [name for name in ("time", "attitude", "contact", "radius") if name not in data.variables]:
-        raise BadInput(f"{file} has no {lacking[0]}: a trajectory has the attitude and contact of one ball, with times")
+        clause = 'a trajectory needs outputs = ["attitude", "omega", "contact"] in [run] of its scene, and times'
+        raise BadInput(f"{file} has no {lacking[0]}: {clause}")
     if data.sizes.get("ball", 1) != 1:
         raise BadInput(f"{file} has {data.sizes['ball']} balls: a trajectory is of one")
     return _as_table(file, data)

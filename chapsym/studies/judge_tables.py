@@ -48,7 +48,7 @@ class Trajectory:
 
     centre in m, (frames, 3).  attitude: unit quaternions, (frames, 4).  velocity of the centre in m/s and omega in
     rad/s, in space, (frames, 3), or None.  step: that of the engine in s, from a line "# time_step = 0.001", or None.
-    digit: a unit of the last digit in the columns of each of them, by name.
+    digit: a unit of the last digit of each of them in the first row, by name.
     """
 
     file: str
@@ -136,10 +136,10 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
     if power := _power(head[where["time"]]):
         for row in texts:
             row["time"] = str(Decimal(row["time"]).scaleb(-power))
-    # A column that ends in 0 at the start may have more digits later.
-    units = {name: min((_unit(row[name]) for row in texts), default=0.0) for name in where}
     parts = {"centre": NEEDED[1:4], "attitude": NEEDED[4:], "velocity": MORE[:3], "omega": MORE[3:]}
-    digit = {part: max((units.get(name, 0.0) for name in some), default=0.0) for part, some in parts.items()}
+    digit = {
+        part: _digit([[row[name] for name in some if name in where] for row in texts]) for part, some in parts.items()
+    }
     columns = {name: np.array([_number(row[name]) for row in texts]) for name in where}
     return Table(file, columns, [row["time"] for row in texts], _step(file, lines), digit)
 
@@ -221,10 +221,17 @@ def _name(own: str) -> str:
     return own
 
 
-def _unit(text: str) -> float:
-    """A unit of the last digit of a number as it is written."""
-    mantissa, _, exponent = text.strip().lower().partition("e")
-    return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+def _digit(rows: Sequence[Sequence[str]]) -> float:
+    """How far the first row may be from what was meant, as it has so many places, or so many digits, as all rows have.
+
+    One number does not say it: a height of 0.1 and a column of 0.0 stand in tables of all digits, too.
+    """
+    texts = [text.lower().partition("e") for row in rows for text in row]
+    if not texts:
+        return 0.0
+    unit = min(10.0 ** (int(power or 0) - len(mantissa.partition(".")[2])) for mantissa, _, power in texts)
+    digits = max(len(mantissa.lstrip("+-0.").replace(".", "")) for mantissa, _, _ in texts)
+    return max(unit, 10.0 ** (1 - digits) * max(abs(_number(text)) for text in rows[0]))
 
 
 def _places(file: Path, given: np.ndarray, times: np.ndarray) -> np.ndarray:

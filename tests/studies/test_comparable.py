@@ -169,6 +169,15 @@ def test_a_ball_of_ones_own_has_the_motion_that_the_case_has(rows, body, tmp_pat
     assert "give either --against" in refused("judge", write(tmp_path, rows))
 
 
+def test_a_ball_that_slides_at_first_is_not_said_to_be_in_mm(body, tmp_path):
+    """Unity turns by 7 rad/s at most; a column of 0.0 and a height of 0.105 have no rounding that would hide it."""
+    rows = {name: np.zeros(3) for name in (*NEEDED, *MORE)} | {"z": np.full(3, 0.105)}
+    rows |= {"time": np.arange(3) / 100, "x": np.arange(3) * 0.03, "vx": np.full(3, 3.0), "wy": np.full(3, 7.0)}
+    rows |= {"qw": np.cos(np.arange(3) * 0.035), "qy": np.sin(np.arange(3) * 0.035)}
+    words = refused("judge", write(tmp_path, rows), "--body", body)
+    assert "its first row is not the start of a ball that rolls (velocity 2.27 m/s): no verdict on the engine" in words
+
+
 def test_a_scene_is_a_case(rows, tmp_path):
     scene = (CASES / "robot.toml").read_text("utf-8")
     path = tmp_path / "mine.toml"

@@ -95,7 +95,7 @@ def test_what_is_no_trajectory_is_one_sentence(tmp_path, result):
     path.write_text("t,x,y,z,qw,qx,qy,qz\n0,0,0,.1,2,0,0,0\n1,0,0,.1,2,0,0,0\n", encoding="utf-8")
     assert "the quaternion at 0 s has the length 2, not 1" in refused("show", path)
     result[0].dataset[["contact", "radius"]].pipe(Result).save(tmp_path / "part.csv")
-    with pytest.raises(BadInput, match="has no attitude: a trajectory has"):
+    with pytest.raises(BadInput, match="has no attitude: a trajectory needs outputs"):
         table_of(tmp_path / "part.csv")
 
 
