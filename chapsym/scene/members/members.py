@@ -15,7 +15,7 @@ from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.ball_n import skew_matrices
 from chapsym.dynamics.principal_axes import attitude_to_principal, from_inertia_tensor, inverse, principal, to_principal
 
-from ..read.bodies import KEYS, PRESETS, check_inside, rounded_by
+from ..read.bodies import KEYS, PRESETS, check_inside, rounded_by, size_rounded_by
 from ..read.errors import Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene
@@ -268,7 +268,7 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
 def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
     """The balls, and what turns their principal axes to those of the table, if these are others."""
     sizes, contact = _sizes(table, given)
-    axes, least = None, 0.0
+    axes, least, rounded = None, 0.0, 0.0
     (shape,) = table.given("mass_tensor", "inertia", "preset")
     with said_by("ball", shape):
         if table.mass_tensor is not None:
@@ -278,11 +278,12 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
         else:
             inertia = given.array(table.inertia, "ball.inertia")
             least = rounded_by(table.inertia)
+            rounded = least + size_rounded_by(table.mass, table.radius) * float(np.max(contact))
             tensor = mass_tensor_of(inertia, least) if inertia.ndim == 2 else from_inertia_tensor(inertia)
         if tensor.ndim == 3:
             tensor, axes = principal(numbers(tensor, "inertia"), least)
         if "mass" in sizes:
-            check_inside(tensor, sizes["mass"], sizes["radius"])
+            check_inside(tensor, sizes["mass"], sizes["radius"], rounded)
     with said_by("ball", _no_size(sizes) or shape):
         return Ball(tensor, contact, sizes.get("radius")), axes
 

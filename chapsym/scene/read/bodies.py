@@ -106,10 +106,20 @@ def rounded_by(inertia: Any) -> float:
     numbers = np.array(inertia, dtype=object).ravel()
     if not all(isinstance(x, float) for x in numbers):
         return 0.0
-    digits = [Decimal(repr(x)).normalize().as_tuple().exponent for x in numbers if x != round(x)]
-    unit = 10.0 ** min(map(int, digits), default=-400)
+    unit = min((_unit(x) for x in numbers if x != round(x)), default=0.0)
     largest = float(np.abs(numbers.astype(np.float64)).max())
     return min((0.75 if len(numbers) == 3 else 2.25) * unit, 0.01 * largest)
+
+
+def size_rounded_by(mass: Any, radius: Any) -> float:
+    """The part of mass radius² that rounding both to their digits may make: ½ δm/m + δρ/ρ; 0 for whole numbers."""
+    parts = [(_unit(x) / x if isinstance(x, float) and 0 < x != round(x) else 0.0) for x in (mass, radius)]
+    return min(parts[0] / 2 + parts[1], 0.01)
+
+
+def _unit(x: float) -> float:
+    """A unit of the last digit that is not 0."""
+    return 10.0 ** int(Decimal(repr(x)).normalize().as_tuple().exponent)
 
 
 def unbalanced(what: str, offset: float | None, radius: float | None) -> str:
@@ -122,10 +132,10 @@ def unbalanced(what: str, offset: float | None, radius: float | None) -> str:
     )
 
 
-def check_inside(mass_tensor: Floats, mass: Floats, radius: Floats) -> None:
+def check_inside(mass_tensor: Floats, mass: Floats, radius: Floats, rounded: float = 0.0) -> None:
     """Raises BadInput if mass is outside of the ball, or all of it next to the centre: ∫r²dm = tr J and m ρ² say so.
 
-    Of a homogeneous ball in n dimensions tr J is n/(n+2) m ρ².
+    Of a homogeneous ball in n dimensions tr J is n/(n+2) m ρ².  rounded: what tr J may be more by the digits of all.
     """
     trace, most, m, rho = np.broadcast_arrays(mass_tensor.sum(axis=-1), mass * radius**2, mass, radius)
     n = mass_tensor.shape[-1]
@@ -139,7 +149,7 @@ def check_inside(mass_tensor: Floats, mass: Floats, radius: Floats) -> None:
             f"its moments of inertia are {clause}: its radius of gyration is {lengths}; "
             "did you mean other units? (for such a body give D = mass radius² instead of mass)"
         )
-    outside = trace > most * (1 + ROUNDING)
+    outside = trace > most * (1 + ROUNDING) + rounded
     if outside.any():
         raise BadInput(
             f"some of its mass is outside of the ball: J1 + J2 + J3 = {trace[outside].flat[0]:.4g} kg m² is more than "

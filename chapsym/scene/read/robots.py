@@ -18,7 +18,7 @@ from chapsym.rationals import NotANumber, rational
 from .bodies import unbalanced
 from .errors import SceneError
 
-SUFFIXES = (".urdf", ".sdf", ".xml", ".mjcf")
+SUFFIXES = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
 #: A longer file has no ball that anybody wrote.
 MOST_BYTES = 10_000_000
 #: An offset below this part of the radius is a rounding by the file's author.
