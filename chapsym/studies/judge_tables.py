@@ -32,7 +32,9 @@ INDEXED = {
     "q": NEEDED[4:], "position": NEEDED[1:4], "velocity": MORE[:3], "angular_velocity": MORE[3:],
 }  # fmt: skip
 _INDEX = re.compile(rf"(?:.*\W)?({'|'.join(INDEXED)})[\W_]?(\d)\W?")
-_TIME = re.compile(r"t|time|(?:.* )?(?:time)?stamp|sim time|(?:time(?:stamp)? |t )?(?:[mnuµμ]?s|n?sec(?:onds)?)")
+_TIME = re.compile(
+    r"t|time|(?:.* )?(?:time)?stamp|(?:sim|frame|elapsed|world) time|(?:time(?:stamp)? |t )?(?:[mnuµμ]?s|n?sec(?:onds)?)"
+)
 #: A time whose unit is said, in its name, to be a part of a second.
 _PART = re.compile(r".*(?:\b|_)(milli|micro|nano|[mnuµμ])s(?:ec(?:ond)?s?)?\W*")
 _LONG = re.compile(r"[eE][+-]?\d{4}")

@@ -207,7 +207,7 @@ LOGS = {
     "TUM's head": ("# timestamp tx ty tz qx qy qz qw", " ", TUM[1:], "{i} {row}"),
     "torques": ("time,x,y,z,qx,qy,qz,qw,tx,ty,tz,contact_pos_x", ",", TUM[1:], "{i},{row},7,7,7,7"),
     "decimal commas": ("t;x;y;z;qx;qy;qz;qw", ";", TUM[1:], "{i},0;{row}"),
-    "quotes": ('"time","x","y","z","qx","qy","qz","qw"', ",", TUM[1:], '"{i}",{row}'),
+    "quotes": ('"frame_time","x","y","z","qx","qy","qz","qw"', ",", TUM[1:], '"{i}",{row}'),
     "texts": (
         "\t".join(["Vehicle", "time [ms]", *(f"POS_{c}" for c in "XYZ"), *(f"Q_{c}" for c in "XYZW"), "Image"]),
         "\t", TUM[1:], "b,1\t{i}000\t{row}\ta;b",
