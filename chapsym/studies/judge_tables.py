@@ -33,7 +33,8 @@ INDEXED = {
 }  # fmt: skip
 _INDEX = re.compile(rf"(?:.*\W)?({'|'.join(INDEXED)})[\W_]?(\d)\W?")
 _TIME = re.compile(
-    r"t|time|(?:.* )?(?:time)?stamp|(?:sim|frame|elapsed|world) time|(?:time(?:stamp)? |t )?(?:[mnuµμ]?s|n?sec(?:onds)?)"
+    r"t|time|(?:.* )?(?:time)?stamp|(?:sim|frame|elapsed|world) time|"
+    r"(?:time(?:stamp)? |t )?(?:[mnuµμ]?s|n?sec(?:onds)?)"
 )
 #: A time whose unit is said, in its name, to be a part of a second.
 _PART = re.compile(r".*(?:\b|_)(milli|micro|nano|[mnuµμ])s(?:ec(?:ond)?s?)?\W*")
