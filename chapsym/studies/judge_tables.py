@@ -143,7 +143,7 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
     digit = {
         part: _digit([[row[name] for name in some if name in where] for row in texts]) for part, some in parts.items()
     }
-    columns = {name: np.array([_number(row[name]) for row in texts]) for name in where}
+    columns = {name: np.array([float(row[name]) for row in texts]) for name in where}
     return Table(file, columns, [row["time"] for row in texts], _step(file, lines), digit)
 
 
