@@ -184,8 +184,8 @@ class _Reader:
                 room = self._number(radius, shape) - self._number(other[0], shape)
                 if room >= 0 and away <= room**2:
                     continue
-            clause = f"a ball that rolls touches with one sphere, and this has {len(shapes)} shapes to touch with"
-            raise self._refused(shape, f"<{shape.tag}>: {clause}: take out those that touch nothing")
+            clause = "a ball that rolls touches with its sphere alone, and this is another shape"
+            raise self._refused(shape, f"<{shape.tag}>: {clause}: take it out, if it touches nothing")
 
     def _touches(self, geom: Element) -> bool:
         """Whether a geom of MJCF is there for contacts, or to be seen only."""
