@@ -1,8 +1,9 @@
 """Makes the data set anew from its cases: python -m benchmarks.rolling.make [NAME ...], some minutes.
 
-cases/NAME.toml is the scene, sliding.py has the ball that slides; data/NAME.json has its frames as [middle, radius],
-and what is needed to set up an engine; data/NAME.csv the same in the units and names of engines; data/NAME.urdf and
-data/NAME.xml (MJCF) a ball that rolls by itself, as engines load it.  data/SHA256SUMS has the digests of all files.
+cases/NAME.toml is the scene, of a ball with equations of its own a module; data/NAME.json has its frames as [middle,
+radius], and what is needed to set up an engine; data/NAME.csv the same in the units and names of engines;
+data/NAME.urdf and data/NAME.xml (MJCF) a ball that rolls by itself, as engines load it.  data/SHA256SUMS has the
+digests of all files.
 """
 
 import csv
@@ -21,10 +22,12 @@ from chapsym.dynamics.enclosed_motion import decimal, follow
 from chapsym.scene import load
 from chapsym.scene.members.exactly import exact_motion
 
-from . import sliding
+from . import off_centre, sliding
 
 HERE = Path(__file__).parent
 CASES, DATA = HERE / "cases", HERE / "data"
+#: The cases that have equations of their own.
+OWN = {"off-centre": off_centre.made, "sliding": sliding.made}
 DIGITS = 30
 #: Digits of the numbers in the CSV files: more than float64 has.
 SHOWN = 20
@@ -33,7 +36,7 @@ NOTHING = mpmath.mpf("1e-30")
 #: The ball as engines load it: the mass, the radius, and ixx, ixy, ...: entries of the tensor in the axes of the body.
 URDF = """<robot name="{name}">
   <link name="{name}">
-    <inertial>
+    <inertial>{origin}
       <mass value="{mass}"/>
       <inertia ixx="{ixx}" ixy="{ixy}" ixz="{ixz}" iyy="{iyy}" iyz="{iyz}" izz="{izz}"/>
     </inertial>
@@ -47,7 +50,7 @@ MJCF = """<mujoco model="{name}">
   <worldbody>
     <body name="{name}">
       <freejoint/>
-      <inertial pos="0 0 0" mass="{mass}" fullinertia="{ixx} {iyy} {izz} {ixy} {ixz} {iyz}"/>
+      <inertial pos="{place}" mass="{mass}" fullinertia="{ixx} {iyy} {izz} {ixy} {ixz} {iyz}"/>
       <geom type="sphere" size="{radius}"/>
     </body>
   </worldbody>
@@ -107,16 +110,20 @@ def body(case: dict[str, Any], form: str) -> str:
     """The ball of a case, its axes the principal ones, in a form of BODIES."""
     ball = case["ball"]
     tensor = dict.fromkeys(("ixy", "ixz", "iyz"), "0") | dict(zip(("ixx", "iyy", "izz"), ball["inertia"], strict=True))
-    return BODIES[form].format(name=case["case"], mass=ball["mass"], radius=ball["radius"], **tensor)
+    place = " ".join(ball.get("centre_of_mass", "000"))
+    origin = f'\n      <origin xyz="{place}"/>' if "centre_of_mass" in ball else ""
+    return BODIES[form].format(
+        name=case["case"], mass=ball["mass"], radius=ball["radius"], place=place, origin=origin, **tensor
+    )
 
 
 def main(names: list[str]) -> None:
     DATA.mkdir(exist_ok=True)
-    for name in sorted({*sliding.CASES, *(scene.stem for scene in CASES.glob("*.toml"))}):
+    for name in sorted({*OWN, *(scene.stem for scene in CASES.glob("*.toml"))}):
         if names and name not in names:
             continue
         print(name, file=sys.stderr)
-        case = sliding.made(name, DIGITS) if name in sliding.CASES else made(CASES / f"{name}.toml")
+        case = OWN[name](DIGITS) if name in OWN else made(CASES / f"{name}.toml")
         files.write_text(DATA / f"{name}.json", text(case))
         files.write_text(DATA / f"{name}.csv", table(case))
         if "radius" in case["ball"] and "rotor" not in case["ball"] and "friction" not in case:

@@ -67,18 +67,16 @@ class Slide:
 
 
 #: A billiard ball with so much backspin that it comes back.
-CASES = {
-    "sliding": Slide(
-        "A billiard ball with backspin: it slides, comes back, and rolls from 1.33 s on",
-        mass=Fraction("0.17"), radius=Fraction("0.0285"), friction=Fraction("0.2"), gravity=Fraction("9.81"),
-        direction=(Fraction("0.6"), Fraction("0.8")), velocity=Fraction(2), rate=Fraction(-250),
-    )
-}  # fmt: skip
+START = Slide(
+    "A billiard ball with backspin: it slides, comes back, and rolls from 1.33 s on",
+    mass=Fraction("0.17"), radius=Fraction("0.0285"), friction=Fraction("0.2"), gravity=Fraction("9.81"),
+    direction=(Fraction("0.6"), Fraction("0.8")), velocity=Fraction(2), rate=Fraction(-250),
+)  # fmt: skip
 
 
-def made(name: str, digits: int) -> dict[str, Any]:
+def made(digits: int) -> dict[str, Any]:
     """The case as `make.made` has those of scenes, with friction, gravity, `rolls_from` and each frame's velocity."""
-    slide = CASES[name]
+    slide = START
     times = tuple(i * slide.time / slide.frames for i in range(slide.frames + 1))
     first, second = slide.direction
     moment, bits = slide.part * slide.mass * slide.radius**2, 4 * digits + 24
@@ -108,6 +106,6 @@ def made(name: str, digits: int) -> dict[str, Any]:
         frame["velocity"] = velocity
     numbers = {"mass": decimal(slide.mass), "radius": decimal(slide.radius), "inertia": [decimal(moment)] * 3}
     return {
-        "case": name, "title": slide.title, "ball": numbers, "friction": decimal(slide.friction),
+        "case": "sliding", "title": slide.title, "ball": numbers, "friction": decimal(slide.friction),
         "gravity": decimal(slide.gravity), "rolls_from": rolls_from, **found,
     }  # fmt: skip
