@@ -4,7 +4,7 @@ In the axes of the body, with the vertical γ, the centre of mass at c from the 
 contact to it:
     K = Iω + m r × (ω × r),   K' = K × ω + mg γ × c - mρ⟨ω, γ × c⟩ω,   v' = v × ω for what is fixed in space.
 K is the momentum about the point of contact, which moves with the velocity ρω × γ; I is about the centre of mass.
-`docs/examples/systems/off_centre_ball.py` has the constraint and the Lagrangian; tests/studies/test_off_centre.py
+`examples/off_centre_ball.py` has the constraint and the Lagrangian; tests/studies/test_off_centre.py
 decides that its motion is this one.
 
 A step has exact polynomials of the time τ in [0, 1], of the step's length h: p₁, p₂, p₃ for the axes of space, p₃ for
