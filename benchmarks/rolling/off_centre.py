@@ -4,8 +4,8 @@ In the axes of the body, with the vertical γ, the centre of mass at c from the 
 contact to it:
     K = Iω + m r × (ω × r),   K' = K × ω + mg γ × c - mρ⟨ω, γ × c⟩ω,   v' = v × ω for what is fixed in space.
 K is the momentum about the point of contact, which moves with the velocity ρω × γ; I is about the centre of mass.
-`examples/off_centre_ball.py` has the constraint and the Lagrangian; tests/studies/test_off_centre.py
-decides that its motion is this one.
+`examples/off_centre_ball.py` has the Lagrangian and the constraints; tests/studies/test_rolling_cases.py decides that
+its motion is this one.
 
 A step has exact polynomials of the time τ in [0, 1], of the step's length h: p₁, p₂, p₃ for the axes of space, p₃ for
 γ, and k, w for K, ω.  Of their defects
@@ -92,10 +92,6 @@ class Body(NamedTuple):
         drag = self.mass * self.radius * dot(w, across)
         weight = self.mass * self.gravity
         return [x + weight * y - drag * z for x, y, z in zip(cross(K, w), across, w, strict=True)]
-
-    def energy(self, up: Vector, w: Vector) -> Any:
-        """The kinetic energy, and that of the height of the centre of mass above the centre."""
-        return dot(self.momentum(up, w), w) / 2 + self.mass * self.gravity * dot(self.offset, up)
 
 
 class Step(NamedTuple):

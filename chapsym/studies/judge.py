@@ -26,7 +26,9 @@ class Case:
     the axes of the body to space, (frames, 4).  omega: rad/s in space, (frames, 3).
     mass and radius 0: a body that nothing touches, with its centre at the origin.  rotor: the angular momentum of one
     inside in kg m²/s, in the axes of the body, (3,).  velocity: of the centre of a ball that slides, m/s in space,
-    (frames, 3); None: it rolls.  friction: Coulomb's coefficient, and gravity in m/s², of a ball that slides.
+    (frames, 3); None: it rolls.  friction: Coulomb's coefficient of a ball that slides.  offset: the centre of mass
+    from the centre in m, in the axes of the body, (3,); then `inertia` is about the centre of mass.  gravity: in m/s²,
+    where it counts: of a ball that slides, and of one with an offset.
     """
 
     name: str
@@ -41,6 +43,7 @@ class Case:
     velocity: np.ndarray | None = None
     friction: float | None = None
     gravity: float | None = None
+    offset: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     @property
     def moving(self) -> np.ndarray:
@@ -59,8 +62,9 @@ def read_case(file: Path) -> Case:
         if any(frame.keys() != frames[0].keys() for frame in frames):
             raise ValueError("a frame has other parts than the first")
         mass, radius = (float(Fraction(ball[key])) if touched else 0.0 for key in ("mass", "radius"))
-        inertia, rotor = (
-            np.array([float(Fraction(x)) for x in numbers]) for numbers in (ball["inertia"], ball.get("rotor", [0] * 3))
+        inertia, rotor, offset = (
+            np.array([float(Fraction(x)) for x in numbers])
+            for numbers in (ball["inertia"], *(ball.get(name, [0] * 3) for name in ("rotor", "centre_of_mass")))
         )
         time = np.array([float(Fraction(frame["time"])) for frame in frames])
         path, attitude, omega, velocity = (
@@ -68,18 +72,19 @@ def read_case(file: Path) -> Case:
             for part, size in (("contact", 2), ("attitude", 0), ("omega", 0), ("velocity", 3))
         )
         sliding = "velocity" in frames[0]
-        forces = [float(Fraction(data[key])) for key in ("friction", "gravity")] if sliding else []
+        needed = {"friction": sliding, "gravity": sliding or offset.any()}
+        forces = {name: float(Fraction(data[name])) for name, counts in needed.items() if counts}
         shapes = [part.shape for part in (path, attitude, omega, velocity)]
-        if shapes != [(len(time), n) for n in (2, 4, 3, 3)] or {len(inertia), len(rotor)} != {3}:
+        if shapes != [(len(time), n) for n in (2, 4, 3, 3)] or {len(inertia), len(rotor), len(offset)} != {3}:
             raise ValueError
-        numbers = (path, attitude, omega, velocity, inertia, rotor, time, [mass, radius], forces)
+        numbers = (path, attitude, omega, velocity, inertia, rotor, offset, time, [mass, radius], [*forces.values()])
         if not np.isfinite(np.concatenate([np.ravel(x) for x in numbers])).all():
             raise ValueError
         if len(time) < 2 or (min(mass, radius) <= 0 if touched else {"mass", "radius"} & ball.keys()):
             raise ValueError
         return Case(
             str(data["case"]), mass, radius, inertia, time, path, attitude, in_space(attitude, omega), rotor,
-            velocity if sliding else None, *forces,
+            velocity if sliding else None, offset=offset, **forces,
         )  # fmt: skip
     except OSError as error:
         raise BadInput(f"{file} cannot be read: {error.strerror or error}") from None
@@ -156,17 +161,22 @@ def rolling(radius: float, omega: np.ndarray) -> np.ndarray:
 
 
 def carried(case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The kinetic energy, J, and the momentum about the point of contact, kg m²/s in space, of a state of the body.
+    """The energy, J, and the momentum about the point of contact, kg m²/s in space, of a state of the body.
 
-    A rotor is in the momentum and not in the energy: with K = Bω + a and K' = K × ω it is ½⟨Bω,ω⟩ that is kept
-    (lemma `gyrostat-integrals`).
+    velocity: of the centre.  The energy is the kinetic one and, with an offset, that of the centre of mass above the
+    lowest place that it can have.  A rotor is in the momentum and not in the energy: with K = Bω + a and K' = K × ω it
+    is ½⟨Bω,ω⟩ that is kept (lemma `gyrostat-integrals`).
     """
     back = attitude * np.array([1, -1, -1, -1])
     turning = in_space(back, omega)
     turning = case.inertia * turning if case.inertia.ndim == 1 else np.einsum("ij,fj->fi", case.inertia, turning)
-    spin, inside = (in_space(attitude, part) for part in (turning, case.rotor))
+    spin, inside, offset = (in_space(attitude, part) for part in (turning, case.rotor, case.offset))
+    velocity = velocity + np.cross(omega, offset)  # of the centre of mass
+    height = np.linalg.norm(case.offset) + offset[:, 2]
     energy = (case.mass * (velocity**2).sum(axis=-1) + (omega * spin).sum(axis=-1)) / 2
-    return energy, spin + inside + case.mass * case.radius * np.cross([0, 0, 1], velocity)
+    energy += case.mass * (case.gravity or 0.0) * height
+    momentum = spin + inside + case.mass * case.radius * np.cross([0, 0, 1], velocity)
+    return energy, momentum + case.mass * np.cross(offset, velocity)
 
 
 # What several steps of one engine say: its order, and the part of its distance that no step takes away.

@@ -5,15 +5,21 @@ import subprocess
 import sys
 from dataclasses import replace
 from decimal import Decimal
+from fractions import Fraction
 
 import numpy as np
 import pytest
 import sympy as sp
 from commands import answer
+from flint import arb, arb_poly, ctx
 from scipy.integrate import solve_ivp
 
-from benchmarks.rolling import make, sliding
+from benchmarks.rolling import make, off_centre, sliding
 from benchmarks.rolling.engines.common import DATA
+from chapsym import generated
+from chapsym.dynamics.errors import TooWide
+from chapsym.mechanics import agree, dot, loaded
+from chapsym.scene import SceneError
 from chapsym.scene.read import robots
 from chapsym.studies.judge import carried, read_case
 
@@ -149,10 +155,125 @@ def test_the_closed_form_is_the_motion_exactly():
     assert start == (0, v, 0, w)
 
 
+def accelerations(system, body):
+    """Those of the coordinates by the equations of `off_centre`, in the system's own letters."""
+    w, up = sp.Matrix(sp.symbols("w1:4")), sp.Matrix(sp.symbols("g1:4"))
+    carried = sp.Matrix(body.momentum(up, w))
+    turned = carried.jacobian(up) * up.cross(w)
+    inertia = carried.jacobian(w)
+    rate = inertia.adjugate() * (sp.Matrix(body.torque(up, carried, w)) - turned) / inertia.det()
+    x, y, *q = system.coordinates
+    R = sp.Matrix(3, 3, generated.rotation(*q))
+    spin = sp.Matrix(generated.compose(q[0], *(-z for z in q[1:]), *map(dot, q))[1:]) * 2
+    rate = rate.xreplace(dict(zip((*w, *up), (*spin, *R[2, :]), strict=True)))
+    second = sp.Matrix(generated.compose(*map(dot, q), 0, *spin)) + sp.Matrix(generated.compose(*q, 0, *rate))
+    in_space = R * rate
+    return dict(zip(q, second / 2, strict=True)) | {x: body.radius * in_space[1], y: -body.radius * in_space[0]}
+
+
+def test_the_equations_off_the_centre_are_those_of_the_principle():
+    system, given = loaded(EXAMPLES / "off_centre_ball.py"), off_centre.START.body
+    read = lambda x: sp.Rational(*x.as_integer_ratio())  # noqa: E731
+    body = off_centre.Body(*(sp.Matrix([*map(read, x)]) if isinstance(x, tuple) else read(x) for x in given))
+    assert {sp.Rational(x) for x in system.parameters.values()} == {body.mass, body.radius, body.gravity, *body.inertia, *body.offset}
+    assert agree(system, accelerations(system, body)).equal
+
+    class Without(off_centre.Body):
+        """The equations without the motion of the point of contact."""
+
+        def torque(self, up, K, w):
+            return [x + self.mass * self.gravity * y for x, y in zip(K.cross(w), up.cross(self.offset), strict=True)]
+
+    assert not agree(system, accelerations(system, Without(*body))).equal
+
+
+def weighed(case):
+    """The path and the attitude by Newton's and Euler's equations in space, with the reaction of the plane eliminated."""
+
+    def rate(q, w):
+        R = matrix(q)
+        inertia, c = R @ np.diag(case.inertia) @ R.T, R @ case.offset
+        arm = case.radius * UP + c
+
+        def short(turn):
+            """Euler's equation about the centre of mass for that rate of w."""
+            force = np.cross(turn, arm) + np.cross(w, np.cross(w, c)) + case.gravity * UP
+            return inertia @ turn + np.cross(w, inertia @ w) + np.cross(arm, case.mass * force)
+
+        still = short(np.zeros(3))
+        return -np.linalg.solve(np.transpose([short(e) - still for e in np.eye(3)]), still)
+
+    def slope(_, y):
+        q, w = y[:4], y[6:]
+        return np.concatenate([turning(q, w), case.radius * np.array([w[1], -w[0]]), rate(q, w)])
+
+    y = integrated(case.time, slope, [*case.attitude[0], *case.path[0], *case.omega[0]]).y.T
+    return y[:, :4], y[:, 4:6]
+
+
+def test_another_integration_rolls_alike_off_the_centre():
+    case = read_case(make.DATA / "off-centre.json")
+    assert max(apart(case, weighed(case))) < 1e-9
+    assert max(apart(case, weighed(replace(case, offset=1.01 * case.offset)))) > 1e-3
+    assert max(apart(case, rolled(case, case.rotor))) > 0.1  # the balanced ball
+
+
+def test_the_enclosed_energy_off_the_centre_stays():
+    frames = json.loads((make.DATA / "off-centre.json").read_text("utf-8"))["frames"]
+    with ctx.workprec(140):
+        body = off_centre.START.path(140).body
+
+        def energies(weight):
+            for frame in frames:
+                K, w, up = ([arb(*pair) for pair in frame[part]] for part in ("angular_momentum", "omega", "gamma"))
+                yield sum(x * y for x, y in zip(K, w)) / 2 + weight * sum(x * y for x, y in zip(body.offset, up))
+
+        first, *later = energies(body.mass * body.gravity)
+        assert all(x.overlaps(first) and x.rad() < 1e-30 for x in later)
+        first, *later = energies(body.mass * body.gravity * (1 + arb("1e-25")))
+        assert not any(x.overlaps(first) for x in later)
+
+
+def at_the_first_frame(bits):
+    with ctx.workprec(bits):
+        path, end = off_centre.START.path(bits), Fraction(1, 4)
+        while path.time < end:
+            path.advance(end)
+        return path.frame(end)
+
+
+@pytest.mark.parametrize("wrong", [*range(0, 15, 2), 13])
+def test_the_lemma_holds_for_polynomials_that_are_wrong(wrong, monkeypatch):
+    """Polynomials off by 1e-9 are proved to be off; the radii are not much more than that."""
+    truth = json.loads((make.DATA / "off-centre.json").read_text("utf-8"))["frames"][1]
+    series = off_centre.Path._series
+
+    def bent(path, start, h, terms):
+        found = series(path, start, h, terms)
+        if terms != off_centre.LOOK_TERMS:
+            found[wrong] += arb_poly([0, 0, 1e-9])
+        return found
+
+    monkeypatch.setattr(off_centre.Path, "_series", bent)
+    found = at_the_first_frame(100)
+    assert all(x.contains(arb(y)) for part, v in found.items() for x, (y, _) in zip(v, truth[part], strict=True))
+    assert 1e-12 < max(x.rad() for x in found["omega"]) < 1e-3
+
+
+def test_the_first_frame_is_that_of_the_data_and_too_few_bits_prove_nothing():
+    truth = json.loads((make.DATA / "off-centre.json").read_text("utf-8"))["frames"][1]
+    found = at_the_first_frame(100)
+    for part, v in found.items():
+        assert all(x.contains(arb(y)) and x.rad() < 1e-20 for x, (y, _) in zip(v, truth[part], strict=True))
+    with pytest.raises(TooWide):
+        at_the_first_frame(24)
+
+
 def test_judge_compares_by_what_a_case_has():
     for name, parts in (
         ("free-top", ["path", "attitude", "energy", "momentum"]),
         ("sliding", ["path", "attitude", "energy", "momentum", "height", "slip"]),
+        ("off-centre", ["path", "attitude", "energy", "momentum", "height", "slip"]),
     ):
         file = make.DATA / f"{name}.json"
         found = answer("judge", file.with_suffix(".csv"), "--against", file)["results"][0]["departure"]
@@ -166,8 +287,12 @@ def test_judge_compares_by_what_a_case_has():
 @pytest.mark.parametrize("form", make.BODIES)
 def test_the_file_of_a_ball_has_exactly_its_numbers(form):
     files = sorted(DATA.glob(f"*.{form}"))
-    assert len(files) == 31
-    for file in files:
+    assert len(files) == 32
+    off = DATA / f"off-centre.{form}"
+    assert '"0.003 -0.002 0.004"' in off.read_text("utf-8")
+    with pytest.raises(SceneError, match=r"centre of mass of <inertial> is 5\.39 mm off the centre"):
+        robots.table(off)
+    for file in set(files) - {off}:
         wanted, found = json.loads(file.with_suffix(".json").read_text("utf-8"))["ball"], robots.table(file)
         numbers = [Decimal(str(found[name])) for name in ("mass", "radius")]
         assert numbers == [Decimal(wanted[name]) for name in ("mass", "radius")], file
