@@ -38,12 +38,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
-from chapsym import generated
 from chapsym.dynamics.enclosed_motion import decimal, follow
 from chapsym.dynamics.errors import TooWide
 from chapsym.dynamics.flow.deviation import UNIT, bound, exact
 from chapsym.dynamics.flow.path import capped
 from chapsym.dynamics.flow.start import ball, balls
+from chapsym.dynamics.levels.balls import log_radius
 from chapsym.dynamics.levels.proved_root import MATRIX_BITS, lowest, unit, upper
 from chapsym.dynamics.loops.vectors import cross, dot
 from chapsym.dynamics.principal_axes import quaternions
@@ -121,7 +121,7 @@ class Path:
     @property
     def width(self) -> float:
         """The logarithm to base 2 of how far the axes may be off."""
-        return math.log2(float(self.last.a)) if self.last.a > 0 else -math.inf
+        return log_radius(arb(0, self.last.a))
 
     def advance(self, end: Fraction) -> None:
         """Goes on to a later time, or a part of the way; raises TooWide where the balls allow no proof."""
@@ -241,7 +241,7 @@ def numbers(text: str) -> tuple[Fraction, ...]:
 
 
 START = Start(
-    "A hollow ball with a weight inside: its centre of mass is 5.4 mm off the centre, and speeds it up and slows it down",
+    "A hollow ball with a weight inside: its centre of mass is 5.4 mm off the centre, which makes it faster and slower",
     Body(Fraction("1.2"), Fraction("0.11"), numbers("0.0081 0.0088 0.0094"), numbers("0.003 -0.002 0.004"),
          Fraction("9.81")),
     numbers("2 -1.5 2.5"),
