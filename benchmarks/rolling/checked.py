@@ -31,7 +31,8 @@ HEAD = """# The data set, judged by the separate checker
 Measured by `python -m benchmarks.rolling.checked`. Of each case of `benchmarks/rolling/data` the first frames, about
 {radians:g} radians of the motion but at least two frames, are rounded to {digits} digits. The checker, which shares no
 code with chapsym, proves them from the scene's start or says why it cannot.
-Beyond them the data rest on Arb and chapsym; of the ball that slides they are a closed form, which a test decides.
+Beyond them the data rest on Arb and chapsym; of the ball that slides they are a closed form, which a test
+decides, and of that with its centre of mass off the centre a lemma by hand has its part.
 
 | case | frames | until, s | the checker | seconds |
 |---|---|---|---|---|

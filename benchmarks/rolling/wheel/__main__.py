@@ -26,7 +26,7 @@ build-backend = "setuptools.build_meta"
 [project]
 name = "chapsym-rolling"
 version = "{version}"
-description = "34 motions of rigid balls with 30 proved digits, to judge a physics engine by."
+description = "35 motions of rigid balls with 30 proved digits, to judge a physics engine by."
 readme = "README.md"
 license = "CC0-1.0 AND MIT"
 requires-python = ">=3.11"
