@@ -148,12 +148,12 @@ def of_ring(draw: st.DrawFn, ring: Any, *assumed: Any) -> dict[str, Fraction]:
     ring: a `chapsym.derive.Quotient`; assumed: relations of SymPy, such as x > 0, for which positive numbers are drawn.
     Raises ArithmeticError where no rational point of the relations is known.
     """
-    from chapsym.prove.points import drawn  # a second, with SymPy, which tests that roll balls do not need
+    from chapsym.prove.points import drawn, first  # a second, with SymPy, which tests that roll balls do not need
     from chapsym.prove.search import true
 
     small = st.fractions(-3, 3, max_denominator=6)
     positive = {one.gts for one in assumed if getattr(one, "lts", None) == 0}
-    found = drawn(ring, lambda x: draw(small.map(abs) if x in positive else small))
+    found = drawn(ring, lambda x: draw(small.map(abs) if x in positive else small), first(ring))
     if not all(true(one, found) for one in assumed):
         reject()
     return {x.name: Fraction(int(v.p), int(v.q)) for x, v in found.items()}

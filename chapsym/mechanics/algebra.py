@@ -14,7 +14,7 @@ from sympy.polys.matrices import DomainMatrix
 from chapsym.codegen.kernels import adjoined
 from chapsym.derive import Quotient
 from chapsym.prove import Examples
-from chapsym.prove.points import drawn, small, some
+from chapsym.prove.points import drawn, first, small, some
 
 from .system import BadSystem, System, rational, without
 
@@ -197,10 +197,9 @@ class Algebra:
         roots = self.letters.arguments("sqrt")
         if any(of.free_symbols & roots.keys() for of in roots.values()):
             raise BadSystem(f"{name}: exact verdicts are not for roots in roots")
-        places = list(self._drawn(self._ring(self.letters.circles, roots.values())))
         for size in range(1, len(roots) + 1):
             for some_ in combinations(roots.values(), size):
-                if not any(_no_square(sp.prod(some_).xreplace(point)) for point in places):
+                if not any(_no_square(sp.prod(some_).xreplace(point)) for point in self._bare):
                     listed = ", ".join(f"sqrt({of})" for of in some_)
                     raise BadSystem(f"{name}: exact verdicts need roots whose product is not rational: {listed}")
         for e in (*self.rows, *self.offsets, *self.more):
@@ -218,10 +217,14 @@ class Algebra:
         return self._ring([*self.letters.circles, *self.letters.roots])
 
     @cached_property
+    def _bare(self) -> list[Point]:
+        """Exact points, without the roots."""
+        return list(self._drawn(self._ring(self.letters.circles, self.letters.arguments("sqrt").values())))
+
+    @cached_property
     def points(self) -> list[Point]:
         """Exact points of the ring: rational numbers and positive roots of these; raises BadSystem if there is none."""
-        roots = self.letters.arguments("sqrt")
-        found = list(self._rooted(self._drawn(self._ring(self.letters.circles, roots.values()))))
+        found = list(self._rooted(self._bare))
         if not found:
             raise BadSystem(f"{self.system.name}: no exact point is found where its relations hold")
         return found
@@ -230,10 +233,11 @@ class Algebra:
     def rational(self) -> list[Point]:
         """Points of rational numbers, and some where roots are rational; those with the fewest zeros first."""
         found, numbers = [p for p in self.points if all(x.is_Rational for x in p.values())], Random(0)
-        ring = self._ring(self.letters.circles, self.letters.arguments("sqrt").values())
-        for _ in range(MOST_LOOKED if self.letters.roots else 0):
-            point = drawn(ring, lambda _: numbers.choice(LEGS))
-            found += [p for p in self._rooted([point]) if all(x.is_Rational for x in p.values())]
+        if self.letters.roots:
+            ring = self._ring(self.letters.circles, self.letters.arguments("sqrt").values())
+            start = first(ring)
+            more = (drawn(ring, lambda _: numbers.choice(LEGS), start) for _ in range(MOST_LOOKED))
+            found += [p for p in self._rooted(more) if all(x.is_Rational for x in p.values())]
         return sorted(found, key=lambda point: [*point.values()].count(sp.S.Zero))
 
     def _rooted(self, points: Iterable[Point]) -> Iterator[Point]:
@@ -253,8 +257,9 @@ class Algebra:
                 yield {x: sp.Integer(next(primes)) for x in ring.symbols}
             for one, _ in zip(some(ring, Examples()), range(MOST_POINTS // 2), strict=False):
                 yield one
+            start = first(ring)
             for i in range(MOST_POINTS // 2):
-                yield drawn(ring, partial(small, numbers, 2 + i))
+                yield drawn(ring, partial(small, numbers, 2 + i), start)
         except (ArithmeticError, sp.PolynomialError):
             return
 

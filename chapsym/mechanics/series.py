@@ -5,7 +5,7 @@ All coefficients are rational numbers.  A state has its angles at 0, or where th
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cached_property, reduce
+from functools import cached_property, lru_cache, partial, reduce
 from operator import add, mul
 from typing import Any
 
@@ -56,28 +56,59 @@ def by_parts(expressions: Iterable[Any], known: Mapping[sp.Expr, Any], made: Cal
     return [of(sp.sympify(e, strict=True)) for e in expressions]
 
 
-def evaluated(expressions: Iterable[sp.Expr], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:
+#: One step of an evaluation: a leaf, or what is done with the results of earlier steps at some places.
+Operation = tuple[Any, tuple[int, ...]]
+
+
+def evaluated(expressions: Iterable[Any], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:
     """Expressions in any numbers: fractions, series, those of a finite field."""
-
-    def made(expr: sp.Expr, of: Callable[[sp.Expr], Any]) -> Any:
-        if expr.is_Rational:
-            return number(expr.p, 1) / number(expr.q, 1)
-        if isinstance(expr, sp.Add | sp.Mul):
-            return reduce(add if isinstance(expr, sp.Add) else mul, map(of, expr.args))
-        if isinstance(expr, sp.Pow) and expr.exp.is_Rational and expr.exp.q <= 2:
-            base, power = of(expr.base), abs(expr.exp.p)
-            whole = (base if expr.exp.q == 1 else _root(base)) ** power
-            return 1 / whole if expr.exp.p < 0 else whole
-        if isinstance(expr, sp.sin | sp.cos | sp.tan):
-            return getattr(series(of(expr.args[0])), expr.func.__name__)()
-        raise Undecided(f"{expr!s:.60} has no exact series")
-
+    operations, ends = _operations(tuple(sp.sympify(e, strict=True) for e in expressions))
+    found: list[Any] = []
     try:
-        return by_parts(expressions, values, made)
+        for of, parts in operations:
+            if parts:
+                found.append(of(*(found[i] for i in parts)))
+            else:
+                found.append(number(of.p, 1) / number(of.q, 1) if of.is_Rational else values[of])
+    except KeyError as missing:
+        raise Undecided(f"{missing.args[0]!s:.60} has no exact series") from None
     except ZeroDivisionError:
         raise Undecided("an expression divides by 0 at the exact state") from None
     except (ValueError, DomainError):
         raise Undecided("an expression has no rational series at the exact state") from None
+    return [found[i] for i in ends]
+
+
+@lru_cache(256)  # the same equations are evaluated at many states
+def _operations(expressions: tuple[sp.Expr, ...]) -> tuple[list[Operation], list[int]]:
+    """What is done for expressions, shared parts once, and the places of the results."""
+    operations = list[Operation]()
+
+    def made(expr: sp.Expr, of: Callable[[sp.Expr], int]) -> int:
+        done, args = (expr, ()) if expr.is_Rational or expr.is_Symbol else _operation(expr)
+        operations.append((done, tuple(map(of, args))))
+        return len(operations) - 1
+
+    return operations, by_parts(expressions, {}, made)
+
+
+def _operation(expr: sp.Expr) -> tuple[Callable[..., Any], Sequence[sp.Expr]]:
+    """What an expression does with its parts."""
+    if isinstance(expr, sp.Add | sp.Mul):
+        one = add if isinstance(expr, sp.Add) else mul
+        return lambda *parts: reduce(one, parts), expr.args
+    if isinstance(expr, sp.Pow) and expr.exp.is_Rational and expr.exp.q <= 2:
+        return partial(_power, expr.exp.p, expr.exp.q), expr.args[:1]
+    if isinstance(expr, sp.sin | sp.cos | sp.tan):
+        name = expr.func.__name__
+        return lambda angle: getattr(series(angle), name)(), expr.args
+    raise Undecided(f"{expr!s:.60} has no exact series")
+
+
+def _power(p: int, q: int, base: Any) -> Any:
+    """base^(p/q), q 1 or 2."""
+    whole = (base if q == 1 else _root(base)) ** abs(p)
+    return 1 / whole if p < 0 else whole
 
 
 def series(x: Any) -> Series:

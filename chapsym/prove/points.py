@@ -62,8 +62,9 @@ def some(ring: Quotient, examples: Examples) -> Iterator[Exact]:
     yield from candidates(ring.symbols, ring.relations, examples)
     numbers = Random(0)
     with suppress(ArithmeticError):  # where no point is known
+        start = first(ring, examples)
         for i in range(MOST_DRAWN):
-            yield drawn(ring, partial(small, numbers, 1 + i // 20), examples)
+            yield drawn(ring, partial(small, numbers, 1 + i // 20), start)
 
 
 def look(
@@ -114,15 +115,19 @@ def _number(x: Fraction) -> sp.Rational:
     return sp.Rational(x.numerator, x.denominator)
 
 
-def drawn(ring: Quotient, draw: Draw, examples: Examples | None = None) -> Exact:
-    """A point where all relations hold, of numbers that are drawn; raises ArithmeticError where none is known.
+def first(ring: Quotient, examples: Examples | None = None) -> Exact:
+    """A point where all relations hold; raises ArithmeticError where none is known."""
+    if (point := next(candidates(ring.symbols, ring.relations, examples or Examples()), None)) is not None:
+        return point
+    raise ArithmeticError(f"no rational point is known where {', '.join(f'{r} = 0' for r in ring.relations)}")
 
-    From a point that is found, one relation after the other: by the line through it in a direction that is drawn, which
-    meets a quadric again at a rational point; or solved for a variable in which it is linear.
+
+def drawn(ring: Quotient, draw: Draw, start: Exact) -> Exact:
+    """A point where all relations hold, of numbers that are drawn, from one that is known.
+
+    One relation after the other: by the line through the point in a direction that is drawn, which meets a quadric
+    again at a rational point; or solved for a variable in which it is linear.
     """
-    start = next(candidates(ring.symbols, ring.relations, examples or Examples()), None)
-    if start is None:
-        raise ArithmeticError(f"no rational point is known where {', '.join(f'{r} = 0' for r in ring.relations)}")
     related = set().union(*(relation.free_symbols for relation in ring.relations))
     found = {x: start[x] if x in related else _number(draw(x)) for x in ring.symbols}
     settled: set[sp.Symbol] = set()

@@ -10,7 +10,7 @@ from sympy.core.relational import Relational
 
 from chapsym.derive.quotient import Quotient
 
-from .points import Exact, drawn, small
+from .points import Exact, drawn, first, small
 from .statements import Comparison, Equation, Point, rational_point
 
 
@@ -56,8 +56,9 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
     numbers, seen = Random(seed), 0
     free = Quotient(ring.symbols)
     relations = [Equation(f"{relation} = 0", relation, 0, free) for relation in ring.relations]
+    start = first(ring)
     for i in range(tries):
-        values = drawn(ring, partial(small, numbers, 1 + i // 20))  # small numbers first
+        values = drawn(ring, partial(small, numbers, 1 + i // 20), start)  # small numbers first
         if all(true(one, values) for one in assumed):
             seen += 1
             if _fails(statement, values):
