@@ -113,7 +113,8 @@ class Quotient:
     def _shown(self, polynomial: fmpq_mpoly) -> sp.Expr:
         """The normal form of a polynomial."""
         rest = self._rest(polynomial).to_dict()
-        return self._ring.from_dict({m: sp.QQ(int(c.p), int(c.q)) for m, c in rest.items()}).as_expr()
+        terms = {tuple(map(int, m)): sp.QQ(int(c.p), int(c.q)) for m, c in rest.items()}  # SymPy need not know flint's
+        return self._ring.from_dict(terms).as_expr()
 
     def _rest(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
         """The same: what is left by division; by a Gröbner basis it does not depend on the order of its elements."""
