@@ -1,6 +1,7 @@
 """What all tests share: the examples of Hypothesis, `--thorough`, the verdicts judged once, what was not run."""
 
 import fcntl
+import gc
 import json
 import os
 import pickle
@@ -41,6 +42,13 @@ def pytest_collection_modifyitems(config, items):
     if not config.getoption("--thorough"):
         config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("thorough")])
         items[:] = [item for item in items if not item.get_closest_marker("thorough")]
+
+
+def pytest_collection_finish(session):
+    """What is imported and collected stays: the collector of garbage need not go through it again and again."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(100_000)
 
 
 def pytest_terminal_summary(terminalreporter, config):
