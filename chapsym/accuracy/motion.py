@@ -69,6 +69,8 @@ FINER = 1e-6
 TOGETHER, STEP, FRAME = 64, 1.5e-6, 2e-7
 #: What an accuracy may be of.
 PARTS = frozenset({"momentum", "gamma", "omega", "attitude", "contact"})
+#: Those whose errors are as large as one of the attitude.
+TURNED = frozenset({"momentum", "gamma", "attitude"})
 #: The order of long steps with all columns; lower ones are of the map and its compositions.
 EXTRAPOLATED = 2 * MOST_COLUMNS
 #: The vertical in space; and a unit quaternion times this turns the other way.
@@ -363,7 +365,8 @@ class Problem:
         """Finds `units`, and what `loops.expected` finds of each ball at the start: `survey`, (FOUND, n)."""
         ball, n = self.ball, len(self.K)
         #: What a relative error of each ball comes to in the norm, (n,): 1, or the radius in m.
-        self.units = ball.radius if self.metres and ball.radius is not None else np.ones(n)
+        self.units = np.empty(n)
+        self.units[:] = ball.radius if self.metres and ball.radius is not None else 1.0
         self.survey: Floats = np.empty((FOUND, n))
         survey = native.loop(surveyed)
         #: What rounding alone may leave of any ball, and whether one may rotate steadily.
@@ -560,7 +563,7 @@ def _run(
     found.order.fill(EXTRAPOLATED)
     found.total[:] = reported[:, STEPS]
     (noise, started), asked_of = np.empty((2, n)), problem.parts
-    turned = not asked_of or bool(asked_of & {"momentum", "gamma", "attitude"})
+    turned = not asked_of or not asked_of.isdisjoint(TURNED)
     counted = turned, "omega" in asked_of, traced and "contact" in asked_of
     worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, found.error, noise, started)
     return worst, noise, started
