@@ -27,5 +27,4 @@ SYSTEM = System(
     },
     start={q0: 1, dot(q1): 1, dot(q2): "-3/4", dot(q3): "5/4"},
     step="1/100",
-    source="A. V. Borisov, I. S. Mamaev, Regul. Chaotic Dyn. 7 (2002) 177",
 )  # fmt: skip
