@@ -40,7 +40,20 @@ from chapsym.dynamics.ball import SMALLEST, Asked, Floats, batch, checked_before
 from chapsym.dynamics.enclosed_motion import of_motion
 from chapsym.dynamics.extrapolation import FEW, loop_weights
 from chapsym.dynamics.levels.frames import Count, cores, share
-from chapsym.dynamics.loops.expected import ALLOWED, FIRST, FLOOR, FOUND, MOST, RATE, START, STILL, estimated, surveyed
+from chapsym.dynamics.loops.expected import (
+    ALLOWED,
+    CONDITION,
+    ENDLESS,
+    FIRST,
+    FLOOR,
+    FOUND,
+    MOST,
+    RATE,
+    START,
+    STILL,
+    estimated,
+    surveyed,
+)
 from chapsym.dynamics.loops.following import REPORTED, STEPS, follow
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 from chapsym.dynamics.map import flag, rolling_radius, seconds, whole_number
@@ -482,6 +495,11 @@ def _check(problem: Problem) -> np.ndarray | None:
     if problem.single:
         steady = is_steady(problem.ball, problem.K, problem.gamma)
         worst = float(np.where(steady, problem.survey[STILL], problem.survey[FLOOR]).max())
+    if worst > ROUNDING * problem.accuracy and (problem.survey[CONDITION] >= ENDLESS).any():
+        raise BadInput(
+            "the ball has a principal moment of 0, and no angular velocity where that axis is vertical, so that no "
+            "accuracy can be stated; give that moment a small value, or replace the motion by the map, map=True"
+        )
     if not math.isfinite(worst):
         raise BadInput("the ball turns too far for float64: |ω|T, or its condition, is beyond 1.8e308")
     if worst > ROUNDING * problem.accuracy:

@@ -296,6 +296,13 @@ def test_contact_is_true_or_false(call):
         getattr(chapsym, call)(Ball((1, 2, 3), 1.0, radius=1.0), (0.1, 0.2, 0.3), (0, 0, 1.0), *start, contact="no")
 
 
+@pytest.mark.parametrize("moments", [(0.004, 0.004, 0.0), (0.0, 0.004, 0.004)])
+def test_a_ball_of_a_moment_of_0_is_named_as_such(moments):
+    ball = Ball.from_inertia(moments, mass=2.0, radius=0.1)
+    with pytest.raises(BadInput, match="a principal moment of 0"):
+        chapsym.roll(ball, (3.0, -2.0, 1.0), 0.01, 100)
+
+
 def test_roll_refuses_in_one_sentence_what_no_run_can_have():
     with pytest.raises(BadInput, match=r"must be a chapsym\.Ball, not NoneType"):
         chapsym.roll(None, [1.0, 2.0, 3.0], 0.1, 3)
