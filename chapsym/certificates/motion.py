@@ -26,7 +26,7 @@ SIMPLE, KNOWN = 10**18, 512
 
 def check_start(start: Start) -> None:
     """Raises BadInput for principal axes that are not those that are given, and for a rotor with π in its numbers."""
-    if start.tensor is not None:
+    if start.axes is not None:
         raise BadInput("a certificate is of principal axes: give the principal moments, and all vectors in their axes")
     if any(x.of_pi for x in start.rotor):
         raise BadInput("a certificate has the rotor's angular momentum as rational numbers: give it in kg m^2/s")

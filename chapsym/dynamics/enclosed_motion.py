@@ -161,7 +161,7 @@ def certified_motion(
     ----------
     ball : ExactBall or Ball
         An `ExactBall`, or one `Ball` in principal axes, whose floats are taken exactly.  The axes of a tensor that is
-        not diagonal are enclosed: it must have three different principal moments, and all vectors are in its own axes.
+        not diagonal are enclosed, and all vectors are in its own axes.
     angular_momentum : array_like
         K in kg m²/s, in the axes of the body.
     gamma : array_like
@@ -203,7 +203,7 @@ def certified_motion(
     """
     from chapsym.numbers import Digits
 
-    from .flow.start import Start, Turns, balls, fixed, upright, vector
+    from .flow.start import Start, Turns, balls, fixed, principal_exactly, upright, vector
 
     exact = _exact_ball(ball)
     vertical = vector(gamma, "gamma")
@@ -221,7 +221,7 @@ def certified_motion(
     start = Start(
         moments if exact.diagonal else (), exact.D, turned, fixed(momentum), exact.radius,
         rotor=tuple(map(Turns, inside)),
-        tensor=None if exact.diagonal else lambda: [balls(row) for row in moments],
+        axes=None if exact.diagonal else lambda: principal_exactly(moments),
     )  # fmt: skip
     return follow(start, _ascending(times), digits, limit=limit, progress=progress)
 
@@ -350,7 +350,7 @@ class _Search:
                 omega = upper(self.start.path(1024).frame(Fraction(0))["omega"])
             except TooWide:
                 raise BadInput(
-                    "two principal moments are equal, or nearly, and their axes are not given: give the principal "
+                    "two principal moments are nearly equal, and their axes are not given: give the principal "
                     "moments, and all vectors in their axes"
                 ) from None
             if not omega.is_finite():

@@ -11,7 +11,7 @@ from flint import arb, ctx, fmpq
 
 import chapsym
 from chapsym.dynamics.enclosed_motion import follow
-from chapsym.dynamics.flow.start import principal
+from chapsym.dynamics.flow.start import principal, principal_exactly
 from chapsym.dynamics.levels.proved_root import TooWide
 from chapsym.scene import load
 from chapsym.scene.members.exactly import exact_motion
@@ -105,6 +105,14 @@ def matrix(rows):
     return [[arb(x) for x in row] for row in rows]
 
 
+def assert_are_of(found, tensor):
+    """Each moment times its axis is the tensor times it, and the axes are near."""
+    columns = [turned(found.turn, [int(i == j) for i in range(3)]) for j in range(3)]
+    for moment, v in zip(found.moments, columns, strict=True):
+        off = [sum(x * y for x, y in zip(row, v, strict=True)) - moment * w for row, w in zip(tensor, v, strict=True)]
+        assert all(x.contains(0) and x.rad() < 1e-25 for x in off)
+
+
 def test_axes_and_moments_are_those_of_the_tensor():
     rng = np.random.default_rng(5)
     for _ in range(20):
@@ -112,13 +120,7 @@ def test_axes_and_moments_are_those_of_the_tensor():
         tensor = (A + A.T) / 2
         with ctx.workprec(120):
             found = principal(matrix(tensor.tolist()))
-            columns = [turned(found.turn, [int(i == j) for i in range(3)]) for j in range(3)]
-            for moment, v in zip(found.moments, columns, strict=True):
-                off = [
-                    sum(x * y for x, y in zip(row, v, strict=True)) - moment * w
-                    for row, w in zip(tensor, v, strict=True)
-                ]
-                assert all(x.contains(0) and x.rad() < 1e-25 for x in off)
+            assert_are_of(found, tensor)
         assert np.allclose(sorted(float(x) for x in found.moments), np.linalg.eigvalsh(tensor), atol=1e-12)
 
 
@@ -128,9 +130,24 @@ def test_a_diagonal_tensor_has_its_axes_and_equal_moments_none():
         principal(matrix([[3, 1, 1], [1, 3, 1], [1, 1, 3]]))
 
 
-def test_a_tensor_from_python_has_the_motion_of_its_principal_moments():
+@pytest.mark.parametrize("v", [(1, 2, 2), (1, -3, 2), (3, 4, 0), (2, 0, 1), (0, 1, -1)])
+@pytest.mark.parametrize("s", [F(1, 3), F(-1, 40)])
+def test_of_rational_numbers_two_moments_may_be_equal(v, s):
+    tensor = [[F(7, 5) * (i == j) + s * v[i] * v[j] for j in range(3)] for i in range(3)]
+    rows = [[fmpq(x.numerator, x.denominator) for x in row] for row in tensor]
+    with ctx.workprec(120):
+        found = principal_exactly(tensor)
+        assert_are_of(found, rows)
+        assert str(found.moments[0]) == str(found.moments[1]) != str(found.moments[2])
+        near = [[x + F(1, 1000) * (i + j == 0) for j, x in enumerate(row)] for i, row in enumerate(tensor)]
+        assert len({str(x) for x in principal_exactly(near).moments}) == 3
+        assert principal_exactly([[F(i == j) for j in range(3)] for i in range(3)]).turn == (1, 0, 0, 0)
+
+
+@pytest.mark.parametrize("J", [(F(1), F(2), F(4)), (F(2), F(2), F(4))])
+def test_a_tensor_from_python_has_the_motion_of_its_principal_moments(J):
     """With a rotor and without: the vectors are those in principal axes, turned."""
-    J, D, K, rotor = (F(1), F(2), F(4)), F(3), (F(1), F(-1, 2), F(3, 4)), (F(1, 5), F(0), F(-1, 7))
+    D, K, rotor = F(3), (F(1), F(-1, 2), F(3, 4)), (F(1, 5), F(0), F(-1, 7))
     columns = [turned(TURN, e) for e in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
     tensor = [[sum(J[k] * columns[k][i] * columns[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
     up = (F(2, 7), F(3, 7), F(6, 7))

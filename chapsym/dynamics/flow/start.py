@@ -124,12 +124,41 @@ def principal(tensor: Sequence[Sequence[Any]]) -> Principal:
     return found
 
 
+def principal_exactly(rows: Sequence[Sequence[Fraction]]) -> Principal:
+    """`principal` of a symmetric matrix of rational numbers, of which two moments may be equal."""
+    round_ = _round(rows)
+    if round_ is None:
+        return principal([balls(row) for row in rows])
+    twice, once, axis = round_
+    least_ = min(range(3), key=lambda i: abs(axis[i]))  # an axis that this one is farthest from
+    third = unit(balls(axis))
+    first = unit(balls(cross(axis, [Fraction(i == least_) for i in range(3)])))
+    turn = tuple(quaternions(np.array([first, cross(third, first), third], dtype=object).T))
+    return Principal((ball(twice), ball(twice), ball(once)), turn)
+
+
+def _round(rows: Sequence[Sequence[Fraction]]) -> tuple[Fraction, Fraction, Sequence[Fraction]] | None:
+    """Two equal moments, the third, and a vector along its axis: T is not diagonal, and T - λ is s vvᵀ; or None."""
+    a, b, c = rows[0][1], rows[0][2], rows[1][2]
+    if a and b and c:
+        twice = rows[0][0] - a * b / c  # s v₁²
+    elif (a, b, c).count(Fraction(0)) == 2:  # v is normal to one of the given axes
+        twice = rows[2][2] if a else rows[1][1] if b else rows[0][0]
+    else:
+        return None
+    left = [[x - twice * (i == j) for j, x in enumerate(row)] for i, row in enumerate(rows)]
+    k = max(range(3), key=lambda i: abs(left[i][i]))
+    if any(left[i][j] * left[k][k] != left[i][k] * left[j][k] for i in range(3) for j in range(3)):
+        return None
+    return twice, sum((rows[i][i] for i in range(3)), -2 * twice), left[k]
+
+
 @dataclass(frozen=True)
 class Start:
     """A motion's data.
 
-    mass_tensor, D: exact; or, where the tensor is not diagonal in the axes of the body, `tensor`: it in balls at the
-    precision that is set, and no mass_tensor.
+    mass_tensor, D: exact; or, where the tensor is not diagonal in the axes of the body, `axes`: its principal moments
+    and axes in balls at the precision that is set, and no mass_tensor.
     attitude: its quaternion of any length, in such balls.  momentum: K in principal axes, of their attitude and them.
     radius, position: exact, or None.  rotor: the angular momentum of a rotor, in the axes of the body; it is part of K.
     """
@@ -141,11 +170,11 @@ class Start:
     radius: Fraction | None = None
     position: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
     rotor: Sequence[Turns] = NO_ROTOR
-    tensor: Callable[[], Sequence[Balls]] | None = None
+    axes: Callable[[], Principal] | None = None
 
     def path(self, precision: int) -> Path:
         """The motion at the start, with that precision set; raises TooWide where it does not tell the axes apart."""
-        axes = Principal(balls(self.mass_tensor)) if self.tensor is None else principal(self.tensor())
+        axes = Principal(balls(self.mass_tensor)) if self.axes is None else self.axes()
         a = unit(generated.compose(*unit(self.attitude()), *axes.turn))
         radius, rotor = None if self.radius is None else ball(self.radius), axes.inward(balls(self.rotor))
         path = Path(precision, axes.moments, ball(self.D), self.momentum(a, axes), a, radius, rotor)

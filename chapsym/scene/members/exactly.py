@@ -9,7 +9,19 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics.attitudes import roll_pitch_yaw
-from chapsym.dynamics.flow.start import NO_ROTOR, Balls, Principal, Start, Turns, ball, balls, turning, upright
+from chapsym.dynamics.flow.start import (
+    NO_ROTOR,
+    Balls,
+    Principal,
+    Start,
+    Turns,
+    ball,
+    balls,
+    principal,
+    principal_exactly,
+    turning,
+    upright,
+)
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.map import check_body
 from chapsym.rationals import mass_tensor_from
@@ -54,8 +66,8 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     data = tomllib.loads(scene.toml, parse_float=lambda text: text.replace("_", ""))
     table = data["ball"][0] if isinstance(data["ball"], list) else data["ball"]
     beginning = table.get("start") or data["start"]
-    moments, D, tensor = _body(table)
-    if tensor is None:
+    moments, D, axes = _body(table)
+    if axes is None:
         check_body(moments, D)
     radius = _rational(table, "radius") if "radius" in table else None
     attitude = _attitude(beginning)
@@ -73,7 +85,7 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     moving = _numbers(beginning, "velocity" if "velocity" in beginning else "omega")
     if any(map(any, rotor)) and not any(map(any, (*moving, _number(beginning.get("spin", 0), RATE)))):
         raise SceneError(f"{name}: without angular velocity the ball stays at rest, whatever the rotor")
-    start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, tensor)
+    start = Start(moments, D, attitude, momentum, radius, (place[0], place[1]), rotor, axes)
     return start, _times(scene, data["run"])
 
 
@@ -89,12 +101,12 @@ def _rational(table: Mapping[str, Any], key: str) -> Fraction:
     return _number(table[key], DIMENSIONS[key]).rational
 
 
-#: ∫xxᵀdm in balls at the precision that is set.
-Tensor = Callable[[], Sequence[Balls]]
+#: The principal moments of ∫xxᵀdm and their axes, in balls at the precision that is set.
+Axes = Callable[[], Principal]
 
 
-def _body(table: Mapping[str, Any]) -> tuple[tuple[Fraction, ...], Fraction, Tensor | None]:
-    """J and D, exactly; where the tensor is not diagonal no J, but it."""
+def _body(table: Mapping[str, Any]) -> tuple[tuple[Fraction, ...], Fraction, Axes | None]:
+    """J and D, exactly; where the tensor is not diagonal no J, but its axes."""
     D = _rational(table, "D") if "D" in table else _rational(table, "mass") * _rational(table, "radius") ** 2
     if "mass_tensor" in table:
         return tuple(x.rational for x in _numbers(table, "mass_tensor")), D, None
@@ -107,19 +119,18 @@ def _body(table: Mapping[str, Any]) -> tuple[tuple[Fraction, ...], Fraction, Ten
         whole = [[half * (i == j) - (matrix[i][j] + matrix[j][i]) / 2 for j in range(3)] for i in range(3)]
         if not any(whole[i][j] for i in range(3) for j in range(i)):
             return tuple(whole[i][i] for i in range(3)), D, None
-        return (), D, lambda: [balls(row) for row in whole]
+        return (), D, lambda: principal_exactly(whole)
     preset, keys = PRESETS[table["preset"]], ("mass", "radius", *keys_of(table["preset"]))
     given: dict[str, Any] = {key: _exactly(table, key) for key in keys if key in table}
     if "block_offset" not in given:
         return tuple(preset(**given)), D, None
 
-    def tensor() -> Sequence[Balls]:
+    def axes() -> Principal:
         """With a root in it: the distance of the block."""
         inside = {key: np.vectorize(ball, otypes=[object])(x[np.newaxis]) for key, x in given.items()}  # a batch of one
-        found: Sequence[Balls] = [tuple(row) for row in preset(**inside)[0]]
-        return found
+        return principal(preset(**inside)[0].tolist())
 
-    return (), D, tensor
+    return (), D, axes
 
 
 def _exactly(table: Mapping[str, Any], key: str) -> Any:
