@@ -171,9 +171,9 @@ WITHOUT = {
 @pytest.mark.parametrize(
     ("name", "count"),
     [
-        ("contact", 32), ("particle", 32),
+        ("particle", 32),
         *slow(
-            ("ball", 40), ("falling_disc", 29), ("rattleback", 20), ("sleigh", 31), ("snakeboard", 43), ("suslov", 21),
+            ("ball", 40), ("contact", 32), ("falling_disc", 29), ("rattleback", 20), ("sleigh", 31), ("snakeboard", 43), ("suslov", 21),
             ("transmission", 32), ("veselova", 26), ("vertical_disc", 36),
         ),
     ],
