@@ -32,7 +32,7 @@ def judge(
 
     Example: chapsym judge mine.csv --body mine.urdf
     """
-    from chapsym.studies.comparable import case_of_body, case_of_scene, check_axes, check_start
+    from chapsym.studies.comparable import SOFT, case_of_body, case_of_scene, check_axes, check_start
     from chapsym.studies.foreign import table_of
     from chapsym.studies.judge import convergence, departure, read_case, sentence, summary
 
@@ -47,8 +47,8 @@ def judge(
         case = case_of_scene(against) if against.suffix == ".toml" else read_case(against)
     runs = [table.at(case.time) for table in tables]
     for run in runs:
-        if against is not None:
-            check_start(case, run)
+        if against is not None or len(runs) > 1:  # one with a body has its own start
+            check_start(case, run, SOFT if against is None else 0.0)
         check_axes(case, run)
     found = [departure(case, run) for run in runs]
     known: dict[str, Convergence] = {}

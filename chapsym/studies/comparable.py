@@ -173,10 +173,13 @@ def _check(
         raise BadInput(f"{run.file}: {clause}: no verdict on the engine")
 
 
-def check_start(case: Case, run: Trajectory) -> None:
-    """Raises BadInput unless the first row is the start of the case, and names the convention in which it would be."""
+def check_start(case: Case, run: Trajectory, soft: float = 0.0) -> None:
+    """Raises BadInput unless the first row is the start of the case, and names the convention in which it would be.
+
+    soft: by what part of it the velocity may be another.
+    """
     start = _rolling(case.path[0], case.radius, case.attitude[0], case.omega[0]) | {"velocity": case.moving[0]}
-    _check(run, case.name, lambda read: start, lambda read: case.attitude[1], 0.0)
+    _check(run, case.name, lambda read: start, lambda read: case.attitude[1], soft)
 
 
 def check_axes(case: Case, run: Trajectory) -> None:

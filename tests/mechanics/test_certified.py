@@ -173,7 +173,8 @@ WITHOUT = {
     [
         ("particle", 32),
         *slow(
-            ("ball", 40), ("contact", 32), ("falling_disc", 29), ("rattleback", 20), ("sleigh", 31), ("snakeboard", 43), ("suslov", 21),
+            ("ball", 40), ("contact", 32), ("falling_disc", 29), ("rattleback", 20), ("sleigh", 31), ("snakeboard", 43),
+            ("suslov", 21),
             ("transmission", 32), ("veselova", 26), ("vertical_disc", 36),
         ),
     ],

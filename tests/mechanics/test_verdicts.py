@@ -31,7 +31,8 @@ def proved(found):
         ("sleigh", "dla"), ("snakeboard", "midpoint"), ("transmission", "rk4"), ("vertical_disc", "dla-left"),
         ("ball", "leapfrog"),
         *slow(
-            ("veselova", "gni"), ("falling_disc", "spark"), ("suslov", "dla"), ("rattleback", "dla-left"), ("rattleback", "rk4"),
+            ("veselova", "gni"), ("falling_disc", "spark"), ("suslov", "dla"), ("rattleback", "dla-left"),
+            ("rattleback", "rk4"),
             *((name, method) for name in ("sleigh", "vertical_disc", "snakeboard", "transmission")
               for method in ANYWHERE),
         ),

@@ -169,6 +169,17 @@ def test_a_ball_of_ones_own_has_the_motion_that_the_case_has(rows, body, tmp_pat
     assert "give either --against" in refused("judge", write(tmp_path, rows))
 
 
+def test_of_several_results_each_has_the_start_of_the_others(rows, body, tmp_path):
+    """The ball starts as the file of the fewest rows does."""
+    files, later = [], {name: values[1:] for name, values in rows.items()}
+    for name, table, step in (("a", {x: values[:5] for x, values in rows.items()}, 4), ("b", rows, 2), ("c", rows, 1)):
+        (tmp_path / name).mkdir()
+        files.append(write(tmp_path / name, table, [f"# time_step = {step}e-3", ",".join(rows)]))
+    answer("judge", *files, "--body", body)
+    write(tmp_path / "c", later, ["# time_step = 1e-3", ",".join(rows)])
+    assert f"{files[2]}: its first row is not the start of robot" in refused("judge", *files, "--body", body)
+
+
 def test_a_ball_that_slides_at_first_is_not_said_to_be_in_mm(body, tmp_path):
     """Unity turns by 7 rad/s at most; a column of 0.0 and a height of 0.105 have no rounding that would hide it."""
     rows = {name: np.zeros(3) for name in (*NEEDED, *MORE)} | {"z": np.full(3, 0.105)}
