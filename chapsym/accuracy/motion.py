@@ -9,8 +9,8 @@ Where the roundings of long steps are too many: compositions of the map.  The er
 about c (|ω|h)^p (1 + |ω|t), with nearly the same c for every ball that is not near a separatrix.  A run is compared
 with one of fewer steps, and by Richardson's rule its own error is their difference / (r^p - 1), where r is the ratio of
 the steps; it is taken `SAFETY` times as large.  A run that fails teaches the law, and is taken again with more steps.
-One whose predecessor, of half as many steps, has stopped is not believed: errors do not yet fall as they should there,
-and may be alike by chance.
+Where errors do not yet fall as they should, two runs may be alike by chance: no error is held to be less than `SAFETY`
+times that of the law as it was taught, and a run whose predecessor, of half as many steps, has stopped is not believed.
 """
 
 from __future__ import annotations
@@ -595,7 +595,7 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
     """
     n = len(problem)
     found, left, factor, before = problem.nothing(), np.arange(n), np.ones(n), np.full(n, np.inf)
-    gain, stopped = np.ones(n), np.zeros(n, dtype=bool)
+    gain, expected, stopped = np.ones(n), np.empty(n), np.zeros(n, dtype=bool)
     found.order[:], steps = cheapest(problem, factor)
     for attempt in range(ATTEMPTS):
         for order, count in sorted(set(zip(found.order[left].tolist(), steps[left].tolist(), strict=True))):
@@ -604,7 +604,8 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
             run = part.take(order, count)
             run.error[:] = _verified(part, order, count, run)
             found.put(some, run)
-        error = found.error[left]
+        expected[left] = _error(problem.of(left), found.order[left], problem.interval / steps[left])
+        error = np.maximum(found.error[left], SAFETY * factor[left] * expected[left])
         fell, error = np.isfinite(error), np.where(stopped[left], np.inf, error)
         found.error[left], stopped[left] = np.where(found.status[left] == Status.TAKEN, error, np.nan), ~fell
         there = error <= problem.accuracy
@@ -614,9 +615,8 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
         if not len(left) or attempt + 1 == ATTEMPTS:
             break
         part, order, taken = problem.of(left), found.order[left], steps[left]
-        expected = _error(part, order, problem.interval / taken)
-        known = np.isfinite(before[left])
-        factor[left] = np.where(known, np.maximum(factor[left], before[left] / (SAFETY * expected)), factor[left])
+        known, taught = np.isfinite(before[left]), before[left] / (SAFETY * expected[left])
+        factor[left] = np.where(known, np.maximum(factor[left], taught), factor[left])
         wanted, finer = cheapest(part, factor[left])
         least, most = LEAST_FINER * taken, MOST_FINER * taken
         finer = np.where(wanted == order, shared(np.minimum(np.maximum(finer, least), most)), finer)

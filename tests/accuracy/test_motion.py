@@ -128,9 +128,9 @@ def test_two_runs_of_a_rod_that_are_both_far_from_the_motion_are_not_believed():
 
 
 def test_a_run_whose_predecessor_stopped_is_not_believed(monkeypatch):
-    estimates = iter([np.inf, 1e-9, 1e-9])
+    estimates = iter([np.inf, 9e-7, 9e-7])
     monkeypatch.setattr(motion, "_verified", lambda *run: np.array([next(estimates)]))
-    assert composed(problem([14.0, -6.0, 3.0])).error == 1e-9
+    assert composed(problem([14.0, -6.0, 3.0])).error == 9e-7
     assert next(estimates, None) is None
 
 
@@ -271,15 +271,15 @@ def test_what_rounding_of_the_start_does_is_in_the_estimate(inertia, D, omega, e
 def test_near_unstable_rotations_the_estimate_is_above_the_error(thorough):
     """Of 113 the error is .31 of the estimate, so that a quarter of it would be seen; the steps of 798 are alike."""
     light, heavy = (range(3000), range(300)) if thorough else ((*range(8), 113, 798), (20, 44, 58))
-    parts = [unstable_starts.part(seed) for seed in light if seed != 2580]
+    parts = [unstable_starts.part(seed) for seed in light]
     parts += [unstable_starts.part(seed, heavy=True) for seed in heavy]
     assert 0.25 < max(parts) < 1
 
 
-@pytest.mark.xfail(strict=True, reason="one start of 3000: the error is 1.9 times the estimate, .03 of the accuracy")
-def test_a_start_whose_last_passage_is_the_most_sensitive_one():
-    """What the steps leave has a direction that none of the last three columns shows, and grows 5000 times at once."""
-    assert unstable_starts.part(2580) < 1
+@pytest.mark.parametrize(("seed", "heavy"), [(2580, False), (513, True)])
+def test_compositions_that_agree_by_chance_are_not_believed(seed, heavy):
+    """The error was 1.9 and 1.5 times the estimate: the compared run was too coarse for the law, and near by chance."""
+    assert unstable_starts.part(seed, heavy) < 0.5
 
 
 @pytest.mark.parametrize("wrong", [[1, 0], np.array([1, 0]), "no", 2.5, None])
