@@ -5,7 +5,7 @@ from math import frexp, inf, ldexp, sqrt
 from chapsym.generated import angular_velocity
 
 from .branch import moments
-from .following import CAUTIOUS, FARTHEST, ROLLED, ROUNDINGS, SPUN, STEPS, TURNED, UNTIL, WALKED
+from .following import ACROSS, CAUTIOUS, FARTHEST, ROLLED, ROUNDINGS, SPUN, STEPS, TURNED, UNTIL, WALKED
 from .text import Matrix, Vector
 from .vectors import largest, length, shifted, three
 
@@ -23,9 +23,6 @@ GROWTH = 30.0
 UNIT_ERROR, AIM = 3e-9, 0.5
 #: The roundings of steps that go one way turn a ball as those of its parameters do, and this many times as far.
 TURNING = 3.0
-#: What part of how far a rounding of K moves ω a long step is held to be rounded by, if that is more than the root of
-#: the condition: of 260 starts of heavy balls the largest error was then .33 of its estimate.
-ACROSS = 0.25
 #: Of a ball of a larger condition the roundings of long steps are not known.
 CONDITIONED = 1e4
 #: What has no bound.
