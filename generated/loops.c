@@ -3479,11 +3479,11 @@ INLINE void carried_begun(r2 E, int64_t B, int64_t b, t_r3 J, real start) {
     int64_t i;
     for (int64_t lane = 0; lane < 4; lane++) {
         i = lane * B + b;
-        for (int64_t c = 0; c < 3; c++) { AT2(E, 44 + c, i) = c == lane ? R(1.0) : R(0.0); }
-        vectors_put_in(E, 57, i, J);
-        for (int64_t row = 65; row < 121; row++) { AT2(E, row, i) = R(0.0); }
+        for (int64_t c = 0; c < 3; c++) { AT2(E, 38 + c, i) = c == lane ? R(1.0) : R(0.0); }
+        vectors_put_in(E, 51, i, J);
+        for (int64_t row = 59; row < 119; row++) { AT2(E, row, i) = R(0.0); }
     }
-    AT2(E, 70, b) = start * start; AT2(E, 73, b) = start * start; AT2(E, 75, b) = start * start;
+    AT2(E, 64, b) = start * start; AT2(E, 67, b) = start * start; AT2(E, 69, b) = start * start;
 }
 
 INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t i, Frames frames, Balls balls, real
@@ -3500,16 +3500,16 @@ INLINE int64_t following_taken_in(r2 S, r2 E, int64_t B, int64_t b, int64_t i, F
 
 INLINE t_r3 carried_by(t_r3 a, t_r3 b) { return (t_r3){a.a0 * b.a0, a.a1 * b.a1, a.a2 * b.a2}; }
 INLINE void carried_tangent(r2 S, r2 E, int64_t B, int64_t at, int traced) {
-    real one, contact, least, along, across, up, over;
-    t_r3 K, g, J, body, w, m, s, a, n, v, u, e, f, turned, t, p, z, b; t_r4 q;
+    real one, contact, least, along, across, up, over, found, moved, size;
+    t_r3 K, g, J, body, w, m, s, a, n, v, u, e, f, turned, t, p, z, b; t_r4 q; int64_t i, j, k;
     for (int64_t row = 0; row < 10; row++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-            one = AT2(S, 105 + row, b); AT2(E, 47 + row, b) = one; AT2(E, 47 + row, B + b) = one;
-            AT2(E, 47 + row, 2 * B + b) = one; AT2(E, 47 + row, 3 * B + b) = one;
+            one = AT2(S, 105 + row, b); AT2(E, 41 + row, b) = one; AT2(E, 41 + row, B + b) = one;
+            AT2(E, 41 + row, 2 * B + b) = one; AT2(E, 41 + row, 3 * B + b) = one;
         }
     }
     INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) {
-        K = vectors_three_in(E, 47, i); g = vectors_three_in(E, 50, i); J = vectors_three_in(E, 57, i);
+        K = vectors_three_in(E, 41, i); g = vectors_three_in(E, 44, i); J = vectors_three_in(E, 51, i);
         contact = AT2(S, 30, i);
         body = (t_r3){AT2(S, 27, i) + contact, AT2(S, 28, i) + contact, AT2(S, 29, i) + contact};
         w = kernel_angular_velocity(K.a0, K.a1, K.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
@@ -3519,9 +3519,9 @@ INLINE void carried_tangent(r2 S, r2 E, int64_t B, int64_t at, int traced) {
         least = R(9.999999999999998e-15) * (vectors_dot(m, m) * vectors_dot(w, w));
         vectors_put_in(E, at + 16, i, vectors_scaled(vectors_dot(s, s) > least ? R(1.0) : R(0.0), s));
         v = vectors_cross(w, g); u = vectors_minus(vectors_cross(a, g), vectors_cross(w, v));
-        e = vectors_three_in(E, 44, i); t_r3 t_1 = carried_by(e, K);
-        vectors_put_in(E, at + 19, i, kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, g.a0, g.a1, g.a2, J.a0, J.a1,
-            J.a2, contact));
+        e = vectors_three_in(E, 38, i); t_r3 t_1 = carried_by(e, K);
+        vectors_put_in(E, 100, i, kernel_angular_velocity(t_1.a0, t_1.a1, t_1.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2,
+            contact));
         along = contact * vectors_dot(v, e); across = contact * vectors_dot(u, e);
         t_r3 t_2 = vectors_plus(vectors_cross(m, e), vectors_scaled(along, g));
         s = kernel_angular_velocity(t_2.a0, t_2.a1, t_2.a2, g.a0, g.a1, g.a2, J.a0, J.a1, J.a2, contact);
@@ -3533,12 +3533,20 @@ INLINE void carried_tangent(r2 S, r2 E, int64_t B, int64_t at, int traced) {
         p = vectors_plus(vectors_plus(t, vectors_cross(f, w)), vectors_cross(e, a)); vectors_put_in(E, at + 0, i, s);
         vectors_put_in(E, at + 3, i, f); vectors_put_in(E, at + 6, i, p);
         if (traced) {
-            q = vectors_four_in(E, 53, i); z = vectors_cross(f, g);
+            q = vectors_four_in(E, 47, i); z = vectors_cross(f, g);
             b = vectors_minus(vectors_plus(vectors_cross(w, z), vectors_cross(p, g)), vectors_cross(f, v));
             t_r3 t_4 = kernel_rotate(q.a0, q.a1, q.a2, q.a3, z.a0, z.a1, z.a2); AT2(E, at + 9, i) = t_4.a0;
             AT2(E, at + 9 + 1, i) = t_4.a1; t_r3 t_5 = kernel_rotate(q.a0, q.a1, q.a2, q.a3, b.a0, b.a1, b.a2);
             AT2(E, at + 11, i) = t_5.a0; AT2(E, at + 11 + 1, i) = t_5.a1;
         }
+    }
+    INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
+        i = b; j = B + b; k = 2 * B + b; w = vectors_three_in(E, at + 13, b); found = R(0.0);
+        for (int64_t c = 0; c < 3; c++) {
+            moved = R(fabs(AT2(E, 100 + c, i))) + R(fabs(AT2(E, 100 + c, j))) + R(fabs(AT2(E, 100 + c, k)));
+            found = found + moved * moved;
+        }
+        size = vectors_dot(w, w); AT2(E, 103, b) = size > R(0.0) ? R(sqrt(found / size)) : R(0.0);
     }
 }
 
@@ -3549,25 +3557,25 @@ INLINE void carried_changes(r2 S, r2 E, int64_t B) {
         one = R(1.0) / R(sqrt(vectors_square_of_four(a))); two = R(1.0) / R(sqrt(vectors_square_of_four(b)));
         for (int64_t c = 0; c < 3; c++) {
             w = AT2(S, 73 + 2 * c, i) * one; v = AT2(S, 73 + 2 * c + 1, i) * two;
-            vectors_put_four_in(E, 106 + 4 * c, i, vectors_mixed(w, a, v, b));
+            vectors_put_four_in(E, 104 + 4 * c, i, vectors_mixed(w, a, v, b));
         }
         way = vectors_plus(vectors_scaled(AT2(S, 73, i), vectors_three_in(S, 91, i)), vectors_scaled(AT2(S, 74, i),
             vectors_three_in(S, 19, i)));
-        vectors_put_in(E, 118, i, way);
+        vectors_put_in(E, 116, i, way);
     }
-    for (int64_t row = 106; row < 121; row++) {
+    for (int64_t row = 104; row < 119; row++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
             AT2(E, row, b) = AT2(E, row, b) + AT2(E, row, B + b) + (AT2(E, row, 2 * B + b) + AT2(E, row, 3 * B + b));
         }
     }
     for (int64_t c = 0; c < 3; c++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-            vectors_put_in(S, 118 + 3 * c, b, lanes_twist(vectors_four_in(S, 94, b), vectors_four_in(E, 106 + 4 * c,
+            vectors_put_in(S, 118 + 3 * c, b, lanes_twist(vectors_four_in(S, 94, b), vectors_four_in(E, 104 + 4 * c,
                 b)));
         }
     }
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        t_r4 t_1 = vectors_four_in(E, 53, b); t_r3 t_2 = vectors_three_in(E, 118, b);
+        t_r4 t_1 = vectors_four_in(E, 47, b); t_r3 t_2 = vectors_three_in(E, 116, b);
         t_r3 t_3 = kernel_rotate(t_1.a0, t_1.a1, t_1.a2, t_1.a3, t_2.a0, t_2.a1, t_2.a2); AT2(S, 127, b) = t_3.a0;
         AT2(S, 128, b) = t_3.a1;
     }
@@ -3600,9 +3608,9 @@ INLINE void following_judged(r2 S, r2 E, int64_t b, int lost, real start, r2 sum
         }
         if (tries < 40 && (stopped != 0 || !always)) { lane.p[12] = R(1.0); lane.p[10] = R(0.9) * step; }
     }
-    t_r4 error = following_left(S, b, start); AT2(E, 85, b) = error.a1 > R(0.0) ? error.a0 / error.a1 : R(0.0);
-    AT2(E, 86, b) = error.a2 > R(0.0) ? error.a0 / error.a2 : R(0.0);
-    AT2(E, 87, b) = error.a3 > R(0.0) ? error.a0 / error.a3 : R(0.0); real bound = lane.p[18] * step;
+    t_r4 error = following_left(S, b, start); AT2(E, 79, b) = error.a1 > R(0.0) ? error.a0 / error.a1 : R(0.0);
+    AT2(E, 80, b) = error.a2 > R(0.0) ? error.a0 / error.a2 : R(0.0);
+    AT2(E, 81, b) = error.a3 > R(0.0) ? error.a0 / error.a3 : R(0.0); real bound = lane.p[18] * step;
     real wanted = bound > R(0.0) ? min_r(max_r(step * following_lengthened(error.a0 / (R(0.4) * bound)), R(0.3) *
         step), R(2.0) * step) : step;
     if (size > R(0.0)) { wanted = max_r(min_r(wanted, R(1.7) / size), min_r(R(0.02) / size, step)); }
@@ -3737,19 +3745,9 @@ INLINE real following_spinning(r2 E, int64_t B, int64_t b) {
     return R(sqrt(found));
 }
 
-INLINE real carried_moved_by_roundings(r2 E, int64_t B, int64_t b) {
-    real moved; real found = R(0.0);
-    for (int64_t c = 0; c < 3; c++) {
-        moved = R(fabs(AT2(E, 19 + c, b))) + R(fabs(AT2(E, 19 + c, B + b))) + R(fabs(AT2(E, 19 + c, 2 * B + b)));
-        found = found + moved * moved;
-    }
-    t_r3 w = vectors_three_in(E, 13, b); real size = vectors_dot(w, w);
-    return size > R(0.0) ? R(sqrt(found / size)) : R(0.0);
-}
-
 INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real interval, real start, real bearable,
     int traced, r2 sums, r1 body, r1 state, r1 lane, r2 V, r2 first, r2 last, r2 curve, r1 now) {
-    int inside; t_r2 off; real speed, worst, more, rounding; AT2(E, 84, b) = R(0.0); AT2(E, 88, b) = R(0.0);
+    int inside; t_r2 off; real speed, worst, more, rounding; AT2(E, 78, b) = R(0.0); AT2(E, 82, b) = R(0.0);
     if (AT2(S, 135, b) != R(0.0)) { lane.p[12] = R(0.0); return; }
     following_judged(S, E, b, lost, start, sums, state, lane);
     if (lane.p[12] == R(3.0)) {
@@ -3771,21 +3769,21 @@ INLINE void following_looked_at(r2 S, r2 E, int64_t B, int64_t b, int lost, real
     if (lane.p[12] == R(3.0)) {
         real t_4 = min_r(R(1.05) * lane.p[20], R(1e+300)), t_5 = min_r(R(1.05) * lane.p[10], R(1e+300));
         lane.p[20] = t_4; lane.p[10] = t_5;
-        rounding = R(27.1) * max_r(start, R(5.551115123125783e-17) * carried_moved_by_roundings(E, B, b));
+        rounding = R(27.1) * max_r(start, R(5.551115123125783e-17) * AT2(E, 103, b));
         if (AT2(E, 16, b) == R(0.0) && AT2(E, 17, b) == R(0.0) && AT2(E, 18, b) == R(0.0)) {
             lane.p[21] = lane.p[21] + R(1.0);
             rounding = max_r(rounding, R(1.6653345369377348e-14)) * R(sqrt(R(2.0) * lane.p[21] - R(1.0)));
         }
         else { lane.p[21] = R(0.0); }
-        AT2(E, 84, b) = lane.p[1] * lane.p[2]; AT2(E, 88, b) = rounding * rounding; AT2(S, 117, b) = R(0.0);
+        AT2(E, 78, b) = lane.p[1] * lane.p[2]; AT2(E, 82, b) = rounding * rounding; AT2(S, 117, b) = R(0.0);
     }
-    else { AT2(E, 85, b) = R(0.0); AT2(E, 86, b) = R(0.0); AT2(E, 87, b) = R(0.0); }
+    else { AT2(E, 79, b) = R(0.0); AT2(E, 80, b) = R(0.0); AT2(E, 81, b) = R(0.0); }
     if (lane.p[12] == R(1.0)) { lanes_put_back(S, b, body); }
 }
 
 INLINE t_r3 carried_ended(r2 E, int64_t i, real half, real twelfth) {
-    return vectors_minus(vectors_scaled(twelfth, vectors_three_in(E, 28, i)), vectors_scaled(half, vectors_three_in(E,
-        25, i)));
+    return vectors_minus(vectors_scaled(twelfth, vectors_three_in(E, 25, i)), vectors_scaled(half, vectors_three_in(E,
+        22, i)));
 }
 
 INLINE t_r3 carried_applied(t__r3_3 columns, t_r3 v) {
@@ -3797,56 +3795,56 @@ INLINE void carried_kept(r2 E, int64_t B) {
     int64_t i, j, k; t_r3 w, x, c1, c2, c3, n, m; t__r3_3 columns; real size, part;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
         i = b; j = B + b; k = 2 * B + b; w = vectors_three_in(E, 13, b);
-        columns = (t__r3_3){vectors_three_in(E, 60, i), vectors_three_in(E, 60, j), vectors_three_in(E, 60, k)};
+        columns = (t__r3_3){vectors_three_in(E, 54, i), vectors_three_in(E, 54, j), vectors_three_in(E, 54, k)};
         size = vectors_dot(w, w); part = size > R(0.0) ? R(1.0) / size : R(0.0);
-        x = vectors_scaled(part, vectors_minus(vectors_three_in(E, 35, b), carried_applied(columns, w)));
+        x = vectors_scaled(part, vectors_minus(vectors_three_in(E, 32, b), carried_applied(columns, w)));
         c1 = vectors_plus(columns.a0, vectors_scaled(w.a0, x));
         c2 = vectors_plus(columns.a1, vectors_scaled(w.a1, x));
-        c3 = vectors_plus(columns.a2, vectors_scaled(w.a2, x)); n = vectors_three_in(E, 38, b);
+        c3 = vectors_plus(columns.a2, vectors_scaled(w.a2, x)); n = vectors_three_in(E, 35, b);
         m = vectors_three_in(E, 16, b); size = vectors_dot(n, n);
         part = (size > R(0.0) && vectors_dot(m, m) > R(0.0)) ? R(1.0) / size : R(0.0);
-        vectors_put_in(E, 60, i, vectors_plus(c1, vectors_scaled(part * (m.a0 - vectors_dot(n, c1)), n)));
-        vectors_put_in(E, 60, j, vectors_plus(c2, vectors_scaled(part * (m.a1 - vectors_dot(n, c2)), n)));
-        vectors_put_in(E, 60, k, vectors_plus(c3, vectors_scaled(part * (m.a2 - vectors_dot(n, c3)), n)));
+        vectors_put_in(E, 54, i, vectors_plus(c1, vectors_scaled(part * (m.a0 - vectors_dot(n, c1)), n)));
+        vectors_put_in(E, 54, j, vectors_plus(c2, vectors_scaled(part * (m.a1 - vectors_dot(n, c2)), n)));
+        vectors_put_in(E, 54, k, vectors_plus(c3, vectors_scaled(part * (m.a2 - vectors_dot(n, c3)), n)));
     }
 }
 
 INLINE void carried_flown(r2 E, int64_t B, int traced) {
     real half, twelfth, over, x, y, off; int64_t i, j, k, lane; t_r3 u, v, w, a, d, e, row;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        half = R(0.5) * AT2(E, 84, b); twelfth = AT2(E, 84, b) * AT2(E, 84, b) * R(0.08333333333333333); i = b;
+        half = R(0.5) * AT2(E, 78, b); twelfth = AT2(E, 78, b) * AT2(E, 78, b) * R(0.08333333333333333); i = b;
         j = B + b; k = 2 * B + b; u = carried_ended(E, i, half, twelfth); v = carried_ended(E, j, half, twelfth);
         w = carried_ended(E, k, half, twelfth);
-        a = (t_r3){R(1.0) - half * AT2(E, 25, i) + twelfth * AT2(E, 28, i), u.a1, u.a2};
-        d = (t_r3){v.a0, R(1.0) - half * AT2(E, 26, j) + twelfth * AT2(E, 29, j), v.a2};
-        e = (t_r3){w.a0, w.a1, R(1.0) - half * AT2(E, 27, k) + twelfth * AT2(E, 30, k)}; row = vectors_cross(d, e);
-        over = R(1.0) / vectors_dot(a, row); vectors_put_in(E, 95, b, vectors_scaled(over, row));
-        vectors_put_in(E, 98, b, vectors_scaled(over, vectors_cross(e, a)));
-        vectors_put_in(E, 101, b, vectors_scaled(over, vectors_cross(a, d))); AT2(E, 104, b) = half;
-        AT2(E, 105, b) = twelfth;
+        a = (t_r3){R(1.0) - half * AT2(E, 22, i) + twelfth * AT2(E, 25, i), u.a1, u.a2};
+        d = (t_r3){v.a0, R(1.0) - half * AT2(E, 23, j) + twelfth * AT2(E, 26, j), v.a2};
+        e = (t_r3){w.a0, w.a1, R(1.0) - half * AT2(E, 24, k) + twelfth * AT2(E, 27, k)}; row = vectors_cross(d, e);
+        over = R(1.0) / vectors_dot(a, row); vectors_put_in(E, 89, b, vectors_scaled(over, row));
+        vectors_put_in(E, 92, b, vectors_scaled(over, vectors_cross(e, a)));
+        vectors_put_in(E, 95, b, vectors_scaled(over, vectors_cross(a, d))); AT2(E, 98, b) = half;
+        AT2(E, 99, b) = twelfth;
     }
     for (int64_t column = 0; column < 3; column++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-            i = column * B + b; half = AT2(E, 104, b); twelfth = AT2(E, 105, b);
-            v = vectors_plus(vectors_three_in(E, 44, i), vectors_scaled(half, vectors_three_in(E, 3, i)));
+            i = column * B + b; half = AT2(E, 98, b); twelfth = AT2(E, 99, b);
+            v = vectors_plus(vectors_three_in(E, 38, i), vectors_scaled(half, vectors_three_in(E, 3, i)));
             v = vectors_plus(v, vectors_scaled(twelfth, vectors_three_in(E, 6, i)));
-            AT2(E, 60, i) = vectors_dot(vectors_three_in(E, 95, b), v);
-            real t_1 = vectors_dot(vectors_three_in(E, 98, b), v), t_2 = vectors_dot(vectors_three_in(E, 101, b), v);
-            AT2(E, 61, i) = t_1; AT2(E, 62, i) = t_2;
+            AT2(E, 54, i) = vectors_dot(vectors_three_in(E, 89, b), v);
+            real t_1 = vectors_dot(vectors_three_in(E, 92, b), v), t_2 = vectors_dot(vectors_three_in(E, 95, b), v);
+            AT2(E, 55, i) = t_1; AT2(E, 56, i) = t_2;
         }
     }
     carried_kept(E, B);
     if (traced) {
         for (int64_t column = 0; column < 3; column++) {
             INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-                i = column * B + b; half = AT2(E, 104, b); twelfth = AT2(E, 105, b);
+                i = column * B + b; half = AT2(E, 98, b); twelfth = AT2(E, 99, b);
                 x = half * AT2(E, 9, i) + twelfth * AT2(E, 11, i); y = half * AT2(E, 10, i) + twelfth * AT2(E, 12, i);
                 for (int64_t c = 0; c < 3; c++) {
-                    lane = c * B + b; off = AT2(E, 60 + c, i);
-                    x = x + (half * AT2(E, 31, lane) - twelfth * AT2(E, 33, lane)) * off;
-                    y = y + (half * AT2(E, 32, lane) - twelfth * AT2(E, 34, lane)) * off;
+                    lane = c * B + b; off = AT2(E, 54 + c, i);
+                    x = x + (half * AT2(E, 28, lane) - twelfth * AT2(E, 30, lane)) * off;
+                    y = y + (half * AT2(E, 29, lane) - twelfth * AT2(E, 31, lane)) * off;
                 }
-                AT2(E, 63, i) = x; AT2(E, 64, i) = y;
+                AT2(E, 57, i) = x; AT2(E, 58, i) = y;
             }
         }
     }
@@ -3859,29 +3857,29 @@ INLINE t_r3 carried_row_of(r2 E, int64_t at, int64_t i, int64_t j, int64_t k) {
 INLINE void carried_leave(r2 S, r2 E, int64_t B, int traced) {
     int64_t i, j, k, lane; real part, y1, y2; t_r3 v, l, x, east, north; t__r3_3 columns;
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        AT2(E, 89, b) = R(0.0); AT2(E, 90, b) = R(0.0); AT2(E, 91, b) = R(0.0);
+        AT2(E, 83, b) = R(0.0); AT2(E, 84, b) = R(0.0); AT2(E, 85, b) = R(0.0);
     }
     for (int64_t c = 0; c < 3; c++) {
         INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-            i = b; j = B + b; k = 2 * B + b; lane = c * B + b; part = AT2(E, 85 + c, b);
-            v = vectors_three_in(E, 65, lane);
-            columns = (t__r3_3){vectors_three_in(E, 60, i), vectors_three_in(E, 60, j), vectors_three_in(E, 60, k)};
+            i = b; j = B + b; k = 2 * B + b; lane = c * B + b; part = AT2(E, 79 + c, b);
+            v = vectors_three_in(E, 59, lane);
+            columns = (t__r3_3){vectors_three_in(E, 54, i), vectors_three_in(E, 54, j), vectors_three_in(E, 54, k)};
             l = vectors_plus(carried_applied(columns, v), vectors_scaled(part, vectors_three_in(S, 118 + 3 * c, b)));
-            vectors_put_in(E, 65, lane, l);
-            columns = (t__r3_3){vectors_three_in(E, 22, i), vectors_three_in(E, 22, j), vectors_three_in(E, 22, k)};
-            x = carried_applied(columns, l); AT2(E, 89, b) = AT2(E, 89, b) + vectors_dot(l, l);
-            AT2(E, 90, b) = AT2(E, 90, b) + vectors_dot(x, x);
+            vectors_put_in(E, 59, lane, l);
+            columns = (t__r3_3){vectors_three_in(E, 19, i), vectors_three_in(E, 19, j), vectors_three_in(E, 19, k)};
+            x = carried_applied(columns, l); AT2(E, 83, b) = AT2(E, 83, b) + vectors_dot(l, l);
+            AT2(E, 84, b) = AT2(E, 84, b) + vectors_dot(x, x);
             if (traced) {
-                east = carried_row_of(E, 63, i, j, k); north = carried_row_of(E, 64, i, j, k);
-                y1 = AT2(E, 68, lane) + (vectors_dot(east, v) + AT2(E, 85, b) * AT2(S, 127, b));
-                y2 = AT2(E, 69, lane) + (vectors_dot(north, v) + AT2(E, 85, b) * AT2(S, 128, b));
-                AT2(E, 68, lane) = y1; AT2(E, 69, lane) = y2; AT2(E, 91, b) = AT2(E, 91, b) + (y1 * y1 + y2 * y2);
+                east = carried_row_of(E, 57, i, j, k); north = carried_row_of(E, 58, i, j, k);
+                y1 = AT2(E, 62, lane) + (vectors_dot(east, v) + AT2(E, 79, b) * AT2(S, 127, b));
+                y2 = AT2(E, 63, lane) + (vectors_dot(north, v) + AT2(E, 79, b) * AT2(S, 128, b));
+                AT2(E, 62, lane) = y1; AT2(E, 63, lane) = y2; AT2(E, 85, b) = AT2(E, 85, b) + (y1 * y1 + y2 * y2);
             }
         }
     }
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        real t_1 = R(sqrt(AT2(E, 89, b))), t_2 = R(sqrt(AT2(E, 90, b))), t_3 = R(sqrt(AT2(E, 91, b)));
-        AT2(E, 89, b) = t_1; AT2(E, 90, b) = t_2; AT2(E, 91, b) = t_3;
+        real t_1 = R(sqrt(AT2(E, 83, b))), t_2 = R(sqrt(AT2(E, 84, b))), t_3 = R(sqrt(AT2(E, 85, b)));
+        AT2(E, 83, b) = t_1; AT2(E, 84, b) = t_2; AT2(E, 85, b) = t_3;
     }
 }
 
@@ -3890,37 +3888,37 @@ INLINE void carried_carry(r2 S, r2 E, int64_t B, int traced) {
     real error, e11, e12, e13, e22, e23, e33, rounded, x, y, z, one; carried_flown(E, B, traced);
     carried_leave(S, E, B, traced);
     INDEPENDENT for (int64_t b = 0, end_b = B; b < end_b; b++) {
-        i = b; j = B + b; k = 2 * B + b; a = carried_row_of(E, 60, i, j, k); d = carried_row_of(E, 61, i, j, k);
-        c = carried_row_of(E, 62, i, j, k); error = AT2(E, 88, b); s11 = vectors_three_in(E, 70, b);
-        s22 = vectors_three_in(E, 73, b); s1 = (t_r3){s11.a0, s11.a1, s11.a2}; s2 = (t_r3){s11.a1, s22.a0, s22.a1};
+        i = b; j = B + b; k = 2 * B + b; a = carried_row_of(E, 54, i, j, k); d = carried_row_of(E, 55, i, j, k);
+        c = carried_row_of(E, 56, i, j, k); error = AT2(E, 82, b); s11 = vectors_three_in(E, 64, b);
+        s22 = vectors_three_in(E, 67, b); s1 = (t_r3){s11.a0, s11.a1, s11.a2}; s2 = (t_r3){s11.a1, s22.a0, s22.a1};
         s3 = (t_r3){s11.a2, s22.a1, s22.a2}; p1 = (t_r3){vectors_dot(a, s1), vectors_dot(a, s2), vectors_dot(a, s3)};
         p2 = (t_r3){vectors_dot(d, s1), vectors_dot(d, s2), vectors_dot(d, s3)};
         p3 = (t_r3){vectors_dot(c, s1), vectors_dot(c, s2), vectors_dot(c, s3)}; e11 = vectors_dot(p1, a) + error;
         e12 = vectors_dot(p1, d); e13 = vectors_dot(p1, c); e22 = vectors_dot(p2, d) + error;
-        e23 = vectors_dot(p2, c); e33 = vectors_dot(p3, c) + error; vectors_put_in(E, 70, b, (t_r3){e11, e12, e13});
-        vectors_put_in(E, 73, b, (t_r3){e22, e23, e33}); rounded = R(0.0);
+        e23 = vectors_dot(p2, c); e33 = vectors_dot(p3, c) + error; vectors_put_in(E, 64, b, (t_r3){e11, e12, e13});
+        vectors_put_in(E, 67, b, (t_r3){e22, e23, e33}); rounded = R(0.0);
         for (int64_t n = 0; n < 3; n++) {
-            t_r3 t_1 = carried_row_of(E, 22 + n, i, j, k); x = t_1.a0; y = t_1.a1; z = t_1.a2;
+            t_r3 t_1 = carried_row_of(E, 19 + n, i, j, k); x = t_1.a0; y = t_1.a1; z = t_1.a2;
             rounded = rounded + (x * (x * e11 + R(2.0) * (y * e12 + z * e13)) + y * (y * e22 + R(2.0) * z * e23) + z *
                 z * e33);
         }
-        AT2(E, 92, b) = R(sqrt(e11 + e22 + e33)); AT2(E, 93, b) = R(sqrt(max_r(rounded, R(0.0))));
+        AT2(E, 86, b) = R(sqrt(e11 + e22 + e33)); AT2(E, 87, b) = R(sqrt(max_r(rounded, R(0.0))));
         if (traced) {
-            east = carried_row_of(E, 63, i, j, k); north = carried_row_of(E, 64, i, j, k);
-            m = vectors_three_in(E, 76, b); n = vectors_three_in(E, 79, b);
+            east = carried_row_of(E, 57, i, j, k); north = carried_row_of(E, 58, i, j, k);
+            m = vectors_three_in(E, 70, b); n = vectors_three_in(E, 73, b);
             u = vectors_plus((t_r3){vectors_dot(east, s1), vectors_dot(east, s2), vectors_dot(east, s3)}, m);
             v = vectors_plus((t_r3){vectors_dot(north, s1), vectors_dot(north, s2), vectors_dot(north, s3)}, n);
             x = AT2(S, 115, b); y = AT2(S, 116, b); one = R(1.1102230246251565e-16) / AT2(S, 130, b);
             error = error + (error > R(0.0) ? one * one * (x * x + y * y) : R(0.0));
-            x = AT2(E, 82, b) + (vectors_dot(u, east) + vectors_dot(m, east) + error);
-            y = AT2(E, 83, b) + (vectors_dot(v, north) + vectors_dot(n, north) + error); AT2(E, 82, b) = x;
-            AT2(E, 83, b) = y; AT2(E, 94, b) = R(sqrt(max_r(x + y, R(0.0))));
-            vectors_put_in(E, 76, b, (t_r3){vectors_dot(u, a), vectors_dot(u, d), vectors_dot(u, c)});
-            vectors_put_in(E, 79, b, (t_r3){vectors_dot(v, a), vectors_dot(v, d), vectors_dot(v, c)});
+            x = AT2(E, 76, b) + (vectors_dot(u, east) + vectors_dot(m, east) + error);
+            y = AT2(E, 77, b) + (vectors_dot(v, north) + vectors_dot(n, north) + error); AT2(E, 76, b) = x;
+            AT2(E, 77, b) = y; AT2(E, 88, b) = R(sqrt(max_r(x + y, R(0.0))));
+            vectors_put_in(E, 70, b, (t_r3){vectors_dot(u, a), vectors_dot(u, d), vectors_dot(u, c)});
+            vectors_put_in(E, 73, b, (t_r3){vectors_dot(v, a), vectors_dot(v, d), vectors_dot(v, c)});
         }
     }
-    for (int64_t row = 0; row < 22; row++) {
-        INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) { AT2(E, row, i) = AT2(E, 22 + row, i); }
+    for (int64_t row = 0; row < 19; row++) {
+        INDEPENDENT for (int64_t i = 0, end_i = 4 * B; i < end_i; i++) { AT2(E, row, i) = AT2(E, 19 + row, i); }
     }
 }
 
@@ -3950,9 +3948,9 @@ INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, 
     r1 lane, r2 reported) {
     AT2(reported, i, 4) = AT2(reported, i, 4) + R(1.0);
     real cautious = R(20.0) + R(32.0) / AT2(reported, i, 4), off = lane.p[14], out = lane.p[15];
-    real speed = lane.p[11] / lane.p[2], turned = R(2.0) * AT2(E, 92, b), spun = R(2.0) * AT2(E, 93, b);
-    real rolled = R(2.0) * AT2(E, 94, b); AT2(reported, i, 3) = max_r(max_r(AT2(reported, i, 3), turned), rolled);
-    turned = cautious * AT2(E, 89, b) + turned; rolled = cautious * AT2(E, 91, b) + rolled;
+    real speed = lane.p[11] / lane.p[2], turned = R(2.0) * AT2(E, 86, b), spun = R(2.0) * AT2(E, 87, b);
+    real rolled = R(2.0) * AT2(E, 88, b); AT2(reported, i, 3) = max_r(max_r(AT2(reported, i, 3), turned), rolled);
+    turned = cautious * AT2(E, 83, b) + turned; rolled = cautious * AT2(E, 85, b) + rolled;
     AT2(reported, i, 0) = max_r(AT2(reported, i, 0), turned + off);
     AT2(reported, i, 2) = max_r(AT2(reported, i, 2), rolled + out); lane.p[7] = max_r(lane.p[7], speed);
     real left = max_r(turned, rolled), until = min_r((lane.p[0] + lane.p[1]) / end, R(1.0));
@@ -3961,14 +3959,14 @@ INLINE void following_recorded(r2 E, int64_t B, int64_t b, int64_t i, real end, 
         AT2(reported, i, 5) = min_r(until, R(0.999999999));
     }
     lane.p[18] = left > R(0.0) ? allowed * min_r(max_r(R(0.4) * most * share / left, R(0.02)), R(2.0)) : allowed;
-    lane.p[8] = max_r(lane.p[8], cautious * AT2(E, 90, b) + spun + off * max_r(speed, following_spinning(E, B, b)));
+    lane.p[8] = max_r(lane.p[8], cautious * AT2(E, 84, b) + spun + off * max_r(speed, following_spinning(E, B, b)));
 }
 
 INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real interval, Asked asked, int patient,
     Weights weights, r2 reported, i1 reached, i1 status, d1 reach) {
     int lost, done, there, alike; int64_t i, frame; real fate, part, wish; ALIGNED real S_[140 * (4 * B)];
-    memset(S_, 0, sizeof S_); r2 S = {S_, 140, (4 * B), (4 * B)}; ALIGNED real E_[121 * (4 * B)];
-    memset(E_, 0, sizeof E_); r2 E = {E_, 121, (4 * B), (4 * B)}; int64_t columns = weights.sums.n1;
+    memset(S_, 0, sizeof S_); r2 S = {S_, 140, (4 * B), (4 * B)}; ALIGNED real E_[119 * (4 * B)];
+    memset(E_, 0, sizeof E_); r2 E = {E_, 119, (4 * B), (4 * B)}; int64_t columns = weights.sums.n1;
     ALIGNED real states_[B * 27]; memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27};
     ALIGNED int64_t exponents_[B]; memset(exponents_, 0, sizeof exponents_); i1 exponents = {exponents_, B};
     ALIGNED real bodies_[B * 24]; memset(bodies_, 0, sizeof bodies_); r2 bodies = {bodies_, B, 24, 24};
@@ -3994,7 +3992,7 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
                 weights.sums, r2_row(bodies, b), r2_row(states, b), r2_row(lanes, b), V, r3_row(ends, 2 * b),
                 r3_row(ends, 2 * b + 1), r3_row(curves, b), now);
         }
-        carried_tangent(S, E, B, 22, traced); carried_carry(S, E, B, traced);
+        carried_tangent(S, E, B, 19, traced); carried_carry(S, E, B, traced);
         for (int64_t b = 0, end_b = B; b < end_b; b++) {
             i = (int64_t)AT2(lanes, b, 4); frame = (int64_t)AT2(lanes, b, 5); fate = AT2(lanes, b, 12); done = 0;
             if (fate == R(1.0)) {
@@ -4250,5 +4248,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "aca51a68a5c74cac256171622010bd40312c685dc14629eed4522ed84ce2071d";
+const char loops_text[] = "615d435d3159148cf23ff66fabcd357935667b5074f6bdc44393c1af5c7d7f31";
 #endif

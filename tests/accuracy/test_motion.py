@@ -269,8 +269,11 @@ def test_what_rounding_of_the_start_does_is_in_the_estimate(inertia, D, omega, e
 
 
 def test_near_unstable_rotations_the_estimate_is_above_the_error(thorough):
-    """Of 113 the error is .31 of the estimate, so that a quarter of it would be seen; the steps of 798 are alike."""
-    light, heavy = (range(3000), range(300)) if thorough else ((*range(8), 113, 798), (20, 44, 58))
+    """Of 113 the error is .31 of the estimate, so that a quarter of it would be seen; the steps of 798 are alike.
+
+    The heavy 962 starts where a rounding of K moves ω the least: with that of all steps it was 1.6 times its estimate.
+    """
+    light, heavy = (range(3000), range(300)) if thorough else ((*range(8), 113, 798), (20, 44, 58, 962))
     parts = [unstable_starts.part(seed) for seed in light]
     parts += [unstable_starts.part(seed, heavy=True) for seed in heavy]
     assert 0.25 < max(parts) < 1

@@ -23,10 +23,9 @@ from .text import lanes
 from .vectors import cross, dot, four_in, minus, mixed, plus, put_four_in, put_in, scaled, square_of_four, three_in
 
 #: Rows of an end.  Of the unit error φ of a lane: δω, φ', φ'', how fast the contact point leaves, and its rate.  Of the
-#: ball, in its first lane: ω, along which the flow goes, and the gradient of the energy.  And ω of the component of K
-#: of a lane alone.
-SPUN, RATE, SECOND, WAY, BEND, FLOW, GRADIENT, SHARE = 0, 3, 6, 9, 11, 13, 16, 19
-END = 22
+#: ball, in its first lane: ω, along which the flow goes, and the gradient of the energy.
+SPUN, RATE, SECOND, WAY, BEND, FLOW, GRADIENT = 0, 3, 6, 9, 11, 13, 16
+END = 19
 #: Rows beyond the two ends: the unit error; K, γ, the attitude and J, in all lanes; and what becomes of a unit error
 #: by the end of the step, and of the contact point.
 UNIT, INPUT, SHAPE, FLOWN, CARRIED = 2 * END, 2 * END + 3, 2 * END + 13, 2 * END + 16, 2 * END + 19
@@ -40,8 +39,11 @@ WHOLE, PART, ROUNDED = CARRIED + 21, CARRIED + 22, CARRIED + 25
 FOUND = CARRIED + 26
 #: The inverse of the matrix of the last end, by rows, and the length of the step over 2, and its square over 12.
 INVERSE, HALF, TWELFTH = FOUND + 6, FOUND + 15, FOUND + 16
+#: At the end that was looked at last: ω of the component of K of a lane alone; and how many times as far as K a
+#: rounding of each component moves ω.
+SHARE, SWAY = FOUND + 17, FOUND + 20
 #: The changes of the quaternion that the last three columns have made, and of the way of the centre by the last.
-CHANGED = FOUND + 17
+CHANGED = FOUND + 21
 ROWS = CHANGED + 4 * CHANGES + 3
 #: A rounding.
 UNIT_ROUNDING = 2.0**-53
@@ -82,7 +84,7 @@ def tangent(S, E, B, at, traced):
         v = cross(w, g)  # -γ'
         u = minus(cross(a, g), cross(w, v))
         e = three_in(E, UNIT, i)
-        put_in(E, at + SHARE, i, angular_velocity(*by(e, K), *g, *J, contact))
+        put_in(E, SHARE, i, angular_velocity(*by(e, K), *g, *J, contact))
         along, across = contact * dot(v, e), contact * dot(u, e)
         s = angular_velocity(*plus(cross(m, e), scaled(along, g)), *g, *J, contact)
         f = plus(s, cross(e, w))
@@ -99,17 +101,13 @@ def tangent(S, E, B, at, traced):
             b = minus(plus(cross(w, z), cross(p, g)), cross(f, v))
             E[at + WAY, i], E[at + WAY + 1, i], _ = rotate(*q, *z)
             E[at + BEND, i], E[at + BEND + 1, i], _ = rotate(*q, *b)
-
-
-def moved_by_roundings(E, B, b):
-    """How many times as far as K a rounding of each of its components moves ω, at the first end of a step."""
-    found = 0.0
-    for c in range(3):
-        moved = abs(E[SHARE + c, b]) + abs(E[SHARE + c, B + b]) + abs(E[SHARE + c, 2 * B + b])
-        found += moved * moved
-    w = three_in(E, FLOW, b)
-    size = dot(w, w)
-    return sqrt(found / size) if size > 0.0 else 0.0
+    for b in lanes(B):
+        i, j, k, w, found = b, B + b, 2 * B + b, three_in(E, at + FLOW, b), 0.0
+        for c in range(3):
+            moved = abs(E[SHARE + c, i]) + abs(E[SHARE + c, j]) + abs(E[SHARE + c, k])
+            found += moved * moved
+        size = dot(w, w)
+        E[SWAY, b] = sqrt(found / size) if size > 0.0 else 0.0
 
 
 def by(a, b):
