@@ -416,7 +416,7 @@ class Problem:
     def nothing(self) -> Motion:
         """An empty motion, whose first frame is the start."""
         n, kept = len(self), self.frames + 1
-        reached, status, order, total = np.zeros((4, n), dtype=np.int64)
+        reached, status, order, total = (np.zeros(n, np.int64) for _ in range(4))
         try:
             found = Motion(
                 np.empty((n, kept, 3)), np.empty((n, kept, 3)),
@@ -580,7 +580,7 @@ def _run(
         share(task, parts, min(problem.threads or cores(), len(parts)), count)
     found.order.fill(EXTRAPOLATED)
     found.total[:] = reported[:, STEPS]
-    (noise, started), asked_of = np.empty((2, n)), problem.parts
+    noise, started, asked_of = np.empty(n), np.empty(n), problem.parts
     turned = not asked_of or not asked_of.isdisjoint(TURNED)
     counted = turned, "omega" in asked_of, traced and "contact" in asked_of
     worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, found.error, noise, started)
