@@ -142,6 +142,26 @@ def test_a_geom_alone_is_homogeneous_as_mujoco_makes_it(put, said, mass):
     assert found == {"preset": "homogeneous", "radius": "0.1"}
 
 
+@pytest.mark.parametrize(("said", "mass"), [('mass="0.5"', 0.5), ('density="25"', np.pi)])
+def test_a_hollow_geom_is_a_shell_with_the_density_of_its_surface(put, said, mass):
+    """It was read as a homogeneous ball, with 3/5 of its inertia."""
+    found = table(put(GEOM.replace('"0.1"', f'"0.1" shellinertia="true" {said}'), ".xml"))
+    assert abs(float(found.pop("mass")) - mass) < 1e-15
+    assert found == {"preset": "shell", "radius": "0.1"}
+    with pytest.raises(SceneError, match="<geom>: shellinertia must be false or true, not 'yes'"):
+        table(put(GEOM.replace('"0.1"', '"0.1" shellinertia="yes"'), ".xml"))
+
+
+@pytest.mark.parametrize(
+    ("default", "joint"), [("", 'armature="0.1"'), ('<default><joint armature="0.1"/></default>', "")]
+)
+def test_inertia_that_a_joint_adds_is_not_left_out(put, default, joint):
+    text = GEOM.replace("<worldbody><body>", f'{default}<worldbody><body><joint type="free" {joint}/>')
+    with pytest.raises(SceneError, match="<joint>: armature = '0.1' is added to the inertia of the ball"):
+        table(put(text, ".xml"))
+    assert table(put(text.replace('armature="0.1"', 'armature="0"'), ".xml"))["radius"] == "0.1"
+
+
 @pytest.mark.parametrize(
     ("geom", "around", "mass"),
     [

@@ -144,15 +144,17 @@ class _Reader:
             raise self._refused(macro, f"<{macro.tag}> is to be filled in: give the file that xacro makes of it")
 
     def _take_defaults(self) -> None:
-        """Writes into the geoms of MJCF what the <default> of their class says, or of the class of what is around."""
+        """Writes into geoms and joints of MJCF what the <default> of their class says, or of the class around them."""
         if (other := next(self.root.iter("include"), None)) is not None:
             raise self._refused(other, "<include> is not read: put what that file says about the ball into this one")
-        said = dict[str, dict[str, str]](main={})
+        Said = dict[str, dict[str, str]]  # by the tag
+        said = dict[str, Said](main={"geom": {}, "joint": {}})
 
-        def gather(default: Element, name: str, inherited: dict[str, str]) -> None:
-            said[name] = inherited.copy()
-            for geom in default.findall("geom"):
-                said[name] |= geom.attrib
+        def gather(default: Element, name: str, inherited: Said) -> None:
+            said[name] = {tag: known.copy() for tag, known in inherited.items()}
+            for one in default:
+                if one.tag in said[name]:
+                    said[name][one.tag] |= one.attrib
             for nested in default.findall("default"):
                 gather(nested, nested.get("class", ""), said[name])
 
@@ -160,10 +162,10 @@ class _Reader:
             around = where.get("childclass", around)
             for child in where:
                 name = child.get("class", around)
-                if child.tag == "geom" and name not in said:
-                    raise self._refused(child, f"<geom>: its class {name!r} has no <default>")
-                if child.tag == "geom":
-                    child.attrib = said[name] | child.attrib
+                if child.tag in said["main"]:
+                    if name not in said:
+                        raise self._refused(child, f"<{child.tag}>: its class {name!r} has no <default>")
+                    child.attrib = said[name][child.tag] | child.attrib
                 fill_in(child, around)
 
         for default in self.root.findall("default"):
@@ -200,6 +202,10 @@ class _Reader:
             if held:
                 what = f"<{held[0].tag}> {held[0].get('name', 'without a name')}"
                 raise self._refused(held[0], f"{what} holds the ball, and that of chapsym rolls alone")
+            for joint in body.findall("joint"):
+                if self._number(joint.get("armature", "0"), joint):
+                    clause = f"armature = {joint.attrib['armature']!r} is added to the inertia of the ball"
+                    raise self._refused(joint, f"<joint>: {clause}, and is not read: take it out")
             return
         massive = {link.get("name") for link in self.root.iter("link") if link.find("inertial") is not None}
         for joint in self.root.iter("joint"):
@@ -217,18 +223,19 @@ class _Reader:
             clause = f"has {len(geoms)} geoms and " if geoms else "has "
             raise self._refused(body, f"the ball {clause}no <inertial> with its mass and inertia")
         (geom,) = geoms
-        mass = geom.get("mass") or self._of_density(geom)
-        return {"preset": "homogeneous", "mass": mass}
+        hollow = self._one_of(geom, "shellinertia", ("false", "true")) == "true"
+        mass = geom.get("mass") or self._of_density(geom, hollow)
+        return {"preset": "shell" if hollow else "homogeneous", "mass": mass}
 
-    def _of_density(self, geom: Element) -> str:
-        """The mass of a sphere, in many digits."""
+    def _of_density(self, geom: Element, hollow: bool) -> str:
+        """The mass of a sphere, in many digits; the density of a hollow one is that of its surface."""
         import mpmath
 
         density = self._number(geom.get("density", DENSITY), geom)
         radius = self._number(geom.attrib["size"].split()[0], geom)
-        volume = density * radius**3 * Fraction(4, 3)
+        size = density * (4 * radius**2 if hollow else radius**3 * Fraction(4, 3))
         with mpmath.workdps(2 * DIGITS):
-            return str(mpmath.nstr(mpmath.pi * volume.numerator / volume.denominator, DIGITS))
+            return str(mpmath.nstr(mpmath.pi * size.numerator / size.denominator, DIGITS))
 
     def _sphere(self, body: Element) -> tuple[str, Vector] | None:
         """The radius of the sphere on which it rolls, and its centre: of shapes to touch with, before those to see."""
