@@ -168,7 +168,8 @@ def _check(
         away = _apart(run, start(run), soft)
         if all(part.startswith("centre") for part in away):
             x, y, z = run.centre[0] - start(run)["centre"]
-            away = [f"its centre is ({x:g}, {y:g}, {z:g}) m from there: subtract this"]
+            flies = ", or begin where a ball in the air has come down" if z > 0 else ""
+            away = [f"its centre is ({x:g}, {y:g}, {z:g}) m from there: subtract this{flies}"]
         clause = f"its first row is not the start of {of} ({', '.join(away)})"
         raise BadInput(f"{run.file}: {clause}: no verdict on the engine")
 
@@ -200,8 +201,8 @@ def check_axes(case: Case, run: Trajectory) -> None:
             raise BadInput(f"{run.file} cannot be judged as it is written: {said}")
 
 
-def _check_times(table: Table, radius: float) -> None:
-    """Raises BadInput where the times are steadily longer than the way between rows, and the speed, say."""
+def _check_units(table: Table, file: Path, radius: float) -> None:
+    """Raises BadInput where the times, or the radius, are steadily more than the way between rows, and ω, say."""
     centre, omega = (np.asarray(table.vectors(names)) for names in (NEEDED[1:4], MORE[3:]))
     speed = np.linalg.norm(rolling(radius, omega), axis=-1)[:-1]
     way = np.linalg.norm(np.diff(centre, axis=0), axis=-1)
@@ -210,6 +211,10 @@ def _check_times(table: Table, radius: float) -> None:
         return
     low, middle, high = np.quantile((speed * np.diff(table.columns["time"]))[moved] / way[moved], [0.25, 0.5, 0.75])
     if middle > UNIT and high < STEADY * low:
+        height = float(centre[0, 2])
+        if radius / STEADY < middle * height < radius * STEADY:
+            clause = f"the ball has the radius {radius:g} m, and its centre is {height:g} m high in {table.file}"
+            raise BadInput(f"{file}: {clause}: write m, kg and kg m²")
         times = float(f"{middle:.3g}")
         clause = f"its times are {times:.0f} times what the way between its rows and its angular velocity say"
         raise BadInput(f"{table.file}: {clause}: write seconds and rad/s")
@@ -225,8 +230,11 @@ def case_of_body(file: Path, table: Table, limit: float = 600.0) -> Case:
     from chapsym.scene.read.scene import ball_table, checked, written
 
     times = table.exact_times()
-    if len(times) < 2 or any(b <= a for a, b in pairwise(times)):
-        raise BadInput(f"{table.file}: a motion has two rows or more, whose times ascend")
+    if len(times) < 2:
+        raise BadInput(f"{table.file}: a motion has two rows or more")
+    if (row := next((i for i, (a, b) in enumerate(pairwise(times), 2) if b <= a), None)) is not None:
+        early, late = (table.times[i - 1] for i in (row, row - 1))
+        raise BadInput(f"{table.file}: row {row} is at {early} s, after one at {late} s: the times must ascend")
     first = table.from_zero().at(np.array([0.0]))
     if first.omega is None:
         clause = "has no column wx, wy or wz: the motion begins with the angular velocity of the first row"
@@ -247,7 +255,7 @@ def case_of_body(file: Path, table: Table, limit: float = 600.0) -> Case:
     radius = expand(scene(first, text=False)).ball.radius
     if radius is None:
         raise BadInput(f"{file}: the ball needs its radius, with its mass")
-    _check_times(table.from_zero(), float(radius[0]))
+    _check_units(table.from_zero(), file, float(radius[0]))
     chosen = times[:: -(-len(times) // MOST_ROWS)]
     speed = float(np.linalg.norm(first.omega))
     probe = next((at for at in chosen[1:] if float(at) * speed >= TURNED), chosen[-1])

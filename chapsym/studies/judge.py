@@ -126,8 +126,9 @@ def departure(case: Case, found: Trajectory) -> Departure:
 
     path: from the point of contact to that below the centre, m.  attitude: the angle between the two, degrees.
     Where the file has velocities, energy, momentum: how far the energy, and the momentum about the contact point as a
-    vector in space, are from the true ones, per cent of those at the start.  height: of the centre above the radius, m.
-    slip, with velocities: the velocity of the ball's point at the floor less the true one, which is 0 in rolling, m/s.
+    vector in space, are from the true ones, per cent of those at the start: a ball that begins at rest has none.
+    height: of the centre above the radius, m.  slip, with velocities: the velocity of the ball's point at the floor
+    less the true one, which is 0 in rolling, m/s.
     A body that nothing touches has neither height nor slip, its path is from the centre to where it stays, and its
     momentum is about the centre.
     """
@@ -140,8 +141,10 @@ def departure(case: Case, found: Trajectory) -> Departure:
         return parts | height
     known = carried(case, case.attitude, case.moving, case.omega)
     own = carried(case, found.attitude, found.velocity, found.omega)
-    parts["energy"] = 100 * (own[0] - known[0]) / known[0][0]
-    parts["momentum"] = 100 * np.linalg.norm(own[1] - known[1], axis=-1) / np.linalg.norm(known[1][0])
+    energy, momentum = known[0][0], np.linalg.norm(known[1][0])
+    if energy and momentum:  # a ball at rest has neither
+        parts["energy"] = 100 * (own[0] - known[0]) / energy
+        parts["momentum"] = 100 * np.linalg.norm(own[1] - known[1], axis=-1) / momentum
     if free:
         return parts
     slip = found.velocity - rolling(case.radius, found.omega) - case.moving + rolling(case.radius, case.omega)

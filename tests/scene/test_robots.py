@@ -157,7 +157,7 @@ def test_a_hollow_geom_is_a_shell_with_the_density_of_its_surface(put, said, mas
 )
 def test_inertia_that_a_joint_adds_is_not_left_out(put, default, joint):
     text = GEOM.replace("<worldbody><body>", f'{default}<worldbody><body><joint type="free" {joint}/>')
-    with pytest.raises(SceneError, match="<joint>: armature = '0.1' is added to the inertia of the ball"):
+    with pytest.raises(SceneError, match=r"<joint>: armature = '0.1' is added to the inertia of the ball"):
         table(put(text, ".xml"))
     assert table(put(text.replace('armature="0.1"', 'armature="0"'), ".xml"))["radius"] == "0.1"
 

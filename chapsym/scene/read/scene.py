@@ -149,10 +149,15 @@ def load(path: Path) -> Scene:
 
 
 def ball_table(path: Path) -> dict[str, Any]:
-    """[ball] of a scene file, or of a robot's (URDF, SDF, MJCF), its numbers as they are written."""
+    """[ball] of a scene file, or of a robot's (URDF, SDF, MJCF), its numbers as they are written.
+
+    A scene needs neither start nor run for it.
+    """
     if path.suffix in robots.SUFFIXES:
         return robots.table(path)
-    data = tomllib.loads(load(path).toml or "", parse_float=lambda text: text.replace("_", ""))["ball"]
+    text = _text(path)
+    checked({"start": {"omega": [0, 0, 1]}, "run": {"time": 1, "frames": 1}} | _parsed(text, path), str(path), text)
+    data = tomllib.loads(text, parse_float=lambda text: text.replace("_", ""))["ball"]
     if isinstance(data, list) and len(data) > 1:
         raise SceneError(f"{path} has {len(data)} balls: one is needed")
     return {key: value for key, value in (data[0] if isinstance(data, list) else data).items() if key != "start"}
