@@ -45,7 +45,9 @@ def mass_tensor_from(inertia: Sequence[Fraction]) -> tuple[Fraction, ...]:
 
 
 def exact_fraction(x: Any) -> Fraction:
-    """A number as it is: a Fraction, a Decimal, one of SymPy's rationals or of mpmath's floats; else its float64.
+    """A number as it is: a Fraction, a Decimal, a float of any length, one of SymPy's rationals or of mpmath's floats.
+
+    Of any other number it is the float64.
 
     Raises ValueError or OverflowError for one that is not finite, and OverflowError for an exponent beyond `LARGEST`.
     """
@@ -64,4 +66,6 @@ def exact_fraction(x: Any) -> Fraction:
         if abs(exponent) > LARGEST:
             raise OverflowError(f"an exponent is {LARGEST} at most")
         return (-1) ** sign * Fraction(int(mantissa)) * Fraction(2) ** exponent
+    if hasattr(x, "as_integer_ratio"):  # NumPy's long doubles, too
+        return Fraction(*x.as_integer_ratio())
     return Fraction(float(x))

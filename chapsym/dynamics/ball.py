@@ -25,6 +25,10 @@ Asked = Floats | Any
 FLOAT64 = np.dtype(np.float64)
 #: Below this float64 loses digits.
 SMALLEST = np.finfo(np.float64).tiny
+#: Up to this float64 has all integers.
+LARGEST_INTEGER = 2**53
+#: Numbers by their class, which are not real ones: of dates NumPy says that they are integers.
+_NO_REALS = (complex, np.timedelta64)
 #: How far |γ|² may be from 1: more than the rounding of 10⁶ steps, so that a run may go on from its end.
 UNIT_TOLERANCE = 1e-12
 #: The same for what is given in float32: it is divided by its length.
@@ -70,17 +74,26 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
         raise _not_numbers(value, name) from None
     if array.dtype.kind not in "iufO":
         raise _not_numbers(value, name)
-    if array.dtype.kind == "O" and not all(isinstance(x, Number) and not isinstance(x, complex) for x in array.flat):
+    if array.dtype.kind == "O" and not all(isinstance(x, Number) and not isinstance(x, _NO_REALS) for x in array.flat):
         raise _not_numbers(value, name)
     try:
-        floats = array.astype(np.float64)
-    except OverflowError:
+        with np.errstate(over="raise", under="ignore"):
+            floats = array.astype(np.float64)
+    except (OverflowError, FloatingPointError):
         raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
     except (TypeError, ValueError):
         raise _not_numbers(value, name) from None
-    if array.dtype.kind == "O" and ((floats == 0) & (array != 0)).any():
+    if array.dtype != FLOAT64 and ((floats == 0) & (array != 0)).any():
         raise BadInput(f"{name} is below the range of float64, about 2.2e-308; take other units")
     return floats
+
+
+def beyond_float64(value: ArrayLike) -> bool:
+    """Whether these are numbers that float64 need not hold: objects, integers beyond 2⁵³, long doubles."""
+    array = np.asarray(value)
+    if array.dtype.kind in "iu":
+        return bool((array > LARGEST_INTEGER).any() or (array < -LARGEST_INTEGER).any())
+    return array.dtype.kind == "O" or bool((array != array.astype(np.float64)).any())
 
 
 def exact_array(value: ArrayLike) -> np.ndarray:
@@ -131,7 +144,8 @@ class Parameters(Brief):
 class Ball(Parameters):
     """A ball, or an array of balls, that rolls without slipping; balanced: its centre of mass is its centre.
 
-    Fractions, Decimals and numbers of mpmath and SymPy are kept as they are for `Digits` and `Enclosure`.
+    Fractions, Decimals, integers, long doubles and numbers of mpmath and SymPy are kept as they are for `Digits` and
+    `Enclosure`.
 
     Parameters
     ----------
@@ -178,7 +192,9 @@ class Ball(Parameters):
         turn = None
         if axes is not None:
             turn = numbers(axes, "axes", 4)
-            if (np.abs((turn * turn).sum(axis=-1) - 1) > UNIT_TOLERANCE).any():
+            with np.errstate(over="ignore"):
+                square = (turn * turn).sum(axis=-1)
+            if (np.abs(square - 1) > UNIT_TOLERANCE).any():
                 raise BadInput("axes must be unit quaternions (scalar first); divide by the length")
             shape = common_shape([tensor.shape[:-1], turn.shape[:-1]], "mass_tensor and axes")
             tensor, turn = np.broadcast_to(tensor, (*shape, 3)), np.broadcast_to(turn, (*shape, 4))
@@ -201,7 +217,7 @@ class Ball(Parameters):
             raise BadInput(f"radius must be positive, but it is {rho.min():g}")
         keep(self, mass_tensor=tensor, D=contact, radius=rho, axes=turn)
         given = (mass_tensor, D, radius)
-        if axes is None and any(np.asarray(x).dtype == object for x in given if x is not None):
+        if axes is None and any(beyond_float64(x) for x in given if x is not None):
             object.__setattr__(self, "_given", tuple(None if x is None else exact_array(x) for x in given))
 
     @classmethod
@@ -248,7 +264,7 @@ class Ball(Parameters):
         contact, given = contact_term(mass, radius, D), numbers(inertia, "inertia")
         if batch or not principal_axes.is_tensor(given):
             tensor = mass_tensor_of(given)
-            if np.asarray(inertia).dtype == object:
+            if beyond_float64(inertia):
                 moments = exact_array(inertia)
                 return cls(moments.sum(axis=-1, keepdims=True) / 2 - moments, contact, radius)
             return cls(tensor, contact, radius)
@@ -462,7 +478,7 @@ def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike 
         contact = m * rho * rho
     if (contact < SMALLEST).any():
         raise BadInput("D = m ρ² is below the range of float64, about 2.2e-308; take other units")
-    if any(np.asarray(x).dtype == object for x in (mass, radius)):
+    if any(beyond_float64(x) for x in (mass, radius)):
         return exact_array(mass) * exact_array(radius) * exact_array(radius)
     return contact
 

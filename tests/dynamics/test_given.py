@@ -8,6 +8,7 @@ import pytest
 
 import chapsym
 from chapsym import BadInput, Ball, Digits, Enclosure
+from chapsym.rationals import exact_fraction
 from research.extremes.judging import number, whole
 
 J, D, G, K = (1.0, 2.0, 4.0), 3.0, (2 / 7, 3 / 7, 6 / 7), (1.0, -0.5, 0.75)
@@ -65,6 +66,26 @@ def test_the_same_bits_come_from_arrays_that_are_made_otherwise(precision, made)
         assert not any((np.asarray(x) != y).any() for x, y in zip(given, before, strict=True))
 
 
+LARGE = 2**53 + 1
+BEYOND = {
+    "integers": lambda x: (LARGE * np.array(x)).astype(np.int64),
+    "natural numbers": lambda x: (LARGE * np.array(x)).astype(np.uint64),
+    "long doubles": lambda x: np.array(x, np.longdouble) / 3,
+}
+
+
+@pytest.mark.parametrize("precision", ["double-double", Digits(50), Enclosure(200)])
+@pytest.mark.parametrize("made", BEYOND)
+def test_numbers_that_float64_does_not_hold_are_not_rounded(precision, made):
+    momentum, moments, contact = (BEYOND[made](x) for x in ((1, 2, 3), (30, 40, 50), 60))
+    if isinstance(precision, str):  # the ball of double-double is one of floats
+        moments, contact = np.array(moments, float), np.array(contact, float)
+    exact = [np.vectorize(exact_fraction, otypes=[object])(x) for x in (momentum, moments, contact)]
+    found = run(precision, momentum, G, moments, contact, steps=1)
+    assert bits(found) == bits(run(precision, exact[0], G, *exact[1:], steps=1))
+    assert bits(found) != bits(run(precision, momentum.astype(float), G, moments, contact, steps=1))
+
+
 @precisions
 def test_float32_arrays_are_the_numbers_that_they_hold(precision):
     momentum, gamma = (np.array(x, np.float32) for x in (K, (0.6, 0.0, 0.8)))
@@ -103,11 +124,14 @@ def anywhere(value):
     ]  # fmt: skip
 
 
+LONG = np.longdouble
 MASKED = np.ma.masked_array([1.0, 2.0, 3.0], mask=[False, True, False])
 REFUSED = {
     "NaN": anywhere(float("nan")),
     "infinities": [*anywhere(float("inf")), *anywhere(float("-inf"))],
-    "beyond float64": [{"momentum": (10**400, 0, 0)}],
+    "beyond float64": [{"momentum": (10**400, 0, 0)}, *anywhere(LONG("1e4000"))],
+    "below float64": [*anywhere(LONG("1e-4000")), *anywhere(Fraction(1, 10**400))],
+    "times": [{"momentum": np.array((np.timedelta64(1, "s"), 0.1, 0.2), object)}, *anywhere(np.timedelta64(1, "s"))],
     "complex numbers": anywhere(1j),
     "texts": anywhere("1"),
     "masked arrays": [{"momentum": MASKED}, {"momentum": [MASKED, MASKED]}, {"momentum": (MASKED[1], 0.1, 0.2)}],

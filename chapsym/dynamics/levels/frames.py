@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Digits, Enclosure, Precision
 
-from ..ball import Ball, Floats, batch, exact_array, numbers, unit_vertical
+from ..ball import Ball, Floats, batch, beyond_float64, exact_array, numbers, unit_vertical
 
 #: The work of each thread comes in about this many parts, so that none is idle for long at the end.
 SHARES = 16
@@ -37,10 +37,9 @@ class Balls:
 
 def exactly(given: ArrayLike, floats: Floats, shape: tuple[int, ...]) -> Any:
     """The given numbers, as Fractions in the shape of the floats, where they are exact; else the floats."""
-    array = np.asarray(given)
-    if array.dtype != object:
+    if not beyond_float64(given):
         return floats
-    return np.broadcast_to(exact_array(array), (*shape, *floats.shape[1:])).reshape(floats.shape)
+    return np.broadcast_to(exact_array(given), (*shape, *floats.shape[1:])).reshape(floats.shape)
 
 
 def given(
@@ -51,7 +50,7 @@ def given(
     rest, state = None, tuple[Any, ...](floats)
     if isinstance(precision, Digits | Enclosure):
         state = tuple(exactly(x, y, shape) for x, y in zip((momentum, gamma, *ball.exact[:2]), floats, strict=True))
-    elif np.asarray(momentum).dtype == object:
+    elif beyond_float64(momentum):
         exact = exact_array(momentum)
         beyond = np.array([float(x - Fraction(float(x))) for x in exact.flat]).reshape(exact.shape)
         rest = np.broadcast_to(beyond, (*shape, 3)).reshape(-1, 3)
