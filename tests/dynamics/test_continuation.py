@@ -192,3 +192,19 @@ def test_a_path_may_end_at_rest_and_go_through_it():
     through = follow(ball, [K / 19, 0 * K, -K / 19], g, start)
     assert through.status == 0
     assert np.abs(through.rotation[-1] - step(ball, -K / 19, g).rotation).max() < 1e-14
+
+
+def test_a_ball_has_the_same_bits_in_a_batch_and_alone():
+    random, count = np.random.default_rng(1), 150
+    balls = Ball(np.exp(random.uniform(-2, 2, (count, 3))), np.exp(random.uniform(-2, 2, count)))
+    momentum, gamma = 0.1 * random.standard_normal((count, 3)), random.standard_normal((count, 3))
+    gamma /= np.linalg.norm(gamma, axis=1, keepdims=True)
+    path = momentum[:, np.newaxis] * np.array([[0.0], [1.0], [5.0]])
+    together = fold(balls, momentum, gamma), follow(balls, path, gamma)
+    for i in range(count):
+        ball = Ball(balls.mass_tensor[i], balls.D[i])
+        for many, one in zip(
+            together, (fold(ball, momentum[i], gamma[i]), follow(ball, path[i], gamma[i])), strict=True
+        ):
+            assert many.reach[i] == one.reach
+            assert np.array_equal(many.rotation[i], one.rotation, equal_nan=True)

@@ -10,6 +10,7 @@ in (w, t) finds the fold: the system is regular where the fold is simple.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import prod
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -322,23 +323,23 @@ class Marchers:
         U, S, V = np.linalg.svd(nonsingular(T))
         root = np.sqrt(S)[:, :, np.newaxis]
         left, right = np.swapaxes(U, 1, 2) / root, V / root  # z to T⁻¹ and w, in rows
-        speed = np.linalg.norm(left @ E[..., np.newaxis], axis=(1, 2))
-        along = np.linalg.norm(left @ K[..., np.newaxis], axis=(1, 2))
-        metric = np.linalg.norm(right @ np.swapaxes(right, 1, 2), axis=(1, 2))
-        bent = np.einsum("nai,nijk,nbj,nck->nabc", left, self._hessian()[:, :, PAIR], right, right, optimize=True)
-        slope = np.linalg.norm(bent.reshape(-1, 27), axis=1) + 2 * along * metric
-        length = 2 * CONTRACTION / (slope + np.sqrt(slope * slope + 8 * CONTRACTION * metric))
+        speed, along = length(left @ E[..., np.newaxis]), length(left @ K[..., np.newaxis])
+        metric = length(right @ np.swapaxes(right, 1, 2))
+        bent = (left @ self._hessian()[:, :, PAIR].reshape(-1, 3, 9)).reshape(-1, 3, 3, 3)
+        bent = right[:, np.newaxis] @ bent @ np.swapaxes(right, 1, 2)[:, np.newaxis]
+        slope = length(bent) + 2 * along * metric
+        longest = 2 * CONTRACTION / (slope + np.sqrt(slope * slope + 8 * CONTRACTION * metric))
         with np.errstate(divide="ignore"):
-            return length / speed, np.linalg.det(T)
+            return longest / speed, np.linalg.det(T)
 
     def correct(self, K: Floats) -> np.ndarray:
         """Newton's iteration at the (scaled) momentum K, in place; returns which balls settled."""
         settled = np.zeros(len(self.D), dtype=bool)
         for _ in range(MOST_CORRECTIONS):
             inverse = np.linalg.inv(nonsingular(self.tangent()))
-            w = -np.einsum("nij,nj->ni", inverse, self.gap(K))
+            w = -total(inverse * self.gap(K)[:, np.newaxis], 2)
             w[settled] = 0.0
-            self.turn(w)
+            self.turn(w, ~settled)
             extent = np.abs(self.q[:, 1:]).max(axis=1)
             # Without momentum the small rotation is none: no digits of a rounding are asked for.
             still = ~K.any(axis=1) & (extent < AT_THE_ROOT)
@@ -359,7 +360,7 @@ class Marchers:
             matrix, value = self._extended(A + t[:, np.newaxis] * E, E)
             move = -np.linalg.solve(nonsingular(matrix), value[..., np.newaxis])[..., 0]
             move[settled] = 0.0
-            self.turn(move[:, :3])
+            self.turn(move[:, :3], ~settled)
             t = t + move[:, 3]
             settled |= (np.abs(move[:, :3]).max(axis=1) < CLOSE) & (np.abs(move[:, 3]) <= CLOSE * np.abs(t))
             if settled.all():
@@ -371,12 +372,12 @@ class Marchers:
         """The derivative of (F, det F') in (w, t) at w = 0, (n, 4, 4), and its value, (n, 4)."""
         T = self.tangent()
         cofactors = np.cross(T[:, [1, 2, 0]], T[:, [2, 0, 1]])
-        det = (cofactors[:, 0] * T[:, 0]).sum(axis=1)
+        det = total(cofactors[:, 0] * T[:, 0], 1)
         # F'(w) = T + H w - 2𝒦wᵀ, and the derivative of det F' is ⟨cofactors, F''⟩.
-        bent = np.einsum("nij,nijk->nk", cofactors, self._hessian()[:, :, PAIR])
+        bent = total(total(cofactors[..., np.newaxis] * self._hessian()[:, :, PAIR], 2), 1)
         matrix = np.zeros((len(K), 4, 4))
         matrix[:, :3, :3], matrix[:, :3, 3] = T, -E
-        matrix[:, 3, :3] = bent - 2 * np.einsum("nik,ni->nk", cofactors, K)
+        matrix[:, 3, :3] = bent - 2 * total(cofactors * K[..., np.newaxis], 1)
         return matrix, np.concatenate([self.gap(K), det[:, np.newaxis]], axis=1)
 
     def _scaled(self, K: Floats) -> Floats:
@@ -396,10 +397,22 @@ class Marchers:
         """𝒦(q, γ) - 𝒦, (n, 3)."""
         return np.stack(residual(*(*self.q.T, *K.T, *self.g.T, *self.J.T, self.D)), axis=-1)
 
-    def turn(self, w: np.ndarray) -> None:
-        """q ∘ (1, w), divided by its length."""
-        self.q = np.stack(compose(*(*self.q.T, 1.0, *w.T)), axis=-1)
-        self.q /= np.linalg.norm(self.q, axis=1, keepdims=True)
+    def turn(self, w: np.ndarray, which: np.ndarray) -> None:
+        """q ∘ (1, w), divided by its length, of some of the balls: for w = 0, too, a rounding may change it."""
+        turned = np.stack(compose(*(*self.q.T, 1.0, *w.T)), axis=-1)
+        self.q = np.where(which[:, np.newaxis], turned / length(turned)[:, np.newaxis], self.q)
+
+
+def total(x: Floats, axis: int) -> Floats:
+    """The sum along an axis, term by term: NumPy's order depends on how many balls there are."""
+    summed: Floats = sum(np.moveaxis(x, axis, 0))
+    return summed
+
+
+def length(x: Floats) -> Floats:
+    """The length of all components of each ball, (n,)."""
+    components = x.reshape(len(x), prod(x.shape[1:]))
+    return np.sqrt(total(components * components, 1))
 
 
 def nonsingular(matrices: Floats) -> Floats:

@@ -193,7 +193,8 @@ def _polished(q: Floats, K: Floats, g: Floats, J: Floats, D: Floats) -> Floats:
     """Newton's iteration with the kernels, on rotations (m, 4)."""
     balls = Marchers(q / np.linalg.norm(q, axis=1, keepdims=True), g, J, D, np.zeros(len(D), dtype=np.int64))
     for _ in range(POLISHINGS):
-        balls.turn(-np.linalg.solve(nonsingular(balls.tangent()), balls.gap(K)[..., np.newaxis])[..., 0])
+        w = -np.linalg.solve(nonsingular(balls.tangent()), balls.gap(K)[..., np.newaxis])[..., 0]
+        balls.turn(w, np.full(len(w), True))
     return balls.q
 
 
