@@ -197,6 +197,7 @@ class Ball(Parameters):
             if (np.abs(square - 1) > UNIT_TOLERANCE).any():
                 raise BadInput("axes must be unit quaternions (scalar first); divide by the length")
             shape = common_shape([tensor.shape[:-1], turn.shape[:-1]], "mass_tensor and axes")
+            common_shape([*shapes, turn.shape[:-1]], "mass_tensor, D, radius and axes")
             tensor, turn = np.broadcast_to(tensor, (*shape, 3)), np.broadcast_to(turn, (*shape, 4))
         if (tensor < 0).any():
             raise BadInput(

@@ -222,6 +222,7 @@ def test_no_symmetric_array_is_both_a_tensor_and_three_rows_of_moments(given_):
         (lambda: Ball.from_inertia(2.0, D=1), "inertia must have 3 components along its last axis"),
         (lambda: Ball((1, 2, 4), 3, axes=(1, 1, 0, 0)), "axes must be unit quaternions"),
         (lambda: Ball([(1, 2, 4)] * 3, 3, axes=[TURN, TURN]), "leading axes of mass_tensor and axes do not broadcast"),
+        (lambda: Ball((1, 2, 4), [3] * 3, axes=[TURN, TURN]), "mass_tensor, D, radius and axes do not broadcast"),
         (
             lambda: chapsym.step(FAR, **STATE, precision="double-double"),
             "more digits than float64 has are kept in principal ax",

@@ -280,6 +280,7 @@ def test_a_radius_that_is_written_is_within_the_digits():
     ({"times": ["1e-400"]}, "too far apart"), ({"times": "1e400"}, "too far apart"),
     ({"angular_momentum": np.eye(3)}, "angular_momentum 1 must be a number"),
     ({"angular_momentum": [np.longdouble(1)] * 3}, "angular_momentum 1 must be a number"),
+    ({"gamma": [np.timedelta64(1, "s"), 0, 0]}, "gamma 1 must be a number"),
 ])  # fmt: skip
 def test_what_no_floats_can_propose_is_one_sentence(change, sentence):
     given = {

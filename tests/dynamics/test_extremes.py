@@ -67,3 +67,24 @@ def test_no_warning_and_no_other_error(name):
             state = ball, np.array(K), np.array(g) / np.linalg.norm(g)
             with suppress(BadInput, StepNotTaken):
                 CALLS[name](*state)
+
+
+TURNS = chapsym.skew((1e-156, 0, 0))
+OTHERS = {
+    "a rod of a ball in n dimensions": lambda: chapsym.trajectory_n(
+        chapsym.BallN((1e-150, 1e-150, 1e300), 0), TURNS, (0.6, 0, 0.8), 2
+    ),
+    "axes that are no directions": lambda: Ball((1, 2, 4), 3, axes=(1e300, 0, 0, 0)),
+    "long doubles": lambda: Ball(np.array((np.longdouble("1e4000"), 1, 2), object), 1),
+    "numbers beyond float64": lambda: chapsym.certified_motion(
+        chapsym.ExactBall((1, 2, 4), 3), (10**320, 1, 1), (0, 0, 1), 1, 5, limit=2
+    ),
+}
+
+
+@pytest.mark.parametrize("what", OTHERS)
+def test_nor_from_what_is_not_a_state(what):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with suppress(BadInput, StepNotTaken):
+            OTHERS[what]()

@@ -113,7 +113,8 @@ def linear(A: Floats, rest: Floats, start: Floats) -> Floats:
 def long_float(x: Any) -> Any:
     """The middle of a ball."""
     high = float(x)
-    return LONG(high) + LONG(float(x - high))
+    with np.errstate(invalid="ignore"):  # beyond float64 it is no number
+        return LONG(high) + LONG(float(x - high))
 
 
 def _bilinear() -> Floats:

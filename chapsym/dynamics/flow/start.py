@@ -55,7 +55,9 @@ def exactly(value: Any, name: str) -> Fraction:
         except NotANumber as error:
             raise BadInput(str(error)) from None
     try:
-        if (isinstance(value, Rational | Decimal | float) and not isinstance(value, bool)) or hasattr(value, "_mpf_"):
+        if (isinstance(value, Rational | Decimal | float) and not isinstance(value, bool | np.timedelta64)) or hasattr(
+            value, "_mpf_"
+        ):
             return exact_fraction(value)
     except (ValueError, OverflowError):
         raise BadInput(f"{name} must be finite, not {value}") from None

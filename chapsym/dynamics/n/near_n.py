@@ -62,7 +62,7 @@ def bounds(size: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats]:
 def limits(K: Floats, J: Floats, D: Floats, stages: Floats) -> tuple[Floats, Floats]:
     """`bounds` of balls of any size, with 𝒦 (b, n, n), of the momentum cᵢ𝒦 of each stage: (b, s)."""
     exponent = np.frexp(largest_moment(J, D))[1]
-    with np.errstate(over="ignore", under="ignore"):
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # moments that all but one vanish are not near
         size = np.linalg.norm(np.ldexp(K, -exponent[:, np.newaxis, np.newaxis]), axis=(-2, -1)) / np.sqrt(2)
         sizes = np.multiply.outer(size, np.abs(stages))
         near, enough = bounds(sizes, np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent))
