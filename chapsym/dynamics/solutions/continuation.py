@@ -405,8 +405,8 @@ class Marchers:
 
 def total(x: Floats, axis: int) -> Floats:
     """The sum along an axis, term by term: NumPy's order depends on how many balls there are."""
-    summed: Floats = sum(np.moveaxis(x, axis, 0))
-    return summed
+    first, *others = np.moveaxis(x, axis, 0)
+    return sum(others, start=first)
 
 
 def length(x: Floats) -> Floats:
