@@ -1647,8 +1647,8 @@ INLINE void lanes_shown(r1 body, int64_t exponent, int64_t i, int64_t frame, Fra
     if (frames.traced) { AT3(frames.traces, i, frame, 0) = body.p[10]; AT3(frames.traces, i, frame, 1) = body.p[11]; }
 }
 
-INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int64_t steps, int64_t every, Weights
-    weights, r1 doubt, i1 taken, i1 status, d1 reach) {
+INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int64_t first, int64_t steps, int64_t
+    every, Weights weights, r2 kept, r1 doubt, i1 taken, i1 status, d1 reach) {
     int64_t i; t_ir stopped; ALIGNED real S_[140 * (4 * B)]; memset(S_, 0, sizeof S_);
     r2 S = {S_, 140, (4 * B), (4 * B)}; int64_t count = status.n0; ALIGNED real states_[B * 27];
     memset(states_, 0, sizeof states_); r2 states = {states_, B, 27, 27}; ALIGNED int64_t exponents_[B];
@@ -1658,7 +1658,17 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int
         i = min_i(b, count - 1); lanes_placed(body, i, frames);
         exponents.p[b] = lanes_enter(S, B, b, i, balls, h, weights, body, r2_row(states, b));
     }
-    for (int64_t step = 0, end_step = steps; step < end_step; step++) {
+    if (first > 0) {
+        for (int64_t row = 0; row < 140; row++) {
+            for (int64_t lane = 0, end_lane = 4 * B; lane < end_lane; lane++) {
+                AT2(S, row, lane) = AT2(kept, row, lane);
+            }
+        }
+        for (int64_t b = 0, end_b = B; b < end_b; b++) {
+            for (int64_t row = 0; row < 27; row++) { AT2(states, b, row) = AT2(kept, 140 + row, b); }
+        }
+    }
+    for (int64_t step = first, end_step = steps; step < end_step; step++) {
         if (lanes_side_by_side(S, B, frames.traced, weights)) {
             for (int64_t b = 0, end_b = B; b < end_b; b++) {
                 if (AT2(S, 58, b) != R(0.0) && AT2(S, 135, b) == R(0.0)) {
@@ -1681,6 +1691,14 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int
             }
         }
     }
+    for (int64_t row = 0; row < 140; row++) {
+        for (int64_t lane = 0, end_lane = 4 * B; lane < end_lane; lane++) {
+            AT2(kept, row, lane) = AT2(S, row, lane);
+        }
+    }
+    for (int64_t b = 0, end_b = B; b < end_b; b++) {
+        for (int64_t row = 0; row < 27; row++) { AT2(kept, 140 + row, b) = AT2(states, b, row); }
+    }
     for (int64_t b = 0, end_b = count; b < end_b; b++) {
         doubt.p[b] = status.p[b] == 0 ? AT2(S, 117, b) : R(NAN);
         if (status.p[b] == 0) { taken.p[b] = steps; reach.p[b] = R(1.0); }
@@ -1688,12 +1706,14 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int
 }
 
 INLINE void lanes_march(int alone, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h,
-    int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r1 doubt, i1 taken, i1
-    status, d1 reach) {
+    int64_t first, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r2
+    kept, r1 doubt, i1 taken, i1 status, d1 reach) {
     Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
     Balls balls = (Balls){J0, D0, radius}; Weights weights = (Weights){sums, following, beginning};
-    if (alone) { lanes_march_lanes(1, frames, balls, h, steps, every, weights, doubt, taken, status, reach); }
-    else { lanes_march_lanes(8, frames, balls, h, steps, every, weights, doubt, taken, status, reach); }
+    if (alone) {
+        lanes_march_lanes(1, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach);
+    }
+    else { lanes_march_lanes(8, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach); }
 }
 
 INLINE void loop_n_guess(r3 past, r1 use, r2 E) {
@@ -4155,8 +4175,8 @@ WIDEST static void in_block_march_blocks(const argument *a, argument *got) {
 
 #ifndef SINGLE
 WIDEST static void in_lanes_march(const argument *a, argument *got) {
-    lanes_march(b_(0), r3_(1), r3_(2), r3_(3), r3_(4), r2_(5), r1_(6), r1_(7), r_(8), i_(9), i_(10), b_(11), b_(12),
-        r2_(13), r3_(14), r2_(15), r1_(16), i1_(17), i1_(18), d1_(19));
+    lanes_march(b_(0), r3_(1), r3_(2), r3_(3), r3_(4), r2_(5), r1_(6), r1_(7), r_(8), i_(9), i_(10), i_(11), b_(12),
+        b_(13), r2_(14), r3_(15), r2_(16), r2_(17), r1_(18), i1_(19), i1_(20), d1_(21));
     (void)got;
 }
 
@@ -4231,7 +4251,7 @@ const loop_export LOOPS()[] = {
     {"loop_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_loop_advance_all},
     {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
 #ifndef SINGLE
-    {"lanes_march", "b r3 r3 r3 r3 r2 r1 r1 r i i b b r2 r3 r2 r1* i1* i1* d1*", "", in_lanes_march},
+    {"lanes_march", "b r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march},
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1 r1 r i i r2* r1*", "b", in_vertical_loop_march},
     {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_prepare_pairs},
@@ -4248,5 +4268,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "615d435d3159148cf23ff66fabcd357935667b5074f6bdc44393c1af5c7d7f31";
+const char loops_text[] = "566104747ff2e09be63b011cca44638c14b1253e26aa5842425cc48653fc7d19";
 #endif

@@ -10,7 +10,7 @@ columns up to n = 14, which are not fitted.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -30,14 +30,17 @@ from .errors import BadInput, Status, StepNotTaken
 from .levels import double, double_double
 from .levels.dispatch import begun, precision_of
 from .levels.frames import Balls, Count, Frames, cores, share
+from .loops import loop
 from .loops.double_double import FIRST
 from .loops.guess import guess_weights
-from .loops.lanes import CHANGES, EIGHT, LAST, MOST_COLUMNS
+from .loops.lanes import CHANGES, EIGHT, LANES, LAST, MOST_COLUMNS, ROWS
 from .loops.lanes import march as march_lanes
 from .map import flag, rolling_radius, seconds, whole_number
 from .results import in_given_axes
 from .shown import Brief
 
+#: Steps of the map between two moments at which the run can be interrupted.
+CHUNK = 200_000
 #: From this many balls on a block of eight is faster than one after another.
 FEW = 6
 #: Columns in double-double, at most and as a rule: more of them make more of the roundings than they leave of the rest.
@@ -232,22 +235,36 @@ def _march(
     progress: Callable[[int], None],
 ) -> Floats:  # fmt: skip
     """Takes all long steps, of one ball that is `alone`, or of many; returns doubt, (n,)."""
-    n, steps, weights = len(balls.D), how[1], loop_weights(columns)
-    doubt, march = np.empty(n), native.loop(march_lanes)
+    n, (h, steps, *what), weights = len(balls.D), how, loop_weights(columns)
+    doubt, march, chunk = np.empty(n), native.loop(march_lanes), max(1, CHUNK // stages_of(columns))
     states = frames.momentum, frames.gamma, frames.attitude, frames.contact, balls.mass_tensor, balls.D, balls.radius
     ends = doubt, frames.taken, frames.status, frames.reach
+
+    def chunks(some: slice, lanes: int) -> Iterator[int]:
+        """Takes the steps of some balls, and gives how many were taken: between two it can be interrupted."""
+        kept = np.empty((ROWS + loop.ROWS, LANES * lanes))
+        given, found = (tuple(x[some] for x in arrays) for arrays in (states, ends))
+        for first in range(0, max(steps, 1), chunk):
+            last = min(first + chunk, steps)
+            march(lanes == 1, *given, h, first, last, *what, *weights, kept, *found)
+            yield last - first
+
     if alone:
-        march(True, *states, *how, *weights, *ends)
-        if not frames.status[0]:
-            progress(steps)
+        done = 0
+        for more in chunks(slice(0, 1), 1):
+            done += more
+            if not frames.status[0]:
+                progress(done)
         return doubt
     blocks = (n + EIGHT - FEW) // EIGHT if native.is_compiled() else 0  # the last may have idle lanes
 
     def task(part: int) -> None:
         first = EIGHT * part if part < blocks else EIGHT * blocks + part - blocks
         some = slice(first, first + (EIGHT if part < blocks else 1))
-        march(part >= blocks, *(x[some] for x in states), *how, *weights, *(x[some] for x in ends))
-        count.add(steps * len(doubt[some]))
+        for more in chunks(some, EIGHT if part < blocks else 1):
+            count.add(more * len(doubt[some]))
+            if count.stopped:
+                break
 
     parts, work = range(blocks + max(0, n - EIGHT * blocks)), steps * n * stages_of(columns)
     workers, count = min(threads or cores(), len(parts)) if work >= double.SHORT_RUN else 1, Count(progress)

@@ -368,3 +368,26 @@ def test_the_bits_of_a_motion_do_not_depend_on_what_blas_the_processor_gets():
         for name in ("Haswell", "Prescott", "SkylakeX", "Nehalem")
     }  # fmt: skip
     assert len(found) == 1
+
+
+@pytest.mark.parametrize("balls", [(), (9,)])
+def test_a_long_run_goes_in_parts_to_the_bit_so_that_it_can_be_interrupted(balls, monkeypatch):
+    momenta, steps, seen = np.tile(0.1 * K, (*balls, 1)), 100, []
+
+    def rolled(steps, progress=seen.append):
+        return chapsym.extrapolate(BALL, momenta, GAMMA, 0.5, steps, columns=6, threads=1, progress=progress)
+
+    whole = rolled(steps)
+    monkeypatch.setattr(extrapolation, "CHUNK", 7 * extrapolation.stages_of(6))
+    del seen[:]
+    parts = rolled(steps)
+    assert len(seen) > 2
+    assert seen[-1] == steps * (balls or (1,))[0]
+    for name in ("angular_momentum", "gamma", "doubt", "taken", "status"):
+        np.testing.assert_array_equal(getattr(parts, name), getattr(whole, name))
+
+    def stop(_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        rolled(10**15, stop)

@@ -583,15 +583,25 @@ def safely(S, b, sums, state):
     return status, reach
 
 
-def march_lanes(B, frames, balls, h, steps, every, weights, doubt, taken, status, reach):
-    """`steps` long steps of at most B balls from their frames 0; keeps every `every`-th state."""
+def march_lanes(B, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach):
+    """The long steps from `first` to `steps` of at most B balls from their frames 0; keeps every `every`-th state.
+
+    kept: all that the steps before left, and that the next ones need.
+    """
     S, count = np.zeros((ROWS, LANES * B)), len(status)
     states, exponents, body = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64), np.zeros(MOVING)
     for b in range(B):
         i = min(b, count - 1)  # lanes beyond the balls repeat the last
         placed(body, i, frames)
         exponents[b] = enter(S, B, b, i, balls, h, weights, body, states[b])
-    for step in range(steps):
+    if first > 0:
+        for row in range(ROWS):
+            for lane in range(LANES * B):
+                S[row, lane] = kept[row, lane]
+        for b in range(B):
+            for row in range(loop.ROWS):
+                states[b, row] = kept[ROWS + row, b]
+    for step in range(first, steps):
         if side_by_side(S, B, frames.traced, weights):
             for b in range(B):
                 if S[LOST, b] != 0.0 and S[RESTS, b] == 0.0:
@@ -606,6 +616,12 @@ def march_lanes(B, frames, balls, h, steps, every, weights, doubt, taken, status
                 if status[b] == 0:
                     taken_out(S, b, body)
                     shown(body, exponents[b], b, (step + 1) // every, frames)
+    for row in range(ROWS):
+        for lane in range(LANES * B):
+            kept[row, lane] = S[row, lane]
+    for b in range(B):
+        for row in range(loop.ROWS):
+            kept[ROWS + row, b] = states[b, row]
     for b in range(count):
         doubt[b] = S[MOVED + DOUBT, b] if status[b] == 0 else nan
         if status[b] == 0:
@@ -614,13 +630,13 @@ def march_lanes(B, frames, balls, h, steps, every, weights, doubt, taken, status
 
 def march(
     alone: bool, momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
-    h: float, steps: int, every: int, follows: bool, traced: bool, sums: Matrix, following: Cube, beginning: Matrix,
-    doubt: Vector, taken: Integers, status: Integers, reach: Doubles,
+    h: float, first: int, steps: int, every: int, follows: bool, traced: bool, sums: Matrix, following: Cube,
+    beginning: Matrix, kept: Matrix, doubt: Vector, taken: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
     """`march_lanes` for one ball that is `alone`, or for eight or fewer."""
     frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
     weights = Weights(sums, following, beginning)
     if alone:
-        march_lanes(1, frames, balls, h, steps, every, weights, doubt, taken, status, reach)
+        march_lanes(1, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach)
     else:
-        march_lanes(EIGHT, frames, balls, h, steps, every, weights, doubt, taken, status, reach)
+        march_lanes(EIGHT, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach)
