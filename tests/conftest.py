@@ -46,9 +46,7 @@ def pytest_collection_modifyitems(config, items):
 
 def pytest_collection_finish(session):
     """What is imported and collected stays: the collector of garbage need not go through it again and again."""
-    gc.collect()
-    gc.freeze()
-    gc.set_threshold(100_000)
+    gc.set_threshold(100_000, 50, 100)
 
 
 def pytest_terminal_summary(terminalreporter, config):

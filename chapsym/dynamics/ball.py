@@ -115,7 +115,7 @@ def _not_numbers(value: Any, name: str) -> BadInput:
 
 def brief(value: Any) -> str:
     """A short text of a value that is refused, for a sentence."""
-    text = repr(value)
+    text = " ".join(repr(value).split())  # an array is one line, too
     return text if len(text) <= 60 else text[:57] + "..."
 
 

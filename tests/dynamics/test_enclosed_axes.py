@@ -170,6 +170,7 @@ def test_a_tensor_from_python_has_the_motion_of_its_principal_moments(J):
         ([[1, 2, 0], [2, 2, 0], [0, 0, 4]], "no body has this mass_tensor"),
         ([[1, 0, 0], [0, -1, 0], [0, 0, 4]], "negative moment -1"),
         ([[1, 2], [2, 2]], "mass_tensor must be 3 numbers"),
+        (np.ones((2, 2)), r"numbers, not array\(\[\[1., 1.\], \[1., 1.\]\]\)$"),
         ([[1, 0, 0], [0, 2], [0, 0, 4]], "mass_tensor must be 3 numbers"),
         ([1, [2], 4], "mass_tensor 2 must be a number"),
     ],
