@@ -248,6 +248,8 @@ def _march(
             last = min(first + chunk, steps)
             march(lanes == 1, *given, h, first, last, *what, *weights, kept, *found)
             yield last - first
+            if frames.status[some].all():
+                break  # all have stopped
 
     if alone:
         done = 0

@@ -62,7 +62,7 @@ Operation = tuple[Any, tuple[int, ...]]
 
 def evaluated(expressions: Iterable[Any], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:
     """Expressions in any numbers: fractions, series, those of a finite field."""
-    operations, ends = _operations(tuple(sp.sympify(e, strict=True) for e in expressions))
+    operations, ends = _operations(tuple(expressions))
     found: list[Any] = []
     try:
         for of, parts in operations:
@@ -80,7 +80,7 @@ def evaluated(expressions: Iterable[Any], values: Mapping[sp.Symbol, Any], numbe
 
 
 @lru_cache(256)  # the same equations are evaluated at many states
-def _operations(expressions: tuple[sp.Expr, ...]) -> tuple[list[Operation], list[int]]:
+def _operations(expressions: tuple[Any, ...]) -> tuple[list[Operation], list[int]]:
     """What is done for expressions, shared parts once, and the places of the results."""
     operations = list[Operation]()
 

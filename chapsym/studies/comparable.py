@@ -29,7 +29,7 @@ NEARER, FAR, FITS = 5.0, 10.0, 0.1
 SAME = 0.999
 #: Velocities are of the body where, read in space, they are off by more than this part of the greatest.
 OFF = 0.01
-#: The times are in another unit where they are so many times what the way and the speed say, to within a factor.
+#: What the times are, over what the way and the speed say, where they are in another unit; and to within which factor.
 UNIT, STEADY = 300.0, 1.5
 #: Rows of a file that are judged at most, and radians that are turned until a convention shows.
 MOST_ROWS, TURNED = 2000, 0.5

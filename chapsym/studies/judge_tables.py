@@ -225,9 +225,9 @@ def _name(own: str) -> str:
 
 
 def _digit(rows: Sequence[Sequence[str]]) -> float:
-    """How far the first row may be from what was meant, as it has so many places, or so many digits, as all rows have.
+    """How far the first row may be from what was meant, by the places or digits that all rows have.
 
-    One number does not say it: a height of 0.1 and a column of 0.0 stand in tables of all digits, too.
+    One number does not say it: tables of all digits, too, have a height of 0.1 or a column of 0.0.
     """
     texts = [text.lower().partition("e") for row in rows for text in row]
     if not texts:

@@ -391,3 +391,10 @@ def test_a_long_run_goes_in_parts_to_the_bit_so_that_it_can_be_interrupted(balls
 
     with pytest.raises(KeyboardInterrupt):
         rolled(10**15, stop)
+
+
+def test_balls_that_stop_end_a_long_run():
+    steps = 10**13  # which would take years
+    assert (chapsym.extrapolate(BALL, np.tile(1e3 * K, (9, 1)), GAMMA, 0.5, steps).taken == 0).all()
+    with pytest.raises(chapsym.StepNotTaken):
+        chapsym.extrapolate(BALL, 1e3 * K, GAMMA, 0.5, steps)
