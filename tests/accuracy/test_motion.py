@@ -272,17 +272,19 @@ def test_near_unstable_rotations_the_estimate_is_above_the_error(thorough):
     """Of 113 the error is .31 of the estimate, so that a quarter of it would be seen; the steps of 798 are alike.
 
     The heavy 962 starts where a rounding of K moves ω the least: with that of all steps it was 1.6 times its estimate.
+    All but 113 are judged in double-double alone, which the certified motion confirms in `thorough`: it takes a hundred
+    times as long.
     """
-    light, heavy = (range(3000), range(300)) if thorough else ((*range(8), 113, 798), (20, 44, 58, 962))
-    parts = [unstable_starts.part(seed) for seed in light]
-    parts += [unstable_starts.part(seed, heavy=True) for seed in heavy]
+    light, heavy = (range(3000), range(300)) if thorough else ((*range(40), 113, 798), (*range(20), 20, 44, 58, 962))
+    parts = [unstable_starts.part(seed, certify=thorough or seed == 113) for seed in light]
+    parts += [unstable_starts.part(seed, heavy=True, certify=thorough) for seed in heavy]
     assert 0.25 < max(parts) < 1
 
 
 @pytest.mark.parametrize(("seed", "heavy"), [(2580, False), (513, True)])
-def test_compositions_that_agree_by_chance_are_not_believed(seed, heavy):
+def test_compositions_that_agree_by_chance_are_not_believed(seed, heavy, thorough):
     """The error was 1.9 and 1.5 times the estimate: the compared run was too coarse for the law, and near by chance."""
-    assert unstable_starts.part(seed, heavy) < 0.5
+    assert unstable_starts.part(seed, heavy, certify=thorough) < 0.5
 
 
 @pytest.mark.parametrize("wrong", [[1, 0], np.array([1, 0]), "no", 2.5, None])
