@@ -416,12 +416,12 @@ class Problem:
     def nothing(self) -> Motion:
         """An empty motion, whose first frame is the start."""
         n, kept = len(self), self.frames + 1
-        reached, status, order, total = (np.zeros(n, np.int64) for _ in range(4))
+        reached, status, order, total = np.zeros((4, n), np.int64)
         try:
             found = Motion(
                 np.empty((n, kept, 3)), np.empty((n, kept, 3)),
                 None if self.attitude is None else np.empty((n, kept, 4)),
-                np.empty((n, kept, 2)) if self.contact else None, reached, status, np.zeros(n), order, total,
+                np.zeros((n, kept, 2)) if self.contact else None, reached, status, np.zeros(n), order, total,
             )  # fmt: skip
         except (MemoryError, ValueError):
             raise BadInput(
@@ -430,8 +430,6 @@ class Problem:
         found.angular_momentum[:, 0], found.gamma[:, 0] = self.K, self.gamma
         if found.attitude is not None:
             found.attitude[:, 0] = self.attitude
-        if found.contact is not None:
-            found.contact[:, 0] = 0.0
         return found
 
     def take(self, order: int, steps: int, stride: int = 1) -> Motion:
@@ -553,12 +551,11 @@ def _run(
 
     Returns the largest error, and what roundings of the steps, and of the start, may have made of all.
     """
-    n, ball = len(problem), problem.ball
-    reported, reach, none = np.zeros((n, REPORTED)), np.empty(n), np.empty((n, 0, 4))
-    follows, traced = problem.attitude is not None, problem.contact
+    n, ball, follows, traced = len(problem), problem.ball, problem.attitude is not None, problem.contact
+    reported, (reach, noise, started) = np.zeros((n, REPORTED)), np.empty((3, n))
     frames = (
-        found.angular_momentum, found.gamma, none if found.attitude is None else found.attitude,
-        none if found.contact is None else found.contact, np.ascontiguousarray(ball.mass_tensor), ball.D,
+        found.angular_momentum, found.gamma, np.empty((n, 0, 4)) if found.attitude is None else found.attitude,
+        np.empty((n, 0, 2)) if found.contact is None else found.contact, np.ascontiguousarray(ball.mass_tensor), ball.D,
         ball.D if ball.radius is None or not traced else ball.radius,
     )  # fmt: skip
     ends = reported, found.reached, found.status, reach
@@ -580,7 +577,7 @@ def _run(
         share(task, parts, min(problem.threads or cores(), len(parts)), count)
     found.order.fill(EXTRAPOLATED)
     found.total[:] = reported[:, STEPS]
-    noise, started, asked_of = np.empty(n), np.empty(n), problem.parts
+    asked_of = problem.parts
     turned = not asked_of or not asked_of.isdisjoint(TURNED)
     counted = turned, "omega" in asked_of, traced and "contact" in asked_of
     worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, found.error, noise, started)

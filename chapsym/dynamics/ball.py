@@ -526,7 +526,9 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
 
 def in_shape(shape: tuple[int, ...], array: Asked) -> Asked:
     """A flat array (n, ...) with the leading axes `shape` instead of n; None stays None."""
-    return None if array is None else array.reshape(shape + array.shape[1:])
+    if array is None or (not shape and array.ndim > 1):  # a view of one ball's is had at once
+        return None if array is None else array[0]
+    return array.reshape(shape + array.shape[1:])
 
 
 def is_followed(attitude: bool | ArrayLike) -> bool:
