@@ -4,7 +4,6 @@ Next to the arrays, the folder `.chapsym` has the lock and the marks: for each c
 the state for the next, in one file.
 """
 
-import asyncio
 import errno
 import json
 import os
@@ -380,6 +379,8 @@ def _wait_for_zarr() -> None:
     """Returns when Zarr has ended its writes: the first that fails is raised while others are on their way."""
     if "zarr" not in sys.modules:
         return
+    import asyncio
+
     from zarr.core.sync import sync
 
     async def ended() -> None:
