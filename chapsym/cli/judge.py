@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from .app import app
 from .options import Json, argument, takes, writes
-from .output import fail, print_json
+from .output import fail, print_json, telling
 
 if TYPE_CHECKING:
     from chapsym.studies.judge import Convergence
@@ -39,12 +39,13 @@ def judge(
     if (against is None) == (body is None):
         fail("give either --against, a case or a scene, or --body, a ball that starts as the first row does", 2)
     tables = [table_of(file) for file in results]  # before a motion is certified, which may take a minute
-    if body is not None:
-        tables = [table.from_zero() for table in tables]
-        case = case_of_body(body, min(tables, key=lambda table: len(table.times)))
-    else:
-        assert against is not None
-        case = case_of_scene(against) if against.suffix == ".toml" else read_case(against)
+    with telling() as progress:
+        if body is not None:
+            tables = [table.from_zero() for table in tables]
+            case = case_of_body(body, min(tables, key=lambda table: len(table.times)), progress)
+        else:
+            assert against is not None
+            case = case_of_scene(against, progress) if against.suffix == ".toml" else read_case(against)
     runs = [table.at(case.time) for table in tables]
     for run in runs:
         if against is not None or len(runs) > 1:  # one with a body has its own start

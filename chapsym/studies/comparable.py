@@ -34,6 +34,10 @@ UNIT, STEADY = 300.0, 1.5
 #: Rows of a file that are judged at most, and radians that are turned until a convention shows.
 MOST_ROWS, TURNED = 2000, 0.5
 
+#: Called with sentences while a motion is certified.
+Progress = Callable[[str], None]
+SILENT: Progress = lambda sentence: None  # noqa: E731
+
 Way = tuple[str, Callable[[np.ndarray], np.ndarray]]
 PLAIN: Way = ("", np.asarray)
 
@@ -220,7 +224,7 @@ def _check_units(table: Table, file: Path, radius: float) -> None:
         raise BadInput(f"{table.file}: {clause}: write seconds and rad/s")
 
 
-def case_of_body(file: Path, table: Table, limit: float = 600.0) -> Case:
+def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: float = 600.0) -> Case:
     """The certified motion of the ball of a file from the first row of a table, at its own times from there.
 
     Raises BadInput where the row is not the start of a ball that rolls, and where another convention fits better.
@@ -250,7 +254,7 @@ def case_of_body(file: Path, table: Table, limit: float = 600.0) -> Case:
 
     def motion(read: Trajectory, times: list[Fraction]) -> Case:
         whole = scene(read, text=True)
-        return certified(file.stem, whole, exact_motion(whole)[0], times, limit)
+        return certified(file.stem, whole, exact_motion(whole)[0], times, progress, limit)
 
     radius = expand(scene(first, text=False)).ball.radius
     if radius is None:
@@ -271,17 +275,17 @@ def case_of_body(file: Path, table: Table, limit: float = 600.0) -> Case:
 DIGITS = 12
 
 
-def case_of_scene(file: Path, limit: float = 600.0) -> Case:
+def case_of_scene(file: Path, progress: Progress = SILENT, limit: float = 600.0) -> Case:
     """The certified motion of the one ball of a scene, at its frames."""
     from chapsym.scene import load
     from chapsym.scene.members.exactly import exact_motion
 
     scene = load(file)
     start, times = exact_motion(scene)
-    return certified(file.stem, scene, start, times, limit)
+    return certified(file.stem, scene, start, times, progress, limit)
 
 
-def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], limit: float = 600.0) -> Case:
+def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], progress: Progress, limit: float) -> Case:
     """The certified motion from an exact start of a scene, at these times; raises BadInput where it is not reached."""
     from flint import arb
 
@@ -298,7 +302,7 @@ def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], limi
     if members.axes is not None:
         turn = from_principal(members.axes, np.eye(3)).T
         moments = turn * moments @ turn.T
-    found = follow(start, times, DIGITS, limit=limit)
+    found = follow(start, times, DIGITS, limit=limit, progress=progress)
     if found.stopped:
         raise BadInput(f"{name}: the motion is certified to {float(found.times[-1]):g} s only: {found.stopped}")
     still = [[arb(0)] * 2] * len(times)  # of a body that nothing touches

@@ -1,6 +1,7 @@
 """No verdict on an engine where the file is written in another convention; a ball of one's own from the first row."""
 
 import csv
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -220,13 +221,28 @@ def test_a_ball_that_slides_at_first_is_not_said_to_be_in_mm(body, tmp_path):
     assert "its first row is not the start of a ball that rolls (velocity 2.27 m/s): no verdict on the engine" in words
 
 
-def test_a_scene_is_a_case(rows, tmp_path):
-    scene = (CASES / "robot.toml").read_text("utf-8")
+@pytest.fixture
+def scene(tmp_path):
+    """The case, of the times of the rows."""
+    text = (CASES / "robot.toml").read_text("utf-8")
     path = tmp_path / "mine.toml"
-    path.write_text(scene.replace("time = 10", "time = 2").replace("frames = 40", "frames = 8"), encoding="utf-8")
-    found = answer("judge", write(tmp_path, rows), "--against", path)["results"][0]["departure"]
+    path.write_text(text.replace("time = 10", "time = 2").replace("frames = 40", "frames = 8"), encoding="utf-8")
+    return path
+
+
+def test_a_scene_is_a_case(rows, scene, tmp_path):
+    found = answer("judge", write(tmp_path, rows), "--against", scene)["results"][0]["departure"]
     assert found["path"]["greatest"] < 1e-12
     assert found["momentum"]["greatest"] < 1e-10
+
+
+def test_a_command_says_how_far_it_is_with_the_certified_motion(rows, body, scene, tmp_path, monkeypatch):
+    said = []
+    monkeypatch.setattr("chapsym.cli.judge.telling", lambda: nullcontext(said.append))
+    for given in (("--body", body), ("--against", scene)):
+        said.clear()
+        answer("judge", write(tmp_path, rows), *given)
+        assert said[-1].endswith("%")
 
 
 def test_tables_of_trackers_and_other_engines_are_read(rows, tmp_path):

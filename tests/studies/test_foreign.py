@@ -100,7 +100,7 @@ def test_what_is_no_trajectory_is_one_sentence(tmp_path, result):
 
 
 def test_a_file_is_read_before_a_motion_is_certified(tmp_path, monkeypatch):
-    monkeypatch.setattr("chapsym.studies.comparable.case_of_scene", lambda _: pytest.fail("a motion is certified"))
+    monkeypatch.setattr("chapsym.studies.comparable.case_of_scene", lambda *_: pytest.fail("a motion is certified"))
     assert "cannot be read: No such file" in refused("judge", tmp_path / "none.csv", "--against", FIRST)
 
 

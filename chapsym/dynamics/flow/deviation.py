@@ -165,13 +165,23 @@ def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body:
 
 
 def _weights(series: Series) -> list[float]:
-    """The entries of S, powers of 2: with them the rows and the columns of A are about as large (Osborne)."""
-    size = np.abs(series.A).sum(axis=0) * (1 - np.eye(3))
-    found = np.zeros(3)
+    """The entries of S, powers of 2: with them the rows and the columns of A are about as large (Osborne).
+
+    The least is no less than makes exp(L)/s the smallest: a ball with two equal moments has a column of zeros.
+    """
+    whole = np.abs(series.A).sum(axis=0)
+    size, found = whole * (1 - np.eye(3)), np.zeros(3)
     for i in 3 * (0, 1, 2):
         scaled = size * 2.0 ** (found[:, np.newaxis] - found)
         found[i] += np.round(np.log2((scaled[:, i].sum() + FLAT) / (scaled[i].sum() + FLAT)) / 2)
-    return [float(x) for x in 2.0 ** (found - found.max())]
+    found -= found.max()
+
+    def stretch(least: int) -> float:
+        powers = np.maximum(found, least)
+        return float(np.linalg.norm(whole * 2.0 ** (powers[:, np.newaxis] - powers)) - least * np.log(2))
+
+    least = min(range(int(found.min()), 1), key=stretch)
+    return [float(x) for x in 2.0 ** np.maximum(found, least)]
 
 
 def _sizes(w: Sequence[Any], gamma: Sequence[Any], body: Body, S: Sequence[float]) -> tuple[Any, Any, Any, Any]:
