@@ -231,7 +231,8 @@ def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: f
     """
     from chapsym.scene.members.exactly import exact_motion
     from chapsym.scene.members.members import expand
-    from chapsym.scene.read.scene import ball_table, checked, written
+    from chapsym.scene.read.errors import SceneError
+    from chapsym.scene.read.scene import ball_place, ball_table, checked, written
 
     times = table.exact_times()
     if len(times) < 2:
@@ -256,7 +257,12 @@ def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: f
         whole = scene(read, text=True)
         return certified(file.stem, whole, exact_motion(whole)[0], times, progress, limit)
 
-    radius = expand(scene(first, text=False)).ball.radius
+    try:
+        radius = expand(scene(first, text=False)).ball.radius
+    except SceneError as error:
+        if error.misfit is None or error.misfit.path[0] != "ball":
+            raise
+        raise BadInput(f"{ball_place(file, str(error.misfit.path[1]))}: {error.misfit}") from None
     if radius is None:
         raise BadInput(f"{file}: the ball needs its radius, with its mass")
     _check_units(table.from_zero(), file, float(radius[0]))

@@ -201,6 +201,37 @@ def test_a_ball_of_ones_own_has_the_motion_that_the_case_has(rows, body, tmp_pat
     assert "give either --against" in refused("judge", write(tmp_path, rows))
 
 
+TOML = """[ball]
+mass = 1.9
+inertia = [
+  0.0046, 0.0061, 0.0083]
+radius = 0.105
+"""
+MJCF = """<mujoco><worldbody><body><freejoint/>
+ <inertial pos="0 0 0" mass="1.9" diaginertia="0.0046 0.0061 0.0083"/>
+ <geom size="0.105"/></body></worldbody></mujoco>"""
+
+BALLS = {"a.urdf": BODY, "an.xml": MJCF, "a.toml": TOML, "a list.toml": TOML.replace("[ball]", "[[ball]]")}
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "said"),
+    [
+        ("a.urdf", "0.0083", "0.083", "line 2: <inertia>: no body has the inertia"),
+        ("a.urdf", "1.9", "-1.9", "line 2: <mass>: mass and radius must be positive"),
+        ("a.urdf", "0.105", "0", "line 3: <sphere>: mass and radius must be positive"),
+        ("an.xml", "0.0083", "0.083", "line 2: <inertial>: no body has the inertia"),
+        ("an.xml", "0.105", "-1", "line 3: <geom>: mass and radius must be positive"),
+        ("a.toml", "0.0083", "0.083", "line 3: ball.inertia: no body has the inertia"),
+        ("a list.toml", "1.9", "0", "line 2: ball.mass: mass and radius must be positive"),
+    ],
+)
+def test_a_ball_that_physics_refuses_is_refused_where_the_user_wrote_it(rows, tmp_path, name, old, new, said):
+    file = tmp_path / name
+    file.write_text(BALLS[name].replace(old, new), encoding="utf-8")
+    assert f"{file}, {said}" in refused("judge", write(tmp_path, rows), "--body", file)
+
+
 def test_of_several_results_each_has_the_start_of_the_others(rows, body, tmp_path):
     """The ball starts as the file of the fewest rows does."""
     files, later = [], {name: values[1:] for name, values in rows.items()}

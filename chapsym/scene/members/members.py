@@ -162,7 +162,9 @@ class Body:
             if not isinstance(why, Misfit):
                 raise SceneError(f"{at()}{of}") from None
             key, where = ".".join(map(str, why.path)), at(*why.path)
-            raise SceneError(f"{where}{key} of {of}" if where else f"{of} ({key})") from None
+            refused = SceneError(f"{where}{key} of {of}" if where else f"{of} ({key})")
+            refused.misfit = why
+            raise refused from None
 
 
 def _place(scene: Scene, index: int, table: str | int = "ball", *key: str | int) -> str:

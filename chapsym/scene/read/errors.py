@@ -25,7 +25,9 @@ Path = tuple[str | int, ...]
 
 
 class SceneError(BadInput):
-    """The scene cannot be run as it is written."""
+    """The scene cannot be run as it is written; misfit: what does not fit, where that is one key of one ball."""
+
+    misfit: "Misfit | None" = None
 
 
 class Misfit(BadInput):

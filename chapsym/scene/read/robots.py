@@ -40,6 +40,11 @@ DENSITY = "1000"
 MATTER = ("geom", "inertial", "joint", "freejoint")
 #: What may have more shapes in it.
 UNREAD = ("frame", "replicate", "composite", "flexcomp", "attach")
+#: The elements that may say a key of a table, the first of them that is there.
+SAID_BY = {
+    "inertia": ("inertial/inertia", "inertial"), "mass": ("inertial/mass", "inertial", "geom"),
+    "radius": ("sphere", "geom"), "preset": ("geom",),
+}  # fmt: skip
 ENTRIES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 Vector = tuple[Fraction, ...]
 #: A place, and the quaternion of a turn, of any length, scalar first.
@@ -59,6 +64,14 @@ def table(path: Path) -> dict[str, Any]:
     except SceneError:
         reader.check_filled_in()
         raise
+
+
+def place(path: Path, key: str) -> str:
+    """The file, the line and the element that says this key of `table`, where that can be made."""
+    reader = _Reader(path)
+    body, _ = reader.ball()
+    where = next(one for tag in SAID_BY[key] if (one := body.find(f".//{tag}")) is not None)
+    return f"{path}, line {reader.lines[where]}: <{where.tag}>"
 
 
 class _Reader:
@@ -104,8 +117,8 @@ class _Reader:
             raise SceneError(f"{where}: this is not XML: {expat.ErrorString(error.code)}") from None
         return builder.close()
 
-    def table(self) -> dict[str, Any]:
-        """The one body that has a sphere."""
+    def ball(self) -> tuple[Element, tuple[str, Vector]]:
+        """The one body that has a sphere, the radius and the centre of this."""
         if self.kind == "mjcf":
             self._take_defaults()
         tag = "body" if self.kind == "mjcf" else "link"
@@ -116,7 +129,11 @@ class _Reader:
             )
             clause = f"has {len(found)} with one ({names})" if found else "has none"
             raise SceneError(f"{self.path}: the ball is the <{tag}> with a sphere to roll on, and this file {clause}")
-        ((body, (radius, centre)),) = found
+        return found[0]
+
+    def table(self) -> dict[str, Any]:
+        """The numbers of the ball."""
+        body, (radius, centre) = self.ball()
         self._check_free(body)
         self._check_alone(body, radius, centre)
         name = {"name": body.attrib["name"]} if body.get("name") else {}
@@ -131,7 +148,7 @@ class _Reader:
         place, turn = self._pose(inertial, body)
         offset = [a - b for a, b in zip(place, centre, strict=True)]
         rho = self._number(radius, inertial)
-        if max(map(abs, offset)) > NO_OFFSET * rho:
+        if max(map(abs, offset)) > NO_OFFSET * abs(rho):
             length = float(sum(x * x for x in offset)) ** 0.5
             what = unbalanced("the centre of mass of <inertial>", length, float(rho))
             raise self._refused(inertial, what)

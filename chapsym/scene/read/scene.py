@@ -16,7 +16,7 @@ from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model
 from chapsym.accuracy.motion import DEFAULT
 
 from . import robots
-from .errors import Misfit, SceneError, described
+from .errors import Misfit, SceneError, described, place
 from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table, ranges_of
 from .task import Task
 from .units import TIME, number
@@ -161,6 +161,15 @@ def ball_table(path: Path) -> dict[str, Any]:
     if isinstance(data, list) and len(data) > 1:
         raise SceneError(f"{path} has {len(data)} balls: one is needed")
     return {key: value for key, value in (data[0] if isinstance(data, list) else data).items() if key != "start"}
+
+
+def ball_place(path: Path, key: str) -> str:
+    """The file of a ball, the line and what is there that says this key of `ball_table`."""
+    if path.suffix in robots.SUFFIXES:
+        return robots.place(path, key)
+    text = _text(path)
+    keys = ("ball", 0, key) if isinstance(_parsed(text, path)["ball"], list) else ("ball", key)
+    return f"{place(str(path), text, keys)}: ball.{key}"
 
 
 def written(name: str, table: dict[str, Any]) -> str:
