@@ -155,11 +155,72 @@ def test_a_hollow_geom_is_a_shell_with_the_density_of_its_surface(put, said, mas
 @pytest.mark.parametrize(
     ("default", "joint"), [("", 'armature="0.1"'), ('<default><joint armature="0.1"/></default>', "")]
 )
-def test_inertia_that_a_joint_adds_is_not_left_out(put, default, joint):
+@pytest.mark.parametrize(
+    ("name", "said"), [("armature", "is added to the inertia of"), ("damping", "slows"), ("frictionloss", "slows")]
+)
+def test_what_a_joint_does_to_a_free_ball_is_not_left_out(put, default, joint, name, said):
     text = GEOM.replace("<worldbody><body>", f'{default}<worldbody><body><joint type="free" {joint}/>')
-    with pytest.raises(SceneError, match=r"<joint>: armature = '0.1' is added to the inertia of the ball"):
+    text = text.replace("armature", name)
+    with pytest.raises(SceneError, match=rf"<joint>: {name} = '0.1' {said} the ball"):
         table(put(text, ".xml"))
-    assert table(put(text.replace('armature="0.1"', 'armature="0"'), ".xml"))["radius"] == "0.1"
+    assert table(put(text.replace(f'{name}="0.1"', f'{name}="0"'), ".xml"))["radius"] == "0.1"
+
+
+#: What is at the head of a world of MJCF, and at that of a model of SDF.
+HEAD, MODEL = "<mujoco>", '<model name="m">'
+TILTED = '<pose>0 0 0 0.1 0 0</pose><link name="l">{}<collision name="c"><geometry><plane>{}</plane>'
+FLOOR = f'<model name="f">{TILTED}</geometry></collision></link></model>{MODEL}'
+WORLDS = {
+    "a slope": ('size="1 1 1"', 'size="1 1 1" euler="0 10 0"', "line 1: <geom>: this plane is not level"),
+    "a wall": ('size="1 1 1"', 'size="1 1 1" zaxis="1 0 0"', "line 1: <geom>: this plane is not level"),
+    "a ceiling": ('size="1 1 1"', 'size="1 1 1" xyaxes="0 1 0 1 0 0"', "line 1: <geom>: this plane is not level"),
+    "a slope in a body": ("<geom type", '<body quat="1 .1 0 0"><geom type="plane"/></body><a type', "<geom>: this"),
+    "air": (HEAD, HEAD + '<option density="1.2"/>', "line 1: <option>: density = '1.2' slows the ball, and is"),
+    "honey": (HEAD, HEAD + '<option viscosity="1"/>', "<option>: viscosity = '1' slows the ball"),
+    "no weight": (HEAD, HEAD + '<option gravity="0 0 0"/>', "<option>: gravity = '0 0 0' is not along -z"),
+    "y up": (HEAD, HEAD + '<option gravity="0 -9.81 0"/>', "<option>: gravity = '0 -9.81 0' is not along -z"),
+    "a flag": (HEAD, HEAD + '<option><flag gravity="disable"/></option>', "<flag>: gravity is disabled"),
+    "a balloon": ('pos="0 0 1"', 'gravcomp="1"', "<body>: gravcomp = '1' takes weight from the ball"),
+    "up": (MODEL, f"<gravity>0 0 9.8</gravity>{MODEL}", "line 1: <gravity>: gravity = '0 0 9.8' is not along -z"),
+    "physics": (MODEL, f"<physics><gravity>1 0 -9.8</gravity></physics>{MODEL}", "is not along -z"),
+    "off": (' <inertial><pose>', "<gravity>false</gravity><inertial><pose>", "<gravity> is false"),
+    "decay": (
+        ' <inertial><pose>', "<velocity_decay><angular>.1</angular></velocity_decay><inertial><pose>", "'.1' slows the"
+    ),
+    "wind": (
+        MODEL, f"<wind><linear_velocity>2 0 0</linear_velocity></wind>{MODEL}<enable_wind>true</enable_wind>",
+        "line 1: <linear_velocity>: wind = '2 0 0' drives the ball",
+    ),
+    "a tilted model": (MODEL, FLOOR.format("", ""), "line 1: <collision>: this plane is not level"),
+    "a tilted normal": (
+        MODEL, FLOOR.format("<pose>0 0 0 -0.1 0 0</pose>", "<normal>1 0 4</normal>"), "this plane is not level",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_a_world_that_is_not_a_level_plane_under_gravity_is_refused(put, name):
+    old, new, said = WORLDS[name]
+    text, suffix = (MJCF, ".xml") if old in MJCF else (SDF, ".sdf")
+    with pytest.raises(SceneError) as caught:
+        table(put(text.replace(old, new, 1), suffix))
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('size="1 1 1"', 'size="1 1 1" zaxis="0 0 2"'),
+        ('size="1 1 1"', 'size="1 1 1" euler="0 10 0" contype="0" conaffinity="0"'),
+        ("<geom type", '<geom type="plane" size="1 1 1" euler="0 90 0"/><geom type'),
+        (HEAD, HEAD + '<option gravity="0 0 -1.62" wind="1 0 0" density="0"/>'),
+        (MODEL, FLOOR.format("<pose>0 0 0 -0.1 0 0</pose>", "<normal>0 0 1</normal>")),
+        (MODEL, f"<gravity>0 0 -1.6</gravity><wind><linear_velocity>2 0 0</linear_velocity></wind>{MODEL}"),
+    ],
+)
+def test_walls_the_moon_and_wind_that_reaches_no_ball_are_no_hindrance(put, old, new):
+    text, suffix = (MJCF, ".xml") if old in MJCF else (SDF, ".sdf")
+    assert table(put(text.replace(old, new, 1), suffix))["inertia"] == ROWS
 
 
 @pytest.mark.parametrize(
@@ -269,6 +330,19 @@ def test_what_mujoco_would_make_another_ball_of_is_refused(put, old, new, said):
             "<link name='b'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>",
             "this file has 2 with one (b, ball)",
         ),
+        (
+            "</inertial>",
+            '\n<mass value="2"/></inertial>',
+            ", line 8: <inertial> has two <mass>, the first on line 5",
+        ),
+        ("<inertia ", "<inertia/><inertia ", ", line 6: <inertial> has two <inertia>"),
+        (
+            "<collision>",
+            "<inertial/><collision>",
+            ", line 8: <link> has two <inertial>, the first on line 3",
+        ),
+        ("<origin", "<origin/><origin", ", line 4: <inertial> has two <origin>"),
+        ("<sphere", '<sphere radius="1"/><sphere', ", line 8: <geometry> has two <sphere>"),
         ("robot", "html", ", line 2: <html> is not <robot> (URDF), <sdf> or <mujoco> (MJCF)"),
     ],
 )

@@ -3,8 +3,9 @@
 In all three formats ixy, ixz, iyz are entries of the tensor of inertia: -∫xy dm, ....
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element, TreeBuilder
@@ -13,6 +14,7 @@ from xml.parsers import expat
 import numpy as np
 
 from chapsym import generated
+from chapsym.dynamics.loops.vectors import cross
 from chapsym.rationals import NotANumber, rational
 
 from .bodies import unbalanced
@@ -38,6 +40,17 @@ PLAIN = {
 DENSITY = "1000"
 #: What a <body> of MJCF has that is more than a frame for those in it.
 MATTER = ("geom", "inertial", "joint", "freejoint")
+#: Where planes may be in MJCF and SDF, which turn with it.
+AROUND = ("worldbody", "body", "frame", "world", "model", "link")
+#: What a joint of MJCF does to the ball that it leaves free.
+OF_JOINTS = {
+    "armature": "is added to the inertia of the ball", "damping": "slows the ball", "frictionloss": "slows the ball",
+    "stiffness": "draws the ball",
+}  # fmt: skip
+#: Why gravity counts.
+PRESSED = "and a ball that rolls is pressed on a level plane"
+#: A plane that is turned by less is level: a right angle to 7 digits.
+LEVEL = Fraction(1, 10**6)
 #: What may have more shapes in it.
 UNREAD = ("frame", "replicate", "composite", "flexcomp", "attach")
 #: The elements that may say a key of a table, the first of them that is there.
@@ -50,6 +63,7 @@ Vector = tuple[Fraction, ...]
 #: A place, and the quaternion of a turn, of any length, scalar first.
 Pose = tuple[Vector, Vector]
 NO_TURN = tuple(map(Fraction, (1, 0, 0, 0)))
+UP = tuple(map(Fraction, (0, 0, 1)))
 
 
 def table(path: Path) -> dict[str, Any]:
@@ -136,8 +150,9 @@ class _Reader:
         body, (radius, centre) = self.ball()
         self._check_free(body)
         self._check_alone(body, radius, centre)
+        self._check_world(body)
         name = {"name": body.attrib["name"]} if body.get("name") else {}
-        inertial = body.find("inertial")
+        inertial = self._only(body, "inertial")
         if self.kind == "mjcf":
             self._check_masses()
             inertial = None if self._compiler("inertiafromgeom", "auto")[0] == "true" else inertial
@@ -219,10 +234,8 @@ class _Reader:
             if held:
                 what = f"<{held[0].tag}> {held[0].get('name', 'without a name')}"
                 raise self._refused(held[0], f"{what} holds the ball, and that of chapsym rolls alone")
-            for joint in body.findall("joint"):
-                if self._number(joint.get("armature", "0"), joint):
-                    clause = f"armature = {joint.attrib['armature']!r} is added to the inertia of the ball"
-                    raise self._refused(joint, f"<joint>: {clause}, and is not read: take it out")
+            for joint, (name, does) in product(body.findall("joint"), OF_JOINTS.items()):
+                self._check_none(joint, name, joint.get(name, "0"), does)
             return
         massive = {link.get("name") for link in self.root.iter("link") if link.find("inertial") is not None}
         for joint in self.root.iter("joint"):
@@ -232,6 +245,71 @@ class _Reader:
             if body.get("name") in ends and not fixed and joint.get("type") != "floating":
                 what = f"<joint> {joint.get('name', 'without a name')} of {' and '.join(ends)}"
                 raise self._refused(joint, f"{what} holds the ball, and that of chapsym rolls alone")
+
+    def _check_none(self, where: Element, name: str, text: str, does: str) -> None:
+        """Raises SceneError where numbers that act on the ball are not all 0."""
+        if any(self._number(part, where) for part in text.split()):
+            raise self._refused(where, f"<{where.tag}>: {name} = {text.strip()!r} {does}, and is not read: take it out")
+
+    def _check_world(self, body: Element) -> None:
+        """Raises SceneError where the plane is not level, or where more than it and gravity act on the ball.
+
+        How large gravity is does not matter to a ball whose centre of mass is its centre.
+        """
+        gravity, where = self._acts_in_mjcf(body) if self.kind == "mjcf" else self._acts_in_sdf(body)
+        x, y, z = self._numbers(gravity, where, 3)
+        if not _along(x, y, -z):
+            raise self._refused(where, f"<{where.tag}>: gravity = {gravity.strip()!r} is not along -z, {PRESSED}")
+        planes = list(self._planes(self.root))
+        if planes and not any(_along(*normal) for _, normal in planes):
+            clause = "this plane is not level, and that of chapsym is: gravity would speed the ball up"
+            raise self._refused(planes[0][0], f"<{planes[0][0].tag}>: {clause}")
+
+    def _acts_in_mjcf(self, body: Element) -> tuple[str, Element]:
+        """Gravity, and where it is said."""
+        for name in ("density", "viscosity"):  # of a fluid, without which wind does nothing
+            text, where = self._said("option", name, "0")
+            self._check_none(where, name, text, "slows the ball")
+        self._check_none(body, "gravcomp", body.get("gravcomp", "0"), "takes weight from the ball")
+        switch, where = self._said("flag", "gravity", "enable")
+        if switch != "enable":
+            raise self._refused(where, f"<flag>: gravity is disabled, {PRESSED}")
+        return self._said("option", "gravity", "0 0 -1")
+
+    def _acts_in_sdf(self, body: Element) -> tuple[str, Element]:
+        """Gravity, and where it is said."""
+        for decay in body.iterfind("velocity_decay/*"):
+            self._check_none(decay, "velocity_decay", decay.text or "", "slows the ball")
+        if body.findtext("gravity", "true").strip() in ("false", "0"):
+            raise self._refused(body, f"<gravity> is false, {PRESSED}")
+        if self._blown(body):
+            for wind in self.root.iterfind(".//wind/linear_velocity"):
+                self._check_none(wind, "wind", wind.text or "", "drives the ball")
+        found = [*self.root.iterfind(".//world/gravity"), *self.root.iterfind(".//physics/gravity")]
+        return (found[-1].text or "", found[-1]) if found else ("0 0 -1", self.root)
+
+    def _blown(self, body: Element) -> bool:
+        """Whether SDF lets the wind act on the ball: its link says so, or its model."""
+        models = [one for one in self.root.iter("model") if body in list(one)]
+        return any(one.findtext("enable_wind", "").strip() in ("true", "1") for one in (body, *models))
+
+    def _planes(self, around: Element) -> Iterator[tuple[Element, Vector]]:
+        """The planes to roll on, and their normals in the axes of what is around them."""
+        for child in around:
+            found = list(self._planes(child)) if child.tag in AROUND else []
+            if child.tag == "geom" and child.get("type") == "plane" and self._touches(child):
+                if "zaxis" in child.attrib:
+                    yield child, self._numbers(child.attrib["zaxis"], child, 3)
+                elif "xyaxes" in child.attrib:
+                    both = self._numbers(child.attrib["xyaxes"], child, 6)
+                    yield child, cross(both[:3], both[3:])
+                else:
+                    found = [(child, UP)]
+            elif child.tag == "collision" and (plane := child.find("geometry/plane")) is not None:
+                found = [(child, self._numbers(plane.findtext("normal", "0 0 1"), plane, 3))]
+            if found:
+                turn = self._pose(child, child)[1]
+                yield from ((plane, generated.rotate(*turn, *normal)) for plane, normal in found)
 
     def _of_one_material(self, body: Element) -> dict[str, Any]:
         """MJCF makes mass and inertia of a geom alone; the other formats have none without <inertial>."""
@@ -264,13 +342,22 @@ class _Reader:
         if self.kind == "mjcf":
             radius = (shape.get("size", "").split() or [""])[0] if shape.get("type", "sphere") == "sphere" else ""
         else:
-            sphere = next(shape.iter("sphere"), None)
+            geometry = self._only(shape, "geometry")
+            sphere = None if geometry is None else self._only(geometry, "sphere")
             radius = "" if sphere is None else self._value(sphere, "radius")
         return (radius, self._pose(shape, body)[0]) if radius else None
 
+    def _only(self, parent: Element, tag: str) -> Element | None:
+        """The child with a tag, if there is one: of two, readers take the first, the last, or both."""
+        found = parent.findall(tag)
+        if len(found) > 1:
+            clause = f"<{parent.tag}> has two <{tag}>, the first on line {self.lines[found[0]]}: take one out"
+            raise self._refused(found[1], clause)
+        return found[0] if found else None
+
     def _value(self, parent: Element, name: str, attribute: str | None = None) -> str:
         """A number of an element: the text of a child, an attribute, or that of a child."""
-        child = parent.find(name)
+        child = self._only(parent, name)
         found = parent.get(name)
         if child is not None:
             found = child.get(attribute or "", child.text or "").strip()
@@ -300,7 +387,7 @@ class _Reader:
         """Where an element of a body says that it is, in the body."""
         if self.kind == "mjcf":
             return self._numbers(parent.get("pos", "0 0 0"), parent, 3), self._turn_of_mjcf(parent)
-        where = parent.find("origin" if self.kind == "urdf" else "pose")
+        where = self._only(parent, "origin" if self.kind == "urdf" else "pose")
         if where is None:
             return NO_TURN[1:], NO_TURN
         if self.kind == "urdf":
@@ -351,8 +438,11 @@ class _Reader:
         return _turned(angles, sequence, degrees=unit == "degree")
 
     def _compiler(self, name: str, default: str) -> tuple[str, Element]:
-        """The value that the last <compiler> with an attribute gives it for the whole file, and where."""
-        clause = [one for one in self.root.iter("compiler") if name in one.attrib]
+        return self._said("compiler", name, default)
+
+    def _said(self, tag: str, name: str, default: str) -> tuple[str, Element]:
+        """The value that the last element of a tag with an attribute gives it for the whole file, and where."""
+        clause = [one for one in self.root.iter(tag) if name in one.attrib]
         return (clause[-1].attrib[name], clause[-1]) if clause else (default, self.root)
 
     def _check_masses(self) -> None:
@@ -370,7 +460,7 @@ class _Reader:
         if self.kind == "mjcf":
             texts = self._of_mjcf(inertial)
         else:
-            inertia = inertial.find("inertia")
+            inertia = self._only(inertial, "inertia")
             if inertia is None:
                 raise self._refused(inertial, "<inertial> has no <inertia>")
             optional = ("ixy", "ixz", "iyz") if self.kind == "sdf" else ()
@@ -397,6 +487,11 @@ class _Reader:
                 self._numbers(inertial.attrib[key], inertial, count)
                 return dict.fromkeys(names, "0") | dict(zip(names, inertial.attrib[key].split(), strict=False))
         raise self._refused(inertial, "<inertial> has no diaginertia or fullinertia")
+
+
+def _along(x: Fraction, y: Fraction, z: Fraction) -> bool:
+    """Whether a vector is upright, up to the rounding of angles."""
+    return z > 0 and max(abs(x), abs(y)) <= LEVEL * z
 
 
 def _text(x: Fraction) -> str:
