@@ -51,7 +51,7 @@ def draw(data: Mapping[str, Any]) -> Picture:
         if name == "height":
             axis.axhline(0, color="0.5", linestyle=":", linewidth=1)
             axis.ticklabel_format(axis="y", scilimits=(-2, 3))
-        else:
+        elif any(np.any(line.get_ydata()) for line in axis.lines):  # else none of it can be shown
             axis.set_yscale("log", nonpositive="mask")
         axis.set(ylabel=f"{name}, {UNITS[name]}", xlabel="t, s", xlim=(0, case.time[-1]))
     for axis in axes[len(parts) :]:

@@ -38,6 +38,11 @@ _TIME = re.compile(
 )
 #: A time whose unit is said, in its name, to be a part of a second.
 _PART = re.compile(r".*(?:\b|_)(milli|micro|nano|[mnuµμ])s(?:ec(?:ond)?s?)?\W*")
+#: A name that ends in the unit of a length, a speed, or a rate of turning, in words.
+_UNIT = re.compile(r"(.*\S) (mm|cm|m|rad|deg|degrees|dps)(?: ?p?s(?: 1)?)?")
+#: The digits by which a number in such a unit is moved, and those that are in degrees.
+MOVED, DEGREES = {"mm": 3, "cm": 2}, ("deg", "degrees", "dps")
+_ANGLES = re.compile(r"(?:.* )?(?:roll|pitch|yaw|rpy|euler)(?: .*)?")
 _LONG = re.compile(r"[eE][+-]?\d{4}")
 #: The digits by which such a time is moved.  EuRoC and others have ns.
 PARTS = {"milli": 3, "m": 3, "micro": 6, "u": 6, "µ": 6, "μ": 6, "nano": 9, "n": 9}
@@ -131,19 +136,27 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
     if rows and len(names) == len(TUM) and not np.isnan([*map(_number, head)]).any():
         names, head, rows = list(TUM), list(TUM), ["", *rows]
     if missing := [name for name in needed if name not in names]:
+        if missing[0] in NEEDED[4:] and (angles := [cell for cell in head if _ANGLES.fullmatch(_words(cell)[0])]):
+            clause = f"has the columns {', '.join(angles[:3])}, angles whose order has many conventions"
+            raise BadInput(f"{file} {clause}: write the attitude as a quaternion, qw,qx,qy,qz")
         raise BadInput(f"{file} has no column {missing[0]}: its first row must name {','.join((*NEEDED, *MORE))}")
     where = {name: i for i, name in enumerate(names) if name in (*NEEDED, *MORE)}
     if twice := [name for name in where if names.count(name) > 1]:
         raise BadInput(f"{file} has the column {twice[0]} twice")
     texts = [_texts(file, i, _cells(line, _mark(rows[0])), names, where) for i, line in enumerate(rows[1:], 1)]
-    if power := _power(head[where["time"]]):
-        for row in texts:
-            row["time"] = str(Decimal(row["time"]).scaleb(-power))
+    units = {name: _words(head[at])[1] for name, at in where.items()}
+    for name, unit in units.items():
+        if power := _power(head[where[name]]) if name == "time" else MOVED.get(unit, 0):
+            for row in texts:
+                row[name] = str(Decimal(row[name]).scaleb(-power))
     parts = {"centre": NEEDED[1:4], "attitude": NEEDED[4:], "velocity": MORE[:3], "omega": MORE[3:]}
     digit = {
         part: _digit([[row[name] for name in some if name in where] for row in texts]) for part, some in parts.items()
     }
     columns = {name: np.array([float(row[name]) for row in texts]) for name in where}
+    if in_degrees := [name for name in MORE[3:] if units.get(name) in DEGREES]:
+        columns |= {name: np.radians(columns[name]) for name in in_degrees}
+        digit["omega"] = float(np.radians(digit["omega"]))
     return Table(file, columns, [row["time"] for row in texts], _step(file, lines), digit)
 
 
@@ -211,8 +224,7 @@ def _name(own: str) -> str:
     """The name of a column here; its own, where it is none of an engine."""
     if (indexed := _INDEX.fullmatch(own.lower())) and int(indexed[2]) < len(INDEXED[indexed[1]]):
         return INDEXED[indexed[1]][int(indexed[2])]
-    words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", re.sub(r"\[[^\]]*\]|\([^)]*\)", "", own))
-    words = re.sub(r"[\W_]+", " ", words).strip().lower()
+    words, _ = _words(own)
     words = re.sub(r" rs( r)?\b| w(?= [wxyz]$)", "", words)  # the frames of EuRoC, and the world of Isaac Lab
     if words in (*NEEDED, *MORE) or _TIME.fullmatch(words):
         return words if words in (*NEEDED, *MORE) else "time"
@@ -222,6 +234,17 @@ def _name(own: str) -> str:
         if found := re.fullmatch(rf"(?:.* )?(?:{called}) ?([{'w' if short == 'q' else ''}xyz])", words):
             return short + found[1]
     return own
+
+
+def _words(own: str) -> tuple[str, str]:
+    """The name of a column in words, lower case, without the unit at its end, and this; without what is in brackets."""
+
+    def plain(text: str) -> str:
+        return re.sub(r"[\W_]+", " ", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text)).strip().lower()
+
+    if found := _UNIT.fullmatch(plain(own)):
+        return found[1], found[2]
+    return plain(re.sub(r"\[[^\]]*\]|\([^)]*\)", "", own)), ""
 
 
 def _digit(rows: Sequence[Sequence[str]]) -> float:

@@ -287,6 +287,25 @@ def test_tables_of_trackers_and_other_engines_are_read(rows, tmp_path):
     np.testing.assert_array_equal(table.columns["vz"], rows["vz"])
 
 
+@pytest.mark.parametrize("mark", ["_{}", " [{}]", "({})"])
+def test_a_unit_in_the_name_of_a_column_is_taken(rows, tmp_path, mark):
+    units = {"x": "mm", "y": "cm", "z": "m", "vx": "mm/s", "vy": "cm_s", "vz": "m s^-1", "wx": "deg/s", "wy": "dps"}
+    part = {"mm": 1e3, "cm": 1e2, "de": 180 / np.pi, "dp": 180 / np.pi}
+    given = {name: rows[name] * part.get(units.get(name, "")[:2], 1) for name in rows}
+    head = [name + mark.format(units[name]) if name in units else name for name in rows]
+    found = read_table(write(tmp_path, given, head=[",".join(head)]))
+    for name in rows:
+        np.testing.assert_allclose(found.columns[name], rows[name], rtol=1e-15)
+    assert found.digit["centre"] < 1e-15
+
+
+def test_angles_are_no_attitude(rows, tmp_path):
+    names = dict(zip(rows, ["time", "x", "y", "z", "roll", "Pitch (deg)", "yaw"], strict=False))
+    file = write(tmp_path, {new: rows[old] for old, new in names.items()})
+    words = refused("judge", file, "--against", FILE)
+    assert "the columns roll, Pitch (deg), yaw, angles whose order has many conventions: write the attitude as" in words
+
+
 ODOMETRY = "%time,field.header.seq,field.header.stamp,field.header.frame_id," + ",".join(
     f"field.{part}.{c}" for part, axes in (("pose.pose.position", "xyz"), ("pose.pose.orientation", "xyzw"),
                                            ("twist.twist.linear", "xyz"), ("twist.twist.angular", "xyz")) for c in axes

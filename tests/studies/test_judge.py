@@ -4,6 +4,7 @@ import csv
 import hashlib
 import json
 import re
+import warnings
 from decimal import Decimal
 from pathlib import Path
 
@@ -270,6 +271,20 @@ def test_the_page_has_one_table_and_the_curves_and_the_figure_is_written(three, 
     done = chapsym("judge", FILE.with_suffix(".csv"), "--against", FILE, "-o", tmp_path / "one.svg")
     assert (done.returncode, done.stderr) == (0, "")
     assert (tmp_path / "one.svg").read_text("utf-8").startswith("<?xml")
+
+
+def test_what_is_off_by_nothing_is_drawn_without_a_warning(case, tmp_path):
+    """Of zeros there is no logarithm."""
+    pytest.importorskip("matplotlib")
+    from chapsym.studies.judge_drawing import save
+
+    centre = np.column_stack([case.path, np.full(len(case.path), case.radius)])
+    own = Trajectory("own.csv", centre, case.attitude, case.moving, case.omega, None)
+    found = departure(case, own)
+    assert not any(part.any() for part in found.values())
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        save(tmp_path / "own.svg", case, [own], [found], {})
 
 
 def test_the_data_are_those_that_their_hashes_name():
