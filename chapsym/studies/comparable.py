@@ -58,6 +58,16 @@ def _upside_turn(q: np.ndarray) -> np.ndarray:
     return np.stack([-x, w, -z, y], axis=-1)
 
 
+def _right_handed(vectors: np.ndarray) -> np.ndarray:
+    """Vectors in Unity's left-handed axes (right, up, forward) as vectors with x forward and z up, as in ROS."""
+    return vectors[..., [2, 0, 1]] * [1.0, -1.0, 1.0]
+
+
+def _right_handed_turn(q: np.ndarray) -> np.ndarray:
+    """A turn in Unity's axes, of axes of the body like them, as one in those of ROS: its axis is no vector, as ω."""
+    return np.concatenate([q[..., :1], -_right_handed(q[..., 1:])], axis=-1)
+
+
 def _upright_turn(q: np.ndarray) -> np.ndarray:
     """A turn to axes with y up as one to axes with z up: after it, 90 degrees about x."""
     w, x, y, z = np.moveaxis(q, -1, 0)
@@ -68,6 +78,10 @@ _LAST = "its quaternion has the scalar last, in the column qz: name the four col
 _MOVED = "its quaternion has the scalar in the column qx: one with the scalar first was taken for one with it last"
 _BACK = "its quaternion turns space to body, not body to space: write the conjugate"
 _Y_UP = "its y is up, and not z: write (x, -z, y) for (x, y, z)"
+_UNITY = (
+    "its axes are Unity's, of the body, too: write (z, -x, y) for (x, y, z), (-z, x, -y) for the angular velocity and "
+    "(qw, -qz, qx, -qy) for the quaternion"
+)
 _DEGREES = "its angular velocity is in degrees per second: write rad/s"
 _Z_DOWN = "its z is down: write (x, -y, -z) for (x, y, z)"
 _OF_BODY = "its angular velocity is in the axes of the body, as MuJoCo gives it: turn it by the quaternion"
@@ -89,6 +103,7 @@ AXES: tuple[tuple[Way, Way], ...] = (
     (PLAIN, PLAIN),
     *((way, turn) for way, too in (((_Y_UP, _upright), _upright_turn), ((_Z_DOWN, _upside), _upside_turn))
       for turn in (PLAIN, (_TOO, too))),
+    ((_UNITY, _right_handed), ("", _right_handed_turn)),
 )  # fmt: skip
 TURNING: tuple[Way, ...] = (PLAIN, (_DEGREES, np.radians))
 
@@ -108,6 +123,7 @@ def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
             velocity = in_space(attitude, velocity) if body is _TWIST else frame[1](velocity)
         if omega is not None:
             omega = rate[1](in_space(attitude, omega) if body else frame[1](omega))
+            omega = -omega if frame[0] == _UNITY and not body else omega
         read = replace(run, centre=frame[1](unit[1](run.centre)), attitude=attitude, velocity=velocity, omega=omega)
         differences = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], body]
         found.append(([name for name in differences if name], read))

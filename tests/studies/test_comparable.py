@@ -58,6 +58,13 @@ def y_up(rows):
     return rows
 
 
+def of_unity(rows):
+    for names, sign in ((P, 1), (V, 1), (W, -1), (Q[1:], -1)):
+        x, y, z = (sign * rows[name] for name in names)
+        rows = with_parts(rows, names, (-y, z, x))
+    return rows
+
+
 def z_down(rows):
     """The axes of space alone: after the turn, 180 degrees about x."""
     for names in (P, V, W):
@@ -77,6 +84,7 @@ OTHERWISE = {
     "mm": (lambda r: with_parts(r, P, [1000 * r[x] for x in P]), "its lengths are in mm: divide them by 1000"),
     "y up": (y_up, "its y is up, and not z"),
     "z down": (z_down, "its z is down: write (x, -y, -z) for (x, y, z), of the quaternion, too"),
+    "Unity's": (of_unity, "its axes are Unity's, of the body, too: write (z, -x, y) for (x, y, z), (-z, x, -y) for"),
     "twist": (lambda r: of_body(of_body(r), V), "its velocities are in the axes of the body, as in ROS's Odometry"),
 }
 
