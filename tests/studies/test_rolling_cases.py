@@ -324,12 +324,30 @@ def test_one_command_takes_a_ball_from_its_file_to_the_verdict(tmp_path):
     found = {line.split()[0]: line for line in done.stdout.splitlines()[1:]}
     assert "within 1 %" in found["momentum"]
     assert float(found["slip"].split()[3]) > 1e-3
-    for wrong, said in ((tmp_path / "none.urdf", "none.urdf"), ("rotor", "no ball that rolls by itself")):
+    moved = tmp_path / "moved.urdf"
+    text = (DATA / "robot.urdf").read_text("utf-8").replace("<geometry>", '<origin xyz="0 .1 0"/><geometry>')
+    moved.write_text(text.replace("<mass", '<origin xyz="0 .1 0"/><mass'), encoding="utf-8")
+    for wrong, said in (
+        (tmp_path / "none.urdf", "none.urdf"),
+        ("rotor", "no ball that rolls by itself"),
+        (moved, "the origin of the body must be the centre of its sphere, and that is at (0, 0.1, 0) m"),
+    ):
         done = rolled(wrong, "-o", tmp_path / "never.csv")
         assert done.returncode == 1
         assert said in done.stderr
         assert "Traceback" not in done.stderr
         assert not (tmp_path / "never.csv").exists()
+
+
+@pytest.mark.parametrize(("engine", "package"), [(x, x) for x in ("mujoco", "pybullet")] + [("drake", "pydrake")])
+def test_an_engine_rolls_the_ball_off_its_centre_as_the_case_does(engine, package, tmp_path):
+    pytest.importorskip(package)
+    words = f"-m benchmarks.rolling.engines {engine} off-centre --best -o".split()
+    command = [sys.executable, *words, str(tmp_path / "own.csv")]
+    assert subprocess.run(command, cwd=DATA.parents[2], capture_output=True, check=False).returncode == 0
+    found = answer("judge", tmp_path / "own.csv", "--against", DATA / "off-centre.json")["results"][0]["departure"]
+    assert found["path"]["greatest"] < 2e-3
+    assert found["energy"]["greatest"] < 0.1
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from chapsym.dynamics.errors import BadInput
 from chapsym.scene.read import robots
 from chapsym.studies.judge import read_case, rolling
 
-from .common import DATA, Start, start_of, text
+from .common import DATA, Start, check_centre, start_of, text
 
 #: The modules of the engines.
 ENGINES = {name: f"{name}_ball" for name in ("mujoco", "pybullet", "drake")} | {"penalty": "penalty"}
@@ -52,6 +52,7 @@ def main() -> None:
     if known := (DATA / f"{given.ball}.json").exists():
         body, truth = DATA / f"{given.ball}.urdf", ["--against", str(DATA / f"{given.ball}.json")]
     start = start_of(read_case(Path(truth[1]))) if known else start_of_ball(body, given.omega, given.time)
+    check_centre(body)
     output = given.output or Path(f"{body.stem}-{given.engine}.csv")
     try:
         run = importlib.import_module(f".{ENGINES[given.engine]}", __package__).run

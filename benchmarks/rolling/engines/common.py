@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from chapsym.scene.read import robots
 from chapsym.studies.judge import Case, rolling
 from chapsym.studies.judge_tables import MORE, NEEDED
 
@@ -42,10 +43,11 @@ def start_of(case: Case) -> Start:
     return Start(centre, case.attitude[0], rolling(case.radius, spin), spin, case.time)
 
 
-def check_centre(offset: np.ndarray) -> None:
-    """Raises SystemExit where the centre of mass is not the origin of the body, whose motion is written."""
-    if np.abs(offset).max() > 0:
-        raise SystemExit(f"the origin of the body must be its centre of mass, and that is at {offset.tolist()} m")
+def check_centre(body: Path) -> None:
+    """Raises SystemExit where the centre of the sphere is not the origin of the body, whose motion is written."""
+    if any(centre := robots.centre(body)):
+        at = ", ".join(f"{float(x):g}" for x in centre)
+        raise SystemExit(f"the origin of the body must be the centre of its sphere, and that is at ({at}) m")
 
 
 def text(step: float, rows: Rows) -> str:

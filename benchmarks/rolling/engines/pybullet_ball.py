@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pybullet
 
-from .common import Rows, Start, check_centre
+from .common import Rows, Start
 
 
 def loaded(body: Path, client: int) -> int:
@@ -28,12 +28,11 @@ def run(body: Path, start: Start, step: float, best: bool) -> Rows:
         plane = pybullet.createMultiBody(0, pybullet.createCollisionShape(pybullet.GEOM_PLANE, physicsClientId=client))
         ball = loaded(body, client)
         # PyBullet's pose is of the principal axes, at the centre of mass.
-        place, axes = pybullet.getDynamicsInfo(ball, -1, client)[3:5]
-        check_centre(np.array(place))
-        back = pybullet.invertTransform([0, 0, 0], axes)[1]
+        frame = pybullet.getDynamicsInfo(ball, -1, client)[3:5]
+        back = pybullet.invertTransform(*frame)
         w, *xyz = start.attitude
-        turned = pybullet.multiplyTransforms([0, 0, 0], [*xyz, w], [0, 0, 0], axes)[1]
-        pybullet.resetBasePositionAndOrientation(ball, list(start.centre), turned, client)
+        pose = pybullet.multiplyTransforms(list(start.centre), [*xyz, w], *frame)
+        pybullet.resetBasePositionAndOrientation(ball, *pose, client)
         if best:
             pybullet.changeDynamics(ball, -1, linearDamping=0, angularDamping=0, physicsClientId=client)
             pybullet.setPhysicsEngineParameter(
@@ -41,14 +40,16 @@ def run(body: Path, start: Start, step: float, best: bool) -> Rows:
             )
             for one in (plane, ball):
                 pybullet.changeDynamics(one, -1, lateralFriction=10, physicsClientId=client)
-        pybullet.resetBaseVelocity(ball, list(start.velocity), list(start.omega), client)
+        moving = start.velocity + np.cross(start.omega, pose[0] - start.centre)
+        pybullet.resetBaseVelocity(ball, list(moving), list(start.omega), client)
         count = start.steps_between(step)
         for time in start.time:
             for _ in range(count if time else 0):
                 pybullet.stepSimulation(client)
-            place, turned = pybullet.getBasePositionAndOrientation(ball, client)
-            *xyz, w = pybullet.multiplyTransforms([0, 0, 0], turned, [0, 0, 0], back)[1]
-            velocity, omega = pybullet.getBaseVelocity(ball, client)
+            pose = pybullet.getBasePositionAndOrientation(ball, client)
+            place, (*xyz, w) = pybullet.multiplyTransforms(*pose, *back)
+            moving, omega = pybullet.getBaseVelocity(ball, client)
+            velocity = moving + np.cross(omega, np.subtract(place, pose[0]))
             yield [time, *place, w, *xyz, *velocity, *omega]
     finally:
         pybullet.disconnect(client)

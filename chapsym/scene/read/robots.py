@@ -88,6 +88,11 @@ def place(path: Path, key: str) -> str:
     return f"{path}, line {reader.lines[where]}: <{where.tag}>"
 
 
+def centre(path: Path) -> Vector:
+    """The centre of the sphere in the axes and from the origin of its body; raises SceneError as `table` does."""
+    return _Reader(path).ball()[1][1]
+
+
 class _Reader:
     def __init__(self, path: Path) -> None:
         self.path, self.lines = path, dict[Element, int]()
