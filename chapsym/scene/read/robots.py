@@ -3,6 +3,8 @@
 In all three formats ixy, ixz, iyz are entries of the tensor of inertia: -∫xy dm, ....
 """
 
+import logging
+import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import product
@@ -19,6 +21,8 @@ from chapsym.rationals import NotANumber, rational
 
 from .bodies import unbalanced
 from .errors import SceneError
+
+_log = logging.getLogger("chapsym")
 
 SUFFIXES = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
 #: A longer file has no ball that anybody wrote.
@@ -42,13 +46,10 @@ DENSITY = "1000"
 MATTER = ("geom", "inertial", "joint", "freejoint")
 #: Where planes may be in MJCF and SDF, which turn with it.
 AROUND = ("worldbody", "body", "frame", "world", "model", "link")
-#: What a joint of MJCF does to the ball that it leaves free.
-OF_JOINTS = {
-    "armature": "is added to the inertia of the ball", "damping": "slows the ball", "frictionloss": "slows the ball",
-    "stiffness": "draws the ball",
-}  # fmt: skip
-#: Why gravity counts.
-PRESSED = "and a ball that rolls is pressed on a level plane"
+#: What a joint of MJCF that leaves the ball free may do to it.
+OF_JOINTS = ("damping", "frictionloss", "stiffness")
+#: What else acts on the ball does not make it another.
+LEFT_OUT = "which is left out: a ball of chapsym rolls on a level plane under gravity alone"
 #: A plane that is turned by less is level: a right angle to 7 digits.
 LEVEL = Fraction(1, 10**6)
 #: What may have more shapes in it.
@@ -155,7 +156,8 @@ class _Reader:
         body, (radius, centre) = self.ball()
         self._check_free(body)
         self._check_alone(body, radius, centre)
-        self._check_world(body)
+        for where, what in self._left_out(body):
+            _log.warning("%s, line %s: <%s>: %s, %s", self.path, self.lines[where], where.tag, what, LEFT_OUT)
         name = {"name": body.attrib["name"]} if body.get("name") else {}
         inertial = self._only(body, "inertial")
         if self.kind == "mjcf":
@@ -239,8 +241,10 @@ class _Reader:
             if held:
                 what = f"<{held[0].tag}> {held[0].get('name', 'without a name')}"
                 raise self._refused(held[0], f"{what} holds the ball, and that of chapsym rolls alone")
-            for joint, (name, does) in product(body.findall("joint"), OF_JOINTS.items()):
-                self._check_none(joint, name, joint.get(name, "0"), does)
+            for joint in body.findall("joint"):
+                if self._number(joint.get("armature", "0"), joint):
+                    clause = f"armature = {joint.attrib['armature']!r} is added to the inertia of the ball"
+                    raise self._refused(joint, f"<joint>: {clause}, and is not read: take it out")
             return
         massive = {link.get("name") for link in self.root.iter("link") if link.find("inertial") is not None}
         for joint in self.root.iter("joint"):
@@ -251,52 +255,45 @@ class _Reader:
                 what = f"<joint> {joint.get('name', 'without a name')} of {' and '.join(ends)}"
                 raise self._refused(joint, f"{what} holds the ball, and that of chapsym rolls alone")
 
-    def _check_none(self, where: Element, name: str, text: str, does: str) -> None:
-        """Raises SceneError where numbers that act on the ball are not all 0."""
-        if any(self._number(part, where) for part in text.split()):
-            raise self._refused(where, f"<{where.tag}>: {name} = {text.strip()!r} {does}, and is not read: take it out")
-
-    def _check_world(self, body: Element) -> None:
-        """Raises SceneError where the plane is not level, or where more than it and gravity act on the ball.
+    def _left_out(self, body: Element) -> Iterator[tuple[Element, str]]:
+        """What acts on the ball beyond a level plane and gravity, and where.
 
         How large gravity is does not matter to a ball whose centre of mass is its centre.
         """
-        gravity, where = self._acts_in_mjcf(body) if self.kind == "mjcf" else self._acts_in_sdf(body)
+        numbers, gravity, where = (self._acts_in_mjcf if self.kind == "mjcf" else self._acts_in_sdf)(body)
+        for one, name, text in numbers:
+            if any(self._number(part, one) for part in text.split()):
+                yield one, f"{name} = {text.strip()!r} acts on the ball"
         x, y, z = self._numbers(gravity, where, 3)
         if not _along(x, y, -z):
-            raise self._refused(where, f"<{where.tag}>: gravity = {gravity.strip()!r} is not along -z, {PRESSED}")
+            yield where, f"gravity = {gravity.strip()!r} is not down, along -z"
         planes = list(self._planes(self.root))
         if planes and not any(_along(*normal) for _, normal in planes):
-            clause = "this plane is not level, and that of chapsym is: gravity would speed the ball up"
-            raise self._refused(planes[0][0], f"<{planes[0][0].tag}>: {clause}")
+            (plane, (x, y, z)), *_ = planes
+            tilt = math.degrees(math.atan2(math.hypot(x, y), z))
+            yield plane, f"this plane is tilted by {tilt:.3g} degrees"
 
-    def _acts_in_mjcf(self, body: Element) -> tuple[str, Element]:
-        """Gravity, and where it is said."""
+    def _acts_in_mjcf(self, body: Element) -> tuple[list[tuple[Element, str, str]], str, Element]:
+        """Numbers that act on the ball unless they are 0, gravity, and where this is said."""
+        numbers = [(one, name, one.get(name, "0")) for one, name in product(body.findall("joint"), OF_JOINTS)]
+        numbers.append((body, "gravcomp", body.get("gravcomp", "0")))
         for name in ("density", "viscosity"):  # of a fluid, without which wind does nothing
             text, where = self._said("option", name, "0")
-            self._check_none(where, name, text, "slows the ball")
-        self._check_none(body, "gravcomp", body.get("gravcomp", "0"), "takes weight from the ball")
+            numbers.append((where, name, text))
         switch, where = self._said("flag", "gravity", "enable")
-        if switch != "enable":
-            raise self._refused(where, f"<flag>: gravity is disabled, {PRESSED}")
-        return self._said("option", "gravity", "0 0 -1")
+        return numbers, *(("0 0 0", where) if switch == "disable" else self._said("option", "gravity", "0 0 -1"))
 
-    def _acts_in_sdf(self, body: Element) -> tuple[str, Element]:
-        """Gravity, and where it is said."""
-        for decay in body.iterfind("velocity_decay/*"):
-            self._check_none(decay, "velocity_decay", decay.text or "", "slows the ball")
-        if body.findtext("gravity", "true").strip() in ("false", "0"):
-            raise self._refused(body, f"<gravity> is false, {PRESSED}")
-        if self._blown(body):
-            for wind in self.root.iterfind(".//wind/linear_velocity"):
-                self._check_none(wind, "wind", wind.text or "", "drives the ball")
-        found = [*self.root.iterfind(".//world/gravity"), *self.root.iterfind(".//physics/gravity")]
-        return (found[-1].text or "", found[-1]) if found else ("0 0 -1", self.root)
-
-    def _blown(self, body: Element) -> bool:
-        """Whether SDF lets the wind act on the ball: its link says so, or its model."""
+    def _acts_in_sdf(self, body: Element) -> tuple[list[tuple[Element, str, str]], str, Element]:
+        """Numbers that act on the ball unless they are 0, gravity, and where this is said; a URDF says neither."""
+        acts = [(one, "velocity_decay") for one in body.iterfind("velocity_decay/*")]
         models = [one for one in self.root.iter("model") if body in list(one)]
-        return any(one.findtext("enable_wind", "").strip() in ("true", "1") for one in (body, *models))
+        if any(one.findtext("enable_wind", "").strip() in ("true", "1") for one in (body, *models)):
+            acts += [(one, "wind") for one in self.root.iterfind(".//wind/linear_velocity")]
+        numbers = [(one, name, one.text or "") for one, name in acts]
+        if (switch := body.find("gravity")) is not None and (switch.text or "").strip() in ("false", "0"):
+            return numbers, "0 0 0", switch
+        found = [*self.root.iterfind(".//world/gravity"), *self.root.iterfind(".//physics/gravity")]
+        return numbers, *((found[-1].text or "", found[-1]) if found else ("0 0 -1", self.root))
 
     def _planes(self, around: Element) -> Iterator[tuple[Element, Vector]]:
         """The planes to roll on, and their normals in the axes of what is around them."""
@@ -313,8 +310,8 @@ class _Reader:
             elif child.tag == "collision" and (plane := child.find("geometry/plane")) is not None:
                 found = [(child, self._numbers(plane.findtext("normal", "0 0 1"), plane, 3))]
             if found:
-                turn = self._pose(child, child)[1]
-                yield from ((plane, generated.rotate(*turn, *normal)) for plane, normal in found)
+                rotation = np.array(generated.rotation(*self._pose(child, child)[1]), dtype=object).reshape(3, 3)
+                yield from ((plane, tuple(rotation @ normal)) for plane, normal in found)
 
     def _of_one_material(self, body: Element) -> dict[str, Any]:
         """MJCF makes mass and inertia of a geom alone; the other formats have none without <inertial>."""
