@@ -4,8 +4,8 @@ In the axes of the body, with the vertical γ, the centre of mass at c from the 
 contact to it:
     K = Iω + m r × (ω × r),   K' = K × ω + mg γ × c - mρ⟨ω, γ × c⟩ω,   v' = v × ω for what is fixed in space.
 K is the momentum about the point of contact, which moves with the velocity ρω × γ; I is about the centre of mass.
-`examples/off_centre_ball.py` has the Lagrangian and the constraints; tests/studies/test_rolling_cases.py decides that
-its motion is this one.
+`derived` makes these equations of the Lagrangian and the constraint, and what it makes is what runs; that it is the
+principle's motion of `examples/off_centre_ball.py`, tests/studies/test_rolling_cases.py decides.
 
 A step has exact polynomials of the time τ in [0, 1], of the step's length h: p₁, p₂, p₃ for the axes of space, p₃ for
 γ, and k, w for K, ω.  Of their defects
@@ -33,10 +33,12 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
+from sympy import Matrix, factor_terms, lambdify, symbols
 
 from chapsym.dynamics.enclosed_motion import decimal, follow
 from chapsym.dynamics.errors import TooWide
@@ -59,6 +61,31 @@ LOOK_BITS, LOOK_TERMS = 64, 32
 PIECES = 8
 
 
+@cache
+def derived() -> tuple[Callable[..., list[Any]], Callable[..., list[Any]]]:
+    """K, and K' - K × ω, as functions of the parts of a `Body`, γ and ω.
+
+    Of a Lagrangian L(v, ω, γ) and the constraint v = V = ρω × γ of the centre, γ' = γ × ω, with p = ∂L/∂v where v is V:
+    d'Alembert's principle for the displacements η of the body, which move the centre by ρη × γ, is
+    K' = K × ω + p × V + ∂L/∂γ × γ with K the derivative of L(V, ω, γ) by ω.
+    """
+    mass, radius, gravity = symbols("mass radius gravity")
+    moments, offset, up, w, v = (symbols(f"{name}1:4") for name in ("I", "c", "g", "w", "v"))
+    c, gamma, omega, velocity = map(Matrix, (offset, up, w, v))
+    mean = velocity + omega.cross(c)
+    squares = [*((mass, x) for x in mean), *zip(moments, w, strict=True)]
+    lagrangian = sum(x * y**2 / 2 for x, y in squares) - mass * gravity * gamma.dot(c)
+    rolls = dict(zip(v, radius * omega.cross(gamma), strict=True))
+
+    def slope(of: Any, by: Sequence[Any]) -> Any:
+        return Matrix([of.diff(x) for x in by])
+
+    K = slope(lagrangian.xreplace(rolls), w)
+    rest = slope(lagrangian, v).xreplace(rolls).cross(velocity.xreplace(rolls)) + slope(lagrangian, up).cross(gamma)
+    given = mass, radius, moments, offset, gravity, up, w
+    return tuple(lambdify(given, list(one.applyfunc(factor_terms)), [], cse=True) for one in (K, rest))
+
+
 class Body(NamedTuple):
     """SI units; inertia: the principal moments about the centre of mass; offset: c, from the centre to it."""
 
@@ -74,9 +101,7 @@ class Body(NamedTuple):
 
     def momentum(self, up: Vector, w: Vector) -> list[Any]:
         """K of ω."""
-        r = self.arm(up)
-        own = cross(r, cross(w, r))
-        return [i * x + self.mass * y for i, x, y in zip(self.inertia, w, own, strict=True)]
+        return derived()[0](*self, up, w)
 
     def omega(self, up: Vector, K: Vector) -> list[Any]:
         """ω of K: as (I + m|r|²)ω = K + m⟨r,ω⟩r."""
@@ -88,10 +113,7 @@ class Body(NamedTuple):
 
     def torque(self, up: Vector, K: Vector, w: Vector) -> list[Any]:
         """K'."""
-        across = cross(up, self.offset)
-        drag = self.mass * self.radius * dot(w, across)
-        weight = self.mass * self.gravity
-        return [x + weight * y - drag * z for x, y, z in zip(cross(K, w), across, w, strict=True)]
+        return [x + y for x, y in zip(cross(K, w), derived()[1](*self, up, w), strict=True)]
 
 
 class Step(NamedTuple):
