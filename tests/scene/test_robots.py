@@ -220,6 +220,8 @@ def test_the_command_says_what_is_left_out(put, tmp_path):
         ("<geom type", '<geom type="plane" size="1 1 1" euler="0 90 0"/><geom type'),
         (HEAD, HEAD + '<option gravity="0 0 -1.62" wind="1 0 0" density="0"/>'),
         (MODEL, FLOOR.format("<pose>0 0 0 -0.1 0 0</pose>", "<normal>0 0 1</normal>")),
+        (MODEL, FLOOR.replace("<pose>0 0 0 0.1 0 0", "<pose relative_to='f'>0 0 0 0.1 0 0").format("", "")),
+        (MODEL, FLOOR.replace("<pose>0 0 0 0.1 0 0", "<pose>").format("", "")),
         (MODEL, f"<gravity>0 0 -1.6</gravity><wind><linear_velocity>2 0 0</linear_velocity></wind>{MODEL}"),
     ],
 )

@@ -309,7 +309,9 @@ class _Reader:
                     found = [(child, UP)]
             elif child.tag == "collision" and (plane := child.find("geometry/plane")) is not None:
                 found = [(child, self._numbers(plane.findtext("normal", "0 0 1"), plane, 3))]
-            if found:
+            if found and any(pose.get("relative_to") for pose in child.findall("pose")):
+                yield from found  # taken to be as it is in the axes around, which are not read
+            elif found:
                 rotation = np.array(generated.rotation(*self._pose(child, child)[1]), dtype=object).reshape(3, 3)
                 yield from ((plane, tuple(rotation @ normal)) for plane, normal in found)
 
@@ -390,7 +392,7 @@ class _Reader:
         if self.kind == "mjcf":
             return self._numbers(parent.get("pos", "0 0 0"), parent, 3), self._turn_of_mjcf(parent)
         where = self._only(parent, "origin" if self.kind == "urdf" else "pose")
-        if where is None:
+        if where is None or (self.kind == "sdf" and not (where.text or "").strip()):
             return NO_TURN[1:], NO_TURN
         if self.kind == "urdf":
             if "quat_xyzw" in where.attrib:
