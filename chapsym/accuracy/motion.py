@@ -92,6 +92,8 @@ _UP, _INVERSE = np.array([0.0, 0.0, 1.0]), np.array([1.0, -1.0, -1.0, -1.0])
 LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
 #: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
 SAFETY, RATIO = 4.0, 1.5
+#: Up to how many times the error that the order lets expect, or that rounding may leave, one verified run is enough.
+LAWFUL, FINE = 2.0, 100.0
 #: By how many roundings the start of a verifying run differs from that of the run.
 ROUNDED = 8
 #: A direction that nothing prefers.
@@ -588,11 +590,13 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
     """Runs all balls until each is verified, with more steps those that are not.
 
     Steps and estimates of a ball depend on it alone; balls of the same steps share a run.  A ball that more steps do
-    not help keeps the error that it has: rounding alone is larger than the accuracy.
+    not help keeps the error that it has: rounding alone is larger than the accuracy.  Where steps resonate an error
+    hardly falls, which one compared run may hide: one that is far from what its order lets expect is not believed to
+    fall by more than half of the decades that it should, and is verified twice.
     """
     n = len(problem)
-    found, left, factor, before = problem.nothing(), np.arange(n), np.ones(n), np.full(n, np.inf)
-    gain, expected, stopped = np.ones(n), np.empty(n), np.zeros(n, dtype=bool)
+    found, left, (factor, gain) = problem.nothing(), np.arange(n), np.ones((2, n))
+    (before, verified), expected, (stopped, met) = np.full((2, n), np.inf), np.empty(n), np.zeros((2, n), dtype=bool)
     found.order[:], steps = cheapest(problem, factor)
     for attempt in range(ATTEMPTS):
         for order, count in sorted(set(zip(found.order[left].tolist(), steps[left].tolist(), strict=True))):
@@ -603,16 +607,22 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
             found.put(some, run)
         expected[left] = _error(problem.of(left), found.order[left], problem.interval / steps[left])
         error = np.maximum(found.error[left], SAFETY * factor[left] * expected[left])
+        lawful = error <= np.maximum(LAWFUL * SAFETY * expected[left], FINE * problem.survey[FLOOR, left])
+        last = before[left] / gain[left]
+        # The second run only confirms the error of the first.
+        held = np.where(met[left], before[left], verified[left] / gain[left])
+        error, verified[left] = np.maximum(error, np.where(lawful | np.isinf(held), 0.0, held)), error
         fell, error = np.isfinite(error), np.where(stopped[left], np.inf, error)
         found.error[left], stopped[left] = np.where(found.status[left] == Status.TAKEN, error, np.nan), ~fell
-        there = error <= problem.accuracy
-        there |= np.isfinite(before[left]) & np.isfinite(error) & (error > before[left] / gain[left])
+        reached = error <= problem.accuracy
+        there, met[left] = reached & (lawful | met[left]), reached
+        there |= np.isfinite(last) & np.isfinite(error) & (error > last)
         before[left], left = error, left[~there]
         progress(n - len(left))
         if not len(left) or attempt + 1 == ATTEMPTS:
             break
         part, order, taken = problem.of(left), found.order[left], steps[left]
-        known, taught = np.isfinite(before[left]), before[left] / (SAFETY * expected[left])
+        known, taught = np.isfinite(before[left]), verified[left] / (SAFETY * expected[left])
         factor[left] = np.where(known, np.maximum(factor[left], taught), factor[left])
         wanted, finer = cheapest(part, factor[left])
         least, most = LEAST_FINER * taken, MOST_FINER * taken

