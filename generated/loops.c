@@ -3607,8 +3607,8 @@ INLINE t_r4 following_left(r2 S, int64_t b, real start) {
     real z = vectors_length(vectors_three_in(S, row + 6, b)), rounded = R(2e-15) + R(10.0) * start;
     real last = max_r(x - rounded, R(0.0)), middle = max_r(y - rounded, R(0.0));
     if (!(middle > R(0.0) && z > R(0.0))) { return (t_r4){R(0.0), x, y, z}; }
-    last = max_r(last, middle * min_r(middle / z, R(1.0)));
-    return (t_r4){R(2.0) * last * min_r(last / middle, R(1.0)), x, y, z};
+    last = max_r(last, middle * min_r(middle / z, R(1.0))); real ratio = min_r(last / middle, R(1.0));
+    return (t_r4){max_r(R(2.0), R(1.0) / max_r(R(1.0) - ratio, R(0.125))) * last * ratio, x, y, z};
 }
 
 INLINE real following_lengthened(real ratio) {
@@ -3710,8 +3710,9 @@ INLINE void following_series(r1 body, t_r3 J, real contact, real radius, real wh
     }
 }
 
-INLINE real following_followed(real last, real before) {
-    return before > R(0.0) ? R(8.0) * R(sqrt(last)) * min_r(R(sqrt(last / before)), R(8.0)) : R(8.0) * R(sqrt(last));
+INLINE real following_followed(real a, real b, real c) {
+    if (!(a > R(0.0) && b > R(0.0))) { return R(8.0) * R(sqrt(c)); }
+    c = max_r(c, R(0.25) * b * min_r(b / a, R(1.0))); return R(8.0) * R(sqrt(c)) * min_r(R(sqrt(c / b)), R(8.0));
 }
 
 INLINE t_r2 following_joined(r2 first, r2 end, real radius, int traced, r2 curve) {
@@ -3729,15 +3730,17 @@ INLINE t_r2 following_joined(r2 first, r2 end, real radius, int traced, r2 curve
         AT2(curve, 10, i) = d4 - R(6.0) * d3 + (R(21.0) * d2 - R(56.0) * d1) + R(126.0) * d0;
         AT2(curve, 11, i) = d5 - R(6.0) * d4 + (R(21.0) * d3 - R(56.0) * d2) + (R(126.0) * d1 - R(252.0) * d0);
     }
-    real last = R(0.0), turned = R(0.0), way = R(0.0);
+    real a = R(0.0), b = R(0.0), c = R(0.0), way = R(0.0);
     for (int64_t i = 0; i < 4; i++) {
-        turned = turned + AT2(curve, 11, i) * AT2(curve, 11, i); last = last + AT2(curve, 10, i) * AT2(curve, 10, i);
+        a = a + AT2(curve, 9, i) * AT2(curve, 9, i); b = b + AT2(curve, 10, i) * AT2(curve, 10, i);
+        c = c + AT2(curve, 11, i) * AT2(curve, 11, i);
     }
-    turned = R(0.00048828125) * following_followed(turned, last);
+    real turned = R(0.00048828125) * following_followed(a, b, c);
     if (traced) {
-        way = AT2(curve, 11, 4) * AT2(curve, 11, 4) + AT2(curve, 11, 5) * AT2(curve, 11, 5);
-        way = R(0.000244140625) / radius * following_followed(way, AT2(curve, 10, 4) * AT2(curve, 10, 4) + AT2(curve,
-            10, 5) * AT2(curve, 10, 5));
+        a = AT2(curve, 9, 4) * AT2(curve, 9, 4) + AT2(curve, 9, 5) * AT2(curve, 9, 5);
+        b = AT2(curve, 10, 4) * AT2(curve, 10, 4) + AT2(curve, 10, 5) * AT2(curve, 10, 5);
+        c = AT2(curve, 11, 4) * AT2(curve, 11, 4) + AT2(curve, 11, 5) * AT2(curve, 11, 5);
+        way = R(0.000244140625) / radius * following_followed(a, b, c);
     }
     return (t_r2){turned, way};
 }
@@ -4268,5 +4271,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "566104747ff2e09be63b011cca44638c14b1253e26aa5842425cc48653fc7d19";
+const char loops_text[] = "bb02f40fcaa54c9664b357cb2b0000949210efd5cb5379920cc59b898f610f45";
 #endif

@@ -133,6 +133,18 @@ def test_steps_that_resonate_are_verified_twice(moments, D, gamma, omega, frames
             299.4012089701442,
             1.44e-8,
         ),
+        # The columns of many steps fall slowly: the error was 1.09 times its estimate.
+        (
+            (0.044127770891064864, 0.015283910607754561, 0.9527264620327442),
+            1.3662764225464645,
+            (-0.46714777490497966, 0.18629215029957288, 0.8643310657023082),
+            (1.304176196079477, 1.3491758744234288, -0.569839917731936),
+            5,
+            13.682515416621397,
+            8.64e-6,
+        ),
+        # The last coefficient between the ends of a step is small by chance: the error was .9 of its estimate.
+        ((0.0365, 0.5132, 0.0703), 9.58, (-0.9614, 0.1313, -0.2418), (-0.3345, 0.1576, -0.5534), 100, 1.0313, 1.44e-5),
         # The motion is sensitive: roundings of the long steps grow.
         ((0.6266, 0.0496, 0.0289), 0.018, (0.8889, -0.2653, -0.3735), (0.2689, -1.3234, -0.4694), 100, 23.88, 1e-7),
     ],
@@ -140,7 +152,7 @@ def test_steps_that_resonate_are_verified_twice(moments, D, gamma, omega, frames
 def test_estimates_of_long_steps_are_above_their_errors(moments, D, gamma, omega, frames, end, accuracy):
     asked = of(moments, D, gamma, omega, frames, end, accuracy)
     found = moved(asked)
-    assert true(asked, found) < found.error <= accuracy
+    assert true(asked, found) < 0.8 * found.error <= 0.8 * accuracy
 
 
 def test_two_runs_of_a_rod_that_are_both_far_from_the_motion_are_not_believed():
@@ -298,16 +310,16 @@ def test_what_rounding_of_the_start_does_is_in_the_estimate(inertia, D, omega, e
 
 
 def test_near_unstable_rotations_the_estimate_is_above_the_error(thorough):
-    """Of 113 the error is .31 of the estimate, so that a quarter of it would be seen; the steps of 798 are alike.
+    """Of 402 the error is .35 of the estimate, so that a third of it would be seen; the steps of 798 are alike.
 
     The heavy 962 starts where a rounding of K moves ω the least: with that of all steps it was 1.6 times its estimate.
-    All but 113 are judged in double-double alone, which the certified motion confirms in `thorough`: it takes a hundred
+    All but 402 are judged in double-double alone, which the certified motion confirms in `thorough`: it takes a hundred
     times as long.
     """
-    light, heavy = (range(3000), range(300)) if thorough else ((*range(40), 113, 798), (*range(20), 20, 44, 58, 962))
-    parts = [unstable_starts.part(seed, certify=thorough or seed == 113) for seed in light]
+    light, heavy = (range(3000), range(300)) if thorough else ((*range(40), 402, 798), (*range(20), 20, 44, 58, 962))
+    parts = [unstable_starts.part(seed, certify=thorough or seed == 402) for seed in light]
     parts += [unstable_starts.part(seed, heavy=True, certify=thorough) for seed in heavy]
-    assert 0.25 < max(parts) < 1
+    assert 1 / 3 < max(parts) < 1
 
 
 @pytest.mark.parametrize(("seed", "heavy"), [(2580, False), (513, True)])

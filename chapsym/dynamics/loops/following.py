@@ -138,19 +138,27 @@ def joined(first, end, radius, traced, curve):
         curve[9, i] = (d3 - 6.0 * d2) + (21.0 * d1 - 56.0 * d0)
         curve[10, i] = (d4 - 6.0 * d3) + (21.0 * d2 - 56.0 * d1) + 126.0 * d0
         curve[11, i] = (d5 - 6.0 * d4) + (21.0 * d3 - 56.0 * d2) + (126.0 * d1 - 252.0 * d0)
-    last, turned, way = 0.0, 0.0, 0.0
+    a, b, c, way = 0.0, 0.0, 0.0, 0.0
     for i in range(4):
-        turned, last = turned + curve[11, i] * curve[11, i], last + curve[10, i] * curve[10, i]
-    turned = 2.0 * MIDDLE * followed(turned, last)
+        a, b, c = a + curve[9, i] * curve[9, i], b + curve[10, i] * curve[10, i], c + curve[11, i] * curve[11, i]
+    turned = 2.0 * MIDDLE * followed(a, b, c)
     if traced:
-        way = curve[11, 4] * curve[11, 4] + curve[11, 5] * curve[11, 5]
-        way = MIDDLE / radius * followed(way, curve[10, 4] * curve[10, 4] + curve[10, 5] * curve[10, 5])
+        a = curve[9, 4] * curve[9, 4] + curve[9, 5] * curve[9, 5]
+        b = curve[10, 4] * curve[10, 4] + curve[10, 5] * curve[10, 5]
+        c = curve[11, 4] * curve[11, 4] + curve[11, 5] * curve[11, 5]
+        way = MIDDLE / radius * followed(a, b, c)
     return turned, way
 
 
-def followed(last, before):
-    """Eight times the coefficient that comes next, by the squares of the last two."""
-    return 8.0 * sqrt(last) * min(sqrt(last / before), MOST_GROWN) if before > 0.0 else 8.0 * sqrt(last)
+def followed(a, b, c):
+    """Eight times the coefficient that comes next, by the squares of the last three.
+
+    Where the last is less than half of what the two before let expect, that half is taken.
+    """
+    if not (a > 0.0 and b > 0.0):
+        return 8.0 * sqrt(c)
+    c = max(c, 0.25 * b * min(b / a, 1.0))
+    return 8.0 * sqrt(c) * min(sqrt(c / b), MOST_GROWN)
 
 
 def at_part(curve, i, s):
@@ -189,8 +197,9 @@ WANTED = 0.4
 #: No step is shortened below this |ω|h for its error: one of order 12 has nothing but rounding left there, but for a
 #: rod.
 NEAREST = 0.02
-#: How the last column gains on the one before as that on the one before it, in the middle of balls of all shapes.
-GAIN = 2.0
+#: How the last column gains on the one before as that on the one before it, in the middle of balls of all shapes; and
+#: at most, where the changes fall so slowly that their sum is many times the last.
+GAIN, MOST_GAIN = 2.0, 8.0
 #: Of the changes that a column makes this is rounding: a part that all have, and this many times that of a start.
 ROUNDED, ROUNDED_START = 2e-15, 10.0
 #: How many times as large as they leave it the error of steps is held to be, of many and of few.
@@ -293,7 +302,8 @@ def left(S, b, start):
     if not (middle > 0.0 and z > 0.0):
         return 0.0, x, y, z
     last = max(last, middle * min(middle / z, 1.0))
-    return GAIN * last * min(last / middle, 1.0), x, y, z
+    ratio = min(last / middle, 1.0)
+    return max(GAIN, 1.0 / max(1.0 - ratio, 1.0 / MOST_GAIN)) * last * ratio, x, y, z
 
 
 def taken_in(S, E, B, b, i, frames, balls, interval, weights, asked, body, state, lane, reported):
