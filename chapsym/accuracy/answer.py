@@ -7,7 +7,7 @@ import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -216,22 +216,24 @@ def checks(request: Request, method: Method) -> int:
     return request.frames * -(-least // request.frames)
 
 
-def take(request: Request, method: Method, steps: int, frames: int) -> Trajectory:
+def take(
+    request: Request, method: Method, steps: int, frames: int, progress: Callable[[int], None] = lambda done: None
+) -> Trajectory:
     """The ball after `frames` equal parts of the time in `steps` steps, a multiple of them.
 
-    Raises StepNotTaken where the map has no step of this length.
+    progress: called with the steps done.  Raises StepNotTaken where the map has no step of this length.
     """
     exactly, every = Fraction(request.time) / steps, steps // frames
     step = request.time / steps
     in_range(step, request.angular_momentum)
     if method.columns:
-        return _extrapolated(request, method, exactly, every, frames)
+        return _extrapolated(request, method, exactly, every, frames, progress)
     momentum: Any = step * request.angular_momentum
     if not isinstance(method.precision, Double | Single):  # of T/n and its product with K float64 has but 53 bits
         momentum = [exactly * Fraction(float(x)) for x in request.angular_momentum]
     return trajectory(
         request.ball, momentum, request.gamma, steps, order=method.order, every=every, attitude=request.body,
-        contact=request.of == "contact", time_step=step, precision=method.precision,
+        contact=request.of == "contact", time_step=step, precision=method.precision, progress=progress,
     )  # fmt: skip
 
 
@@ -243,13 +245,15 @@ def in_range(step: float, K: Floats) -> None:
         raise BadInput(f"{what} is below {SMALLEST:.0e}, where float64 loses digits; take other units of time or mass")
 
 
-def _extrapolated(request: Request, method: Method, step: Fraction, every: int, frames: int) -> Trajectory:
+def _extrapolated(
+    request: Request, method: Method, step: Fraction, every: int, frames: int, progress: Callable[[int], None]
+) -> Trajectory:
     """`extrapolate` as a trajectory."""
     of_pairs = isinstance(method.precision, DoubleDouble)
     found = extrapolate(
         request.ball, request.angular_momentum, request.gamma, step if of_pairs else float(step), frames * every,
         columns=method.columns, every=every, attitude=request.body, contact=request.of == "contact",
-        precision=method.precision,
+        precision=method.precision, progress=progress,
     )  # fmt: skip
 
     def run(of: Extrapolated, momentum: Floats) -> Trajectory:
@@ -397,7 +401,7 @@ def accurate(
     limit : float, optional
         The longest expected duration of the run, in seconds; by default 600.
     progress : callable, optional
-        Called with a sentence on the method, before each precision is tried.
+        Called with a sentence on the method, before each precision is tried, and with how far that is.
 
     Returns
     -------
@@ -430,7 +434,7 @@ def accurate(
     progress(choice.sentence())
     attempts: list[Attempt] = []
     if problem is not None:
-        found = motion.moved(problem)
+        found = motion.moved(problem, lambda part: progress(f"{choice.sentence()}: {part:.0%}"))
         if found.status[0] == Status.TAKEN:
             steps = max(int(found.total[0]), 1)
             made = Choice(Method(NAMED["double"], int(found.order[0])), steps, request.time / steps, choice.seconds)
@@ -439,7 +443,7 @@ def accurate(
                 run = _as_trajectory(request, found)
                 return Accurate(run, request, attempts, clock.thread_time() - started)
         progress(_doubled(request, limit).sentence())
-    run = _by_double_double(request, limit, attempts)
+    run = _by_double_double(request, limit, attempts, progress)
     return Accurate(run, request, attempts, clock.thread_time() - started)
 
 
@@ -544,7 +548,9 @@ def _rounded(request: Request, columns: int, steps: int) -> float:
     return shared + ROUNDED * weight * math.sqrt(request.condition * steps) * (1 + path) * request.unit
 
 
-def _by_double_double(request: Request, limit: float, attempts: list[Attempt]) -> Trajectory:
+def _by_double_double(
+    request: Request, limit: float, attempts: list[Attempt], progress: Callable[[str], None]
+) -> Trajectory:
     """Long steps in double-double, verified by the same with fewer columns, and shorter until they are."""
     finer, noisy, before = 1.0, 1.0, math.inf
     for _ in range(motion.ATTEMPTS):
@@ -552,9 +558,15 @@ def _by_double_double(request: Request, limit: float, attempts: list[Attempt]) -
         choice = _doubled(request, limit, finer, noisy)
         method, every = choice.method, checks(request, choice.method)
         fewer, apart, longer = Method(method.precision, method.order - 2 * LESS), math.inf, 2.0
+
+        def told(before: int, done: int, choice: Choice = choice) -> None:
+            """How much of the run, and of the one that it is compared with, is done."""
+            progress(f"{choice.sentence()}: {(before + done) / (2 * choice.steps):.0%}")
+
         try:
-            run = take(request, method, choice.steps, every)
-            apart = float(distance(request, run, take(request, fewer, choice.steps, every)).max())
+            run = take(request, method, choice.steps, every, partial(told, 0))
+            other = take(request, fewer, choice.steps, every, partial(told, choice.steps))
+            apart = float(distance(request, run, other).max())
             longer = (apart / (MARGIN * request.accuracy)) ** (1 / fewer.order)
         except StepNotTaken as error:
             if error.status == Status.NO_INERTIA:

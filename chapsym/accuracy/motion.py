@@ -39,7 +39,7 @@ from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import SMALLEST, Asked, Floats, batch, checked_before, numbers, unit_vertical
 from chapsym.dynamics.enclosed_motion import of_motion
 from chapsym.dynamics.extrapolation import FEW, loop_weights
-from chapsym.dynamics.levels.frames import Count, cores, share
+from chapsym.dynamics.levels.frames import Count, cores, share, watched
 from chapsym.dynamics.loops.expected import (
     ALLOWED,
     CONDITION,
@@ -54,7 +54,7 @@ from chapsym.dynamics.loops.expected import (
     estimated,
     surveyed,
 )
-from chapsym.dynamics.loops.following import REPORTED, STEPS, follow
+from chapsym.dynamics.loops.following import REPORTED, STEPS, UNTIL, follow
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 from chapsym.dynamics.map import flag, rolling_radius, seconds, whole_number
 from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
@@ -80,6 +80,8 @@ SENSITIVE = 16.0
 FINER = 1e-6
 #: Balls that a core takes at once, and seconds of a long step and of a frame.
 TOGETHER, STEP, FRAME = 64, 1.5e-6, 2e-7
+#: Nominal seconds up to which a run is not watched, and which part of a ball is done, at most, while it is followed.
+QUICK, MOSTLY = 0.2, 0.99
 #: What an accuracy may be of.
 PARTS = frozenset({"momentum", "gamma", "omega", "attitude", "contact"})
 #: Those whose errors are as large as one of the attitude.
@@ -434,12 +436,15 @@ class Problem:
             found.attitude[:, 0] = self.attitude
         return found
 
-    def take(self, order: int, steps: int, stride: int = 1) -> Motion:
+    def take(
+        self, order: int, steps: int, stride: int = 1, progress: Callable[[int], None] = lambda steps: None
+    ) -> Motion:
         """The balls at every `stride`-th frame, by `steps` steps of a composition from one to the next."""
         step, total = stride * self.interval / steps, steps * (self.frames // stride)
         run = trajectory(
             self.ball, step * self.K, self.gamma, total, order=order, every=steps, time_step=step,
             attitude=False if self.attitude is None else self.attitude, contact=self.contact, threads=self.threads,
+            progress=progress,
         )  # fmt: skip
         how = (np.full(len(self), x) for x in (np.nan, order, total))
         return Motion(
@@ -516,8 +521,17 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     if not problem.frames:
         found.error[:] = problem.survey[FLOOR]
         return found
-    worst, noise, started = _run(problem, problem.survey[FIRST], problem.survey[ALLOWED], found, progress)
+    done = 0.0
+
+    def told(part: float) -> None:
+        """What is followed again was counted as far as it came."""
+        nonlocal done
+        done = max(done, part)
+        progress(done)
+
+    worst, noise, started = _run(problem, problem.survey[FIRST], problem.survey[ALLOWED], found, told)
     if worst <= accuracy:
+        progress(len(problem))
         return found
     first, allowed = problem.survey[FIRST].copy(), problem.survey[ALLOWED].copy()
     for attempt in range(1, TRIES):
@@ -528,20 +542,23 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         more = np.minimum(np.maximum(AIM * accuracy / found.error[some], FINER), 0.5)
         allowed[some] *= more
         first[some] *= more ** (1 / (EXTRAPOLATED - 1))
-        part, last = problem.of(some), attempt + 1 == TRIES
+        part, last, others = problem.of(some), attempt + 1 == TRIES, len(problem) - len(some)
         again = part.nothing()
-        _, noise[some], started[some] = _run(part, first[some], allowed[some], again, lambda done: None, last)
+        _, noise[some], started[some] = _run(
+            part, first[some], allowed[some], again, lambda balls, others=others: told(others + balls), last
+        )  # fmt: skip
         # Where the steps are not shorter, they are as short as rounding lets them be.
         noise[some[(again.total <= found.total[some]) & ~given_up[some]]] = np.inf
         found.put(some, again)
     poor = np.flatnonzero((found.error > accuracy) & (SENSITIVE * started <= accuracy) | (found.status != Status.TAKEN))
     if len(poor):
         part = problem.of(poor)
-        other = composed(part)
+        other = composed(part, lambda balls: told(len(problem) - len(poor) + balls))
         other.error[:] += np.nan_to_num(SENSITIVE * started[poor])
         # That estimate may miss how sensitive a ball is: it is believed where it is within the accuracy, or alone.
         better = (other.error <= accuracy) | (found.status[poor] != Status.TAKEN)
         found.put(poor[better], other.of(better))
+    progress(len(problem))
     return found
 
 
@@ -562,21 +579,36 @@ def _run(
     )  # fmt: skip
     ends = reported, found.reached, found.status, reach
     few, loop = n < FEW, native.loop(follow)
-    width = 1 if few else TOGETHER
+    width, quick = 1 if few else TOGETHER, _seconds(problem, first) < QUICK
     asked, weights = (first, allowed, problem.survey[MOST], problem.survey[START]), loop_weights(MOST_COLUMNS)
-    if n == 1:
+    if n == 1 and quick:
         loop(few, *frames, problem.interval, *asked, patient, follows, traced, *weights, *ends)
-        progress(1)
     else:
 
         def task(at: int) -> None:
+            if count.stopped:
+                return
             some = slice(at, at + width)
             balls, wanted, found = ([x[some] for x in arrays] for arrays in (frames, asked, ends))
             loop(few, *balls, problem.interval, *wanted, patient, follows, traced, *weights, *found)
             count.add(len(found[-1]))
 
-        count, parts = Count(progress), range(0, n, width)
-        share(task, parts, min(problem.threads or cores(), len(parts)), count)
+        def look() -> None:
+            """Tells how many balls are done, those that are not by the steps that they are expected to take."""
+            part = np.minimum(reported[:, STEPS] * first / problem.end, MOSTLY)
+            progress(float(np.where(found.reached == problem.frames, 1.0, part).sum()))
+
+        def stop() -> None:
+            """Ends what runs: a ball is given up once it is said to be."""
+            count.stopped = True
+            reported[:, UNTIL] = 0.0
+
+        count, parts = Count(progress if quick else lambda done: None), range(0, n, width)
+        workers = min(problem.threads or cores(), len(parts))
+        if quick:
+            share(task, parts, workers, count)
+        else:
+            watched(lambda: share(task, parts, workers, count), look, stop)
     found.order.fill(EXTRAPOLATED)
     found.total[:] = reported[:, STEPS]
     asked_of = problem.parts
@@ -584,6 +616,12 @@ def _run(
     counted = turned, "omega" in asked_of, traced and "contact" in asked_of
     worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, found.error, noise, started)
     return worst, noise, started
+
+
+def _seconds(problem: Problem, first: Floats) -> float:
+    """Nominal seconds of one core, at least, with first steps of these lengths."""
+    shortest = float(first[0] if len(first) == 1 else first.min())
+    return len(first) * (problem.end * STEP / shortest + problem.frames * FRAME) if shortest > 0 else 0.0
 
 
 def composed(problem: Problem, progress: Callable[[float], None] = lambda part: None) -> Motion:
@@ -598,12 +636,17 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
     found, left, (factor, gain) = problem.nothing(), np.arange(n), np.ones((2, n))
     (before, verified), expected, (stopped, met) = np.full((2, n), np.inf), np.empty(n), np.zeros((2, n), dtype=bool)
     found.order[:], steps = cheapest(problem, factor)
+
+    def still(taken: int) -> None:
+        """Balls are counted once they are verified; who is called may end the run."""
+        progress(n - len(left))
+
     for attempt in range(ATTEMPTS):
         for order, count in sorted(set(zip(found.order[left].tolist(), steps[left].tolist(), strict=True))):
             some = left[(found.order[left] == order) & (steps[left] == count)]
             part = problem.of(some)
-            run = part.take(order, count)
-            run.error[:] = _verified(part, order, count, run)
+            run = part.take(order, count, progress=still)
+            run.error[:] = _verified(part, order, count, run, still)
             found.put(some, run)
         expected[left] = _error(problem.of(left), found.order[left], problem.interval / steps[left])
         error = np.maximum(found.error[left], SAFETY * factor[left] * expected[left])
@@ -660,7 +703,7 @@ def shared(steps: Floats, least: int = 1) -> np.ndarray:
     return np.maximum(np.ceil(np.ldexp(np.ceil(8 * part), exponent - 3)), least).astype(np.int64)
 
 
-def _verified(problem: Problem, order: int, steps: int, run: Motion) -> Floats:
+def _verified(problem: Problem, order: int, steps: int, run: Motion, progress: Callable[[int], None]) -> Floats:
     """The error of each ball by a run of fewer steps, infinite if one has stopped; and what rounding may leave.
 
     That run starts a few roundings away from the other, so that a ball that is sensitive to its start shows it.
@@ -669,7 +712,7 @@ def _verified(problem: Problem, order: int, steps: int, run: Motion) -> Floats:
     left = (stride * steps / fewer) ** order - 1
     share = min(SAFETY / left, max(1.0, 2 / left))
     moved = ROUNDED * 2.0**-53 / share * lengths(problem.K)[:, np.newaxis] * ASIDE
-    beside = replace(problem, K=problem.K + moved).take(order, fewer, stride)
+    beside = replace(problem, K=problem.K + moved).take(order, fewer, stride, progress)
     off = apart(problem, run, beside, stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
     rounded = problem.survey[FLOOR]

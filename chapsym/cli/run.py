@@ -51,7 +51,7 @@ def run(
     from chapsym.scene.running import sweep
     from chapsym.scene.running.store import check_same
 
-    from .output import following, quiet, say, telling
+    from .output import following, quiet, telling
 
     saved = False
     try:
@@ -63,12 +63,13 @@ def run(
             fail("--json prints on standard output, where -o - writes the result: choose one", 2)
         formats.check_destination(destination)
         exact = _exact(wanted, destination) if wanted.run.proved and not wanted.maps else None
-        plan, answers = sweep.answering(plan_of(wanted), say)
+        plan = plan_of(wanted)
         formats.check_size(plan, destination)
         if destination.is_file() and not fresh:
             check_same(destination, plan)
         data: Dataset | Arrays
-        with following() as report:
+        with following() as report, telling() as about:
+            plan, answers = sweep.answering(plan, about)
             if destination.suffix == ".zarr":
                 outcome = sweep.run_to_store(plan, destination, scheduler, fresh, report)
                 data = formats.load(destination)

@@ -7,7 +7,7 @@ import typer
 
 from .app import app
 from .options import Json, argument, takes, writes
-from .output import fail, print_json, progress_bar
+from .output import fail, following, print_json, progress_bar
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -120,8 +120,8 @@ def _opened(result: Path, folder: Path) -> "Dataset":
     scene = load(result)
     if folder.exists():
         files.check_destination(folder / "page.html")
-    with progress_bar("rolling", 1000) as shown:
-        return run_scene(scene, lambda now: shown(round(1000 * now.steps / max(now.of, 1)))).dataset
+    with following() as report:
+        return run_scene(scene, report).dataset
 
 
 def _page(dataset: "Dataset", path: Path, must: bool) -> str | None:

@@ -12,7 +12,7 @@ from chapsym.rationals import rationals
 
 from .app import app
 from .options import BALL, Json, argument, ball_from, contact_from, takes, tensor_from, with_options, writes
-from .output import fail, print_json, quiet, say
+from .output import fail, print_json, quiet, telling
 
 #: The ball and its start, which a scene has, too.
 BALL_AND_START = BALL | {
@@ -89,15 +89,17 @@ def _answer(
         if of == "state":  # further outputs are followed, and not to an accuracy of their own
             kept = [name for name in wanted.run.names() if name != "contact"]
             changed |= {"contact": None, "attitude": None, "outputs": kept or ["momentum", "gamma"]}
-        plan, answers = sweep.answering(plan_of(wanted.with_run(**changed)), say)
+        plan = plan_of(wanted.with_run(**changed))
         if len(plan.members) > 1:
             fail(f"{scene} has {len(plan.members)} balls: chapsym run takes them, with accuracy under [run]", 2)
-        if output is not None and output.suffix == ".zarr":
-            sweep.run_to_store(plan, output)
-        else:
-            data = sweep.run(plan)
-            if output is not None:
-                formats.save(data, output)
+        with telling() as about:
+            plan, answers = sweep.answering(plan, about)
+            if output is not None and output.suffix == ".zarr":
+                sweep.run_to_store(plan, output)
+            else:
+                data = sweep.run(plan)
+                if output is not None:
+                    formats.save(data, output)
         answer = answers[0]
     except BadInput as error:
         quiet()

@@ -368,7 +368,7 @@ class _Search:
                 path = self.start.path(bits)
             except TooWide:
                 return bits
-            path.tick = lambda: self._tell(path, bits)
+            path.tick = lambda: self._tell(path.time, bits)
             try:
                 for end in self.times:
                     while path.time < end:
@@ -377,6 +377,7 @@ class _Search:
                     missing = max(missing, _missing(frames[-1], self.digits, self.start.radius))
                     if missing <= 0 and len(frames) > self.kept:
                         self.frames, self.kept, self.bits, self.steps = frames, len(frames), bits, path.steps
+                    self._tell(end, bits)
             except TooWide:
                 return self._more(path, bits)
             except _TimeUp:
@@ -393,11 +394,13 @@ class _Search:
         foreseen = 1.1 * lost * float(self.times[-1] / path.time)
         return math.ceil(min(max(foreseen - bits, bits / 4), bits)) + math.ceil(self.digits * math.log2(10))
 
-    def _tell(self, path: Any, bits: int) -> None:
+    def _tell(self, time: Fraction, bits: int) -> None:
+        """At the end of a step, and at each of the frames, of which a step may have many."""
         if clock.monotonic() > self.deadline:
             raise _TimeUp
-        part = float(path.time / self.times[-1])
-        self.progress(f"{bits} bits: {float(path.time):.6g} s of {float(self.times[-1]):.6g} s, {part:.0%}")
+        last = float(self.times[-1])
+        part = float(time) / last if last else 1.0
+        self.progress(f"{bits} bits: {float(time):.6g} s of {last:.6g} s, {part:.0%}")
 
     def found(self, why: str | None) -> CertifiedMotion:
         """The frames that are proved; `why`: the reason why not all are, as a part of a sentence."""

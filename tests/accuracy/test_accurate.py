@@ -264,3 +264,10 @@ def test_numbers_of_every_precision_are_read_exactly_with_their_signs():
         exact = exactly(run, "momentum").astype(float)
         np.testing.assert_allclose(exact, run.momentum.astype(float), rtol=1e-15)
         assert (exact[0] * K <= 0).all()
+
+
+def test_long_steps_in_double_double_say_how_far_they_are():
+    said = []
+    accurate(BALL, K, GAMMA, 1.0, 1e-18, frames=1000, progress=said.append)
+    assert said[0] == said[1].rpartition(": ")[0]
+    assert {s.rpartition(": ")[2] for s in said} >= {"50%", "100%"}

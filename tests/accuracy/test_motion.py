@@ -411,3 +411,18 @@ def test_a_searched_run_ends_where_its_start_stood(tmp_path):
                      "position = [5.0, 1.0]\n[run]\ntime = 3.0\ncontact = true\naccuracy = 1e-6\n")  # fmt: skip
     found = json.loads(command("run", scene, "-o", tmp_path / "ball.npz", "--json").stdout)
     assert np.allclose(found["final"]["contact"], [8.0, 1.0], atol=1e-6)
+
+
+class Ended(Exception):
+    """What a caller of `progress` raises."""
+
+
+@pytest.mark.parametrize("balls", [1, 9])
+def test_a_long_run_shows_progress_and_ends_where_it_is_interrupted(balls):
+    def progress(steps):
+        if 0 < steps < 1000 * balls:
+            raise Ended
+
+    ball = Ball.from_inertia(INERTIA, mass=2.0, radius=np.full(balls, 0.1) if balls > 1 else 0.1, batch=balls > 1)
+    with pytest.raises(Ended):
+        chapsym.roll(ball, (3, -2, 1), 100.0, 1000, accuracy=1e-4, progress=progress)

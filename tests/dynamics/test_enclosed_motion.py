@@ -233,6 +233,13 @@ def test_no_body_is_refused(wrong):
         chapsym.ExactBall(*wrong)
 
 
+def test_each_of_many_frames_in_one_step_shows_progress_and_may_end_the_search():
+    said = []
+    found = follow(started(*ORDINARY), [F(i, 10**6) for i in range(60)], 10, progress=said.append)
+    assert found.stopped is None
+    assert len(said) >= 60 > found.steps
+
+
 def test_what_is_proved_is_given_where_the_time_is_up(monkeypatch):
     clock = iter(range(100))
     monkeypatch.setattr(enclosed_motion.clock, "monotonic", lambda: next(clock))

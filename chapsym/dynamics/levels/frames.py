@@ -3,7 +3,7 @@
 import os
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor, as_completed, wait
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -17,6 +17,8 @@ from ..ball import Ball, Floats, batch, beyond_float64, exact_array, numbers, un
 
 #: The work of each thread comes in about this many parts, so that none is idle for long at the end.
 SHARES = 16
+#: Seconds between two looks at work that runs in a thread of its own.
+OFTEN = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,3 +122,21 @@ def share(task: Callable[[int], None], starts: range, workers: int, count: Count
             count.stopped = True
             pool.shutdown(wait=True, cancel_futures=True)
             raise
+
+
+def watched(work: Callable[[], None], look: Callable[[], None], stop: Callable[[], None]) -> None:
+    """Does `work` in a thread of its own, so that an interrupt is heard while compiled code runs.
+
+    look: called every `OFTEN` seconds; what it raises ends the work.  stop: asks the work to end; called until it has.
+    """
+    with ThreadPoolExecutor(1) as pool:
+        future = pool.submit(work)
+        try:
+            while wait([future], OFTEN).not_done:
+                look()
+        except BaseException:
+            while not future.done():
+                stop()
+                wait([future], OFTEN)
+            raise
+        future.result()
