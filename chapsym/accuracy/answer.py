@@ -20,6 +20,7 @@ from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
 from chapsym.dynamics.loops.double_double import FIRST
+from chapsym.dynamics.map import MOST_STEPS as MOST_FRAMES
 from chapsym.dynamics.map import whole_number
 from chapsym.dynamics.results import some_frames
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, in_words, pairs
@@ -69,7 +70,7 @@ class Request:
             raise BadInput(f'of must be "state" or "contact", not {self.of!r}')
         if self.of == "contact" and self.ball.radius is None:
             raise BadInput("the contact point needs the radius: give the ball its mass and radius")
-        object.__setattr__(self, "frames", whole_number(self.frames, "frames", 1))
+        object.__setattr__(self, "frames", whole_number(self.frames, "frames", 1, MOST_FRAMES))
         if self.accuracy < LEAST:
             raise BadInput(f"accuracy must be at least {LEAST:g}: the compositions' coefficients have 40 digits")
         if isinstance(self.attitude, bool | np.bool_):

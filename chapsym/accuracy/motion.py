@@ -56,7 +56,7 @@ from chapsym.dynamics.loops.expected import (
 )
 from chapsym.dynamics.loops.following import REPORTED, STEPS, UNTIL, follow
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
-from chapsym.dynamics.map import flag, rolling_radius, seconds, whole_number
+from chapsym.dynamics.map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
 from chapsym.generated import contact_momentum
 from chapsym.numbers import Precision
@@ -207,7 +207,7 @@ def roll(
     try:
         run = _rolled(
             ball, spin, vertical, turned, flag(contact, "contact"), "double" if precision is None else precision,
-            seconds(time_step), whole_number(steps, "steps", 0), whole_number(every, "every", 1),
+            seconds(time_step), whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1),
             2 if order is None else order, None if by_map else _accuracy(accuracy),
             whole_number(threads, "threads", 0), progress, bool(proved) and by_map,
         )  # fmt: skip

@@ -35,7 +35,7 @@ from .loops.double_double import FIRST
 from .loops.guess import guess_weights
 from .loops.lanes import CHANGES, EIGHT, LANES, LAST, MOST_COLUMNS, ROWS
 from .loops.lanes import march as march_lanes
-from .map import flag, rolling_radius, seconds, whole_number
+from .map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from .results import in_given_axes
 from .shown import Brief
 
@@ -199,7 +199,7 @@ def extrapolate(
     of_pairs = isinstance(level, DoubleDouble)
     most = MOST_OF_PAIRS if of_pairs else MOST_COLUMNS
     columns = most if columns is None else whole_number(columns, "columns", 2, most)
-    steps, threads = whole_number(steps, "steps", 0), whole_number(threads, "threads", 0)
+    steps, threads = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(threads, "threads", 0)
     h = seconds(time_step, positive=False)
     kept = max(steps, 1) if every is None else min(whole_number(every, "every", 1), steps + 1)
     shape, (K, g, J, D) = batch(ball, numbers(angular_momentum, "angular_momentum", 3), unit_vertical(gamma))

@@ -23,7 +23,7 @@ from .results import Bounds, Step, Trajectory, finished, in_given_axes, of_balls
 
 #: The digits of a step of exact numbers that pairs cannot hold, before it is rounded to pairs.
 BEYOND_DOUBLE_DOUBLE = Digits(40)
-#: Whoever asks for more steps than this, or for every this many, will not see the end of it.
+#: More steps are refused; whoever asks for every so many will not see a second frame.
 MOST_STEPS = 2**62
 
 
@@ -219,10 +219,12 @@ def trajectory(
     >>> bool(abs(run.invariants() - (0, 0.0125, 1)).max() < 1e-13)
     True
     """
-    steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
+    steps, every = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1)
     threads = whole_number(threads, "threads", 0)
     every = min(every, steps + 1)
     time_step = None if time_step is None else seconds(time_step)
+    if time_step is not None and not steps * time_step < math.inf:
+        raise BadInput("steps times time_step is beyond the range of float64, about 1.8e308 s")
     precision = dispatch.precision_of(precision)
     shape, g, balls = given(ball, momentum, gamma, precision)
     with_body = flag(contact, "contact") or is_followed(attitude)
@@ -357,7 +359,8 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
         return value
     number = isinstance(value, int | np.integer) and not isinstance(value, bool)
     if not number or value < least or (most is not None and value > most):
-        clause = "on" if most is None else f"to {most}"
+        bounded = most is not None and (most < MOST_STEPS or (number and value > most))
+        clause = f"to {most}" if bounded else "on"
         raise BadInput(f"{name} must be a whole number from {least} {clause}, not {value!r}")
     return min(int(value), MOST_STEPS)
 

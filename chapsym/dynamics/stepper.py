@@ -21,7 +21,7 @@ from .levels.dispatch import no_room
 from .levels.frames import Balls
 from .loops import loop
 from .loops.loop import G, K
-from .map import flag, rolling_radius, seconds, whole_number
+from .map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from .results import Bounds, Trajectory, finished
 
 
@@ -58,7 +58,7 @@ class UnderWay:
         >>> moving.gamma.round(9).tolist()
         [-0.006249912, 0.011111155, 0.999918737]
         """
-        steps = whole_number(steps, "steps", 0)
+        steps = whole_number(steps, "steps", 0, MOST_STEPS)
         taken, status, reach = self._take(steps, steps or 1, self._ends)
         if status:
             raise StepNotTaken(Status(status), reach, taken)
@@ -91,7 +91,7 @@ class UnderWay:
         >>> moving.trajectory(20, every=10).index.tolist(), moving.taken
         ([0, 10, 20], 120)
         """
-        steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
+        steps, every = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1)
         every = min(every, steps + 1)
         count = steps // every + 1
         try:

@@ -1,6 +1,7 @@
 """Many steps: frames, attitude, contact point, batches, folds."""
 
 import pickle
+from functools import partial
 
 import numpy as np
 import pytest
@@ -125,6 +126,20 @@ def test_a_step_that_was_not_taken_can_be_pickled():
     assert (str(again), again.status, again.reach, again.index) == (str(error), error.status, 0.5, 3)
 
 
+def test_more_steps_than_can_be_counted_or_timed_are_refused():
+    asked = Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (0, 0, 1)
+    many = "steps must be a whole number from 0 to 4611686018427387904, not 10000000000000000000000000"
+    for takes in (
+        partial(chapsym.trajectory, *asked),
+        partial(chapsym.roll, *asked[:2], 1e-25),
+        partial(chapsym.extrapolate, *asked, 1e-25),
+    ):
+        with pytest.raises(BadInput, match=many):
+            takes(steps=10**25, every=10**24)
+    with pytest.raises(BadInput, match="steps times time_step is beyond the range of float64"):
+        chapsym.trajectory(*asked, 5, time_step=1e308)
+
+
 def test_times_need_a_time_step():
     with pytest.raises(BadInput, match="no time step"):
         _ = chapsym.trajectory(BALL, K, GAMMA, 1).time
@@ -136,9 +151,18 @@ def test_progress_is_told():
     assert seen == [200_000, 400_000, 450_000]
 
 
+def test_progress_of_a_proved_run_begins_before_the_proof_does():
+    def progress(done):
+        if not done:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        chapsym.trajectory(BALL, K, GAMMA, 10, proved=True, progress=progress)
+
+
 def test_counts_beyond_all_bounds_are_only_large():
     with pytest.raises(StepNotTaken):
-        chapsym.trajectory(BALL, 9 * K / abs(K).max(), GAMMA, 10**30, every=10**30)
+        chapsym.trajectory(BALL, 9 * K / abs(K).max(), GAMMA, 2**62, every=10**30)
     assert chapsym.trajectory(BALL, K, GAMMA, 3, order=np.int64(4), every=10**30).taken == 3
 
 

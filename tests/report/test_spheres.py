@@ -68,6 +68,12 @@ def test_a_vertical_momentum_has_one_sphere_with_its_curve_in_the_axes_that_were
     assert "invariant curve" in figures.draw(dataset, "spheres").axes[0].get_legend_handles_labels()[1]
 
 
+@pytest.mark.filterwarnings("error")
+def test_vectors_of_any_size_have_a_direction():
+    directions = unit(np.array([[3e300, 0.0, 4e300], [3e-300, 0.0, 4e-300], [0.0, 0.0, 0.0]]))
+    assert directions == pytest.approx(np.array([[0.6, 0.0, 0.8], [0.6, 0.0, 0.8], [0.0, 0.0, 0.0]]))
+
+
 @pytest.mark.parametrize("of_gamma", [True, False])
 def test_the_range_of_the_energy_is_that_of_all_states_with_these_integrals(of_gamma):
     rng = np.random.default_rng(5)

@@ -75,6 +75,8 @@ def test_check_tells_ranges_the_plan_and_balls_that_cannot_start(tmp_path):
     found = answer("scene", "check", path)
     assert (found["balls"], found["steps"], found["outputs"]) == (2, 10, ["momentum", "gamma"])
     assert len(found["warnings"]) == 1
+    path.write_text(SCENE.replace("[1, 2, 4]", "[1e200, 2e200, 4e200]").replace("0.1, 50", "1e200"))
+    assert re.search(r"\|𝒦\| = 1e\+200 kg m²", done("scene", "check", path))
 
 
 @pytest.mark.parametrize(

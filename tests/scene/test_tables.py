@@ -106,6 +106,8 @@ def test_steps_and_frames(run, steps, every):
         ({"steps": 10, "ball": 3}, "run.ball is not a key of [run]; it stands at the top of the file"),
         ({}, "run.steps is missing"),
         ({"steps": -1}, "run.steps must be at least 0"),
+        ({"time": 1e308, "time_step": None, "frames": 9}, "run.time is 1e+308 s, more than anybody waits for"),
+        ({"steps": 5, "time_step": 1e308}, "run.steps times run.time_step is beyond the range of float64"),
         ({"steps": 10, "time_step": None}, "start.omega needs run.time_step, in seconds"),
         ({"time": 4, "time_step": None, "map": True}, "run.time needs run.time_step: the map has steps of one length"),
         (ACCURATE | {"accuracy": 0}, "run.accuracy must be greater than 0"),
@@ -137,6 +139,8 @@ def test_a_range_beyond_float64_is_refused_without_a_warning():
     omega = [{"linspace": [-1e308, 1e308, 3]}, 0, 0]
     with pytest.raises(SceneError, match="omega must be finite"):
         expand(checked(DATA | {"start": {"omega": omega}}))
+    with pytest.raises(SceneError, match="gamma must not be 0"):
+        expand(checked(DATA | {"start": {"omega": [1, 0, 0], "gamma": [{"grid": [0, 1]}, 0, 0]}}))
 
 
 def test_outputs_and_their_short_forms():

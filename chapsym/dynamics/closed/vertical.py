@@ -16,7 +16,7 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..levels import dispatch, double
 from ..levels.frames import Balls, Frames
 from ..loops import loop, vertical_loop
-from ..map import whole_number
+from ..map import MOST_STEPS, whole_number
 from ..results import Step, finished
 from ..shown import Brief
 from .elliptic import Curve, increment
@@ -151,7 +151,7 @@ def trajectory_vertical(
     >>> chapsym.trajectory_vertical(chapsym.Ball((1, 2, 4), 3), 0.1, (0.6, 0, 0.8), 1000).gamma[-1].round(6).tolist()
     [0.579783, -0.178334, 0.795015]
     """
-    steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
+    steps, every = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1)
     every = min(every, steps + 1)
     shape, given = _flat(ball, height, gamma)
     frames = _taken(given, steps, every)

@@ -86,7 +86,7 @@ def run_proved(
         spread = np.full((n, count, 4), np.inf)
         spread[:, 0] = proved.PAIR
         if isinstance(precision, Double):
-            run(precision, balls, steps, every, frames, order, threads, lambda done: None)
+            run(precision, balls, steps, every, frames, order, threads, lambda done: progress(0))
             start = frames.attitude[:, 0] if frames.with_body else None
             pairs = begun(NAMED["double-double"], balls, count, start)
         double_double.run(balls, steps, every, pairs, order, threads, progress, spread)

@@ -25,7 +25,7 @@ from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
 from ..levels.frames import Count, cores, share
 from ..loops import loop_n
-from ..map import flag, rolling_radius, whole_number
+from ..map import MOST_STEPS, flag, rolling_radius, whole_number
 from ..results import Step, Trajectory, finished, of_balls
 from ..stepper import UnderWay
 from . import so_n
@@ -180,7 +180,7 @@ def trajectory_n(
     >>> run.invariants()[[0, -1]].round(12).tolist()  # tr 𝒦², tr 𝒦⁴, γᵀ𝒦²γ, |γ|²
     [[-0.26, 0.0194, -0.041, 1.0], [-0.26, 0.0194, -0.041, 1.0]]
     """
-    steps, every = whole_number(steps, "steps", 0), whole_number(every, "every", 1)
+    steps, every = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1)
     threads = whole_number(threads, "threads", 0)
     every = min(every, steps + 1)
     shape, state = start(ball, momentum, gamma, attitude, contact)

@@ -250,7 +250,7 @@ class Given:
 
 def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, names: tuple[str, ...]) -> Members:
     """The members of one table; raises BadInput for what cannot be."""
-    with np.errstate(over="ignore", invalid="ignore", under="ignore"):
+    with np.errstate(all="ignore"):  # a number beyond float64, and a direction that is 0, are refused by their names
         if ball.mass_tensor is not None and len(ball.mass_tensor) > 3:
             return _members_n(ball, start, given, scale, names)
         body, axes = _ball(ball, given)

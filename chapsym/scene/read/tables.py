@@ -350,6 +350,8 @@ class RunTable(Table):
                 raise Misfit("run.every needs run.time_step: without, give run.frames", "every")
             if self.frames is not None and self.frames > MOST_FRAMES:
                 raise Misfit(f"run.frames is more than {MOST_FRAMES}", "frames")
+            if not self.time * (self.frames or 1) < math.inf:
+                raise Misfit(f"run.time is {self.time:.3g} s, more than anybody waits for", "time")
         self.counts()
         return self
 
@@ -390,6 +392,8 @@ class RunTable(Table):
                 )  # fmt: skip
         if not steps < MOST_STEPS:
             raise Misfit(f"run.steps is {float(min(steps, 10**300)):.3g}, more than anybody waits for", "steps")
+        if step is not None and not steps * step < math.inf:
+            raise Misfit("run.steps times run.time_step is beyond the range of float64, about 1.8e308 s", "steps")
         frames = self.frames if self.frames is not None else steps // (self.every or 1)
         if frames > MOST_FRAMES:
             raise Misfit(f"run keeps {frames} frames of a ball, and {MOST_FRAMES} are the most: give every or frames")

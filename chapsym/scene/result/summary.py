@@ -58,8 +58,7 @@ def _start(scene: Scene, members: Members, i: int) -> str:
     task = scene.task()
     what, unit = ("𝒦", "kg m²") if task.accuracy is None else ("K", "kg m²/s")
     momentum = members.momentum[i] / (1.0 if task.accuracy is None else task.scale)
-    with np.errstate(over="ignore"):
-        size = np.sqrt((momentum * momentum).sum() / (1 if momentum.ndim == 1 else 2))
+    size = math.hypot(*momentum.flat) / math.sqrt(momentum.ndim)  # a matrix has each component twice
     shown = f"{what} = {_vector(momentum)} {unit}, " if momentum.ndim == 1 else ""
     return f"{shown}|{what}| = {size:.6g} {unit}, γ = {_vector(members.gamma[i])}, in principal axes"
 

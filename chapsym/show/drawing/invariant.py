@@ -31,8 +31,10 @@ def bodies_of(dataset: Dataset) -> list[Ball]:
 
 def unit(vectors: Floats) -> Floats:
     """Vectors (..., 3) divided by their lengths; zero stays zero."""
-    length = np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
-    return np.asarray(np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0.0))
+    largest = np.abs(vectors).max(axis=-1, keepdims=True)
+    scaled = np.divide(vectors, largest, out=np.zeros_like(vectors), where=largest > 0.0)
+    length = np.sqrt((scaled * scaled).sum(axis=-1, keepdims=True))
+    return np.asarray(np.divide(scaled, length, out=scaled, where=length > 0.0))
 
 
 def is_vertical(momentum: Floats, gamma: Floats) -> bool:

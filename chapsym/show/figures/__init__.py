@@ -135,7 +135,11 @@ def save_all(
 
     Raises BadInput as `draw` does, and CannotWrite if the disk refuses.
     """
-    wanted = [name for name, reason in available(dataset).items() if reason is None] if names is None else names
+    reasons = available(dataset)
+    wanted = [name for name, reason in reasons.items() if reason is None] if names is None else names
+    for name in wanted:
+        if reasons.get(name) is not None:  # before a folder is made
+            raise BadInput(f"{name}: {reasons[name]}")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
