@@ -27,6 +27,11 @@ def check_destination(path: Path) -> None:
         raise CannotWrite(f"{str(path)!r} cannot be written: {error}") from None
 
 
+def is_pipe(path: Path) -> bool:
+    """Whether a path names a pipe, which would be waited for; what a shell makes of `<(...)` has no name."""
+    return Path(os.path.realpath(path)).is_fifo()
+
+
 def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     """Replaces the file by what `write` puts into a stream; raises CannotWrite if the disk refuses."""
     check_destination(path)

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import re
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
@@ -34,6 +35,8 @@ class Unreadable(Exception):
 def read(path: str | Path) -> dict[str, Any]:
     """The object of a JSON file; raises Unreadable, or Rejected for a name that stands twice in an object."""
     try:
+        if Path(os.path.realpath(path)).is_fifo():  # a pipe with a name would be waited for; `<(...)` has none
+            raise Unreadable(f"{path} is a pipe, not a file")
         with Path(path).open("rb") as file:
             content = file.read(MOST_BYTES + 1)
         if len(content) > MOST_BYTES:

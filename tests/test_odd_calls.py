@@ -56,3 +56,32 @@ def test_a_ball_with_two_radii_is_a_batch():
     ball = chapsym.Ball((1, 2, 4), 3, [0.1, 0.2])
     with pytest.raises(BadInput, match="one ball and one gamma"):
         chapsym.rotation_number(ball, 0.05, (2 / 7, 3 / 7, 6 / 7))
+
+
+class Unwilling:
+    """What raises an error of its own where an array is made of it."""
+
+    def __array__(self, dtype=None, copy=None):
+        raise KeyError("unwilling")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("odd", [Unwilling(), np.array([1, np.complex64(2j), 3], dtype=object)])
+def test_what_makes_no_array_and_complex_numbers_among_objects_are_refused(odd):
+    with pytest.raises(BadInput, match="omega must be real numbers"):
+        chapsym.roll(chapsym.Ball((1, 2, 4), 3), odd, 0.1, 1)
+
+
+@pytest.mark.parametrize("odd", [0.5, b"ball.npz", None, np.zeros(3)])
+def test_what_is_no_scene_and_no_result_is_refused_by_its_name(odd):
+    for read, said in (
+        (chapsym.run_scene, "scene must be a .toml file or a dictionary, not"),
+        (chapsym.open_result, "path must be that of a result, not"),
+        (lambda given: chapsym.interpolated(given, 0.5), "run must be a result, its Dataset, or a Trajectory, not"),
+    ):
+        with pytest.raises(BadInput, match=said):
+            read(odd)
+    run = chapsym.roll(chapsym.Ball((1, 2, 4), 3), (1, 0, 0), 0.1, 3).to_xarray()
+    for times in ([[0.1], [0.1, 0.2]], "soon", 0.1j):
+        with pytest.raises(BadInput, match="times must be real numbers"):
+            chapsym.interpolated(run, times)

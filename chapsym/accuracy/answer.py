@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, extrapolate, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
-from chapsym.dynamics.ball import Floats, batch, checked_before, numbers, unit_vertical
+from chapsym.dynamics.ball import Floats, batch, brief, checked_before, numbers, unit_vertical
 from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
@@ -67,7 +67,7 @@ class Request:
         for name in ("time", "accuracy"):
             object.__setattr__(self, name, _positive(getattr(self, name), name))
         if not isinstance(self.of, str) or self.of not in NORMS:
-            raise BadInput(f'of must be "state" or "contact", not {self.of!r}')
+            raise BadInput(f'of must be "state" or "contact", not {brief(self.of)}')
         if self.of == "contact" and self.ball.radius is None:
             raise BadInput("the contact point needs the radius: give the ball its mass and radius")
         object.__setattr__(self, "frames", whole_number(self.frames, "frames", 1, MOST_FRAMES))
@@ -130,7 +130,7 @@ class Request:
 def _positive(value: Any, name: str) -> float:
     found = numbers(value, name)
     if found.ndim or not found > 0:
-        raise BadInput(f"{name} must be one positive number, not {value!r}")
+        raise BadInput(f"{name} must be one positive number, not {brief(value)}")
     return float(found)
 
 
@@ -469,7 +469,7 @@ def _foreseen(request: Request, limit: Any) -> tuple[Problem | None, Choice]:
     """The problem in double precision, None where that has not the accuracy, and what is tried first."""
     number = isinstance(limit, int | float | np.integer | np.floating) and not isinstance(limit, bool)
     if not number or not limit > 0:
-        raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
+        raise BadInput(f"limit must be a positive number of seconds, not {brief(limit)}")
     in_range(request.time, request.angular_momentum)
     problem = _problem(request)
     if request.accuracy >= motion.FINEST * request.unit and problem.floor <= motion.ROUNDING * request.accuracy:

@@ -48,7 +48,10 @@ def energy_drift(
     Raises BadInput where there is none, or where the checker does not prove it.
     """
     _check(J, D, gamma, signs, time)
-    section, along = components(np.array(J, float), float(D), np.array(momentum, float), np.array(gamma, float))
+    try:
+        section, along = components(np.array(J, float), float(D), np.array(momentum, float), np.array(gamma, float))
+    except (OverflowError, np.linalg.LinAlgError):
+        raise BadInput("the search begins in float64, for which the numbers are too large or too far apart") from None
     fields = {
         "ball": {"J": [str(x) for x in J], "D": str(D)},
         "start": {"momentum": [shortest(x) for x in momentum], "gamma": [str(x) for x in gamma]},

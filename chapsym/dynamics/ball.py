@@ -28,7 +28,7 @@ SMALLEST = np.finfo(np.float64).tiny
 #: Up to this float64 has all integers.
 LARGEST_INTEGER = 2**53
 #: Numbers by their class, which are not real ones: of dates NumPy says that they are integers.
-_NO_REALS = (complex, np.timedelta64)
+_NO_REALS = (complex, np.complexfloating, np.timedelta64)
 #: How far |γ|² may be from 1: more than the rounding of 10⁶ steps, so that a run may go on from its end.
 UNIT_TOLERANCE = 1e-12
 #: The same for what is given in float32: it is divided by its length.
@@ -70,7 +70,7 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
         raise _not_numbers(value, name)
     try:
         array = np.asarray(value)
-    except ValueError:  # rows of different length
+    except Exception:  # rows of different length, and whatever an object raises that is to become an array
         raise _not_numbers(value, name) from None
     if array.dtype.kind not in "iufO":
         raise _not_numbers(value, name)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .ball import Ball, in_principal_axes
+from .ball import Ball, brief, in_principal_axes
 from .errors import BadInput, TooWide
 from .levels.start import exponent_of, fraction
 from .map import check_body, check_tensor, unit_exactly
@@ -303,7 +303,7 @@ def follow(
     if isinstance(digits, bool) or not isinstance(digits, int) or not 1 <= digits <= MOST_DIGITS:
         raise BadInput(f"digits must be a whole number from 1 to {MOST_DIGITS}, not {digits!r}")
     if not (isinstance(limit, int | float) and limit > 0):
-        raise BadInput(f"limit must be a positive number of seconds, not {limit!r}")
+        raise BadInput(f"limit must be a positive number of seconds, not {brief(limit)}")
     search = _Search(start, tuple(times), digits, clock.monotonic() + limit, progress)
     bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()
     why = None

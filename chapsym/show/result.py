@@ -1,5 +1,6 @@
 """A result in Python and in notebooks: a Dataset that shows itself as a table, its most telling figure and its page."""
 
+import os
 import sys
 import tempfile
 import webbrowser
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from chapsym.dynamics import BadInput, kernels
+from chapsym.dynamics.ball import brief
 from chapsym.dynamics.labelled import frame
 from chapsym.dynamics.outputs import BOUND, LOW
 from chapsym.scene import Scene, SceneError, checked, load
@@ -221,7 +223,7 @@ def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callabl
     if isinstance(scene, Mapping):
         scene = checked(dict(scene))
     elif not isinstance(scene, Scene):
-        scene = load(Path(scene))
+        scene = load(_path(scene, "scene must be a .toml file or a dictionary"))
     plan = plan_of(scene)
     return Result(run_in_memory(plan) if progress is None else run_in_memory(plan, progress))
 
@@ -253,7 +255,13 @@ def open_result(path: str | Path) -> Result:
     ...     print(chapsym.open_result(f"{folder}/ball.csv").dataset.sizes["frame"])
     11
     """
-    return Result(formats.load(Path(path)))
+    return Result(formats.load(_path(path, "path must be that of a result")))
+
+
+def _path(given: Any, must: str) -> Path:
+    if not isinstance(given, str | os.PathLike) or isinstance(os.fspath(given), bytes):
+        raise SceneError(f"{must}, not {brief(given)}")
+    return Path(given)
 
 
 def in_notebook() -> bool:

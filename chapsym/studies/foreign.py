@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from chapsym import files
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.labelled import TIME, Arrays, Labelled, about, coordinates, is_ours
 from chapsym.dynamics.outputs import OUTPUTS
@@ -44,7 +45,7 @@ def table_of(file: Path) -> Table:
 
 
 def _is_result(file: Path) -> bool:
-    if file.suffix != ".csv":
+    if file.suffix != ".csv" or files.is_pipe(file):
         return file.suffix in BINARY
     try:
         with file.open(encoding="utf-8") as stream:

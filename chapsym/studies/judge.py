@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from chapsym import files
 from chapsym.dynamics.errors import BadInput
 
 from .judge_tables import Trajectory, in_space
@@ -53,6 +54,8 @@ class Case:
 
 def read_case(file: Path) -> Case:
     """Raises BadInput, one sentence, for a file that is not such data."""
+    if files.is_pipe(file):
+        raise BadInput(f"{file} is a pipe, not a file")
     try:
         data = json.loads(file.read_text(encoding="utf-8"))
         if isinstance(data, dict) and "frames" in data and "ball" not in data:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from chapsym import files
 from chapsym.dynamics.errors import BadInput
 
 NEEDED = ("time", "x", "y", "z", "qw", "qx", "qy", "qz")
@@ -123,6 +124,8 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
 
     needed: the columns without which it is none.
     """
+    if files.is_pipe(file):
+        raise BadInput(f"{file} is a pipe, not a file")
     try:
         lines = file.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:

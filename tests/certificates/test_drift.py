@@ -86,7 +86,8 @@ def test_a_start_from_which_no_orbit_is_found_is_refused(monkeypatch):
 @pytest.mark.parametrize(
     ("change", "words"),
     [({"gamma": (Fraction(1), Fraction(1), Fraction(0))}, "unit"), ({"signs": (1, 1, -1)}, "signs"),
-     ({"J": (Fraction(-1), Fraction(1), Fraction(1))}, "no ball"), ({"time": Fraction(-1)}, "time")],
+     ({"J": (Fraction(-1), Fraction(1), Fraction(1))}, "no ball"), ({"time": Fraction(-1)}, "time"),
+     ({"D": Fraction(10**400)}, "too large or too far apart")],
 )  # fmt: skip
 def test_what_is_no_orbit_is_refused(change, words):
     with pytest.raises(BadInput, match=words):

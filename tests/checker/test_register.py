@@ -2,6 +2,7 @@
 
 import copy
 import json
+import os
 import random
 import subprocess
 import sys
@@ -103,6 +104,12 @@ def test_a_change_of_anything_is_seen_by_the_digest(samples):
         with pytest.raises(Rejected):
             check(other)
         assert check(data).kind == "register-claim", id
+
+
+def test_a_pipe_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(checker.Unreadable, match="is a pipe"):
+        checker.read(tmp_path / "pipe")
 
 
 def test_a_file_that_is_too_large_is_not_read(tmp_path):

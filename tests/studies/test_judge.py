@@ -3,6 +3,7 @@
 import csv
 import hashlib
 import json
+import os
 import re
 import warnings
 from decimal import Decimal
@@ -194,6 +195,15 @@ REFUSED = {
     "time_step must be a positive number of seconds, not -1": lambda t: text(t, -1),
     "time_step must be a positive number of seconds, not soon": lambda t: text(t, "soon"),
 }
+
+
+@pytest.mark.parametrize("suffix", ["", ".csv"])
+def test_a_pipe_is_not_waited_for(suffix, table, tmp_path):
+    pipe, file = tmp_path / f"pipe{suffix}", tmp_path / "table.csv"
+    os.mkfifo(pipe)
+    file.write_text(table, encoding="utf-8")
+    assert "is a pipe, not a file" in refused("judge", pipe, "--against", FILE)
+    assert "is a pipe, not a file" in refused("judge", file, "--against", pipe)
 
 
 @pytest.mark.parametrize("sentence", REFUSED)

@@ -1,7 +1,6 @@
 """Scene files in TOML: the balls, how they start, how long they roll, and what is kept of it."""
 
 import json
-import os
 import re
 import sys
 import tomllib
@@ -13,6 +12,7 @@ from typing import Annotated, Any, Self
 import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr, ValidationError, model_validator
 
+from chapsym import files
 from chapsym.accuracy.motion import DEFAULT
 
 from . import robots
@@ -230,7 +230,7 @@ def _plain(value: Any) -> Any:
 
 def _text(path: Path) -> str:
     try:
-        if Path(os.path.realpath(path)).is_fifo():  # which has a name: `<(...)` and /dev/stdin have none
+        if files.is_pipe(path):
             raise SceneError(f"{path} is a pipe, not a file with a scene")
         with path.open("rb") as stream:
             content = stream.read(MOST_BYTES + 1)

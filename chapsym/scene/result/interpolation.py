@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, kernels
-from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.ball import Floats, brief, numbers
 from chapsym.dynamics.interpolation import States, standing
 from chapsym.dynamics.principal_axes import attitude_from_principal, attitude_to_principal, from_principal, to_principal
 
@@ -56,12 +56,14 @@ def interpolated(run: Any, times: ArrayLike) -> Any:
     """
     if hasattr(run, "at"):
         return run.at(times)
+    if not hasattr(run, "dims"):
+        raise BadInput(f"run must be a result, its Dataset, or a Trajectory, not {brief(run)}")
     dataset = run if "ball" in run.dims else run.expand_dims("ball")
     reason = missing(dataset)
     if reason is not None:
         raise BadInput(f"there is nothing between the frames: {reason}")
     frames, per_step = _states(dataset)
-    found = frames.at(np.atleast_1d(np.asarray(times, dtype=np.float64)))
+    found = frames.at(np.atleast_1d(numbers(times, "times")))
     axes = _axes(dataset)
     values: dict[str, Floats | None] = {
         "momentum": from_principal(axes, found.momentum * per_step), "gamma": from_principal(axes, found.gamma),
