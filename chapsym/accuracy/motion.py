@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -523,10 +524,10 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         return found
     done = 0.0
 
-    def told(part: float) -> None:
+    def told(part: float, others: int = 0) -> None:
         """What is followed again was counted as far as it came."""
         nonlocal done
-        done = max(done, part)
+        done = max(done, others + part)
         progress(done)
 
     worst, noise, started = _run(problem, problem.survey[FIRST], problem.survey[ALLOWED], found, told)
@@ -542,18 +543,16 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         more = np.minimum(np.maximum(AIM * accuracy / found.error[some], FINER), 0.5)
         allowed[some] *= more
         first[some] *= more ** (1 / (EXTRAPOLATED - 1))
-        part, last, others = problem.of(some), attempt + 1 == TRIES, len(problem) - len(some)
-        again = part.nothing()
-        _, noise[some], started[some] = _run(
-            part, first[some], allowed[some], again, lambda balls, others=others: told(others + balls), last
-        )  # fmt: skip
+        part, last = problem.of(some), attempt + 1 == TRIES
+        again, beside = part.nothing(), partial(told, others=len(problem) - len(some))
+        _, noise[some], started[some] = _run(part, first[some], allowed[some], again, beside, last)
         # Where the steps are not shorter, they are as short as rounding lets them be.
         noise[some[(again.total <= found.total[some]) & ~given_up[some]]] = np.inf
         found.put(some, again)
     poor = np.flatnonzero((found.error > accuracy) & (SENSITIVE * started <= accuracy) | (found.status != Status.TAKEN))
     if len(poor):
         part = problem.of(poor)
-        other = composed(part, lambda balls: told(len(problem) - len(poor) + balls))
+        other = composed(part, partial(told, others=len(problem) - len(poor)))
         other.error[:] += np.nan_to_num(SENSITIVE * started[poor])
         # That estimate may miss how sensitive a ball is: it is believed where it is within the accuracy, or alone.
         better = (other.error <= accuracy) | (found.status[poor] != Status.TAKEN)

@@ -201,7 +201,7 @@ REFUSED = {
 def test_a_pipe_is_not_waited_for(suffix, table, tmp_path):
     pipe, file = tmp_path / f"pipe{suffix}", tmp_path / "table.csv"
     os.mkfifo(pipe)
-    file.write_text(table, encoding="utf-8")
+    file.write_text(text(table), encoding="utf-8")
     assert "is a pipe, not a file" in refused("judge", pipe, "--against", FILE)
     assert "is a pipe, not a file" in refused("judge", file, "--against", pipe)
 
