@@ -85,3 +85,14 @@ def test_what_is_no_scene_and_no_result_is_refused_by_its_name(odd):
     for times in ([[0.1], [0.1, 0.2]], "soon", 0.1j):
         with pytest.raises(BadInput, match="times must be real numbers"):
             chapsym.interpolated(run, times)
+
+
+def test_a_count_that_is_a_time_and_a_place_of_other_balls_are_refused():
+    ball, masked = chapsym.Ball((1, 2, 4), 3, 0.5), np.ma.array(2.0, mask=False)
+    with pytest.raises(BadInput, match=r"steps must be a whole number from 0 on, not np\.timedelta64"):
+        chapsym.roll(ball, (1, 0, 0), 0.1, np.timedelta64(5, "s"))
+    with pytest.raises(BadInput, match="position"):
+        chapsym.roll(ball, (1, 0, 0), 0.1, 5, contact=True, position=[[1, 2]])
+    with pytest.raises(BadInput) as refused:
+        chapsym.roll(ball, (1, 0, 0), 0.1, masked)
+    assert "\n" not in str(refused.value)

@@ -467,7 +467,7 @@ def foreseen(
 
 def _foreseen(request: Request, limit: Any) -> tuple[Problem | None, Choice]:
     """The problem in double precision, None where that has not the accuracy, and what is tried first."""
-    number = isinstance(limit, int | float | np.integer | np.floating) and not isinstance(limit, bool)
+    number = isinstance(limit, int | float | np.integer | np.floating) and not isinstance(limit, bool | np.timedelta64)
     if not number or not limit > 0:
         raise BadInput(f"limit must be a positive number of seconds, not {brief(limit)}")
     in_range(request.time, request.angular_momentum)

@@ -37,7 +37,16 @@ from chapsym.dynamics import (
     trajectory,
 )  # fmt: skip
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
-from chapsym.dynamics.ball import SMALLEST, Asked, Floats, batch, checked_before, numbers, unit_vertical
+from chapsym.dynamics.ball import (
+    SMALLEST,
+    Asked,
+    Floats,
+    batch,
+    checked_before,
+    numbers,
+    over_states,
+    unit_vertical,
+)  # fmt: skip
 from chapsym.dynamics.enclosed_motion import of_motion
 from chapsym.dynamics.extrapolation import FEW, loop_weights
 from chapsym.dynamics.levels.frames import Count, cores, share, watched
@@ -200,6 +209,8 @@ def roll(
     """
     spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
     place = None if position is HERE else numbers(position, "position", 2)
+    if place is not None and place.ndim > 1:
+        place = over_states(place, "position", batch(ball.principal, spin, vertical)[0])
     by_map = flag(map, "map") or order is not None or precision is not None
     if by_map and accuracy is not None:
         raise BadInput("accuracy is of the motion of the ball; leave out order, precision and map")

@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .ball import Floats
+from .ball import Floats, brief
 from .errors import BadInput
 
 
@@ -111,5 +111,5 @@ def substeps(order: int) -> Floats:
     [0.414491, 0.414491, -0.657963, 0.414491, 0.414491]
     """
     if isinstance(order, bool) or not isinstance(order, int | np.integer) or order not in COMPOSITIONS:
-        raise BadInput(f"order must be one of {', '.join(map(str, COMPOSITIONS))}, not {order!r}")
+        raise BadInput(f"order must be one of {', '.join(map(str, COMPOSITIONS))}, not {brief(order)}")
     return COMPOSITIONS[int(order)].stages

@@ -301,7 +301,7 @@ def follow(
     if isinstance(digits, np.integer):
         digits = int(digits)
     if isinstance(digits, bool) or not isinstance(digits, int) or not 1 <= digits <= MOST_DIGITS:
-        raise BadInput(f"digits must be a whole number from 1 to {MOST_DIGITS}, not {digits!r}")
+        raise BadInput(f"digits must be a whole number from 1 to {MOST_DIGITS}, not {brief(digits)}")
     if not (isinstance(limit, int | float) and limit > 0):
         raise BadInput(f"limit must be a positive number of seconds, not {brief(limit)}")
     search = _Search(start, tuple(times), digits, clock.monotonic() + limit, progress)

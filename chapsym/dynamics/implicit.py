@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.numbers import Double, Enclosure, Precision, Single, named
 
-from .ball import common_shape, numbers
+from .ball import brief, common_shape, numbers
 from .errors import BadInput
 from .kernels import Row, parts_of
 
@@ -252,7 +252,7 @@ def _array(value: ArrayLike, name: str, size: int) -> np.ndarray:
     made = np.empty(array.shape, dtype=object)
     for where, one in np.ndenumerate(array):
         if isinstance(one, bool | complex | str) or one is None:
-            raise BadInput(f"{name} must have numbers, not {one!r}")
+            raise BadInput(f"{name} must have numbers, not {brief(one)}")
         try:
             made[where] = _exactly(one)
         except (OverflowError, ValueError):

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single
 
 from .attitudes import first_attitudes
-from .ball import Ball, Floats, in_shape, is_followed, numbers
+from .ball import Ball, Floats, brief, in_shape, is_followed, numbers
 from .errors import BadInput
 from .levels import dispatch
 from .levels.frames import Balls, Frames, given
@@ -357,11 +357,11 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
     """A count from `least` to `most`, or without it 2^62 for all that is larger; raises BadInput for anything else."""
     if type(value) is int and least <= value < MOST_STEPS and (most is None or value <= most):
         return value
-    number = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    number = isinstance(value, int | np.integer) and not isinstance(value, bool | np.timedelta64)
     if not number or value < least or (most is not None and value > most):
         bounded = most is not None and (most < MOST_STEPS or (number and value > most))
         clause = f"to {most}" if bounded else "on"
-        raise BadInput(f"{name} must be a whole number from {least} {clause}, not {value!r}")
+        raise BadInput(f"{name} must be a whole number from {least} {clause}, not {brief(value)}")
     return min(int(value), MOST_STEPS)
 
 
@@ -391,5 +391,5 @@ def seconds(value: Any, positive: bool = True) -> float:
         return value
     epsilon = value if isinstance(value, float) and -math.inf < value < math.inf else numbers(value, "time_step")
     if np.ndim(epsilon) or (positive and not epsilon > 0):
-        raise BadInput(f"time_step must be one {'positive ' if positive else ''}number of seconds, not {value!r}")
+        raise BadInput(f"time_step must be one {'positive ' if positive else ''}number of seconds, not {brief(value)}")
     return float(epsilon)
