@@ -42,6 +42,7 @@ from chapsym.dynamics.ball import (
     Asked,
     Floats,
     batch,
+    brief,
     checked_before,
     numbers,
     over_states,
@@ -256,7 +257,7 @@ def _start(
     if not isinstance(turned, bool):
         turned = initial_attitude(turned, vertical)
     if not isinstance(axes, str) or axes not in ("body", "space"):
-        raise BadInput(f'axes must be "body" or "space", not {axes!r}')
+        raise BadInput(f'axes must be "body" or "space", not {brief(axes)}')
     if axes == "space":
         to_space = attitude_with(vertical) if isinstance(turned, bool) else turned
         spin = kernels.rotate(to_space * _INVERSE, spin)

@@ -368,7 +368,7 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
 def flag(value: bool, name: str) -> bool:
     """True or False; raises BadInput for anything else."""
     if not isinstance(value, bool | np.bool_):
-        raise BadInput(f"{name} must be True or False, not {value!r:.60}")
+        raise BadInput(f"{name} must be True or False, not {brief(value)}")
     return bool(value)
 
 

@@ -266,6 +266,12 @@ def test_the_spread_is_the_distance_from_the_mean_in_logarithms_if_it_grows_expo
     assert figures.draw(dataset, "spread").axes[0].get_yscale() == "log"
 
 
+def test_a_figure_that_cannot_be_drawn_leaves_no_folder(tmp_path):
+    with pytest.raises(BadInput, match="contact: no contact"):
+        figures.save_all(results.bowling(20, outputs=("gamma",)), tmp_path / "new", names=["spheres", "contact"])
+    assert not (tmp_path / "new").exists()
+
+
 def test_what_is_missing_is_said_in_a_sentence():
     dataset = results.bowling(20, outputs=("gamma",))
     found = figures.available(dataset)
