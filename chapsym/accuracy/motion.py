@@ -428,7 +428,8 @@ class Problem:
     @property
     def expected(self) -> float:
         """About how many long steps all balls take."""
-        return float((self.end / self.survey[FIRST]).sum()) if self.frames else 0.0
+        with np.errstate(over="ignore"):  # of what is refused
+            return float((self.end / self.survey[FIRST]).sum()) if self.frames else 0.0
 
     def nothing(self) -> Motion:
         """An empty motion, whose first frame is the start."""
