@@ -537,13 +537,13 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         return found
     done = 0.0
 
-    def told(part: float, others: int = 0) -> None:
+    def report(part: float, others: int = 0) -> None:
         """What is followed again was counted as far as it came."""
         nonlocal done
         done = max(done, others + part)
         progress(done)
 
-    worst, noise, started = _run(problem, problem.survey[FIRST], problem.survey[ALLOWED], found, told)
+    worst, noise, started = _run(problem, problem.survey[FIRST], problem.survey[ALLOWED], found, report)
     if worst <= accuracy:
         progress(len(problem))
         return found
@@ -557,15 +557,15 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         allowed[some] *= more
         first[some] *= more ** (1 / (EXTRAPOLATED - 1))
         part, last = problem.of(some), attempt + 1 == TRIES
-        again, beside = part.nothing(), partial(told, others=len(problem) - len(some))
-        _, noise[some], started[some] = _run(part, first[some], allowed[some], again, beside, last)
+        again, further = part.nothing(), partial(report, others=len(problem) - len(some))
+        _, noise[some], started[some] = _run(part, first[some], allowed[some], again, further, last)
         # Where the steps are not shorter, they are as short as rounding lets them be.
         noise[some[(again.total <= found.total[some]) & ~given_up[some]]] = np.inf
         found.put(some, again)
     poor = np.flatnonzero((found.error > accuracy) & (SENSITIVE * started <= accuracy) | (found.status != Status.TAKEN))
     if len(poor):
         part = problem.of(poor)
-        other = composed(part, partial(told, others=len(problem) - len(poor)))
+        other = composed(part, partial(report, others=len(problem) - len(poor)))
         other.error[:] += np.nan_to_num(SENSITIVE * started[poor])
         # That estimate may miss how sensitive a ball is: it is believed where it is within the accuracy, or alone.
         better = (other.error <= accuracy) | (found.status[poor] != Status.TAKEN)
@@ -591,7 +591,8 @@ def _run(
     )  # fmt: skip
     ends = reported, found.reached, found.status, reach
     few, loop = n < FEW, native.loop(follow)
-    width, quick = 1 if few else TOGETHER, _seconds(problem, first) < QUICK
+    width, shortest = 1 if few else TOGETHER, first.item() if n == 1 else float(first.min())
+    quick = n * (problem.end * STEP + problem.frames * FRAME * shortest) <= QUICK * shortest
     asked, weights = (first, allowed, problem.survey[MOST], problem.survey[START]), loop_weights(MOST_COLUMNS)
     if n == 1 and quick:
         loop(few, *frames, problem.interval, *asked, patient, follows, traced, *weights, *ends)
@@ -628,12 +629,6 @@ def _run(
     counted = turned, "omega" in asked_of, traced and "contact" in asked_of
     worst = native.loop(estimated)(problem.survey, reported, problem.units, *counted, found.error, noise, started)
     return worst, noise, started
-
-
-def _seconds(problem: Problem, first: Floats) -> float:
-    """Nominal seconds of one core, at least, with first steps of these lengths."""
-    shortest = float(first[0] if len(first) == 1 else first.min())
-    return len(first) * (problem.end * STEP / shortest + problem.frames * FRAME) if shortest > 0 else 0.0
 
 
 def composed(problem: Problem, progress: Callable[[float], None] = lambda part: None) -> Motion:
