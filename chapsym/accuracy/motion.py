@@ -591,7 +591,7 @@ def _run(
     )  # fmt: skip
     ends = reported, found.reached, found.status, reach
     few, loop = n < FEW, native.loop(follow)
-    width, shortest = 1 if few else TOGETHER, first.item() if n == 1 else float(first.min())
+    width, shortest = 1 if few else TOGETHER, first.item() if n == 1 else float(first.min(initial=problem.end))
     quick = n * (problem.end * STEP + problem.frames * FRAME * shortest) <= QUICK * shortest
     asked, weights = (first, allowed, problem.survey[MOST], problem.survey[START]), loop_weights(MOST_COLUMNS)
     if n == 1 and quick:

@@ -335,6 +335,11 @@ def test_roll_refuses_what_is_no_answer_to_an_option(name, wrong):
         chapsym.roll(Ball((1, 2, 3), 1.0, radius=1.0), (1.0, 2.0, 3.0), 0.1, 10, **{name: wrong})
 
 
+def test_a_batch_without_balls_has_no_motion():
+    ball = Ball(np.ones((0, 3)), np.ones(0), radius=np.ones(0))
+    assert chapsym.roll(ball, (1.0, 2.0, 3.0), 0.1, 10, contact=True).contact.shape == (0, 11, 2)
+
+
 @pytest.mark.parametrize("call", ["trajectory", "extrapolate", "Stepper"])
 def test_contact_is_true_or_false(call):
     start = {"trajectory": (10,), "extrapolate": (1.0, 10), "Stepper": ()}[call]
