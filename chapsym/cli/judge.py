@@ -10,6 +10,9 @@ from .output import fail, print_json, telling
 if TYPE_CHECKING:
     from chapsym.studies.judge import Convergence
 
+#: Said of a table without an attitude, of which only height and slip can be judged.
+NONE = ", without an attitude, from which its motion would begin"
+
 
 @app.command()
 def judge(
@@ -26,6 +29,7 @@ def judge(
     """Judge an engine: how far its ball is from where a ball that rolls without slipping is.
 
     The columns are time, x, y, z, qw, qx, qy, qz and, for energy and momentum, vx, vy, vz, wx, wy, wz: m, s, rad, z up.
+    A table without an attitude is judged by what it has.
     Three files or more, with steps in one ratio, tell the order, and what no step takes away.  Other names of columns,
     and the form t x y z qx qy qz qw without names, are known.  Where the first row is in another convention than the
     motion (quaternion, axes, units), that is said, and there is no verdict.
@@ -54,7 +58,7 @@ def judge(
     found = [departure(case, run) for run in runs]
     known: dict[str, Convergence] = {}
     if len(runs) > 2:
-        known = {name: convergence(case, runs, name) for name in ("path", "attitude")}
+        known = {name: convergence(case, runs, name) for name in ("path", "attitude") if name in found[0]}
     elif len(runs) == 2:
         fail("give one result, or three or more with steps in one ratio: two do not tell an order", 2)
     if output is not None:
@@ -71,7 +75,8 @@ def judge(
         )
         return
     for run, one in zip(runs, found, strict=True):
-        print(f"{run.file}{'' if run.step is None else f', step {run.step:g} s'}, against {case.name}:")
+        step = "" if run.step is None else f", step {run.step:g} s"
+        print(f"{run.file}{step}, against {case.name}{NONE if case.own else ''}:")
         for line in lines(summary(one, case.time)):
             print(f"  {line}")
     for name, several in known.items():

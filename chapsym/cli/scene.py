@@ -38,9 +38,10 @@ def new(
     Example: chapsym scene new my-ball.toml --example robot
     """
     from chapsym.files import write_text
+    from chapsym.scene.members.members import ball_of
     from chapsym.scene.read import schema as examples
 
-    text = examples.example(example) if from_ is None else examples.of_robot(from_)
+    text = examples.example(example) if from_ is None else examples.of_robot(from_, ball_of(from_)[0])
     if file.suffix != ".toml":
         fail(f"{str(file)!r}: a scene must end in .toml", 2)
     if (file.exists() or file.is_symlink()) and not force:

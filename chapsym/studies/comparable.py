@@ -16,15 +16,15 @@ import numpy as np
 
 from chapsym.dynamics.errors import BadInput
 
-from .judge import Case, angle, rolling
+from .judge import Case, angle, equal, rolling
 from .judge_tables import MORE, NEEDED, Table, Trajectory, in_space
 
 #: How far the first row may be from the start, relatively, beyond its digits: more than float32 rounds; and where a
 #: soft contact gives way: the height of the centre, and the velocity of a ball that starts by itself.
 NEAR, SOFT = 1e-5, 0.02
-#: Another convention is meant where it is nearer by the first factor and this one is off by more than the second, in
-#: degrees; none is sought beyond one that is as near as the last number says.
-NEARER, FAR, FITS = 5.0, 10.0, 0.1
+#: Another convention is meant where it is nearer by the first factor and off by less than the second number, and this
+#: one by more than the third, in degrees; none is sought beyond one that is as near as the last number says.
+NEARER, FAR, SEEN, FITS = 5.0, 10.0, 1.0, 0.1
 #: Of two readings the later is better where it is off by less than this part of what the earlier is, as they round.
 SAME = 0.999
 #: Velocities are of the body where, read in space, they are off by more than this part of the greatest.
@@ -111,18 +111,24 @@ TURNING: tuple[Way, ...] = (PLAIN, (_DEGREES, np.radians))
 def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
     """A trajectory as it is and in all other conventions, with what each does otherwise, the fewest first."""
     found = []
+    none = run.attitude is None
     for (frame, upturn), order, sense, unit, speed, rate, body in product(
-        AXES, ORDERS, SENSES, UNITS, (False, True), TURNING, ("", _OF_BODY, _TWIST)
+        AXES,
+        *((PLAIN,), (PLAIN,)) if none else (ORDERS, SENSES),
+        UNITS,
+        (False, True),
+        TURNING,
+        ("",) if none else ("", _OF_BODY, _TWIST),
     ):
         if speed and unit is PLAIN:
             continue
-        attitude = upturn[1](sense[1](order[1](run.attitude)))
+        attitude = None if run.attitude is None else upturn[1](sense[1](order[1](run.attitude)))
         velocity, omega = run.velocity, run.omega
         if velocity is not None:
             velocity = unit[1](velocity) if speed else velocity
-            velocity = in_space(attitude, velocity) if body is _TWIST else frame[1](velocity)
+            velocity = in_space(attitude, velocity) if attitude is not None and body is _TWIST else frame[1](velocity)
         if omega is not None:
-            omega = rate[1](in_space(attitude, omega) if body else frame[1](omega))
+            omega = rate[1](in_space(attitude, omega) if attitude is not None and body else frame[1](omega))
             omega = -omega if frame[0] == _UNITY and not body else omega
         read = replace(run, centre=frame[1](unit[1](run.centre)), attitude=attitude, velocity=velocity, omega=omega)
         differences = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], body]
@@ -173,10 +179,10 @@ def _check(
     fits = [(differences, read) for differences, read in _readings(run) if not _apart(read, start(read), soft)]
     plain, best, slips = np.inf, np.inf, list[str]()
     for names, read in fits:
-        off = float(angle(second(read), read.attitude[1]))
+        off = 0.0 if read.attitude is None else float(angle(second(read), read.attitude[1]))
         if not names:
             plain = off
-            if off <= FAR:
+            if off <= SEEN:
                 return
         if off < SAME * best:
             best, slips = off, names
@@ -208,6 +214,8 @@ def check_axes(case: Case, run: Trajectory) -> None:
 
     The first row does not show it, if its attitude is no turn.
     """
+    if run.attitude is None:
+        return
     near = angle(case.attitude, run.attitude) <= FAR
     for part, truth, said in (("velocity", case.moving, _TWIST), ("omega", case.omega, _OF_BODY)):
         values, size = getattr(run, part), np.abs(truth).max()
@@ -243,12 +251,12 @@ def _check_units(table: Table, file: Path, radius: float) -> None:
 def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: float = 600.0) -> Case:
     """The certified motion of the ball of a file from the first row of a table, at its own times from there.
 
-    Raises BadInput where the row is not the start of a ball that rolls, and where another convention fits better.
+    Without an attitude, which the motion of a ball with different moments needs, the motion is the file's own.  Raises
+    BadInput where the row is not the start of a ball that rolls, and where another convention fits better.
     """
     from chapsym.scene.members.exactly import exact_motion
-    from chapsym.scene.members.members import expand
-    from chapsym.scene.read.errors import SceneError
-    from chapsym.scene.read.scene import ball_place, ball_table, checked, written
+    from chapsym.scene.members.members import ball_of, one_ball
+    from chapsym.scene.read.scene import checked, written
 
     times = table.exact_times()
     if len(times) < 2:
@@ -260,25 +268,20 @@ def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: f
     if first.omega is None:
         clause = "has no column wx, wy or wz: the motion begins with the angular velocity of the first row"
         raise BadInput(f"{table.file} {clause}")
-    ball = {key: value for key, value in ball_table(file).items() if key != "name"}
+    ball, members = ball_of(file)
 
-    def scene(read: Trajectory, text: bool) -> Any:
-        """Its scene; with its text, which has numbers exactly, or without, so that errors name no line of it."""
-        spin, place = np.asarray(read.omega)[0].tolist(), read.centre[0, :2].tolist()
-        start = {"attitude": read.attitude[0].tolist(), "omega": spin, "axes": "space", "position": place}
-        whole = written("ball", ball) + written("start", start) + written("run", {"time": 1, "frames": 1})
-        return checked(tomllib.loads(whole), str(file), whole if text else None)
+    def attitude(read: Trajectory) -> np.ndarray:
+        """The first; any, where there is none: the ball then has equal moments, or its motion is not asked for."""
+        return np.array([1.0, 0.0, 0.0, 0.0]) if read.attitude is None else read.attitude[0]
 
     def motion(read: Trajectory, times: list[Fraction]) -> Case:
-        whole = scene(read, text=True)
-        return certified(file.stem, whole, exact_motion(whole)[0], times, progress, limit)
+        spin, place = np.asarray(read.omega)[0].tolist(), read.centre[0, :2].tolist()
+        start = {"attitude": attitude(read).tolist(), "omega": spin, "axes": "space", "position": place}
+        text = written("ball", ball) + written("start", start) + written("run", {"time": 1, "frames": 1})
+        scene = checked(tomllib.loads(text), str(file), text)  # with its text, which has numbers exactly
+        return certified(file.stem, scene, exact_motion(scene)[0], times, progress, limit)
 
-    try:
-        radius = expand(scene(first, text=False)).ball.radius
-    except SceneError as error:
-        if error.misfit is None or error.misfit.path[0] != "ball":
-            raise
-        raise BadInput(f"{ball_place(file, str(error.misfit.path[1]))}: {error.misfit}") from None
+    radius = members.ball.radius
     if radius is None:
         raise BadInput(f"{file}: the ball needs its radius, with its mass")
     _check_units(table.from_zero(), file, float(radius[0]))
@@ -287,9 +290,17 @@ def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: f
     probe = next((at for at in chosen[1:] if float(at) * speed >= TURNED), chosen[-1])
     _check(
         table.from_zero().at(np.array([0.0, float(probe)])), "a ball that rolls",
-        lambda read: _rolling(read.centre[0, :2], float(radius[0]), read.attitude[0], np.asarray(read.omega)[0]),
+        lambda read: _rolling(read.centre[0, :2], float(radius[0]), attitude(read), np.asarray(read.omega)[0]),
         lambda read: motion(read, [Fraction(0), probe]).attitude[1], SOFT,
     )  # fmt: skip
+    inertia = one_ball(members, 0).inertia
+    if first.attitude is None and not equal(inertia):
+        time = np.array([float(at) for at in chosen])
+        run = table.from_zero().at(time)
+        any_turn = np.broadcast_to(attitude(run), (len(time), 4))
+        omega = np.asarray(run.omega)
+        mass = float(members.ball.D[0] / radius[0] ** 2)
+        return Case(file.stem, mass, float(radius[0]), inertia, time, run.centre[:, :2], any_turn, omega, own=True)
     return motion(first, chosen)
 
 

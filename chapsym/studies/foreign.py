@@ -11,7 +11,7 @@ from chapsym.dynamics.labelled import TIME, Arrays, Labelled, about, coordinates
 from chapsym.dynamics.outputs import OUTPUTS
 
 from .judge import rolling
-from .judge_tables import MORE, NEEDED, Table, in_space, read_table
+from .judge_tables import JUDGED, MORE, NEEDED, Table, in_space, read_table
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -32,7 +32,7 @@ def table_of(file: Path) -> Table:
     Raises BadInput, one sentence, for what is neither.
     """
     if not _is_result(file):
-        return read_table(file)
+        return read_table(file, JUDGED)
     from chapsym.scene.result import formats  # which needs an extra
 
     data = formats.load(file)

@@ -29,7 +29,8 @@ class Case:
     inside in kg m²/s, in the axes of the body, (3,).  velocity: of the centre of a ball that slides, m/s in space,
     (frames, 3); None: it rolls.  friction: Coulomb's coefficient of a ball that slides.  offset: the centre of mass
     from the centre in m, in the axes of the body, (3,); then `inertia` is about the centre of mass.  gravity: in m/s²,
-    where it counts: of a ball that slides, and of one with an offset.
+    where it counts: of a ball that slides, and of one with an offset.  own: the motion is the file's own, as none is
+    known without an attitude; what it is by itself can be judged: its height and its slip.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Case:
     friction: float | None = None
     gravity: float | None = None
     offset: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    own: bool = False
 
     @property
     def moving(self) -> np.ndarray:
@@ -87,7 +89,7 @@ def read_case(file: Path) -> Case:
             raise ValueError
         return Case(
             str(data["case"]), mass, radius, inertia, time, path, attitude, in_space(attitude, omega), rotor,
-            velocity if sliding else None, offset=offset, **forces,
+            velocity if sliding else None, forces.get("friction"), forces.get("gravity"), offset,
         )  # fmt: skip
     except OSError as error:
         raise BadInput(f"{file} cannot be read: {error.strerror or error}") from None
@@ -132,26 +134,37 @@ def departure(case: Case, found: Trajectory) -> Departure:
     vector in space, are from the true ones, per cent of those at the start: a ball that begins at rest has none.
     height: of the centre above the radius, m.  slip, with velocities: the velocity of the ball's point at the floor
     less the true one, which is 0 in rolling, m/s.
+    Without attitudes, energy and momentum are those of a ball with equal moments only.
     A body that nothing touches has neither height nor slip, its path is from the centre to where it stays, and its
     momentum is about the centre.
     """
     free = not case.radius
     place = np.column_stack([case.path, np.full(len(case.path), case.radius)])
     path = np.linalg.norm((found.centre - place)[:, : 3 if free else 2], axis=-1)
-    parts = {"path": path, "attitude": angle(case.attitude, found.attitude)}
+    parts = {} if case.own else {"path": path}
+    attitude = case.attitude if found.attitude is None and equal(case.inertia) else found.attitude
+    if found.attitude is not None:
+        parts["attitude"] = angle(case.attitude, found.attitude)
     height = {} if free else {"height": found.centre[:, 2] - case.radius}
     if found.velocity is None or found.omega is None:
         return parts | height
-    known = carried(case, case.attitude, case.moving, case.omega)
-    own = carried(case, found.attitude, found.velocity, found.omega)
-    energy, momentum = known[0][0], np.linalg.norm(known[1][0])
-    if energy and momentum:  # a ball at rest has neither
-        parts["energy"] = 100 * (own[0] - known[0]) / energy
-        parts["momentum"] = 100 * np.linalg.norm(own[1] - known[1], axis=-1) / momentum
+    if attitude is not None and not case.own:
+        known = carried(case, case.attitude, case.moving, case.omega)
+        own = carried(case, attitude, found.velocity, found.omega)
+        energy, momentum = known[0][0], np.linalg.norm(known[1][0])
+        if energy and momentum:  # a ball at rest has neither
+            parts["energy"] = 100 * (own[0] - known[0]) / energy
+            parts["momentum"] = 100 * np.linalg.norm(own[1] - known[1], axis=-1) / momentum
     if free:
         return parts
     slip = found.velocity - rolling(case.radius, found.omega) - case.moving + rolling(case.radius, case.omega)
     return parts | height | {"slip": np.linalg.norm(slip[:, :2], axis=-1)}
+
+
+def equal(inertia: np.ndarray) -> bool:
+    """Whether moments, or a tensor, are those of a ball that moves alike from every attitude."""
+    tensor = np.diag(inertia) if inertia.ndim == 1 else inertia
+    return bool(np.allclose(tensor, tensor[0, 0] * np.eye(3), rtol=0, atol=1e-12 * tensor[0, 0]))
 
 
 def angle(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -221,7 +234,7 @@ def convergence(case: Case, runs: Sequence[Trajectory], of: str = "path") -> Con
     if of == "path":
         points, truth, apart = [run.centre[:, :2] for run in runs], case.path, _distance
     else:
-        points, truth, apart = [_turned(case, run) for run in runs], case.attitude, angle
+        points, truth, apart = [_turned(case, run.attitude) for run in runs], case.attitude, angle
     away = [float(apart(a, b).max()) for a, b in pairwise(points)]
     if not 0 < away[-1] < away[-2]:
         return Convergence(None, None, None)
@@ -230,10 +243,11 @@ def convergence(case: Case, runs: Sequence[Trajectory], of: str = "path") -> Con
     return Convergence(power, float(apart(points[-1], limit).max()), float(apart(limit, truth).max()))
 
 
-def _turned(case: Case, run: Trajectory) -> np.ndarray:
+def _turned(case: Case, attitude: np.ndarray | None) -> np.ndarray:
     """The attitudes, of their two signs those nearer to the truth."""
-    along = (run.attitude * case.attitude).sum(axis=-1, keepdims=True)
-    return np.where(along < 0, -run.attitude, run.attitude)
+    assert attitude is not None
+    along = (attitude * case.attitude).sum(axis=-1, keepdims=True)
+    return np.where(along < 0, -attitude, attitude)
 
 
 def _distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -14,6 +14,8 @@ from chapsym.dynamics.errors import BadInput
 
 NEEDED = ("time", "x", "y", "z", "qw", "qx", "qy", "qz")
 MORE = ("vx", "vy", "vz", "wx", "wy", "wz")
+#: Without these a table is not judged; without an attitude by what it has.
+JUDGED = NEEDED[:4]
 #: The columns of a table without names: TUM, as trackers write it.
 TUM = ("time", "x", "y", "z", "qx", "qy", "qz", "qw")
 #: Numbers from here on are of no ball.
@@ -55,14 +57,14 @@ MARKS = "\t;,"
 class Trajectory:
     """The rows of a file at the frames of a case.
 
-    centre in m, (frames, 3).  attitude: unit quaternions, (frames, 4).  velocity of the centre in m/s and omega in
-    rad/s, in space, (frames, 3), or None.  step: that of the engine in s, from a line "# time_step = 0.001", or None.
-    digit: a unit of the last digit of each of them in the first row, by name.
+    centre in m, (frames, 3).  attitude: unit quaternions, (frames, 4), or None.  velocity of the centre in m/s and
+    omega in rad/s, in space, (frames, 3), or None.  step: that of the engine in s, from a line "# time_step = 0.001",
+    or None.  digit: a unit of the last digit of each of them in the first row, by name.
     """
 
     file: str
     centre: np.ndarray
-    attitude: np.ndarray
+    attitude: np.ndarray | None
     velocity: np.ndarray | None
     omega: np.ndarray | None
     step: float | None
@@ -95,7 +97,8 @@ class Table:
         part = replace(self, columns={name: column[at] for name, column in self.columns.items()})
         centre, velocity, omega = (part.vectors(names) for names in (NEEDED[1:4], MORE[:3], MORE[3:]))
         assert centre is not None
-        return Trajectory(str(self.file), centre, part.attitudes(), velocity, omega, self.step, self.digit)
+        attitude = None if part.vectors(NEEDED[4:]) is None else part.attitudes()
+        return Trajectory(str(self.file), centre, attitude, velocity, omega, self.step, self.digit)
 
     def vectors(self, names: Sequence[str]) -> np.ndarray | None:
         """Some columns together, (rows, names); None where one is not there."""
@@ -138,10 +141,13 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
     names = _names(head)
     if rows and len(names) == len(TUM) and not np.isnan([*map(_number, head)]).any():
         names, head, rows = list(TUM), list(TUM), ["", *rows]
-    if missing := [name for name in needed if name not in names]:
-        if missing[0] in NEEDED[4:] and (angles := [cell for cell in head if _ANGLES.fullmatch(_words(cell)[0])]):
-            clause = f"has the columns {', '.join(angles[:3])}, angles whose order has many conventions"
-            raise BadInput(f"{file} {clause}: write the attitude as a quaternion, qw,qx,qy,qz")
+    whole = {*needed, *NEEDED[4:]} if {*NEEDED[4:]} & {*names} else needed  # four numbers of a quaternion, or none
+    missing = [name for name in NEEDED if name in whole and name not in names]
+    angles = [cell for cell in head if _ANGLES.fullmatch(_words(cell)[0])]
+    if angles and "qw" not in names and "z" in needed and missing[:1] in ([], ["qw"]):  # a drawing goes without
+        clause = f"has the columns {', '.join(angles[:3])}, angles whose order has many conventions"
+        raise BadInput(f"{file} {clause}: write the attitude as a quaternion, qw,qx,qy,qz")
+    if missing:
         raise BadInput(f"{file} has no column {missing[0]}: its first row must name {','.join((*NEEDED, *MORE))}")
     where = {name: i for i, name in enumerate(names) if name in (*NEEDED, *MORE)}
     if twice := [name for name in where if names.count(name) > 1]:

@@ -235,9 +235,56 @@ BALLS = {"a.urdf": BODY, "an.xml": MJCF, "a.toml": TOML, "a list.toml": TOML.rep
     ],
 )
 def test_a_ball_that_physics_refuses_is_refused_where_the_user_wrote_it(rows, tmp_path, name, old, new, said):
-    file = tmp_path / name
+    file, scene = tmp_path / name, tmp_path / "new.toml"
     file.write_text(BALLS[name].replace(old, new), encoding="utf-8")
     assert f"{file}, {said}" in refused("judge", write(tmp_path, rows), "--body", file)
+    if file.suffix != ".toml":
+        assert f"{file}, {said}" in refused("scene", "new", scene, "--from", file)
+        assert not scene.exists()
+
+
+def alike(folder):
+    """A ball with equal moments, and its closed motion: ω is constant in space."""
+    file, time = folder / "alike.urdf", np.arange(5) / 100
+    file.write_text(BODY.replace("0.0061", "0.0046").replace("0.0083", "0.0046"), encoding="utf-8")
+    w, start = np.array([-0.72, -20.0, -31.04]), np.array([0.6, 0.0, 0.8, 0.0])
+    half, along = np.linalg.norm(w) * time / 2, w / np.linalg.norm(w)
+    turn = np.cos(half)[:, np.newaxis] * start[0], np.sin(half)[:, np.newaxis] * along
+    scalar = turn[0][:, 0] - turn[1] @ start[1:]
+    vector = np.cos(half)[:, np.newaxis] * start[1:] + start[0] * turn[1] + np.cross(turn[1], start[1:])
+    v = 0.105 * np.array([w[1], -w[0], 0.0])
+    still = np.ones((5, 1))
+    parts = [time, *np.outer(v, time)[:2], 0.105 * still[:, 0], scalar, *vector.T, *(still * v).T, *(still * w).T]
+    return file, dict(zip((*NEEDED, *MORE), parts, strict=True))
+
+
+def test_a_quaternion_in_another_order_is_named_where_it_turns_nearly_alike(tmp_path):
+    """Read in the other order it is 9 degrees off after half a radian."""
+    file, rows = alike(tmp_path)
+    assert answer("judge", write(tmp_path, rows), "--body", file)["results"][0]["departure"]["attitude"]["end"] < 1e-5
+    moved = with_parts(rows, Q, [rows[name] for name in ("qx", "qy", "qz", "qw")])
+    assert "its quaternion has the scalar last" in refused("judge", write(tmp_path, moved), "--body", file)
+
+
+def test_a_table_without_an_attitude_is_judged_by_what_it_has(rows, body, scene, tmp_path):
+    def found(table, *case):
+        return answer("judge", write(tmp_path, table), *case)["results"][0]["departure"]
+
+    def without(table):
+        return {name: values for name, values in table.items() if name not in Q}
+
+    sliding = with_parts(rows, ["vx"], [rows["vx"] + 0.25 * (rows["time"] > 1)])
+    for case, parts in ((("--against", scene), {"path", "height", "slip"}), (("--body", body), {"height", "slip"})):
+        judged = found(without(sliding), *case)
+        assert set(judged) == parts
+        assert judged["slip"]["greatest"] == pytest.approx(0.25)
+    file, table = alike(tmp_path)
+    judged = found(without(table), "--body", file)
+    assert set(judged) == {"path", "energy", "momentum", "height", "slip"}
+    assert max(part["greatest"] for part in judged.values()) < 1e-9
+    assert "its y is up" in refused("judge", write(tmp_path, without(y_up(rows))), "--body", body)
+    part = {name: values for name, values in rows.items() if name != "qy"}
+    assert "has no column qy" in refused("judge", write(tmp_path, part), "--body", body)
 
 
 def test_of_several_results_each_has_the_start_of_the_others(rows, body, tmp_path):

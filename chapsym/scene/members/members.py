@@ -1,9 +1,11 @@
 """The balls of a scene with their starts, as arrays: every range spelled out, in principal axes, checked."""
 
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from operator import attrgetter
+from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
@@ -18,7 +20,7 @@ from chapsym.dynamics.principal_axes import attitude_to_principal, from_inertia_
 from ..read.bodies import KEYS, PRESETS, check_inside, rounded_by, size_rounded_by
 from ..read.errors import Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
-from ..read.scene import Scene
+from ..read.scene import Scene, ball_place, ball_table, checked, written
 from ..read.tables import ATTITUDES, SCALAR_FIRST, BallTable, StartTable, ranges_of
 
 #: What is this near to a unit vector was meant to be one, and is divided by its length.
@@ -80,6 +82,22 @@ def _some(ball: Ball | BallN, chosen: int | slice | np.ndarray) -> Ball | BallN:
 
 
 # From a scene to its balls.
+
+
+def ball_of(file: Path) -> tuple[dict[str, Any], Members]:
+    """[ball] of a scene or of a robot's file, as `ball_table` has it, and the ball.
+
+    Raises SceneError, which names the key or the element of that file and its line, for what no body can have.
+    """
+    table = ball_table(file)
+    ball = written("ball", {key: value for key, value in table.items() if key != "name"})
+    start = written("start", {"omega": [0, 0, 1]}) + written("run", {"time": 1, "frames": 1})
+    try:
+        return table, expand(checked(tomllib.loads(ball + start), str(file)))
+    except SceneError as error:
+        if error.misfit is None or error.misfit.path[0] != "ball":
+            raise
+        raise SceneError(f"{ball_place(file, str(error.misfit.path[1]))}: {error.misfit}") from None
 
 
 def expand(scene: Scene) -> Members:

@@ -175,6 +175,8 @@ class _Reader:
             what = unbalanced("the centre of mass of <inertial>", length, float(rho))
             raise self._refused(inertial, what)
         mass = self._value(inertial, "mass", "value")
+        own = inertial.find("mass")
+        self._number(mass, inertial if own is None else own)
         return name | {"inertia": self._tensor(inertial, turn), "mass": mass, "radius": radius}
 
     def check_filled_in(self) -> None:

@@ -153,7 +153,7 @@ def ball_table(path: Path) -> dict[str, Any]:
 
     A scene needs neither start nor run for it.
     """
-    if path.suffix in robots.SUFFIXES:
+    if path.suffix != ".toml":
         return robots.table(path)
     text = _text(path)
     checked({"start": {"omega": [0, 0, 1]}, "run": {"time": 1, "frames": 1}} | _parsed(text, path), str(path), text)
@@ -165,7 +165,7 @@ def ball_table(path: Path) -> dict[str, Any]:
 
 def ball_place(path: Path, key: str) -> str:
     """The file of a ball, the line and what is there that says this key of `ball_table`."""
-    if path.suffix in robots.SUFFIXES:
+    if path.suffix != ".toml":
         return robots.place(path, key)
     text = _text(path)
     keys = ("ball", 0, key) if isinstance(_parsed(text, path)["ball"], list) else ("ball", key)

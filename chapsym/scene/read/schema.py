@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from .errors import SceneError
-from .robots import table
 from .scene import Scene, written
 from .units import KNOWN, PURE, Dimension
 
@@ -127,8 +126,8 @@ def example(name: str = DEFAULT) -> str:
     return HEADER + (files("chapsym.scene.examples") / f"{name}.toml").read_text(encoding="utf-8")
 
 
-def of_robot(path: Path) -> str:
-    """A scene with the ball of a robot's file; its start and its run are to be changed."""
-    ball = written("ball", table(path))
+def of_robot(path: Path, table: dict[str, Any]) -> str:
+    """A scene with the table of the ball of a robot's file; its start and its run are to be changed."""
+    ball = written("ball", table)
     start = 'omega = ["60 rpm", 0.0, 0.0]    # body axes, or: velocity = [1.0, 0.0]\ngamma = [0.0, 0.0, 1.0]'
     return f"# The ball of {path.name}.\n{ball}\n[start]\n{start}\n\n[run]\ntime = 10.0\nframes = 500\ncontact = true\n"
