@@ -109,6 +109,11 @@ def cut(chunk):
     chunk.write_bytes(chunk.read_bytes()[: chunk.stat().st_size // 2])
 
 
+def emptied(chunk):
+    """As a full disk leaves it."""
+    chunk.write_bytes(b"")
+
+
 def turned(chunk):
     content = bytearray(chunk.read_bytes())
     content[len(content) // 2] ^= 1
@@ -119,9 +124,11 @@ def turned(chunk):
     ("damage", "name", "after"),
     [
         (cut, "gamma", UNITS), (turned, "taken", UNITS), (Path.unlink, "mass_tensor", UNITS),
-        (cut, "taken", 7), (turned, "mass_tensor", 7), (Path.unlink, "gamma", 7),
+        (emptied, "gamma", UNITS), (cut, "taken", 7), (turned, "mass_tensor", 7), (Path.unlink, "gamma", 7),
         *slow(*(
-            (damage, name, UNITS) for damage in (cut, turned, Path.unlink) for name in ("gamma", "taken", "mass_tensor")
+            (damage, name, UNITS)
+            for damage in (cut, emptied, turned, Path.unlink)
+            for name in ("gamma", "taken", "mass_tensor")
         )),
     ],
 )  # fmt: skip

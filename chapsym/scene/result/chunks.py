@@ -22,8 +22,8 @@ BYTES = 4
 
 
 def sound(content: bytes) -> bool:
-    """Whether a chunk ends in the checksum of the rest."""
-    return int.from_bytes(content[-BYTES:], "little") == crc32c(content[:-BYTES])
+    """Whether a chunk ends in the checksum of the rest; one that is cut to nothing has none, and would be 0."""
+    return len(content) > BYTES and int.from_bytes(content[-BYTES:], "little") == crc32c(content[:-BYTES])
 
 
 def is_sound(chunk: Path) -> bool:
