@@ -44,6 +44,7 @@ from chapsym.dynamics.ball import (
     batch,
     brief,
     checked_before,
+    exact_array,
     numbers,
     over_states,
     unit_vertical,
@@ -70,7 +71,7 @@ from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 from chapsym.dynamics.map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
 from chapsym.generated import contact_momentum
-from chapsym.numbers import Precision
+from chapsym.numbers import Digits, Enclosure, Precision
 
 #: Where the contact point begins.
 HERE = (0.0, 0.0)
@@ -168,7 +169,8 @@ def roll(
     order : int, optional
         As of `trajectory`; it replaces the motion by the map, as `map` does.
     precision : str or Precision, optional
-        As of `trajectory`; it replaces the motion by the map, as `map` does.
+        As of `trajectory`; it replaces the motion by the map, as `map` does.  On `Digits` and `Enclosure` 𝒦 is that
+        of the numbers as given; what an attitude turns, γ or ω of the axes of space, has the digits of float64.
     map : bool, optional
         Whether to replace the motion by the map in steps of `time_step`, as `trajectory` does, with
         𝒦 = ε(Λω - D⟨ω,γ⟩γ).
@@ -218,12 +220,23 @@ def roll(
     if flag(proved, "proved") and (ball.axes is not None or not ball.is_one or spin.ndim > 1 or vertical.ndim > 1):
         raise BadInput("proved=True takes one ball in principal axes, and all vectors in these")
     try:
-        run = _rolled(
-            ball, spin, vertical, turned, flag(contact, "contact"), "double" if precision is None else precision,
-            seconds(time_step), whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1),
-            2 if order is None else order, None if by_map else _accuracy(accuracy),
-            whole_number(threads, "threads", 0), progress, bool(proved) and by_map,
-        )  # fmt: skip
+        if isinstance(precision, Digits | Enclosure) and ball.axes is None:
+            turned_before = axes == "space" and not (gamma is None and isinstance(turned, bool))
+            momentum, upwards = _exact_momentum(
+                ball, spin if turned_before else omega, vertical if gamma is None else gamma, time_step
+            )
+            run = trajectory(
+                ball, momentum, upwards, steps, order=2 if order is None else order, every=every, attitude=turned,
+                contact=contact, time_step=seconds(time_step), precision=precision, proved=proved, threads=threads,
+                progress=progress,
+            )  # fmt: skip
+        else:
+            run = _rolled(
+                ball, spin, vertical, turned, flag(contact, "contact"), "double" if precision is None else precision,
+                seconds(time_step), whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1),
+                2 if order is None else order, None if by_map else _accuracy(accuracy),
+                whole_number(threads, "threads", 0), progress, bool(proved) and by_map,
+            )  # fmt: skip
     except StepNotTaken as error:
         if contact and place is not None:
             error.trajectory = put_at(error.trajectory, place)
@@ -262,6 +275,15 @@ def _start(
         to_space = attitude_with(vertical) if isinstance(turned, bool) else turned
         spin = kernels.rotate(to_space * _INVERSE, spin)
     return spin, vertical, turned
+
+
+def _exact_momentum(ball: Ball, omega: ArrayLike, gamma: ArrayLike, time_step: Any) -> tuple[np.ndarray, np.ndarray]:
+    """𝒦 = ε(Λω - D⟨ω,γ⟩γ/⟨γ,γ⟩), as γ is divided by its length, and γ: in Fractions, of the numbers as given."""
+    seconds(time_step)  # refuses what is none
+    J, D, epsilon, spin, upwards = map(exact_array, (*ball.exact[:2], time_step, omega, gamma))
+    along, length = ((x * upwards).sum(axis=-1, keepdims=True) for x in (spin, upwards))
+    turning = (J.sum(axis=-1, keepdims=True) - J) * spin
+    return epsilon * (turning + D[..., np.newaxis] * (spin - along / length * upwards)), upwards
 
 
 @in_given_axes

@@ -2,17 +2,20 @@
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
 import unstable_starts
 from commands import chapsym as command
+from sympy import Rational
 
 import chapsym
 from chapsym.accuracy import motion
 from chapsym.accuracy.motion import EXTRAPOLATED, LAW, Problem, apart, composed, moved, omega_of
 from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, kernels
 from chapsym.dynamics.attitudes import attitude_with
+from chapsym.dynamics.levels.start import fraction
 from chapsym.scene import checked
 from chapsym.scene.plan.models import accurate_parts
 from chapsym.scene.plan.plan import plan_of
@@ -431,3 +434,21 @@ def test_a_long_run_shows_progress_and_ends_where_it_is_interrupted(balls):
     ball = Ball.from_inertia(INERTIA, mass=2.0, radius=np.full(balls, 0.1) if balls > 1 else 0.1, batch=balls > 1)
     with pytest.raises(Ended):
         chapsym.roll(ball, (3, -2, 1), 100.0, 1000, accuracy=1e-4, progress=progress)
+
+
+@pytest.mark.parametrize("kind", [lambda x: x, lambda x: Rational(x.numerator, x.denominator)])
+def test_numbers_that_are_given_exactly_are_not_rounded_on_the_way_to_more_digits(kind):
+    """In enclosures the truth is in frame 0, for γ of another length, too; floats are the binary numbers they are."""
+    J, D, epsilon = (Fraction(1, 3), Fraction(2, 3), Fraction(4, 3)), Fraction(10, 7), Fraction(1, 10)
+    omega, gamma = (Fraction(1, 3), Fraction(-1, 7), Fraction(1, 11)), (Fraction(2, 7), Fraction(3, 7), Fraction(6, 7))
+    along = sum(a * b for a, b in zip(omega, gamma, strict=True))
+    K = [epsilon * ((sum(J) - j) * w + D * (w - along * g)) for j, w, g in zip(J, omega, gamma, strict=True)]
+    J, omega, gamma = ([kind(x) for x in numbers] for numbers in (J, omega, gamma))
+    ball = chapsym.Ball(J, kind(D))
+    run = chapsym.roll(ball, omega, kind(epsilon), 1, gamma=gamma, precision=chapsym.Enclosure(120))
+    for x, truth in zip(run.momentum[0], K, strict=True):
+        assert abs(fraction(x) - truth) <= fraction(x.rad()) < 1e-30
+    run = chapsym.roll(ball, omega, kind(epsilon), 1, gamma=gamma, precision=chapsym.Digits(40))
+    assert abs(fraction(run.momentum[0][0]) - K[0]) < 1e-40
+    floats = chapsym.roll(ball, [float(x) for x in omega], 0.1, 1, gamma=gamma, precision=chapsym.Enclosure(120))
+    assert abs(fraction(floats.momentum[0][0]) - K[0]) > 1e-20
