@@ -8,10 +8,11 @@ from pathlib import Path
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
 #: What is copied, and what it imports instead of chapsym.
-COPIED = ("chapsym/studies/judge.py", "chapsym/studies/judge_tables.py", "generated/rotation.py")
+COPIED = ("chapsym/studies/judge.py", "chapsym/studies/judge_tables.py", "chapsym/files.py", "generated/rotation.py")
 OWN = {
     "from chapsym.dynamics.errors import BadInput": "from .errors import BadInput",
     "from chapsym import generated": "from . import rotation as generated",
+    "from chapsym import files": "from . import files",
 }
 ERRORS = '''"""What is wrong with a file, in one sentence."""
 

@@ -8,7 +8,7 @@ True
 (1.9, 0.105, 10.0)
 """
 
-from importlib.resources import as_file, files
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,7 @@ def case(name: str) -> Case:
     """A ball and its motion, in float64; raises BadInput for a name that is none."""
     if name not in names():
         raise BadInput(f"{name!r} is no case; those are {', '.join(names())}")
-    with as_file(_data() / f"{name}.json") as file:
+    with resources.as_file(_data() / f"{name}.json") as file:
         return read_case(file)
 
 
@@ -71,4 +71,4 @@ def judge(run: Any, of: str | Case) -> dict[str, Any]:
 
 
 def _data() -> Any:
-    return files(__package__) / "data"
+    return resources.files(__package__) / "data"

@@ -101,13 +101,19 @@ def rounded_by(inertia: Any) -> float:
     """The error that rounding an inertia to its digits may make in a moment of ∫xxᵀdm; 0 for whole numbers.
 
     Each entry is off by half a unit of its last digit: of principal moments J by ¾ of a unit; of a tensor ½ tr I by ¾
-    and I by 3/2 of one.  At most a hundredth of the largest is believed.
+    and I by 3/2 of one.  The unit is that of the largest entry, where all have as many digits, or of all, where they
+    have as many places.  At most a hundredth of the largest is believed.
     """
     numbers = np.array(inertia, dtype=object).ravel()
     if not all(isinstance(x, float) for x in numbers):
         return 0.0
-    unit = min((_unit(x) for x in numbers if x != round(x)), default=0.0)
+    broken = [x for x in numbers if x != round(x)]
+    if not broken:
+        return 0.0
     largest = float(np.abs(numbers.astype(np.float64)).max())
+    digits = max(len(Decimal(repr(x)).normalize().as_tuple().digits) for x in broken)
+    of_the_largest = min(_unit(largest), 10.0 ** (Decimal(repr(largest)).adjusted() + 1 - digits))
+    unit = max(min(map(_unit, broken)), of_the_largest)
     return min((0.75 if len(numbers) == 3 else 2.25) * unit, 0.01 * largest)
 
 
