@@ -9,7 +9,7 @@ from commands import chapsym, refused
 
 from chapsym.scene import SceneError, load
 from chapsym.scene.members.exactly import exact_motion
-from chapsym.scene.members.members import expand
+from chapsym.scene.members.members import ball_of, expand
 from chapsym.scene.read.robots import LEFT_OUT, table
 
 URDF = """<?xml version="1.0"?>
@@ -372,6 +372,23 @@ def test_a_hollow_ball_whose_numbers_are_rounded_is_a_ball(put, tmp_path, mass, 
     more = text.replace(moment, str(1.02 * float(moment)))
     words = refused("scene", "new", scene, "--from", put(more, ".xml"), "--force")
     assert "line 2: <inertial>: some of its mass is outside of the ball" in words
+
+
+@pytest.mark.parametrize("form", [".6g", ".4g", ".6f"])
+def test_a_flat_body_is_one_whose_entries_are_rounded_each_to_its_digits(put, form):
+    """Entries of six digits each, as engines write them, have several places."""
+    random = np.random.default_rng(1)
+    for _ in range(30):
+        axes, _ = np.linalg.qr(random.normal(size=(3, 3)))
+        flat = axes @ np.diag([*random.uniform(0.0005, 0.005, 2), 0.0]) @ axes.T
+        tensor = np.trace(flat) * np.eye(3) - flat
+        entries = " ".join(f'i{"xyz"[i]}{"xyz"[j]}="{tensor[i, j]:{form}}"' for i in range(3) for j in range(i, 3))
+        file = put(
+            f'<robot name="r"><link name="b"><inertial><mass value="1.9"/><inertia {entries}/></inertial>'
+            '<collision><geometry><sphere radius="0.105"/></geometry></collision></link></robot>'
+        )
+        _, members = ball_of(file)
+        assert (members.ball.mass_tensor >= 0).all()
 
 
 @pytest.mark.parametrize("suffix", [".xacro", ".world"])
