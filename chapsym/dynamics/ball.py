@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
+from decimal import Decimal
 from functools import cached_property
 from math import isfinite
 from numbers import Number
@@ -235,7 +236,8 @@ class Ball(Parameters):
             and all vectors and attitudes, given or returned, are in the axes in which it is given.  Off its diagonal it
             has -∫xy dm, ..., as ixy, ... of URDF, SDF and MJCF; SolidWorks shows both signs, and calls this one
             negative.  Or principal moments I1 = J2 + J3, ..., (3,), or a row for each ball, (..., 3), where that is not
-            symmetric and 3 x 3.
+            symmetric and 3 x 3.  Of one flat body, whose floats were written with few digits, what these leave below 0
+            is 0.
         mass : array_like, optional
             In kg, with the radius in the place of D.
         radius : array_like, optional
@@ -263,14 +265,15 @@ class Ball(Parameters):
         array([2.792893, 4.207107, 5.      ])
         """
         contact, given = contact_term(mass, radius, D), numbers(inertia, "inertia")
+        least = 0.0 if batch or given.size > 9 else rounded_by(inertia)
         if batch or not principal_axes.is_tensor(given):
-            tensor = mass_tensor_of(given)
+            tensor = mass_tensor_of(given, least)
             if beyond_float64(inertia):
                 moments = exact_array(inertia)
                 return cls(moments.sum(axis=-1, keepdims=True) / 2 - moments, contact, radius)
             return cls(tensor, contact, radius)
         try:
-            tensor, axes = principal_axes.principal(principal_axes.from_inertia_tensor(given))
+            tensor, axes = principal_axes.principal(principal_axes.from_inertia_tensor(given), least)
         except BadInput as error:
             if (given < 0).any() or (_rounded_tensor(given) < 0).any():
                 raise
@@ -461,6 +464,32 @@ def _rounded_tensor(moments: Floats, least: float = 0.0) -> Floats:
         tensor = (moments / 2).sum(axis=-1, keepdims=True) - moments
     rounding = np.maximum(4 * np.finfo(np.float64).eps * np.abs(moments).max(axis=-1, keepdims=True), least)
     return np.where(np.abs(tensor) <= rounding, np.maximum(tensor, 0.0), tensor)
+
+
+def rounded_by(inertia: Any) -> float:
+    """The error that rounding an inertia to its digits may make in a moment of ∫xxᵀdm; 0 for whole numbers.
+
+    Each entry is off by half a unit of its last digit: of principal moments J by ¾ of a unit; of a tensor ½ tr I by ¾
+    and I by 3/2 of one.  The unit is that of the largest entry, where all have as many digits, or of all, where they
+    have as many places.  At most a hundredth of the largest is believed.
+    """
+    entries = np.array(inertia, dtype=object).ravel().tolist()
+    if not all(isinstance(x, float) and isfinite(x) for x in entries):
+        return 0.0
+    entries = [float(x) for x in entries]  # those of NumPy have another repr
+    broken = [x for x in entries if x != round(x)]
+    if not broken:
+        return 0.0
+    largest = max(map(abs, entries))
+    digits = max(len(Decimal(repr(x)).normalize().as_tuple().digits) for x in broken)
+    of_the_largest = min(last_digit(largest), 10.0 ** (Decimal(repr(largest)).adjusted() + 1 - digits))
+    unit = max(min(map(last_digit, broken)), of_the_largest)
+    return min((0.75 if len(entries) == 3 else 2.25) * unit, 0.01 * largest)
+
+
+def last_digit(x: float) -> float:
+    """A unit of the last digit that is not 0."""
+    return 10.0 ** int(Decimal(repr(x)).normalize().as_tuple().exponent)
 
 
 def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike | None) -> ArrayLike:

@@ -12,12 +12,21 @@ import numpy as np
 
 from chapsym.dynamics import BadInput, Ball, BallN, kernels
 from chapsym.dynamics.attitudes import attitude_with, roll_pitch_yaw
-from chapsym.dynamics.ball import SMALLEST, UNIT_TOLERANCE, Floats, contact_term, mass_tensor_of, numbers, unit_vertical
+from chapsym.dynamics.ball import (
+    SMALLEST,
+    UNIT_TOLERANCE,
+    Floats,
+    contact_term,
+    mass_tensor_of,
+    numbers,
+    rounded_by,
+    unit_vertical,
+)
 from chapsym.dynamics.n import so_n
 from chapsym.dynamics.n.ball_n import skew_matrices
 from chapsym.dynamics.principal_axes import attitude_to_principal, from_inertia_tensor, inverse, principal, to_principal
 
-from ..read.bodies import KEYS, PRESETS, check_inside, rounded_by, size_rounded_by
+from ..read.bodies import KEYS, PRESETS, check_inside, size_rounded_by
 from ..read.errors import Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene, ball_place, ball_table, checked, written

@@ -5,14 +5,13 @@ diagonal in the axes that the user gave, else (..., 3, 3).  Every centre of mass
 """
 
 from collections.abc import Callable
-from decimal import Decimal
 from inspect import signature
 from typing import Any
 
 import numpy as np
 
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.ball import Floats
+from chapsym.dynamics.ball import Floats, last_digit
 
 #: How far mass may seem to be outside of the ball by rounding: that of a shell is at its radius.
 ROUNDING = 1e-12
@@ -97,35 +96,10 @@ def _check(holds: np.ndarray | np.bool_, sentence: str) -> None:
         raise BadInput(sentence)
 
 
-def rounded_by(inertia: Any) -> float:
-    """The error that rounding an inertia to its digits may make in a moment of ∫xxᵀdm; 0 for whole numbers.
-
-    Each entry is off by half a unit of its last digit: of principal moments J by ¾ of a unit; of a tensor ½ tr I by ¾
-    and I by 3/2 of one.  The unit is that of the largest entry, where all have as many digits, or of all, where they
-    have as many places.  At most a hundredth of the largest is believed.
-    """
-    numbers = np.array(inertia, dtype=object).ravel()
-    if not all(isinstance(x, float) for x in numbers):
-        return 0.0
-    broken = [x for x in numbers if x != round(x)]
-    if not broken:
-        return 0.0
-    largest = float(np.abs(numbers.astype(np.float64)).max())
-    digits = max(len(Decimal(repr(x)).normalize().as_tuple().digits) for x in broken)
-    of_the_largest = min(_unit(largest), 10.0 ** (Decimal(repr(largest)).adjusted() + 1 - digits))
-    unit = max(min(map(_unit, broken)), of_the_largest)
-    return min((0.75 if len(numbers) == 3 else 2.25) * unit, 0.01 * largest)
-
-
 def size_rounded_by(mass: Any, radius: Any) -> float:
     """The part of mass radius² that rounding both to their digits may make: ½ δm/m + δρ/ρ; 0 for whole numbers."""
-    parts = [(_unit(x) / x if isinstance(x, float) and 0 < x != round(x) else 0.0) for x in (mass, radius)]
+    parts = [(last_digit(x) / x if isinstance(x, float) and 0 < x != round(x) else 0.0) for x in (mass, radius)]
     return min(parts[0] / 2 + parts[1], 0.01)
-
-
-def _unit(x: float) -> float:
-    """A unit of the last digit that is not 0."""
-    return 10.0 ** int(Decimal(repr(x)).normalize().as_tuple().exponent)
 
 
 def unbalanced(what: str, offset: float | None, radius: float | None) -> str:
