@@ -18,9 +18,9 @@ from typing import Any
 import mpmath
 
 from chapsym import files, generated
-from chapsym.dynamics.enclosed_motion import decimal, follow
+from chapsym.dynamics.enclosed_motion import follow
 from chapsym.scene import load
-from chapsym.scene.members.exactly import exact_motion
+from chapsym.scene.members.exactly import case_of, exact_motion
 
 from . import off_centre, sliding
 
@@ -67,13 +67,7 @@ def made(scene: Path) -> dict[str, Any]:
     found = follow(start, times, DIGITS, limit=3600.0)
     if found.stopped:
         raise RuntimeError(f"{scene.name}: {found.stopped}")
-    whole = sum(start.mass_tensor)
-    body: dict[str, Any] = {"inertia": [decimal(whole - x) for x in start.mass_tensor]}
-    if start.radius is not None:  # else nothing touches the body
-        body = {"mass": decimal(start.D / start.radius**2), "radius": decimal(start.radius)} | body
-    if any(map(any, start.rotor)):
-        body["rotor"] = [decimal(x.rational) for x in start.rotor]
-    return {"case": scene.stem, "title": given.title, "ball": body, **found.write()}
+    return case_of(scene.stem, given.title, start) | found.write()
 
 
 def text(case: dict[str, Any]) -> str:

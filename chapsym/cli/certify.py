@@ -234,7 +234,7 @@ def motion(
     from chapsym.certificates.motion import motion as certified
     from chapsym.dynamics.enclosed_motion import follow
     from chapsym.scene import load
-    from chapsym.scene.members.exactly import exact_motion
+    from chapsym.scene.members.exactly import case_of, exact_motion
     from chapsym.scene.result import formats
     from chapsym.scene.result.proved import UNITS, check_scene, proved_errors
 
@@ -258,7 +258,7 @@ def motion(
         errors = proved_errors(result, found)
         written["errors"] = {name: error if isfinite(error) else None for name, error in errors.items()}
     if output is not None:
-        write(output, written)
+        write(output, case_of(scene.stem, given.title, start) | written)
     if as_json:
         print_json(written)
     elif found.times:

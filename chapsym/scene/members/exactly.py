@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.dynamics.attitudes import roll_pitch_yaw
+from chapsym.dynamics.enclosed_motion import decimal
 from chapsym.dynamics.flow.start import (
     NO_ROTOR,
     Balls,
@@ -52,6 +53,22 @@ def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
 def without_rotors(scene: Scene) -> Scene:
     """A scene whose balls have no rotor, which runs in float64 refuse."""
     return scene.model_copy(update={"ball": tuple(one.model_copy(update={"rotor": None}) for one in scene.ball)})
+
+
+def case_of(name: str, title: str | None, start: Start) -> dict[str, Any]:
+    """What the file of a certified motion says of its ball, so that `chapsym judge --against` takes it.
+
+    Nothing of a ball whose tensor is not diagonal in the axes of the body: there its scene is needed.
+    """
+    if start.axes is not None:
+        return {}
+    whole = sum(start.mass_tensor)
+    body: dict[str, Any] = {"inertia": [decimal(whole - x) for x in start.mass_tensor]}
+    if start.radius is not None:  # else nothing touches the body
+        body = {"mass": decimal(start.D / start.radius**2), "radius": decimal(start.radius)} | body
+    if any(map(any, start.rotor)):
+        body["rotor"] = [decimal(x.rational) for x in start.rotor]
+    return {"case": name, "title": title, "ball": body}
 
 
 def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]:
