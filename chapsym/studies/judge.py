@@ -101,8 +101,8 @@ def read_case(file: Path) -> Case:
 
 # How far one trajectory is from the truth, at each frame.
 
-#: When a trajectory is said to have departed: m, degrees, per cent.
-LIMITS = {"path": 1e-3, "attitude": 1.0, "energy": 1.0, "momentum": 1.0}
+#: When a trajectory is said to have departed, or a law to be broken: m, degrees, per cent, m/s.
+LIMITS = {"path": 1e-3, "attitude": 1.0, "energy": 1.0, "momentum": 1.0, "height": 1e-3, "slip": 1e-3}
 UNITS = {"path": "m", "attitude": "degrees", "energy": "%", "momentum": "%", "height": "m", "slip": "m/s"}
 
 
