@@ -27,7 +27,7 @@ OUT = "A .zarr, which can be resumed; or .nc, .parquet, .csv, .npz; - prints a C
 
 @app.command()
 def run(
-    scene: Annotated[Path, argument("SCENE.toml", "What to roll.")],
+    scene: Annotated[Path, argument("SCENE.toml", "What to roll; or a .urdf, .sdf or MuJoCo's .xml, with a start.")],
     output: Annotated[Path | None, writes("OUT", OUT)] = None,
     scheduler: Annotated[
         str | None, takes("ADDRESS", "A Dask scheduler, such as tcp://host:8786, for a .zarr.")
@@ -35,6 +35,10 @@ def run(
     fresh: Annotated[
         bool, typer.Option("--fresh", "--force", help="Replace a result that is there, of whatever scene.")
     ] = False,
+    omega: Annotated[
+        str | None, takes("W1,W2,W3", "Of a robot's file: rad/s at the start, its axes along those of space.")
+    ] = None,
+    time: Annotated[str | None, takes("S", "Of a robot's file: for how many seconds it rolls.")] = None,
     as_json: Json = False,
 ) -> None:
     """Run a scene and write the result.
@@ -55,7 +59,7 @@ def run(
 
     saved = False
     try:
-        wanted = load(scene)
+        wanted = load(scene, None if omega is None else omega.split(","), time)
         destination = output or _named(scene, wanted.run.output)
         if scheduler is not None and destination.suffix != ".zarr":
             fail(f"{destination}: --scheduler needs a .zarr, of which each worker writes its part", 2)

@@ -57,7 +57,7 @@ def test_a_scene_of_it_has_its_numbers_exactly(put, tmp_path):
     assert (start.D, start.radius) == (Fraction("1.9") * Fraction("0.105") ** 2, Fraction("0.105"))
     expected = np.linalg.eigvalsh(np.array(ROWS, dtype=float))
     np.testing.assert_allclose(sorted(expand(load(scene)).ball.inertia[0]), expected, rtol=1e-14)
-    assert "has a ball and no start: chapsym scene new" in refused("run", put(URDF), "-o", tmp_path / "x.csv")
+    assert "has a ball and no start: give --omega W1,W2,W3 and --time S" in refused("run", put(URDF), "-o", "x.csv")
 
 
 def sdf(attributes, text):
@@ -410,3 +410,26 @@ def test_moments_that_are_none_or_in_other_units_are_refused(put, tmp_path, iner
     scene = tmp_path / "ball.toml"
     assert f"line 2: <inertial>: {said}" in refused("scene", "new", scene, "--from", put(text, ".xml"))
     assert not scene.exists()
+
+
+@pytest.mark.parametrize("text", [URDF, SDF, MJCF])
+def test_a_robots_file_runs_with_a_start(text, put, tmp_path):
+    """As the scene of its ball does, with the axes of the body along those of space."""
+    file, scene = put(text), tmp_path / "ball.toml"
+    chapsym("run", file, "--omega", "3,-2,1/2", "--time", "1", "-o", tmp_path / "a.csv")
+    assert chapsym("scene", "new", scene, "--from", file).returncode == 0
+    table = scene.read_text("utf-8").split("[start]")[0]
+    run = '[run]\ntime = 1\nframes = 1000\noutputs = ["contact", "attitude", "omega"]\n'
+    scene.write_text(table + '[start]\nomega = [3, -2, "1/2"]\nrpy = [0, 0, 0]\n' + run, "utf-8")
+    chapsym("run", scene, "-o", tmp_path / "b.csv")
+    one, other = ((tmp_path / name).read_text("utf-8").splitlines()[2:] for name in ("a.csv", "b.csv"))
+    assert len(one) == 1000
+    assert one == other
+
+
+def test_a_start_of_a_robots_file_is_whole_and_a_scene_has_its_own(put):
+    assert "start.omega.3 is missing" in refused("run", put(URDF), "--omega", "3,-2", "--time", "1", "-o", "x.csv")
+    assert "run.time must be greater than 0" in refused(
+        "run", put(URDF), "--omega", "3,-2,1", "--time", "0", "-o", "x.csv"
+    )
+    assert "has a start and a time of its own" in refused("run", "docs/first.toml", "--time", "1", "-o", "x.csv")

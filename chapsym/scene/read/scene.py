@@ -25,6 +25,8 @@ from .units import TIME, number
 MOST_BYTES = 10_000_000
 #: Of one key: tomllib takes time that grows with the square.
 MOST_DOTS = 2000
+#: Of a run of a robot's file.
+FRAMES_OF_ROBOT = 1000
 
 
 Balls = Annotated[
@@ -137,13 +139,23 @@ class Scene(Table):
         return bool(drawn)
 
 
-def load(path: Path) -> Scene:
-    """Reads a scene file; raises SceneError with the file, the line, the key and what would be right."""
+def load(path: Path, omega: list[str] | None = None, time: str | None = None) -> Scene:
+    """Reads a scene file; raises SceneError with the file, the line, the key and what would be right.
+
+    omega, time: how the ball of a robot's file starts, in rad/s and with its axes along those of space, and for how
+    many seconds it rolls, as they are written.
+    """
     if path.suffix in robots.SUFFIXES:
-        robots.table(path)
-        raise SceneError(
-            f"{path} has a ball and no start: chapsym scene new ball.toml --from {path} makes a scene of it"
-        )
+        ball = robots.table(path)
+        if omega is None or time is None:
+            raise SceneError(
+                f"{path} has a ball and no start: give --omega W1,W2,W3 and --time S, or chapsym scene new ball.toml "
+                f"--from {path} makes a scene of it"
+            )
+        run = {"time": time, "frames": FRAMES_OF_ROBOT, "outputs": ["contact", "attitude", "omega"]}
+        return checked({"ball": ball, "start": {"omega": omega, "rpy": [0, 0, 0]}, "run": run}, str(path))
+    if omega is not None or time is not None:
+        raise SceneError(f"{path} has a start and a time of its own: --omega and --time are for a robot's file")
     text = _text(path)
     return checked(_parsed(text, path), str(path), text)
 
