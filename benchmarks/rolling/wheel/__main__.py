@@ -36,6 +36,9 @@ dependencies = ["numpy>=2.0"]
 [project.entry-points.pytest11]
 rolling = "chapsym_rolling.fixture"
 
+[tool.setuptools.packages.find]
+include = ["chapsym_rolling*"]
+
 [tool.setuptools.package-data]
 chapsym_rolling = ["data/*", "py.typed"]
 """
