@@ -560,13 +560,13 @@ def _by_double_double(
         method, every = choice.method, checks(request, choice.method)
         fewer, apart, longer = Method(method.precision, method.order - 2 * LESS), math.inf, 2.0
 
-        def told(before: int, done: int, choice: Choice = choice) -> None:
+        def report(before: int, done: int, choice: Choice = choice) -> None:
             """How much of the run, and of the one that it is compared with, is done."""
             progress(f"{choice.sentence()}: {(before + done) / (2 * choice.steps):.0%}")
 
         try:
-            run = take(request, method, choice.steps, every, partial(told, 0))
-            other = take(request, fewer, choice.steps, every, partial(told, choice.steps))
+            run = take(request, method, choice.steps, every, partial(report, 0))
+            other = take(request, fewer, choice.steps, every, partial(report, choice.steps))
             apart = float(distance(request, run, other).max())
             longer = (apart / (MARGIN * request.accuracy)) ** (1 / fewer.order)
         except StepNotTaken as error:

@@ -629,7 +629,7 @@ def _run(
             count.add(len(found[-1]))
 
         def look() -> None:
-            """Tells how many balls are done, those that are not by the steps that they are expected to take."""
+            """Reports how many balls are done, those that are not by the steps that they are expected to take."""
             part = np.minimum(reported[:, STEPS] * first / problem.end, MOSTLY)
             progress(float(np.where(found.reached == problem.frames, 1.0, part).sum()))
 
@@ -741,8 +741,8 @@ def _verified(problem: Problem, order: int, steps: int, run: Motion, progress: C
     left = (stride * steps / fewer) ** order - 1
     share = min(SAFETY / left, max(1.0, 2 / left))
     moved = ROUNDED * 2.0**-53 / share * lengths(problem.K)[:, np.newaxis] * ASIDE
-    beside = replace(problem, K=problem.K + moved).take(order, fewer, stride, progress)
-    off = apart(problem, run, beside, stride).max(axis=-1)
+    coarse = replace(problem, K=problem.K + moved).take(order, fewer, stride, progress)
+    off = apart(problem, run, coarse, stride).max(axis=-1)
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
     rounded = problem.survey[FLOOR]
     if run.contact is not None and problem.ball.radius is not None and "contact" in problem.parts:

@@ -265,8 +265,9 @@ class Ball(Parameters):
         array([2.792893, 4.207107, 5.      ])
         """
         contact, given = contact_term(mass, radius, D), numbers(inertia, "inertia")
-        least = 0.0 if batch or given.size > 9 else rounded_by(inertia)
-        if batch or not principal_axes.is_tensor(given):
+        rows = batch or not principal_axes.is_tensor(given)
+        least = rounded_by(inertia) if given.ndim == (1 if rows else 2) else 0.0  # of one ball
+        if rows:
             tensor = mass_tensor_of(given, least)
             if beyond_float64(inertia):
                 moments = exact_array(inertia)

@@ -23,7 +23,7 @@ from .results import Bounds, Step, Trajectory, finished, in_given_axes, of_balls
 
 #: The digits of a step of exact numbers that pairs cannot hold, before it is rounded to pairs.
 BEYOND_DOUBLE_DOUBLE = Digits(40)
-#: More steps are refused; whoever asks for every so many will not see a second frame.
+#: More steps are refused; a larger `every` keeps the first frame only.
 MOST_STEPS = 2**62
 
 

@@ -78,7 +78,7 @@ def test_estimates_are_above_the_errors_of_balls_of_all_shapes(by, thorough):
         for i in range(2000 if thorough else 200):
             moments = 10 ** rng.uniform(-2, 0, 3) if i % 2 else rng.uniform(0.2, 1, 3)
             gamma, omega = rng.standard_normal((2, 3))
-            omega[rng.permutation(3)[: 2 * (i % 5 == 0)]] *= 1e-4  # beside an axis
+            omega[rng.permutation(3)[: 2 * (i % 5 == 0)]] *= 1e-4  # near an axis
             D, frames, accuracy = (
                 10 ** rng.uniform(-2, 1.5),
                 int(rng.choice([1, 5, 30, 100])),

@@ -123,3 +123,5 @@ def test_flat_bodies_of_few_digits_are_bodies(digits, turned):
         assert ball.mass_tensor.min() < 10.0 ** (1 - digits)
     with pytest.raises(BadInput, match="no body"):
         Ball.from_inertia((0.1, 0.2, 0.31), D=1.0)
+    with pytest.raises(BadInput, match="no body"):  # the digits of another ball say nothing of this one
+        Ball.from_inertia([(0.1, 0.2, 0.3), (0.10001, 0.2, 0.300012)], D=1.0)

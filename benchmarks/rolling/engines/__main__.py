@@ -54,6 +54,7 @@ def main() -> None:
     start = start_of(read_case(Path(truth[1]))) if known else start_of_ball(body, given.omega, given.time)
     check_centre(body)
     output = given.output or Path(f"{body.stem}-{given.engine}.csv")
+    files.check_destination(output)
     try:
         run = importlib.import_module(f".{ENGINES[given.engine]}", __package__).run
         table = text(given.step, run(body, start, given.step, given.best))
@@ -70,5 +71,5 @@ def main() -> None:
 if __name__ == "__main__":
     try:
         main()
-    except BadInput as error:
+    except (BadInput, files.CannotWrite) as error:
         sys.exit(str(error))
