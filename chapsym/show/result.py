@@ -20,6 +20,7 @@ from chapsym.scene import Scene, SceneError, checked, load
 from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result import formats
 from chapsym.scene.result.dataset import grid
+from chapsym.scene.result.digests import write_digests
 from chapsym.scene.result.interpolation import interpolated
 from chapsym.scene.result.summary import sentence
 from chapsym.scene.running import store
@@ -284,6 +285,7 @@ def _save_zarr(dataset: "Dataset", path: Path) -> None:
     def fill(place: Path) -> None:
         store.write(whole, place)
         store.consolidate(place)
+        write_digests(place)
 
     store.created(path, fill)
 

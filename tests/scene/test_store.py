@@ -148,6 +148,68 @@ def test_a_chunk_that_is_lost_or_damaged_is_found_and_computed_anew(whole, path,
     assert sweep.run_to_store(plan(), path).nothing_to_do
 
 
+@pytest.mark.parametrize("after", [UNITS, 7])
+@pytest.mark.parametrize(
+    ("place", "other"),
+    [
+        ("gamma/c/0/0/0", "momentum/c/0/0/0"),
+        ("momentum/c/0/0/0", "momentum/c/0/1/0"),
+        ("gamma/c/0/0/0", "mass_tensor/c/0/0"),
+        ("mass_tensor/c/0/0", "gamma/c/0/0/0"),
+        ("D/c/0", "radius/c/0"),
+    ],
+)
+def test_a_whole_chunk_of_another_place_is_found(whole, path, monkeypatch, after, place, other):
+    interrupted(path, monkeypatch, after)
+    (path / place).write_bytes((path / other).read_bytes())
+    name = place.split("/")[0]
+    if after == UNITS:
+        with pytest.raises(SceneError, match=f"{place} is damaged: chapsym run of the same scene"):
+            load(path)[name].load()
+    outcome = sweep.run_to_store(plan(), path)
+    assert list(outcome.damaged) == [place] * (name in ("gamma", "momentum"))
+    assert not outcome.nothing_to_do
+    equal_to_the_bit(load(path), whole)
+    assert sweep.run_to_store(plan(), path).nothing_to_do
+
+
+@pytest.mark.parametrize("after", [UNITS, 7])
+@pytest.mark.parametrize("damage", [cut, emptied, Path.unlink])
+@pytest.mark.parametrize("name", ["gamma", "D"])
+def test_the_metadata_of_an_array_are_written_anew(whole, path, monkeypatch, damage, after, name):
+    interrupted(path, monkeypatch, after)
+    before = (path / name / "zarr.json").read_bytes()
+    damage(path / name / "zarr.json")
+    outcome = sweep.run_to_store(plan(), path)
+    assert outcome.complete
+    assert not outcome.damaged
+    assert json.loads((path / name / "zarr.json").read_bytes()) == json.loads(before)
+    equal_to_the_bit(load(path), whole)
+    equal_to_the_bit(xarray.open_zarr(path, consolidated=False), whole)
+    assert sweep.run_to_store(plan(), path).nothing_to_do
+
+
+@pytest.mark.parametrize("damage", [cut, emptied, Path.unlink])
+def test_without_the_list_of_digests_the_checksums_remain(whole, path, damage):
+    sweep.run_to_store(plan(), path)
+    damage(path / "gamma/digests.json")
+    equal_to_the_bit(load(path), whole)
+    cut(path / "gamma/c/0/0/0")
+    with pytest.raises(SceneError, match="gamma/c/0/0/0 is damaged"):
+        load(path).gamma.load()
+    assert list(sweep.run_to_store(plan(), path).damaged) == ["gamma/c/0/0/0"]
+    assert (path / "gamma/digests.json").is_file()
+
+
+def test_what_a_killed_process_wrote_after_its_mark_is_no_damage(whole, path, monkeypatch):
+    """What a ball has once changes with each segment, and is written before the mark."""
+    interrupted(path, monkeypatch, 7)
+    (path / "taken/c/0").write_bytes((path / "status/c/0").read_bytes())
+    outcome = sweep.run_to_store(plan(), path)
+    assert not outcome.damaged
+    equal_to_the_bit(load(path), whole)
+
+
 def test_a_complete_store_that_is_mended_may_be_interrupted(whole, path, monkeypatch):
     sweep.run_to_store(plan(), path)
     (path / "gamma/c/2/3/0").unlink()

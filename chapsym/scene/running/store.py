@@ -27,14 +27,15 @@ from ..plan.plan import Plan
 from ..read.errors import SceneError
 from ..read.task import Columns
 from ..result.dataset import OF_BALLS, arrays, layout, provenance
+from ..result.digests import altered, digest, digests, folders, is_sound, write_digests, written
 from ..result.formats import attributes, check_ours, plain
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
 ELSE = "choose another name, or replace it with --fresh"
-#: The name of the count in a mark; the rest is the state.
-DONE = "segments_done"
+#: In a mark: how many segments are done, and the checksums of their chunks; the rest is the state.
+DONE, DIGESTS = "segments_done", "digests"
 #: Seconds that Zarr may take, after an error, for what it writes at the same time.
 LONGEST_WRITE = 10.0
 
@@ -50,6 +51,8 @@ class Store:
         self.path, self.plan = path, plan
         #: Of each chunk of balls that is computed anew, the first Zarr chunk that was missing or damaged.
         self.damaged: list[str] = []
+        #: The checksums of Zarr chunks, by their keys.
+        self._digests: dict[str, str] = {}
 
     @classmethod
     @contextmanager
@@ -84,10 +87,15 @@ class Store:
     @cached_property
     def complete(self) -> bool:
         """Whether, when the store was opened, every unit was there as it was written."""
-        all_segments = len(self.plan.segments)
-        return self._says_complete and not (
-            any(self._damage(chunk, all_segments) for chunk in range(len(self.plan.chunks))) or self._lost_coordinates()
-        )
+        if not self._says_complete or altered(self.path):
+            return False
+        self._digests = self._listed()
+        every = range(len(self.plan.segments))
+        return not (any(self._damage(i, every) for i in range(len(self.plan.chunks))) or self._lost_coordinates())
+
+    def _listed(self) -> dict[str, str]:
+        """The checksums that a complete store lists."""
+        return {f"{one.name}/{key}": sum_ for one in folders(self.path) for key, sum_ in digests(one).items()}
 
     def start(self, chunk: int) -> tuple[int, State | None]:
         """How many segments of a chunk are done, and the state after them; 0 and None if none is."""
@@ -95,66 +103,81 @@ class Store:
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as data:  # NumPy leaves a damaged one open
                 state = {name: data[name] for name in data.files}
-            done = int(state.pop(DONE))
+            done, checksums = int(state.pop(DONE)), state.pop(DIGESTS, None)  # marks of before have none
             if not 0 < done <= len(self.plan.segments) or any(array.shape[:1] != (balls,) for array in state.values()):
                 raise ValueError
+            keys = self._keys(chunk, range(done))
+            if checksums is not None:
+                self._digests |= zip(keys, checksums.tolist(), strict=True)
         except FileNotFoundError:
             return 0, None
         # Of NumPy and of zip, by what is cut.
         except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
             mended = "delete it, and the same command computes its balls anew and keeps the others"
             raise SceneError(f"{path} is damaged; {mended}") from None
-        if found := self._damage(chunk, done):
+        if found := self._damage(chunk, range(done)):
             self.damaged.append(found)
+            for key in keys:
+                self._digests.pop(key, None)
             return 0, None
+        # A process that was killed may have written these after the mark.
+        self.write(chunk, done - 1, {name: state[name] for name in OF_BALLS if name in state})
         return done, state
 
-    def _damage(self, chunk: int, done: int) -> str | None:
-        """A Zarr chunk of the first segments of a chunk of balls that is missing or damaged, if one is."""
-        from ..result.chunks import is_sound
+    def _keys(self, chunk: int, segments: range, framed: bool = True) -> list[str]:
+        """Of some segments of a chunk of balls, the keys of its Zarr chunks, or of those without frames."""
+        return [
+            "/".join([name, "c", *(str({"ball": chunk, "frame": segment}.get(dim, 0)) for dim in one.dims)])
+            for segment in (segments if framed else segments[:1])
+            for name, one in layout(self.plan).items()
+            if ("frame" in one.dims) == framed
+        ]
 
-        for name, one in layout(self.plan).items():
-            for segment in range(done if "frame" in one.dims else 1):
-                where = {"ball": chunk, "frame": segment}
-                key = "/".join([name, "c", *(str(where.get(dim, 0)) for dim in one.dims)])
-                if not is_sound(self.path / key):
-                    return key
-        return None
+    def _damage(self, chunk: int, segments: range) -> str | None:
+        """A Zarr chunk of some segments of a chunk of balls that is missing or damaged, if one is."""
+        keys = self._keys(chunk, segments, framed=False) + self._keys(chunk, segments)
+        return next((key for key in keys if not is_sound(self.path / key, self._digests.get(key))), None)
 
-    def _lost_coordinates(self) -> list[str]:
-        """Names of what does not come from the run, and is damaged."""
+    def _lost_coordinates(self) -> dict[str, np.ndarray]:
+        """What does not come from the run, and is not there as it should be."""
         import zarr
 
-        from ..result.chunks import is_sound
+        def is_there(name: str, values: np.ndarray) -> bool:
+            try:
+                array: Any = zarr.open_array(self.path / name, mode="r")
+                found = np.asarray(array[...], values.dtype)
+            except ValueError:  # of a chunk whose checksum is wrong, or that does not fit
+                return False
+            return len(written(self.path / name)) == array.nchunks and _same(found, values)
 
-        def is_lost(folder: Path) -> bool:
-            array: Any = zarr.open_array(folder, mode="r")
-            written = [file for file in folder.rglob("*") if file.is_file() and file.name != "zarr.json"]
-            return len(written) < array.nchunks or not all(map(is_sound, written))
-
+        whole = _unwritten(self.plan)
         with _refusals(self.path):
-            arrays = {file.parent.name: file.parent for file in self.path.glob("*/zarr.json")}
-            return [name for name, folder in arrays.items() if name not in layout(self.plan) and is_lost(folder)]
+            wanted = {str(name): one.values for name, one in whole.variables.items() if name not in layout(self.plan)}
+            return {name: values for name, values in wanted.items() if not is_there(name, values)}
 
     def _mend(self) -> None:
-        """Writes coordinates that are damaged anew; a store that says wrongly that it is complete says so no more."""
+        """Writes what does not come from the run anew; a store that is not complete says so no more."""
         import zarr
 
         with _refusals(self.path):
+            for name, one in altered(self.path).items():
+                (self.path / name).mkdir(exist_ok=True)
+                files.write_text(self.path / name / "zarr.json", json.dumps(one, indent=2))
             group: Any = zarr.open_group(self.path, mode="r+", use_consolidated=False)
-            if lost := self._lost_coordinates():
-                whole = _unwritten(self.plan)
-                for name in lost:
-                    group[name][...] = whole[name].values
+            for name, values in self._lost_coordinates().items():
+                group[name][...] = values
             if not self._says_complete:
                 return
+            self._digests = self._listed()
+            every = range(len(self.plan.segments))
             for chunk, balls in enumerate(self.plan.chunks):
-                if found := self._damage(chunk, len(self.plan.segments)):
+                if found := self._damage(chunk, every):
                     self.damaged.append(found)
                     continue
                 state = {name: group[name][balls] for name in OF_BALLS if name in group}
-                self._put_mark(chunk, len(self.plan.segments), state)
+                self._put_mark(chunk, every, state)
             self._say(complete=False)
+            self._digests = {}
 
     def write(self, chunk: int, segment: int, values: Columns) -> None:
         """Writes variables of one unit, which share no Zarr chunk with those of another; raises SceneError."""
@@ -182,15 +205,19 @@ class Store:
         """
         self.write(chunk, segment, {name: state[name] for name in OF_BALLS if name in state})
         with _refusals(self.path, layout(self.plan)):
-            self._put_mark(chunk, segment + 1, state)
+            self._put_mark(chunk, range(segment + 1), state)
 
-    def _put_mark(self, chunk: int, done: int, state: State) -> None:
-        data: dict[str, Any] = {DONE: np.array(done), **state}
+    def _put_mark(self, chunk: int, done: range, state: State) -> None:
+        keys = self._keys(chunk, done)
+        self._digests |= {key: digest(self.path / key) for key in keys if key not in self._digests}
+        checksums = np.array([self._digests[key] for key in keys])
+        data: dict[str, Any] = {DONE: np.array(len(done)), DIGESTS: checksums, **state}
         files.write_whole(mark_of(self.path, chunk), lambda stream: np.savez(stream, **data))
 
     def finish(self) -> None:
-        """Says that all is there; the marks go."""
+        """Says that all is there, and lists the checksums of it; the marks go."""
         with _refusals(self.path):
+            write_digests(self.path)
             self._say(complete=True)
             shutil.rmtree(folder_of(self.path), ignore_errors=True)
 
@@ -198,6 +225,11 @@ class Store:
         document = json.loads((self.path / "zarr.json").read_text(encoding="utf-8"))
         document["attributes"]["complete"] = complete
         files.write_text(self.path / "zarr.json", json.dumps(document, indent=2))
+
+
+def _same(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two arrays are equal, NaN to NaN."""
+    return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
 
 
 def folder_of(store: Path) -> Path:

@@ -1,0 +1,90 @@
+"""The checksums of the chunks of a result in Zarr, by which one that is missing or damaged is found.
+
+Each chunk ends in its checksum.  One of missing values is written too, so that in a complete result each one that is
+not there is lost.  Next to the chunks of each array of a complete result, `DIGESTS` lists their checksums, so that a
+chunk that is whole and stood in another place is found, too.
+"""
+
+import json
+import os
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from chapsym import files
+
+#: Of the checksum, at the end.
+BYTES = 4
+#: In the folder of an array: its name, and the checksum of each chunk.
+DIGESTS = "digests.json"
+
+
+def sound(content: bytes, digest: str | None = None) -> bool:
+    """Whether a chunk ends in the checksum of the rest, and, where it is known, in its own.
+
+    One that is cut to nothing has none, and would be 0.
+    """
+    from google_crc32c import value as crc32c
+
+    whole = len(content) > BYTES and int.from_bytes(content[-BYTES:], "little") == crc32c(content[:-BYTES])
+    return whole and digest in (None, content[-BYTES:].hex())
+
+
+def is_sound(chunk: Path, digest: str | None = None) -> bool:
+    """Whether the file of a chunk is there, can be read, and is as it was written."""
+    try:
+        return sound(chunk.read_bytes(), digest)
+    except OSError:
+        return False
+
+
+def digest(chunk: Path) -> str:
+    """The checksum that the file of a chunk ends in, in hexadecimal digits; raises OSError."""
+    with chunk.open("rb") as file:
+        file.seek(-BYTES, os.SEEK_END)
+        return file.read().hex()
+
+
+def written(array: Path) -> dict[str, Path]:
+    """The files of the chunks of an array that are there, by their keys inside its folder."""
+    found = {file.relative_to(array).as_posix(): file for file in array.rglob("*") if file.is_file()}
+    return {key: file for key, file in sorted(found.items()) if key.split("/")[0] == "c"}
+
+
+def digests(array: Path) -> dict[str, str]:
+    """The checksums of its chunks by their keys, as `write_digests` left them; none if they are not to be had."""
+    found = read_object(array / DIGESTS)
+    return found["crc32c"] if found.get("array") == array.name and isinstance(found.get("crc32c"), dict) else {}
+
+
+def write_digests(path: Path) -> None:
+    """Lists the checksums of the chunks of each array of a group; raises CannotWrite or OSError."""
+    for array in folders(path):
+        found = {key: digest(file) for key, file in written(array).items()}
+        files.write_text(array / DIGESTS, json.dumps({"array": array.name, "crc32c": found}, indent=1))
+
+
+def folders(path: Path) -> list[Path]:
+    """The folders of the arrays of a group."""
+    return [path / name for name in sorted(metadata(path))]
+
+
+def metadata(path: Path) -> dict[str, Any]:
+    """What the group says of its arrays, by their names; where it says nothing, what each says of itself."""
+    with suppress(KeyError, TypeError, ValueError):
+        found = dict(read_object(path / "zarr.json")["consolidated_metadata"]["metadata"])
+        return {name: one for name, one in found.items() if Path(name).name == name}
+    return {file.parent.name: read_object(file) for file in path.glob("*/zarr.json")}
+
+
+def altered(path: Path) -> dict[str, Any]:
+    """Of the arrays that do not say of themselves what the group says of them, the latter."""
+    return {name: one for name, one in metadata(path).items() if read_object(path / name / "zarr.json") != one}
+
+
+def read_object(path: Path) -> dict[str, Any]:
+    """An object of JSON; an empty one where there is none to be read."""
+    with suppress(OSError, ValueError, RecursionError):
+        found = json.loads(path.read_bytes())
+        return found if isinstance(found, dict) else {}
+    return {}
