@@ -199,7 +199,12 @@ class Step(Brief):
     proved: Bounds | None = None
 
     def write(self) -> dict[str, Any]:
-        """q0, q, momentum and gamma of one ball after the step, as floats or decimal strings, and what is proved."""
+        """q0, q, momentum and gamma of one ball after the step, as floats or decimal strings, and what is proved.
+
+        Raises BadInput of a batch.
+        """
+        if shape := np.shape(self.status):
+            raise BadInput(f"write is of the step of one ball, and this is of a batch of shape {shape}")
         q0, *q = self._written("rotation")
         found = {"q0": q0, "q": q, "momentum": self._written("momentum"), "gamma": self._written("gamma")}
         if self.proved is None:

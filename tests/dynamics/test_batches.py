@@ -77,6 +77,13 @@ def test_steps_beyond_the_bound_are_proved_in_their_lanes(monkeypatch):
     assert 0 < len(continued) < 0.1 * 24 * 40
 
 
+@pytest.mark.parametrize("precision", [*PRECISIONS, chapsym.Digits(30), chapsym.Enclosure(100)])
+def test_the_steps_of_a_batch_are_not_written_as_one(precision):
+    ball, K, g = long_steps(2)
+    with pytest.raises(BadInput, match=r"write is of the step of one ball, and this is of a batch of shape \(2,\)"):
+        chapsym.step(ball, K, g, precision=precision).write()
+
+
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_no_balls_and_no_axes(precision):
     none = chapsym.trajectory(Ball((1, 2, 4), 3), np.zeros((0, 3)), np.zeros((0, 3)), 5, precision=precision)
