@@ -220,7 +220,7 @@ def roll(
     if flag(proved, "proved") and (ball.axes is not None or not ball.is_one or spin.ndim > 1 or vertical.ndim > 1):
         raise BadInput("proved=True takes one ball in principal axes, and all vectors in these")
     try:
-        if isinstance(precision, Digits | Enclosure) and ball.axes is None:
+        if by_map and isinstance(precision, Digits | Enclosure) and ball.axes is None:
             turned_before = axes == "space" and not (gamma is None and isinstance(turned, bool))
             momentum, upwards = _exact_momentum(
                 ball, spin if turned_before else omega, vertical if gamma is None else gamma, time_step
@@ -302,7 +302,7 @@ def _rolled(
     shape, (flat, g, J, D) = batch(ball, K, gamma)
     every, radius = min(every, steps + 1), rolling_radius(ball) if contact else ball.radius
     if radius is not None:
-        radius = radius.reshape(1).copy() if not shape else np.broadcast_to(radius, shape).reshape(-1).copy()
+        radius = radius.reshape(1) if not shape else np.broadcast_to(radius, shape).reshape(-1).copy()
     if isinstance(attitude, bool):
         turned = attitude_with(g if shape else g[0]).reshape(-1, 4) if contact or attitude else None
     else:
@@ -456,12 +456,12 @@ class Problem:
     def nothing(self) -> Motion:
         """An empty motion, whose first frame is the start."""
         n, kept = len(self), self.frames + 1
-        reached, status, order, total = np.zeros((4, n), np.int64)
+        whole = np.zeros((4, n), np.int64)
         try:
             found = Motion(
                 np.empty((n, kept, 3)), np.empty((n, kept, 3)),
                 None if self.attitude is None else np.empty((n, kept, 4)),
-                np.zeros((n, kept, 2)) if self.contact else None, reached, status, np.zeros(n), order, total,
+                np.zeros((n, kept, 2)) if self.contact else None, whole[0], whole[1], np.zeros(n), whole[2], whole[3],
             )  # fmt: skip
         except (MemoryError, ValueError):
             raise BadInput(
@@ -605,7 +605,7 @@ def _run(
     Returns the largest error, and what roundings of the steps, and of the start, may have made of all.
     """
     n, ball, follows, traced = len(problem), problem.ball, problem.attitude is not None, problem.contact
-    reported, (reach, noise, started) = np.zeros((n, REPORTED)), np.empty((3, n))
+    reported, reach, noise, started = np.zeros((n, REPORTED)), np.empty(n), np.empty(n), np.empty(n)
     frames = (
         found.angular_momentum, found.gamma, np.empty((n, 0, 4)) if found.attitude is None else found.attitude,
         np.empty((n, 0, 2)) if found.contact is None else found.contact, np.ascontiguousarray(ball.mass_tensor), ball.D,

@@ -537,13 +537,13 @@ def unit_vertical(gamma: ArrayLike, n: int = 3) -> Floats:
 
 
 def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
-    """The common leading shape of balls and vectors, and all of them as fresh flat arrays.
+    """The common leading shape of balls and vectors, and all of them as flat arrays, to be read.
 
     Returns (shape, [vector (n, 3) ..., mass_tensor (n, 3), D (n,)]); raises BadInput for a ball that has axes.
     """
     in_principal_axes(ball)
     if ball.is_one and all(v.ndim == 1 for v in vectors):
-        return (), [v[np.newaxis].copy() for v in (*vectors, ball.mass_tensor, ball.D)]
+        return (), [v[np.newaxis] for v in (*vectors, ball.mass_tensor, ball.D)]
     radius = () if ball.radius is None else ball.radius.shape
     try:
         shape = np.broadcast_shapes(ball.D.shape, ball.mass_tensor.shape[:-1], radius, *(v.shape[:-1] for v in vectors))

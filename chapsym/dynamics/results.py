@@ -249,7 +249,7 @@ def put_at(run: Any, place: Floats) -> Any:
 
 def finished(run: Any, reach: Floats) -> Any:
     """A run of any kind; of one ball that stopped, StepNotTaken with `reach` and the frames before."""
-    if run.status.shape or run.status == TAKEN:
+    if run.status.shape or run.status.item() == TAKEN:
         return run
     taken = int(run.taken)
     raise StepNotTaken(Status(int(run.status)), float(reach.flat[0]), taken, some_frames(run, run.index <= taken))
