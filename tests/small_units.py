@@ -1,12 +1,16 @@
 """A run of many small units, for this process and for those that are killed: `small_units.py STORE SLEEP [MOST]`."""
 
+import shutil
 import sys
 import time
 from contextlib import suppress
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
+import pytest
 from waiting import GUARD
 
 import chapsym
@@ -58,8 +62,23 @@ def plan(outputs=SOME, scene="", steps=STEPS, seed=7, n=BALLS):
     )
 
 
-def interrupted(path, monkeypatch, after, wanted=None):
-    """A store of which `after` units are written."""
+def interrupted(path, after, wanted=None):
+    """A store of which `after` units more are written."""
+    if wanted is None and not path.exists():
+        shutil.copytree(Path(_left(after).name) / "run.zarr", path)
+    else:
+        _run(path, after, wanted or plan())
+
+
+@cache
+def _left(after):
+    """A folder with a new one, of which the tests take copies."""
+    folder = TemporaryDirectory()
+    _run(Path(folder.name) / "run.zarr", after, plan())
+    return folder
+
+
+def _run(path, after, wanted):
     done = iter(range(after))
     real = sweep.advance
 
@@ -68,10 +87,10 @@ def interrupted(path, monkeypatch, after, wanted=None):
             raise KeyboardInterrupt
         return real(*args)
 
-    with monkeypatch.context() as patched:
+    with pytest.MonkeyPatch.context() as patched:
         patched.setattr(sweep, "advance", advance)
         with suppress(KeyboardInterrupt):
-            sweep.run_to_store(wanted or plan(), path)
+            sweep.run_to_store(wanted, path)
 
 
 def equal_to_the_bit(one, other):

@@ -212,7 +212,7 @@ def test_an_interval_is_small_where_it_says_so():
 
 @pytest.mark.parametrize("precision", ["single", "double", "double-double", chapsym.Digits(30)])
 @pytest.mark.parametrize("size", [0.5, 0.8])
-def test_a_run_beyond_the_bound_is_that_of_the_continuation(precision, size, monkeypatch):
+def test_a_run_beyond_the_bound_is_that_of_the_continuation(precision, size):
     """40 steps, each of which the path proves, beside those that `small_rotation` finds: they differ by roundings."""
     run = chapsym.trajectory(BALL, size * MOMENTUM, GAMMA, 40, precision=precision)
     K, g = size * MOMENTUM, GAMMA

@@ -251,7 +251,7 @@ def test_the_methods_have_their_orders_keep_the_constraints_and_return(name, met
 
 
 @pytest.mark.parametrize("method", ANYWHERE)
-def test_a_wrong_sign_in_an_equation_is_seen_by_the_order(method, monkeypatch):
+def test_a_wrong_sign_in_an_equation_is_seen_by_the_order(method):
     """Then the method follows another motion, or its steps have no solution."""
     system = particle(forces={x: -x, y: -y}, start={x: 1, y: "3/10", vx: 1, vy: "1/2"})
     right = METHODS[method].scheme(system)

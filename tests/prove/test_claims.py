@@ -138,7 +138,7 @@ def test_what_is_said_may_be_any_object_and_a_record_is_text():
     assert json.loads(json.dumps(record))["evidence"]["measured"] == ["x"]
 
 
-def test_a_settled_question_is_proved_and_explained(monkeypatch):
+def test_a_settled_question_is_proved_and_explained():
     def settles(p):
         """Title."""
         for name, *arguments in SETTLED:

@@ -114,9 +114,9 @@ def test_the_command_draws_a_result_with_its_page(tmp_path, show):
     assert all(Path(name).stat().st_size > 1000 for name in words["files"])
 
 
-def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, monkeypatch, show):
+def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, show):
     """Balls that have not begun are not counted as stopped; what is saved of it stays half a run."""
-    small_units.interrupted(tmp_path / "half.zarr", monkeypatch, 9, small_units.plan(small_units.OUTPUTS))
+    small_units.interrupted(tmp_path / "half.zarr", 9, small_units.plan(small_units.OUTPUTS))
     done = show(tmp_path / "half.zarr", "-o", tmp_path / "p", "--figures", "contact", "--page")
     assert done.returncode == 0, done.stderr
     words = re.search(r"half\.zarr is unfinished: (\d+ % of the run, \d+ of 20 balls to their ends)\n", done.stdout)[1]
@@ -137,8 +137,8 @@ def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, monkeypatch, s
         assert dict(chapsym.open_result(tmp_path / f"saved{suffix}").rows())["unfinished"] == words
 
 
-def test_a_run_of_which_no_ball_has_begun_is_shown_as_a_table_only(tmp_path, monkeypatch):
-    small_units.interrupted(tmp_path / "none.zarr", monkeypatch, 0, small_units.plan(small_units.OUTPUTS))
+def test_a_run_of_which_no_ball_has_begun_is_shown_as_a_table_only(tmp_path):
+    small_units.interrupted(tmp_path / "none.zarr", 0, small_units.plan(small_units.OUTPUTS))
     assert "no ball of this result has run yet" in refused("show", tmp_path / "none.zarr", "-o", tmp_path / "p")
     assert "<svg" not in chapsym.open_result(tmp_path / "none.zarr")._repr_html_()
 
