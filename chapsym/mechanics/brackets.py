@@ -121,7 +121,7 @@ class Span:
     inside: Sequence[tuple[Sequence[sp.Expr], Bracketed]]
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=8)
 def spanned(system: System) -> Span:
     """A flag with what proves it; as `flag`."""
     algebra = Algebra(system)

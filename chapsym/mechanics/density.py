@@ -115,7 +115,7 @@ def volume(system: System) -> Volume:
     return _decided(system, system.digest())
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=8)
 def _decided(system: System, digest: str) -> Volume:
     """The volume of a system, as it is now, which the verdicts on all methods share."""
     q, v = system.coordinates, system.velocities

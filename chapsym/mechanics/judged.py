@@ -147,13 +147,13 @@ def decided(system: System, scheme: Scheme) -> dict[str, Decided]:
     return dict(zip(names, found, strict=True))
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=8)
 def _exact(system: System, digest: str) -> Exact:
     """A system, as it is now, whose motion all methods share."""
     return Exact(system)
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=8)
 def _volume(system: System, digest: str) -> Volume | None:
     """The volume that its exact motion keeps, or that it keeps none; None where that is not decided."""
     with suppress(BadSystem):

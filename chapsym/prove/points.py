@@ -4,10 +4,12 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import partial
+from math import prod
 from random import Random
 from typing import Any
 
 import sympy as sp
+from flint import fmpq, fmpq_poly
 
 from chapsym.derive.quotient import Quotient
 
@@ -111,8 +113,12 @@ def small(numbers: Random, most: int, symbol: sp.Symbol) -> Fraction:
     return Fraction(numbers.randint(-most - 1, most + 1), numbers.randint(1, most))
 
 
-def _number(x: Fraction) -> sp.Rational:
-    return sp.Rational(x.numerator, x.denominator)
+def _number(x: Any) -> sp.Rational:
+    return sp.Rational(int(x.numerator), int(x.denominator))
+
+
+def _fraction(x: sp.Rational) -> fmpq:
+    return fmpq(x.p, x.q)
 
 
 def first(ring: Quotient, examples: Examples | None = None) -> Exact:
@@ -140,17 +146,22 @@ def drawn(ring: Quotient, draw: Draw, start: Exact) -> Exact:
 
 def _on_line(relation: sp.Expr, own: Sequence[sp.Symbol], values: Exact, draw: Draw) -> Exact | None:
     """Values of its own symbols, those of no relation before, at which a relation holds; None if none are found."""
+    if not own:
+        return None
     left = relation.xreplace({x: v for x, v in values.items() if x not in own})
+    whole = sp.Poly(left, *own)
     for x in own:
-        if sp.degree(left, x) == 1:
+        if whole.degree(x) == 1:
             chosen = {y: _number(draw(y)) for y in own if y != x}
             one = sp.Poly(left.xreplace(chosen), x)
             if one.degree() == 1:
                 return chosen | {x: -one.nth(0) / one.nth(1)}
-    t = sp.Dummy()
+    terms = [(powers, _fraction(c)) for powers, c in whole.terms()]
     for _ in range(MOST_LINES):
-        along = {x: values[x] + t * _number(draw(x)) for x in own}
-        one = sp.Poly(left.xreplace(along), t)
-        if one.nth(0) == 0 and one.degree() == 2:
-            return {x: sp.expand(v).subs(t, -one.nth(1) / one.nth(2)) for x, v in along.items()}
+        directions = {x: _number(draw(x)) for x in own}
+        line = [fmpq_poly([_fraction(values[x]), _fraction(directions[x])]) for x in own]
+        one = sum((prod(map(pow, line, powers), start=c * fmpq_poly([1])) for powers, c in terms), fmpq_poly())
+        if one[0] == 0 and one.degree() == 2:
+            t = _number(-one[1] / one[2])
+            return {x: values[x] + t * directions[x] for x in own}
     return None
