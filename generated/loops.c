@@ -15,11 +15,14 @@ typedef double real;
 #define LOOPS(rest) loops_double##rest
 #endif
 #define R(x) ((real)(x))
-/* On x86 a loop is compiled for wide registers, too, and takes them where the processor has them: to the same bits. */
+/* On x86 a loop is compiled for wide registers, too, and takes them where the processor has them: to the same bits.
+ * The widest make long steps of one ball slower. */
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(WIDEST_OFF)
 #define WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define WIDER __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define WIDEST
+#define WIDER
 #endif
 #define INLINE static inline __attribute__((always_inline, unused))
 #define OUT_OF_LINE static __attribute__((noinline, unused))
@@ -1705,15 +1708,20 @@ INLINE void lanes_march_lanes(int64_t B, Frames frames, Balls balls, real h, int
     }
 }
 
-INLINE void lanes_march(int alone, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h,
+INLINE void lanes_march(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h, int64_t
+    first, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r2 kept, r1
+    doubt, i1 taken, i1 status, d1 reach) {
+    Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
+    Balls balls = (Balls){J0, D0, radius}; Weights weights = (Weights){sums, following, beginning};
+    lanes_march_lanes(8, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach);
+}
+
+INLINE void lanes_march_alone(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real h,
     int64_t first, int64_t steps, int64_t every, int follows, int traced, r2 sums, r3 following, r2 beginning, r2
     kept, r1 doubt, i1 taken, i1 status, d1 reach) {
     Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
     Balls balls = (Balls){J0, D0, radius}; Weights weights = (Weights){sums, following, beginning};
-    if (alone) {
-        lanes_march_lanes(1, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach);
-    }
-    else { lanes_march_lanes(8, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach); }
+    lanes_march_lanes(1, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach);
 }
 
 INLINE void loop_n_guess(r3 past, r1 use, r2 E) {
@@ -4078,18 +4086,22 @@ INLINE void following_follow_lanes(int64_t B, Frames frames, Balls balls, real i
     }
 }
 
-INLINE void following_follow(int alone, r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius,
-    real interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3
-    following, r2 beginning, r2 reported, i1 reached, i1 status, d1 reach) {
+INLINE void following_follow(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
+    interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3 following, r2
+    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
     Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
     Balls balls = (Balls){J0, D0, radius}; Asked asked = (Asked){first, allowed, most, start};
     Weights weights = (Weights){sums, following, beginning};
-    if (alone) {
-        following_follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach);
-    }
-    else {
-        following_follow_lanes(8, frames, balls, interval, asked, patient, weights, reported, reached, status, reach);
-    }
+    following_follow_lanes(8, frames, balls, interval, asked, patient, weights, reported, reached, status, reach);
+}
+
+INLINE void following_follow_alone(r3 momenta, r3 verticals, r3 attitudes, r3 traces, r2 J0, r1 D0, r1 radius, real
+    interval, r1 first, r1 allowed, r1 most, r1 start, int patient, int follows, int traced, r2 sums, r3 following, r2
+    beginning, r2 reported, i1 reached, i1 status, d1 reach) {
+    Frames frames = (Frames){momenta, verticals, attitudes, traces, follows, traced};
+    Balls balls = (Balls){J0, D0, radius}; Asked asked = (Asked){first, allowed, most, start};
+    Weights weights = (Weights){sums, following, beginning};
+    following_follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach);
 }
 
 INLINE t_r2 expected_surveyed(r2 momenta, r2 verticals, r2 J0, r1 D0, r1 unit, real end, real accuracy, r2 found) {
@@ -4178,8 +4190,14 @@ WIDEST static void in_block_march_blocks(const argument *a, argument *got) {
 
 #ifndef SINGLE
 WIDEST static void in_lanes_march(const argument *a, argument *got) {
-    lanes_march(b_(0), r3_(1), r3_(2), r3_(3), r3_(4), r2_(5), r1_(6), r1_(7), r_(8), i_(9), i_(10), i_(11), b_(12),
-        b_(13), r2_(14), r3_(15), r2_(16), r2_(17), r1_(18), i1_(19), i1_(20), d1_(21));
+    lanes_march(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), i_(10), b_(11), b_(12),
+        r2_(13), r3_(14), r2_(15), r2_(16), r1_(17), i1_(18), i1_(19), d1_(20));
+    (void)got;
+}
+
+WIDER static void in_lanes_march_alone(const argument *a, argument *got) {
+    lanes_march_alone(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), i_(10), b_(11),
+        b_(12), r2_(13), r3_(14), r2_(15), r2_(16), r1_(17), i1_(18), i1_(19), d1_(20));
     (void)got;
 }
 
@@ -4231,8 +4249,14 @@ WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
 }
 
 WIDEST static void in_following_follow(const argument *a, argument *got) {
-    following_follow(b_(0), r3_(1), r3_(2), r3_(3), r3_(4), r2_(5), r1_(6), r1_(7), r_(8), r1_(9), r1_(10), r1_(11),
-        r1_(12), b_(13), b_(14), b_(15), r2_(16), r3_(17), r2_(18), r2_(19), i1_(20), i1_(21), d1_(22));
+    following_follow(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10), r1_(11),
+        b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
+    (void)got;
+}
+
+WIDER static void in_following_follow_alone(const argument *a, argument *got) {
+    following_follow_alone(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10),
+        r1_(11), b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
     (void)got;
 }
 
@@ -4254,7 +4278,8 @@ const loop_export LOOPS()[] = {
     {"loop_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_loop_advance_all},
     {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
 #ifndef SINGLE
-    {"lanes_march", "b r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march},
+    {"lanes_march", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march},
+    {"lanes_march_alone", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march_alone},
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1 r1 r i i r2* r1*", "b", in_vertical_loop_march},
     {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_prepare_pairs},
@@ -4264,12 +4289,13 @@ const loop_export LOOPS()[] = {
     {"double_double_march_long_pairs", "r1 r1 r1 r r r i i i r2 r b r1 r1* r2* r2* r2* r2* r2* r2* r2* r2*", "iirr", in_double_double_march_long_pairs},
     {"proved_bound_steps", "r2 r2 r2 r1 r2 r2 r2 r2*", "", in_proved_bound_steps},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
-    {"following_follow", "b r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow},
+    {"following_follow", "r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow},
+    {"following_follow_alone", "r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_alone},
     {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "rr", in_expected_surveyed},
     {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1*", "r", in_expected_estimated},
 #endif
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "bb02f40fcaa54c9664b357cb2b0000949210efd5cb5379920cc59b898f610f45";
+const char loops_text[] = "0c5854e8d830f808579b494ef8ca22acdfecdbf0270acf52bfe73bfef82fd3ad";
 #endif

@@ -66,7 +66,7 @@ from chapsym.dynamics.loops.expected import (
     estimated,
     surveyed,
 )
-from chapsym.dynamics.loops.following import REPORTED, STEPS, UNTIL, follow
+from chapsym.dynamics.loops.following import REPORTED, STEPS, UNTIL, follow, follow_alone
 from chapsym.dynamics.loops.lanes import MOST_COLUMNS
 from chapsym.dynamics.map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
@@ -612,12 +612,12 @@ def _run(
         ball.D if ball.radius is None or not traced else ball.radius,
     )  # fmt: skip
     ends = reported, found.reached, found.status, reach
-    few, loop = n < FEW, native.loop(follow)
-    width, shortest = 1 if few else TOGETHER, first.item() if n == 1 else float(first.min(initial=problem.end))
+    loop, width = (native.loop(follow_alone), 1) if n < FEW else (native.loop(follow), TOGETHER)
+    shortest = first.item() if n == 1 else float(first.min(initial=problem.end))
     quick = n * (problem.end * STEP + problem.frames * FRAME * shortest) <= QUICK * shortest
     asked, weights = (first, allowed, problem.survey[MOST], problem.survey[START]), loop_weights(MOST_COLUMNS)
     if n == 1 and quick:
-        loop(few, *frames, problem.interval, *asked, patient, follows, traced, *weights, *ends)
+        loop(*frames, problem.interval, *asked, patient, follows, traced, *weights, *ends)
     else:
 
         def task(at: int) -> None:
@@ -625,7 +625,7 @@ def _run(
                 return
             some = slice(at, at + width)
             balls, wanted, found = ([x[some] for x in arrays] for arrays in (frames, asked, ends))
-            loop(few, *balls, problem.interval, *wanted, patient, follows, traced, *weights, *found)
+            loop(*balls, problem.interval, *wanted, patient, follows, traced, *weights, *found)
             count.add(len(found[-1]))
 
         def look() -> None:

@@ -14,6 +14,9 @@ PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block")
 LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "proved", "tangent", "following", "expected"
 
+#: Words in the names of functions that take long.
+LONG = "march", "follow", "bound"
+
 #: The first lines of a file, with its contents and its sources.
 HEAD = "/* {}\n * Written by `chapsym codegen`: do not edit; change {} and generate again. */\n"
 PRELUDE = """#include <math.h>
@@ -31,11 +34,14 @@ typedef double real;
 #define LOOPS(rest) loops_double##rest
 #endif
 #define R(x) ((real)(x))
-/* On x86 a loop is compiled for wide registers, too, and takes them where the processor has them: to the same bits. */
+/* On x86 a loop is compiled for wide registers, too, and takes them where the processor has them: to the same bits.
+ * The widest make long steps of one ball slower. */
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(WIDEST_OFF)
 #define WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#define WIDER __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define WIDEST
+#define WIDER
 #endif
 #define INLINE static inline __attribute__((always_inline, unused))
 #define OUT_OF_LINE static __attribute__((noinline, unused))
@@ -218,8 +224,8 @@ class Texts:
         """A function of one form that calls one that is exported."""
         of = self.of[function]
         given = ", ".join(f"{of.names[x]}_({i})" for i, x in enumerate(function.parameters))
-        widest = "WIDEST " if any(word in function.name for word in ("march", "follow", "bound")) else ""
-        head = f"{widest}static void in_{function.name}(const argument *a, argument *got)"
+        wide = "WIDER " if function.name.endswith("alone") else "WIDEST " if any(map(function.name.count, LONG)) else ""
+        head = f"{wide}static void in_{function.name}(const argument *a, argument *got)"
         call, out = f"{function.name}({given})", Text("out", of.returned)
         if of.returned is None:
             return block(head, call, "(void)got")

@@ -33,7 +33,7 @@ from .levels.frames import Balls, Count, Frames, cores, share
 from .loops import loop
 from .loops.double_double import FIRST
 from .loops.guess import guess_weights
-from .loops.lanes import CHANGES, EIGHT, LANES, LAST, MOST_COLUMNS, ROWS
+from .loops.lanes import CHANGES, EIGHT, LANES, LAST, MOST_COLUMNS, ROWS, march_alone
 from .loops.lanes import march as march_lanes
 from .map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from .results import in_given_axes
@@ -236,17 +236,20 @@ def _march(
 ) -> Floats:  # fmt: skip
     """Takes all long steps, of one ball that is `alone`, or of many; returns doubt, (n,)."""
     n, (h, steps, *what), weights = len(balls.D), how, loop_weights(columns)
-    doubt, march, chunk = np.empty(n), native.loop(march_lanes), max(1, CHUNK // stages_of(columns))
+    doubt, chunk = np.empty(n), max(1, CHUNK // stages_of(columns))
     states = frames.momentum, frames.gamma, frames.attitude, frames.contact, balls.mass_tensor, balls.D, balls.radius
     ends = doubt, frames.taken, frames.status, frames.reach
 
     def chunks(some: slice, lanes: int) -> Iterator[int]:
         """Takes the steps of some balls, and gives how many were taken: between two it can be interrupted."""
-        kept = np.empty((ROWS + loop.ROWS, LANES * lanes))
+        kept, march = (
+            np.empty((ROWS + loop.ROWS, LANES * lanes)),
+            native.loop(march_alone if lanes == 1 else march_lanes),
+        )
         given, found = (tuple(x[some] for x in arrays) for arrays in (states, ends))
         for first in range(0, max(steps, 1), chunk):
             last = min(first + chunk, steps)
-            march(lanes == 1, *given, h, first, last, *what, *weights, kept, *found)
+            march(*given, h, first, last, *what, *weights, kept, *found)
             yield last - first
             if frames.status[some].all():
                 break  # all have stopped

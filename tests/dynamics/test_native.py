@@ -132,7 +132,7 @@ CASES = [
     (lambda: any_magnitudes("single"), {"loop_advance_all"}),
     *((lambda n=n, o=o: long(n, **o), loops) for o in ({"time_step": 0.3, "contact": True}, {"time_step": 1.0},
       {"time_step": 0.7, "columns": 2, "attitude": True})
-      for n, loops in ((1, {"lanes_march"}), (9, {"lanes_march"}))),
+      for n, loops in ((1, {"lanes_march_alone"}), (9, {"lanes_march", "lanes_march_alone"}))),
     (lambda: long(2, time_step=0.3, contact=True, precision="double-double"), {"double_double_march_long_pairs"}),
     (in_four, {"loop_n_march"}),
     (lambda: chapsym.trajectory_vertical(Ball((1, 2, 4), 0), [0.3, 1.0, 0.0], (0.6, 0.0, 0.8), 300),
@@ -140,7 +140,7 @@ CASES = [
     (chaotic, {"tangent_follow_all"}),
     *((lambda n=n, o=o: rolled(n, **o), {"expected_surveyed", "expected_estimated", loop})
       for o in ({"contact": True}, {"steps": 7, "accuracy": 1e-10}, {"time_step": 0.01, "attitude": True})
-      for n, loop in ((1, "following_follow"), (9, "following_follow"))),
+      for n, loop in ((1, "following_follow_alone"), (9, "following_follow"))),
 ]  # fmt: skip
 
 

@@ -527,15 +527,24 @@ def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, 
 
 
 def follow(
-    alone: bool, momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
+    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
     interval: float, first: Vector, allowed: Vector, most: Vector, start: Vector, patient: bool, follows: bool,
     traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers,
     status: Integers, reach: Doubles,
 ):  # fmt: skip
-    """`follow_lanes` in one lane for a ball that is `alone`, else in eight."""
+    """`follow_lanes` in eight lanes."""
     frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
     asked, weights = Asked(first, allowed, most, start), Weights(sums, following, beginning)
-    if alone:
-        follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)
-    else:
-        follow_lanes(at.EIGHT, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)
+    follow_lanes(at.EIGHT, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)
+
+
+def follow_alone(
+    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
+    interval: float, first: Vector, allowed: Vector, most: Vector, start: Vector, patient: bool, follows: bool,
+    traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers,
+    status: Integers, reach: Doubles,
+):  # fmt: skip
+    """`follow_lanes` in one lane, of one ball."""
+    frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
+    asked, weights = Asked(first, allowed, most, start), Weights(sums, following, beginning)
+    follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)

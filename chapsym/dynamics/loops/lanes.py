@@ -629,14 +629,22 @@ def march_lanes(B, frames, balls, h, first, steps, every, weights, kept, doubt, 
 
 
 def march(
-    alone: bool, momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
+    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
     h: float, first: int, steps: int, every: int, follows: bool, traced: bool, sums: Matrix, following: Cube,
     beginning: Matrix, kept: Matrix, doubt: Vector, taken: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
-    """`march_lanes` for one ball that is `alone`, or for eight or fewer."""
+    """`march_lanes` for eight balls or fewer."""
     frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
     weights = Weights(sums, following, beginning)
-    if alone:
-        march_lanes(1, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach)
-    else:
-        march_lanes(EIGHT, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach)
+    march_lanes(EIGHT, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach)
+
+
+def march_alone(
+    momenta: Cube, verticals: Cube, attitudes: Cube, traces: Cube, J0: Matrix, D0: Vector, radius: Vector,
+    h: float, first: int, steps: int, every: int, follows: bool, traced: bool, sums: Matrix, following: Cube,
+    beginning: Matrix, kept: Matrix, doubt: Vector, taken: Integers, status: Integers, reach: Doubles,
+):  # fmt: skip
+    """`march_lanes` for one ball."""
+    frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
+    weights = Weights(sums, following, beginning)
+    march_lanes(1, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach)
