@@ -193,6 +193,112 @@ def test_the_metadata_of_an_array_are_written_anew(whole, path, damage, after, n
     assert sweep.run_to_store(plan(), path).nothing_to_do
 
 
+def of_the_group(change):
+    """In what the group says of its arrays."""
+
+    def change_root(path):
+        root = path / "zarr.json"
+        document = json.loads(root.read_bytes())
+        change(document["consolidated_metadata"]["metadata"])
+        root.write_text(json.dumps(document))
+
+    return change_root
+
+
+def of_both(change):
+    """In what the group and the array say of gamma: both say the same, and it is wrong."""
+
+    def change_both(path):
+        of_the_group(lambda arrays: change(arrays["gamma"]))(path)
+        own = path / "gamma/zarr.json"
+        document = json.loads(own.read_bytes())
+        change(document)
+        own.write_text(json.dumps(document))
+
+    return change_both
+
+
+def exchanged(path):
+    (path / "gamma").rename(path / "kept")
+    (path / "momentum").rename(path / "gamma")
+    (path / "kept").rename(path / "momentum")
+
+
+@pytest.mark.parametrize("after", [UNITS, 7])
+@pytest.mark.parametrize(
+    ("damage", "read"),
+    [
+        (of_the_group(lambda arrays: arrays.pop("gamma")), False),
+        (of_the_group(lambda arrays: arrays.update(gamma=5)), False),
+        (of_the_group(lambda arrays: arrays.update({"..": arrays["gamma"]})), False),
+        (of_the_group(lambda arrays: arrays["gamma"].update(shape=[20, 35, 3])), False),
+        (of_the_group(lambda arrays: arrays["D"]["attributes"].update(units="lb")), False),
+        (of_both(lambda one: one.update(shape=[20, 35, 3])), False),
+        (of_both(lambda one: one["codecs"][0]["configuration"].update(endian="big")), True),
+        (of_both(lambda one: one["chunk_grid"]["configuration"].update(chunk_shape=[4, 9, 1])), False),
+        (exchanged, False),
+    ],
+)
+def test_what_the_group_says_is_as_the_scene_has_it(whole, path, after, damage, read):
+    """`run` never calls complete what `load` refuses, and writes nothing outside of the store."""
+    interrupted(path, after)
+    damage(path)
+    if after == UNITS and not read:
+        with pytest.raises(SceneError):
+            load(path).load()
+    assert not sweep.run_to_store(plan(), path).nothing_to_do
+    assert [p.name for p in path.parent.iterdir()] == ["run.zarr"]
+    equal_to_the_bit(load(path), whole)
+    equal_to_the_bit(xarray.open_zarr(path, consolidated=False), whole)
+    assert sweep.run_to_store(plan(), path).nothing_to_do
+
+
+@pytest.mark.parametrize("name", ["D/c/.DS_Store", "gamma/c/.DS_Store", "D/c/0 (1)", "gamma/c/0.partial/1"])
+@pytest.mark.parametrize("content", [b"", b"longer than a checksum"])
+def test_what_another_program_puts_into_a_store_is_left_there(whole, path, name, content):
+    interrupted(path, 7)
+    (path / name).parent.mkdir(exist_ok=True)
+    (path / name).write_bytes(content)
+    assert sweep.run_to_store(plan(), path).complete
+    equal_to_the_bit(load(path), whole)
+    assert sweep.run_to_store(plan(), path).nothing_to_do
+    assert (path / name).read_bytes() == content
+
+
+@pytest.mark.parametrize("name", ["zarr.json", "gamma", "D/digests.json", ".chapsym/lock", "gamma/c/0/0/0"])
+def test_nothing_is_written_through_a_link(path, tmp_path_factory, name):
+    interrupted(path, 7)
+    other = tmp_path_factory.mktemp("other") / "kept"
+    if (path / name).exists():
+        (path / name).rename(other)
+    else:
+        other.write_text("kept")
+    (path / name).symlink_to(other)
+    before = {p: p.is_file() and p.read_bytes() for p in other.parent.rglob("*")}
+    with pytest.raises(SceneError, match=f"{name} is a link"):
+        sweep.run_to_store(plan(), path)
+    assert {p: p.is_file() and p.read_bytes() for p in other.parent.rglob("*")} == before
+
+
+def test_a_chunk_that_the_system_does_not_read_is_one_sentence(path):
+    sweep.run_to_store(plan(), path)
+    chunk = path / "gamma/c/0/0/0"
+    chunk.unlink()
+    chunk.symlink_to(chunk.name)
+    with pytest.raises(SceneError, match="gamma/c/0/0/0 cannot be read"):
+        load(path).load()
+
+
+def test_a_wrong_list_of_what_does_not_come_from_the_run_is_written_anew(whole, path):
+    sweep.run_to_store(plan(), path)
+    (path / "D/digests.json").write_text('{"array": "D", "crc32c": {"c/0": "00000000"}}')
+    with pytest.raises(SceneError, match="D/c/0 is damaged"):
+        load(path).load()
+    assert not sweep.run_to_store(plan(), path).nothing_to_do
+    equal_to_the_bit(load(path), whole)
+    assert sweep.run_to_store(plan(), path).nothing_to_do
+
+
 @pytest.mark.parametrize("damage", [cut, Path.unlink])
 def test_without_the_list_of_digests_the_checksums_remain(whole, path, damage):
     sweep.run_to_store(plan(), path)

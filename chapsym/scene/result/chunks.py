@@ -2,6 +2,7 @@
 
 import json
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from zarr.codecs import Crc32cCodec, ZstdCodec
@@ -35,15 +36,19 @@ class CheckedStore(LocalStore):
 
     async def get(self, key: str, *args: Any, **options: Any) -> Any:
         """The contents of a file, or None; raises SceneError for a chunk that is missing or damaged."""
-        found = await super().get(key, *args, **options)
+        try:
+            found = await super().get(key, *args, **options)
+        except OSError as error:
+            raise SceneError(f"{self.root / key} cannot be read: {error.strerror or error}") from None
         name, _, chunk = key.partition("/")
         if chunk.split("/")[0] == "c" and name in self._checked:
             if found is None and self._complete:
-                raise SceneError(f"{self.root / key} is missing: {self._mended}")
+                raise SceneError(f"{self.root / key} is missing: {mended(self.root)}")
             if found is not None and not sound(found.to_bytes(), self._digests.get(name, {}).get(chunk)):
-                raise SceneError(f"{self.root / key} is damaged: {self._mended}")
+                raise SceneError(f"{self.root / key} is damaged: {mended(self.root)}")
         return found
 
-    @property
-    def _mended(self) -> str:
-        return f"chapsym run of the same scene with -o {self.root} computes these balls anew and keeps the others"
+
+def mended(path: Path) -> str:
+    """How a result that is damaged is mended, as a clause."""
+    return f"chapsym run of the same scene with -o {path} computes these balls anew and keeps the others"

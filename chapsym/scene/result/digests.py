@@ -33,15 +33,15 @@ def sound(content: bytes, digest: str | None = None) -> bool:
 def is_sound(chunk: Path, digest: str | None = None) -> bool:
     """Whether the file of a chunk is there, can be read, and is as it was written."""
     try:
-        return sound(chunk.read_bytes(), digest)
+        return chunk.is_file() and sound(chunk.read_bytes(), digest)
     except OSError:
         return False
 
 
 def digest(chunk: Path) -> str:
     """The checksum that the file of a chunk ends in, in hexadecimal digits; raises OSError."""
-    with chunk.open("rb") as file:
-        file.seek(-BYTES, os.SEEK_END)
+    with chunk.open("rb") as file:  # which may be shorter, where another program has put it
+        file.seek(max(file.seek(0, os.SEEK_END) - BYTES, 0))
         return file.read().hex()
 
 
@@ -52,9 +52,13 @@ def written(array: Path) -> dict[str, Path]:
 
 
 def digests(array: Path) -> dict[str, str]:
-    """The checksums of its chunks by their keys, as `write_digests` left them; none if they are not to be had."""
+    """The checksums of its chunks by their keys, as `write_digests` left them; none if they are not to be had.
+
+    In the folder of another array, with whose name it came there, no chunk has the one that is listed.
+    """
     found = read_object(array / DIGESTS)
-    return found["crc32c"] if found.get("array") == array.name and isinstance(found.get("crc32c"), dict) else {}
+    listed = found["crc32c"] if isinstance(found.get("crc32c"), dict) else {}
+    return listed if found.get("array") == array.name else dict.fromkeys(listed, "")
 
 
 def write_digests(path: Path) -> None:
@@ -65,21 +69,31 @@ def write_digests(path: Path) -> None:
 
 
 def folders(path: Path) -> list[Path]:
-    """The folders of the arrays of a group."""
-    return [path / name for name in sorted(metadata(path))]
+    """The folders of the arrays of a group, inside of its own."""
+    return [path / name for name in sorted(metadata(path)) if Path(name).name == name and name not in ("", "..")]
 
 
 def metadata(path: Path) -> dict[str, Any]:
     """What the group says of its arrays, by their names; where it says nothing, what each says of itself."""
-    with suppress(KeyError, TypeError, ValueError):
-        found = dict(read_object(path / "zarr.json")["consolidated_metadata"]["metadata"])
-        return {name: one for name, one in found.items() if Path(name).name == name}
-    return {file.parent.name: read_object(file) for file in path.glob("*/zarr.json")}
+    found = said(path)
+    return {file.parent.name: read_object(file) for file in path.glob("*/zarr.json")} if found is None else found
 
 
-def altered(path: Path) -> dict[str, Any]:
-    """Of the arrays that do not say of themselves what the group says of them, the latter."""
-    return {name: one for name, one in metadata(path).items() if read_object(path / name / "zarr.json") != one}
+def said(path: Path) -> dict[str, Any] | None:
+    """What the group says of its arrays, by their names, if it says anything."""
+    with suppress(KeyError, TypeError):
+        found = read_object(path / "zarr.json")["consolidated_metadata"]["metadata"]
+        return found if isinstance(found, dict) else None
+    return None
+
+
+def disputed(path: Path) -> list[str]:
+    """The arrays that say of themselves what the group does not say of them."""
+    listed = {
+        file.parent.name for file in path.glob(f"*/{DIGESTS}") if read_object(file).get("array") == file.parent.name
+    }
+    found = metadata(path)
+    return sorted(name for name in listed | set(found) if read_object(path / name / "zarr.json") != found.get(name))
 
 
 def read_object(path: Path) -> dict[str, Any]:

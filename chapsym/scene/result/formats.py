@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 #: What readers raise of a file that is damaged, or made by somebody else.
 DAMAGED = (
-    ValueError, KeyError, TypeError, EOFError, AttributeError, OverflowError, IndexError, RecursionError,
+    ValueError, KeyError, TypeError, EOFError, AttributeError, ArithmeticError, IndexError, RecursionError,
     NotImplementedError, csv.Error, zipfile.BadZipFile, zlib.error,
 )  # fmt: skip
 #: Bytes that are read at once of a CSV, and the most that its first row may have of what no row has.
@@ -228,9 +228,12 @@ def _written(value: Any) -> Any:
 def _read_zarr(path: Path) -> "Dataset":
     import xarray
 
-    from .chunks import CheckedStore
+    from .chunks import CheckedStore, mended
+    from .digests import disputed
 
     check_ours(path)
+    if found := disputed(path):
+        raise SceneError(f"{path / 'zarr.json'} and that of {found[0]!r} in it say different things: {mended(path)}")
     with warnings.catch_warnings():  # of a group that lacks what it should have: a sentence reports it
         warnings.filterwarnings("ignore", message="Failed to open Zarr store with consolidated metadata")
         data = xarray.open_zarr(CheckedStore(path, read_only=True))

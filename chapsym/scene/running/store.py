@@ -27,11 +27,12 @@ from ..plan.plan import Plan
 from ..read.errors import SceneError
 from ..read.task import Columns
 from ..result.dataset import OF_BALLS, arrays, layout, provenance
-from ..result.digests import altered, digest, digests, folders, is_sound, write_digests, written
-from ..result.formats import attributes, check_ours, plain
+from ..result.digests import digest, digests, folders, is_sound, read_object, said, write_digests
+from ..result.formats import DAMAGED, attributes, check_ours, plain
 
 if TYPE_CHECKING:
     from xarray import Dataset
+    from zarr.storage import MemoryStore
 
 ELSE = "choose another name, or replace it with --fresh"
 #: In a mark: how many segments are done, and the checksums of their chunks; the rest is the state.
@@ -73,10 +74,11 @@ class Store:
             with _locked(path):
                 _discard(path)
         if not path.exists():
-            created(path, lambda place: _fill(place, plan))
+            created(path, lambda place: _create(place, plan))
         with _locked(path):
             for left in path.rglob("*.partial"):  # chunks that a killed process has left half written
-                left.unlink(missing_ok=True)
+                if left.is_file():
+                    left.unlink(missing_ok=True)
             store._mend()
             yield store
 
@@ -87,11 +89,13 @@ class Store:
     @cached_property
     def complete(self) -> bool:
         """Whether, when the store was opened, every unit was there as it was written."""
-        if not self._says_complete or altered(self.path):
+        if not self._says_complete or not self._described():
             return False
         self._digests = self._listed()
         every = range(len(self.plan.segments))
-        return not (any(self._damage(i, every) for i in range(len(self.plan.chunks))) or self._lost_coordinates())
+        if any(self._damage(chunk, every) for chunk in range(len(self.plan.chunks))):
+            return False
+        return all(self._has(name, values) for name, values in self._coordinates().items())
 
     def _listed(self) -> dict[str, str]:
         """The checksums that a complete store lists."""
@@ -138,34 +142,78 @@ class Store:
         keys = self._keys(chunk, segments, framed=False) + self._keys(chunk, segments)
         return next((key for key in keys if not is_sound(self.path / key, self._digests.get(key))), None)
 
-    def _lost_coordinates(self) -> dict[str, np.ndarray]:
-        """What does not come from the run, and is not there as it should be."""
+    def _coordinates(self) -> dict[str, np.ndarray]:
+        """What does not come from the run."""
+        whole = _unwritten(self.plan).variables
+        return {str(name): one.values for name, one in whole.items() if name not in layout(self.plan)}
+
+    def _has(self, name: str, values: np.ndarray) -> bool:
+        """Whether an array of a complete store can be read, and has these values."""
         import zarr
 
-        def is_there(name: str, values: np.ndarray) -> bool:
-            try:
-                array: Any = zarr.open_array(self.path / name, mode="r")
-                found = np.asarray(array[...], values.dtype)
-            except ValueError:  # of a chunk whose checksum is wrong, or that does not fit
-                return False
-            return len(written(self.path / name)) == array.nchunks and _same(found, values)
+        from ..result.chunks import CheckedStore
 
-        whole = _unwritten(self.plan)
-        with _refusals(self.path):
-            wanted = {str(name): one.values for name, one in whole.variables.items() if name not in layout(self.plan)}
-            return {name: values for name, values in wanted.items() if not is_there(name, values)}
+        try:
+            array: Any = zarr.open_array(CheckedStore(self.path, read_only=True), path=name, mode="r")
+            return _same(np.asarray(array[...], values.dtype), values)
+        except ValueError:  # a SceneError, too
+            return False
+
+    @cached_property
+    def _document(self) -> dict[str, Any]:
+        """What the group says of itself and of its arrays when it is made."""
+        import zarr
+
+        kept: dict[str, Any] = {}
+        _fill(zarr.storage.MemoryStore(kept), self.plan)
+        return dict(json.loads(kept["zarr.json"].to_bytes()))
+
+    @property
+    def _about(self) -> dict[str, Any]:
+        """The attributes of the group, but for those that need not be those of this plan."""
+        found: dict[str, Any] = self._document["attributes"]
+        return {key: value for key, value in found.items() if key not in ("complete", "scene")}
+
+    @property
+    def _arrays(self) -> dict[str, Any]:
+        found: dict[str, Any] = self._document["consolidated_metadata"]["metadata"]
+        return found
+
+    def _described(self) -> bool:
+        """Whether the group and each array say of themselves what they said when they were made."""
+        found, listed = read_object(self.path / "zarr.json"), said(self.path)
+        return (
+            listed is not None
+            and all(found.get(key) == self._document[key] for key in ("zarr_format", "node_type"))
+            and self._about.items() <= attributes(self.path).items()
+            and set(listed) == set(self._arrays)
+            and all(read_object(self.path / name / "zarr.json") == one for name, one in listed.items())
+            and all(_alike(listed[name], one) for name, one in self._arrays.items())
+        )
+
+    def _describe(self) -> None:
+        """Writes anew what the group and its arrays say of themselves, and discards the arrays of which neither did."""
+        listed = said(self.path) or {}
+        for name, one in self._arrays.items():
+            folder = self.path / name
+            known = _alike(read_object(folder / "zarr.json"), one) or _alike(listed.get(name), one)
+            if folder.is_dir() and not known:
+                shutil.rmtree(folder)
+            folder.mkdir(exist_ok=True)
+            files.write_text(folder / "zarr.json", json.dumps(one, indent=2))
+        about = {"attributes": attributes(self.path) | self._about}
+        files.write_text(self.path / "zarr.json", json.dumps(self._document | about, indent=2))
 
     def _mend(self) -> None:
         """Writes what does not come from the run anew; a store that is not complete says so no more."""
         import zarr
 
         with _refusals(self.path):
-            for name, one in altered(self.path).items():
-                (self.path / name).mkdir(exist_ok=True)
-                files.write_text(self.path / name / "zarr.json", json.dumps(one, indent=2))
+            if not self._described():
+                self._describe()
             group: Any = zarr.open_group(self.path, mode="r+", use_consolidated=False)
-            for name, values in self._lost_coordinates().items():
-                group[name][...] = values
+            for name, values in self._coordinates().items():
+                group[name].with_config({"write_empty_chunks": True})[...] = values
             if not self._says_complete:
                 return
             self._digests = self._listed()
@@ -225,6 +273,16 @@ class Store:
         document = json.loads((self.path / "zarr.json").read_text(encoding="utf-8"))
         document["attributes"]["complete"] = complete
         files.write_text(self.path / "zarr.json", json.dumps(document, indent=2))
+
+
+def _alike(found: Any, wanted: dict[str, Any]) -> bool:
+    """Whether Zarr reads the same of two descriptions of an array."""
+    from zarr.core.metadata import ArrayV3Metadata
+
+    try:
+        return bool(ArrayV3Metadata.from_dict(found).to_dict() == ArrayV3Metadata.from_dict(wanted).to_dict())
+    except DAMAGED:
+        return False
 
 
 def _same(one: np.ndarray, other: np.ndarray) -> bool:
@@ -350,12 +408,16 @@ def _alive(pid: int) -> bool:
     return True
 
 
-def _fill(path: Path, plan: Plan) -> None:
-    """The group with all metadata and coordinates; of the values only that there are none yet."""
-    write(_unwritten(plan).drop_vars(layout(plan)), path)
-    _add_arrays(path, plan)
-    consolidate(path)
+def _create(path: Path, plan: Plan) -> None:
+    _fill(path, plan)
     folder_of(path).mkdir()
+
+
+def _fill(place: "Path | MemoryStore", plan: Plan) -> None:
+    """The group with all metadata and coordinates; of the values only that there are none yet."""
+    write(_unwritten(plan).drop_vars(layout(plan)), place)
+    _add_arrays(place, plan)
+    consolidate(place)
 
 
 def _unwritten(plan: Plan) -> "Dataset":
@@ -364,7 +426,7 @@ def _unwritten(plan: Plan) -> "Dataset":
     return arrays(plan, none, none).assign_attrs({"complete": False}).dataset()
 
 
-def write(data: "Dataset", path: Path) -> None:
+def write(data: "Dataset", path: "Path | MemoryStore") -> None:
     """Writes a new group, its chunks with their checksums."""
     from ..result.chunks import COMPRESSORS
 
@@ -372,7 +434,7 @@ def write(data: "Dataset", path: Path) -> None:
     data.to_zarr(path, zarr_format=3, consolidated=False, encoding=encoding, write_empty_chunks=True)
 
 
-def _add_arrays(path: Path, plan: Plan) -> None:
+def _add_arrays(path: "Path | MemoryStore", plan: Plan) -> None:
     """The variables, without values, each unit a chunk; Zarr's chunks are regular, and only the last is shorter."""
     import zarr
 
@@ -389,7 +451,7 @@ def _add_arrays(path: Path, plan: Plan) -> None:
         )  # fmt: skip
 
 
-def consolidate(path: Path) -> None:
+def consolidate(path: "Path | MemoryStore") -> None:
     """One file of all metadata."""
     import zarr
 
@@ -401,6 +463,11 @@ def consolidate(path: Path) -> None:
 
 @contextmanager
 def _locked(path: Path) -> Iterator[None]:
+    """Raises SceneError if another process writes the store, or if it would be written outside of its folder."""
+    if link := next((one for one in path.rglob("*") if one.is_symlink()), None):
+        raise SceneError(
+            f"{link} is a link, and what it leads to may not be chapsym's to write: put files in its place"
+        )
     with _refusals(path):
         folder_of(path).mkdir(exist_ok=True)
     with jobs.held(folder_of(path) / "lock", str(path)):
