@@ -89,6 +89,7 @@ def _run(path, after, wanted):
 
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(sweep, "advance", advance)
+        patched.setattr(sweep, "cores", lambda: 1)  # so that it is the first units that are written
         with suppress(KeyboardInterrupt):
             sweep.run_to_store(wanted, path)
 

@@ -67,6 +67,7 @@ class Store:
         store = cls(path, plan)
         if path.exists() and not fresh:
             check_same(path, plan)
+            store._check_form()
             if store.complete:
                 yield store
                 return
@@ -179,6 +180,14 @@ class Store:
         found: dict[str, Any] = self._document["consolidated_metadata"]["metadata"]
         return found
 
+    def _check_form(self) -> None:
+        """Raises SceneError for an array of another form, which another program wrote."""
+        listed = said(self.path) or {}
+        for name, one in self._arrays.items():
+            known = [_read(of) for of in (read_object(self.path / name / "zarr.json"), listed.get(name))]
+            if any(known) and _read(one) not in known:
+                raise SceneError(f"{self.path / name} is not as chapsym wrote it, but perhaps a copy; {ELSE}")
+
     def _described(self) -> bool:
         """Whether the group and each array say of themselves what they said when they were made."""
         found, listed = read_object(self.path / "zarr.json"), said(self.path)
@@ -188,19 +197,14 @@ class Store:
             and self._about.items() <= attributes(self.path).items()
             and set(listed) == set(self._arrays)
             and all(read_object(self.path / name / "zarr.json") == one for name, one in listed.items())
-            and all(_alike(listed[name], one) for name, one in self._arrays.items())
+            and all(_read(listed[name]) == _read(one) for name, one in self._arrays.items())
         )
 
     def _describe(self) -> None:
-        """Writes anew what the group and its arrays say of themselves, and discards the arrays of which neither did."""
-        listed = said(self.path) or {}
+        """Writes anew what the group and its arrays say of themselves."""
         for name, one in self._arrays.items():
-            folder = self.path / name
-            known = _alike(read_object(folder / "zarr.json"), one) or _alike(listed.get(name), one)
-            if folder.is_dir() and not known:
-                shutil.rmtree(folder)
-            folder.mkdir(exist_ok=True)
-            files.write_text(folder / "zarr.json", json.dumps(one, indent=2))
+            (self.path / name).mkdir(exist_ok=True)
+            files.write_text(self.path / name / "zarr.json", json.dumps(one, indent=2))
         about = {"attributes": attributes(self.path) | self._about}
         files.write_text(self.path / "zarr.json", json.dumps(self._document | about, indent=2))
 
@@ -275,14 +279,14 @@ class Store:
         files.write_text(self.path / "zarr.json", json.dumps(document, indent=2))
 
 
-def _alike(found: Any, wanted: dict[str, Any]) -> bool:
-    """Whether Zarr reads the same of two descriptions of an array."""
+def _read(description: Any) -> dict[str, Any] | None:
+    """What Zarr reads of the description of an array; None if it is none."""
     from zarr.core.metadata import ArrayV3Metadata
 
     try:
-        return bool(ArrayV3Metadata.from_dict(found).to_dict() == ArrayV3Metadata.from_dict(wanted).to_dict())
+        return dict(ArrayV3Metadata.from_dict(description).to_dict())
     except DAMAGED:
-        return False
+        return None
 
 
 def _same(one: np.ndarray, other: np.ndarray) -> bool:
