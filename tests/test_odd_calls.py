@@ -1,5 +1,7 @@
 """Public functions with odd arguments: no exception but those documented, no warning, no NaN in silence."""
 
+from fractions import Fraction
+
 import numpy as np
 import odd_calls
 import pytest
@@ -96,3 +98,69 @@ def test_a_count_that_is_a_time_and_a_place_of_other_balls_are_refused():
     with pytest.raises(BadInput) as refused:
         chapsym.roll(ball, (1, 0, 0), 0.1, masked)
     assert "\n" not in str(refused.value)
+
+
+UNSHOWN = {"integer": 10**6000, "fraction": Fraction(10**6000, 7), "list": [-(10**6000)], "own": odd_calls.Unshown()}
+
+
+@pytest.mark.parametrize("odd", UNSHOWN.values(), ids=UNSHOWN)
+def test_what_cannot_be_shown_is_refused_by_its_name(odd):
+    ball, K, gamma = chapsym.Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (2 / 7, 3 / 7, 6 / 7)
+    for name, call in (
+        ("steps", lambda: chapsym.trajectory(ball, K, gamma, odd)),
+        ("order", lambda: chapsym.substeps(odd)),
+        ("precision", lambda: chapsym.step(ball, K, gamma, precision=odd)),
+        ("index", lambda: chapsym.steady_frames(ball, (0, 0, 1), (0, 0, 1), odd)),
+        ("digits", lambda: chapsym.certified_motion(ball, K, gamma, 1, odd)),
+        ("of", lambda: chapsym.accurate(ball, K, gamma, 1, 1e-3, of=odd)),
+        ("path", lambda: chapsym.open_result(odd)),
+    ):
+        with pytest.raises(BadInput, match=name):
+            call()
+    for level in (chapsym.Digits, chapsym.Enclosure):
+        with pytest.raises(ValueError, match="takes a whole number"):
+            level(odd)
+
+
+def test_a_number_that_raises_an_error_of_its_own_is_refused():
+    with pytest.raises(BadInput, match="momentum must be real numbers"):
+        chapsym.invariants_n([odd_calls.Unwilling(0.1)], (1, 0, 0))
+
+
+def test_arguments_of_frames_that_are_known_at_once_are_those_of_a_run():
+    ball, top = chapsym.Ball((1, 2, 4), 3, 0.1), chapsym.Ball((1, 2, 4), 0)
+    for odd in ("0.1", -0.1, float("nan"), [0.1], 10**400, 1e308):
+        with pytest.raises(BadInput, match="time_step"):
+            chapsym.steady_frames(ball, (0, 0, 1), (0, 0, 1), [0, 10], time_step=odd)
+        with pytest.raises(BadInput, match="time_step"):
+            chapsym.top_frames(top, (0.1, 0.2, 0.3), (0, 0, 1), [0, 10], time_step=odd)
+    with pytest.raises(BadInput, match="contact must be True or False"):
+        chapsym.steady_frames(ball, (0, 0, 1), (0, 0, 1), [0], contact=[True, True])
+
+
+def test_a_switch_and_an_order_that_are_arrays_are_refused():
+    with pytest.raises(BadInput, match="batch must be True or False"):
+        chapsym.Ball.from_inertia((3, 4, 5), mass=20, radius=1, batch=np.ones(3))
+    with pytest.raises(BadInput, match="order must be one of 2, 4, 6, 8"):
+        chapsym.compose_step(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1), np.ones(3))
+
+
+@pytest.mark.filterwarnings("error")
+def test_small_integers_number_steps_of_a_top_and_moments_that_underflow_are_no_warning():
+    motion = chapsym.TopMotion.free(chapsym.Ball((1, 2, 4), 0), (0.1, 0.2, 0.3))
+    assert (motion.rotations(np.array([1, 200], np.uint8)) == motion.rotations([1, 200])).all()
+    assert chapsym.is_top(chapsym.Ball((2.6e164, 7.5e-224, 5.7e-172), 0), (0.06, 0.05, 0.02), (1, 0, 0))
+
+
+def test_a_limit_beyond_float64_is_no_limit():
+    ball = chapsym.Ball((1, 2, 4), 3)
+    run = chapsym.certified_motion(ball, (0.1, 0.2, 0.3), (0, 0, 1), 0.1, 10, limit=10**400)
+    assert run.stopped is None
+
+
+@pytest.mark.filterwarnings("error")
+def test_exact_numbers_beyond_float64_are_refused_without_a_warning():
+    with pytest.raises(BadInput, match="radius must be positive"):
+        chapsym.ExactBall((1, 2, 4), 3, -(10**400))
+    with pytest.raises(BadInput, match="too far apart in size"):
+        chapsym.certified_motion(chapsym.ExactBall((1, 1, 1), 10**11179), (-0.2, 1, 0), (0, 0, 1), 0.5, 10)

@@ -13,6 +13,7 @@ from typing import Any, Self, TypeGuard
 import numpy as np
 from numpy.typing import ArrayLike
 
+from chapsym.numbers import brief
 from chapsym.rationals import exact_fraction
 
 from . import principal_axes
@@ -82,7 +83,7 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
             floats = array.astype(np.float64)
     except (OverflowError, FloatingPointError):
         raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
-    except (TypeError, ValueError):
+    except Exception:  # of objects, whatever they raise
         raise _not_numbers(value, name) from None
     if array.dtype != FLOAT64 and ((floats == 0) & (array != 0)).any():
         raise BadInput(f"{name} is below the range of float64, about 2.2e-308; take other units")
@@ -114,10 +115,11 @@ def _not_numbers(value: Any, name: str) -> BadInput:
     return BadInput(f"{name} must be real numbers, not {brief(value)}")
 
 
-def brief(value: Any) -> str:
-    """A short text of a value that is refused, for a sentence."""
-    text = " ".join(repr(value).split())  # an array is one line, too
-    return text if len(text) <= 60 else text[:57] + "..."
+def flag(value: bool, name: str) -> bool:
+    """True or false; raises BadInput for anything else."""
+    if not isinstance(value, bool | np.bool_):
+        raise BadInput(f"{name} must be True or False, not {brief(value)}")
+    return bool(value)
 
 
 class Parameters(Brief):
@@ -265,7 +267,7 @@ class Ball(Parameters):
         array([2.792893, 4.207107, 5.      ])
         """
         contact, given = contact_term(mass, radius, D), numbers(inertia, "inertia")
-        rows = batch or not principal_axes.is_tensor(given)
+        rows = flag(batch, "batch") or not principal_axes.is_tensor(given)
         least = rounded_by(inertia) if given.ndim == (1 if rows else 2) else 0.0  # of one ball
         if rows:
             tensor = mass_tensor_of(given, least)

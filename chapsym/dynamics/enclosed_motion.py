@@ -24,6 +24,8 @@ PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
 GUARD, OF_TURNS = 24, 2
 #: The most digits, and the most bits that an attempt may have.
 MOST_DIGITS, MOST_BITS = 4_000, 2**20
+#: The longest limit, in seconds: what is longer has no end.
+LONGEST = 1e9
 #: Bits by which a radius may grow when it is written: it and the middle are rounded, which adds .15 of it.
 ROUNDED = 0.25
 #: Bits beyond those that were missing, for the next attempt.
@@ -75,7 +77,7 @@ class ExactBall:
             moments = vector(mass_tensor, "mass_tensor")
             check_body(moments, contact)
         if rho is not None and rho <= 0:
-            raise BadInput(f"radius must be positive, but it is {float(rho):g}")
+            raise BadInput(f"radius must be positive, but it is {brief(radius)}")
         for name, value in zip(("mass_tensor", "D", "radius"), (moments, contact, rho), strict=True):
             object.__setattr__(self, name, value)
 
@@ -304,6 +306,7 @@ def follow(
         raise BadInput(f"digits must be a whole number from 1 to {MOST_DIGITS}, not {brief(digits)}")
     if not (isinstance(limit, int | float) and limit > 0):
         raise BadInput(f"limit must be a positive number of seconds, not {brief(limit)}")
+    limit = float(min(limit, LONGEST))
     search = _Search(start, tuple(times), digits, clock.monotonic() + limit, progress)
     bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()
     why = None

@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single
 
 from .attitudes import first_attitudes
-from .ball import Ball, Floats, brief, in_shape, is_followed, numbers
+from .ball import Ball, Floats, brief, flag, in_shape, is_followed, numbers
+from .coefficients import substeps
 from .errors import BadInput
 from .levels import dispatch
 from .levels.frames import Balls, Frames, given
@@ -130,6 +131,7 @@ def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) 
     >>> round(float(after.momentum @ after.momentum), 12)
     0.0125
     """
+    substeps(order)  # which refuses others
     return composed(ball, momentum, gamma, order, NAMED["double"])
 
 
@@ -222,9 +224,7 @@ def trajectory(
     steps, every = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1)
     threads = whole_number(threads, "threads", 0)
     every = min(every, steps + 1)
-    time_step = None if time_step is None else seconds(time_step)
-    if time_step is not None and not steps * time_step < math.inf:
-        raise BadInput("steps times time_step is beyond the range of float64, about 1.8e308 s")
+    time_step = step_of_run(time_step, steps)
     precision = dispatch.precision_of(precision)
     shape, g, balls = given(ball, momentum, gamma, precision)
     with_body = flag(contact, "contact") or is_followed(attitude)
@@ -365,13 +365,6 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
     return min(int(value), MOST_STEPS)
 
 
-def flag(value: bool, name: str) -> bool:
-    """True or False; raises BadInput for anything else."""
-    if not isinstance(value, bool | np.bool_):
-        raise BadInput(f"{name} must be True or False, not {brief(value)}")
-    return bool(value)
-
-
 def step_numbers(index: ArrayLike) -> np.ndarray:
     """Ascending whole numbers from 0 on as int64, (frames,); raises BadInput for anything else."""
     try:
@@ -379,10 +372,18 @@ def step_numbers(index: ArrayLike) -> np.ndarray:
     except ValueError:  # rows of different length
         given = np.empty(0)
     if given.dtype.kind not in "iu" or given.ndim != 1 or not len(given):
-        raise BadInput(f"index must be a list of whole numbers, at least one, not {index!r:.60}")
+        raise BadInput(f"index must be a list of whole numbers, at least one, not {brief(index)}")
     if int(given[0]) < 0 or int(given.max()) > MOST_STEPS or (given[1:] <= given[:-1]).any():
         raise BadInput("index must ascend from 0 or a later step, to 2^62 at most")
     return given.astype(np.int64)
+
+
+def step_of_run(time_step: Any, steps: int) -> float | None:
+    """The time step of a run, if it is given, in seconds; raises BadInput for none, and for steps beyond float64."""
+    epsilon = None if time_step is None else seconds(time_step)
+    if epsilon is not None and not steps * epsilon < math.inf:
+        raise BadInput("steps times time_step is beyond the range of float64, about 1.8e308 s")
+    return epsilon
 
 
 def seconds(value: Any, positive: bool = True) -> float:

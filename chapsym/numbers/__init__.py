@@ -1,9 +1,21 @@
 """The precisions: how a number is made and written on each."""
 
 from .pair import Pair
-from .precisions import NAMED, Digits, Double, DoubleDouble, Enclosure, Precision, Single, in_words, named, own_name
+from .precisions import (
+    NAMED,
+    Digits,
+    Double,
+    DoubleDouble,
+    Enclosure,
+    Precision,
+    Single,
+    brief,
+    in_words,
+    named,
+    own_name,
+)
 
 __all__ = [
     "NAMED", "Digits", "Double", "DoubleDouble", "Enclosure", "Pair", "Precision", "Single",
-    "in_words", "named", "own_name",
+    "brief", "in_words", "named", "own_name",
 ]  # fmt: skip

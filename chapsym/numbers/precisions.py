@@ -39,9 +39,18 @@ def flint_bits(bits: int) -> Iterator[None]:
 MOST_DIGITS, MOST_BITS = 1_000_000, 10_000_000
 
 
+def brief(value: Any) -> str:
+    """A short text of a value that is refused, for a sentence."""
+    try:
+        text = " ".join(repr(value).split())  # an array is one line, too
+    except Exception:  # whole numbers of more digits than Python writes, and whatever an object raises
+        text = f"an object of the type {type(value).__name__} that has no short text"
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
 def _whole(name: str, value: Any, least: int, most: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-        raise ValueError(f"{name}(n) takes a whole number from {least} to {most}, not {value!r}")
+        raise ValueError(f"{name}(n) takes a whole number from {least} to {most}, not {brief(value)}")
 
 
 class Precision(ABC):
@@ -239,4 +248,4 @@ def named(precision: "str | Precision") -> Precision:
     if isinstance(precision, str) and precision in NAMED:
         return NAMED[precision]
     clause = '"single", "double", "double-double", chapsym.Digits(n) or chapsym.Enclosure(bits)'
-    raise ValueError(f"precision must be {clause}, not {precision!r}")
+    raise ValueError(f"precision must be {clause}, not {brief(precision)}")

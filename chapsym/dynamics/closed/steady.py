@@ -17,10 +17,10 @@ from chapsym.numbers.loose import Loose
 
 from .. import kernels
 from ..attitudes import first_attitudes
-from ..ball import Ball, Floats, batch, is_followed, numbers, unit_vertical
+from ..ball import Ball, Floats, batch, flag, is_followed, numbers, unit_vertical
 from ..errors import BadInput, Status, explain
 from ..loops.vectors import dot
-from ..map import rolling_radius, step_numbers
+from ..map import rolling_radius, step_numbers, step_of_run
 from ..results import Trajectory, finished, of_balls
 from . import turns
 
@@ -121,7 +121,8 @@ def steady_frames(
     >>> run.gamma[1].round(6).tolist()
     [0.0, -0.790878, -0.611974]
     """
-    numbered = step_numbers(index)
+    numbered, contact = step_numbers(index), flag(contact, "contact")
+    time_step = step_of_run(time_step, int(numbered[-1]))
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     steady, moment = _equivalent(K, g, J, D)
     if not steady.all():

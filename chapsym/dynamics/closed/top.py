@@ -33,7 +33,7 @@ from ..attitudes import first_attitudes
 from ..ball import Ball, Floats, batch, in_principal_axes, inertia_of, is_followed, numbers, unit_vertical
 from ..errors import BadInput, Status, StepNotTaken
 from ..loops.vectors import cross, dot
-from ..map import step_numbers
+from ..map import step_numbers, step_of_run
 from ..results import Trajectory, finished, of_balls
 from ..shown import Brief
 from . import turns
@@ -226,8 +226,9 @@ class TopMotion(Brief):
             mean = _mean(self.exact)
         return mean, _series(self)
 
-    def rotations(self, index: np.ndarray) -> Floats:
+    def rotations(self, index: ArrayLike) -> Floats:
         """Unit quaternions Q with R_k = R₀Q_k at the step numbers, (frames, 4), the scalar ≥ 0."""
+        index = step_numbers(index)
         (high, low), _ = self.precession
         angle = 2.0 * np.pi * turns.fraction(np.asarray(high), np.asarray(low), index)
         angle = angle + self._wave(self.phase(index)) - self._wave(np.asarray(self.start))
@@ -260,7 +261,7 @@ class TopMotion(Brief):
 
 def moves(tensor: Floats, contact: Floats, direction: Floats) -> np.ndarray:
     """Whether a direction of 𝒦 moves in the body by more than SMALLEST_TURN, (...)."""
-    with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # what overflows moves
+    with np.errstate(all="ignore"):  # what overflows moves
         J, moments, _ = _in_units(tensor, inertia_of(tensor) + contact[..., np.newaxis])
         return np.asarray(np.abs(across(J, moments, direction)).max(axis=-1) > SMALLEST_TURN)
 
@@ -515,6 +516,7 @@ def top_frames(
     [0.200138, -0.049305, 0.312272]
     """
     numbered = step_numbers(index)
+    time_step = step_of_run(time_step, int(numbered[-1]))
     shape, (K, g, J, D) = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     if not _is_top(K, g, J, D).all():
         raise BadInput(

@@ -310,8 +310,9 @@ def _log(x: Any) -> float:
 def _turn(a: Floats, k: Floats, J: Floats, D: float, rotor: Floats) -> float:
     """The time of about a radian, of the ball or of one that the rotor alone turns; 0 at rest."""
     R = np.reshape(generated.rotation(*a), (3, 3))
-    turns = (generated.angular_velocity(*(*x, *R[2], *J, D)) for x in (k @ R - rotor, rotor))
-    rate = max(math.sqrt(sum(x * x for x in omega)) for omega in turns)
+    with np.errstate(all="ignore"):  # numbers that are too far apart are refused
+        turns = [generated.angular_velocity(*(*x, *R[2], *J, D)) for x in (k @ R - rotor, rotor)]
+        rate = max(math.sqrt(sum(x * x for x in omega)) for omega in turns)
     return 1 / rate if rate else 0.0
 
 

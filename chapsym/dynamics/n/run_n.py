@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 import chapsym.dynamics.native as native
 from chapsym.numbers import Digits, Double, Precision
 
-from ..ball import Floats, common_shape, in_shape, is_followed, largest_moment, unit_vertical
+from ..ball import Floats, brief, common_shape, in_shape, is_followed, largest_moment, unit_vertical
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
@@ -49,7 +49,7 @@ def _stepped(
     """The frames of a run from its start on, (b, frames, ...), and (taken, status, reach), (b,); or BadInput."""
     chosen, stages, count = precision_of(precision), substeps(order), steps // every + 1
     if not isinstance(chosen, Double | Digits):
-        raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {precision!r}')
+        raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {brief(precision)}')
     moving = {name: state[name] for name in MOVING if name in state}
     try:
         frames = {name: np.full((len(x), count, *x.shape[1:]), np.nan, chosen.dtype) for name, x in moving.items()}

@@ -91,8 +91,9 @@ def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool 
     gamma : array_like
         Unit verticals upwards, shape (..., 3).  Both broadcast with the balls.
     settle : bool, optional
-        Whether a ball that float64 does not settle is counted exactly, in some 0.1 s each; otherwise it is not
-        complete, and its rotations are a guess.
+        Whether a ball that float64 does not settle is counted exactly, in some 0.1 s each, or in some 10 s where its
+        moments or its momentum have components 10¹⁰⁰ times others; otherwise it is not complete, and its rotations
+        are a guess.
 
     Returns
     -------
