@@ -13,11 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from chapsym.numbers import Double, Enclosure, Precision, Single, named
+from chapsym.numbers import Double, Enclosure, Precision, Single
 
 from .ball import brief, common_shape, numbers
 from .errors import BadInput
 from .kernels import Row, parts_of
+from .levels.dispatch import precision_of
 
 Vector = Sequence[Any]
 
@@ -74,27 +75,24 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
     [1.4142135623730950488 +/- ...]
     """
     for name, row in (("residual", residual), ("jacobian", jacobian), ("then", then)):
-        whole = isinstance(row, tuple) and len(row) == 3 and callable(row[0]) and isinstance(row[1], tuple) and row[1]
-        if not (whole or (row is None and name == "then")):
+        if not (_is_row(row) or (row is None and name == "then")):
             raise BadInput(f"{name} must be a row of a generated TABLE: (function, ((name, size), ...), shape)")
     groups = residual[1]
     size = groups[0][1]
     if jacobian[1] != groups:
-        raise BadInput(f"{jacobian[0].__name__} must have the groups of {residual[0].__name__}: {_listed(groups)}")
+        raise BadInput(f"{_name(jacobian[0])} must have the groups of {_name(residual[0])}: {_listed(groups)}")
     for row, count in ((residual, size), (jacobian, size * size)):
-        if int(np.prod(row[2])) != count:
-            raise BadInput(f"{row[0].__name__} must return {count} numbers for {size} unknowns, not the shape {row[2]}")
+        if math.prod(row[2]) != count:
+            raise BadInput(f"{_name(row[0])} must return {count} numbers for {size} unknowns, not the shape {row[2]}")
     if then is not None and not set(then[1]) <= set(groups):
-        others = f"those of {residual[0].__name__}: {_listed(groups)}"
-        raise BadInput(f"the groups of {then[0].__name__} must be among {others}")
+        others = f"those of {_name(residual[0])}: {_listed(groups)}"
+        raise BadInput(f"the groups of {_name(then[0])} must be among {others}")
     system = Equations(residual[0], jacobian[0], size)
 
     def step(guess: ArrayLike, *known: ArrayLike, precision: str | Precision = "double") -> Any:
-        level = named(precision)
+        level = precision_of(precision)
         if len(known) != len(groups) - 1:
-            raise BadInput(
-                f"{residual[0].__name__} takes {len(groups)} arrays, {_listed(groups)}, not {len(known) + 1}"
-            )
+            raise BadInput(f"{_name(residual[0])} takes {len(groups)} arrays, {_listed(groups)}, not {len(known) + 1}")
         given = [_array(value, *group) for value, group in zip((guess, *known), groups, strict=True)]
         leading = common_shape([array.shape[:-1] for array in given], "the arrays")
         rows, names = math.prod(leading), [name for name, _ in groups]
@@ -116,7 +114,7 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
             if then is None:
                 return root
             by_name = dict(zip(names, flat, strict=True))
-            found = _followed(then[0], [by_name[name] for name, _ in then[1]], rows)
+            found = _followed(then[0], [by_name[name] for name, _ in then[1]], math.prod(then[2]))
             return root, found.reshape((*leading, *then[2]))
 
     return step
@@ -130,6 +128,7 @@ class Equations(NamedTuple):
     size: int
     least: float = 0.0
 
+    @np.errstate(all="ignore")  # what overflows does not settle
     def in_floats(self, x: np.ndarray, known: Sequence[np.ndarray]) -> np.ndarray:
         """The roots near points x (N, n), each by corrections of its own; raises BadInput where they do not settle.
 
@@ -185,9 +184,8 @@ class Equations(NamedTuple):
 
     def _at(self, x: np.ndarray, known: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
         """The function that vanishes (N, n), and its derivatives (N, n, n)."""
-        with np.errstate(all="ignore"):
-            value = np.stack(_values(self.function, [x, *known]), axis=-1)
-            slope = np.stack(_values(self.slope, [x, *known]), axis=-1)
+        value = _values(self.function, [x, *known], self.size)
+        slope = _values(self.slope, [x, *known], self.size**2)
         return value, slope.reshape(-1, self.size, self.size)
 
     def _correction(self, x: list[Any], known: list[Any]) -> tuple[list[Any], np.ndarray]:
@@ -230,33 +228,38 @@ def solved(rows: Sequence[Vector], right: Vector) -> list[Any]:
     return found
 
 
-def _followed(function: Callable[..., Any], arrays: Sequence[np.ndarray], rows: int) -> np.ndarray:
-    """The results (N, n) of a function at the rows of arrays; raises BadInput where it is not defined."""
+def _followed(function: Callable[..., Any], arrays: Sequence[np.ndarray], count: int) -> np.ndarray:
+    """The results (N, count) of a function at the rows of arrays; raises BadInput where it is not defined."""
     try:
         with np.errstate(all="ignore"):
-            found = np.stack(_values(function, arrays), axis=-1)
+            found = _values(function, arrays, count)
         # Numbers without `is_finite` divide by 0 with an exception, which Arb's balls do not.
         whole = found.dtype != object and np.isfinite(found).all()
         if whole or (found.dtype == object and all(getattr(x, "is_finite", lambda: True)() for x in found.flat)):
             return found
     except ZeroDivisionError:
         pass
-    raise BadInput(f"{function.__name__} is not defined at a root: it divides by 0 there, or is beyond the range")
+    raise BadInput(f"{_name(function)} is not defined at a root: it divides by 0 there, or is beyond the range")
 
 
 def _array(value: ArrayLike, name: str, size: int) -> np.ndarray:
     """The numbers of a group, along the last axis: floats; or exact ones, and those of other precisions, unchanged."""
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except Exception:  # rows of different length, and whatever an object raises
+        return numbers(value, name, size)
     if array.dtype.kind not in "iuO" or array.shape[-1:] != (size,):
         return numbers(value, name, size)
     made = np.empty(array.shape, dtype=object)
     for where, one in np.ndenumerate(array):
-        if isinstance(one, bool | complex | str) or one is None:
+        if isinstance(one, bool | complex | np.complexfloating | np.timedelta64 | np.ndarray | str) or one is None:
             raise BadInput(f"{name} must have numbers, not {brief(one)}")
         try:
             made[where] = _exactly(one)
         except (OverflowError, ValueError):
-            raise BadInput(f"{name} must be finite, but it has {one}") from None
+            raise BadInput(f"{name} must be finite, but it has {brief(one)}") from None
+        except Exception:  # of an object, whatever it raises
+            raise BadInput(f"{name} must have numbers, not {brief(one)}") from None
     return made
 
 
@@ -271,11 +274,15 @@ def _exactly(one: Any) -> Any:
 
 def _floats(array: np.ndarray, dtype: np.dtype, name: str) -> np.ndarray:
     try:
-        return array.astype(float).astype(dtype)
-    except (TypeError, ValueError):
-        raise BadInput(f"{name} has something else than real numbers") from None
+        with np.errstate(over="ignore"):
+            made: np.ndarray = array.astype(float).astype(dtype)
     except OverflowError:
         raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
+    except Exception:  # of objects, whatever they raise
+        raise BadInput(f"{name} has something else than real numbers") from None
+    if not np.isfinite(made).all():
+        raise BadInput(f"{name} is beyond the range of {dtype.name}, about {np.finfo(dtype).max:.2g}")
+    return made
 
 
 def _exact(array: np.ndarray, level: Precision, name: str) -> np.ndarray:
@@ -291,11 +298,35 @@ def _exact(array: np.ndarray, level: Precision, name: str) -> np.ndarray:
     return made
 
 
-def _values(function: Callable[..., Any], arrays: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """The results of a function at the rows of some arrays."""
+def _values(function: Callable[..., Any], arrays: Sequence[np.ndarray], count: int) -> np.ndarray:
+    """The results (N, count) of a function at the rows of some arrays; raises BadInput if they are no such numbers."""
     rows = len(arrays[0])
     parts = parts_of(function(*(array[:, i] for array in arrays for i in range(array.shape[1]))))
-    return [np.broadcast_to(part, rows) for part in parts]
+    kinds = "fiu" if arrays[0].dtype != object else "fiuO"
+    try:
+        found = np.stack([np.broadcast_to(part, rows) for part in parts], axis=-1)
+    except ValueError:
+        found = np.empty((rows, 0))
+    if found.shape[1] != count or found.dtype.kind not in kinds:
+        raise BadInput(f"{_name(function)} does not return {count} real numbers")
+    return found
+
+
+def _is_row(row: Any) -> bool:
+    """Whether this is a function, its groups of arguments with their sizes, and the shape of what it returns."""
+    if not (isinstance(row, tuple) and len(row) == 3 and callable(row[0])):
+        return False
+    groups, shape = row[1:]
+    if not (isinstance(groups, tuple) and groups and isinstance(shape, tuple)):
+        return False
+    if not all(isinstance(one, tuple) and len(one) == 2 and isinstance(one[0], str) for one in groups):
+        return False
+    counted = all(type(count) is int and count > 0 for count in (*(size for _, size in groups), *shape))
+    return counted and len({name for name, _ in groups}) == len(groups)
+
+
+def _name(function: Callable[..., Any]) -> str:
+    return getattr(function, "__name__", brief(function))
 
 
 def _listed(groups: Sequence[tuple[str, int]]) -> str:

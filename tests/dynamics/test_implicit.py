@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from odd_calls import Unwilling
 
 from chapsym import BadInput, Digits, Enclosure, implicit_step
 from chapsym.dynamics.kernels import on_arrays
@@ -228,3 +229,51 @@ def test_an_image_that_leaves_its_box_proves_nothing():
 
     assert isolated([arb(1)], lambda box: [1 / (1 + box[0].abs_upper())]) is None
     assert isolated([arb(1)], lambda box: [arb("0.5", "0.4")])[0].contains(-2)
+
+
+@pytest.mark.filterwarnings("error")
+def test_rows_that_are_none_and_kernels_that_return_something_else_are_refused():
+    """Their shapes, sizes and names; and results that are too many, none, or no real numbers."""
+    for odd in (
+        (square, GROUPS, 3),
+        (square, GROUPS, ("1",)),
+        (square, (("x",), ("a", 1)), ()),
+        (square, (("x", 0),), ()),
+    ):
+        for rows in (
+            (odd, (slope, GROUPS, ())),
+            ((square, GROUPS, ()), odd),
+            ((square, GROUPS, ()), (slope, GROUPS, ()), odd),
+        ):
+            with pytest.raises(BadInput, match="must be a row of a generated TABLE"):
+                implicit_step(*rows)
+    twice = (("x", 1), ("x", 1))
+    with pytest.raises(BadInput, match="must be a row of a generated TABLE"):
+        implicit_step((square, twice, ()), (slope, twice, ()))
+    for result in ((1, 2), None, "1", np.ones(7), 1j):
+
+        def other(*_, result=result):
+            return result
+
+        for rows in ((other, square), (square, other)):
+            root = implicit_step(*((one, GROUPS, ()) for one in rows))
+            for precision in ("double", Digits(20)):
+                with pytest.raises(BadInput, match="other does not return 1 real numbers"):
+                    root([1.0], [2.0], precision=precision)
+        root = implicit_step((square, GROUPS, ()), (slope, GROUPS, ()), (other, GROUPS, ()))
+        with pytest.raises(BadInput, match="other does not return 1 real numbers"):
+            root([1.0], [2.0])
+
+
+@pytest.mark.filterwarnings("error")
+def test_arguments_that_are_no_numbers_of_the_precision_are_refused():
+    root = implicit_step((square, GROUPS, ()), (slope, GROUPS, ()))
+    with pytest.raises(BadInput, match="precision must be"):
+        root([1.0], [2.0], precision="half")
+    with pytest.raises(BadInput, match="x is beyond the range of float32"):
+        root([1e300], [2.0], precision="single")
+    for odd in ([[1], [1, 2]], np.array([np.ma.masked], dtype=object), np.array([Unwilling(1)], dtype=object)):
+        with pytest.raises(BadInput, match="a must"):
+            root([1.0], odd)
+    with pytest.raises(BadInput, match="does not settle"):
+        root([5e-324], [-1e300])
