@@ -148,6 +148,8 @@ class Equations(NamedTuple):
                 raise _unsettled(int(left[~regular][0]))
             inverse = np.linalg.inv(slope)
             change = np.abs(step := (inverse @ value[..., None])[..., 0])
+            if not np.isfinite(step).all():
+                raise _unsettled(int(left[~np.isfinite(step).all(axis=1)][0]))
             scale = (np.abs(inverse) @ np.abs(slope) @ np.abs(x[left])[..., None])[..., 0]
             x[left] -= step
             stays[left] = np.where(change >= STAYS * before[left], stays[left] + 1, 0)
