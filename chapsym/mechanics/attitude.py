@@ -5,8 +5,9 @@ from functools import cached_property
 import sympy as sp
 
 from chapsym.derive import three
+from chapsym.numbers import brief
 
-from .system import dot
+from .system import BadSystem, dot
 
 _TURNS = {"x": sp.rot_ccw_axis1, "y": sp.rot_ccw_axis2, "z": sp.rot_ccw_axis3}
 
@@ -36,7 +37,10 @@ class Turned:
 
     def __init__(self, *turns: tuple[str, sp.Symbol]) -> None:
         self.rotation, self.spin = sp.eye(3), sp.zeros(3, 1)
-        for axis, angle in turns:
+        for turn in turns:
+            if not (isinstance(turn, tuple | list) and len(turn) == 2 and turn[0] in tuple(_TURNS)):
+                raise BadSystem(f"a turn is an axis x, y or z and an angle, as ('z', heading), not {brief(turn)}")
+            axis, angle = turn
             one = _TURNS[axis](angle)
             self.rotation = self.rotation * one
             self.spin = one.T * self.spin

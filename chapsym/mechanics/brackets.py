@@ -14,7 +14,7 @@ from typing import Any
 import sympy as sp
 
 from .algebra import Algebra, adjugate, determinant, generic, pivots, rank
-from .system import BadSystem, System
+from .system import BadSystem, System, a_system
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def flag(system: System) -> Flag:
     >>> print(flag(System("pulled", (x, y), dot(x)**2 + dot(y)**2, [x * dot(x) + y * dot(y)])))
     integrable: the flag has the dimensions 1 of 2; 1 function of the coordinates stays constant
     """
-    return spanned(system).flag
+    return spanned(a_system(system)).flag
 
 
 #: The numbers of two vectors, and the roots by which their bracket is multiplied.

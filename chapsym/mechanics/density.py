@@ -28,7 +28,7 @@ from .algebra import Algebra, Point, adjugate, determinant, size
 from .brackets import along, bracket_of, flag
 from .equations import OnShell
 from .series import evaluated
-from .system import BadSystem, System
+from .system import BadSystem, System, a_system
 
 #: Denominators of the powers in a density, how often brackets are taken of brackets, and the bits of balls.
 BELOW, MOST_LEVELS, BITS = 12, 3, 400
@@ -112,7 +112,7 @@ def volume(system: System) -> Volume:
     >>> print(found, found.density, found.by)
     keeps a smooth volume 1/sin(a) (y_dot, a_dot)
     """
-    return _decided(system, system.digest())
+    return _decided(a_system(system), system.digest())
 
 
 @lru_cache(maxsize=8)

@@ -9,9 +9,11 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.physics.vector import dynamicsymbols
 
+from chapsym.numbers import brief
+
 from .algebra import Algebra, adjugate, determinant, generic, pivots
 from .brackets import kernel
-from .system import BadSystem, System, dot, expression, rate, without
+from .system import BadSystem, System, a_system, dot, expression, rate, without
 
 
 @dataclass(frozen=True)
@@ -77,9 +79,12 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     >>> print(agree(particle, {x: -right, y: 0, z: -y * right + dot(x) * dot(y)}))
     not equal: they break the principle along 2 of 2, where -70 should be 0 at y = 2, y_dot = 5, z_dot = 7, x_dot = 7/2
     """
-    if missing := [x for x in system.coordinates if x not in accelerations]:
+    if not isinstance(accelerations, Mapping):
+        raise BadSystem(f"accelerations must be given as {{coordinate: expression}}, not {brief(accelerations)}")
+    if missing := [x for x in a_system(system).coordinates if x not in accelerations]:
         raise BadSystem(f"{system.name}: there is no acceleration of {missing[0]}")
-    of = OnShell(system, *(accelerations[x] for x in system.coordinates))
+    given = (expression(accelerations[x], f"{system.name}: the acceleration of {x}") for x in system.coordinates)
+    of = OnShell(system, *given)
     made = sp.Matrix(of.more)
     checks = [(f"constraint {i + 1}", e) for i, e in enumerate(of.algebra.rows * made - of.turning)]
     work = of.mass * made - of.forced
@@ -144,7 +149,7 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
     >>> print(conserved(particle, dot(x)))
     not kept: its rate is -7 at y = 2, y_dot = 5, z_dot = 7, x_dot = 7/2
     """
-    quantity = expression(quantity, f"{system.name}: the quantity")
+    quantity = expression(quantity, f"{a_system(system).name}: the quantity")
     known = {*system.coordinates, *system.velocities, *system.parameters}
     without(f"{system.name}: there is", quantity.free_symbols - known)
     slope = [sp.diff(quantity, v) for v in system.velocities]

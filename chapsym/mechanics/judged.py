@@ -21,13 +21,14 @@ import sympy as sp
 from flint import fmpq, fmpq_mat, fmpq_series, nmod, nmod_mat
 
 from chapsym.derive import Quotient
+from chapsym.numbers import brief
 
 from .algebra import Letters, size
 from .contraction import has_volume, logarithm
 from .density import Volume, volume
 from .methods import Scheme
 from .series import Exact, Series, State, Stepped, Undecided, _at, by_parts, evaluated, inverse, replaced, terms
-from .system import STEP, BadSystem, System, rate
+from .system import STEP, BadSystem, System, a_system, rate
 
 #: A prime in which combinations are looked for, and the largest denominator and numerator of their factors.
 PRIME, BELOW, ABOVE = 2**61 - 1, 24, 10_000
@@ -91,7 +92,9 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
     >>> found["order"].said, found["self-adjoint"].verdict, found["keeps the energy"].verdict
     ('2', 'proved', 'false')
     """
-    return {name: one.verdict for name, one in decided(system, scheme).items()}
+    if not isinstance(scheme, Scheme):
+        raise BadSystem(f"scheme must be that of a method, METHODS[name].scheme(system), not {brief(scheme)}")
+    return {name: one.verdict for name, one in decided(a_system(system), scheme).items()}
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import sympy as sp
 
 from .judged import Verdict, verdicts
 from .methods import Scheme
-from .motion import Motion, NotSolved, Runner
+from .motion import Motion, NotSolved, Runner, whole_number
 from .system import System, number
 
 #: Of all steps, the part at each end whose means are compared; and how many points of the energy a cell keeps.
@@ -142,6 +142,7 @@ def measured(
     (True, 2.0)
     """
     runner = Runner(system, method)
+    whole_number(steps, "steps")
     h = runner.length if length is None else number(length, "the length of a step")
     first = Cell(system.name, method, steps, h, kept=keeps(system, runner.scheme))
     if decide:

@@ -16,7 +16,7 @@ from chapsym.prove.statements import Statement
 from .cases import MOST_LETTERS, SAID, Case, Certified, Made, fresh, made
 from .judged import BEYOND, VOLUMES, Combination, Decided, Judged, decided, quantities_of, tableau_conditions
 from .lab import keeps
-from .methods import METHODS, Scheme
+from .methods import Scheme, scheme_of
 from .series import State, _at, evaluated, replaced, terms
 from .system import STEP, BadSystem, System
 
@@ -30,7 +30,7 @@ MOST_SHOWN = 4000
 
 def of_method(system: System, method: str, name: str) -> Iterator[Certified]:
     """The exact verdicts on a method, as `certified` has them."""
-    scheme, known = METHODS[method].scheme(system), set[str]()
+    scheme, known = scheme_of(system, method), set[str]()
     quantities, verdicts = quantities_of(system, scheme.integrals), decided(system, scheme)
     ids = CELLS | {f"keeps {what}": f"keeps-{i + 1}" for i, what in enumerate(quantities)}
     for what in sorted(verdicts, key=lambda what: what != "self-adjoint"):  # on which the order rests

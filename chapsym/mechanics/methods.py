@@ -12,7 +12,9 @@ from typing import Any
 
 import sympy as sp
 
-from .system import STEP, BadSystem, System, after
+from chapsym.numbers import brief
+
+from .system import STEP, BadSystem, System, a_system, after
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,3 +299,10 @@ METHODS: dict[str, Method] = {
                partial(explicit, [["1/2"], ["0", "1/2"], ["0", "0", "1"], ["1/6", "1/3", "1/3", "1/6"]])),
     )
 }  # fmt: skip
+
+
+def scheme_of(system: System, method: Any) -> Scheme:
+    """The equations of a method, by its name, for a system; raises BadSystem for none."""
+    if not isinstance(method, str) or method not in METHODS:
+        raise BadSystem(f"{brief(method)} is no method; those are {', '.join(METHODS)}")
+    return METHODS[method].scheme(a_system(system))

@@ -20,13 +20,13 @@ import sympy as sp
 from chapsym.codegen import Kernel, build, c_files, passes
 from chapsym.dynamics.implicit import solved
 from chapsym.dynamics.kernels import parts_of
-from chapsym.numbers import Double, Enclosure, Precision, named
+from chapsym.numbers import Double, Enclosure, Precision, brief, named
 
 from .algebra import Letters
-from .methods import METHODS, Scheme
+from .methods import Scheme, scheme_of
 from .slope import Terms, differentiated, needed, shared
 from .steps import UNSOLVED, NotSolved, Sets, Steps
-from .system import STEP, BadSystem, System, number, rational
+from .system import STEP, BadSystem, System, a_system, number, rational
 
 #: Newton's iteration: rounds at most; the last correction in units of the unknowns, and one that may stay; and how much
 #: one must be smaller than the one before for the derivatives to serve another round.
@@ -71,6 +71,14 @@ class Motion:
     seconds: float
 
 
+def whole_number(given: Any, what: str) -> None:
+    """Raises BadSystem for what is no count that C can hold."""
+    number = isinstance(given, int) and not isinstance(given, bool)
+    if not number or not 1 <= given < 2**62:
+        clause = "to 2^62" if number and given > 0 else "on"
+        raise BadSystem(f"{what} must be a whole number from 1 {clause}, not {brief(given)}")
+
+
 class Runner:
     """A method made ready for a system: derived, generated, compiled.
 
@@ -97,10 +105,8 @@ class Runner:
     def __init__(
         self, system: System, method: str = "dla", compiled: bool | None = None, precision: str | Precision = "double"
     ) -> None:
-        if method not in METHODS:
-            raise BadSystem(f"{method!r} is no method; those are {', '.join(METHODS)}")
-        self.system, self.method = system, method
-        self.scheme: Scheme = METHODS[method].scheme(system)
+        self.system, self.method = a_system(system), method
+        self.scheme: Scheme = scheme_of(system, method)
         try:
             self.level = named(precision)
         except ValueError as error:
@@ -231,9 +237,8 @@ class Runner:
             If the equations of a step are not solved.
         """
         h = self.length if length is None else number(length, "the length of a step")
-        for what, given in (("steps", steps), ("every", every)):
-            if isinstance(given, bool) or not isinstance(given, int) or given < 1:
-                raise BadSystem(f"{what} must be a whole number from 1 on, not {given!r}")
+        for given, what in ((steps, "steps"), (every, "every")):
+            whole_number(given, what)
         if not h > 0:
             raise BadSystem(f"the length of a step must be positive, not {h!r}")
         q, v = self.system.beginning
@@ -244,7 +249,7 @@ class Runner:
                 q, v = self.velocities(start)
             except (TypeError, ValueError):
                 raise BadSystem(
-                    f"the start must be {len(self.scheme.state)} numbers, as `final` has them, not {start!r:.60}"
+                    f"the start must be {len(self.scheme.state)} numbers, as `final` has them, not {brief(start)}"
                 ) from None
         unknowns = self._numbers(self.scheme.guess, q, v)
         with self.level.working(), np.errstate(all="ignore"):
@@ -255,7 +260,10 @@ class Runner:
                 state = np.array([0 * h + x for x in start], fixed.dtype)
             else:
                 state = self._numbers(self.scheme.start, q, v) if self.in_floats else self._beginning(fixed)
-            recorded = np.empty((-(-steps // every), 2 * len(q)), fixed.dtype)
+            try:
+                recorded = np.empty((-(-steps // every), 2 * len(q)), fixed.dtype)
+            except (MemoryError, ValueError):
+                raise BadSystem(f"the places of {steps} steps do not fit into memory: record fewer by every=") from None
             take = _in_c if self.compiled and self.library else _in_numbers
             begin = time.process_time()
             done, why = take(self, steps, every, state, unknowns, fixed, recorded)

@@ -3,6 +3,7 @@
 import hashlib
 import importlib.util
 import math
+import os
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -12,6 +13,8 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
+
+from chapsym.numbers import brief
 
 #: The length of a step.
 STEP = sp.Symbol("step_length")
@@ -27,6 +30,20 @@ def without(where: str, strange: Set[sp.Basic], what: str = "no coordinate, velo
     """Raises BadSystem if there are symbols that have no place where they are."""
     if strange:
         raise BadSystem(f"{where} {', '.join(sorted(map(str, strange)))}, which is {what}")
+
+
+def a_symbol(x: Any) -> sp.Symbol:
+    """The same; raises BadSystem for what is no symbol."""
+    if not isinstance(x, sp.Symbol):
+        raise BadSystem(f"a coordinate must be a symbol, such as symbols('x'), not {brief(x)}")
+    return x
+
+
+def a_system(given: Any) -> "System":
+    """The same; raises BadSystem for what is no system."""
+    if not isinstance(given, System):
+        raise BadSystem(f"system must be a System, not {brief(given)}")
+    return given
 
 
 def dot(x: sp.Symbol) -> sp.Symbol:
@@ -48,7 +65,7 @@ def dot(x: sp.Symbol) -> sp.Symbol:
     >>> dot(Symbol("x"))
     x_dot
     """
-    return sp.Symbol(f"{x.name}_dot")
+    return sp.Symbol(f"{a_symbol(x).name}_dot")
 
 
 def rate(expr: Any, coordinates: Sequence[sp.Symbol]) -> Any:
@@ -96,7 +113,7 @@ def after(x: sp.Symbol) -> sp.Symbol:
     >>> after(Symbol("x"))
     x_after
     """
-    return sp.Symbol(f"{x.name}_after")
+    return sp.Symbol(f"{a_symbol(x).name}_after")
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,6 +210,8 @@ class System:
         def put(name: str, value: Any) -> None:
             object.__setattr__(self, name, value)
 
+        if not isinstance(self.name, str):
+            raise BadSystem(f"name must be a text, not {brief(self.name)}")
         for name in ("coordinates", "constraints", "holonomic"):
             put(name, _several(getattr(self, name), f"{self.name}: {name}"))
         put("lagrangian", expression(self.lagrangian, f"{self.name}: the Lagrangian"))
@@ -230,6 +249,8 @@ class System:
                     _smooth(one, f"{self.name}: {what}")
         if self.discrete is not None:
             put("discrete", self._discretized(self.discrete, places | {after(x) for x in self.coordinates} | {STEP}))
+        if fixed := [one for one in self.holonomic if not one.free_symbols & set(self.coordinates)]:
+            raise BadSystem(f"{self.name}: the holonomic constraint {fixed[0]!s:.40} has no coordinate")
         without(f"{self.name}: a force is along", set(self.forces) - set(self.coordinates), "no coordinate")
         moving = {*self.coordinates, *self.velocities}
         without(f"{self.name}: the start has", set(self.start) - moving, "no coordinate or velocity")
@@ -398,6 +419,8 @@ def loaded(path: str | Path) -> System:
     Traceback (most recent call last):
     chapsym.mechanics.system.BadSystem: no-such-file.py is no file of a system: a Python file with SYSTEM = System(...)
     """
+    if not isinstance(path, str | os.PathLike):
+        raise BadSystem(f"path must be that of a Python file, not {brief(path)}")
     path = Path(path)
     spec = importlib.util.spec_from_file_location(f"system_{path.stem}", path) if path.suffix == ".py" else None
     if spec is None or spec.loader is None or not path.is_file():
@@ -422,7 +445,7 @@ def rational(value: Any, what: str) -> sp.Rational:
         is_float = isinstance(value, float | sp.Float)
         found = Fraction(str(value) if is_long else repr(float(value)) if is_float else value)
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
-        raise BadSystem(f"{what} is {value!r}, which is no rational number") from None
+        raise BadSystem(f"{what} is {brief(value)}, which is no rational number") from None
     return sp.Rational(found.numerator, found.denominator)
 
 
@@ -433,7 +456,7 @@ def number(value: Any, what: str) -> float:
     try:
         return float(Fraction(value) if isinstance(value, str) else value)
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
-        raise BadSystem(f"{what} is {value!r}, which is no number") from None
+        raise BadSystem(f"{what} is {brief(value)}, which is no number") from None
 
 
 def _several(value: Any, what: str) -> tuple[Any, ...]:
@@ -444,7 +467,7 @@ def _several(value: Any, what: str) -> tuple[Any, ...]:
 
 def _smooth(expr: sp.Expr, what: str) -> None:
     """Raises BadSystem for functions of which there are no kernels."""
-    strange = [f for f in expr.atoms(sp.Function, sp.exp) if not isinstance(f, sp.sin | sp.cos | sp.tan)]
+    strange = [f for f in expr.atoms(sp.Function, sp.exp, sp.Lambda) if not isinstance(f, sp.sin | sp.cos | sp.tan)]
     if strange:
         raise BadSystem(f"{what} has {strange[0]}, which is not sin, cos, a square root or a whole power")
 
@@ -455,6 +478,6 @@ def expression(value: Any, what: str) -> sp.Expr:
         found = sp.sympify(value, strict=True)
     except sp.SympifyError:
         found = None
-    if not isinstance(found, sp.Expr) or found.has(sp.nan, sp.zoo, sp.oo, sp.I):
+    if not isinstance(found, sp.Expr) or found.is_Matrix or found.has(sp.nan, sp.zoo, sp.oo, sp.I):
         raise BadSystem(f"{what} is {value!s:.40}, which is no real expression of SymPy")
     return found.xreplace({x: rational(x, what) for x in found.atoms(sp.Float)})

@@ -22,7 +22,7 @@ from .cases import MOST_LETTERS, Case, Certified, Made, fresh, made, name_of
 from .density import MOST_LEVELS, Volume, divergences, volume
 from .equations import OnShell, conserved
 from .method_claims import of_method
-from .system import BadSystem, System
+from .system import BadSystem, System, a_system
 
 #: Of what has more parts, derivatives are not given to the checker; those of what divides count more.
 MOST_PARTS, FRACTIONS = 1500, 5
@@ -161,7 +161,7 @@ def certified(system: System, methods: Sequence[str] = ()) -> Iterator[Certified
     >>> [one.verdict for one in certified(particle) if one.certificate]
     ['motion', 'energy', 'flag', 'volume']
     """
-    name, known = name_of(system), set[str]()
+    name, known = name_of(a_system(system)), set[str]()
     own = {"motion": _motion, "energy": _energy, "flag": _flag, "volume": _volume}
     for verdict, case_of in own.items():
         yield made(system, verdict, f"{name}-{verdict}", known, case_of, system, name)

@@ -26,15 +26,19 @@ from chapsym.mechanics import (
     Turned,
     after,
     agree,
+    certified,
     conserved,
     dot,
     flag,
     in_symbols,
+    loaded,
     measured,
     motion,
     moved,
     of_kane,
     rate,
+    verdicts,
+    volume,
 )
 from chapsym.mechanics.algebra import Letters
 from chapsym.mechanics.lab import keeps
@@ -163,7 +167,7 @@ def test_equations_are_compared_for_the_system_with_its_numbers(lagrangian, type
     ("typed", "said"),
     [
         ({a: -2 * sp.sin(a / 2) * sp.cos(a / 2)}, "sin and cos of coordinates, which a/2 is not"),
-        ({a: None}, "None is no expression"),
+        ({a: None}, "acceleration of a is None, which is no real expression"),
         ({a: sp.Symbol("w")}, "there is w, which is no coordinate, velocity or parameter"),
         ({a: sp.sin(va)}, "which a_dot is not"),
         ({}, "there is no acceleration of a"),
@@ -574,3 +578,40 @@ def test_a_step_without_a_solution_says_which():
         moved(loose, "dla", 1000)
     with pytest.raises(BadSystem, match="'euler' is no method; those are dla, "):
         moved(particle(), "euler")
+
+
+HUGE = 10**6000
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: System(None, (x,), vx**2), "name must be a text, not None"),
+        (lambda: System("one", (x,), sp.Lambda(x, x)), "has Lambda"),
+        (lambda: System("one", (x,), vx**2, holonomic=[0]), "the holonomic constraint 0 has no coordinate"),
+        (lambda: moved(particle(), []), r"\[\] is no method; those are dla"),
+        (lambda: moved(particle(), steps=HUGE), r"steps must be a whole number from 1 to 2\^62"),
+        (lambda: moved(particle(), steps=2**61), "do not fit into memory"),
+        (lambda: moved(particle(), every=2**62), "every must be a whole number"),
+        (lambda: moved(particle(), length=HUGE), "the length of a step is an object of the type int"),
+        (lambda: Runner(particle()).march(1, start=HUGE), "the start must be 6 numbers"),
+        (lambda: measured(particle(), "dla", []), r"steps must be a whole number from 1 on, not \[\]"),
+        (lambda: agree(particle(), None), "accelerations must be given as"),
+        (lambda: agree(particle(), {x: "vx", y: 0, z: 0}), "the acceleration of x is vx, which is no real expression"),
+        (lambda: System("one", (x,), sp.ImmutableMatrix([[vx]])), "is no real expression of SymPy"),
+        (lambda: agree(None, {}), "system must be a System, not None"),
+        (lambda: conserved("particle", x), "system must be a System"),
+        (lambda: flag(None), "system must be a System"),
+        (lambda: volume(None), "system must be a System"),
+        (lambda: verdicts(particle(), "dla"), "scheme must be that of a method"),
+        (lambda: list(certified(particle(), ["euler"])), "'euler' is no method"),
+        (lambda: loaded(3), "path must be that of a Python file, not 3"),
+        (lambda: dot("x"), "a coordinate must be a symbol"),
+        (lambda: after(3), "a coordinate must be a symbol"),
+        (lambda: Turned(("w", x)), "a turn is an axis x, y or z and an angle"),
+        (lambda: Turned("z"), "a turn is an axis x, y or z and an angle"),
+    ],
+)
+def test_arguments_that_are_none_of_these_are_refused_by_their_names(call, said):
+    with pytest.raises(BadSystem, match=said):
+        call()
