@@ -164,3 +164,35 @@ def test_exact_numbers_beyond_float64_are_refused_without_a_warning():
         chapsym.ExactBall((1, 2, 4), 3, -(10**400))
     with pytest.raises(BadInput, match="too far apart in size"):
         chapsym.certified_motion(chapsym.ExactBall((1, 1, 1), 10**11179), (-0.2, 1, 0), (0, 0, 1), 0.5, 10)
+
+
+@pytest.mark.filterwarnings("error")
+def test_vectors_numbers_of_steps_and_attitudes_that_are_none_are_refused():
+    ball = chapsym.Ball.from_inertia([[3, 0.5, 0], [0.5, 4, 0], [0, 0, 5]], D=0.5)
+    for one in (ball, ball.principal):
+        with pytest.raises(BadInput, match="vectors must be real numbers"):
+            one.to_principal([[1, 2], [3]])
+    with pytest.raises(BadInput, match="frames must be True or False"):
+        ball.from_principal((1, 0, 0), frames=np.ones(3))
+    with pytest.raises(BadInput, match="index must be a list of whole numbers"):
+        chapsym.steady_frames(ball.principal, (0, 0, 1), (0, 0, 1), Unwilling())
+    with pytest.raises(BadInput, match="attitude must be unit quaternions"):
+        chapsym.trajectory(ball.principal, (0, 0, 1), (0, 0, 1), 1, attitude=(1e200, 0, 0, 0))
+    with pytest.raises(BadInput, match="time_step must be real numbers"):
+        chapsym.Stepper(ball.principal, (0, 0, 1), (0, 0, 1), time_step=odd_calls.Unwilling(0.1))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("size", [1e-310, 1e-200, 1e200])
+def test_an_exact_top_is_restored_in_any_units(size):
+    """Squares of its momentum are beyond float64."""
+    gamma, J = (0.6, 0, 0.8), np.array((1, 2, 4))
+    found = []
+    for unit in (1.0, size):
+        top = chapsym.exact_top(chapsym.Ball(J * unit, 0), np.array((0.06, 0.01, 0.08)) * unit, gamma)
+        run = top.restore(chapsym.trajectory(top.ball, top.momentum, gamma, 5))
+        found.append((run.momentum / unit, run.gamma))
+    for ordinary, other in zip(*found, strict=True):
+        assert np.abs(ordinary - other).max() < 1e-13
+    with pytest.raises(BadInput, match="this is no trajectory of the exact top"):
+        top.restore(None)

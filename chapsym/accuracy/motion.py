@@ -349,7 +349,8 @@ def _accuracy(given: float | None) -> float:
     found = numbers(given, "accuracy")
     if found.ndim or not found >= FINEST:
         raise BadInput(
-            f"accuracy must be one number from {FINEST:g} on, not {given!r}; `accurate` has more digits than float64"
+            f"accuracy must be one number from {FINEST:g} on, not {brief(given)}; "
+            "`accurate` has more digits than float64"
         )
     return float(found)
 

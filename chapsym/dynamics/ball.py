@@ -376,10 +376,14 @@ class Ball(Parameters):
         return self._turned(principal_axes.from_principal, vectors, frames)
 
     def _turned(self, turn: Callable[[Floats, Floats], Floats], vectors: ArrayLike, frames: bool) -> Floats:
-        array, axes = np.asarray(vectors), self.axes
+        axes = self.axes
+        try:
+            array = np.asarray(vectors)
+        except Exception:  # rows of different length, and whatever an object raises
+            raise _not_numbers(vectors, "vectors") from None
         if axes is None:
             return array
-        axes = axes[..., np.newaxis, :] if frames else axes
+        axes = axes[..., np.newaxis, :] if flag(frames, "frames") else axes
         if array.dtype.kind not in "iuf" or array.shape[-1:] != (3,):
             raise BadInput(f"vectors must be real numbers of the shape (..., 3), not {brief(vectors)}")
         common_shape([axes.shape[:-1], array.shape[:-1]], "the axes of the ball and the vectors")

@@ -369,7 +369,7 @@ def step_numbers(index: ArrayLike) -> np.ndarray:
     """Ascending whole numbers from 0 on as int64, (frames,); raises BadInput for anything else."""
     try:
         given = np.asarray(index)
-    except ValueError:  # rows of different length
+    except Exception:  # rows of different length, and whatever an object raises
         given = np.empty(0)
     if given.dtype.kind not in "iu" or given.ndim != 1 or not len(given):
         raise BadInput(f"index must be a list of whole numbers, at least one, not {brief(index)}")
@@ -390,7 +390,7 @@ def seconds(value: Any, positive: bool = True) -> float:
     """A time step in seconds; raises BadInput for what is not one number, or not a positive one."""
     if type(value) is float and 0.0 < value < math.inf:
         return value
-    epsilon = value if isinstance(value, float) and -math.inf < value < math.inf else numbers(value, "time_step")
+    epsilon = value if type(value) is float and -math.inf < value < math.inf else numbers(value, "time_step")
     if np.ndim(epsilon) or (positive and not epsilon > 0):
         raise BadInput(f"time_step must be one {'positive ' if positive else ''}number of seconds, not {brief(value)}")
     return float(epsilon)

@@ -62,7 +62,7 @@ def read_case(file: Path) -> Case:
         data = json.loads(file.read_text(encoding="utf-8"))
         if isinstance(data, dict) and "frames" in data and "ball" not in data:
             raise BadInput(f"{file} does not say of which ball it is: give the scene, --against SCENE.toml")
-        ball, frames = data["ball"], data["frames"]
+        ball, frames = dict(data["ball"]), [dict(frame) for frame in data["frames"]]
         touched = "contact" in frames[0]
         if any(frame.keys() != frames[0].keys() for frame in frames):
             raise ValueError("a frame has other parts than the first")

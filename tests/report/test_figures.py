@@ -269,6 +269,10 @@ def test_the_spread_is_the_distance_from_the_mean_in_logarithms_if_it_grows_expo
 def test_a_figure_that_cannot_be_drawn_leaves_no_folder(tmp_path):
     with pytest.raises(BadInput, match="contact: no contact"):
         figures.save_all(results.bowling(20, outputs=("gamma",)), tmp_path / "new", names=["spheres", "contact"])
+    damaged = results.bowling(20, outputs=("gamma", "contact"))
+    damaged["contact"][0, 3] = np.nan
+    with pytest.raises(BadInput, match="the result is damaged"):
+        figures.save_all(damaged, tmp_path / "new")
     assert not (tmp_path / "new").exists()
 
 

@@ -122,6 +122,36 @@ def test_a_damaged_file_is_one_sentence(result, tmp_path, suffix, damage):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("name", "change", "said"),
+    [
+        ("momentum", lambda one: one.astype(complex), "momentum has no real numbers"),
+        ("gamma", lambda one: one.astype(str), "gamma has no real numbers"),
+        ("D", lambda one: one.astype(bool), "D has no real numbers"),
+        ("energy", lambda one: one.isel(ball=0, drop=True), "energy lacks the dimension ball"),
+    ],
+)
+def test_parts_that_have_no_numbers_or_other_dimensions_are_refused(tmp_path, monkeypatch, name, change, said):
+    scene = f"{BALL}time_step = 0.01\nsteps = 2\noutputs = ['energy', 'momentum', 'gamma']\n"
+    data = sweep.run(plan_from(scene)).dataset()
+    (tmp_path / "run.nc").touch()
+    monkeypatch.setitem(formats._READERS, ".nc", lambda path: data.assign({name: change(data[name])}))
+    with pytest.raises(SceneError, match=f"is damaged, or no result of chapsym: {said}"):
+        formats.load(tmp_path / "run.nc")
+
+
+def test_what_a_reader_trips_over_is_not_repeated(result, tmp_path):
+    path = tmp_path / "run.npz"
+    formats.save(result, path)
+    with np.load(path) as data:
+        arrays = dict(data)
+    about = json.loads(str(arrays["chapsym"]))
+    about["structure"]["variables"] = None
+    np.savez(path, **(arrays | {"chapsym": np.array(json.dumps(about))}))
+    with pytest.raises(SceneError, match=r"or no result of chapsym: its parts are not those of one$"):
+        formats.load(path)
+
+
 def test_what_is_no_result_is_not_read(tmp_path, result):
     """A pipe is not waited for."""
     for suffix in (*FILES, ".zarr"):

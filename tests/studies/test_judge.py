@@ -227,7 +227,14 @@ def test_files_that_are_none_are_refused_in_one_sentence(table, tmp_path):
     other = tmp_path / "other.json"
     sliding = json.loads((DATA / "sliding.json").read_text("utf-8"))
     del sliding["frames"][7]["velocity"]
-    for content in ("{}", "[]", '{"case": "a", "ball": {"mass": "1/0"}}', "[" * 100000, json.dumps(sliding)):
+    for content in (
+        "{}",
+        "[]",
+        '{"case": "a", "ball": {"mass": "1/0"}}',
+        "[" * 100000,
+        json.dumps(sliding),
+        json.dumps(sliding | {"frames": ["contact"]}),
+    ):
         other.write_text(content, encoding="utf-8")
         assert "is no case" in refused("judge", own, "--against", other)
     assert "cannot be read: No such file" in refused("judge", own, "--against", tmp_path / "none.json")

@@ -619,15 +619,17 @@ class ExactTop(Brief):
         >>> top.restore(run).order
         0
         """
-        momentum = run.momentum[0] if run.momentum.ndim == 2 else None
-        if run.ball is not self.ball or momentum is None or not (momentum == self.momentum).all() or run.order != 2:
+        momentum = run.momentum[0] if isinstance(run, Trajectory) and run.momentum.ndim == 2 else None
+        if momentum is None or run.ball is not self.ball or not (momentum == self.momentum).all() or run.order != 2:
             raise BadInput(
                 "this is no trajectory of the exact top: run `trajectory(top.ball, top.momentum, gamma, ...)`"
             )
-        size = np.sqrt((run.momentum**2).sum(axis=-1, keepdims=True))
-        if float(self.origin.D) > 0.0 and np.abs(np.cross(momentum, run.gamma[0])).max() > NEARLY_VERTICAL * size[0, 0]:
+        scaled = np.ldexp(run.momentum, -np.frexp(np.abs(momentum).max())[1])  # squares stay in range
+        size = np.sqrt((scaled**2).sum(axis=-1, keepdims=True))
+        off = np.abs(np.cross(scaled[0], run.gamma[0])).max()
+        if float(self.origin.D) > 0.0 and off > NEARLY_VERTICAL * size[0, 0]:
             raise BadInput("this run does not start at the gamma along the momentum, for which the exact top was made")
-        axis = np.sign(self.size) * run.momentum / size  # γ itself where D > 0, though 𝒦 may point downwards
+        axis = np.sign(self.size) * scaled / size  # γ itself where D > 0, though 𝒦 may point downwards
         half = run.index * (self.twist / 2)
         turned = np.concatenate([np.cos(half)[:, np.newaxis], np.sin(half)[:, np.newaxis] * axis], axis=-1)
         attitude = None if run.attitude is None else kernels.compose(run.attitude, turned)

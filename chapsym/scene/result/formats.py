@@ -28,11 +28,11 @@ from ..read.errors import SceneError
 if TYPE_CHECKING:
     from xarray import Dataset
 
-#: What readers raise of a file that is damaged, or made by somebody else.
-DAMAGED = (
-    ValueError, KeyError, TypeError, EOFError, AttributeError, ArithmeticError, IndexError, RecursionError,
-    NotImplementedError, csv.Error, zipfile.BadZipFile, zlib.error,
-)  # fmt: skip
+#: What readers raise of a file that is damaged, or made by somebody else: in their words, and by accident.
+READERS = ValueError, KeyError, EOFError, csv.Error, zipfile.BadZipFile, zlib.error
+DAMAGED = (*READERS, TypeError, AttributeError, ArithmeticError, IndexError, RecursionError, NotImplementedError)
+#: What a result has in numbers besides its outputs.
+NUMBERS = ("taken", "status", "error", "order", "substeps", "mass_tensor", "D", "radius", "time", "step")
 #: Bytes that are read at once of a CSV, and the most that its first row may have of what no row has.
 BLOCK = 2**24
 #: Where a CSV goes that is to have no file.
@@ -118,17 +118,31 @@ def load(path: Path) -> "Dataset":
     try:
         path.stat()
         data = with_clock(read(path))
+        _check_parts(data)
     except SceneError:
         raise
     except OSError as error:
         reason = error.strerror or str(error).splitlines()[0]
         raise SceneError(f"{path} cannot be read: {reason}") from None
     except DAMAGED as error:
-        layout = (str(error).splitlines() or [type(error).__name__])[0][:200]
+        layout = "its parts are not those of one"  # what a reader trips over says nothing to a user
+        if isinstance(error, READERS):
+            layout = (str(error).splitlines() or [type(error).__name__])[0][:200]
         raise SceneError(f"{path} is damaged, or no result of chapsym: {layout}") from None
     for one in data.variables.values():
         one.attrs = plain(one.attrs)
     return data.assign_attrs(plain(data.attrs))
+
+
+def _check_parts(data: "Dataset") -> None:
+    """Raises ValueError for a part that has no numbers, or other dimensions than one of its name has."""
+    for name, one in data.variables.items():
+        output = OUTPUTS.get(whose(str(name)))
+        if (output or name in NUMBERS) and one.dtype.kind not in "iuf":
+            raise ValueError(f"{name} has no real numbers")
+        over = {"ball"} if output and output.per_ball else {"ball", "frame"}
+        if output and (lacking := over & set(data.dims) - set(one.dims)):
+            raise ValueError(f"{name} lacks the dimension {min(map(str, lacking))}")
 
 
 def attributes(path: Path) -> dict[str, Any]:

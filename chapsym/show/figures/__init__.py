@@ -140,13 +140,13 @@ def save_all(
     for name in wanted:
         if reasons.get(name) is not None:  # before a folder is made
             raise BadInput(f"{name}: {reasons[name]}")
+    drawn = {name: draw(dataset, name) for name in wanted}  # before a folder is made, too
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise files.CannotWrite(f"{folder} cannot be made: {error.strerror or error}") from None
     written = []
-    for name in wanted:
-        figure = draw(dataset, name)
+    for name, figure in drawn.items():
         for form in formats:
             written.append(folder / f"{name}.{form}")
             save(figure, written[-1])
