@@ -51,6 +51,7 @@ class States:
     attitude: Asked = None
     contact: Asked = None
 
+    @np.errstate(over="ignore", invalid="ignore")  # what overflows is far
     def turning(self) -> float:
         """The largest turning between next frames, of all balls, in radians; 0 where there is one frame."""
         speed = np.sqrt((self._omega() ** 2).sum(axis=-1))
@@ -63,6 +64,7 @@ class States:
     def _body(self) -> tuple[Floats, Floats]:
         return self.ball.mass_tensor[..., np.newaxis, :], np.asarray(self.ball.D)[..., np.newaxis]
 
+    @np.errstate(over="ignore", invalid="ignore")  # a damaged frame may have any number
     def at(self, times: ArrayLike) -> Moments:
         """The states at these times, by quintics; raises BadInput for times out of range and frames too far apart."""
         given = numbers(times, "times")
@@ -72,7 +74,7 @@ class States:
         if wanted.size and not (first <= wanted.min() and wanted.max() <= last):
             raise BadInput(f"times must lie between the first frame and the last, {first:.10g} and {last:.10g}")
         turn = self.turning()
-        if turn > MOST_TURN:
+        if not turn <= MOST_TURN:
             raise BadInput(
                 f"frames are up to {turn:.3g} radians of turning apart, too far to tell what is between (at most "
                 f"{MOST_TURN}): keep more frames, with a smaller `every`"

@@ -5,6 +5,7 @@ import json
 import os
 import re
 import warnings
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -129,6 +130,7 @@ def test_a_damaged_file_is_one_sentence(result, tmp_path, suffix, damage):
         ("gamma", lambda one: one.astype(str), "gamma has no real numbers"),
         ("D", lambda one: one.astype(bool), "D has no real numbers"),
         ("energy", lambda one: one.isel(ball=0, drop=True), "energy lacks the dimension ball"),
+        ("time", lambda one: one[0].drop_vars("time"), "[a-z]* lacks the dimension frame"),
     ],
 )
 def test_parts_that_have_no_numbers_or_other_dimensions_are_refused(tmp_path, monkeypatch, name, change, said):
@@ -138,6 +140,51 @@ def test_parts_that_have_no_numbers_or_other_dimensions_are_refused(tmp_path, mo
     monkeypatch.setitem(formats._READERS, ".nc", lambda path: data.assign({name: change(data[name])}))
     with pytest.raises(SceneError, match=f"is damaged, or no result of chapsym: {said}"):
         formats.load(tmp_path / "run.nc")
+
+
+def test_a_heap_of_hdf5_that_has_no_end_is_refused(result, tmp_path):
+    """HDF5 goes round in it for ever, deaf to an interrupt."""
+    path = tmp_path / "run.nc"
+    formats.save(result, path)
+    data = bytearray(path.read_bytes())
+    first = data.index(formats.HEAP) + 16
+    data[first : first + 600] = bytes(600)
+    path.write_bytes(data)
+    with pytest.raises(SceneError, match="or no result of chapsym: a heap of HDF5 has an object of no size"):
+        formats.load(path)
+
+
+@pytest.mark.parametrize(
+    ("shape", "said"),
+    [("(2, (2,    ", "is damaged, or no result"), ("(10000000000000,)", "does not fit into memory|is damaged")],
+)
+def test_a_header_of_numpy_that_is_damaged_is_refused(tmp_path, shape, said):
+    path = tmp_path / "run.npz"
+    formats.save(sweep.run(plan_from(f"{BALL}time_step = 0.01\nsteps = 2\n")), path)
+    with zipfile.ZipFile(path) as old:
+        parts = {name: old.read(name) for name in old.namelist()}
+    header = b"{'descr': '<f8', 'fortran_order': False, 'shape': " + shape.encode() + b"}\n"
+    parts["D.npy"] = b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header
+    with zipfile.ZipFile(path, "w") as new:
+        for name, content in parts.items():
+            new.writestr(name, content)
+    with pytest.raises(SceneError, match=said):
+        formats.load(path)
+
+
+def test_an_attribute_and_axes_that_are_not_those_of_a_result_are_refused(result, tmp_path):
+    path = tmp_path / "run.npz"
+    formats.save(result, path)
+    with np.load(path) as data:
+        arrays = dict(data)
+    about = json.loads(str(arrays["chapsym"]))
+    about["attrs"]["accuracy"] = [1e-6]
+    np.savez(path, **(arrays | {"chapsym": np.array(json.dumps(about))}))
+    with pytest.raises(SceneError, match="its accuracy is no number"):
+        formats.load(path)
+    np.savez(path, **(arrays | {"taken": arrays["taken"][..., np.newaxis]}))
+    with pytest.raises(SceneError, match="taken has 2 axes, not ball"):
+        formats.load(path)
 
 
 def test_what_a_reader_trips_over_is_not_repeated(result, tmp_path):

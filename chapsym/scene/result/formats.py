@@ -7,6 +7,7 @@ import codecs
 import csv
 import json
 import math
+import mmap
 import re
 import sys
 import warnings
@@ -14,6 +15,8 @@ import zipfile
 import zlib
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from struct import unpack_from
+from tokenize import TokenError
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,10 +32,12 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 #: What readers raise of a file that is damaged, or made by somebody else: in their words, and by accident.
-READERS = ValueError, KeyError, EOFError, csv.Error, zipfile.BadZipFile, zlib.error
+READERS = ValueError, KeyError, EOFError, csv.Error, zipfile.BadZipFile, zlib.error, TokenError
 DAMAGED = (*READERS, TypeError, AttributeError, ArithmeticError, IndexError, RecursionError, NotImplementedError)
 #: What a result has in numbers besides its outputs.
 NUMBERS = ("taken", "status", "error", "order", "substeps", "mass_tensor", "D", "radius", "time", "step")
+#: How a heap of HDF5 begins that has objects of all sizes: its name and version.
+HEAP = b"GCOL\x01\x00\x00\x00"
 #: Bytes that are read at once of a CSV, and the most that its first row may have of what no row has.
 BLOCK = 2**24
 #: Where a CSV goes that is to have no file.
@@ -124,6 +129,8 @@ def load(path: Path) -> "Dataset":
     except OSError as error:
         reason = error.strerror or str(error).splitlines()[0]
         raise SceneError(f"{path} cannot be read: {reason}") from None
+    except MemoryError:
+        raise SceneError(f"{path} does not fit into memory, if it is not damaged") from None
     except DAMAGED as error:
         layout = "its parts are not those of one"  # what a reader trips over says nothing to a user
         if isinstance(error, READERS):
@@ -136,12 +143,15 @@ def load(path: Path) -> "Dataset":
 
 def _check_parts(data: "Dataset") -> None:
     """Raises ValueError for a part that has no numbers, or other dimensions than one of its name has."""
+    if not isinstance(data.attrs.get("accuracy", 0.0), float | int | np.number):
+        raise ValueError("its accuracy is no number")
     for name, one in data.variables.items():
         output = OUTPUTS.get(whose(str(name)))
         if (output or name in NUMBERS) and one.dtype.kind not in "iuf":
             raise ValueError(f"{name} has no real numbers")
-        over = {"ball"} if output and output.per_ball else {"ball", "frame"}
-        if output and (lacking := over & set(data.dims) - set(one.dims)):
+        over = {"ball"} if output and output.per_ball else {"ball", "frame"} if output else set()
+        over = {"frame"} if name in ("time", "step") else over
+        if lacking := over & set(data.dims) - set(one.dims):
             raise ValueError(f"{name} lacks the dimension {min(map(str, lacking))}")
 
 
@@ -262,8 +272,7 @@ def _read_zarr(path: Path) -> "Dataset":
 def _read_netcdf(path: Path) -> "Dataset":
     import xarray
 
-    with path.open("rb"):  # so that a missing file has the system's sentence
-        pass
+    _check_heaps(path)
     import h5py
 
     try:
@@ -272,6 +281,27 @@ def _read_netcdf(path: Path) -> "Dataset":
             return xarray.load_dataset(path, engine="h5netcdf")
     except (OSError, RuntimeError) as error:
         raise ValueError(str(error)) from None
+
+
+def _check_heaps(path: Path) -> None:
+    """Raises ValueError for a heap in which HDF5 goes round for ever, deaf to an interrupt: by an object of no size.
+
+    Free space has the number 0 and its size with the head; others have the size of what follows, in eights.
+    """
+    with path.open("rb") as file:
+        if not path.stat().st_size:
+            raise ValueError("it is empty")
+        with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
+            heap = data.find(HEAP)
+            while heap >= 0:
+                _, size = unpack_from("<QQ", data[heap : heap + 16].ljust(16, b"\0"))
+                at, end = heap + 16, min(heap + size, len(data))
+                while at + 16 <= end:
+                    number, length = unpack_from("<H6xQ", data, at)
+                    if not number and not length:
+                        raise ValueError("a heap of HDF5 has an object of no size")
+                    at += 16 + -(-length // 8) * 8 if number else length
+                heap = data.find(HEAP, heap + 1)
 
 
 def _read_parquet(path: Path) -> "Dataset":
@@ -391,6 +421,8 @@ def _dataset(arrays: Mapping[str, np.ndarray], layout: Mapping[str, Any], attrs:
     coords: dict[Any, Any] = {dim: np.array(names, dtype=object) for dim, names in layout["labels"].items()}
     variables: dict[Any, Any] = {}
     for name, one in layout["variables"].items():
+        if np.ndim(arrays[name]) != len(one["dims"]):
+            raise ValueError(f"{name} has {np.ndim(arrays[name])} axes, not {', '.join(one['dims'])}")
         (coords if one["coordinate"] else variables)[name] = (one["dims"], arrays[name], one["attrs"])
     return xarray.Dataset(variables, coords, dict(attrs))
 

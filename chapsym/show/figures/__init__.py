@@ -5,6 +5,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from chapsym import files
 from chapsym.dynamics import BadInput
 
@@ -108,7 +110,7 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     if reason is not None:
         raise BadInput(f"{name}: {reason}")
     begun = reading.begun(chosen)
-    with styled():
+    with styled(), np.errstate(over="ignore", invalid="ignore"):  # a damaged frame may have any number
         figure = kind.draw(curves.finer(begun) if kind.curve else begun)
         if kind.warns:
             add_note(figure, curves.note(begun))
