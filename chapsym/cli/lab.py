@@ -66,15 +66,26 @@ def lab(
     done, keys = _there(output), set[str]()
     constraints: dict[str, str] = {}
     certified: dict[str, Any] = {}
-    if certificates:
+    wrong: list[str] = []
+    systems = list[tuple[Path, "System"]]()
+    for path in _files(files):
+        try:
+            system = loaded(path)
+            if system.name in [one.name for _, one in systems]:
+                raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
+            if certificates and name_of(system) in [name_of(one) for _, one in systems]:
+                raise BadSystem(f"{system.name} and another system would have certificates of one name: rename one")
+            system.beginning  # noqa: B018, which refuses a start that breaks a constraint
+            systems.append((path, system))
+        except BadSystem as error:
+            wrong.append(str(error))
+    if certificates and systems:
         try:
             certificates.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             fail(f"{certificates} cannot be written: {error.strerror or error}", 2)
-    wrong: list[str] = []
 
     def started(path: Path, system: "System", later: Later) -> Begun:
-        system.beginning  # noqa: B018, which refuses a start that breaks a constraint
         key, cells = system.digest(length, halve), list[Callable[[], Any]]()
         of, own = path if jobs > 1 else system, methods
         if not method and not system.discrete:
@@ -88,17 +99,7 @@ def lab(
         return Begun(system, key, later(_said, of, flags), cells, written)
 
     with _crew(jobs) as later:
-        begun = list[Begun]()
-        for path in _files(files):
-            try:
-                system = loaded(path)
-                if system.name in [one.name for one, *_ in begun]:
-                    raise BadSystem(f"two systems are called {system.name}: give each a name of its own")
-                if certificates and name_of(system) in [name_of(one) for one, *_ in begun]:
-                    raise BadSystem(f"{system.name} and another system would have certificates of one name: rename one")
-                begun.append(started(path, system, later))
-            except BadSystem as error:
-                wrong.append(str(error))
+        begun = [started(path, system, later) for path, system in systems]
         for system, key, said, cells, written in begun:
             constraints[system.name] = said()
             keys.add(key)

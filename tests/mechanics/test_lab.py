@@ -123,9 +123,10 @@ def test_a_page_with_a_curve_for_each_method(tmp_path):
 def test_what_is_no_system_is_one_sentence(tmp_path, text, options, said):
     file = tmp_path / "system.py"
     file.write_text(text, encoding="utf-8")
-    done = chapsym("lab", file, *options)
+    done = chapsym("lab", file, *options, "--certificates", tmp_path / "made")
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert said in done.stderr
+    assert not (tmp_path / "made").exists()
 
 
 def test_what_is_no_file_is_one_sentence(tmp_path):
