@@ -74,13 +74,10 @@ class Store:
         elif path.exists():
             with _locked(path):
                 _discard(path)
-        if not path.exists():
-            created(path, lambda place: _create(place, plan))
+        is_new = not path.exists() and created(path, lambda place: _create(place, plan))
         with _locked(path):
-            for left in path.rglob("*.partial"):  # chunks that a killed process has left half written
-                if left.is_file():
-                    left.unlink(missing_ok=True)
-            store._mend()
+            if not is_new or store._says_complete:
+                store._mend()
             yield store
 
     @property
@@ -213,6 +210,9 @@ class Store:
         import zarr
 
         with _refusals(self.path):
+            for left in self.path.rglob("*.partial"):  # chunks that a killed process has left half written
+                if left.is_file():
+                    left.unlink(missing_ok=True)
             if not self._described():
                 self._describe()
             group: Any = zarr.open_group(self.path, mode="r+", use_consolidated=False)
@@ -233,22 +233,27 @@ class Store:
 
     def write(self, chunk: int, segment: int, values: Columns) -> None:
         """Writes variables of one unit, which share no Zarr chunk with those of another; raises SceneError."""
-        import zarr
-
         variables = {name: one for name, one in layout(self.plan).items() if name in values}
         where = {"ball": self.plan.chunks[chunk], "frame": self.plan.segments[segment]}
         with _refusals(self.path, variables):
             (self.path / "zarr.json").stat()
             try:
-                group = zarr.open_group(self.path, mode="r+", use_consolidated=False)
-                arrays: dict[str, Any] = {name: group[name] for name in variables}
+                opened = self._opened
             except (KeyError, ValueError, TypeError):
                 (self.path / "zarr.json").stat()
                 raise SceneError(f"{self.path} is damaged, or is being deleted; replace it with --fresh") from None
             for name, one in variables.items():
-                written = arrays[name].with_config({"write_empty_chunks": True})
-                written[tuple(where.get(dim, slice(None)) for dim in one.dims)] = np.asarray(values[name], one.dtype)
+                region = tuple(where.get(dim, slice(None)) for dim in one.dims)
+                opened[name][region] = np.asarray(values[name], one.dtype)
             (self.path / "zarr.json").stat()  # of a store that was deleted since, Zarr has made these folders anew
+
+    @cached_property
+    def _opened(self) -> dict[str, Any]:
+        """The arrays of the variables, open for all units."""
+        import zarr
+
+        group: Any = zarr.open_group(self.path, mode="r+", use_consolidated=False)
+        return {name: group[name].with_config({"write_empty_chunks": True}) for name in layout(self.plan)}
 
     def mark(self, chunk: int, segment: int, state: State) -> None:
         """The mark of a unit whose region is written, after how its balls fared.
@@ -367,8 +372,11 @@ def _check_place(path: Path) -> None:
         raise SceneError(f"{path} cannot be written: choose a name in a folder that is writable")
 
 
-def created(path: Path, fill: Callable[[Path], object]) -> None:
-    """Puts what `fill` writes at `path`, unless another process has; raises SceneError if the disk refuses."""
+def created(path: Path, fill: Callable[[Path], object]) -> bool:
+    """Puts what `fill` writes at `path`, unless another process has, and returns whether it did.
+
+    Raises SceneError if the disk refuses.
+    """
     for left in path.parent.glob(f".{path.name}.new-*"):  # of creations that were killed
         pid = left.name.rpartition("-")[2]
         if pid.isdigit() and not _alive(int(pid)):
@@ -383,6 +391,8 @@ def created(path: Path, fill: Callable[[Path], object]) -> None:
             except OSError:
                 if not path.exists():
                     raise
+                return False
+            return True
     finally:
         _wait_for_zarr()  # or what it still writes would make the folder anew
         shutil.rmtree(beside, ignore_errors=True)
