@@ -32,8 +32,8 @@ ROUNDED = 0.25
 MARGIN = 6
 
 
-@dataclass(frozen=True)
-class ExactBall:
+@dataclass(frozen=True, repr=False)
+class ExactBall(Brief):
     """A ball with exact numbers; `Ball` has the nearest float64.
 
     A number is an int, a Fraction, a Decimal, or a text such as "0.1" or "2/7"; a float is the binary number it is.

@@ -65,7 +65,8 @@ class Extrapolated(Brief):
         None; or the steps after which the frames are, shape (frames,), and those above are (..., frames, 3), ...
     doubt : ndarray
         The sum over the steps of the angle between the rotation and the one with a column less, in radians, shape
-        (...): an estimate of the error that one column less would have made, so a large one of the error.
+        (...): that of the local errors of one column less.  It is no bound, nor an estimate where the motion makes such
+        errors grow, as near an unstable rotation; `roll` has one.
     status : ndarray
         A `Status` for each ball, shape (...); from where it is not TAKEN on the numbers above are NaN.
     taken : ndarray

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from chapsym.numbers import brief
+
 #: Arrays with more numbers are shown by their shape.
 FEW = 4
 #: Of the picture of a trace, in pixels.
@@ -25,7 +27,10 @@ def _short(value: Any) -> str:
     if isinstance(value, list | tuple) and len(value) > FEW:
         return f"<{len(value)}>"
     if not isinstance(value, np.ndarray | np.generic):
-        return repr(value)
+        try:
+            return repr(value)
+        except ValueError:  # whole numbers of more digits than Python writes
+            return brief(value)
     if value.size > FEW:
         return f"<{' × '.join(map(str, value.shape))}>"
     return str(value.item()) if value.size == 1 and not value.shape else str(tuple(value.tolist()))

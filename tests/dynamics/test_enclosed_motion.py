@@ -118,6 +118,14 @@ def test_no_rotor_is_what_there_was_before():
     assert certified_motion(*given, rotor=(0, 0, "0")).write() == certified_motion(*given).write()
 
 
+def test_numbers_that_python_does_not_write_are_shown_by_their_type():
+    """It refuses whole numbers of more than 4300 digits."""
+    assert repr(ExactBall((1, 2, 4), F(1, 10**5000))) == (
+        "ExactBall(mass_tensor=(Fraction(1, 1), Fraction(2, 1), Fraction(4, 1)), "
+        "D=an object of the type Fraction that has no short text)"
+    )
+
+
 def test_numpys_integers_are_integers():
     K = tuple(np.array([1, 2, 3]))
     plain = certified_motion(ExactBall((1, 2, 4), 3), (1, 2, 3), (0, 0, 1), 1)
