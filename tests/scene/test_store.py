@@ -2,6 +2,7 @@
 
 import gc
 import json
+import os
 import random
 import subprocess
 import sys
@@ -303,6 +304,25 @@ def test_a_chunk_that_the_system_does_not_read_is_one_sentence(path):
     chunk.symlink_to(chunk.name)
     with pytest.raises(SceneError, match="gamma/c/0/0/0 cannot be read"):
         load(path).load()
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes here")
+@pytest.mark.parametrize("name", ["zarr.json", "gamma/zarr.json", "gamma/c/0/0/0", "gamma/digests.json"])
+def test_a_pipe_is_not_waited_for(whole, path, name):
+    sweep.run_to_store(plan(), path)
+    (path / name).unlink()
+    os.mkfifo(path / name)
+    if name.endswith("digests.json"):
+        equal_to_the_bit(load(path), whole)
+        return
+    with pytest.raises(SceneError):
+        load(path).load()
+    if name.endswith("zarr.json"):
+        with pytest.raises(SceneError, match="pipe" if "gamma" in name else "no result of chapsym"):
+            sweep.run_to_store(plan(), path)
+    else:
+        assert list(sweep.run_to_store(plan(), path).damaged) == [name]
+        equal_to_the_bit(load(path), whole)
 
 
 def test_a_wrong_list_of_what_does_not_come_from_the_run_is_written_anew(whole, path):

@@ -36,6 +36,8 @@ class CheckedStore(LocalStore):
 
     async def get(self, key: str, *args: Any, **options: Any) -> Any:
         """The contents of a file, or None; raises SceneError for a chunk that is missing or damaged."""
+        if (self.root / key).is_fifo():
+            raise SceneError(f"{self.root / key} is a pipe, not a file")
         try:
             found = await super().get(key, *args, **options)
         except OSError as error:

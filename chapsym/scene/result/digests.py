@@ -98,7 +98,7 @@ def disputed(path: Path) -> list[str]:
 
 def read_object(path: Path) -> dict[str, Any]:
     """An object of JSON; an empty one where there is none to be read."""
+    found = None
     with suppress(OSError, ValueError, RecursionError):
-        found = json.loads(path.read_bytes())
-        return found if isinstance(found, dict) else {}
-    return {}
+        found = json.loads(path.read_bytes()) if path.is_file() else None  # a pipe would be waited for
+    return found if isinstance(found, dict) else {}

@@ -27,6 +27,7 @@ from chapsym.dynamics.outputs import OUTPUTS, labels, whose
 
 from ..plan.plan import Plan
 from ..read.errors import SceneError
+from .digests import disputed, read_object
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -165,7 +166,7 @@ def attributes(path: Path) -> dict[str, Any]:
             return dict(about["attrs"])
         if path.is_file():
             return load(path).attrs
-        found = json.loads((path / "zarr.json").read_text(encoding="utf-8"))["attributes"]
+        found = read_object(path / "zarr.json")["attributes"]
     except (SceneError, OSError, *DAMAGED):
         layout = "choose another name" + (", or replace it with --fresh" if path.is_file() else "")
         raise SceneError(f"{path} is there, but it is no result of chapsym; {layout}") from None
@@ -253,7 +254,6 @@ def _read_zarr(path: Path) -> "Dataset":
     import xarray
 
     from .chunks import CheckedStore, mended
-    from .digests import disputed
 
     check_ours(path)
     if found := disputed(path):
