@@ -538,6 +538,19 @@ def test_a_damaged_mark_is_named_and_costs_its_balls_only(whole, path, damage):
     equal_to_the_bit(opened(path), whole)
 
 
+def test_a_mark_of_before_has_no_checksums(whole, path):
+    interrupted(path, 7)
+    mark = min(stores.folder_of(path).glob("chunk-*.npz"))
+    with np.load(mark) as data:
+        found = dict(data)
+    assert found.pop("digests").size
+    np.savez(mark, **found)
+    outcome = sweep.run_to_store(plan(), path)
+    assert outcome.complete
+    assert not outcome.damaged
+    equal_to_the_bit(opened(path), whole)
+
+
 @pytest.mark.parametrize("changed", [{"segments_done": 99}, {"gamma": np.zeros((1, 3))}])
 def test_a_mark_that_does_not_fit_is_damaged(path, changed):
     interrupted(path, 7)

@@ -1,4 +1,4 @@
-"""The result in Zarr as it is read: a chunk that is missing or damaged is said, not read."""
+"""How a result in Zarr is read: a chunk that is missing or damaged is refused by its name."""
 
 import json
 from functools import cached_property

@@ -2,7 +2,7 @@
 
 Each chunk ends in its checksum.  One of missing values is written too, so that in a complete result each one that is
 not there is lost.  Next to the chunks of each array of a complete result, `DIGESTS` lists their checksums, so that a
-chunk that is whole and stood in another place is found, too.
+whole chunk of another place, array or run is found, too.
 """
 
 import json
@@ -52,9 +52,9 @@ def written(array: Path) -> dict[str, Path]:
 
 
 def digests(array: Path) -> dict[str, str]:
-    """The checksums of its chunks by their keys, as `write_digests` left them; none if they are not to be had.
+    """The checksums of the chunks of an array by their keys, as `write_digests` left them; none if there is no list.
 
-    In the folder of another array, with whose name it came there, no chunk has the one that is listed.
+    Where the list is that of another array no chunk has the right one.
     """
     found = read_object(array / DIGESTS)
     listed = found["crc32c"] if isinstance(found.get("crc32c"), dict) else {}
