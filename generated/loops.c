@@ -15,8 +15,8 @@ typedef double real;
 #define LOOPS(rest) loops_double##rest
 #endif
 #define R(x) ((real)(x))
-/* On x86 a loop is compiled for wide registers, too, and takes them where the processor has them: to the same bits.
- * The widest make long steps of one ball slower. */
+/* On x86 a loop that gains from wide registers is compiled for them, too, and takes them where the processor has them:
+ * to the same bits.  The widest make long steps of one ball slower. */
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(WIDEST_OFF)
 #define WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #define WIDER __attribute__((target_clones("arch=x86-64-v3", "default")))
@@ -4171,7 +4171,7 @@ static void in_loop_prepare(const argument *a, argument *got) {
     real out = loop_prepare(r1_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r1_(6), r1_(7)); got[0].number = out;
 }
 
-WIDEST static void in_loop_march(const argument *a, argument *got) {
+static void in_loop_march(const argument *a, argument *got) {
     t_i2r out = loop_march(r1_(0), r1_(1), r3_(2), r1_(3), r1_(4), r2_(5), i_(6), i_(7), i_(8), i_(9), r_(10),
         r2_(11), r2_(12), b_(13), r1_(14), r1_(15), r_(16), r2_(17), r2_(18));
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2;
@@ -4201,13 +4201,13 @@ WIDER static void in_lanes_march_alone(const argument *a, argument *got) {
     (void)got;
 }
 
-WIDEST static void in_loop_n_march(const argument *a, argument *got) {
+static void in_loop_n_march(const argument *a, argument *got) {
     int64_t out = loop_n_march(r2_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r1_(6), r4_(7), r2_(8), i_(9), i_(10),
         i_(11), r_(12), r3_(13), r2_(14), b_(15), r2_(16), r1_(17), r_(18), r3_(19), r2_(20), r2_(21));
     got[0].integer = out;
 }
 
-WIDEST static void in_vertical_loop_march(const argument *a, argument *got) {
+static void in_vertical_loop_march(const argument *a, argument *got) {
     int out = vertical_loop_march(r1_(0), r1_(1), r_(2), i_(3), i_(4), r2_(5), r1_(6)); got[0].integer = out;
 }
 
@@ -4216,7 +4216,7 @@ static void in_double_double_prepare_pairs(const argument *a, argument *got) {
     got[0].integer = out.a0; got[1].integer = out.a1;
 }
 
-WIDEST static void in_double_double_march_pairs(const argument *a, argument *got) {
+WIDER static void in_double_double_march_pairs(const argument *a, argument *got) {
     t_i2r out = double_double_march_pairs(r1_(0), r2_(1), r1_(2), r1_(3), r3_(4), i_(5), i_(6), i_(7), i_(8), i_(9),
         r2_(10), r2_(11), r2_(12), r2_(13), b_(14), r1_(15), r1_(16), r_(17), r2_(18), r2_(19), r2_(20), r2_(21),
         r2_(22), r1_(23), r2_(24));
@@ -4233,18 +4233,18 @@ WIDEST static void in_double_double_march_pairs_block(const argument *a, argumen
     (void)got;
 }
 
-WIDEST static void in_double_double_march_long_pairs(const argument *a, argument *got) {
+WIDER static void in_double_double_march_long_pairs(const argument *a, argument *got) {
     t_i2r2 out = double_double_march_long_pairs(r1_(0), r1_(1), r1_(2), r_(3), r_(4), r_(5), i_(6), i_(7), i_(8),
         r2_(9), r_(10), b_(11), r1_(12), r1_(13), r2_(14), r2_(15), r2_(16), r2_(17), r2_(18), r2_(19), r2_(20),
         r2_(21));
     got[0].integer = out.a0; got[1].integer = out.a1; got[2].number = out.a2; got[3].number = out.a3;
 }
 
-WIDEST static void in_proved_bound_steps(const argument *a, argument *got) {
+WIDER static void in_proved_bound_steps(const argument *a, argument *got) {
     proved_bound_steps(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), r2_(5), r2_(6), r2_(7)); (void)got;
 }
 
-WIDEST static void in_tangent_follow_all(const argument *a, argument *got) {
+WIDER static void in_tangent_follow_all(const argument *a, argument *got) {
     tangent_follow_all(r2_(0), r2_(1), r1_(2), r_(3), i_(4), r2_(5)); (void)got;
 }
 
@@ -4297,5 +4297,5 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "0c5854e8d830f808579b494ef8ca22acdfecdbf0270acf52bfe73bfef82fd3ad";
+const char loops_text[] = "4b0f4f2610925d0338aada04fa51a34f2c09d4b6598d7211355883bdb127a2b6";
 #endif

@@ -14,8 +14,12 @@ PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block")
 LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "proved", "tangent", "following", "expected"
 
-#: Words in the names of functions that take long.
-LONG = "march", "follow", "bound"
+#: Loops that gain from registers of 512 bits, those of lanes of balls, and from those of 256.  Others gain from neither.
+WIDEST = "block_march_blocks", "lanes_march", "double_double_march_pairs_block", "following_follow"
+WIDER = (
+    "lanes_march_alone", "following_follow_alone", "double_double_march_pairs", "double_double_march_long_pairs",
+    "proved_bound_steps", "tangent_follow_all",
+)  # fmt: skip
 
 #: The first lines of a file, with its contents and its sources.
 HEAD = "/* {}\n * Written by `chapsym codegen`: do not edit; change {} and generate again. */\n"
@@ -34,8 +38,8 @@ typedef double real;
 #define LOOPS(rest) loops_double##rest
 #endif
 #define R(x) ((real)(x))
-/* On x86 a loop is compiled for wide registers, too, and takes them where the processor has them: to the same bits.
- * The widest make long steps of one ball slower. */
+/* On x86 a loop that gains from wide registers is compiled for them, too, and takes them where the processor has them:
+ * to the same bits.  The widest make long steps of one ball slower. */
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && !defined(WIDEST_OFF)
 #define WIDEST __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #define WIDER __attribute__((target_clones("arch=x86-64-v3", "default")))
@@ -224,7 +228,7 @@ class Texts:
         """A function of one form that calls one that is exported."""
         of = self.of[function]
         given = ", ".join(f"{of.names[x]}_({i})" for i, x in enumerate(function.parameters))
-        wide = "WIDER " if function.name.endswith("alone") else "WIDEST " if any(map(function.name.count, LONG)) else ""
+        wide = "WIDEST " if function.name in WIDEST else "WIDER " if function.name in WIDER else ""
         head = f"{wide}static void in_{function.name}(const argument *a, argument *got)"
         call, out = f"{function.name}({given})", Text("out", of.returned)
         if of.returned is None:
