@@ -2,6 +2,7 @@
  * Written by `chapsym codegen`: do not edit; change the derivation and generate again. */
 #include "chapsym.h"
 
+#define LIBRARY
 #include "loops.c"
 
 void chapsym_angular_velocity(const double momentum[3], const double gamma[3], const double mass_tensor[3], double D,

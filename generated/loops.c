@@ -4167,6 +4167,7 @@ INLINE real expected_estimated(r2 found, r2 reported, r1 unit, int turned, int s
 }
 
 #endif
+#ifndef LIBRARY
 static void in_loop_prepare(const argument *a, argument *got) {
     real out = loop_prepare(r1_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r1_(6), r1_(7)); got[0].number = out;
 }
@@ -4298,4 +4299,5 @@ const loop_export LOOPS()[] = {
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
 const char loops_text[] = "4b0f4f2610925d0338aada04fa51a34f2c09d4b6598d7211355883bdb127a2b6";
+#endif
 #endif

@@ -14,7 +14,7 @@ PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block")
 LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "proved", "tangent", "following", "expected"
 
-#: Loops that gain from registers of 512 bits, those of lanes of balls, and from those of 256.  Others gain from neither.
+#: Loops that gain from registers of 512 bits, those of lanes of balls, and from those of 256; others gain from neither.
 WIDEST = "block_march_blocks", "lanes_march", "double_double_march_pairs_block", "following_follow"
 WIDER = (
     "lanes_march_alone", "following_follow_alone", "double_double_march_pairs", "double_double_march_long_pairs",
@@ -263,14 +263,15 @@ def build(load: Callable[[str], str], kernels: Sequence[Kernel], roundings: Mapp
         program, [f for name in LOOPS for f in exported[name]], [f for name in SINGLE for f in exported[name]],
         [functions[kernel.name] for kernel in kernels],
     )  # fmt: skip
-    body = texts.text() + texts.exports()
-    digest = hashlib.sha256((INTERFACE + body).encode()).hexdigest()
+    body, exports = texts.text(), texts.exports()
+    digest = hashlib.sha256((INTERFACE + body + exports).encode()).hexdigest()
     about = "The loops of chapsym/dynamics/loops, with the kernels that they call; with SINGLE defined in float32."
     mine = "codegen/c_files.py"
-    end = guarded("#ifndef SINGLE", f'const char loops_text[] = "{digest}";\n')
+    exports += guarded("#ifndef SINGLE", f'const char loops_text[] = "{digest}";\n')
+    body += guarded("#ifndef LIBRARY", exports)
     python = '"""The hash of the text in C that belongs to the loops; written by `chapsym codegen`: do not edit."""'
     return {
-        "loops.c": HEAD.format(about, "the loops or the derivation") + body + end,
+        "loops.c": HEAD.format(about, "the loops or the derivation") + body,
         "loops_single.c": HEAD.format("The loops in float32.", mine) + '#define SINGLE\n#include "loops.c"\n',
         "loops.h": HEAD.format("What the loops and what calls them agree on.", mine) + INTERFACE,
         "loops_text.py": f'{python}\n\nTEXT = "{digest}"\n',
@@ -334,7 +335,7 @@ def library(texts: Texts, kernels: Sequence[Kernel], roundings: Mapping[str, int
     with_step = ABOUT_STEP + "\n".join(broken(STEP + ";")) + "\n" + declared
     return {
         "chapsym.h": HEAD.format(about, "the derivation") + HEADER.format("CHAPSYM", with_step),
-        "chapsym.c": head + '#include "chapsym.h"\n\n#include "loops.c"\n\n' + defined + step,
+        "chapsym.c": f'{head}#include "chapsym.h"\n\n#define LIBRARY\n#include "loops.c"\n\n{defined}{step}',
     }
 
 
