@@ -7,7 +7,7 @@ from budget import slow
 from extremes_n import FOUR, truth_n
 from plain import in_plain_python
 
-from chapsym import BallN, Status, StepNotTaken, step_n, substeps, trajectory_n
+from chapsym import BallN, Digits, Status, StepNotTaken, step_n, substeps, trajectory_n
 from chapsym.dynamics.n import run_n, so_n
 from chapsym.dynamics.n.branch_n import small_rotation
 from chapsym.dynamics.n.near_n import limits
@@ -171,10 +171,20 @@ def test_balls_above_the_bound_go_beside_those_below():
     K *= np.array([12.0, 12.0, 12.0, 0.0])[:, None, None]
     near = limits(K, ball.mass_tensor, ball.D, ONE)[0]
     assert (near > 0).tolist() == [[True], [False], [False], [False]]
-    run = trajectory_n(ball, K, gamma, 30, contact=True)
+    seen = []
+    run = trajectory_n(ball, K, gamma, 30, contact=True, progress=seen.append)
     assert run.status.tolist() == [Status.TAKEN, Status.TAKEN, Status.FOLDED, Status.TAKEN]
+    assert seen[-1] == run.taken.sum()
+    assert seen == sorted(seen)
     one = trajectory_n(alone(ball, 0), K[0], gamma[0], 30, contact=True)
     assert all((getattr(one, name) == getattr(run, name)[0]).all() for name in NAMES)
     step = step_n(alone(ball, 1), run.momentum[1, 9], run.gamma[1, 9])
     assert np.abs(step.momentum - run.momentum[1, 10]).max() <= 16 * UNIT_ROUNDOFF * np.abs(K).max()
     assert (run.gamma[3] == gamma[3]).all()
+
+
+def test_steps_in_many_digits_are_counted_one_by_one():
+    ball, K, gamma = batch(4, 2, 0.1)
+    seen = []
+    trajectory_n(ball, K, gamma, 3, precision=Digits(20), progress=seen.append)
+    assert seen == [2, 4, 6]

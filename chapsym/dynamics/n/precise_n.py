@@ -18,6 +18,7 @@ from chapsym.numbers.precisions import flint_bits
 from ..ball import Floats
 from ..errors import Status
 from ..levels.balls import GUARD, exact, in_context
+from ..levels.frames import Count
 from . import so_n
 from .branch_n import small_rotation
 
@@ -34,6 +35,7 @@ def run(
     stages: Sequence[Fraction],
     steps: int,
     every: int,
+    count: Count,
     continued: Callable[..., Any],
 ) -> tuple[np.ndarray, np.ndarray, Floats]:
     """`run_n.run` at N digits: writes the frames, of objects, and returns (taken, status, reach), (b,).
@@ -41,7 +43,7 @@ def run(
     continued: `run_n.continued`, which takes the steps.
     """
     balls, context = len(state["gamma"]), precision.context
-    taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
+    outcome = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
     # The roundings of the steps add up to the square of their number, as frequencies drift.
     bits = context.prec + 2 * math.ceil(math.log2(steps * len(stages) + 1)) + GUARD
     with flint_bits(bits):
@@ -52,11 +54,11 @@ def run(
         for name, array in frames.items():
             array[:, 0] = now[name]
         coefficients = [exact(c) for c in stages]
-        continued(now, frames, coefficients, steps, every, taken, status, reach, np.arange(balls), _rotations)
+        continued(now, frames, coefficients, steps, every, outcome, np.arange(balls), count, _rotations)
     rounded = np.frompyfunc(lambda x: x if isinstance(x, float) else in_context(context, x, context.prec), 1, 1)
     for array in frames.values():
         array[...] = rounded(array)
-    return taken, status, reach
+    return outcome
 
 
 def _rotations(K: Any, gamma: Any, J: Any, D: Any) -> tuple[Any, np.ndarray, Floats]:

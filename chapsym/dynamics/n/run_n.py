@@ -44,22 +44,23 @@ UNCOUNTED = Count(lambda done: None)
 
 
 def _stepped(
-    precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1
-) -> tuple[dict[str, Floats], np.ndarray, np.ndarray, Floats]:
+    precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1,
+    count: Count = UNCOUNTED,
+) -> tuple[dict[str, Floats], np.ndarray, np.ndarray, Floats]:  # fmt: skip
     """The frames of a run from its start on, (b, frames, ...), and (taken, status, reach), (b,); or BadInput."""
-    chosen, stages, count = precision_of(precision), substeps(order), steps // every + 1
+    chosen, stages, kept = precision_of(precision), substeps(order), steps // every + 1
     if not isinstance(chosen, Double | Digits):
         raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {brief(precision)}')
     moving = {name: state[name] for name in MOVING if name in state}
     try:
-        frames = {name: np.full((len(x), count, *x.shape[1:]), np.nan, chosen.dtype) for name, x in moving.items()}
+        frames = {name: np.full((len(x), kept, *x.shape[1:]), np.nan, chosen.dtype) for name, x in moving.items()}
     except (MemoryError, ValueError):
-        raise no_room(count, len(state["gamma"])) from None
+        raise no_room(kept, len(state["gamma"])) from None
     if isinstance(chosen, Double):
-        return frames, *run(state, frames, stages, steps, every, threads)
+        return frames, *run(state, frames, stages, steps, every, threads, count)
     from . import precise_n  # mpmath takes 40 ms
 
-    return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every, continued)
+    return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every, count, continued)
 
 
 #: What `step_n` and `trajectory_n` return.
@@ -125,6 +126,7 @@ def trajectory_n(
     contact: bool = False,
     threads: int = 0,
     precision: str | Precision = "double",
+    progress: Callable[[int], None] = lambda steps_done: None,
 ) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
@@ -154,6 +156,8 @@ def trajectory_n(
     precision : str or Precision, optional
         "double", or `Digits(N)` for N digits in mpmath's numbers, at milliseconds a step.  That starts from the floats
         that are given, γ divided by its length, and the attitude from the rotation nearest to that of float64.
+    progress : callable, optional
+        Called with the steps done so far, of all balls together.
 
     Returns
     -------
@@ -184,7 +188,7 @@ def trajectory_n(
     threads = whole_number(threads, "threads", 0)
     every = min(every, steps + 1)
     shape, state = start(ball, momentum, gamma, attitude, contact)
-    frames, taken, status, reach = _stepped(precision, state, order, steps, every, threads)
+    frames, taken, status, reach = _stepped(precision, state, order, steps, every, threads, Count(progress))
     flat = (*(frames.get(name) for name in MOVING), taken, status)
     result = of_balls(
         Trajectory, shape, ball, np.arange(0, steps + 1, every), *flat, order=int(order),
@@ -307,10 +311,10 @@ class StepperN(UnderWay):
     def _march(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         if self._below:
             return advance(self._one, frames, steps, every, UNCOUNTED)
-        taken, status, reach = np.zeros(1, dtype=np.int64), np.zeros(1, dtype=np.int64), np.ones(1)
+        outcome = taken, status, reach = np.zeros(1, dtype=np.int64), np.zeros(1, dtype=np.int64), np.ones(1)
         batch = {name: array[np.newaxis] for name, array in frames.items()}
         at = np.zeros(1, dtype=np.int64)
-        self._state = continued(self._state, batch, self._stages, steps, every, taken, status, reach, at)
+        self._state = continued(self._state, batch, self._stages, steps, every, outcome, at, UNCOUNTED)
         return int(taken[0]), int(status[0]), float(reach[0])
 
     def _show(self) -> None:
@@ -385,35 +389,35 @@ def start(
 
 
 def run(
-    state: dict[str, Floats], frames: dict[str, Floats], stages: Floats, steps: int, every: int, threads: int = 1
-) -> tuple[np.ndarray, np.ndarray, Floats]:
+    state: dict[str, Floats], frames: dict[str, Floats], stages: Floats, steps: int, every: int, threads: int = 1,
+    count: Count = UNCOUNTED,
+) -> tuple[np.ndarray, np.ndarray, Floats]:  # fmt: skip
     """Takes `steps` steps of each ball into the frames from 1 on, of which every `every`-th is kept.
 
     state: momentum (b, n, n), gamma (b, n), mass_tensor (b, n) and D (b,); to be followed, attitude (b, n, n),
     contact (b, n-1) and radius (b,).  frames: of what moves, (b, frames, ...); the first is written here.
-    stages: cᵢ of the composition, (s,).  threads: how many cores compiled steps may use.
+    stages: cᵢ of the composition, (s,).  threads: how many cores compiled steps may use.  count: of all balls' steps.
     Returns (taken, status, reach), (b,).
     """
     for name, array in frames.items():
         array[:, 0] = state[name]
     balls, n = state["gamma"].shape
-    taken, status, reach = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
+    outcome = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
     near, enough = limits(state["momentum"], state["mass_tensor"], state["D"], stages)
     below = (near > 0).all(axis=-1)
     for at in blocks(np.flatnonzero(below), n):
         under = begun(some_balls(state, at), (near[at], enough[at]), stages)
-        march(under, frames, at, steps, every, (taken, status, reach), threads)
+        march(under, frames, at, steps, every, outcome, threads, count)
     for at in blocks(np.flatnonzero(~below), n):
-        continued(some_balls(state, at), frames, stages, steps, every, taken, status, reach, at)
-    return taken, status, reach
+        continued(some_balls(state, at), frames, stages, steps, every, outcome, at, count)
+    return outcome
 
 
 def march(
     under: Under, frames: dict[str, Floats], at: np.ndarray, steps: int, every: int,
-    outcome: tuple[np.ndarray, np.ndarray, Floats], threads: int,
+    outcome: tuple[np.ndarray, np.ndarray, Floats], threads: int, count: Count,
 ) -> None:  # fmt: skip
     """Steps balls below the bound, and writes the rows `at` of the frames and of (taken, status, reach)."""
-    count = Count(lambda done: None)
 
     def task(i: int) -> None:
         own = {name: array[at[i]] for name, array in frames.items()}
@@ -436,14 +440,15 @@ def some_balls(state: dict[str, Floats], at: np.ndarray) -> dict[str, Floats]:
 
 def continued(
     state: dict[str, Floats], frames: dict[str, Floats], stages: Iterable[Any], steps: int, every: int,
-    taken: np.ndarray, status: np.ndarray, reach: Floats, at: np.ndarray,
+    outcome: tuple[np.ndarray, np.ndarray, Floats], at: np.ndarray, count: Count,
     rotations: Callable[..., tuple[Floats, np.ndarray, Floats]] = small_rotation,
 ) -> dict[str, Floats]:  # fmt: skip
-    """Steps some balls together, the rows `at` of what else is given, and writes these in place.
+    """Steps some balls together, and writes the rows `at` of the frames and of (taken, status, reach).
 
     rotations: what finds the rotations of a stage, as `small_rotation` in float64.
     Returns the state of the balls that took all steps.
     """
+    taken, status, reach = outcome
     for step in range(1, steps + 1):
         for c in stages:
             K, rest = c * state["momentum"], (state[x] for x in ("gamma", "mass_tensor", "D"))
@@ -458,6 +463,7 @@ def continued(
         if step % every == 0:
             for name in frames:
                 frames[name][at, step // every] = state[name]
+        count.add(len(at))
     return state
 
 
@@ -495,7 +501,7 @@ def advance(one: Under, frames: dict[str, Floats], steps: int, every: int, count
     s, done, take = len(one.stages), 0, native.loop(loop_n.march)
     room = np.empty((len(one.g) * (len(one.g) - 1) // 2,) * 2)
     while done < steps * s and not count.stopped:
-        now = min(CHUNK, steps * s - done)
+        now, before = min(CHUNK, steps * s - done), done
         went = take(
             one.k, one.g, one.J, float(one.D), one.stages, one.near, one.enough, one.past, one.use,
             done, now, every, float(one.scale), momenta, verticals,
@@ -509,6 +515,7 @@ def advance(one: Under, frames: dict[str, Floats], steps: int, every: int, count
             done += 1
             if done % (s * every) == 0:
                 one.keep(frames, done // (s * every))
+        count.add(done // s - before // s)
     return done // s, Status.TAKEN, 1.0
 
 
