@@ -1999,15 +1999,19 @@ INLINE t_r4 kernel_vertical_rotation(real t, real e, real g1, real g2, real g3, 
     real o_p3 = t * (g3 * (t5 + t1 * t2) + g1 * g2 * t * (L1 - L2)); return (t_r4){o_p0, o_p1, o_p2, o_p3};
 }
 
-INLINE int vertical_loop_march(r1 g, r1 I, real k, int64_t count, int64_t every, r2 verticals, r1 q) {
-    t_r2 f; real correction;
-    t_r3 inertia = vectors_three(I, 0), v = vectors_three(g, 0), y = (t_r3){R(0.0), R(0.0), R(0.0)};
-    real level = kernel_vertical_square(v.a0, v.a1, v.a2, inertia.a0, inertia.a1, inertia.a2);
-    t_br t_1 = vertical_loop_level_root(level, k, level / (I.p[0] * I.p[1] * I.p[2]), inertia); int settled = t_1.a0;
-    real root = t_1.a1;
-    if (!settled) { return 0; }
+INLINE int vertical_loop_march(r1 state, r1 I, real k, int64_t first, int64_t count, int64_t every, r2 verticals, r1
+    q) {
+    real level, correction; int settled; t_r2 f;
+    t_r3 inertia = vectors_three(I, 0), v = vectors_three(state, 0), y = vectors_three(state, 3);
+    real root = state.p[6];
+    if (first == 0) {
+        level = kernel_vertical_square(v.a0, v.a1, v.a2, inertia.a0, inertia.a1, inertia.a2);
+        t_br t_1 = vertical_loop_level_root(level, k, level / (I.p[0] * I.p[1] * I.p[2]), inertia); settled = t_1.a0;
+        root = t_1.a1;
+        if (!settled) { return 0; }
+    }
     t_r4 p = (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)};
-    for (int64_t step = 1, end_step = count + 1; step < end_step; step++) {
+    for (int64_t step = first + 1, end_step = first + count + 1; step < end_step; step++) {
         p = kernel_vertical_rotation(k, root * k * k, v.a0, v.a1, v.a2, inertia.a0, inertia.a1, inertia.a2);
         f = kernel_vertical_level(k, root, kernel_vertical_square(v.a0, v.a1, v.a2, inertia.a0, inertia.a1,
             inertia.a2), inertia.a0, inertia.a1, inertia.a2);
@@ -2019,7 +2023,7 @@ INLINE int vertical_loop_march(r1 g, r1 I, real k, int64_t count, int64_t every,
         root = root - correction; t__r3_2 t_2 = integrals_turned(p, v, y); v = t_2.a0; y = t_2.a1;
         if (mod_i(step, every) == 0) { vectors_put(r2_row(verticals, div_i(step, every)), 0, v); }
     }
-    vectors_put_four(q, 0, p); return 1;
+    vectors_put(state, 0, v); vectors_put(state, 3, y); state.p[6] = root; vectors_put_four(q, 0, p); return 1;
 }
 
 INLINE t_i2 double_double_scales(r1 momentum, r1 tensor, real contact) {
@@ -4209,7 +4213,7 @@ static void in_loop_n_march(const argument *a, argument *got) {
 }
 
 static void in_vertical_loop_march(const argument *a, argument *got) {
-    int out = vertical_loop_march(r1_(0), r1_(1), r_(2), i_(3), i_(4), r2_(5), r1_(6)); got[0].integer = out;
+    int out = vertical_loop_march(r1_(0), r1_(1), r_(2), i_(3), i_(4), i_(5), r2_(6), r1_(7)); got[0].integer = out;
 }
 
 static void in_double_double_prepare_pairs(const argument *a, argument *got) {
@@ -4282,7 +4286,7 @@ const loop_export LOOPS()[] = {
     {"lanes_march", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march},
     {"lanes_march_alone", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march_alone},
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
-    {"vertical_loop_march", "r1 r1 r i i r2* r1*", "b", in_vertical_loop_march},
+    {"vertical_loop_march", "r1* r1 r i i i r2* r1*", "b", in_vertical_loop_march},
     {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_prepare_pairs},
     {"double_double_march_pairs", "r1* r2 r1 r1 r3* i i i i i r2* r2* r2* r2* b r1* r1* r r2* r2* r2* r2* r2 r1* r2*", "iir", in_double_double_march_pairs},
     {"double_double_prepare_pairs_block", "r2 r2 r2 r1 r2 r2* i1* i1*", "", in_double_double_prepare_pairs_block},
@@ -4298,6 +4302,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "4b0f4f2610925d0338aada04fa51a34f2c09d4b6598d7211355883bdb127a2b6";
+const char loops_text[] = "3b1793ccce28283a21bafd3a59106897966b5cf1fbafa0facc13cb0a5190e7fe";
 #endif
 #endif

@@ -46,7 +46,9 @@ def test_the_closed_form_needs_no_other_path(monkeypatch):
         raise AssertionError("another path was taken")
 
     monkeypatch.setattr(double, "run", refuse)
-    trajectory_vertical(TOP, 1.0, GAMMA, 20_000, every=20_000)
+    whole = trajectory_vertical(TOP, 1.0, GAMMA, 20_000, every=100)
+    monkeypatch.setattr(double, "CHUNK", 777)  # steps between which an interrupt is seen
+    assert (trajectory_vertical(TOP, 1.0, GAMMA, 20_000, every=100).gamma == whole.gamma).all()
 
 
 @pytest.mark.parametrize("ball", [TOP, BALL], ids=["D=0", "D=3"])

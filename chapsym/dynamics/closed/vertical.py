@@ -191,11 +191,15 @@ def _closed(
 
     Lemma `small-branch`: where there is a radius, a root with |q| < q₀ is that of the small-rotation branch.
     """
-    state, q = np.empty(loop.ROWS), np.zeros(4)
-    loop.entered((float(h), 0.0, 0.0), g, J, 0.0, state)
-    k, inertia, radius = state[loop.K], state[loop.I : loop.D], state[loop.RADIUS]
-    if radius < 0.0 or not march(g, inertia, k, steps, every, frames.gamma[i], q):
+    ball, q = np.empty(loop.ROWS), np.zeros(4)
+    loop.entered((float(h), 0.0, 0.0), g, J, 0.0, ball)
+    k, inertia, state = ball[loop.K], ball[loop.I : loop.D], np.array([*g, 0.0, 0.0, 0.0, 0.0])
+    if ball[loop.RADIUS] < 0.0:
         return False
+    for first in range(0, steps, double.CHUNK):  # between two of them the run can be interrupted
+        count = min(double.CHUNK, steps - first)
+        if not march(state, inertia, k, first, count, every, frames.gamma[i], q):
+            return False
     frames.taken[i] = steps
     if frames.with_body:
         frames.attitude[i, 1] = q / np.sqrt(q @ q)

@@ -27,15 +27,19 @@ def level_root(level, t, v, inertia):
     return False, v
 
 
-def march(g: Vector, I: Vector, k: float, count: int, every: int, verticals: Matrix, q: Vector):
-    """`count` steps from g (3), k = h/2; keeps every `every`-th γ, and the last rotation in q; whether all settled."""
-    inertia, v, y = three(I, 0), three(g, 0), (0.0, 0.0, 0.0)
-    level = vertical_square(*v, *inertia)
-    settled, root = level_root(level, k, level / (I[0] * I[1] * I[2]), inertia)
-    if not settled:
-        return False
+def march(state: Vector, I: Vector, k: float, first: int, count: int, every: int, verticals: Matrix, q: Vector):
+    """`count` steps from the step `first` on, k = h/2; keeps every `every`-th γ, and the last rotation in q.
+
+    state (7): γ, what its sums left, and v, which is found before the step 0.  Returns whether all settled.
+    """
+    inertia, v, y, root = three(I, 0), three(state, 0), three(state, 3), state[6]
+    if first == 0:
+        level = vertical_square(*v, *inertia)
+        settled, root = level_root(level, k, level / (I[0] * I[1] * I[2]), inertia)
+        if not settled:
+            return False
     p = 1.0, 0.0, 0.0, 0.0
-    for step in range(1, count + 1):
+    for step in range(first + 1, first + count + 1):
         p = vertical_rotation(k, root * k * k, *v, *inertia)
         # The next root from the γ of now, so that nothing waits for it: the level is an integral.
         f, slope = vertical_level(k, root, vertical_square(*v, *inertia), *inertia)
@@ -46,5 +50,8 @@ def march(g: Vector, I: Vector, k: float, count: int, every: int, verticals: Mat
         v, y = turned(p, v, y)
         if step % every == 0:
             put(verticals[step // every], 0, v)
+    put(state, 0, v)
+    put(state, 3, y)
+    state[6] = root
     put_four(q, 0, p)
     return True
