@@ -13,6 +13,7 @@ from chapsym.numbers import brief
 
 from .algebra import Algebra, adjugate, determinant, generic, pivots
 from .brackets import kernel
+from .series import replaced
 from .system import BadSystem, System, a_system, dot, expression, rate, without
 
 
@@ -90,8 +91,7 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     work = of.mass * made - of.forced
     along = [(sp.Matrix([field]) * work)[0] for field in of.fields]
     checks += [(f"the principle along {i + 1} of {len(along)}", e) for i, e in enumerate(along)]
-    for what, left in checks:
-        on_shell = left.xreplace(of.allowed)
+    for (what, _), on_shell in zip(checks, replaced((left for _, left in checks), of.allowed), strict=True):
         if not of.algebra.is_zero(on_shell):
             return Agreement(False, what, *_shown(on_shell, of.algebra, of.allowed))
     return Agreement(True)

@@ -6,7 +6,7 @@ All coefficients are rational numbers.  A state has its angles at 0, or where th
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property, lru_cache, partial, reduce
-from operator import add, mul
+from operator import add, is_not, mul
 from typing import Any
 
 import sympy as sp
@@ -124,7 +124,8 @@ def replaced(
     def made(expr: sp.Expr, of: Callable[[sp.Expr], sp.Expr]) -> sp.Expr:
         parts = [of(x) for x in expr.args]
         is_wave = isinstance(expr, sp.sin | sp.cos | sp.tan)
-        new = expr.func(*map(sp.expand, parts) if is_wave else parts) if parts else expr
+        is_new = is_wave or any(map(is_not, parts, expr.args))
+        new = expr.func(*map(sp.expand, parts) if is_wave else parts) if is_new else expr
         if isinstance(-new, sp.sin | sp.cos | sp.tan):
             return -turned(-new)  # sin(-x)
         return turned(new) if isinstance(new, sp.sin | sp.cos | sp.tan) else new
