@@ -44,8 +44,13 @@ def outside(enclosed, digits):
         }
 
 
-@pytest.mark.parametrize("name", ["sleigh", "contact", *slow("particle")])
-@pytest.mark.parametrize("method", ANYWHERE)
+@pytest.mark.parametrize(
+    ("name", "method"),
+    [
+        *(("contact", method) for method in ANYWHERE),
+        *slow(*((name, method) for name in ("sleigh", "particle") for method in ANYWHERE)),
+    ],
+)
 def test_many_digits_are_near_those_of_float64_and_inside_of_enclosures(name, method):
     """Of float64 in C and in Python."""
     digits = runner(name, method, Digits(30)).march(40, every=3)
