@@ -93,6 +93,8 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
 def beyond_float64(value: ArrayLike) -> bool:
     """Whether these are numbers that float64 need not hold: objects, integers beyond 2⁵³, long doubles."""
     array = np.asarray(value)
+    if array.dtype == FLOAT64:
+        return False
     if array.dtype.kind in "iu":
         return bool((array > LARGEST_INTEGER).any() or (array < -LARGEST_INTEGER).any())
     return array.dtype.kind == "O" or bool((array != array.astype(np.float64)).any())
@@ -531,7 +533,7 @@ def unit_vertical(gamma: ArrayLike, n: int = 3) -> Floats:
         return gamma.copy()
     array = numbers(gamma, "gamma", n)
     with np.errstate(over="ignore"):  # which is refused
-        squared = (array * array).sum(axis=-1)
+        squared = np.einsum("...i,...i->...", array, array)
     if in_single(gamma) and (np.abs(squared - 1) <= SINGLE_TOLERANCE).all():
         return array / np.sqrt(squared)[..., np.newaxis]
     off = np.abs(squared - 1)
@@ -573,7 +575,5 @@ def is_followed(attitude: bool | ArrayLike) -> bool:
 
 
 def _filled(shape: tuple[int, ...], value: Floats) -> Floats:
-    """`value` broadcast, as an array of its own."""
-    array = np.empty(shape)
-    array[...] = value
-    return array
+    """`value` broadcast to a shape; itself where it has it."""
+    return np.ascontiguousarray(np.broadcast_to(value, shape))
