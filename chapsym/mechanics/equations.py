@@ -7,7 +7,6 @@ from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
-from sympy.physics.vector import dynamicsymbols
 
 from chapsym.numbers import brief
 
@@ -273,6 +272,8 @@ def of_kane(method: Any) -> dict[sp.Symbol, sp.Expr]:
     BadSystem
         If the method has no equations yet, or its speeds do not follow from the rates of the coordinates.
     """
+    from sympy.physics.vector import dynamicsymbols  # with the units of physics, which take 90 ms
+
     try:
         q, u, rates = list(method.q), list(method.u), dict(method.kindiffdict())
         forced = method.mass_matrix_full.LUsolve(method.forcing_full)
