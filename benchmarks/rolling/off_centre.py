@@ -43,12 +43,12 @@ from sympy import Matrix, factor_terms, lambdify, symbols
 from chapsym.dynamics.enclosed_motion import decimal, follow
 from chapsym.dynamics.errors import TooWide
 from chapsym.dynamics.flow.deviation import UNIT, bound, exact
-from chapsym.dynamics.flow.path import capped
 from chapsym.dynamics.flow.start import ball, balls
 from chapsym.dynamics.levels.balls import log_radius
 from chapsym.dynamics.levels.proved_root import MATRIX_BITS, lowest, unit, upper
 from chapsym.dynamics.loops.vectors import cross, dot
 from chapsym.dynamics.principal_axes import quaternions
+from chapsym.numbers.precisions import flint_terms
 
 Vector = Sequence[Any]
 #: X of the lemma.
@@ -168,12 +168,12 @@ class Path:
         """Polynomials of axes, K and ω from there: each round gives another term."""
         found = [arb_series([x]) for x in start]
         for n in range(2, terms + 1):
-            with capped(n):
+            with flint_terms(n):
                 *axes, K = _vectors(found)
                 w = self.body.omega(axes[2], K)
                 rates = [x for v in axes for x in cross(v, w)] + self.body.torque(axes[2], K, w)
                 found = [x + (h * y).integral() for x, y in zip(start, rates, strict=True)]
-        with capped(terms):
+        with flint_terms(terms):
             return [arb_poly(x.coeffs()) for x in (*found, *self.body.omega(found[6:9], found[9:]))]
 
     def _proved(self, step: Step) -> Step:

@@ -17,6 +17,7 @@ from chapsym.checker.heteroclinic import MOST_STEPS
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import fraction
+from chapsym.numbers.precisions import flint_bits
 
 from .balls import decade, decimal, shortest
 from .document import accepted, stated, widest
@@ -83,14 +84,14 @@ def heteroclinic(
     """
     _check(top, starts, digits, radius)
     if starts is None:
-        with ctx.workprec(SPARE_BITS):
+        with flint_bits(SPARE_BITS):
             starts = Fraction(1), Fraction(round(1000 * float(Orbits(top).growth)), 1000)
     needed = _digits(top, starts, progress)
     if digits is not None and digits < needed:
         raise BadInput(f"{digits} digits are too few for this difference; take {needed} or more")
     digits = needed if digits is None else digits
     progress(f"two orbits to {digits} digits")
-    with ctx.workprec(_bits(digits)):
+    with flint_bits(_bits(digits)):
         orbits = [_orbit(Orbits(top), x, digits) for x in starts]
     radii = [Fraction(1, 10 ** (digits + n)) for n in range(RADII)] if radius is None else [radius]
     if min(top.J) == 0 and radius is None:
@@ -126,7 +127,7 @@ def _digits(top: Top, starts: tuple[Fraction, Fraction], progress: Callable[[str
     digits = 20
     while digits <= MOST_DIGITS:
         progress(f"looking for the difference with {digits} digits")
-        with ctx.workprec(_bits(digits)):
+        with flint_bits(_bits(digits)):
             ends = [Orbits(top).end(x, digits)[0] for x in starts]
             off = abs(fraction(ends[0] - ends[1]))
         if off > Fraction(10) ** (SIGNIFICANT - digits):

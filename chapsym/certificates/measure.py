@@ -13,8 +13,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from flint import ctx
-
 from chapsym import checker
 from chapsym.checker.branch import MOST_ARCS
 from chapsym.checker.circle import Circle
@@ -22,6 +20,7 @@ from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
 from chapsym.checker.measure import branch_of, tangent
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.start import fraction
+from chapsym.numbers.precisions import flint_bits
 
 from . import resonance
 from .balls import NotProved, decade, decimals, rounded, shortest
@@ -123,7 +122,7 @@ def _least_digits(top: Top, at: Resonance) -> int:
     bits = spare
     while bits < MOST_DIGITS * 10 // 3:
         bits *= 2
-        with ctx.workprec(bits):
+        with flint_bits(bits):
             found = [fraction(x.displacement) for x in _orbits(top, at)]
         least = min(map(abs, found))
         if least < Fraction(2) ** (spare - bits):
@@ -188,7 +187,7 @@ def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
 
 def _precise(at: Resonance, digits: int) -> Any:
     """The precision that this many decimals need after the steps."""
-    return ctx.workprec(math.ceil(digits * 10 / 3) + spare_bits(at.steps))
+    return flint_bits(math.ceil(digits * 10 / 3) + spare_bits(at.steps))
 
 
 def _orbits(top: Top, at: Resonance) -> list[Orbit]:

@@ -5,14 +5,13 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from flint import ctx
-
 from chapsym import checker
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.enclosed_motion import CertifiedMotion
 from chapsym.dynamics.flow.start import Principal, Start, balls
 from chapsym.dynamics.levels.balls import unit
 from chapsym.dynamics.levels.start import fraction
+from chapsym.numbers.precisions import flint_bits
 
 from .balls import decade, shortest
 from .document import stated
@@ -80,7 +79,7 @@ def document(start: Start, found: CertifiedMotion, bits: int) -> dict[str, Any]:
 
 def _start(start: Start, bits: int) -> dict[str, list[list[str]]]:
     """The attitude, its greatest number 1, and the momentum: quotients where they seem to be, else [middle, radius]."""
-    with ctx.workprec(bits + KNOWN):
+    with flint_bits(bits + KNOWN):
         a = start.attitude()
         greatest = max(a, key=lambda x: abs(fraction(x)))
         return {

@@ -10,13 +10,12 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from flint import ctx
-
 from chapsym import checker
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
 from chapsym.checker.orbit import attracts
 from chapsym.dynamics.errors import BadInput, TooWide
 from chapsym.dynamics.levels.start import fraction
+from chapsym.numbers.precisions import flint_bits
 
 from . import families
 from .balls import NotProved, rounded, shortest, simplest
@@ -56,7 +55,7 @@ def periodic_orbit(
     while True:
         progress(f"<momentum, gamma> = {shortest(level.height)}: {bits} bits")
         try:
-            with ctx.workprec(bits):
+            with flint_bits(bits):
                 start = families.solved(level, steps, near, 4 + bits.bit_length())
                 passage = Map.of(level).passage(*start, steps)
                 found = _document(level, steps, start, passage, _digits(passage, steps, digits), attracting)
@@ -102,7 +101,7 @@ def _check(
         raise BadInput(f"the number of steps must be from 2 to {MOST_STEPS}, not {steps}")
     if digits is not None and not 1 <= digits <= MOST_DIGITS:
         raise BadInput(f"the number of decimals must be from 1 to {MOST_DIGITS}, not {digits}")
-    with ctx.workprec(SEARCH_BITS):
+    with flint_bits(SEARCH_BITS):
         Map.of(Level((J[0], J[1], J[2]), D, size, Fraction(0)))  # the bound of the lemma
 
 
@@ -111,7 +110,7 @@ def _found(
 ) -> tuple[Level, Member]:
     """The level of the widest family that serves, and a member near it."""
     best: tuple[Fraction, Level, Member] | None = None
-    with ctx.workprec(SEARCH_BITS):
+    with flint_bits(SEARCH_BITS):
         for family in families.families(level, steps, progress):
             low, high = families.extent(family)
             inside = height is None or low < height < high

@@ -14,11 +14,12 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from flint import acb, arb, ctx
+from flint import acb, arb
 
 from chapsym.checker.measure import ZEROS
 from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import exponent_of, fraction
+from chapsym.numbers.precisions import flint_bits
 
 from .balls import NotProved
 from .reduced import Axes, Reduced, Top, angle, cross
@@ -68,7 +69,7 @@ def staircases(top: Top, steps: int, progress: Callable[[str], None]) -> list[St
 
 def half_turns(top: Top, level: Fraction, axes: Axes, steps: int) -> list[float]:
     """Half turns after 1, 2, ... steps from the point with γ_b = 0, in the direction of the motion."""
-    with ctx.workprec(LOOK_BITS):
+    with flint_bits(LOOK_BITS):
         _, orbit = Reduced(top).orbit(level, axes, ZEROS["b"], steps)
         total, found = 0.0, []
         for before, after in pairwise(orbit):
@@ -100,7 +101,7 @@ def starts(top: Top, level: Fraction, axes: Axes, steps: int) -> tuple[str, str]
     if steps % 2:
         return "a", "b"
     t = 0.0
-    with ctx.workprec(LOOK_BITS):
+    with flint_bits(LOOK_BITS):
         reduced = Reduced(top)
         for _ in range(MIDDLE_STEPS):
             _, (before, after) = reduced.orbit(level, axes, Fraction(t), 1)
@@ -139,7 +140,7 @@ def nome_power(top: Top, level: Fraction, axes: Axes, steps: int) -> float:
     """The logarithm to base 2 of nome^q, the size of the displacement but for a factor: -q·πK'/K, over log 2."""
     La, Lb, Lc = (top.moments[i] for i in axes)
     k2 = (Lc * level - 1) * (La - Lb) / ((La * level - 1) * (Lc - Lb))  # the modulus² of (5.8), between 0 and 1
-    with ctx.workprec(LOOK_BITS):
+    with flint_bits(LOOK_BITS):
         nome = (-arb.pi() * _quarter(1 - k2) / _quarter(k2)).exp()
         return steps * float(nome.log()) / math.log(2)
 

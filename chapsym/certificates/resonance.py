@@ -5,11 +5,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import ctx
-
 from chapsym.checker.document import MOST_DIGITS
 from chapsym.checker.measure import tangent
 from chapsym.dynamics.errors import BadInput
+from chapsym.numbers.precisions import flint_bits
 
 from . import plateau
 from .balls import simplest
@@ -102,7 +101,7 @@ def _middle(
     bits = math.ceil(-plateau.nome_power(top, near[0], axes, steps)) + spare_bits(steps)
     while bits < MOST_DIGITS * 10 // 3:
         progress(f"looking for {steps} steps around axis {axes[2] + 1} with {bits} bits")
-        with ctx.workprec(bits):
+        with flint_bits(bits):
             reduced = Reduced(top)
             low, high = sorted(plateau.end_of_plateau(reduced, near, axes, tangent(x), steps, bits) for x in starts)
         if high - low > plateau.unit_in_last_place(low, bits - RESOLVED_BITS):

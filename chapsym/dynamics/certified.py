@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.numbers import Enclosure
-from chapsym.numbers.precisions import MOST_BITS
+from chapsym.numbers.precisions import MOST_BITS, flint_bits
 
 from .ball import Asked, Floats, batch, in_shape
 from .coefficients import COMPOSITIONS
@@ -211,7 +211,7 @@ def _orbit(
 
 def errors_of(balls: np.ndarray, given: Any, bits: int) -> Floats:
     """Upper bounds of |given - ball| for each frame, (..., frames); NaN where there is no frame."""
-    from flint import arb, ctx, fmpq
+    from flint import arb, fmpq
 
     def bound(frame: np.ndarray, exact: np.ndarray) -> float:
         if any(x is None for x in exact) or any(not hasattr(x, "rad") for x in frame):
@@ -221,7 +221,7 @@ def errors_of(balls: np.ndarray, given: Any, bits: int) -> Floats:
         return math.nextafter(float(length), math.inf) if length > 0 else 0.0
 
     width = balls.shape[-1]
-    with ctx.workprec(2 * bits + 128):
+    with flint_bits(2 * bits + 128):
         rows = zip(balls.reshape(-1, width), given.reshape(-1, width), strict=True)
         return np.array([bound(x, y) for x, y in rows]).reshape(balls.shape[:-1])
 

@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from chapsym.numbers.precisions import flint_bits
+
 from .ball import Ball, brief, in_principal_axes
 from .errors import BadInput, TooWide
 from .levels.start import exponent_of, fraction
@@ -344,11 +346,10 @@ class _Search:
 
     def doublings(self) -> int:
         """About log₂ of the turns, at most, and of those at the start; BadInput where ω does not follow from K."""
-        from flint import ctx
 
         from .levels.proved_root import upper
 
-        with ctx.workprec(1024):
+        with flint_bits(1024):
             try:
                 omega = upper(self.start.path(1024).frame(Fraction(0))["omega"])
             except TooWide:
@@ -363,10 +364,9 @@ class _Search:
 
     def attempt(self, bits: int) -> int | None:
         """Follows the motion with this many bits; returns how many more are needed, or None: the time is up."""
-        from flint import ctx
 
         missing, frames = -math.inf, list[dict[str, tuple[Any, ...]]]()
-        with ctx.workprec(bits):
+        with flint_bits(bits):
             try:
                 path = self.start.path(bits)
             except TooWide:

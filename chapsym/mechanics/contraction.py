@@ -14,8 +14,10 @@ from typing import Any
 import sympy as sp
 from flint import fmpq, fmpq_mat, fmpq_series
 
+from chapsym.numbers.precisions import flint_terms
+
 from .methods import Scheme
-from .series import Exact, Series, State, Undecided, _at, inverse, series, terms
+from .series import Exact, Series, State, Undecided, _at, inverse, series
 from .system import System
 
 #: Why there is nothing to be decided.
@@ -61,7 +63,7 @@ def logarithm(
     near += [[*q, *(x + small * d for x, d in zip(v, one, strict=True))] for one in _kernel(rows, moving)]
     changes = [[x - y for x, y in zip(step(one)[0], final, strict=True)] for one in near]
     slopes = sp.Matrix([[sp.diff(c, system.coordinates[i]) for i in bound] for c in system.holonomic])
-    with terms(count):
+    with flint_terms(count):
         table = [
             [fmpq_series([_at(change[i], count + k) for k in range(count)]) for change in changes]
             for i in (*free, *(n + j for j in moving))

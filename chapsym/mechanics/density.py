@@ -22,7 +22,9 @@ from operator import mul
 
 import numpy as np
 import sympy as sp
-from flint import arb, ctx
+from flint import arb
+
+from chapsym.numbers.precisions import flint_bits
 
 from .algebra import Algebra, Point, adjugate, determinant, size
 from .brackets import along, bracket_of, flag
@@ -203,7 +205,7 @@ def _density(
 
 def _scaled(row: Sequence[arb]) -> list[float]:
     """Numbers over the largest of them."""
-    with ctx.workprec(BITS):
+    with flint_bits(BITS):
         largest = reduce(lambda x, y: x.max(y), map(abs, row))
         return [float(x / largest) if largest > 0 else 0.0 for x in row]
 
@@ -233,7 +235,7 @@ def _places(algebra: Algebra) -> Iterator[tuple[Point, Callable[[Sequence[Sequen
         return arb(int(above)) / int(below)
 
     def at(point: Point, rows: Sequence[Sequence[sp.Expr]]) -> list[list[arb]]:
-        with ctx.workprec(BITS):
+        with flint_bits(BITS):
             values = {x: ball(*(y**2).as_numer_denom()).sqrt() * int(sp.sign(y)) for x, y in point.items()}
             found = iter(evaluated([e for row in rows for e in row], values, ball))
             return [[next(found) for _ in row] for row in rows]

@@ -22,12 +22,13 @@ from flint import fmpq, fmpq_mat, fmpq_series, nmod, nmod_mat
 
 from chapsym.derive import Quotient
 from chapsym.numbers import brief
+from chapsym.numbers.precisions import flint_terms
 
 from .algebra import Letters, size
 from .contraction import has_volume, logarithm
 from .density import Volume, volume
 from .methods import Scheme
-from .series import Exact, Series, State, Stepped, Undecided, _at, by_parts, evaluated, inverse, replaced, terms
+from .series import Exact, Series, State, Stepped, Undecided, _at, by_parts, evaluated, inverse, replaced
 from .system import STEP, BadSystem, System, a_system, rate
 
 #: A prime in which combinations are looked for, and the largest denominator and numerator of their factors.
@@ -136,7 +137,7 @@ def decided(system: System, scheme: Scheme) -> dict[str, Decided]:
     kept = _volume(system, system.digest())
     names += [f"keeps {VOLUMES[not kept.kept]}"] if kept else []
     looked = LOOKED_FURTHER if scheme.stages else LOOKED
-    with terms(looked + BEYOND):
+    with flint_terms(looked + BEYOND):
         try:
             judged = Judged(_exact(system, system.digest()), scheme, looked)
         except (Undecided, BadSystem) as error:
@@ -467,7 +468,7 @@ class Judged:
                 return Verdict("false", "by the first order in velocities, as the motion keeps none", kept.point)
             return Verdict("measured", f"the exact motion {kept}")
         for count in LOOKED_AT_VOLUMES:
-            with terms(2 * count + BEYOND):
+            with flint_terms(2 * count + BEYOND):
                 again = Judged(self.exact, self.scheme, self.looked)  # with an h of that many terms
                 change = logarithm(self.exact, kept.density, kept.by, partial(again.after, reaction=[]), count)
             if wrong := self.wrong("its logarithm changes", ("in a step", change, 0)):

@@ -9,6 +9,7 @@ import sympy as sp
 from flint import fmpq, fmpq_poly, fmpq_series
 
 from chapsym.derive import Quotient
+from chapsym.numbers.precisions import flint_terms
 from chapsym.prove import Comparison, Equation, Identity
 from chapsym.prove.polynomials import parameters
 from chapsym.prove.statements import Statement
@@ -17,7 +18,7 @@ from .cases import MOST_LETTERS, SAID, Case, Certified, Made, fresh, made
 from .judged import BEYOND, VOLUMES, Combination, Decided, Judged, decided, quantities_of, tableau_conditions
 from .lab import keeps
 from .methods import Scheme, scheme_of
-from .series import State, _at, evaluated, replaced, terms
+from .series import State, _at, evaluated, replaced
 from .system import STEP, BadSystem, System
 
 #: Cells of a method in the ids of its claims.
@@ -200,7 +201,7 @@ def _refuted(system: System, quantity: sp.Expr | None, what: str, found: Decided
         raise BadSystem("the series of the exact motion is not written down")
     if what.removeprefix("keeps ") in VOLUMES:
         raise BadSystem("the derivatives of a step are not written down")
-    with terms(found.by + 2 + BEYOND):
+    with flint_terms(found.by + 2 + BEYOND):
         of = _Steps(found.judged, found.by + 2)
         if quantity is not None:
             said = f"{what.removeprefix('keeps ')} changes in a step"

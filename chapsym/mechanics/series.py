@@ -3,8 +3,7 @@
 All coefficients are rational numbers.  A state has its angles at 0, or where their sines and cosines are rational.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, lru_cache, partial, reduce
 from operator import add, is_not, mul
 from typing import Any
@@ -32,16 +31,6 @@ State = list[Series]
 
 class Undecided(ArithmeticError):
     """Exact series do not decide it; the message says why."""
-
-
-@contextmanager
-def terms(count: int) -> Iterator[None]:
-    """Series have this number of terms."""
-    before, ctx.cap = ctx.cap, count
-    try:
-        yield
-    finally:
-        ctx.cap = before
 
 
 def by_parts(expressions: Iterable[Any], known: Mapping[sp.Expr, Any], made: Callable[..., Any]) -> list[Any]:

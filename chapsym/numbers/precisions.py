@@ -5,6 +5,7 @@ results.
 """
 
 import math
+import os
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -24,6 +25,9 @@ WRITTEN = 32
 
 #: flint has one precision for all threads, so one of them counts with it at a time.
 FLINT = RLock()
+# A process that is forked while another thread counts has a lock that nobody would release.
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=FLINT._at_fork_reinit)  # type: ignore[attr-defined]
 
 
 @contextmanager
@@ -33,6 +37,19 @@ def flint_bits(bits: int) -> Iterator[None]:
 
     with FLINT, ctx.workprec(bits):
         yield
+
+
+@contextmanager
+def flint_terms(count: int) -> Iterator[None]:
+    """Cuts flint's series to this many terms within a `with` block, as `flint_bits` sets the bits."""
+    from flint import ctx
+
+    with FLINT:
+        before, ctx.cap = ctx.cap, count
+        try:
+            yield
+        finally:
+            ctx.cap = before
 
 
 #: Beyond these a run ends because memory is exhausted, an error that cannot be caught.

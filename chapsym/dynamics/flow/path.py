@@ -8,15 +8,15 @@ gains as many bits as Φ has.  Φ is mended in the same way, by -Φ∫Ψ(Φ' - A
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
-from flint import arb, arb_poly, arb_series, ctx
+from flint import arb, arb_poly, arb_series
 
 from chapsym import generated
+from chapsym.numbers.precisions import flint_bits, flint_terms
 
 from ..errors import TooWide
 from ..levels.balls import Spread, point, unit
@@ -40,7 +40,7 @@ class Neighbours:
 
     def mend(self, p: Row, w: Row, terms: int) -> None:
         """Gives Φ and Ψ twice as many bits, if p and w have as many."""
-        with capped(terms):
+        with flint_terms(terms):
             gamma, omega, phi, psi = generated.rotation(*_series(p))[6:], _series(w), *map(_all, (self.phi, self.psi))
             off = []
             for column in zip(*phi, strict=True):
@@ -55,7 +55,7 @@ class Neighbours:
 
     def correction(self, p: Row, w: Row, found: Defects, terms: int) -> tuple[list[Any], list[Any]]:
         """The correction that removes the defects of p and w to the first order when it is added."""
-        with capped(terms):
+        with flint_terms(terms):
             a, omega = _series(p), _series(w)
             e, kappa, (off,) = map(_series, (found.e, found.kappa, [found.off]))
             gamma = generated.rotation(*a)[6:]
@@ -74,16 +74,6 @@ class Neighbours:
     def _solved(self, v: Row, gamma: Row) -> Row:
         """B⁻¹v."""
         return generated.angular_velocity(*(*v, *gamma, *self.body.J, self.body.D))
-
-
-@contextmanager
-def capped(terms: int) -> Iterator[None]:
-    """Cuts series to this many terms."""
-    before, ctx.cap = ctx.cap, terms
-    try:
-        yield
-    finally:
-        ctx.cap = before
 
 
 def _series(polynomials: Any) -> list[Any]:
@@ -151,7 +141,7 @@ class Path:
         self.radius, self.contact = radius, (arb(0), arb(0))
         self.rough = 0.0
         self.last: Last | None = None
-        with ctx.workprec(MATRIX_BITS):
+        with flint_bits(MATRIX_BITS):
             self.spread.restart(far)
 
     @property
@@ -167,7 +157,7 @@ class Path:
             body = self.body.during(ball(length))
             p, w, found = self._mended(series, k, body)
             try:
-                with ctx.workprec(MATRIX_BITS):
+                with flint_bits(MATRIX_BITS):
                     proved = deviation(series, w, upper(k), found, body, self.spread.size)
                 break
             except TooWide:
@@ -178,7 +168,7 @@ class Path:
         if moved is not None:
             self.contact = self.last.place(arb(1))
         self.p, far = point(unit(sum(x.coeffs(), arb(0)) for x in p))
-        with ctx.workprec(MATRIX_BITS):
+        with flint_bits(MATRIX_BITS):
             # p∘(1, ε)∘(1, ξ) is p∘(1, ξ'), |ξ' - ξ| ≤ |ε|(1 + |ξ| + |ξ|²)/(1 - |ε||ξ|) ≤ 2|ε|.
             self.spread.moved(proved.M, proved.more + 2 * far)
         self.time, self.steps = self.time + length, self.steps + 1
@@ -225,7 +215,7 @@ class Path:
         while True:
             self.tick()
             bits = min(bits + BEYOND, self.precision)
-            with ctx.workprec(bits):
+            with flint_bits(bits):
                 found = defects(p, w, k, body, self._terms(degree, bits) - 1)
                 before, size = size, _log(bound([*found.e, *found.kappa]))
             if bits == self.precision:
@@ -238,9 +228,9 @@ class Path:
             further = min(2 * gain, known) - LOST
             if further > gain and self.precision - known > FAR * gain:
                 gain = further
-                with ctx.workprec(gain + BEYOND):
+                with flint_bits(gain + BEYOND):
                     neighbours.mend(p, w, self._terms(degree, gain + BEYOND))
-            with ctx.workprec(gain + BEYOND):
+            with flint_bits(gain + BEYOND):
                 change = neighbours.correction(p, w, found, self._terms(degree, known + gain + BEYOND))
             p, w = ([exact(x + y) for x, y in zip(*pair, strict=True)] for pair in zip((p, w), change, strict=True))
             bits = known + gain

@@ -546,7 +546,7 @@ class ArbBall(_UnderWay):
         if found is None:
             return None
         u, start = found
-        with ctx.workprec(self.matrix_bits):
+        with flint_bits(self.matrix_bits):
             length = upper(gibbs_residual(*(*u, *every)))
             slope = on_path(u, length, *every) if bound is None else bound[1] if upper(u) <= bound[0] else None
             if slope is None:
@@ -562,7 +562,7 @@ class ArbBall(_UnderWay):
         q = self._rotation(every)
         squared = q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
         u = tuple(x / q[0] for x in q[1:])
-        with ctx.workprec(self.matrix_bits):
+        with flint_bits(self.matrix_bits):
             proved = squared < q[0] * q[0] if bound else stretch(u, *every) is not None
         past.appendleft(tuple(map(float, u)))
         if not proved:
@@ -582,17 +582,17 @@ class ArbBall(_UnderWay):
         As ∂G/∂u is affine in u, that of the point is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.
         """
         r = gibbs_residual(*(*u, *k, *self.g, *self.I, self.D))
-        with ctx.workprec(self.matrix_bits):
+        with flint_bits(self.matrix_bits):
             inverse = inverse_slope(u, off, every)
             d = (inverse * arb_mat(3, 1, r)).entries()
         u = tuple(x - y for x, y in zip(u, d, strict=True))
-        with ctx.workprec(self.matrix_bits):
+        with flint_bits(self.matrix_bits):
             M, more = carried(u, inverse, every[:3], every[3:6], self.D, self.spread.size)
             scale = (1 / (1 + u[0] * u[0] + u[1] * u[1] + u[2] * u[2]).sqrt()).mid()
         if self.a:
             self._follow(unit((arb(1), *u)), every[3:6])
         self.p, far = point(scale * x for x in compose(*(*self.p, 1, *u)))
-        with ctx.workprec(self.matrix_bits):
+        with flint_bits(self.matrix_bits):
             # p∘(1, ε)∘(1, ξ) is p∘(1, ξ'), |ξ' - ξ| ≤ |ε|(1 + |ξ| + |ξ|²)/(1 - |ε||ξ|) ≤ 2|ε|.
             self.spread.moved(M, more + 2 * far)
 
@@ -624,18 +624,15 @@ class ArbBall(_UnderWay):
         k, g = self._all()
         a = self._attitude() if self.a else ()
         momentum, trace = tuple(x * scale for x in k), tuple(x * self.radius for x in self.x)
-        ctx.prec = bits
-        try:
+        with flint_bits(bits):
             return tuple(tuple(+x for x in v) for v in (momentum, g, a, trace))  # type: ignore[return-value]
-        finally:
-            ctx.prec = self.precision
 
 
 def point(p: Iterable[Any]) -> tuple[Vector, Any]:
     """The middle of a quaternion in balls, and a bound of how far it is off, relative to its length."""
     balls = list(p)
     middle = tuple(x.mid() for x in balls)
-    with ctx.workprec(MATRIX_BITS):
+    with flint_bits(MATRIX_BITS):
         off = upper([x.rad() for x in balls]) / sum(x * x for x in middle).sqrt()
         return middle, (off / (1 - off)).abs_upper()
 

@@ -15,6 +15,7 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from chapsym.generated import compose, gibbs_newton, residual, tangent_hessian, tangent_jacobian
+from chapsym.numbers.precisions import flint_bits
 
 from ..errors import TooWide
 from ..loops import path
@@ -54,7 +55,7 @@ def newton_enclosure(u: Numbers, r: Numbers, slope: Any, state: Numbers, matrix_
     state: k, γ, I and D, in balls.  The root is u - A⁻¹r with A = ∂G/∂u at the middle between the two.  Raises TooWide
     where det A may be 0.
     """
-    with ctx.workprec(matrix_bits):
+    with flint_bits(matrix_bits):
         d = inverse_slope(u, (upper(r) / slope).abs_upper(), state) * arb_mat(3, 1, r)
     return tuple(x - y for x, y in zip(u, d.entries(), strict=True))
 
@@ -62,7 +63,7 @@ def newton_enclosure(u: Numbers, r: Numbers, slope: Any, state: Numbers, matrix_
 @cache
 def joined() -> Any:
     """`path.joined` in balls: its comparisons are certain."""
-    with ctx.workprec(MATRIX_BITS):
+    with flint_bits(MATRIX_BITS):
         return twin(path, lambda x: arb(repr(x)), max=highest, min=lowest, sqrt=arb.sqrt)["joined"]
 
 

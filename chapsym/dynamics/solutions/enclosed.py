@@ -22,7 +22,6 @@ from fractions import Fraction
 from functools import cache, cmp_to_key, reduce
 from typing import Any
 
-import flint
 import numpy as np
 from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_mat, fmpz_poly
 
@@ -64,13 +63,11 @@ class Factor:
     coordinates: tuple[fmpz_poly, ...]
     multiplicity: int
 
-    def points(self, bits: int) -> Iterator[tuple[Any, ...]]:
+    def points(self, bits: int) -> list[tuple[Any, ...]]:
         """Arb enclosures of homogeneous coordinates, computed with `bits`; coordinates that vanish are exactly 0."""
-        with flint.ctx.workprec(bits):
+        with flint_bits(bits):
             roots: Any = self.polynomial.complex_roots()
-            for root, _ in roots:
-                if root.imag.is_zero():
-                    yield tuple(c(root.real) for c in self.coordinates)
+            return [tuple(c(x.real) for c in self.coordinates) for x, _ in roots if x.imag.is_zero()]
 
 
 @dataclass(frozen=True)
@@ -98,7 +95,7 @@ def common_points(forms: Sequence[Form]) -> Points:
         raise ArithmeticError("no linear form separates the common points")
     coordinates = _representation(algebra, multiplication, parts)
     factors = tuple(Factor(p, c, m) for part, m in parts for p, c in _split(part, coordinates))
-    real = sum(sum(1 for _ in factor.points(64)) for factor in factors)
+    real = sum(len(factor.points(64)) for factor in factors)
     if real != signature:
         raise ArithmeticError("the real roots of the eliminant and the signature of the trace form differ")
     return Points(real, factors)

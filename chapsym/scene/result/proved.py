@@ -11,6 +11,7 @@ import numpy as np
 from chapsym.dynamics import CertifiedMotion
 from chapsym.dynamics.enclosed_motion import follow
 from chapsym.dynamics.outputs import BOUND
+from chapsym.numbers.precisions import flint_bits
 
 from ..read.errors import SceneError
 
@@ -83,12 +84,12 @@ def proved_errors(dataset: "Dataset | Arrays", found: CertifiedMotion) -> dict[s
 
 def _apart(given: np.ndarray, true: np.ndarray, either: bool) -> float:
     """A bound of the greatest difference of a component, of the nearer sign where either will do."""
-    from flint import arb, ctx
+    from flint import arb
 
     signs = (1, -1) if either else (1,)
     bounds = []
     for sign in signs:
-        with ctx.workprec(BITS):
+        with flint_bits(BITS):
             away = [(sign * arb(float(x)) - y).abs_upper() for x, y in zip(given, true, strict=True)]
         bounds.append(max(math.nextafter(float(x), math.inf) if x.is_finite() else math.inf for x in away))
     return min(bounds)
