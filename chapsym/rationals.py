@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Sequence
-from decimal import Decimal
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_DOWN, Context, Decimal
 from fractions import Fraction
 from numbers import Integral, Rational
 from typing import Any
@@ -42,6 +42,11 @@ def mass_tensor_from(inertia: Sequence[Fraction]) -> tuple[Fraction, ...]:
     """J1, J2, J3 from the principal moments I1 = J2 + J3, ..., exactly."""
     half = sum(inertia, Fraction(0)) / 2
     return tuple(half - moment for moment in inertia)
+
+
+def decimals(digits: int) -> Context:
+    """Arithmetic of decimal numbers, rounded to 0, of any exponent and silent, whatever the user's own is."""
+    return Context(prec=digits, rounding=ROUND_DOWN, Emin=MIN_EMIN, Emax=MAX_EMAX, traps=[])
 
 
 def exact_fraction(x: Any) -> Fraction:

@@ -155,6 +155,12 @@ def test_every_public_function_has_a_docstring():
     assert not missing
 
 
+def test_one_place_sets_the_bits_and_the_terms_of_flint():
+    """They are of all threads: what sets them elsewhere changes what another thread counts with."""
+    setting = {p for p in ROOT.rglob("*.py") if any(x in p.read_text() for x in (".workprec(", "ctx.cap ="))}
+    assert setting == {ROOT / "numbers" / "precisions.py"}
+
+
 #: What reads the clock on the wall, which may be set back; `time.monotonic` and `perf_counter` may not.
 WALL = {"time.time", "time.time_ns", "datetime.date.today", "datetime.datetime.now", "os.stat", "st_mtime", "getmtime"}
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.numbers import brief
-from chapsym.rationals import exact_fraction
+from chapsym.rationals import decimals, exact_fraction
 
 from . import principal_axes
 from .errors import BadInput
@@ -490,7 +490,7 @@ def rounded_by(inertia: Any) -> float:
     if not broken:
         return 0.0
     largest = max(map(abs, entries))
-    digits = max(len(Decimal(repr(x)).normalize().as_tuple().digits) for x in broken)
+    digits = max(len(Decimal(repr(x)).normalize(decimals(17)).as_tuple().digits) for x in broken)
     of_the_largest = min(last_digit(largest), 10.0 ** (Decimal(repr(largest)).adjusted() + 1 - digits))
     unit = max(min(map(last_digit, broken)), of_the_largest)
     return min((0.75 if len(entries) == 3 else 2.25) * unit, 0.01 * largest)
@@ -498,7 +498,7 @@ def rounded_by(inertia: Any) -> float:
 
 def last_digit(x: float) -> float:
     """A unit of the last digit that is not 0."""
-    return 10.0 ** int(Decimal(repr(x)).normalize().as_tuple().exponent)
+    return 10.0 ** int(Decimal(repr(x)).normalize(decimals(17)).as_tuple().exponent)
 
 
 def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike | None) -> ArrayLike:

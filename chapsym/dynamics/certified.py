@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import MIN_EMIN, ROUND_DOWN, Decimal, localcontext
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from chapsym.numbers import Enclosure
 from chapsym.numbers.precisions import MOST_BITS, flint_bits
+from chapsym.rationals import decimals
 
 from .ball import Asked, Floats, batch, in_shape
 from .coefficients import COMPOSITIONS
@@ -247,5 +248,4 @@ def proved_digits(x: Any) -> str:
 
 def _decade(x: Fraction) -> int:
     """The exponent n with 10ⁿ ≤ |x| < 10ⁿ⁺¹."""
-    with localcontext(prec=3, rounding=ROUND_DOWN, Emin=MIN_EMIN):
-        return (Decimal(x.numerator) / x.denominator).adjusted()
+    return decimals(3).divide(x.numerator, x.denominator).adjusted()

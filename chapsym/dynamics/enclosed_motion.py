@@ -4,7 +4,7 @@ import math
 import time as clock
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
-from decimal import Decimal, Inexact, localcontext
+from decimal import Decimal, Inexact
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from chapsym.numbers.precisions import flint_bits
+from chapsym.rationals import decimals
 
 from .ball import Ball, brief, in_principal_axes
 from .errors import BadInput, TooWide
@@ -249,14 +250,16 @@ def of_motion(run: Trajectory, limit: float = 600.0) -> Bounds:
     )  # fmt: skip
     count, bits, scale = len(found.times), found.bits, fmpq(epsilon.numerator, epsilon.denominator)
     bounds: dict[str, Any] = {}
-    arrays: dict[str, Any] = {"momentum": found.angular_momentum * scale}
+    with flint_bits(bits):
+        arrays: dict[str, Any] = {"momentum": found.angular_momentum * scale}
+        opposite = -found.attitude
     arrays |= {name: getattr(found, name) for name in ("gamma", "attitude", "contact")}
     for name, balls in arrays.items():
         if getattr(run, name) is not None:
             ours = exactly(run, name)
             of = errors_of(balls, ours[:count], bits)
             if name == "attitude":  # of the two signs
-                of = np.minimum(of, errors_of(-balls, ours[:count], bits))
+                of = np.minimum(of, errors_of(opposite, ours[:count], bits))
             bounds[name] = np.concatenate([of, np.full(len(index) - count, np.inf)])
     return Bounds(**bounds, steps=np.array(index[max(count - 1, 0)]))
 
@@ -452,10 +455,9 @@ def _log2(x: Fraction) -> float:
 
 def decimal(x: Fraction) -> str:
     """A fraction as a decimal number where it is one, else as a quotient."""
-    with localcontext(prec=x.numerator.bit_length() + x.denominator.bit_length() + 1) as context:
-        context.clear_flags()
-        found = Decimal(x.numerator) / x.denominator
-        return str(x) if context.flags[Inexact] else f"{found:f}"
+    context = decimals(x.numerator.bit_length() + x.denominator.bit_length() + 1)
+    found = context.divide(x.numerator, x.denominator)
+    return str(x) if context.flags[Inexact] else f"{found:f}"
 
 
 def written(x: Any, digits: int) -> tuple[str, str]:

@@ -2,7 +2,7 @@
 
 import itertools
 from dataclasses import replace
-from decimal import Decimal
+from decimal import Decimal, Inexact, localcontext
 from fractions import Fraction as F
 from functools import partial
 
@@ -263,3 +263,22 @@ def test_no_balls_have_a_certificate_of_none():
     proved = chapsym.certify(chapsym.trajectory(BALL, np.empty((0, 3)), GAMMA, 3))
     assert proved.momentum.shape == (0, 4, 3)
     assert proved.gamma_error.shape == (0, 4)
+
+
+def test_what_a_user_has_set_for_other_numbers_changes_nothing():
+    """The decimals of Python, the bits of flint, and what NumPy raises."""
+
+    def found():
+        rolled = chapsym.roll(chapsym.Ball(BALL.mass_tensor, BALL.D), (1, 2, 3), 0.1, 2, proved=True, attitude=True)
+        still = chapsym.certified_motion(chapsym.ExactBall((1, 2, 4), 3), (3, 1, 4), (0, 0, 1), 0, 12)
+        with pytest.raises(BadInput, match="no body has the inertia"):
+            chapsym.Ball.from_inertia((1.0, 2.0, 3.0012345), D=1)
+        return [
+            chapsym.certify(chapsym.trajectory(BALL, K, GAMMA, 1)).write(), still.write(),
+            [getattr(rolled.proved, name).tolist() for name in ("momentum", "gamma", "attitude")],
+            chapsym.rotation_number(chapsym.Ball((1, 2, 4), 3), 0.5, (0.6, 0, 0.8)),
+        ]  # fmt: skip
+
+    expected = found()
+    with localcontext(prec=3, Emax=5, Emin=-5, traps=[Inexact]), np.errstate(all="raise"), flint.ctx.workprec(5):
+        assert found() == expected

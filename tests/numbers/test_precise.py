@@ -1,5 +1,7 @@
 """Steps at any precision: mpmath and Arb against the independent oracle."""
 
+import os
+import threading
 from fractions import Fraction as F
 
 import flint
@@ -13,7 +15,7 @@ from chapsym.dynamics.levels import proved_root, start
 from chapsym.dynamics.loops import branch
 from chapsym.dynamics.map import exact_step
 from chapsym.dynamics.oracle import Oracle
-from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Enclosure
+from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Enclosure, precisions
 
 J, D = (F(1), F(2), F(4)), F(3)
 K, GAMMA = (F(1), F(-1, 2), F(3, 4)), (F(2, 7), F(3, 7), F(6, 7))
@@ -209,3 +211,23 @@ def test_a_quad_step_beyond_float64_is_refused():
         exact_step(
             [1 * unit, 2 * unit, 4 * unit], 3 * unit, [unit / 10] * 3, [F(n, 7) for n in (2, 3, 6)], DoubleDouble()
         )
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there are no forks here")
+def test_a_process_that_is_forked_while_another_thread_counts_counts_too():
+    counting, done = threading.Event(), threading.Event()
+
+    def count():
+        with Enclosure(60).working():
+            counting.set()
+            done.wait()
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    counting.wait()
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if precisions.FLINT.acquire(blocking=False) else 1)
+    done.set()
+    thread.join()
+    assert os.waitpid(child, 0)[1] == 0

@@ -264,5 +264,6 @@ def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
     steps = LEAST if turn * LEAST >= TURNS else min(int(TURNS / turn), MOST) if turn * MOST > TURNS else MOST
     u = phases(curve, height, trajectory_vertical(ball, height, gamma, steps).gamma)
     t = np.arange(1, steps + 1) / (steps + 1)
-    weights = np.exp(-1.0 / (t * (1.0 - t)))
-    return float(weights @ np.diff(u) / weights.sum() / curve.period)
+    with np.errstate(under="ignore"):
+        weights = np.exp(-1.0 / (t * (1.0 - t)))
+        return float(weights @ np.diff(u) / weights.sum() / curve.period)
