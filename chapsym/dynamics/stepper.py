@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -28,14 +29,17 @@ from .results import Bounds, Trajectory, finished
 class UnderWay:
     """One ball under way, in three dimensions or n: what moves is kept where a call finds it."""
 
-    ball: Any
-    order: int
-    time_step: float | None = None
+    _ball: Any
+    _order: int
+    _time_step: float | None = None
     _follows: bool
     _traced: bool
     _taken: int
     #: The frames of a call of which only the end is kept: the second row is the present state.
     _ends: dict[str, Floats]
+
+    #: Those of the start, for good.
+    ball, order, time_step = (property(attrgetter(name)) for name in ("_ball", "_order", "_time_step"))
 
     def step(self, steps: int = 1) -> None:
         """Takes `steps` steps; only the end is kept.
@@ -239,7 +243,8 @@ class Stepper(UnderWay):
 
     def _prepare(self, ball: Ball, order: int, follows: bool, traced: bool, time_step: float | None) -> None:
         """Sets the constants of the loop, and its buffers."""
-        self.ball, self.order, self.time_step, self._follows, self._traced = ball, order, time_step, follows, traced
+        self._ball, self._order, self._time_step = ball, order, time_step
+        self._follows, self._traced = follows, traced
         self._J, self._D = ball.mass_tensor.copy(), float(ball.D)
         self._radius = float(rolling_radius(ball)) if traced else 0.0
         self._stages = substeps(order).copy()

@@ -244,6 +244,13 @@ def test_what_is_refused_on_the_way_changes_nothing(change, sentence):
     assert same(stepper, other)
 
 
+@pytest.mark.parametrize("name", ["ball", "order", "time_step"])
+def test_what_a_stepper_was_made_with_stays(name):
+    """Its steps, which are prepared, would not follow another."""
+    with pytest.raises(AttributeError, match=name):
+        setattr(Stepper(BALL, K, GAMMA), name, None)
+
+
 def test_huge_momenta_are_numbers():
     """Their sum overflows, they do not."""
     stepper = Stepper(Ball((1e308, 4e307, 3e307), 0), (1.5e307,) * 3, (0, 0, 1))

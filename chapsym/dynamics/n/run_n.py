@@ -240,7 +240,7 @@ class StepperN(UnderWay):
         self, ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, order: int = 2, attitude: bool | ArrayLike = False,
         contact: bool = False,
     ) -> None:  # fmt: skip
-        self.ball, self.order, self._stages = ball, order, substeps(order)
+        self._ball, self._order, self._stages = ball, order, substeps(order)
         self._traced = flag(contact, "contact")
         self._follows = self._traced or is_followed(attitude)
         self.restart(momentum, gamma, attitude)
