@@ -15,7 +15,7 @@ from chapsym.rationals import rational, rationals
 
 from .app import app
 from .options import BALL, Json, argument, ball_from, takes, with_options, writes
-from .output import counted, fail, print_json, telling
+from .output import check_apart, counted, fail, print_json, telling
 
 certify = typer.Typer(
     help="""Find and check certificates of what the paper left open.
@@ -238,8 +238,9 @@ def motion(
     from chapsym.scene.result import formats
     from chapsym.scene.result.proved import UNITS, check_scene, proved_errors
 
+    check_apart(output, scene, against, certificate)
+    check_apart(certificate, scene, against)
     for path in filter(None, (output, certificate)):
-        _not_read(path, scene, against)
         files.check_destination(path)
     given = load(scene)
     start, times = exact_motion(given)
@@ -297,7 +298,7 @@ def run_of_map(
     from chapsym.scene.members.members import one_ball
     from chapsym.scene.plan.plan import plan_of
 
-    _not_read(output, scene)
+    check_apart(output, scene)
     plan = plan_of(load(scene))
     if plan.task.accuracy is not None:
         fail(f"{scene} is of the motion of the ball: add map = true under [run], or take chapsym certify motion", 2)
@@ -309,12 +310,6 @@ def run_of_map(
         ball, *start, task.steps, every=task.every, order=task.order, precision=task.precision, proved=True
     )  # fmt: skip
     _deliver(output, as_json, search, run)
-
-
-def _not_read(path: Path | None, *read: Path | None) -> None:
-    """Fails where what is written would replace what is read."""
-    if path is not None and path.resolve() in {other.resolve() for other in read if other}:
-        fail(f"{path} is what is read: choose another name", 2)
 
 
 def within(error: float | None, unit: str) -> str:

@@ -5,6 +5,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, NoReturn
 
 #: Seconds between two lines of progress where standard error is no terminal.
@@ -14,6 +15,12 @@ PAUSE = 5.0
 def fail(sentence: str, status: int) -> NoReturn:
     note(sentence)
     sys.exit(status)
+
+
+def check_apart(path: Path | None, *others: Path | None) -> None:
+    """Fails where what is written would replace what is read, or another file that is written."""
+    if path is not None and path.resolve() in {other.resolve() for other in others if other}:
+        fail(f"{path} is named twice: choose another name", 2)
 
 
 def note(sentence: str) -> None:

@@ -11,7 +11,7 @@ import chapsym
 
 from .app import app
 from .options import Json, Own, Records, takes, writes
-from .output import fail, print_json
+from .output import check_apart, fail, print_json
 from .prove import all_claims, kept_records, records_of, register_from, tally
 from .study import STUDIES
 
@@ -38,6 +38,7 @@ def report(
 
     if output.suffix not in reports.WRITERS:
         fail(f"{str(output)!r}: the output must end in {' or '.join(reports.WRITERS)}", 2)
+    check_apart(output, kept_in)
     if studies is not None and own is not None:
         fail(
             "--open shows the open questions of Fedorov's paper, and --register claims of your own: give one of them", 2

@@ -7,7 +7,7 @@ import typer
 
 from .app import app
 from .options import Json, argument, takes, writes
-from .output import fail, following, print_json, progress_bar
+from .output import check_apart, fail, following, print_json, progress_bar
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -40,6 +40,7 @@ def show(
         fail(f"--format {form}: give svg, png, pdf, both, gif or mp4", 2)
     if names and not FORMATS[form]:
         fail(f"--figures {names}: figures do not move; --format {form} draws the motion, so give svg, png or pdf", 2)
+    check_apart(output, result)
     # One for each result: a.csv and a.parquet are two.  A scene is known by its stem.
     folder = output or result.parent / f"{result.name.removesuffix('.toml')}-figures"
     written, missing, so_far = _pictures(result, folder, form, ball, names, page)

@@ -58,8 +58,8 @@ def figures(cell: Mapping[str, Any]) -> list[str]:
 
     more = [f"{name}: {value:.1e}" for name, value in cell["integrals"].items()]
     if cell["halved"] is not None:
-        times = abs(cell["drift"] / cell["halved"]) if cell["halved"] else math.inf
-        more.append(f"with half the step: {cell['halved']:+.1e}, {times:.1f} times less")
+        less = f", {abs(cell['drift'] / cell['halved']):.1f} times less" if cell["drift"] and cell["halved"] else ""
+        more.append(f"with half the step: {cell['halved']:+.1e}{less}")
     more += decided(cell)
     return [
         of("order", ".2f"),

@@ -103,7 +103,7 @@ def test_the_command_makes_one_of_a_scene(tmp_path):
     assert checker.check(json.loads(file.read_text())).kind == "map-run"
     path.write_text(f"{BALL}time_step = 0.01\nsteps = 30\n")
     assert "is of the motion of the ball: add map = true" in refused_command("certify", "run", path)
-    assert "is what is read: choose another name" in refused_command("certify", "run", path, "-o", path)
+    assert "is named twice: choose another name" in refused_command("certify", "run", path, "-o", path)
 
 
 def test_a_top_is_followed_too():

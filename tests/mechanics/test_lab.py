@@ -58,6 +58,11 @@ def test_the_error_falls_with_work_by_the_order():
             assert order - 0.3 < math.log2(error / less) < order + 0.3
 
 
+def test_no_drift_falls_to_none():
+    done = chapsym("lab", FILE, "--method", "dla", "--steps", 1, "--halve", "--no-flags")
+    assert done.stdout.endswith("with half the step: +0.0e+00\n")
+
+
 def test_two_processes_say_the_same():
     """But for the time."""
     words = "lab", FILE, "--method", "dla", "--method", "rk4", "--steps", 200

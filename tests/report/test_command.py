@@ -103,6 +103,11 @@ def test_another_file_in_the_place_of_the_list_of_errata_is_not_overwritten(repo
     assert (tmp_path / "x.json").read_text(encoding="utf-8") == '{"mine": 1}'
 
 
+def test_the_records_are_not_overwritten_by_the_list_of_errata(report, tmp_path):
+    assert "x.json is named twice" in report("-o", "x.json", "--records", "x.json").stderr
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_folder_in_the_place_of_the_file_loses_nothing(report, tmp_path):
     (tmp_path / "x.html").mkdir()
     done = report("-o", "x.html")

@@ -72,7 +72,9 @@ def test_the_command_has_the_bound_and_takes_no_other_scene(scene, tmp_path):
     other.write_text(f"{BALL}{RUN}".replace("frames = 8", "frames = 4"))
     assert "is of another scene" in refused("certify", "motion", other, "--against", result)
     for option in ("-o", "--certificate"):
-        assert "is what is read" in refused("certify", "motion", scene, option, scene)
+        assert "is named twice" in refused("certify", "motion", scene, option, scene)
+    both = tmp_path / "both.json"
+    assert "is named twice" in refused("certify", "motion", scene, "-o", both, "--certificate", both)
     assert "gone.npz" in refused("certify", "motion", scene, "--against", tmp_path / "gone.npz")
 
 
