@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -238,12 +239,16 @@ def _of_certificates(found: dict[str, Any], folder: Path | None) -> str:
 def _there(output: Path | None) -> list[dict[str, Any]]:
     if output is None or output.suffix != ".json" or not output.exists():
         return []
+    from pydantic import TypeAdapter
+
     from chapsym.mechanics import Cell
 
+    kind = TypeAdapter(dict[str, Cell])
     try:
         cells = json.loads(output.read_text(encoding="utf-8"))["cells"]
-        return [{"key": cell.pop("key"), **Cell.of(cell).data()} for cell in cells]
-    except (OSError, ValueError, KeyError, TypeError):
+        found = [kind.validate_python({cell.pop("key"): asdict(Cell.of(cell))}) for cell in cells]
+        return [{"key": key, **cell.data()} for one in found for key, cell in one.items()]
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
         fail(f"{output} is not what chapsym lab has written: name another file", 2)
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache, partial
 from itertools import islice, product
 from operator import mul
-from typing import Any
+from typing import Any, Literal
 
 import sympy as sp
 from flint import fmpq, fmpq_mat, fmpq_series, nmod, nmod_mat
@@ -63,7 +63,7 @@ class Verdict:
         The exact coordinates and velocities where it is false.
     """
 
-    verdict: str
+    verdict: Literal["proved", "false", "measured"]
     said: str = ""
     point: Mapping[str, str] = field(default_factory=dict)
 

@@ -6,7 +6,7 @@ import shutil
 from itertools import pairwise
 
 import pytest
-from commands import answer, chapsym
+from commands import answer, chapsym, refused
 from systems import SYSTEMS
 
 FILE = SYSTEMS / "particle.py"
@@ -43,10 +43,14 @@ def test_json_is_gone_on_with(tmp_path):
     third = answer("lab", "--method", "dla", *options[:-1], changed)
     assert third["cells"][-1]["drift"] != 12.5
     assert len(json.loads(out.read_text(encoding="utf-8"))["cells"]) == 3
-    out.write_text("{}", encoding="utf-8")
-    done = chapsym("lab", "--method", "dla", *options)
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "is not what chapsym lab has written" in done.stderr
+    for part in (
+        {"verdicts": []},
+        {"verdicts": {"order": {"verdict": "x"}}},
+        {"drift": "x"},
+        {"curve": [[0, 10**400]]},
+    ):
+        out.write_text(json.dumps({"cells": [data["cells"][0] | part]}), encoding="utf-8")
+        assert "is not what chapsym lab has written" in refused("lab", "--method", "dla", *options)
 
 
 def test_the_error_falls_with_work_by_the_order():
