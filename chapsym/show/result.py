@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from chapsym.dynamics import BadInput, kernels
+from chapsym.dynamics import BadInput
 from chapsym.dynamics.ball import brief
 from chapsym.dynamics.labelled import frame
 from chapsym.dynamics.outputs import BOUND, LOW
@@ -334,7 +334,8 @@ def _drift(dataset: "Dataset") -> str:
         found, names = over_time.stored(dataset)
     elif {"momentum", "gamma"} <= set(dataset.data_vars) and "row" not in dataset.dims and dataset["gamma"].size < MOST:
         with np.errstate(over="ignore", invalid="ignore"):
-            found = kernels.invariants(reading.values(dataset, "momentum"), reading.values(dataset, "gamma"))
+            K, g = reading.values(dataset, "momentum"), reading.values(dataset, "gamma")  # NaN where a ball has stopped
+            found = np.stack([(x * y).sum(axis=-1) for x, y in ((K, g), (K, K), (g, g))], axis=-1)
         names = ["K.gamma", "K.K", "gamma.gamma"]
     else:
         return ""

@@ -43,6 +43,7 @@ def test_figures_and_the_table_tell_what_there_is_sweeps_and_balls_that_stopped(
     words = dict(Result(results.folded()).rows())
     assert words["balls"] == "2, 1 of them stopped early"
     assert dict(Result(results.folded().isel(ball=[1])).rows())["stopped"].startswith("after ")
+    assert re.match(r"\d\.\de-1", dict(Result(results.folded().drop_vars("integrals")).rows())["drift"])
     words = dict(Result(results.sweep(7)).rows())
     assert words["varied"] == "start.momentum from 0.05 to 0.5 kg m²"
 
@@ -171,7 +172,7 @@ def test_the_command_draws_what_is_named(tmp_path, show):
         (["a.nc", "--page"], "attitude"),
         (["b.nc"], "b.nc"),
         (["a.txt"], "a.txt"),
-        (["a.nc", "-o", "a.nc"], "cannot be made"),
+        (["a.nc", "-o", "a.nc"], "is named twice"),
         (["no.toml"], "no.toml cannot be read"),
     ],
 )
