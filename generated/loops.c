@@ -1025,7 +1025,7 @@ INLINE int64_t block_on_path(r2 S, r2 P, w1 ok) {
     INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
         t__r3_3r t_1 = block_body_in(S, i);
         settled = path_proved(vectors_three_in(P, 4, i), AT2(P, 8, i), t_1.a0, t_1.a1, t_1.a2, t_1.a3);
-        ok.p[i] = ((AT2(S, 25, i) == R(-2.0)) & settled) ? 1 : ok.p[i];
+        ok.p[i] = (((AT2(S, 25, i) == R(-2.0)) & (AT2(P, 7, i) == R(0.0))) & settled) ? 1 : ok.p[i];
     }
     return block_unsettled(ok);
 }
@@ -4302,6 +4302,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #ifndef SINGLE
-const char loops_text[] = "3b1793ccce28283a21bafd3a59106897966b5cf1fbafa0facc13cb0a5190e7fe";
+const char loops_text[] = "2955d967aed8ec44d253185469ce21bf107e1fbe544e64021acc13bea1be8f76";
 #endif
 #endif

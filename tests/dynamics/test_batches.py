@@ -77,6 +77,15 @@ def test_steps_beyond_the_bound_are_proved_in_their_lanes(monkeypatch):
     assert 0 < len(continued) < 0.1 * 24 * 40
 
 
+def test_a_root_that_no_round_found_is_proved_neither_alone_nor_in_a_lane():
+    """After all rounds near a fold, what they leave is larger than what lets them end, and yet small enough."""
+    ball = Ball((1.656467140327614, 0.9266926432754555, 1.087228376397973), 1)
+    K = np.array([0.3161231358500695, 3.5007520500634444, -0.06744224905921718])
+    gamma = (0.1821688695395831, 0.09061920965167572, 0.9790825612851941)
+    one, two = chapsym.trajectory(ball, K, gamma, 7), chapsym.trajectory(ball, np.tile(K, (2, 1)), gamma, 7)
+    assert (two.momentum == one.momentum).all()
+
+
 @pytest.mark.parametrize("precision", [*PRECISIONS, chapsym.Digits(30), chapsym.Enclosure(100)])
 def test_the_steps_of_a_batch_are_not_written_as_one(precision):
     ball, K, g = long_steps(2)

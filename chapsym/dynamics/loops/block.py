@@ -105,13 +105,13 @@ def nearer(S, P, ok):
 
 
 def on_path(S, P, ok):
-    """Settles the lanes beyond the bound whose root is proved to be that of the branch; returns how many are left.
+    """Settles the lanes that came near where the root is proved to be that of the branch; returns how many are left.
 
     The others go the way of one ball, `mend`, from the beginning.
     """
     for i in lanes(whole(ok)):
         settled = proved(three_in(P, W, i), P[8, i], *body_in(S, i))
-        ok[i] = 1 if (S[RADIUS, i] == BEYOND) & settled else ok[i]
+        ok[i] = 1 if (S[RADIUS, i] == BEYOND) & (P[7, i] == 0.0) & settled else ok[i]
     return unsettled(ok)
 
 
