@@ -384,7 +384,7 @@ class Ball(Parameters):
         except Exception:  # rows of different length, and whatever an object raises
             raise _not_numbers(vectors, "vectors") from None
         if axes is None:
-            return array
+            return array.copy()
         axes = axes[..., np.newaxis, :] if flag(frames, "frames") else axes
         if array.dtype.kind not in "iuf" or array.shape[-1:] != (3,):
             raise BadInput(f"vectors must be real numbers of the shape (..., 3), not {brief(vectors)}")

@@ -61,7 +61,9 @@ def test_vectors_go_to_principal_axes_and_back():
     assert (turned[0] == BALL.to_principal(frames[0])).all()
     assert (turned[1] == frames[1]).all()
     assert several.to_principal(OMEGA).shape == (2, 3)
-    assert BALL.principal.to_principal(OMEGA).tolist() == OMEGA.tolist()
+    same = BALL.principal.to_principal(OMEGA)
+    assert same.tolist() == OMEGA.tolist()
+    assert not np.shares_memory(same, OMEGA)
     with pytest.raises(BadInput, match=r"vectors must be real numbers of the shape \(\.\.\., 3\), not \(1, 2\)"):
         BALL.to_principal((1, 2))
     with pytest.raises(BadInput, match="the leading axes of the axes of the ball and the vectors do not broadcast"):
