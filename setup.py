@@ -17,7 +17,7 @@ from setuptools.command.sdist import sdist
 FLAGS = ["-std=gnu11", "-O3", "-g0", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math"]
 LOOPS = Extension(
     "chapsym.dynamics.native.compiled",
-    ["generated/loops.c", "generated/loops_single.c", "chapsym/dynamics/native/module.c"],
+    [*(f"generated/loops{part}.c" for part in ("", "_long", "_single")), "chapsym/dynamics/native/module.c"],
     include_dirs=["generated"],
     depends=["generated/loops.h"],
     define_macros=[("Py_LIMITED_API", "0x030B0000")],
@@ -45,7 +45,7 @@ class WithAnyCompiler(build_ext):
         compiled = self.compiler.compile
 
         def at_once(sources: list[str], **options: Any) -> list[str]:
-            """What each source is compiled to; those of float64 and of float32 take half a minute each."""
+            """What each source is compiled to; those of long steps take half a minute, and the others, too."""
             with ThreadPoolExecutor() as pool:
                 found = pool.map(lambda source: compiled([source], **options), sources)
                 return [path for paths in found for path in paths]

@@ -12,7 +12,11 @@ typedef float real;
 #define LOOPS(rest) loops_single##rest
 #else
 typedef double real;
+#ifdef LONG
+#define LOOPS(rest) loops_long##rest
+#else
 #define LOOPS(rest) loops_double##rest
+#endif
 #endif
 #define R(x) ((real)(x))
 /* On x86 a loop that gains from wide registers is compiled for them, too, and takes them where the processor has them:
@@ -649,11 +653,13 @@ INLINE t_ir5 branch_small_rotation(real K1, real K2, real K3, real g1, real g2, 
     return (t_ir5){status.a0, status.a1, status.a2.a0, status.a2.a1, status.a2.a2, status.a2.a3};
 }
 
+#ifndef LONG
 t_ir5 branch_small_rotation_double(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3,
     real D) {
     return branch_small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D);
 }
 
+#endif
 #endif
 #ifdef SINGLE
 INLINE t_ir5 single_loop_widened(real K1, real K2, real K3, real g1, real g2, real g3, real J1, real J2, real J3, real
@@ -4172,6 +4178,32 @@ INLINE real expected_estimated(r2 found, r2 reported, r1 unit, int turned, int s
 
 #endif
 #ifndef LIBRARY
+#ifdef LONG
+WIDEST static void in_lanes_march(const argument *a, argument *got) {
+    lanes_march(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), i_(10), b_(11), b_(12),
+        r2_(13), r3_(14), r2_(15), r2_(16), r1_(17), i1_(18), i1_(19), d1_(20));
+    (void)got;
+}
+
+WIDER static void in_lanes_march_alone(const argument *a, argument *got) {
+    lanes_march_alone(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), i_(10), b_(11),
+        b_(12), r2_(13), r3_(14), r2_(15), r2_(16), r1_(17), i1_(18), i1_(19), d1_(20));
+    (void)got;
+}
+
+WIDEST static void in_following_follow(const argument *a, argument *got) {
+    following_follow(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10), r1_(11),
+        b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
+    (void)got;
+}
+
+WIDER static void in_following_follow_alone(const argument *a, argument *got) {
+    following_follow_alone(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10),
+        r1_(11), b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
+    (void)got;
+}
+
+#else
 static void in_loop_prepare(const argument *a, argument *got) {
     real out = loop_prepare(r1_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r1_(6), r1_(7)); got[0].number = out;
 }
@@ -4194,18 +4226,6 @@ WIDEST static void in_block_march_blocks(const argument *a, argument *got) {
 }
 
 #ifndef SINGLE
-WIDEST static void in_lanes_march(const argument *a, argument *got) {
-    lanes_march(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), i_(10), b_(11), b_(12),
-        r2_(13), r3_(14), r2_(15), r2_(16), r1_(17), i1_(18), i1_(19), d1_(20));
-    (void)got;
-}
-
-WIDER static void in_lanes_march_alone(const argument *a, argument *got) {
-    lanes_march_alone(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), i_(8), i_(9), i_(10), b_(11),
-        b_(12), r2_(13), r3_(14), r2_(15), r2_(16), r1_(17), i1_(18), i1_(19), d1_(20));
-    (void)got;
-}
-
 static void in_loop_n_march(const argument *a, argument *got) {
     int64_t out = loop_n_march(r2_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r1_(6), r4_(7), r2_(8), i_(9), i_(10),
         i_(11), r_(12), r3_(13), r2_(14), b_(15), r2_(16), r1_(17), r_(18), r3_(19), r2_(20), r2_(21));
@@ -4253,18 +4273,6 @@ WIDER static void in_tangent_follow_all(const argument *a, argument *got) {
     tangent_follow_all(r2_(0), r2_(1), r1_(2), r_(3), i_(4), r2_(5)); (void)got;
 }
 
-WIDEST static void in_following_follow(const argument *a, argument *got) {
-    following_follow(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10), r1_(11),
-        b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
-    (void)got;
-}
-
-WIDER static void in_following_follow_alone(const argument *a, argument *got) {
-    following_follow_alone(r3_(0), r3_(1), r3_(2), r3_(3), r2_(4), r1_(5), r1_(6), r_(7), r1_(8), r1_(9), r1_(10),
-        r1_(11), b_(12), b_(13), b_(14), r2_(15), r3_(16), r2_(17), r2_(18), i1_(19), i1_(20), d1_(21));
-    (void)got;
-}
-
 static void in_expected_surveyed(const argument *a, argument *got) {
     t_r2 out = expected_surveyed(r2_(0), r2_(1), r2_(2), r1_(3), r1_(4), r_(5), r_(6), r2_(7));
     got[0].number = out.a0; got[1].number = out.a1;
@@ -4276,15 +4284,20 @@ static void in_expected_estimated(const argument *a, argument *got) {
 }
 
 #endif
+#endif
 
 const loop_export LOOPS()[] = {
+#ifdef LONG
+    {"lanes_march", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march},
+    {"lanes_march_alone", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march_alone},
+    {"following_follow", "r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow},
+    {"following_follow_alone", "r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_alone},
+#else
     {"loop_prepare", "r1 r1 r1 r r1 r1* r1* r1*", "r", in_loop_prepare},
     {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
     {"loop_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_loop_advance_all},
     {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
 #ifndef SINGLE
-    {"lanes_march", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march},
-    {"lanes_march_alone", "r3 r3 r3 r3 r2 r1 r1 r i i i b b r2 r3 r2 r2* r1* i1* i1* d1*", "", in_lanes_march_alone},
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1* r1 r i i i r2* r1*", "b", in_vertical_loop_march},
     {"double_double_prepare_pairs", "r1 r1 r1 r r2 r1* r1* r1*", "ii", in_double_double_prepare_pairs},
@@ -4294,14 +4307,13 @@ const loop_export LOOPS()[] = {
     {"double_double_march_long_pairs", "r1 r1 r1 r r r i i i r2 r b r1 r1* r2* r2* r2* r2* r2* r2* r2* r2*", "iirr", in_double_double_march_long_pairs},
     {"proved_bound_steps", "r2 r2 r2 r1 r2 r2 r2 r2*", "", in_proved_bound_steps},
     {"tangent_follow_all", "r2 r2 r1 r i r2*", "", in_tangent_follow_all},
-    {"following_follow", "r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow},
-    {"following_follow_alone", "r3 r3 r3 r3 r2 r1 r1 r r1 r1 r1 r1 b b b r2 r3 r2 r2* i1* i1* d1*", "", in_following_follow_alone},
     {"expected_surveyed", "r2 r2 r2 r1 r1 r r r2*", "rr", in_expected_surveyed},
     {"expected_estimated", "r2 r2 r1 b b b r1* r1* r1*", "r", in_expected_estimated},
 #endif
+#endif
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
-#ifndef SINGLE
-const char loops_text[] = "2955d967aed8ec44d253185469ce21bf107e1fbe544e64021acc13bea1be8f76";
+#if !defined(SINGLE) && !defined(LONG)
+const char loops_text[] = "a8316035c759f0d5f22359161fd86df4e4284e36745d53d1b731dcd684f107fb";
 #endif
 #endif

@@ -12,8 +12,8 @@ typedef struct { void *p; int64_t n[4], s[3]; double number; int64_t integer; } 
    and the number of axes for an array; * if it is written), and `gives` a letter for each result. */
 typedef struct { const char *name, *takes, *gives; void (*run)(const argument *, argument *); } loop_export;
 
-extern const loop_export loops_double[], loops_single[];
-extern const int loops_double_count, loops_single_count;
+extern const loop_export loops_double[], loops_long[], loops_single[];
+extern const int loops_double_count, loops_long_count, loops_single_count;
 
 /* The hash of the text that the loops were compiled from. */
 extern const char loops_text[];

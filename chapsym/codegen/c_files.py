@@ -13,6 +13,8 @@ from .source import Function, Program, Record
 PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block")
 LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "proved", "tangent", "following", "expected"
+#: Those whose loops are compiled apart, at the same time as the others: they take half of it.
+LONG = "lanes", "following"
 
 #: Loops that gain from registers of 512 bits, those of lanes of balls, and from those of 256; others gain from neither.
 WIDEST = "block_march_blocks", "lanes_march", "double_double_march_pairs_block", "following_follow"
@@ -35,7 +37,11 @@ typedef float real;
 #define LOOPS(rest) loops_single##rest
 #else
 typedef double real;
+#ifdef LONG
+#define LOOPS(rest) loops_long##rest
+#else
 #define LOOPS(rest) loops_double##rest
+#endif
 #endif
 #define R(x) ((real)(x))
 /* On x86 a loop that gains from wide registers is compiled for them, too, and takes them where the processor has them:
@@ -115,8 +121,8 @@ typedef struct { void *p; int64_t n[4], s[3]; double number; int64_t integer; } 
    and the number of axes for an array; * if it is written), and `gives` a letter for each result. */
 typedef struct { const char *name, *takes, *gives; void (*run)(const argument *, argument *); } loop_export;
 
-extern const loop_export loops_double[], loops_single[];
-extern const int loops_double_count, loops_single_count;
+extern const loop_export loops_double[], loops_long[], loops_single[];
+extern const int loops_double_count, loops_long_count, loops_single_count;
 
 /* The hash of the text that the loops were compiled from. */
 extern const char loops_text[];
@@ -211,16 +217,20 @@ class Texts:
         if (function, of) in self.external():
             parameters = ", ".join(f"real {x}" for x in function.parameters)
             call = f"return {function.name}({', '.join(function.parameters)})"
-            text += block(f"{c_type(of.returned)} {function.name}_double({parameters})", call)
+            outside = block(f"{c_type(of.returned)} {function.name}_double({parameters})", call)
+            text += guarded("#ifndef LONG", outside)
         return text
 
     def exports(self) -> str:
         """The table of the functions that are exported, each with a way in that takes its arguments from a list."""
-        double = [f for f in self.roots if f not in self.single]
-        ways, rows = (
-            "".join(map(made, self.single)) + guarded("#ifndef SINGLE", "".join(map(made, double)))
-            for made in (self.way_in, self.row)
-        )
+        apart = [f for f in self.roots if f.name.startswith(tuple(f"{name}_" for name in LONG))]
+        double = [f for f in self.roots if f not in self.single and f not in apart]
+
+        def parts(made: Callable[[Function], str]) -> str:
+            single, others, long = ("".join(map(made, some)) for some in (self.single, double, apart))
+            return guarded("#ifdef LONG", f"{long}#else\n{single}{guarded('#ifndef SINGLE', others)}")
+
+        ways, rows = map(parts, (self.way_in, self.row))
         count = "const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();\n"
         return f"{ways}\nconst loop_export LOOPS()[] = {{\n{rows}}};\n{count}"
 
@@ -267,12 +277,16 @@ def build(load: Callable[[str], str], kernels: Sequence[Kernel], roundings: Mapp
     digest = hashlib.sha256((INTERFACE + body + exports).encode()).hexdigest()
     about = "The loops of chapsym/dynamics/loops, with the kernels that they call; with SINGLE defined in float32."
     mine = "codegen/c_files.py"
-    exports += guarded("#ifndef SINGLE", f'const char loops_text[] = "{digest}";\n')
+    parts = {"single": "The loops in float32.", "long": "The loops of long steps, which are compiled apart."}
+    exports += guarded("#if !defined(SINGLE) && !defined(LONG)", f'const char loops_text[] = "{digest}";\n')
     body += guarded("#ifndef LIBRARY", exports)
     python = '"""The hash of the text in C that belongs to the loops; written by `chapsym codegen`: do not edit."""'
     return {
         "loops.c": HEAD.format(about, "the loops or the derivation") + body,
-        "loops_single.c": HEAD.format("The loops in float32.", mine) + '#define SINGLE\n#include "loops.c"\n',
+        **{
+            f"loops_{name}.c": HEAD.format(what, mine) + f'#define {name.upper()}\n#include "loops.c"\n'
+            for name, what in parts.items()
+        },
         "loops.h": HEAD.format("What the loops and what calls them agree on.", mine) + INTERFACE,
         "loops_text.py": f'{python}\n\nTEXT = "{digest}"\n',
         **library(texts, kernels, roundings),

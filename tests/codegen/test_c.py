@@ -269,11 +269,14 @@ def both(tmp_path_factory):
     texts = c_files.Texts(program, roots(program), [f for f in roots(program) if f.node.name not in ONLY_DOUBLE])
     body = texts.text() + texts.exports()
     (place / "loops.h").write_text("#pragma once\n" + c_files.INTERFACE)
-    (place / "loops.c").write_text(body + '\n#ifndef SINGLE\nconst char loops_text[] = "";\n#endif\n')
-    (place / "loops_single.c").write_text('#define SINGLE\n#include "loops.c"\n')
+    (place / "loops.c").write_text(body)
+    (place / "loops_text.c").write_text('const char loops_text[] = "";\n#include "loops.c"\n')
+    for part in ("single", "long"):
+        (place / f"loops_{part}.c").write_text(f'#define {part.upper()}\n#include "loops.c"\n')
     module = ROOT / "dynamics" / "native" / "module.c"
     flags = ["-std=gnu11", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-DPy_LIMITED_API=0x030B0000"]
-    files = ["-DWIDEST_OFF", place / "loops.c", place / "loops_single.c", module, "-lm", "-o", place / "compiled.so"]
+    texts = (place / f"loops_{part}.c" for part in ("text", "single", "long"))
+    files = ["-DWIDEST_OFF", *texts, module, "-lm", "-o", place / "compiled.so"]
     subprocess.run([COMPILER, *flags, "-I", place, "-I", INCLUDE, *files], check=True)
     loader = importlib.machinery.ExtensionFileLoader("compiled", str(place / "compiled.so"))
     compiled = importlib.util.module_from_spec(importlib.util.spec_from_loader("compiled", loader))

@@ -99,8 +99,8 @@ static PyObject *call(PyObject *self, PyObject *const *objects, Py_ssize_t count
 
 static PyMethodDef definition = {"loop", (PyCFunction)(void (*)(void))call, METH_FASTCALL, "A compiled loop."};
 
-static PyObject *table(const loop_export *loops, int count) {
-    PyObject *all = PyDict_New();
+/* Adds functions to a dictionary, and returns it. */
+static PyObject *table(PyObject *all, const loop_export *loops, int count) {
     for (int i = 0; all && i < count; i++) {
         PyObject *capsule = PyCapsule_New((void *)(loops + i), NULL, NULL);
         PyObject *function = capsule ? PyCFunction_NewEx(&definition, capsule, NULL) : NULL;
@@ -122,8 +122,9 @@ static struct PyModuleDef module = {PyModuleDef_HEAD_INIT, "compiled", "The comp
 PyMODINIT_FUNC PyInit_compiled(void) {
     PyObject *made = PyModule_Create(&module);
     if (!made) return NULL;
-    if (add(made, "double", table(loops_double, loops_double_count)) ||
-        add(made, "single", table(loops_single, loops_single_count)) ||
+    PyObject *all = table(PyDict_New(), loops_double, loops_double_count);
+    if (add(made, "double", table(all, loops_long, loops_long_count)) ||
+        add(made, "single", table(PyDict_New(), loops_single, loops_single_count)) ||
         add(made, "text", PyUnicode_FromString(loops_text)))
         Py_CLEAR(made);
     return made;
