@@ -36,9 +36,16 @@ def pytest_configure(config):
 
 
 def pytest_collection_modifyitems(config, items):
-    """One test that needs all verdicts comes first and the others last, so that no process waits for them meanwhile."""
+    """One test that needs all verdicts comes first and the others last, so that no process waits for them meanwhile.
+
+    Those that wait for a browser come early, while other jobs of CI take the processor.
+    """
     needing = [item for item in items if "all_judged" in item.fixturenames]
-    items.sort(key=lambda item: 0 if item in needing[:1] else 1 + ("all_judged" in item.fixturenames))
+
+    def turn(item):
+        return 3 if "all_judged" in item.fixturenames else 1 if "launch" in item.fixturenames else 2
+
+    items.sort(key=lambda item: 0 if item in needing[:1] else turn(item))
     if not config.getoption("--thorough"):
         config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("thorough")])
         items[:] = [item for item in items if not item.get_closest_marker("thorough")]
