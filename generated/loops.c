@@ -1,4 +1,4 @@
-/* The loops of chapsym/dynamics/loops, with the kernels that they call; with SINGLE defined in float32.
+/* The loops of chapsym/dynamics/loops and their kernels: with SINGLE in float32, with LONG of long steps.
  * Written by `chapsym codegen`: do not edit; change the loops or the derivation and generate again. */
 #include <math.h>
 #include <stdint.h>

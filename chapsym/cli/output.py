@@ -1,6 +1,7 @@
 """The output of every command: one sentence for an error, one JSON object, a progress bar."""
 
 import json
+import os
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -19,7 +20,7 @@ def fail(sentence: str, status: int) -> NoReturn:
 
 def check_apart(path: Path | None, *others: Path | None) -> None:
     """Fails where what is written would replace what is read, or another file that is written."""
-    if path is not None and path.resolve() in {other.resolve() for other in others if other}:
+    if path is not None and os.path.realpath(path) in {os.path.realpath(other) for other in others if other}:
         fail(f"{path} is named twice: choose another name", 2)
 
 

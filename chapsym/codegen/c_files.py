@@ -13,7 +13,7 @@ from .source import Function, Program, Record
 PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block")
 LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "proved", "tangent", "following", "expected"
-#: Those whose loops are compiled apart, at the same time as the others: they take half of it.
+#: Those whose loops are compiled apart, at the same time as the others: they take half of the compiler's time.
 LONG = "lanes", "following"
 
 #: Loops that gain from registers of 512 bits, those of lanes of balls, and from those of 256; others gain from neither.
@@ -275,7 +275,7 @@ def build(load: Callable[[str], str], kernels: Sequence[Kernel], roundings: Mapp
     )  # fmt: skip
     body, exports = texts.text(), texts.exports()
     digest = hashlib.sha256((INTERFACE + body + exports).encode()).hexdigest()
-    about = "The loops of chapsym/dynamics/loops, with the kernels that they call; with SINGLE defined in float32."
+    about = "The loops of chapsym/dynamics/loops and their kernels: with SINGLE in float32, with LONG of long steps."
     mine = "codegen/c_files.py"
     parts = {"single": "The loops in float32.", "long": "The loops of long steps, which are compiled apart."}
     exports += guarded("#if !defined(SINGLE) && !defined(LONG)", f'const char loops_text[] = "{digest}";\n')

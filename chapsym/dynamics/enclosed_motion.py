@@ -349,7 +349,6 @@ class _Search:
 
     def doublings(self) -> int:
         """About log₂ of the turns, at most, and of those at the start; BadInput where ω does not follow from K."""
-
         from .levels.proved_root import upper
 
         with flint_bits(1024):
@@ -367,7 +366,6 @@ class _Search:
 
     def attempt(self, bits: int) -> int | None:
         """Follows the motion with this many bits; returns how many more are needed, or None: the time is up."""
-
         missing, frames = -math.inf, list[dict[str, tuple[Any, ...]]]()
         with flint_bits(bits):
             try:

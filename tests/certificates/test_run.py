@@ -104,6 +104,9 @@ def test_the_command_makes_one_of_a_scene(tmp_path):
     path.write_text(f"{BALL}time_step = 0.01\nsteps = 30\n")
     assert "is of the motion of the ball: add map = true" in refused_command("certify", "run", path)
     assert "is named twice: choose another name" in refused_command("certify", "run", path, "-o", path)
+    for link, target in (("a", "b"), ("b", "a")):  # a circle, which is no file that is read
+        (tmp_path / link).symlink_to(tmp_path / target)
+    assert "is of the motion of the ball" in refused_command("certify", "run", path, "-o", tmp_path / "a")
 
 
 def test_a_top_is_followed_too():
