@@ -172,12 +172,18 @@ def test_a_header_of_numpy_that_is_damaged_is_refused(tmp_path, shape, said):
         formats.load(path)
 
 
-def test_an_attribute_and_axes_that_are_not_those_of_a_result_are_refused(result, tmp_path):
+@pytest.fixture
+def parts(result, tmp_path):
+    """An .npz, its arrays, and what one of them says of the others."""
     path = tmp_path / "run.npz"
     formats.save(result, path)
     with np.load(path) as data:
         arrays = dict(data)
-    about = json.loads(str(arrays["chapsym"]))
+    return path, arrays, json.loads(str(arrays["chapsym"]))
+
+
+def test_an_attribute_and_axes_that_are_not_those_of_a_result_are_refused(parts):
+    path, arrays, about = parts
     about["attrs"]["accuracy"] = [1e-6]
     np.savez(path, **(arrays | {"chapsym": np.array(json.dumps(about))}))
     with pytest.raises(SceneError, match="its accuracy is no number"):
@@ -187,12 +193,8 @@ def test_an_attribute_and_axes_that_are_not_those_of_a_result_are_refused(result
         formats.load(path)
 
 
-def test_what_a_reader_trips_over_is_not_repeated(result, tmp_path):
-    path = tmp_path / "run.npz"
-    formats.save(result, path)
-    with np.load(path) as data:
-        arrays = dict(data)
-    about = json.loads(str(arrays["chapsym"]))
+def test_what_a_reader_trips_over_is_not_repeated(parts):
+    path, arrays, about = parts
     about["structure"]["variables"] = None
     np.savez(path, **(arrays | {"chapsym": np.array(json.dumps(about))}))
     with pytest.raises(SceneError, match=r"or no result of chapsym: its parts are not those of one$"):
