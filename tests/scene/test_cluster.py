@@ -177,6 +177,7 @@ def process(*arguments):
         running.wait()
 
 
+@pytest.mark.thorough
 def test_workers_that_die_and_a_scheduler_that_ends(local, tmp_path, caplog, monkeypatch, path):
     """A worker dies of one chunk each time, and of another once, and comes again; then the scheduler is killed, too."""
     for name in ("distributed", "distributed.client"):
