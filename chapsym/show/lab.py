@@ -126,8 +126,10 @@ def _curves(cells: Sequence[Mapping[str, Any]]) -> str:
                 shown = [(x, y if y > 0 else math.nan) for x, y in points]
                 if shown:
                     axes.plot(*zip(*shown, strict=True), marker=mark, color=colour, label=cell["method"])
-        energy.set(yscale="log", xlabel="time", ylabel="|energy - first|")
-        error.set(xscale="log", yscale="log", xlabel="µs of processor time", ylabel="error of the place")
+                if any(y > 0 for _, y in shown):  # else there is no such scale
+                    axes.set(yscale="log")
+        energy.set(xlabel="time", ylabel="|energy - first|")
+        error.set(xscale="log", xlabel="µs of processor time", ylabel="error of the place")
         error.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, 0.4)))  # else they overlap
         legend(figure, [energy, error])
     return figure.svg()
