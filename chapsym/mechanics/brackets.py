@@ -13,8 +13,11 @@ from typing import Any
 
 import sympy as sp
 
-from .algebra import Algebra, adjugate, determinant, generic, pivots, rank
+from .algebra import Algebra, adjugate, determinant, generic, pivots, rank, size
 from .system import BadSystem, System, a_system
+
+#: Different parts of the fields and brackets that are decided: 2000 take some seconds, and the time grows faster.
+MOST_PARTS = 3000
 
 
 @dataclass(frozen=True)
@@ -145,6 +148,8 @@ def spanned(system: System) -> Span:
     while newest and len(span) < dimension:
         before, newest = newest, []
         for i, j in product(range(len(fields)), before):
+            if size(e for vector in span for e in vector) > MOST_PARTS:
+                raise BadSystem(f"{system.name}: the brackets of the velocities are too long to be decided")
             bracket, times = algebra.cleared(bracket_of(fields[i], span[j], algebra))
             larger = [*span, bracket]
             if rank(_matrix(larger), point) < len(larger):

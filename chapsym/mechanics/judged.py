@@ -206,7 +206,7 @@ class Judged:
         self.proofs, self.power = list[Callable[[bool], list[Combination]]](), 0
         try:
             verdict = judge(of)
-        except (Undecided, BadSystem) as error:
+        except (Undecided, BadSystem, sp.PolynomialError) as error:
             return Decided(Verdict("measured", str(error)))
         return Decided(verdict, [*self.proofs_of_always, *self.proofs], self, self.power)
 

@@ -103,6 +103,7 @@ class Cell:
         return cls(**{**data, **curves, "verdicts": decided, **unknown})
 
 
+@np.errstate(all="ignore")  # what is not finite has no figure
 def measured(
     system: System,
     method: str,

@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property, lru_cache
+from numbers import Complex, Real
 from pathlib import Path
 from typing import Any
 
@@ -26,13 +27,15 @@ from .algebra import Letters
 from .methods import Scheme, scheme_of
 from .slope import Terms, differentiated, needed, shared
 from .steps import UNSOLVED, NotSolved, Sets, Steps
-from .system import STEP, BadSystem, System, a_system, number, rational
+from .system import STEP, BadSystem, System, a_system, in_floats, number, rational
 
 #: Newton's iteration: rounds at most; the last correction in units of the unknowns, and one that may stay; and how much
 #: one must be smaller than the one before for the derivatives to serve another round.
 MOST_ROUNDS, LAST, STAYS, SHRINKS = 50, 1e-15, 1e-9, 1e-3
 #: The kernels are in steps already.
 PASSES = (passes.FACTORED, *passes.PASSES[2:])
+#: A number that no float holds.
+BEYOND = int(np.finfo(float).max)
 #: Steps between which an interrupt is seen.
 PART = 50_000
 ROUTINE = Path(__file__).with_name("march.c").read_text(encoding="utf-8")
@@ -189,6 +192,8 @@ class Runner:
         parts = {name: getattr(scheme, name) for name in ("residual", "after", "place", "velocity", "start")}
         parts["constraints"] = [*system.rows, *system.offsets]
         parts["measured"] = [system.energy, *system.constraints, *system.holonomic, *self.integrals.values()]
+        if any(abs(x) > BEYOND for part in parts.values() for e in part for x in e.atoms(sp.Rational)):
+            raise BadSystem(f"{system.name}: a number is beyond float64, about 1.8e308")
         return constants, {name: [_lifted(e, constants) for e in part] for name, part in parts.items()}
 
     @cached_property
@@ -200,9 +205,13 @@ class Runner:
         return np.array([*parameters, *(self._number(e, "a constant") for e in self._lifted[0])], object)
 
     def _number(self, value: Any, what: str) -> Any:
-        exact = rational(value, f"{self.system.name}: {what}")
-        with self.level.working():
-            return self.level.number(Fraction(exact.p, exact.q))
+        what = f"{self.system.name}: {what}"
+        exact = rational(value, what)
+        try:
+            with self.level.working():
+                return self.level.number(Fraction(exact.p, exact.q))
+        except OverflowError:
+            raise BadSystem(f"{what} is {brief(value)}, which is beyond the numbers") from None
 
     @cached_property
     def functions(self) -> dict[str, Callable[..., Any]]:
@@ -242,22 +251,15 @@ class Runner:
         if not h > 0:
             raise BadSystem(f"the length of a step must be positive, not {h!r}")
         q, v = self.system.beginning
-        if start is not None:
-            try:
-                if np.shape(start) != (len(self.scheme.state),):
-                    raise TypeError
-                q, v = self.velocities(start)
-            except (TypeError, ValueError):
-                raise BadSystem(
-                    f"the start must be {len(self.scheme.state)} numbers, as `final` has them, not {brief(start)}"
-                ) from None
-        unknowns = self._numbers(self.scheme.guess, q, v)
         with self.level.working(), np.errstate(all="ignore"):
+            if start is not None:
+                q, v = self.velocities(self._given(start, 0.0))
+            unknowns = self._numbers(self.scheme.guess, q, v)
             if not self.in_floats:
                 h = self._number(self.system.step if length is None else length, "the length of a step")
             fixed = np.array([*self.fixed, h])
             if start is not None:
-                state = np.array([0 * h + x for x in start], fixed.dtype)
+                state = self._given(start, 0 * h)
             else:
                 state = self._numbers(self.scheme.start, q, v) if self.in_floats else self._beginning(fixed)
             try:
@@ -274,14 +276,15 @@ class Runner:
                     why = "constraints depend on each other, or the mass matrix is singular (see Quaternion.swelling)"
                     raise NotSolved(f"{which} has no solution, as its equations are singular: {why}")
                 raise NotSolved(f"{which} {why}")
-            if not all((np.abs(array) < np.inf).all() for array in (state, recorded)):
+            if not all(map(_are_finite, (state, recorded))):
                 raise NotSolved(f"{self.system.name}, {self.method}: a step of {steps} leaves the range of numbers")
             place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
             try:
                 (energy,), *kept, integrals = self._measured(place, velocity, fixed)
-            except (ArithmeticError, ValueError):
+            except Exception:  # whatever functions SymPy has for the integrals
                 integrals = [np.array([np.nan])]
-            if not all((np.abs(values) < np.inf).all() and not np.iscomplexobj(values) for values in integrals):
+                (energy,), kept = integrals, []
+            if not all(map(_are_finite, (energy, *itertools.chain(*kept), *integrals))):
                 raise NotSolved(f"{self.system.name}, {self.method}: a quantity is not defined on the motion")
             is_enclosed = isinstance(self.level, Enclosure)
             largest: Any = np.frompyfunc(lambda a, b: a.max(b), 2, 1).reduce if is_enclosed else np.max
@@ -292,6 +295,20 @@ class Runner:
                 times = np.array([self._number(i + self.scheme.when, "") for i in range(0, steps, every)], object) * h
         quantities = dict(zip(self.integrals, integrals, strict=True))
         return Motion(times, place, velocity, energy, constraint, places, quantities, state, seconds)
+
+    def _given(self, start: Any, zero: Any) -> np.ndarray:
+        """A state that somebody gives, in the numbers of a zero."""
+        try:
+            if np.shape(start) != (len(self.scheme.state),) or np.ma.isMaskedArray(start) or np.iscomplexobj(start):
+                raise TypeError
+            found = np.array([zero + x for x in start], float if isinstance(zero, float) else object)
+            if not _are_finite(found):
+                raise ValueError
+            return found
+        except (TypeError, ValueError):
+            raise BadSystem(
+                f"the start must be {len(self.scheme.state)} numbers, as `final` has them, not {brief(start)}"
+            ) from None
 
     def _measured(self, place: np.ndarray, velocity: np.ndarray, fixed: np.ndarray) -> list[list[np.ndarray]]:
         """The energy, what the constraints on velocities and on places set to 0, and the integrals."""
@@ -305,7 +322,14 @@ class Runner:
     def _of(self, name: str, q: Sequence[Any], v: Sequence[Any], fixed: np.ndarray) -> list[Any]:
         """The result of a kernel at a place and velocity."""
         unknowns = [0] * len(self.scheme.unknowns)  # which it has not
-        return [0 * fixed[-1] + x for x in parts_of(self.functions[name](*unknowns, *q, *v, *fixed))]
+        of = self.functions[name]
+        try:
+            return [0 * fixed[-1] + x for x in parts_of(of(*unknowns, *q, *v, *fixed))]
+        except (ArithmeticError, ValueError):
+            raise self._undefined() from None
+
+    def _undefined(self) -> NotSolved:
+        return NotSolved(f"{self.system.name}, {self.method}: a function of the system has no value where a step is")
 
     def _beginning(self, fixed: np.ndarray) -> np.ndarray:
         """The first state in other numbers than float64: velocities that are not given are the smallest there are."""
@@ -315,6 +339,8 @@ class Runner:
         free = [i for i, x in enumerate(system.velocities) if x not in given]
         if free and system.rows.rows:
             found = np.array(self._of("constraints", q, v, fixed), object)
+            if not _are_finite(found):
+                raise self._undefined()
             rows, offsets = found[: -system.rows.rows].reshape(-1, len(q)), found[-system.rows.rows :]
             kept = list[int]()
             for i in range(len(rows)):  # rows that do not depend on others
@@ -328,7 +354,12 @@ class Runner:
     def _is_singular(self, q: np.ndarray, v: np.ndarray, fixed: np.ndarray) -> bool:
         """Whether the derivatives of the first step's equations are singular at its guess."""
         state, unknowns = (self._numbers(part, q, v) for part in (self.scheme.start, self.scheme.guess))
-        slope = np.array(self.functions["slope"](*map(float, (*unknowns, *state, *fixed)))).reshape(len(unknowns), -1)
+        try:
+            slope = np.array(self.functions["slope"](*map(float, (*unknowns, *state, *fixed)))).reshape(
+                len(unknowns), -1
+            )
+        except (ArithmeticError, ValueError):  # they have no values there
+            return False
         return bool(np.isfinite(slope).all() and np.linalg.matrix_rank(slope) < len(unknowns))
 
     @cached_property
@@ -338,7 +369,7 @@ class Runner:
         symbols = (*system.coordinates, *system.velocities, STEP)
         numbers = dict(zip(system.parameters, map(sp.Float, system.numbers), strict=True))
         measured = ([system.energy], system.constraints, system.holonomic, list(self.integrals.values()))
-        return [sp.lambdify(symbols, [e.xreplace(numbers) for e in one], "numpy", cse=True) for one in measured]
+        return [in_floats(symbols, [e.xreplace(numbers) for e in one], "numpy", cse=True) for one in measured]
 
     def velocities(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities of a state, in float64; of momenta p = ∂L/∂v is solved, with least |v|."""
@@ -361,8 +392,12 @@ class Runner:
         return self._numbers(list(self.system.mass), q, 0 * q).reshape(len(q), len(q))
 
     def _numbers(self, expressions: Sequence[sp.Expr], q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Their values; raises NotSolved where they have none."""
         symbols = (*self.system.coordinates, *self.system.velocities, *self.system.parameters)
-        return np.array(_in_floats(symbols, tuple(expressions))(*q, *v, *self.system.numbers), float)
+        try:
+            return np.array(_in_floats(symbols, tuple(expressions))(*q, *v, *self.system.numbers), float)
+        except (ArithmeticError, TypeError, ValueError):
+            raise self._undefined() from None
 
     @cached_property
     def library(self) -> Any:
@@ -395,10 +430,15 @@ class Runner:
                 return None
 
 
+def _are_finite(values: np.ndarray) -> bool:
+    """Whether numbers of any kind are real and finite."""
+    is_real = values.dtype.kind == "f" or all(isinstance(x, Real) or not isinstance(x, Complex) for x in values.flat)
+    return is_real and bool((np.abs(values) < np.inf).all())
+
+
 @lru_cache(maxsize=32)
 def _in_floats(symbols: tuple[sp.Symbol, ...], expressions: tuple[sp.Expr, ...]) -> Callable[..., list[float]]:
-    made: Callable[..., list[float]] = sp.lambdify(symbols, list(expressions), "math")
-    return made
+    return in_floats(symbols, expressions, "math")
 
 
 @cache

@@ -4,7 +4,7 @@ import hashlib
 import importlib.util
 import math
 import os
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -228,9 +228,12 @@ class System:
             put(name, {x: expression(e, f"{self.name}: {what} {x}") for x, e in given})
         if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
             raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
+        if strange := [x for x in (*self.coordinates, *self.parameters) if not x.is_commutative or x.is_real is False]:
+            raise BadSystem(f"{self.name}: {strange[0]} must be a symbol of real numbers")
         symbols = (*self.coordinates, *self.velocities, *self.parameters, STEP)
-        if len(set(symbols)) < len(symbols):
-            twice = next(x for x in symbols if symbols.count(x) > 1)
+        names = [x.name for x in symbols]
+        if len(set(names)) < len(names):
+            twice = next(x for x in names if names.count(x) > 1)
             raise BadSystem(f"{self.name}: {twice} is two of coordinate, velocity, parameter and length of a step")
         if strange := [x for x in symbols if not (x.name.isidentifier() and x.name.isascii())]:
             raise BadSystem(f"{self.name}: {strange[0].name!r} cannot be a name: take letters, digits and _")
@@ -286,10 +289,13 @@ class System:
         return Discrete(action, tuple(rules), dict(zip(names, quantities, strict=True)))
 
     def digest(self, *more: Any) -> str:
-        """A hash of all that a run depends on."""
+        """A hash of all that a run depends on; raises BadSystem where it cannot be written."""
         parts = (self.coordinates, self.lagrangian, self.constraints, self.holonomic, self.forces, self.parameters)
         own = vars(self.discrete) if self.discrete else None, self.integrals
-        text = repr((self.name, *map(str, (*parts, own, self.start, self.step)), more))
+        try:  # a symbol may be called pi, as a number is
+            text = repr((self.name, *map(sp.srepr, (*parts, own, self.start, self.step)), more))
+        except ValueError:
+            raise BadSystem(f"{self.name}: a number has more digits than Python writes") from None
         return hashlib.sha256(text.encode()).hexdigest()
 
     @property
@@ -368,24 +374,27 @@ class System:
         return np.array([self.value(x) for x in self.parameters])
 
     @cached_property
+    @np.errstate(all="ignore")  # what is not finite is refused
     def beginning(self) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities of the start; raises BadSystem if they break a constraint."""
         given = {x: number(v, f"{self.name}: the start of {x}") for x, v in self.start.items()}
-        q = np.array([given.get(x, 0.0) for x in self.coordinates])
-        of = sp.lambdify(
-            (self.coordinates, tuple(self.parameters)), [self.rows, self.offsets, *self.holonomic], "numpy"
-        )
-        rows, offsets, *kept = of(q, self.numbers)
+        q, v = (np.array([given.get(x, 0.0) for x in symbols]) for symbols in (self.coordinates, self.velocities))
+        numbers = self.numbers
+        of = in_floats((*self.coordinates, *self.parameters), [self.rows, self.offsets, *self.holonomic], "numpy")
+        try:
+            found = of(*q, *numbers)
+            rows, offsets, *kept = (np.asarray(x, complex if np.iscomplexobj(x) else float) for x in found)
+            if not all(np.isrealobj(x) and np.isfinite(x).all() for x in (rows, offsets, *kept)):
+                raise ArithmeticError
+        except (ArithmeticError, TypeError):  # whole numbers beyond floats, too
+            raise BadSystem(f"{self.name}: a constraint is not defined at the start") from None
         if not all(abs(x) <= NEAR for x in kept):
             raise BadSystem(f"{self.name}: the start is {max(map(abs, kept)):.3g} off the holonomic constraints")
-        rows, offsets = np.array(rows, float).reshape(len(self.rows[:, 0]), len(q)), np.array(offsets, float).ravel()
-        v = np.array([given.get(x, 0.0) for x in self.velocities])
+        rows, offsets = rows.reshape(len(self.rows[:, 0]), len(q)), offsets.ravel()
         free = [i for i, x in enumerate(self.velocities) if x not in given]
-        if not (np.isfinite(rows).all() and np.isfinite(offsets).all()):
-            raise BadSystem(f"{self.name}: a constraint is not defined at the start")
         if len(rows) and free:
             v[free] += np.linalg.lstsq(rows[:, free], -(rows @ v + offsets), rcond=None)[0]
-        if len(rows) and (worst := np.abs(rows @ v + offsets).max()) > NEAR:
+        if len(rows) and not (worst := np.abs(rows @ v + offsets).max()) <= NEAR:
             raise BadSystem(
                 f"{self.name}: the velocities of the start are {worst:.3g} off the constraints; leave out those that "
                 "the constraints determine"
@@ -438,9 +447,17 @@ def loaded(path: str | Path) -> System:
     return found
 
 
+def _refuse(value: Any) -> None:
+    """Raises TypeError for what has a float, or a fraction, and is no single real number."""
+    strange = np.ma.MaskedArray | np.timedelta64
+    if isinstance(value, strange) or np.iscomplexobj(value) or np.ndim(value):
+        raise TypeError
+
+
 def rational(value: Any, what: str) -> sp.Rational:
     """A number of a system, exactly; raises BadSystem with the value, if it is not a number."""
     try:
+        _refuse(value)
         is_long = isinstance(value, sp.Float) and value._prec > sp.Float(0.5)._prec
         is_float = isinstance(value, float | sp.Float)
         found = Fraction(str(value) if is_long else repr(float(value)) if is_float else value)
@@ -450,13 +467,26 @@ def rational(value: Any, what: str) -> sp.Rational:
 
 
 def number(value: Any, what: str) -> float:
-    """The same as a float."""
-    if isinstance(value, float) and not math.isfinite(value):
-        raise BadSystem(f"{what} is not finite")
+    """The same as a float, which is finite."""
     try:
-        return float(Fraction(value) if isinstance(value, str) else value)
+        _refuse(value)
+        found = float(Fraction(value) if isinstance(value, str) else value)
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
         raise BadSystem(f"{what} is {brief(value)}, which is no number") from None
+    if not math.isfinite(found):
+        raise BadSystem(f"{what} is not finite")
+    return found
+
+
+def in_floats(
+    symbols: Sequence[sp.Symbol], expressions: Sequence[Any], module: str, cse: bool = False
+) -> Callable[..., Any]:
+    """Expressions, or matrices of them, as a function of floats by NumPy or `math`, of arrays by NumPy."""
+    if any(hasattr(np, x.name) for x in symbols):  # such as pi, which would be that of the module
+        put = {x: sp.Symbol(f"s{i}") for i, x in enumerate(symbols)}
+        symbols, expressions = list(put.values()), [e.xreplace(put) for e in expressions]
+    made: Callable[..., Any] = sp.lambdify(symbols, expressions, module, cse=cse)
+    return made
 
 
 def _several(value: Any, what: str) -> tuple[Any, ...]:
@@ -467,8 +497,8 @@ def _several(value: Any, what: str) -> tuple[Any, ...]:
 
 def _smooth(expr: sp.Expr, what: str) -> None:
     """Raises BadSystem for functions of which there are no kernels."""
-    strange = [f for f in expr.atoms(sp.Function, sp.exp, sp.Lambda) if not isinstance(f, sp.sin | sp.cos | sp.tan)]
-    if strange:
+    known = sp.Add, sp.Mul, sp.Pow, sp.Number, sp.NumberSymbol, sp.Symbol, sp.sin, sp.cos, sp.tan
+    if strange := [e for e in sp.preorder_traversal(expr) if not isinstance(e, known)]:
         raise BadSystem(f"{what} has {strange[0]}, which is not sin, cos, a square root or a whole power")
 
 

@@ -26,6 +26,7 @@ from chapsym.mechanics import (
     Turned,
     after,
     agree,
+    brackets,
     certified,
     conserved,
     dot,
@@ -206,6 +207,56 @@ def test_numbers_that_are_no_integers_and_any_names_are_taken(method):
 def test_steps_that_cannot_be_are_one_sentence(options, said):
     with pytest.raises(BadSystem, match=said):
         moved(particle(), "dla", **{"steps": 5} | options)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("settings", "options", "said"),
+    [
+        ({"start": {x: np.ma.masked}}, {}, "the start of x is masked, which is no number"),
+        ({"parameters": {k: np.complex128(1j)}}, {}, "the parameter k is .*, which is no number"),
+        ({"start": {x: np.float32("nan")}}, {}, "the start of x is not finite"),
+        ({"start": {vx: 1e308, vy: 1e308}}, {"method": "rk4"}, "not defined on the motion|leaves the range"),
+        ({"constraints": [vz - vx / x]}, {}, "a constraint is not defined at the start"),
+        ({"constraints": [vz - 10**400 * vx]}, {}, "a constraint is not defined at the start"),
+        ({"lagrangian": FREE + vx / x}, {}, "has no solution near the last one"),
+        ({"forces": {x: 10**400}}, {}, "a number is beyond float64"),
+        ({"forces": {x: sp.Derivative(sp.sin(x), x)}}, {}, "is not sin, cos"),
+        ({"integrals": {"one": sp.factorial(x)}}, {}, "a quantity is not defined on the motion"),
+        ({"integrals": {"one": sp.sqrt(x - 1)}}, {"precision": chapsym.Digits(20)}, "a quantity is not defined"),
+        ({"parameters": {sp.Symbol("q", commutative=False): 1}}, {}, "q must be a symbol of real numbers"),
+        ({"parameters": {sp.Symbol("x", real=True): 1}}, {}, "x is two of"),
+    ],
+)
+def test_systems_that_cannot_be_run_are_one_sentence(settings, options, said):
+    settings = {"lagrangian": FREE, "start": {}, **settings}
+    with pytest.raises((BadSystem, NotSolved), match=said):
+        moved(System("odd", (x, y, z), **settings), steps=2, **options)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_start_that_is_no_state_is_refused():
+    for odd in (np.full(6, 1j), np.full(6, np.inf), np.ma.masked_all(6), ["1"] * 6, [None] * 6):
+        for level in ("double", chapsym.Enclosure(64)):
+            with pytest.raises(BadSystem, match="the start must be 6 numbers, as `final` has them"):
+                Runner(particle(), precision=level).march(1, start=odd)
+
+
+def test_a_coordinate_may_be_called_as_a_number_or_a_function():
+    for name in ("pi", "cos"):
+        q = sp.Symbol(name)
+        motion = moved(System("named", (q,), dot(q) ** 2 / 2 - sp.pi * sp.cos(q), start={q: 1}), "gni", 1)
+        assert motion.energy[0] == pytest.approx(np.pi * np.cos(1))
+
+
+def test_what_is_too_long_to_be_decided_is_said(monkeypatch):
+    monkeypatch.setattr(brackets, "MOST_PARTS", 3)
+    with pytest.raises(BadSystem, match="too long to be decided"):
+        flag(particle())
+    with pytest.raises(BadSystem, match="more digits than Python writes"):
+        volume(System("long", (x,), vx**2 / 2, parameters={k: 10**5000}))
+    divided = System("divided", (x, y), (vx**2 + vy**2) / 2, holonomic=[y * sp.sqrt(1 + x**2)])
+    assert verdicts(divided, METHODS["dla"].scheme(divided))["order"].verdict == "measured"
 
 
 def test_a_motion_that_leaves_the_numbers_is_said():
