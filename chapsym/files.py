@@ -55,4 +55,9 @@ def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
 
 def write_text(path: Path, text: str) -> None:
     """Replaces the file by a text in UTF-8, as `write_whole` does."""
-    write_whole(path, lambda stream: stream.write(text.encode()))
+    write_whole(path, lambda stream: stream.write(encoded(text)))
+
+
+def encoded(text: str) -> bytes:
+    """A text in UTF-8, with half a letter, which has no code there, as the escape that JSON has for it."""
+    return text.encode("utf-8", "backslashreplace")

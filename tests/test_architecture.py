@@ -24,7 +24,7 @@ ROOMS = {
     "derive": set(),
     "sources": set(),
     "prove": {"checker", "derive", "files", "sources", "workers"},
-    "codegen": {"checker", "derive", "prove"},
+    "codegen": {"checker", "derive", "files", "prove"},
     "mechanics": {"codegen", "derive", "dynamics", "numbers", "prove"},
     "dynamics": {"extras", "generated", "numbers", "rationals"},
     "certificates": {"checker", "dynamics", "rationals", "files", "generated", "numbers"},

@@ -8,7 +8,6 @@ import ast
 import hashlib
 import importlib.util
 import json
-import os
 import re
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
@@ -20,6 +19,7 @@ import sympy as sp
 
 from chapsym.checker import Rejected
 from chapsym.checker import kernels as binding
+from chapsym.files import write_text
 from chapsym.prove import PROOFS, Register, Verdict
 from chapsym.prove.claims import Judgement, judgement_of, once
 from chapsym.prove.trees import tree
@@ -215,12 +215,16 @@ class Package:
         """Writes every file into `place` and removes kernels that are no more; returns the names written.
 
         Raises ValueError, before anything is written, if a fingerprint is missing or contradicted and not
-        named in `trust` ("all" names every kernel).  The first ones of a folder that has none are trusted.
+        named in `trust` ("all" names every kernel), or if the folder is another's, whose files would be lost.  The
+        first ones of a folder that has none are trusted.
         """
         self.check_names(trust)
         problems = {} if not (place / FINGERPRINTS).is_file() and not self.is_ours else self.distrusted(place)
         if left := [problem for name, problem in problems.items() if not {name, "all"} & set(trust)]:
             raise ValueError("; ".join(left))
+        there = [] if (place / MANIFEST).exists() or not place.is_dir() else [p.name for p in place.iterdir()]
+        if strange := sorted(set(there) - self.files.keys() - {FINGERPRINTS, "__pycache__"}):
+            raise ValueError(f"{place} has what chapsym codegen has not written, such as {strange[0]}: move it")
         files = {**self.files, FINGERPRINTS: _one_a_line(dict(sorted(self.fingerprints.items()))) + "\n"}
         write(place, files)
         for path in place.iterdir():
@@ -295,18 +299,22 @@ def package_source(kernels: Sequence[Kernel]) -> str:
 
 
 def stored_fingerprints(place: Path) -> dict[str, list[str]]:
-    """The trusted values; empty if there are none."""
+    """The trusted values; empty if there are none.  Raises ValueError for a file that has something else."""
     path = place / FINGERPRINTS
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    try:
+        found = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    except ValueError:
+        found = None
+    if not isinstance(found, dict):
+        raise ValueError(f"{path} is not what chapsym codegen has written: delete it to trust the values of now")
+    return found
 
 
-def write(place: Path, files: dict[str, str]) -> None:
-    """Writes each file whole: to a temporary name in the same folder, then renamed."""
+def write(place: Path, texts: Mapping[str, str]) -> None:
+    """Writes each file whole."""
     place.mkdir(parents=True, exist_ok=True)
-    for name, text in files.items():
-        partial = place / f".{name}.partial"
-        partial.write_text(text, encoding="utf-8", newline="\n")
-        os.replace(partial, place / name)
+    for name, text in texts.items():
+        write_text(place / name, text)
 
 
 def _hash(text: str) -> str:

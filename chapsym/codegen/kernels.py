@@ -7,6 +7,8 @@ from keyword import iskeyword
 
 import sympy as sp
 
+from chapsym.prove.registers import raised
+
 from .carriers import Carrier
 from .printer import NotStraightLine, text
 
@@ -66,6 +68,8 @@ class Kernel:
             raise TypeError(f"the carriers of {self.name} must be a tuple of carriers, which left and right make")
         if not isinstance(self.letters, Mapping):
             raise TypeError(f"the letters of {self.name} must be given as {{symbol: expression}}")
+        if not all(isinstance(x, str) for x in (self.name, self.summary, *self.outputs, *(g for g, _ in self.groups))):
+            raise TypeError(f"the name, summary, groups and outputs of {self.name} must be texts")
         if not callable(self.build):
             raise TypeError(f"what builds {self.name} must be a function without arguments, such as lambda: [x + y]")
 
@@ -109,6 +113,14 @@ class Kernel:
             if more := parts[1].free_symbols - known:
                 return f"its letter {letter} has {', '.join(sorted(map(str, more)))}, which it does not know there"
             known.add(letter)
+        if not self.summary.isprintable() or any(sign in self.summary for sign in ('"', "\\", "*/")):
+            return "its summary must be one line without quotes, backslashes and */, which end a comment"
+        try:
+            self.expressions, self.steps  # noqa: B018, which are derived here
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:
+            return f"what builds it raised {raised(error)}"
         if len(self.expressions) != len(self.outputs):
             return f"it has {len(self.outputs)} outputs and {len(self.expressions)} expressions"
         if self.rows_of_three and len(self.outputs) % 3:

@@ -15,6 +15,7 @@ import numpy as np
 import sympy as sp
 
 from chapsym.numbers import brief
+from chapsym.prove.registers import raised
 
 #: The length of a step.
 STEP = sp.Symbol("step_length")
@@ -437,10 +438,10 @@ def loaded(path: str | Path) -> System:
     module = importlib.util.module_from_spec(spec)
     try:
         spec.loader.exec_module(module)
-    except BadSystem:
+    except (BadSystem, KeyboardInterrupt):
         raise
-    except (Exception, SystemExit) as error:
-        raise BadSystem(f"{path} cannot be run: {type(error).__name__}: {error}") from error
+    except BaseException as error:
+        raise BadSystem(f"{path} cannot be run: {raised(error)}") from error
     found = getattr(module, "SYSTEM", None)
     if not isinstance(found, System):
         raise BadSystem(f"{path} has no SYSTEM = System(...)")

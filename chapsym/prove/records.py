@@ -113,13 +113,13 @@ def update(path: Path, records: Iterable[dict[str, Any]], claims: dict[str, Clai
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise files.CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None
-    files.write_whole(path, lambda stream: stream.writelines(line.encode() for line in lines))
+    files.write_whole(path, lambda stream: stream.writelines(map(files.encoded, lines)))
 
 
 def append(path: Path, record: dict[str, Any]) -> None:
     """Adds a record to a file that `update` has written; of two for a claim the last one counts."""
     with path.open("ab") as stream:
-        stream.write((json.dumps(record, ensure_ascii=False) + "\n").encode())
+        stream.write(files.encoded(json.dumps(record, ensure_ascii=False) + "\n"))
 
 
 def stale(records: dict[str, dict[str, Any]], claims: dict[str, Claim]) -> list[str]:

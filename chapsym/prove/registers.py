@@ -265,9 +265,9 @@ def _guarded(name: str, run: Callable[[], object]) -> None:
             run()
     except TwoProofs as error:
         raise _taken(name, error.id, error.other) from error
-    except BrokenScript:
+    except (BrokenScript, KeyboardInterrupt):
         raise
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
         said = f"the proof script {_shown(name)} cannot be loaded: {_said(name, error)}"
         sys.modules.pop(name, None)  # a half of it would be taken for the whole
         raise BrokenScript(said) from error
@@ -281,11 +281,20 @@ def _taken(name: str, id: str, other: str) -> BrokenScript:
     )
 
 
+def raised(error: BaseException) -> str:
+    """An error of code that is not ours, as one line."""
+    try:
+        words = " ".join(str(error).split())
+    except Exception:  # which the error of an error may be
+        words = "an error without words"
+    return f"{type(error).__name__}: {words}"
+
+
 def _said(name: str, error: BaseException) -> str:
     """The error, and in which line of the script, or of a file next to it."""
     if isinstance(error, SystemExit):
         return "it leaves Python; what ends it, such as main(__file__), stands under if __name__ == '__main__'"
-    said = f"{type(error).__name__}: {error}"
+    said = raised(error)
     folder = Path(sources.file(name) or "").parent
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if Path(frame.filename).parent == folder]
     return f"{said} ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else said

@@ -17,7 +17,7 @@ from .certificates import write
 from .claims import Claim, Judgement, judgement_of, once
 from .evidence import Proof, Verdict
 from .records import fingerprint
-from .registers import PROOFS, BrokenScript, NoRegister, Register, reached, register_of
+from .registers import PROOFS, BrokenScript, NoRegister, Register, raised, reached, register_of
 
 
 def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
@@ -49,11 +49,12 @@ def judge(claim: Claim) -> Judgement:
     try:
         with contextlib.redirect_stdout(sys.stderr):  # what a proof prints is no result
             return judgement_of(claim)
-    except (Exception, SystemExit) as error:  # a proof that leaves is no proof
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a proof that leaves is no proof
         frames = traceback.extract_tb(error.__traceback__)
         place = ([frame for frame in frames if frame.filename == sources.file(claim.prove.__module__)] or frames)[-1]
-        said = " ".join(str(error).split())
-        reason = f"the proof raised {type(error).__name__}: {said} ({Path(place.filename).name}:{place.lineno})"
+        reason = f"the proof raised {raised(error)} ({Path(place.filename).name}:{place.lineno})"
         return _open(claim, reason)
 
 

@@ -5,6 +5,8 @@ import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
+from chapsym import files
+
 from . import notation
 from .records import FEDOROV, Record, Source, errors, kinds, label, section, slip_of, slips, truth
 
@@ -175,7 +177,7 @@ def _example(example: Mapping[str, Any], source: Source) -> dict[str, Any]:
 
 
 def _with_states(entry: Entry, verdict: str, earlier: Mapping[str, Entry], version: str) -> Entry:
-    digest = hashlib.sha256(json.dumps(entry, ensure_ascii=False, sort_keys=True).encode()).hexdigest()[:16]
+    digest = hashlib.sha256(files.encoded(json.dumps(entry, ensure_ascii=False, sort_keys=True))).hexdigest()[:16]
     before = earlier.get(entry["id"], {}).get("states", [])
     return entry | {"states": _states(before, verdict, digest, version)}
 

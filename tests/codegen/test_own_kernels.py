@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import answer, chapsym, child
+from commands import answer, chapsym, child, refused
 from pendulum import CLAIMS, GROUPS, KERNELS
 
 from chapsym import Enclosure, implicit_step
@@ -39,6 +39,13 @@ def test_the_chain_from_a_claim_to_its_kernels(register):
     (folder / "generated/pull.py").write_text(text.replace("return o_a", "return -o_a"), encoding="utf-8")
     assert subprocess.run(command, capture_output=True, text=True, check=False).returncode == 1
     assert "pull.py computes another value" in chapsym("codegen", "--check", "--register", folder).stderr
+    (folder / "generated/fingerprints.json").write_text("[", encoding="utf-8")
+    assert "fingerprints.json is not what chapsym" in refused("codegen", "--register", folder, status=1)
+    shutil.rmtree(folder / "generated")
+    (folder / "generated").mkdir()
+    (folder / "generated/notes.txt").write_text("of mine", encoding="utf-8")
+    assert "has not written, such as notes.txt: move it" in refused("codegen", "--register", folder, status=1)
+    assert (folder / "generated/notes.txt").exists()
 
 
 @pytest.mark.parametrize(
@@ -61,6 +68,10 @@ def test_the_chain_from_a_claim_to_its_kernels(register):
         ({"carrier": "right('{id}', MOVING).at({{'a': 1}})"}, "is given as {symbol: expression}, not {'a': 1}"),
         ({"carrier": "right('{id}', MOVING).along(a)"}, "is given as {symbol: expression}, not a"),
         ({"kernels": KERNELS.replace("lambda: ", "")}, "what builds pull must be a function without arguments"),
+        ({"kernels": KERNELS.replace('Kernel("pull"', "Kernel(None")}, "outputs of None must be texts"),
+        ({"kernels": KERNELS.replace('Kernel("pull", "', 'Kernel("pull", "*/')}, "its summary must be one line"),
+        ({"expression": "1 / 0"}, "pull: what builds it raised ZeroDivisionError: division by zero"),
+        ({"expression": "exit(0)"}, "pull: what builds it raised SystemExit: 0"),
         ({"expression": "pull(), 1"}, "1 outputs and 2 expressions"),
         ({"expression": "pull() / 3 + y**2 / 3 - y**2 / 3 - pull() * 2"}, "computes in its result 0 something else"),
         ({"kernels": KERNELS.replace("KERNELS = [", "NONE = [")}, "has no kernels.py with KERNELS"),

@@ -136,6 +136,12 @@ WRONG = {
     "a syntax error": ("cubes", "def cube", "def cube(", BROKEN + "SyntaxError: .*line 6"),
     "a missing module": ("cubes", "from ring", "from rings", BROKEN + "ModuleNotFoundError: No module named 'rings'"),
     "an exception": ("cubes", "@claim", "1 / 0\n@claim", BROKEN + r"ZeroDivisionError: .* \(cubes\.py, line 5\)"),
+    "an end of another kind": (
+        "cubes",
+        "@claim",
+        "class E(BaseException):\n    __str__ = None\nraise E\n@claim",
+        BROKEN + "E: an",
+    ),
     "one beside": ("ring", "equal =", "1 / 0\nequal =", BROKEN + r"ZeroDivisionError: .* \(ring\.py, line 6\)"),
     "an end": ("cubes", 'if __name__ == "__main__"', "if True", BROKEN + r"it leaves Python; .* main\(__file__\)"),
     "an id twice": ("cubes", "c-1", "s-1", r"squares\.py: two proofs judge the claim s-1; .*cubes\.py, line 5"),
@@ -221,16 +227,21 @@ def lost(p):
 @claim("else", "x")
 def elsewhere(p):
     p.printed(equal("a symbol that the ring has not", alpha, alpha.subs(alpha, alpha + p.unknown)))
+
+@claim("half", "x")
+def half(p):
+    "Half a letter: \\ud800"
+    raise GeneratorExit
 """
 
 
 def test_proofs_of_odd_forms_are_judged_and_what_they_raise_is_said(folder):
     (folder / "odd-ones.py").write_text(ODD, "utf-8")
-    done = chapsym("prove", "n-2", "n-3", "lost", "else", "--register", "claims", "--jobs", "1")
-    assert done.stderr == "chapsym: not proved: lost, else\n"
+    done = chapsym("prove", "n-2", "n-3", "lost", "else", "half", "--register", "claims", "--jobs", "1")
+    assert done.stderr == "chapsym: not proved: lost, else, half\n"
     assert "problem: the proof raised LookupError: no proof of 'n-4' is loaded" in done.stdout
     assert "has no attribute 'unknown' (odd-ones.py:18)" in done.stdout
-    assert done.stdout.endswith("4 claims: 2 holds, 2 open\n")
+    assert done.stdout.endswith("5 claims: 2 holds, 3 open\n")
 
 
 def test_what_a_claim_is_given_is_of_its_type():
