@@ -5,12 +5,11 @@ Chains of calls: each yields a call, is sent its result, and yields the next; a 
 
 import json
 import logging
-import multiprocessing
 import os
 import socket
 import time
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator
-from concurrent.futures import CancelledError, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
+from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -19,7 +18,7 @@ from typing import IO, Any, Protocol
 
 from chapsym import extras
 from chapsym.dynamics import BadInput
-from chapsym.workers import begin
+from chapsym.workers import Processes
 
 try:
     import fcntl
@@ -168,7 +167,7 @@ def processes(count: int) -> Iterator[Pool]:
         yield Pool(Here(), 1)
         return
     # A child is not forked: threads and Arb's precision are of a process.
-    executor = ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=begin)
+    executor = Processes(count)
     try:
         yield Pool(executor, count)
     except BrokenProcessPool:  # unless its chain lets others go on

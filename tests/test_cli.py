@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+import threading
 from types import SimpleNamespace
 
 import numpy as np
@@ -18,9 +19,10 @@ from first import FIRST
 from waiting import GUARD, INTERRUPTIBLE
 
 from chapsym import dynamics
-from chapsym.cli import output
+from chapsym.cli import app, output
 from chapsym.codegen import build
 from chapsym.prove import Verdict
+from chapsym.workers import Processes
 
 STEP = ["step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
 
@@ -207,6 +209,24 @@ def test_output_that_nobody_reads_ends_with_141():
     )
     os.close(writer)
     assert (done.returncode, done.stderr) == (141, "")
+
+
+def test_a_command_whose_errors_nobody_wants_does_its_work():
+    command = ["sh", "-c", '"$@" 2>&-', "sh", sys.executable, "-m", "chapsym", *STEP]
+    assert subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout
+
+
+def test_an_interrupt_that_python_only_writes_down_is_not_lost(monkeypatch, capsys):
+    seen = threading.Event()
+    monkeypatch.setattr("_thread.interrupt_main", seen.set)
+    app._unraisable(SimpleNamespace(exc_type=KeyboardInterrupt))
+    assert seen.wait(GUARD)
+    assert capsys.readouterr().err == ""
+
+
+def test_a_worker_that_begins_sees_no_interrupt():
+    with Processes(1) as pool:
+        assert signal.SIGINT in pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, ()).result()
 
 
 #: The command, which says when the first part of its work has arrived, and waits there.

@@ -1,10 +1,12 @@
 """The typer application, and the entry point."""
 
+import _thread
 import codecs
 import io
 import logging
 import os
 import sys
+import threading
 import unicodedata
 from typing import Annotated, Any, NoReturn
 
@@ -52,8 +54,10 @@ codecs.register_error("chapsym", in_ascii)
 
 def main() -> NoReturn:
     """The entry point: turns every foreseen error into one sentence and an exit status."""
-    if sys.stdout is None:  # closed by the caller
-        sys.stdout = open(os.devnull, "w")  # noqa: SIM115
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by the caller
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
+    sys.unraisablehook = _unraisable
     for stream in (sys.stdout, sys.stderr):  # for a terminal, or a pipe, without Greek
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="chapsym")
@@ -86,6 +90,14 @@ def main() -> NoReturn:
     except _foreseen() as error:
         quiet()
         fail(str(error), 2)
+
+
+def _unraisable(what: "sys.UnraisableHookArgs") -> None:
+    """Raises an interrupt anew that came where Python only writes an exception down, as at the end of an import."""
+    if what.exc_type is KeyboardInterrupt:
+        threading.Timer(0.01, _thread.interrupt_main).start()  # when this has ended
+    else:
+        sys.__unraisablehook__(what)
 
 
 def _foreseen() -> tuple[type[Exception], ...]:

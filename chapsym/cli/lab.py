@@ -161,12 +161,11 @@ def _crew(jobs: int) -> Iterator[Later]:
         yield partial
         return
     import multiprocessing
-    from concurrent.futures import ProcessPoolExecutor
     from concurrent.futures.process import BrokenProcessPool
 
     from chapsym import workers
 
-    pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=workers.begin)
+    pool = workers.Processes(jobs)
     try:
         yield lambda call, *arguments: pool.submit(call, *arguments).result
     except BrokenProcessPool:

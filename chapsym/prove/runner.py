@@ -1,12 +1,11 @@
 """Runs proofs side by side, and prints what they found."""
 
 import contextlib
-import multiprocessing
 import os
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
@@ -103,7 +102,7 @@ def prove_all(
                 on_result(records[id])
         return [records[id] for id in ids]
     # An interrupt is for this process; the workers end with the claim that they are at.
-    pool = ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=_begin)
+    pool = workers.Processes(jobs, _begin)
     try:
         for future in as_completed([pool.submit(prove_one, id, folder, register) for id in ids]):
             record = future.result()
