@@ -216,6 +216,17 @@ def test_a_command_whose_errors_nobody_wants_does_its_work():
     assert subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout
 
 
+def test_an_interrupt_while_the_command_starts_is_one_sentence(tmp_path):
+    lines = ["import sys", "class At:", "    @staticmethod", "    def find_spec(name, *more):"]
+    lines += [
+        "        if name == 'chapsym.cli.lab':",
+        "            raise KeyboardInterrupt",
+        "sys.meta_path.insert(0, At)",
+    ]
+    done = child(*STEP, env=changed(tmp_path, *lines))
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "chapsym: interrupted\n")
+
+
 def test_an_interrupt_that_python_only_writes_down_is_not_lost(monkeypatch, capsys):
     seen = threading.Event()
     monkeypatch.setattr("_thread.interrupt_main", seen.set)

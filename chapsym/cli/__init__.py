@@ -4,11 +4,17 @@ Exit status: 0 done and proved; 1 a verdict or a check is not what it should be;
 or the command line is wrong; 130 interrupted; 141 nobody reads the output.
 """
 
-# The order of the imports is that of the subcommands in --help.
-from . import (  # noqa: F401, I001
-    prove, report, codegen, step, branches, scene, run, show, check, certify, judge, trade, extremes, study,
-    bench, lab,
-)  # fmt: skip
-from .app import main
+import sys
+
+try:
+    # The order of the imports is that of the subcommands in --help.
+    from . import (  # noqa: F401, I001
+        prove, report, codegen, step, branches, scene, run, show, check, certify, judge, trade, extremes, study,
+        bench, lab,
+    )  # fmt: skip
+    from .app import main
+except KeyboardInterrupt:  # while the command starts
+    print("chapsym: interrupted", file=sys.stderr)
+    sys.exit(130)
 
 __all__ = ["main"]
