@@ -216,15 +216,20 @@ def test_a_command_whose_errors_nobody_wants_does_its_work():
     assert subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout
 
 
-def test_an_interrupt_while_the_command_starts_is_one_sentence(tmp_path):
+@pytest.mark.parametrize(
+    ("module", "error", "status", "said"),
+    [
+        ("chapsym.cli.lab", "KeyboardInterrupt", 130, "interrupted"),
+        ("chapsym.dynamics", "MemoryError", 2, "there is not enough memory for this"),
+    ],
+)
+def test_an_interrupt_while_the_command_starts_and_too_little_memory_are_one_sentence(
+    tmp_path, module, error, status, said
+):
     lines = ["import sys", "class At:", "    @staticmethod", "    def find_spec(name, *more):"]
-    lines += [
-        "        if name == 'chapsym.cli.lab':",
-        "            raise KeyboardInterrupt",
-        "sys.meta_path.insert(0, At)",
-    ]
+    lines += [f"        if name == '{module}':", f"            raise {error}", "sys.meta_path.insert(0, At)"]
     done = child(*STEP, env=changed(tmp_path, *lines))
-    assert (done.returncode, done.stdout, done.stderr) == (130, "", "chapsym: interrupted\n")
+    assert (done.returncode, done.stdout, done.stderr) == (status, "", f"chapsym: {said}\n")
 
 
 def test_an_interrupt_that_python_only_writes_down_is_not_lost(monkeypatch, capsys):

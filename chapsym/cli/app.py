@@ -84,6 +84,9 @@ def main() -> NoReturn:
         fail("interrupted", INTERRUPTED)
     except BrokenPipeError:
         _abandon_output()
+    except MemoryError:
+        quiet()
+        fail("there is not enough memory for this", 2)
     except OSError as error:
         _silence_output()
         fail(f"the output cannot be written: {error.strerror or error}", 2)
