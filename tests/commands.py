@@ -25,6 +25,7 @@ def chapsym(*arguments, cwd="."):
             contextlib.redirect_stdout(said),
             contextlib.redirect_stderr(words),
             contextlib.chdir(cwd),
+            mock.patch.object(sys, "unraisablehook", sys.unraisablehook),
             mock.patch.object(output, "PAUSE", math.inf),  # no line that a slow machine alone prints
         ):
             main()

@@ -21,7 +21,7 @@ from waiting import GUARD, INTERRUPTIBLE
 from chapsym import dynamics
 from chapsym.cli import app, output
 from chapsym.codegen import build
-from chapsym.prove import Verdict
+from chapsym.prove import Register, Verdict, records
 from chapsym.workers import Processes
 
 STEP = ["step", "--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
@@ -209,6 +209,17 @@ def test_output_that_nobody_reads_ends_with_141():
     )
     os.close(writer)
     assert (done.returncode, done.stderr) == (141, "")
+
+
+def test_records_of_a_register_have_a_name_whatever_is_named(monkeypatch):
+    monkeypatch.setenv("CHAPSYM_RECORDS", ".")
+    assert records.default_path(Register("mine.py")).name == f"-{Register('mine.py').key}.jsonl"
+
+
+def test_a_screen_that_this_python_has_not_is_not_asked_for(monkeypatch):
+    monkeypatch.setenv("MPLBACKEND", "none")
+    assert chapsym("--version").returncode == 0
+    assert os.environ["MPLBACKEND"] == "agg"
 
 
 def test_a_command_whose_errors_nobody_wants_does_its_work():

@@ -58,6 +58,7 @@ def main() -> NoReturn:
         if getattr(sys, name) is None:  # closed by the caller
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115
     sys.unraisablehook = _unraisable
+    os.environ["MPLBACKEND"] = "agg"  # no window is opened, and one that this Python has not would be refused
     for stream in (sys.stdout, sys.stderr):  # for a terminal, or a pipe, without Greek
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="chapsym")

@@ -39,7 +39,7 @@ def default_path(register: Register = PROOFS) -> Path:
     """
     named = os.environ.get("CHAPSYM_RECORDS")
     path = Path(named) if named else platformdirs.user_cache_path("chapsym") / "verdicts.jsonl"
-    return path if register == PROOFS else path.with_name(f"{path.stem}-{register.key}.jsonl")
+    return path if register == PROOFS else path.parent / f"{path.stem}-{register.key}.jsonl"
 
 
 def fingerprint(claim: Claim) -> str:
