@@ -15,7 +15,8 @@ class Processes(ProcessPoolExecutor):
     def __init__(self, count: int, first: Callable[[], None] | None = None) -> None:
         super().__init__(count, multiprocessing.get_context("spawn"), initializer=first or begin)
 
-    def submit(self, *call: Any, **named: Any) -> Future[Any]:  # which starts them
+    def submit(self, *call: Any, **named: Any) -> Future[Any]:
+        """A call; the first one starts the processes."""
         if not hasattr(signal, "pthread_sigmask"):  # Windows
             return super().submit(*call, **named)
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})

@@ -157,7 +157,9 @@ def test_every_public_function_has_a_docstring():
 
 def test_one_place_sets_the_bits_and_the_terms_of_flint():
     """They are of all threads: what sets them elsewhere changes what another thread counts with."""
-    setting = {p for p in ROOT.rglob("*.py") if any(x in p.read_text() for x in (".workprec(", "ctx.cap ="))}
+    setting = {
+        p for p in ROOT.rglob("*.py") if any(x in p.read_text() for x in (".workprec(", "ctx.cap =", "setattr(ctx, "))
+    }
     assert setting == {ROOT / "numbers" / "precisions.py"}
 
 

@@ -8,7 +8,7 @@ import math
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -30,26 +30,34 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=FLINT._at_fork_reinit)  # type: ignore[attr-defined]
 
 
-@contextmanager
-def flint_bits(bits: int) -> Iterator[None]:
+#: What `with` blocks have set that are not ended, the innermost last.
+_OPEN: dict[str, list[object]] = {"prec": [], "cap": []}
+
+
+def flint_bits(bits: int) -> AbstractContextManager[None]:
     """Sets the bits of flint's numbers within a `with` block; other threads that use this function wait for it."""
-    from flint import ctx
+    return _flint("prec", bits)
 
-    with FLINT, ctx.workprec(bits):
-        yield
+
+def flint_terms(count: int) -> AbstractContextManager[None]:
+    """Cuts flint's series to this many terms within a `with` block, as `flint_bits` sets the bits."""
+    return _flint("cap", count)
 
 
 @contextmanager
-def flint_terms(count: int) -> Iterator[None]:
-    """Cuts flint's series to this many terms within a `with` block, as `flint_bits` sets the bits."""
+def _flint(name: str, value: int) -> Iterator[None]:
     from flint import ctx
 
     with FLINT:
-        before, ctx.cap = ctx.cap, count
+        before, mine, blocks = getattr(ctx, name), object(), _OPEN[name]
         try:
+            blocks.append(mine)
+            setattr(ctx, name, value)
             yield
-        finally:
-            ctx.cap = before
+        finally:  # which an interrupt may delay until blocks around this one have ended, and have set what was before
+            if mine in blocks:
+                setattr(ctx, name, before)
+                del blocks[blocks.index(mine) :]
 
 
 #: Beyond these a run ends because memory is exhausted, an error that cannot be caught.

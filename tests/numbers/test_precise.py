@@ -231,3 +231,18 @@ def test_a_process_that_is_forked_while_another_thread_counts_counts_too():
     done.set()
     thread.join()
     assert os.waitpid(child, 0)[1] == 0
+
+
+def test_bits_are_those_of_before_where_an_interrupt_delays_the_end_of_a_block():
+    """The inner block ends when its generator is freed, after the outer one."""
+    before = flint.ctx.prec
+    outer, inner = precisions.flint_bits(100), precisions.flint_bits(90)
+    outer.__enter__()
+    inner.__enter__()
+    outer.__exit__(None, None, None)
+    inner.gen.close()
+    assert flint.ctx.prec == before
+    alone = precisions.flint_bits(90)
+    alone.__enter__()
+    alone.gen.close()
+    assert flint.ctx.prec == before
