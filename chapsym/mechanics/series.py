@@ -197,7 +197,8 @@ class Exact:
         table |= {x: sp.Rational(UNIT[i % 4]) for i, x in enumerate(related)}
         try:
             free = [x for x in system.coordinates if x not in angles]
-            place = next(candidates(free, kept, Examples(numbers=table)))
+            found = candidates(free, kept, Examples(numbers=table))
+            place = next(at for at in found if all(x.is_Rational for x in at.values()))
         except (StopIteration, ArithmeticError, sp.PolynomialError):
             raise Undecided("no exact state is found") from None
         q = [fmpq(place[x].p, place[x].q) if x in place else fmpq(0) for x in system.coordinates]

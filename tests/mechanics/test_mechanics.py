@@ -257,6 +257,8 @@ def test_what_is_too_long_to_be_decided_is_said(monkeypatch):
         volume(System("long", (x,), vx**2 / 2, parameters={k: 10**5000}))
     divided = System("divided", (x, y), (vx**2 + vy**2) / 2, holonomic=[y * sp.sqrt(1 + x**2)])
     assert verdicts(divided, METHODS["dla"].scheme(divided))["order"].verdict == "measured"
+    bound = System("bound", (x, y), (vx**2 + vy**2) / 2, holonomic=[x * sp.sin(y + 1) + sp.Rational(1, 2)])
+    assert verdicts(bound, METHODS["dla-left"].scheme(bound))["order"].said == "no exact state is found"
 
 
 def test_a_motion_that_leaves_the_numbers_is_said():
