@@ -114,7 +114,12 @@ def volume(system: System) -> Volume:
     >>> print(found, found.density, found.by)
     keeps a smooth volume 1/sin(a) (y_dot, a_dot)
     """
-    return _decided(a_system(system), system.digest())
+    try:
+        return _decided(a_system(system), system.digest())
+    except BadSystem:
+        raise
+    except ValueError:  # of numbers with more digits than Python writes
+        raise BadSystem(f"{system.name}: numbers are too long for a volume to be decided") from None
 
 
 @lru_cache(maxsize=8)

@@ -229,8 +229,9 @@ class System:
             put(name, {x: expression(e, f"{self.name}: {what} {x}") for x, e in given})
         if not self.coordinates or not all(isinstance(x, sp.Symbol) for x in self.coordinates):
             raise BadSystem(f"{self.name}: coordinates must be symbols, such as symbols('x y'), and there must be some")
-        if strange := [x for x in (*self.coordinates, *self.parameters) if not x.is_commutative or x.is_real is False]:
-            raise BadSystem(f"{self.name}: {strange[0]} must be a symbol of real numbers")
+        named = *self.coordinates, *self.parameters
+        if strange := [x for x in named if not x.is_commutative or x.is_real is False or x.is_zero]:
+            raise BadSystem(f"{self.name}: {strange[0]} must be a symbol of real numbers, of 0 and of others")
         symbols = (*self.coordinates, *self.velocities, *self.parameters, STEP)
         names = [x.name for x in symbols]
         if len(set(names)) < len(names):

@@ -225,6 +225,7 @@ def test_steps_that_cannot_be_are_one_sentence(options, said):
         ({"integrals": {"one": sp.factorial(x)}}, {}, "a quantity is not defined on the motion"),
         ({"integrals": {"one": sp.sqrt(x - 1)}}, {"precision": chapsym.Digits(20)}, "a quantity is not defined"),
         ({"parameters": {sp.Symbol("q", commutative=False): 1}}, {}, "q must be a symbol of real numbers"),
+        ({"parameters": {sp.Symbol("q", zero=True): 1}}, {}, "q must be a symbol of real numbers"),
         ({"parameters": {sp.Symbol("x", real=True): 1}}, {}, "x is two of"),
     ],
 )
@@ -255,6 +256,8 @@ def test_what_is_too_long_to_be_decided_is_said(monkeypatch):
         flag(particle())
     with pytest.raises(BadSystem, match="more digits than Python writes"):
         volume(System("long", (x,), vx**2 / 2, parameters={k: 10**5000}))
+    with pytest.raises(BadSystem, match="numbers are too long for a volume to be decided"):
+        volume(System("far", (x, y, z), FREE, [vz - k * vy * sp.cos(x)], parameters={k: "1e5000"}))
     divided = System("divided", (x, y), (vx**2 + vy**2) / 2, holonomic=[y * sp.sqrt(1 + x**2)])
     assert verdicts(divided, METHODS["dla"].scheme(divided))["order"].verdict == "measured"
     bound = System("bound", (x, y), (vx**2 + vy**2) / 2, holonomic=[x * sp.sin(y + 1) + sp.Rational(1, 2)])
