@@ -11,8 +11,11 @@ from budget import slow
 from systems import ANYWHERE, SYMMETRIC, a, example, va, vx, vy, x, y
 
 from chapsym.mechanics import METHODS, BadSystem, Discrete, Runner, System, dot, verdicts
+from chapsym.mechanics.judged import BEYOND, LOOKED, Judged
 from chapsym.mechanics.methods import Scheme
+from chapsym.mechanics.series import Exact
 from chapsym.mechanics.system import STEP
+from chapsym.numbers.precisions import flint_terms
 
 
 @cache
@@ -291,14 +294,18 @@ def test_another_discrete_momentum_or_constraint_is_refuted():
     radius = next(s for s in ball.parameters if s.name == "radius")
     halved = {name: e.xreplace({radius: radius / 2}) for name, e in own.integrals.items()}
     changed = dataclasses.replace(ball, discrete=dataclasses.replace(own, integrals=halved))
-    found = verdicts(changed, METHODS["own"].scheme(changed))
-    assert found["keeps |𝒦|²"].verdict == "false"
+    scheme = METHODS["own"].scheme(changed)
+    with flint_terms(LOOKED + BEYOND):
+        judged = Judged(Exact(changed), scheme, LOOKED)
+        assert judged.decided(judged.keeps, scheme.integrals["|𝒦|²"]).verdict.verdict == "false"
     forward = [
         e.xreplace({radius: radius * (1 + x)}) for e, x in zip(own.constraints, ball.coordinates[:2], strict=True)
     ]
     changed = dataclasses.replace(ball, discrete=dataclasses.replace(own, constraints=forward))
-    found = verdicts(changed, METHODS["own"].scheme(changed))
-    assert found["order"].verdict == found["self-adjoint"].verdict == "false"
+    with flint_terms(LOOKED + BEYOND):
+        judged = Judged(Exact(changed), METHODS["own"].scheme(changed), LOOKED)
+        assert judged.decided(judged.returns, -1).verdict.verdict == "false"
+        assert judged.decided(judged.order, False).verdict.verdict == "false"
 
 
 def test_a_coordinate_is_not_another_one_after_a_step():
