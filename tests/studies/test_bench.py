@@ -1,5 +1,6 @@
 """The benchmark compares like with like, says what is missing, and can tell when it is wrong; no time is asserted."""
 
+import itertools
 import json
 from functools import cache, partial
 
@@ -41,16 +42,17 @@ def result(name, **more):
 
 def test_every_side_is_timed_once_a_round_and_another_begins_each():
     calls = []
-    sides = [harness.Contender(name, lambda name=name: calls.append(name), 10) for name in "abc"]
+    ticks = itertools.count().__next__
+    sides = [harness.Contender(name, lambda name=name: calls.append(name), 10, ticks) for name in "abc"]
     timings = harness.interleaved(sides, 3)
     assert "".join(calls) == "abc" + "abc" + "bca" + "cab"
     assert {name: len(t.seconds) for name, t in timings.items()} == {"a": 3, "b": 3, "c": 3}
 
 
 def test_a_time_is_that_of_the_clock_for_a_unit_of_work():
-    ticks = iter([10.0, 16.0, 100.0, 104.0])
+    ticks = iter([10.0, 16.0, 100.0, 100.0, 104.0])  # the second round needs two runs until the clock shows a time
     side = harness.Contender("a", lambda: None, 2, lambda: next(ticks))
-    assert harness.interleaved([side], 2)["a"].seconds.tolist() == [3.0, 2.0]
+    assert harness.interleaved([side], 2)["a"].seconds.tolist() == [3.0, 1.0]
 
 
 def test_ratios_are_taken_round_by_round():
