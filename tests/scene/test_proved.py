@@ -14,6 +14,7 @@ from chapsym.scene import SceneError, load
 from chapsym.scene.members.exactly import exact_motion
 from chapsym.scene.plan.plan import plan_of
 from chapsym.scene.result import formats
+from chapsym.scene.result.dataset import layout
 from chapsym.scene.result.proved import check_scene, proved_errors
 
 RUN = 'time = 1.0\nframes = 8\noutputs = ["gamma", "omega", "attitude", "contact"]\n'
@@ -131,6 +132,7 @@ def test_a_scene_of_the_map_has_the_bounds_of_each_frame(tmp_path, more):
         assert np.array_equal(found[f"{name}_bound"].values[0], bounds)
         assert words["proved"][name] == bounds.max() < 1e-14
     assert "energy_bound" not in found
+    assert plan.bytes == sum(x.values.nbytes for name, x in layout(plan).items() if name.split("_")[0] in task.outputs)
     assert found.momentum_bound.units == "kg m2"
 
 

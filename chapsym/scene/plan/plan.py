@@ -50,9 +50,11 @@ class Plan:
 
     @property
     def numbers(self) -> int:
-        """The count of numbers that are kept of one frame of one ball."""
-        outputs = (OUTPUTS[name] for name in self.task.outputs)
-        return sum(one.width(self.members.dimension) for one in outputs if not one.per_ball)
+        """The count of numbers that are kept of one frame of one ball: second halves and bounds of columns, too."""
+        outputs = [OUTPUTS[name] for name in self.task.outputs]
+        widths = {one: one.width(self.members.dimension) for one in outputs if not one.per_ball}
+        columns = {one: width for one, width in widths.items() if one.derive is None}
+        return sum(widths.values()) + self.doubled * sum(columns.values()) + self.task.proved * len(columns)
 
     @property
     def doubled(self) -> bool:
