@@ -53,9 +53,9 @@ Steps = list[tuple[sp.Matrix, sp.Matrix]]
 def residual() -> sp.ImmutableMatrix:
     """G(u) = (𝒦(q, γ) - 𝒦)/(2q₀²) for q = q₀u, q₀² = 1/(1 + |u|²): no root is left."""
     values = {q0: 1, **dict(zip(q, u, strict=True))}
-    momentum = sp.Matrix(three.momentum()).subs(values, simultaneous=True)
+    momentum = sp.Matrix(three.momentum()).xreplace(values)
     whole = momentum - 2 * k * (1 + u.dot(u))
-    return sp.ImmutableMatrix((whole / 2).applyfunc(lambda e: sp.expand(e.subs(BY_INERTIA, simultaneous=True))))
+    return sp.ImmutableMatrix((whole / 2).applyfunc(lambda e: sp.expand(e.xreplace(BY_INERTIA))))
 
 
 def residual_steps() -> tuple[Steps, sp.Matrix]:
@@ -67,9 +67,7 @@ def residual_steps() -> tuple[Steps, sp.Matrix]:
 @cache
 def contact_inertia() -> sp.ImmutableMatrix:
     """B(γ) with the moments of inertia: I₁ + D(γ₂² + γ₃²), ... and -Dγ₁γ₂, ..."""
-    return sp.ImmutableMatrix(
-        sp.Matrix(three.contact_inertia()).subs(BY_INERTIA, simultaneous=True).applyfunc(three.by_parameters)
-    )
+    return sp.ImmutableMatrix(sp.Matrix(three.contact_inertia()).xreplace(BY_INERTIA).applyfunc(three.by_parameters))
 
 
 def bilinear(x: sp.Matrix) -> sp.Matrix:

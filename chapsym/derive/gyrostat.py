@@ -134,4 +134,4 @@ def relative(momentum: sp.Matrix = three.K) -> dict[sp.Symbol, sp.Expr]:
 
 def energy() -> sp.Expr:
     """½⟨K - a, ω⟩, the kinetic energy less that of the rotor, as a function of K, γ."""
-    return continuous.energy().subs(relative(), simultaneous=True)
+    return continuous.energy().xreplace(relative())

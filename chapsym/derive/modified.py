@@ -91,5 +91,5 @@ def along(expr: sp.Matrix | sp.Expr, direction: sp.Matrix) -> sp.Matrix | sp.Exp
     """The derivative in γ along `direction`."""
     eps = sp.Symbol("epsilon")
     change = dict(zip(gamma, gamma + eps * direction, strict=True))
-    moved = expr.subs(change, simultaneous=True)
+    moved = expr.xreplace(change)
     return moved.diff(eps).subs(eps, 0)

@@ -35,5 +35,5 @@ def after(
     values |= dict(zip((J1, J2, J3, D, g1, g2, g3), map(sp.Rational, (*mass_tensor, contact, *gamma)), strict=True))
     length = sp.Integer(sum(c**2 for c in turn))
     rotation = sp.Matrix(three.rotation()).subs(values) / length
-    momentum = sp.Matrix(three.momentum()).subs(values, simultaneous=True) / length
+    momentum = sp.Matrix(three.momentum()).xreplace(values) / length
     return list(rotation.T * momentum), list(rotation.T * three.gamma.subs(values))

@@ -21,7 +21,7 @@ def spin() -> sp.ImmutableMatrix:
     """w = B(γ/|γ|)⁻¹k for I₁ = I₂ = I₃ = `moment`: ω(K, γ) of the continuous ball, at k."""
     equal = dict.fromkeys((J1, J2, J3), moment / 2)
     values = {**equal, **dict(zip(K, k, strict=True))}
-    vector = sp.Matrix(continuous.angular_velocity()).subs(values, simultaneous=True)
+    vector = sp.Matrix(continuous.angular_velocity()).xreplace(values)
     return sp.ImmutableMatrix(vector.applyfunc(sp.cancel))
 
 

@@ -44,14 +44,9 @@ def axial(a: sp.Matrix) -> sp.Matrix:
     return sp.Matrix([a[2, 1], a[0, 2], a[1, 0]])
 
 
-def triple(m: sp.Matrix) -> sp.Expr:
-    """The determinant of a 3 × 3 matrix, as a product of its rows."""
+def determinant(m: sp.Matrix) -> sp.Expr:
+    """The determinant of a 3 × 3 matrix as a product of its rows, so that nothing is simplified on the way."""
     return m[0, :].dot(m[1, :].cross(m[2, :]))
-
-
-def determinant(matrix: sp.Matrix) -> sp.Expr:
-    """The determinant without divisions, so that nothing is simplified on the way."""
-    return matrix.det(method="berkowitz")
 
 
 def quaternion_product(a: sp.Matrix, b: sp.Matrix) -> sp.Matrix:
@@ -144,7 +139,7 @@ def placed(*pairs: tuple[Iterable[sp.Symbol], Iterable[Any]]) -> dict[sp.Symbol,
 def unrolled(steps: Steps, value: sp.Matrix) -> sp.Matrix:
     """The results of steps, in their inputs alone."""
     for names, expressions in reversed(steps):
-        value = value.subs(placed((names, expressions)), simultaneous=True)
+        value = value.xreplace(placed((names, expressions)))
     return value
 
 

@@ -20,7 +20,7 @@ Stepwise = tuple[Steps, Sequence[sp.Expr]]
 def left_side() -> sp.ImmutableMatrix:
     """The left side of (5.4): the momentum of a ball with Ĵ = J + D/2 that does not roll."""
     shifted = {J1: J1 + D / 2, J2: J2 + D / 2, J3: J3 + D / 2}
-    vector = sp.Matrix(three.momentum()).subs(D, 0).subs(shifted, simultaneous=True)
+    vector = sp.Matrix(three.momentum()).subs(D, 0).xreplace(shifted)
     return sp.ImmutableMatrix(vector.applyfunc(lambda e: sp.factor(sp.expand(e))))
 
 
@@ -61,7 +61,7 @@ def gamma_next() -> sp.Matrix:
 
 def height() -> sp.Expr:
     """h as a function of q, σ."""
-    return sigma - excess().subs(dict(zip(gamma, gamma_now(), strict=True)), simultaneous=True)
+    return sigma - excess().xreplace(dict(zip(gamma, gamma_now(), strict=True)))
 
 
 @cache

@@ -19,7 +19,7 @@ C_ = gibbs.C
 
 def momentum_of(point: dict[sp.Symbol, sp.Expr]) -> sp.Matrix:
     """𝒦(q, γ) with the moments of inertia, at (q₀, q)."""
-    return sp.Matrix(three.momentum()).subs(BY_INERTIA, simultaneous=True).subs(point, simultaneous=True)
+    return sp.Matrix(three.momentum()).xreplace(BY_INERTIA).xreplace(point)
 
 
 equal = equations(FREE)
@@ -66,7 +66,7 @@ def gibbs_form(p: Proof) -> None:
 def newton_leaves(p: Proof) -> None:
     """The next Newton iterate without the residual, and what it leaves: a second correction needs no evaluation."""
     residual, jacobian = sp.Matrix(gibbs.residual()), gibbs.jacobian()
-    after = residual.subs(placed((u, u + d)), simultaneous=True)
+    after = residual.xreplace(placed((u, u + d)))
     p.printed(
         equal("∂G(u)u - G(u) = u × Iu + (1 - |u|²)k", jacobian * u - residual, gibbs.newton_target()),
         equal("G(u + d) = G(u) + ∂G(u)d + d × Id - |d|²k", after, residual + jacobian * d + gibbs.bilinear(d)),
@@ -106,7 +106,7 @@ def gibbs_rotation(proof: Proof) -> None:
     """The rotation of a quaternion of any length is rational: Ωᵀv from two vector products."""
     p0, p = gibbs.p0, gibbs.p
     proof.assume("(p₀, p) ≠ 0; the Gibbs vector is p/p₀")
-    rotation = sp.Matrix(three.rotation()).subs(placed(((q0, *q), (p0, *p))), simultaneous=True)
+    rotation = sp.Matrix(three.rotation()).xreplace(placed(((q0, *q), (p0, *p))))
     norm, once = p0**2 + p.dot(p), p.cross(v)
     proof.say("Ω of (5.1) is homogeneous of degree 2, and (p₀² + |p|²)Ω for any (p₀, p):")
     proof.printed(equal("|(p₀, p)|²(Ωᵀv - v) = 2(p × (p × v) - p₀ p × v)", rotation.T * v - norm * v,
@@ -196,8 +196,8 @@ def straight_path(p: Proof) -> None:
     ring = Quotient((*u, *k, *d, *v, *gamma, I1, I2, I3, D, s, c, t), [])
     at, path = s + c * s * (1 - s), placed((u, s * u))
     residual, jacobian, n = sp.Matrix(gibbs.residual()), gibbs.jacobian(), u.dot(u)
-    stretched = jacobian.subs(placed((k, at * k)) | path, simultaneous=True)
-    along = residual.subs(placed((k, at * k)) | path, simultaneous=True)
+    stretched = jacobian.xreplace(placed((k, at * k)) | path)
+    along = residual.xreplace(placed((k, at * k)) | path)
     rest = (n * (1 + s) - c * (1 + s**2 * n)) * k - u.cross(INERTIA * u)
     p.printed(equal("G_t(su) = sG(u) + s(1 - s)R(s), R(s) = (|u|²(1 + s) - c(1 + s²|u|²))k - u × Iu",
                     along, s * residual + s * (1 - s) * rest, ring))  # fmt: skip
@@ -212,8 +212,8 @@ def straight_path(p: Proof) -> None:
     )
     p.say("and as 0 ≤ 1 - cs ≤ 1 one may take m(s) = (1 - s)m₀ + sm₁ - s(1 - s)(|k||u| - ⟨k, u⟩) with the smallest")
     p.say("eigenvalues m₀ of B and m₁ of the symmetric part of ∂G(u).")
-    moved = jacobian.subs(placed((k, t * k), (u, u + v)), simultaneous=True)
-    still = jacobian.subs(placed((k, t * k)), simultaneous=True)
+    moved = jacobian.xreplace(placed((k, t * k), (u, u + v)))
+    still = jacobian.xreplace(placed((k, t * k)))
     p.lemma(Equation("⟨d, (∂G_t(u + v) - ∂G_t(u))d⟩ = -⟨v, d × Id⟩ - 2t⟨d, k⟩⟨v, d⟩", [(d.T * (moved - still) * d)[0]],
                      [-v.dot(d.cross(INERTIA * d)) - 2 * t * d.dot(k) * v.dot(d)], ring))  # fmt: skip
     p.say("which is at most σ|v||d|² (small-branch: |d × Id| ≤ ½(I_max - I_min)|d|²).  So in the ball of radius m/(2σ)")
@@ -265,8 +265,8 @@ def state_error(p: Proof) -> None:
     change = -D * ((gamma + n).dot(u) * n + gamma * u.dot(n)) - NORM * m
     p.printed(equal("G(ũ; k, γ) - G(ũ; k̃, γ̃) = -D(⟨γ, ũ⟩n + γ̃⟨ũ, n⟩) - (1 + |ũ|²)m",
                     residual(u, k + m, gamma + n) - residual(u, k, gamma), change, wide))  # fmt: skip
-    middle = sp.Matrix(gibbs.residual()).jacobian(u).subs(placed((u, u + w / 2)), simultaneous=True)
-    moved = sp.Matrix(gibbs.residual()).subs(placed((u, u + w)), simultaneous=True)
+    middle = sp.Matrix(gibbs.residual()).jacobian(u).xreplace(placed((u, u + w / 2)))
+    moved = sp.Matrix(gibbs.residual()).xreplace(placed((u, u + w)))
     p.printed(equal("G(ũ + w) - G(ũ) = A(ũ + w/2)w", moved - sp.Matrix(gibbs.residual()), middle * w, wide))
     p.say("So w = u - ũ has Aw = -Sξ.  For the rotation after the step, with Hamilton's product:")
     product = three.quaternion_product
@@ -302,8 +302,8 @@ def step_bound(p: Proof) -> None:
     wide = Quotient((*u, *v, *k, *d, *gamma, *w, *n, *m, *x, I1, I2, I3, D), [])
     residual = sp.Matrix(gibbs.residual())
     jacobian = residual.jacobian(u)
-    rise = residual.subs(placed((u, u + w)), simultaneous=True) - residual
-    middle = jacobian.subs(placed((u, u + w / 2)), simultaneous=True)
+    rise = residual.xreplace(placed((u, u + w))) - residual
+    middle = jacobian.xreplace(placed((u, u + w / 2)))
     p.printed(Equation("⟨w, G(ũ + w) - G(ũ)⟩ = ⟨w, ∂G(ũ + w/2)w⟩", [w.dot(rise)], [(w.T * middle * w)[0]], wide))
     p.say("With G(ũ + w) = 0 the left side is at most |w||G(ũ)|, the right one at least m|w|²; ũ may be any point.")
     p.step(NEAR_ROOT, STEEP)

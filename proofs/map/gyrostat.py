@@ -128,11 +128,7 @@ def integrals(p: Proof) -> None:
     energy = omega.dot(sp.Matrix(continuous.momentum())) / 2
     for name, value in (("⟨K,γ⟩", K.dot(gamma)), ("⟨K,K⟩", K.dot(K)), ("⟨γ,γ⟩", gamma.dot(gamma)), ("H", energy)):
         p.printed(vectors(f"d/dt {name} = 0", along(sp.Matrix([value]), faster), sp.zeros(1, 1)))
-    p.lemma(
-        vectors(
-            "H as a function of K, γ", gyrostat.energy().subs(three.placed((three.K, K)), simultaneous=True), energy
-        )
-    )
+    p.lemma(vectors("H as a function of K, γ", gyrostat.energy().xreplace(three.placed((three.K, K))), energy))
     p.say("H is the kinetic energy of the ball; ⟨K,ω⟩ is not kept.  For every n, -½ tr(ω·(principle)) is dH/dt:")
     spin = motion.omega
     power = -spin * gyrostat.eliminated() / 2

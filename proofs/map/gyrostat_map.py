@@ -151,7 +151,7 @@ def self_adjoint(p: Proof) -> None:
     off = step_A * Omega + OmegaT * step_A
     p.printed(words("𝒦(Ωᵀ, Γ_+; A) + Ωᵀ𝒦Ω = AΩ + ΩᵀA", momentum_back(1) + ball.carried(here), off))
     p.say("which for n = 3 has the vector 2(q₀²a - q₀ q×a - ⟨a,q⟩q), not 0:")
-    twice = 2 * gyrostat.added_momentum().subs(placed((q, -q)), simultaneous=True)
+    twice = 2 * gyrostat.added_momentum().xreplace(placed((q, -q)))
     turned = sp.Matrix(three.rotation())
     ring = Quotient((q0, *q, *rotor), [three.UNIT_QUATERNION])
     found = three.axial(rotor.hat() * turned + turned.T * rotor.hat())
@@ -167,7 +167,7 @@ def energies() -> tuple[sp.Expr, sp.Expr]:
     """H = ½⟨𝒦 - a, ω⟩ before and after a step, as functions of q, γ."""
     turn = sp.Matrix(three.rotation()).T
     places = ((momentum(), three.gamma), (turn * momentum(), turn * three.gamma))
-    start, end = (gyrostat.energy().subs(placed((three.K, k), (three.gamma, g)), simultaneous=True) for k, g in places)
+    start, end = (gyrostat.energy().xreplace(placed((three.K, k), (three.gamma, g))) for k, g in places)
     return start, end
 
 
@@ -226,7 +226,7 @@ def volumes() -> tuple[sp.Expr, sp.Expr]:
         for y, z in ((QUATERNION, body), (three.gamma, sp.eye(3)))
     )
     after = by_turn[1] - turn.T * by_vertical[0] * turn * by_turn[2]
-    return three.triple(by_turn[0].T), three.triple(after.T)
+    return three.determinant(by_turn[0].T), three.determinant(after.T)
 
 
 @claim(
@@ -245,10 +245,10 @@ def measure(p: Proof) -> None:
     free = {three.D: 0}
     start, turn = momentum().subs(free), sp.Matrix(three.rotation()).T
     ring = Quotient((q0, *q, *rotor, J1, J2, J3), [three.UNIT_QUATERNION])
-    end = start.subs(placed((q, -q), (rotor, -rotor)), simultaneous=True) * -1
+    end = start.xreplace(placed((q, -q), (rotor, -rotor))) * -1
     p.lemma(vectors("Ωᵀ𝒦(q; a) = -𝒦(-q; -a) for D = 0", turn * start, end, ring))
     body = sp.Matrix.hstack(*three.body_directions())
-    here, there = (three.triple((x.jacobian(QUATERNION) * body).T) for x in (start, end))
+    here, there = (three.determinant((x.jacobian(QUATERNION) * body).T) for x in (start, end))
     p.printed(vectors("det ∂(Ωᵀ𝒦) = det ∂𝒦 for D = 0", there, here, ring))
     p.say("For equal moments F = 1 - D/(I + D): the continuous ball has the constant density.  At q = (4, 2, 1, 2)/5:")
     at = TURN | UNIT | EQUAL | ROLLING

@@ -174,7 +174,7 @@ def modified_energy(p: Proof) -> None:
     w = X
     p.state(Theorem((), (COMPACT,), (ENERGY,)))
     p.say("H = ½⟨ω,Bω⟩ with K = Bω.  Along γ̇ = γ × w, K̇ = K × w, for any w, Ḣ = ⟨ω,K̇⟩ - ½⟨ω,Ḃω⟩:")
-    on_momentum = continuous.energy().subs(placed((K, carried(omega))), simultaneous=True)
+    on_momentum = continuous.energy().xreplace(placed((K, carried(omega))))
     ring = Quotient((*omega, *three.RING.symbols), three.RING.relations)
     p.lemma(Equation("(2.5) at K = Bω is ½⟨ω,Bω⟩", on_momentum, omega.dot(carried(omega)) / 2, ring))
     slope = omega.dot(carried(omega).cross(w)) - omega.dot(inertia_along(gamma.cross(w), omega)) / 2
@@ -251,7 +251,7 @@ def modified_measure(p: Proof) -> None:
     lift = D * (continuous.inverse_inertia() * gamma).dot(gamma.cross(w))
     free = Quotient((*w, *ring.symbols), ring.relations)
     p.printed(Equation("-½X_w(τ) = D⟨Λ⁻¹γ, γ × w⟩", -change / 2, lift, free))
-    lifted = lift.subs(placed((w, spin)), simultaneous=True)
+    lifted = lift.xreplace(placed((w, spin)))
     p.printed(Equation(KEPT, divergence, -lifted / weight, ring))
     p.control(Equation("the density 1 is invariant", divergence, 0, ring))
     p.control(Equation("the density 1/τ is invariant", divergence, -2 * lifted / weight, ring))

@@ -35,7 +35,7 @@ def vector_with_ends_swapped() -> sp.Matrix:
     """𝒦(q₀, -q, Ωᵀγ) for n = 3."""
     back = {three.q1: -three.q1, three.q2: -three.q2, three.q3: -three.q3}
     there = dict(zip(three.gamma, three.transported(three.gamma), strict=True))
-    return sp.Matrix(three.momentum()).subs({**back, **there}, simultaneous=True)
+    return sp.Matrix(three.momentum()).xreplace({**back, **there})
 
 
 def in_free_parameters(n: int, sign: int = -1, last: int = 1) -> Identity:

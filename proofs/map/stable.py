@@ -25,7 +25,7 @@ equal = equations(FREE)
 
 def inertial(value: sp.Matrix) -> sp.Matrix:
     """The same with the moments of inertia."""
-    return sp.Matrix(value).subs(BY_INERTIA, simultaneous=True)
+    return sp.Matrix(value).xreplace(BY_INERTIA)
 
 
 @claim(

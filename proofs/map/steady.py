@@ -28,7 +28,7 @@ def turned(x: sp.Matrix) -> sp.Matrix:
     """(p₀² + |p|²)Ωᵀx for the quaternion p = (p₀, c w), without its denominator."""
     change = sp.Matrix(gibbs.turn())
     values = placed(((gibbs.p0, *gibbs.p), (p0, *(c * w))), (gibbs.v, x))
-    return (SIZE * (x + change.subs(values, simultaneous=True))).applyfunc(sp.cancel)
+    return (SIZE * (x + change.xreplace(values))).applyfunc(sp.cancel)
 
 
 equal = equations(FREE)
@@ -46,16 +46,16 @@ def steady_rotation(p: Proof) -> None:
     p.say("With u = nw and k = B(γ)w, B(γ)u + u × Iu - (1 + |u|²)k = (n - 1 - n²|w|²)B(γ)w:")
     values = placed((gibbs.u, n * w), (k, carried(w)))
     same = dict.fromkeys((gibbs.I1, gibbs.I2, gibbs.I3), moment)
-    residual = sp.Matrix(gibbs.residual()).subs(values, simultaneous=True).subs(same, simultaneous=True)
+    residual = sp.Matrix(gibbs.residual()).xreplace(values).xreplace(same)
     p.printed(equal("G(nw) = (n - 1 - n²|w|²)B(γ)w", residual, (n - 1 - n**2 * w.dot(w)) * carried(w)))
     along = {w[1]: 0, w[2]: 0}
-    first = sp.Matrix(gibbs.residual()).subs(values, simultaneous=True).subs({gibbs.I1: moment, **along})
+    first = sp.Matrix(gibbs.residual()).xreplace(values).subs({gibbs.I1: moment, **along})
     ring = Quotient((*FREE.symbols, gibbs.I2, gibbs.I3), [])
     p.lemma(equal("the same for w along e₁ and any I₂, I₃", first,
                   ((n - 1 - n**2 * w.dot(w)) * carried(w)).subs(along), ring))  # fmt: skip
     p.say("A rotation about w leaves w, and B(γ)w = λw + D(|γ|²w - ⟨γ,w⟩γ) turns as k does: the next w is this one.")
     after = placed((gamma, turned(gamma) / SIZE))
-    moved = (SIZE * carried(w).subs(after, simultaneous=True)).applyfunc(sp.cancel)
+    moved = (SIZE * carried(w).xreplace(after)).applyfunc(sp.cancel)
     p.printed(
         equal("Ωᵀw = w", turned(w), SIZE * w),
         equal("B(Ωᵀγ)w = ΩᵀB(γ)w", (SIZE * moved).applyfunc(sp.cancel), SIZE * turned(carried(w))),
@@ -63,7 +63,7 @@ def steady_rotation(p: Proof) -> None:
     p.control(equal("G(nw) with n - 1 + n²|w|²", residual, (n - 1 + n**2 * w.dot(w)) * carried(w)))
     p.control(equal("B(Ωᵀγ)w = B(γ)w", moved, SIZE * carried(w)))
     p.control(equal("the same for w along e₁ + e₂ and any I₂, I₃",
-                    sp.Matrix(gibbs.residual()).subs(values, simultaneous=True).subs({gibbs.I1: moment, w[2]: 0}),
+                    sp.Matrix(gibbs.residual()).xreplace(values).subs({gibbs.I1: moment, w[2]: 0}),
                     ((n - 1 - n**2 * w.dot(w)) * carried(w)).subs(w[2], 0), ring))  # fmt: skip
 
 
@@ -78,8 +78,8 @@ def steady_branch(p: Proof) -> None:
     p.assume("n = 1 + n²|w|², n ≠ 0")
     same = dict.fromkeys((gibbs.I1, gibbs.I2, gibbs.I3), moment)
     values = placed((gibbs.u, n * w), (k, carried(w))) | same
-    determinant = gibbs.jacobian().subs(values, simultaneous=True).det(method="berkowitz")
-    B = sp.Matrix(gibbs.contact_inertia()).subs(same, simultaneous=True).det(method="berkowitz")
+    determinant = gibbs.jacobian().xreplace(values).det(method="berkowitz")
+    B = sp.Matrix(gibbs.contact_inertia()).xreplace(same).det(method="berkowitz")
     ring = Quotient((*w, n, *k, *gamma, moment, D), [n - 1 - n**2 * w.dot(w)])
 
     def scaled(text: str, factor: sp.Expr) -> Equation:
@@ -102,8 +102,8 @@ def determinant_along_first(*across: sp.Symbol) -> sp.Expr:
     """det ∂G/∂u at u = nw for w along e₁ and a γ without the components `across`, with the moments of the body of J."""
     mass, first = placed(((gibbs.I1, gibbs.I2, gibbs.I3), MOMENTS)), dict.fromkeys((w[1], w[2], *across), 0)
     values = placed((gibbs.u, n * w), (k, carried(w)))
-    jacobian = gibbs.jacobian().subs(values, simultaneous=True).subs(mass, simultaneous=True)
-    return jacobian.subs({moment: MOMENTS[0], **first}, simultaneous=True).det(method="berkowitz")
+    jacobian = gibbs.jacobian().xreplace(values).xreplace(mass)
+    return jacobian.xreplace({moment: MOMENTS[0], **first}).det(method="berkowitz")
 
 
 @claim(
@@ -205,7 +205,7 @@ def straight_line(proof: Proof) -> None:
     proof.say("R_{k+1} s(p, γ_{k+1}) = R_k Ω s(p, Ωᵀγ_k) for the steps Δr = ρ R_k s(p, γ_k) of the contact point.")
     step, rotation = sp.Matrix(three.centre_step()), sp.Matrix(three.rotation())
     ring = Quotient((q0, *q, *gamma), [three.UNIT_QUATERNION])
-    later = step.subs(placed((gamma, rotation.T * gamma)), simultaneous=True)
+    later = step.xreplace(placed((gamma, rotation.T * gamma)))
     proof.printed(equal("Ω s(p, Ωᵀγ) = s(p, γ)", (rotation * later).applyfunc(sp.expand), step, ring))
     proof.control(equal("s(p, Ωᵀγ) = s(p, γ)", later.applyfunc(sp.expand), step, ring))
 

@@ -20,7 +20,7 @@ def turned(x: sp.Matrix, axis: sp.Matrix = u) -> sp.Matrix:
 
 def residual(to_u: sp.Matrix, to_gamma: sp.Matrix, to_k: sp.Matrix) -> sp.Matrix:
     """G at other places: (u, γ, k) each replaced."""
-    return sp.Matrix(gibbs.residual()).subs(placed((u, to_u), (gamma, to_gamma), (k, to_k)), simultaneous=True)
+    return sp.Matrix(gibbs.residual()).xreplace(placed((u, to_u), (gamma, to_gamma), (k, to_k)))
 
 
 def carried(name: str, on_u: sp.Matrix, on_gamma: sp.Matrix, on_k: sp.Matrix) -> list[Equation]:
@@ -44,7 +44,7 @@ def renamed(names: sp.Matrix, axial: int = 1) -> list[Equation]:
     text = "1 → 2 → 3 → 1" if names == CIRCLE else "1 and 3 exchanged"
     on_axial = axial * names.det() * names
     return [
-        equal(one.text, [sp.sympify(x).subs(other, simultaneous=True) for x in one.left], one.right)
+        equal(one.text, [sp.sympify(x).xreplace(other) for x in one.left], one.right)
         for one in carried(text, on_axial, names, on_axial)
     ]
 

@@ -23,7 +23,7 @@ def momentum_of_it() -> sp.Matrix:
     """𝒦(q, γ) of the closed rotation, homogeneous of degree 2 in it."""
     scalar, vector = rotation()
     values = {**BALL, q0: scalar, **dict(zip(q, vector, strict=True))}
-    return sp.Matrix(three.momentum()).subs(values, simultaneous=True)
+    return sp.Matrix(three.momentum()).xreplace(values)
 
 
 def closed_momentum(text: str, sign: int = 1) -> Equation:
@@ -108,7 +108,7 @@ def rolling_as_a_top(p: Proof) -> None:
     lam = three.lam()
     form = gamma.dot(lam.inv() * gamma)
     values = dict(zip(three.K, scale * gamma, strict=True))
-    omega = sp.Matrix(continuous.angular_velocity()).subs(values, simultaneous=True)
+    omega = sp.Matrix(continuous.angular_velocity()).xreplace(values)
 
     def spin(text: str, contact: sp.Expr) -> Equation:
         return Equation(text, omega * (1 - contact * form), scale * lam.inv() * gamma, ring)
@@ -118,7 +118,7 @@ def rolling_as_a_top(p: Proof) -> None:
     p.printed(Equation("d/dt ⟨γ,Λ⁻¹γ⟩ = 0 along γ' ∝ γ×Λ⁻¹γ", gamma.dot(lam.inv() * motion), 0, ring))
     p.say("The top with the mass tensor J + D/2 and D = 0 has the same Λ: its motion is this one, and the discrete")
     p.say("top of (4.14) moves on the same curves by a constant increment (5.15-euler): only its rate is to be set.")
-    shifted = lam.subs({J1: J1 + D / 2, J2: J2 + D / 2, J3: J3 + D / 2, D: 0}, simultaneous=True)
+    shifted = lam.xreplace({J1: J1 + D / 2, J2: J2 + D / 2, J3: J3 + D / 2, D: 0})
     p.lemma(Equation("Λ of J + D/2 and D = 0", shifted, lam, ring))
     p.control(spin("(1 - 2Dl)ω = HΛ⁻¹γ", 2 * D))
     p.control(Equation("⟨γ,Λγ⟩ is constant, too", gamma.dot(lam * motion), 0, ring))

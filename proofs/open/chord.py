@@ -80,7 +80,7 @@ def chord(p: Proof) -> None:
     scaled = {V: h * V, G: h**2 * G, level: h * level, D: D / h}
     height = Quotient((h, SCALE, G, V, D, y, w, level))
     p.lemma(
-        Equation("T scaled", [true_relation().subs(scaled, simultaneous=True)],
+        Equation("T scaled", [true_relation().xreplace(scaled)],
                  [h * (h * G * SCALE - 2 * V * w * (SCALE - D * level))], height),
         )  # fmt: skip
     p.step(RELATION, SHAPE, CURVE, "5.15", "5.12-scaling", "5.13")

@@ -7,7 +7,7 @@ import sympy as sp
 from chapsym.derive import gibbs
 from chapsym.derive.gibbs import I1, I2, I3, D, d, k, u
 from chapsym.derive.quotient import Quotient
-from chapsym.derive.three import determinant, gamma, placed, triple
+from chapsym.derive.three import determinant, gamma, placed
 from chapsym.proofs.map.gibbs import FREE, equal
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, in_field, main
 
@@ -33,7 +33,7 @@ def turn(v: sp.Matrix) -> sp.Matrix:
 
 def at(expr: sp.Matrix, u_: sp.Matrix, gamma_: sp.Matrix, k_: sp.Matrix) -> sp.Matrix:
     """An expression of u, γ and k at other places."""
-    return sp.Matrix(expr).subs(placed((u, u_), (gamma, gamma_), (k, k_)), simultaneous=True)
+    return sp.Matrix(expr).xreplace(placed((u, u_), (gamma, gamma_), (k, k_)))
 
 
 def half_momentum(u_: sp.Matrix, gamma_: sp.Matrix) -> sp.Matrix:
@@ -107,9 +107,9 @@ def stepdeterminant(p: Proof) -> None:
     defined = [sp.Eq(a, b) for left, right in pairs for a, b in zip(left, right, strict=True)]
 
     def by_definition(text: str, quotient: sp.Expr) -> Comparison:
-        return Comparison(text, [*defined, sp.Eq(triple(S), quotient)], numbers)
+        return Comparison(text, [*defined, sp.Eq(determinant(S), quotient)], numbers)
 
-    quotient = triple(A_back) / triple(A)
+    quotient = determinant(A_back) / determinant(A)
     p.lemma(by_definition("det S by its definition is this quotient, at γ = (2, 3, 6)/7, D = 2", quotient))
     p.control(key("T⁻¹𝒜~ = 𝒜 + 𝒢T⁻¹E", -1))
     p.control(exchanged(-1))

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from chapsym.derive import three
 from chapsym.derive.gibbs import I1, I2, I3, D, u
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.steady import moment
@@ -28,7 +29,7 @@ def along(axis: int, length: sp.Expr) -> sp.Matrix:
 
 def determinant(u_: sp.Matrix, gamma_: sp.Matrix, ball: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
     """det ∂G/∂u at the step whose Gibbs vector is given."""
-    return slope(u_, gamma_).subs(ball).det(method="berkowitz")
+    return three.determinant(slope(u_, gamma_).xreplace(ball))
 
 
 def with_equal_moments(text: str, u_: sp.Matrix, gamma_: sp.Matrix, ball: Sequence[sp.Symbol]) -> Equation:
@@ -43,7 +44,7 @@ def about(cycle: Sequence[int], swing: sp.Expr = SWING) -> Equation:
     a, b, c = cycle
     names = placed((MOMENTS, [MOMENTS[i] for i in cycle]), (gamma, [gamma[i] for i in cycle]))
     level = steady_level(t) + swing * around(gamma[0], gamma[1], t)
-    right = (1 - t**2) * level.subs(names, simultaneous=True)
+    right = (1 - t**2) * level.xreplace(names)
     text = f"e_{c + 1}: (1 + t²) det 𝒜 = (1 - t²)(P + ½D(D + I_{c + 1})(I_{a + 1} - I_{b + 1}) Re((1 - it)(γ_{a + 1} + iγ_{b + 1})²))"
     return Equation(text, (1 + t**2) * determinant(along(c, t), gamma, {}), right, UNIT)
 

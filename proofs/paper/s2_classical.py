@@ -140,7 +140,7 @@ def four_integrals(p: Proof) -> None:
     power = along(functions)
     acceleration = dict(zip(alpha, solved_acceleration(), strict=True))
     fixed = [K.cross(omega).dot(gamma) + K.dot(VERTICAL_RATE), 2 * K.dot(K.cross(omega))]  # with K̇ = K×ω
-    rates = [sp.S.Zero, *fixed, power[3].subs(acceleration, simultaneous=True)]
+    rates = [sp.S.Zero, *fixed, power[3].xreplace(acceleration)]
     p.reads(
         glossary.classical(),
         ("K", k, "Λω - D⟨ω,γ⟩γ, the momentum about the point of contact (2.3)"),
@@ -163,13 +163,13 @@ def four_integrals(p: Proof) -> None:
     p.say("It is 3 at most where K = tγ, and 2 at most at rest:")
     size = sp.Symbol("t")
     whole = sp.Matrix([K.dot(K) - 2 * size * K.dot(gamma) + size**2 * gamma.dot(gamma)])
-    flat = whole.jacobian([*K, *gamma]).subs(three.placed((K, size * gamma)), simultaneous=True)
+    flat = whole.jacobian([*K, *gamma]).xreplace(three.placed((K, size * gamma)))
     p.lemma(equation("∇(⟨K,K⟩ - 2t⟨K,γ⟩ + t²⟨γ,γ⟩) = 0 in (K, γ) where K = tγ, for this t", flat.T, sp.zeros(6, 1),
                      Quotient((size, *gamma))))  # fmt: skip
     resting = gradients[2:, :].subs(dict.fromkeys(omega, 0))
     p.lemma(equation("∇⟨K,K⟩ = ∇⟨K,ω⟩ = 0 where ω = 0", resting.reshape(12, 1), sp.zeros(12, 1)))
-    p.control(equation("d/dt ⟨K,ω⟩ = 0 for Λω̇ = Λω×ω", power[3].subs(
-        dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True)), simultaneous=True), 0))  # fmt: skip
+    p.control(equation("d/dt ⟨K,ω⟩ = 0 for Λω̇ = Λω×ω", power[3].xreplace(
+        dict(zip(alpha, inverse_inertia() * (three.lam() * omega).cross(omega), strict=True))), 0))  # fmt: skip
     p.control(equation("⟨K,γ⟩ = ⟨Λω,γ⟩", k.dot(gamma), (three.lam() * omega).dot(gamma)))
 
 
@@ -217,7 +217,7 @@ def factor_and_divergence(acceleration: sp.Matrix) -> tuple[sp.Expr, sp.Expr, sp
 
 def at_vertical(expr: sp.Expr | sp.Matrix):
     """On K = hγ: ω = Λ⁻¹(h + D⟨ω,γ⟩)γ = sΛ⁻¹γ; the claims are judged in s and γ."""
-    return expr.subs(dict(zip(omega, s * inverse_inertia() * gamma, strict=True)), simultaneous=True)
+    return expr.xreplace(dict(zip(omega, s * inverse_inertia() * gamma, strict=True)))
 
 
 #: K = hγ is Λω = sγ, and s = h + D⟨ω,γ⟩.

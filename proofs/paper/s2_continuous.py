@@ -75,7 +75,7 @@ def rolling_factor(p: Proof) -> None:
 
 def on_motion(expr: sp.Expr) -> sp.Expr:
     """K replaced by K(ω, γ)."""
-    return expr.subs(dict(zip(K, continuous.momentum(), strict=True)), simultaneous=True)
+    return expr.xreplace(dict(zip(K, continuous.momentum(), strict=True)))
 
 
 @claim(

@@ -5,7 +5,6 @@ import sympy as sp
 from chapsym.derive import continuous, principle, three
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import J1, J2, J3, RING, D, gamma, placed, q, q0
-from chapsym.derive.three import determinant as det
 from chapsym.prove import REAL, Comparison, Count, Equation, Fact, Proof, claim, equations, main
 
 m, rho = sp.symbols("m rho")
@@ -13,6 +12,11 @@ BALL_RING = Quotient((m, rho, *RING.symbols), [*RING.relations, D - m * rho**2])
 equation = equations(BALL_RING)
 TURN = sp.eye(3)  # R_k = 1: the principle does not see the attitude
 AXES = [e.hat() for e in sp.eye(3).columnspace()]
+
+
+def det(matrix: sp.Matrix) -> sp.Expr:
+    """The determinant without divisions."""
+    return matrix.det(method="berkowitz")
 
 
 def mixed_derivative(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:
@@ -130,7 +134,7 @@ def regularity(p: Proof) -> None:
         "It changes sign between these two turns (of degree 6 in the parameters, which are given up to their length):"
     )
     for (name, turn), sign in zip(turns.items(), signs, strict=True):
-        relation = three.triple(jacobian) > 0 if sign > 0 else three.triple(jacobian) < 0
+        relation = three.determinant(jacobian) > 0 if sign > 0 else three.determinant(jacobian) < 0
         p.lemma(Comparison(f"the sign at {name} is that of {sign}", [relation], at | placed(((q0, *q), turn))))
     p.witness("generic", {"J": "(1,1,1)", "m": "1", "ρ": "1", "γ": "e3", "Ω": "1"}, Fact("det > 0", regular > 0))
     p.control(equation("c = ½: det = det(I + D(1 - γγᵀ))", at_rest_as_printed, det(inertia + lifted)))

@@ -165,7 +165,7 @@ def several_solutions(p: Proof) -> None:
     )  # fmt: skip
     at = {symbol: sp.Rational(value) for symbol, value in values.items()}
     momentum = sp.Matrix(three.momentum())
-    other = momentum.subs(dict(zip(first, second, strict=True)), simultaneous=True)
+    other = momentum.xreplace(dict(zip(first, second, strict=True)))
     p.show("𝒦 of the first", momentum.xreplace(at))
     p.printed(
         Comparison("both are rotations", [sp.Eq(sum(x**2 for x in turn), 1) for turn in (first, second)], at),

@@ -270,9 +270,9 @@ def step_point(mean: str = "12/13") -> Point:
         **{SCALE: elliptic.denominator(), G: true_g(), y: Y, e: (HALF.cn * HALF.dn) ** 2},
         **{w: SMALL_W, level: l - MU * Y, V: sp.Rational(1, 42)},
     }
-    exact = {symbol: sp.sympify(value).subs(point, simultaneous=True) for symbol, value in values.items()}
+    exact = {symbol: sp.sympify(value).xreplace(point) for symbol, value in values.items()}
     exact[D] = sp.solve(true_relation().subs(exact), D)[0]
-    square = V_SQUARED.subs(point, simultaneous=True)
+    square = V_SQUARED.xreplace(point)
     hypotheses = [
         part("w² = y e", w**2, y * e),
         part("V² of (5.13-V)", V**2, square),

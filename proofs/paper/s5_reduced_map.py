@@ -184,9 +184,9 @@ def structure(p: Proof) -> None:
     p.say("D = 0: σ = h + 2Dq₀⟨γ,q⟩ = h is constant, too.  D > 0, an exact state and all its successors:")
     state = {symbol: sp.Rational(value) for symbol, value in SMALL.items()}
     ball = tuple(state[x] for x in (three.J1, three.J2, three.J3))
-    height = vertical.height().subs(state, simultaneous=True)
-    here = vertical.gamma_now().subs(state, simultaneous=True)
-    there = vertical.gamma_next().subs(state, simultaneous=True)
+    height = vertical.height().xreplace(state)
+    here = vertical.gamma_now().xreplace(state)
+    there = vertical.gamma_next().xreplace(state)
     p.say(
         f"J = {ball}, D = {state[D]}, (q₀, q) = (4, 2, 1, 2)/5: γ = {list(here)}, h = {height}, σ = {state[sigma]}; γ~ = {list(there)}."
     )
@@ -207,7 +207,7 @@ def structure(p: Proof) -> None:
     all_of_them = (sp.Eq(REAL, 2), sp.Eq(COMPLEX, 8))
     p.printed(steps("γ~ has 8 next steps, 2 of them real; none has the σ of the step before", there, *all_of_them))
     flat = {**state, D: sp.S.Zero}
-    p.witness("D = 0", {"σ": "h"}, Fact("σ = h", vertical.height().subs(flat, simultaneous=True) == state[sigma]))
+    p.witness("D = 0", {"σ": "h"}, Fact("σ = h", vertical.height().xreplace(flat) == state[sigma]))
     p.control(steps("the same for the step's own γ", here, sp.Eq(COMPLEX, 8)))
     p.control(part("T = 𝒟(G - 2Vw) for every D", true_relation(), SCALE * (G - 2 * V * w)))
 
@@ -290,7 +290,7 @@ def circle(p: Proof) -> None:
         "h = 0 has the solution q = 0, where ∂𝒦/∂q = 2B(γ) is regular on the whole curve, as F = 1 - Dl is constant on it:"
     )
     inertia = sp.Matrix(three.contact_inertia())
-    jacobian = sp.Matrix(three.momentum()).jacobian(q).subs({**dict.fromkeys(q, 0), q0: 1}, simultaneous=True)
+    jacobian = sp.Matrix(three.momentum()).jacobian(q).xreplace({**dict.fromkeys(q, 0), q0: 1})
     factor = continuous.rolling_factor()
     level_of = gamma.dot(continuous.inverse_inertia() * gamma)
 

@@ -53,7 +53,7 @@ def rotation_matrix(p: Proof) -> None:
     conjugate, y = sp.Matrix([b[0], *(-b[1:, :])]), sp.Matrix(sp.symbols("p0:4"))
     p.lemma(Equation("⟨ab, p⟩ = ⟨a, p b̄⟩", [product.dot(y)], [a.dot(three.quaternion_product(y, conjugate))],
                      Quotient((*a, *b, *y), [])))  # fmt: skip
-    once, twice, both = (three.rotation().subs(placed(((q0, *q), z)), simultaneous=True) for z in (a, b, product))
+    once, twice, both = (three.rotation().xreplace(placed(((q0, *q), z))) for z in (a, b, product))
     p.lemma(Equation("Ω(ab) = Ω(a)Ω(b)", both, once * twice, pairs))
     printed = printed_rotation()
     turned = three.quaternion_product(
@@ -119,7 +119,7 @@ def axis_and_angle(p: Proof) -> None:
         Comparison(
             "q₀ = 0, q = e₁ gives diag(1,-1,-1)", [sp.Eq(a, b) for a, b in zip(rotation, half_turn, strict=True)], axis
         ),
-        equation("(-q₀, -q) gives the same Ω", rotation.subs(minus, simultaneous=True), rotation),
+        equation("(-q₀, -q) gives the same Ω", rotation.xreplace(minus), rotation),
         equation("4q₀² = 1 + tr Ω", 4 * q0**2, 1 + rotation.trace()),
     )
     p.control(equation("the same by the angle -θ", rotation, rodrigues(-1)))
@@ -146,7 +146,7 @@ def second_derivatives() -> list[sp.Expr]:
 
     def at(w: sp.Matrix) -> sp.Matrix:
         turned = three.quaternion_product(sp.Matrix([q0, *q]), sp.Matrix([0, *w]))
-        return sp.Matrix(three.momentum()).subs(placed(((q0, *q), turned)), simultaneous=True)
+        return sp.Matrix(three.momentum()).xreplace(placed(((q0, *q), turned)))
 
     e = sp.eye(3).columnspace()
     rows = [2 * at(x) for x in e]
@@ -355,7 +355,7 @@ def vector_integrals(p: Proof) -> None:
     )  # fmt: skip
     size = sp.Symbol("t")
     dependent = gradients[1, :] - 2 * size * gradients[0, :] + size**2 * gradients[2, :]
-    dependent = dependent.subs(three.placed((K, size * gamma)), simultaneous=True)
+    dependent = dependent.xreplace(three.placed((K, size * gamma)))
     p.lemma(Equation("where 𝒦 = tγ: ∇(⟨𝒦,𝒦⟩ - 2t⟨𝒦,γ⟩ + t²⟨γ,γ⟩) = 0 for this t", dependent, [sp.S.Zero] * 6,
                      Quotient((size, *gamma))))  # fmt: skip
     p.control(Equation("⟨Ωᵀ𝒦, Ωγ⟩ = ⟨𝒦, γ⟩", moved.dot(rotation * gamma), K.dot(gamma), ring))
@@ -372,8 +372,8 @@ def energy_changes(p: Proof) -> None:
 
     def ends(energy: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         """The energy before and after the step of the Euler parameters."""
-        before = energy.subs(three.placed((K, momentum)), simultaneous=True)
-        return before, energy.subs(three.placed((K, turn * momentum), (gamma, turn * gamma)), simultaneous=True)
+        before = energy.xreplace(three.placed((K, momentum)))
+        return before, energy.xreplace(three.placed((K, turn * momentum), (gamma, turn * gamma)))
 
     def changes(name: str, energy: sp.Expr, at: dict) -> Comparison:
         """That the energy is not the same before and after the step."""

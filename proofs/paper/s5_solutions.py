@@ -73,7 +73,7 @@ def example(contact: int, number: int) -> Count:
 def homogeneous(text: str) -> Equation:
     """That the equations are homogeneous of degree 2, with real coefficients."""
     scale = sp.Symbol("s")
-    grown = [e.subs({x: scale * x for x in solutions.POINT}, simultaneous=True) for e in solutions.quadrics()]
+    grown = [e.xreplace({x: scale * x for x in solutions.POINT}) for e in solutions.quadrics()]
     ring = Quotient((scale, *three.K, *RING.symbols))
     return Equation(text, grown, [scale**2 * e for e in solutions.quadrics()], ring)
 
@@ -222,7 +222,7 @@ def small_solution(p: Proof) -> None:
 
     mean, apart = (u + v) / 2, u - v
     p.say("(5.2) is 2(Bu + u×Λu) = 𝒦(1 + |u|²), B = Λ - Dγγᵀ. For two solutions u, v with s = (u+v)/2, d = u - v:")
-    in_parameters = balance(u).subs(placed((u, q / q0)), simultaneous=True)
+    in_parameters = balance(u).xreplace(placed((u, q / q0)))
     state = Quotient((*K, *RING.symbols), RING.relations)
     p.lemma(Equation("that is (5.2)", in_parameters * q0**2, sp.Matrix(three.momentum()) - K, state))
     linear = inertia * apart + mean.cross(lam * apart) + apart.cross(lam * mean) - K * mean.dot(apart)

@@ -230,7 +230,7 @@ def rescaling(p: Proof) -> None:
     changed = {x: x / scale for x in (J1, J2, J3, D, sigma)}
 
     def rescaled(expr: sp.Expr) -> sp.Expr:
-        return expr.subs(changed, simultaneous=True)
+        return expr.xreplace(changed)
 
     p.say("J, D, σ ↦ J/s, D/s, σ/s, with the same q: γ and γ~ stay, h becomes h/s, so that s = h gives 1.")
     now, after, lam = vertical.gamma_now(), vertical.gamma_next(), three.lam()

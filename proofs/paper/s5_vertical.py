@@ -92,8 +92,8 @@ def vertical_relation(p: Proof) -> None:
         relation("left side = [h + 2D q₀⟨γ,q⟩]γ", 2),
     )
     values = {k: sp.Rational(v) for k, v in SMALL.items()}
-    now = vertical.gamma_now().subs(values, simultaneous=True)
-    height = vertical.height().subs(values, simultaneous=True)
+    now = vertical.gamma_now().xreplace(values)
+    height = vertical.height().xreplace(values)
     p.say(f"At the counterexample 𝒦 = hγ exactly, with h = {height}, γ = {list(now)}.")
     point = {**{k: v for k, v in SMALL.items() if k != sigma}, **dict(zip(gamma, now, strict=True)), h: height}
     hypotheses = [
@@ -113,7 +113,7 @@ def sigma_definition(p: Proof) -> None:
     p.assume(NOT_ZERO, sp.Ne(sigma, 0))
     p.say("σ is the factor for which the left side of (5.4) is σγ; h and γ are written in q, σ.")
     now = vertical.gamma_now()
-    momentum = sp.Matrix(three.momentum()).subs(dict(zip(gamma, now, strict=True)), simultaneous=True)
+    momentum = sp.Matrix(three.momentum()).xreplace(dict(zip(gamma, now, strict=True)))
     height, square = momentum.dot(now), vertical.left_side().dot(vertical.left_side())
     unit = Quotient(RING.symbols, [*RING.relations, sp.expand(square - sigma**2)])
     p.reads(

@@ -23,8 +23,8 @@ def vertical_energy(p: Proof) -> None:
     form = three.gamma.dot(continuous.inverse_inertia() * three.gamma)
     on_vertical = dict(zip(K, h * three.gamma, strict=True))
     ring = Quotient((h, *three.RING.symbols), three.RING.relations)
-    energy = 2 * continuous.energy().subs(on_vertical, simultaneous=True)
-    quadratic = K.dot(continuous.inverse_inertia() * K).subs(on_vertical, simultaneous=True)
+    energy = 2 * continuous.energy().xreplace(on_vertical)
+    quadratic = K.dot(continuous.inverse_inertia() * K).xreplace(on_vertical)
     p.printed(Equation("𝒦 = hγ: ⟨𝒦,ω⟩ = h²l/(1 - Dl), l = ⟨γ,Λ⁻¹γ⟩", energy, h**2 * form / (1 - D * form), ring))
     p.lemma(
         Equation(
