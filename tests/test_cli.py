@@ -13,6 +13,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from budget import slow
 from commands import answer, changed, chapsym, child, refused
 from committed import committed
 from first import FIRST
@@ -271,7 +272,7 @@ main()
 """
 
 
-@pytest.mark.parametrize("command", [["check", "--states", "1"], ["prove", "4.3", "2.1", "2.7"]])
+@pytest.mark.parametrize("command", [["check", "--states", "1"], *slow(["prove", "4.3", "2.1", "2.7"])])
 def test_an_interrupt_is_told_and_ends_the_command(command):
     """Sent to all processes of the command, as a terminal does."""
     with subprocess.Popen(

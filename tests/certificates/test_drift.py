@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from budget import slow
 from modified_floats import Modified
 from scipy.integrate import solve_ivp
 
@@ -32,7 +31,8 @@ def near(data):
     return given | {"time": round(Fraction(data["time"]), 5), "varied": varied}
 
 
-@pytest.mark.parametrize("path", [FILES[-1], *slow(*FILES[:-1])], ids=lambda p: p.stem)
+@pytest.mark.thorough
+@pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)
 def test_the_orbits_of_the_committed_files_are_found_anew(path):
     data = certificate(path)
     found = drift.energy_drift(**near(data), digits=12)

@@ -293,9 +293,8 @@ def test_a_flag_says_where_it_holds():
     ("name", "method"),
     [
         *((name, method) for name in ("particle", "contact") for method in ANYWHERE),
-        *(("ball", method) for method in ("dla-left", "own", "rk4")),
-        *slow(*(("ball", method) for method in ANYWHERE if method not in ("dla-left", "rk4"))),
-        ("falling_disc", "dla-left"),
+        *(("ball", method) for method in ("own", "rk4")),
+        *slow(*(("ball", method) for method in ANYWHERE if method != "rk4"), ("falling_disc", "dla-left")),
     ],
 )
 def test_the_methods_have_their_orders_keep_the_constraints_and_return(name, method):

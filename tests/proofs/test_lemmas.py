@@ -92,7 +92,7 @@ def test_a_slip_in_a_derivation_is_seen(monkeypatch, slip, thorough):
     for name in names:
         honest = getattr(place, name)
         monkeypatch.setattr(place, name, lambda *given, honest=honest: wrong(honest(*given)))
-    for id in ids if thorough else ids[:2]:
+    for id in ids if thorough else ids[:1]:
         assert verdict(id) != "holds", id
 
 

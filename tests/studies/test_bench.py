@@ -6,6 +6,7 @@ from functools import cache, partial
 
 import numpy as np
 import pytest
+from budget import slow
 from commands import answer, chapsym, refused
 
 import benchmarks
@@ -255,7 +256,7 @@ def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
     assert said
 
 
-@pytest.mark.parametrize("contact", [True, False])
+@pytest.mark.parametrize("contact", [False, *slow(True)])
 def test_every_way_of_the_goals_is_as_exact_as_it_is_asked_to_be(contact):
     problem = problems.drawn(1, 3)[0]
     truth = K, g, spots = problems.truth_of(problem)

@@ -119,6 +119,7 @@ def test_share_has_wilson_s_interval():
     assert chaos.share(0, 0)[1:] == (0.0, 1.0)
 
 
+@pytest.mark.thorough
 def test_sentences_and_figures(tmp_path, monkeypatch):
     monkeypatch.setattr("research.units.cores", lambda: 1)
     monkeypatch.setattr(chaos, "_units", small_units)

@@ -119,6 +119,7 @@ def test_drift_finds_a_slope_and_its_error():
     assert error < 1e-3
 
 
+@pytest.mark.thorough
 def test_sentences_and_figures(tmp_path, monkeypatch):
     monkeypatch.setattr("research.units.cores", lambda: 1)
     monkeypatch.setattr(energy, "_units", lambda resonant, quick: small_units(resonant, quick))

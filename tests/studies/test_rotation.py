@@ -271,7 +271,8 @@ def small_arguments(unit):
     return {**unit.arguments, **less}
 
 
-def test_the_figures_are_drawn_the_same_twice(small, tmp_path, thorough):
+@pytest.mark.thorough  # of every figure of results it is seen in tests/report/test_figures.py
+def test_the_figures_are_drawn_the_same_twice(small, tmp_path):
     small = json.loads(json.dumps(small, allow_nan=False))
     written = checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
     assert [x.name for x in written] == [
@@ -279,10 +280,8 @@ def test_the_figures_are_drawn_the_same_twice(small, tmp_path, thorough):
     ]
     assert all(x.read_bytes().startswith(b"<?xml") for x in written)
     first = [x.read_bytes() for x in written]
-    if thorough:  # the same of every figure of results is seen in tests/report/test_figures.py
-        assert [
-            x.read_bytes() for x in checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
-        ] == first
+    again = checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
+    assert [x.read_bytes() for x in again] == first
     with pytest.raises(BadInput, match="does not exist"):
         checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path / "nowhere")
 

@@ -72,6 +72,7 @@ def test_a_request_that_is_not_met_is_told():
     assert trade.missed({"requests": found}) == "1 of 2 requests were not met"
 
 
+@pytest.mark.thorough
 def test_a_section_is_measured():
     found = trade.run("contact", quick=True)
     assert all(p.per_time > 0 and 0 <= p.digits <= 34 for p in found.points)
