@@ -590,7 +590,7 @@ def _spanned(aims: Sequence[sp.Expr], known: Sequence[sp.Expr]) -> list[dict[int
             return None
         found.append({j: f for f, j in zip(factors, bound, strict=True) if f})
         try:
-            if not ring.is_zero(aim - sum((f * known[j] for f, j in zip(factors, bound, strict=True)), sp.S.Zero)):
+            if not ring.is_zero(aim - sum((f * known[j] for j, f in found[-1].items()), sp.S.Zero)):
                 return None
         except ZeroDivisionError:
             raise Undecided("an equation divides by 0") from None
@@ -619,7 +619,8 @@ def coefficients(expressions: Iterable[sp.Expr]) -> list[tuple[sp.Expr, sp.Expr,
             a, b, c = (sp.Add(*some) for some in zip(*parts, strict=True))
         elif isinstance(expr, sp.Mul):
             for d, e, f in parts[1:]:
-                a, b, c = a * d, a * e + b * d, a * f + b * e + c * d
+                pairs = (((a, d),), ((a, e), (b, d)), ((a, f), (b, e), (c, d)))
+                a, b, c = (sp.Add(*(x * y for x, y in some if 0 not in (x, y))) for some in pairs)  # 0 x asks much of x
         elif not isinstance(expr, sp.Pow | sp.sin | sp.cos | sp.tan):
             raise Undecided(f"{expr!s:.60} has no exact series")
         else:
