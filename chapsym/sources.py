@@ -77,4 +77,4 @@ def file(module: str) -> str | None:
 def source(module: str) -> str:
     """The text of a module; empty without a file."""
     path = file(module)
-    return "" if path is None else Path(path).read_text(encoding="utf-8")
+    return "" if path is None else importlib.util.decode_source(Path(path).read_bytes())

@@ -8,7 +8,7 @@ import typer
 from .app import app
 from .options import Json, Own, takes
 from .output import fail, print_json
-from .prove import register_from
+from .prove import reading, register_from
 
 
 @app.command()
@@ -28,14 +28,9 @@ def codegen(
     Example: chapsym codegen --check
     """
     from chapsym.codegen import build
-    from chapsym.prove import BrokenScript, NoRegister
 
-    try:
+    with reading():
         package = build.Package(register_from(own)) if own else build.ours()
-    except BrokenScript as error:
-        fail(str(error), 1)
-    except (NoRegister, build.NoKernels) as error:
-        fail(str(error), 2)
     place = package.place
     if check:
         if trust:

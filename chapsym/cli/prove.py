@@ -2,7 +2,8 @@
 
 import json
 from collections import Counter
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Annotated, Any
@@ -217,11 +218,20 @@ def register_from(named: str | None) -> "Register":
 
 
 def all_claims(lemmas: bool = False, register: "Register | None" = None) -> dict[str, Any]:
-    """The claims of a register, and its lemmas if asked; a script that cannot be loaded is a failed proof."""
-    from chapsym.prove import PROOFS, BrokenScript, NoRegister, load
+    """The claims of a register, and its lemmas if asked."""
+    from chapsym.prove import PROOFS, load
+
+    with reading():
+        return load(lemmas, register or PROOFS)
+
+
+@contextmanager
+def reading() -> Iterator[None]:
+    """Where a register is read: a script that cannot be loaded is a failed proof."""
+    from chapsym.prove import BrokenScript, NoRegister
 
     try:
-        return load(lemmas, register or PROOFS)
+        yield
     except NoRegister as error:
         fail(str(error), 2)
     except BrokenScript as error:

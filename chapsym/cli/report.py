@@ -12,7 +12,7 @@ import chapsym
 from .app import app
 from .options import Json, Own, Records, takes, writes
 from .output import check_apart, fail, print_json
-from .prove import all_claims, kept_records, records_of, register_from, tally
+from .prove import all_claims, kept_records, reading, records_of, register_from, tally
 from .study import STUDIES
 
 
@@ -53,8 +53,9 @@ def report(
     found = records_of(claims, {} if fresh else kept_records(kept_in, register), kept_in, register)
     source = reports.FEDOROV
     if own is not None:
-        source = reports.own(own, register.setting("PAPER", ""), register.setting("NOTE", ""))
-        sections = register.sections(claims.values())
+        with reading():
+            source = reports.own(own, register.setting("PAPER", ""), register.setting("NOTE", ""))
+            sections = register.sections(claims.values())
         for record in found:
             record["evidence"]["section"] = sections[record["id"]]
     text = reports.WRITERS[output.suffix](found, _versions(), earlier, source)

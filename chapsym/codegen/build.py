@@ -20,7 +20,7 @@ import sympy as sp
 from chapsym.checker import Rejected
 from chapsym.checker import kernels as binding
 from chapsym.files import write_text
-from chapsym.prove import PROOFS, Register, Verdict
+from chapsym.prove import PROOFS, NoRegister, Register, Verdict
 from chapsym.prove.claims import Judgement, judgement_of, once
 from chapsym.prove.trees import tree
 
@@ -34,7 +34,7 @@ EDIT = "Written by `chapsym codegen`: do not edit; change the derivation and gen
 Computed = tuple[list[str], Callable[[str], list[str]]]
 
 
-class NoKernels(ValueError):
+class NoKernels(NoRegister):
     """A register that has no list of kernels; the message says what would be one."""
 
 
@@ -55,8 +55,7 @@ class Package:
     def __init__(self, register: Register = PROOFS) -> None:
         self.register = register
         self.claims = register.load(lemmas=True)
-        module = register.module("kernels")
-        found = getattr(module, "KERNELS", None)
+        found = register.kernels()
         if not isinstance(found, list | tuple) or not all(isinstance(one, Kernel) for one in found) or not found:
             raise NoKernels(f"{register.place} has no kernels.py with KERNELS, a list of Kernel")
         self.kernels: tuple[Kernel, ...] = tuple(found)

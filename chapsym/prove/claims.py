@@ -55,7 +55,7 @@ class Claim:
     @property
     def title(self) -> str:
         """The first line of the proof's docstring, which an interpreter that optimizes drops: then from the source."""
-        return (self.prove.__doc__ or _docstring(self.prove)).strip().partition("\n")[0]
+        return str(self.prove.__doc__ or _docstring(self.prove)).strip().partition("\n")[0]
 
     @property
     def place(self) -> str:

@@ -13,10 +13,11 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import partial, wraps
 from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import ModuleType
+from typing import Any, Concatenate, ParamSpec, TypeVar
 
 from chapsym import sources
 
@@ -26,6 +27,9 @@ from .claims import register as registered
 #: The file of a register that has no claims, but the list of what is generated from them.
 KERNELS = "kernels"
 
+Given = ParamSpec("Given")
+Found = TypeVar("Found")
+
 
 class BrokenScript(ImportError):
     """A script cannot be loaded, or its claims cannot stand together; the message names the file."""
@@ -33,6 +37,23 @@ class BrokenScript(ImportError):
 
 class NoRegister(ValueError):
     """A place where no claims are found; the message says what would be one."""
+
+
+def _reading(
+    method: "Callable[Concatenate[Register, Given], Found]",
+) -> "Callable[Concatenate[Register, Given], Found]":
+    """Makes a sentence of what the modules of a register raise where they are looked at."""
+
+    @wraps(method)
+    def read(self: "Register", *given: Given.args, **options: Given.kwargs) -> Found:
+        try:
+            return method(self, *given, **options)
+        except (BrokenScript, NoRegister, KeyboardInterrupt):
+            raise
+        except BaseException as error:
+            raise BrokenScript(f"{self.place} cannot be read as a register: {raised(error)}") from error
+
+    return read
 
 
 @dataclass(frozen=True)
@@ -61,6 +82,7 @@ class Register:
     place: str
     package: bool = False  # that it is a name, even where a file or a folder is called so
 
+    @_reading
     def load(self, lemmas: bool = False) -> dict[str, Claim]:
         """Imports every script and returns the claims by id, in order.
 
@@ -100,27 +122,30 @@ class Register:
         self._check(found)
         return {id: found[id] for id in (*listed, *(others if lemmas else ()))}
 
+    @_reading
     def sections(self, claims: Iterable[Claim]) -> dict[str, tuple[int, str]]:
         """For each claim its script: which one it is, from 1, and the first line of its docstring."""
         files = [sources.file(name) for name in self._scripts(self._head())]
         found = {}
         for claim in claims:
             module = sys.modules[claim.prove.__module__]
-            title = (module.__doc__ or Path(str(module.__file__)).stem).strip().partition("\n")[0].rstrip(".")
+            title = str(module.__doc__ or Path(str(module.__file__)).stem).strip().partition("\n")[0].rstrip(".")
             found[claim.id] = files.index(module.__file__) + 1 if module.__file__ in files else len(files) + 1, title
         return found
 
+    @_reading
     def setting(self, name: str, default: str) -> str:
         """The value of a name in `__init__.py`: PAPER or NOTE."""
         return str(getattr(self._head(), name, default))
 
-    def module(self, name: str) -> ModuleType | None:
-        """A module next to the scripts, such as `kernels`, or None; raises BrokenScript as `load` does."""
-        full = f"{self._head().__name__}.{name}"
+    @_reading
+    def kernels(self) -> Any:
+        """KERNELS of the module `kernels` next to the scripts, or None; raises BrokenScript as `load` does."""
+        full = f"{self._head().__name__}.{KERNELS}"
         if sources.file(full) is None:
             return None
         _import(full)
-        return sys.modules[full]
+        return getattr(sys.modules[full], "KERNELS", None)
 
     @property
     def folder(self) -> Path:
@@ -146,7 +171,7 @@ class Register:
         try:
             path = Path(self.place).resolve()
             return path if path.exists() else None
-        except (OSError, ValueError):  # a name that no file can have
+        except (OSError, ValueError, RuntimeError):  # a name that no file can have, or links in a circle
             return None
 
     def _head(self) -> ModuleType:
@@ -175,7 +200,7 @@ class Register:
         names = self.place.split(".")
         spec = None
         if all(map(str.isidentifier, names)):
-            with contextlib.suppress(ModuleNotFoundError):
+            with contextlib.suppress(ModuleNotFoundError, ValueError):  # of a module without a spec
                 spec = importlib.util.find_spec(self.place)
         if spec is None or spec.submodule_search_locations is None:
             raise NoRegister(

@@ -164,6 +164,8 @@ WRONG = {
     "claims that are no list": ("__init__", "", "CLAIMS = 's-1'", r"CLAIMS must be a list of texts"),
     "lemmas that are no texts": ("__init__", "", "LEMMAS = (3,)", r"LEMMAS must be a list of texts"),
     "a broken head": ("__init__", "", "1 / 0", r"claims/__init__\.py cannot be loaded: ZeroDivisionError"),
+    "a head without folders": ("__init__", "", "__path__ = None", "claims cannot be read as a register: TypeError: "),
+    "a head that raises": ("__init__", "", "def __getattr__(name):\n    1 / 0", "as a register: ZeroDivisionError: "),
 }
 
 
@@ -189,13 +191,37 @@ def test_a_script_that_is_wrong_is_one_sentence_with_its_file(folder, wrong):
         ("claims/ring.py", "claims/ring.py has no claim: write @claim(id, formula)"),
         ("empty/notes.txt", "empty/notes.txt is no Python script; a register is a folder of scripts, or one"),
         ("no\0where", "there is no folder"),
+        ("empty/circle", "there is no folder"),
     ],
 )
 @pytest.mark.parametrize("command", ["prove", "report"])
 def test_a_place_without_claims_is_one_sentence(folder, command, place, said):
     (folder.parent / "empty").mkdir()
     (folder.parent / "empty" / "notes.txt").write_text("")
+    (folder.parent / "empty" / "circle").symlink_to("circle")
     assert said in refused(command, "--register", place)
+
+
+@pytest.mark.parametrize(
+    ("command", "name", "text"),
+    [
+        (["report"], "__init__", "class Odd:\n    __str__ = None\nPAPER = Odd()"),
+        (["codegen", "--check"], "kernels", "def __getattr__(name):\n    1 / 0"),
+    ],
+)
+def test_what_a_register_raises_where_it_is_read_is_one_sentence(folder, command, name, text):
+    (folder / f"{name}.py").write_text(text)
+    (folder / "cubes.py").unlink()
+    (folder / "squares.py").write_text(SQUARES.partition('@claim("s-2"')[0], encoding="utf-8")
+    said = refused(*command, "--register", "claims", status=1)
+    assert said.startswith("claims cannot be read as a register: ")
+
+
+def test_a_script_may_have_another_encoding(folder):
+    for name, start, encoding in (("ring", "\ufeff", "utf-8"), ("cubes", "# coding: cp1253\n", "cp1253")):
+        path = folder / f"{name}.py"
+        path.write_bytes((start + path.read_text("utf-8").replace("³", "^3").replace("²", "^2")).encode(encoding))
+    assert {one["id"] for one in answer("prove", "--list", "--register", "claims")["claims"]} == {"c-1", "s-1", "s-2"}
 
 
 def test_what_a_proof_lacks_is_said_with_its_place(folder):
