@@ -5,12 +5,14 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext, redirect_stdout
 from pathlib import Path
 from typing import Any, NoReturn
 
 #: Seconds between two lines of progress where standard error is no terminal.
 PAUSE = 5.0
+#: The name of a result that is printed.
+PRINTED = Path("-")
 
 
 def fail(sentence: str, status: int) -> NoReturn:
@@ -22,6 +24,17 @@ def check_apart(path: Path | None, *others: Path | None) -> None:
     """Fails where what is written would replace what is read, or another file that is written."""
     if path is not None and os.path.realpath(path) in {os.path.realpath(other) for other in others if other}:
         fail(f"{path} is named twice: choose another name", 2)
+
+
+def check_printed(path: Path, as_json: bool) -> None:
+    """Fails where a result and JSON would both be printed."""
+    if as_json and path == PRINTED:
+        fail("--json prints on standard output, where -o - writes the result: choose one", 2)
+
+
+def apart(path: Path | None) -> AbstractContextManager[Any]:
+    """Where words about a result go: to standard error where the result is printed."""
+    return redirect_stdout(sys.stderr) if path == PRINTED else nullcontext()
 
 
 def note(sentence: str) -> None:

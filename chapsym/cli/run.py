@@ -2,8 +2,6 @@
 
 import json
 import os
-import sys
-from contextlib import nullcontext, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,7 +9,7 @@ import typer
 
 from .app import INTERRUPTED, app
 from .options import Json, argument, takes, writes
-from .output import counted, fail, note, print_json
+from .output import apart, check_printed, counted, fail, note, print_json
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -63,8 +61,7 @@ def run(
         destination = output or _named(scene, wanted.run.output)
         if scheduler is not None and destination.suffix != ".zarr":
             fail(f"{destination}: --scheduler needs a .zarr, of which each worker writes its part", 2)
-        if as_json and destination == formats.STDOUT:
-            fail("--json prints on standard output, where -o - writes the result: choose one", 2)
+        check_printed(destination, as_json)
         formats.check_destination(destination)
         exact = _exact(wanted, destination) if wanted.run.proved and not wanted.maps else None
         plan = plan_of(wanted)
@@ -95,9 +92,9 @@ def run(
         if saved:
             kept = f"the result is in {destination}, without a proof"
         fail(f"interrupted; {kept}", INTERRUPTED)
-    printed = destination == formats.STDOUT
-    with redirect_stdout(sys.stderr) if printed else nullcontext():
-        _tell(plan, Path("standard output") if printed else destination, outcome, data, answers, as_json)
+    with apart(destination):
+        shown = Path("standard output") if destination == formats.STDOUT else destination
+        _tell(plan, shown, outcome, data, answers, as_json)
     if stopped is not None:
         fail(f"the frames after {len(motion.times)} are not proved: {stopped}", 1)
 

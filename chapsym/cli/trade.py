@@ -12,7 +12,7 @@ from chapsym.rationals import rationals
 
 from .app import app
 from .options import BALL, Json, argument, ball_from, contact_from, takes, tensor_from, with_options, writes
-from .output import fail, print_json, quiet, telling
+from .output import apart, check_printed, fail, print_json, quiet, telling
 
 #: The ball and its start, which a scene has, too.
 BALL_AND_START = BALL | {
@@ -36,6 +36,9 @@ def trade(
     of: Annotated[str | None, takes("WHAT", "contact (metres; the default with a radius) or state (relative).")] = None,
     limit: Annotated[float, takes("S", "Seconds of the processor that a run may take.")] = 600.0,
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs.")] = False,
+    fresh: Annotated[
+        bool, typer.Option("--fresh", "--force", help="Replace a result that is there, of whatever run.")
+    ] = False,
     output: Annotated[Path | None, writes("FILE", "A figure or a page (.md); with --accuracy the run.")] = None,
     as_json: Json = False,
     **clause: str | None,
@@ -62,12 +65,12 @@ def trade(
         fail("--accuracy takes one scene at most", 2)
     if what and first:
         fail(f"the scene has the ball and its start: leave out {first}", 2)
-    _answer(Path(what[0]) if what else None, accuracy, time, of, given, limit, output, as_json)
+    _answer(Path(what[0]) if what else None, accuracy, time, of, given, limit, output, fresh, as_json)
 
 
 def _answer(
     scene: Path | None, accuracy: float, time: float | None, of: str | None, given: dict[str, str], limit: float,
-    output: Path | None, as_json: bool,
+    output: Path | None, fresh: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Chooses, runs, verifies, and says what was chosen."""
     from chapsym import scene as scenes
@@ -75,6 +78,7 @@ def _answer(
     from chapsym.scene.plan.plan import plan_of
     from chapsym.scene.result import formats
     from chapsym.scene.running import sweep
+    from chapsym.scene.running.store import check_same
 
     for name, value in (("--accuracy", accuracy), ("--time", time), ("--limit", limit)):
         if value is not None and not 0 < value < math.inf:
@@ -83,6 +87,7 @@ def _answer(
         fail("--accuracy needs --time, in seconds", 2)
     try:
         if output is not None:
+            check_printed(output, as_json)
             formats.check_destination(output)
         wanted = scenes.load_for(scene, accuracy, time) if scene else _described(accuracy, time, given)
         changed: dict[str, Any] = {"limit": limit, "of": of or wanted.run.of}
@@ -92,10 +97,13 @@ def _answer(
         plan = plan_of(wanted.with_run(**changed))
         if len(plan.members) > 1:
             fail(f"{scene} has {len(plan.members)} balls: chapsym run takes them, with accuracy under [run]", 2)
+        if output is not None and output.exists() and not fresh:
+            check_same(output, plan)
         with telling() as about:
             plan, answers = sweep.answering(plan, about)
-            if output is not None and output.suffix == ".zarr":
-                sweep.run_to_store(plan, output)
+            if output is not None and output.suffix == ".zarr":  # anew, as the answer is not in it
+                for why in sweep.run_to_store(plan, output, fresh=True).lost.values():
+                    raise BadInput(why)
             else:
                 data = sweep.run(plan)
                 if output is not None:
@@ -105,10 +113,11 @@ def _answer(
         quiet()
         fail(_in_options(str(error), scene is None), 2)
     quiet()
-    if as_json:
-        print_json(described(answer, plan.members))
-    else:
-        print_answer(answer, plan.members)
+    with apart(output):
+        if as_json:
+            print_json(described(answer, plan.members))
+        else:
+            print_answer(answer, plan.members)
 
 
 def _in_options(sentence: str, all_of_it: bool) -> str:
@@ -124,21 +133,22 @@ def _described(accuracy: float, time: float | None, given: dict[str, str]) -> An
     from chapsym import scene as scenes
 
     ball: dict[str, Any] = {"inertia": (0.006, 0.007, 0.009), "mass": 2.0, "radius": 0.1}
-    if given.keys() & BALL.keys():
-        tensor = tensor_from(given)
-        if tensor is None:
-            J, D = ball_from(given)
-            ball = {"mass_tensor": list(map(str, J)), "D": str(D)}
-        else:
-            ball = {"inertia": [list(map(str, row)) for row in tensor], "D": str(contact_from(given))}
-        if "radius" in given:
-            ball["radius"] = str(rationals(given["radius"], "--radius", 1)[0])
-    start = {
-        name: list(map(str, rationals(given.get(name, default), f"--{name}", 3)))
-        for name, default in (("omega", "3,-2,1"), ("gamma", "2/7,3/7,6/7"))
-    }
+    if given.keys() & BALL.keys():  # the numbers as they are written: those of fractions may be too long to be read
+        (ball_from if tensor_from(given) is None else contact_from)(given)
+        ball = {"D" if name == "contact" else name: _numbers(given[name]) for name in BALL if name in given}
+    start = {}
+    for name, default in (("omega", "3,-2,1"), ("gamma", "2/7,3/7,6/7")):
+        text = given.get(name, default)
+        rationals(text, f"--{name}", 3)
+        start[name] = _numbers(text)
     run = {"accuracy": accuracy, "time": time, "contact": "radius" in ball}
     return scenes.checked({"ball": ball, "start": start, "run": {k: v for k, v in run.items() if v is not None}})
+
+
+def _numbers(text: str) -> Any:
+    """The texts of one number, of a vector, or of the rows of a matrix."""
+    flat = text.replace(";", ",").split(",")
+    return flat[0] if len(flat) == 1 else flat if len(flat) == 3 else [flat[:3], flat[3:6], flat[6:]]
 
 
 def _final(answer: Any, members: Any) -> dict[str, list[Any]]:

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from commands import answer
+from commands import answer, refused
 from commands import chapsym as command
 from first import BALL, FIRST
 
@@ -115,6 +115,16 @@ def test_the_command_chooses_runs_and_verifies(tmp_path):
     np.testing.assert_allclose(same["final"]["contact"], found["final"]["contact"], atol=2e-8)
 
 
+def test_a_run_that_is_there_is_answered_again_and_another_is_not_replaced(tmp_path):
+    stored, other = ["-o", tmp_path / "run.zarr"], ["--time", "1"]
+    found = answer("trade", *ASKED, *stored)
+    assert answer("trade", *ASKED, *stored)["final"] == found["final"]
+    assert "holds another scene (--time differs)" in refused("trade", *ASKED, *other, *stored)
+    assert answer("trade", *ASKED, *other, *stored, "--fresh")["time"] == 1
+    tiny = ["--time", "5e-324", "-o", tmp_path / "tiny.zarr"]
+    assert "where float64 loses digits" in refused("trade", *ASKED, *tiny)
+
+
 def test_the_end_is_told_in_the_axes_of_an_inertia_tensor(tmp_path):
     tensor = ["--inertia", "0.0301,0.001,-0.0004;0.001,0.0312,0.0007;-0.0004,0.0007,0.0318", "--mass", "7"]
     asked = ["--accuracy", "1e-8", "--time", "1", *tensor, "--radius", "0.1", "-o", tmp_path / "a.npz", "--json"]
@@ -165,6 +175,9 @@ def test_run_prints_the_choice_of_a_scene(tmp_path):
         ([*ASKED, "--omega", "1e400,1,1"], "--omega is beyond the range of float64"),
         ([*ASKED, "--omega", "1e-400,1,1"], "--omega is below 2.2e-308"),
         ([*ASKED, "--inertia", "1e308,1e308,1e308", "--D", "1", "--of", "state"], "beyond"),
+        ([*ASKED, "--omega", "1e-5000,1,1"], "--omega is below 2.2e-308"),
+        ([*ASKED, "--inertia", "1,1,1", "--D", "1e-5000"], "--D is below 2.2e-308"),
+        ([*ASKED, "--json", "-o", "-"], "--json prints on standard output, where -o - writes the result: choose one"),
         ([*ASKED, "--omega", "1e160,1,1"], "it takes too many steps"),
         (["contact", "-o", "figure.txt"], "a figure must end in"),
         (["requests", "-o", "figure.svg"], "have a figure"),
