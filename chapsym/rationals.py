@@ -20,8 +20,7 @@ def rational(text: str, name: str) -> Fraction:
     """`1/3`, `-2`, `0.25` or `1e-12`, exactly; raises NotANumber with the place."""
     stripped = text.strip()
     if len(stripped) > 4_000 or not _FORM.fullmatch(stripped):
-        shown = stripped if len(stripped) <= 40 else stripped[:37] + "..."
-        raise NotANumber(f"{name}: {shown!r} is not a number; write it as 1/3, -2, 0.25 or 1e-12")
+        raise NotANumber(f"{name}: {_short(stripped)!r} is not a number; write it as 1/3, -2, 0.25 or 1e-12")
     try:
         return Fraction(stripped)
     except ZeroDivisionError:
@@ -33,9 +32,13 @@ def rationals(text: str, name: str, count: int) -> tuple[Fraction, ...]:
     parts = text.split(",")
     if len(parts) != count:
         raise NotANumber(
-            f"{name} takes {count} numbers separated by commas, such as 1,-1/2,3/4; {text!r} has {len(parts)}"
+            f"{name} takes {count} numbers separated by commas, such as 1,-1/2,3/4; {_short(text)!r} has {len(parts)}"
         )
     return tuple(rational(part, name) for part in parts)
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 40 else text[:37] + "..."
 
 
 def mass_tensor_from(inertia: Sequence[Fraction]) -> tuple[Fraction, ...]:

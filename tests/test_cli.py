@@ -64,6 +64,8 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["nonsense"], "No such command 'nonsense'"),
         (["step"], "Missing option '--momentum'"),
         ([*STEP, "--momentum", "1,2"], "--momentum takes 3 numbers separated by commas"),
+        ([*STEP, "--momentum", "1" * 99], "3/4; '1111111111111111111111111111111111111...' has 1"),
+        (["scene", "new", "y" * 300 + ".toml"], "yyy.toml: File name too long"),
         ([*STEP, "--momentum", "1,2,__import__('os')"], "is not a number; write it as 1/3, -2, 0.25 or 1e-12"),
         ([*STEP, "--momentum", "1,2,1/0"], "'1/0' divides by zero"),
         ([*STEP, "--momentum", "nan,0,0"], "'nan' is not a number"),

@@ -89,6 +89,9 @@ def main() -> NoReturn:
         quiet()
         fail("there is not enough memory for this", 2)
     except OSError as error:
+        if error.filename is not None:
+            quiet()
+            fail(f"{error.filename}: {error.strerror}", 2)
         _silence_output()
         fail(f"the output cannot be written: {error.strerror or error}", 2)
     except _foreseen() as error:
