@@ -3,27 +3,43 @@
 import multiprocessing
 import os
 import signal
+import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
+from contextlib import contextmanager
 from typing import Any
+
+#: What Python's tracker, which takes away the semaphores of a process that was killed, says of it; an option -W.
+TRACKER = "ignore:resource_tracker:UserWarning"
 
 
 class Processes(ProcessPoolExecutor):
     """Worker processes, of which none sees an interrupt, not even while it begins: that is for this process."""
 
     def __init__(self, count: int, first: Callable[[], None] | None = None) -> None:
-        super().__init__(count, multiprocessing.get_context("spawn"), initializer=first or begin)
+        if TRACKER not in sys.warnoptions:
+            sys.warnoptions.append(TRACKER)
+        with _deaf():
+            super().__init__(count, multiprocessing.get_context("spawn"), initializer=first or begin)
 
     def submit(self, *call: Any, **named: Any) -> Future[Any]:
         """A call; the first one starts the processes."""
-        if not hasattr(signal, "pthread_sigmask"):  # Windows
+        with _deaf():
             return super().submit(*call, **named)
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-        try:
-            return super().submit(*call, **named)
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """What begins in it, a worker or Python's tracker, never sees an interrupt of a terminal, nor its end."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP, signal.SIGQUIT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def begin() -> None:

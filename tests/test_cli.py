@@ -274,18 +274,38 @@ main()
 """
 
 
-@pytest.mark.parametrize("command", [["check", "--states", "1"], *slow(["prove", "4.3", "2.1", "2.7"])])
-def test_an_interrupt_is_told_and_ends_the_command(command):
-    """Sent to all processes of the command, as a terminal does."""
+CHECK, PROVE = ["check", "--states", "1"], ["prove", "4.3", "2.1", "2.7"]
+
+
+@pytest.mark.parametrize(("command", "name"), [(CHECK, "INT"), (CHECK, "TERM"), (PROVE, "HUP"), *slow((PROVE, "INT"))])
+def test_an_interrupt_is_told_and_ends_the_command(command, name):
+    """Sent to all processes of the command, as a terminal does, or a scheduler."""
     with subprocess.Popen(
         [sys.executable, "-c", ARRIVED, *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         start_new_session=True,
     ) as running:  # fmt: skip
         assert running.stdout.readline() == "arrived\n"
-        os.killpg(running.pid, signal.SIGINT)
+        os.killpg(running.pid, getattr(signal, f"SIG{name}"))
         _, expected = running.communicate()
     assert running.returncode == 130
     assert expected.strip().splitlines()[-1] == "chapsym: interrupted"
+    assert "resource_tracker" not in expected
+
+
+#: A command that is killed while two processes work.
+KILLED = """import os, signal
+from chapsym import jobs
+if __name__ == "__main__":
+    with jobs.processes(2) as crew:
+        crew.submit(jobs.Call(abs, (1,))).result()
+        os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_of_a_command_that_is_killed_nothing_is_said(tmp_path):
+    (tmp_path / "killed.py").write_text(KILLED)
+    done = subprocess.run([sys.executable, tmp_path / "killed.py"], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (-signal.SIGKILL, "")
 
 
 def test_a_run_that_meets_a_fold_keeps_what_it_has(tmp_path):

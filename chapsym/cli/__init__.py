@@ -1,7 +1,7 @@
 """The command: thin, one module for each subcommand, every package imported only when it is asked for.
 
 Exit status: 0 done and proved; 1 a verdict or a check is not what it should be; 2 the input has no answer,
-or the command line is wrong; 130 interrupted; 141 nobody reads the output.
+or the command line is wrong; 130 interrupted, by TERM and HUP, too; 141 nobody reads the output.
 """
 
 import sys

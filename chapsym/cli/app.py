@@ -5,6 +5,7 @@ import codecs
 import io
 import logging
 import os
+import signal
 import sys
 import threading
 import unicodedata
@@ -67,6 +68,7 @@ def main() -> NoReturn:
     if len(sys.argv) == 1:
         sys.argv.append("--help")
     try:
+        _hear()
         status = plain(typer.main.get_command(app)).main(prog_name="chapsym", standalone_mode=False)
         sys.stdout.flush()
         if status == INTERRUPTED:
@@ -97,6 +99,15 @@ def main() -> NoReturn:
     except _foreseen() as error:
         quiet()
         fail(str(error), 2)
+
+
+def _hear() -> None:
+    """Takes the signals that end a command, as a scheduler and a terminal that goes send them, for an interrupt."""
+    if threading.current_thread() is threading.main_thread():
+        for name in ("SIGTERM", "SIGHUP"):
+            which = getattr(signal, name, None)
+            if which and signal.getsignal(which) == signal.SIG_DFL:  # nohup ignores the latter
+                signal.signal(which, signal.default_int_handler)
 
 
 def _unraisable(what: "sys.UnraisableHookArgs") -> None:
