@@ -225,9 +225,11 @@ def test_a_screen_that_this_python_has_not_is_not_asked_for(monkeypatch):
     assert os.environ["MPLBACKEND"] == "agg"
 
 
-def test_a_command_whose_errors_nobody_wants_does_its_work():
-    command = ["sh", "-c", '"$@" 2>&-', "sh", sys.executable, "-m", "chapsym", *STEP]
+@pytest.mark.parametrize("where", ["2>&-", "2>/dev/full"])
+def test_a_command_whose_errors_nobody_wants_does_its_work(where):
+    command = ["sh", "-c", f'"$@" {where}', "sh", sys.executable, "-m", "chapsym", *STEP]
     assert subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout
+    assert subprocess.run([*command, "--gamma", "0,0,0"], check=False).returncode == 2
 
 
 @pytest.mark.parametrize(

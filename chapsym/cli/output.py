@@ -39,7 +39,15 @@ def apart(path: Path | None) -> AbstractContextManager[Any]:
 
 def note(sentence: str) -> None:
     """One sentence on standard error, and no failure."""
-    print(f"chapsym: {sentence}", file=sys.stderr)
+    _said(f"chapsym: {sentence}\n")
+
+
+def _said(text: str) -> None:
+    """Standard error may be a full disk, a pipe that nobody reads, or a terminal that is gone: the work goes on."""
+    try:
+        print(text, end="", file=sys.stderr, flush=True)
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
 
 
 def counted(n: int, noun: str) -> str:
@@ -73,7 +81,7 @@ def json_text(value: Any, indent: int | None = None) -> str:
 def say(text: str) -> None:
     """Progress on standard error, on a terminal: a line that moves, without a thread of Rich's, which costs time."""
     if sys.stderr.isatty():
-        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
+        _said(f"\r\033[K{text}")
 
 
 def quiet() -> None:

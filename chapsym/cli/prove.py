@@ -168,7 +168,7 @@ def judge_and_keep(
     finally:  # an interrupt keeps what was finished, and puts it in order
         try:
             records.update(path, arrived, claims)
-        except files.CannotWrite as error:
+        except (files.CannotWrite, records.BrokenRecords) as error:
             note(f"the verdicts are not kept: {error}")
     for record in judged:
         before = kept.get(record["id"], record)["verdict"]

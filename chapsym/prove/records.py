@@ -117,9 +117,12 @@ def update(path: Path, records: Iterable[dict[str, Any]], claims: dict[str, Clai
 
 
 def append(path: Path, record: dict[str, Any]) -> None:
-    """Adds a record to a file that `update` has written; of two for a claim the last one counts."""
-    with path.open("ab") as stream:
-        stream.write(files.encoded(json.dumps(record, ensure_ascii=False) + "\n"))
+    """Adds a record, or nothing, to a file that `update` has written; of two for a claim the last one counts."""
+    line = files.encoded(json.dumps(record, ensure_ascii=False) + "\n")
+    with path.open("ab", buffering=0) as stream:
+        before = os.fstat(stream.fileno()).st_size
+        if stream.write(line) != len(line):  # a full disk
+            stream.truncate(before)
 
 
 def stale(records: dict[str, dict[str, Any]], claims: dict[str, Claim]) -> list[str]:

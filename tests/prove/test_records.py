@@ -212,6 +212,19 @@ def test_the_list_shows_what_is_on_record(path):
     assert "1 records are stale" in text or "1 record is stale" in text
 
 
+def test_of_a_record_for_which_there_is_no_room_nothing_is_kept(path):
+    """A limit of the size of files, as a full disk: what is written is less than what is given."""
+    resource = pytest.importorskip("resource")
+    records.append(path, made("4.1"))
+    before, limits = path.read_bytes(), resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 100, limits[1]))
+    try:
+        records.append(path, made("4.2", printed="x" * 200))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert path.read_bytes() == before
+
+
 def test_a_folder_that_cannot_be_written_costs_only_the_records(tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("", encoding="utf-8")
