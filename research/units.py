@@ -4,6 +4,7 @@ A unit is a function of a module and its arguments, as plain data; its result is
 of a JSON Lines file, so that a killed study loses only the units that were in flight.
 """
 
+import hashlib
 import json
 import os
 from collections.abc import Callable, Iterator, Sequence
@@ -78,7 +79,7 @@ def run_units(
                 raise BadInput(f"a process that computed {_name(unit)} was killed; the same command goes on") from None
             except Exception as error:
                 raise BadInput(f"{_name(unit)}: {error}") from error
-            keep({"key": key, "result": done[key]})
+            keep(key, done[key])
             tell()
 
         tell()
@@ -90,17 +91,17 @@ def run_units(
 
 
 @contextmanager
-def _kept(path: Path | None) -> Iterator[tuple[dict[str, Any], Callable[[dict[str, Any]], None]]]:
-    """The results that a file has, and what appends a record to it, flushed; it is locked meanwhile."""
+def _kept(path: Path | None) -> Iterator[tuple[dict[str, Any], Callable[[str, Any], None]]]:
+    """The results that a file has, and what appends one to it, flushed; it is locked meanwhile."""
     if path is None:
-        yield {}, lambda record: None
+        yield {}, lambda key, result: None
         return
     with _written(lambda: path.open("a+", encoding="utf-8", newline="")) as stream:
         jobs.claim(stream, str(path))
         done = _read(stream, path)
 
-        def keep(record: dict[str, Any]) -> None:
-            line = json.dumps(record, ensure_ascii=False, allow_nan=False) + "\n"
+        def keep(key: str, result: Any) -> None:
+            line = json.dumps(_record(key, result), ensure_ascii=False, allow_nan=False) + "\n"
             _written(lambda: (stream.write(line), stream.flush()))
 
         yield done, keep
@@ -118,14 +119,21 @@ def _read(stream: Any, path: Path) -> dict[str, Any]:
     for number, line in enumerate(whole.splitlines(), start=1):
         try:
             record = json.loads(line)
+            if record != _record(record["key"], record["result"]):
+                raise ValueError("damaged")
             found[record["key"]] = record["result"]
-        except (ValueError, TypeError, KeyError):
+        except (ValueError, TypeError, KeyError, RecursionError):
             raise BadInput(
-                f"line {number} of {path} is no result of a study; name another folder, or delete the file"
+                f"line {number} of {path} is no result of a study, or is damaged; delete it, or name another folder"
             ) from None
     if whole != text:
         _written(lambda: stream.truncate(len(whole.encode())))
     return found
+
+
+def _record(key: str, result: Any) -> dict[str, Any]:
+    """A line of the file, with a checksum."""
+    return {"key": key, "result": result, "sha256": hashlib.sha256(json.dumps([key, result]).encode()).hexdigest()}
 
 
 def _written(write: Callable[[], Any]) -> Any:

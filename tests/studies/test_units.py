@@ -30,8 +30,7 @@ def test_what_is_kept_is_not_computed_again(tmp_path):
     path = tmp_path / "u.jsonl"
     run_units(units(), path)
     lines = path.read_text().splitlines()
-    record = json.loads(lines[1])
-    lines[1] = json.dumps({**record, "result": "kept"})
+    lines[1] = json.dumps(units_module._record(json.loads(lines[1])["key"], "kept"))
     path.write_text("\n".join(lines) + "\n")
     found = run_units(units(6), path)
     assert found.count("kept") == 1
@@ -71,7 +70,7 @@ def test_another_process_must_have_the_same_sources(monkeypatch):
 def test_two_studies_do_not_write_one_file(tmp_path):
     path = tmp_path / "u.jsonl"
     with units_module._kept(path) as (_, keep):
-        keep({"key": "a", "result": 1})
+        keep("a", 1)
         with pytest.raises(BadInput, match=r"u\.jsonl is being written by another process"):
             run_units(units(1), path)
     assert run_units(units(1), path) == [{"n": 0}]
@@ -87,12 +86,16 @@ def test_a_line_that_was_cut_off_is_computed_again(tmp_path):
     assert sorted(path.read_text().splitlines()) == sorted(text.splitlines())
 
 
-def test_a_file_of_something_else_is_refused(tmp_path):
+@pytest.mark.parametrize("line", ["first", "[" * 10**5, '{"key": "a", "result": 1}', "damaged"])
+def test_a_file_of_something_else_is_refused_and_a_damaged_one(tmp_path, line):
     path = tmp_path / "u.jsonl"
-    path.write_text("first\n")
-    with pytest.raises(BadInput, match=r"line 1 of .* is no result of a study"):
+    run_units(units(1), path)
+    text = path.read_text().replace('"result": {"n": 0}', '"result": {"n": 1}')
+    path.write_text(text if line == "damaged" else f"{line}\n")
+    before = path.read_text()
+    with pytest.raises(BadInput, match=r"line 1 of .* is no result of a study, or is damaged; delete it, or name"):
         run_units(units(), path)
-    assert path.read_text() == "first\n"
+    assert path.read_text() == before
 
 
 def test_a_unit_that_fails_is_named_and_the_others_are_kept(tmp_path):
