@@ -225,6 +225,12 @@ def test_a_screen_that_this_python_has_not_is_not_asked_for(monkeypatch):
     assert os.environ["MPLBACKEND"] == "agg"
 
 
+@pytest.mark.parametrize("seconds", ["abc", "-1", "9" * 12])
+def test_a_date_that_is_none_is_one_sentence(monkeypatch, seconds):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", seconds)
+    assert "SOURCE_DATE_EPOCH must be a number of seconds, such as 1700000000, not '" in refused(*STEP)
+
+
 @pytest.mark.parametrize("where", ["2>&-", "2>/dev/full"])
 def test_a_command_whose_errors_nobody_wants_does_its_work(where):
     command = ["sh", "-c", f'"$@" {where}', "sh", sys.executable, "-m", "chapsym", *STEP]

@@ -5,6 +5,7 @@ import codecs
 import io
 import logging
 import os
+import re
 import signal
 import sys
 import threading
@@ -69,6 +70,7 @@ def main() -> NoReturn:
         sys.argv.append("--help")
     try:
         _hear()
+        _check_date(os.environ.get("SOURCE_DATE_EPOCH", "0"))
         status = plain(typer.main.get_command(app)).main(prog_name="chapsym", standalone_mode=False)
         sys.stdout.flush()
         if status == INTERRUPTED:
@@ -99,6 +101,12 @@ def main() -> NoReturn:
     except _foreseen() as error:
         quiet()
         fail(str(error), 2)
+
+
+def _check_date(seconds: str) -> None:
+    """The date that figures are to have: matplotlib and SymPy would end in an error of theirs."""
+    if not re.fullmatch(r"\d{1,11}", seconds, re.ASCII):
+        fail(f"SOURCE_DATE_EPOCH must be a number of seconds, such as 1700000000, not {seconds[:40]!r}", 2)
 
 
 def _hear() -> None:
