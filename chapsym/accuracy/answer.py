@@ -21,7 +21,7 @@ from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
 from chapsym.dynamics.loops.double_double import FIRST
 from chapsym.dynamics.map import MOST_STEPS as MOST_FRAMES
-from chapsym.dynamics.map import whole_number
+from chapsym.dynamics.map import time_limit, whole_number
 from chapsym.dynamics.results import some_frames
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single, in_words, pairs
 
@@ -467,9 +467,7 @@ def foreseen(
 
 def _foreseen(request: Request, limit: Any) -> tuple[Problem | None, Choice]:
     """The problem in double precision, None where that has not the accuracy, and what is tried first."""
-    number = isinstance(limit, int | float | np.integer | np.floating) and not isinstance(limit, bool | np.timedelta64)
-    if not number or not limit > 0:
-        raise BadInput(f"limit must be a positive number of seconds, not {brief(limit)}")
+    limit = time_limit(limit)
     in_range(request.time, request.angular_momentum)
     problem = _problem(request)
     if request.accuracy >= motion.FINEST * request.unit and problem.floor <= motion.ROUNDING * request.accuracy:

@@ -17,7 +17,7 @@ from chapsym.rationals import decimals
 from .ball import Ball, brief, in_principal_axes
 from .errors import BadInput, TooWide
 from .levels.start import exponent_of, fraction
-from .map import check_body, check_tensor, unit_exactly
+from .map import check_body, check_tensor, time_limit, unit_exactly, whole_number
 from .results import Bounds, Trajectory
 from .shown import Brief
 
@@ -305,13 +305,7 @@ def follow(
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> CertifiedMotion:  # fmt: skip
     """`certified_motion` from a `flow.start.Start`."""
-    if isinstance(digits, np.integer):
-        digits = int(digits)
-    if isinstance(digits, bool) or not isinstance(digits, int) or not 1 <= digits <= MOST_DIGITS:
-        raise BadInput(f"digits must be a whole number from 1 to {MOST_DIGITS}, not {brief(digits)}")
-    if not (isinstance(limit, int | float) and limit > 0):
-        raise BadInput(f"limit must be a positive number of seconds, not {brief(limit)}")
-    limit = float(min(limit, LONGEST))
+    digits, limit = whole_number(digits, "digits", 1, MOST_DIGITS), min(time_limit(limit), LONGEST)
     search = _Search(start, tuple(times), digits, clock.monotonic() + limit, progress)
     bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()
     why = None

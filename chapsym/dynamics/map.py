@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision, Single
+from chapsym.numbers.precisions import is_whole
 
 from .attitudes import first_attitudes
 from .ball import Ball, Floats, brief, flag, in_shape, is_followed, numbers
@@ -357,12 +358,19 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
     """A count from `least` to `most`, or without it 2^62 for all that is larger; raises BadInput for anything else."""
     if type(value) is int and least <= value < MOST_STEPS and (most is None or value <= most):
         return value
-    number = isinstance(value, int | np.integer) and not isinstance(value, bool | np.timedelta64)
-    if not number or value < least or (most is not None and value > most):
-        bounded = most is not None and (most < MOST_STEPS or (number and value > most))
+    if not is_whole(value) or value < least or (most is not None and value > most):
+        bounded = most is not None and (most < MOST_STEPS or (is_whole(value) and value > most))
         clause = f"to {most}" if bounded else "on"
         raise BadInput(f"{name} must be a whole number from {least} {clause}, not {brief(value)}")
     return min(int(value), MOST_STEPS)
+
+
+def time_limit(value: Any) -> float:
+    """A limit in seconds; raises BadInput for what is no positive number."""
+    real = is_whole(value) or isinstance(value, float | np.floating)
+    if not real or not value > 0:
+        raise BadInput(f"limit must be a positive number of seconds, not {brief(value)}")
+    return float(min(value, MOST_STEPS))
 
 
 def step_numbers(index: ArrayLike) -> np.ndarray:

@@ -143,7 +143,7 @@ def measured(
     (True, 2.0)
     """
     runner = Runner(system, method)
-    whole_number(steps, "steps")
+    steps = whole_number(steps, "steps")
     h = runner.length if length is None else number(length, "the length of a step")
     first = Cell(system.name, method, steps, h, kept=keeps(system, runner.scheme))
     if decide:

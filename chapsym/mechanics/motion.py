@@ -22,6 +22,7 @@ from chapsym.codegen import Kernel, build, c_files, passes
 from chapsym.dynamics.implicit import solved
 from chapsym.dynamics.kernels import parts_of
 from chapsym.numbers import Double, Enclosure, Precision, brief, named
+from chapsym.numbers.precisions import is_whole
 
 from .algebra import Letters
 from .methods import Scheme, scheme_of
@@ -74,12 +75,12 @@ class Motion:
     seconds: float
 
 
-def whole_number(given: Any, what: str) -> None:
-    """Raises BadSystem for what is no count that C can hold."""
-    number = isinstance(given, int) and not isinstance(given, bool)
-    if not number or not 1 <= given < 2**62:
-        clause = "to 2^62" if number and given > 0 else "on"
+def whole_number(given: Any, what: str) -> int:
+    """A count that C can hold; raises BadSystem for anything else."""
+    if not is_whole(given) or not 1 <= given < 2**62:
+        clause = "to 2^62" if is_whole(given) and given > 0 else "on"
         raise BadSystem(f"{what} must be a whole number from 1 {clause}, not {brief(given)}")
+    return int(given)
 
 
 class Runner:
@@ -246,8 +247,7 @@ class Runner:
             If the equations of a step are not solved.
         """
         h = self.length if length is None else number(length, "the length of a step")
-        for given, what in ((steps, "steps"), (every, "every")):
-            whole_number(given, what)
+        steps, every = whole_number(steps, "steps"), whole_number(every, "every")
         if not h > 0:
             raise BadSystem(f"the length of a step must be positive, not {h!r}")
         q, v = self.system.beginning

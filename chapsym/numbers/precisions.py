@@ -73,9 +73,19 @@ def brief(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _whole(name: str, value: Any, least: int, most: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
-        raise ValueError(f"{name}(n) takes a whole number from {least} to {most}, not {brief(value)}")
+def is_whole(value: Any) -> bool:
+    """Whether a value is a whole number of Python or NumPy."""
+    return isinstance(value, int | np.integer) and not isinstance(value, bool | np.timedelta64)
+
+
+def _whole(precision: Any, name: str, least: int, most: int) -> None:
+    """Makes the count of a precision, and its guard, whole numbers of Python; raises ValueError for others."""
+    kind = type(precision).__name__
+    for field, what, lowest in ((name, f"{kind}(n) takes", least), ("guard", f"guard of {kind} must be", 0)):
+        given = getattr(precision, field)
+        if not is_whole(given) or not lowest <= given <= most:
+            raise ValueError(f"{what} a whole number from {lowest} to {most}, not {brief(given)}")
+        object.__setattr__(precision, field, int(given))
 
 
 class Precision(ABC):
@@ -152,12 +162,12 @@ class Digits(Precision):
     count : int
         Significant digits, from 1 to 1 000 000.
     guard : int, optional
-        How many more the arithmetic carries.
+        How many more the arithmetic carries, from 0 on.
 
     Raises
     ------
     ValueError
-        For a count that is not such a number.
+        For a count or a guard that is not such a number.
 
     Examples
     --------
@@ -172,7 +182,7 @@ class Digits(Precision):
     guard: int = 15
 
     def __post_init__(self) -> None:
-        _whole("Digits", self.count, 1, MOST_DIGITS)
+        _whole(self, "count", 1, MOST_DIGITS)
 
     @cached_property
     def context(self) -> Any:
@@ -204,12 +214,12 @@ class Enclosure(Precision):
     bits : int
         About how many bits are correct, from 2 to 10 000 000.
     guard : int, optional
-        How many more the arithmetic carries.
+        How many more the arithmetic carries, from 0 on.
 
     Raises
     ------
     ValueError
-        For bits that are not such a number.
+        For bits or a guard that are not such a number.
 
     Examples
     --------
@@ -224,7 +234,7 @@ class Enclosure(Precision):
     guard: int = 40
 
     def __post_init__(self) -> None:
-        _whole("Enclosure", self.bits, 2, MOST_BITS)
+        _whole(self, "bits", 2, MOST_BITS)
 
     def number(self, value: Fraction) -> Any:
         from flint import arb, fmpq

@@ -223,6 +223,7 @@ BAD = [
     ({"digits": 0}, "digits must be a whole number from 1"),
     ({"digits": 2.5}, "digits must be a whole number from 1"),
     ({"limit": 0}, "limit must be a positive number"),
+    ({"limit": True}, "limit must be a positive number"),
     ({"attitude": (1, 0, 0, 0)}, "attitude must turn gamma to"),
     ({"attitude": (0, 0, 0, 0)}, "attitude must not be 0"),
 ]

@@ -207,6 +207,7 @@ def test_numbers_that_are_no_integers_and_any_names_are_taken(method):
 def test_steps_that_cannot_be_are_one_sentence(options, said):
     with pytest.raises(BadSystem, match=said):
         moved(particle(), "dla", **{"steps": 5} | options)
+    assert len(moved(particle(), steps=np.int64(4), every=np.int8(2)).time) == 2
 
 
 @pytest.mark.filterwarnings("error")

@@ -6,6 +6,7 @@ from fractions import Fraction as F
 
 import flint
 import mpmath
+import numpy as np
 import pytest
 from budget import examples
 from hypothesis import given
@@ -203,6 +204,10 @@ def test_the_named_precisions_are_the_map_to_their_digits(name, digits):
 def test_a_precision_takes_a_whole_number(make, value):
     with pytest.raises(ValueError, match="takes a whole number from"):
         make(value)
+    if value != 0:
+        with pytest.raises(ValueError, match=f"guard of {make.__name__} must be a whole number from 0"):
+            make(30, guard=value)
+    assert make(np.int64(30), np.int8(5)) == make(30, 5)
 
 
 def test_a_quad_step_beyond_float64_is_refused():
