@@ -18,6 +18,8 @@ from chapsym.prove.points import drawn, first, small, some
 
 from .system import BadSystem, System, rational, without
 
+#: Digits of the numbers of a system, as all floats have them; of more than `FACTORED` factors would take minutes.
+MOST_DIGITS, FACTORED = 330, 100
 #: The number of points that are tried.
 MOST_POINTS = 24
 #: Points at which roots may be rational: of quotients of the legs of right triangles.
@@ -168,6 +170,8 @@ class Algebra:
             raise BadSystem(f"{self.system.name}: {expr!s:.60} is no expression") from None
         if found.has(sp.zoo, sp.nan, sp.oo):
             raise BadSystem(f"{self.system.name}: {expr!s:.60} divides by 0")
+        if has_longer(found, MOST_DIGITS):
+            raise BadSystem(f"{self.system.name}: exact verdicts are for numbers of {MOST_DIGITS} digits at most")
         return found
 
     def _check(self) -> None:
@@ -318,6 +322,16 @@ def generic(matrix: sp.Matrix, points: Sequence[Point]) -> Point:
     """A point at which the rank is largest: the first where it is that of all rows."""
     full = (point for point in points if rank(matrix, point) == matrix.rows)
     return next(full, None) or max(points, key=lambda point: rank(matrix, point))
+
+
+def has_longer(expr: sp.Expr, digits: int) -> bool:
+    """Whether an expression has a number of more digits."""
+    return any(max(abs(x.p), x.q) >= 10**digits for x in expr.atoms(sp.Rational))
+
+
+def factors_of(expr: sp.Expr) -> list[sp.Expr]:
+    """The factors of a polynomial, without their powers; itself, where its numbers are long."""
+    return [expr] if has_longer(expr, FACTORED) else [of for of, _ in sp.factor_list(expr)[1]]
 
 
 def size(expressions: Iterable[sp.Expr]) -> int:

@@ -26,7 +26,7 @@ from flint import arb
 
 from chapsym.numbers.precisions import flint_bits
 
-from .algebra import Algebra, Point, adjugate, determinant, size
+from .algebra import Algebra, Point, adjugate, determinant, factors_of, size
 from .brackets import along, bracket_of, flag
 from .equations import OnShell
 from .series import evaluated
@@ -34,7 +34,7 @@ from .system import BadSystem, System, a_system
 
 #: Denominators of the powers in a density, how often brackets are taken of brackets, and the bits of balls.
 BELOW, MOST_LEVELS, BITS = 12, 3, 400
-#: Of what has more different parts no further brackets are taken.
+#: Of what has more different parts no further brackets are taken, and divergences are not reduced.
 MOST_PARTS = 1000
 #: What is 0 in a numerical rank.
 NEAR = 1e-9
@@ -175,6 +175,8 @@ def divergences(of: OnShell) -> tuple[list[list[sp.Expr]], list[sp.Expr], sp.Exp
         pushed = (inverse * (x.T * of.mass * brackets).applyfunc(reduced)).trace() / below
         own = (algebra.letters.derivative(e, c) for e, c in zip(one, algebra.system.coordinates, strict=True))
         formed.append(sum(own, pushed))
+        if size(formed) > MOST_PARTS:
+            raise BadSystem(f"{algebra.system.name}: how its velocities diverge is too long to be decided")
     return [list(map(reduced, one)) for one in of.fields], list(map(reduced, formed)), below, formed
 
 
@@ -182,7 +184,7 @@ def _density(
     fields: Sequence[Sequence[sp.Expr]], spread: Sequence[sp.Expr], parts: Iterable[sp.Expr], algebra: Algebra
 ) -> sp.Expr | None:
     """A product of powers of some polynomials and their factors whose derivative by each field is -θ times it."""
-    parts = {p for e in parts for p in (e, *(of for of, _ in sp.factor_list(e)[1]))}
+    parts = {p for e in parts for p in (e, *factors_of(e))}
     factors = sorted((p for p in parts if p.free_symbols), key=lambda p: (p.count_ops(), str(p)))
     rates = [[along(one, p, algebra) / p for p in factors] for one in fields]
     table = [[*own, aim] for own, aim in zip(rates, spread, strict=True)]

@@ -115,7 +115,7 @@ def replaced(
         is_wave = isinstance(expr, sp.sin | sp.cos | sp.tan)
         is_new = is_wave or any(map(is_not, parts, expr.args))
         new = expr.func(*map(sp.expand, parts) if is_wave else parts) if is_new else expr
-        if isinstance(-new, sp.sin | sp.cos | sp.tan):
+        if isinstance(new, sp.Expr) and isinstance(-new, sp.sin | sp.cos | sp.tan):  # not limits of an integral
             return -turned(-new)  # sin(-x)
         return turned(new) if isinstance(new, sp.sin | sp.cos | sp.tan) else new
 

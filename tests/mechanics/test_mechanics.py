@@ -29,6 +29,7 @@ from chapsym.mechanics import (
     brackets,
     certified,
     conserved,
+    density,
     dot,
     flag,
     in_symbols,
@@ -252,13 +253,22 @@ def test_a_coordinate_may_be_called_as_a_number_or_a_function():
 
 
 def test_what_is_too_long_to_be_decided_is_said(monkeypatch):
+    constraints, odd = [vz - k * vy * sp.cos(x), va + (k * y + 1) * vx], {"one": sp.Integral(x, x)}
+    pulled = System("pulled", (x, y, z, a), FREE + va**2 / 2 + k * vx * vy, constraints, parameters={k: "1e300"})
+    with pytest.raises(BadSystem, match="neither a volume is found"):  # factors of such numbers take minutes
+        volume(pulled)
+    one = System("one", (x, y, z), FREE, [vz - y * vx], integrals=odd)
+    assert verdicts(one, METHODS["dla"].scheme(one))["keeps one"].said.endswith("has no exact series")
     monkeypatch.setattr(brackets, "MOST_PARTS", 3)
     with pytest.raises(BadSystem, match="too long to be decided"):
         flag(particle())
     with pytest.raises(BadSystem, match="more digits than Python writes"):
         volume(System("long", (x,), vx**2 / 2, parameters={k: 10**5000}))
-    with pytest.raises(BadSystem, match="numbers are too long for a volume to be decided"):
-        volume(System("far", (x, y, z), FREE, [vz - k * vy * sp.cos(x)], parameters={k: "1e5000"}))
+    with pytest.raises(BadSystem, match="exact verdicts are for numbers of 330 digits at most"):
+        flag(System("far", (x, y, z), FREE, [vz - k * vy * sp.cos(x)], parameters={k: "1e5000"}))
+    monkeypatch.setattr(density, "MOST_PARTS", 3)
+    with pytest.raises(BadSystem, match="how its velocities diverge is too long to be decided"):
+        volume(particle())
     divided = System("divided", (x, y), (vx**2 + vy**2) / 2, holonomic=[y * sp.sqrt(1 + x**2)])
     assert verdicts(divided, METHODS["dla"].scheme(divided))["order"].verdict == "measured"
     bound = System("bound", (x, y), (vx**2 + vy**2) / 2, holonomic=[x * sp.sin(y + 1) + sp.Rational(1, 2)])
