@@ -18,10 +18,12 @@ class Processes(ProcessPoolExecutor):
     """Worker processes, of which none sees an interrupt, not even while it begins: that is for this process."""
 
     def __init__(self, count: int, first: Callable[[], None] | None = None) -> None:
-        if TRACKER not in sys.warnoptions:
-            sys.warnoptions.append(TRACKER)
-        with _deaf():
-            super().__init__(count, multiprocessing.get_context("spawn"), initializer=first or begin)
+        sys.warnoptions.append(TRACKER)  # for the tracker, which begins here: other children have what they had
+        try:
+            with _deaf():
+                super().__init__(count, multiprocessing.get_context("spawn"), initializer=first or begin)
+        finally:
+            sys.warnoptions.remove(TRACKER)
 
     def submit(self, *call: Any, **named: Any) -> Future[Any]:
         """A call; the first one starts the processes."""
