@@ -3,6 +3,7 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+INSTALL := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 SHELL := bash
 .SHELLFLAGS := -e -o pipefail -c
 
@@ -86,8 +87,8 @@ release-check: $(VENV)/.installed
 # Dependency groups are known to pip from 25.1 on.
 $(VENV)/.installed: pyproject.toml constraints.txt setup.py generated/loops.c chapsym/dynamics/native/module.c
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt 'pip>=25.1'
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[all,test,docs]' --group dev
+	$(INSTALL) -c constraints.txt 'pip>=25.1'
+	$(INSTALL) -c constraints.txt -e '.[all,test,docs]' --group dev
 	@touch $@
 
 clean:
