@@ -10,6 +10,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import sympy as sp
+from budget import slow
 from commands import answer
 from flint import arb, arb_poly, ctx
 from scipy.integrate import solve_ivp
@@ -102,7 +103,7 @@ def apart(case, found):
     return abs(q - case.attitude).max(), abs(found[1] - case.path).max()
 
 
-@pytest.mark.parametrize("name", ["free-top", "rotor"])
+@pytest.mark.parametrize("name", [*slow("free-top"), "rotor"])
 def test_another_integration_finds_the_same(name):
     case = read_case(make.DATA / f"{name}.json")
     assert max(apart(case, rolled(case, case.rotor))) < 1e-9
@@ -172,6 +173,7 @@ def accelerations(system, body):
     return dict(zip(q, second / 2, strict=True)) | {x: body.radius * in_space[1], y: -body.radius * in_space[0]}
 
 
+@pytest.mark.thorough
 def test_the_equations_off_the_centre_are_those_of_the_principle():
     system, given = loaded(EXAMPLES / "off_centre_ball.py"), off_centre.START.body
     read = lambda x: sp.Rational(*x.as_integer_ratio())  # noqa: E731
