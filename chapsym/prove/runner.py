@@ -14,7 +14,7 @@ from chapsym import sources, workers
 
 from .certificates import write
 from .claims import Claim, Judgement, judgement_of, once
-from .evidence import Proof, Verdict
+from .evidence import SAID, Proof, Verdict
 from .records import fingerprint
 from .registers import PROOFS, BrokenScript, NoRegister, Register, raised, reached, register_of
 
@@ -139,8 +139,9 @@ def explain(record: dict[str, Any]) -> str:
         for kind in ("printed", "corrected"):
             for sides in example[kind]:
                 left, right = ", ".join(sides["left"]), ", ".join(sides["right"])
-                sign = "=" if left == right else "≠"
-                lines += [f"    {kind}: {sides['statement']}:  ({left}) {sign} ({right})"]
+                claimed = right.startswith(tuple(filter(None, SAID.values())))  # in words, as `at least 2`
+                sign = " =" if left == right else ", claimed:" if claimed else " ≠"
+                lines += [f"    {kind}: {sides['statement']}:  ({left}){sign} ({right})"]
     for seen in evidence["witnesses"][:1]:
         at = ", ".join(f"{k} = {v}" for k, v in seen["point"].items())
         cases = ", ".join(case["name"] for case in evidence["witnesses"][1:])

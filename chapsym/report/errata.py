@@ -23,9 +23,9 @@ def markdown(records: Sequence[Record], version: str, source: Source = FEDOROV) 
     for record in errors(records):
         lines += [f"## {label(record['id'])}", "", record["evidence"]["title"], ""]
         lines += [f"- {name}: {f'${text}$' if typed else text}" for name, text, typed in _said(record)]
-        for named, statement, left, right in _examples(record, source):
+        for named, statement, sign, left, right in _examples(record, source):
             point = ", ".join(f"{symbol} = {notation.plain(value)}" for symbol, value in named)
-            both = " ≠ ".join(", ".join(map(notation.in_line, side)) for side in (left, right))
+            both = f"{sign} ".join(", ".join(map(notation.in_line, side)) for side in (left, right))
             lines.append(f"- At `{point}`: `{statement}`; but `{both}`")
         lines += [f"- Proof: `{source.reproduce(record['id'])}`", ""]
     return "\n".join(lines)
@@ -62,12 +62,12 @@ def _said(record: Record) -> Iterator[tuple[str, str, bool]]:
     return filter(lambda one: one[1], said)
 
 
-def _examples(record: Record, source: Source) -> Iterator[tuple[list[tuple[str, str]], str, Any, Any]]:
-    """For each statement that fails at a point: the point, the statement, and what differs of its two sides."""
+def _examples(record: Record, source: Source) -> Iterator[tuple[list[tuple[str, str]], str, str, Any, Any]]:
+    """For each statement that fails at a point: the point, the statement, its sign, what differs of its two sides."""
     for example in record["evidence"].get("counterexamples", []):
         for printed in example["printed"]:
             point = notation.point(example["point"], not source.register)
-            yield point, printed["statement"], *notation.sides(printed, compact=True)
+            yield point, printed["statement"], notation.sign(printed), *notation.sides(printed, compact=True)
 
 
 _PREAMBLE = r"""\documentclass[11pt]{article}
@@ -89,10 +89,12 @@ def latex(records: Sequence[Record], version: str, source: Source = FEDOROV) -> 
         for name, text, typed in _said(record):
             written = rf"$\displaystyle {text}$" if typed else notation.latex(text)
             lines += [rf"\textit{{{name}:}} {written}", ""]
-        for named, statement, left, right in _examples(record, source):
+        for named, statement, sign, left, right in _examples(record, source):
             point = ", ".join(f"${notation.symbol_latex(x)} = {notation.value_latex(value)}$" for x, value in named)
-            both = r"\neq ".join(r",\allowbreak ".join(map(notation.shown_latex, side)) for side in (left, right))
-            lines += [rf"\textit{{At}} {point}: {notation.latex(statement)}; but ${both}$", ""]
+            shown, other = (r",\allowbreak ".join(map(notation.shown_latex, side)) for side in (left, right))
+            words = notation.latex(", ".join(map(notation.in_line, right)))
+            both = rf"${shown}\neq {other}$" if sign == " ≠" else f"${shown}${sign} {words}"
+            lines += [rf"\textit{{At}} {point}: {notation.latex(statement)}; but {both}", ""]
         lines += [rf"\textit{{Proof:}} \texttt{{{notation.typed_latex(source.reproduce(record['id']))}}}", ""]
     return _PREAMBLE + "\n".join([*lines, r"\end{document}", ""])
 

@@ -13,12 +13,19 @@ _SYMBOLS = {
     "Gamma": "Γ", "Omega": "Ω", "Lambda": "Λ", "delta": "δ", "theta": "θ",
     "sm": "sn ū", "cm": "cn ū", "dm": "dn ū", "sh": "sn δu", "ch": "cn δu", "dh": "dn δu",
     "R_-": "R_{k-1}", "R": "R_k", "R_+": "R_{k+1}", "r_-": "r_{k-1}", "r": "r_k", "r_+": "r_{k+1}",
+    **{f"Omega{i}{i}": f"Ω_{{{i}{i}}}" for i in (1, 2, 3)},
 }  # fmt: skip
-#: Names with this meaning only next to the first: the argument u, and the parts of the relation for the increment.
+#: Names with this meaning only next to the first: the argument u, the parts of the relation for the increment, a curve
+#: on which the amplitudes are rational, and the root of the integral on the curve.
 _BESIDE = {
     "sh": {"s": "sn u", "c": "cn u", "d": "dn u"},
     "Dscr": {"Dscr": "𝒟", "y": "sn²δu", "e": "cn²δu dn²δu", "w": "w(δu)", "lam": "l - μ sn²δu"},
-}
+    "lv": {
+        "l": "Λ", "lv": "l", "kk": "k²", "size": "C", "sn1": "sn δu", "cn1": "cn δu", "dn1": "dn δu",
+        "sn2": "sn ū", "cn2": "cn ū", "dn2": "dn ū",
+    },
+    "root": {"root": "r"},
+}  # fmt: skip
 
 Matrix = list[list[str]]
 
@@ -97,6 +104,14 @@ def _vector(entries: Sequence[str]) -> list[str | Matrix]:
     return values
 
 
+def sign(example: dict[str, Any]) -> str:
+    """What stands between the sides of a statement at a point; the right one may be words, as `at least 2`."""
+    if example["left"] == example["right"]:
+        return " ="
+    words = r"(not|less than|at most|more than|at least) "
+    return ", claimed:" if any(re.match(words, entry) for entry in example["right"]) else " ≠"
+
+
 def differing(example: dict[str, Any]) -> bool:
     """Whether the compact form of the sides leaves entries out."""
     return len(example["left"]) > 3 and any(a == b for a, b in zip(example["left"], example["right"], strict=True))
@@ -104,7 +119,7 @@ def differing(example: dict[str, Any]) -> bool:
 
 # To LaTeX.  A word is prose when it has two letters or more and nothing that only formulas have.
 
-_FUNCTIONS = ("sn", "cn", "dn", "tr", "Tr", "diag", "sign", "cos", "sin", "exp", "det", "div", "Ad")
+_FUNCTIONS = ("sn", "cn", "dn", "tr", "Tr", "diag", "sign", "cos", "sin", "exp", "ln", "det", "div", "Ad")
 _COMMANDS = {
     "×": r"\times", "·": r"\cdot", "⟨": r"\langle", "⟩": r"\rangle", "½": r"\tfrac12", "¼": r"\tfrac14",
     "∧": r"\wedge", "≠": r"\neq", "→": r"\to", "↦": r"\mapsto", "±": r"\pm", "∓": r"\mp", "≤": r"\le", "≥": r"\ge",

@@ -15,6 +15,9 @@ from chapsym.report import notation
         ({"s": "1"}, [("s", "1")]),
         ({"s": "4/5", "sh": "3/5", "k2": "1/2"}, [("sn u", "4/5"), ("sn δu", "3/5"), ("k²", "1/2")]),
         ({"Dscr": "1", "y": "2"}, [("𝒟", "1"), ("sn²δu", "2")]),
+        ({"l1": "3", "l2": "2", "l3": "1", "lv": "1/2", "size1": "1", "size2": "2", "size3": "3", "sn2": "0"},
+         [("Λ", "(3, 2, 1)"), ("l", "1/2"), ("C", "(1, 2, 3)"), ("sn ū", "0")]),
+        ({"root": "1", "Omega11": "1"}, [("r", "1"), ("Ω_{11}", "1")]),
     ],
 )  # fmt: skip
 def test_components_of_a_point_are_gathered(values, shown):
@@ -39,6 +42,12 @@ def test_values_are_text_vectors_or_matrices(text, shown):
     assert notation.value(text) == shown
     if isinstance(shown, list):
         assert notation.value_latex(text) == r"\left(\begin{smallmatrix}0&1/2\\-1&0\end{smallmatrix}\right)"
+
+
+def test_a_side_in_words_is_claimed_and_no_value():
+    sides = [("1", "1"), ("1", "2"), ("0", "at least 2"), ("0", "not 0"), ("0", "sn δu")]
+    signs = [" =", " ≠", ", claimed:", ", claimed:", " ≠"]
+    assert [notation.sign({"left": [a], "right": [b]}) for a, b in sides] == signs
 
 
 def test_compact_sides_keep_what_differs():
