@@ -2043,40 +2043,36 @@ INLINE t_i2 double_double_scales(r1 momentum, r1 tensor, real contact) {
 
 INLINE t_e3 proved_exact(t_r3 v) { return (t_e3){v.a0, v.a1, v.a2}; }
 INLINE t_r2 pairs_two_product(real a, real b) { real p = a * b; return (t_r2){p, fma(a, b, -p)}; }
-INLINE t_r2 pairs_loose_add(real a, real a_, real b, real b_) {
-    t_r2 s = pairs_two_sum(a, b); return (t_r2){s.a0, s.a1 + (a_ + b_)};
+INLINE t_r2 pairs_loose_add(t_r2 a, t_r2 b) {
+    t_r2 s = pairs_two_sum(a.a0, b.a0); return (t_r2){s.a0, s.a1 + (a.a1 + b.a1)};
 }
 
 INLINE t_r2 vectors_dot__e3_2(t_e3 a, t_e3 b) {
-    t_r2 t_1 = pairs_two_product(a.a0, b.a0), t_2 = pairs_two_product(a.a1, b.a1);
-    t_r2 t_3 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1), t_4 = pairs_two_product(a.a2, b.a2);
-    return pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+    return pairs_loose_add(pairs_loose_add(pairs_two_product(a.a0, b.a0), pairs_two_product(a.a1, b.a1)),
+        pairs_two_product(a.a2, b.a2));
 }
 
 INLINE t_r2 pairs_quick_two_sum(real a, real b) { real total = a + b; return (t_r2){total, b - (total - a)}; }
-INLINE t_r2 pairs_root(real a, real a_) {
-    if (a == R(0.0)) { return (t_r2){R(0.0), R(0.0)}; }
-    real high = R(sqrt(a)); t_r2 p = pairs_two_product(high, high);
-    return pairs_quick_two_sum(high, (a_ + (a - p.a0 - p.a1)) / (R(2.0) * high));
+INLINE t_r2 pairs_root(t_r2 a) {
+    if (a.a0 == R(0.0)) { return (t_r2){R(0.0), R(0.0)}; }
+    real high = R(sqrt(a.a0)); t_r2 p = pairs_two_product(high, high);
+    return pairs_quick_two_sum(high, (a.a1 + (a.a0 - p.a0 - p.a1)) / (R(2.0) * high));
 }
 
-INLINE t_r2 pairs_multiply_float(real a, real a_, real b) {
-    t_r2 p = pairs_two_product(a, b), s = pairs_quick_two_sum(p.a0, a_ * b);
+INLINE t_r2 pairs_multiply_float(t_r2 a, real b) {
+    t_r2 p = pairs_two_product(a.a0, b), s = pairs_quick_two_sum(p.a0, a.a1 * b);
     return pairs_quick_two_sum(s.a0, s.a1 + p.a1);
 }
 
-INLINE t_r2 pairs_divide(real a, real a_, real b, real b_) {
-    real high = a / b; t_r2 r = pairs_multiply_float(b, b_, high);
-    return pairs_quick_two_sum(high, (a - r.a0 + (a_ - r.a1)) / b);
+INLINE t_r2 pairs_divide(t_r2 a, t_r2 b) {
+    real high = a.a0 / b.a0; t_r2 r = pairs_multiply_float(b, high);
+    return pairs_quick_two_sum(high, (a.a0 - r.a0 + (a.a1 - r.a1)) / b.a0);
 }
 
 INLINE t_p3 proved_unit_pairs(t_r3 v) {
-    t_e3 x = proved_exact(v);
-    t_r2 t_1 = vectors_dot__e3_2(x, x), t_2 = pairs_two_sum(t_1.a0, t_1.a1), size = pairs_root(t_2.a0, t_2.a1);
-    t_r2 t_3 = pairs_two_sum(size.a0, size.a1), t_4 = pairs_two_sum(size.a0, size.a1);
-    t_r2 t_5 = pairs_two_sum(size.a0, size.a1);
-    return (t_p3){pairs_divide(x.a0, 0, t_3.a0, t_3.a1), pairs_divide(x.a1, 0, t_4.a0, t_4.a1), pairs_divide(x.a2, 0,
-        t_5.a0, t_5.a1)};
+    t_e3 x = proved_exact(v); t_r2 t_1 = vectors_dot__e3_2(x, x), size = pairs_root(pairs_two_sum(t_1.a0, t_1.a1));
+    return (t_p3){pairs_divide((t_r2){x.a0, 0}, pairs_two_sum(size.a0, size.a1)), pairs_divide((t_r2){x.a1, 0},
+        pairs_two_sum(size.a0, size.a1)), pairs_divide((t_r2){x.a2, 0}, pairs_two_sum(size.a0, size.a1))};
 }
 
 INLINE void double_double_put_pair_r1ip(r1 array, int64_t at, t_r2 x) { array.p[at] = x.a0; array.p[at + 1] = x.a1; }
@@ -2091,16 +2087,13 @@ INLINE t_p3 double_double_three_pairs(r1 array, int64_t at) {
         4)};
 }
 
-INLINE t_r2 pairs_loose_multiply(real a, real a_, real b, real b_) {
-    t_r2 p = pairs_two_product(a, b); return (t_r2){p.a0, p.a1 + (a * b_ + a_ * b)};
+INLINE t_r2 pairs_loose_multiply(t_r2 a, t_r2 b) {
+    t_r2 p = pairs_two_product(a.a0, b.a0); return (t_r2){p.a0, p.a1 + (a.a0 * b.a1 + a.a1 * b.a0)};
 }
 
 INLINE t_r2 vectors_dot__p3_2(t_p3 a, t_p3 b) {
-    t_r2 t_1 = pairs_loose_multiply(a.a0.a0, a.a0.a1, b.a0.a0, b.a0.a1);
-    t_r2 t_2 = pairs_loose_multiply(a.a1.a0, a.a1.a1, b.a1.a0, b.a1.a1);
-    t_r2 t_3 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
-    t_r2 t_4 = pairs_loose_multiply(a.a2.a0, a.a2.a1, b.a2.a0, b.a2.a1);
-    return pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
+    return pairs_loose_add(pairs_loose_add(pairs_loose_multiply(a.a0, b.a0), pairs_loose_multiply(a.a1, b.a1)),
+        pairs_loose_multiply(a.a2, b.a2));
 }
 
 INLINE t_p3 double_double_normalised__p3_(t_p3 v) {
@@ -2142,8 +2135,7 @@ OUT_OF_LINE t_i2 double_double_prepare_pairs(r1 momentum, r1 g, r1 tensor, real 
 }
 
 INLINE t_p3 vectors_scaled_p_p3_(t_r2 s, t_p3 v) {
-    return (t_p3){pairs_loose_multiply(s.a0, s.a1, v.a0.a0, v.a0.a1), pairs_loose_multiply(s.a0, s.a1, v.a1.a0,
-        v.a1.a1), pairs_loose_multiply(s.a0, s.a1, v.a2.a0, v.a2.a1)};
+    return (t_p3){pairs_loose_multiply(s, v.a0), pairs_loose_multiply(s, v.a1), pairs_loose_multiply(s, v.a2)};
 }
 
 INLINE Round double_double_approach(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real radius, real enough) {
@@ -2157,58 +2149,40 @@ INLINE Round double_double_approach(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real
     return r;
 }
 
-INLINE t_r2 pairs_loose_multiply_float(real a, real a_, real b) {
-    t_r2 p = pairs_two_product(a, b); return (t_r2){p.a0, p.a1 + a_ * b};
+INLINE t_r2 pairs_loose_multiply_float(t_r2 a, real b) {
+    t_r2 p = pairs_two_product(a.a0, b); return (t_r2){p.a0, p.a1 + a.a1 * b};
 }
 
-INLINE t_r2 pairs_loose_subtract(real a, real a_, real b, real b_) {
-    t_r2 s = pairs_two_sum(a, -b); return (t_r2){s.a0, s.a1 + (a_ - b_)};
+INLINE t_r2 pairs_loose_subtract(t_r2 a, t_r2 b) {
+    t_r2 s = pairs_two_sum(a.a0, -b.a0); return (t_r2){s.a0, s.a1 + (a.a1 - b.a1)};
 }
 
-INLINE t_r2 pairs_loose_add_float(real a, real a_, real b) {
-    t_r2 s = pairs_two_sum(a, b); return (t_r2){s.a0, s.a1 + a_};
+INLINE t_r2 pairs_loose_add_float(t_r2 a, real b) {
+    t_r2 s = pairs_two_sum(a.a0, b); return (t_r2){s.a0, s.a1 + a.a1};
 }
 
 INLINE t_p3 kernel_gibbs_residual_e3p9e(real u1, real u2, real u3, t_r2 k1, t_r2 k2, t_r2 k3, t_r2 g1, t_r2 g2, t_r2
     g3, t_r2 I1, t_r2 I2, t_r2 I3, real D) {
-    t_r2 t_1 = pairs_loose_multiply_float(g3.a0, g3.a1, u2), t_2 = pairs_loose_multiply_float(g2.a0, g2.a1, u3);
-    t_r2 x1 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
-    t_r2 t_3 = pairs_loose_multiply_float(g1.a0, g1.a1, u3), t_4 = pairs_loose_multiply_float(g3.a0, g3.a1, u1);
-    t_r2 x2 = pairs_loose_subtract(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
-    t_r2 t_5 = pairs_loose_multiply_float(g2.a0, g2.a1, u1), t_6 = pairs_loose_multiply_float(g1.a0, g1.a1, u2);
-    t_r2 x3 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
-    t_r2 y1 = pairs_loose_multiply_float(I1.a0, I1.a1, u1), y2 = pairs_loose_multiply_float(I2.a0, I2.a1, u2);
-    t_r2 y3 = pairs_loose_multiply_float(I3.a0, I3.a1, u3), t_7 = pairs_two_product(u1, u1);
-    t_r2 t_8 = pairs_two_product(u2, u2), t_9 = pairs_two_product(u3, u3);
-    t_r2 t_10 = pairs_loose_add_float(t_7.a0, t_7.a1, 1), t_11 = pairs_loose_add(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
-    t_r2 s = pairs_loose_add(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
-    t_r2 t_12 = pairs_loose_multiply(g2.a0, g2.a1, x3.a0, x3.a1);
-    t_r2 t_13 = pairs_loose_multiply(g3.a0, g3.a1, x2.a0, x2.a1);
-    t_r2 t_14 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
-    t_r2 t_15 = pairs_loose_multiply_float(t_14.a0, t_14.a1, D);
-    t_r2 t_16 = pairs_loose_add(y1.a0, y1.a1, t_15.a0, t_15.a1), t_17 = pairs_loose_multiply_float(y3.a0, y3.a1, u2);
-    t_r2 t_18 = pairs_loose_multiply(k1.a0, k1.a1, s.a0, s.a1), t_19 = pairs_loose_multiply_float(y2.a0, y2.a1, u3);
-    t_r2 t_20 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
-    t_r2 t_21 = pairs_loose_add(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
-    t_r2 o_r1 = pairs_loose_subtract(t_20.a0, t_20.a1, t_21.a0, t_21.a1);
-    t_r2 t_22 = pairs_loose_multiply(g3.a0, g3.a1, x1.a0, x1.a1);
-    t_r2 t_23 = pairs_loose_multiply(g1.a0, g1.a1, x3.a0, x3.a1);
-    t_r2 t_24 = pairs_loose_subtract(t_22.a0, t_22.a1, t_23.a0, t_23.a1);
-    t_r2 t_25 = pairs_loose_multiply_float(t_24.a0, t_24.a1, D);
-    t_r2 t_26 = pairs_loose_add(y2.a0, y2.a1, t_25.a0, t_25.a1), t_27 = pairs_loose_multiply_float(y1.a0, y1.a1, u3);
-    t_r2 t_28 = pairs_loose_multiply(k2.a0, k2.a1, s.a0, s.a1), t_29 = pairs_loose_multiply_float(y3.a0, y3.a1, u1);
-    t_r2 t_30 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1);
-    t_r2 t_31 = pairs_loose_add(t_28.a0, t_28.a1, t_29.a0, t_29.a1);
-    t_r2 o_r2 = pairs_loose_subtract(t_30.a0, t_30.a1, t_31.a0, t_31.a1);
-    t_r2 t_32 = pairs_loose_multiply(g1.a0, g1.a1, x2.a0, x2.a1);
-    t_r2 t_33 = pairs_loose_multiply(g2.a0, g2.a1, x1.a0, x1.a1);
-    t_r2 t_34 = pairs_loose_subtract(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
-    t_r2 t_35 = pairs_loose_multiply_float(t_34.a0, t_34.a1, D);
-    t_r2 t_36 = pairs_loose_add(y3.a0, y3.a1, t_35.a0, t_35.a1), t_37 = pairs_loose_multiply_float(y2.a0, y2.a1, u1);
-    t_r2 t_38 = pairs_loose_multiply(k3.a0, k3.a1, s.a0, s.a1), t_39 = pairs_loose_multiply_float(y1.a0, y1.a1, u2);
-    t_r2 t_40 = pairs_loose_add(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
-    t_r2 t_41 = pairs_loose_add(t_38.a0, t_38.a1, t_39.a0, t_39.a1);
-    t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
+    t_r2 x1 = pairs_loose_subtract(pairs_loose_multiply_float(g3, u2), pairs_loose_multiply_float(g2, u3));
+    t_r2 x2 = pairs_loose_subtract(pairs_loose_multiply_float(g1, u3), pairs_loose_multiply_float(g3, u1));
+    t_r2 x3 = pairs_loose_subtract(pairs_loose_multiply_float(g2, u1), pairs_loose_multiply_float(g1, u2));
+    t_r2 y1 = pairs_loose_multiply_float(I1, u1), y2 = pairs_loose_multiply_float(I2, u2);
+    t_r2 y3 = pairs_loose_multiply_float(I3, u3);
+    t_r2 s = pairs_loose_add(pairs_loose_add_float(pairs_two_product(u1, u1), 1),
+        pairs_loose_add(pairs_two_product(u2, u2), pairs_two_product(u3, u3)));
+    t_r2 o_r1 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y1,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply(g2, x3), pairs_loose_multiply(g3, x2)),
+        D)), pairs_loose_multiply_float(y3, u2)), pairs_loose_add(pairs_loose_multiply(k1, s),
+        pairs_loose_multiply_float(y2, u3)));
+    t_r2 o_r2 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y2,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply(g3, x1), pairs_loose_multiply(g1, x3)),
+        D)), pairs_loose_multiply_float(y1, u3)), pairs_loose_add(pairs_loose_multiply(k2, s),
+        pairs_loose_multiply_float(y3, u1)));
+    t_r2 o_r3 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y3,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply(g1, x2), pairs_loose_multiply(g2, x1)),
+        D)), pairs_loose_multiply_float(y2, u1)), pairs_loose_add(pairs_loose_multiply(k3, s),
+        pairs_loose_multiply_float(y1, u2)));
+    return (t_p3){o_r1, o_r2, o_r3};
 }
 
 INLINE t_r3 vectors_adjoint(t_r9 c, t_r3 r) {
@@ -2248,8 +2222,7 @@ INLINE t_r4 double_double_rotation_of(t_r3 w) {
 }
 
 INLINE t_p3 vectors_plus__p3_2(t_p3 a, t_p3 b) {
-    return (t_p3){pairs_loose_add(a.a0.a0, a.a0.a1, b.a0.a0, b.a0.a1), pairs_loose_add(a.a1.a0, a.a1.a1, b.a1.a0,
-        b.a1.a1), pairs_loose_add(a.a2.a0, a.a2.a1, b.a2.a0, b.a2.a1)};
+    return (t_p3){pairs_loose_add(a.a0, b.a0), pairs_loose_add(a.a1, b.a1), pairs_loose_add(a.a2, b.a2)};
 }
 
 INLINE t_q3 double_double_sums_normal__p3_(t_p3 v) {
@@ -2258,88 +2231,56 @@ INLINE t_q3 double_double_sums_normal__p3_(t_p3 v) {
 
 INLINE t_q3 kernel_residual_q10e4(t_r2 q0, t_r2 q1, t_r2 q2, t_r2 q3, t_r2 K1, t_r2 K2, t_r2 K3, t_r2 g1, t_r2 g2,
     t_r2 g3, real J1, real J2, real J3, real D) {
-    t_r2 t_1 = pairs_loose_multiply(g3.a0, g3.a1, q2.a0, q2.a1);
-    t_r2 t_2 = pairs_loose_multiply(g2.a0, g2.a1, q3.a0, q3.a1);
-    t_r2 t_3 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1), c1 = pairs_two_sum(t_3.a0, t_3.a1);
-    t_r2 t_4 = pairs_loose_multiply(g1.a0, g1.a1, q3.a0, q3.a1);
-    t_r2 t_5 = pairs_loose_multiply(g3.a0, g3.a1, q1.a0, q1.a1);
-    t_r2 t_6 = pairs_loose_subtract(t_4.a0, t_4.a1, t_5.a0, t_5.a1), c2 = pairs_two_sum(t_6.a0, t_6.a1);
-    t_r2 t_7 = pairs_loose_multiply(g2.a0, g2.a1, q1.a0, q1.a1);
-    t_r2 t_8 = pairs_loose_multiply(g1.a0, g1.a1, q2.a0, q2.a1);
-    t_r2 t_9 = pairs_loose_subtract(t_7.a0, t_7.a1, t_8.a0, t_8.a1), c3 = pairs_two_sum(t_9.a0, t_9.a1);
-    t_r2 f1 = pairs_loose_multiply_float(c1.a0, c1.a1, D), f2 = pairs_loose_multiply_float(c2.a0, c2.a1, D);
-    t_r2 f3 = pairs_loose_multiply_float(c3.a0, c3.a1, D); real t0 = -J3;
-    t_r2 t1 = (t_r2){2 * q3.a0, 2 * q3.a1}, t2 = (t_r2){2 * q0.a0, 2 * q0.a1}, t_10 = pairs_two_sum(J2, J3);
-    t_r2 t_11 = pairs_loose_multiply(f3.a0, f3.a1, g2.a0, g2.a1);
-    t_r2 t_12 = pairs_loose_multiply(q1.a0, q1.a1, t_10.a0, t_10.a1);
-    t_r2 t_13 = pairs_loose_add(t_11.a0, t_11.a1, t_12.a0, t_12.a1), t_14 = pairs_two_sum(t_13.a0, t_13.a1);
-    t_r2 t_15 = pairs_loose_multiply(f2.a0, f2.a1, g3.a0, g3.a1);
-    t_r2 t_16 = pairs_loose_subtract(t_14.a0, t_14.a1, t_15.a0, t_15.a1), t_17 = pairs_two_sum(t_16.a0, t_16.a1);
-    t_r2 t_18 = pairs_loose_multiply(q2.a0, q2.a1, t1.a0, t1.a1), t_19 = pairs_two_sum(J2, t0);
-    t_r2 t_20 = pairs_loose_multiply(t2.a0, t2.a1, t_17.a0, t_17.a1);
-    t_r2 t_21 = pairs_loose_multiply(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
-    t_r2 t_22 = pairs_loose_add(t_20.a0, t_20.a1, t_21.a0, t_21.a1), t_23 = pairs_two_sum(t_22.a0, t_22.a1);
-    t_r2 t_24 = pairs_loose_subtract(t_23.a0, t_23.a1, K1.a0, K1.a1), o_r1 = pairs_two_sum(t_24.a0, t_24.a1);
-    t_r2 t_25 = pairs_two_sum(J1, J3), t_26 = pairs_loose_multiply(f1.a0, f1.a1, g3.a0, g3.a1);
-    t_r2 t_27 = pairs_loose_multiply(q2.a0, q2.a1, t_25.a0, t_25.a1);
-    t_r2 t_28 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1), t_29 = pairs_two_sum(t_28.a0, t_28.a1);
-    t_r2 t_30 = pairs_loose_multiply(f3.a0, f3.a1, g1.a0, g1.a1);
-    t_r2 t_31 = pairs_loose_subtract(t_29.a0, t_29.a1, t_30.a0, t_30.a1), t_32 = (t_r2){2 * q0.a0, 2 * q0.a1};
-    t_r2 t_33 = pairs_two_sum(t_31.a0, t_31.a1), t_34 = pairs_loose_multiply(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
-    t_r2 t_35 = pairs_loose_subtract(t_34.a0, t_34.a1, K2.a0, K2.a1);
-    t_r2 t_36 = pairs_loose_multiply(q1.a0, q1.a1, t1.a0, t1.a1), t_37 = pairs_two_sum(J1, t0);
-    t_r2 t_38 = pairs_two_sum(t_35.a0, t_35.a1), t_39 = pairs_loose_multiply(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
-    t_r2 t_40 = pairs_loose_subtract(t_38.a0, t_38.a1, t_39.a0, t_39.a1), o_r2 = pairs_two_sum(t_40.a0, t_40.a1);
-    t_r2 t_41 = pairs_two_sum(J1, J2), t_42 = pairs_loose_multiply(f2.a0, f2.a1, g1.a0, g1.a1);
-    t_r2 t_43 = pairs_loose_multiply(q3.a0, q3.a1, t_41.a0, t_41.a1);
-    t_r2 t_44 = pairs_loose_add(t_42.a0, t_42.a1, t_43.a0, t_43.a1), t_45 = pairs_two_sum(t_44.a0, t_44.a1);
-    t_r2 t_46 = pairs_loose_multiply(f1.a0, f1.a1, g2.a0, g2.a1);
-    t_r2 t_47 = pairs_loose_subtract(t_45.a0, t_45.a1, t_46.a0, t_46.a1), t_48 = pairs_two_sum(t_47.a0, t_47.a1);
-    t_r2 t_49 = (t_r2){2 * q1.a0, 2 * q1.a1}, t_50 = pairs_loose_multiply(t_49.a0, t_49.a1, q2.a0, q2.a1);
-    t_r2 t_51 = pairs_two_sum(J1, -J2), t_52 = pairs_loose_multiply(t2.a0, t2.a1, t_48.a0, t_48.a1);
-    t_r2 t_53 = pairs_loose_multiply(t_50.a0, t_50.a1, t_51.a0, t_51.a1);
-    t_r2 t_54 = pairs_loose_add(t_52.a0, t_52.a1, t_53.a0, t_53.a1), t_55 = pairs_two_sum(t_54.a0, t_54.a1);
-    t_r2 t_56 = pairs_loose_subtract(t_55.a0, t_55.a1, K3.a0, K3.a1), o_r3 = pairs_two_sum(t_56.a0, t_56.a1);
+    t_r2 t_1 = pairs_loose_subtract(pairs_loose_multiply(g3, q2), pairs_loose_multiply(g2, q3));
+    t_r2 c1 = pairs_two_sum(t_1.a0, t_1.a1);
+    t_r2 t_2 = pairs_loose_subtract(pairs_loose_multiply(g1, q3), pairs_loose_multiply(g3, q1));
+    t_r2 c2 = pairs_two_sum(t_2.a0, t_2.a1);
+    t_r2 t_3 = pairs_loose_subtract(pairs_loose_multiply(g2, q1), pairs_loose_multiply(g1, q2));
+    t_r2 c3 = pairs_two_sum(t_3.a0, t_3.a1), f1 = pairs_loose_multiply_float(c1, D);
+    t_r2 f2 = pairs_loose_multiply_float(c2, D), f3 = pairs_loose_multiply_float(c3, D); real t0 = -J3;
+    t_r2 t1 = (t_r2){2 * q3.a0, 2 * q3.a1}, t2 = (t_r2){2 * q0.a0, 2 * q0.a1};
+    t_r2 t_4 = pairs_loose_add(pairs_loose_multiply(f3, g2), pairs_loose_multiply(q1, pairs_two_sum(J2, J3)));
+    t_r2 t_5 = pairs_loose_subtract(pairs_two_sum(t_4.a0, t_4.a1), pairs_loose_multiply(f2, g3));
+    t_r2 t_6 = pairs_loose_add(pairs_loose_multiply(t2, pairs_two_sum(t_5.a0, t_5.a1)),
+        pairs_loose_multiply(pairs_loose_multiply(q2, t1), pairs_two_sum(J2, t0)));
+    t_r2 t_7 = pairs_loose_subtract(pairs_two_sum(t_6.a0, t_6.a1), K1), o_r1 = pairs_two_sum(t_7.a0, t_7.a1);
+    t_r2 t_8 = pairs_loose_add(pairs_loose_multiply(f1, g3), pairs_loose_multiply(q2, pairs_two_sum(J1, J3)));
+    t_r2 t_9 = pairs_loose_subtract(pairs_two_sum(t_8.a0, t_8.a1), pairs_loose_multiply(f3, g1));
+    t_r2 t_10 = pairs_loose_subtract(pairs_loose_multiply((t_r2){2 * q0.a0, 2 * q0.a1}, pairs_two_sum(t_9.a0,
+        t_9.a1)), K2);
+    t_r2 t_11 = pairs_loose_subtract(pairs_two_sum(t_10.a0, t_10.a1), pairs_loose_multiply(pairs_loose_multiply(q1,
+        t1), pairs_two_sum(J1, t0)));
+    t_r2 o_r2 = pairs_two_sum(t_11.a0, t_11.a1);
+    t_r2 t_12 = pairs_loose_add(pairs_loose_multiply(f2, g1), pairs_loose_multiply(q3, pairs_two_sum(J1, J2)));
+    t_r2 t_13 = pairs_loose_subtract(pairs_two_sum(t_12.a0, t_12.a1), pairs_loose_multiply(f1, g2));
+    t_r2 t_14 = pairs_loose_add(pairs_loose_multiply(t2, pairs_two_sum(t_13.a0, t_13.a1)),
+        pairs_loose_multiply(pairs_loose_multiply((t_r2){2 * q1.a0, 2 * q1.a1}, q2), pairs_two_sum(J1, -J2)));
+    t_r2 t_15 = pairs_loose_subtract(pairs_two_sum(t_14.a0, t_14.a1), K3), o_r3 = pairs_two_sum(t_15.a0, t_15.a1);
     return (t_q3){o_r1, o_r2, o_r3};
 }
 
 INLINE t_p4 kernel_compose_p41e3(t_r2 a0, t_r2 a1, t_r2 a2, t_r2 a3, real b1, real b2, real b3) {
-    t_r2 t_1 = pairs_loose_multiply_float(a1.a0, a1.a1, b1), t_2 = pairs_loose_multiply_float(a2.a0, a2.a1, b2);
-    t_r2 t_3 = pairs_loose_multiply_float(a3.a0, a3.a1, b3);
-    t_r2 t_4 = pairs_loose_subtract(a0.a0, a0.a1, t_1.a0, t_1.a1);
-    t_r2 t_5 = pairs_loose_add(t_2.a0, t_2.a1, t_3.a0, t_3.a1);
-    t_r2 o_c0 = pairs_loose_subtract(t_4.a0, t_4.a1, t_5.a0, t_5.a1);
-    t_r2 t_6 = pairs_loose_multiply_float(a0.a0, a0.a1, b1), t_7 = pairs_loose_multiply_float(a2.a0, a2.a1, b3);
-    t_r2 t_8 = pairs_loose_multiply_float(a3.a0, a3.a1, b2), t_9 = pairs_loose_add(t_6.a0, t_6.a1, a1.a0, a1.a1);
-    t_r2 t_10 = pairs_loose_subtract(t_7.a0, t_7.a1, t_8.a0, t_8.a1);
-    t_r2 o_c1 = pairs_loose_add(t_9.a0, t_9.a1, t_10.a0, t_10.a1);
-    t_r2 t_11 = pairs_loose_multiply_float(a0.a0, a0.a1, b2), t_12 = pairs_loose_multiply_float(a3.a0, a3.a1, b1);
-    t_r2 t_13 = pairs_loose_multiply_float(a1.a0, a1.a1, b3), t_14 = pairs_loose_add(t_11.a0, t_11.a1, a2.a0, a2.a1);
-    t_r2 t_15 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
-    t_r2 o_c2 = pairs_loose_add(t_14.a0, t_14.a1, t_15.a0, t_15.a1);
-    t_r2 t_16 = pairs_loose_multiply_float(a0.a0, a0.a1, b3), t_17 = pairs_loose_multiply_float(a1.a0, a1.a1, b2);
-    t_r2 t_18 = pairs_loose_multiply_float(a2.a0, a2.a1, b1);
-    t_r2 t_19 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
-    t_r2 t_20 = pairs_loose_subtract(a3.a0, a3.a1, t_18.a0, t_18.a1);
-    t_r2 o_c3 = pairs_loose_add(t_19.a0, t_19.a1, t_20.a0, t_20.a1); return (t_p4){o_c0, o_c1, o_c2, o_c3};
+    t_r2 o_c0 = pairs_loose_subtract(pairs_loose_subtract(a0, pairs_loose_multiply_float(a1, b1)),
+        pairs_loose_add(pairs_loose_multiply_float(a2, b2), pairs_loose_multiply_float(a3, b3)));
+    t_r2 o_c1 = pairs_loose_add(pairs_loose_add(pairs_loose_multiply_float(a0, b1), a1),
+        pairs_loose_subtract(pairs_loose_multiply_float(a2, b3), pairs_loose_multiply_float(a3, b2)));
+    t_r2 o_c2 = pairs_loose_add(pairs_loose_add(pairs_loose_multiply_float(a0, b2), a2),
+        pairs_loose_subtract(pairs_loose_multiply_float(a3, b1), pairs_loose_multiply_float(a1, b3)));
+    t_r2 o_c3 = pairs_loose_add(pairs_loose_add(pairs_loose_multiply_float(a0, b3), pairs_loose_multiply_float(a1,
+        b2)), pairs_loose_subtract(a3, pairs_loose_multiply_float(a2, b1)));
+    return (t_p4){o_c0, o_c1, o_c2, o_c3};
 }
 
 INLINE t_r2 vectors_square_of_four__p4_(t_p4 q) {
-    t_r2 t_1 = pairs_loose_multiply(q.a0.a0, q.a0.a1, q.a0.a0, q.a0.a1);
-    t_r2 t_2 = pairs_loose_multiply(q.a1.a0, q.a1.a1, q.a1.a0, q.a1.a1);
-    t_r2 t_3 = pairs_loose_multiply(q.a2.a0, q.a2.a1, q.a2.a0, q.a2.a1);
-    t_r2 t_4 = pairs_loose_multiply(q.a3.a0, q.a3.a1, q.a3.a0, q.a3.a1);
-    t_r2 t_5 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
-    t_r2 t_6 = pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
-    return pairs_loose_add(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
+    return pairs_loose_add(pairs_loose_add(pairs_loose_multiply(q.a0, q.a0), pairs_loose_multiply(q.a1, q.a1)),
+        pairs_loose_add(pairs_loose_multiply(q.a2, q.a2), pairs_loose_multiply(q.a3, q.a3)));
 }
 
 INLINE t_p4 double_double_of_length_one__p4_(t_p4 q) {
-    t_r2 t_1 = vectors_square_of_four__p4_(q), t_2 = pairs_loose_add_float(-t_1.a0, -t_1.a1, 3);
+    t_r2 t_1 = vectors_square_of_four__p4_(q), t_2 = pairs_loose_add_float((t_r2){-t_1.a0, -t_1.a1}, 3);
     t_r2 t = (t_r2){t_2.a0 / 2, t_2.a1 / 2};
-    return (t_p4){pairs_loose_multiply(t.a0, t.a1, q.a0.a0, q.a0.a1), pairs_loose_multiply(t.a0, t.a1, q.a1.a0,
-        q.a1.a1), pairs_loose_multiply(t.a0, t.a1, q.a2.a0, q.a2.a1), pairs_loose_multiply(t.a0, t.a1, q.a3.a0,
-        q.a3.a1)};
+    return (t_p4){pairs_loose_multiply(t, q.a0), pairs_loose_multiply(t, q.a1), pairs_loose_multiply(t, q.a2),
+        pairs_loose_multiply(t, q.a3)};
 }
 
 INLINE t_p4 double_double_normalised_four__p4_(t_p4 q) {
@@ -2373,10 +2314,8 @@ INLINE t_b_p3_ double_double_polished__r4__p3_2_r3_r2(t_r4 p, t_p3 k, t_p3 g, t_
     }
     t_r2 cosine = q.a0;
     if (cosine.a0 == R(0.0)) { cosine = (t_r2){R(7.703719777548943e-34), q.a0.a1}; }
-    t_r2 t_7 = pairs_two_sum(cosine.a0, cosine.a1), t_8 = pairs_two_sum(cosine.a0, cosine.a1);
-    t_r2 t_9 = pairs_two_sum(cosine.a0, cosine.a1);
-    return (t_b_p3_){settled, (t_p3){pairs_divide(q.a1.a0, q.a1.a1, t_7.a0, t_7.a1), pairs_divide(q.a2.a0, q.a2.a1,
-        t_8.a0, t_8.a1), pairs_divide(q.a3.a0, q.a3.a1, t_9.a0, t_9.a1)}};
+    return (t_b_p3_){settled, (t_p3){pairs_divide(q.a1, pairs_two_sum(cosine.a0, cosine.a1)), pairs_divide(q.a2,
+        pairs_two_sum(cosine.a0, cosine.a1)), pairs_divide(q.a3, pairs_two_sum(cosine.a0, cosine.a1))}};
 }
 
 INLINE t_ir_p3_ double_double_solved__r3__p3_3_r3_r3(t_r3 u, t_p3 k, t_p3 g, t_p3 I, t_r3 J, real D, real radius, real
@@ -2480,56 +2419,25 @@ INLINE real proved_slope_at(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
 
 INLINE t_p3 kernel_gibbs_residual_p12e(t_r2 u1, t_r2 u2, t_r2 u3, t_r2 k1, t_r2 k2, t_r2 k3, t_r2 g1, t_r2 g2, t_r2
     g3, t_r2 I1, t_r2 I2, t_r2 I3, real D) {
-    t_r2 t_1 = pairs_loose_multiply(g3.a0, g3.a1, u2.a0, u2.a1);
-    t_r2 t_2 = pairs_loose_multiply(g2.a0, g2.a1, u3.a0, u3.a1);
-    t_r2 x1 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
-    t_r2 t_3 = pairs_loose_multiply(g1.a0, g1.a1, u3.a0, u3.a1);
-    t_r2 t_4 = pairs_loose_multiply(g3.a0, g3.a1, u1.a0, u1.a1);
-    t_r2 x2 = pairs_loose_subtract(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
-    t_r2 t_5 = pairs_loose_multiply(g2.a0, g2.a1, u1.a0, u1.a1);
-    t_r2 t_6 = pairs_loose_multiply(g1.a0, g1.a1, u2.a0, u2.a1);
-    t_r2 x3 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
-    t_r2 y1 = pairs_loose_multiply(I1.a0, I1.a1, u1.a0, u1.a1);
-    t_r2 y2 = pairs_loose_multiply(I2.a0, I2.a1, u2.a0, u2.a1);
-    t_r2 y3 = pairs_loose_multiply(I3.a0, I3.a1, u3.a0, u3.a1);
-    t_r2 t_7 = pairs_loose_multiply(u1.a0, u1.a1, u1.a0, u1.a1);
-    t_r2 t_8 = pairs_loose_multiply(u2.a0, u2.a1, u2.a0, u2.a1);
-    t_r2 t_9 = pairs_loose_multiply(u3.a0, u3.a1, u3.a0, u3.a1), t_10 = pairs_loose_add_float(t_7.a0, t_7.a1, 1);
-    t_r2 t_11 = pairs_loose_add(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
-    t_r2 s = pairs_loose_add(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
-    t_r2 t_12 = pairs_loose_multiply(g2.a0, g2.a1, x3.a0, x3.a1);
-    t_r2 t_13 = pairs_loose_multiply(g3.a0, g3.a1, x2.a0, x2.a1);
-    t_r2 t_14 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
-    t_r2 t_15 = pairs_loose_multiply_float(t_14.a0, t_14.a1, D);
-    t_r2 t_16 = pairs_loose_add(y1.a0, y1.a1, t_15.a0, t_15.a1);
-    t_r2 t_17 = pairs_loose_multiply(u2.a0, u2.a1, y3.a0, y3.a1);
-    t_r2 t_18 = pairs_loose_multiply(k1.a0, k1.a1, s.a0, s.a1);
-    t_r2 t_19 = pairs_loose_multiply(u3.a0, u3.a1, y2.a0, y2.a1);
-    t_r2 t_20 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
-    t_r2 t_21 = pairs_loose_add(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
-    t_r2 o_r1 = pairs_loose_subtract(t_20.a0, t_20.a1, t_21.a0, t_21.a1);
-    t_r2 t_22 = pairs_loose_multiply(g3.a0, g3.a1, x1.a0, x1.a1);
-    t_r2 t_23 = pairs_loose_multiply(g1.a0, g1.a1, x3.a0, x3.a1);
-    t_r2 t_24 = pairs_loose_subtract(t_22.a0, t_22.a1, t_23.a0, t_23.a1);
-    t_r2 t_25 = pairs_loose_multiply_float(t_24.a0, t_24.a1, D);
-    t_r2 t_26 = pairs_loose_add(y2.a0, y2.a1, t_25.a0, t_25.a1);
-    t_r2 t_27 = pairs_loose_multiply(u3.a0, u3.a1, y1.a0, y1.a1);
-    t_r2 t_28 = pairs_loose_multiply(k2.a0, k2.a1, s.a0, s.a1);
-    t_r2 t_29 = pairs_loose_multiply(u1.a0, u1.a1, y3.a0, y3.a1);
-    t_r2 t_30 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1);
-    t_r2 t_31 = pairs_loose_add(t_28.a0, t_28.a1, t_29.a0, t_29.a1);
-    t_r2 o_r2 = pairs_loose_subtract(t_30.a0, t_30.a1, t_31.a0, t_31.a1);
-    t_r2 t_32 = pairs_loose_multiply(g1.a0, g1.a1, x2.a0, x2.a1);
-    t_r2 t_33 = pairs_loose_multiply(g2.a0, g2.a1, x1.a0, x1.a1);
-    t_r2 t_34 = pairs_loose_subtract(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
-    t_r2 t_35 = pairs_loose_multiply_float(t_34.a0, t_34.a1, D);
-    t_r2 t_36 = pairs_loose_add(y3.a0, y3.a1, t_35.a0, t_35.a1);
-    t_r2 t_37 = pairs_loose_multiply(u1.a0, u1.a1, y2.a0, y2.a1);
-    t_r2 t_38 = pairs_loose_multiply(k3.a0, k3.a1, s.a0, s.a1);
-    t_r2 t_39 = pairs_loose_multiply(u2.a0, u2.a1, y1.a0, y1.a1);
-    t_r2 t_40 = pairs_loose_add(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
-    t_r2 t_41 = pairs_loose_add(t_38.a0, t_38.a1, t_39.a0, t_39.a1);
-    t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
+    t_r2 x1 = pairs_loose_subtract(pairs_loose_multiply(g3, u2), pairs_loose_multiply(g2, u3));
+    t_r2 x2 = pairs_loose_subtract(pairs_loose_multiply(g1, u3), pairs_loose_multiply(g3, u1));
+    t_r2 x3 = pairs_loose_subtract(pairs_loose_multiply(g2, u1), pairs_loose_multiply(g1, u2));
+    t_r2 y1 = pairs_loose_multiply(I1, u1), y2 = pairs_loose_multiply(I2, u2), y3 = pairs_loose_multiply(I3, u3);
+    t_r2 s = pairs_loose_add(pairs_loose_add_float(pairs_loose_multiply(u1, u1), 1),
+        pairs_loose_add(pairs_loose_multiply(u2, u2), pairs_loose_multiply(u3, u3)));
+    t_r2 o_r1 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y1,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply(g2, x3), pairs_loose_multiply(g3, x2)),
+        D)), pairs_loose_multiply(u2, y3)), pairs_loose_add(pairs_loose_multiply(k1, s), pairs_loose_multiply(u3,
+        y2)));
+    t_r2 o_r2 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y2,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply(g3, x1), pairs_loose_multiply(g1, x3)),
+        D)), pairs_loose_multiply(u3, y1)), pairs_loose_add(pairs_loose_multiply(k2, s), pairs_loose_multiply(u1,
+        y3)));
+    t_r2 o_r3 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y3,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply(g1, x2), pairs_loose_multiply(g2, x1)),
+        D)), pairs_loose_multiply(u1, y2)), pairs_loose_add(pairs_loose_multiply(k3, s), pairs_loose_multiply(u2,
+        y1)));
+    return (t_p3){o_r1, o_r2, o_r3};
 }
 
 INLINE Root proved_root_near__p3_4r6(t_p3 u, t_p3 k, t_p3 g, t_p3 I, real D, real slope, real radius, real xi, real
@@ -2676,100 +2584,56 @@ INLINE void proved_carried_r1_p3_4r3(r1 box, t_p3 u, t_p3 k, t_p3 g, t_p3 I, rea
 }
 
 INLINE t_p3 kernel_centre_step_p7(t_r2 q0, t_r2 q1, t_r2 q2, t_r2 q3, t_r2 g1, t_r2 g2, t_r2 g3) {
-    t_r2 t0 = (t_r2){2 * q0.a0, 2 * q0.a1}, t_1 = pairs_loose_multiply(g3.a0, g3.a1, q2.a0, q2.a1);
-    t_r2 t_2 = pairs_loose_multiply(g2.a0, g2.a1, q3.a0, q3.a1);
-    t_r2 t_3 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
-    t_r2 o_s1 = pairs_loose_multiply(t0.a0, t0.a1, t_3.a0, t_3.a1);
-    t_r2 t_4 = pairs_loose_multiply(g3.a0, g3.a1, q1.a0, q1.a1);
-    t_r2 t_5 = pairs_loose_multiply(g1.a0, g1.a1, q3.a0, q3.a1), t_6 = (t_r2){-t0.a0, -t0.a1};
-    t_r2 t_7 = pairs_loose_subtract(t_4.a0, t_4.a1, t_5.a0, t_5.a1);
-    t_r2 o_s2 = pairs_loose_multiply(t_6.a0, t_6.a1, t_7.a0, t_7.a1);
-    t_r2 t_8 = pairs_loose_multiply(g2.a0, g2.a1, q1.a0, q1.a1);
-    t_r2 t_9 = pairs_loose_multiply(g1.a0, g1.a1, q2.a0, q2.a1);
-    t_r2 t_10 = pairs_loose_subtract(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
-    t_r2 o_s3 = pairs_loose_multiply(t0.a0, t0.a1, t_10.a0, t_10.a1); return (t_p3){o_s1, o_s2, o_s3};
+    t_r2 t0 = (t_r2){2 * q0.a0, 2 * q0.a1};
+    t_r2 o_s1 = pairs_loose_multiply(t0, pairs_loose_subtract(pairs_loose_multiply(g3, q2), pairs_loose_multiply(g2,
+        q3)));
+    t_r2 o_s2 = pairs_loose_multiply((t_r2){-t0.a0, -t0.a1}, pairs_loose_subtract(pairs_loose_multiply(g3, q1),
+        pairs_loose_multiply(g1, q3)));
+    t_r2 o_s3 = pairs_loose_multiply(t0, pairs_loose_subtract(pairs_loose_multiply(g2, q1), pairs_loose_multiply(g1,
+        q2)));
+    return (t_p3){o_s1, o_s2, o_s3};
 }
 
 INLINE t_p3 kernel_rotate_p7(t_r2 q0, t_r2 q1, t_r2 q2, t_r2 q3, t_r2 v1, t_r2 v2, t_r2 v3) {
-    t_r2 t0 = pairs_loose_multiply(q2.a0, q2.a1, q2.a0, q2.a1);
-    t_r2 t1 = pairs_loose_multiply(q3.a0, q3.a1, q3.a0, q3.a1), t2 = (t_r2){2 * v1.a0, 2 * v1.a1};
-    t_r2 t3 = pairs_loose_multiply(q0.a0, q0.a1, q2.a0, q2.a1);
-    t_r2 t4 = pairs_loose_multiply(q1.a0, q1.a1, q3.a0, q3.a1);
-    t_r2 t5 = pairs_loose_multiply(q0.a0, q0.a1, q3.a0, q3.a1);
-    t_r2 t6 = pairs_loose_multiply(q1.a0, q1.a1, q2.a0, q2.a1), t7 = (t_r2){2 * v2.a0, 2 * v2.a1};
-    t_r2 t8 = pairs_loose_multiply(q1.a0, q1.a1, q1.a0, q1.a1);
-    t_r2 t9 = pairs_loose_multiply(q0.a0, q0.a1, q1.a0, q1.a1);
-    t_r2 t10 = pairs_loose_multiply(q2.a0, q2.a1, q3.a0, q3.a1), t11 = (t_r2){2 * v3.a0, 2 * v3.a1};
-    t_r2 t_1 = (t_r2){2 * v3.a0, 2 * v3.a1}, t_2 = pairs_loose_add(t3.a0, t3.a1, t4.a0, t4.a1);
-    t_r2 t_3 = pairs_loose_multiply(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
-    t_r2 t_4 = pairs_loose_add(t0.a0, t0.a1, t1.a0, t1.a1), t_5 = pairs_loose_subtract(t5.a0, t5.a1, t6.a0, t6.a1);
-    t_r2 t_6 = pairs_loose_multiply(t2.a0, t2.a1, t_4.a0, t_4.a1);
-    t_r2 t_7 = pairs_loose_multiply(t7.a0, t7.a1, t_5.a0, t_5.a1);
-    t_r2 t_8 = pairs_loose_add(v1.a0, v1.a1, t_3.a0, t_3.a1), t_9 = pairs_loose_add(t_6.a0, t_6.a1, t_7.a0, t_7.a1);
-    t_r2 o_x1 = pairs_loose_subtract(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
-    t_r2 t_10 = pairs_loose_add(t5.a0, t5.a1, t6.a0, t6.a1);
-    t_r2 t_11 = pairs_loose_multiply(t2.a0, t2.a1, t_10.a0, t_10.a1);
-    t_r2 t_12 = pairs_loose_subtract(t9.a0, t9.a1, t10.a0, t10.a1);
-    t_r2 t_13 = pairs_loose_add(t1.a0, t1.a1, t8.a0, t8.a1);
-    t_r2 t_14 = pairs_loose_multiply(t11.a0, t11.a1, t_12.a0, t_12.a1);
-    t_r2 t_15 = pairs_loose_multiply(t7.a0, t7.a1, t_13.a0, t_13.a1);
-    t_r2 t_16 = pairs_loose_add(v2.a0, v2.a1, t_11.a0, t_11.a1);
-    t_r2 t_17 = pairs_loose_add(t_14.a0, t_14.a1, t_15.a0, t_15.a1);
-    t_r2 o_x2 = pairs_loose_subtract(t_16.a0, t_16.a1, t_17.a0, t_17.a1), t_18 = (t_r2){2 * v2.a0, 2 * v2.a1};
-    t_r2 t_19 = pairs_loose_add(t10.a0, t10.a1, t9.a0, t9.a1);
-    t_r2 t_20 = pairs_loose_multiply(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
-    t_r2 t_21 = pairs_loose_add(t0.a0, t0.a1, t8.a0, t8.a1), t_22 = pairs_loose_subtract(t3.a0, t3.a1, t4.a0, t4.a1);
-    t_r2 t_23 = pairs_loose_multiply(t11.a0, t11.a1, t_21.a0, t_21.a1);
-    t_r2 t_24 = pairs_loose_multiply(t2.a0, t2.a1, t_22.a0, t_22.a1);
-    t_r2 t_25 = pairs_loose_add(v3.a0, v3.a1, t_20.a0, t_20.a1);
-    t_r2 t_26 = pairs_loose_add(t_23.a0, t_23.a1, t_24.a0, t_24.a1);
-    t_r2 o_x3 = pairs_loose_subtract(t_25.a0, t_25.a1, t_26.a0, t_26.a1); return (t_p3){o_x1, o_x2, o_x3};
+    t_r2 t0 = pairs_loose_multiply(q2, q2), t1 = pairs_loose_multiply(q3, q3), t2 = (t_r2){2 * v1.a0, 2 * v1.a1};
+    t_r2 t3 = pairs_loose_multiply(q0, q2), t4 = pairs_loose_multiply(q1, q3), t5 = pairs_loose_multiply(q0, q3);
+    t_r2 t6 = pairs_loose_multiply(q1, q2), t7 = (t_r2){2 * v2.a0, 2 * v2.a1}, t8 = pairs_loose_multiply(q1, q1);
+    t_r2 t9 = pairs_loose_multiply(q0, q1), t10 = pairs_loose_multiply(q2, q3), t11 = (t_r2){2 * v3.a0, 2 * v3.a1};
+    t_r2 o_x1 = pairs_loose_subtract(pairs_loose_add(v1, pairs_loose_multiply((t_r2){2 * v3.a0, 2 * v3.a1},
+        pairs_loose_add(t3, t4))), pairs_loose_add(pairs_loose_multiply(t2, pairs_loose_add(t0, t1)),
+        pairs_loose_multiply(t7, pairs_loose_subtract(t5, t6))));
+    t_r2 o_x2 = pairs_loose_subtract(pairs_loose_add(v2, pairs_loose_multiply(t2, pairs_loose_add(t5, t6))),
+        pairs_loose_add(pairs_loose_multiply(t11, pairs_loose_subtract(t9, t10)), pairs_loose_multiply(t7,
+        pairs_loose_add(t1, t8))));
+    t_r2 o_x3 = pairs_loose_subtract(pairs_loose_add(v3, pairs_loose_multiply((t_r2){2 * v2.a0, 2 * v2.a1},
+        pairs_loose_add(t10, t9))), pairs_loose_add(pairs_loose_multiply(t11, pairs_loose_add(t0, t8)),
+        pairs_loose_multiply(t2, pairs_loose_subtract(t3, t4))));
+    return (t_p3){o_x1, o_x2, o_x3};
 }
 
 INLINE t_p4 kernel_compose_p8(t_r2 a0, t_r2 a1, t_r2 a2, t_r2 a3, t_r2 b0, t_r2 b1, t_r2 b2, t_r2 b3) {
-    t_r2 t_1 = pairs_loose_multiply(a0.a0, a0.a1, b0.a0, b0.a1);
-    t_r2 t_2 = pairs_loose_multiply(a1.a0, a1.a1, b1.a0, b1.a1);
-    t_r2 t_3 = pairs_loose_multiply(a2.a0, a2.a1, b2.a0, b2.a1);
-    t_r2 t_4 = pairs_loose_multiply(a3.a0, a3.a1, b3.a0, b3.a1);
-    t_r2 t_5 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
-    t_r2 t_6 = pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
-    t_r2 o_c0 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
-    t_r2 t_7 = pairs_loose_multiply(a0.a0, a0.a1, b1.a0, b1.a1);
-    t_r2 t_8 = pairs_loose_multiply(a1.a0, a1.a1, b0.a0, b0.a1);
-    t_r2 t_9 = pairs_loose_multiply(a2.a0, a2.a1, b3.a0, b3.a1);
-    t_r2 t_10 = pairs_loose_multiply(a3.a0, a3.a1, b2.a0, b2.a1);
-    t_r2 t_11 = pairs_loose_add(t_7.a0, t_7.a1, t_8.a0, t_8.a1);
-    t_r2 t_12 = pairs_loose_subtract(t_9.a0, t_9.a1, t_10.a0, t_10.a1);
-    t_r2 o_c1 = pairs_loose_add(t_11.a0, t_11.a1, t_12.a0, t_12.a1);
-    t_r2 t_13 = pairs_loose_multiply(a0.a0, a0.a1, b2.a0, b2.a1);
-    t_r2 t_14 = pairs_loose_multiply(a2.a0, a2.a1, b0.a0, b0.a1);
-    t_r2 t_15 = pairs_loose_multiply(a3.a0, a3.a1, b1.a0, b1.a1);
-    t_r2 t_16 = pairs_loose_multiply(a1.a0, a1.a1, b3.a0, b3.a1);
-    t_r2 t_17 = pairs_loose_add(t_13.a0, t_13.a1, t_14.a0, t_14.a1);
-    t_r2 t_18 = pairs_loose_subtract(t_15.a0, t_15.a1, t_16.a0, t_16.a1);
-    t_r2 o_c2 = pairs_loose_add(t_17.a0, t_17.a1, t_18.a0, t_18.a1);
-    t_r2 t_19 = pairs_loose_multiply(a0.a0, a0.a1, b3.a0, b3.a1);
-    t_r2 t_20 = pairs_loose_multiply(a1.a0, a1.a1, b2.a0, b2.a1);
-    t_r2 t_21 = pairs_loose_multiply(a3.a0, a3.a1, b0.a0, b0.a1);
-    t_r2 t_22 = pairs_loose_multiply(a2.a0, a2.a1, b1.a0, b1.a1);
-    t_r2 t_23 = pairs_loose_add(t_19.a0, t_19.a1, t_20.a0, t_20.a1);
-    t_r2 t_24 = pairs_loose_subtract(t_21.a0, t_21.a1, t_22.a0, t_22.a1);
-    t_r2 o_c3 = pairs_loose_add(t_23.a0, t_23.a1, t_24.a0, t_24.a1); return (t_p4){o_c0, o_c1, o_c2, o_c3};
+    t_r2 o_c0 = pairs_loose_subtract(pairs_loose_subtract(pairs_loose_multiply(a0, b0), pairs_loose_multiply(a1, b1)),
+        pairs_loose_add(pairs_loose_multiply(a2, b2), pairs_loose_multiply(a3, b3)));
+    t_r2 o_c1 = pairs_loose_add(pairs_loose_add(pairs_loose_multiply(a0, b1), pairs_loose_multiply(a1, b0)),
+        pairs_loose_subtract(pairs_loose_multiply(a2, b3), pairs_loose_multiply(a3, b2)));
+    t_r2 o_c2 = pairs_loose_add(pairs_loose_add(pairs_loose_multiply(a0, b2), pairs_loose_multiply(a2, b0)),
+        pairs_loose_subtract(pairs_loose_multiply(a3, b1), pairs_loose_multiply(a1, b3)));
+    t_r2 o_c3 = pairs_loose_add(pairs_loose_add(pairs_loose_multiply(a0, b3), pairs_loose_multiply(a1, b2)),
+        pairs_loose_subtract(pairs_loose_multiply(a3, b0), pairs_loose_multiply(a2, b1)));
+    return (t_p4){o_c0, o_c1, o_c2, o_c3};
 }
 
 INLINE t__p4_p2 double_double_rolled__p3_2_p4_p2r(t_p3 u, t_p3 g, t_p4 a, t_r2 x, t_r2 y, real rho) {
-    t_r2 t_1 = vectors_dot__p3_2(u, u), t_2 = pairs_loose_add_float(t_1.a0, t_1.a1, R(1.0));
-    t_r2 t_3 = pairs_two_sum(t_2.a0, t_2.a1), t_4 = pairs_root(t_3.a0, t_3.a1), t_5 = pairs_two_sum(t_4.a0, t_4.a1);
-    t_r2 q0 = pairs_divide(R(1.0), 0, t_5.a0, t_5.a1);
-    t_p3 q = vectors_scaled_p_p3_(q0, u), t_6 = kernel_centre_step_p7(q0, q.a0, q.a1, q.a2, g.a0, g.a1, g.a2);
-    t_p3 d1 = kernel_rotate_p7(a.a0, a.a1, a.a2, a.a3, t_6.a0, t_6.a1, t_6.a2);
+    t_r2 t_1 = pairs_loose_add_float(vectors_dot__p3_2(u, u), R(1.0));
+    t_r2 t_2 = pairs_root(pairs_two_sum(t_1.a0, t_1.a1));
+    t_r2 q0 = pairs_divide((t_r2){R(1.0), 0}, pairs_two_sum(t_2.a0, t_2.a1));
+    t_p3 q = vectors_scaled_p_p3_(q0, u), t_3 = kernel_centre_step_p7(q0, q.a0, q.a1, q.a2, g.a0, g.a1, g.a2);
+    t_p3 d1 = kernel_rotate_p7(a.a0, a.a1, a.a2, a.a3, t_3.a0, t_3.a1, t_3.a2);
     t_p4 turned = double_double_normalised_four__p4_(double_double_of_length_one__p4_(kernel_compose_p8(a.a0, a.a1,
         a.a2, a.a3, q0, q.a0, q.a1, q.a2)));
-    t_r2 t_7 = pairs_loose_multiply_float(d1.a0.a0, d1.a0.a1, rho);
-    t_r2 t_8 = pairs_loose_add(x.a0, x.a1, t_7.a0, t_7.a1);
-    t_r2 t_9 = pairs_loose_multiply_float(d1.a1.a0, d1.a1.a1, rho);
-    t_r2 t_10 = pairs_loose_add(y.a0, y.a1, t_9.a0, t_9.a1);
-    return (t__p4_p2){turned, pairs_two_sum(t_8.a0, t_8.a1), pairs_two_sum(t_10.a0, t_10.a1)};
+    t_r2 t_4 = pairs_loose_add(x, pairs_loose_multiply_float(d1.a0, rho));
+    t_r2 t_5 = pairs_loose_add(y, pairs_loose_multiply_float(d1.a1, rho));
+    return (t__p4_p2){turned, pairs_two_sum(t_4.a0, t_4.a1), pairs_two_sum(t_5.a0, t_5.a1)};
 }
 
 INLINE void double_double_follow_body__p3_r13r(t_p3 u, r1 state, r1 attitude, r1 contact, real rho) {
@@ -2783,56 +2647,39 @@ INLINE void double_double_follow_body__p3_r13r(t_p3 u, r1 state, r1 attitude, r1
 }
 
 INLINE t_p3 kernel_turn_1p6(t_r2 p1, t_r2 p2, t_r2 p3, t_r2 v1, t_r2 v2, t_r2 v3) {
-    t_r2 t_1 = pairs_loose_multiply(p1.a0, p1.a1, p1.a0, p1.a1);
-    t_r2 t_2 = pairs_loose_multiply(p2.a0, p2.a1, p2.a0, p2.a1);
-    t_r2 t_3 = pairs_loose_multiply(p3.a0, p3.a1, p3.a0, p3.a1), t_4 = pairs_loose_add_float(t_1.a0, t_1.a1, 1);
-    t_r2 t_5 = pairs_loose_add(t_2.a0, t_2.a1, t_3.a0, t_3.a1);
-    t_r2 t_6 = pairs_loose_add(t_4.a0, t_4.a1, t_5.a0, t_5.a1), t_7 = pairs_two_sum(t_6.a0, t_6.a1);
-    t_r2 s = pairs_divide(2, 0, t_7.a0, t_7.a1), t_8 = pairs_loose_multiply(p2.a0, p2.a1, v3.a0, v3.a1);
-    t_r2 t_9 = pairs_loose_multiply(p3.a0, p3.a1, v2.a0, v2.a1);
-    t_r2 x1 = pairs_loose_subtract(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
-    t_r2 t_10 = pairs_loose_multiply(p3.a0, p3.a1, v1.a0, v1.a1);
-    t_r2 t_11 = pairs_loose_multiply(p1.a0, p1.a1, v3.a0, v3.a1);
-    t_r2 x2 = pairs_loose_subtract(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
-    t_r2 t_12 = pairs_loose_multiply(p1.a0, p1.a1, v2.a0, v2.a1);
-    t_r2 t_13 = pairs_loose_multiply(p2.a0, p2.a1, v1.a0, v1.a1);
-    t_r2 x3 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
-    t_r2 t_14 = pairs_loose_multiply(p2.a0, p2.a1, x3.a0, x3.a1);
-    t_r2 t_15 = pairs_loose_subtract(t_14.a0, t_14.a1, x1.a0, x1.a1);
-    t_r2 t_16 = pairs_loose_multiply(p3.a0, p3.a1, x2.a0, x2.a1);
-    t_r2 t_17 = pairs_loose_subtract(t_15.a0, t_15.a1, t_16.a0, t_16.a1);
-    t_r2 o_x1 = pairs_loose_multiply(s.a0, s.a1, t_17.a0, t_17.a1);
-    t_r2 t_18 = pairs_loose_multiply(p3.a0, p3.a1, x1.a0, x1.a1);
-    t_r2 t_19 = pairs_loose_subtract(t_18.a0, t_18.a1, x2.a0, x2.a1);
-    t_r2 t_20 = pairs_loose_multiply(p1.a0, p1.a1, x3.a0, x3.a1);
-    t_r2 t_21 = pairs_loose_subtract(t_19.a0, t_19.a1, t_20.a0, t_20.a1);
-    t_r2 o_x2 = pairs_loose_multiply(s.a0, s.a1, t_21.a0, t_21.a1);
-    t_r2 t_22 = pairs_loose_multiply(p1.a0, p1.a1, x2.a0, x2.a1);
-    t_r2 t_23 = pairs_loose_subtract(t_22.a0, t_22.a1, x3.a0, x3.a1);
-    t_r2 t_24 = pairs_loose_multiply(p2.a0, p2.a1, x1.a0, x1.a1);
-    t_r2 t_25 = pairs_loose_subtract(t_23.a0, t_23.a1, t_24.a0, t_24.a1);
-    t_r2 o_x3 = pairs_loose_multiply(s.a0, s.a1, t_25.a0, t_25.a1); return (t_p3){o_x1, o_x2, o_x3};
+    t_r2 t_1 = pairs_loose_add(pairs_loose_add_float(pairs_loose_multiply(p1, p1), 1),
+        pairs_loose_add(pairs_loose_multiply(p2, p2), pairs_loose_multiply(p3, p3)));
+    t_r2 s = pairs_divide((t_r2){2, 0}, pairs_two_sum(t_1.a0, t_1.a1));
+    t_r2 x1 = pairs_loose_subtract(pairs_loose_multiply(p2, v3), pairs_loose_multiply(p3, v2));
+    t_r2 x2 = pairs_loose_subtract(pairs_loose_multiply(p3, v1), pairs_loose_multiply(p1, v3));
+    t_r2 x3 = pairs_loose_subtract(pairs_loose_multiply(p1, v2), pairs_loose_multiply(p2, v1));
+    t_r2 o_x1 = pairs_loose_multiply(s, pairs_loose_subtract(pairs_loose_subtract(pairs_loose_multiply(p2, x3), x1),
+        pairs_loose_multiply(p3, x2)));
+    t_r2 o_x2 = pairs_loose_multiply(s, pairs_loose_subtract(pairs_loose_subtract(pairs_loose_multiply(p3, x1), x2),
+        pairs_loose_multiply(p1, x3)));
+    t_r2 o_x3 = pairs_loose_multiply(s, pairs_loose_subtract(pairs_loose_subtract(pairs_loose_multiply(p1, x2), x3),
+        pairs_loose_multiply(p2, x1)));
+    return (t_p3){o_x1, o_x2, o_x3};
 }
 
 INLINE t_p3 double_double_turned__p3_2(t_p3 u, t_p3 v) {
     return double_double_normalised__p3_(vectors_plus__p3_2(v, kernel_turn_1p6(u.a0, u.a1, u.a2, v.a0, v.a1, v.a2)));
 }
 
-INLINE t_r2 pairs_add(real a, real a_, real b, real b_) {
-    t_r2 t_1 = pairs_two_sum(a, b); real s = t_1.a0, s_ = t_1.a1;
-    t_r2 t = pairs_two_sum(a_, b_), t_2 = pairs_quick_two_sum(s, s_ + t.a0); s = t_2.a0; s_ = t_2.a1;
+INLINE t_r2 pairs_add(t_r2 a, t_r2 b) {
+    t_r2 t_1 = pairs_two_sum(a.a0, b.a0); real s = t_1.a0, s_ = t_1.a1;
+    t_r2 t = pairs_two_sum(a.a1, b.a1), t_2 = pairs_quick_two_sum(s, s_ + t.a0); s = t_2.a0; s_ = t_2.a1;
     return pairs_quick_two_sum(s, t.a1 + s_);
 }
 
-INLINE t_r2 pairs_subtract(real a, real a_, real b, real b_) { return pairs_add(a, a_, -b, -b_); }
+INLINE t_r2 pairs_subtract(t_r2 a, t_r2 b) { return pairs_add(a, (t_r2){-b.a0, -b.a1}); }
 OUT_OF_LINE t_r2 double_double_restore_pairs(r1 state) {
     t_r2 x, y; t_p3 k = double_double_three_pairs(state, 0), g = double_double_three_pairs(state, 6);
     t_p3 h = double_double_three_pairs(state, 22);
     t_p3 now = double_double_normalised__p3_((t_p3){vectors_dot__p3_2(g, g), vectors_dot__p3_2(k, g),
         vectors_dot__p3_2(k, k)});
-    t_r2 unit = pairs_subtract(h.a0.a0, h.a0.a1, now.a0.a0, now.a0.a1);
-    t_r2 height = pairs_subtract(h.a1.a0, h.a1.a1, now.a1.a0, now.a1.a1);
-    t_r2 squared = pairs_subtract(h.a2.a0, h.a2.a1, now.a2.a0, now.a2.a1);
+    t_r2 unit = pairs_subtract(h.a0, now.a0), height = pairs_subtract(h.a1, now.a1);
+    t_r2 squared = pairs_subtract(h.a2, now.a2);
     t_r3 stretch = integrals_shares(unit.a0, height.a0, squared.a0, h.a0.a0, h.a1.a0, h.a2.a0);
     for (int64_t i = 0; i < 6; i += 2) {
         x = double_double_pair(state, 0 + i); y = double_double_pair(state, 6 + i);
@@ -3089,8 +2936,8 @@ INLINE t_ir_p4_p2 double_double_column__p3_2_p4_p2ir1r3(t_p3 k, t_p3 g, t_p4 a, 
 }
 
 INLINE t_r2 double_double_with_share_p3(t_r2 total, t_r2 weight, t_r2 x) {
-    t_r2 t_1 = pairs_loose_multiply(weight.a0, weight.a1, x.a0, x.a1), t_2 = pairs_two_sum(t_1.a0, t_1.a1);
-    t_r2 t_3 = pairs_loose_add(total.a0, total.a1, t_2.a0, t_2.a1); return pairs_two_sum(t_3.a0, t_3.a1);
+    t_r2 t_1 = pairs_loose_multiply(weight, x), t_2 = pairs_loose_add(total, pairs_two_sum(t_1.a0, t_1.a1));
+    return pairs_two_sum(t_2.a0, t_2.a1);
 }
 
 INLINE t_p4 double_double_with_shares__p4_p_p4_(t_p4 total, t_r2 weight, t_p4 q) {
@@ -3100,13 +2947,8 @@ INLINE t_p4 double_double_with_shares__p4_p_p4_(t_p4 total, t_r2 weight, t_p4 q)
 }
 
 INLINE t_r2 vectors_dot_four__p4_2(t_p4 a, t_p4 b) {
-    t_r2 t_1 = pairs_loose_multiply(a.a0.a0, a.a0.a1, b.a0.a0, b.a0.a1);
-    t_r2 t_2 = pairs_loose_multiply(a.a1.a0, a.a1.a1, b.a1.a0, b.a1.a1);
-    t_r2 t_3 = pairs_loose_add(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
-    t_r2 t_4 = pairs_loose_multiply(a.a2.a0, a.a2.a1, b.a2.a0, b.a2.a1);
-    t_r2 t_5 = pairs_loose_add(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
-    t_r2 t_6 = pairs_loose_multiply(a.a3.a0, a.a3.a1, b.a3.a0, b.a3.a1);
-    return pairs_loose_add(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
+    return pairs_loose_add(pairs_loose_add(pairs_loose_add(pairs_loose_multiply(a.a0, b.a0),
+        pairs_loose_multiply(a.a1, b.a1)), pairs_loose_multiply(a.a2, b.a2)), pairs_loose_multiply(a.a3, b.a3));
 }
 
 INLINE t_i2r2 double_double_march_long_pairs(r1 momentum, r1 g, r1 tensor, real contact, real h, real h_, int64_t
@@ -3143,7 +2985,7 @@ INLINE t_i2r2 double_double_march_long_pairs(r1 momentum, r1 g, r1 tensor, real 
         k_body = double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), K_);
         g_body = double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), g_);
         for (int64_t j = 0, end_j = columns; j < end_j; j++) {
-            n = 3 + j; t_r2 t_2 = (t_r2){half, half_}; f = pairs_divide(t_2.a0, t_2.a1, n * R(1.0), 0);
+            n = 3 + j; f = pairs_divide((t_r2){half, half_}, (t_r2){n * R(1.0), 0});
             status = double_double_column__p3_2_p4_p2ir1r3(double_double_normalised__p3_(vectors_scaled_p_p3_(f,
                 k_body)), g_body, a, zero, zero, n, state, AT2(limits, 0, j), AT2(limits, 1, j), rho);
             if (status.a0 != 0) { return (t_i2r2){step - first, status.a0, status.a1, doubt}; }
@@ -3154,20 +2996,16 @@ INLINE t_i2r2 double_double_march_long_pairs(r1 momentum, r1 g, r1 tensor, real 
             y_ = double_double_with_share_p3(y_, weight, status.a4);
             changes = double_double_with_shares__p4_p_p4_(changes, change, status.a2);
         }
-        t_r2 t_3 = vectors_dot_four__p4_2(sums, sums), t_4 = pairs_two_sum(t_3.a0, t_3.a1);
-        length = pairs_root(t_4.a0, t_4.a1);
-        t_r2 t_5 = pairs_two_sum(length.a0, length.a1), t_6 = pairs_two_sum(length.a0, length.a1);
-        t_r2 t_7 = pairs_two_sum(length.a0, length.a1), t_8 = pairs_two_sum(length.a0, length.a1);
-        a = (t_p4){pairs_divide(sums.a0.a0, sums.a0.a1, t_5.a0, t_5.a1), pairs_divide(sums.a1.a0, sums.a1.a1, t_6.a0,
-            t_6.a1), pairs_divide(sums.a2.a0, sums.a2.a1, t_7.a0, t_7.a1), pairs_divide(sums.a3.a0, sums.a3.a1,
-            t_8.a0, t_8.a1)};
-        t_r2 t_9 = pairs_loose_add(x.a0, x.a1, x_.a0, x_.a1), t_10 = pairs_loose_add(y.a0, y.a1, y_.a0, y_.a1);
-        x = pairs_two_sum(t_9.a0, t_9.a1); y = pairs_two_sum(t_10.a0, t_10.a1);
-        double_double_put_pair_r1ip(body, 0, a.a0);
+        t_r2 t_2 = vectors_dot_four__p4_2(sums, sums); length = pairs_root(pairs_two_sum(t_2.a0, t_2.a1));
+        a = (t_p4){pairs_divide(sums.a0, pairs_two_sum(length.a0, length.a1)), pairs_divide(sums.a1,
+            pairs_two_sum(length.a0, length.a1)), pairs_divide(sums.a2, pairs_two_sum(length.a0, length.a1)),
+            pairs_divide(sums.a3, pairs_two_sum(length.a0, length.a1))};
+        t_r2 t_3 = pairs_loose_add(x, x_), t_4 = pairs_loose_add(y, y_); x = pairs_two_sum(t_3.a0, t_3.a1);
+        y = pairs_two_sum(t_4.a0, t_4.a1); double_double_put_pair_r1ip(body, 0, a.a0);
         double_double_put_pairs_r1i_p3_(body, 2, (t_p3){a.a1, a.a2, a.a3}); double_double_put_pair_r1ip(body, 8, x);
         double_double_put_pair_r1ip(body, 10, y);
-        t_r3 t_11 = double_double_highs__p3_((t_p3){changes.a1, changes.a2, changes.a3});
-        doubt = doubt + R(2.0) * R(sqrt(vectors_square_of_four((t_r4){changes.a0.a0, t_11.a0, t_11.a1, t_11.a2})));
+        t_r3 t_5 = double_double_highs__p3_((t_p3){changes.a1, changes.a2, changes.a3});
+        doubt = doubt + R(2.0) * R(sqrt(vectors_square_of_four((t_r4){changes.a0.a0, t_5.a0, t_5.a1, t_5.a2})));
         if (mod_i(step + 1, every) == 0) {
             frame = div_i(step + 1, every);
             double_double_put_pairs_r1i_p3_(state, 0, double_double_rotated__p4__p3_(vectors_conjugate__p4_(a), K_));
@@ -3194,40 +3032,26 @@ INLINE t_r2 proved_slope_of(t_r3 k, t_r3 I, real D) {
 INLINE t_r3 proved_floats__e3_(t_e3 v) { return (t_r3){v.a0, v.a1, v.a2}; }
 INLINE t_p3 kernel_gibbs_residual_e9p3e(real u1, real u2, real u3, real k1, real k2, real k3, real g1, real g2, real
     g3, t_r2 I1, t_r2 I2, t_r2 I3, real D) {
-    t_r2 t_1 = pairs_two_product(g3, u2), t_2 = pairs_two_product(g2, u3);
-    t_r2 x1 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1), t_3 = pairs_two_product(g1, u3);
-    t_r2 t_4 = pairs_two_product(g3, u1), x2 = pairs_loose_subtract(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
-    t_r2 t_5 = pairs_two_product(g2, u1), t_6 = pairs_two_product(g1, u2);
-    t_r2 x3 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
-    t_r2 y1 = pairs_loose_multiply_float(I1.a0, I1.a1, u1), y2 = pairs_loose_multiply_float(I2.a0, I2.a1, u2);
-    t_r2 y3 = pairs_loose_multiply_float(I3.a0, I3.a1, u3), t_7 = pairs_two_product(u1, u1);
-    t_r2 t_8 = pairs_two_product(u2, u2), t_9 = pairs_two_product(u3, u3);
-    t_r2 t_10 = pairs_loose_add_float(t_7.a0, t_7.a1, 1), t_11 = pairs_loose_add(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
-    t_r2 s = pairs_loose_add(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
-    t_r2 t_12 = pairs_loose_multiply_float(x3.a0, x3.a1, g2), t_13 = pairs_loose_multiply_float(x2.a0, x2.a1, g3);
-    t_r2 t_14 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
-    t_r2 t_15 = pairs_loose_multiply_float(t_14.a0, t_14.a1, D);
-    t_r2 t_16 = pairs_loose_add(y1.a0, y1.a1, t_15.a0, t_15.a1), t_17 = pairs_loose_multiply_float(y3.a0, y3.a1, u2);
-    t_r2 t_18 = pairs_loose_multiply_float(s.a0, s.a1, k1), t_19 = pairs_loose_multiply_float(y2.a0, y2.a1, u3);
-    t_r2 t_20 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
-    t_r2 t_21 = pairs_loose_add(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
-    t_r2 o_r1 = pairs_loose_subtract(t_20.a0, t_20.a1, t_21.a0, t_21.a1);
-    t_r2 t_22 = pairs_loose_multiply_float(x1.a0, x1.a1, g3), t_23 = pairs_loose_multiply_float(x3.a0, x3.a1, g1);
-    t_r2 t_24 = pairs_loose_subtract(t_22.a0, t_22.a1, t_23.a0, t_23.a1);
-    t_r2 t_25 = pairs_loose_multiply_float(t_24.a0, t_24.a1, D);
-    t_r2 t_26 = pairs_loose_add(y2.a0, y2.a1, t_25.a0, t_25.a1), t_27 = pairs_loose_multiply_float(y1.a0, y1.a1, u3);
-    t_r2 t_28 = pairs_loose_multiply_float(s.a0, s.a1, k2), t_29 = pairs_loose_multiply_float(y3.a0, y3.a1, u1);
-    t_r2 t_30 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1);
-    t_r2 t_31 = pairs_loose_add(t_28.a0, t_28.a1, t_29.a0, t_29.a1);
-    t_r2 o_r2 = pairs_loose_subtract(t_30.a0, t_30.a1, t_31.a0, t_31.a1);
-    t_r2 t_32 = pairs_loose_multiply_float(x2.a0, x2.a1, g1), t_33 = pairs_loose_multiply_float(x1.a0, x1.a1, g2);
-    t_r2 t_34 = pairs_loose_subtract(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
-    t_r2 t_35 = pairs_loose_multiply_float(t_34.a0, t_34.a1, D);
-    t_r2 t_36 = pairs_loose_add(y3.a0, y3.a1, t_35.a0, t_35.a1), t_37 = pairs_loose_multiply_float(y2.a0, y2.a1, u1);
-    t_r2 t_38 = pairs_loose_multiply_float(s.a0, s.a1, k3), t_39 = pairs_loose_multiply_float(y1.a0, y1.a1, u2);
-    t_r2 t_40 = pairs_loose_add(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
-    t_r2 t_41 = pairs_loose_add(t_38.a0, t_38.a1, t_39.a0, t_39.a1);
-    t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
+    t_r2 x1 = pairs_loose_subtract(pairs_two_product(g3, u2), pairs_two_product(g2, u3));
+    t_r2 x2 = pairs_loose_subtract(pairs_two_product(g1, u3), pairs_two_product(g3, u1));
+    t_r2 x3 = pairs_loose_subtract(pairs_two_product(g2, u1), pairs_two_product(g1, u2));
+    t_r2 y1 = pairs_loose_multiply_float(I1, u1), y2 = pairs_loose_multiply_float(I2, u2);
+    t_r2 y3 = pairs_loose_multiply_float(I3, u3);
+    t_r2 s = pairs_loose_add(pairs_loose_add_float(pairs_two_product(u1, u1), 1),
+        pairs_loose_add(pairs_two_product(u2, u2), pairs_two_product(u3, u3)));
+    t_r2 o_r1 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y1,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply_float(x3, g2),
+        pairs_loose_multiply_float(x2, g3)), D)), pairs_loose_multiply_float(y3, u2)),
+        pairs_loose_add(pairs_loose_multiply_float(s, k1), pairs_loose_multiply_float(y2, u3)));
+    t_r2 o_r2 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y2,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply_float(x1, g3),
+        pairs_loose_multiply_float(x3, g1)), D)), pairs_loose_multiply_float(y1, u3)),
+        pairs_loose_add(pairs_loose_multiply_float(s, k2), pairs_loose_multiply_float(y3, u1)));
+    t_r2 o_r3 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y3,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply_float(x2, g1),
+        pairs_loose_multiply_float(x1, g2)), D)), pairs_loose_multiply_float(y2, u1)),
+        pairs_loose_add(pairs_loose_multiply_float(s, k3), pairs_loose_multiply_float(y1, u2)));
+    return (t_p3){o_r1, o_r2, o_r3};
 }
 
 INLINE Root proved_root_near__e3_3_p3_r6(t_e3 u, t_e3 k, t_e3 g, t_p3 I, real D, real slope, real radius, real xi,
@@ -3258,44 +3082,26 @@ INLINE Root proved_root_near__e3_3_p3_r6(t_e3 u, t_e3 k, t_e3 g, t_p3 I, real D,
 
 INLINE t_p3 kernel_gibbs_residual_e6p6e(real u1, real u2, real u3, real k1, real k2, real k3, t_r2 g1, t_r2 g2, t_r2
     g3, t_r2 I1, t_r2 I2, t_r2 I3, real D) {
-    t_r2 t_1 = pairs_loose_multiply_float(g3.a0, g3.a1, u2), t_2 = pairs_loose_multiply_float(g2.a0, g2.a1, u3);
-    t_r2 x1 = pairs_loose_subtract(t_1.a0, t_1.a1, t_2.a0, t_2.a1);
-    t_r2 t_3 = pairs_loose_multiply_float(g1.a0, g1.a1, u3), t_4 = pairs_loose_multiply_float(g3.a0, g3.a1, u1);
-    t_r2 x2 = pairs_loose_subtract(t_3.a0, t_3.a1, t_4.a0, t_4.a1);
-    t_r2 t_5 = pairs_loose_multiply_float(g2.a0, g2.a1, u1), t_6 = pairs_loose_multiply_float(g1.a0, g1.a1, u2);
-    t_r2 x3 = pairs_loose_subtract(t_5.a0, t_5.a1, t_6.a0, t_6.a1);
-    t_r2 y1 = pairs_loose_multiply_float(I1.a0, I1.a1, u1), y2 = pairs_loose_multiply_float(I2.a0, I2.a1, u2);
-    t_r2 y3 = pairs_loose_multiply_float(I3.a0, I3.a1, u3), t_7 = pairs_two_product(u1, u1);
-    t_r2 t_8 = pairs_two_product(u2, u2), t_9 = pairs_two_product(u3, u3);
-    t_r2 t_10 = pairs_loose_add_float(t_7.a0, t_7.a1, 1), t_11 = pairs_loose_add(t_8.a0, t_8.a1, t_9.a0, t_9.a1);
-    t_r2 s = pairs_loose_add(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
-    t_r2 t_12 = pairs_loose_multiply(g2.a0, g2.a1, x3.a0, x3.a1);
-    t_r2 t_13 = pairs_loose_multiply(g3.a0, g3.a1, x2.a0, x2.a1);
-    t_r2 t_14 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
-    t_r2 t_15 = pairs_loose_multiply_float(t_14.a0, t_14.a1, D);
-    t_r2 t_16 = pairs_loose_add(y1.a0, y1.a1, t_15.a0, t_15.a1), t_17 = pairs_loose_multiply_float(y3.a0, y3.a1, u2);
-    t_r2 t_18 = pairs_loose_multiply_float(s.a0, s.a1, k1), t_19 = pairs_loose_multiply_float(y2.a0, y2.a1, u3);
-    t_r2 t_20 = pairs_loose_add(t_16.a0, t_16.a1, t_17.a0, t_17.a1);
-    t_r2 t_21 = pairs_loose_add(t_18.a0, t_18.a1, t_19.a0, t_19.a1);
-    t_r2 o_r1 = pairs_loose_subtract(t_20.a0, t_20.a1, t_21.a0, t_21.a1);
-    t_r2 t_22 = pairs_loose_multiply(g3.a0, g3.a1, x1.a0, x1.a1);
-    t_r2 t_23 = pairs_loose_multiply(g1.a0, g1.a1, x3.a0, x3.a1);
-    t_r2 t_24 = pairs_loose_subtract(t_22.a0, t_22.a1, t_23.a0, t_23.a1);
-    t_r2 t_25 = pairs_loose_multiply_float(t_24.a0, t_24.a1, D);
-    t_r2 t_26 = pairs_loose_add(y2.a0, y2.a1, t_25.a0, t_25.a1), t_27 = pairs_loose_multiply_float(y1.a0, y1.a1, u3);
-    t_r2 t_28 = pairs_loose_multiply_float(s.a0, s.a1, k2), t_29 = pairs_loose_multiply_float(y3.a0, y3.a1, u1);
-    t_r2 t_30 = pairs_loose_add(t_26.a0, t_26.a1, t_27.a0, t_27.a1);
-    t_r2 t_31 = pairs_loose_add(t_28.a0, t_28.a1, t_29.a0, t_29.a1);
-    t_r2 o_r2 = pairs_loose_subtract(t_30.a0, t_30.a1, t_31.a0, t_31.a1);
-    t_r2 t_32 = pairs_loose_multiply(g1.a0, g1.a1, x2.a0, x2.a1);
-    t_r2 t_33 = pairs_loose_multiply(g2.a0, g2.a1, x1.a0, x1.a1);
-    t_r2 t_34 = pairs_loose_subtract(t_32.a0, t_32.a1, t_33.a0, t_33.a1);
-    t_r2 t_35 = pairs_loose_multiply_float(t_34.a0, t_34.a1, D);
-    t_r2 t_36 = pairs_loose_add(y3.a0, y3.a1, t_35.a0, t_35.a1), t_37 = pairs_loose_multiply_float(y2.a0, y2.a1, u1);
-    t_r2 t_38 = pairs_loose_multiply_float(s.a0, s.a1, k3), t_39 = pairs_loose_multiply_float(y1.a0, y1.a1, u2);
-    t_r2 t_40 = pairs_loose_add(t_36.a0, t_36.a1, t_37.a0, t_37.a1);
-    t_r2 t_41 = pairs_loose_add(t_38.a0, t_38.a1, t_39.a0, t_39.a1);
-    t_r2 o_r3 = pairs_loose_subtract(t_40.a0, t_40.a1, t_41.a0, t_41.a1); return (t_p3){o_r1, o_r2, o_r3};
+    t_r2 x1 = pairs_loose_subtract(pairs_loose_multiply_float(g3, u2), pairs_loose_multiply_float(g2, u3));
+    t_r2 x2 = pairs_loose_subtract(pairs_loose_multiply_float(g1, u3), pairs_loose_multiply_float(g3, u1));
+    t_r2 x3 = pairs_loose_subtract(pairs_loose_multiply_float(g2, u1), pairs_loose_multiply_float(g1, u2));
+    t_r2 y1 = pairs_loose_multiply_float(I1, u1), y2 = pairs_loose_multiply_float(I2, u2);
+    t_r2 y3 = pairs_loose_multiply_float(I3, u3);
+    t_r2 s = pairs_loose_add(pairs_loose_add_float(pairs_two_product(u1, u1), 1),
+        pairs_loose_add(pairs_two_product(u2, u2), pairs_two_product(u3, u3)));
+    t_r2 o_r1 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y1,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply(g2, x3), pairs_loose_multiply(g3, x2)),
+        D)), pairs_loose_multiply_float(y3, u2)), pairs_loose_add(pairs_loose_multiply_float(s, k1),
+        pairs_loose_multiply_float(y2, u3)));
+    t_r2 o_r2 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y2,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply(g3, x1), pairs_loose_multiply(g1, x3)),
+        D)), pairs_loose_multiply_float(y1, u3)), pairs_loose_add(pairs_loose_multiply_float(s, k2),
+        pairs_loose_multiply_float(y3, u1)));
+    t_r2 o_r3 = pairs_loose_subtract(pairs_loose_add(pairs_loose_add(y3,
+        pairs_loose_multiply_float(pairs_loose_subtract(pairs_loose_multiply(g1, x2), pairs_loose_multiply(g2, x1)),
+        D)), pairs_loose_multiply_float(y2, u1)), pairs_loose_add(pairs_loose_multiply_float(s, k3),
+        pairs_loose_multiply_float(y1, u2)));
+    return (t_p3){o_r1, o_r2, o_r3};
 }
 
 INLINE Root proved_root_near__e3_2_p3_2r6(t_e3 u, t_e3 k, t_p3 g, t_p3 I, real D, real slope, real radius, real xi,
@@ -3347,29 +3153,19 @@ OUT_OF_LINE real proved_nearer__r3_3_p3_r3(t_r3 u, t_r3 k, t_r3 g, t_p3 I, real 
 }
 
 INLINE t_p3 kernel_turn_1e6(real p1, real p2, real p3, real v1, real v2, real v3) {
-    t_r2 t_1 = pairs_two_product(p1, p1), t_2 = pairs_two_product(p2, p2), t_3 = pairs_two_product(p3, p3);
-    t_r2 t_4 = pairs_loose_add_float(t_1.a0, t_1.a1, 1), t_5 = pairs_loose_add(t_2.a0, t_2.a1, t_3.a0, t_3.a1);
-    t_r2 t_6 = pairs_loose_add(t_4.a0, t_4.a1, t_5.a0, t_5.a1), t_7 = pairs_two_sum(t_6.a0, t_6.a1);
-    t_r2 s = pairs_divide(2, 0, t_7.a0, t_7.a1), t_8 = pairs_two_product(p2, v3), t_9 = pairs_two_product(p3, v2);
-    t_r2 x1 = pairs_loose_subtract(t_8.a0, t_8.a1, t_9.a0, t_9.a1), t_10 = pairs_two_product(p3, v1);
-    t_r2 t_11 = pairs_two_product(p1, v3), x2 = pairs_loose_subtract(t_10.a0, t_10.a1, t_11.a0, t_11.a1);
-    t_r2 t_12 = pairs_two_product(p1, v2), t_13 = pairs_two_product(p2, v1);
-    t_r2 x3 = pairs_loose_subtract(t_12.a0, t_12.a1, t_13.a0, t_13.a1);
-    t_r2 t_14 = pairs_loose_multiply_float(x3.a0, x3.a1, p2);
-    t_r2 t_15 = pairs_loose_subtract(t_14.a0, t_14.a1, x1.a0, x1.a1);
-    t_r2 t_16 = pairs_loose_multiply_float(x2.a0, x2.a1, p3);
-    t_r2 t_17 = pairs_loose_subtract(t_15.a0, t_15.a1, t_16.a0, t_16.a1);
-    t_r2 o_x1 = pairs_loose_multiply(s.a0, s.a1, t_17.a0, t_17.a1);
-    t_r2 t_18 = pairs_loose_multiply_float(x1.a0, x1.a1, p3);
-    t_r2 t_19 = pairs_loose_subtract(t_18.a0, t_18.a1, x2.a0, x2.a1);
-    t_r2 t_20 = pairs_loose_multiply_float(x3.a0, x3.a1, p1);
-    t_r2 t_21 = pairs_loose_subtract(t_19.a0, t_19.a1, t_20.a0, t_20.a1);
-    t_r2 o_x2 = pairs_loose_multiply(s.a0, s.a1, t_21.a0, t_21.a1);
-    t_r2 t_22 = pairs_loose_multiply_float(x2.a0, x2.a1, p1);
-    t_r2 t_23 = pairs_loose_subtract(t_22.a0, t_22.a1, x3.a0, x3.a1);
-    t_r2 t_24 = pairs_loose_multiply_float(x1.a0, x1.a1, p2);
-    t_r2 t_25 = pairs_loose_subtract(t_23.a0, t_23.a1, t_24.a0, t_24.a1);
-    t_r2 o_x3 = pairs_loose_multiply(s.a0, s.a1, t_25.a0, t_25.a1); return (t_p3){o_x1, o_x2, o_x3};
+    t_r2 t_1 = pairs_loose_add(pairs_loose_add_float(pairs_two_product(p1, p1), 1),
+        pairs_loose_add(pairs_two_product(p2, p2), pairs_two_product(p3, p3)));
+    t_r2 s = pairs_divide((t_r2){2, 0}, pairs_two_sum(t_1.a0, t_1.a1));
+    t_r2 x1 = pairs_loose_subtract(pairs_two_product(p2, v3), pairs_two_product(p3, v2));
+    t_r2 x2 = pairs_loose_subtract(pairs_two_product(p3, v1), pairs_two_product(p1, v3));
+    t_r2 x3 = pairs_loose_subtract(pairs_two_product(p1, v2), pairs_two_product(p2, v1));
+    t_r2 o_x1 = pairs_loose_multiply(s, pairs_loose_subtract(pairs_loose_subtract(pairs_loose_multiply_float(x3, p2),
+        x1), pairs_loose_multiply_float(x2, p3)));
+    t_r2 o_x2 = pairs_loose_multiply(s, pairs_loose_subtract(pairs_loose_subtract(pairs_loose_multiply_float(x1, p3),
+        x2), pairs_loose_multiply_float(x3, p1)));
+    t_r2 o_x3 = pairs_loose_multiply(s, pairs_loose_subtract(pairs_loose_subtract(pairs_loose_multiply_float(x2, p1),
+        x3), pairs_loose_multiply_float(x1, p2)));
+    return (t_p3){o_x1, o_x2, o_x3};
 }
 
 INLINE t_r3 proved_turned_off(t_r3 u, t_r3 v, t_r3 after) {
@@ -4314,6 +4110,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "a8316035c759f0d5f22359161fd86df4e4284e36745d53d1b731dcd684f107fb";
+const char loops_text[] = "97cb71a7777feb7a236f649f221031b4b737317eaadddbf9f1a31982c873b665";
 #endif
 #endif

@@ -150,6 +150,9 @@ class Printer:
         nodes = [n for n in ast.walk(function.node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
         self.stored = Counter(n.id for n in nodes)
         self.own = {*self.stored, *function.parameters}
+        #: The parameters of a function of pairs that are the high half of one: in C they are the pair.
+        of_pairs = self.module.name == PAIRS.rpartition(".")[2]
+        self.halved = {x for x in function.parameters if of_pairs and f"{x}_" in function.parameters}
         self.statements: list[Statement] | None = None
 
     def run(self) -> None:
@@ -157,7 +160,10 @@ class Printer:
         self.out: list[Statement] = []
         self.depth = self.temporaries = 0
         #: Names that are declared; those at the beginning, with their types; and names that are a part of a structure.
-        self.declared, self.above, self.within = set(self.function.parameters), dict[str, str](), dict[str, Text]()
+        self.declared, self.above = set(self.function.parameters), dict[str, str]()
+        self.within = {x: Text(f"{x}.a0", "r") for x in self.halved} | {
+            f"{x}_": Text(f"{x}.a1", "r") for x in self.halved
+        }
         #: The variables of the loops around, and those of loops that have ended.
         self.loops, self.ended = list[str](), set[str]()
         self.statements = self.out
@@ -169,8 +175,9 @@ class Printer:
         kinds = dict.fromkeys(self.above.values())
         above = [Statement(f"{kind} {', '.join(x for x in self.above if self.above[x] == kind)}") for kind in kinds]
         body = BY_HAND.get(self.function.name) or [*above, *(self.statements or [])]
-        taken = [(self.names[name], name) for name in self.function.parameters if self.names[name] != "1"]
-        parameters = ", ".join(f"{c_type(kind)} {name}" for kind, name in taken)
+        low = {f"{x}_" for x in self.halved}
+        taken = [x for x in self.function.parameters if x not in low and self.names[x] != "1"]
+        parameters = ", ".join(f"{c_type('p' if x in self.halved else self.names[x])} {x}" for x in taken)
         where = "OUT_OF_LINE" if self.function.is_out_of_line else "INLINE"
         return block(f"{where} {c_type(self.returned)} {self.function.name}({parameters})", *body)
 
@@ -340,42 +347,42 @@ class Printer:
         if op is ast.Div:
             if b.text == "2":
                 return self.halves(a, "{} / 2")
-            divisor = self.normalised(b)
-            return Text(self.on_halves("divide", *self.of(a), *self.of(divisor)).text, "q" if a.kind == "q" else "p")
-        first, second = (self.of(x) if x.kind in ("p", "q") else [Text(x.text, "r", x.level)] for x in (a, b))
-        if op is ast.Sub and len(first) + len(second) < 4:
-            second = [Text(f"-{x.at(ATOM)}", "r", UNARY) for x in second]
-        if len(first) < len(second):
-            first, second = second, first
-        found = self.on_halves(FORMS[op][len(first) + len(second) - 2], *first, *second)
+            return Text(self.on_halves("divide", a, self.normalised(b)).text, "q" if a.kind == "q" else "p")
+        size = len(self.of(a)) + len(self.of(b))
+        if op is ast.Sub and size < 4:
+            b = self.halves(b, "-{}") if b.kind in ("p", "q") else Text(f"-{b.at(ATOM)}", "r", UNARY)
+        first, second = (b, a) if len(self.of(a)) < len(self.of(b)) else (a, b)
+        found = self.on_halves(FORMS[op][size - 2], first, second)
         if "q" not in (a.kind, b.kind):
             return found
         found = Text(found.text, "q")
         return found if op is ast.Mult else self.normalised(found)
 
     def of(self, value: Text) -> list[Text]:
-        """The two halves of a number."""
+        """The two halves of a pair, or a number itself."""
         if value.kind not in ("p", "q"):
-            return [Text(value.text, "r", value.level), Text("0", "r")]
-        name = self.named(value).text
-        return [Text(f"{name}.a0", "r"), Text(f"{name}.a1", "r")]
+            return [Text(value.text, "r", value.level)]
+        return [Text(f"{value.text}.{x}", "r") for x in ("a0", "a1")]
 
     def halves(self, value: Text, form: str) -> Text:
         """The same done to both halves."""
         if value.kind not in ("p", "q"):
             return Text(form.format(value.at(UNARY)), value.kind, OPERATORS[ast.Mult][1])
-        return Text(f"(t_r2){{{', '.join(form.format(x.text) for x in self.of(value))}}}", value.kind)
+        return Text(f"(t_r2){{{', '.join(form.format(x.text) for x in self.of(self.named(value)))}}}", value.kind)
 
     def normalised(self, value: Text) -> Text:
         """A pair of which the low half is small."""
         if value.kind not in ("p", "q"):
             return value
-        return Text(self.on_halves("two_sum", *self.of(value)).text, value.kind)
+        return Text(self.on_halves("two_sum", *self.of(self.named(value))).text, value.kind)
 
-    def on_halves(self, name: str, *halves: Text) -> Text:
+    def on_halves(self, name: str, *numbers: Text) -> Text:
         """A call of a function of `chapsym.numbers.pairs`: it is a pair."""
-        functions = self.printers.program.module(PAIRS).functions
-        return Text(self.called(functions[name], [], list(halves)).text, "p")
+        function = self.printers.program.module(PAIRS).functions[name]
+        halved, given = self.printers[function].halved, list[Text]()
+        for x, parameter in zip(numbers, (x for x in function.parameters if x[-1] != "_"), strict=True):
+            given += [*self.of(x), Text("0", "r")][: 2 if parameter in halved else 1]
+        return Text(self.called(function, [], given).text, "p")
 
     def indexed(self, array: Text, indices: Sequence[ast.expr]) -> Text:
         """An element, a row or some rows of an array."""
@@ -453,7 +460,7 @@ class Printer:
     def of_loose(self, name: str, given: Sequence[Text]) -> Text:
         """A number of double-double from one or two floats, or the root of one."""
         if name == "square_root":
-            return self.on_halves("root", *self.of(self.normalised(given[0])))
+            return self.on_halves("root", self.normalised(given[0]))
         if len(given) == 1 and name == "Loose":
             return (
                 Text(given[0].text, "e", given[0].level) if given[0].kind == "r" else Text(f"R({given[0].text})", "e")
@@ -485,6 +492,10 @@ class Printer:
                     self.writes(node)
         taken = [x for x in full if x.kind != "1"]
         self.tuples |= {x.kind for x in taken if isinstance(x.kind, tuple)}
+        if of.halved:
+            halves = iter(taken)
+            names = [x for x in function.parameters if x[-1] != "_"]
+            taken = [whole(next(halves), next(halves)) if x in of.halved else next(halves) for x in names]
         text = ", ".join(x.text for x in taken)
         if is_external(self.function, double):
             if not isinstance(of.returned, tuple) or any(isinstance(x.kind, tuple) for x in taken):
@@ -731,6 +742,13 @@ class Printer:
         head = f"{'INDEPENDENT ' if over == 'lanes' else ''}for ({first}; {name} {sign} {end}; {more})"
         self.out.append(Statement(head, block=self.inner(body)))
         self.ended.add(self.loops.pop())
+
+
+def whole(high: Text, low: Text) -> Text:
+    """The pair of two halves."""
+    of = high.text.removesuffix(".a0")
+    one = high.level == ATOM and low.text == f"{of}.a1"
+    return Text(of if one else f"(t_r2){{{high.text}, {low.text}}}", "p")
 
 
 def base_name(node: ast.expr) -> str:
