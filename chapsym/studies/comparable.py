@@ -42,36 +42,24 @@ Way = tuple[str, Callable[[np.ndarray], np.ndarray]]
 PLAIN: Way = ("", np.asarray)
 
 
-def _upright(vectors: np.ndarray) -> np.ndarray:
-    """Vectors with y up as vectors with z up."""
-    return np.stack([vectors[..., 0], -vectors[..., 2], vectors[..., 1]], axis=-1)
+def _moved(*places: int, signs: Sequence[int]) -> Callable[[np.ndarray], np.ndarray]:
+    """Components from these places, each times its sign: what another convention makes of vectors or quaternions."""
+    return lambda array: array[..., places] * np.array(signs, dtype=float)
 
 
-def _upside(vectors: np.ndarray) -> np.ndarray:
-    """Vectors with z down as vectors with z up."""
-    return vectors * [1.0, -1.0, -1.0]
-
-
-def _upside_turn(q: np.ndarray) -> np.ndarray:
-    """A turn to axes with z down as one to axes with z up: after it, 180 degrees about x."""
-    w, x, y, z = np.moveaxis(q, -1, 0)
-    return np.stack([-x, w, -z, y], axis=-1)
-
-
-def _right_handed(vectors: np.ndarray) -> np.ndarray:
-    """Vectors in Unity's left-handed axes (right, up, forward) as vectors with x forward and z up, as in ROS."""
-    return vectors[..., [2, 0, 1]] * [1.0, -1.0, 1.0]
-
-
-def _right_handed_turn(q: np.ndarray) -> np.ndarray:
-    """A turn in Unity's axes, of axes of the body like them, as one in those of ROS: its axis is no vector, as ω."""
-    return np.concatenate([q[..., :1], -_right_handed(q[..., 1:])], axis=-1)
+#: Vectors with y up, with z down, and in Unity's left-handed axes (right, up, forward), as those with z up of ROS.
+_upright = _moved(0, 2, 1, signs=(1, -1, 1))
+_upside = _moved(0, 1, 2, signs=(1, -1, -1))
+_right_handed = _moved(2, 0, 1, signs=(1, -1, 1))
+#: A turn to axes with z down as one to axes with z up: after it, 180 degrees about x.
+_upside_turn = _moved(1, 0, 3, 2, signs=(-1, 1, -1, 1))
+#: A turn in Unity's axes, of axes of the body like them, as one in those of ROS: its axis is no vector, as ω.
+_right_handed_turn = _moved(0, 3, 1, 2, signs=(1, -1, 1, -1))
 
 
 def _upright_turn(q: np.ndarray) -> np.ndarray:
     """A turn to axes with y up as one to axes with z up: after it, 90 degrees about x."""
-    w, x, y, z = np.moveaxis(q, -1, 0)
-    return np.stack([w - x, x + w, y - z, z + y], axis=-1) / np.sqrt(2)
+    return (q + _upside_turn(q)) / np.sqrt(2)
 
 
 _LAST = "its quaternion has the scalar last, in the column qz: name the four columns qx,qy,qz,qw"
