@@ -429,8 +429,13 @@ def accurate(
     >>> [x[:20] for x in found.final()["gamma"]]
     ['0.844567313551555566', '-0.53533087692888346', '0.011265215792919715']
     """
-    started = clock.thread_time()
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
+    return answered(request, limit, progress)
+
+
+def answered(request: Request, limit: float, progress: Callable[[str], None]) -> Accurate:
+    """`accurate` of a request."""
+    started = clock.thread_time()
     problem, choice = _foreseen(request, limit)
     progress(choice.sentence())
     attempts: list[Attempt] = []
@@ -448,20 +453,8 @@ def accurate(
     return Accurate(run, request, attempts, clock.thread_time() - started)
 
 
-def foreseen(
-    ball: Ball,
-    angular_momentum: ArrayLike,
-    gamma: ArrayLike,
-    time: float,
-    accuracy: float,
-    *,
-    of: str = "state",
-    frames: int = 1,
-    attitude: bool | ArrayLike = False,
-    limit: float = 600.0,
-) -> Choice:
-    """The choice that `accurate` would try first; arguments and errors as there."""
-    request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
+def foreseen(request: Request, limit: float) -> Choice:
+    """The choice that `answered` would try first; raises BadInput as that."""
     return _foreseen(request, limit)[1]
 
 

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import chapsym
 from chapsym import BadInput, Ball
-from chapsym.accuracy import accurate, foreseen
+from chapsym.accuracy import accurate
 from chapsym.accuracy.discretisation import discretisation
 from chapsym.dynamics import kernels
 from chapsym.dynamics.attitudes import attitude_with
@@ -280,7 +280,6 @@ def test_every_function_of_a_ball_answers_in_its_axes_or_refuses(name):
         lambda: chapsym.TopMotion.vertical(FAR, 0.1, GAMMA),
         lambda: chapsym.certify(chapsym.trajectory(FAR, **STATE, steps=2)),
         lambda: accurate(FAR, STATE["momentum"], GAMMA, 1.0, 1e-6),
-        lambda: foreseen(FAR, STATE["momentum"], GAMMA, 1.0, 1e-6),
         lambda: discretisation(Ball([(1, 2, 4)], [3], axes=TURN), np.ones((1, 3)), GAMMA[None], 1e-3, 5),
     ],
 )

@@ -9,8 +9,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from chapsym import dynamics
-from chapsym.accuracy import Accurate, accurate, foreseen
-from chapsym.accuracy.answer import exact_values
+from chapsym.accuracy import Accurate, Request, foreseen
+from chapsym.accuracy.answer import answered, exact_values
 from chapsym.accuracy.motion import FINEST, PARTS, Problem, moved, nominal
 from chapsym.dynamics import BadInput, Ball, BallN, Curve, Status, StepNotTaken, TopMotion
 from chapsym.dynamics.attitudes import attitude_with
@@ -564,23 +564,20 @@ class Chosen(Model):
 
     def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """The expected duration of the choice for the first ball, for all."""
-        ball, start, options = self._request(members, 0, task, needed)
-        return foreseen(ball, *start, **options).seconds * len(members)
+        return foreseen(self._request(members, 0, task, needed), task.limit).seconds * len(members)
 
     @staticmethod
-    def _request(members: Members, i: int, task: Task, needed: frozenset[str]) -> tuple[Ball, Any, dict[str, Any]]:
-        """The arguments of `accurate` for one ball."""
+    def _request(members: Members, i: int, task: Task, needed: frozenset[str]) -> Request:
+        """What is asked for of one ball."""
         given = None if members.attitude is None else members.attitude[i]
         with_body = "attitude" in needed or (given is not None and "contact" in needed)
-        start = members.momentum[i], members.gamma[i], task.time, task.accuracy
         body = (True if given is None else given) if with_body else False
-        options = {"of": task.of, "frames": task.frames - 1, "attitude": body, "limit": task.limit}
-        return one_ball(members, i), start, options
+        start = one_ball(members, i), members.momentum[i], members.gamma[i]
+        return Request(*start, task.time, task.accuracy, task.of, task.frames - 1, body)  # type: ignore[arg-type]
 
     def _one(self, members: Members, i: int, task: Task, needed: frozenset[str]) -> tuple[Columns, float]:
         """The columns of one ball, and the bound of its error by comparison."""
-        ball, start, options = self._request(members, i, task, needed)
-        answer = accurate(ball, *start, **options, progress=self.progress)
+        answer = answered(self._request(members, i, task, needed), task.limit, self.progress)
         self.tell(answer)
         run = answer.trajectory
         columns = {name: np.asarray(getattr(run, name), dtype=np.float64) for name in needed if name != "momentum"}
