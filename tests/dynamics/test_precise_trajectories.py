@@ -235,7 +235,7 @@ def test_a_point_that_is_no_root_costs_digits_and_no_truth(monkeypatch):
 @pytest.mark.parametrize("size", [0.4, 1e-200])
 def test_roots_are_roots_at_any_precision(bits, size):
     state = (list(map(F, v)) for v in (size * DIRECTION, np.array(GAMMA), BALL.mass_tensor))
-    ball = balls.DigitsBall(Digits(int(bits * 0.3)), *state, F(0.7), (F(1),), None, 0.0)
+    ball = balls.DigitsBall(Digits(int(bits * 0.3)), (*state, F(0.7), (F(1),), None, 0.0))
     with flint.ctx.workprec(ball.precision):
         u, _ = ball._root(ball.k, [])
         left = generated.gibbs_residual(*u, *ball.k, *ball.g, *ball.I, ball.D)
@@ -268,7 +268,7 @@ def test_what_is_certified_is_monotone_and_contains_the_root(state, direction):
     assume(ratio < 1e4)
     with flint.ctx.workprec(150):
         given = (list(map(F, v)) for v in (momentum, gamma, ball.mass_tensor))
-        under_way = balls.ArbBall(150, *given, F(float(ball.D)), (F(1),), None, 0.0)
+        under_way = balls.ArbBall(150, (*given, F(float(ball.D)), (F(1),), None, 0.0))
         bound = under_way.bounds[0]
         inertia, contact = np.array(list(map(float, under_way.I))), float(under_way.D)
         k = np.array(list(map(float, under_way.k)))

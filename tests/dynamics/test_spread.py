@@ -34,7 +34,7 @@ STATES = {
 def under_way(state, order=2, attitude=()):
     J, D, K, g = state
     exact = [[F(x) for x in v] for v in (K, g, J)]
-    return balls.ArbBall(BITS, *exact, F(D), COMPOSITIONS[order].exact, attitude, 1.0)
+    return balls.ArbBall(BITS, (*exact, F(D), COMPOSITIONS[order].exact, attitude, 1.0))
 
 
 def turned_back(xi, v):

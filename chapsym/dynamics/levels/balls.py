@@ -45,8 +45,9 @@ from .frames import Balls, Frames
 from .proved_root import MATRIX_BITS, certified, enclosed, inverse_slope, on_path, refined, stretch, unit, upper
 from .start import Exact, exponent_of, fraction, least, magnitude, start
 
-#: What a ball starts from: `_given`.
-Given = tuple[Exact, Exact, Exact, Fraction, Exact, Any, float]
+#: What a ball starts from: 𝒦, γ, J and D, exactly; the exact coefficients of the composition; the attitude, empty for
+#: the least rotation, or None; and the radius.
+Given = tuple[Exact, Exact, Exact, Fraction, Exact, Sequence[float | Fraction] | None, float]
 #: Steps of a ball between two calls of `progress`.
 CHUNK = 200
 #: Steps between two looks at the radii.
@@ -76,7 +77,7 @@ def run(
         if isinstance(precision, Enclosure):
             selected.append(_enclosed(precision, given, way))
         else:
-            ball = DigitsBall(precision, *given, steps=steps)
+            ball = DigitsBall(precision, given, steps)
             with flint_bits(ball.precision):
                 way.take(ball, precision.context.prec)
         done += int(frames.taken[i])
@@ -84,7 +85,6 @@ def run(
 
 
 def _given(balls: Balls, i: int, frames: Frames, order: int) -> Given:
-    """𝒦, γ, J and D, exactly; the exact coefficients, the attitude (empty: the least rotation) and the radius."""
     attitude = None
     if frames.with_body:
         attitude = () if frames.least else tuple(map(Fraction, frames.attitude[i, 0]))
@@ -157,7 +157,7 @@ def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, floa
     """
     seen: tuple[int, float] = (0, math.inf)
     with flint_bits(bits):
-        ball = ArbBall(bits, *given)
+        ball = ArbBall(bits, given)
 
         def enough(step: int) -> bool:
             nonlocal seen
@@ -383,16 +383,14 @@ def exact(x: float | Fraction) -> Any:
 
 
 class _UnderWay:
-    """A ball that takes steps in `precision` bits; `stages` are the exact coefficients of the composition.
+    """A ball that takes steps in `precision` bits.
 
     All is scaled by a power of two, exactly, so that the largest moment of inertia is about 1.  Every method is to be
     called with that precision set.
     """
 
-    def __init__(
-        self, precision: int, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
-        attitude: Sequence[float] | None, radius: float,
-    ) -> None:  # fmt: skip
+    def __init__(self, precision: int, given: Given) -> None:
+        K, g, J, D, stages, attitude, _ = given
         self.precision = self.root_bits = precision
         self.exponent, self.lost = magnitude(J, D)
         self.size = size_of(K, self.exponent)
@@ -433,18 +431,16 @@ class _UnderWay:
 class DigitsBall(_UnderWay):
     """A ball that takes steps at N digits, with guard bits for all: midpoints inside, mpmath's numbers outside."""
 
-    def __init__(
-        self, precision: Digits, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
-        attitude: Sequence[float] | None, radius: float, steps: int = 1,
-    ) -> None:  # fmt: skip
-        self.context, self.radius = precision.context, radius
+    def __init__(self, precision: Digits, given: Given, steps: int = 1) -> None:
+        K, _, J, D, stages, _, self.radius = given
+        self.context = precision.context
         exponent, lost = magnitude(J, D)
         # Roundings of the state add up to the square of the number of steps, as its frequencies drift.
         more = 2 * math.ceil(math.log2(steps * len(stages) + 1)) + 2 * lost
         bits = self.context.prec + more + GUARD
         small = max(0, -size_of(K, exponent))
         with flint_bits(bits + small):
-            super().__init__(bits + small, K, g, J, D, stages, attitude, radius)
+            super().__init__(bits + small, given)
         self.root_bits = bits
         self.floats = *map(float, self.I), float(self.D)
         half = tuple(map(float, self.k))
@@ -504,15 +500,13 @@ class DigitsBall(_UnderWay):
 class ArbBall(_UnderWay):
     """A ball that takes steps in balls."""
 
-    def __init__(
-        self, precision: int, K: Exact, g: Exact, J: Exact, D: Fraction, stages: Sequence[Fraction],
-        attitude: Sequence[float] | None, radius: float,
-    ) -> None:  # fmt: skip
-        super().__init__(precision, K, g, J, D, stages, attitude, radius)
+    def __init__(self, precision: int, given: Given) -> None:
+        super().__init__(precision, given)
         # What is followed is the rotation since the start: 𝒦 and γ are those of the start, turned back by it.
         self.first_k, self.first_g, self.length = self.k, self.g, upper(self.k)
         self.p: Any = (arb(1), arb(0), arb(0), arb(0))
         self.spread, self.matrix_bits = Spread(), MATRIX_BITS + 3 * self.lost
+        *_, stages, _, radius = given
         self.radius = exact(radius)
         self.bounds = [certified(2 * upper(self.k) * abs(exact(c)), self.I) for c in stages]
         self.selected = 0
