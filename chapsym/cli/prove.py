@@ -44,7 +44,7 @@ def prove(
     from chapsym.prove.runner import explain as argument
 
     register = register_from(own)
-    claims = all_claims(lemmas=True, register=register)
+    claims = all_claims(register, lemmas=True)
     unknown = [id for id in ids or [] if id not in claims]
     if unknown:
         named = f" --register {own}" if own else ""
@@ -54,7 +54,7 @@ def prove(
     if listing:
         _list_claims(claims, as_json, kept_in, register)
         return
-    everything = claims if certificates or rocq else all_claims(register=register)
+    everything = claims if certificates or rocq else all_claims(register)
     with TemporaryDirectory() as spare:
         folder = certificates or (Path(spare) if rocq else None)
         records = judge_and_keep(list(dict.fromkeys(ids or everything)), jobs, kept_in, folder, register)
@@ -108,7 +108,7 @@ def _carried(records: list[dict[str, Any]]) -> str:
     return f"{judged}, {counted(sentences, 'sentence')} that it did not judge"
 
 
-def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None, register: "Register | None") -> None:
+def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None, register: "Register") -> None:
     """Every claim with the verdict on record, and whether what it was made with has changed since."""
     from chapsym.prove import records
 
@@ -130,18 +130,13 @@ def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None, re
 
 
 def judge_and_keep(
-    wanted: list[str],
-    jobs: int | None,
-    kept_in: Path | None,
-    certificates: Path | None = None,
-    register: "Register | None" = None,
+    wanted: list[str], jobs: int | None, kept_in: Path | None, certificates: Path | None, register: "Register"
 ) -> list[dict[str, Any]]:
     """Proves the claims, keeps their records and certificates, and says where a verdict is another than it was."""
     from chapsym import files
-    from chapsym.prove import PROOFS, prove_all, records
+    from chapsym.prove import prove_all, records
 
-    register = register or PROOFS
-    claims, path = all_claims(lemmas=True, register=register), kept_in or records.default_path(register)
+    claims, path = all_claims(register, lemmas=True), kept_in or records.default_path(register)
     kept = kept_records(kept_in, register)
     if kept and not kept.keys() & claims.keys():  # which would be lost
         fail(f"{path} holds verdicts on other claims, such as {next(iter(kept))}; give --records another file", 2)
@@ -178,10 +173,7 @@ def judge_and_keep(
 
 
 def records_of(
-    claims: dict[str, Any],
-    kept: dict[str, dict[str, Any]],
-    kept_in: Path | None = None,
-    register: "Register | None" = None,
+    claims: dict[str, Any], kept: dict[str, dict[str, Any]], kept_in: Path | None, register: "Register"
 ) -> list[dict[str, Any]]:
     """The record of every claim: the one that is kept while it is fresh and no failure, otherwise judged now."""
     from chapsym.prove import records, unproved
@@ -198,12 +190,12 @@ def records_of(
     return [kept[id] for id in claims]
 
 
-def kept_records(kept_in: Path | None, register: "Register | None" = None) -> dict[str, dict[str, Any]]:
+def kept_records(kept_in: Path | None, register: "Register") -> dict[str, dict[str, Any]]:
     """The records that are kept of a register, by id."""
-    from chapsym.prove import PROOFS, records
+    from chapsym.prove import records
 
     try:
-        return records.read(kept_in or records.default_path(register or PROOFS))
+        return records.read(kept_in or records.default_path(register))
     except records.BrokenRecords as error:
         fail(str(error), 2)
     except OSError as error:
@@ -217,12 +209,12 @@ def register_from(named: str | None) -> "Register":
     return PROOFS if named is None else Register(named)
 
 
-def all_claims(lemmas: bool = False, register: "Register | None" = None) -> dict[str, Any]:
+def all_claims(register: "Register", lemmas: bool = False) -> dict[str, Any]:
     """The claims of a register, and its lemmas if asked."""
-    from chapsym.prove import PROOFS, load
+    from chapsym.prove import load
 
     with reading():
-        return load(lemmas, register or PROOFS)
+        return load(lemmas, register)
 
 
 @contextmanager

@@ -43,13 +43,13 @@ def report(
         fail(
             "--open shows the open questions of Fedorov's paper, and --register claims of your own: give one of them", 2
         )
+    register = register_from(own)
     if studies is not None:
-        _open_questions(output, studies, {} if fresh else kept_records(kept_in), kept_in, as_json)
+        _open_questions(output, studies, {} if fresh else kept_records(kept_in, register), kept_in, as_json)
         return
     files.check_destination(output)
     earlier = _earlier_errata(output) if output.suffix == ".json" else {}
-    register = register_from(own)
-    claims = all_claims(register=register)
+    claims = all_claims(register)
     found = records_of(claims, {} if fresh else kept_records(kept_in, register), kept_in, register)
     source = reports.FEDOROV
     if own is not None:
@@ -90,10 +90,11 @@ def _open_questions(
         fail(f"{str(output)!r}: the page of the open questions must end in .html", 2)
     if not folder.is_dir():
         fail(f"there is no folder {folder}; chapsym study NAME -o {folder} makes it", 2)
-    everything = all_claims(lemmas=True)
+    register = register_from(None)
+    everything = all_claims(register, lemmas=True)
     wanted = {id: everything[id] for id in _behind(list(questions.QUESTIONS), everything)}
     files.check_destination(output)
-    found = records_of(wanted, kept, kept_in)
+    found = records_of(wanted, kept, kept_in, register)
     evidence = [one for name in STUDIES if (one := _evidence(name, folder)) is not None]
     text = questions.html(found, _certificates(), evidence, _versions())
     files.write_text(output, text)

@@ -11,7 +11,7 @@ from commands import answer, changed, chapsym, child, refused
 
 from chapsym import sources
 from chapsym.cli import prove as command
-from chapsym.prove import load, records
+from chapsym.prove import PROOFS, load, records
 
 
 @pytest.fixture
@@ -163,7 +163,8 @@ def test_some_records_that_are_asked_for_leave_those_of_other_claims(path, monke
         "chapsym.prove.prove_all", lambda ids, jobs, arrived, **_: [arrived(x) or x for x in map(made, ids)]
     )
     asked = {id: load()[id] for id in ("4.3", "prop-4")}
-    assert [record["id"] for record in command.records_of(asked, records.read(path), path)] == ["4.3", "prop-4"]
+    judged = command.records_of(asked, records.read(path), path, PROOFS)
+    assert [record["id"] for record in judged] == ["4.3", "prop-4"]
     assert list(records.read(path)) == ["2.1", "4.3", "prop-4"]
 
 
