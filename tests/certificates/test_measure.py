@@ -77,7 +77,7 @@ def test_beyond_the_bound_a_branch_is_proved_too(monkeypatch, capsys):
         no_invariant_measure(top(**ball), **arguments, **known)
 
 
-@pytest.mark.parametrize("name", ["measure-real-ball", "measure-beyond-bound"])
+@pytest.mark.parametrize("name", ["measure-real-ball", "measure-beyond-bound", "heteroclinic-real-ball"])
 def test_the_real_ball_is_one(name):
     """J1 + J2 + J3 = ∫r² dm is at most mρ² = D, in the whole box."""
     found = committed(name)

@@ -89,12 +89,6 @@ def test_the_bound_of_the_rest_is_that_of_the_proof(separatrix):
         assert found.hi / 2**found.bits == pytest.approx(expected, rel=1e-12)
 
 
-def test_each_number_that_is_changed_is_refused_by_the_digest(right):
-    rng = random.Random(3)
-    for path in [*leaves(right), ("digest",)]:
-        assert refused(replaced(right, path, changed(at(right, path), rng))), path
-
-
 def test_each_number_that_is_changed_is_refused_by_mathematics_alone(right, thorough):
     """All but the steps, more of which prove the same, and a smaller radius."""
     rng = random.Random(9)

@@ -19,7 +19,7 @@ from chapsym import generated, testing
 from chapsym.derive import solutions as derived
 from chapsym.derive import three
 from chapsym.derive.three import placed
-from chapsym.dynamics import BadInput, Ball, branches, fold
+from chapsym.dynamics import BadInput, Ball, branches
 from chapsym.dynamics.loops.branch import inverse
 from chapsym.dynamics.oracle import Oracle
 from chapsym.dynamics.solutions import enclosed, multivalued
@@ -268,17 +268,6 @@ def test_what_float64_does_not_settle_is_counted_exactly():
     assert found.complete.all()
     assert found.count[0] == 2
     assert branches(Ball((1, 1, 1), 5), (0, 0, 0), gamma).complete == np.False_
-
-
-def test_near_a_fold_two_rotations_meet(thorough):
-    ball, K, gamma = seeded(20 if thorough else 6, 1.0)
-    top = fold(ball, K, gamma).reach[:, np.newaxis]
-    for near in (1e-4, 1e-8, 1e-12):
-        below, above = (branches(ball, top * (1 + s * near) * K, gamma) for s in (-1, 1))
-        assert below.complete.all()
-        assert above.complete.all()
-        assert (below.count - above.count == 2).all()
-        assert (below.small >= 0).all()
 
 
 def test_two_candidates_for_one_root_are_not_complete():

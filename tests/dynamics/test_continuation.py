@@ -55,6 +55,7 @@ def test_two_rotations_merge_at_a_fold(D):
         assert below.complete.all()
         assert above.complete.all()
         assert (below.count - above.count == 2).all()
+        assert (below.small >= 0).all()
         away = np.sort(np.linalg.norm(below.rotation - found.rotation[:, np.newaxis], axis=-1), axis=1)
         apart.append(away[:, :2])
     assert apart[0] / apart[1] == pytest.approx(np.full((20, 2), 10.0), rel=0.02)
