@@ -43,23 +43,6 @@ def test_what_is_wrong_with_a_call_is_seen(monkeypatch):
         assert any(said in (odd_calls.wrong(seed) or "") for seed in range(30)), said
 
 
-@pytest.mark.parametrize("tensor", [np.array(0.5), [[1, 2], [3]], 0.5, "1,2,4", None])
-def test_an_exact_ball_of_what_is_no_tensor_is_refused(tensor):
-    with pytest.raises(BadInput, match="mass_tensor"):
-        chapsym.ExactBall(tensor, 1)
-
-
-def test_what_does_not_broadcast_is_refused():
-    with pytest.raises(BadInput, match="momentum and gamma do not broadcast"):
-        chapsym.invariants_n(np.zeros((2, 4, 4)), np.zeros((0, 4)))
-
-
-def test_a_ball_with_two_radii_is_a_batch():
-    ball = chapsym.Ball((1, 2, 4), 3, [0.1, 0.2])
-    with pytest.raises(BadInput, match="one ball and one gamma"):
-        chapsym.rotation_number(ball, 0.05, (2 / 7, 3 / 7, 6 / 7))
-
-
 class Unwilling:
     """What raises an error of its own where an array is made of it."""
 
@@ -67,11 +50,48 @@ class Unwilling:
         raise KeyError("unwilling")
 
 
+K, UP, BALL = (0.1, 0.2, 0.3), (0, 0, 1), chapsym.Ball((1, 2, 4), 3, 0.5)
+TURNED = chapsym.Ball.from_inertia([[3, 0.5, 0], [0.5, 4, 0], [0, 0, 5]], D=0.5)
+UNWILLING = odd_calls.Unwilling(0.1)
+COMPLEX = np.array([1, np.complex64(2j), 3], dtype=object)
+
+
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("odd", [Unwilling(), np.array([1, np.complex64(2j), 3], dtype=object)])
-def test_what_makes_no_array_and_complex_numbers_among_objects_are_refused(odd):
-    with pytest.raises(BadInput, match="omega must be real numbers"):
-        chapsym.roll(chapsym.Ball((1, 2, 4), 3), odd, 0.1, 1)
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: chapsym.ExactBall(np.array(0.5), 1), "mass_tensor"),
+        (lambda: chapsym.ExactBall([[1, 2], [3]], 1), "mass_tensor"),
+        (lambda: chapsym.ExactBall(0.5, 1), "mass_tensor"),
+        (lambda: chapsym.ExactBall("1,2,4", 1), "mass_tensor"),
+        (lambda: chapsym.ExactBall(None, 1), "mass_tensor"),
+        (lambda: chapsym.ExactBall((1, 2, 4), 3, -(10**400)), "radius must be positive"),
+        (lambda: chapsym.Ball.from_inertia((3, 4, 5), D=1, batch=np.ones(3)), "batch must be True or False"),
+        (lambda: chapsym.invariants_n(np.zeros((2, 4, 4)), np.zeros((0, 4))), "momentum and gamma do not broadcast"),
+        (lambda: chapsym.invariants_n([UNWILLING], (1, 0, 0)), "momentum must be real numbers"),
+        (lambda: chapsym.rotation_number(chapsym.Ball((1, 2, 4), 3, [0.1, 0.2]), 0.05, UP), "one ball and one gamma"),
+        (lambda: chapsym.roll(BALL, Unwilling(), 0.1, 1), "omega must be real numbers"),
+        (lambda: chapsym.roll(BALL, COMPLEX, 0.1, 1), "omega must be real numbers"),
+        (lambda: chapsym.roll(BALL, K, 0.1, np.timedelta64(5, "s")), "whole number from 0 on, not np.timedelta64"),
+        (lambda: chapsym.roll(BALL, K, 0.1, 5, contact=True, position=[[1, 2]]), "position"),
+        (lambda: chapsym.roll(BALL, K, 0.1, np.ma.array(2.0, mask=False)), "^[^\n]*$"),
+        (lambda: chapsym.trajectory(BALL, K, UP, 10, contact="no"), "contact must be True or False, not 'no'"),
+        (lambda: chapsym.extrapolate(BALL, K, UP, 1.0, 10, contact="no"), "contact must be True or False, not 'no'"),
+        (lambda: chapsym.Stepper(BALL, K, UP, contact="no"), "contact must be True or False, not 'no'"),
+        (lambda: chapsym.steady_frames(BALL, UP, UP, [0], contact=[True, True]), "contact must be True or False"),
+        (lambda: chapsym.compose_step(BALL, K, UP, np.ones(3)), "order must be one of 2, 4, 6, 8"),
+        (lambda: chapsym.certified_motion(chapsym.ExactBall((1, 1, 1), 10**11179), K, UP, 1), "too far apart in size"),
+        (lambda: TURNED.to_principal([[1, 2], [3]]), "vectors must be real numbers"),
+        (lambda: BALL.to_principal([[1, 2], [3]]), "vectors must be real numbers"),
+        (lambda: TURNED.from_principal((1, 0, 0), frames=np.ones(3)), "frames must be True or False"),
+        (lambda: chapsym.steady_frames(BALL, UP, UP, Unwilling()), "index must be a list of whole numbers"),
+        (lambda: chapsym.trajectory(BALL, K, UP, 1, attitude=(1e200, 0, 0, 0)), "attitude must be unit quaternions"),
+        (lambda: chapsym.Stepper(BALL, K, UP, time_step=UNWILLING), "time_step must be real numbers"),
+    ],
+)
+def test_what_is_no_argument_is_refused_by_its_name(call, said):
+    with pytest.raises(BadInput, match=said):
+        call()
 
 
 @pytest.mark.parametrize("odd", [0.5, b"ball.npz", None, np.zeros(3)])
@@ -89,30 +109,18 @@ def test_what_is_no_scene_and_no_result_is_refused_by_its_name(odd):
             chapsym.interpolated(run, times)
 
 
-def test_a_count_that_is_a_time_and_a_place_of_other_balls_are_refused():
-    ball, masked = chapsym.Ball((1, 2, 4), 3, 0.5), np.ma.array(2.0, mask=False)
-    with pytest.raises(BadInput, match=r"steps must be a whole number from 0 on, not np\.timedelta64"):
-        chapsym.roll(ball, (1, 0, 0), 0.1, np.timedelta64(5, "s"))
-    with pytest.raises(BadInput, match="position"):
-        chapsym.roll(ball, (1, 0, 0), 0.1, 5, contact=True, position=[[1, 2]])
-    with pytest.raises(BadInput) as refused:
-        chapsym.roll(ball, (1, 0, 0), 0.1, masked)
-    assert "\n" not in str(refused.value)
-
-
 UNSHOWN = {"integer": 10**6000, "fraction": Fraction(10**6000, 7), "list": [-(10**6000)], "own": odd_calls.Unshown()}
 
 
 @pytest.mark.parametrize("odd", UNSHOWN.values(), ids=UNSHOWN)
 def test_what_cannot_be_shown_is_refused_by_its_name(odd):
-    ball, K, gamma = chapsym.Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (2 / 7, 3 / 7, 6 / 7)
     for name, call in (
-        ("steps", lambda: chapsym.trajectory(ball, K, gamma, odd)),
+        ("steps", lambda: chapsym.trajectory(BALL, K, UP, odd)),
         ("order", lambda: chapsym.substeps(odd)),
-        ("precision", lambda: chapsym.step(ball, K, gamma, precision=odd)),
-        ("index", lambda: chapsym.steady_frames(ball, (0, 0, 1), (0, 0, 1), odd)),
-        ("digits", lambda: chapsym.certified_motion(ball, K, gamma, 1, odd)),
-        ("of", lambda: chapsym.accurate(ball, K, gamma, 1, 1e-3, of=odd)),
+        ("precision", lambda: chapsym.step(BALL, K, UP, precision=odd)),
+        ("index", lambda: chapsym.steady_frames(BALL, UP, UP, odd)),
+        ("digits", lambda: chapsym.certified_motion(BALL, K, UP, 1, odd)),
+        ("of", lambda: chapsym.accurate(BALL, K, UP, 1, 1e-3, of=odd)),
         ("path", lambda: chapsym.open_result(odd)),
     ):
         with pytest.raises(BadInput, match=name):
@@ -122,27 +130,12 @@ def test_what_cannot_be_shown_is_refused_by_its_name(odd):
             level(odd)
 
 
-def test_a_number_that_raises_an_error_of_its_own_is_refused():
-    with pytest.raises(BadInput, match="momentum must be real numbers"):
-        chapsym.invariants_n([odd_calls.Unwilling(0.1)], (1, 0, 0))
-
-
-def test_arguments_of_frames_that_are_known_at_once_are_those_of_a_run():
-    ball, top = chapsym.Ball((1, 2, 4), 3, 0.1), chapsym.Ball((1, 2, 4), 0)
+def test_the_time_of_a_step_of_frames_that_are_known_at_once_is_that_of_a_run():
     for odd in ("0.1", -0.1, float("nan"), [0.1], 10**400, 1e308):
         with pytest.raises(BadInput, match="time_step"):
-            chapsym.steady_frames(ball, (0, 0, 1), (0, 0, 1), [0, 10], time_step=odd)
+            chapsym.steady_frames(BALL, UP, UP, [0, 10], time_step=odd)
         with pytest.raises(BadInput, match="time_step"):
-            chapsym.top_frames(top, (0.1, 0.2, 0.3), (0, 0, 1), [0, 10], time_step=odd)
-    with pytest.raises(BadInput, match="contact must be True or False"):
-        chapsym.steady_frames(ball, (0, 0, 1), (0, 0, 1), [0], contact=[True, True])
-
-
-def test_a_switch_and_an_order_that_are_arrays_are_refused():
-    with pytest.raises(BadInput, match="batch must be True or False"):
-        chapsym.Ball.from_inertia((3, 4, 5), mass=20, radius=1, batch=np.ones(3))
-    with pytest.raises(BadInput, match="order must be one of 2, 4, 6, 8"):
-        chapsym.compose_step(chapsym.Ball((1, 2, 4), 3), (0.1, 0, 0), (0, 0, 1), np.ones(3))
+            chapsym.top_frames(chapsym.Ball((1, 2, 4), 0), K, UP, [0, 10], time_step=odd)
 
 
 @pytest.mark.filterwarnings("error")
@@ -153,33 +146,7 @@ def test_small_integers_number_steps_of_a_top_and_moments_that_underflow_are_no_
 
 
 def test_a_limit_beyond_float64_is_no_limit():
-    ball = chapsym.Ball((1, 2, 4), 3)
-    run = chapsym.certified_motion(ball, (0.1, 0.2, 0.3), (0, 0, 1), 0.1, 10, limit=10**400)
-    assert run.stopped is None
-
-
-@pytest.mark.filterwarnings("error")
-def test_exact_numbers_beyond_float64_are_refused_without_a_warning():
-    with pytest.raises(BadInput, match="radius must be positive"):
-        chapsym.ExactBall((1, 2, 4), 3, -(10**400))
-    with pytest.raises(BadInput, match="too far apart in size"):
-        chapsym.certified_motion(chapsym.ExactBall((1, 1, 1), 10**11179), (-0.2, 1, 0), (0, 0, 1), 0.5, 10)
-
-
-@pytest.mark.filterwarnings("error")
-def test_vectors_numbers_of_steps_and_attitudes_that_are_none_are_refused():
-    ball = chapsym.Ball.from_inertia([[3, 0.5, 0], [0.5, 4, 0], [0, 0, 5]], D=0.5)
-    for one in (ball, ball.principal):
-        with pytest.raises(BadInput, match="vectors must be real numbers"):
-            one.to_principal([[1, 2], [3]])
-    with pytest.raises(BadInput, match="frames must be True or False"):
-        ball.from_principal((1, 0, 0), frames=np.ones(3))
-    with pytest.raises(BadInput, match="index must be a list of whole numbers"):
-        chapsym.steady_frames(ball.principal, (0, 0, 1), (0, 0, 1), Unwilling())
-    with pytest.raises(BadInput, match="attitude must be unit quaternions"):
-        chapsym.trajectory(ball.principal, (0, 0, 1), (0, 0, 1), 1, attitude=(1e200, 0, 0, 0))
-    with pytest.raises(BadInput, match="time_step must be real numbers"):
-        chapsym.Stepper(ball.principal, (0, 0, 1), (0, 0, 1), time_step=odd_calls.Unwilling(0.1))
+    assert chapsym.certified_motion(BALL, K, UP, 0.1, 10, limit=10**400).stopped is None
 
 
 @pytest.mark.filterwarnings("error")
