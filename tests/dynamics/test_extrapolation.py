@@ -16,6 +16,7 @@ from chapsym.dynamics import extrapolation, kernels
 from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.loops import lanes
 from chapsym.dynamics.loops.lanes import fitted, half_angle, turn_square
+from chapsym.numbers import Digits
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
 #: D is 100 times the least moment of inertia.
@@ -23,6 +24,7 @@ LARGE = chapsym.Ball((0.1, 0.5, 1.6), 60.0)
 K = np.array([1, -0.5, 0.75]) / np.sqrt(1 + 0.25 + 0.5625)
 GAMMA = np.array([2, 3, 6]) / 7
 UNIT_ROUNDOFF = 2.0**-53
+PRECISIONS = ("double", "double-double")
 
 
 @pytest.fixture(scope="module")
@@ -114,11 +116,14 @@ def test_the_integrals_are_kept_at_a_low_order_too():
     assert trajectory_error > 1e6 * budget  # kept although the state is off
 
 
-def test_back_in_time():
-    there = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 20)
-    back = chapsym.extrapolate(BALL, there.angular_momentum, there.gamma, -0.5, 20)
-    # Not to rounding: a step is self-adjoint to the order of its error only; 3e-14 was measured.
-    np.testing.assert_allclose(back.angular_momentum, K, rtol=0, atol=1e-12)
+@pytest.mark.parametrize(
+    ("precision", "step", "steps", "off"), [("double", 0.5, 20, 1e-12), ("double-double", 0.25, 8, 1e-15)]
+)
+def test_back_in_time(precision, step, steps, off):
+    """Not to rounding in float64: a step is self-adjoint to the order of its error only; 3e-14 was measured."""
+    there = chapsym.extrapolate(BALL, K, GAMMA, step, steps, precision=precision)
+    back = chapsym.extrapolate(BALL, there.angular_momentum, there.gamma, -step, steps, precision=precision)
+    np.testing.assert_allclose(back.angular_momentum, K, rtol=0, atol=off)
 
 
 def at_random(n, seed=5):
@@ -154,7 +159,9 @@ def test_lanes_take_the_rotations_of_the_branch(monkeypatch, columns, time_step,
 
 
 def everything(found):
-    parts = (found.angular_momentum, found.gamma, found.attitude, found.contact, found.doubt)
+    parts = [found.angular_momentum, found.gamma, found.attitude, found.contact, found.doubt]
+    if found.low is not None:
+        parts += [found.low.angular_momentum, found.low.gamma, found.low.attitude, found.low.contact]
     return [np.asarray(x) for x in parts if x is not None]
 
 
@@ -243,11 +250,6 @@ def test_the_contact_point_in_axes_of_the_ball_is_that_in_principal_axes():
     np.testing.assert_allclose(end.contact, same.contact, rtol=0, atol=1e-14)
 
 
-def test_a_contact_point_needs_a_radius():
-    with pytest.raises(chapsym.BadInput, match="radius"):
-        chapsym.extrapolate(BALL, K, GAMMA, 0.5, 1, contact=True)
-
-
 @pytest.mark.usefixtures("plain")
 @pytest.mark.parametrize(("ball", "time_step", "rounds"), [(BALL, 2.1, 3), (BALL, 0.25, 0), (LARGE, 2.1, 3)])
 def test_lanes_do_not_need_the_safe_way(monkeypatch, ball, time_step, rounds):
@@ -286,13 +288,17 @@ def test_a_body_too_thin_for_float64_is_refused():
 
 
 @pytest.mark.usefixtures("way")
+@pytest.mark.parametrize("precision", PRECISIONS)
 @pytest.mark.parametrize(("mass", "time"), [(1.0, 1.0), (2.0**-200, 1.0), (2.0**300, 2.0**200), (1.0, 2.0**-400)])
-def test_units_do_not_matter(mass, time):
-    known = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 5)
-    ball = chapsym.Ball(BALL.mass_tensor * mass, BALL.D * mass)
-    end = chapsym.extrapolate(ball, K * (mass / time), GAMMA, 0.5 * time, 5)
-    assert (end.angular_momentum * (time / mass) == known.angular_momentum).all()
-    assert (end.gamma == known.gamma).all()
+def test_units_do_not_matter(precision, mass, time):
+    options = {"contact": True, "precision": precision}
+    known = chapsym.extrapolate(chapsym.Ball(BALL.mass_tensor, BALL.D, 0.5), K, GAMMA, 0.5, 5, **options)
+    ball = chapsym.Ball(BALL.mass_tensor * mass, BALL.D * mass, 0.5)
+    end = chapsym.extrapolate(ball, K * (mass / time), GAMMA, 0.5 * time, 5, **options)
+    for found, one in [(end, known), (end.low, known.low)][: 1 + (precision != "double")]:
+        assert (found.angular_momentum * (time / mass) == one.angular_momentum).all()
+        assert (found.gamma == one.gamma).all()
+        assert (found.contact == one.contact).all()
 
 
 @pytest.mark.usefixtures("way")
@@ -319,27 +325,36 @@ def test_the_attitude_turns_with_gamma_and_the_momentum_stays_in_space():
 
 
 @pytest.mark.usefixtures("way")
-def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch():
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch(precision):
     with pytest.raises(chapsym.StepNotTaken) as caught:
-        chapsym.extrapolate(BALL, 100 * K, GAMMA, 1.0, 3)
+        chapsym.extrapolate(BALL, 100 * K, GAMMA, 1.0, 3, precision=precision)
     assert caught.value.index == 0
     assert caught.value.status is chapsym.Status.FOLDED
-    batch = chapsym.extrapolate(BALL, [100 * K, K, 1e300 * K], GAMMA, 0.5, 3)
-    alone = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 3)
+    batch = chapsym.extrapolate(BALL, [100 * K, K, 1e300 * K], GAMMA, 0.5, 3, precision=precision)
     assert batch.status.tolist() == [chapsym.Status.FOLDED, chapsym.Status.TAKEN, chapsym.Status.FOLDED]
-    assert np.isnan(batch.angular_momentum[[0, 2]]).all()
-    assert (batch.angular_momentum[1] == alone.angular_momentum).all()
-    assert (batch.gamma[1] == alone.gamma).all()
+    assert batch.taken.tolist() == [0, 3, 0]
+    alone = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 3, precision=precision)
+    for a, b in zip(everything(batch), everything(alone), strict=True):
+        assert np.isnan(a[[0, 2]]).all()
+        assert (a[1] == b).all()
 
 
 @pytest.mark.parametrize(
     ("args", "kwargs", "words"),
     [
+        ((0.5, 1), {"contact": True}, "radius"),
         ((0.1, -1), {}, "steps must be a whole number from 0 on"),
         ((0.1, 1.0), {}, "steps must be a whole number"),
         ((0.1, True), {}, "steps must be a whole number"),
         ((0.1, 1), {"columns": 1}, "columns must be a whole number from 2 to 6"),
         ((0.1, 1), {"columns": 7}, "columns must be a whole number from 2 to 6"),
+        ((0.1, 1), {"columns": 13, "precision": "double-double"}, "columns must be a whole number from 2 to 12"),
+        ((0.1, 1), {"precision": "single"}, 'long steps have the precisions "double" and "double-double"'),
+        ((0.1, 1), {"precision": Digits(30)}, 'long steps have the precisions "double" and "double-double"'),
+        ((0.1, 1), {"precision": "half"}, "precision must be"),
+        ((Fraction(10) ** 400, 1), {"precision": "double-double"}, "time_step is beyond the range of float64"),
+        ((0.1, 10**13), {"precision": "double-double", "every": 1}, "do not fit into memory"),
         (([0.1, 0.2], 1), {}, "time_step must be one number"),
         ((np.nan, 1), {}, "time_step must be finite"),
     ],

@@ -10,7 +10,7 @@ from plain import in_plain_python
 import chapsym
 from chapsym.dynamics.extrapolation import weights, weights_of_pairs
 from chapsym.dynamics.levels import double_double
-from chapsym.numbers import Digits, Pair
+from chapsym.numbers import Pair
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
 K = np.array([1, -0.5, 0.75]) / np.sqrt(1 + 0.25 + 0.5625)
@@ -106,21 +106,6 @@ def test_frames_are_those_of_shorter_runs_and_an_attitude_turns_with_them():
         assert (exactly(kept, "gamma")[frame] == exactly(one, "gamma")).all()
 
 
-def test_back_in_time():
-    there = after(Fraction(1, 4), 8)
-    momentum = exactly(there, "angular_momentum")
-    back = after(Fraction(-1, 4), 8, momentum.astype(float), exactly(there, "gamma").astype(float))
-    np.testing.assert_allclose(back.angular_momentum, K, rtol=0, atol=1e-15)
-
-
-@pytest.mark.parametrize(("mass", "time"), [(2.0**-200, 1.0), (2.0**300, 2.0**200), (1.0, 2.0**-400)])
-def test_units_do_not_matter(mass, time):
-    ball = chapsym.Ball(BALL.mass_tensor * mass, BALL.D * mass, BALL.radius)
-    end, known = after(0.5 * time, 5, K * (mass / time), ball=ball, contact=True), after(0.5, 5, contact=True)
-    assert (exactly(end, "contact") == exactly(known, "contact")).all()
-    assert (end.angular_momentum * (time / mass) == known.angular_momentum).all()
-
-
 @pytest.mark.usefixtures("way")
 @pytest.mark.parametrize(("size", "step"), [(1e200, 1e300), (1e300, 1e-200), (1e-300, 1e-5)])
 def test_what_is_beyond_the_range_is_a_fold_or_stays(size, step):
@@ -140,36 +125,6 @@ def test_where_nothing_moves():
         np.testing.assert_allclose(end.gamma, GAMMA, rtol=0, atol=2.0**-53)
         # The roundings of four numbers in each column, times the weights.
         assert 0 <= end.doubt <= steps * ROUNDOFF * 8 * float(sum(map(abs, weights(12, 3))))
-
-
-def test_a_step_beyond_the_fold_raises_for_one_and_is_reported_for_a_batch():
-    with pytest.raises(chapsym.StepNotTaken) as caught:
-        after(1.0, 3, 100 * K)
-    assert caught.value.index == 0
-    batch = after(0.5, 3, [100 * K, K])
-    assert batch.status.tolist() == [chapsym.Status.FOLDED, chapsym.Status.TAKEN]
-    assert batch.taken.tolist() == [0, 3]
-    assert np.isnan(batch.gamma[0]).all()
-    assert np.isnan(batch.doubt[0])
-    assert (exactly(after(0.5, 3), "gamma") == [Fraction(a) + Fraction(b) for a, b in
-            zip(batch.gamma[1].tolist(), batch.low.gamma[1].tolist(), strict=True)]).all()  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("kwargs", "words"),
-    [
-        ({"columns": 13}, "columns must be a whole number from 2 to 12"),
-        ({"precision": "single"}, 'long steps have the precisions "double" and "double-double"'),
-        ({"precision": Digits(30)}, 'long steps have the precisions "double" and "double-double"'),
-        ({"precision": "half"}, "precision must be"),
-        ({"time_step": Fraction(10) ** 400}, "time_step is beyond the range of float64"),
-        ({"steps": 10**13, "every": 1}, "do not fit into memory"),
-    ],
-)
-def test_bad_input_gets_one_sentence(kwargs, words):
-    given = {"time_step": 0.1, "steps": 1, "precision": "double-double"} | kwargs
-    with pytest.raises(chapsym.BadInput, match=words):
-        chapsym.extrapolate(BALL, K, GAMMA, **given)
 
 
 def test_a_step_may_be_longer_than_one_of_the_map():
