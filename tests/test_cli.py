@@ -103,6 +103,17 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         ([*STEP, "--momentum", "1e-400,0,0"], "below the range of float64; ask for more with --digits"),
         (["run", FIRST, "-o", "x" * 300 + ".csv"], "cannot be written: File name too long"),
         (["check", "--states", "0"], "--states"),
+        (["certify", "motion", "--foo"], "No such option: --foo (see chapsym certify motion --help)"),
+        (["show", "."], "'.' is no result"),
+        (["report", "--register", "claims", "--open", ".", "-o", "x.html"], "claims of your own: give one of them"),
+        (["check", "-o", "x.txt"], "the page must end in .md"),
+        (["extremes", "-o", "x.txt"], "the page must end in .html or .md"),
+        (["extremes", "-o", "/nowhere/page.html"], "the folder /nowhere does not exist"),
+        (["extremes", "nonsense"], "there is no group 'nonsense'"),
+        (["bench", "nonsense"], "there is no section 'nonsense'; there are goals, trajectory, batch, steps"),
+        (["bench", "long", "-o", "x.txt"], "'x.txt': a figure must end in .svg, .png, .pdf"),
+        (["bench", "memory", "-o", "x.svg"], "only work-precision and long have a figure"),
+        (["bench", "long", "-o", "absent/x.svg"], "the folder absent does not exist"),
     ],
 )
 def test_wrong_input_is_one_sentence_and_status_2(arguments, sentence):
@@ -183,11 +194,6 @@ def test_kernels_are_not_generated_from_what_is_not_proved(monkeypatch, option):
 def test_the_kernels_of_a_checkout_are_written_from_inside_it_only(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert "would be written anew: run it from there" in refused("codegen")
-
-
-def test_errors_name_the_command_whose_help_serves():
-    assert refused("certify", "motion", "--foo").endswith("No such option: --foo (see chapsym certify motion --help)")
-    assert "'.' is no result" in refused("show", ".")
 
 
 def test_a_claim_that_is_named_leads_to_its_parts():

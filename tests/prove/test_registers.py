@@ -323,10 +323,6 @@ def test_the_page_and_the_errata_are_of_the_own_register(folder, tmp_path):
     assert document["cite"] == f"Errata to A. Author, On squares, computed by chapsym {package.__version__}"
 
 
-def test_the_open_questions_are_those_of_the_paper_only(folder, tmp_path):
-    assert "give one of them" in refused("report", "--register", "claims", "--open", tmp_path, "-o", "x.html")
-
-
 @pytest.fixture
 def disc(folder):
     """The records of the worked example, and its certificates."""

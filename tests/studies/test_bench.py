@@ -315,19 +315,6 @@ def test_the_figure_has_a_panel_for_each_group_of_curves():
     assert titles == ["p", "q"]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (["nonsense"], "there is no section 'nonsense'; there are goals, trajectory, batch, steps"),
-        (["long", "-o", "x.txt"], "'x.txt': a figure must end in .svg, .png, .pdf"),
-        (["memory", "-o", "x.svg"], "only work-precision and long have a figure"),
-        (["long", "-o", "absent/x.svg"], "the folder absent does not exist"),
-    ],
-)
-def test_what_cannot_be_measured_is_said_before_measuring(arguments, sentence, tmp_path):
-    assert sentence in refused("bench", *arguments, cwd=tmp_path)
-
-
 def test_a_wheel_has_no_benchmarks_and_no_research_and_says_so(monkeypatch, tmp_path):
     """As seen by the commands that run them; a folder beside the wheel that has the name is not taken for ours."""
     (tmp_path / "benchmarks").mkdir()

@@ -9,7 +9,7 @@ import flint
 import mpmath
 import numpy as np
 import pytest
-from commands import chapsym, refused
+from commands import chapsym
 from extremes_n import FOUR, truth_n
 
 from chapsym.dynamics import Status, StepNotTaken
@@ -240,15 +240,6 @@ def test_a_group_as_json_and_as_a_page(tmp_path):
     assert done.returncode == (1 if found["counts"]["failed"] else 0)
     text = page.read_text(encoding="utf-8")
     assert text.count("data-verdict=") == len(found["cells"])
-
-
-@pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [(["nonsense"], "there is no group 'nonsense'"), (["-o", "page.txt"], "must end in .html"),
-     (["-o", "/nowhere/page.html"], "does not exist")],
-)  # fmt: skip
-def test_what_is_wrong_is_said_before_anything_is_computed(arguments, sentence):
-    assert sentence in refused("extremes", *arguments)
 
 
 @pytest.mark.parametrize(("verdict", "words"), [("within", "✓ 15.0"), ("failed", "✗ a condition (double)")])

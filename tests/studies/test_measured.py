@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from commands import chapsym, refused
+from commands import chapsym
 
 import benchmarks
 from benchmarks import command
@@ -47,11 +47,6 @@ def test_a_page_of_a_benchmark_has_its_rows_its_peers_and_what_was_to_be_reached
     assert rows == [["name", "value"], ["---", "---:"], ["x|y", "1.23"]]
     assert "## A\\_title" in text
     assert "- peer: not installed\n" in text
-
-
-def test_another_ending_is_refused_before_anything_is_measured(tmp_path):
-    assert "the page must end in .html or .md" in refused("extremes", "-o", tmp_path / "x.txt")
-    assert "the page must end in .md" in refused("check", "-o", tmp_path / "x.txt")
 
 
 @pytest.mark.parametrize("name", ["bench", "check", "extremes", "trade"])
