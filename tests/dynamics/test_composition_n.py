@@ -100,9 +100,3 @@ def test_threads_share_a_batch_and_its_bits_stay(monkeypatch):
     one = [trajectory_n(BallN(ball.mass_tensor[i], ball.D[i], ball.radius[i]), K[i], gamma[i], 700, order=4, every=50)
            for i in rows]  # fmt: skip
     assert all((one[i].momentum == runs[0].momentum[i]).all() for i in rows)
-
-
-@pytest.mark.parametrize("order", [0, 3, True, "4"])
-def test_other_orders_are_refused(order):
-    with pytest.raises(chapsym.BadInput, match="order must be one of 2, 4, 6, 8"):
-        trajectory_n(*heavy(), 3, order=order)
