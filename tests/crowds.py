@@ -27,6 +27,13 @@ def balls(n, tiny=1e-310, heavy=1e14):
     return Ball(J, D), K, g
 
 
+def seeded(n, D, seed=11):
+    """n balls with states at random, and one D."""
+    rng = np.random.default_rng(seed)
+    J, g, K = rng.uniform(0.1, 2, (n, 3)), rng.normal(size=(n, 3)), rng.normal(size=(n, 3))
+    return Ball(J, np.full(n, D)), K, g / np.linalg.norm(g, axis=1, keepdims=True)
+
+
 def long_steps(n):
     """n balls whose steps need more than one round, up to a little below the bound of the certificate."""
     random = np.random.default_rng(9)

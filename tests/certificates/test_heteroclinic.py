@@ -5,20 +5,19 @@ import math
 import re
 from decimal import Decimal
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
+from certificate_changes import committed
 from commands import answer, child, refused
 from flint import ctx
 
-from chapsym import checker, proofs
+from chapsym import checker
 from chapsym.certificates import heteroclinic as search
 from chapsym.certificates.heteroclinic import Orbits, heteroclinic
 from chapsym.certificates.reduced import Top
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.start import fraction
 
-FOLDER = Path(proofs.__path__[0]) / "certificates"
 COMMITTED = {
     "heteroclinic-light": ("1,4,8", "1/2", "22/5"),
     "heteroclinic-real-ball": ("1,8,12", "22", "8"),
@@ -27,10 +26,6 @@ COMMITTED = {
 
 def top(J="1,4,8", D="1/2", height="22/5"):
     return Top(tuple(map(Fraction, J.split(","))), Fraction(D), Fraction(height))
-
-
-def committed(name):
-    return json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize(

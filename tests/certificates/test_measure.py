@@ -2,9 +2,9 @@
 
 import json
 from fractions import Fraction
-from importlib.resources import files
 
 import pytest
+from certificate_changes import committed
 from commands import answer, chapsym, child, refused
 from flint import ctx
 
@@ -33,10 +33,6 @@ BEYOND = {
 
 def top(J="1,2,4", D="1", height="12/5"):
     return Top(tuple(map(Fraction, J.split(","))), Fraction(D), Fraction(height))
-
-
-def committed(name):
-    return json.loads(files("chapsym.proofs").joinpath(f"certificates/{name}.json").read_text(encoding="utf-8"))
 
 
 def displacements(found):

@@ -1,12 +1,11 @@
 """Certificates of periodic orbits of the whole map: found, proved, and refused."""
 
-import json
 from fractions import Fraction
-from importlib.resources import files
 from unittest.mock import Mock
 
 import numpy as np
 import pytest
+from certificate_changes import committed
 from flint import arb, arb_mat, ctx
 
 from chapsym import checker
@@ -25,10 +24,6 @@ NEAR = Level((Fraction(1), Fraction(2), Fraction(4)), Fraction(2), Fraction(15, 
 def precision():
     with ctx.workprec(256):
         yield
-
-
-def committed(name):
-    return json.loads(files("chapsym.proofs").joinpath(f"certificates/{name}.json").read_text(encoding="utf-8"))
 
 
 def level_of(data):

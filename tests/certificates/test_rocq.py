@@ -1,6 +1,5 @@
 """An interval certificate as a theorem of Rocq: it says what the checker finds out, and a wrong number is rejected."""
 
-import json
 import re
 import shutil
 import subprocess
@@ -9,13 +8,12 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from certificate_changes import FOLDER, committed
 
-from chapsym import proofs
 from chapsym.certificates.rocq import Theorem, write
 from chapsym.certificates.rocq.theorem import real
 
 ROOT = Path(__file__).resolve().parents[2]
-LARGE = Path(proofs.__path__[0]) / "certificates" / "measure-large.json"
 
 
 def has_interval():
@@ -31,7 +29,7 @@ needs_interval = pytest.mark.skipif(not has_interval(), reason="coq-interval is 
 
 def one_step():
     """The certificate without all but the first step of its first orbit."""
-    data = json.loads(LARGE.read_text(encoding="utf-8"))
+    data = committed("measure-large")
     orbit = data["orbits"][0]
     one = orbit | {"steps": orbit["steps"][:1], "displacement": "-0.10046052746928570908"}
     return data | {"steps": 1, "orbits": [one]}
@@ -58,7 +56,7 @@ def command(*arguments):
     ],
 )
 def test_what_is_no_such_certificate_is_said_in_a_sentence(tmp_path, kept, sentence):
-    said = command(LARGE.with_name(f"{kept}.json"), tmp_path / "made").stderr
+    said = command(FOLDER / f"{kept}.json", tmp_path / "made").stderr
     assert sentence in said
     assert said.count("\n") == 1
     assert not (tmp_path / "made").exists()
@@ -71,10 +69,10 @@ def test_a_real_number_is_written_as_it_is():
 
 
 def test_the_theorem_has_every_number_of_the_certificate(tmp_path):
-    assert command(LARGE, tmp_path).returncode == 0
+    assert command(FOLDER / "measure-large.json", tmp_path).returncode == 0
     text = (tmp_path / "measure_large.v").read_text(encoding="utf-8")
     theorem = text.partition("Theorem measure_large")[2].partition("Proof.")[0]
-    data = json.loads(LARGE.read_text(encoding="utf-8"))
+    data = committed("measure-large")
     steps = [step for orbit in data["orbits"] for step in orbit["steps"]]
     given = [f"rounded 5e-21 (V {' '.join(real(Fraction(x)) for x in v)})" for s in steps for v in (s["u"], s["gamma"])]
     assert re.findall(r"rounded 5e-21 \(V .*?\)(?= \([ug] \d+%nat\))", theorem) == given

@@ -1,15 +1,13 @@
 """A branch of the step over a circle, beyond the bound of lemma small-branch: proved once, all round, or refused."""
 
-import json
 import random
 from fractions import Fraction
 
 import certificate_maker as maker
 import mpmath as mp
 import pytest
-from certificate_changes import at, replaced, resealed
+from certificate_changes import at, committed, replaced, resealed
 
-from chapsym import proofs
 from chapsym.checker import Rejected, check
 from chapsym.checker.branch import Branch, _check_meant
 from chapsym.checker.circle import Circle, direction
@@ -20,9 +18,7 @@ from chapsym.checker.step import Ball
 
 @pytest.fixture(scope="module")
 def right():
-    folder = proofs.__path__[0]
-    with open(f"{folder}/certificates/measure-even.json", encoding="utf-8") as file:
-        return json.load(file)
+    return committed("measure-even")
 
 
 @pytest.fixture(scope="module")

@@ -1,27 +1,23 @@
 """Certificates of kind heteroclinic: a right one is accepted, a changed or a false one is not."""
 
-import json
 import math
 import random
 from fractions import Fraction
-from pathlib import Path
 
 import certificate_maker as maker
 import mpmath as mp
 import pytest
-from certificate_changes import at, changed, leaves, refused, replaced, resealed
+from certificate_changes import at, changed, committed, leaves, refused, replaced, resealed
 
-from chapsym import checker, proofs
+from chapsym import checker
 from chapsym.checker import Rejected, check
 from chapsym.checker.heteroclinic import Separatrix
 from chapsym.checker.interval import Interval
 
-FOLDER = Path(proofs.__path__[0]) / "certificates"
-
 
 @pytest.fixture(scope="module")
 def right():
-    return json.loads((FOLDER / "heteroclinic-light.json").read_text(encoding="utf-8"))
+    return committed("heteroclinic-light")
 
 
 @pytest.fixture(scope="module")

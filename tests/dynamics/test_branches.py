@@ -11,6 +11,7 @@ import pytest
 import sympy as sp
 from budget import examples
 from commands import chapsym as run
+from crowds import seeded
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -249,15 +250,9 @@ def test_float64_counts_as_exact_arithmetic_does(state):
     assert (np.diff(fast.angle[: fast.count]) >= 0).all()
 
 
-def seeded(n, D):
-    rng = np.random.default_rng(7)
-    J, g, K = rng.uniform(0.1, 2, (n, 3)), rng.normal(size=(n, 3)), rng.normal(size=(n, 3))
-    return Ball(J, np.full(n, D)), K, g / np.linalg.norm(g, axis=1, keepdims=True)
-
-
 @pytest.mark.parametrize("D", [0.0, 1.0, 1e2, 1e4, 1e6])
 def test_float64_settles_generic_balls_alone(D):
-    assert branches(*seeded(200, D), settle=False).complete.all()
+    assert branches(*seeded(200, D, 7), settle=False).complete.all()
 
 
 def test_what_float64_does_not_settle_is_counted_exactly():
@@ -295,7 +290,7 @@ def test_a_rounded_vertical_is_taken_as_it_is():
 
 
 def test_a_batch_is_its_balls():
-    ball, K, gamma = seeded(6, 30.0)
+    ball, K, gamma = seeded(6, 30.0, 7)
     whole = branches(ball, K, gamma)
     for i in range(6):
         one = branches(Ball(ball.mass_tensor[i], ball.D[i]), K[i], gamma[i])

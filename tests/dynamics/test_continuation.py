@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from budget import examples, slow
+from crowds import seeded
 from hypothesis import assume, given
 
 from chapsym import testing
@@ -11,12 +12,6 @@ from chapsym.dynamics.solutions import continuation
 
 GAMMA = np.array([2.0, 3.0, 6.0]) / 7
 BALL = Ball((1, 2, 4), 3)
-
-
-def seeded(n, D):
-    rng = np.random.default_rng(11)
-    J, g, K = rng.uniform(0.1, 2, (n, 3)), rng.normal(size=(n, 3)), rng.normal(size=(n, 3))
-    return Ball(J, np.full(n, D)), K, g / np.linalg.norm(g, axis=1, keepdims=True)
 
 
 def det(ball, q, gamma):
