@@ -93,19 +93,6 @@ def test_the_steps_of_a_batch_are_not_written_as_one(precision):
         chapsym.step(ball, K, g, precision=precision).write()
 
 
-@pytest.mark.parametrize("precision", PRECISIONS)
-def test_no_balls_and_no_axes(precision):
-    none = chapsym.trajectory(Ball((1, 2, 4), 3), np.zeros((0, 3)), np.zeros((0, 3)), 5, precision=precision)
-    assert {x.shape for x in floats_of(none)} == {(0, 6, 3)}
-    ball, K = Ball((1, 2, 4), np.array(3.0)), (0.03, -0.02, 0.035)
-    run = chapsym.trajectory(ball, K, np.float32((0, 0, 1)), np.int64(5), precision=precision)
-    assert run.momentum.shape == (6, 3)
-    assert chapsym.trajectory(ball, K, (0, 0, 1), 0, attitude=True, precision=precision).momentum.shape == (1, 3)
-    assert (chapsym.trajectory(ball, (0, 0, 0), (0, 0, 1), 5, precision=precision).momentum == 0).all()
-    with pytest.raises(BadInput, match="3 components"):
-        chapsym.trajectory(ball, np.float32(1.0), (0, 0, 1), 5, precision=precision)
-
-
 def block_of(n):
     """A block of long steps after 20 of them: what `march_blocks` takes before the steps, and after them."""
     ball, K, g = long_steps(n)

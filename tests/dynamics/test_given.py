@@ -101,9 +101,12 @@ def test_float32_arrays_are_the_numbers_that_they_hold(precision):
 def test_no_balls_and_no_steps_have_their_shapes(precision):
     for shape in ((0, 3), (2, 0, 3)):
         found = run(precision, np.zeros(shape))
-        assert found.momentum.shape == (*shape[:-1], STEPS + 1, 3)
+        assert found.momentum.shape == found.gamma.shape == (*shape[:-1], STEPS + 1, 3)
         assert found.status.shape == shape[:-1]
-    assert run(precision, steps=0).momentum.shape == (1, 3)
+        assert chapsym.step(Ball(J, D), np.zeros(shape), G, precision=precision).momentum.shape == shape
+    assert run(precision, steps=0, attitude=True).momentum.shape == (1, 3)
+    assert run(precision, gamma=np.float32((0, 0, 1)), D=np.array(D), steps=np.int64(5)).momentum.shape == (6, 3)
+    assert {number(x) for x in run(precision, (0, 0, 0)).momentum.flat} == {0}
 
 
 @precisions
@@ -153,8 +156,3 @@ def test_what_is_no_number_or_no_state_is_refused_in_a_sentence(precision, kind)
         with pytest.raises(BadInput) as refusal:
             run(precision, **given)
         assert len(str(refusal.value).split()) >= 4
-
-
-def test_a_precision_that_there_is_not_is_refused():
-    with pytest.raises(BadInput):
-        run("triple")

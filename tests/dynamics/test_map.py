@@ -159,12 +159,6 @@ def test_balls_broadcast_with_states():
     assert (both.momentum[3, 1] == one.momentum).all()
 
 
-@pytest.mark.parametrize("shape", [(0, 3), (2, 0, 3)])
-def test_an_empty_batch_is_an_empty_answer(shape):
-    step = chapsym.step(BALL, np.zeros(shape), GAMMA)
-    assert step.momentum.shape == shape
-
-
 @pytest.mark.parametrize("exponent", [-1000, -300, 300, 1000])
 def test_the_step_does_not_know_units(exponent):
     """J, D and 𝒦 times a power of two: the same rotation, to the bit."""
