@@ -157,6 +157,7 @@ def test_an_exact_top_is_restored_in_any_units(size):
     found = []
     for unit in (1.0, size):
         top = chapsym.exact_top(chapsym.Ball(J * unit, 0), np.array((0.06, 0.01, 0.08)) * unit, gamma)
+        assert top.size == pytest.approx(np.sqrt(0.0101) * unit)
         run = top.restore(chapsym.trajectory(top.ball, top.momentum, gamma, 5))
         found.append((run.momentum / unit, run.gamma))
     for ordinary, other in zip(*found, strict=True):

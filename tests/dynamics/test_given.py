@@ -60,7 +60,7 @@ MADE = {
 @pytest.mark.parametrize("made", MADE)
 def test_the_same_bits_come_from_arrays_that_are_made_otherwise(precision, made):
     for plain in STATES:
-        given = [MADE[made](x) for x in plain]
+        given = [MADE[made](x) for x in (*plain, np.array(J))]
         before = [np.array(x, copy=True) for x in given]
         assert bits(run(precision, *given)) == bits(run(precision, *plain))
         assert not any((np.asarray(x) != y).any() for x, y in zip(given, before, strict=True))

@@ -176,32 +176,3 @@ def test_a_run_goes_on_from_its_end_and_back():
     assert back.momentum.dtype == np.float32
     assert np.abs(back.contact[-1]).max() < 100 * ULP
     assert chapsym.retrace_error(run, back).max() < 100 * ULP
-
-
-KINDS = {
-    "float32": lambda x: x.astype(np.float32),
-    "big-endian": lambda x: x.astype(">f8"),
-    "big-endian float32": lambda x: x.astype(">f4"),
-    "non-contiguous": lambda x: np.repeat(x, 2, axis=-1)[..., ::2],
-    "reversed": lambda x: x[..., ::-1].copy()[..., ::-1],
-    "Fortran": np.asfortranarray,
-}
-
-
-@pytest.mark.parametrize("precision", ["single", "double"])
-@pytest.mark.parametrize("kind", KINDS)
-def test_arrays_of_every_kind_are_taken(precision, kind):
-    made = KINDS[kind]
-    J, D = np.array([[0.1, 0.5, 1.6], [1, 2, 4]]), np.array([0.7, 3.0])
-    k, g = np.array([K, K]), np.array([G, (0, 0.6, 0.8)])
-    plain = chapsym.trajectory(Ball(J, D), k, g, 3, precision=precision)
-    given = [made(x) for x in (J, D, k, g)]
-    for x in given:
-        x.flags.writeable = False
-    run = chapsym.trajectory(Ball(*given[:2]), *given[2:], 3, precision=precision)
-    assert run.momentum.dtype == plain.momentum.dtype
-    near = 4 * ULP if "32" in kind else 0.0
-    assert np.abs(run.momentum - plain.momentum).max() <= near
-    assert np.abs(run.gamma - plain.gamma).max() <= near
-    step = chapsym.step(Ball(*given[:2]), *given[2:])
-    assert np.abs(step.gamma - plain.gamma[:, 1]).max() <= 4 * ULP
