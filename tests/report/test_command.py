@@ -67,22 +67,6 @@ def test_an_open_claim_that_the_paper_states_exits_1_and_the_page_is_written(rep
     assert "claim-4.1" in (tmp_path / "x.html").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(
-    ("name", "sentence"),
-    [
-        ("x.pdf", "the output must end in .html or .md or .tex or .json"),
-        ("x", "the output must end in .html or .md or .tex or .json"),
-        ("nowhere/x.md", "the folder nowhere does not exist"),
-    ],
-)
-def test_a_file_that_cannot_be_written_is_one_sentence_before_anything_is_proved(name, sentence, report):
-    done = report("-o", name)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert sentence in done.stderr
-    assert done.stderr.count("\n") == 1
-
-
 def test_a_list_of_errata_that_is_written_again_keeps_the_states_of_earlier_releases(report, tmp_path):
     assert report("-o", "x.json").returncode == 0
     kept = (tmp_path / "x.json").read_text(encoding="utf-8")
