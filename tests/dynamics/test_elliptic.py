@@ -239,10 +239,3 @@ def test_a_curve_beyond_float64_is_refused():
         warnings.simplefilter("error")
         with pytest.raises(BadInput, match="too far apart"):
             Curve.through(Ball((0.0555, 2.0, 3.68e261), 0.0), (0.6, 0, 0.8))
-
-
-def test_a_height_beyond_float64_has_no_increment():
-    curve = Curve.through(Ball((1.0, 2.0, 4.0), 3.0), np.array((2, 3, 6)) / 7)
-    found = increment(curve, np.array([0.1, 1e308]) * [1, 1.7], 0.0)
-    assert found[0] == increment(curve, 0.1, 0.0)
-    assert np.isnan(found[1])

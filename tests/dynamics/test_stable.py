@@ -269,11 +269,9 @@ def test_the_increment_at_large_D_is_that_of_the_map(D):
 
 def test_one_height_beyond_the_fold_does_not_spoil_a_batch():
     curve = Curve.through(Ball((1, 2, 4), 3), np.array((2, 3, 6)) / 7)
-    several = increment(curve, [0.5, 50.0, 1.0], 0.3)
-    assert np.isnan(several).tolist() == [False, True, False]
+    several = increment(curve, [0.5, 50.0, 1.0, 1.7e308], 0.3)
+    assert np.isnan(several).tolist() == [False, True, False, True]
     assert several[[0, 2]].tolist() == [increment(curve, 0.5, 0.3), increment(curve, 1.0, 0.3)]
-    with pytest.raises(BadInput, match="take a smaller one"):
-        increment(curve, 50.0, 0.3)
 
 
 @pytest.mark.parametrize("complement", [1e-100, 1e-160, 1e-250, 1e-300])
