@@ -18,6 +18,7 @@ from chapsym.dynamics.loops import proved
 from chapsym.numbers.loose import Loose
 
 BALL = Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
+ROLLED = Ball.from_mass_tensor((0.003, 0.005, 0.009), mass=2.0, radius=0.1)
 GAMMA = (2 / 7, 3 / 7, 6 / 7)
 
 
@@ -290,21 +291,25 @@ def test_a_stepper_that_passes_where_a_proof_ends():
 # -- what is refused
 
 
-@pytest.mark.parametrize("precision", ["single", Digits(30)])
-def test_precisions_that_are_not_proved(precision):
-    with pytest.raises(BadInput, match="proved=True takes the precisions"):
-        chapsym.trajectory(BALL, momentum(0.1), GAMMA, 2, precision=precision, proved=True)
-    with pytest.raises(BadInput, match='a step is proved in "double"'):
-        chapsym.step(BALL, momentum(0.1), GAMMA, precision=precision, proved=True)
+TURNED = Ball.from_inertia(np.array([[3, 0.1, 0], [0.1, 4, 0], [0, 0, 5.0]]), mass=1.0, radius=1.0)
 
 
-def test_axes_are_not_proved():
-    ball = Ball.from_inertia(np.array([[3, 0.1, 0], [0.1, 4, 0], [0, 0, 5.0]]), mass=1.0, radius=1.0)
-    for call in (chapsym.step, lambda *a, **o: chapsym.trajectory(*a, 3, **o)):
-        with pytest.raises(BadInput, match="what is proved is of principal axes"):
-            call(ball, momentum(0.1), GAMMA, proved=True)
-    with pytest.raises(BadInput, match="proved must be True or False"):
-        chapsym.step(BALL, momentum(0.1), GAMMA, proved="yes")
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        *((lambda p=p: chapsym.trajectory(BALL, (0, 0, 0.1), GAMMA, 2, precision=p, proved=True),
+           "proved=True takes the precisions") for p in ("single", Digits(30))),
+        *((lambda p=p: chapsym.step(BALL, (0, 0, 0.1), GAMMA, precision=p, proved=True),
+           'a step is proved in "double"') for p in ("single", Digits(30))),
+        (lambda: chapsym.step(TURNED, (0, 0, 0.1), GAMMA, proved=True), "what is proved is of principal axes"),
+        (lambda: chapsym.trajectory(TURNED, (0, 0, 0.1), GAMMA, 3, proved=True), "what is proved is of principal axes"),
+        (lambda: chapsym.step(BALL, (0, 0, 0.1), GAMMA, proved="yes"), "proved must be True or False"),
+        (lambda: chapsym.roll(ROLLED, np.ones((2, 3)), 0.1, 3, proved=True), "takes one ball in principal axes"),
+    ],
+)  # fmt: skip
+def test_what_is_not_proved_is_refused(call, said):
+    with pytest.raises(BadInput, match=said):
+        call()
 
 
 # -- the constants
@@ -414,11 +419,10 @@ def test_edges_that_are_made_orthogonal_contain_the_set():
 
 def test_bounds_of_a_rolled_ball_are_of_its_motion():
     """By a certified motion of more digits; they are below the estimate, and little more than the error."""
-    ball = Ball.from_mass_tensor((0.003, 0.005, 0.009), mass=2.0, radius=0.1)
-    run = chapsym.roll(ball, (1.0, 2.0, 3.0), 0.25, 8, accuracy=1e-7, contact=True, every=2, proved=True)
+    run = chapsym.roll(ROLLED, (1.0, 2.0, 3.0), 0.25, 8, accuracy=1e-7, contact=True, every=2, proved=True)
     K = [F(float(x)) / F(0.25) for x in run.momentum[0]]
     exact = chapsym.certified_motion(
-        ball, K, run.gamma[0], [F(1, 2) * i for i in range(5)], 24, attitude=run.attitude[0]
+        ROLLED, K, run.gamma[0], [F(1, 2) * i for i in range(5)], 24, attitude=run.attitude[0]
     )
     size = np.linalg.norm(run.momentum[0])
     for name, truth, unit in (
@@ -436,12 +440,9 @@ def test_bounds_of_a_rolled_ball_are_of_its_motion():
     assert run.proved.steps == 8
 
 
-def test_what_of_a_rolled_ball_is_not_proved():
-    ball = Ball.from_mass_tensor((0.003, 0.005, 0.009), mass=2.0, radius=0.1)
-    with pytest.raises(BadInput, match="proved=True takes one ball in principal axes"):
-        chapsym.roll(ball, np.ones((2, 3)), 0.1, 3, proved=True)
-    run = chapsym.roll(ball, (1.0, 2.0, 3.0), 0.1, 9, map=True, proved=True)
-    again = chapsym.trajectory(ball, run.momentum[0], run.gamma[0], 9, proved=True)
+def test_a_map_that_is_rolled_is_proved_as_a_run():
+    run = chapsym.roll(ROLLED, (1.0, 2.0, 3.0), 0.1, 9, map=True, proved=True)
+    again = chapsym.trajectory(ROLLED, run.momentum[0], run.gamma[0], 9, proved=True)
     assert np.array_equal(run.proved.gamma, again.proved.gamma)
 
 
@@ -503,9 +504,9 @@ def test_a_heavy_ball_is_followed():
 @pytest.mark.parametrize("options", [{}, {"map": True}, {"map": True, "precision": "double-double"}])
 def test_a_position_at_the_start_is_in_the_bounds_of_a_rolled_ball(options):
     """What the sum with it rounds; in double-double it keeps 31 digits."""
-    ball, place = Ball.from_mass_tensor((0.003, 0.005, 0.009), mass=2.0, radius=0.1), np.array([1000.3, -7.1])
+    place = np.array([1000.3, -7.1])
     runs = [
-        chapsym.roll(ball, (1.0, 2.0, 3.0), 0.1, 6, contact=True, proved=True, **options, **more)
+        chapsym.roll(ROLLED, (1.0, 2.0, 3.0), 0.1, 6, contact=True, proved=True, **options, **more)
         for more in ({}, {"position": place})
     ]
     spots = [[F(float(x)) for x in run.contact.flat] for run in runs]
