@@ -112,15 +112,16 @@ class Package:
         digest = _hash("\n".join(sp.srepr(e) for e in kernel.expressions))
         operations = passes.operations(kernel)
         about = [
-            EDIT,
+            f'"""{EDIT}',
             "",
             f"Proved by: {', '.join(kernel.claims)}.  Operations: {operations}.  SymPy {sp.__version__}.",
             f"Expression: sha256 {digest}.",
             *(f"Certificate of {id}: sha256 {self._digest(id)}." for id in kernel.claims),
+            '"""',
         ]
         functions = ", ".join(sorted({function for _, function, _ in passes.letters(kernel)}))
-        imports = [f"from {printer.FUNCTIONS} import {functions}"] if functions else []
-        text = _module(about, imports, [code(kernel)])
+        imports = f"\n\nfrom {printer.FUNCTIONS} import {functions}" if functions else ""
+        text = "\n".join(about) + f"{imports}\n\n\n{code(kernel)}"
         point = [at(symbol.name) for symbol in kernel.inputs]
         roundings = rounding.count(kernel, run(kernel, text), point)
         row = {"claims": kernel.claims, "operations": operations, "roundings": roundings}
@@ -267,15 +268,10 @@ def code(kernel: Kernel, chosen: tuple[str, ...] = passes.PASSES) -> str:
     body += [f"{name} = {printer.text(expr, chosen)}" for name, expr in zip(outputs, rest, strict=True)]
     body += [f"return {', '.join(outputs)}"]
     matrix = f", the {'×'.join(map(str, kernel.shape))} matrix row by row" if len(kernel.shape) > 1 else ""
-    notes = [f"Returns {', '.join(kernel.outputs)}{matrix}."]
     arguments = ", ".join(symbol.name for symbol in kernel.inputs)
-    lines = [f'"""{kernel.summary}', ""]
-    lines += [
-        *(f"{group}: {', '.join(s.name for s in symbols)}" for group, symbols in kernel.groups),
-        *notes,
-        '"""',
-        *body,
-    ]
+    groups = [f"{group}: {', '.join(s.name for s in symbols)}" for group, symbols in kernel.groups]
+    returns = f"Returns {', '.join(kernel.outputs)}{matrix}."
+    lines = [f'"""{kernel.summary}', "", *groups, returns, '"""', *body]
     return "\n".join([f"def {kernel.name}({arguments}):", *(f"    {line}".rstrip() for line in lines), ""])
 
 
@@ -318,11 +314,6 @@ def write(place: Path, texts: Mapping[str, str]) -> None:
 
 def _hash(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _module(about: Sequence[str], preamble: Sequence[str], functions: Sequence[str]) -> str:
-    head = ["\n".join([f'"""{about[0]}', *about[1:], '"""']), *filter(None, ["\n".join(preamble)])]
-    return "\n\n".join(head) + "\n\n\n" + "\n\n".join(functions)
 
 
 def _one_a_line(table: Mapping[str, Any]) -> str:

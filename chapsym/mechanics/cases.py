@@ -107,14 +107,7 @@ def _covers(point: Point, one: Equation) -> bool:
 Made = tuple[Case, Sequence[Point]]
 
 
-def made(
-    system: System,
-    verdict: str,
-    id: str,
-    known: set[str],
-    case_of: Callable[..., tuple[Case, Sequence[Point]]],
-    *of: Any,
-) -> Certified:
+def made(system: System, verdict: str, id: str, known: set[str], case_of: Callable[..., Made], *of: Any) -> Certified:
     """A verdict by the case that is made of it, if it rests on known claims; its own is one then."""
     try:
         case, points = case_of(*of)
