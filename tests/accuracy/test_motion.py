@@ -37,10 +37,11 @@ def problem(omega, frames=20, interval=0.1, accuracy=1e-6, inertia=INERTIA, gamm
 
 
 def of(moments, D, gamma, omega, frames, end, accuracy):
-    """The problem of one ball of radius 1, its moments of mass and D."""
+    """The problem of one ball of radius 1, its moments of mass and D, turned by half a radian about the vertical."""
     ball, g = Ball(np.array([moments]), np.array([D]), np.ones(1)), np.array([gamma]) / np.linalg.norm(gamma)
     K = kernels.contact_momentum(np.array([omega]), g, ball.mass_tensor, ball.D)
-    return Problem(ball, K, g, end / frames, frames, accuracy, attitude_with(g), True)
+    attitude = kernels.compose(np.array([np.cos(0.25), 0.0, 0.0, np.sin(0.25)]), attitude_with(g))
+    return Problem(ball, K, g, end / frames, frames, accuracy, attitude, True)
 
 
 def true(asked, found):
