@@ -117,6 +117,11 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["bench", "long", "-o", "x.txt"], "'x.txt': a figure must end in .svg, .png, .pdf"),
         (["bench", "memory", "-o", "x.svg"], "only work-precision and long have a figure"),
         (["bench", "long", "-o", "absent/x.svg"], "the folder absent does not exist"),
+        ([*STEP, "--precision", "x" * 9000], f"--precision {'x' * 150}...{'x' * 149}: give single"),
+        (
+            ["branches", *STEP[1:], "--momentum", f"1/{'7' * 3900},0,0"],
+            "the numbers are too long to count their rotations",
+        ),
     ],
 )
 def test_wrong_input_is_one_sentence_and_status_2(arguments, sentence):

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -11,6 +12,8 @@ from typing import Any, NoReturn
 
 #: Seconds between two lines of progress where standard error is no terminal.
 PAUSE = 5.0
+#: What nobody reads: a number of thousands of digits, a path without end.
+LONG = re.compile(r"(\S{150})\S{100,}(\S{150})")
 #: The name of a result that is printed.
 PRINTED = Path("-")
 
@@ -38,8 +41,8 @@ def apart(path: Path | None) -> AbstractContextManager[Any]:
 
 
 def note(sentence: str) -> None:
-    """One sentence on standard error, and no failure."""
-    _said(f"chapsym: {sentence}\n")
+    """One sentence on standard error, and no failure; of a word of a page its beginning and its end."""
+    _said("chapsym: " + LONG.sub(r"\1...\2", sentence) + "\n")
 
 
 def _said(text: str) -> None:

@@ -29,7 +29,7 @@ from chapsym.numbers import Digits, Enclosure, Precision
 from chapsym.numbers.precisions import flint_bits
 
 from ..ball import Asked, Ball
-from ..errors import StepNotTaken
+from ..errors import BadInput, StepNotTaken
 from ..levels.balls import exact
 from ..levels.proved_root import enclosed
 from ..levels.start import fraction
@@ -42,6 +42,8 @@ Form = Mapping[tuple[int, ...], fmpq]
 VARIABLES = range(4)
 #: The degree at which the Macaulay matrix is complete: 3·(2 - 1) + 1.
 DEGREE = 4
+#: Bits with which roots are separated at first, and those of which they may have fewer than asked.
+COARSE, LOST = 64, 16
 #: A point of P³ is on at most 3 of the planes (1, k, k², k³), so that one of 25 planes misses 8 points;
 #: two points have equal quotients for at most 3 forms, and 8 points are 28 pairs.
 PLANES = range(2, 27)
@@ -65,9 +67,23 @@ class Factor:
 
     def points(self, bits: int) -> list[tuple[Any, ...]]:
         """Arb enclosures of homogeneous coordinates, computed with `bits`; coordinates that vanish are exactly 0."""
+        for coarse in (COARSE, bits):
+            with flint_bits(coarse):
+                roots: Any = self.polynomial.complex_roots()
+            real = [self._refined(x.real, bits) for x, _ in roots if x.imag.is_zero()]
+            if all(x.rel_accuracy_bits() >= bits - LOST for x in real):
+                break
         with flint_bits(bits):
-            roots: Any = self.polynomial.complex_roots()
-            return [tuple(c(x.real) for c in self.coordinates) for x, _ in roots if x.imag.is_zero()]
+            return [tuple(c(x) for c in self.coordinates) for x in real]
+
+    def _refined(self, root: Any, bits: int) -> Any:
+        """The root in an interval, by interval Newton steps while they help: each is short, and can be interrupted."""
+        slope, known = self.polynomial.derivative(), -math.inf
+        with flint_bits(bits + self.polynomial.height_bits()):
+            while known < root.rel_accuracy_bits() < bits:
+                known, middle = root.rel_accuracy_bits(), arb(root.mid())
+                root = middle - self.polynomial(middle) / slope(root)
+        return root
 
 
 @dataclass(frozen=True)
@@ -121,10 +137,11 @@ class _Algebra:
                 break
         else:
             raise NotFinite
-        own = [fmpq_mat(fmpz_mat([x.tolist()[i] for i in chosen])) for x in (plane, *by_variable)]
+        inverse, *own = (fmpq_mat(fmpz_mat([x.tolist()[i] for i in chosen])) for x in (plane, *by_variable))
+        inverse = inverse.inv()
         self.size = size
         self.basis = [below[i] for i in chosen]
-        self.variables = [own[0].inv() * x for x in own[1:]]
+        self.variables = [inverse * x for x in own]
         # Free of denominators: the same positive multiple of each.
         scale = _common(variable.numer_denom()[1] for variable in self.variables)
         self.integral = [(scale * variable).numer_denom()[0] for variable in self.variables]
@@ -135,8 +152,8 @@ class _Algebra:
 
     def inertia(self) -> tuple[int, int]:
         """Rank and signature of the trace form (a, b) -> tr(ab): the numbers of points, and of real points."""
-        # Times a positive number, which the inertia does not see.
-        elements = [reduce(fmpz_mat.__mul__, (self.integral[v] for v in m)) for m in self.basis]
+        # Each times a positive number, which the inertia does not see.
+        elements = [_primitive(reduce(fmpz_mat.__mul__, (self.integral[v] for v in m))) for m in self.basis]
         form = _traces(elements, elements)
         # All roots are real, so that Descartes' rule is exact.
         polynomial = form.charpoly().coeffs()
@@ -157,7 +174,15 @@ def _killed(forms: Sequence[Form]) -> fmpz_mat:
                 row[place[tuple(sorted(e + m))]] = (c * denominator).p
             rows.append(row)
     columns, nullity = fmpz_mat(rows).nullspace()
-    return fmpz_mat(len(place), nullity, [columns[i, j] for i in range(len(place)) for j in range(nullity)])
+    # Each without what its numbers have in common: 20 times as many digits, where those of the forms are many.
+    killed = columns.transpose().tolist()[:nullity]
+    return fmpz_mat([_primitive(fmpz_mat([one])).entries() for one in killed]).transpose()
+
+
+def _primitive(matrix: fmpz_mat) -> fmpz_mat:
+    """A matrix without what its numbers have in common."""
+    common = reduce(fmpz.gcd, matrix.entries(), fmpz(0))
+    return fmpz_mat(matrix.nrows(), matrix.ncols(), [x if common == 0 else x // common for x in matrix.entries()])
 
 
 def _representation(algebra: _Algebra, multiplication: fmpq_mat, parts: list) -> list[fmpz_poly]:
@@ -224,6 +249,8 @@ def _sign_changes(coefficients: Sequence[fmpz]) -> int:
     return sum(a != b for a, b in itertools.pairwise(signs))
 
 
+#: Bits of the longest coefficients of the equations: those of float64 have fewer, and take some seconds.
+MOST_BITS = 10_000
 #: Working precisions are doubled at most so often.
 MOST_PRECISIONS = 14
 #: Bits that an enclosure has beyond those that are written.
@@ -284,7 +311,7 @@ def precise_branches(
     digits of the precision only is taken as it is.  The set is complete unless the complex solutions are infinitely
     many for a reason that is not understood, or the real ones are.
 
-    Raises BadInput as `exact_step` does.
+    Raises BadInput as `exact_step` does, and for numbers beyond those of float64 in length.
     """
     unit_exactly(gamma, precision)
     J, (contact,), K, g = np.split(np.array(in_float64(mass_tensor, (D,), momentum, gamma)), [3, 4, 7])
@@ -295,6 +322,11 @@ def precise_branches(
     given = momentum, gamma, mass_tensor, (D,)
     state = [[fmpq(x.numerator, x.denominator) for x in v] for v in given]
     equations = quadrics(state[0], state[1], state[2], *state[3])
+    long = sum(max(max(c.p.bit_length(), c.q.bit_length()) for c in form.values()) for form in equations)
+    if long > MOST_BITS:
+        raise BadInput(
+            f"the numbers are too long to count their rotations: {long} bits in the equations, of {MOST_BITS}"
+        )
     try:
         points = common_points([*equations, *_proportional(*state)])
     except NotFinite:
