@@ -1,10 +1,17 @@
-"""Files that are written whole: into a temporary file in the same folder, which is then renamed."""
+"""Files that are read whole, up to a limit, and written whole: into a temporary file, which is then renamed."""
 
 import os
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import IO
+
+#: Of a text that is read whole, and of its first line: an hour of a motion, a thousand frames each second.
+MOST_BYTES, MOST_LINE = 2**30, 2**24
+
+
+class CannotRead(Exception):
+    """A file cannot be read as it is named; the message says why."""
 
 
 class CannotWrite(Exception):
@@ -27,9 +34,40 @@ def check_destination(path: Path) -> None:
         raise CannotWrite(f"{str(path)!r} cannot be written: {error}") from None
 
 
-def is_pipe(path: Path) -> bool:
-    """Whether a path names a pipe, which would be waited for; what a shell makes of `<(...)` has no name."""
-    return Path(os.path.realpath(path)).is_fifo()
+def check_source(path: Path) -> None:
+    """Raises CannotRead for a pipe, which would be waited for, and for a device, which may have no end.
+
+    What a shell makes of `<(...)` has no name, and is read.
+    """
+    try:
+        named = Path(os.path.realpath(path))
+        if named.exists() and not (named.is_file() or named.is_dir()):
+            raise CannotRead(f"{path} is a {'pipe' if named.is_fifo() else 'device'}, not a file")
+    except OSError as error:
+        raise CannotRead(f"{path} cannot be read: {error.strerror or error}") from None
+    except ValueError as error:  # a null byte in the name
+        raise CannotRead(f"{str(path)!r} cannot be read: {error}") from None
+
+
+def content_of(path: Path, most: int) -> bytes:
+    """A file as it is; raises CannotRead if it cannot be read, and if it has more than `most` bytes."""
+    check_source(path)
+    try:
+        with path.open("rb") as stream:
+            content = stream.read(most + 1)
+    except OSError as error:
+        raise CannotRead(f"{path} cannot be read: {error.strerror or error}") from None
+    if len(content) > most:
+        raise CannotRead(f"{path} has more than {most} bytes")
+    return content
+
+
+def text_of(path: Path, most: int = MOST_BYTES) -> str:
+    """A text in UTF-8, as `content_of`."""
+    try:
+        return content_of(path, most).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise CannotRead(f"{path} is not UTF-8 text") from None
 
 
 def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:

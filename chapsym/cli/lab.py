@@ -240,14 +240,15 @@ def _there(output: Path | None) -> list[dict[str, Any]]:
         return []
     from pydantic import TypeAdapter
 
+    from chapsym.files import CannotRead, text_of
     from chapsym.mechanics import Cell
 
     kind = TypeAdapter(dict[str, Cell])
     try:
-        cells = json.loads(output.read_text(encoding="utf-8"))["cells"]
+        cells = json.loads(text_of(output))["cells"]
         found = [kind.validate_python({cell.pop("key"): asdict(Cell.of(cell))}) for cell in cells]
         return [{"key": key, **cell.data()} for one in found for key, cell in one.items()]
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
+    except (CannotRead, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
         fail(f"{output} is not what chapsym lab has written: name another file", 2)
 
 

@@ -71,11 +71,12 @@ def report(
 
 def _earlier_errata(path: Path) -> Mapping[str, Any]:
     """The entries of the list that is written again, which keep their earlier states; none if there is no file."""
+    from chapsym import files
     from chapsym.report import NotErrata, entries
 
     try:
-        return entries(path.read_text(encoding="utf-8")) if path.exists() else {}
-    except (OSError, UnicodeDecodeError, NotErrata) as error:
+        return entries(files.text_of(path)) if path.exists() else {}
+    except (files.CannotRead, NotErrata) as error:
         fail(f"{path} is there and cannot be gone on with: {error}; name another file, or delete it to start anew", 2)
 
 
@@ -118,6 +119,7 @@ def _behind(questions: list[str], claims: dict[str, Any]) -> list[str]:
 
 def _evidence(name: str, folder: Path) -> Any:
     """The evidence of a study in the folder; None if there is none."""
+    from chapsym import files
     from chapsym.report.questions import Evidence
     from chapsym.studies.checkout import in_checkout
 
@@ -126,11 +128,11 @@ def _evidence(name: str, folder: Path) -> Any:
         return None
     module = in_checkout("research", name)
     try:
-        found = json.loads(data.read_text(encoding="utf-8"))
+        found = json.loads(files.text_of(data))
         drawn = [(caption, folder / file) for file, caption in module.CAPTIONS.items() if (folder / file).is_file()]
-        figures = [(caption, path.read_text(encoding="utf-8")) for caption, path in drawn]
+        figures = [(caption, files.text_of(path)) for caption, path in drawn]
         return Evidence(name, module.TITLE, module.sentences(found), figures)
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (files.CannotRead, ValueError, KeyError, TypeError) as error:
         fail(f"{data} cannot be read as what chapsym study {name} -o writes: {type(error).__name__}: {error}", 2)
 
 

@@ -45,12 +45,13 @@ def table_of(file: Path) -> Table:
 
 
 def _is_result(file: Path) -> bool:
-    if file.suffix != ".csv" or files.is_pipe(file):
+    if file.suffix != ".csv":
         return file.suffix in BINARY
     try:
+        files.check_source(file)
         with file.open(encoding="utf-8") as stream:
-            return is_ours(stream.readline())
-    except (OSError, UnicodeDecodeError):
+            return is_ours(stream.readline(files.MOST_LINE))
+    except (OSError, UnicodeDecodeError, files.CannotRead):
         return False
 
 

@@ -56,10 +56,8 @@ class Case:
 
 def read_case(file: Path) -> Case:
     """Raises BadInput, one sentence, for a file that is not such data."""
-    if files.is_pipe(file):
-        raise BadInput(f"{file} is a pipe, not a file")
     try:
-        data = json.loads(file.read_text(encoding="utf-8"))
+        data = json.loads(files.text_of(file))
         if isinstance(data, dict) and "frames" in data and "ball" not in data:
             raise BadInput(f"{file} does not say of which ball it is: give the scene, --against SCENE.toml")
         ball, frames = dict(data["ball"]), [dict(frame) for frame in data["frames"]]
@@ -91,8 +89,8 @@ def read_case(file: Path) -> Case:
             str(data["case"]), mass, radius, inertia, time, path, attitude, in_space(attitude, omega), rotor,
             velocity if sliding else None, forces.get("friction"), forces.get("gravity"), offset,
         )  # fmt: skip
-    except OSError as error:
-        raise BadInput(f"{file} cannot be read: {error.strerror or error}") from None
+    except files.CannotRead as error:
+        raise BadInput(str(error)) from None
     except BadInput:
         raise
     except (ValueError, KeyError, TypeError, IndexError, ArithmeticError, RecursionError):

@@ -127,12 +127,10 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
 
     needed: the columns without which it is none.
     """
-    if files.is_pipe(file):
-        raise BadInput(f"{file} is a pipe, not a file")
     try:
-        lines = file.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{file} cannot be read: {getattr(error, 'strerror', None) or 'it is no text'}") from None
+        lines = files.text_of(file).splitlines()
+    except files.CannotRead as error:
+        raise BadInput(str(error)) from None
     rows = [line for line in lines if line.strip() and not line.startswith("#")]
     if len(rows) > 1 and np.isnan([*map(_number, _cells(rows[1]))]).all():  # after a title
         rows = rows[1:]

@@ -207,7 +207,7 @@ def test_what_is_no_result_is_not_read(tmp_path, result):
         with pytest.raises(SceneError, match=r"run\.\w+ cannot be read: No such file"):
             formats.load(tmp_path / f"run{suffix}")
     os.mkfifo(tmp_path / "run.nc")
-    with pytest.raises(SceneError, match="is a pipe, not a file with a result"):
+    with pytest.raises(SceneError, match="is a pipe, not a file"):
         formats.load(tmp_path / "run.nc")
     with pytest.raises(SceneError, match="is no result: one ends in"):
         formats.load(tmp_path / "run.txt")

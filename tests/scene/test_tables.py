@@ -307,7 +307,7 @@ def test_a_wrong_scene_names_the_key_and_what_would_be_right(write, old, new, se
 
 def test_a_pipe_is_no_scene_and_is_not_waited_for_but_standard_input_may_be_one(tmp_path):
     os.mkfifo(tmp_path / "scene.toml")
-    with pytest.raises(SceneError, match=r"^\S+scene\.toml is a pipe, not a file with a scene$"):
+    with pytest.raises(SceneError, match=r"^\S+scene\.toml is a pipe, not a file$"):
         scene.load(tmp_path / "scene.toml")
     read, write = os.pipe()
     os.write(write, GOOD.encode())

@@ -197,13 +197,16 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("suffix", ["", ".csv"])
-def test_a_pipe_is_not_waited_for(suffix, table, tmp_path):
+@pytest.mark.parametrize(
+    ("suffix", "kind", "made"),
+    [("", "pipe", os.mkfifo), (".csv", "pipe", os.mkfifo), ("", "device", lambda path: path.symlink_to(os.devnull))],
+)
+def test_a_pipe_is_not_waited_for_and_a_device_may_have_no_end(suffix, kind, made, table, tmp_path):
     pipe, file = tmp_path / f"pipe{suffix}", tmp_path / "table.csv"
-    os.mkfifo(pipe)
+    made(pipe)
     file.write_text(text(table), encoding="utf-8")
-    assert "is a pipe, not a file" in refused("judge", pipe, "--against", FILE)
-    assert "is a pipe, not a file" in refused("judge", file, "--against", pipe)
+    assert f"is a {kind}, not a file" in refused("judge", pipe, "--against", FILE)
+    assert f"is a {kind}, not a file" in refused("judge", file, "--against", pipe)
 
 
 @pytest.mark.parametrize("sentence", REFUSED)
@@ -241,7 +244,7 @@ def test_files_that_are_none_are_refused_in_one_sentence(table, tmp_path):
     assert "cannot be read: No such file" in refused("judge", tmp_path / "none.csv", "--against", FILE)
     assert "cannot be read" in refused("judge", tmp_path, "--against", FILE)
     (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe\x00")
-    assert "it is no text" in refused("judge", tmp_path / "bytes.csv", "--against", FILE)
+    assert "is not UTF-8 text" in refused("judge", tmp_path / "bytes.csv", "--against", FILE)
     assert "must end in .svg" in refused("judge", own, "--against", FILE, "-o", tmp_path / "x.txt")
 
 

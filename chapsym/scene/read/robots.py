@@ -15,7 +15,7 @@ from xml.parsers import expat
 
 import numpy as np
 
-from chapsym import generated
+from chapsym import files, generated
 from chapsym.dynamics.loops.vectors import cross
 from chapsym.rationals import NotANumber, rational
 
@@ -108,11 +108,9 @@ class _Reader:
     def _tree(self) -> Element:
         """The root; entities, which may grow without bound or read other files, are refused with their declarations."""
         try:
-            if self.path.is_fifo() or self.path.stat().st_size > MOST_BYTES:
-                raise SceneError(f"{self.path} is a pipe, or has more than {MOST_BYTES} bytes: it is no robot's file")
-            content = self.path.read_bytes()
-        except OSError as error:
-            raise SceneError(f"{self.path} cannot be read: {error.strerror or error}") from None
+            content = files.content_of(self.path, MOST_BYTES)
+        except files.CannotRead as error:
+            raise SceneError(str(error)) from None
         builder, parser, inside = TreeBuilder(), expat.ParserCreate(), list[Element]()
 
         def start(tag: str, attributes: dict[str, str]) -> None:

@@ -242,21 +242,9 @@ def _plain(value: Any) -> Any:
 
 def _text(path: Path) -> str:
     try:
-        if files.is_pipe(path):
-            raise SceneError(f"{path} is a pipe, not a file with a scene")
-        with path.open("rb") as stream:
-            content = stream.read(MOST_BYTES + 1)
-        if len(content) > MOST_BYTES:
-            raise SceneError(f"{path} is no scene: it has more than {MOST_BYTES} bytes")
-        return content.decode("utf-8-sig")
-    except SceneError:
-        raise
-    except OSError as error:
-        raise SceneError(f"{path} cannot be read: {error.strerror or error}") from None
-    except UnicodeDecodeError:
-        raise SceneError(f"{path} is not UTF-8 text") from None
-    except ValueError as error:  # a null byte in the name
-        raise SceneError(f"{str(path)!r} cannot be read: {error}") from None
+        return files.text_of(path, MOST_BYTES)
+    except files.CannotRead as error:
+        raise SceneError(str(error)) from None
 
 
 def _parsed(text: str, path: Path) -> dict[str, Any]:

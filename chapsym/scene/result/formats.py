@@ -118,15 +118,16 @@ def load(path: Path) -> "Dataset":
     read = _READERS.get(path.suffix)
     if read is None:
         raise SceneError(f"{str(path)!r} is no result: one ends in {', '.join(_READERS)}")
-    if path.is_fifo():
-        raise SceneError(f"{path} is a pipe, not a file with a result")
     extras.need("scenes")
     try:
+        files.check_source(path)
         path.stat()
         data = with_clock(read(path))
         _check_parts(data)
     except SceneError:
         raise
+    except files.CannotRead as error:
+        raise SceneError(str(error)) from None
     except OSError as error:
         reason = error.strerror or str(error).splitlines()[0]
         raise SceneError(f"{path} cannot be read: {reason}") from None
@@ -317,7 +318,7 @@ def _read_csv(path: Path) -> "Dataset":
     from pyarrow.csv import ConvertOptions, ParseOptions, ReadOptions, read_csv
 
     with path.open(encoding="utf-8", newline="") as stream:
-        first = stream.readline()
+        first = stream.readline(files.MOST_LINE)
     if first.strip() and not is_ours(first):
         layout = f"it has no column {NOTES}; chapsym show and chapsym judge read the trajectory of another program"
         raise NotOurs(f"{path} was not written by chapsym: {layout}")
