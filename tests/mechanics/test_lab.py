@@ -1,6 +1,7 @@
 """chapsym lab: JSON that is gone on with, and the page; the table is that of docs/how-to/mechanics.md."""
 
 import json
+import os
 import math
 import shutil
 from itertools import pairwise
@@ -50,6 +51,9 @@ def test_json_is_gone_on_with(tmp_path):
     ):  # fmt: skip
         out.write_text(json.dumps({"cells": [odd]}), encoding="utf-8")
         assert "is not what chapsym lab has written" in refused("lab", "--method", "dla", *options)
+    out.unlink()
+    os.mkfifo(out)  # which would be waited for
+    assert "is not what chapsym lab has written" in refused("lab", "--method", "dla", *options)
 
 
 def test_the_error_falls_with_work_by_the_order():
