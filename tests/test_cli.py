@@ -239,6 +239,12 @@ def test_a_screen_that_this_python_has_not_is_not_asked_for(monkeypatch):
     assert os.environ["MPLBACKEND"] == "agg"
 
 
+def test_a_home_that_cannot_be_written_is_not_talked_of(tmp_path):
+    home = dict.fromkeys(("HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME"), os.devnull)
+    wanted = "show", FIRST, "--figures", "none", "-o", tmp_path / "figures"
+    assert "--figures none: choose of" in refused(*wanted, run=child, env=changed(tmp_path) | home)
+
+
 @pytest.mark.parametrize("seconds", ["abc", "-1", "9" * 12])
 def test_a_date_that_is_none_is_one_sentence(monkeypatch, seconds):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", seconds)

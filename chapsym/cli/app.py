@@ -66,6 +66,7 @@ def main() -> NoReturn:
             stream.reconfigure(errors="chapsym")
     logging.basicConfig(format="chapsym: %(message)s", stream=sys.stderr)
     logging.getLogger("chapsym").setLevel(logging.INFO)
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # of a home that cannot be written it says four lines
     if len(sys.argv) == 1:
         sys.argv.append("--help")
     try:

@@ -1,8 +1,8 @@
 """chapsym lab: JSON that is gone on with, and the page; the table is that of docs/how-to/mechanics.md."""
 
 import json
-import os
 import math
+import os
 import shutil
 from itertools import pairwise
 
