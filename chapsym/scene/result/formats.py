@@ -347,7 +347,7 @@ def _about_csv(path: Path) -> dict[str, Any]:
     limit = csv.field_size_limit(BLOCK)
     try:
         with path.open(encoding="utf-8", newline="") as stream:
-            rows = csv.DictReader(stream)
+            rows = csv.DictReader(iter(lambda: stream.readline(files.MOST_LINE), ""))
             return dict(json.loads(next(rows, {})[NOTES])) if NOTES in (rows.fieldnames or ()) else {}
     finally:
         csv.field_size_limit(limit)  # which is that of the whole process
