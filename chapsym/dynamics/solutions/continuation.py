@@ -27,6 +27,8 @@ NEAR_FOLD = 1e-6
 #: Newton must find the fold within this fraction of the way from where the march ended, which is some steps ahead.
 AHEAD = 1e-2
 MOST_STEPS = 5000
+#: Log₂ of a momentum beyond all rotations, for Λmax below 1.
+BEYOND = 3
 MOST_CORRECTIONS = 12
 #: Newton's iterations on the extended system, and the correction that is the last one.
 MOST_EXTENDED = 12
@@ -290,7 +292,7 @@ class Marchers:
 
     def march(self, A: Floats, B: Floats) -> tuple[Floats, np.ndarray]:
         """Continues from A to B; returns the fraction t of the way and a status for each."""
-        A, E = self._scaled(A), self._scaled(B) - self._scaled(A)
+        A, E, end = self._way(A, B)
         n = len(self.D)
         t, status = np.zeros(n), np.full(n, Status.NOT_CONVERGED, dtype=np.int64)
         side = np.sign(np.linalg.det(self.tangent())) if n else t
@@ -298,20 +300,20 @@ class Marchers:
         for _ in range(MOST_STEPS):
             if not len(on):
                 break
-            ball, now = self.only(on), t[on]
+            ball, now, left = self.only(on), t[on], end[on] - t[on]
             step, det = ball._longest(A[on] + now[:, np.newaxis] * E[on], E[on])
-            step = np.minimum(step, 1 - now)
-            ahead = np.where(step == 1 - now, 1.0, now + step)
+            step = np.minimum(step, left)
+            ahead = np.where(step == left, end[on], now + step)
             before = ball.q.copy()
             settled = ball.correct(A[on] + ahead[:, np.newaxis] * E[on])
-            folded = (det * side[on] <= 0) | ((step < NEAR_FOLD * now) & (ahead < 1))
-            moved = settled & ~folded
+            folded = (det * side[on] <= 0) | ((step < NEAR_FOLD * now) & (ahead < end[on]))
+            moved = settled & ~folded & (step > 0)
             ball.q[~moved] = before[~moved]
             self.q[on], t[on] = ball.q, np.where(moved, ahead, now)
-            status[on[moved & (ahead == 1)]] = Status.TAKEN
+            status[on[moved & (ahead == end[on])]] = Status.TAKEN
             status[on[folded]] = Status.FOLDED
-            on = on[moved & (ahead < 1)]
-        return t, status
+            on = on[moved & (ahead < end[on])]
+        return t / end, status
 
     def _longest(self, K: Floats, E: Floats) -> tuple[Floats, Floats]:
         """The longest step s with s|d|·|F''| ≤ CONTRACTION, d = F'⁻¹E, F'' = H - 2(𝒦 + sE)⊗1; and det T.
@@ -354,7 +356,8 @@ class Marchers:
 
     def fold(self, A: Floats, B: Floats, t: Floats) -> tuple[Floats, Floats, np.ndarray]:
         """Newton on F = 0, det F' = 0 from near a fold: (t, q, whether it settled, near where it began)."""
-        A, E = self._scaled(A), self._scaled(B) - self._scaled(A)
+        A, E, end = self._way(A, B)
+        t = t * end
         start, first, settled = t.copy(), self.q.copy(), np.zeros(len(t), dtype=bool)
         for _ in range(MOST_EXTENDED):
             matrix, value = self._extended(A + t[:, np.newaxis] * E, E)
@@ -366,7 +369,7 @@ class Marchers:
             if settled.all():
                 break
         settled &= (t >= start) & (t - start <= AHEAD * start)
-        return np.where(settled, t, start), np.where(settled[:, np.newaxis], self.q, first), settled
+        return np.where(settled, t, start) / end, np.where(settled[:, np.newaxis], self.q, first), settled
 
     def _extended(self, K: Floats, E: Floats) -> tuple[Floats, Floats]:
         """The derivative of (F, det F') in (w, t) at w = 0, (n, 4, 4), and its value, (n, 4)."""
@@ -379,6 +382,12 @@ class Marchers:
         matrix[:, :3, :3], matrix[:, :3, 3] = T, -E
         matrix[:, 3, :3] = bent - 2 * total(cofactors * K[..., np.newaxis], 1)
         return matrix, np.concatenate([self.gap(K), det[:, np.newaxis]], axis=1)
+
+    def _way(self, A: Floats, B: Floats) -> tuple[Floats, Floats, Floats]:
+        """A and (B - A)/end, scaled; end is a power of two that keeps a way beyond all rotations (|𝒦| ≤ 2Λmax) short."""
+        E = B - A
+        beyond = np.clip(np.frexp(np.abs(E).max(axis=1))[1] - self.exponent - BEYOND, 0, 1000)
+        return self._scaled(A), np.ldexp(E, -(self.exponent + beyond)[:, np.newaxis]), np.ldexp(1.0, beyond)
 
     def _scaled(self, K: Floats) -> Floats:
         return np.ldexp(K, -self.exponent[:, np.newaxis])
