@@ -187,6 +187,17 @@ def test_progress_counts_the_steps_of_all_balls():
     assert seen == sorted(seen)
 
 
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_a_batch_in_which_no_ball_goes_on_ends(precision):
+    seen = []
+    run = chapsym.trajectory(
+        Ball((1, 2, 4), 3), [(100, 0, 0)] * 8, (0, 0, 1), 10**6, every=10**6, precision=precision, threads=1,
+        progress=seen.append,
+    )  # fmt: skip
+    assert (run.status == Status.UNREACHABLE).all()
+    assert len(seen) == 1
+
+
 @pytest.mark.parametrize("threads", [1, 2])
 def test_an_interrupt_ends_the_run(threads):
     ball, K, g = balls(200)

@@ -164,6 +164,8 @@ def _run_blocks(
         count.add(now * n)
         if count.stopped:
             return
+        if status.all():  # no ball goes on
+            break
     for i in map(int, np.flatnonzero(status)):
         ball = which.start + i
         status[i] = explained(status[i], ended[i, :3], ended[i, 3:], balls.mass_tensor[ball], balls.D[ball])

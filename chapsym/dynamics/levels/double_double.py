@@ -185,6 +185,8 @@ def _run_block(
         count.add(now * n)
         if count.stopped:
             return
+        if status.all():  # no ball goes on
+            break
     for lane in map(int, np.flatnonzero(status)):
         i = which.start + lane
         K, g = np.ldexp(state[:6:2, lane], -int(shift[lane])), state[6:12:2, lane]
