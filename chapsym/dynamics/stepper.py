@@ -412,12 +412,14 @@ class Proof:
     def bounds(self, ball: Stepper) -> Bounds:
         """The bounds of the present state of a Stepper."""
         steps, now = ball._taken - self._taken, min(ball._taken, 1)
-        if steps:
-            went, _, _ = self._run.take(0, steps, steps, self._frames, self._frames.low, 0, self._spread)
-            self._taken += steps
-            if went < steps:
+        for first in range(0, steps, double_double.CHUNK):  # between two of them it can be interrupted
+            count = min(double_double.CHUNK, steps - first)
+            went, _, _ = self._run.take(first, count, steps, self._frames, self._frames.low, 0, self._spread)
+            self._taken += count
+            if went < count:
                 self._run.lose()
-                self._spread[:] = np.inf
+                self._spread[:], self._taken = np.inf, ball._taken
+                break
         there = self._rows("double", ball._spin if ball._follows else None)
         there.momentum[0, now], there.gamma[0, now] = ball._momentum, ball._gamma
         if ball._follows:

@@ -12,6 +12,7 @@ import chapsym
 from chapsym import BadInput, Ball, Digits, Status, StepNotTaken
 from chapsym import generated as kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
+from chapsym.dynamics.levels import double_double
 from chapsym.dynamics.levels import proved as level
 from chapsym.dynamics.levels.frames import Balls
 from chapsym.dynamics.loops import proved
@@ -518,3 +519,24 @@ def test_a_position_at_the_start_is_in_the_bounds_of_a_rolled_ball(options):
     here, there = (run.proved.contact for run in runs)
     assert (rounded <= there - here).all()
     assert (there - here < 1e-12 if runs[0].low is None else there < 1e-26).all()
+
+
+def test_the_proof_of_a_stepper_can_be_interrupted_and_goes_on(monkeypatch):
+    whole, parts = (chapsym.Stepper(BALL, momentum(0.03), GAMMA) for _ in range(2))
+    for one in (whole, parts):
+        one.step(100)
+    bound = whole.proved.momentum
+    monkeypatch.setattr(double_double, "CHUNK", 30)
+    take, calls = double_double.OneBall.take, []
+
+    def interrupted(*given):
+        calls.append(given)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return take(*given)
+
+    monkeypatch.setattr(double_double.OneBall, "take", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        _ = parts.proved
+    assert parts.proved.momentum == bound
+    assert parts.proved.steps == 100
