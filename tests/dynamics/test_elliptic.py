@@ -158,6 +158,7 @@ def test_the_derivative_of_the_height_is_its_derivative():
         (lambda: exact_top(BALLS[1], (1, 0, 0), GAMMA), "must be along gamma"),
         (lambda: exact_top(BALLS[0], (0, 0, 0), GAMMA), "must not vanish"),
         (lambda: exact_top(BALLS[0], (50, 20, 30), GAMMA), "shorter time step"),
+        (lambda: exact_top(Ball((1, 2, 4), 3), np.multiply(75, GAMMA), GAMMA), "shorter time step"),  # γ has come round
         (lambda: exact_top(BALLS[0], (0, 0, 50), GAMMA), "more than 90"),
         (lambda: exact_top(Ball((1, 2, 4), [0, 0]), GAMMA, GAMMA), "one ball"),
     ],

@@ -722,7 +722,8 @@ def _moving(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
         step = step_vertical(top, tau, axis)
     except StepNotTaken:
         step = None
-    if step is None or not slope * curve.rate > 0.0 or not np.abs(step.gamma - ahead).max() <= AGREEMENT:
+    far = abs(advance) > curve.period / 2  # the heights of half steps come back after half a period, beyond the fold
+    if step is None or far or not slope * curve.rate > 0.0 or not np.abs(step.gamma - ahead).max() <= AGREEMENT:
         raise BadInput("the continuous motion of this step is beyond the branch of the top; take a shorter time step")
     before, there = (across(top.mass_tensor, top.inertia, v) for v in (axis, step.gamma))
     after = kernels.rotate(step.rotation, there)
