@@ -187,7 +187,7 @@ ARGUMENTS = {
     "time_step": either(0.01, 0.1, None), "steps": count, "columns": either(None, 2, 4), "every": either(1, 2, None),
     "contact": flag, "precision": precision, "threads": either(0, 1), "path": vector, "curve": curve, "height": number,
     "u": number, "run": run, "back": run, "position": either((0, 0)), "map": flag, "proved": flag, "vector": vector,
-    "index": either([0, 1, 5], range(4), 3), "progress": lambda rng: lambda done: None,
+    "index": either([0, 1, 5], range(4), 3), "progress": either(lambda done: None),
     **{("skew", "vector"): vector, ("certified_motion", "ball"): exact_ball, ("reverse_n", "run"): run_n},
     **{(f, "ball"): ball_n for f in ("step_n", "trajectory_n", "StepperN")},
     **{(f, "momentum"): skew for f in ("step_n", "trajectory_n", "StepperN", "invariants_n")},

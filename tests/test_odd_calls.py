@@ -51,6 +51,7 @@ class Unwilling:
 
 
 K, UP, BALL = (0.1, 0.2, 0.3), (0, 0, 1), chapsym.Ball((1, 2, 4), 3, 0.5)
+BALL_N = chapsym.BallN((1, 2, 4), 3)
 TURNED = chapsym.Ball.from_inertia([[3, 0.5, 0], [0.5, 4, 0], [0, 0, 5]], D=0.5)
 UNWILLING = odd_calls.Unwilling(0.1)
 COMPLEX = np.array([1, np.complex64(2j), 3], dtype=object)
@@ -121,6 +122,14 @@ def test_what_cannot_be_shown_is_refused_by_its_name(odd):
         ("index", lambda: chapsym.steady_frames(BALL, UP, UP, odd)),
         ("digits", lambda: chapsym.certified_motion(BALL, K, UP, 1, odd)),
         ("of", lambda: chapsym.accurate(BALL, K, UP, 1, 1e-3, of=odd)),
+        ("progress", lambda: chapsym.accurate(BALL, K, UP, 1, 1e-3, progress=odd)),
+        ("progress", lambda: chapsym.roll(BALL, K, 0.1, 1, progress=odd)),
+        ("progress", lambda: chapsym.extrapolate(BALL, K, UP, 0.1, 1, progress=odd)),
+        ("progress", lambda: chapsym.trajectory_n(BALL_N, chapsym.skew(K), UP, 1, progress=odd)),
+        ("progress", lambda: chapsym.certified_motion(BALL, K, UP, 1, 5, progress=odd)),
+        ("progress", lambda: chapsym.certify(chapsym.trajectory(BALL, K, UP, 1), progress=odd)),
+        ("progress", lambda: chapsym.run_scene({"ball": {}}, progress=odd)),
+        ("progress", lambda: chapsym.trajectory(BALL, K, UP, 1, progress=odd)),
         ("path", lambda: chapsym.open_result(odd)),
     ):
         with pytest.raises(BadInput, match=name):
@@ -164,3 +173,43 @@ def test_an_exact_top_is_restored_in_any_units(size):
         assert np.abs(ordinary - other).max() < 1e-13
     with pytest.raises(BadInput, match="this is no trajectory of the exact top"):
         top.restore(None)
+
+
+def deep(levels):
+    """A number in so many lists."""
+    return [deep(levels - 1)] if levels else 1.0
+
+
+RUN = (0.1, 0.2, 0), UP, 2
+EQUATOR = chapsym.Curve.through(chapsym.Ball((2, 2, 1), 3), (0.6, 0.8, 1e-151))
+REFUSED = {
+    "K = 𝒦/ε is beyond the range of float64": lambda: chapsym.trajectory(BALL, *RUN, time_step=5e-324).omega,
+    "K = 𝒦/ε is beyond the range of float32": lambda: chapsym.trajectory(
+        BALL, *RUN, time_step=1e-200, precision="single"
+    ).angular_momentum(),
+    "energy is beyond the range of float64": lambda: chapsym.trajectory(BALL, *RUN, time_step=1e-200).kinetic_energy(),
+    "an invariant is beyond the range of float64": lambda: chapsym.trajectory(
+        chapsym.Ball((1e200, 2e200, 4e200), 0), (1e199, 2e199, 0), (0, 0, 1), 2
+    ).invariants(),
+    "the certificate has no array": lambda: chapsym.certify(chapsym.trajectory(BALL, *RUN)).digits(np.zeros(3)),
+    "vector must be real numbers": lambda: chapsym.skew(deep(700)),
+    "gamma is not on this curve": lambda: EQUATOR.argument((0.6, 0, 0.8)),
+    "dataset must be that of a result": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN)),
+    "path must be that of a file": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN).to_xarray()).save(None),
+    "a result without balls has nothing to save": lambda: chapsym.Result(
+        chapsym.trajectory(BALL, np.zeros((0, 3)), (0, 0, 1), 2).to_xarray()
+    ).save("empty.csv"),
+}
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("said", REFUSED)
+def test_what_a_result_cannot_say_is_refused(said):
+    with pytest.raises(BadInput, match=said):
+        REFUSED[said]()
+
+
+@pytest.mark.filterwarnings("error")
+def test_no_balls_have_a_table():
+    empty = chapsym.trajectory(BALL, np.zeros((0, 3)), (0, 0, 1), 2, time_step=0.1)
+    assert len(empty.to_pandas()) == len(empty.to_pandas(balls=True)) == 0

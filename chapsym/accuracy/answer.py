@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from chapsym.dynamics import BadInput, Ball, Status, StepNotTaken, Trajectory, extrapolate, kernels, trajectory
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
-from chapsym.dynamics.ball import Floats, batch, brief, checked_before, numbers, unit_vertical
+from chapsym.dynamics.ball import Floats, batch, brief, callback, checked_before, numbers, unit_vertical
 from chapsym.dynamics.certified import exactly
 from chapsym.dynamics.coefficients import substeps
 from chapsym.dynamics.extrapolation import MOST_OF_PAIRS, Extrapolated, stages_of, weights
@@ -429,6 +429,7 @@ def accurate(
     >>> [x[:20] for x in found.final()["gamma"]]
     ['0.844567313551555566', '-0.53533087692888346', '0.011265215792919715']
     """
+    callback(progress)
     request = Request(ball, angular_momentum, gamma, time, accuracy, of, frames, attitude)  # type: ignore[arg-type]
     return answered(request, limit, progress)
 

@@ -43,6 +43,7 @@ from chapsym.dynamics.ball import (
     Floats,
     batch,
     brief,
+    callback,
     checked_before,
     exact_array,
     numbers,
@@ -210,6 +211,7 @@ def roll(
     >>> bool(run.error < 1e-6)
     True
     """
+    callback(progress)
     spin, vertical, turned = _start(ball, omega, gamma, attitude, axes)
     place = None if position is HERE else numbers(position, "position", 2)
     if place is not None and place.ndim > 1:

@@ -68,13 +68,11 @@ def is_unit(x: float, y: float, z: float) -> bool:
 
 
 def _as_float(value: ArrayLike, name: str) -> Floats:
-    if _has_mask(value):
-        raise _not_numbers(value, name)
     try:
-        array = np.asarray(value)
-    except Exception:  # rows of different length, and whatever an object raises that is to become an array
+        masked, array = _has_mask(value), np.asarray(value)
+    except Exception:  # rows of different length, lists too deep, and whatever an object raises
         raise _not_numbers(value, name) from None
-    if array.dtype.kind not in "iufO":
+    if masked or array.dtype.kind not in "iufO":
         raise _not_numbers(value, name)
     if array.dtype.kind == "O" and not all(isinstance(x, Number) and not isinstance(x, _NO_REALS) for x in array.flat):
         raise _not_numbers(value, name)
@@ -122,6 +120,12 @@ def flag(value: bool, name: str) -> bool:
     if not isinstance(value, bool | np.bool_):
         raise BadInput(f"{name} must be True or False, not {brief(value)}")
     return bool(value)
+
+
+def callback(progress: Any) -> None:
+    """Raises BadInput for a progress that cannot be called."""
+    if not callable(progress):
+        raise BadInput(f"progress must be a function, which is called with how far it is, not {brief(progress)}")
 
 
 class Parameters(Brief):

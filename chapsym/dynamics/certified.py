@@ -13,7 +13,7 @@ from chapsym.numbers import Enclosure
 from chapsym.numbers.precisions import MOST_BITS, flint_bits
 from chapsym.rationals import decimals
 
-from .ball import Asked, Floats, batch, in_shape
+from .ball import Asked, Floats, batch, brief, callback, in_shape
 from .coefficients import COMPOSITIONS
 from .errors import BadInput, Status
 from .levels import dispatch
@@ -94,9 +94,9 @@ class Certificate(Brief):
         >>> chapsym.certify(run).digits("gamma")[1, 2][:30]
         '0.9999382696996232792980030216'
         """
-        values = getattr(self, name) if name in NAMES else None
+        values = getattr(self, name) if isinstance(name, str) and name in NAMES else None
         if values is None:
-            raise BadInput(f"the certificate has no {name}; it has {', '.join(self._names())}")
+            raise BadInput(f"the certificate has no {brief(name)}; it has {', '.join(self._names())}")
         return np.array([proved_digits(x) for x in values.flat], dtype=object).reshape(values.shape)
 
     def write(self) -> dict[str, Any]:
@@ -152,6 +152,7 @@ def certify(
     if trajectory.order not in COMPOSITIONS:
         raise BadInput(f"certify takes orders {', '.join(map(str, COMPOSITIONS))}: this is no orbit of the map")
     bits = whole_number(bits, "bits", 2, MOST_BITS)
+    callback(progress)
     given = {name: None if getattr(trajectory, name) is None else exactly(trajectory, name) for name in NAMES}
     enclosed, selected = _orbit(trajectory, given, bits, progress)
     errors = {name: None if array is None else errors_of(array, given[name], bits) for name, array in enclosed.items()}

@@ -14,7 +14,7 @@ import numpy as np
 from chapsym.numbers.precisions import flint_bits
 from chapsym.rationals import decimals
 
-from .ball import Ball, brief, in_principal_axes
+from .ball import Ball, brief, callback, in_principal_axes
 from .errors import BadInput, TooWide
 from .levels.start import exponent_of, fraction
 from .map import check_body, check_tensor, time_limit, unit_exactly, whole_number
@@ -305,6 +305,7 @@ def follow(
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> CertifiedMotion:  # fmt: skip
     """`certified_motion` from a `flow.start.Start`."""
+    callback(progress)
     digits, limit = whole_number(digits, "digits", 1, MOST_DIGITS), min(time_limit(limit), LONGEST)
     search = _Search(start, tuple(times), digits, clock.monotonic() + limit, progress)
     bits = math.ceil(digits * math.log2(10)) + GUARD + OF_TURNS * search.doublings()

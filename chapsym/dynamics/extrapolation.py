@@ -25,7 +25,7 @@ import chapsym.dynamics.native as native
 from chapsym.numbers import Double, DoubleDouble, Pair, Precision
 
 from .attitudes import first_attitudes
-from .ball import Asked, Ball, Floats, batch, in_shape, is_followed, numbers, unit_vertical
+from .ball import Asked, Ball, Floats, batch, callback, in_shape, is_followed, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
 from .levels import double, double_double
 from .levels.dispatch import begun, precision_of
@@ -201,6 +201,7 @@ def extrapolate(
     most = MOST_OF_PAIRS if of_pairs else MOST_COLUMNS
     columns = most if columns is None else whole_number(columns, "columns", 2, most)
     steps, threads = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(threads, "threads", 0)
+    callback(progress)
     h = seconds(time_step, positive=False)
     kept = max(steps, 1) if every is None else min(whole_number(every, "every", 1), steps + 1)
     shape, (K, g, J, D) = batch(ball, numbers(angular_momentum, "angular_momentum", 3), unit_vertical(gamma))

@@ -232,7 +232,7 @@ def batches(data: "Dataset | Arrays", layout: Mapping[str, Any]) -> Iterator[dic
     """The columns of some balls after the others, each (rows,); what a ball has once is in each of its rows."""
     frames = data.sizes["frame"]
     several = max(1, ROWS // frames)
-    for first in range(0, data.sizes["ball"], several):
+    for first in range(0, max(1, data.sizes["ball"]), several):
         part = data.isel(ball=slice(first, first + several))
         balls = part.sizes["ball"]
         columns: dict[str, np.ndarray] = {}
@@ -242,7 +242,7 @@ def batches(data: "Dataset | Arrays", layout: Mapping[str, Any]) -> Iterator[dic
                 values = np.broadcast_to(values[:, np.newaxis], (balls, frames, *values.shape[1:]))
             elif "ball" not in one["dims"]:
                 values = np.broadcast_to(values, (balls, frames))
-            flat = values.reshape(balls * frames, -1)
+            flat = values.reshape(balls * frames, len(one["columns"]))
             columns |= {column: flat[:, i] for i, column in enumerate(one["columns"])}
         yield columns
 

@@ -15,7 +15,7 @@ from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision
 from chapsym.numbers.precisions import is_whole
 
 from .attitudes import first_attitudes
-from .ball import Ball, Floats, brief, flag, in_shape, is_followed, numbers
+from .ball import Ball, Floats, brief, callback, flag, in_shape, is_followed, numbers
 from .coefficients import substeps
 from .errors import BadInput
 from .levels import dispatch
@@ -224,6 +224,7 @@ def trajectory(
     """
     steps, every = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1)
     threads = whole_number(threads, "threads", 0)
+    callback(progress)
     every = min(every, steps + 1)
     time_step = step_of_run(time_step, steps)
     precision = dispatch.precision_of(precision)

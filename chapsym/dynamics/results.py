@@ -485,13 +485,15 @@ class Trajectory:
         """
         self._check_finite()
         of = kernels.invariants if isinstance(self.ball, Ball) else so_n.invariants
-        with self.precision.working():
-            return of(self.momentum, self.gamma)
+        with self.precision.working(), np.errstate(all="ignore"):
+            return self._in_range("an invariant", of(self.momentum, self.gamma))
 
     def angular_momentum(self) -> Floats:
         """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
-        with self.precision.working():
-            return self.momentum / self._time_step()
+        momentum, single = self.momentum, self.momentum.dtype == np.float32  # which may not hold ε
+        with self.precision.working(), np.errstate(all="ignore"):
+            K = (momentum.astype(np.float64) if single else momentum) / self._time_step()
+            return self._in_range("K = 𝒦/ε", K.astype(momentum.dtype, copy=False))
 
     @property
     def omega(self) -> Floats:
@@ -521,7 +523,13 @@ class Trajectory:
             omega, energy = kernels.angular_velocity(*frames), np.array(kernels.energy(*frames))
             omega = omega if ball.axes is None else ball.from_principal(omega, frames=True)
             omega[missing] = energy[missing] = np.nan
-            return {"omega": omega, "energy": energy}
+            return {name: self._in_range(name, x) for name, x in (("omega", omega), ("energy", energy))}
+
+    def _in_range(self, name: str, values: Floats) -> Floats:
+        """The values; raises BadInput where those of a frame that was reached are beyond the range of floats."""
+        if values.dtype != object and not np.isfinite(values[self.index <= self.taken[..., np.newaxis]]).all():
+            raise BadInput(f"{name} is beyond the range of {values.dtype}; take other units")
+        return values
 
     def _check_finite(self) -> None:
         if (self.taken < self.index[-1]).any():

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from chapsym.dynamics import BadInput
-from chapsym.dynamics.ball import brief
+from chapsym.dynamics.ball import brief, callback
 from chapsym.dynamics.labelled import frame
 from chapsym.dynamics.outputs import BOUND, LOW
 from chapsym.scene import Scene, SceneError, checked, load
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
     from .drawing.style import Picture
 
+PLACE = "path must be that of a file"
 #: Numbers beyond which the drift is not computed for a table, as it would take seconds.
 MOST = 10_000_000
 
@@ -61,6 +62,10 @@ class Result:
     """
 
     dataset: "Dataset"
+
+    def __post_init__(self) -> None:
+        if not {"ball", "frame"} <= set(getattr(self.dataset, "sizes", ())):
+            raise BadInput(f"dataset must be that of a result, with ball and frame, not {brief(self.dataset)}")
 
     def to_xarray(self) -> "Dataset":
         """`dataset`, as `Trajectory.to_xarray` makes it of a run in Python."""
@@ -126,16 +131,19 @@ class Result:
 
     def save(self, path: str | Path) -> None:
         """Writes the result to .zarr, .nc, .csv, .parquet or .npz, whole; raises SceneError if the disk refuses."""
-        if Path(path).suffix == ".zarr":
-            _save_zarr(self.dataset, Path(path))
+        path = _path(path, PLACE)
+        if not self.dataset.sizes["ball"]:
+            raise SceneError("a result without balls has nothing to save")
+        if path.suffix == ".zarr":
+            _save_zarr(self.dataset, path)
         else:
-            formats.save(self.dataset, Path(path))
+            formats.save(self.dataset, path)
 
     def page(self, path: str | Path, ball: str | int | None = None) -> None:
         """Writes the page on which the ball rolls, one HTML file that needs no network; it needs the attitude."""
         from .rolling import write_page
 
-        write_page(self.dataset, path, balls=None if ball is None else [ball])
+        write_page(self.dataset, _path(path, PLACE), balls=None if ball is None else [ball])
 
     def grid(self) -> "Dataset":
         """The dataset of a sweep with a dimension for each range instead of `ball`, and `sample` for the draws.
@@ -157,7 +165,7 @@ class Result:
         """Writes the motion of one ball as moving pictures, .gif or .mp4, as `chapsym show --format` does."""
         from .moving import save_motion
 
-        save_motion(self.dataset, Path(path), ball)
+        save_motion(self.dataset, _path(path, PLACE), ball)
 
     def rows(self) -> list[tuple[str, str]]:
         """The short table: what was rolled, for how long, what was stored, and how far the integrals drifted."""
@@ -221,6 +229,8 @@ def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callabl
     >>> result.dataset.gamma.values[0, -1].round(6).tolist()
     [0.0, 0.841471, 0.540302]
     """
+    if progress is not None:
+        callback(progress)
     if isinstance(scene, Mapping):
         scene = checked(dict(scene))
     elif not isinstance(scene, Scene):

@@ -273,9 +273,10 @@ class Curve(Brief):
             For a γ off the curve.
         """
         g = unit_vertical(gamma)
-        cn, sn, dn = (g[..., axis] / size for axis, size in zip(self.axes, self.amplitudes, strict=True))
-        u = argument(sn, cn, np.abs(dn), quarter_period(self.complement))
-        if g.size and np.abs(self.point(u) - g).max() * max(self.complement, NEAREST) > ON_CURVE:
+        with np.errstate(all="ignore"):  # what overflows is off the curve
+            cn, sn, dn = (g[..., axis] / size for axis, size in zip(self.axes, self.amplitudes, strict=True))
+            u = argument(sn, cn, np.abs(dn), quarter_period(self.complement))
+        if g.size and np.abs(self.point(np.nan_to_num(u)) - g).max() * max(self.complement, NEAREST) > ON_CURVE:
             raise BadInput("gamma is not on this curve: its ⟨γ,Λ⁻¹γ⟩ or its half of the sphere is another one")
         return u
 

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 import chapsym.dynamics.native as native
 from chapsym.numbers import Digits, Double, Precision
 
-from ..ball import Floats, brief, common_shape, in_shape, is_followed, largest_moment, unit_vertical
+from ..ball import Floats, brief, callback, common_shape, in_shape, is_followed, largest_moment, unit_vertical
 from ..coefficients import COMPOSITIONS, substeps
 from ..errors import BadInput, Status, StepNotTaken
 from ..levels.dispatch import no_room, precision_of
@@ -186,6 +186,7 @@ def trajectory_n(
     """
     steps, every = whole_number(steps, "steps", 0, MOST_STEPS), whole_number(every, "every", 1)
     threads = whole_number(threads, "threads", 0)
+    callback(progress)
     every = min(every, steps + 1)
     shape, state = start(ball, momentum, gamma, attitude, contact)
     frames, taken, status, reach = _stepped(precision, state, order, steps, every, threads, Count(progress))

@@ -384,7 +384,7 @@ class Marchers:
         return matrix, np.concatenate([self.gap(K), det[:, np.newaxis]], axis=1)
 
     def _way(self, A: Floats, B: Floats) -> tuple[Floats, Floats, Floats]:
-        """A and (B - A)/end, scaled; end is a power of two that keeps a way beyond all rotations (|𝒦| ≤ 2Λmax) short."""
+        """A and (B - A)/end, scaled; end, a power of two, shortens a way beyond all rotations (|𝒦| ≤ 2Λmax)."""
         E = B - A
         beyond = np.clip(np.frexp(np.abs(E).max(axis=1))[1] - self.exponent - BEYOND, 0, 1000)
         return self._scaled(A), np.ldexp(E, -(self.exponent + beyond)[:, np.newaxis]), np.ldexp(1.0, beyond)
