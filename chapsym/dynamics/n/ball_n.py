@@ -149,7 +149,7 @@ def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
     with np.errstate(over="ignore"):
         off, largest = np.abs(array / 2 + array.mT / 2), np.abs(array)
     if (off > SKEW_TOLERANCE / 2 * largest.max(axis=(-2, -1), keepdims=True, initial=0.0)).any():
-        raise BadInput(f"{name} must be skew, but it differs from minus its transpose by {2 * off.max():.2g}")
+        raise BadInput(f"{name} must be skew, but it differs from minus its transpose by {2 * float(off.max()):.2g}")
     return np.where(off == 0, array, array / 2 - array.mT / 2)
 
 
