@@ -4,6 +4,7 @@ A kernel is `+ - * /` on whatever numbers it is given.  A precision makes those 
 results.
 """
 
+import copyreg
 import math
 import os
 from abc import ABC, abstractmethod
@@ -11,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 from threading import RLock
 from typing import Any, ClassVar
 
@@ -44,10 +45,46 @@ def flint_terms(count: int) -> AbstractContextManager[None]:
     return _flint("cap", count)
 
 
+def _parts(ball: Any) -> tuple[Any, ...]:
+    """How a ball of flint is made anew, exactly."""
+    if not ball.is_finite():
+        return type(ball), (ball.str(),)
+    return _ball, tuple((int(man), int(exp)) for man, exp in (ball.mid().man_exp(), ball.rad().man_exp()))
+
+
+def _ball(middle: tuple[int, int], radius: tuple[int, int]) -> Any:
+    from flint import arb
+
+    man, exp = radius
+    more = 31 - man.bit_length()  # of the 30 bits of a radius; flint takes what is below as one unit
+    return arb(arb(middle), arb(((man << more) - 1, exp - more))) if man else arb(middle)
+
+
+def _context(count: int, guard: int) -> Any:
+    """A context of mpmath, whose numbers can be copied and go to other processes."""
+    import mpmath  # 40 ms with flint, which runs on float64 do not need
+
+    context = mpmath.MPContext()
+    context.dps = count + guard
+    context.mpf.__reduce__ = lambda x: (_number, (count, guard, tuple(map(int, x._mpf_))))
+    return context
+
+
+def _number(count: int, guard: int, parts: tuple[int, ...]) -> Any:
+    from mpmath.libmp import MPZ
+
+    return _common(count, guard).make_mpf((parts[0], MPZ(parts[1]), *parts[2:]))
+
+
+#: Contexts of numbers that come from elsewhere.
+_common = cache(_context)
+
+
 @contextmanager
 def _flint(name: str, value: int) -> Iterator[None]:
-    from flint import ctx
+    from flint import arb, ctx
 
+    copyreg.pickle(arb, _parts)  # for copies of results, and other processes
     with FLINT:
         before, mine, blocks = getattr(ctx, name), object(), _OPEN[name]
         try:
@@ -187,11 +224,10 @@ class Digits(Precision):
     @cached_property
     def context(self) -> Any:
         """The mpmath context that the numbers belong to."""
-        import mpmath  # 40 ms with flint, which runs on float64 do not need
+        return _context(self.count, self.guard)
 
-        context = mpmath.MPContext()
-        context.dps = self.count + self.guard
-        return context
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.count, self.guard)
 
     def number(self, value: Fraction) -> Any:
         return self.context.mpf(value.numerator) / value.denominator

@@ -1,5 +1,7 @@
 """Trajectories and steps at any precision, against the independent oracle."""
 
+import copy
+import pickle
 import re
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -24,6 +26,7 @@ from chapsym.dynamics.levels import balls, proved_root
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.map import exact_step
 from chapsym.numbers import Digits, Enclosure
+from chapsym.numbers.precisions import flint_bits
 from chapsym.rationals import exact_fraction
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7, radius=0.5)
@@ -332,3 +335,31 @@ def test_exact_numbers_reach_digits_and_enclosures_as_they_are(kind):
     moments = [MADE[kind](F(x)) for x in ("1/2", "2/3", "3/4")]
     half = sum(map(exact_fraction, moments)) / 2
     assert chapsym.Ball.from_inertia(moments, D=1).exact[0].tolist() == [half - exact_fraction(x) for x in moments]
+
+
+@pytest.mark.parametrize("copied", [copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))])
+@pytest.mark.parametrize("precision", [Digits(20), Enclosure(80)])
+def test_results_can_be_copied_and_go_to_other_processes(copied, precision):
+    run = chapsym.trajectory(BALL, 0.1 * DIRECTION, GAMMA, 3, precision=precision, time_step=0.1)
+    proved = chapsym.certify(run)
+    again = copied(proved)
+    assert again.trajectory.precision == precision
+    assert again.write() == proved.write()
+    assert repr(again.trajectory.omega) == repr(run.omega)
+    assert repr(again.gamma) == repr(proved.gamma)
+    assert again.trajectory.gamma.dtype == object
+
+
+@pytest.mark.parametrize("radius", [0, 1, 1e-30, 0.75, 1e300, float("inf")])
+def test_a_copy_of_a_ball_is_the_same_to_the_bit(radius):
+    with flint_bits(300):
+        for ball in (
+            flint.arb(1) / 3 + flint.arb(0, radius),
+            flint.arb(2) ** -5000 + flint.arb(0, radius),
+            flint.arb("nan"),
+        ):
+            again = copy.deepcopy(ball)
+            assert repr(again) == repr(ball)
+            if ball.is_finite():
+                assert again.mid().man_exp() == ball.mid().man_exp()
+                assert again.rad().man_exp() == ball.rad().man_exp()
