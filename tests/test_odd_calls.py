@@ -191,6 +191,7 @@ REFUSED = {
     "an invariant is beyond the range of float64": lambda: chapsym.trajectory(
         chapsym.Ball((1e200, 2e200, 4e200), 0), (1e199, 2e199, 0), (0, 0, 1), 2
     ).invariants(),
+    "momentum has 61 axes": lambda: chapsym.step(BALL, np.ones((1,) * 60 + (3,)), (0, 0, 1)),
     "the certificate has no array": lambda: chapsym.certify(chapsym.trajectory(BALL, *RUN)).digits(np.zeros(3)),
     "vector must be real numbers": lambda: chapsym.skew(deep(700)),
     "gamma is not on this curve": lambda: EQUATOR.argument((0.6, 0, 0.8)),
@@ -213,3 +214,12 @@ def test_what_a_result_cannot_say_is_refused(said):
 def test_no_balls_have_a_table():
     empty = chapsym.trajectory(BALL, np.zeros((0, 3)), (0, 0, 1), 2, time_step=0.1)
     assert len(empty.to_pandas()) == len(empty.to_pandas(balls=True)) == 0
+
+
+def test_a_lack_of_memory_is_no_fault_of_an_argument():
+    class Large:
+        def __array__(self, dtype=None, copy=None):
+            raise MemoryError
+
+    with pytest.raises(MemoryError):
+        chapsym.skew(Large())

@@ -25,6 +25,8 @@ from .shown import Brief
 Asked = Floats | Any
 
 FLOAT64 = np.dtype(np.float64)
+#: NumPy broadcasts no more.
+MOST_AXES = 32
 #: Below this float64 loses digits.
 SMALLEST = np.finfo(np.float64).tiny
 #: Up to this float64 has all integers.
@@ -70,10 +72,14 @@ def is_unit(x: float, y: float, z: float) -> bool:
 def _as_float(value: ArrayLike, name: str) -> Floats:
     try:
         masked, array = _has_mask(value), np.asarray(value)
+    except MemoryError:
+        raise
     except Exception:  # rows of different length, lists too deep, and whatever an object raises
         raise _not_numbers(value, name) from None
     if masked or array.dtype.kind not in "iufO":
         raise _not_numbers(value, name)
+    if array.ndim > MOST_AXES:
+        raise BadInput(f"{name} has {array.ndim} axes, but at most {MOST_AXES} are taken")
     if array.dtype.kind == "O" and not all(isinstance(x, Number) and not isinstance(x, _NO_REALS) for x in array.flat):
         raise _not_numbers(value, name)
     try:
@@ -81,6 +87,8 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
             floats = array.astype(np.float64)
     except (OverflowError, FloatingPointError):
         raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None
+    except MemoryError:
+        raise
     except Exception:  # of objects, whatever they raise
         raise _not_numbers(value, name) from None
     if array.dtype != FLOAT64 and ((floats == 0) & (array != 0)).any():

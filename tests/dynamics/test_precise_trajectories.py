@@ -22,10 +22,10 @@ import chapsym
 from chapsym import BadInput, Status, StepNotTaken, generated, testing
 from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.dynamics.levels import balls, proved_root
+from chapsym.dynamics.levels import balls, dispatch, proved_root
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.dynamics.map import exact_step
-from chapsym.numbers import Digits, Enclosure
+from chapsym.numbers import Digits, Enclosure, precisions
 from chapsym.numbers.precisions import flint_bits
 from chapsym.rationals import exact_fraction
 
@@ -363,3 +363,9 @@ def test_a_copy_of_a_ball_is_the_same_to_the_bit(radius):
             if ball.is_finite():
                 assert again.mid().man_exp() == ball.mid().man_exp()
                 assert again.rad().man_exp() == ball.rad().man_exp()
+
+
+def test_a_step_of_the_most_bits_takes_no_more(monkeypatch):
+    for module in (precisions, dispatch):
+        monkeypatch.setattr(module, "MOST_BITS", 200)
+    assert chapsym.step(BALL, 1e-60 * DIRECTION, GAMMA, precision=Enclosure(200)).status == Status.TAKEN

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Enclosure, Precision, Single, named
+from chapsym.numbers.precisions import MOST_BITS
 
 from ..ball import Asked, in_shape
 from ..coefficients import substeps
@@ -146,7 +147,8 @@ def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
     if isinstance(precision, Enclosure):  # bits of an attitude are relative to 1; a small rotation needs them of itself
         lacking = max(map(partial(_lacking, precision.bits), frames.attitude[frames.status == 0, 1, 1:]), default=0)
         if lacking:
-            frames.attitude[:] = _two_frames(replace(precision, bits=precision.bits + lacking), balls, order).attitude
+            finer = replace(precision, bits=min(precision.bits + lacking, MOST_BITS))
+            frames.attitude[:] = _two_frames(finer, balls, order).attitude
     if frames.low is not None:  # where momenta are tiny, they were taken 2^beyond times as large
         beyond = [pairs_loop.scales(*ball)[1] for ball in zip(balls.momentum, balls.mass_tensor, balls.D, strict=True)]
         for of in (frames, frames.low):
