@@ -367,5 +367,5 @@ def test_a_copy_of_a_ball_is_the_same_to_the_bit(radius):
 
 def test_a_step_of_the_most_bits_takes_no_more(monkeypatch):
     for module in (precisions, dispatch):
-        monkeypatch.setattr(module, "MOST_BITS", 200)
-    assert chapsym.step(BALL, 1e-60 * DIRECTION, GAMMA, precision=Enclosure(200)).status == Status.TAKEN
+        monkeypatch.setattr(module, "MOST_BITS", 10_000)
+    assert chapsym.step(BALL, 1e-60 * DIRECTION, GAMMA, precision=Enclosure(10_000)).status == Status.TAKEN

@@ -100,6 +100,8 @@ class Followed(Brief):
 def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> Followed:
     """Follows the rotation with the first momentum of the path along straight lines from each to the next.
 
+    Where moments differ 10⁴ times steps are so short that it ends, after half a minute or so, as NOT_CONVERGED.
+
     Parameters
     ----------
     ball : Ball
@@ -167,7 +169,7 @@ def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = 
 def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike | None = None) -> Fold:
     """The fold of a branch along t𝒦: the largest t to which it can be continued, and the rotation there.
 
-    There always is a fold, as no rotation has more than 2Λmax.
+    There always is a fold, as no rotation has more than 2Λmax; where `follow` is not converged before it, reach is NaN.
 
     Parameters
     ----------
