@@ -216,6 +216,12 @@ def test_no_balls_have_a_table():
     assert len(empty.to_pandas()) == len(empty.to_pandas(balls=True)) == 0
 
 
+@pytest.mark.filterwarnings("error")
+def test_balls_beyond_the_fold_have_no_frames_at_once():
+    far = chapsym.steady_frames(chapsym.Ball((1, 2, 4), 0), [(0, 1.4e308, 0), (0, 0.1, 0)], (0, 0, 1), [1, 2])
+    assert far.status.tolist() == [chapsym.Status.UNREACHABLE, chapsym.Status.TAKEN]
+
+
 def test_a_lack_of_memory_is_no_fault_of_an_argument():
     class Large:
         def __array__(self, dtype=None, copy=None):

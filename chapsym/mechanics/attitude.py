@@ -78,6 +78,8 @@ class Quaternion:
     """
 
     def __init__(self, name: str) -> None:
+        if not isinstance(name, str) or not name.isidentifier():
+            raise BadSystem(f"name must be a word, such as 'q', not {brief(name)}")
         self.coordinates = sp.symbols(f"{name}0:4")
         whole = sp.Matrix(self.coordinates)
         self._conjugate, self._rate = sp.diag(1, -1, -1, -1) * whole, whole.applyfunc(dot)

@@ -95,6 +95,8 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
     """
     if not isinstance(scheme, Scheme):
         raise BadSystem(f"scheme must be that of a method, METHODS[name].scheme(system), not {brief(scheme)}")
+    if tuple(scheme.state[: len(a_system(system).coordinates)]) != tuple(system.coordinates):
+        raise BadSystem(f"scheme is of other coordinates than those of {system.name}: METHODS[name].scheme(system)")
     return {name: one.verdict for name, one in decided(a_system(system), scheme).items()}
 
 

@@ -214,7 +214,7 @@ class System:
         if not isinstance(self.name, str):
             raise BadSystem(f"name must be a text, not {brief(self.name)}")
         for name in ("coordinates", "constraints", "holonomic"):
-            put(name, _several(getattr(self, name), f"{self.name}: {name}"))
+            put(name, several(getattr(self, name), f"{self.name}: {name}"))
         put("lagrangian", expression(self.lagrangian, f"{self.name}: the Lagrangian"))
         for name in ("constraints", "holonomic"):
             put(name, tuple(expression(one, f"{self.name}: one of {name}") for one in getattr(self, name)))
@@ -267,7 +267,7 @@ class System:
     def _discretized(self, discrete: Discrete, allowed: set[sp.Symbol]) -> Discrete:
         if not isinstance(discrete, Discrete):
             raise BadSystem(f"{self.name}: discrete must be Discrete(lagrangian, constraints)")
-        given = discrete.lagrangian, *_several(discrete.constraints, f"{self.name}: the constraints of discrete")
+        given = discrete.lagrangian, *several(discrete.constraints, f"{self.name}: the constraints of discrete")
         if not isinstance(discrete.integrals, Mapping) or not all(isinstance(x, str) for x in discrete.integrals):
             raise BadSystem(f"{self.name}: integrals of discrete must be given as {{name: quantity}}")
         names = [*discrete.integrals]
@@ -491,9 +491,10 @@ def in_floats(
     return made
 
 
-def _several(value: Any, what: str) -> tuple[Any, ...]:
-    if isinstance(value, str | sp.Basic) or not isinstance(value, Iterable):
-        raise BadSystem(f"{what} must be a sequence, such as a list, not {value!s:.40}")
+def several(value: Any, what: str) -> tuple[Any, ...]:
+    """A sequence as a tuple; raises BadSystem for anything else."""
+    if isinstance(value, str | sp.Basic) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) == 0:
+        raise BadSystem(f"{what} must be a sequence, such as a list, not {brief(value)}")
     return tuple(value)
 
 
@@ -511,5 +512,5 @@ def expression(value: Any, what: str) -> sp.Expr:
     except sp.SympifyError:
         found = None
     if not isinstance(found, sp.Expr) or found.is_Matrix or found.has(sp.nan, sp.zoo, sp.oo, sp.I):
-        raise BadSystem(f"{what} is {value!s:.40}, which is no real expression of SymPy")
+        raise BadSystem(f"{what} is {brief(value)}, which is no real expression of SymPy")
     return found.xreplace({x: rational(x, what) for x in found.atoms(sp.Float)})

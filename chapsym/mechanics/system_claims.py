@@ -22,7 +22,7 @@ from .cases import MOST_LETTERS, Case, Certified, Made, fresh, made, name_of
 from .density import MOST_LEVELS, Volume, divergences, volume
 from .equations import OnShell, conserved
 from .method_claims import of_method
-from .system import BadSystem, System, a_system
+from .system import BadSystem, System, a_system, several
 
 #: Of what has more parts, derivatives are not given to the checker; those of what divides count more.
 MOST_PARTS, FRACTIONS = 1500, 5
@@ -167,7 +167,7 @@ def certified(system: System, methods: Sequence[str] = ()) -> Iterator[Certified
         yield made(system, verdict, f"{name}-{verdict}", known, case_of, system, name)
     for i, (what, quantity) in enumerate(system.integrals.items()):
         yield made(system, what, f"{name}-integral-{i + 1}", known, _integral, system, name, what, quantity)
-    for method in methods:
+    for method in several(methods, "methods"):
         yield from of_method(system, method, f"{name}-{method}")
 
 

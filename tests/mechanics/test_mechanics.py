@@ -639,7 +639,10 @@ HUGE = 10**6000
         (lambda: Runner(particle()).march(1, start=HUGE), "the start must be 6 numbers"),
         (lambda: measured(particle(), "dla", []), r"steps must be a whole number from 1 on, not \[\]"),
         (lambda: agree(particle(), None), "accelerations must be given as"),
-        (lambda: agree(particle(), {x: "vx", y: 0, z: 0}), "the acceleration of x is vx, which is no real expression"),
+        (
+            lambda: agree(particle(), {x: "vx", y: 0, z: 0}),
+            "acceleration of x is .vx., which is no real expression",
+        ),
         (lambda: System("one", (x,), sp.ImmutableMatrix([[vx]])), "is no real expression of SymPy"),
         (lambda: agree(None, {}), "system must be a System, not None"),
         (lambda: conserved("particle", x), "system must be a System"),
@@ -652,6 +655,15 @@ HUGE = 10**6000
         (lambda: after(3), "a coordinate must be a symbol"),
         (lambda: Turned(("w", x)), "a turn is an axis x, y or z and an angle"),
         (lambda: Turned("z"), "a turn is an axis x, y or z and an angle"),
+        (lambda: Quaternion([0, 1]), "name must be a word"),
+        (lambda: Quaternion("a:c"), "name must be a word"),
+        (lambda: System("one", np.array(None), vx**2), "coordinates must be a sequence"),
+        (lambda: list(certified(particle(), 3)), "methods must be a sequence"),
+        (lambda: conserved(particle(), "a\nb"), r"quantity is .a\\nb., which is no real expression"),
+        (
+            lambda: verdicts(particle(), METHODS["dla"].scheme(System("one", (x,), vx**2))),
+            "scheme is of other coordinates",
+        ),
     ],
 )
 def test_arguments_that_are_none_of_these_are_refused_by_their_names(call, said):

@@ -195,6 +195,7 @@ def _half_angle(sine: Floats, sine_: Floats) -> turns.Pair:
     return turns.turns_of_tangent(*pairs.divide(sine, sine_, *pairs.add(1.0, 0.0, *cosine)))
 
 
+@np.errstate(all="ignore")  # what overflows is beyond the fold
 def _turn(v: Floats, axis: Floats, cosine: Floats, along: Floats, found: Floats) -> None:
     """Writes Ω⁻ᵏv into `found`, (n, frames, 3): `turn` is quadratic in cos and sin of half the angle."""
     moves = axis.any(axis=-1, keepdims=True)
