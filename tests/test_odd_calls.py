@@ -199,7 +199,7 @@ REFUSED = {
     "path must be that of a file": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN).to_xarray()).save(None),
     "a result without balls has nothing to save": lambda: chapsym.Result(
         chapsym.trajectory(BALL, np.zeros((0, 3)), (0, 0, 1), 2).to_xarray()
-    ).save("empty.csv"),
+    ).save("no-such-folder/a.csv"),
 }
 
 
