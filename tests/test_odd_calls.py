@@ -220,6 +220,8 @@ def test_no_balls_have_a_table():
 def test_balls_beyond_the_fold_have_no_frames_at_once():
     far = chapsym.steady_frames(chapsym.Ball((1, 2, 4), 0), [(0, 1.4e308, 0), (0, 0.1, 0)], (0, 0, 1), [1, 2])
     assert far.status.tolist() == [chapsym.Status.UNREACHABLE, chapsym.Status.TAKEN]
+    heavy = chapsym.Ball((1.4664731320977724, 1.4664731320977724, 2.6582285458260104), 1e300)
+    assert not chapsym.branches(heavy, (-1.80833357, 1.66351926, -2.96723349), UP, settle=False).complete
 
 
 def test_a_lack_of_memory_is_no_fault_of_an_argument():
@@ -229,3 +231,12 @@ def test_a_lack_of_memory_is_no_fault_of_an_argument():
 
     with pytest.raises(MemoryError):
         chapsym.skew(Large())
+
+
+def test_numpy_may_be_told_to_raise_where_a_number_is_too_small():
+    tiny, momentum = chapsym.Ball((1, 2, 4), 3), np.array((5e-324, 1e-200, 0.1))
+    with np.errstate(all="raise"):
+        assert chapsym.fold(tiny, momentum, UP).settled
+        assert chapsym.step(tiny, [1e3 * momentum, momentum], UP).status.tolist() == [chapsym.Status.UNREACHABLE, 0]
+        assert chapsym.Ball.from_inertia(np.diag([3, 4, 5]) + 1e-200 * np.ones((3, 3)), D=1).is_one
+        assert chapsym.step_n(BALL_N, chapsym.skew(momentum), UP).status == 0

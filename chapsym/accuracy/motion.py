@@ -453,7 +453,7 @@ class Problem:
     @property
     def expected(self) -> float:
         """About how many long steps all balls take."""
-        with np.errstate(over="ignore"):  # of what is refused
+        with np.errstate(over="ignore", under="ignore"):  # of what is refused
             return float((self.end / self.survey[FIRST]).sum()) if self.frames else 0.0
 
     def nothing(self) -> Motion:

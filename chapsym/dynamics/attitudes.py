@@ -62,7 +62,7 @@ def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
     given = numbers(attitude, "attitude", 4)
     over_states(given, "attitude", gamma.shape[:-1])
     single = in_single(attitude)
-    with np.errstate(over="ignore"):  # which is refused
+    with np.errstate(over="ignore", under="ignore"):  # which is refused
         squared = (given * given).sum(axis=-1)
     if (np.abs(squared - 1) > (SINGLE_TOLERANCE if single else UNIT_TOLERANCE)).any():
         raise BadInput("attitude must be unit quaternions (scalar first); divide by the length")

@@ -209,7 +209,7 @@ class Ball(Parameters):
         turn = None
         if axes is not None:
             turn = numbers(axes, "axes", 4)
-            with np.errstate(over="ignore"):
+            with np.errstate(over="ignore", under="ignore"):
                 square = (turn * turn).sum(axis=-1)
             if (np.abs(square - 1) > UNIT_TOLERANCE).any():
                 raise BadInput("axes must be unit quaternions (scalar first); divide by the length")
@@ -223,7 +223,7 @@ class Ball(Parameters):
             )
         if (contact < 0).any():
             raise BadInput(f"D = m ρ² must not be negative, but it is {contact.min():g}")
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore", under="ignore"):
             moments = inertia_of(tensor) + contact[..., np.newaxis]
         if not np.isfinite(moments).all():
             raise BadInput("the moments of inertia J2 + J3 + D, ... are beyond the range of float64")
@@ -481,7 +481,7 @@ def mass_tensor_of(inertia: ArrayLike, rounding: float = 0.0) -> Floats:
 
 def _rounded_tensor(moments: Floats, least: float = 0.0) -> Floats:
     """J from principal moments, where what is below 0 by a rounding is 0."""
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", under="ignore"):
         tensor = (moments / 2).sum(axis=-1, keepdims=True) - moments
     rounding = np.maximum(4 * np.finfo(np.float64).eps * np.abs(moments).max(axis=-1, keepdims=True), least)
     return np.where(np.abs(tensor) <= rounding, np.maximum(tensor, 0.0), tensor)
@@ -544,7 +544,7 @@ def unit_vertical(gamma: ArrayLike, n: int = 3) -> Floats:
     if n == 3 and is_vector(gamma) and is_unit(*gamma.tolist()):
         return gamma.copy()
     array = numbers(gamma, "gamma", n)
-    with np.errstate(over="ignore"):  # which is refused
+    with np.errstate(over="ignore", under="ignore"):  # which is refused
         squared = np.einsum("...i,...i->...", array, array)
     if in_single(gamma) and (np.abs(squared - 1) <= SINGLE_TOLERANCE).all():
         return array / np.sqrt(squared)[..., np.newaxis]

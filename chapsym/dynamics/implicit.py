@@ -276,7 +276,7 @@ def _exactly(one: Any) -> Any:
 
 def _floats(array: np.ndarray, dtype: np.dtype, name: str) -> np.ndarray:
     try:
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore", under="ignore"):
             made: np.ndarray = array.astype(float).astype(dtype)
     except OverflowError:
         raise BadInput(f"{name} is beyond the range of float64, about 1.8e308") from None

@@ -51,7 +51,7 @@ class States:
     attitude: Asked = None
     contact: Asked = None
 
-    @np.errstate(over="ignore", invalid="ignore")  # what overflows is far
+    @np.errstate(over="ignore", under="ignore", invalid="ignore")  # what overflows is far
     def turning(self) -> float:
         """The largest turning between next frames, of all balls, in radians; 0 where there is one frame."""
         speed = np.sqrt((self._omega() ** 2).sum(axis=-1))
@@ -64,7 +64,7 @@ class States:
     def _body(self) -> tuple[Floats, Floats]:
         return self.ball.mass_tensor[..., np.newaxis, :], np.asarray(self.ball.D)[..., np.newaxis]
 
-    @np.errstate(over="ignore", invalid="ignore")  # a damaged frame may have any number
+    @np.errstate(over="ignore", under="ignore", invalid="ignore")  # a damaged frame may have any number
     def at(self, times: ArrayLike) -> Moments:
         """The states at these times, by quintics; raises BadInput for times out of range and frames too far apart."""
         given = numbers(times, "times")

@@ -38,13 +38,14 @@ def from_inertia_tensor(inertia: Floats) -> Floats:
         off = np.abs(inertia - inertia.mT).max()
         raise BadInput(f"inertia must be symmetric, but it differs from its transpose by {off:.3g} kg m²")
     even = inertia / 2 + inertia.mT / 2
-    with np.errstate(over="ignore", invalid="ignore"):
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         tensor = np.trace(even / 2, axis1=-2, axis2=-1)[..., np.newaxis, np.newaxis] * np.eye(3) - even
     if not np.isfinite(tensor).all():
         raise BadInput("inertia is beyond the range of float64, about 1.8e308")
     return tensor
 
 
+@np.errstate(under="ignore")
 def principal(tensor: Floats, least: float = 0.0) -> tuple[Floats, Floats | None]:
     """The principal moments of ∫xxᵀdm, (..., 3), and unit quaternions (..., 4) that turn principal to given axes.
 

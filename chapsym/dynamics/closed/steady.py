@@ -72,7 +72,7 @@ def _equivalent(K: Floats, g: Floats, J: Floats, D: Floats) -> tuple[np.ndarray,
     along, second, third = (J[rows, (axis + i) % 3] for i in range(3))
     single = (K != 0).sum(axis=-1) <= 1
     upright = (g != 0).sum(axis=-1) == 1
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", under="ignore"):
         tame = np.sqrt(2.0) * np.abs(second - third) <= 2.0 * along + second + third
     kept = (upright & (g[rows, axis] != 0)) | (tame & (g[rows, axis] == 0))
     principal = single & ((D == 0) | ~K.any(axis=-1) | kept)

@@ -47,7 +47,7 @@ def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None
         raise no_room(count, n) from None
     ends = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64), np.ones(n)
     frames = Frames(momenta, verticals, attitudes, traces, *ends, attitude is not None, low, least)
-    with np.errstate(over="ignore"):  # a precision of a smaller range refuses what it cannot hold
+    with np.errstate(over="ignore", under="ignore"):  # a precision of a smaller range refuses what it cannot hold
         frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
     if attitude is not None:
         frames.attitude[:, 0], frames.contact[:, 0] = attitude, 0.0

@@ -64,7 +64,7 @@ class BallN(Parameters):
                 raise BadInput(f"{name} must not be negative, but it is {value.min():g}")
         if rho is not None and not (rho > 0).all():
             raise BadInput(f"radius must be positive, but it is {rho.min():g}")
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore", under="ignore"):
             largest = largest_moment(tensor, contact)
         if not np.isfinite(largest).all():
             raise BadInput("the moments of inertia J1 + J2 + D, ... are beyond the range of float64")
@@ -141,12 +141,13 @@ def axial(matrix: ArrayLike) -> Floats:
     return np.stack([lower[..., 2], -lower[..., 1], lower[..., 0]], axis=-1)
 
 
+@np.errstate(under="ignore")
 def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
     """`value` as exactly skew matrices, (..., n, n); raises BadInput if it is not skew to 1e-12."""
     array = numbers(value, name)
     if array.shape[-2:] != (n, n):
         raise BadInput(f"{name} must be skew matrices of the shape (..., {n}, {n}), not {array.shape}")
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", under="ignore"):
         off, largest = np.abs(array / 2 + array.mT / 2), np.abs(array)
     if (off > SKEW_TOLERANCE / 2 * largest.max(axis=(-2, -1), keepdims=True, initial=0.0)).any():
         raise BadInput(f"{name} must be skew, but it differs from minus its transpose by {2 * float(off.max()):.2g}")
@@ -188,7 +189,7 @@ def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
     K = skew_matrices(K, K.shape[-1] if K.ndim else 3)
     g = numbers(gamma, "gamma", K.shape[-1])
     try:
-        with np.errstate(over="ignore", invalid="ignore"):  # which is refused
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):  # which is refused
             found = so_n.invariants(K, g)
     except ValueError:
         raise BadInput(f"momentum and gamma do not broadcast: {K.shape}, {g.shape}") from None
@@ -197,6 +198,7 @@ def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
     return found
 
 
+@np.errstate(under="ignore")
 def attitudes_with(gamma: Floats) -> Floats:
     """The attitudes of the least rotations with R γ = eₙ, (..., n, n), from the body to space.
 

@@ -43,6 +43,7 @@ MOVING = ("momentum", "gamma", "attitude", "contact")
 UNCOUNTED = Count(lambda done: None)
 
 
+@np.errstate(under="ignore")
 def _stepped(
     precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1,
     count: Count = UNCOUNTED,
@@ -480,6 +481,7 @@ def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:
     return after
 
 
+@np.errstate(under="ignore")
 def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Floats) -> Under:
     """Balls at their start, from the state that `run` takes, in memory of their own."""
     K, g, J, D = (state[x] for x in ("momentum", "gamma", "mass_tensor", "D"))

@@ -78,7 +78,7 @@ class Branches(Brief):
     complete: np.ndarray
 
 
-@np.errstate(over="ignore", under="ignore", invalid="ignore")  # a root that overflows is none
+@np.errstate(all="ignore")  # a root that overflows is none
 def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool = True) -> Branches:
     """Every rotation Ω with 𝒦(q, γ) = 𝒦 (5.2): all branches of the map.
 
