@@ -103,6 +103,7 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         ([*STEP, "--momentum", "1e-400,0,0"], "below the range of float64; ask for more with --digits"),
         (["run", FIRST, "-o", "x" * 300 + ".csv"], "cannot be written: File name too long"),
         (["check", "--states", "0"], "--states"),
+        (["check", "--states", "99999999999999999999"], "--states"),
         (["certify", "motion", "--foo"], "No such option: --foo (see chapsym certify motion --help)"),
         (["show", "."], "'.' is no result"),
         (["report", "-o", "x.pdf"], "the output must end in .html or .md or .tex or .json"),

@@ -19,8 +19,8 @@ ABOUT = (
 
 @app.command()
 def check(
-    states: Annotated[int, takes("N", "States of each stratum.", min=1)] = 20,
-    steps: Annotated[int, takes("N", "Steps of the trajectory.", min=1000)] = 100_000,
+    states: Annotated[int, takes("N", "States of each stratum.", min=1, max=100_000)] = 20,
+    steps: Annotated[int, takes("N", "Steps of the trajectory.", min=1000, max=1_000_000_000)] = 100_000,
     seed: Annotated[int, takes("N", "Seed of the states.", min=0)] = 20071,
     output: Annotated[Path | None, writes("PAGE", "A page, .md, of the table.")] = None,
     as_json: Json = False,
