@@ -71,12 +71,14 @@ def is_unit(x: float, y: float, z: float) -> bool:
 
 def _as_float(value: ArrayLike, name: str) -> Floats:
     try:
-        masked, array = _has_mask(value), np.asarray(value)
+        if _has_mask(value):
+            raise _not_numbers(value, name)
+        array = np.asarray(value)
     except MemoryError:
         raise
     except Exception:  # rows of different length, lists too deep, and whatever an object raises
         raise _not_numbers(value, name) from None
-    if masked or array.dtype.kind not in "iufO":
+    if array.dtype.kind not in "iufO":
         raise _not_numbers(value, name)
     if array.ndim > MOST_AXES:
         raise BadInput(f"{name} has {array.ndim} axes, but at most {MOST_AXES} are taken")

@@ -242,7 +242,7 @@ def test_what_cannot_be_certified_is_refused_in_one_sentence(monkeypatch):
         chapsym.certify(run, bits=0)
     with pytest.raises(BadInput, match="bits must be a whole number from 2 to 10000000"):
         chapsym.certify(run, bits=10**9)
-    with pytest.raises(BadInput, match="has no attitude"):
+    with pytest.raises(BadInput, match="has no 'attitude'"):
         chapsym.certify(run).digits("attitude")
     with pytest.raises(BadInput, match="certify takes orders"):
         chapsym.certify(replace(run, order=0))
