@@ -176,7 +176,7 @@ def test_an_exact_top_is_restored_in_any_units(size):
 
 
 def deep(levels):
-    """A number in so many lists."""
+    """A number inside nested lists."""
     return [deep(levels - 1)] if levels else 1.0
 
 
