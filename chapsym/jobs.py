@@ -167,17 +167,11 @@ def processes(count: int) -> Iterator[Pool]:
         yield Pool(Here(), 1)
         return
     # A child is not forked: threads and Arb's precision are of a process.
-    executor = Processes(count)
     try:
-        yield Pool(executor, count)
+        with Processes(count) as executor:
+            yield Pool(executor, count)
     except BrokenProcessPool:  # unless its chain lets others go on
         raise BadInput("a process of this run was ended, perhaps for lack of memory; begin again") from None
-    finally:
-        children = list((executor._processes or {}).values())  # the pool forgets them at its shutdown
-        executor.shutdown(wait=False, cancel_futures=True)
-        for process in children:
-            if process.is_alive():
-                process.terminate()
 
 
 # The crew of a Dask cluster: the workers of a scheduler, which are to see the same disk and have the same chapsym.

@@ -1,4 +1,4 @@
-"""Worker processes: how they begin, and that they end with the process that started them."""
+"""Worker processes: how they begin, and that they end with the process that started them, or with its `with`."""
 
 import multiprocessing
 import os
@@ -15,7 +15,11 @@ TRACKER = "ignore:resource_tracker:UserWarning"
 
 
 class Processes(ProcessPoolExecutor):
-    """Worker processes, of which none sees an interrupt, not even while it begins: that is for this process."""
+    """Worker processes, of which none sees an interrupt, not even while it begins: that is for this process.
+
+    The end of their `with` waits for no call: it raises SystemExit in those that are at one, which take away what they
+    have begun to write.
+    """
 
     def __init__(self, count: int, first: Callable[[], None] | None = None) -> None:
         sys.warnoptions.append(TRACKER)  # for the tracker, which begins here: other children have what they had
@@ -28,7 +32,13 @@ class Processes(ProcessPoolExecutor):
     def submit(self, *call: Any, **named: Any) -> Future[Any]:
         """A call; the first one starts the processes."""
         with _deaf():
-            return super().submit(*call, **named)
+            return super().submit(_called, *call, **named)
+
+    def __exit__(self, *error: object) -> None:
+        children = list((self._processes or {}).values())  # the pool forgets them at its shutdown
+        self.shutdown(wait=False, cancel_futures=True)
+        for process in children:
+            process.terminate()
 
 
 @contextmanager
@@ -47,7 +57,25 @@ def _deaf() -> Iterator[None]:
 def begin() -> None:
     """In a worker: an interrupt is for the parent; and when that is gone, however it was ended, the worker ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, _end)
     threading.Thread(target=_outlived, daemon=True).start()
+
+
+_ended = threading.Event()
+
+
+def _end(*signal: object) -> None:
+    _ended.set()
+    raise SystemExit(1)
+
+
+def _called(call: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+    """What a call gives, in a worker; one that was ended meanwhile begins no other."""
+    try:
+        return call(*arguments, **named)
+    finally:
+        if _ended.is_set():
+            os._exit(1)
 
 
 def _outlived() -> None:

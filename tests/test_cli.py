@@ -9,6 +9,8 @@ import signal
 import subprocess
 import sys
 import threading
+import time
+from contextlib import suppress
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,11 +19,12 @@ from budget import slow
 from commands import answer, changed, chapsym, child, refused
 from committed import committed
 from first import FIRST
-from waiting import GUARD, INTERRUPTIBLE
+from waiting import GUARD, INTERRUPTIBLE, until
 
 from chapsym import dynamics
 from chapsym.cli import app, output
 from chapsym.codegen import build
+from chapsym.files import write_whole
 from chapsym.prove import Register, Verdict, records
 from chapsym.workers import Processes
 
@@ -286,6 +289,25 @@ def test_an_interrupt_that_python_only_writes_down_is_not_lost(monkeypatch, caps
 def test_a_worker_that_begins_sees_no_interrupt():
     with Processes(1) as pool:
         assert signal.SIGINT in pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, ()).result()
+
+
+def _written(path):
+    def write(stream):
+        (path.parent / "begun").touch()
+        time.sleep(GUARD)
+
+    with suppress(SystemExit):
+        write_whole(path, write)
+
+
+def test_the_end_of_the_processes_waits_for_no_call_and_leaves_nothing_half_written(tmp_path):
+    with Processes(1) as pool:
+        for _ in range(3):
+            pool.submit(_written, tmp_path / "file")
+        until((tmp_path / "begun").exists)
+        (worker,) = pool._processes.values()
+    worker.join()
+    assert os.listdir(tmp_path) == ["begun"]
 
 
 #: The command, which says when the first part of its work has arrived, and waits there.

@@ -160,20 +160,15 @@ def _crew(jobs: int) -> Iterator[Later]:
     if jobs == 1:
         yield partial
         return
-    import multiprocessing
     from concurrent.futures.process import BrokenProcessPool
 
     from chapsym import workers
 
-    pool = workers.Processes(jobs)
     try:
-        yield lambda call, *arguments: pool.submit(call, *arguments).result
+        with workers.Processes(jobs) as pool:
+            yield lambda call, *arguments: pool.submit(call, *arguments).result
     except BrokenProcessPool:
         fail("a process that measured a system ended, perhaps for lack of memory: try --jobs 1", 1)
-    finally:
-        for worker in multiprocessing.active_children():  # after an interrupt some are at work
-            worker.terminate()
-        pool.shutdown(cancel_futures=True)
 
 
 def _cell(of: Any, *how: Any) -> Any:

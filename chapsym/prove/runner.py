@@ -101,13 +101,12 @@ def prove_all(
                 records[id] = prove_one(id, folder, register)
                 on_result(records[id])
         return [records[id] for id in ids]
-    # An interrupt is for this process; the workers end with the claim that they are at.
-    pool = workers.Processes(jobs, _begin)
     try:
-        for future in as_completed([pool.submit(prove_one, id, folder, register) for id in ids]):
-            record = future.result()
-            records[record["id"]] = record
-            on_result(record)
+        with workers.Processes(jobs, _begin) as pool:
+            for future in as_completed([pool.submit(prove_one, id, folder, register) for id in ids]):
+                record = future.result()
+                records[record["id"]] = record
+                on_result(record)
     except BrokenProcessPool:
         for id in ids:
             if id not in records:
@@ -115,8 +114,6 @@ def prove_all(
                 reason = "not judged: a process that ran proofs ended, perhaps for lack of memory; try --jobs 1"
                 records[id] = _record(_open(register.load(lemmas=True)[id], reason), register)
                 on_result(records[id])
-    finally:
-        pool.shutdown(cancel_futures=True)
     return [records[id] for id in ids]
 
 
