@@ -251,7 +251,8 @@ class Start:
 
     def path(self, precision: int) -> Path:
         """The motion at the start, with that precision set."""
-        body = Body(*(balls(x) if isinstance(x, Sequence) else ball(x) for x in self.body))
+        of = self.body
+        body = Body(ball(of.mass), ball(of.radius), balls(of.inertia), balls(of.offset), ball(of.gravity))
         return Path(precision, body, [balls(x) for x in AXES], balls(self.omega))
 
 

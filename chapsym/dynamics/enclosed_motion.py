@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from decimal import Decimal, Inexact
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,14 @@ from .levels.start import exponent_of, fraction
 from .map import check_body, check_tensor, time_limit, unit_exactly, whole_number
 from .results import Bounds, Trajectory
 from .shown import Brief
+
+if TYPE_CHECKING:
+    from flint import arb
+
+    from .flow.path import Path
+
+#: The parts of a frame, vectors of balls.
+Frame = dict[str, tuple["arb", ...]]
 
 #: What a frame has; `contact` where the ball has a radius.
 PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
@@ -72,7 +80,7 @@ class ExactBall(Brief):
 
         contact = exactly(D, "D")
         rho = None if radius is None else exactly(radius, "radius")
-        moments: Any
+        moments: tuple[Fraction, ...] | tuple[tuple[Fraction, ...], ...]
         listed = isinstance(mass_tensor, Sequence) or (isinstance(mass_tensor, np.ndarray) and mass_tensor.ndim)
         if listed and len(mass_tensor) == 3 and all(isinstance(x, list | tuple | np.ndarray) for x in mass_tensor):
             moments = check_tensor([vector(row, "mass_tensor") for row in mass_tensor], contact)
@@ -251,7 +259,7 @@ def of_motion(run: Trajectory, limit: float = 600.0) -> Bounds:
     count, bits, scale = len(found.times), found.bits, fmpq(epsilon.numerator, epsilon.denominator)
     bounds: dict[str, Any] = {}
     with flint_bits(bits):
-        arrays: dict[str, Any] = {"momentum": found.angular_momentum * scale}
+        arrays = {"momentum": found.angular_momentum * scale}
         opposite = -found.attitude
     arrays |= {name: getattr(found, name) for name in ("gamma", "attitude", "contact")}
     for name, balls in arrays.items():
@@ -334,7 +342,7 @@ class _Search:
         self, start: Any, times: tuple[Fraction, ...], digits: int, deadline: float, progress: Callable[[str], None]
     ) -> None:
         self.start, self.times, self.digits, self.deadline, self.progress = start, times, digits, deadline, progress
-        self.frames: list[dict[str, tuple[Any, ...]]] = []
+        self.frames: list[Frame] = []
         self.kept = self.bits = self.steps = 0
 
     @property
@@ -361,7 +369,7 @@ class _Search:
 
     def attempt(self, bits: int) -> int | None:
         """Follows the motion with this many bits; returns how many more are needed, or None: the time is up."""
-        missing, frames = -math.inf, list[dict[str, tuple[Any, ...]]]()
+        missing, frames = -math.inf, list[Frame]()
         with flint_bits(bits):
             try:
                 path = self.start.path(bits)
@@ -385,7 +393,7 @@ class _Search:
                 raise BadInput("the numbers are too far apart in size to find steps of the motion") from None
         return math.ceil(missing) + MARGIN if math.isfinite(missing) else bits
 
-    def _more(self, path: Any, bits: int) -> int:
+    def _more(self, path: "Path", bits: int) -> int:
         """The bits that were lost, for all of the time, but no more than twice as many as there were."""
         if path.time == 0:
             return bits
@@ -418,14 +426,14 @@ class _Search:
         return CertifiedMotion(kept, **arrays, digits=self.digits, steps=self.steps, bits=self.bits, stopped=stopped)
 
 
-def _signed(frame: dict[str, tuple[Any, ...]]) -> dict[str, tuple[Any, ...]]:
+def _signed(frame: Frame) -> Frame:
     """The frame with the sign of its quaternion for which the first component proved not to be 0 is positive."""
     a = frame["attitude"]
     first = next((x for x in a if not x.contains(0)), None)
     return frame | {"attitude": tuple(-x for x in a)} if first is not None and first < 0 else frame
 
 
-def _missing(frame: dict[str, tuple[Any, ...]], digits: int, radius: Fraction | None) -> float:
+def _missing(frame: Frame, digits: int, radius: Fraction | None) -> float:
     """How many bits more would make the radii small enough; at most 0 if they are."""
     worst = -math.inf
     for name, vector in frame.items():
@@ -453,7 +461,7 @@ def decimal(x: Fraction) -> str:
     return str(x) if context.flags[Inexact] else f"{found:f}"
 
 
-def written(x: Any, digits: int) -> tuple[str, str]:
+def written(x: "arb", digits: int) -> tuple[str, str]:
     """(middle, radius) as decimal strings, whose ball contains that of x; the radius has two digits or three.
 
     digits: of a number that has none of its own, as its radius is 0.

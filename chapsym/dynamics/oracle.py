@@ -7,9 +7,12 @@ expressions; only (4.13) as the paper prints it, in matrices, and (4.12) for the
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import TypeAlias
 
-import mpmath
+from mpmath import MPContext, matrix, mpf
+
+#: Numbers that mpmath takes.
+Given: TypeAlias = mpf | float
 
 
 class OracleFailed(ArithmeticError):
@@ -20,17 +23,17 @@ class OracleFailed(ArithmeticError):
 class OracleStep:
     """Ω of one step, and 𝒦 and γ after it (mpmath matrices; vectors are lists); q0 and q in three dimensions only."""
 
-    rotation: Any
-    momentum: list[Any]
-    gamma: list[Any]
-    q0: Any
-    q: list[Any]
+    rotation: matrix
+    momentum: list[mpf]
+    gamma: list[mpf]
+    q0: mpf | None
+    q: list[mpf]
 
 
 class Oracle:
     """Solves (4.13) for Ω at `digits` digits by continuation from Ω = 1 along t𝒦, 0 ≤ t ≤ 1."""
 
-    def __init__(self, mass_tensor: Sequence[Any], D: Any, gamma: Sequence[Any], digits: int = 40) -> None:
+    def __init__(self, mass_tensor: Sequence[Given], D: Given, gamma: Sequence[Given], digits: int = 40) -> None:
         self.digits = digits
         self._given = [*mass_tensor], D, [*gamma]
         self.n = len(self._given[0])
@@ -47,29 +50,29 @@ class Oracle:
         self.Gamma = self.gamma * self.gamma.T
         self.shifted = mp.diag([mp.mpf(x) for x in tensor]) + self.D / 2 * self.Gamma
 
-    def momentum(self, X: Any) -> Any:
+    def momentum(self, X: matrix) -> matrix:
         """(4.13), first form; linear in X."""
         turned, rest = X * self.shifted, self.Gamma * X  # with their transposes, as the two factors are symmetric
         return turned - turned.T + self.D / 2 * (rest - rest.T)
 
-    def skew(self, v: Sequence[Any]) -> Any:
+    def skew(self, v: Sequence[mpf]) -> matrix:
         """The skew matrix with these components."""
-        matrix = self.mp.matrix(self.n, self.n)
+        found = self.mp.matrix(self.n, self.n)
         for (i, j), x in zip(self.places, v, strict=True):
-            matrix[i, j], matrix[j, i] = x, -x
-        return matrix
+            found[i, j], found[j, i] = x, -x
+        return found
 
-    def components(self, a: Any) -> list[Any]:
+    def components(self, a: matrix) -> list[mpf]:
         """The components of a skew matrix."""
         return [a[place] for place in self.places]
 
-    def tangent(self, rotation: Any) -> Any:
+    def tangent(self, rotation: matrix) -> matrix:
         """The derivative of 𝒦 by ξ at Ω·exp(ξ), (m, m)."""
         unit = self.mp.eye(len(self.places))
         moved = [self.components(self.momentum(rotation * self.skew(unit[i, :]))) for i in range(unit.rows)]
         return self.mp.matrix(moved).T
 
-    def step(self, momentum: Sequence[Any]) -> OracleStep:
+    def step(self, momentum: Sequence[Given]) -> OracleStep:
         """The step from 𝒦; raises OracleFailed at a fold.
 
         Ω = 1 + O(𝒦): the entries of Ω need as many more digits as 𝒦 is small.
@@ -88,7 +91,7 @@ class Oracle:
             q = [x / (4 * q0) for x in self.components(rotation - rotation.T)]
         return OracleStep(rotation, self.components(after), list(vertical), q0, q)
 
-    def _continued(self, target: Any) -> Any:
+    def _continued(self, target: matrix) -> matrix:
         mp = self.mp
         rotation, t, dt = mp.eye(self.n), mp.mpf(0), mp.mpf(1)
         while t < 1:
@@ -104,7 +107,7 @@ class Oracle:
                 rotation, t, dt = moved, trial, dt * 2
         return rotation
 
-    def _newton(self, rotation: Any, target: Any, enough: Any) -> Any:
+    def _newton(self, rotation: matrix, target: matrix, enough: mpf) -> matrix | None:
         """Newton in so(n), Ω becoming Ω·Cayley(ξ), down to a correction `enough`.
 
         None unless the first correction is at most 0.2 (radians) and each is below 3/4 of the one before:
@@ -130,8 +133,8 @@ class Oracle:
 
 
 @cache
-def _context(dps: int) -> Any:
+def _context(dps: int) -> MPContext:
     """A context of its own for each precision: no global state."""
-    context = mpmath.MPContext()
+    context = MPContext()
     context.dps = dps
     return context

@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -39,6 +39,9 @@ from ..shown import Brief
 from . import turns
 from .elliptic import Curve, across, height_of, increment
 from .vertical import step_vertical
+
+if TYPE_CHECKING:
+    from flint import arb
 
 #: Bits in which a step is found: moments may be equal to 1e-15, and Λl - 1 as small as SMALLEST_TURN².
 BITS = 512
@@ -266,7 +269,7 @@ def moves(tensor: Floats, contact: Floats, direction: Floats) -> np.ndarray:
         return np.asarray(np.abs(across(J, moments, direction)).max(axis=-1) > SMALLEST_TURN)
 
 
-def _in_units(tensor: Floats, moments: Floats) -> tuple[Floats, Floats, Any]:
+def _in_units(tensor: Floats, moments: Floats) -> tuple[Floats, Floats, np.ndarray]:
     """J and Λ in units of 2^exponent, in which the largest Λ is about 1: squares of γ × Λ⁻¹γ stay in range."""
     exponent = np.frexp(moments.max(axis=-1))[1]
     return np.ldexp(tensor, -exponent[..., np.newaxis]), np.ldexp(moments, -exponent[..., np.newaxis]), exponent
@@ -287,16 +290,16 @@ class ExactCurve:
     """
 
     curve: Curve
-    moments: list[Any]
-    direction: list[Any]
-    gibbs: list[Any]
-    after: list[Any]
-    level: Any
-    rate: Any
-    k2: Any
-    quarter: Any
-    start: Any
-    increment: Any
+    moments: list[arb]
+    direction: list[arb]
+    gibbs: list[arb]
+    after: list[arb]
+    level: arb
+    rate: arb
+    k2: arb
+    quarter: arb
+    start: arb
+    increment: arb
 
     @classmethod
     def of(
@@ -340,7 +343,7 @@ class ExactCurve:
         )  # fmt: skip
 
 
-def amplitude(curve: Curve, moments: list[Any], direction: list[Any]) -> Any:
+def amplitude(curve: Curve, moments: list[arb], direction: list[arb]) -> arb:
     """φ = am u of a point of the curve, with C_b/C_a of (5.8)."""
     from flint import arb
 
@@ -350,7 +353,7 @@ def amplitude(curve: Curve, moments: list[Any], direction: list[Any]) -> Any:
     return arb.atan2(direction[b], stretch * direction[a])
 
 
-def as_pair(value: Any) -> tuple[float, float]:
+def as_pair(value: arb) -> tuple[float, float]:
     """An Arb number as the nearest pair of floats."""
     from flint import arb
 
@@ -407,7 +410,7 @@ def _mean(exact: ExactCurve) -> tuple[float, float]:
     return high - round(high), low
 
 
-def _gibbs_vector(rotation: Floats, half: list[Any], direction: list[Any], J: list[Any], D: Any) -> list[Any]:
+def _gibbs_vector(rotation: Floats, half: list[arb], direction: list[arb], J: list[arb], D: arb) -> list[arb]:
     """The Gibbs vector of a step from 𝒦/2 and γ along it, by Newton's iteration from its rotation in float64."""
     from flint import arb
 

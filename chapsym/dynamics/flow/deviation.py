@@ -26,18 +26,22 @@ A function of τ in [0, 1] is contained in a polynomial in Arb's balls, on which
 """
 
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
-from flint import arb, arb_mat, arb_poly
+from flint import arb, arb_mat, arb_poly, arb_series
 
 from chapsym import generated
 
 from ..errors import TooWide
-from ..levels.proved_root import highest, lowest, upper
+from ..levels.proved_root import Numbers, highest, lowest, upper
 from ..loops.branch import moments
 from ..loops.vectors import cross, dot_four
 from .series import Series, bend
+
+Polynomials = Sequence[arb_poly]
+#: What the kernels run on: at a time, on all of a step, or as series.
+Entry = TypeVar("Entry", arb, arb_poly, arb_series)
 
 #: All τ that there are.
 UNIT = arb(0.5, 0.5)
@@ -49,7 +53,7 @@ FLAT = 1e-9
 ROOM = 1.5
 
 
-def cut(polynomials: Iterable[Any], degree: int) -> list[Any]:
+def cut(polynomials: Iterable[arb_poly], degree: int) -> list[arb_poly]:
     """Polynomials of a degree that contain these on [0, 1]: their constants are wide enough for what is beyond."""
     found = []
     for poly in polynomials:
@@ -59,12 +63,12 @@ def cut(polynomials: Iterable[Any], degree: int) -> list[Any]:
     return found
 
 
-def bound(vector: Iterable[Any]) -> Any:
+def bound(vector: Iterable[arb_poly]) -> arb:
     """An upper bound of the length of a vector of polynomials on [0, 1]."""
-    return upper([x(UNIT) for x in vector])
+    return upper(x(UNIT) for x in vector)
 
 
-def exact(poly: Any) -> Any:
+def exact(poly: arb_poly | arb_series) -> arb_poly:
     """The middles."""
     return arb_poly([x.mid() for x in poly.coeffs()])
 
@@ -72,20 +76,20 @@ def exact(poly: Any) -> Any:
 class Body(NamedTuple):
     """J and D in balls, and I of them; a, of a rotor, per unit of the time in which ω is."""
 
-    J: Sequence[Any]
-    D: Any
-    rotor: Sequence[Any]
+    J: Numbers
+    D: arb
+    rotor: Numbers
 
     @property
-    def inertia(self) -> tuple[Any, ...]:
+    def inertia(self) -> Numbers:
         """The moments about the centre."""
         return moments(self.J)
 
-    def during(self, length: Any) -> "Body":
+    def during(self, length: arb) -> "Body":
         """The body with a in the unit of time of a step of that length."""
         return self._replace(rotor=tuple(length * x for x in self.rotor))
 
-    def bent(self, w: Sequence[Any], x: Sequence[Any]) -> list[Any]:
+    def bent(self, w: Sequence[Entry], x: Sequence[Entry]) -> list[Entry]:
         """Cx."""
         return [y + z for y, z in zip(bend(self.J, w, x), cross(self.rotor, x), strict=True)]
 
@@ -96,14 +100,14 @@ class Defects(NamedTuple):
     R: |p|²R row by row; unit: contains 1/|p|².
     """
 
-    e: Sequence[Any]
-    kappa: Sequence[Any]
-    off: Any
-    unit: Any
-    R: Sequence[Any]
+    e: Polynomials
+    kappa: Polynomials
+    off: arb_poly
+    unit: arb
+    R: Polynomials
 
 
-def defects(p: Sequence[Any], w: Sequence[Any], k: Sequence[Any], body: Body, degree: int) -> Defects:
+def defects(p: Polynomials, w: Polynomials, k: Numbers, body: Body, degree: int) -> Defects:
     """The defects of exact polynomials p and w, R cut to a degree; raises TooWide where |p| may be far from 1."""
     off = dot_four(p, p) - 1
     most = bound([off])
@@ -125,13 +129,13 @@ class Step(NamedTuple):
     slip: what ϖ may differ from w by.
     """
 
-    M: Any
-    more: Any
-    within: Any
-    slip: Any
+    M: arb_mat
+    more: arb
+    within: arb
+    slip: arb
 
 
-def deviation(series: Series, w: Sequence[Any], size: Any, found: Defects, body: Body, start: Any) -> Step:
+def deviation(series: Series, w: Polynomials, size: arb, found: Defects, body: Body, start: arb) -> Step:
     """The lemma, for |ξ(0)| ≤ start; to be called with the precision of matrices.  Raises TooWide.
 
     series: gives M, floats that need not be right.  w: the exact polynomials.  size: a bound of |k|.
@@ -184,7 +188,7 @@ def _weights(series: Series) -> list[float]:
     return [float(x) for x in 2.0 ** np.maximum(found, least)]
 
 
-def _sizes(w: Sequence[Any], gamma: Sequence[Any], body: Body, S: Sequence[float]) -> tuple[Any, Any, Any, Any]:
+def _sizes(w: Polynomials, gamma: Polynomials, body: Body, S: Sequence[float]) -> tuple[arb, arb, arb, arb]:
     """Bounds of ‖B⁻¹‖, of the integral of |SAS⁻¹|, of |A| and of |w| on [0, 1]."""
     inverse, growth, largest, W = arb(0), arb(0), arb(0), arb(0)
     for i in range(PIECES):
@@ -202,7 +206,7 @@ def _sizes(w: Sequence[Any], gamma: Sequence[Any], body: Body, S: Sequence[float
     return inverse.abs_upper(), growth.abs_upper(), largest.abs_upper(), W.abs_upper()
 
 
-def _slip(M: Sequence[Any], w: Sequence[Any], gamma: Sequence[Any], body: Body) -> Any:
+def _slip(M: Sequence[Polynomials], w: Polynomials, gamma: Polynomials, body: Body) -> arb:
     """A bound of BM' - CM."""
     left = []
     for j in range(3):
@@ -213,4 +217,4 @@ def _slip(M: Sequence[Any], w: Sequence[Any], gamma: Sequence[Any], body: Body) 
     return bound(left)
 
 
-_UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+_UNITS: tuple[Numbers, ...] = tuple(tuple(arb(int(i == j)) for j in range(3)) for i in range(3))

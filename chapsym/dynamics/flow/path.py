@@ -8,9 +8,9 @@ gains as many bits as Φ has.  Φ is mended in the same way, by -Φ∫Ψ(Φ' - A
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from flint import arb, arb_poly, arb_series
@@ -21,13 +21,14 @@ from chapsym.numbers.precisions import flint_bits, flint_terms
 from ..errors import TooWide
 from ..levels.balls import Spread, point, unit
 from ..levels.balls import exact as ball
-from ..levels.proved_root import MATRIX_BITS, highest, upper
+from ..levels.proved_root import MATRIX_BITS, Numbers, highest, upper
 from ..levels.start import exponent_of
+from ..loops.branch import moments
 from ..loops.vectors import cross, dot
-from .deviation import Body, Defects, bound, defects, deviation, exact
+from .deviation import Body, Defects, Polynomials, bound, defects, deviation, exact
 from .series import LONG, TERMS, Floats, Series, linear, long_float, motion
 
-Row = Sequence[Any]
+Row = Sequence[arb_series]
 Rows = Sequence[Row]
 
 
@@ -38,7 +39,7 @@ class Neighbours:
         back = linear(-np.transpose(series.A, (0, 2, 1)), np.zeros((len(series.A) - 1, 3, 3)), np.eye(3))
         self.body, self.phi, self.psi = body, _rows(series.Phi), _rows(np.transpose(back, (0, 2, 1)))
 
-    def mend(self, p: Row, w: Row, terms: int) -> None:
+    def mend(self, p: Polynomials, w: Polynomials, terms: int) -> None:
         """Gives Φ and Ψ twice as many bits, if p and w have as many."""
         with flint_terms(terms):
             gamma, omega, phi, psi = generated.rotation(*_series(p))[6:], _series(w), *map(_all, (self.phi, self.psi))
@@ -53,7 +54,7 @@ class Neighbours:
             twice = [[2 * (i == j) - x for j, x in enumerate(row)] for i, row in enumerate(one)]
             self.phi, self.psi = ([_exact(row) for row in x] for x in (phi, _product(psi, twice)))
 
-    def correction(self, p: Row, w: Row, found: Defects, terms: int) -> tuple[list[Any], list[Any]]:
+    def correction(self, p: Polynomials, w: Polynomials, found: Defects, terms: int) -> tuple[Polynomials, Polynomials]:
         """The correction that removes the defects of p and w to the first order when it is added."""
         with flint_terms(terms):
             a, omega = _series(p), _series(w)
@@ -76,20 +77,20 @@ class Neighbours:
         return generated.angular_velocity(*(*v, *gamma, *self.body.J, self.body.D))
 
 
-def _series(polynomials: Any) -> list[Any]:
+def _series(polynomials: Iterable[arb_poly | arb_series]) -> list[arb_series]:
     """The middles, rounded, as series."""
     return [arb_series(exact(exact(x) * arb(1))) for x in polynomials]
 
 
-def _all(rows: Rows) -> Rows:
+def _all(rows: Iterable[Polynomials | Row]) -> Rows:
     return [_series(row) for row in rows]
 
 
-def _exact(series: Row) -> list[Any]:
+def _exact(series: Row) -> list[arb_poly]:
     return [exact(x) for x in series]
 
 
-def _rows(matrices: Floats) -> Rows:
+def _rows(matrices: Floats) -> Sequence[Polynomials]:
     """A matrix of polynomials, from that of each term."""
     return [[arb_poly(matrices[:, i, j].tolist()) for j in range(3)] for i in range(3)]
 
@@ -99,8 +100,6 @@ def _product(left: Rows, right: Rows) -> Rows:
     columns = list(zip(*right, strict=True))
     return [[sum(x * y for x, y in zip(row, column, strict=True)) for column in columns] for row in left]
 
-
-Numbers = tuple[Any, ...]
 
 #: A step is this part of the radius of convergence, where the price of a unit of time is least, and this many radians.
 PART, RADIANS = 1 / math.e, 2.0
@@ -127,18 +126,19 @@ class Path:
     """
 
     def __init__(
-        self, precision: int, J: Sequence[Any], D: Any, K: Sequence[Any], attitude: Sequence[Any], radius: Any,
-        rotor: Sequence[Any] = (0, 0, 0),
+        self, precision: int, J: Numbers, D: arb, K: Sequence[arb], attitude: Sequence[arb], radius: arb | None,
+        rotor: Sequence[arb | int] = (0, 0, 0),
     ) -> None:  # fmt: skip
         self.precision, self.time, self.steps = precision, Fraction(0), 0
         self.tick: Callable[[], None] = lambda: None
         self.given: Callable[[dict[str, Numbers]], dict[str, Numbers]] = lambda frame: frame
-        self.scale = arb(2) ** _exponent(highest(*Body(J, D, rotor).inertia) + D)
+        self.scale = arb(2) ** _exponent(highest(*moments(J)) + D)
         self.body = Body(tuple(x / self.scale for x in J), D / self.scale, tuple(x / self.scale for x in rotor))
         self.k = generated.rotate(*(*unit(attitude), *(x / self.scale for x in K)))
         self.p, far = point(unit(attitude))
         self.spread = Spread()
-        self.radius, self.contact = radius, (arb(0), arb(0))
+        self.radius = radius
+        self.contact: Numbers = (arb(0), arb(0))
         self.rough = 0.0
         self.last: Last | None = None
         with flint_bits(MATRIX_BITS):
@@ -163,7 +163,7 @@ class Path:
             except TooWide:
                 if halved == HALVINGS:
                     raise
-        moved = None if self.radius is None else self._rolled(w, found, proved.slip)
+        moved = None if self.radius is None else _rolled(self.radius, w, found, proved.slip)
         self.last = Last(self.time, length, p, proved.within, self.contact, moved)
         if moved is not None:
             self.contact = self.last.place(arb(1))
@@ -204,7 +204,7 @@ class Path:
         bits = math.log2(reach) if reach > 1 else 0.5
         return max(math.ceil(self.precision / bits), 2) + 4
 
-    def _mended(self, series: Series, k: Numbers, body: Body) -> tuple[list[Any], list[Any], Defects]:
+    def _mended(self, series: Series, k: Numbers, body: Body) -> tuple[Polynomials, Polynomials, Defects]:
         """Exact polynomials p and w, and what they leave at the whole precision; k and `body` are those of the step."""
         degree = self._degree(series)
         terms = min(degree + 1, TERMS)
@@ -239,11 +239,6 @@ class Path:
         """This many terms serve for this many bits."""
         return max(TERMS, min(degree, degree * bits // self.precision)) + 1
 
-    def _rolled(self, w: Sequence[Any], found: Defects, slip: Any) -> Numbers:
-        """Polynomials of the way of the contact point: ρ(y₂, -y₁), y the turn in space, ϖ within `slip` of w."""
-        x, y = (dot(found.R[i : i + 3], w) * found.unit + arb(0, slip) for i in (3, 0))
-        return (self.radius * x.integral(), -self.radius * y.integral())
-
     def frame(self, time: Fraction) -> dict[str, Numbers]:
         """The attitude, γ, K, ω and the contact point, if there is one, at the end of the last step or within it."""
         p, within, contact = self.p, self.spread.size, self.contact
@@ -267,32 +262,38 @@ class Last(NamedTuple):
 
     time: Fraction
     length: Fraction
-    p: Sequence[Any]
-    within: Any
+    p: Polynomials
+    within: arb
     contact: Numbers
-    moved: Numbers | None
+    moved: Polynomials | None
 
-    def place(self, tau: Any) -> Numbers:
+    def place(self, tau: arb) -> Numbers:
         """The contact point at a part of the step; where it began for a ball without a radius."""
         if self.moved is None:
             return self.contact
         return tuple(x + by(tau) for x, by in zip(self.contact, self.moved, strict=True))
 
 
-def _polys(rows: Floats) -> list[Any]:
+def _rolled(radius: arb, w: Polynomials, found: Defects, slip: arb) -> Polynomials:
+    """Polynomials of the way of the contact point: ρ(y₂, -y₁), y the turn in space, ϖ within `slip` of w."""
+    x, y = (dot(found.R[i : i + 3], w) * found.unit + arb(0, slip) for i in (3, 0))
+    return radius * x.integral(), -radius * y.integral()
+
+
+def _polys(rows: Floats) -> list[arb_poly]:
     """Polynomials of long floats."""
     high = rows.astype(float)
     rest = (rows - high).astype(float)
     return [arb_poly(x.tolist()) + arb_poly(y.tolist()) for x, y in zip(high, rest, strict=True)]
 
 
-def _exponent(x: Any) -> int:
+def _exponent(x: arb) -> int:
     """About the logarithm to base 2 of a ball."""
     man, exp = x.mid().man_exp()
     return int(exp) + int(man).bit_length()
 
 
-def _log(x: Any) -> float:
+def _log(x: arb) -> float:
     """The logarithm to base 2 of a bound, rounded up."""
     return _exponent(x) if x > 0 else -math.inf
 

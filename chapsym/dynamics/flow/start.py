@@ -15,11 +15,11 @@ from chapsym.rationals import NotANumber, exact_fraction, rational
 
 from ..ball import brief
 from ..errors import BadInput, TooWide
-from ..levels.balls import unit
+from ..levels.proved_root import Numbers, unit
 from ..levels.start import least
 from ..loops.vectors import cross
 from ..principal_axes import quaternions
-from .path import Numbers, Path
+from .path import Path
 
 
 class Turns(NamedTuple):
@@ -31,10 +31,10 @@ class Turns(NamedTuple):
 
 Number = Fraction | Turns
 NO_ROTOR = (Turns(Fraction(0)),) * 3
-Balls = Sequence[Any]
+Balls = Sequence[arb]
 
 
-def ball(x: Number) -> Any:
+def ball(x: Number) -> arb:
     """A ball that contains the number, at the precision that is set."""
     if isinstance(x, Turns):
         found = ball(x.rational)
@@ -42,7 +42,7 @@ def ball(x: Number) -> Any:
     return arb(fmpq(x.numerator, x.denominator))
 
 
-def balls(v: Sequence[Number]) -> tuple[Any, ...]:
+def balls(v: Sequence[Number]) -> Numbers:
     """A vector of them."""
     return tuple(map(ball, v))
 
@@ -79,7 +79,7 @@ def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
 
 
 #: What turns no axes.
-NO_TURN = (1, 0, 0, 0)
+NO_TURN: Numbers = (arb(1), arb(0), arb(0), arb(0))
 
 
 class Principal(NamedTuple):
@@ -88,7 +88,7 @@ class Principal(NamedTuple):
     moments: Numbers
     turn: Numbers = NO_TURN
 
-    def inward(self, vector: Sequence[Any]) -> Numbers:
+    def inward(self, vector: Balls) -> Numbers:
         """A vector in principal axes, from the given ones."""
         return tuple(vector) if self.turn == NO_TURN else tuple(generated.transport(*self.turn, *vector))
 
@@ -101,7 +101,7 @@ class Principal(NamedTuple):
         return frame | found | {"attitude": unit(generated.compose(*(*frame["attitude"], *back)))}
 
 
-def principal(tensor: Sequence[Sequence[Any]]) -> Principal:
+def principal(tensor: Sequence[Balls]) -> Principal:
     """The principal axes of a symmetric matrix of balls; raises TooWide where its moments may be equal.
 
     An eigenvector of a real eigenvalue that is simple is a real one times a complex number, so its components divided

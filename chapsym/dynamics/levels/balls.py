@@ -25,9 +25,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq
+from mpmath import MPContext, mpf
 from mpmath.libmp import from_man_exp
 
 from chapsym.generated import centre_step, compose, gibbs_newton, gibbs_residual, rotate, turn
@@ -42,7 +42,18 @@ from ..loops.integrals import WEIGHTS
 from ..loops.path import joined
 from ..loops.vectors import adjoint, cross, dot, minus, scaled
 from .frames import Balls, Frames
-from .proved_root import MATRIX_BITS, certified, enclosed, inverse_slope, on_path, refined, stretch, unit, upper
+from .proved_root import (
+    MATRIX_BITS,
+    Numbers,
+    certified,
+    enclosed,
+    inverse_slope,
+    on_path,
+    refined,
+    stretch,
+    unit,
+    upper,
+)
 from .start import Exact, exponent_of, fraction, least, magnitude, start
 
 #: What a ball starts from: 𝒦, γ, J and D, exactly; the exact coefficients of the composition; the attitude, empty for
@@ -104,7 +115,7 @@ class _Way:
     every: int
     progress: Callable[[int], None]
 
-    def take(self, ball: Any, bits: int, enough: Callable[[int], bool] = lambda step: True) -> None:
+    def take(self, ball: "DigitsBall | ArbBall", bits: int, enough: Callable[[int], bool] = lambda step: True) -> None:
         """Takes the steps and writes the frames, with this many bits; stops early where `enough` says no."""
         f, i = self.frames, self.i
         kept = (f.momentum, f.gamma, *((f.attitude, f.contact) if f.with_body else ()))
@@ -180,7 +191,7 @@ def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, floa
 
 #: Up to this many bits, corrections by the float64 Jacobian; beyond, Newton's, each with twice the bits of the last.
 CHORD_BITS = 300
-#: Vector of this many bits below 1 are in the range of float64.
+#: Numbers of this many bits below 1 are in the range of float64.
 FLOAT_BITS = 1000
 #: What the first correction by the float64 Jacobian is taken to leave.
 GAIN = 2.0**-40
@@ -191,14 +202,16 @@ MOST_ROUNDS = 100
 #: inverse is that of the last but one, so that each correction with it gains the digits of the last.
 COLD, WARM = (100, 1e-7), (3, 1e-12)
 
-Vector = tuple[Any, ...]
+Floats = tuple[float, ...]
+#: A point, and how far from it a root is at most; None where that is not proved.
+Near = tuple[Numbers, arb] | None
 
 
 class NotSettled(ArithmeticError):
     """The corrections did not become small."""
 
 
-def extrapolated(past: Sequence[Vector]) -> Vector:
+def extrapolated(past: Sequence[Floats]) -> Floats:
     """The next Gibbs vector by the polynomial through the last eight, newest first; 0 where there are fewer."""
     if len(past) < len(WEIGHTS):
         return 0.0, 0.0, 0.0
@@ -208,7 +221,7 @@ def extrapolated(past: Sequence[Vector]) -> Vector:
     return u1, u2, u3
 
 
-def root(guess: Vector, state: Vector, bits: int, lost: int, unit: Any) -> tuple[Vector, Vector]:
+def root(guess: Floats, state: Numbers, bits: int, lost: int, unit: arb) -> tuple[Numbers, Floats]:
     """The Gibbs vector with this many bits, from a guess in float64; returns it, exact numbers, and its float64 value.
 
     state: k, γ, I and D, the largest moment about 1; unit: a power of two about |k|.  lost: the bits that the
@@ -230,12 +243,12 @@ def root(guess: Vector, state: Vector, bits: int, lost: int, unit: Any) -> tuple
     return u, start
 
 
-def _rounded(state: Vector) -> Vector:
+def _rounded(state: Numbers) -> Numbers:
     """The state with the bits of the working precision."""
     return tuple(+x for x in state)
 
 
-def _in_float64(guess: Vector, state: Vector) -> tuple[Vector, list[float]]:
+def _in_float64(guess: Floats, state: Floats) -> tuple[Floats, list[float]]:
     """A Gibbs vector by Newton's iteration in float64, and (∂G/∂u)⁻¹, column by column."""
     u, (k, g, inertia, D) = guess, (state[:3], state[3:6], state[6:9], state[9])
     rounds, enough = COLD if guess == (0.0, 0.0, 0.0) else WARM
@@ -251,7 +264,7 @@ def _in_float64(guess: Vector, state: Vector) -> tuple[Vector, list[float]]:
     return u, inverse
 
 
-def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, unit: Any) -> Vector:
+def _chord(start: Floats, state: Numbers, inverse: Sequence[float], lost: int, unit: arb) -> Numbers:
     """Corrections with one approximate inverse until the next would be below a unit, or below `lost` bits.
 
     The corrections are floats, in that unit.  Raises NotSettled if they do not shrink.
@@ -274,7 +287,7 @@ def _chord(start: Vector, state: Vector, inverse: Sequence[float], lost: int, un
     raise NotSettled
 
 
-def _newton(u: Vector, state: Vector, bits: int) -> Vector:
+def _newton(u: Numbers, state: Numbers, bits: int) -> Numbers:
     """One correction of u to this many bits, with ∂G/∂u at the bits of the working precision, which becomes `bits`."""
     det, _, _, _, *cofactors = gibbs_newton(*u, *_rounded(state))
     half, ctx.prec = ctx.prec, bits
@@ -299,12 +312,12 @@ class Spread:
     def __init__(self) -> None:
         self.restart(arb(0))
 
-    def restart(self, radius: Any) -> None:
+    def restart(self, radius: arb) -> None:
         """All ξ with |ξ| ≤ radius."""
         self.axes, self.size = arb_mat(3, 3, [1, 0, 0, 0, 1, 0, 0, 0, 1]), small(radius)
         self.box = arb_mat(3, 1, [arb(0, radius)] * 3)
 
-    def moved(self, M: Any, more: Any) -> None:
+    def moved(self, M: arb_mat, more: arb) -> None:
         """All Mξ + w with |w| ≤ more."""
         edges = M * self.axes
         try:
@@ -319,14 +332,14 @@ class Spread:
         self.size = small(upper((axes * self.box).entries()))
 
 
-def small(size: Any) -> Any:
+def small(size: arb) -> arb:
     """A bound of |ξ|; raises TooWide where the form is not for it."""
     if not size < LARGEST:
         raise TooWide
     return size
 
 
-def orthogonal(matrix: Any, box: Any) -> Any:
+def orthogonal(matrix: arb_mat, box: arb_mat) -> arb_mat:
     """Exact, and orthogonal to rounding: the axes of a parallelepiped, from its longest edge on."""
     e = [float(x) for x in matrix.entries()]
     radii = [x.rad() for x in box.entries()]
@@ -343,13 +356,13 @@ def orthogonal(matrix: Any, box: Any) -> Any:
     return arb_mat(3, 3, [x for row in zip(a, b, cross(a, b), strict=True) for x in row])
 
 
-def cross_matrix(v: Sequence[Any]) -> Any:
+def cross_matrix(v: Sequence[arb]) -> arb_mat:
     """[v]ₓ, so that [v]ₓ x = v × x."""
     x, y, z = v
     return arb_mat(3, 3, [0, -z, y, z, 0, -x, -y, x, 0])
 
 
-def carried(u: Sequence[Any], inverse: Any, k: Sequence[Any], g: Sequence[Any], D: Any, size: Any) -> tuple[Any, Any]:
+def carried(u: Numbers, inverse: arb_mat, k: Numbers, g: Numbers, D: arb, size: arb) -> tuple[arb_mat, arb]:
     """M and a bound of |w| for a step: ξ becomes Mξ + w, |ξ| ≤ size.
 
     u: the Gibbs vector of the point; inverse: A⁻¹ for every middle between it and another state's; k, γ: for all
@@ -376,7 +389,7 @@ def carried(u: Sequence[Any], inverse: Any, k: Sequence[Any], g: Sequence[Any], 
     return matrix * (1 / scalar), (root * size * far / scalar).abs_upper()
 
 
-def exact(x: float | Fraction) -> Any:
+def exact(x: float | Fraction) -> arb:
     """A float or a fraction as a ball; exact if the precision holds it."""
     x = Fraction(x)
     return arb(fmpq(x.numerator, x.denominator))
@@ -396,17 +409,17 @@ class _UnderWay:
         self.size = size_of(K, self.exponent)
         self.unit = arb(2) ** self.size
         scale = Fraction(2) ** -self.exponent
-        self.k: Vector = tuple(exact(x * scale / 2) for x in K)
+        self.k: Numbers = tuple(exact(x * scale / 2) for x in K)
         self.g = unit(map(exact, g))
         self.J = tuple(exact(x * scale) for x in J)
         self.I = moments(self.J)
         self.D = exact(D * scale)
-        self.a: Vector = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
+        self.a: Numbers = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
         self.x = (arb(0), arb(0))
         self.stages = [None if c == 1 else exact(c) for c in stages]
-        self.past: list[deque[Any]] = [deque(maxlen=len(WEIGHTS)) for _ in stages]
+        self.past: list[deque[Floats]] = [deque(maxlen=len(WEIGHTS)) for _ in stages]
 
-    def _root(self, k: Vector, past: deque) -> Any:
+    def _root(self, k: Numbers, past: deque[Floats]) -> tuple[Numbers, Floats] | None:
         """A point near the Gibbs vector, and its float64 value; None where no iteration finds it."""
         state = *k, *self.g, *self.I, self.D
         try:
@@ -414,17 +427,17 @@ class _UnderWay:
         except ArithmeticError:
             return None
 
-    def _near(self, K: Vector, g: Vector) -> Vector:
+    def _near(self, K: Numbers, g: Numbers) -> Numbers:
         """The rotation of a step by the float64 continuation."""
         k, vertical, tensor = (list(map(fraction, v)) for v in (K, g, self.J))
         return tuple(map(exact, start(k, vertical, tensor, fraction(self.D))))
 
-    def _follow(self, q: Vector, g: Vector) -> None:
+    def _follow(self, q: Numbers, g: Numbers) -> None:
         """Moves the contact point by the rotation q; g: γ of all states."""
         x, y, _ = rotate(*self._attitude(), *centre_step(*q, *g))
         self.x = (self.x[0] + x, self.x[1] + y)
 
-    def _attitude(self) -> Vector:
+    def _attitude(self) -> Numbers:
         return self.a
 
 
@@ -461,7 +474,7 @@ class DigitsBall(_UnderWay):
                 tuple((x + y).mid() for x, y in zip(v, turn(*p, *v), strict=True)) for v in (self.k, self.g)
             )
 
-    def _gibbs(self, k: Vector, bound: float, past: deque) -> Any:
+    def _gibbs(self, k: Numbers, bound: float, past: deque[Floats]) -> Numbers | None:
         """The Gibbs vector where `small-branch` or `straight-path` says that it is that of the branch; else None."""
         found = self._root(k, past) if bound >= 0.0 or bound == BEYOND else None
         if found is None:
@@ -474,14 +487,14 @@ class DigitsBall(_UnderWay):
         past.appendleft(start)
         return u
 
-    def _on_path(self, root: Vector, k: Vector) -> bool:
+    def _on_path(self, root: Numbers, k: Numbers) -> bool:
         """Whether the straight path joins a root to no rotation: an inequality with room, evaluated in float64."""
         u, half, g = (tuple(map(float, v)) for v in (root, k, self.g))
         spread = 0.5 * (max(self.floats[:3]) - min(self.floats[:3]))
         proved, _ = joined(u, dot(u, u), half, math.hypot(*half), g, self.floats[:3], self.floats[3], spread)
         return proved > 0
 
-    def _rotation(self, k: Vector) -> Vector:
+    def _rotation(self, k: Numbers) -> Numbers:
         """The rotation where neither lemma holds, refined."""
         K = tuple(2 * x for x in k)
         q = refined(self._near(K, self.g), K, self.g, self.J, (self.D,))
@@ -489,7 +502,7 @@ class DigitsBall(_UnderWay):
             raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
         return q
 
-    def frame(self, bits: int) -> tuple[Vector, Vector, Vector, Vector]:
+    def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
         """𝒦, γ, the attitude and the contact point, rounded to this many bits, in the context of the precision."""
 
         momentum = tuple(in_context(self.context, x, bits, self.exponent + 1) for x in self.k)
@@ -504,7 +517,7 @@ class ArbBall(_UnderWay):
         super().__init__(precision, given)
         # What is followed is the rotation since the start: 𝒦 and γ are those of the start, turned back by it.
         self.first_k, self.first_g, self.length = self.k, self.g, upper(self.k)
-        self.p: Any = (arb(1), arb(0), arb(0), arb(0))
+        self.p: Numbers = (arb(1), arb(0), arb(0), arb(0))
         self.spread, self.matrix_bits = Spread(), MATRIX_BITS + 3 * self.lost
         *_, stages, _, radius = given
         self.radius = exact(radius)
@@ -525,13 +538,13 @@ class ArbBall(_UnderWay):
                 tuple(x + y for x, y in zip(v, turn(*self.p, *v), strict=True)) for v in (self.first_k, self.first_g)
             )
 
-    def _all(self) -> tuple[Vector, Vector]:
+    def _all(self) -> tuple[Numbers, Numbers]:
         """k and γ of all states that there may be: a turn by ξ moves a vector by 2|ξ| of its length at most."""
         off = 2 * self.spread.size
         along, across = arb(0, (off * self.length).abs_upper()), arb(0, off.abs_upper())
         return tuple(x + along for x in self.k), tuple(x + across for x in self.g)
 
-    def _proved(self, k: Vector, every: Vector, bound: tuple[Any, Any] | None, past: deque) -> Any:
+    def _proved(self, k: Numbers, every: Numbers, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
         """A point, and how far the branch's Gibbs vectors of all states are from it; None where that is not proved.
 
         k: that of the point that is followed; every: k, γ, I and D of all states.
@@ -548,7 +561,7 @@ class ArbBall(_UnderWay):
             past.appendleft(start)
             return u, (length / slope).abs_upper()
 
-    def _selected(self, every: Vector, bound: Any, past: deque) -> Any:
+    def _selected(self, every: Numbers, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
         """The same for the root that the continuation selects; None where its rotation is too long: it is taken here.
 
         A root that is proved to be the branch's after all serves the next steps as a guess.
@@ -570,7 +583,7 @@ class ArbBall(_UnderWay):
         self.spread.restart(far)
         return None
 
-    def _turn_by(self, u: Vector, off: Any, k: Vector, every: Vector) -> None:
+    def _turn_by(self, u: Numbers, off: arb, k: Numbers, every: Numbers) -> None:
         """Turns by the rotation whose Gibbs vector is within `off` of u, by the mean-value form.
 
         As ∂G/∂u is affine in u, that of the point is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.
@@ -590,7 +603,7 @@ class ArbBall(_UnderWay):
             # p∘(1, ε)∘(1, ξ) is p∘(1, ξ'), |ξ' - ξ| ≤ |ε|(1 + |ξ| + |ξ|²)/(1 - |ε||ξ|) ≤ 2|ε|.
             self.spread.moved(M, more + 2 * far)
 
-    def _rotation(self, every: Vector) -> Vector:
+    def _rotation(self, every: Numbers) -> Numbers:
         """The rotations of all states, where neither lemma holds."""
         K, g = tuple(2 * x for x in every[:3]), every[3:6]
         q = enclosed(self._near(K, g), K, g, self.J, (self.D,))
@@ -598,12 +611,12 @@ class ArbBall(_UnderWay):
             raise TooWide
         return q
 
-    def _turned(self) -> Any:
+    def _turned(self) -> Numbers:
         """The rotation since the start, of any length, with all that there may be."""
         off = arb(0, self.spread.size)
         return compose(*(*self.p, 1, off, off, off))
 
-    def _attitude(self) -> Vector:
+    def _attitude(self) -> Numbers:
         return unit(compose(*(*self.a, *self._turned())))
 
     def bits(self) -> float:
@@ -612,7 +625,7 @@ class ArbBall(_UnderWay):
         widest = [max(map(log_radius, v), default=-math.inf) for v in vectors]
         return -max(widest[0] - self.size, *widest[1:])
 
-    def frame(self, bits: int) -> tuple[Vector, Vector, Vector, Vector]:
+    def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
         """𝒦, γ, the attitude and the contact point, rounded to this many bits."""
         scale = arb(2) ** (self.exponent + 1)
         k, g = self._all()
@@ -622,16 +635,16 @@ class ArbBall(_UnderWay):
             return tuple(tuple(+x for x in v) for v in (momentum, g, a, trace))  # type: ignore[return-value]
 
 
-def point(p: Iterable[Any]) -> tuple[Vector, Any]:
+def point(p: Iterable[arb]) -> tuple[Numbers, arb]:
     """The middle of a quaternion in balls, and a bound of how far it is off, relative to its length."""
     balls = list(p)
     middle = tuple(x.mid() for x in balls)
     with flint_bits(MATRIX_BITS):
-        off = upper([x.rad() for x in balls]) / sum(x * x for x in middle).sqrt()
+        off = upper([x.rad() for x in balls]) / sum((x * x for x in middle), arb(0)).sqrt()
         return middle, (off / (1 - off)).abs_upper()
 
 
-def in_context(context: Any, x: Any, bits: int, shift: int = 0) -> Any:
+def in_context(context: MPContext, x: arb, bits: int, shift: int = 0) -> mpf:
     """2^shift times the midpoint of a ball, rounded to this many bits, as a number of an mpmath context."""
     man, exp = x.mid().man_exp()
     return context.make_mpf(from_man_exp(int(man), int(exp) + shift, bits, "n"))
@@ -642,7 +655,7 @@ def size_of(K: Exact, exponent: int) -> int:
     return exponent_of(max(map(abs, K))) - exponent - 1
 
 
-def log_radius(x: Any) -> float:
+def log_radius(x: arb) -> float:
     """The logarithm to base 2 of the radius, rounded up."""
-    man, exp = x.rad().man_exp()
-    return int(exp) + int(man).bit_length() if man else -math.inf
+    man, exp = map(int, x.rad().man_exp())
+    return exp + man.bit_length() if man else -math.inf

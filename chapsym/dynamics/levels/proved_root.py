@@ -10,7 +10,6 @@ Where neither holds, the interval Newton test proves that a box has one root: `e
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache, reduce
-from typing import Any
 
 from flint import arb, arb_mat, ctx
 
@@ -22,7 +21,8 @@ from ..loops import path
 from ..loops.branch import inverse, product
 from ..loops.twins import twin
 
-Numbers = tuple[Any, ...]
+#: Components in Arb's balls, or points among them.
+Numbers = tuple[arb, ...]
 
 #: The precision of the matrices beyond what a determinant can lose: what they multiply is as small as the radii.
 MATRIX_BITS = 64
@@ -34,13 +34,13 @@ MOST_REFINEMENTS = 60
 MOST_INFLATIONS = 12
 
 
-def upper(v: Sequence[Any]) -> Any:
+def upper(v: Iterable[arb]) -> arb:
     """An upper bound of the length of a vector, as an exact number."""
     bounds = [x.abs_upper() for x in v]
-    return sum(x * x for x in bounds).sqrt().abs_upper()
+    return sum((x * x for x in bounds), arb(0)).sqrt().abs_upper()
 
 
-def inverse_slope(u: Numbers, off: Any, state: Numbers) -> Any:
+def inverse_slope(u: Numbers, off: arb, state: Numbers) -> arb_mat:
     """(∂G/∂u)⁻¹ in a box of half the edge `off` round u, for all k, γ, I and D of a state."""
     box = tuple(x + arb(0, off) for x in u)
     det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*(*box, *state))
@@ -49,7 +49,7 @@ def inverse_slope(u: Numbers, off: Any, state: Numbers) -> Any:
     return arb_mat(3, 3, [c11, c21, c31, c12, c22, c32, c13, c23, c33]) * (1 / det)
 
 
-def newton_enclosure(u: Numbers, r: Numbers, slope: Any, state: Numbers, matrix_bits: int) -> Numbers:
+def newton_enclosure(u: Numbers, r: Numbers, slope: arb, state: Numbers, matrix_bits: int) -> Numbers:
     """The root of G within |r|/m of a point u, r = G(u), where G is monotone with m = `slope`.
 
     state: k, γ, I and D, in balls.  The root is u - A⁻¹r with A = ∂G/∂u at the middle between the two.  Raises TooWide
@@ -61,13 +61,13 @@ def newton_enclosure(u: Numbers, r: Numbers, slope: Any, state: Numbers, matrix_
 
 
 @cache
-def joined() -> Any:
+def joined() -> Callable[..., tuple[arb, arb]]:
     """`path.joined` in balls: its comparisons are certain."""
     with flint_bits(MATRIX_BITS):
         return twin(path, lambda x: arb(repr(x)), max=highest, min=lowest, sqrt=arb.sqrt)["joined"]
 
 
-def on_path(u: Numbers, length: Any, *state: Any) -> Any:
+def on_path(u: Numbers, length: arb, *state: arb) -> arb | None:
     """m where G is monotone with it in a box round u that contains a root, and this is the branch's; else None.
 
     length: a bound of |G(u)|; state: k, γ, I and D.  With |G(u)| ≤ m · (half an edge) the root is in the box.
@@ -77,26 +77,26 @@ def on_path(u: Numbers, length: Any, *state: Any) -> Any:
     return slope if slope is not None and length <= (slope * off).abs_lower() else None
 
 
-def stretch(box: Numbers, *state: Any) -> Any:
+def stretch(box: Numbers, *state: arb) -> arb | None:
     """m by lemma `straight-path`, for every point of a box treated as if it were the root; None where it fails."""
     k, g, I, D = state[:3], state[3:6], state[6:9], state[9]
     least = lowest(*I)
-    square, half = sum(x * x for x in box), sum(x * x for x in k).sqrt()
-    proved, slope = joined()(box, square, k, half, g, I, D, (highest(*I) - least) / 2)
+    square, half = (sum((x * x for x in v), arb(0)) for v in (box, k))
+    proved, slope = joined()(box, square, k, half.sqrt(), g, I, D, (highest(*I) - least) / 2)
     return slope.abs_lower() if proved > 0 and least > 0 else None
 
 
-def highest(*v: Any) -> Any:
+def highest(*v: arb) -> arb:
     """The largest of balls, as a ball."""
     return reduce(arb.max, v)
 
 
-def lowest(*v: Any) -> Any:
+def lowest(*v: arb) -> arb:
     """The smallest of balls, as a ball."""
     return reduce(arb.min, v)
 
 
-def certified(size: Any, inertia: Numbers) -> tuple[Any, Any] | None:
+def certified(size: arb, inertia: Numbers) -> tuple[arb, arb] | None:
     """(radius, m) by lemma `small-branch` for |𝒦| ≤ size, both exact; None where |𝒦| is beyond its bound.
 
     There is one root with |u| < 1, it has |u| ≤ radius and is that of the small-rotation branch, and in this ball
@@ -117,7 +117,7 @@ def certified(size: Any, inertia: Numbers) -> tuple[Any, Any] | None:
     return (radius, m) if least - radius * slope > 0 else None
 
 
-def refined(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+def refined(q: Numbers, K: Numbers, g: Numbers, J: Numbers, D: Numbers) -> Numbers | None:
     """The one root near a rotation, by midpoints: Newton squares a correction, up to what the conditioning costs."""
     q = tuple(x.mid() for x in unit(q))
     settled = arb(2) ** (-ctx.prec // 2 - 2)
@@ -133,14 +133,14 @@ def refined(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     return None
 
 
-def unit(v: Iterable[Any]) -> tuple[Any, ...]:
+def unit(v: Iterable[arb]) -> Numbers:
     """A vector divided by its length."""
     balls = list(v)
-    length = sum(x * x for x in balls).sqrt()
+    length = sum((x * x for x in balls), arb(0)).sqrt()
     return tuple(x / length for x in balls)
 
 
-def enclosed(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
+def enclosed(q: Numbers, K: Numbers, g: Numbers, J: Numbers, D: Numbers) -> Numbers | None:
     """Unit Euler parameters as balls that contain the one root near the float64 root, by the interval Newton test."""
     point = refined(q, K, g, J, D)
     if point is None:
@@ -155,7 +155,7 @@ def enclosed(q: tuple, K: tuple, g: tuple, J: tuple, D: tuple) -> tuple | None:
     return None if image is None else unit(compose(*(*q, arb(1), *image)))
 
 
-def isolated(value: Sequence[Any], slope: Callable[[Sequence[Any]], Sequence[Any]]) -> list[Any] | None:
+def isolated(value: Sequence[arb], slope: Callable[[Sequence[arb]], Sequence[arb]]) -> list[arb] | None:
     """The zero of a map F of which F(0) = `value`, in balls; None if it is not proved.
 
     slope: of a box round 0, what contains F' in it, row by row.  The interval Newton test: where the image of a box is
@@ -177,17 +177,17 @@ def isolated(value: Sequence[Any], slope: Callable[[Sequence[Any]], Sequence[Any
     return None
 
 
-def _divided(target: arb_mat, matrix: Sequence[Any]) -> list[Any]:
+def _divided(target: arb_mat, matrix: Sequence[arb]) -> list[arb]:
     """The solution of a linear system for every matrix in balls; raises ZeroDivisionError where one may be singular."""
     return arb_mat(target.nrows(), target.nrows(), matrix).solve(target).entries()
 
 
-def _slope(tangent: tuple, hessian: tuple, K: tuple, box: Sequence[Any]) -> list:
+def _slope(tangent: Numbers, hessian: Numbers, K: Numbers, box: Sequence[arb]) -> list[arb]:
     """F'(w) for every w in the box, row by row: T + H w - 2|q|²𝒦 wᵀ."""
     place = {(0, 0): 0, (1, 1): 1, (2, 2): 2, (1, 2): 3, (0, 2): 4, (0, 1): 5}
     rows = []
     for i in range(3):
         for j in range(3):
-            bent = sum(hessian[3 * place[min(j, k), max(j, k)] + i] * box[k] for k in range(3))
+            bent = sum((hessian[3 * place[min(j, k), max(j, k)] + i] * box[k] for k in range(3)), arb(0))
             rows.append(tangent[3 * i + j] + bent - 2 * K[i] * box[j])
     return rows
