@@ -3,11 +3,10 @@
 import itertools
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, ctx
 
-from chapsym.dynamics.levels.proved_root import upper
+from chapsym.dynamics.levels.proved_root import Numbers, upper
 from chapsym.dynamics.levels.start import fraction
 from chapsym.generated import gibbs_newton
 
@@ -19,25 +18,25 @@ class NotProved(ArithmeticError):
 
 
 def near_root(
-    k: Sequence[Any], g: Sequence[Any], I: Sequence[Any], D: Any, near: Sequence[Any] | None = None
-) -> tuple[Any, ...]:
+    k: Sequence[arb], g: Sequence[arb], I: Sequence[arb], D: arb, near: Sequence[arb] | None = None
+) -> Numbers:
     """The Gibbs vector with k = 𝒦/2 and γ by Newton's iteration from 0 or near, in the middle of balls; no proof."""
     given = *_middles(k), *_middles(g), *_middles(I), D.mid()
-    u: tuple[Any, ...] = (arb(0), arb(0), arb(0)) if near is None else _middles(near)
+    u: Numbers = (arb(0), arb(0), arb(0)) if near is None else _middles(near)
     enough = arb(2) ** -(ctx.prec // 2 + 4)
     for _ in range(MOST_CORRECTIONS):
         det, *products = gibbs_newton(*(*u, *given))[:4]
         before, u = u, _middles(x / det for x in products)
-        if upper([x - y for x, y in zip(u, before, strict=True)]) < enough:
+        if upper(x - y for x, y in zip(u, before, strict=True)) < enough:
             return u
     raise NotProved("Newton's iteration did not settle")
 
 
-def _middles(v: Iterable[Any]) -> tuple[Any, ...]:
+def _middles(v: Iterable[arb]) -> Numbers:
     return tuple(x.mid() for x in v)
 
 
-def rounded(x: Any, digits: int) -> str:
+def rounded(x: arb, digits: int) -> str:
     """The numbers of a ball rounded to this many decimals; raises NotProved where they round differently."""
     middle, off = fraction(x), fraction(x.rad())
     found = round(middle - off, digits)

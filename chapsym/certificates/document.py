@@ -11,26 +11,28 @@ from chapsym.files import write_text
 
 from .balls import NotProved, shortest
 
+#: The object of a certificate, or of a part of it.
+Document = dict[str, Any]
 #: What is made of the other fields of a file.
 MADE = ("format", "kind", "statement", "digest")
 
 
-def stated(kind: str, **fields: Any) -> dict[str, Any]:
+def stated(kind: str, **fields: Any) -> Document:
     """The object of a certificate, with the statement that its numbers make, and sealed by its digest."""
     sentence = checker.statement({"kind": kind, **fields})
     document = {"format": checker.FORMAT, "kind": kind, "statement": sentence, **fields}
     return {**document, "digest": checker.digest(document)}
 
 
-def accepted(document: dict[str, Any]) -> dict[str, Any]:
+def accepted(document: Document) -> Document:
     """The same object; raises checker.Rejected if the checker does not accept it."""
     checker.check(document)
     return document
 
 
 def widest(
-    radii: Sequence[Fraction], found: Callable[[Fraction], dict[str, Any]], progress: Callable[[str], None]
-) -> dict[str, Any]:
+    radii: Sequence[Fraction], found: Callable[[Fraction], Document], progress: Callable[[str], None]
+) -> Document:
     """What is found with the largest of radii that fall, by halving, as smaller ones are easier.
 
     Raises what `found` raises for the smallest, NotProved or checker.Rejected.
@@ -46,11 +48,11 @@ def widest(
     return best
 
 
-def text(document: dict[str, Any]) -> str:
+def text(document: Document) -> str:
     """The text of the file."""
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
 
-def write(path: Path, document: dict[str, Any]) -> None:
+def write(path: Path, document: Document) -> None:
     """Writes the file whole; raises `chapsym.files.CannotWrite`."""
     write_text(path, text(document))

@@ -20,7 +20,7 @@ from chapsym.checker.taylor import Model
 from chapsym.dynamics import BadInput
 
 from .balls import decade, shortest
-from .document import accepted, stated
+from .document import Document, accepted, stated
 
 KIND = "energy-drift"
 #: The steps of the secant method; the window in which each looks for the return.
@@ -42,7 +42,7 @@ class Return(Orbit):
 def energy_drift(
     J: Sequence[Fraction], D: Fraction, momentum: Sequence[Fraction], gamma: Sequence[Fraction], signs: Sequence[int],
     time: Fraction, varied: int, *, digits: int = 20, progress: Callable[[str], None] = lambda sentence: None,
-) -> dict[str, Any]:  # fmt: skip
+) -> Document:  # fmt: skip
     """Finds the closed orbit near a start, one component of its momentum adjusted, and encloses it.
 
     Raises BadInput where there is none, or where the checker does not prove it.
@@ -83,7 +83,7 @@ def _check(J: Sequence[Fraction], D: Fraction, gamma: Sequence[Fraction], signs:
         raise BadInput(f"the signs must be one of {', '.join(map(listed, SYMMETRIES))}, not {listed(signs)}")
 
 
-def listed(values: Sequence[Any]) -> str:
+def listed(values: Sequence[object]) -> str:
     """(a, b, c)."""
     return f"({', '.join(map(str, values))})"
 
@@ -101,7 +101,7 @@ def components(J: np.ndarray, D: float, K: np.ndarray, g: np.ndarray) -> tuple[i
     return max(itertools.permutations(range(6), 2), key=value)
 
 
-def refined(fields: Mapping[str, Any], digits: int, progress: Callable[[str], None]) -> dict[str, Any]:
+def refined(fields: Mapping[str, Any], digits: int, progress: Callable[[str], None]) -> Document:
     """With the varied component and the time to this many decimals, by the secant method from a near orbit."""
     unit, varied = Fraction(1, 10**digits), STATE.index(fields["varied"])
     momentum = [Fraction(x) for x in fields["start"]["momentum"]]

@@ -12,14 +12,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise, product
-from typing import Any
 
 import numpy as np
+from flint import arb
 
-from chapsym.checker.linear import cross, dot
 from chapsym.dynamics.ball import Ball, Floats
 from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.start import fraction
+from chapsym.dynamics.loops.vectors import cross, dot
 from chapsym.dynamics.map import step
 
 from .passage import Level, Map, Vector, columns
@@ -37,7 +37,7 @@ SAME = 1e-7
 class Member:
     """One orbit of a family: ⟨𝒦, γ⟩, the start, and the direction of the family as by `Passage.change`."""
 
-    height: Any
+    height: arb
     momentum: Vector
     gamma: Vector
     along: Floats = field(default_factory=lambda: np.zeros(4))
@@ -121,8 +121,8 @@ def _steady(ball: Ball, state: Floats, period: int) -> bool:
 
 def _followed(level: Level, steps: int, state: Floats) -> list[Member]:
     """A stretch of the family of a symmetric orbit, with the working precision of Arb."""
-    member = Member(None, [exact(x) for x in state[:3]], [exact(x) for x in state[3:]])
-    members = [_corrected(level, steps, member)]
+    K, g = ([exact(x) for x in v] for v in (state[:3], state[3:]))
+    members = [_corrected(level, steps, Member(dot(K, g), K, g))]
     while len(members) < MEMBERS:
         before = members[-1]
         found = _corrected(level, steps, _ahead(level, before, Fraction(APART)))

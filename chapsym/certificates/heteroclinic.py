@@ -7,7 +7,6 @@ X = coth ½(ũ - u).  Here e^Δ is found in Arb's numbers without proof; the fil
 import math
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, ctx
 
@@ -20,7 +19,7 @@ from chapsym.dynamics.levels.start import fraction
 from chapsym.numbers.precisions import flint_bits
 
 from .balls import decade, decimal, shortest
-from .document import accepted, stated, widest
+from .document import Document, accepted, stated, widest
 from .reduced import Top
 
 KIND = "heteroclinic"
@@ -42,7 +41,7 @@ class Orbits:
         self.last = ((I2 + (I2**2 - self.height**2).sqrt()) / (self.height * self.kappa)).mid()
         self.growth = (self.last + 1) / (self.last - 1)
 
-    def end(self, x: Fraction, digits: int) -> tuple[Any, int]:
+    def end(self, x: Fraction, digits: int) -> tuple[arb, int]:
         """e^Δ, and how many steps of both orbits find it to the digits."""
         first, steps = self._half(exact(x), digits)
         if x == 1:
@@ -50,7 +49,7 @@ class Orbits:
         other, more = self._half(exact(1 / x), digits)
         return first * other, max(steps, more)
 
-    def _half(self, x: Any, digits: int) -> tuple[Any, int]:
+    def _half(self, x: arb, digits: int) -> tuple[arb, int]:
         product, X, far = arb(1), self.last, arb(10) ** (digits + SPARE)
         for steps in range(MOST_STEPS + 1):
             if x > far:
@@ -60,7 +59,7 @@ class Orbits:
             product, x = (product * s / self.growth).mid(), (s * s * x).mid()
         raise BadInput(f"more than {MOST_STEPS} steps would be needed for {digits} digits; take a larger height")
 
-    def _root(self, x: Any, X: Any) -> Any:
+    def _root(self, x: arb, X: arb) -> arb:
         for _ in range(CORRECTIONS):
             Q = x * (X + 1) ** 2 + (X - 1) ** 2
             off = self.height * (self.kappa * X**2 + 1 / self.kappa) - 2 * self.middle * X
@@ -75,7 +74,7 @@ class Orbits:
 def heteroclinic(
     top: Top, *, starts: tuple[Fraction, Fraction] | None = None, digits: int | None = None,
     radius: Fraction | None = None, progress: Callable[[str], None] = lambda what: None,
-) -> dict[str, Any]:  # fmt: skip
+) -> Document:  # fmt: skip
     """Finds the certificate that Δ is not constant on the level 1/Λ2 of a top with J1 < J2 < J3, h > 0.
 
     starts: two x = e^2u; 1 and about e^c by default, c the limit of the increments.  digits: decimals of the file; what
@@ -136,11 +135,11 @@ def _digits(top: Top, starts: tuple[Fraction, Fraction], progress: Callable[[str
     raise BadInput(f"{MOST_DIGITS} digits do not distinguish the difference of the two ends from 0; take larger h")
 
 
-def _orbit(orbits: Orbits, x: Fraction, digits: int) -> dict[str, Any]:
+def _orbit(orbits: Orbits, x: Fraction, digits: int) -> Document:
     end, steps = orbits.end(x, digits)
     return {"start": str(x), "steps": steps, "end": decimal(round(fraction(end), digits), digits)}
 
 
-def _document(top: Top, radius: Fraction, digits: int, orbits: list[dict[str, Any]]) -> dict[str, Any]:
+def _document(top: Top, radius: Fraction, digits: int, orbits: list[Document]) -> Document:
     figures = {"J": [str(x) for x in top.J], "D": str(top.D), "height": str(top.height)}
     return stated(KIND, ball=figures, radius=shortest(radius), digits=digits, orbits=orbits)

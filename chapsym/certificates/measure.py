@@ -9,9 +9,11 @@ on the circle, it would be conjugate to a rotation, and δ would have one sign, 
 import contextlib
 import math
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+
+from flint import arb
 
 from chapsym import checker
 from chapsym.checker.branch import MOST_ARCS
@@ -24,7 +26,7 @@ from chapsym.numbers.precisions import flint_bits
 
 from . import resonance
 from .balls import NotProved, decade, decimals, rounded, shortest
-from .document import accepted, stated, widest
+from .document import Document, accepted, stated, widest
 from .reduced import Reduced, Top, Vector, cross
 from .resonance import Resonance, spare_bits
 
@@ -45,9 +47,9 @@ class Orbit:
     start: str
     gibbs: list[Vector]
     gammas: list[Vector]
-    displacement: Any
+    displacement: arb
 
-    def write(self, digits: int) -> dict[str, Any]:
+    def write(self, digits: int) -> Document:
         """The orbit for JSON, rounded."""
         steps = [
             {name: [rounded(x, digits) for x in v] for name, v in (("u", u), ("gamma", gamma))}
@@ -59,7 +61,7 @@ class Orbit:
 def no_invariant_measure(
     top: Top, *, steps: int | None = None, half_turns: int | None = None, level: Fraction | None = None,
     digits: int | None = None, radius: Fraction | None = None, progress: Callable[[str], None] = lambda what: None,
-) -> dict[str, Any]:  # fmt: skip
+) -> Document:  # fmt: skip
     """Finds the certificate that G_h of a top preserves no measure with a positive continuous density.
 
     steps: q; the least odd one that turns by `half_turns` by default.  half_turns: p; 1, or what the level has.
@@ -154,14 +156,14 @@ def _arcs(top: Top, at: Resonance, digits: int) -> int:
 
 def _largest(
     top: Top, at: Resonance, least: int, only: bool, radius: Fraction | None, progress: Callable[[str], None]
-) -> dict[str, Any]:
+) -> Document:
     """The certificate with the largest radius, and the fewest digits for it."""
     candidates = [least] if only else list(range(least, min(least + MORE, MOST_DIGITS) + 1))
     radii = _radii(top, at, least) if radius is None else [radius]
     with _precise(at, candidates[-1]):
         orbits = _orbits(top, at)
 
-    def found(off: Fraction) -> dict[str, Any]:
+    def found(off: Fraction) -> Document:
         for n in candidates:
             written = [x.write(n) for x in orbits]
             with contextlib.suppress(checker.Rejected):
@@ -185,7 +187,7 @@ def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
     return [Fraction(1, 10**n) for n in range(digits, digits + LOST * at.steps + 2 * max(scales) + 20)]
 
 
-def _precise(at: Resonance, digits: int) -> Any:
+def _precise(at: Resonance, digits: int) -> AbstractContextManager[None]:
     """The precision that this many decimals need after the steps."""
     return flint_bits(math.ceil(digits * 10 / 3) + spare_bits(at.steps))
 
@@ -200,7 +202,7 @@ def _orbits(top: Top, at: Resonance) -> list[Orbit]:
     return found
 
 
-def _fields(top: Top, at: Resonance, radius: Fraction, digits: int) -> dict[str, Any]:
+def _fields(top: Top, at: Resonance, radius: Fraction, digits: int) -> Document:
     """All but the orbits."""
     fields = {
         "ball": {"J": [str(x) for x in top.J], "D": str(top.D), "height": str(top.height), "level": shortest(at.level)},

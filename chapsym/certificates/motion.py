@@ -3,7 +3,8 @@
 import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any
+
+from flint import arb
 
 from chapsym import checker
 from chapsym.dynamics import BadInput
@@ -14,7 +15,7 @@ from chapsym.dynamics.levels.start import fraction
 from chapsym.numbers.precisions import flint_bits
 
 from .balls import decade, shortest
-from .document import stated
+from .document import Document, stated
 
 KIND = "motion"
 #: Bits of the first attempt beyond those of the digits, how many more the next ones have, and the most beyond.
@@ -31,9 +32,7 @@ def check_start(start: Start) -> None:
         raise BadInput("a certificate has the rotor's angular momentum as rational numbers: give it in kg m^2/s")
 
 
-def motion(
-    start: Start, found: CertifiedMotion, progress: Callable[[str], None] = lambda sentence: None
-) -> dict[str, Any]:
+def motion(start: Start, found: CertifiedMotion, progress: Callable[[str], None] = lambda sentence: None) -> Document:
     """The certificate of the frames that were found from a start, accepted by the checker.
 
     The checker encloses the motion with more and more bits, as it loses some in each turn, more of a ball with unlike
@@ -57,12 +56,12 @@ def motion(
     raise BadInput(f"the checker proves too few digits of this motion, ask for less time or fewer digits: {why}")
 
 
-def document(start: Start, found: CertifiedMotion, bits: int) -> dict[str, Any]:
+def document(start: Start, found: CertifiedMotion, bits: int) -> Document:
     """The certificate, for a checker with this many bits: not checked."""
-    ball: dict[str, Any] = {"J": [shortest(x) for x in start.mass_tensor], "D": shortest(start.D)}
+    ball: Document = {"J": [shortest(x) for x in start.mass_tensor], "D": shortest(start.D)}
     if any(map(any, start.rotor)):
         ball["rotor"] = [shortest(x.rational) for x in start.rotor]
-    began: dict[str, Any] = _start(start, bits)
+    began: Document = _start(start, bits)
     if start.radius is not None:
         ball["radius"] = shortest(start.radius)
         began["position"] = [shortest(x) for x in start.position]
@@ -88,7 +87,7 @@ def _start(start: Start, bits: int) -> dict[str, list[list[str]]]:
         }
 
 
-def _known(x: Any, bits: int) -> list[str]:
+def _known(x: arb, bits: int) -> list[str]:
     """A ball as [middle, radius]; what is a quotient with a small denominator as that.
 
     The start is what the certificate says: nothing rests on whether a number of a scene was this quotient.
@@ -101,7 +100,7 @@ def _known(x: Any, bits: int) -> list[str]:
     return _pair(middle, Fraction(10) ** (decade(max(share, 8 * radius)) + 1))
 
 
-def _claims(name: str, row: Sequence[Any], share: Fraction, radius: Fraction) -> list[list[str]]:
+def _claims(name: str, row: Sequence[arb], share: Fraction, radius: Fraction) -> list[list[str]]:
     """The numbers of a frame, up to a power of 10 that is at most this share of their size."""
     middles = [fraction(x.mid()) for x in row]
     if name in ("angular_momentum", "omega"):

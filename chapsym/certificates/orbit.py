@@ -10,6 +10,8 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from flint import arb, arb_mat
+
 from chapsym import checker
 from chapsym.checker.document import MOST_DIGITS, MOST_STEPS
 from chapsym.checker.orbit import attracts
@@ -19,7 +21,7 @@ from chapsym.numbers.precisions import flint_bits
 
 from . import families
 from .balls import NotProved, rounded, shortest, simplest
-from .document import MADE, accepted, stated, widest
+from .document import MADE, Document, accepted, stated, widest
 from .families import Member
 from .passage import Level, Map, Passage, Vector, identity
 
@@ -36,7 +38,7 @@ def periodic_orbit(
     J: tuple[Fraction, Fraction, Fraction], D: Fraction, size: Fraction, steps: int, height: Fraction | None = None,
     digits: int | None = None, attracting: bool = False, radius: Fraction | None = None,
     progress: Callable[[str], None] = lambda what: None,
-) -> dict[str, Any]:  # fmt: skip
+) -> Document:  # fmt: skip
     """Finds the certificate of an orbit of this many steps, not symmetric, with det DG^q < 1 and without an eigenvalue
     1.
 
@@ -69,9 +71,7 @@ def periodic_orbit(
             bits = 2 * bits
 
 
-def _with_radius(
-    found: dict[str, Any], radius: Fraction | None, steps: int, progress: Callable[[str], None]
-) -> dict[str, Any]:
+def _with_radius(found: Document, radius: Fraction | None, steps: int, progress: Callable[[str], None]) -> Document:
     """The certificate for all numbers within a radius, which must be 0 where a component of J is."""
     if radius == 0 or (radius is None and min(map(Fraction, found["ball"]["J"])) == 0):
         return found
@@ -130,12 +130,12 @@ def _found(
     return best[1], best[2]
 
 
-def multipliers(W: Any) -> tuple[Any, Any, Any]:
+def multipliers(W: arb_mat) -> tuple[Any, Any, Any]:
     """det W, det(1 - W) and the trace."""
     return W.det(), (identity() - W).det(), W[0, 0] + W[1, 1] + W[2, 2]
 
 
-def determinants(passage: Passage) -> tuple[Any, Any]:
+def determinants(passage: Passage) -> tuple[arb, arb]:
     """det DG^q and det(1 - DG^q) on M; raises NotProved unless they are proved to be other than 1 and 0."""
     det, unit, _ = multipliers(passage.derivative())
     if det.contains(1) or unit.contains(0):
@@ -154,7 +154,7 @@ def _digits(passage: Passage, steps: int, wanted: int | None) -> int:
 
 def _document(
     level: Level, steps: int, start: tuple[Vector, Vector], passage: Passage, digits: int, attracting: bool
-) -> dict[str, Any]:
+) -> Document:
     """The object of the file, for the checker to prove."""
     det, unit, trace = multipliers(passage.derivative())
     more = {"trace": rounded(trace, digits)} if attracting else {}

@@ -8,19 +8,18 @@ only if the product T of their rotations is 1.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, arb_mat, ctx
 
-from chapsym.checker.linear import cross, dot
 from chapsym.dynamics.errors import BadInput
 from chapsym.dynamics.levels.balls import exact
 from chapsym.dynamics.levels.proved_root import certified, inverse_slope, newton_enclosure, upper
+from chapsym.dynamics.loops.vectors import cross, dot
 from chapsym.generated import compose, gibbs_residual
 
 from .balls import NotProved, near_root
 
-Vector = Sequence[Any]
+Vector = Sequence[arb]
 
 
 @dataclass(frozen=True)
@@ -43,19 +42,19 @@ class Passage:
     """
 
     quaternion: Vector
-    turned: Any
-    change: Any
+    turned: arb_mat
+    change: arb_mat
     gibbs: list[Vector]
 
-    def error(self) -> Any:
+    def error(self) -> arb_mat:
         """The vector part of the quaternion, which is 0 if and only if the point is back."""
         return column(self.quaternion[1:])
 
-    def slope(self) -> Any:
+    def slope(self) -> arb_mat:
         """The derivative of `error` by the four variations: dp = ½ω∘p."""
         return (self.quaternion[0] * identity() - hat(self.quaternion[1:])) * self.change / 2
 
-    def derivative(self) -> Any:
+    def derivative(self) -> arb_mat:
         """W, with DG^q(w × 𝒦, w × γ) = (Ww × 𝒦', Ww × γ') at the end (𝒦', γ')."""
         return self.turned + columns(self.change, 3)
 
@@ -63,7 +62,7 @@ class Passage:
 class Map:
     """The steps of one ball at one |𝒦|², for all parameters in balls; to be used with one precision of Arb's."""
 
-    def __init__(self, J: Vector, D: Any, size: Any) -> None:
+    def __init__(self, J: Vector, D: arb, size: arb) -> None:
         self.inertia, self.D = (J[1] + J[2], J[0] + J[2], J[0] + J[1]), D
         bound = certified(size.sqrt(), self.inertia)
         if bound is None:
@@ -95,7 +94,7 @@ class Map:
             gibbs.append(u)
         return Passage(quaternion, turned, change, gibbs)
 
-    def root(self, k: Vector, g: Vector) -> tuple[Vector, Any]:
+    def root(self, k: Vector, g: Vector) -> tuple[Vector, arb_mat]:
         """The root |u| < 1 of G for all k and γ in their balls, by lemma `small-branch`, and (∂G/∂u)⁻¹ there."""
         near = near_root(k, g, self.inertia, self.D)
         if not upper(near) <= self.radius:
@@ -104,31 +103,31 @@ class Map:
         u = newton_enclosure(near, gibbs_residual(*(*near, *state)), self.monotone, state, ctx.prec)
         return u, inverse_slope(u, arb(0), state)
 
-    def _variations(self, momentum: Vector, gamma: Vector) -> tuple[Any, Any, Any]:
+    def _variations(self, momentum: Vector, gamma: Vector) -> tuple[arb_mat, arb_mat, arb_mat]:
         """d𝒦, dγ and ω of the four variations at the start."""
         towards: Vector = cross(cross(momentum, gamma), momentum)
         dK, dg = (
             arb_mat([[*row, x] for row, x in zip((-1 * hat(v)).tolist(), last, strict=True)])
-            for v, last in ((momentum, towards), (gamma, (0, 0, 0)))
+            for v, last in ((momentum, towards), (gamma, [arb(0)] * 3))
         )
         return dK, dg, arb_mat(3, 4)
 
 
-def column(v: Vector) -> Any:
+def column(v: Vector) -> arb_mat:
     """A vector as a matrix of one column."""
     return arb_mat(len(v), 1, v)
 
 
-def columns(m: Any, count: int) -> Any:
+def columns(m: arb_mat, count: int) -> arb_mat:
     """The first columns of a matrix."""
     return arb_mat([row[:count] for row in m.tolist()])
 
 
-def identity() -> Any:
+def identity() -> arb_mat:
     """The unit matrix."""
     return arb_mat([[int(i == j) for j in range(3)] for i in range(3)])
 
 
-def hat(v: Vector) -> Any:
+def hat(v: Vector) -> arb_mat:
     """[v]×, the matrix of the vector product."""
     return arb_mat([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])

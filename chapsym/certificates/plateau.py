@@ -12,7 +12,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
 from flint import acb, arb
 
@@ -145,5 +144,5 @@ def nome_power(top: Top, level: Fraction, axes: Axes, steps: int) -> float:
         return steps * float(nome.log()) / math.log(2)
 
 
-def _quarter(k2: Fraction) -> Any:
+def _quarter(k2: Fraction) -> arb:
     return acb(exact(k2)).elliptic_k().real

@@ -7,7 +7,7 @@ Everything is computed at the precision of flint's context.
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, cast
+from typing import cast
 
 from flint import arb
 
@@ -19,7 +19,7 @@ from chapsym.generated import turn
 
 from .balls import NotProved, near_root
 
-Vector = tuple[Any, ...]
+Vector = tuple[arb, ...]
 Axes = tuple[int, int, int]
 #: Steps in h from 0 by which a root beyond the bound of `small-branch` is continued.
 CONTINUED = 16
@@ -110,13 +110,13 @@ class Reduced:
         return tuple(self.half * x for x in gamma)
 
 
-def cross(x: Vector, y: Vector, axes: Axes) -> Any:
+def cross(x: Vector, y: Vector, axes: Axes) -> arb:
     """x_a y_b - x_b y_a: positive where y is ahead of x in the plane of (a, b), by less than a half turn."""
     a, b, _ = axes
     return x[a] * y[b] - x[b] * y[a]
 
 
-def angle(x: Vector, y: Vector, axes: Axes) -> Any:
+def angle(x: Vector, y: Vector, axes: Axes) -> arb:
     """The angle from x to y in the plane of (a, b), in (-π, π)."""
     a, b, _ = axes
     return arb.atan2(cross(x, y, axes), x[a] * y[a] + x[b] * y[b])

@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable
 from decimal import ROUND_CEILING, Context
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
@@ -13,14 +12,14 @@ from chapsym.dynamics import BadInput, Trajectory
 from chapsym.numbers import Double
 
 from .balls import shortest
-from .document import accepted, stated
+from .document import Document, accepted, stated
 
 KIND = "map-run"
 #: Bits for numbers of the size of 1 and their bounds, and bits a step, in the order in which they are tried.
 GUARD, A_STEP = 128, (2.5, 4.0, 8.0, 24.0)
 
 
-def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: None) -> dict[str, Any]:
+def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: None) -> Document:
     """The certificate of a run of one ball in float64 with proved bounds, accepted by the checker.
 
     The checker follows the orbit from the start in integers and compares each frame with it.  Raises BadInput for
@@ -46,7 +45,7 @@ def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: 
     raise BadInput(f"the checker does not prove the bounds of this run: {why}")
 
 
-def _document(run: Trajectory, bits: int) -> dict[str, Any]:
+def _document(run: Trajectory, bits: int) -> Document:
     """The certificate, for a checker with this many bits: not checked."""
     assert run.proved is not None
     rows = zip(run.index, run.momentum, run.gamma, run.proved.momentum, run.proved.gamma, strict=True)

@@ -10,6 +10,8 @@ from chapsym.checker.interval import Interval
 from chapsym.checker.linear import Vector, cross, dot, minus, times
 from chapsym.checker.step import Ball, gibbs_vector, jacobian, residual
 
+from ..document import Document
+
 #: Of the entries of a row near the inverse of a derivative; and how far its product with the derivative is from 1.
 ROW, KAPPA = Fraction(1, 10**8), Fraction(1, 10**5)
 
@@ -40,7 +42,7 @@ class Step:
 class Walk:
     """The orbits of a certificate in boxes; raises `chapsym.checker.Rejected` where it proves nothing."""
 
-    def __init__(self, data: dict[str, Any]):
+    def __init__(self, data: Document):
         self.data, self.circle, self.radius = data, measure.Circle(data), Fraction(data["radius"])
         self.J = [Fraction(x) for x in data["ball"]["J"]]
         self.D, self.height, self.level = (Fraction(data["ball"][name]) for name in ("D", "height", "level"))
@@ -81,7 +83,7 @@ class Walk:
         turned = minus(gamma, times(2 / (1 + dot(u, u)), minus(once, cross(u, once))))
         return Step(Box(centre, radius), self.box(turned), missed, distance, rows)
 
-    def orbit(self, zero: int, steps: Sequence[dict[str, Any]]) -> tuple[Box, list[Step]]:
+    def orbit(self, zero: int, steps: Sequence[Document]) -> tuple[Box, list[Step]]:
         """The start with γ_zero = 0, and the steps."""
         start = self.box(self.circle.start(Fraction(zero == self.circle.a)))
         found: list[Step] = []

@@ -4,11 +4,12 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 from chapsym.checker import Rejected
+from chapsym.checker.linear import Vector
 from chapsym.checker.measure import ZEROS
 
+from ..document import Document
 from .boxes import KAPPA, Box, Step, Walk
 
 HERE = Path(__file__).resolve().parent
@@ -41,7 +42,7 @@ def ends(box: Box) -> str:
 class Theorem:
     """The text, str(Theorem(…)), of a certificate that the checker has accepted; raises Rejected if there is none."""
 
-    def __init__(self, name: str, data: dict[str, Any]):
+    def __init__(self, name: str, data: Document):
         if "branch" in data or any(one["start"] not in ZEROS for one in data["orbits"]):
             raise Rejected("only certificates without a branch, with the starts a and b, are written for Rocq")
         self.name, self.data, self.walk = name, data, Walk(data)
@@ -103,7 +104,7 @@ Proof.
 Print Assumptions {self.name}.
 """
 
-    def _orbit(self, data: dict[str, Any]) -> tuple[str, str, str]:
+    def _orbit(self, data: Document) -> tuple[str, str, str]:
         """The lemmas of an orbit, what is said of it, and the proof."""
         circle, q, name = self.walk.circle, self.data["steps"], data["start"]
         zero, other = (circle.a, circle.b) if name == "a" else (circle.b, circle.a)
@@ -132,7 +133,7 @@ Print Assumptions {self.name}.
             f"    repeat match goal with |- _ /\\ _ => split end.\n{proofs}",
         )
 
-    def _rounded(self, steps: Sequence[dict[str, Any]], found: Sequence[Step]) -> list[tuple[str, str]]:
+    def _rounded(self, steps: Sequence[Document], found: Sequence[Step]) -> list[tuple[str, str]]:
         """The numbers of the file are right, and how that is proved; raises Rejected if the boxes are too wide."""
         facts = []
         for k, (given, step) in enumerate(zip(steps, found, strict=True), 1):
@@ -143,7 +144,7 @@ Print Assumptions {self.name}.
                 facts.append((f"rounded {real(self.half)} {vector(numbers)} {of}", f"by_box {self.bits} {of}"))
         return facts
 
-    def _turns(self, gammas: Sequence[Any], displacement: str) -> list[tuple[str, str]]:
+    def _turns(self, gammas: Sequence[Vector], displacement: str) -> list[tuple[str, str]]:
         """Each step turns in one direction; on which side of the start each ends, and how far from it the last."""
         circle, (a, b, _), q = self.walk.circle, self.axes, self.data["steps"]
 
