@@ -10,8 +10,8 @@ from chapsym.checker.interval import Interval
 from chapsym.checker.linear import Vector, cross, dot, minus, times
 from chapsym.checker.step import Ball, gibbs_vector, jacobian, residual
 
-from ..document import Document
-
+#: The object of a certificate, or of a part of it.
+Document = dict[str, Any]
 #: Of the entries of a row near the inverse of a derivative; and how far its product with the derivative is from 1.
 ROW, KAPPA = Fraction(1, 10**8), Fraction(1, 10**5)
 

@@ -9,8 +9,7 @@ from chapsym.checker import Rejected
 from chapsym.checker.linear import Vector
 from chapsym.checker.measure import ZEROS
 
-from ..document import Document
-from .boxes import KAPPA, Box, Step, Walk
+from .boxes import KAPPA, Box, Document, Step, Walk
 
 HERE = Path(__file__).resolve().parent
 
