@@ -7,7 +7,6 @@ left out is decided; what a sentence says is not.
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
 
 #: How a reading of a question may be answered: what is asked for does not exist, exists, exists for a trivial reason.
 NO, YES, TRIVIALLY, OPEN = ANSWERS = ("no", "yes", "trivially yes", "open")
@@ -185,7 +184,7 @@ def assembled(reading: Reading, theorems: Mapping[str, Theorem]) -> Theorem:
     return Theorem(tuple(quantifiers), tuple(hypotheses), (reading.goal,))
 
 
-def row(reading: Reading, theorem: Theorem | None) -> dict[str, Any]:
+def row(reading: Reading, theorem: Theorem | None) -> dict[str, object]:
     """A reading with the theorem that answers it, as a record has it."""
     made = asdict(theorem) if theorem else None
     text = cited_text(reading, theorem) if theorem else None
@@ -208,7 +207,7 @@ class Grounds:
     sentences: int
 
 
-def settlement(of: Mapping[str, Grounds]) -> dict[str, Any]:
+def settlement(of: Mapping[str, Grounds]) -> dict[str, object]:
     """The grounds of several proofs: the word for them, the number of each, and both as text."""
     names = "statements", "certificates", "sentences"
     total = {name: sum(getattr(one, name) for one in of.values()) for name in names}

@@ -27,8 +27,8 @@ from .cofactors import Ideal, ideal, trees
 from .evidence import Proof
 from .points import allowed, candidates
 from .polynomials import Identity
-from .statements import Comparison, Count, Equation, Point, Rest, Statement, Zero, contradicts
-from .trees import NotAlgebra, nested, number, shared, tree
+from .statements import Comparison, Count, Equation, Point, Rest, Side, Statement, Value, Values, Zero, contradicts
+from .trees import Data, NotAlgebra, Tree, nested, number, shared, tree
 
 #: The trace of words, as the value of a symbol.
 TRACE = sp.Function("tr")
@@ -41,7 +41,7 @@ PARTS = (
 )  # fmt: skip
 
 
-def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> dict[str, Any]:
+def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> Data:
     """The certificate of a claim whose proof has run; raises checker.Rejected if the checker does not accept it."""
     made = _Maker(proof)
     for point in proof.points:
@@ -76,7 +76,7 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> d
     return _sealed(data)
 
 
-def _sealed(data: dict[str, Any]) -> dict[str, Any]:
+def _sealed(data: Data) -> Data:
     """The object with its statement and its digest."""
     data = data | {"statement": checker.statement(data)}
     return data | {"digest": checker.digest(data)}
@@ -104,7 +104,7 @@ def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
     return [one for one in whole if one[0] == "0" or tuple(formulas.tokens(one[0])) in used]
 
 
-def _value(of: Any) -> Any:
+def _value(of: Side) -> Any:
     """A number, a column, a matrix, or the trace of a word, as trees."""
     if isinstance(of, TRACE):
         return {"trace": tree(of.args[0])}
@@ -120,7 +120,7 @@ COUNTED = {
 }  # fmt: skip
 
 
-def carried(data: dict[str, Any]) -> dict[str, Any]:
+def carried(data: Data) -> Data:
     """The judged parts of a certificate that the checker accepted, counted and as text; the sentences, not judged."""
     sizes = {name: len(part) for name, part in data.items() if isinstance(part, list)}
     identical = sum(one["left"] == one["right"] for one in data["statements"])
@@ -148,7 +148,7 @@ def _cut(line: str) -> str:
     return line if len(line) <= LONGEST else f"{line[:LONGEST]}... ({len(line)} letters)"
 
 
-def write(data: dict[str, Any], folder: Path) -> None:
+def write(data: Data, folder: Path) -> None:
     """The certificate in the file of its claim, a part a line; raises CannotWrite if it cannot be."""
     lines = []
     for name, part in data.items():
@@ -166,7 +166,7 @@ class _Maker:
 
     def __init__(self, proof: Proof) -> None:
         self.proof = proof
-        self.parts: dict[str, list[dict[str, Any]]] = {name: [] for name in PARTS}
+        self.parts: dict[str, list[Data]] = {name: [] for name in PARTS}
         self.algebras, self.derivation, self.statements, self.counterexamples = (
             self.parts[name] for name in ("algebras", "derivation", "statements", "counterexamples")
         )
@@ -183,7 +183,7 @@ class _Maker:
         self.derivation += map(self._definition, self._steps)
         self._defined = derivation.values(self.derivation, [self._arithmetic(one) for one in self.algebras])
 
-    def _arithmetic(self, algebra: dict[str, Any]) -> Algebra | Quotients:
+    def _arithmetic(self, algebra: Data) -> Algebra | Quotients:
         if algebra["kind"] == "quotient":
             return quotients(algebra, Ring(algebra["variables"], Work()))
         return Algebra(algebra, Work())
@@ -194,7 +194,7 @@ class _Maker:
         hypotheses = [{"text": h.text, **_sides(h)} for h in point.hypotheses]
         self.counterexamples.append({"point": exact, "hypotheses": hypotheses, "refutes": [], "agrees": []})
 
-    def _completed(self, point: Point) -> Mapping[sp.Symbol, Any]:
+    def _completed(self, point: Point) -> Values:
         """The point with values of the variables that the relations have besides those of the printed statements."""
         exact = point.exact
         for _, statement, holds in self.proof.decided:
@@ -223,7 +223,7 @@ class _Maker:
             one = {"role": role, "text": f"{'' if holds else 'false: '}{statement.text} ({why})"}
         self.parts[part].append(one)
 
-    def _exported(self, statement: Statement, holds: bool, judged: bool) -> tuple[str, dict[str, Any]]:
+    def _exported(self, statement: Statement, holds: bool, judged: bool) -> tuple[str, Data]:
         """In which list a statement is, and what proves it; what is no equation and not `judged` is a sentence."""
         match statement:
             case Equation():
@@ -242,7 +242,7 @@ class _Maker:
                 return "statements", self._identity(statement)
         return "sentences", {}
 
-    def _identity(self, identity: Identity) -> dict[str, Any]:
+    def _identity(self, identity: Identity) -> Data:
         """An identity in free parameters: a statement without relations."""
         names = identity.parameters
         definitions, trees = shared([*identity.left, *identity.right])
@@ -252,7 +252,7 @@ class _Maker:
         one |= {"definitions": definitions} if definitions else {}
         return one | {"point": self._good_point(one, sp.symbols(names), ()), "cofactors": [[]] * half}
 
-    def _count(self, count: Count, holds: bool) -> dict[str, Any]:
+    def _count(self, count: Count, holds: bool) -> Data:
         """A count, with what proves the numbers of solutions."""
         found = count.elimination()
         names = [f"y{i}" for i in range(len(count.unknowns))]
@@ -264,7 +264,7 @@ class _Maker:
             "relations": _relations(count), "holds": holds,
         }  # fmt: skip
 
-    def _zero(self, zero: Zero) -> dict[str, Any]:
+    def _zero(self, zero: Zero) -> Data:
         """A solution near a point."""
         return {
             "point": self._point(zero.point), "unknowns": [x.name for x in zero.unknowns],
@@ -273,7 +273,7 @@ class _Maker:
             "radius": number(zero.radius),
         }  # fmt: skip
 
-    def _compare(self, example: dict[str, Any], one: dict[str, Any], i: int) -> None:
+    def _compare(self, example: Data, one: Data, i: int) -> None:
         """Notes that a point refutes a printed statement, or that what is correct holds there."""
         point, refutes = register.entries(example["point"]), "refuted" in one
         if not refutes and one["role"] not in ("corrected", "under"):
@@ -319,7 +319,7 @@ class _Maker:
         self.algebras[:] = [self.algebras[i] for i in kept]
         self._sources = {new: self._sources[old] for new, old in enumerate(kept) if old in self._sources}
 
-    def _definition(self, letter: sp.Symbol) -> dict[str, Any]:
+    def _definition(self, letter: sp.Symbol) -> Data:
         """A step of the derivation."""
         step = STEPS[letter]
         by = step.by
@@ -340,7 +340,7 @@ class _Maker:
     def _places(self, step: Step) -> list[Any]:
         """The matrices of a step, and the cofactors by which the rules hold of them."""
 
-        def rows(of: Any) -> Any:
+        def rows(of: Value) -> Tree | list[Tree]:
             return [[tree(x) for x in row] for row in of.tolist()] if isinstance(of, sp.MatrixBase) else tree(of)
 
         places, cofactors, one = step.by, [], {"algebra": self._algebra(step.algebra)}
@@ -352,7 +352,7 @@ class _Maker:
                 cofactors.append(self._cofactors(one | sides))
         return [[[x.name, rows(of)] for x, of in places.items()], cofactors]
 
-    def _algebra(self, algebra: Any) -> int:
+    def _algebra(self, algebra: object) -> int:
         of = _letters_of(algebra)
         if isinstance(of, QuotientRing):
             symbols = list(of.symbols)
@@ -367,7 +367,7 @@ class _Maker:
         self._sources[i] = of, symbols
         return i
 
-    def _words(self, algebra: WordAlgebra) -> tuple[dict[str, Any], list[sp.Symbol]]:
+    def _words(self, algebra: WordAlgebra) -> tuple[Data, list[sp.Symbol]]:
         """With the letters and parameters of all statements of the claim that it decides, and of its derivation."""
         expressions = [*algebra.transposes, *algebra.transposes.values(), *algebra.rules.values()]
         expressions += [letter for pair in algebra.rules for letter in pair]
@@ -386,7 +386,7 @@ class _Maker:
             "rules": [[a.name, b.name, tree(image)] for (a, b), image in algebra.rules.items()],
         }, symbols
 
-    def _proof(self, equation: Equation, one: dict[str, Any]) -> dict[str, Any]:
+    def _proof(self, equation: Equation, one: Data) -> Data:
         """The point, and the cofactors of an equation in a quotient ring."""
         algebra, symbols = self._sources[one["algebra"]]
         if isinstance(algebra, WordAlgebra):
@@ -396,7 +396,7 @@ class _Maker:
             return {"point": self._point(exact)}
         return {"cofactors": self._cofactors(one), "point": self._good_point(one, symbols, algebra.relations)}
 
-    def _good_point(self, one: dict[str, Any], symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr]) -> int:
+    def _good_point(self, one: Data, symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr]) -> int:
         """A point where the hypotheses and the relations hold, and no denominator vanishes."""
         for exact in allowed(symbols, relations, self.proof.assumed, self.proof.examples):
             entries = {x.name: _entry(v) for x, v in exact.items()}
@@ -407,10 +407,10 @@ class _Maker:
                 continue
         raise NotFound("no rational point was found where its relations hold")
 
-    def _point(self, exact: Mapping[sp.Symbol, Any]) -> int:
+    def _point(self, exact: Values) -> int:
         return _place(self.parts["points"], dict(sorted((x.name, _entry(v)) for x, v in exact.items())))
 
-    def _cofactors(self, one: dict[str, Any]) -> list[list[Any]]:
+    def _cofactors(self, one: Data) -> list[list[Tree]]:
         """For each entry of left - right, in the numerator that the checker forms."""
         ring = quotients(self.algebras[one["algebra"]], Ring(self.algebras[one["algebra"]]["variables"], Work()))
         more = derivation.entries([*one["left"], *one["right"]], self._defined)
@@ -429,17 +429,17 @@ class NotFound(Exception):
     """What a certificate needs besides the statement was not found; the message says what."""
 
 
-def _sides(equation: Equation) -> dict[str, Any]:
+def _sides(equation: Equation) -> Data:
     left, right = equation.written
     return {"left": [tree(x) for x in left], "right": [tree(x) for x in right]}
 
 
-def _letters_of(algebra: Any) -> Any:
+def _letters_of(algebra: object) -> Any:
     """The algebra, or that of its traces."""
     return algebra.algebra if isinstance(algebra, Traces) else algebra
 
 
-def _alike(one: Any, other: WordAlgebra) -> bool:
+def _alike(one: object, other: WordAlgebra) -> bool:
     """Whether an algebra is another one, or that of its traces."""
     one = _letters_of(one)
     return isinstance(one, WordAlgebra) and bool((one.transposes, one.rules) == (other.transposes, other.rules))
@@ -451,7 +451,7 @@ def _used(step: Step) -> list[sp.Expr]:
     return [unfolded(x) for x in (step.of, *by)]
 
 
-def _relations(comparison: Comparison | Count) -> list[list[Any]]:
+def _relations(comparison: Comparison | Count) -> list[list[Tree]]:
     """The relations as the checker reads them: > and ≥ turned round."""
     return [
         [_OPERATIONS[r.rel_op], tree(r.lhs), tree(r.rhs)] if r.rel_op in _OPERATIONS
@@ -463,12 +463,12 @@ def _relations(comparison: Comparison | Count) -> list[list[Any]]:
 _OPERATIONS = {"<": "<", "<=": "<=", "==": "=", "!=": "!="}
 
 
-def _entry(x: Any) -> Any:
+def _entry(x: Value) -> Tree:
     """A number or a matrix of a point."""
     return [[number(entry) for entry in row] for row in x.tolist()] if isinstance(x, sp.MatrixBase) else number(x)
 
 
-def _place(among: list[dict[str, Any]], data: dict[str, Any]) -> int:
+def _place(among: list[Data], data: Data) -> int:
     """Where data stand in a list, to which they are added if they are new."""
     text = json.dumps(data)
     i = next((i for i, other in enumerate(among) if json.dumps(other) == text), len(among))

@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from chapsym import sources
 from chapsym.checker import Rejected
@@ -18,6 +17,7 @@ from . import argument, certificates
 from .argument import Grounds
 from .evidence import Proof, Verdict
 from .statements import Rest
+from .trees import Data
 from .witness import Examples
 
 #: What a record says besides the verdict, in this order: what a `Proof` collects, and what is known of its claim.
@@ -117,7 +117,7 @@ class Judgement:
     verdict: Verdict
     proof: Proof
     seconds: float
-    certificate: dict[str, Any] | None = None
+    certificate: Data | None = None
 
     def certified(self) -> "Judgement":
         """With what was decided as data that the checker accepted; where it does not, the claim is open."""
@@ -142,14 +142,14 @@ class Judgement:
         decided = [statement for _, statement, holds in proof.decided if holds and not isinstance(statement, Rest)]
         return Grounds(proof.stated.get(""), len(decided), len(proof.certificates), argument.sentences(proof.said))
 
-    def _settled(self) -> dict[str, Any]:
+    def _settled(self) -> Data:
         """The grounds of the claim, with the claims that were proved anew for it."""
         rests = [statement for _, statement, _ in self.proof.decided if isinstance(statement, Rest)]
         return argument.settlement(
             {self.claim.id: self.grounds} | {one.name: one.grounds for one in rests if one.grounds}
         )
 
-    def record(self, downstream: Sequence[str] = ()) -> dict[str, Any]:
+    def record(self, downstream: Sequence[str] = ()) -> Data:
         """The claim's row of the register, as the command's contract has it."""
         known = vars(self.proof) | {
             "title": self.claim.title, "open_in_paper": self.open_in_paper, "derivation": self.proof.lines,
@@ -168,7 +168,7 @@ class Judgement:
         }
 
 
-def _theorem(proof: Proof, part: str) -> dict[str, Any]:
+def _theorem(proof: Proof, part: str) -> Data:
     """The theorem of a proof, with its steps."""
     return {"part": part, **asdict(proof.stated[part]), "steps": [asdict(step) for step in proof.steps[part]]}
 

@@ -5,10 +5,9 @@ Gröbner basis, each new element with its own cofactors (Buchberger's algorithm)
 Nothing rests on it: the checker multiplies out what is found here.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from operator import sub
-from typing import Any
 
 import sympy as sp
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
@@ -16,7 +15,7 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from chapsym.checker.matrices import Quotients
 from chapsym.checker.polynomial import FIELD, Quotient
 
-from .trees import Monomial, factored
+from .trees import Monomial, Terms, Tree, factored
 
 
 @dataclass(frozen=True)
@@ -40,7 +39,7 @@ class Element:
 class Ideal:
     """The ideal of some relations, {exponents: coefficient}, in a polynomial ring over Q."""
 
-    def __init__(self, names: Sequence[str], relations: Sequence[Mapping[Monomial, Any]]) -> None:
+    def __init__(self, names: Sequence[str], relations: Sequence[Terms]) -> None:
         self._context = fmpq_mpoly_ctx.get(tuple(names), Ordering.degrevlex)
         zero, one = self._context.constant(0), self._context.constant(1)
         self._none = Element(zero, (zero,) * len(relations))
@@ -51,7 +50,7 @@ class Ideal:
                 ones = tuple(one if i == j else zero for j in range(len(relations)))
                 self._extend(Element(self._context.from_dict(dict(relation)), ones))
 
-    def cofactors(self, polynomial: Mapping[Monomial, Any]) -> tuple[fmpq_mpoly, ...] | None:
+    def cofactors(self, polynomial: Terms) -> tuple[fmpq_mpoly, ...] | None:
         """The cofactors of a polynomial; None if it is not in the ideal."""
         whole = self._context.from_dict(dict(polynomial))
         while True:
@@ -121,7 +120,7 @@ def expression(of: Quotient) -> sp.Expr:
     return sp.Add(*(c * sp.Mul(*map(sp.Pow, symbols, m)) for m, c in terms(of).items()))
 
 
-def trees(ideal: Ideal, difference: Quotient) -> list[Any] | None:
+def trees(ideal: Ideal, difference: Quotient) -> list[Tree] | None:
     """The cofactors of a numerator as the checker reads them; None if it is not in the ideal."""
     cofactors = ideal.cofactors(terms(difference))
     names = difference.numerator.ring.variables

@@ -10,7 +10,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import chain
-from typing import Any
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -20,7 +19,8 @@ from chapsym.derive.words import unfolded
 from . import argument, points, witness
 from .argument import Reading, Step, Theorem
 from .limits import Limit
-from .statements import Comparison, Count, Equation, Point, Rest, Statement, contradicts
+from .statements import Comparison, Count, Equation, Point, Rest, Side, Statement, Values, contradicts
+from .trees import Data
 from .witness import Examples
 
 #: A rational number, as it is written.
@@ -83,16 +83,16 @@ class Proof:
     """
 
     lines: list[str] = field(default_factory=list)
-    checks: list[dict[str, Any]] = field(default_factory=list)
-    controls: list[dict[str, Any]] = field(default_factory=list)
+    checks: list[Data] = field(default_factory=list)
+    controls: list[Data] = field(default_factory=list)
     problems: list[str] = field(default_factory=list)
     hypotheses: list[str] = field(default_factory=list)
     assumed: list[Comparison] = field(default_factory=list)
-    counterexamples: list[dict[str, Any]] = field(default_factory=list)
-    routes: list[dict[str, Any]] = field(default_factory=list)
-    witnesses: list[dict[str, Any]] = field(default_factory=list)
+    counterexamples: list[Data] = field(default_factory=list)
+    routes: list[Data] = field(default_factory=list)
+    witnesses: list[Data] = field(default_factory=list)
     tried: list[str] = field(default_factory=list)
-    certificates: list[dict[str, Any]] = field(default_factory=list)
+    certificates: list[Data] = field(default_factory=list)
     measured: list[str] = field(default_factory=list)
     conjectures: list[str] = field(default_factory=list)
     uses: tuple[str, ...] = ()
@@ -100,12 +100,12 @@ class Proof:
     stated: dict[str, Theorem] = field(default_factory=dict)
     steps: dict[str, list[Step]] = field(default_factory=dict)
     question: dict[str, str] | None = None
-    readings: list[dict[str, Any]] = field(default_factory=list)
+    readings: list[Data] = field(default_factory=list)
     reason: str | None = None
     corrected_text: str | None = None
     condition: str | None = None
-    slip: dict[str, Any] | None = None
-    glossary: dict[str, tuple[Any, str]] = field(default_factory=dict)
+    slip: Data | None = None
+    glossary: dict[str, tuple[Side, str]] = field(default_factory=dict)
     said: list[str] = field(default_factory=list)
     inferences: list[str] = field(default_factory=list)
     decided: list[tuple[str, Statement, bool]] = field(default_factory=list)
@@ -123,7 +123,7 @@ class Proof:
         """Adds the argument in words from decided statements to the printed or corrected formula, by hand."""
         self.inferences += map(str, texts)
 
-    def show(self, name: str, value: Any) -> None:
+    def show(self, name: str, value: object) -> None:
         """A line of the derivation that shows an expression that was just derived."""
         if isinstance(value, sp.MatrixBase):
             value = "[" + ",  ".join(str(unfolded(entry)) for entry in value) + "]"
@@ -148,7 +148,7 @@ class Proof:
         if relations:
             self.assumed.append(Comparison(text, relations))
 
-    def reads(self, *given: Mapping[str, tuple[Any, str]] | tuple[str, Any, str]) -> None:
+    def reads(self, *given: Mapping[str, tuple[Side, str]] | tuple[str, Side, str]) -> None:
         """Sets the meanings of symbols, so that the checker reads the formulas and compares them with what was decided.
 
         Parameters
@@ -267,7 +267,7 @@ class Proof:
         sides = {"statement": of.text, "left": left, "right": right}
         self.counterexamples.append({"point": values, "printed": [sides], "corrected": []})
 
-    def _look_at_hypotheses(self, exact: Mapping[sp.Symbol, Any]) -> None:
+    def _look_at_hypotheses(self, exact: Values) -> None:
         self.problems += [
             f"the counterexample has no value for {min(map(str, h.symbols - exact.keys()))}, of the hypothesis {h.text}"
             for h in self.assumed
@@ -441,7 +441,7 @@ class Proof:
         return holds
 
 
-def _check(statement: Any) -> None:
+def _check(statement: Statement) -> None:
     if not hasattr(statement, "holds") or not isinstance(statement.text, str):
         raise TypeError(
             f"a statement has a text and is decided, such as equal('x = y', x, y); this is {statement!r:.60}"
@@ -452,6 +452,6 @@ def _equations(judged: Sequence[tuple[Statement, bool]]) -> list[Equation]:
     return [statement for statement, _ in judged if isinstance(statement, Equation)]
 
 
-def _sides(equation: Equation, point: Point) -> dict[str, Any]:
+def _sides(equation: Equation, point: Point) -> Data:
     left, right = equation.at(point.evaluate)
     return {"statement": equation.text, "left": left, "right": right}

@@ -2,13 +2,12 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import sympy as sp
 
 from chapsym.derive.quotient import Quotient
 
-from .statements import Comparison, Equation
+from .statements import Comparison, Equation, Side
 
 
 @dataclass(frozen=True)
@@ -27,7 +26,7 @@ class Limit(Equation):
         ]
 
 
-def tends(text: str, expression: Any, along: sp.Symbol, order: int, to: Any, ring: Quotient) -> Limit:
+def tends(text: str, expression: sp.Expr, along: sp.Symbol, order: int, to: Side, ring: Quotient) -> Limit:
     """That expression / along^order tends to something as along tends to 0.
 
     As an equation: the expression is along^order · (what it tends to) + along^(order + 1) · (a quotient), and the

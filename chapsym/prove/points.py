@@ -1,12 +1,11 @@
 """Rational points at which relations hold: a statement that is proved from them is not empty."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import partial
 from math import prod
 from random import Random
-from typing import Any
 
 import sympy as sp
 from flint import fmpq, fmpq_poly
@@ -14,7 +13,8 @@ from flint import fmpq, fmpq_poly
 from chapsym.derive.quotient import Quotient
 
 from . import witness
-from .statements import Comparison, Equation
+from .statements import Comparison, Equation, Values
+from .trees import Data
 from .witness import Examples
 
 Exact = dict[sp.Symbol, sp.Rational]
@@ -31,7 +31,7 @@ def candidates(
     symbols: Sequence[sp.Symbol],
     relations: Sequence[sp.Expr],
     examples: Examples,
-    known: Mapping[sp.Symbol, Any] | None = None,
+    known: Values | None = None,
 ) -> Iterator[Exact]:
     """Points with the known values at which all relations hold, if some are found: from examples, primes, or 1.
 
@@ -71,9 +71,9 @@ def some(ring: Quotient, examples: Examples) -> Iterator[Exact]:
 
 def look(
     equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples
-) -> tuple[list[dict[str, Any]], list[str]]:
+) -> tuple[list[Data], list[str]]:
     """As `witness.look`, at points found for the relations of each equation, where the examples have none."""
-    found: dict[tuple[Any, ...], dict[str, Any]] = {}
+    found: dict[tuple[object, ...], Data] = {}
     wrong = []
     for equation in equations:
         ring = equation.algebra
@@ -113,7 +113,7 @@ def small(numbers: Random, most: int, symbol: sp.Symbol) -> Fraction:
     return Fraction(numbers.randint(-most - 1, most + 1), numbers.randint(1, most))
 
 
-def _number(x: Any) -> sp.Rational:
+def _number(x: Fraction | fmpq) -> sp.Rational:
     return sp.Rational(int(x.numerator), int(x.denominator))
 
 

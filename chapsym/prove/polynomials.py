@@ -51,7 +51,7 @@ class Ratio(Arithmetic):
 
     __hash__ = None  # type: ignore[assignment]  # as python-flint's polynomials have none
 
-    def __add__(self, other: Any) -> "Ratio":
+    def __add__(self, other: object) -> "Ratio":
         if (other := self._coerced(other)) is None:
             return NotImplemented
         if self.made == 0 or other.made == 0:  # of matrices with many zeros
@@ -63,7 +63,7 @@ class Ratio(Arithmetic):
         whole = _product(total.denominator, _product(mine, its))
         return Ratio._lowest(total.numerator, whole, ("+", self, other))
 
-    def __mul__(self, other: Any) -> "Ratio":
+    def __mul__(self, other: object) -> "Ratio":
         if (other := self._coerced(other)) is None:
             return NotImplemented
         for one, another in ((self, other), (other, self)):
@@ -74,12 +74,12 @@ class Ratio(Arithmetic):
         above, below = _product(one.numerator, two.numerator), _product(one.denominator, two.denominator)
         return Ratio._lowest(above, below, ("*", self, other))
 
-    def __truediv__(self, other: Any) -> "Ratio":
+    def __truediv__(self, other: object) -> "Ratio":
         if (other := self._coerced(other)) is None:
             return NotImplemented
         return self * other._inverse()
 
-    def __rtruediv__(self, other: Any) -> "Ratio":
+    def __rtruediv__(self, other: int) -> "Ratio":
         return other * self._inverse()
 
     def __pow__(self, power: int) -> "Ratio":
@@ -103,7 +103,7 @@ class Ratio(Arithmetic):
         flipped = Ratio(self.denominator, self.numerator)
         return Ratio._lowest(flipped.numerator, flipped.denominator, ("^", self, -1))
 
-    def _coerced(self, other: Any) -> "Ratio | None":
+    def _coerced(self, other: object) -> "Ratio | None":
         """The other operand as a rational function of the same parameters; None if it is not an integer or one."""
         if isinstance(other, Ratio):
             return other

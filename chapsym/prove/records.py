@@ -11,7 +11,6 @@ import os
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import platformdirs
 
@@ -20,6 +19,7 @@ from chapsym import files, sources
 from .claims import Claim
 from .evidence import Verdict
 from .registers import PROOFS, Register
+from .trees import Data
 
 #: What decides besides this package.
 LIBRARIES = ("sympy", "python-flint", "numpy")
@@ -59,7 +59,7 @@ def _of_module(module: str) -> str:
     return sources.fingerprint(module, _BESIDES, versions)
 
 
-def read(path: Path) -> dict[str, dict[str, Any]]:
+def read(path: Path) -> dict[str, Data]:
     """The records of a file, by id; none if there is no file.  The end of a line that was not finished is left out.
 
     Raises BrokenRecords if it is not such a file, with the line that is not a record.
@@ -82,7 +82,7 @@ def read(path: Path) -> dict[str, dict[str, Any]]:
     return records
 
 
-def _parsed(line: str) -> dict[str, Any] | None:
+def _parsed(line: str) -> Data | None:
     """The record that a line holds; None if it holds none."""
     try:
         record = json.loads(line)
@@ -102,7 +102,7 @@ def _parsed(line: str) -> dict[str, Any] | None:
     )
 
 
-def update(path: Path, records: Iterable[dict[str, Any]], claims: dict[str, Claim]) -> None:
+def update(path: Path, records: Iterable[Data], claims: dict[str, Claim]) -> None:
     """Replaces old records by new ones, in the order of the claims; records of unknown claims go.
 
     The file is written whole; raises CannotWrite if it cannot be.
@@ -116,7 +116,7 @@ def update(path: Path, records: Iterable[dict[str, Any]], claims: dict[str, Clai
     files.write_whole(path, lambda stream: stream.writelines(map(files.encoded, lines)))
 
 
-def append(path: Path, record: dict[str, Any]) -> None:
+def append(path: Path, record: Data) -> None:
     """Adds a record, or nothing, to a file that `update` has written; of two for a claim the last one counts."""
     line = files.encoded(json.dumps(record, ensure_ascii=False) + "\n")
     with path.open("ab", buffering=0) as stream:
@@ -125,7 +125,7 @@ def append(path: Path, record: dict[str, Any]) -> None:
             stream.truncate(before)
 
 
-def stale(records: dict[str, dict[str, Any]], claims: dict[str, Claim]) -> list[str]:
+def stale(records: dict[str, Data], claims: dict[str, Claim]) -> list[str]:
     """The ids whose record was made with another derivation, or other libraries, than those that are here."""
     return [
         id for id, record in records.items()

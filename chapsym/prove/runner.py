@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import as_completed
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
-from typing import Any
 
 from chapsym import sources, workers
 
@@ -17,6 +16,7 @@ from .claims import Claim, Judgement, judgement_of, once
 from .evidence import SAID, Proof, Verdict
 from .records import fingerprint
 from .registers import PROOFS, BrokenScript, NoRegister, Register, raised, reached, register_of
+from .trees import Data
 
 
 def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
@@ -24,7 +24,7 @@ def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
     return [other for other in claims if id in reached(other, claims)]
 
 
-def prove_one(id: str, folder: Path | None = None, register: Register = PROOFS) -> dict[str, Any]:
+def prove_one(id: str, folder: Path | None = None, register: Register = PROOFS) -> Data:
     """Judges one claim of a register and returns its record; a proof that raises is an open claim with the reason.
 
     Its certificate is written to the folder, if one is named; raises CannotWrite if it cannot be.
@@ -35,7 +35,7 @@ def prove_one(id: str, folder: Path | None = None, register: Register = PROOFS) 
     return _record(judgement, register)
 
 
-def _record(judgement: Judgement, register: Register) -> dict[str, Any]:
+def _record(judgement: Judgement, register: Register) -> Data:
     """The record with its fingerprint, and its users: for a claim of the paper in the paper, for a lemma anywhere."""
     id, paper = judgement.claim.id, register.load()
     record = judgement.record(downstream(id, paper if id in paper else register.load(lemmas=True)))
@@ -64,10 +64,10 @@ def _open(claim: Claim, reason: str) -> Judgement:
 def prove_all(
     ids: Sequence[str],
     jobs: int | None = None,
-    on_result: Callable[[dict[str, Any]], None] = lambda record: None,
+    on_result: Callable[[Data], None] = lambda record: None,
     folder: Path | None = None,
     register: Register = PROOFS,
-) -> list[dict[str, Any]]:
+) -> list[Data]:
     """Judges claims of a register in parallel processes.
 
     Parameters
@@ -94,7 +94,7 @@ def prove_all(
         If the certificates cannot be written.
     """
     jobs = min(jobs or os.cpu_count() or 1, len(ids))
-    records: dict[str, dict[str, Any]] = {}
+    records: dict[str, Data] = {}
     if jobs <= 1:
         with once():
             for id in ids:
@@ -123,7 +123,7 @@ def _begin() -> None:
     once().__enter__()
 
 
-def explain(record: dict[str, Any]) -> str:
+def explain(record: Data) -> str:
     """The whole argument of one claim, as text."""
     evidence = record["evidence"]
     lines = [f"[{record['id']}] {evidence['title']}", f"  printed: {record['printed']}"]
@@ -184,14 +184,14 @@ def main(script: str) -> None:
     sys.exit(report([prove_one(id, None, register) for id in own]))
 
 
-def report(records: Iterable[dict[str, Any]]) -> int:
+def report(records: Iterable[Data]) -> int:
     """Prints every argument; returns the exit status."""
     records = list(records)
     print("\n\n".join(explain(record) for record in records))
     return 1 if unproved(records) else 0
 
 
-def unproved(records: Iterable[dict[str, Any]]) -> list[str]:
+def unproved(records: Iterable[Data]) -> list[str]:
     """The ids whose proof failed: `open`, and not a question that the paper itself leaves open.
 
     Parameters

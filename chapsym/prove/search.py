@@ -1,9 +1,7 @@
 """Rational points where a statement fails, its counterexamples, drawn at random."""
 
-from collections.abc import Mapping
 from functools import partial
 from random import Random
-from typing import Any
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -11,7 +9,7 @@ from sympy.core.relational import Relational
 from chapsym.derive.quotient import Quotient
 
 from .points import Exact, drawn, first, small
-from .statements import Comparison, Equation, Point, rational_point
+from .statements import Comparison, Equation, Point, Values, rational_point
 
 
 def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tries: int = 300) -> Point:
@@ -68,7 +66,7 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
     raise ArithmeticError(f"no point where «{statement.text}» fails was found among {seen}")
 
 
-def true(relation: Relational, values: Mapping[sp.Symbol, Any]) -> bool:
+def true(relation: Relational, values: Values) -> bool:
     """Whether both sides are numbers at a point, and the relation holds there."""
     if relation.has(sp.Float):
         raise ValueError(f"{relation} has a float: write exact numbers, such as sp.Rational(1, 2)")

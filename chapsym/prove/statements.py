@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol, TypeGuard
+from typing import Protocol, TypeAlias, TypeGuard
 
 import sympy as sp
 from flint import fmpq
@@ -15,11 +15,17 @@ from .argument import Grounds
 from .elimination import Elimination, Form, eliminate
 from .polynomials import Identity
 
+#: Exact values of symbols: rational numbers, and matrices of them.
+Value: TypeAlias = sp.Rational | sp.MatrixBase
+Values: TypeAlias = Mapping[sp.Symbol, Value]
+#: A side of an equation: an expression, a matrix or a list of entries.
+Side: TypeAlias = sp.Expr | sp.MatrixBase | Sequence[sp.Expr]
+
 
 class Algebra(Protocol):
     """Where an equation is decided: words for every n, or a quotient ring for n = 3."""
 
-    def is_zero(self, expr: Any) -> bool:
+    def is_zero(self, expr: sp.Expr) -> bool:
         """Whether the expression is zero, exactly."""
 
 
@@ -58,10 +64,10 @@ class Equation:
     """
 
     text: str
-    left: Any
-    right: Any
+    left: Side
+    right: Side
     algebra: Algebra
-    written: tuple[list[Any], list[Any]] = field(init=False)
+    written: tuple[list[sp.Expr], list[sp.Expr]] = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "written", (_entries(self.left), _entries(self.right)))
@@ -79,7 +85,7 @@ class Equation:
         """True exactly when every entry of left - right is zero in the algebra."""
         return all(self.algebra.is_zero(a - b) for a, b in zip(self.left, self.right, strict=True))
 
-    def at(self, evaluate: "Callable[[Any], Any]") -> tuple[list[str], list[str]]:
+    def at(self, evaluate: Callable[[sp.Expr], Value]) -> tuple[list[str], list[str]]:
         """Both sides at a point, as exact rationals; raises if a value is not rational."""
         pairs = [_same_shape(evaluate(a), evaluate(b)) for a, b in zip(self.left, self.right, strict=True)]
         if isinstance(self.algebra, words.Traces):
@@ -111,13 +117,13 @@ def equations(usual: Algebra) -> Callable[..., Equation]:
     True
     """
 
-    def equation(text: str, left: Any, right: Any, algebra: Algebra = usual) -> Equation:
+    def equation(text: str, left: Side, right: Side, algebra: Algebra = usual) -> Equation:
         return Equation(text, left, right, algebra)
 
     return equation
 
 
-def in_field(text: str, left: Sequence[Any], right: Sequence[Any], relation: sp.Expr) -> Equation:
+def in_field(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr], relation: sp.Expr) -> Equation:
     """left = right at a root of a polynomial in one symbol, which may have no rational one.
 
     An identity for every number in its place: left = right + (a multiple of the polynomial).
@@ -152,7 +158,7 @@ def in_field(text: str, left: Sequence[Any], right: Sequence[Any], relation: sp.
     return Equation(text, left, moved, Quotient((x,)))
 
 
-def _entries(side: Any) -> list[Any]:
+def _entries(side: Side) -> list[sp.Expr]:
     """A side as the list of its entries."""
     entries = side if isinstance(side, sp.MatrixBase | Iterable) else [side]
     return [sp.Integer(entry) if isinstance(entry, int) else entry for entry in entries]
@@ -283,7 +289,7 @@ class Comparison:
 
     text: str
     relations: Sequence[Relational]
-    point: Mapping[sp.Symbol, Any] = field(default_factory=dict)
+    point: Values = field(default_factory=dict)
     method: str = "rational numbers at a point"
 
     def __post_init__(self) -> None:
@@ -306,19 +312,19 @@ class Comparison:
         values = [_values(relation, self.point) for relation in self.relations]
         return [_exact(left) for left, _ in values], [_exact(right) for _, right in values]
 
-    def true_at(self, exact: Mapping[sp.Symbol, Any]) -> bool:
+    def true_at(self, exact: Values) -> bool:
         """Whether all relations hold at a point; raises if a side is not rational there."""
         return all(_compared(relation, exact) for relation in self.relations)
 
 
-def _values(relation: Relational, exact: Mapping[sp.Symbol, Any]) -> tuple[Any, Any]:
+def _values(relation: Relational, exact: Values) -> tuple[Value, Value]:
     """Both sides at a point."""
     used = {symbol: exact[symbol] for symbol in relation.free_symbols}
     left, right = (_evaluated(side, used) for side in (relation.lhs, relation.rhs))
     return left, right
 
 
-def _compared(relation: Relational, exact: Mapping[sp.Symbol, Any]) -> bool:
+def _compared(relation: Relational, exact: Values) -> bool:
     left, right = _same_shape(*_values(relation, exact))
     texts = _exact(left), _exact(right)  # of rational numbers
     if relation.rel_op in ("==", "!="):
@@ -372,7 +378,7 @@ class Count:
     text: str
     equations: Sequence[sp.Expr]
     unknowns: Sequence[sp.Symbol]
-    point: Mapping[sp.Symbol, Any]
+    point: Values
     relations: Sequence[Relational]
     algebra: Quotient
     nonzero: Sequence[sp.Expr] = ()
@@ -420,7 +426,7 @@ def contradicts(statement: Statement) -> TypeGuard[Comparison | Count]:
     return isinstance(statement, Comparison) or (isinstance(statement, Count) and not statement.nonzero)
 
 
-def _evaluated(expr: Any, exact: Mapping[sp.Symbol, Any]) -> Any:
+def _evaluated(expr: sp.Expr, exact: Values) -> Value:
     """An expression at rational values of its symbols; words at matrices."""
     if any(isinstance(value, sp.MatrixBase) for value in exact.values()):
         return words.evaluate(expr, exact)
@@ -450,10 +456,10 @@ class Point:
     """
 
     values: dict[str, str]
-    exact: Mapping[sp.Symbol, Any]
+    exact: Values
     hypotheses: Sequence[Equation] = ()
 
-    def evaluate(self, expr: Any) -> Any:
+    def evaluate(self, expr: sp.Expr) -> Value:
         """An expression at the point; words at its matrices."""
         return _evaluated(expr, self.exact)
 
@@ -462,7 +468,7 @@ class Point:
         return [h.text for h in self.hypotheses if len(set(map(tuple, h.at(self.evaluate)))) != 1]
 
 
-def rational_point(values: dict[sp.Symbol, Any], hypotheses: Sequence[Equation] = ()) -> Point:
+def rational_point(values: dict[sp.Symbol, str | sp.Rational], hypotheses: Sequence[Equation] = ()) -> Point:
     """A point given by rational numbers for commuting symbols.
 
     Parameters
@@ -489,7 +495,7 @@ def rational_point(values: dict[sp.Symbol, Any], hypotheses: Sequence[Equation] 
     return Point({str(k): str(v) for k, v in exact.items()}, exact, hypotheses)
 
 
-def _same_shape(a: Any, b: Any) -> tuple[Any, Any]:
+def _same_shape(a: Value, b: Value) -> tuple[Value, Value]:
     """Writes the number 0 as the zero matrix where the other side is a matrix."""
     if isinstance(a, sp.MatrixBase) and b == 0:
         return a, sp.zeros(*a.shape)
@@ -498,7 +504,7 @@ def _same_shape(a: Any, b: Any) -> tuple[Any, Any]:
     return a, b
 
 
-def _exact(value: Any) -> str:
+def _exact(value: Value) -> str:
     if isinstance(value, sp.MatrixBase):
         return str([[_exact(x) for x in row] for row in value.tolist()]).replace("'", "")
     if not value.is_Rational:

@@ -10,14 +10,20 @@ from flint import Ordering, fmpq, fmpq_mpoly_ctx
 from .polynomials import Ratio
 
 Monomial = tuple[int, ...]
+#: A polynomial: coefficients by the exponents.
+Terms = Mapping[Monomial, int | fmpq]
+#: An expression as the checker reads it: a name, a number, or ["+" | "*" | "^", operands...].
+Tree = int | str | list["Tree"]
+#: An object of JSON: a certificate, a record, or a part of one, with trees in it.
+Data = dict[str, Any]
 
 
 class NotAlgebra(ValueError):
     """An expression that is no quotient of polynomials; the message says what it has in it."""
 
 
-def tree(expr: Any) -> Any:
-    """The tree of an expression: a name, a number, or ["+" | "*" | "^", operands...]."""
+def tree(expr: sp.Expr) -> Tree:
+    """The tree of an expression."""
     if isinstance(expr, sp.Symbol):
         return expr.name
     if isinstance(expr, sp.Rational):
@@ -29,14 +35,14 @@ def tree(expr: Any) -> Any:
     raise NotAlgebra(f"{type(expr).__name__} is neither a number, a symbol, a sum, a product nor a power")
 
 
-def number(x: Any) -> int | str:
+def number(x: int | fmpq | sp.Rational) -> int | str:
     """A rational number as written in a tree: an integer, or a quotient in quotes."""
     if isinstance(x, int):
         return x
     return int(x.p) if x.q == 1 else f"{x.p}/{x.q}"
 
 
-def shared(wholes: Sequence[Ratio | int]) -> tuple[list[list[Any]], list[Any]]:
+def shared(wholes: Sequence[Ratio | int]) -> tuple[list[list[Tree]], list[Tree]]:
     """The trees of what was made of parameters: definitions of what occurs more than once, and the wholes by these.
 
     Zeros and ones, of unit matrices, are left out.
@@ -44,10 +50,10 @@ def shared(wholes: Sequence[Ratio | int]) -> tuple[list[list[Any]], list[Any]]:
     uses: Counter[int] = Counter()
     for whole in wholes:
         _count(whole, uses)
-    named: dict[int, Any] = {}
-    definitions: list[list[Any]] = []
+    named: dict[int, Tree] = {}
+    definitions: list[list[Tree]] = []
 
-    def found(of: Ratio | int) -> Any:
+    def found(of: Ratio | int) -> Tree:
         if not isinstance(of, Ratio):
             return int(of)
         if isinstance(of.made, str | int):
@@ -77,7 +83,7 @@ def _count(of: Ratio | int, uses: "Counter[int]") -> None:
                 _count(part, uses)
 
 
-def lowest_terms(of: Ratio) -> Any:
+def lowest_terms(of: Ratio) -> Tree:
     """The tree of a rational function as a quotient of polynomials, both in factors."""
     names = of.denominator.context().names()
     parts = _operands("*", factored(of.numerator.to_dict(), names))
@@ -87,7 +93,7 @@ def lowest_terms(of: Ratio) -> Any:
     return _list("*", kept)
 
 
-def _simple(operation: str, parts: list[Any], found: Callable[[Ratio | int], Any]) -> Any:
+def _simple(operation: str, parts: list[Any], found: Callable[[Ratio | int], Tree]) -> Tree:
     """A sum, a product or a power of trees, without what changes nothing."""
     if operation == "^":
         base, power = found(parts[0]), parts[1]
@@ -99,20 +105,20 @@ def _simple(operation: str, parts: list[Any], found: Callable[[Ratio | int], Any
     return _list(operation, flat) if flat else (0 if operation == "+" else 1)
 
 
-def factored(polynomial: Mapping[Monomial, Any], names: Sequence[str]) -> Any:
+def factored(polynomial: Terms, names: Sequence[str]) -> Tree:
     """The tree of a polynomial {exponents: coefficient}, in factors and nested: short where it has many terms."""
     context = fmpq_mpoly_ctx.get(tuple(names), Ordering.degrevlex)
     coefficients = {m: fmpq(int(c.numerator), int(c.denominator)) for m, c in polynomial.items()}
     if not coefficients:
         return 0
     constant, factors = context.from_dict(coefficients).factor()
-    parts = [] if constant == 1 else [number(constant)]
+    parts: list[Tree] = [] if constant == 1 else [number(constant)]
     for factor, power in sorted(factors, key=str):
         parts.append(_power(nested(factor.to_dict(), names), int(power)))
     return _list("*", parts) if parts else 1
 
 
-def nested(terms: Mapping[Monomial, Any], names: Sequence[str]) -> Any:
+def nested(terms: Terms, names: Sequence[str]) -> Tree:
     """A sum of terms, with the variable that most of them have in front of these: Horner's form."""
     if not terms:
         return 0
@@ -127,18 +133,18 @@ def nested(terms: Mapping[Monomial, Any], names: Sequence[str]) -> Any:
     return ["+", product, *_operands("+", nested(rest, names))] if rest else product
 
 
-def _term(monomial: Monomial, coefficient: Any, names: Sequence[str]) -> Any:
+def _term(monomial: Monomial, coefficient: int | fmpq, names: Sequence[str]) -> Tree:
     factors = [_power(name, int(e)) for name, e in zip(names, monomial, strict=True) if e]
     return _list("*", [number(coefficient), *factors] if coefficient != 1 or not factors else factors)
 
 
-def _power(base: Any, exponent: int) -> Any:
+def _power(base: Tree, exponent: int) -> Tree:
     return base if exponent == 1 else ["^", base, exponent]
 
 
-def _list(operation: str, parts: list[Any]) -> Any:
+def _list(operation: str, parts: list[Tree]) -> Tree:
     return parts[0] if len(parts) == 1 else [operation, *parts]
 
 
-def _operands(operation: str, of: Any) -> list[Any]:
+def _operands(operation: str, of: Tree) -> list[Tree]:
     return of[1:] if isinstance(of, list) and of[0] == operation else [of]

@@ -10,7 +10,7 @@ import random
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from typing import Any
+from typing import TypeAlias
 
 import sympy as sp
 from sympy.matrices.exceptions import ShapeError
@@ -18,9 +18,10 @@ from sympy.matrices.exceptions import ShapeError
 from chapsym.derive.quotient import Quotient
 from chapsym.derive.words import Traces, WordAlgebra, evaluate
 
-from .statements import Comparison, Equation
+from .statements import Comparison, Equation, Value, Values
+from .trees import Data
 
-Exact = dict[sp.Symbol, Any]
+Exact: TypeAlias = dict[sp.Symbol, Value]
 
 
 @dataclass(frozen=True)
@@ -63,12 +64,12 @@ GENERIC = "generic"
 
 def look(
     equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples
-) -> tuple[list[dict[str, Any]], list[str]]:
+) -> tuple[list[Data], list[str]]:
     """Evaluates the equations at every case; returns the witnesses found and the statements that fail there.
 
     A statement with a zero denominator in a case, or off a hypothesis, is not made there, and does not count.
     """
-    found: dict[str, dict[str, Any]] = {}
+    found: dict[str, Data] = {}
     wrong = []
     for equation in equations:
         for case in (GENERIC, *examples.cases):
@@ -83,7 +84,7 @@ def look(
     return list(found.values()), wrong
 
 
-def allowed(point: Mapping[sp.Symbol, Any], assumed: Sequence[Comparison]) -> bool:
+def allowed(point: Values, assumed: Sequence[Comparison]) -> bool:
     """Whether the hypotheses hold of which the point has the symbols."""
     return all(h.true_at(point) for h in assumed if h.symbols <= point.keys())
 
@@ -192,7 +193,7 @@ def _sound(point: Exact, algebra: WordAlgebra) -> bool:
         return False
 
 
-def true_at(equation: Equation, point: dict[sp.Symbol, Any]) -> bool | None:
+def true_at(equation: Equation, point: Exact) -> bool | None:
     """Whether both sides agree at a point; None where a denominator vanishes."""
     if isinstance(equation.algebra, Quotient):
         left, right = ([e.xreplace(point) for e in side] for side in (equation.left, equation.right))
@@ -206,7 +207,7 @@ def true_at(equation: Equation, point: dict[sp.Symbol, Any]) -> bool | None:
     return all(_same(evaluate(a, point), evaluate(b, point)) for a, b in pairs)
 
 
-def _same(a: Any, b: Any) -> bool:
+def _same(a: Value, b: Value) -> bool:
     """Equality of matrices; a number stands for its multiple of the identity (0 for any zero matrix)."""
     if isinstance(a, sp.MatrixBase) and isinstance(b, sp.MatrixBase):
         return bool(a.shape == b.shape and a == b) or (
@@ -219,7 +220,7 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def shown(equation: Equation, point: dict[sp.Symbol, Any]) -> dict[str, str]:
+def shown(equation: Equation, point: Exact) -> dict[str, str]:
     """The values of the symbols that occur in the equation, by name."""
     used = set().union(*(e.free_symbols for e in (*equation.left, *equation.right)))
     values = {str(symbol): value for symbol, value in point.items() if symbol in used}

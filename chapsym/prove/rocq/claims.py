@@ -2,11 +2,10 @@
 
 from collections import Counter
 from collections.abc import Mapping
-from typing import Any
 
 from . import matrices, quotients, traces, words
 from .names import apart, comment
-from .quotients import Fact
+from .quotients import Data, Fact, Tree
 
 #: Why a statement has no theorem.
 SAME, COUNT = "it has one expression on both sides", "it is a number of solutions"
@@ -15,7 +14,7 @@ SAME, COUNT = "it has one expression on both sides", "it is a number of solution
 class Claim:
     """Its text and its theorems, by the library that they need; how many of each sort, and what is left out."""
 
-    def __init__(self, data: dict[str, Any]):
+    def __init__(self, data: Data):
         self.data, self.name = data, f"claim_{apart(data['claim'])}"
         self.parts: dict[str, list[str]] = {}
         self.names: dict[str, list[str]] = {}
@@ -31,15 +30,15 @@ class Claim:
         for i, example in enumerate(data["counterexamples"]):
             self._counterexample(f"{self.name}_counterexample_{i}", example)
 
-    def _unfolded(self, one: dict[str, Any]) -> dict[str, Any]:
+    def _unfolded(self, one: Data) -> Data:
         """A statement with the names that the derivation defines replaced by their values."""
         sides = {side: [_placed(tree, self._values) for tree in one[side]] for side in ("left", "right")}
         names = [[name, _placed(tree, self._values)] for name, tree in one.get("definitions", [])]
         return one | sides | ({"definitions": names} if names else {})
 
-    def _at_a_point(self, one: dict[str, Any]) -> dict[str, Any]:
+    def _at_a_point(self, one: Data) -> Data:
         """A statement with names of parts replaced by trees, and the traces of matrices computed."""
-        one, values = self._unfolded(one), dict[str, Any]()
+        one, values = self._unfolded(one), dict[str, Tree]()
         for name, tree in one.get("definitions", []):
             values[name] = _placed(tree, values)
         sides = {side: [_placed(tree, values) for tree in one[side]] for side in ("left", "right")}
@@ -56,7 +55,7 @@ class Claim:
         self.names.setdefault(library, []).append(name)
         self.theorems[sort] += 1
 
-    def _statement(self, name: str, one: dict[str, Any]) -> None:
+    def _statement(self, name: str, one: Data) -> None:
         """A statement that is proved, and a point at which its hypotheses are true."""
         algebra, point = self.data["algebras"][one["algebra"]], self.data["points"][one["point"]]
         is_quotient = algebra["kind"] == "quotient"
@@ -86,7 +85,7 @@ class Claim:
                 values[defined] = str(quotients.value(tree, values))
             self._point("points", "These hypotheses can be true.", f"{name}_point", values, assumed, [algebra])
 
-    def _counterexample(self, name: str, example: dict[str, Any]) -> None:
+    def _counterexample(self, name: str, example: Data) -> None:
         """A point at which printed statements fail, and those in their place hold."""
         statements = self.data["statements"]
         refuted, agreeing = ([self._at_a_point(statements[n]) for n in example[part]] for part in ("refutes", "agrees"))
@@ -103,9 +102,9 @@ class Claim:
         sort: str,
         text: str,
         name: str,
-        values: Mapping[str, Any],
+        values: Mapping[str, Tree],
         facts: list[Fact],
-        algebras: list[dict[str, Any]],
+        algebras: list[Data],
     ) -> None:
         """Numbers of every field, or matrices of rational numbers, for which the facts are true."""
         if not any(isinstance(value, list) for value in values.values()):
@@ -116,7 +115,7 @@ class Claim:
         self._put("Matrices", sort, text, name, matrices.at_point(name, values, facts, known))
 
 
-def _placed(tree: Any, values: Mapping[str, Any]) -> Any:
+def _placed(tree: Tree, values: Mapping[str, Tree]) -> Tree:
     """A tree with some names replaced by other trees."""
     if isinstance(tree, list):
         return [tree[0], _placed(tree[1], values), tree[2]] if tree[0] == "^" else [
@@ -125,16 +124,16 @@ def _placed(tree: Any, values: Mapping[str, Any]) -> Any:
     return values.get(tree, tree) if isinstance(tree, str) else tree
 
 
-def _sides(one: dict[str, Any]) -> list[tuple[Any, Any]]:
+def _sides(one: Data) -> list[tuple[Tree, Tree]]:
     return list(zip(one["left"], one["right"], strict=True))
 
 
-def _nonzero(trees: list[Any]) -> list[Fact]:
+def _nonzero(trees: list[Tree]) -> list[Fact]:
     """No denominator of these expressions is 0."""
     return [("<>", [(tree, 0)]) for tree in quotients.denominators(trees)]
 
 
-def _hypotheses(algebra: dict[str, Any], point: Mapping[str, Any]) -> list[Fact]:
+def _hypotheses(algebra: Data, point: Mapping[str, Tree]) -> list[Fact]:
     """The hypotheses of an algebra, of the names that a point gives."""
     if algebra["kind"] == "quotient":
         return [("=", [(relation, 0)]) for relation in algebra["relations"]]

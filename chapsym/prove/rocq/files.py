@@ -4,10 +4,10 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from .claims import Claim
 from .names import comment
+from .quotients import Data
 
 HERE = Path(__file__).resolve().parent
 LIBRARIES = ("Identities", "Points", "Words", "Traces", "Matrices")
@@ -42,7 +42,7 @@ class Written:
         )
 
 
-def write(certificates: Iterable[dict[str, Any]], folder: Path) -> Written:
+def write(certificates: Iterable[Data], folder: Path) -> Written:
     """Writes the files of certificates that the checker has accepted to a folder; raises OSError if it cannot be."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in (*folder.glob("claim_*"), *folder.glob("axioms_*")):

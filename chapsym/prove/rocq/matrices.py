@@ -2,18 +2,15 @@
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
 
 from .names import identifier, integer
-from .quotients import Fact, denominators
-
-Tree = Any
+from .quotients import Fact, Tree, denominators
 
 
 class Point:
     """Numbers and matrices by name."""
 
-    def __init__(self, values: Mapping[str, Any]):
+    def __init__(self, values: Mapping[str, Tree]):
         self.values = values
 
     def is_number(self, tree: Tree) -> bool:
@@ -67,13 +64,13 @@ class Point:
         return f"({' == '.join(sides)})%M"
 
 
-def quotient(x: Any) -> str:
+def quotient(x: str | int) -> str:
     """A rational number."""
-    x = Fraction(x)
-    return f"({x.numerator} # {x.denominator})"
+    number = Fraction(x)
+    return f"({number.numerator} # {number.denominator})"
 
 
-def at_point(name: str, values: Mapping[str, Any], facts: list[Fact], transposes: list[list[Any]]) -> str:
+def at_point(name: str, values: Mapping[str, Tree], facts: list[Fact], transposes: list[list[Tree]]) -> str:
     """The theorem: matrices exist for which the facts are true, and which are transposes as it is said."""
     point = Point(values)
     texts = [f"({point.matrix(b, len(values[a][0]))} == transposed {identifier(a)})%M" for a, b in transposes]
@@ -91,7 +88,7 @@ def at_point(name: str, values: Mapping[str, Any], facts: list[Fact], transposes
     ])  # fmt: skip
 
 
-def _value(value: Any) -> str:
+def _value(value: Tree) -> str:
     if isinstance(value, list):
         return "[" + "; ".join("[" + "; ".join(map(quotient, row)) + "]" for row in value) + "]"
     return quotient(value)

@@ -8,7 +8,9 @@ from typing import Any
 
 from .names import identifier, integer
 
+#: An expression as the checker reads it; and an object of a certificate, with such in it.
 Tree = Any
+Data = dict[str, Any]
 #: What a variable is: its identifier, and its number from 1 on.
 Variables = Mapping[str, tuple[str, int]]
 
@@ -95,7 +97,7 @@ def listed(parts: Iterable[str]) -> str:
     return "[" + ";\n    ".join(parts) + "]"
 
 
-def value(tree: Tree, point: Mapping[str, Any]) -> Fraction:
+def value(tree: Tree, point: Mapping[str, Tree]) -> Fraction:
     """The value of an expression at rational numbers."""
     if not isinstance(tree, list):
         return Fraction(point.get(tree, tree))
@@ -105,12 +107,12 @@ def value(tree: Tree, point: Mapping[str, Any]) -> Fraction:
     return sum(parts, Fraction(0)) if tree[0] == "+" else prod(parts, start=Fraction(1))
 
 
-def trees_of(one: Mapping[str, Any]) -> list[Tree]:
+def trees_of(one: Mapping[str, Tree]) -> list[Tree]:
     """All of a statement: both sides, and what names stand for."""
     return [*one["left"], *one["right"], *(tree for _, tree in one.get("definitions", []))]
 
 
-def statement(name: str, one: dict[str, Any], algebra: dict[str, Any]) -> str:
+def statement(name: str, one: Data, algebra: Data) -> str:
     """The theorem: the equations hold where relations do and no denominator vanishes; names are what they stand for."""
     definitions = one.get("definitions", [])
     names = variables([*algebra["variables"], *(name for name, _ in definitions)])
@@ -143,7 +145,7 @@ def _list(names: Variables) -> str:
 Fact = tuple[str, list[tuple[Tree, Tree]]]
 
 
-def at_point(name: str, point: Mapping[str, Any], facts: list[Fact]) -> str:
+def at_point(name: str, point: Mapping[str, Tree], facts: list[Fact]) -> str:
     """The theorem: numbers exist for which the facts ("=" all sides agree, "<>" not all do) are true."""
     names = variables(point)
     texts, trees = [], []

@@ -1,15 +1,12 @@
 """Statements about traces as theorems about matrices of every size, over every commutative ring where 2 is a unit."""
 
 from math import lcm
-from typing import Any
 
-from .quotients import names_in
+from .quotients import Data, Tree, names_in
 from .words import Algebra, LeftOut, algebra_of, rules_for, rules_of, shapes_of, theorem
 
-Tree = Any
 
-
-def statement(name: str, one: dict[str, Any], data: dict[str, Any], point: dict[str, Any]) -> str:
+def statement(name: str, one: Data, data: Data, point: Data) -> str:
     """The theorem: the traces agree for all matrices for which the rules hold, with the transposes that are given."""
     used = names_in([None, *one["left"], *one["right"]])
     rules = rules_for(data, used)

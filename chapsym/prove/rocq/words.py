@@ -4,12 +4,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
-from typing import Any
 
 from .names import identifier
-from .quotients import joined, names_in
+from .quotients import Data, Tree, joined, names_in
 
-Tree = Any
 #: Rows and columns of a letter; True is n, False is 1.
 Shape = tuple[bool, bool]
 TYPES = {(True, True): ("'M[R]_n", "square"), (True, False): ("'cV[R]_n", "column"), (False, True): ("'rV[R]_n", "row")}
@@ -93,7 +91,7 @@ def _denominators(tree: Tree) -> set[int]:
     return set() if names_in(tree) else {Fraction(tree).denominator}
 
 
-def statement(name: str, one: dict[str, Any], data: dict[str, Any], point: dict[str, Any]) -> str:
+def statement(name: str, one: Data, data: Data, point: Data) -> str:
     """The theorem: the equations of a statement hold for all matrices for which the rules do."""
     rules = rules_for(data, names_in([None, *one["left"], *one["right"]]))
     algebra = algebra_of(data, one, rules, point)
@@ -115,7 +113,7 @@ def statement(name: str, one: dict[str, Any], data: dict[str, Any], point: dict[
     )
 
 
-def rules_of(algebra: Algebra, rules: list[list[Any]]) -> tuple[list[str], str]:
+def rules_of(algebra: Algebra, rules: list[list[Tree]]) -> tuple[list[str], str]:
     """The rules as hypotheses, and as data."""
     hypotheses, parts = [], []
     for a, b, image in rules:
@@ -160,7 +158,7 @@ def theorem(
     ])  # fmt: skip
 
 
-def rules_for(data: dict[str, Any], used: set[str]) -> list[list[Any]]:
+def rules_for(data: Data, used: set[str]) -> list[list[Tree]]:
     """The rules about the letters of a statement, and about those that these rules bring in."""
     while True:
         rules = [rule for rule in data["rules"] if {*rule[:2]} <= used]
@@ -170,9 +168,7 @@ def rules_for(data: dict[str, Any], used: set[str]) -> list[list[Any]]:
         used = more
 
 
-def algebra_of(
-    data: dict[str, Any], one: dict[str, Any], rules: list[list[Any]], point: dict[str, Any], more: Iterable[str] = ()
-) -> Algebra:
+def algebra_of(data: Data, one: Data, rules: list[list[Tree]], point: Data, more: Iterable[str] = ()) -> Algebra:
     """The letters and parameters of a statement, of its rules, and `more` letters."""
     used = names_in([None, *one["left"], *one["right"], *(part for rule in rules for part in rule), *more])
     sizes = {size for name in data["letters"] for size in (len(point[name]), len(point[name][0]))} - {1}
