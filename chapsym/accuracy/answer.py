@@ -28,7 +28,7 @@ from chapsym.numbers import NAMED, Digits, Double, DoubleDouble, Pair, Precision
 from . import motion
 from .motion import MARGIN, Motion, Problem, lengths
 
-#: What the accuracy may be of.
+#: The quantities that an accuracy may refer to.
 NORMS = ("state", "contact")
 #: The coefficients of the compositions have 40 digits, and the times of a run are as exact as they.
 LEAST = 1e-30
@@ -195,7 +195,7 @@ class Method:
 
 
 def label_of(precision: Precision) -> str:
-    """What JSON and the measured prices call a precision: "double", "digits30"; "quad" for double-double."""
+    """The name of a precision in JSON and in the measured prices: "double", "digits30"; "quad" for double-double."""
     if isinstance(precision, Digits):
         return f"digits{precision.count}"
     return "quad" if isinstance(precision, DoubleDouble) else type(precision).__name__.lower()
@@ -533,8 +533,8 @@ def _doubled(request: Request, limit: float, finer: float = 1.0, noisy: float = 
 
 
 def _rounded(request: Request, columns: int, steps: int) -> float:
-    """What rounding is expected to leave of long steps in double-double: the weights multiply it."""
-    # That of J, D, K and γ no comparison shows; the factor is the least that covered some twenty random balls.
+    """The expected rounding error of long steps in double-double, which their weights multiply."""
+    # No comparison shows the rounding of J, D, K and γ; the factor is the least that covered some twenty random balls.
     shared = 2 * ROUNDED * math.sqrt(request.condition) * (1 + request.angle) * request.unit
     path = request.angle if request.of == "contact" else 0.0
     weight = float(sum(map(abs, weights(columns, FIRST))))

@@ -82,7 +82,7 @@ ORDINARY = 1e-290, 1e290
 UNKNOWN = np.full(1, np.nan)
 #: The default accuracy: an error of that size is neither seen nor measured.
 DEFAULT = 1e-6
-#: What double precision can be asked for; rounding may take this part of an accuracy.
+#: The finest accuracy of double precision; and the part of an accuracy that rounding may take.
 FINEST, ROUNDING = 1e-12, 0.5
 #: How many times a ball is followed by long steps, at most, and what part of the accuracy those after the first aim
 #: at.
@@ -95,9 +95,9 @@ FINER = 1e-6
 TOGETHER, STEP, FRAME = 64, 1.5e-6, 2e-7
 #: Nominal seconds up to which a run is not watched, and which part of a ball is done, at most, while it is followed.
 QUICK, MOSTLY = 0.2, 0.99
-#: What an accuracy may be of.
+#: The quantities that an accuracy may refer to.
 PARTS = frozenset({"momentum", "gamma", "omega", "attitude", "contact"})
-#: Those whose errors are as large as one of the attitude.
+#: Quantities whose errors are as large as one of the attitude.
 TURNED = frozenset({"momentum", "gamma", "attitude"})
 #: The order of long steps with all columns; lower ones are of the map and its compositions.
 EXTRAPOLATED = 2 * MOST_COLUMNS
@@ -419,12 +419,12 @@ class Problem:
     def __post_init__(self) -> None:
         """Finds `units`, and what `loops.expected` finds of each ball at the start: `survey`, (FOUND, n)."""
         ball, n = self.ball, len(self.K)
-        #: What a relative error of each ball comes to in the norm, (n,): 1, or the radius in m.
+        #: The unit of each ball's error, (n,): 1, or the radius in m.
         self.units = np.empty(n)
         self.units[:] = ball.radius if self.metres and ball.radius is not None else 1.0
         self.survey: Floats = np.empty((FOUND, n))
         survey = native.loop(surveyed)
-        #: What rounding alone may leave of any ball, and whether one may rotate steadily.
+        #: The error that rounding alone may cause for any ball, and whether there is one ball that may rotate steadily.
         self.floor, self.single = survey(
             self.K, self.gamma, np.ascontiguousarray(ball.mass_tensor), ball.D, self.units, self.end, self.accuracy,
             self.survey,
@@ -563,7 +563,7 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     done = 0.0
 
     def report(part: float, others: int = 0) -> None:
-        """What is followed again was counted as far as it came."""
+        """A ball that is followed again does not count twice."""
         nonlocal done
         done = max(done, others + part)
         progress(done)
@@ -704,7 +704,7 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
         finer = np.where(wanted == order, shared(np.minimum(np.maximum(finer, least), most)), finer)
         # One that stopped has no estimate of the steps it needs.
         found.order[left], steps[left] = np.where(known, wanted, order), np.where(known, finer, 2 * taken)
-        # Of what more steps should gain half, in decades, shows that they help.
+        # More steps help where they gain half of what they should, in decades.
         gain[left] = np.where(found.order[left] == order, (steps[left] / taken) ** (order / 2), 2.0)
     return found
 

@@ -13,7 +13,7 @@ from .balls import NotProved, shortest
 
 #: The object of a certificate, or of a part of it.
 Document = dict[str, Any]
-#: What is made of the other fields of a file.
+#: The fields that follow from the others.
 MADE = ("format", "kind", "statement", "digest")
 
 
@@ -33,7 +33,7 @@ def accepted(document: Document) -> Document:
 def widest(
     radii: Sequence[Fraction], found: Callable[[Fraction], Document], progress: Callable[[str], None]
 ) -> Document:
-    """What is found with the largest of radii that fall, by halving, as smaller ones are easier.
+    """The finding with the largest radius for which there is one, among halved radii; smaller ones are easier.
 
     Raises what `found` raises for the smallest, NotProved or checker.Rejected.
     """

@@ -84,7 +84,7 @@ class Map:
             u, inverse = self.root(k, v)
             U, norm = hat(u), 1 + dot(u, u)
             step = identity() + (U * U - U) * (2 / norm)
-            # Of G(u) = 0 with |γ| = 1: ∂G du = ½(1 + |u|²)d𝒦 + D(⟨dγ, u⟩γ + ⟨γ, u⟩dγ); then dΩᵀΩ = [ω]×.
+            # Differential of G(u) = 0, |γ| = 1: ∂G du = ½(1 + |u|²)d𝒦 + D(⟨dγ, u⟩γ + ⟨γ, u⟩dγ); then dΩᵀΩ = [ω]×.
             du = inverse * (dK * (norm / 2) + (g * (column(u).transpose() * dg) + dg * dot(v, u)) * self.D)
             omega = (U - identity()) * du * (2 / norm)
             K, g, turned, change = step * K, step * g, step * turned, step * change + omega

@@ -24,7 +24,7 @@ from .map import whole_number
 from .results import Trajectory
 from .shown import Brief
 
-#: What a certificate is about; `contact` in metres.
+#: The quantities that a certificate bounds; `contact` in metres.
 NAMES = ("momentum", "gamma", "attitude", "contact")
 
 

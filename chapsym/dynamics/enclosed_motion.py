@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 #: The parts of a frame, vectors of balls.
 Frame = dict[str, tuple["arb", ...]]
 
-#: What a frame has; `contact` where the ball has a radius.
+#: The quantities of a frame; `contact` where the ball has a radius.
 PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
 #: Bits of the first attempt beyond those of the digits, and for each doubling of the turns.
 GUARD, OF_TURNS = 24, 2

@@ -14,7 +14,7 @@ from .shown import Brief
 MOST_TURN = 1.5
 #: 𝒦 with a horizontal part below this, relatively, gives no directions on the plane.
 VERTICAL = 1e-9
-#: What replaces frames that are not there: where it is not 0.
+#: The values that replace absent frames, where they are not 0.
 RESTING = {"gamma": [0.0, 0.0, 1.0], "attitude": [1.0, 0.0, 0.0, 0.0]}
 
 _torque = kernels.kernel("torque")

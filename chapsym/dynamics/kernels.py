@@ -112,7 +112,7 @@ def parts_of(result: Any) -> list[Any]:
     return list(result) if isinstance(result, tuple) else [result]
 
 
-# What a state, a ball or a rotation has; `kernel` makes the front of any other.
+# Quantities of a state, a ball or a rotation; `kernel` wraps any other.
 momentum = kernel("momentum")
 tangent_jacobian = kernel("tangent_jacobian")
 tangent_hessian = kernel("tangent_hessian")

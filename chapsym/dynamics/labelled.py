@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 #: `taken` and `status` of balls whose turn has not come.
 NOT_RUN = -1
-#: What a run keeps of each frame.
+#: The quantities that a run keeps of each frame.
 FRAMES = ("momentum", "gamma", "attitude", "contact")
 #: The attributes of the times of frames.
 TIME = {"units": "s", "long_name": "time"}
@@ -117,7 +117,7 @@ def texts(names: Iterable[str], dim: str) -> Labelled:
     return Labelled((dim,), np.array(list(names), dtype=object))
 
 
-#: Those of what every run says of each ball.
+#: The attributes of the outcome that every run has for each ball.
 OUTCOME = {
     "taken": about("steps taken"),
     "status": {
@@ -209,7 +209,7 @@ def plain(attrs: Mapping[Any, Any]) -> dict[str, Any]:
 
 
 def structure(data: "Dataset | Arrays") -> dict[str, Any]:
-    """What the rows lack, as plain data: labels of components; the columns and attributes of each variable."""
+    """The plain data that the rows lack: labels of components; the columns and attributes of each variable."""
     dims = [str(dim) for dim in data.dims if dim not in ("ball", "frame") and dim in data]
     labels = {dim: data[dim].values.tolist() for dim in dims}
     variables = {

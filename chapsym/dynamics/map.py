@@ -305,7 +305,7 @@ def check_body(J: Sequence[Fraction], D: Fraction) -> None:
     scale = Fraction(1)
     if largest and not 1e-300 < largest < 1e300:
         scale = Fraction(2) ** -exponent_of(largest)
-    # What is far smaller than the rest must not become 0: it is the difference between a body and none.
+    # A moment far below the rest must not become 0: it is the difference between a body and none.
     Ball([_at_least(x * scale) for x in J], _at_least(D * scale))
 
 

@@ -38,7 +38,7 @@ class Output:
     motion: tuple[str, str] | None = None
 
     def dims_in(self, n: int) -> tuple[str, ...]:
-        """Its dimensions besides ball and frame in n dimensions."""
+        """The dimensions, other than ball and frame, in n dimensions."""
         return self.dims if n == 3 or self.dims_n is None else self.dims_n
 
     def width(self, n: int) -> int:
@@ -46,7 +46,7 @@ class Output:
         return prod(len(labels(n)[dim]) for dim in self.dims_in(n))
 
     def attrs(self, n: int, motion: bool, name: str = "") -> dict[str, str]:
-        """Its units and its name in a result, of the motion of the ball or of the map; or those of what goes with it.
+        """The units and the name in a result, of the motion of the ball or of the map; or those of its error or bound.
 
         name: its own with the end `LOW` or `BOUND`.
         """

@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 #: By how much, relatively, a symmetric tensor may differ from its transpose.
 ASYMMETRY = 1e-12
-#: Of Jacobi's rotations: each squares the entries off the diagonal, at least.
+#: Sweeps of Jacobi's rotations: each at least squares the entries off the diagonal.
 SWEEPS = 7
 #: Orders of the axes that are equally near but for rounding: the first is taken.
 TIED = 1e-12

@@ -222,7 +222,7 @@ class Step(Brief):
 
 #: `Status.TAKEN`, which takes a microsecond to look up.
 TAKEN = int(Status.TAKEN)
-#: What a run keeps of each frame.
+#: The quantities that a run keeps of each frame.
 FRAMES = ("index", "momentum", "gamma", "attitude", "contact")
 
 

@@ -10,7 +10,7 @@ from chapsym.numbers import brief
 
 #: Arrays with more numbers are shown by their shape.
 FEW = 4
-#: Of the picture of a trace, in pixels.
+#: The size of the picture of a trace, in pixels.
 WIDTH, HEIGHT, MARGIN = 240, 160, 6
 
 

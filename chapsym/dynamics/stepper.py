@@ -38,7 +38,7 @@ class UnderWay:
     #: The frames of a call of which only the end is kept: the second row is the present state.
     _ends: dict[str, Floats]
 
-    #: Those of the start, for good.
+    #: Fixed at the start.
     ball, order, time_step = (property(attrgetter(name)) for name in ("_ball", "_order", "_time_step"))
 
     def step(self, steps: int = 1) -> None:

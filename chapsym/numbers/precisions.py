@@ -31,7 +31,7 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=FLINT._at_fork_reinit)  # type: ignore[attr-defined]
 
 
-#: What `with` blocks have set that are not ended, the innermost last.
+#: The settings of the `with` blocks that have not ended, the innermost last.
 _OPEN: dict[str, list[object]] = {"prec": [], "cap": []}
 
 
@@ -128,7 +128,7 @@ def _whole(precision: Any, name: str, least: int, most: int) -> None:
 class Precision(ABC):
     """One kind of number."""
 
-    #: Of arrays of such numbers, or of the first halves of pairs.
+    #: The type of arrays of such numbers, or of the first halves of pairs.
     dtype: ClassVar[np.dtype] = np.dtype(object)
 
     @abstractmethod
@@ -293,7 +293,7 @@ class Enclosure(Precision):
             yield
 
 
-#: What users call the precisions that have no parameter.
+#: The precisions without a parameter, by the names that users give.
 NAMED: dict[str, Precision] = {"single": Single(), "double": Double(), "double-double": DoubleDouble()}
 #: Other names of them: NumPy's, and an old one.
 OTHERS = {"float32": "single", "float64": "double", "quad": "double-double"}

@@ -43,7 +43,7 @@ class Theorem:
 
 @dataclass(frozen=True)
 class Step:
-    """That `gives` follows from what it needs: the number of sentences, and the statements decided besides them."""
+    """An inference of `gives` from `needs`: how many sentences argue it, and the decided statements that it uses."""
 
     gives: str
     needs: tuple[str, ...]
@@ -98,7 +98,7 @@ class Gap(Exception):
 
 
 def there_is(thing: str) -> str:
-    """That a thing exists, as a conclusion.
+    """The conclusion that a thing exists.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def there_is(thing: str) -> str:
 
 
 def no(thing: str) -> str:
-    """That a thing does not exist.
+    """The conclusion that a thing does not exist.
 
     Parameters
     ----------

@@ -113,7 +113,7 @@ def _value(of: Side) -> Any:
     return [tree(x) for x in of] if of.cols == 1 else [[tree(x) for x in row] for row in of.tolist()]
 
 
-#: What a record counts besides statements, and the words for it.
+#: The lists, other than statements, that a record counts, and the words for them.
 COUNTED = {
     "derivation": "steps from the premises", "comparisons": "comparisons", "counts": "counts of solutions",
     "hypotheses": "hypotheses", "zeros": "solutions near points", "rests": "rests on other certificates",
@@ -170,7 +170,7 @@ class _Maker:
         self.algebras, self.derivation, self.statements, self.counterexamples = (
             self.parts[name] for name in ("algebras", "derivation", "statements", "counterexamples")
         )
-        #: Of each algebra, itself or that of its traces, and its symbols.
+        #: For each algebra: itself, or that of its traces, and its symbols.
         self._sources: dict[int, tuple[Any, list[sp.Symbol]]] = {}
         self._ideals: dict[int, Ideal] = {}
         stated = [statement for _, statement, _ in proof.decided if isinstance(statement, Equation)]
@@ -426,7 +426,7 @@ class _Maker:
 
 
 class NotFound(Exception):
-    """What a certificate needs besides the statement was not found; the message says what."""
+    """A part that a certificate needs besides the statement was not found; the message says which."""
 
 
 def _sides(equation: Equation) -> Data:

@@ -20,7 +20,7 @@ from .statements import Rest
 from .trees import Data
 from .witness import Examples
 
-#: What a record says besides the verdict, in this order: what a `Proof` collects, and what is known of its claim.
+#: The fields of a record besides the verdict, in order: those that a `Proof` collects, and those of its claim.
 EVIDENCE = (
     "title", "slip", "hypotheses", "inferences", "condition", "reason", "open_in_paper", "tried", "question", "answer",
     "readings", "settled", "theorems", "certificates", "measured", "conjectures", "derivation", "checks", "controls",
@@ -238,7 +238,7 @@ def claim(
     return register
 
 
-#: What was judged in this process, while it is asked to judge each claim only `once`.
+#: The judgements of this process, while it is to judge each claim only `once`.
 _KNOWN: dict[Claim, Judgement] | None = None
 
 
@@ -263,7 +263,7 @@ def judgement_of(claim: Claim) -> Judgement:
 
 
 def judged(id: str) -> Rest:
-    """That a claim is proved, by its own proof, run now.
+    """The statement that a claim is proved, by its own proof, run now.
 
     Parameters
     ----------

@@ -85,7 +85,7 @@ def _value(form: Form, places: Sequence[Any], one: Any) -> Any:
 
 
 def _combinations(forms: Sequence[fmpq_mpoly], size: int) -> list[list[dict[Monomial, int]]] | None:
-    """Those that are linear in y1, ..., y(n-1), and for each of these a power of it where y0 and the later y are 0."""
+    """The forms linear in y1, ..., y(n-1), and for each of these a power of it where y0 and the later y are 0."""
     powers = [_power(forms, i, size) for i in range(size - 1, 0, -1)]
     if None in powers:
         return None

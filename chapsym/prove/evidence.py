@@ -29,7 +29,7 @@ NUMBER = re.compile(r"-?\d+(/\d+)?")
 SAID = {"==": "", "!=": "not ", "<": "less than ", "<=": "at most ", ">": "more than ", ">=": "at least "}
 
 
-#: What may be wrong with a statement that is not true as printed, by what it does to a reader.
+#: Kinds of errors in a statement that is not true as printed, by their effect on a reader.
 SLIPS = ("serious", "typo", "convention", "reading")
 
 

@@ -27,7 +27,7 @@ class Limit(Equation):
 
 
 def tends(text: str, expression: sp.Expr, along: sp.Symbol, order: int, to: Side, ring: Quotient) -> Limit:
-    """That expression / along^order tends to something as along tends to 0.
+    """The statement that expression / along^order tends to something as along tends to 0.
 
     As an equation: the expression is along^order · (what it tends to) + along^(order + 1) · (a quotient), and the
     denominator of the quotient is start · (1 + along · ...), where start, by which this divides, is not 0.

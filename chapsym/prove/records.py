@@ -21,7 +21,7 @@ from .evidence import Verdict
 from .registers import PROOFS, Register
 from .trees import Data
 
-#: What decides besides this package.
+#: The libraries on which verdicts depend besides this package.
 LIBRARIES = ("sympy", "python-flint", "numpy")
 
 #: How records are run, printed and kept does not change what they say.

@@ -196,13 +196,13 @@ class Fact:
 
 @dataclass(frozen=True)
 class Rest:
-    """That another certificate is accepted: by its digest, after the id if it is that of a claim."""
+    """The statement that another certificate is accepted: by its digest, after the id if it is that of a claim."""
 
     text: str
     certificate: str
     truth: bool
     method: str
-    #: What carries it, where it is a claim.
+    #: The grounds of the claim, where it is one.
     grounds: Grounds | None = None
 
     @property
@@ -217,7 +217,7 @@ class Rest:
 
 @dataclass(frozen=True)
 class Zero:
-    """That equations have one solution within `radius` in each unknown, and no other, where `nonzero` is not 0.
+    """The statement that equations have exactly one solution within `radius`, where `nonzero` is not 0.
 
     Parameters
     ----------
@@ -252,7 +252,7 @@ class Zero:
     method: str
 
     def holds(self) -> bool:
-        """What was decided."""
+        """The decision."""
         return self.truth
 
 

@@ -8,7 +8,7 @@ say that the steps exist, nor what follows from the displacements.  Nothing here
 
 from .theorem import Theorem, write
 
-#: What is written.
+#: The one kind of certificate that is written for Rocq here.
 KIND = "no-invariant-measure"
 
 __all__ = ["KIND", "Theorem", "write"]

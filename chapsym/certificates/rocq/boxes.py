@@ -12,7 +12,7 @@ from chapsym.checker.step import Ball, gibbs_vector, jacobian, residual
 
 #: The object of a certificate, or of a part of it.
 Document = dict[str, Any]
-#: Of the entries of a row near the inverse of a derivative; and how far its product with the derivative is from 1.
+#: The unit of a row near the inverse of a derivative; and how far its product with the derivative may be from 1.
 ROW, KAPPA = Fraction(1, 10**8), Fraction(1, 10**5)
 
 

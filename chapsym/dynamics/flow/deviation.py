@@ -40,7 +40,7 @@ from ..loops.vectors import cross, dot_four
 from .series import Series, bend
 
 Polynomials = Sequence[arb_poly]
-#: What the kernels run on: at a time, on all of a step, or as series.
+#: The numbers that the kernels take: at one time, over a whole step, or as series.
 Entry = TypeVar("Entry", arb, arb_poly, arb_series)
 
 #: All τ that there are.

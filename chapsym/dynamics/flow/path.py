@@ -109,7 +109,7 @@ ALIKE, LOOKS = 1.5, 4
 HALVINGS = 5
 #: Bits that a correction in float64 is taken to gain, and that are carried beyond those known so far.
 GAIN, BEYOND = 48, 66
-#: What is left after the last correction is this many bits above the rounding.
+#: The error after the last correction is this many bits above the rounding.
 LEFT = 11
 #: Bits for each that a correction gains from which on the next gain twice as many, and bits of them that are lost.
 FAR, LOST = 4, 12

@@ -78,7 +78,7 @@ def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
     return tuple(exactly(x, f"{name} {i}") for i, x in enumerate(listed, start=1))
 
 
-#: What turns no axes.
+#: The rotation that turns no axes.
 NO_TURN: Numbers = (arb(1), arb(0), arb(0), arb(0))
 
 

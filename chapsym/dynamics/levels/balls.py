@@ -56,7 +56,7 @@ from .proved_root import (
 )
 from .start import Exact, exponent_of, fraction, least, magnitude, start
 
-#: What a ball starts from: 𝒦, γ, J and D, exactly; the exact coefficients of the composition; the attitude, empty for
+#: The start of a ball: 𝒦, γ, J and D, exactly; the exact coefficients of the composition; the attitude, empty for
 #: the least rotation, or None; and the radius.
 Given = tuple[Exact, Exact, Exact, Fraction, Exact, Sequence[float | Fraction] | None, float]
 #: Steps of a ball between two calls of `progress`.
@@ -151,7 +151,7 @@ def _enclosed(precision: Enclosure, given: Given, way: _Way) -> int:
         stuck = stuck + 1 if (step, left) <= before and guard > CONDITION * lost else 0
         if stuck == MOST_STUCK:
             break
-        # What a step has cost, and a little more, for all steps.
+        # The bits that a step has cost, and a little more, for all steps.
         cost = (bits - left) / step if step else 0.0
         guard, before = max(2 * guard, math.ceil(1.1 * cost * way.steps) + precision.guard), (step, left)
     raise BadInput(
@@ -193,7 +193,7 @@ def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, floa
 CHORD_BITS = 300
 #: Numbers of this many bits below 1 are in the range of float64.
 FLOAT_BITS = 1000
-#: What the first correction by the float64 Jacobian is taken to leave.
+#: The error, relative to the one before, that the first correction by the float64 Jacobian is taken to leave.
 GAIN = 2.0**-40
 #: Bits that Newton's iterates are short of twice those before.
 SHORT = 12
@@ -515,7 +515,7 @@ class ArbBall(_UnderWay):
 
     def __init__(self, precision: int, given: Given) -> None:
         super().__init__(precision, given)
-        # What is followed is the rotation since the start: 𝒦 and γ are those of the start, turned back by it.
+        # The steps compose the rotation since the start: 𝒦 and γ are those of the start, turned back by it.
         self.first_k, self.first_g, self.length = self.k, self.g, upper(self.k)
         self.p: Numbers = (arb(1), arb(0), arb(0), arb(0))
         self.spread, self.matrix_bits = Spread(), MATRIX_BITS + 3 * self.lost

@@ -22,7 +22,7 @@ Exact = Sequence[Fraction]
 
 #: With a ratio of the moments of inertia above this, or a momentum below or above this, float64 is not asked.
 STIFF, TINY, HUGE = 1e8, 2.0**-900, 2.0**10
-#: Of a least moment, in units of the largest: float64 has smaller numbers, but not with all their bits.
+#: The exponent of a least moment, in units of the largest: smaller numbers of float64 have fewer bits.
 LEAST_EXPONENT = -1000
 #: The digits of the continuation beyond those that the ratio of the moments costs twice.
 DIGITS = 40

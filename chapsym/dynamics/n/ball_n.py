@@ -155,7 +155,7 @@ def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
 
 
 def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
-    """What the map keeps on every branch (prop-2): functions of 𝒦 and γ that no rotation of both changes.
+    """The integrals of the map on every branch (prop-2): functions of 𝒦 and γ that no rotation of both changes.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ from . import so_n
 
 #: The largest first correction, in radians.
 LARGEST = 0.5
-#: What a correction may be of the one before.
+#: The largest ratio of a correction to the one before.
 SHRINK = 1 / 6
 #: A correction below this, relative to the rotation, is the last one: Newton squares it.
 SETTLED = 1e-9

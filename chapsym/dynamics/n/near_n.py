@@ -28,7 +28,7 @@ from ..ball import Floats, largest_moment
 
 #: The angles r that are tried, as fractions of the one at which λ vanishes: the least that will do.
 ANGLES = np.array((0.25, 0.5, 0.75, 0.9))
-#: What |𝒦| and |γ| may change in a trajectory, relative to themselves, by roundings.
+#: The relative change of |𝒦| and |γ| that roundings may cause in a trajectory.
 DRIFT = 1e-6
 #: Where a momentum or a least moment is below this times the largest moment, the step is as for larger momenta.
 LEAST_MOMENTUM, LEAST_MOMENT = 2.0**-200, 2.0**-30

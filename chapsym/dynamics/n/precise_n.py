@@ -89,7 +89,7 @@ def _refined(E: Any, K: Any, gamma: Any, J: Any, D: Any) -> Any:
         xi = so_n.from_coordinates(_middle(np.array([x])), n)
         turn = xi + xi @ xi / 2
         E = _middle(E + turn + E @ turn)
-        # What is left is about the square of the correction.
+        # The error is now about the square of the correction.
         if (xi**2).sum() <= tiny * (E**2).sum():
             return so_n.orthogonal(E)
     return None

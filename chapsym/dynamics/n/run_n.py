@@ -37,7 +37,7 @@ from .near_n import limits
 BLOCK = 2**15
 #: Stages of a ball between two moments at which the run can be interrupted.
 CHUNK = 10_000
-#: What moves, of which frames may be kept.
+#: The quantities that move, of which frames may be kept.
 MOVING = ("momentum", "gamma", "attitude", "contact")
 #: Nobody counts the steps of a call.
 UNCOUNTED = Count(lambda done: None)
@@ -64,7 +64,7 @@ def _stepped(
     return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every, count, continued)
 
 
-#: What `step_n` and `trajectory_n` return.
+#: The results of `step_n` and `trajectory_n`.
 StepN, TrajectoryN = Step, Trajectory
 
 

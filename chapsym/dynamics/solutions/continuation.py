@@ -349,7 +349,7 @@ class Marchers:
             # Without momentum the small rotation is none: no digits of a rounding are asked for.
             still = ~K.any(axis=1) & (extent < AT_THE_ROOT)
             self.q[still, 1:], settled[still] = 0.0, True
-            # What a rounding of the residual moves the rotation by, for Λmax of about 1.
+            # The change of the rotation by a rounding of the residual, for Λmax of about 1.
             size = np.abs(K).max(axis=1) + 2 * extent
             noise = ROUNDINGS * UNIT_ROUNDOFF * np.abs(inverse).max(axis=(1, 2)) * size
             settled |= np.abs(w).max(axis=1) <= np.maximum(np.maximum(SETTLED * extent, noise), SMALLEST)

@@ -24,7 +24,7 @@ from .continuation import Marchers, nonsingular
 
 #: Most rotations that can have one momentum: the Bézout number of three quadrics.
 MOST = 8
-#: What error·bend may be; the theorem asks for at most 1/2, without room for what the two leave out.
+#: The largest error·bend; the theorem asks for at most 1/2, without room for what the two leave out.
 CERTAIN = 1 / 16
 #: Roots nearer than this, in units of 1/bend, are one root.
 SAME = 1 / 3

@@ -12,7 +12,7 @@ SAME, COUNT = "it has one expression on both sides", "it is a number of solution
 
 
 class Claim:
-    """Its text and its theorems, by the library that they need; how many of each sort, and what is left out."""
+    """The text and the theorems of a certificate, by the library that they need; counts by sort; what is left out."""
 
     def __init__(self, data: Data):
         self.data, self.name = data, f"claim_{apart(data['claim'])}"

@@ -11,7 +11,7 @@ from .quotients import Data
 
 HERE = Path(__file__).resolve().parent
 LIBRARIES = ("Identities", "Points", "Words", "Traces", "Matrices")
-#: What a file begins with, by the library that it needs; and how its name ends.
+#: The head of a file, by the library that it needs; and the end of its name.
 HEADS = {
     "Points": "Require Import Points Identities ZArith List QArith.\nImport ListNotations.\n"
     "Open Scope nat_scope.\nOpen Scope field_of_0.",

@@ -2,7 +2,7 @@
 
 import re
 
-#: What a letter that no identifier may have is written as; each begins with an underscore, and none with another.
+#: The replacements of letters that no identifier may have; each begins with an underscore, none with another.
 ESCAPES = {"-": "__", ".": "_d", "_": "_u", "+": "_p", "^": "_h", "'": "_q"}
 #: Words of Rocq, and names that the generated files use.
 RESERVED = frozenset({

@@ -11,7 +11,7 @@ from .names import identifier, integer
 #: An expression as the checker reads it; and an object of a certificate, with such in it.
 Tree = Any
 Data = dict[str, Any]
-#: What a variable is: its identifier, and its number from 1 on.
+#: The identifier of each variable, and its number from 1 on.
 Variables = Mapping[str, tuple[str, int]]
 
 
