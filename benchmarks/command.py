@@ -16,7 +16,7 @@ from chapsym.studies.checkout import machine, save_figures
 from .harness import NotComparable
 from .results import Result
 
-#: What a figure may be written as.
+#: The file types of figures.
 FIGURES = (".svg", ".png", ".pdf")
 
 

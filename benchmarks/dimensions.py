@@ -14,7 +14,7 @@ from .harness import NotComparable
 from .results import Reached, Result, beside, timed
 
 CONTINUED = "continued"
-#: Of the first n: the moments of the ball; the momentum below the diagonal, row by row, and γ are of this kind, too.
+#: The ball of n dimensions has the first n moments; 𝒦, row by row below the diagonal, and γ are cut likewise.
 MASS_TENSOR, D, RADIUS = (1.0, 2.0, 0.5, 3.0, 1.5, 2.5, 0.8, 1.2), 3.0, 0.1
 #: |𝒦|, as a matrix.
 EPSILON = 0.05

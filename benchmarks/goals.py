@@ -25,7 +25,7 @@ SEED = 20077
 ACCURACIES = (1e-6, 1e-9)
 #: The least seconds that a side is timed for in a round.
 LEAST = 2e-3
-#: Of the ensemble.
+#: The end time and the accuracy of the ensemble.
 END, TOGETHER = 100.0, 1e-9
 ROLL, OWN, HEYOKA, ACCURATE = "roll", "best own", "heyoka.py", "accurate"
 #: A program: a ball in a state, and one call.

@@ -17,7 +17,7 @@ SEED = 20075
 FULL, QUICK = (100_000_000, 8), (1_000_000, 8)
 #: States that are kept of a run: enough for their roundings to average out.
 FRAMES = 100_000
-#: What chapsym's default is to stay below in |𝒦|² and ⟨𝒦,γ⟩: the rms of single states, with their own roundings.
+#: The rms error in |𝒦|² and ⟨𝒦,γ⟩ below which chapsym's default is to stay, that of single states included.
 WANTED = 3e-16
 
 

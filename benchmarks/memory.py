@@ -15,7 +15,7 @@ from .trajectory import GAMMA, MASS_TENSOR, MOMENTUM, D
 
 #: A state that is kept: 𝒦 and γ, the number of its step, and one number more while that is made.
 BYTES_KEPT = 8 * 8
-#: What a run may take besides: less than a thousand states.
+#: The memory that a run may take besides: less than a thousand states.
 BESIDES = 1000 * BYTES_KEPT
 GIGABYTE = 2**30
 

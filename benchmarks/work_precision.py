@@ -21,7 +21,7 @@ END = 100.0
 STATE = np.concatenate([MOMENTUM, GAMMA])
 TARGETS = (1e-3, 1e-6, 1e-9, 1e-12)
 HEYOKA, EXTRAPOLATE = "heyoka.py", "chapsym.extrapolate"
-#: What the fastest of chapsym may take, to heyoka.py for as many balls.
+#: The largest ratio of the fastest of chapsym to heyoka.py for as many balls.
 MOST = 0.8
 RADIUS = 0.1
 #: Balls of one call of chapsym where a batch is timed: what the call itself costs is divided among them.

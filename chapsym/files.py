@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import IO
 
-#: Of a text that is read whole, and of its first line: an hour of a motion, a thousand frames each second.
+#: Limits of a text that is read whole, and of its first line: an hour of a motion, a thousand frames each second.
 MOST_BYTES, MOST_LINE = 2**30, 2**24
 
 

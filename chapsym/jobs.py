@@ -54,7 +54,7 @@ class Lost(Exception):
 
 
 class Crew(Protocol):
-    """Who makes the calls.  `lost` are the errors of a worker's end, after which a call is made again."""
+    """The makers of the calls.  `lost` are the errors of a worker's end, after which a call is made again."""
 
     lost: tuple[type[BaseException], ...]
 

@@ -10,7 +10,7 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from typing import Any
 
-#: What Python's tracker, which takes away the semaphores of a process that was killed, says of it; an option -W.
+#: Ignores the warning of Python's tracker, which removes the semaphores of a killed process; an option -W.
 TRACKER = "ignore:resource_tracker:UserWarning"
 
 
@@ -43,7 +43,7 @@ class Processes(ProcessPoolExecutor):
 
 @contextmanager
 def _deaf() -> Iterator[None]:
-    """What begins in it, a worker or Python's tracker, never sees an interrupt of a terminal, nor its end."""
+    """A process that begins in it, a worker or Python's tracker, sees no interrupt of a terminal, nor its end."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
@@ -70,7 +70,7 @@ def _end(*signal: object) -> None:
 
 
 def _called(call: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
-    """What a call gives, in a worker; one that was ended meanwhile begins no other."""
+    """The result of a call, in a worker; a worker that was ended during the call begins no other."""
     try:
         return call(*arguments, **named)
     finally:

@@ -31,7 +31,7 @@ OWN = {"off-centre": off_centre.made, "sliding": sliding.made}
 DIGITS = 30
 #: Digits of the numbers in the CSV files: more than float64 has.
 SHOWN = 20
-#: What is less is 0, but for rounding.
+#: A smaller number is 0 but for rounding.
 NOTHING = mpmath.mpf("1e-30")
 #: The ball as engines load it: the mass, the radius, and ixx, ixy, ...: entries of the tensor in the axes of the body.
 URDF = """<robot name="{name}">

@@ -246,7 +246,7 @@ class Start:
 
     @property
     def radius(self) -> Fraction:
-        """Of the ball."""
+        """The radius of the ball."""
         return self.body.radius
 
     def path(self, precision: int) -> Path:

@@ -17,7 +17,7 @@ from chapsym.numbers import NAMED, Digits, Enclosure, Precision
 from .frontier import Choice, Frontier, Say, frontier
 from .reference import sample, true_error, truth
 
-#: Of rounding alone: |ω|ε in radians, the reference, and the precisions.
+#: The measurement of rounding alone: |ω|ε in radians, the reference, and the precisions.
 STEP, FINEST = 0.1, Digits(120)
 PRECISIONS: tuple[Precision, ...] = (
     *NAMED.values(), Digits(30), Digits(50), Digits(100), Enclosure(100), Enclosure(300),

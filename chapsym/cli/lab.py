@@ -17,7 +17,7 @@ from .output import fail, note, print_json
 if TYPE_CHECKING:
     from chapsym.mechanics import System
 
-#: What a call and its arguments become: its result, when it is called.
+#: Takes a call and its arguments, and gives a function that returns its result.
 Later = Callable[..., Callable[[], Any]]
 
 

@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 
 #: Seconds between two lines of progress where standard error is no terminal.
 PAUSE = 5.0
-#: What nobody reads: a number of thousands of digits, a path without end.
+#: A word too long to be read: a number of thousands of digits, an endless path.
 LONG = re.compile(r"(\S{150})\S{100,}(\S{150})")
 #: The name of a result that is printed.
 PRINTED = Path("-")

@@ -101,7 +101,7 @@ def _write_rocq(certificates: list[Path], folder: Path) -> None:
 
 
 def _carried(records: list[dict[str, Any]]) -> str:
-    """What the certificates of all claims hold together."""
+    """The total of what the certificates of all claims contain."""
     counts = [record["evidence"]["carried"] for record in records if record["evidence"]["carried"]]
     statements, sentences = sum(c["statements"] for c in counts), sum(sum(c["sentences"].values()) for c in counts)
     judged = f"{counted(statements, 'statement')} that the checker accepted"

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 FORMATS = {"svg": ("svg",), "png": ("png",), "pdf": ("pdf",), "both": ("svg", "png"), "gif": (), "mp4": ()}
-#: What may be drawn of the table of another program.
+#: The figures that can be drawn from the table of another program.
 OF_TABLES = {"spheres", "omega", "attitude", "page"}
 
 

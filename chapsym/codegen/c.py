@@ -19,7 +19,7 @@ from typing import Any
 from .printer import FUNCTIONS
 from .source import ANNOTATIONS, LOOSE, PAIRS, Array, Function, NotConstant, Program, Record, Varying, constant, meaning
 
-#: What binds tighter has the larger number, as in C.
+#: Operators of C, each with its precedence: the tighter it binds, the larger.
 OPERATORS: dict[type, tuple[str, int]] = {
     ast.BitOr: ("|", 4), ast.BitAnd: ("&", 5), ast.Eq: ("==", 6), ast.NotEq: ("!=", 6), ast.Lt: ("<", 7),
     ast.LtE: ("<=", 7), ast.Gt: (">", 7), ast.GtE: (">=", 7), ast.Add: ("+", 9), ast.Sub: ("-", 9),
@@ -30,7 +30,7 @@ TERNARY, OR, AND, LESS, BITS, UNARY, ATOM = 1, 2, 3, 6, 8, 11, 12
 SCALARS = {"b": "int", "i": "int64_t", "r": "real", "d": "double", "w": "int32_t"}
 #: The kinds of double-double.
 LOOSE_SCALARS = {"1": "int64_t", "e": "real", "p": "t_r2", "q": "t_r2"}
-#: What adds, subtracts and multiplies two floats, a pair and a float, and two pairs.
+#: Functions that add, subtract and multiply two floats, a pair and a float, and two pairs.
 FORMS: dict[type, tuple[str, str, str]] = {
     ast.Add: ("two_sum", "loose_add_float", "loose_add"),
     ast.Sub: ("two_sum", "loose_add_float", "loose_subtract"),
@@ -39,9 +39,9 @@ FORMS: dict[type, tuple[str, str, str]] = {
 #: Functions of Python and its libraries that C has for float64, and those that are casts to a kind.
 LIBRARY = {"math.sqrt": "sqrt", "math.exp": "exp", "math.log": "log", "abs": "fabs"}
 CASTS = {"int": "i", "float": "r", "numpy.float32": "r", "numpy.float64": "d"}
-#: What float32 has of its own, and what that takes in float64.
+#: The module of float32's own loops, and what they take in float64.
 NARROW, WIDE = "single_loop", "branch"
-#: What is a new array.
+#: Calls that make a new array.
 ALLOCATE = ("numpy.empty", "numpy.zeros", "numpy.eye", "copy")
 WIDTH = 118
 
@@ -140,10 +140,10 @@ class Printer:
         self.names: dict[str, Any] = {
             a.arg: ANNOTATIONS[ast.unparse(a.annotation)] for a in function.node.args.args if a.annotation
         }
-        #: What it returns; the parameters into whose elements it writes.
+        #: The type that it returns; the parameters into whose elements it writes.
         self.returned: Any = None
         self.written: set[str] = set()
-        #: What the records are made of that have a name.
+        #: The parts of the records that have a name.
         self.made: dict[str, Sequence[ast.expr]] = {}
         #: The functions that it calls, each with the one that takes its place in float32, or itself.
         self.calls: dict[Function, Function] = {}

@@ -13,7 +13,7 @@ from .source import Function, Program, Record
 PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block")
 LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "proved", "tangent", "following", "expected"
-#: Those whose loops are compiled apart, at the same time as the others: they take half of the compiler's time.
+#: Modules that are compiled apart, at the same time as the others: they take half of the compiler's time.
 LONG = "lanes", "following"
 
 #: Loops that gain from registers of 512 bits, those of lanes of balls, and from those of 256; others gain from neither.
@@ -108,7 +108,7 @@ typedef struct { real a0; int64_t a1; } t_ri;
 INLINE t_ri real_frexp(real x) { int e; real m = (real)frexp(x, &e); return (t_ri){m, e}; }
 
 """
-#: What the loops and what calls them agree on.
+#: The interface of the loops.
 INTERFACE = """#ifndef LOOPS_H
 #define LOOPS_H
 
@@ -306,14 +306,14 @@ extern "C" {{
 #endif
 #endif
 """
-#: What the declarations of kernels say.
+#: The text before the declarations of kernels.
 ABOUT_ROUNDINGS = """
 /* Of a kernel with N roundings each result is off by at most N 2^-53 (1 + 2^-10) of its terms, if nothing over- or
    underflows and no divisor is below 2^-25 of its own terms (lemma `rounding` of chapsym).  Terms are a formula with
    every sum taken absolutely: |x| of an argument, terms(a) + terms(b) of a + b and a - b, terms(a) terms(b) of a b,
    terms(a) terms(b)/b^2 of a/b. */
 """
-#: What comes before the step of the library of chapsym.
+#: The text before the step in the library of chapsym.
 ABOUT_STEP = """
 /* One step of the map (5.3) on the small-rotation branch, in place.
 
@@ -327,7 +327,7 @@ STEP = (
     "int chapsym_step(const double mass_tensor[3], double D, double momentum[3], double gamma[3], "
     "double rotation[4], double *reach)"
 )
-#: What kernels alone need, for a register without loops.
+#: The headers of a register without loops.
 ALONE = "#include <math.h>\n#include <stdint.h>\n#include <string.h>\n\n"
 ALONE += "typedef double real;\n#define R(x) ((real)(x))\n#define INLINE static inline\n\n"
 

@@ -15,7 +15,7 @@ class NotStraightLine(ValueError):
     """The expression needs more than + - * / and integers."""
 
 
-#: What has sin, cos, sqrt and pi for numbers of every type.
+#: The module with sin, cos, sqrt and pi for numbers of every type.
 FUNCTIONS = "chapsym.numbers.functions"
 #: Print an integer power as a product, and name its base.
 POWERS = "powers"

@@ -97,7 +97,7 @@ def _number(x: Number) -> Rounded:
 
 
 def _is_power_of_two(x: Fraction) -> bool:
-    """Of the whole numbers in a text, and their quotients: an argument is no number that is known."""
+    """Whether it is 2^k, k ≥ 0 or < 0: for whole numbers of a text and their quotients; no argument is known."""
     n = abs(x.numerator) * x.denominator
     return n > 0 and n & (n - 1) == 0
 

@@ -51,7 +51,7 @@ class Function:
 
     @property
     def name(self) -> str:
-        """Its name in C, which has one scope for all modules."""
+        """The name in C, which has one scope for all modules."""
         return f"{'kernel' if self.module.name == 'generated' else self.module.name}_{self.node.name}{self.variant}"
 
     @property

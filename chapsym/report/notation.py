@@ -105,7 +105,7 @@ def _vector(entries: Sequence[str]) -> list[str | Matrix]:
 
 
 def sign(example: dict[str, Any]) -> str:
-    """What stands between the sides of a statement at a point; the right one may be words, as `at least 2`."""
+    """The sign between the sides of a statement at a point; the right one may be words, as `at least 2`."""
     if example["left"] == example["right"]:
         return " ="
     words = r"(not|less than|at most|more than|at least) "

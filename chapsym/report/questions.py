@@ -14,7 +14,7 @@ QUESTIONS = {
     "6-open": "Is there another integral that tends to the energy?",
 }
 
-#: What a certificate says about itself, besides its ball.
+#: The fields of a certificate that are shown besides its ball.
 GIVEN = ("radius", "half_turns", "digits")
 
 

@@ -175,7 +175,7 @@ def users(records: Sequence[Record]) -> dict[str, list[str]]:
     return {record["id"]: [id for id in used if record["id"] in used[id]] for record in records}
 
 
-# What the claims of a report are of: how the paper is called, and how a claim of it is proved again.
+# The register of a report: what its paper is called, and how a claim of it is proved again.
 
 EXACT = (
     "Each counterexample is exact: all hypotheses that are equations or inequalities hold at the point, and the two "

@@ -19,7 +19,7 @@ class Symbol(NamedTuple):
 
 
 _TEXT = (Path(__file__).parent / "templates" / "symbols.md").read_text(encoding="utf-8")
-#: What stands above and below the table.
+#: The text above and below the table.
 _, INTRODUCTION, _TABLE, DIRECTION = _TEXT.rstrip("\n").split("\n\n")
 _ROWS = (re.split(r"(?<!\\)\|", line)[1:-1] for line in _TABLE.splitlines()[2:])
 SYMBOLS = tuple(Symbol(*(field.strip().replace("\\|", "|") for field in row)) for row in _ROWS)

@@ -287,7 +287,7 @@ def _save_zarr(dataset: "Dataset", path: Path) -> None:
     """Writes a new .zarr, whole; raises SceneError if the disk refuses."""
     if path.exists():
         raise SceneError(f"{path} is there already; remove it, or choose another name")
-    # Of a part of another .zarr the chunks do not fit those of its files.
+    # The chunks of a part of another .zarr do not fit those of its files.
     whole = dataset.drop_encoding().unify_chunks().assign_attrs({"complete": True} | dataset.attrs)
     if whole.chunks:
         whole = whole.chunk({dim: max(lengths) for dim, lengths in whole.chunks.items()})

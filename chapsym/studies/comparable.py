@@ -25,11 +25,11 @@ NEAR, SOFT = 1e-5, 0.02
 #: Another convention is meant where it is nearer by the first factor and off by less than the second number, and this
 #: one by more than the third, in degrees; none is sought beyond one that is as near as the last number says.
 NEARER, FAR, SEEN, FITS = 5.0, 10.0, 1.0, 0.1
-#: Of two readings the later is better where it is off by less than this part of what the earlier is, as they round.
+#: The later of two readings is better where its error is less than this part of the earlier's, as they round.
 SAME = 0.999
 #: Velocities are of the body where, read in space, they are off by more than this part of the greatest.
 OFF = 0.01
-#: What the times are, over what the way and the speed say, where they are in another unit; and to within which factor.
+#: Times are in another unit where they are this many times too long for the path; and how far that ratio may vary.
 UNIT, STEADY = 300.0, 1.5
 #: Rows of a file that are judged at most, and radians that are turned until a convention shows.
 MOST_ROWS, TURNED = 2000, 0.5
@@ -86,7 +86,7 @@ UNITS: tuple[Way, ...] = (
     ("its lengths are in cm: divide them by 100", partial(np.multiply, 1e-2)),
 )
 _TOO = ", of the quaternion, too"
-#: What is up: of vectors, and of the turn.
+#: Which axis is up: of vectors, and of the rotation.
 AXES: tuple[tuple[Way, Way], ...] = (
     (PLAIN, PLAIN),
     *((way, turn) for way, too in (((_Y_UP, _upright), _upright_turn), ((_Z_DOWN, _upside), _upside_turn))
@@ -124,7 +124,7 @@ def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
     return iter(sorted(found, key=lambda one: len(one[0])))
 
 
-#: What a start says, by the names of the parts of a trajectory.
+#: The values of a start, by the names of the parts of a trajectory.
 Start = dict[str, np.ndarray]
 
 

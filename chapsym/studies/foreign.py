@@ -22,7 +22,7 @@ BACK = np.array([1.0, -1.0, -1.0, -1.0])
 FOREIGN = "none: a trajectory of another program"
 #: The results of chapsym that are no text.
 BINARY = (".npz", ".nc", ".parquet", ".zarr")
-#: What a trajectory must have to be drawn.
+#: The parts that a trajectory must have to be drawn.
 PLANE = NEEDED[:3]
 
 

@@ -196,7 +196,7 @@ def carried(case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.nd
     return energy, momentum + case.mass * np.cross(offset, velocity)
 
 
-# What several steps of one engine say: its order, and the part of its distance that no step takes away.
+# The result of several steps of one engine: its order, and the part of its distance that no step removes.
 
 
 @dataclass(frozen=True)

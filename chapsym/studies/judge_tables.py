@@ -22,14 +22,14 @@ TUM = ("time", "x", "y", "z", "qx", "qy", "qz", "qw")
 LARGEST = 1e100
 #: Two times are the same, if they differ by less than this part of the last.
 SAME_TIME = 1e-9
-#: What engines call a part, before its component, words in lower case; "angular velocity" is sought before "velocity".
+#: The names that engines give a part, before its component, in lower case; "angular velocity" comes before "velocity".
 CALLED = {
     "w": r"w|omega|ang ?vel|angular|angular velocity",
     "": r"p|pos|position|translation|com|cent(?:er|re)",
     "q": r"q|quat|quaternion|ori|orientation|rot|rotation|attitude",
     "v": r"v|vel|velocity|lin ?vel|linear|linear velocity",
 }
-#: What has numbers for its components: the free joint of MuJoCo, Euler parameters, and the messages of PX4.
+#: Parts with numbered components: the free joint of MuJoCo, Euler parameters, and the messages of PX4.
 INDEXED = {
     "qpos": NEEDED[1:], "qvel": MORE, "e": NEEDED[4:],
     "q": NEEDED[4:], "position": NEEDED[1:4], "velocity": MORE[:3], "angular_velocity": MORE[3:],
@@ -49,7 +49,7 @@ _ANGLES = re.compile(r"(?:.* )?(?:roll|pitch|yaw|rpy|euler)(?: .*)?")
 _LONG = re.compile(r"[eE][+-]?\d{4}")
 #: The digits by which such a time is moved.  EuRoC and others have ns.
 PARTS = {"milli": 3, "m": 3, "micro": 6, "u": 6, "µ": 6, "μ": 6, "nano": 9, "n": 9}
-#: What separates cells; where none of them is in a line, spaces.  With the first two a comma is the decimal point.
+#: Separators of cells; spaces where a line has none of them.  With the first two a comma is the decimal point.
 MARKS = "\t;,"
 
 

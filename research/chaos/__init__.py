@@ -11,7 +11,7 @@ from ..units import Run, Unit, run_units
 from .orbits import share
 
 TITLE = "How much of the map is chaotic"
-#: What each figure shows, in the order in which they are shown.
+#: The captions of the figures, in their order.
 CAPTIONS = {
     "chaos.svg": "The share of chaotic orbits among 128 against ε = |𝒦|/I_min, with 95% intervals: at random starts "
     "none is found for small ε; chaos starts at the unstable rotation. D = 0 is the control.",
@@ -30,7 +30,7 @@ ORBITS, STEPS = 128, 20_000
 #: The length of the runs is varied for this ball at this ε.
 LENGTHS = (5_000, 20_000, 80_000)
 VARIED = ((0, 1, 3), 1.0, 0.9)
-#: What is drawn: a level at a moderate ε, and a chaotic layer of it at a large one.
+#: The figures: a level at a moderate ε, and a chaotic layer of it at a large one.
 LEVEL = [[0, 1, 3], 1.0, 0.5]
 PICTURES: tuple[dict[str, Any], ...] = (
     {"ball": LEVEL, "epsilon": 0.9, "lines": [[0.0, -0.2, 0.6], [1.0, -0.1, 0.5]]},

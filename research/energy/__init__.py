@@ -14,7 +14,7 @@ from .continuous import Level
 from .section import packed
 
 TITLE = "The energy of the whole map"
-#: What each figure shows, in the order in which they are shown.
+#: The captions of the figures, in their order.
 CAPTIONS = {
     "energy.svg": "Left: over a long run the energy H of K = 𝒦/ε ranges by a part ∝ ε² of itself at generic starts, "
     "and ∝ ε in the widest resonances. Right: what the map adds to H along a closed orbit of the continuous ball, "
@@ -57,7 +57,7 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
         if group == "islands":
             result = {**result, "psi": packed(result["psi"]), "energy": packed(result["energy"])}
         found.setdefault(group, []).append({**lines, **(result if isinstance(result, dict) else {"runs": result})})
-    # What drifts most among the generic starts may swing slowly: it is followed for longer.
+    # The generic start with the largest drift may oscillate slowly: it is followed for longer.
     worst = max(found["generic"], key=lambda run: abs(run["drift"]) / run["range"])
     longer = {name: worst[name] for name in ("ball", "start", "epsilon")} | {"steps": LONGER * worst["steps"]}
     found["longer"] = run([Unit(HERE + "amplitude", longer)])

@@ -47,7 +47,7 @@ class State:
 
     @property
     def ball(self) -> Ball:
-        """Its ball."""
+        """The ball."""
         return Ball(self.J, self.D)
 
 

@@ -14,7 +14,7 @@ from .words import sentences
 __all__ = ["CAPTIONS", "DRAWN", "TITLE", "sentences", "study"]
 
 TITLE = "The rotation number of the reduced map, and its mode locking"
-#: What each figure shows, in the order in which they are shown.
+#: The captions of the figures, in their order.
 CAPTIONS = {
     "rotation-staircase.svg": "The rotation number against the level l: a devil's staircase. Left the ball: its steps "
     "are 1e-22 wide and less (inset: the one at 1/8). Right a top that is kicked on purpose: its steps show.",

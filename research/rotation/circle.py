@@ -21,7 +21,7 @@ Vector = tuple[Any, Any, Any]
 
 #: Bits of a float64 Newton root that Arb's iteration may count on.
 FIRST_BITS = 40
-#: Of the secant method.
+#: The most rounds of the secant method.
 MOST_ROUNDS = 60
 
 

@@ -22,7 +22,7 @@ TOP = {"tensor": [0, 1, 3], "D": "0", "height": "19/20"}
 INSIDE = 0.02, 0.98
 #: Plateaus of the staircases: q to this.
 LARGEST = 24
-#: What is displaced over a circle: four of them quickly.
+#: The runs of displacements over a circle; four of them in the quick mode.
 DISPLACED: tuple[dict[str, Any], ...] = (
     {**BALL, "steps": 9, "digits": 60},
     {**BALL, "D": "0", "steps": 9, "digits": 60},
@@ -96,7 +96,7 @@ def units(quick: bool) -> dict[str, list[Unit]]:
             Unit(f"{HERE}.staircase:curve", {**kicked, **drawn}),
             Unit(f"{HERE}.staircase:plateaus", {**kicked, **inside, "fractions": listed}),
         ],
-        # What a step costs.
+        # The cost of a step.
         "times": [Unit(f"{HERE}.digits:times", {**BALL, "level": "243/1000", "digits": costs})],
     }
 

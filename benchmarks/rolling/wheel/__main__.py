@@ -7,7 +7,7 @@ from pathlib import Path
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
-#: What is copied, and what it imports instead of chapsym.
+#: The files that are copied, and what they import instead of chapsym.
 COPIED = ("chapsym/studies/judge.py", "chapsym/studies/judge_tables.py", "chapsym/files.py", "generated/rotation.py")
 OWN = {
     "from chapsym.dynamics.errors import BadInput": "from .errors import BadInput",

@@ -33,7 +33,7 @@ MAP = "viridis"
 #: How many letters fit below a figure.
 LETTERS = 66
 
-#: What differs from the defaults of matplotlib.
+#: Changes to the defaults of matplotlib.
 STYLE = {
     "font.family": ["DejaVu Sans"], "font.size": 11, "axes.titlesize": 11, "axes.labelsize": 11, "figure.titlesize": 12,
     "xtick.labelsize": 10, "ytick.labelsize": 10, "legend.fontsize": 10, "legend.frameon": False,

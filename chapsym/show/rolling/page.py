@@ -23,7 +23,7 @@ from ..drawing import reading
 from .motion import Motion, Rolling, motion
 
 FOLDER = Path(__file__).parent
-#: What a script imports: its file.  three.js imports its core by a relative path, which no data: URL has.
+#: Files of the modules that a script imports.  three.js imports its core by a relative path, which no data: URL has.
 MODULES = {"three": "three/three.module.min.js", "three-core": "three/three.core.min.js"}
 MODULES |= {name: f"{name}.js" for name in ("eye", "motion", "ball", "floor", "stage")}
 CORE = '"./three.core.min.js"'
