@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from decimal import Decimal
@@ -116,6 +117,8 @@ def exact_array(value: ArrayLike) -> np.ndarray:
 
 def _has_mask(value: Any) -> bool:
     """Whether any entry is masked, in lists of arrays, too, of which NumPy forgets the masks."""
+    if "numpy.ma" not in sys.modules:  # nothing is masked, and its import takes 10 ms
+        return False
     if isinstance(value, list | tuple):
         return any(_has_mask(x) for x in value if isinstance(x, list | tuple | np.ma.MaskedArray))
     return bool(np.ma.is_masked(value))
