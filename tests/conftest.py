@@ -5,6 +5,7 @@ import gc
 import json
 import os
 import pickle
+import shutil
 import sys
 import tempfile
 from types import SimpleNamespace
@@ -70,7 +71,12 @@ def thorough(pytestconfig):
 
 
 # The verdicts that the tests provoke are not the user's.
-os.environ["CHAPSYM_RECORDS"] = os.path.join(tempfile.mkdtemp(prefix="chapsym-tests-"), "verdicts.jsonl")
+OWN = tempfile.mkdtemp(prefix="chapsym-tests-")
+os.environ["CHAPSYM_RECORDS"] = os.path.join(OWN, "verdicts.jsonl")
+
+
+def pytest_unconfigure():
+    shutil.rmtree(OWN, ignore_errors=True)
 
 
 def kept_for_chapsym(cached):
