@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from chapsym.dynamics.levels.proved_root import Numbers, upper
+from chapsym.dynamics.levels.proved_root import Vector, upper
 from chapsym.dynamics.levels.start import fraction
 from chapsym.generated import gibbs_newton
 
@@ -19,10 +19,10 @@ class NotProved(ArithmeticError):
 
 def near_root(
     k: Sequence[arb], g: Sequence[arb], I: Sequence[arb], D: arb, near: Sequence[arb] | None = None
-) -> Numbers:
+) -> Vector:
     """The Gibbs vector with k = 𝒦/2 and γ by Newton's iteration from 0 or near, in the middle of balls; no proof."""
     given = *_middles(k), *_middles(g), *_middles(I), D.mid()
-    u: Numbers = (arb(0), arb(0), arb(0)) if near is None else _middles(near)
+    u: Vector = (arb(0), arb(0), arb(0)) if near is None else _middles(near)
     enough = arb(2) ** -(ctx.prec // 2 + 4)
     for _ in range(MOST_CORRECTIONS):
         det, *products = gibbs_newton(*(*u, *given))[:4]
@@ -32,7 +32,7 @@ def near_root(
     raise NotProved("Newton's iteration did not settle")
 
 
-def _middles(v: Iterable[arb]) -> Numbers:
+def _middles(v: Iterable[arb]) -> Vector:
     return tuple(x.mid() for x in v)
 
 

@@ -9,7 +9,7 @@ from collections.abc import Hashable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
@@ -22,6 +22,12 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
+    from .ball import Ball
+    from .n.ball_n import BallN
+    from .results import Trajectory
+
+#: The attributes of a variable or of the whole: texts and numbers, and lists of them.
+Attributes = Mapping[str, Any]
 #: `taken` and `status` of balls whose turn has not come.
 NOT_RUN = -1
 #: The quantities that a run keeps of each frame.
@@ -40,10 +46,10 @@ class Labelled:
 
     dims: tuple[str, ...]
     values: np.ndarray
-    attrs: Mapping[str, Any] = field(default_factory=dict)
+    attrs: Attributes = field(default_factory=dict)
 
     @property
-    def dtype(self) -> np.dtype[Any]:
+    def dtype(self) -> np.dtype:
         """The type of its numbers, or object for texts."""
         return self.values.dtype
 
@@ -51,7 +57,7 @@ class Labelled:
 class Arrays:
     """variables: by name, of which `coords` are those that label the others.  attrs: of the whole."""
 
-    def __init__(self, variables: Mapping[str, Labelled], coords: Iterable[str], attrs: Mapping[str, Any]) -> None:
+    def __init__(self, variables: Mapping[str, Labelled], coords: Iterable[str], attrs: Attributes) -> None:
         self.variables, self.coords, self.attrs = dict(variables), tuple(coords), dict(attrs)
         pairs = (zip(one.dims, one.values.shape, strict=True) for one in self.variables.values())
         self.sizes = {dim: length for some in pairs for dim, length in some}
@@ -75,7 +81,7 @@ class Arrays:
         kept = {name: _of(one, ball) for name, one in self.variables.items()}
         return Arrays(kept, self.coords, self.attrs)
 
-    def assign_attrs(self, attrs: Mapping[str, Any]) -> "Arrays":
+    def assign_attrs(self, attrs: Attributes) -> "Arrays":
         """The same with more attributes."""
         return Arrays(self.variables, self.coords, self.attrs | dict(attrs))
 
@@ -107,7 +113,7 @@ def with_clock(data: "Dataset") -> "Dataset":
     return data if name is None or name in data.xindexes else data.set_xindex(name)
 
 
-def about(long_name: str, units: str = "1") -> dict[str, Any]:
+def about(long_name: str, units: str = "1") -> dict[str, str]:
     """The attributes of a variable."""
     return {"units": units, "long_name": long_name}
 
@@ -118,7 +124,7 @@ def texts(names: Iterable[str], dim: str) -> Labelled:
 
 
 #: The attributes of the outcome that every run has for each ball.
-OUTCOME = {
+OUTCOME: dict[str, Attributes] = {
     "taken": about("steps taken"),
     "status": {
         "long_name": "why the ball stopped",
@@ -128,7 +134,7 @@ OUTCOME = {
 }
 
 
-def bodies(ball: Any, axes: np.ndarray | None, shape: tuple[int, ...]) -> dict[str, Labelled]:
+def bodies(ball: "Ball | BallN", axes: np.ndarray | None, shape: tuple[int, ...]) -> dict[str, Labelled]:
     """The parameters of balls, and the turns from their principal axes to those of the user.
 
     shape: the leading axes of the batch, to which they broadcast; the balls are along one axis here.
@@ -161,7 +167,7 @@ def coordinates(names: Iterable[str], variables: Mapping[str, Labelled], n: int)
     return {"ball": texts(names, "ball")} | {dim: texts(of, dim) for dim, of in labels(n).items() if dim in used}
 
 
-def of_run(run: Any) -> Arrays:
+def of_run(run: "Trajectory") -> Arrays:
     """A `Trajectory` as the result of a scene with the same outputs; where it has times, with ω and the energy, too."""
     n, shape, count = run.gamma.shape[-1], run.status.shape, run.status.size
     motion = run.order == 0 and run.time_step is not None
@@ -202,20 +208,39 @@ def _of_quotient(bound: np.ndarray | None, K: np.ndarray, epsilon: float) -> np.
 # The table: a row for each ball and frame.
 
 
-def plain(attrs: Mapping[Any, Any]) -> dict[str, Any]:
+class Column(TypedDict):
+    """A variable: its dimensions, its columns, whether it labels others, its type of Arrow, and its attributes."""
+
+    dims: list[str]
+    columns: list[str]
+    coordinate: bool
+    type: str
+    attrs: dict[str, Any]
+
+
+class Structure(TypedDict):
+    """The data that the rows lack: how many balls and frames, the labels of components, and the variables."""
+
+    balls: int
+    frames: int
+    labels: dict[str, list[str]]
+    variables: dict[str, Column]
+
+
+def plain(attrs: Mapping[str, Any] | dict[Any, Any]) -> dict[str, Any]:
     """Attributes as JSON has them."""
     arrays = (np.ndarray, np.generic)
     return {str(key): value.tolist() if isinstance(value, arrays) else value for key, value in attrs.items()}
 
 
-def structure(data: "Dataset | Arrays") -> dict[str, Any]:
+def structure(data: "Dataset | Arrays") -> Structure:
     """The plain data that the rows lack: labels of components; the columns and attributes of each variable."""
     dims = [str(dim) for dim in data.dims if dim not in ("ball", "frame") and dim in data]
     labels = {dim: data[dim].values.tolist() for dim in dims}
-    variables = {
+    variables: dict[str, Column] = {
         str(name): {
-            "dims": list(one.dims),
-            "columns": [f"{name}{suffix}" for suffix in _suffixes(one.dims, labels)],
+            "dims": list(map(str, one.dims)),
+            "columns": [f"{name}{suffix}" for suffix in _suffixes(map(str, one.dims), labels)],
             "coordinate": name in data.coords,
             "type": {"f": "double", "i": "int64"}.get(one.dtype.kind, "string"),
             "attrs": plain(one.attrs),
@@ -228,7 +253,7 @@ def structure(data: "Dataset | Arrays") -> dict[str, Any]:
     }  # fmt: skip
 
 
-def batches(data: "Dataset | Arrays", layout: Mapping[str, Any]) -> Iterator[dict[str, np.ndarray]]:
+def batches(data: "Dataset | Arrays", variables: Mapping[str, Column]) -> Iterator[dict[str, np.ndarray]]:
     """The columns of some balls after the others, each (rows,); what a ball has once is in each of its rows."""
     frames = data.sizes["frame"]
     several = max(1, ROWS // frames)
@@ -236,7 +261,7 @@ def batches(data: "Dataset | Arrays", layout: Mapping[str, Any]) -> Iterator[dic
         part = data.isel(ball=slice(first, first + several))
         balls = part.sizes["ball"]
         columns: dict[str, np.ndarray] = {}
-        for name, one in layout["variables"].items():
+        for name, one in variables.items():
             values = part[name].values
             if "frame" not in one["dims"]:
                 values = np.broadcast_to(values[:, np.newaxis], (balls, frames, *values.shape[1:]))
@@ -258,7 +283,7 @@ def is_ours(head: str) -> bool:
     return False
 
 
-def in_rows(one: Mapping[str, Any]) -> bool:
+def in_rows(one: Column) -> bool:
     """Whether a variable of `structure` is in each row: it differs by frame, or it says of which ball the row is."""
     return "frame" in one["dims"] or one["coordinate"]
 
@@ -273,20 +298,20 @@ def frame(data: "Dataset | Arrays", balls: bool = False) -> "DataFrame":
 
     variables = structure(data)["variables"].items()
     kept = {name: one for name, one in variables if ("frame" not in one["dims"] if balls else in_rows(one))}
-    parts, step = [*batches(data, {"variables": kept})], data.sizes["frame"] if balls else 1
+    parts, step = [*batches(data, kept)], data.sizes["frame"] if balls else 1
     found = pandas.DataFrame({name: np.concatenate([part[name] for part in parts])[::step] for name in parts[0]})
     units = {column: one["attrs"].get("units") for one in kept.values() for column in one["columns"]}
     found.attrs["units"] = {column: unit for column, unit in units.items() if unit is not None}
     return found
 
 
-def _suffixes(dims: tuple[Any, ...], labels: Mapping[str, list[str]]) -> list[str]:
+def _suffixes(dims: Iterable[str], labels: Mapping[str, list[str]]) -> list[str]:
     """The ends of the columns' names: _1, _2, ... of a vector; _1_1, _1_2, ... of a matrix; of a number none."""
     inner = [labels[dim] for dim in dims if dim in labels]
     return ["".join(f"_{label}" for label in chosen) for chosen in product(*inner)]
 
 
-def _ordered(variables: dict[str, Any]) -> dict[str, Any]:
+def _ordered(variables: dict[str, Column]) -> dict[str, Column]:
     """Ball and frame first, then what has a value in every frame, then what a ball has once."""
 
     def rank(name: str) -> tuple[int, bool]:

@@ -8,17 +8,21 @@ import copyreg
 import math
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
 from threading import RLock
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from .pair import Pair
+
+if TYPE_CHECKING:
+    from flint import arb
+    from mpmath import MPContext, mpf
 
 #: Significant digits of a double-double number in text: 2^-106 is 1.2e-32.
 WRITTEN = 32
@@ -45,14 +49,14 @@ def flint_terms(count: int) -> AbstractContextManager[None]:
     return _flint("cap", count)
 
 
-def _parts(ball: Any) -> tuple[Any, ...]:
+def _parts(ball: "arb") -> "tuple[Callable[..., arb], tuple[object, ...]]":
     """How a ball of flint is made anew, exactly."""
     if not ball.is_finite():
         return type(ball), (ball.str(),)
     return _ball, tuple((int(man), int(exp)) for man, exp in (ball.mid().man_exp(), ball.rad().man_exp()))
 
 
-def _ball(middle: tuple[int, int], radius: tuple[int, int]) -> Any:
+def _ball(middle: tuple[int, int], radius: tuple[int, int]) -> "arb":
     from flint import arb
 
     man, exp = radius
@@ -60,7 +64,7 @@ def _ball(middle: tuple[int, int], radius: tuple[int, int]) -> Any:
     return arb(arb(middle), arb(((man << more) - 1, exp - more))) if man else arb(middle)
 
 
-def _context(count: int, guard: int) -> Any:
+def _context(count: int, guard: int) -> "MPContext":
     """A context of mpmath, whose numbers can be copied and go to other processes."""
     import mpmath  # 40 ms with flint, which runs on float64 do not need
 
@@ -70,7 +74,7 @@ def _context(count: int, guard: int) -> Any:
     return context
 
 
-def _number(count: int, guard: int, parts: tuple[int, ...]) -> Any:
+def _number(count: int, guard: int, parts: tuple[int, ...]) -> "mpf":
     from mpmath.libmp import MPZ
 
     return _common(count, guard).make_mpf((parts[0], MPZ(parts[1]), *parts[2:]))
@@ -101,7 +105,7 @@ def _flint(name: str, value: int) -> Iterator[None]:
 MOST_DIGITS, MOST_BITS = 1_000_000, 10_000_000
 
 
-def brief(value: Any) -> str:
+def brief(value: object) -> str:
     """A short text of a value that is refused, for a sentence."""
     try:
         text = " ".join(repr(value).split())  # an array is one line, too
@@ -110,12 +114,12 @@ def brief(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def is_whole(value: Any) -> bool:
+def is_whole(value: object) -> bool:
     """Whether a value is a whole number of Python or NumPy."""
     return isinstance(value, int | np.integer) and not isinstance(value, bool | np.timedelta64)
 
 
-def _whole(precision: Any, name: str, least: int, most: int) -> None:
+def _whole(precision: object, name: str, least: int, most: int) -> None:
     """Makes the count of a precision, and its guard, whole numbers of Python; raises ValueError for others."""
     kind = type(precision).__name__
     for field, what, lowest in ((name, f"{kind}(n) takes", least), ("guard", f"guard of {kind} must be", 0)):
@@ -222,11 +226,11 @@ class Digits(Precision):
         _whole(self, "count", 1, MOST_DIGITS)
 
     @cached_property
-    def context(self) -> Any:
+    def context(self) -> "MPContext":
         """The mpmath context that the numbers belong to."""
         return _context(self.count, self.guard)
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.count, self.guard)
 
     def number(self, value: Fraction) -> Any:
@@ -299,7 +303,7 @@ NAMED: dict[str, Precision] = {"single": Single(), "double": Double(), "double-d
 OTHERS = {"float32": "single", "float64": "double", "quad": "double-double"}
 
 
-def own_name(name: Any) -> Any:
+def own_name(name: object) -> Any:
     """The name of a precision where another, or NumPy's type, is given; all else as it is."""
     if isinstance(name, type | np.dtype) and name in (np.float32, np.float64):
         name = np.dtype(name).name

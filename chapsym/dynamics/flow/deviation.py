@@ -34,7 +34,7 @@ from flint import arb, arb_mat, arb_poly, arb_series
 from chapsym import generated
 
 from ..errors import TooWide
-from ..levels.proved_root import Numbers, highest, lowest, upper
+from ..levels.proved_root import Vector, highest, lowest, upper
 from ..loops.branch import moments
 from ..loops.vectors import cross, dot_four
 from .series import Series, bend
@@ -76,12 +76,12 @@ def exact(poly: arb_poly | arb_series) -> arb_poly:
 class Body(NamedTuple):
     """J and D in balls, and I of them; a, of a rotor, per unit of the time in which ω is."""
 
-    J: Numbers
+    J: Vector
     D: arb
-    rotor: Numbers
+    rotor: Vector
 
     @property
-    def inertia(self) -> Numbers:
+    def inertia(self) -> Vector:
         """The moments about the centre."""
         return moments(self.J)
 
@@ -107,7 +107,7 @@ class Defects(NamedTuple):
     R: Polynomials
 
 
-def defects(p: Polynomials, w: Polynomials, k: Numbers, body: Body, degree: int) -> Defects:
+def defects(p: Polynomials, w: Polynomials, k: Vector, body: Body, degree: int) -> Defects:
     """The defects of exact polynomials p and w, R cut to a degree; raises TooWide where |p| may be far from 1."""
     off = dot_four(p, p) - 1
     most = bound([off])
@@ -217,4 +217,4 @@ def _slip(M: Sequence[Polynomials], w: Polynomials, gamma: Polynomials, body: Bo
     return bound(left)
 
 
-_UNITS: tuple[Numbers, ...] = tuple(tuple(arb(int(i == j)) for j in range(3)) for i in range(3))
+_UNITS: tuple[Vector, ...] = tuple(tuple(arb(int(i == j)) for j in range(3)) for i in range(3))

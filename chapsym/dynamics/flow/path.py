@@ -21,7 +21,7 @@ from chapsym.numbers.precisions import flint_bits, flint_terms
 from ..errors import TooWide
 from ..levels.balls import Spread, point, unit
 from ..levels.balls import exact as ball
-from ..levels.proved_root import MATRIX_BITS, Numbers, highest, upper
+from ..levels.proved_root import MATRIX_BITS, Vector, highest, upper
 from ..levels.start import exponent_of
 from ..loops.branch import moments
 from ..loops.vectors import cross, dot
@@ -126,19 +126,19 @@ class Path:
     """
 
     def __init__(
-        self, precision: int, J: Numbers, D: arb, K: Sequence[arb], attitude: Sequence[arb], radius: arb | None,
+        self, precision: int, J: Vector, D: arb, K: Sequence[arb], attitude: Sequence[arb], radius: arb | None,
         rotor: Sequence[arb | int] = (0, 0, 0),
     ) -> None:  # fmt: skip
         self.precision, self.time, self.steps = precision, Fraction(0), 0
         self.tick: Callable[[], None] = lambda: None
-        self.given: Callable[[dict[str, Numbers]], dict[str, Numbers]] = lambda frame: frame
+        self.given: Callable[[dict[str, Vector]], dict[str, Vector]] = lambda frame: frame
         self.scale = arb(2) ** _exponent(highest(*moments(J)) + D)
         self.body = Body(tuple(x / self.scale for x in J), D / self.scale, tuple(x / self.scale for x in rotor))
         self.k = generated.rotate(*(*unit(attitude), *(x / self.scale for x in K)))
         self.p, far = point(unit(attitude))
         self.spread = Spread()
         self.radius = radius
-        self.contact: Numbers = (arb(0), arb(0))
+        self.contact: Vector = (arb(0), arb(0))
         self.rough = 0.0
         self.last: Last | None = None
         with flint_bits(MATRIX_BITS):
@@ -204,7 +204,7 @@ class Path:
         bits = math.log2(reach) if reach > 1 else 0.5
         return max(math.ceil(self.precision / bits), 2) + 4
 
-    def _mended(self, series: Series, k: Numbers, body: Body) -> tuple[Polynomials, Polynomials, Defects]:
+    def _mended(self, series: Series, k: Vector, body: Body) -> tuple[Polynomials, Polynomials, Defects]:
         """Exact polynomials p and w, and what they leave at the whole precision; k and `body` are those of the step."""
         degree = self._degree(series)
         terms = min(degree + 1, TERMS)
@@ -239,7 +239,7 @@ class Path:
         """This many terms serve for this many bits."""
         return max(TERMS, min(degree, degree * bits // self.precision)) + 1
 
-    def frame(self, time: Fraction) -> dict[str, Numbers]:
+    def frame(self, time: Fraction) -> dict[str, Vector]:
         """The attitude, γ, K, ω and the contact point, if there is one, at the end of the last step or within it."""
         p, within, contact = self.p, self.spread.size, self.contact
         if time != self.time:
@@ -264,10 +264,10 @@ class Last(NamedTuple):
     length: Fraction
     p: Polynomials
     within: arb
-    contact: Numbers
+    contact: Vector
     moved: Polynomials | None
 
-    def place(self, tau: arb) -> Numbers:
+    def place(self, tau: arb) -> Vector:
         """The contact point at a part of the step; where it began for a ball without a radius."""
         if self.moved is None:
             return self.contact

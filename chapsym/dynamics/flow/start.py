@@ -15,7 +15,7 @@ from chapsym.rationals import NotANumber, exact_fraction, rational
 
 from ..ball import brief
 from ..errors import BadInput, TooWide
-from ..levels.proved_root import Numbers, unit
+from ..levels.proved_root import Vector, unit
 from ..levels.start import least
 from ..loops.vectors import cross
 from ..principal_axes import quaternions
@@ -42,7 +42,7 @@ def ball(x: Number) -> arb:
     return arb(fmpq(x.numerator, x.denominator))
 
 
-def balls(v: Sequence[Number]) -> Numbers:
+def balls(v: Sequence[Number]) -> Vector:
     """A vector of them."""
     return tuple(map(ball, v))
 
@@ -79,20 +79,20 @@ def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
 
 
 #: The rotation that turns no axes.
-NO_TURN: Numbers = (arb(1), arb(0), arb(0), arb(0))
+NO_TURN: Vector = (arb(1), arb(0), arb(0), arb(0))
 
 
 class Principal(NamedTuple):
     """Principal moments of ∫xxᵀdm, and the unit quaternion that turns principal axes to the given ones."""
 
-    moments: Numbers
-    turn: Numbers = NO_TURN
+    moments: Vector
+    turn: Vector = NO_TURN
 
-    def inward(self, vector: Balls) -> Numbers:
+    def inward(self, vector: Balls) -> Vector:
         """A vector in principal axes, from the given ones."""
         return tuple(vector) if self.turn == NO_TURN else tuple(generated.transport(*self.turn, *vector))
 
-    def given(self, frame: dict[str, Numbers]) -> dict[str, Numbers]:
+    def given(self, frame: dict[str, Vector]) -> dict[str, Vector]:
         """A frame in the given axes, from principal ones."""
         if self.turn == NO_TURN:
             return frame

@@ -42,18 +42,7 @@ from ..loops.integrals import WEIGHTS
 from ..loops.path import joined
 from ..loops.vectors import adjoint, cross, dot, minus, scaled
 from .frames import Balls, Frames
-from .proved_root import (
-    MATRIX_BITS,
-    Numbers,
-    certified,
-    enclosed,
-    inverse_slope,
-    on_path,
-    refined,
-    stretch,
-    unit,
-    upper,
-)
+from .proved_root import MATRIX_BITS, Vector, certified, enclosed, inverse_slope, on_path, refined, stretch, unit, upper
 from .start import Exact, exponent_of, fraction, least, magnitude, start
 
 #: The start of a ball: 𝒦, γ, J and D, exactly; the exact coefficients of the composition; the attitude, empty for
@@ -204,7 +193,7 @@ COLD, WARM = (100, 1e-7), (3, 1e-12)
 
 Floats = tuple[float, ...]
 #: A point, and how far from it a root is at most; None where that is not proved.
-Near = tuple[Numbers, arb] | None
+Near = tuple[Vector, arb] | None
 
 
 class NotSettled(ArithmeticError):
@@ -221,7 +210,7 @@ def extrapolated(past: Sequence[Floats]) -> Floats:
     return u1, u2, u3
 
 
-def root(guess: Floats, state: Numbers, bits: int, lost: int, unit: arb) -> tuple[Numbers, Floats]:
+def root(guess: Floats, state: Vector, bits: int, lost: int, unit: arb) -> tuple[Vector, Floats]:
     """The Gibbs vector with this many bits, from a guess in float64; returns it, exact numbers, and its float64 value.
 
     state: k, γ, I and D, the largest moment about 1; unit: a power of two about |k|.  lost: the bits that the
@@ -243,7 +232,7 @@ def root(guess: Floats, state: Numbers, bits: int, lost: int, unit: arb) -> tupl
     return u, start
 
 
-def _rounded(state: Numbers) -> Numbers:
+def _rounded(state: Vector) -> Vector:
     """The state with the bits of the working precision."""
     return tuple(+x for x in state)
 
@@ -264,7 +253,7 @@ def _in_float64(guess: Floats, state: Floats) -> tuple[Floats, list[float]]:
     return u, inverse
 
 
-def _chord(start: Floats, state: Numbers, inverse: Sequence[float], lost: int, unit: arb) -> Numbers:
+def _chord(start: Floats, state: Vector, inverse: Sequence[float], lost: int, unit: arb) -> Vector:
     """Corrections with one approximate inverse until the next would be below a unit, or below `lost` bits.
 
     The corrections are floats, in that unit.  Raises NotSettled if they do not shrink.
@@ -287,7 +276,7 @@ def _chord(start: Floats, state: Numbers, inverse: Sequence[float], lost: int, u
     raise NotSettled
 
 
-def _newton(u: Numbers, state: Numbers, bits: int) -> Numbers:
+def _newton(u: Vector, state: Vector, bits: int) -> Vector:
     """One correction of u to this many bits, with ∂G/∂u at the bits of the working precision, which becomes `bits`."""
     det, _, _, _, *cofactors = gibbs_newton(*u, *_rounded(state))
     half, ctx.prec = ctx.prec, bits
@@ -362,7 +351,7 @@ def cross_matrix(v: Sequence[arb]) -> arb_mat:
     return arb_mat(3, 3, [0, -z, y, z, 0, -x, -y, x, 0])
 
 
-def carried(u: Numbers, inverse: arb_mat, k: Numbers, g: Numbers, D: arb, size: arb) -> tuple[arb_mat, arb]:
+def carried(u: Vector, inverse: arb_mat, k: Vector, g: Vector, D: arb, size: arb) -> tuple[arb_mat, arb]:
     """M and a bound of |w| for a step: ξ becomes Mξ + w, |ξ| ≤ size.
 
     u: the Gibbs vector of the point; inverse: A⁻¹ for every middle between it and another state's; k, γ: for all
@@ -409,17 +398,17 @@ class _UnderWay:
         self.size = size_of(K, self.exponent)
         self.unit = arb(2) ** self.size
         scale = Fraction(2) ** -self.exponent
-        self.k: Numbers = tuple(exact(x * scale / 2) for x in K)
+        self.k: Vector = tuple(exact(x * scale / 2) for x in K)
         self.g = unit(map(exact, g))
         self.J = tuple(exact(x * scale) for x in J)
         self.I = moments(self.J)
         self.D = exact(D * scale)
-        self.a: Numbers = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
+        self.a: Vector = () if attitude is None else unit(map(exact, attitude) if attitude else least(*self.g))
         self.x = (arb(0), arb(0))
         self.stages = [None if c == 1 else exact(c) for c in stages]
         self.past: list[deque[Floats]] = [deque(maxlen=len(WEIGHTS)) for _ in stages]
 
-    def _root(self, k: Numbers, past: deque[Floats]) -> tuple[Numbers, Floats] | None:
+    def _root(self, k: Vector, past: deque[Floats]) -> tuple[Vector, Floats] | None:
         """A point near the Gibbs vector, and its float64 value; None where no iteration finds it."""
         state = *k, *self.g, *self.I, self.D
         try:
@@ -427,17 +416,17 @@ class _UnderWay:
         except ArithmeticError:
             return None
 
-    def _near(self, K: Numbers, g: Numbers) -> Numbers:
+    def _near(self, K: Vector, g: Vector) -> Vector:
         """The rotation of a step by the float64 continuation."""
         k, vertical, tensor = (list(map(fraction, v)) for v in (K, g, self.J))
         return tuple(map(exact, start(k, vertical, tensor, fraction(self.D))))
 
-    def _follow(self, q: Numbers, g: Numbers) -> None:
+    def _follow(self, q: Vector, g: Vector) -> None:
         """Moves the contact point by the rotation q; g: γ of all states."""
         x, y, _ = rotate(*self._attitude(), *centre_step(*q, *g))
         self.x = (self.x[0] + x, self.x[1] + y)
 
-    def _attitude(self) -> Numbers:
+    def _attitude(self) -> Vector:
         return self.a
 
 
@@ -474,7 +463,7 @@ class DigitsBall(_UnderWay):
                 tuple((x + y).mid() for x, y in zip(v, turn(*p, *v), strict=True)) for v in (self.k, self.g)
             )
 
-    def _gibbs(self, k: Numbers, bound: float, past: deque[Floats]) -> Numbers | None:
+    def _gibbs(self, k: Vector, bound: float, past: deque[Floats]) -> Vector | None:
         """The Gibbs vector where `small-branch` or `straight-path` says that it is that of the branch; else None."""
         found = self._root(k, past) if bound >= 0.0 or bound == BEYOND else None
         if found is None:
@@ -487,14 +476,14 @@ class DigitsBall(_UnderWay):
         past.appendleft(start)
         return u
 
-    def _on_path(self, root: Numbers, k: Numbers) -> bool:
+    def _on_path(self, root: Vector, k: Vector) -> bool:
         """Whether the straight path joins a root to no rotation: an inequality with room, evaluated in float64."""
         u, half, g = (tuple(map(float, v)) for v in (root, k, self.g))
         spread = 0.5 * (max(self.floats[:3]) - min(self.floats[:3]))
         proved, _ = joined(u, dot(u, u), half, math.hypot(*half), g, self.floats[:3], self.floats[3], spread)
         return proved > 0
 
-    def _rotation(self, k: Numbers) -> Numbers:
+    def _rotation(self, k: Vector) -> Vector:
         """The rotation where neither lemma holds, refined."""
         K = tuple(2 * x for x in k)
         q = refined(self._near(K, self.g), K, self.g, self.J, (self.D,))
@@ -502,7 +491,7 @@ class DigitsBall(_UnderWay):
             raise StepNotTaken(Status.NOT_CONVERGED, 1.0)
         return q
 
-    def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+    def frame(self, bits: int) -> tuple[Vector, Vector, Vector, Vector]:
         """𝒦, γ, the attitude and the contact point, rounded to this many bits, in the context of the precision."""
 
         momentum = tuple(in_context(self.context, x, bits, self.exponent + 1) for x in self.k)
@@ -517,7 +506,7 @@ class ArbBall(_UnderWay):
         super().__init__(precision, given)
         # The steps compose the rotation since the start: 𝒦 and γ are those of the start, turned back by it.
         self.first_k, self.first_g, self.length = self.k, self.g, upper(self.k)
-        self.p: Numbers = (arb(1), arb(0), arb(0), arb(0))
+        self.p: Vector = (arb(1), arb(0), arb(0), arb(0))
         self.spread, self.matrix_bits = Spread(), MATRIX_BITS + 3 * self.lost
         *_, stages, _, radius = given
         self.radius = exact(radius)
@@ -538,13 +527,13 @@ class ArbBall(_UnderWay):
                 tuple(x + y for x, y in zip(v, turn(*self.p, *v), strict=True)) for v in (self.first_k, self.first_g)
             )
 
-    def _all(self) -> tuple[Numbers, Numbers]:
+    def _all(self) -> tuple[Vector, Vector]:
         """k and γ of all states that there may be: a turn by ξ moves a vector by 2|ξ| of its length at most."""
         off = 2 * self.spread.size
         along, across = arb(0, (off * self.length).abs_upper()), arb(0, off.abs_upper())
         return tuple(x + along for x in self.k), tuple(x + across for x in self.g)
 
-    def _proved(self, k: Numbers, every: Numbers, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
+    def _proved(self, k: Vector, every: Vector, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
         """A point, and how far the branch's Gibbs vectors of all states are from it; None where that is not proved.
 
         k: that of the point that is followed; every: k, γ, I and D of all states.
@@ -561,7 +550,7 @@ class ArbBall(_UnderWay):
             past.appendleft(start)
             return u, (length / slope).abs_upper()
 
-    def _selected(self, every: Numbers, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
+    def _selected(self, every: Vector, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
         """The same for the root that the continuation selects; None where its rotation is too long: it is taken here.
 
         A root that is proved to be the branch's after all serves the next steps as a guess.
@@ -583,7 +572,7 @@ class ArbBall(_UnderWay):
         self.spread.restart(far)
         return None
 
-    def _turn_by(self, u: Numbers, off: arb, k: Numbers, every: Numbers) -> None:
+    def _turn_by(self, u: Vector, off: arb, k: Vector, every: Vector) -> None:
         """Turns by the rotation whose Gibbs vector is within `off` of u, by the mean-value form.
 
         As ∂G/∂u is affine in u, that of the point is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.
@@ -603,7 +592,7 @@ class ArbBall(_UnderWay):
             # p∘(1, ε)∘(1, ξ) is p∘(1, ξ'), |ξ' - ξ| ≤ |ε|(1 + |ξ| + |ξ|²)/(1 - |ε||ξ|) ≤ 2|ε|.
             self.spread.moved(M, more + 2 * far)
 
-    def _rotation(self, every: Numbers) -> Numbers:
+    def _rotation(self, every: Vector) -> Vector:
         """The rotations of all states, where neither lemma holds."""
         K, g = tuple(2 * x for x in every[:3]), every[3:6]
         q = enclosed(self._near(K, g), K, g, self.J, (self.D,))
@@ -611,12 +600,12 @@ class ArbBall(_UnderWay):
             raise TooWide
         return q
 
-    def _turned(self) -> Numbers:
+    def _turned(self) -> Vector:
         """The rotation since the start, of any length, with all that there may be."""
         off = arb(0, self.spread.size)
         return compose(*(*self.p, 1, off, off, off))
 
-    def _attitude(self) -> Numbers:
+    def _attitude(self) -> Vector:
         return unit(compose(*(*self.a, *self._turned())))
 
     def bits(self) -> float:
@@ -625,7 +614,7 @@ class ArbBall(_UnderWay):
         widest = [max(map(log_radius, v), default=-math.inf) for v in vectors]
         return -max(widest[0] - self.size, *widest[1:])
 
-    def frame(self, bits: int) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+    def frame(self, bits: int) -> tuple[Vector, Vector, Vector, Vector]:
         """𝒦, γ, the attitude and the contact point, rounded to this many bits."""
         scale = arb(2) ** (self.exponent + 1)
         k, g = self._all()
@@ -635,7 +624,7 @@ class ArbBall(_UnderWay):
             return tuple(tuple(+x for x in v) for v in (momentum, g, a, trace))  # type: ignore[return-value]
 
 
-def point(p: Iterable[arb]) -> tuple[Numbers, arb]:
+def point(p: Iterable[arb]) -> tuple[Vector, arb]:
     """The middle of a quaternion in balls, and a bound of how far it is off, relative to its length."""
     balls = list(p)
     middle = tuple(x.mid() for x in balls)

@@ -22,7 +22,7 @@ from ..loops.branch import inverse, product
 from ..loops.twins import twin
 
 #: Components in Arb's balls, or points among them.
-Numbers = tuple[arb, ...]
+Vector = tuple[arb, ...]
 
 #: The precision of the matrices beyond what a determinant can lose: what they multiply is as small as the radii.
 MATRIX_BITS = 64
@@ -40,7 +40,7 @@ def upper(v: Iterable[arb]) -> arb:
     return sum((x * x for x in bounds), arb(0)).sqrt().abs_upper()
 
 
-def inverse_slope(u: Numbers, off: arb, state: Numbers) -> arb_mat:
+def inverse_slope(u: Vector, off: arb, state: Vector) -> arb_mat:
     """(∂G/∂u)⁻¹ in a box of half the edge `off` round u, for all k, γ, I and D of a state."""
     box = tuple(x + arb(0, off) for x in u)
     det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*(*box, *state))
@@ -49,7 +49,7 @@ def inverse_slope(u: Numbers, off: arb, state: Numbers) -> arb_mat:
     return arb_mat(3, 3, [c11, c21, c31, c12, c22, c32, c13, c23, c33]) * (1 / det)
 
 
-def newton_enclosure(u: Numbers, r: Numbers, slope: arb, state: Numbers, matrix_bits: int) -> Numbers:
+def newton_enclosure(u: Vector, r: Vector, slope: arb, state: Vector, matrix_bits: int) -> Vector:
     """The root of G within |r|/m of a point u, r = G(u), where G is monotone with m = `slope`.
 
     state: k, γ, I and D, in balls.  The root is u - A⁻¹r with A = ∂G/∂u at the middle between the two.  Raises TooWide
@@ -67,7 +67,7 @@ def joined() -> Callable[..., tuple[arb, arb]]:
         return twin(path, lambda x: arb(repr(x)), max=highest, min=lowest, sqrt=arb.sqrt)["joined"]
 
 
-def on_path(u: Numbers, length: arb, *state: arb) -> arb | None:
+def on_path(u: Vector, length: arb, *state: arb) -> arb | None:
     """m where G is monotone with it in a box round u that contains a root, and this is the branch's; else None.
 
     length: a bound of |G(u)|; state: k, γ, I and D.  With |G(u)| ≤ m · (half an edge) the root is in the box.
@@ -77,7 +77,7 @@ def on_path(u: Numbers, length: arb, *state: arb) -> arb | None:
     return slope if slope is not None and length <= (slope * off).abs_lower() else None
 
 
-def stretch(box: Numbers, *state: arb) -> arb | None:
+def stretch(box: Vector, *state: arb) -> arb | None:
     """m by lemma `straight-path`, for every point of a box treated as if it were the root; None where it fails."""
     k, g, I, D = state[:3], state[3:6], state[6:9], state[9]
     least = lowest(*I)
@@ -96,7 +96,7 @@ def lowest(*v: arb) -> arb:
     return reduce(arb.min, v)
 
 
-def certified(size: arb, inertia: Numbers) -> tuple[arb, arb] | None:
+def certified(size: arb, inertia: Vector) -> tuple[arb, arb] | None:
     """(radius, m) by lemma `small-branch` for |𝒦| ≤ size, both exact; None where |𝒦| is beyond its bound.
 
     There is one root with |u| < 1, it has |u| ≤ radius and is that of the small-rotation branch, and in this ball
@@ -117,7 +117,7 @@ def certified(size: arb, inertia: Numbers) -> tuple[arb, arb] | None:
     return (radius, m) if least - radius * slope > 0 else None
 
 
-def refined(q: Numbers, K: Numbers, g: Numbers, J: Numbers, D: Numbers) -> Numbers | None:
+def refined(q: Vector, K: Vector, g: Vector, J: Vector, D: Vector) -> Vector | None:
     """The one root near a rotation, by midpoints: Newton squares a correction, up to what the conditioning costs."""
     q = tuple(x.mid() for x in unit(q))
     settled = arb(2) ** (-ctx.prec // 2 - 2)
@@ -133,14 +133,14 @@ def refined(q: Numbers, K: Numbers, g: Numbers, J: Numbers, D: Numbers) -> Numbe
     return None
 
 
-def unit(v: Iterable[arb]) -> Numbers:
+def unit(v: Iterable[arb]) -> Vector:
     """A vector divided by its length."""
     balls = list(v)
     length = sum((x * x for x in balls), arb(0)).sqrt()
     return tuple(x / length for x in balls)
 
 
-def enclosed(q: Numbers, K: Numbers, g: Numbers, J: Numbers, D: Numbers) -> Numbers | None:
+def enclosed(q: Vector, K: Vector, g: Vector, J: Vector, D: Vector) -> Vector | None:
     """Unit Euler parameters as balls that contain the one root near the float64 root, by the interval Newton test."""
     point = refined(q, K, g, J, D)
     if point is None:
@@ -182,7 +182,7 @@ def _divided(target: arb_mat, matrix: Sequence[arb]) -> list[arb]:
     return arb_mat(target.nrows(), target.nrows(), matrix).solve(target).entries()
 
 
-def _slope(tangent: Numbers, hessian: Numbers, K: Numbers, box: Sequence[arb]) -> list[arb]:
+def _slope(tangent: Vector, hessian: Vector, K: Vector, box: Sequence[arb]) -> list[arb]:
     """F'(w) for every w in the box, row by row: T + H w - 2|q|²𝒦 wᵀ."""
     place = {(0, 0): 0, (1, 1): 1, (2, 2): 2, (1, 2): 3, (0, 2): 4, (0, 1): 5}
     rows = []

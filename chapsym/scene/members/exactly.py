@@ -1,7 +1,7 @@
 """The one motion of a scene with its numbers as they are written, not their floats: for certified digits."""
 
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -28,7 +28,7 @@ from chapsym.dynamics.map import check_body
 from chapsym.rationals import mass_tensor_from
 
 from ..read.bodies import PRESETS, keys_of
-from ..read.errors import SceneError
+from ..read.errors import Data, SceneError
 from ..read.scene import Scene
 from ..read.tables import DIMENSIONS, SCALAR_FIRST
 from ..read.units import MOMENT, RATE, Dimension, exact_number
@@ -55,7 +55,7 @@ def without_rotors(scene: Scene) -> Scene:
     return scene.model_copy(update={"ball": tuple(one.model_copy(update={"rotor": None}) for one in scene.ball)})
 
 
-def case_of(name: str, title: str | None, start: Start) -> dict[str, Any]:
+def case_of(name: str, title: str | None, start: Start) -> Data:
     """What the file of a certified motion says of its ball, so that `chapsym judge --against` takes it.
 
     Nothing of a ball whose tensor is not diagonal in the axes of the body: there its scene is needed.
@@ -63,7 +63,7 @@ def case_of(name: str, title: str | None, start: Start) -> dict[str, Any]:
     if start.axes is not None:
         return {}
     whole = sum(start.mass_tensor)
-    body: dict[str, Any] = {"inertia": [decimal(whole - x) for x in start.mass_tensor]}
+    body: Data = {"inertia": [decimal(whole - x) for x in start.mass_tensor]}
     if start.radius is not None:  # else nothing touches the body
         body = {"mass": decimal(start.D / start.radius**2), "radius": decimal(start.radius)} | body
     if any(map(any, start.rotor)):
@@ -106,7 +106,7 @@ def _exact_motion(scene: Scene, name: str) -> tuple[Start, tuple[Fraction, ...]]
     return start, _times(scene, data["run"])
 
 
-def _numbers(table: Mapping[str, Any], key: str) -> tuple[Turns, ...]:
+def _numbers(table: Data, key: str) -> tuple[Turns, ...]:
     return tuple(_number(x, DIMENSIONS[key]) for x in table[key])
 
 
@@ -114,7 +114,7 @@ def _number(value: Any, dimension: Dimension) -> Turns:
     return Turns(*exact_number(value, dimension))
 
 
-def _rational(table: Mapping[str, Any], key: str) -> Fraction:
+def _rational(table: Data, key: str) -> Fraction:
     return _number(table[key], DIMENSIONS[key]).rational
 
 
@@ -122,7 +122,7 @@ def _rational(table: Mapping[str, Any], key: str) -> Fraction:
 Axes = Callable[[], Principal]
 
 
-def _body(table: Mapping[str, Any]) -> tuple[tuple[Fraction, ...], Fraction, Axes | None]:
+def _body(table: Data) -> tuple[tuple[Fraction, ...], Fraction, Axes | None]:
     """J and D, exactly; where the tensor is not diagonal no J, but its axes."""
     D = _rational(table, "D") if "D" in table else _rational(table, "mass") * _rational(table, "radius") ** 2
     if "mass_tensor" in table:
@@ -138,7 +138,7 @@ def _body(table: Mapping[str, Any]) -> tuple[tuple[Fraction, ...], Fraction, Axe
             return tuple(whole[i][i] for i in range(3)), D, None
         return (), D, lambda: principal_exactly(whole)
     preset, keys = PRESETS[table["preset"]], ("mass", "radius", *keys_of(table["preset"]))
-    given: dict[str, Any] = {key: _exactly(table, key) for key in keys if key in table}
+    given: Data = {key: _exactly(table, key) for key in keys if key in table}
     if "block_offset" not in given:
         return tuple(preset(**given)), D, None
 
@@ -150,13 +150,13 @@ def _body(table: Mapping[str, Any]) -> tuple[tuple[Fraction, ...], Fraction, Axe
     return (), D, axes
 
 
-def _exactly(table: Mapping[str, Any], key: str) -> Any:
+def _exactly(table: Data, key: str) -> Any:
     """A number, or three, as an array of Fractions."""
     given = [x.rational for x in _numbers(table, key)] if isinstance(table[key], list) else _rational(table, key)
     return np.array(given, dtype=object)
 
 
-def _attitude(start: Mapping[str, Any]) -> Callable[[], Balls]:
+def _attitude(start: Data) -> Callable[[], Balls]:
     """The quaternion in balls, of any length where it is given."""
     if "rpy" in start:
         angles = _numbers(start, "rpy")
@@ -168,16 +168,14 @@ def _attitude(start: Mapping[str, Any]) -> Callable[[], Balls]:
     return upright(_numbers(start, "gamma") if "gamma" in start else (Fraction(0), Fraction(0), Fraction(1)))
 
 
-def _rolling(
-    start: Mapping[str, Any], D: Fraction, radius: Fraction, rotor: Sequence[Turns]
-) -> Callable[[Balls, Principal], Balls]:
+def _rolling(start: Data, D: Fraction, radius: Fraction, rotor: Sequence[Turns]) -> Callable[[Balls, Principal], Balls]:
     """K of a ball that rolls with a velocity and a spin: ω in space is (-v₂/ρ, v₁/ρ, spin)."""
     first, second = (x.rational for x in _numbers(start, "velocity"))
     spin = _number(start.get("spin", 0), RATE)
     return turning((-second / radius, first / radius, spin), D, True, rotor)
 
 
-def _times(scene: Scene, run: Mapping[str, Any]) -> tuple[Fraction, ...]:
+def _times(scene: Scene, run: Data) -> tuple[Fraction, ...]:
     """Those of the frames, the start among them."""
     steps, every = scene.run.counts()
     whole = _rational(run, "time_step") * every if "time_step" in run else _rational(run, "time") / steps

@@ -27,7 +27,7 @@ from chapsym.dynamics.n.ball_n import skew_matrices
 from chapsym.dynamics.principal_axes import attitude_to_principal, from_inertia_tensor, inverse, principal, to_principal
 
 from ..read.bodies import KEYS, PRESETS, check_inside, size_rounded_by
-from ..read.errors import Misfit, SceneError, place, said_by
+from ..read.errors import Data, Misfit, SceneError, place, said_by
 from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene, ball_place, ball_table, checked, written
 from ..read.tables import ATTITUDES, SCALAR_FIRST, BallTable, StartTable, ranges_of
@@ -70,10 +70,8 @@ class Members:
     def of(self, chosen: slice | np.ndarray) -> Self:
         """Some of the balls: a slice, or their indices."""
         names = self.names[chosen] if isinstance(chosen, slice) else tuple(self.names[i] for i in chosen)
-        whole: dict[str, Any] = {
-            name: getattr(self, name) for name in ("momentum", "gamma", "axes", "attitude", "place")
-        }
-        arrays: dict[str, Any] = {name: None if array is None else array[chosen] for name, array in whole.items()}
+        given = {name: getattr(self, name) for name in ("momentum", "gamma", "axes", "attitude", "place")}
+        arrays: dict[str, Any] = {name: None if array is None else array[chosen] for name, array in given.items()}
         some = {name: values[chosen] for name, values in self.parameters.items()}
         return replace(self, names=names, ball=_some(self.ball, chosen), parameters=some, **arrays)
 
@@ -93,7 +91,7 @@ def _some(ball: Ball | BallN, chosen: int | slice | np.ndarray) -> Ball | BallN:
 # From a scene to its balls.
 
 
-def ball_of(file: Path) -> tuple[dict[str, Any], Members]:
+def ball_of(file: Path) -> tuple[Data, Members]:
     """[ball] of a scene or of a robot's file, as `ball_table` has it, and the ball.
 
     Raises SceneError, which names the key or the element of that file and its line, for what no body can have.
@@ -202,7 +200,7 @@ def _place(scene: Scene, index: int, table: str | int = "ball", *key: str | int)
     return f"{where}: " if where else ""
 
 
-def _first_refused(made: Callable[[slice], Any], low: int, high: int) -> tuple[int, BadInput] | None:
+def _first_refused(made: Callable[[slice], object], low: int, high: int) -> tuple[int, BadInput] | None:
     """The first ball of a batch that is refused, and why, if one is: a batch that is refused is halved."""
     try:
         made(slice(low, high))
@@ -253,7 +251,7 @@ class Given:
     values: Mapping[str, Floats]
     count: int
 
-    def array(self, value: Any, key: str) -> Floats:
+    def array(self, value: object, key: str) -> Floats:
         """A number, (count,), a vector (count, n), or a matrix (count, n, m)."""
         if isinstance(value, Range):
             return self.values[key]
@@ -264,7 +262,7 @@ class Given:
             return np.stack(parts, axis=1)
         return np.full(self.count, value)
 
-    def unit(self, value: Any, key: str) -> Floats:
+    def unit(self, value: object, key: str) -> Floats:
         """Unit vectors: one that varies, or that is typed with few digits, is divided by its length."""
         array = self.array(value, key)
         length = np.sqrt((array * array).sum(axis=-1, keepdims=True))

@@ -15,6 +15,7 @@ from chapsym.accuracy.motion import FINEST, PARTS, Problem, moved, nominal
 from chapsym.dynamics import BadInput, Ball, BallN, Curve, Status, StepNotTaken, TopMotion
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.closed import top
+from chapsym.dynamics.closed.vertical import VerticalTrajectory
 from chapsym.dynamics.outputs import BOUND, LOW, whose
 from chapsym.dynamics.results import put_at
 
@@ -23,6 +24,8 @@ from ..read.task import Columns, Task
 
 #: What the next segment needs: arrays by name, each (balls, ...); `taken` and `status` are always there.
 State = dict[str, np.ndarray]
+#: The columns of frames, and the status of each ball.
+Found = tuple[Columns, np.ndarray]
 Progress = Callable[[int], None]
 
 FOLLOWED = ("momentum", "gamma", "attitude", "contact")
@@ -202,7 +205,7 @@ class Rolling(Stepwise):
         step = 1000.0 if task.proved else step * (4 if task.precision == "double-double" else 1)
         return 3e4 + len(members) * (task.steps * len(dynamics.substeps(task.order)) * step + task.frames * 10.0)
 
-    def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Any:
+    def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> dynamics.Trajectory:
         """`chapsym.trajectory` of the batch."""
         attitude = state.get("attitude", False)
         if "attitude" in state and members.attitude is None and task.precision == "double-double":
@@ -238,7 +241,7 @@ class General(Stepwise):
         assert start is not None
         return start[:, 0]
 
-    def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Any:
+    def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> dynamics.Trajectory:
         """`chapsym.trajectory_n` of the batch."""
         assert isinstance(members.ball, BallN)
         found = dynamics.trajectory_n(
@@ -294,7 +297,7 @@ class Vertical(Stepwise):
             state["rotation_number"] = np.array([_turns(members, i, height[i]) for i in range(len(members))])
         return state
 
-    def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> Any:
+    def run(self, members: Members, task: Task, state: State, steps: int, progress: Progress) -> VerticalTrajectory:
         """`chapsym.trajectory_vertical` of the batch."""
         found = dynamics.trajectory_vertical(_ball(members), state["height"], state["gamma"], steps, every=task.every)
         progress(len(members) * steps)
@@ -341,8 +344,8 @@ class Direct(Model):
     reduction = True
 
     @abstractmethod
-    def frames(self, members: Members, task: Task, needed: frozenset[str], index: np.ndarray) -> tuple[Columns, Any]:
-        """The columns after these numbers of steps, and the status of each ball."""
+    def frames(self, members: Members, task: Task, needed: frozenset[str], index: np.ndarray) -> Found:
+        """The columns after these numbers of steps."""
 
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
@@ -374,7 +377,7 @@ class Steady(Direct):
         frame = 75.0 if needed & {"attitude", "contact"} else 40.0
         return 4.5e5 + len(members) * task.frames * frame
 
-    def frames(self, members: Members, task: Task, needed: frozenset[str], index: np.ndarray) -> tuple[Columns, Any]:
+    def frames(self, members: Members, task: Task, needed: frozenset[str], index: np.ndarray) -> Found:
         """`chapsym.steady_frames` of the batch."""
         given = True if members.attitude is None else members.attitude
         run = dynamics.steady_frames(
@@ -424,7 +427,7 @@ class Top(Direct):
         fixed, frame = (2.7e6, 650.0) if _turned(members, needed) else (9e5, 110.0) if free else (1e6, 220.0)
         return len(members) * (fixed + task.frames * frame)
 
-    def frames(self, members: Members, task: Task, needed: frozenset[str], index: np.ndarray) -> tuple[Columns, Any]:
+    def frames(self, members: Members, task: Task, needed: frozenset[str], index: np.ndarray) -> Found:
         """`chapsym.top_frames` of the batch; u of each frame and the turns a step, NaN where no step can be taken."""
         found: Columns = {}
         n = len(members)

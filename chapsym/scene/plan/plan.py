@@ -1,7 +1,6 @@
 """The least model that yields what a scene asks for, and how its run is cut into units of work."""
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -90,7 +89,7 @@ class Plan:
         of_model = {kernel for column in self.needed for kernel in self.model.kernels.get(column, ())}
         return sorted(of_model | {kernel for name in self.task.outputs for kernel in kernels_for(name)})
 
-    def describe(self) -> dict[str, Any]:
+    def describe(self) -> dict[str, object]:
         """The plan as plain data."""
         return {
             "model": self.model.name,

@@ -6,7 +6,6 @@ diagonal in the axes that the user gave, else (..., 3, 3).  Every centre of mass
 
 from collections.abc import Callable
 from inspect import signature
-from typing import Any
 
 import numpy as np
 
@@ -96,7 +95,7 @@ def _check(holds: np.ndarray | np.bool_, sentence: str) -> None:
         raise BadInput(sentence)
 
 
-def size_rounded_by(mass: Any, radius: Any) -> float:
+def size_rounded_by(mass: object, radius: object) -> float:
     """The part of mass radius² that rounding both to their digits may make: ½ δm/m + δρ/ρ; 0 for whole numbers."""
     parts = [(last_digit(x) / x if isinstance(x, float) and 0 < x != round(x) else 0.0) for x in (mass, radius)]
     return min(parts[0] / 2 + parts[1], 0.01)

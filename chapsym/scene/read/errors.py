@@ -3,13 +3,21 @@
 import re
 import tomllib
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from itertools import islice
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from chapsym.dynamics import BadInput
+
+if TYPE_CHECKING:
+    from pydantic_core import ErrorDetails
+
+#: A table of TOML, or an object of JSON, with all that is in it.
+Data = dict[str, Any]
+#: The keys of each table.
+Keys = Mapping[str, Iterable[str]]
 
 #: The tags of lists and matrices are no keys: errors leave them out.
 LIST, MATRIX = "(list)", "(matrix)"
@@ -61,7 +69,7 @@ def place(name: str, text: str | None, path: Path) -> str:
     return name
 
 
-def described(errors: Sequence[Any], name: str, text: str | None, data: Any, keys: dict[str, Iterable[str]]) -> str:
+def described(errors: Sequence["ErrorDetails"], name: str, text: str | None, data: Data, keys: Keys) -> str:
     """All problems that pydantic found in `data`, one sentence each; `keys` has those of each table."""
     one_ball = not isinstance(data.get("ball"), list)
     errors = [error for error in errors if error["type"] != "too_short" or not _inside(error, errors)]
@@ -76,13 +84,13 @@ def described(errors: Sequence[Any], name: str, text: str | None, data: Any, key
     return "; ".join(words)
 
 
-def _inside(whole: Any, errors: Sequence[Any]) -> bool:
+def _inside(whole: "ErrorDetails", errors: Sequence["ErrorDetails"]) -> bool:
     """Whether parts of a list are wrong: pydantic leaves them out, and then finds the list too short."""
     length = len(whole["loc"])
     return any(len(error["loc"]) > length and error["loc"][:length] == whole["loc"] for error in errors)
 
 
-def _path(error: Any) -> Path:
+def _path(error: "ErrorDetails") -> Path:
     """The keys and indices of an error; the tags of unions are none."""
     own = getattr(error.get("ctx", {}).get("error"), "path", ())
     return (*(part for part in error["loc"] if part not in (LIST, MATRIX)), *own)
@@ -96,7 +104,7 @@ def _key(path: Path) -> str:
     return ".".join(parts)
 
 
-def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
+def _sentence(error: "ErrorDetails", keys: Keys) -> str:
     """One problem: its key and what would be right."""
     path, limits = _path(error), error.get("ctx", {})
     if isinstance(limits.get("error"), Misfit):
@@ -129,7 +137,7 @@ def _sentence(error: Any, keys: dict[str, Iterable[str]]) -> str:
     return f"{key}{words}" if words.startswith(":") else f"{key} {words}"
 
 
-def _unknown(path: Path, keys: dict[str, Iterable[str]]) -> str:
+def _unknown(path: Path, keys: Keys) -> str:
     """The hint for an unknown key: the similar key that was meant, or the table that has this key."""
     wrong, table = str(path[-1]), _key(path[:-1])
     kind = next((str(part) for part in reversed(path[:-1]) if isinstance(part, str)), "")
@@ -165,7 +173,7 @@ def line_of(text: str, path: Sequence[str | int]) -> int | None:
     return ends[found - 1] + 1 if found < len(ends) else None
 
 
-def _said(lines: Sequence[str]) -> Any:
+def _said(lines: Sequence[str]) -> Data | None:
     """The text as data; None if it is not TOML, such as a statement that is cut."""
     try:
         return tomllib.loads("\n".join(lines))

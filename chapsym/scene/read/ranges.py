@@ -1,9 +1,9 @@
 """Ranges: they replace numbers in a scene, and make a sweep."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import prod
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -52,7 +52,7 @@ class Range:
 Value = float | Range
 
 
-def value(given: Any, dimension: Dimension) -> Value:
+def value(given: object, dimension: Dimension) -> Value:
     """A number, a text with a unit, or a table that is a range; raises ValueError with what would be right."""
     if not isinstance(given, dict):
         return number(given, dimension)
@@ -68,7 +68,7 @@ def value(given: Any, dimension: Dimension) -> Value:
     return _range(kind, numbers, lambda x: number(x, dimension))
 
 
-def _range(kind: Kind, given: Any, read: Callable[[Any], float]) -> Range:
+def _range(kind: Kind, given: Sequence[object], read: Callable[[object], float]) -> Range:
     """The range of a list of numbers; raises ValueError with what the kind takes."""
     if kind == "linspace":
         if len(given) != 3 or isinstance(given[2], bool) or not isinstance(given[2], int) or given[2] < 1:
@@ -92,7 +92,7 @@ def _range(kind: Kind, given: Any, read: Callable[[Any], float]) -> Range:
     return Range(kind, (first, second))
 
 
-def ranges_in(value: Any, key: str) -> dict[str, Range]:
+def ranges_in(value: object, key: str) -> dict[str, Range]:
     """The ranges in a value of a scene, nested lists and all, by dotted key; numbers of lists count from 1 on."""
     if isinstance(value, Range):
         return {key: value}

@@ -20,7 +20,7 @@ from chapsym.dynamics.loops.vectors import cross
 from chapsym.rationals import NotANumber, rational
 
 from .bodies import unbalanced
-from .errors import SceneError
+from .errors import Data, SceneError
 
 _log = logging.getLogger("chapsym")
 
@@ -67,7 +67,7 @@ NO_TURN = tuple(map(Fraction, (1, 0, 0, 0)))
 UP = tuple(map(Fraction, (0, 0, 1)))
 
 
-def table(path: Path) -> dict[str, Any]:
+def table(path: Path) -> Data:
     """[ball] of a scene: name, inertia (rows) or a preset, mass and radius, as texts.
 
     Raises SceneError, with the line, where the file has no ball, or several; where its centre of mass is not that of
@@ -149,7 +149,7 @@ class _Reader:
             raise SceneError(f"{self.path}: the ball is the <{tag}> with a sphere to roll on, and this file {clause}")
         return found[0]
 
-    def table(self) -> dict[str, Any]:
+    def table(self) -> Data:
         """The numbers of the ball."""
         body, (radius, centre) = self.ball()
         self._check_free(body)
@@ -315,7 +315,7 @@ class _Reader:
                 rotation = np.array(generated.rotation(*self._pose(child, child)[1]), dtype=object).reshape(3, 3)
                 yield from ((plane, tuple(rotation @ normal)) for plane, normal in found)
 
-    def _of_one_material(self, body: Element) -> dict[str, Any]:
+    def _of_one_material(self, body: Element) -> Data:
         """MJCF makes mass and inertia of a geom alone; the other formats have none without <inertial>."""
         geoms = [one for one in body.findall("geom") if self._number(one.get("mass", "1"), one)]
         if len(geoms) != 1:

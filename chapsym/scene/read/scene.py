@@ -16,7 +16,7 @@ from chapsym import files
 from chapsym.accuracy.motion import DEFAULT
 
 from . import robots
-from .errors import Misfit, SceneError, described, place
+from .errors import Data, Misfit, SceneError, described, place
 from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Table, ranges_of
 from .task import Task
 from .units import TIME, number
@@ -51,7 +51,7 @@ class Scene(Table):
 
     _name: str = PrivateAttr("")
     _toml: str | None = PrivateAttr(None)
-    _data: dict[str, Any] = PrivateAttr(default_factory=dict)
+    _data: Data = PrivateAttr(default_factory=dict)
 
     @property
     def name(self) -> str:
@@ -160,7 +160,7 @@ def load(path: Path, omega: list[str] | None = None, time: str | None = None) ->
     return checked(_parsed(text, path), str(path), text)
 
 
-def ball_table(path: Path) -> dict[str, Any]:
+def ball_table(path: Path) -> Data:
     """[ball] of a scene file, or of a robot's (URDF, SDF, MJCF), its numbers as they are written.
 
     A scene needs neither start nor run for it.
@@ -184,7 +184,7 @@ def ball_place(path: Path, key: str) -> str:
     return f"{place(str(path), text, keys)}: ball.{key}"
 
 
-def written(name: str, table: dict[str, Any]) -> str:
+def written(name: str, table: Data) -> str:
     """A table in TOML, of texts, whole numbers and lists of them."""
     rows = (f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in table.items())
     return "\n".join([f"[{name}]", *rows, ""])
@@ -205,7 +205,7 @@ def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:
     return checked(data, str(path))
 
 
-def checked(data: dict[str, Any], name: str = "", text: str | None = None) -> Scene:
+def checked(data: Data, name: str = "", text: str | None = None) -> Scene:
     """A scene from plain data; raises SceneError with the key and what would be right.
 
     NumPy's arrays and numbers are taken as lists and numbers.
@@ -247,7 +247,7 @@ def _text(path: Path) -> str:
         raise SceneError(str(error)) from None
 
 
-def _parsed(text: str, path: Path) -> dict[str, Any]:
+def _parsed(text: str, path: Path) -> Data:
     if any(key.count(".") > MOST_DOTS for key in re.findall(r"[\w.\-\"' \t]+", text)):
         raise SceneError(f"{path} is no scene: its tables are nested too deeply")
     try:

@@ -5,7 +5,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from .errors import SceneError
+from .errors import Data, SceneError
 from .scene import Scene, written
 from .units import KNOWN, PURE, Dimension
 
@@ -15,12 +15,12 @@ FILE = "chapsym-scene.schema.json"
 _DIMENSIONS = {dimension.units: dimension for dimension in (*KNOWN, PURE)}
 
 
-def schema() -> dict[str, Any]:
+def schema() -> Data:
     """The schema (draft 2020-12) of a scene, with descriptions, units and ranges.
 
     What goes with what, such as mass with radius, is no part of it: `chapsym scene check` says that.
     """
-    definitions: dict[str, Any] = {}
+    definitions: Data = {}
     whole = _spelled(Scene.model_json_schema(), definitions)
     whole["$defs"] |= definitions
     about = "A scene of chapsym: balls that roll without slipping; numbers are SI, or texts with a unit."
@@ -28,7 +28,7 @@ def schema() -> dict[str, Any]:
     return start | {key: value for key, value in whole.items() if key not in start}
 
 
-def _spelled(node: Any, definitions: dict[str, Any]) -> Any:
+def _spelled(node: Any, definitions: Data) -> Any:
     """A part of pydantic's schema without what TOML does not have (null), and with references to quantities."""
     if isinstance(node, list):
         return [_spelled(part, definitions) for part in node]
@@ -52,7 +52,7 @@ def _spelled(node: Any, definitions: dict[str, Any]) -> Any:
     return {key: _spelled(value, definitions) for key, value in left.items()}
 
 
-def _reference(node: dict[str, Any], definitions: dict[str, Any]) -> dict[str, str]:
+def _reference(node: Data, definitions: Data) -> dict[str, str]:
     """A reference to a quantity, which is defined when it is first met."""
     dimension = _DIMENSIONS[node["quantity"]]
     short = "number" if dimension is PURE else dimension.name.removeprefix("an ").removeprefix("a ")
@@ -62,8 +62,8 @@ def _reference(node: dict[str, Any], definitions: dict[str, Any]) -> dict[str, s
     return {"$ref": f"#/$defs/{name.replace(' ', '_')}"}
 
 
-def _quantity(dimension: Dimension, swept: bool, positive: bool) -> dict[str, Any]:
-    amount: dict[str, Any] = {"type": "number", "description": f"In {dimension.words}, such as {dimension.example[0]}."}
+def _quantity(dimension: Dimension, swept: bool, positive: bool) -> Data:
+    amount: Data = {"type": "number", "description": f"In {dimension.words}, such as {dimension.example[0]}."}
     if positive:
         amount["exclusiveMinimum"] = 0
     text = {
@@ -94,7 +94,7 @@ def _quantity(dimension: Dimension, swept: bool, positive: bool) -> dict[str, An
 _WHOLE = {"type": "integer", "minimum": 1}
 
 
-def _list(about: str, items: list[Any]) -> dict[str, Any]:
+def _list(about: str, items: list[Data]) -> Data:
     return {"type": "array", "prefixItems": items, "minItems": len(items), "maxItems": len(items), "description": about}
 
 
@@ -126,7 +126,7 @@ def example(name: str = DEFAULT) -> str:
     return HEADER + (files("chapsym.scene.examples") / f"{name}.toml").read_text(encoding="utf-8")
 
 
-def of_robot(path: Path, table: dict[str, Any]) -> str:
+def of_robot(path: Path, table: Data) -> str:
     """A scene with the table of the ball of a robot's file; its start and its run are to be changed."""
     ball = written("ball", table)
     start = 'omega = ["60 rpm", 0.0, 0.0]    # body axes, or: velocity = [1.0, 0.0]\ngamma = [0.0, 0.0, 1.0]'

@@ -2,7 +2,7 @@
 
 import math
 import re
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Literal, Self, get_args
 
 from pydantic import (
     BaseModel,
@@ -38,19 +38,19 @@ class Quantity:
     def __init__(self, dimension: Dimension, *, swept: bool = True, positive: bool = False) -> None:
         self.dimension, self.swept, self.positive = dimension, swept, positive
 
-    def read(self, given: Any) -> Value:
+    def read(self, given: object) -> Value:
         """The value in SI; raises ValueError with what would be right."""
         found = value(given, self.dimension) if self.swept else number(given, self.dimension)
         if self.positive and isinstance(found, float) and not found > 0:
             raise ValueError("it must be greater than 0")
         return found
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
+    def __get_pydantic_core_schema__(self, source: object, handler: object) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(self.read)
 
     def __get_pydantic_json_schema__(
         self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         return {"quantity": self.dimension.units, "swept": self.swept, "positive": self.positive}
 
 
@@ -64,7 +64,7 @@ class Accuracy(Quantity):
     def __init__(self) -> None:
         super().__init__(LENGTH, swept=False, positive=True)
 
-    def read(self, given: Any) -> Value:
+    def read(self, given: object) -> Value:
         """The number; raises ValueError with what would be right."""
         if has_unit(given):
             return Metres(super().read(given))  # type: ignore[arg-type]
@@ -82,7 +82,7 @@ Turning = Annotated[float, Quantity(TURNING, swept=False)]
 Seconds = Annotated[float, Quantity(TIME, swept=False, positive=True)]
 
 
-def _shape(given: Any) -> str:
+def _shape(given: object) -> str:
     return MATRIX if isinstance(given, list | tuple) and given and isinstance(given[0], list | tuple) else LIST
 
 
@@ -91,7 +91,7 @@ _OF_A_TENSOR = re.compile("i?(xx|yy|zz|xy|xz|yz)", re.IGNORECASE)
 ROWS = "write the tensor as rows: [[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]]"
 
 
-def _listed(given: Any) -> Any:
+def _listed(given: object) -> object:
     """A list as it is; a range instead of a whole list is a frequent slip."""
     if isinstance(given, dict):
         if any(_OF_A_TENSOR.fullmatch(str(key)) for key in given):
@@ -106,7 +106,7 @@ MomentsN = Annotated[tuple[Moment, ...], Field(min_length=3), Vector]
 PureN = Annotated[tuple[Pure, ...], Field(min_length=3), Vector]
 
 
-def _of_three(given: Any) -> Any:
+def _of_three(given: object) -> object:
     """Three numbers or rows; six have several orders, and numbers in a text are those of a file of a robot."""
     if isinstance(given, list | tuple) and len(given) == 6:
         raise ValueError(
@@ -326,7 +326,7 @@ class RunTable(Table):
 
     @field_validator("precision", mode="before")
     @classmethod
-    def _own_name(cls, value: Any) -> Any:
+    def _own_name(cls, value: object) -> object:
         return own_name(value)
 
     @model_validator(mode="after")
@@ -430,7 +430,7 @@ class SweepTable(Table):
 
 
 #: The keys of each table, for suggestions where a key is unknown.
-KEYS: dict[str, Any] = {
+KEYS: dict[str, tuple[str, ...]] = {
     "": ("title", "description", "ball", "start", "run", "sweep"),
     "ball": tuple(BallTable.model_fields),
     "start": tuple(StartTable.model_fields),
@@ -439,7 +439,7 @@ KEYS: dict[str, Any] = {
 }
 
 
-def _dimension(annotation: Any) -> Dimension | None:
+def _dimension(annotation: object) -> Dimension | None:
     """The dimension of the first quantity in a type."""
     own = (part.dimension for part in getattr(annotation, "__metadata__", ()) if isinstance(part, Quantity))
     return next(own, None) or next(filter(None, map(_dimension, get_args(annotation))), None)

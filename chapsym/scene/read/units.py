@@ -5,9 +5,12 @@ import sys
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING
 
 from chapsym.rationals import NotANumber, rational
+
+if TYPE_CHECKING:
+    from pint import Unit, UnitRegistry
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ _UNIT = re.compile(r"(?:1\s*/)?(?:[^\W\d]|[\s°²³·*/^-]|[1-9](?!\d))+")
 LONGEST = 200
 
 
-def number(value: Any, dimension: Dimension = PURE) -> float:
+def number(value: object, dimension: Dimension = PURE) -> float:
     """A number in SI, or a text such as "2/7" or "30 rpm", as a float; raises ValueError with what would be right."""
     if isinstance(value, str):
         amount, factor = _amount(value, dimension)
@@ -63,7 +66,7 @@ def number(value: Any, dimension: Dimension = PURE) -> float:
     return float(value)
 
 
-def exact_number(value: Any, dimension: Dimension = PURE) -> tuple[Fraction, Fraction]:
+def exact_number(value: object, dimension: Dimension = PURE) -> tuple[Fraction, Fraction]:
     """(a, b) of the number a + bπ that a text, with or without a unit, or a whole number means in SI.
 
     A turn, a degree and what is made of them are multiples of π.  Raises ValueError as `number` does.
@@ -77,7 +80,7 @@ def exact_number(value: Any, dimension: Dimension = PURE) -> tuple[Fraction, Fra
     return (Fraction(0), amount * part) if part.denominator % pi.numerator else (amount * factor, Fraction(0))
 
 
-def has_unit(value: Any) -> bool:
+def has_unit(value: object) -> bool:
     """Whether something is a text of a number and more than that."""
     parts = _FORM.fullmatch(value) if isinstance(value, str) and len(value) <= LONGEST else None
     return parts is not None and bool(parts[2])
@@ -111,13 +114,13 @@ def _amount(text: str, dimension: Dimension) -> tuple[Fraction, Fraction]:
 
 
 @cache
-def _registry() -> Any:
+def _registry() -> "UnitRegistry[Fraction]":
     """pint's units with exact factors; loaded when a scene first has a unit, raises ValueError if it cannot be."""
     try:
         import pint
     except ImportError as error:
         raise ValueError(f"it has a unit, and pint, which reads units, cannot be loaded: {error}") from None
-    units: Any = pint.UnitRegistry(non_int_type=Fraction)
+    units: UnitRegistry[Fraction] = pint.UnitRegistry(non_int_type=Fraction)
     units.define("@alias revolution = rev")
     return units
 
@@ -149,7 +152,7 @@ def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
     return Fraction(registry.Quantity(Fraction(1), found).to_base_units().magnitude)
 
 
-def _is(dimension: Dimension, unit: Any) -> bool:
+def _is(dimension: Dimension, unit: "Unit") -> bool:
     """Whether a unit measures that; an angle, or its rate, in turns, degrees or radians to the power of one."""
     wanted = _registry().parse_units(dimension.pint)
     if dimension in ANGULAR:

@@ -3,7 +3,7 @@
 import hashlib
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Hashable
 from dataclasses import asdict, replace
 from functools import cache
 from importlib.resources import files
@@ -19,6 +19,7 @@ from chapsym.dynamics.labelled import (
     OUTCOME,
     TIME,
     Arrays,
+    Attributes,
     Labelled,
     about,
     bodies,
@@ -30,15 +31,16 @@ from chapsym.dynamics.outputs import BOUND, LOW, OUTPUTS, labels
 
 from ..members.members import Body
 from ..members.members import bodies as bodies_of
-from ..plan.models import Chosen, Moving
+from ..plan.models import Chosen, Moving, State
 from ..plan.plan import Plan
-from ..read.errors import SceneError
+from ..read.errors import Data, SceneError
 from ..read.ranges import Range
 from ..read.scene import from_source
 from ..read.tables import units_of
+from ..read.task import Columns
 
 if TYPE_CHECKING:
-    from xarray import Dataset
+    from xarray import Dataset, Variable
 
 #: What the state says of each ball.
 OF_BALLS = (*OUTCOME, "error", "order", "substeps")
@@ -56,7 +58,7 @@ def layout(plan: Plan) -> dict[str, Labelled]:
     n = plan.members.dimension
     length = {"ball": len(plan.members), "frame": plan.frames} | {dim: len(of) for dim, of in labels(n).items()}
 
-    def add(name: str, dims: tuple[str, ...], attrs: Mapping[str, Any], missing: float = NOT_RUN) -> None:
+    def add(name: str, dims: tuple[str, ...], attrs: Attributes, missing: float = NOT_RUN) -> None:
         found[name] = Labelled(dims, np.broadcast_to(missing, [length[dim] for dim in dims]), attrs)
 
     for name in plan.task.outputs:
@@ -67,8 +69,8 @@ def layout(plan: Plan) -> dict[str, Labelled]:
             if has:
                 attrs = one.attrs(n, plan.task.accuracy is not None, f"{name}{end}")
                 add(f"{name}{end}", dims[:2] if end == BOUND else dims, attrs, np.nan)
-    for name, attrs in OUTCOME.items():
-        add(name, ("ball",), attrs)
+    for name, of in OUTCOME.items():
+        add(name, ("ball",), of)
     if plan.task.accuracy is not None:
         unit = "m" if plan.task.of == "contact" else "1"
         add("error", ("ball",), about("estimate of the error, by comparison", unit), np.nan)
@@ -78,7 +80,7 @@ def layout(plan: Plan) -> dict[str, Labelled]:
     return found
 
 
-def arrays(plan: Plan, columns: Mapping[str, Any], state: Mapping[str, Any]) -> Arrays:
+def arrays(plan: Plan, columns: Columns, state: State) -> Arrays:
     """The result of a plan.
 
     columns: the outputs of all balls and frames, (balls, frames, ...), in the axes given.
@@ -104,7 +106,7 @@ def _moments(plan: Plan) -> dict[str, Labelled]:
     return moments(np.arange(plan.frames, dtype=np.int64) * task.every, task.time_step)
 
 
-def provenance(plan: Plan) -> dict[str, Any]:
+def provenance(plan: Plan) -> Data:
     """Where a result comes from: the scene, the plan, and the versions of what made it, as attributes."""
     balls = "1 ball" if len(plan.members) == 1 else f"{len(plan.members)} balls"
     kind = "Chaplygin ball" if isinstance(plan.model, Moving | Chosen) else "Discrete Chaplygin ball"
@@ -140,7 +142,7 @@ def _code_hash(kernel: str) -> str:
     return hashlib.sha256(re.sub(r'"""[\s\S]*?"""', "", text).encode()).hexdigest()
 
 
-def _accuracy(plan: Plan) -> dict[str, Any]:
+def _accuracy(plan: Plan) -> Data:
     """The attributes of a result on its error: the accuracy that was asked for, or the estimate of a pilot."""
     members, task = plan.members, plan.task
     if task.accuracy is not None:
@@ -185,7 +187,7 @@ def grid(data: "Dataset") -> "Dataset":
     return with_clock(xarray.Dataset(whole, coords, data.attrs))
 
 
-def _spread(one: Any, lengths: dict[str, int]) -> Any:
+def _spread(one: "Variable", lengths: dict[str, int]) -> "Variable | tuple[tuple[Hashable, ...], np.ndarray, dict]":
     """A variable with these dimensions instead of `ball`, if it has that; the others are left as they are."""
     if "ball" not in one.dims:
         return one

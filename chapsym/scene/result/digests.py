@@ -9,9 +9,10 @@ import json
 import os
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 from chapsym import files
+
+from ..read.errors import Data
 
 #: Of the checksum, at the end.
 BYTES = 4
@@ -73,13 +74,13 @@ def folders(path: Path) -> list[Path]:
     return [path / name for name in sorted(metadata(path)) if Path(name).name == name and name not in ("", "..")]
 
 
-def metadata(path: Path) -> dict[str, Any]:
+def metadata(path: Path) -> Data:
     """What the group says of its arrays, by their names; where it says nothing, what each says of itself."""
     found = said(path)
     return {file.parent.name: read_object(file) for file in path.glob("*/zarr.json")} if found is None else found
 
 
-def said(path: Path) -> dict[str, Any] | None:
+def said(path: Path) -> Data | None:
     """What the group says of its arrays, by their names, if it says anything."""
     with suppress(KeyError, TypeError):
         found = read_object(path / "zarr.json")["consolidated_metadata"]["metadata"]
@@ -96,7 +97,7 @@ def disputed(path: Path) -> list[str]:
     return sorted(name for name in listed | set(found) if read_object(path / name / "zarr.json") != found.get(name))
 
 
-def read_object(path: Path) -> dict[str, Any]:
+def read_object(path: Path) -> Data:
     """An object of JSON; an empty one where there is none to be read."""
     found = None
     with suppress(OSError, ValueError, RecursionError):

@@ -26,11 +26,14 @@ from chapsym.dynamics.labelled import NOTES, Arrays, batches, in_rows, is_ours, 
 from chapsym.dynamics.outputs import OUTPUTS, labels, whose
 
 from ..plan.plan import Plan
-from ..read.errors import SceneError
+from ..read.errors import Data, SceneError
 from .digests import disputed, read_object
 
 if TYPE_CHECKING:
+    from pyarrow import DataType, Table
     from xarray import Dataset
+
+    from chapsym.dynamics.labelled import Column, Structure
 
 #: What readers raise of a file that is damaged, or made by somebody else: in their words, and by accident.
 READERS = ValueError, KeyError, EOFError, csv.Error, zipfile.BadZipFile, zlib.error, TokenError
@@ -157,7 +160,7 @@ def _check_parts(data: "Dataset") -> None:
             raise ValueError(f"{name} lacks the dimension {min(map(str, lacking))}")
 
 
-def attributes(path: Path) -> dict[str, Any]:
+def attributes(path: Path) -> Data:
     """The attributes of a result that is there; raises SceneError if there are none to be read."""
     try:
         if path.suffix == ".npz" and path.is_file():  # without xarray, which takes longer to load than a run
@@ -197,7 +200,7 @@ def _write_netcdf(stream: IO[bytes], data: "Dataset | Arrays") -> None:
     stream.write(whole.to_netcdf(engine="h5netcdf"))
 
 
-def _about(data: "Dataset | Arrays", layout: dict[str, Any]) -> dict[str, Any]:
+def _about(data: "Dataset | Arrays", layout: "Structure") -> Data:
     return {"structure": layout, "attrs": plain(data.attrs)}
 
 
@@ -207,7 +210,7 @@ def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
 
     layout, writer = structure(data), None
     about = {NOTES: json.dumps(_about(data, layout), ensure_ascii=False)}
-    for columns in batches(data, layout):
+    for columns in batches(data, layout["variables"]):
         texts = {name: values.tolist() for name, values in columns.items() if values.dtype.kind in "OUT"}
         table = pyarrow.table({**columns, **texts}).replace_schema_metadata(about)
         writer = writer or parquet.ParquetWriter(stream, table.schema, compression="zstd")
@@ -235,7 +238,7 @@ def _with_notes(data: "Dataset | Arrays") -> Iterator[dict[str, np.ndarray]]:
     layout, ball = structure(data), 0
     once = {name: data[name].values for name, one in layout["variables"].items() if not in_rows(one)}
     rows = {name: one for name, one in layout["variables"].items() if name not in once}
-    for columns in batches(data, {"variables": rows}):
+    for columns in batches(data, rows):
         notes = np.full(len(next(iter(columns.values()))), "-", dtype=object)
         for row in range(0, len(notes), layout["frames"]):
             note = {name: _written(values[ball].tolist()) for name, values in once.items()}
@@ -342,7 +345,7 @@ def _read_csv(path: Path) -> "Dataset":
     return _assembled(columns, layout, about["attrs"])
 
 
-def _about_csv(path: Path) -> dict[str, Any]:
+def _about_csv(path: Path) -> Data:
     """What the first row of a CSV has of all of them; nothing of one without the column `NOTES`."""
     limit = csv.field_size_limit(BLOCK)
     try:
@@ -353,7 +356,7 @@ def _about_csv(path: Path) -> dict[str, Any]:
         csv.field_size_limit(limit)  # which is that of the whole process
 
 
-def _types(variables: Mapping[str, Any]) -> dict[str, Any]:
+def _types(variables: "Mapping[str, Column]") -> "dict[str, DataType]":
     import pyarrow
 
     return {column: pyarrow.type_for_alias(one["type"]) for one in variables.values() for column in one["columns"]}
@@ -363,7 +366,7 @@ def _with_lines(path: Path) -> "Dataset":
     """A file of before: what no row has is in `# ` lines, and what a ball has once in each of its rows."""
     from pyarrow.csv import ConvertOptions, ParseOptions, ReadOptions, read_csv
 
-    attrs: dict[str, Any] = {}
+    attrs: Data = {}
     lines = 0
     with path.open(encoding="utf-8", newline="") as stream:
         while (line := stream.readline()).startswith("# "):
@@ -400,11 +403,11 @@ def _read_npz(path: Path) -> "Dataset":
     return _dataset(arrays, layout, about["attrs"])
 
 
-def _columns(table: Any) -> dict[str, np.ndarray]:
+def _columns(table: "Table") -> dict[str, np.ndarray]:
     return {name: table[name].to_numpy() for name in table.column_names}
 
 
-def _assembled(columns: Mapping[str, np.ndarray], layout: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+def _assembled(columns: Mapping[str, np.ndarray], layout: "Structure", attrs: Data) -> "Dataset":
     """The Dataset of a table; raises KeyError, ValueError or TypeError if the table is not whole."""
     arrays = {}
     for name, one in layout["variables"].items():
@@ -415,7 +418,7 @@ def _assembled(columns: Mapping[str, np.ndarray], layout: Mapping[str, Any], att
     return _dataset(arrays, layout, attrs)
 
 
-def _dataset(arrays: Mapping[str, np.ndarray], layout: Mapping[str, Any], attrs: Mapping[str, Any]) -> "Dataset":
+def _dataset(arrays: Mapping[str, np.ndarray], layout: "Structure", attrs: Data) -> "Dataset":
     """The Dataset of these arrays of a `structure`."""
     import xarray
 
@@ -463,10 +466,10 @@ def _old(columns: Mapping[str, np.ndarray]) -> "Dataset":
     return xarray.Dataset(variables, coords, {"title": "A ball, from a file that does not say where it comes from"})
 
 
-_WRITERS: dict[str, Callable[[IO[bytes], Any], None]] = {
+_WRITERS: dict[str, Callable[[IO[bytes], "Dataset | Arrays"], None]] = {
     ".nc": _write_netcdf, ".csv": _write_csv, ".parquet": _write_parquet, ".npz": _write_npz,
 }  # fmt: skip
-_READERS: dict[str, Callable[[Path], Any]] = {
+_READERS: dict[str, Callable[[Path], "Dataset"]] = {
     ".zarr": _read_zarr, ".nc": _read_netcdf, ".csv": _read_csv, ".parquet": _read_parquet,
     ".npz": _read_npz,
 }  # fmt: skip

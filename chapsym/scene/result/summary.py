@@ -1,8 +1,9 @@
 """Summaries for readers: the balls, starts and ranges of a scene, and the result of its run."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from chapsym.accuracy.discretisation import read
 from chapsym.dynamics import Ball, Status, kernels, step, step_n
 
 from ..members.members import Members, bodies
+from ..read.errors import Data
 from ..read.ranges import Range
 from ..read.scene import Scene
 from ..read.tables import units_of
@@ -89,7 +91,7 @@ def _run(scene: Scene) -> str:
     return f"{task.steps} steps{time}; {task.frames} frames{last}{order}{precision}"
 
 
-def _vector(values: Any) -> str:
+def _vector(values: Iterable[float]) -> str:
     return "(" + ", ".join(f"{x:.6g}" for x in values) + ")"
 
 
@@ -98,8 +100,8 @@ def refusals(scene: Scene, members: Members) -> list[str]:
     if not scene.maps or not scene.task().steps:
         return []
     some = members.of(slice(0, TRIED))
-    take: Any = step if isinstance(some.ball, Ball) else step_n
-    status = take(some.ball, some.momentum, some.gamma).status
+    ball, state = some.ball, (some.momentum, some.gamma)
+    status = (step(ball, *state) if isinstance(ball, Ball) else step_n(ball, *state)).status
     words = []
     for reason in sorted(set(status[status != Status.TAKEN].tolist())):
         which = np.flatnonzero(status == reason)
@@ -108,7 +110,7 @@ def refusals(scene: Scene, members: Members) -> list[str]:
     return words
 
 
-def last_state(data: "Dataset | Arrays") -> dict[str, Any]:
+def last_state(data: "Dataset | Arrays") -> Data:
     """The end of the result of one ball: its steps, its last state, and the drift of the momentum integrals.
 
     The drift is the largest change of each, relative to the scale of the momentum, of the frames that were kept.
@@ -117,7 +119,7 @@ def last_state(data: "Dataset | Arrays") -> dict[str, Any]:
     taken = int(one["taken"].values)
     reached = slice(0, None) if "step" not in one.coords else slice(0, int((one["step"].values <= taken).sum()))
     kept = {name: one[name].values[reached] for name in ("momentum", "gamma", "contact") if name in one}
-    found: dict[str, Any] = {"steps": taken, "final": {name: values[-1].tolist() for name, values in kept.items()}}
+    found: Data = {"steps": taken, "final": {name: values[-1].tolist() for name, values in kept.items()}}
     if {"momentum", "gamma"} <= set(kept) and "row" not in one.dims and "step" in one.coords:
         size = float(abs(kept["momentum"][0]).max()) or 1.0
         invariants = kernels.invariants(kept["momentum"] / size, kept["gamma"])
@@ -140,7 +142,7 @@ def stopped(data: "Dataset | Arrays") -> str:
 # How far a result is from the motion of the ball: by its error, where that was verified, or as a map of its steps.
 
 
-def far(data: "Dataset | Arrays") -> dict[str, Any]:
+def far(data: "Dataset | Arrays") -> Data:
     """As plain data: `motion`, with what was asked for, estimated and chosen; or `discretisation`; or nothing."""
     if (map_ := read(data.attrs.get("discretisation"))) is not None:
         return {"discretisation": asdict(map_)}

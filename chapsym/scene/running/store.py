@@ -24,7 +24,7 @@ from chapsym import files, jobs
 
 from ..plan.models import State
 from ..plan.plan import Plan
-from ..read.errors import SceneError
+from ..read.errors import Data, SceneError
 from ..read.task import Columns
 from ..result.dataset import OF_BALLS, arrays, layout, provenance
 from ..result.digests import digest, digests, folders, is_sound, read_object, said, write_digests
@@ -32,6 +32,8 @@ from ..result.formats import DAMAGED, attributes, check_ours, plain
 
 if TYPE_CHECKING:
     from xarray import Dataset
+    from zarr import Array
+    from zarr.core.buffer import Buffer
     from zarr.storage import MemoryStore
 
 ELSE = "choose another name, or replace it with --fresh"
@@ -158,23 +160,23 @@ class Store:
             return False
 
     @cached_property
-    def _document(self) -> dict[str, Any]:
+    def _document(self) -> Data:
         """What the group says of itself and of its arrays when it is made."""
         import zarr
 
-        kept: dict[str, Any] = {}
+        kept: dict[str, Buffer] = {}
         _fill(zarr.storage.MemoryStore(kept), self.plan)
         return dict(json.loads(kept["zarr.json"].to_bytes()))
 
     @property
-    def _about(self) -> dict[str, Any]:
+    def _about(self) -> Data:
         """The attributes of the group, but for those that need not be those of this plan."""
-        found: dict[str, Any] = self._document["attributes"]
+        found: Data = self._document["attributes"]
         return {key: value for key, value in found.items() if key not in ("complete", "scene")}
 
     @property
-    def _arrays(self) -> dict[str, Any]:
-        found: dict[str, Any] = self._document["consolidated_metadata"]["metadata"]
+    def _arrays(self) -> Data:
+        found: Data = self._document["consolidated_metadata"]["metadata"]
         return found
 
     def _check_form(self) -> None:
@@ -248,7 +250,7 @@ class Store:
             (self.path / "zarr.json").stat()  # of a store that was deleted since, Zarr has made these folders anew
 
     @cached_property
-    def _opened(self) -> dict[str, Any]:
+    def _opened(self) -> "dict[str, Array]":
         """The arrays of the variables, open for all units."""
         import zarr
 
@@ -284,7 +286,7 @@ class Store:
         files.write_text(self.path / "zarr.json", json.dumps(document, indent=2))
 
 
-def _read(description: Any) -> dict[str, Any] | None:
+def _read(description: Any) -> Data | None:
     """What Zarr reads of the description of an array; None if it is none."""
     from zarr.core.metadata import ArrayV3Metadata
 
@@ -323,7 +325,7 @@ def check_same(path: Path, plan: Plan) -> None:
         raise SceneError(f"{path} {clause}; {ELSE}")
 
 
-def difference(found: dict[str, Any], wanted: dict[str, Any]) -> str | None:
+def difference(found: Data, wanted: Data) -> str | None:
     """What differs of two runs apart from the text of the scene, as a verb and its object; None if nothing does."""
     for name, clause in (
         ("chapsym_version", "is of another version of chapsym"),
@@ -336,7 +338,7 @@ def difference(found: dict[str, Any], wanted: dict[str, Any]) -> str | None:
     return None
 
 
-def _first_difference(one: Any, other: Any, key: str = "") -> str | None:
+def _first_difference(one: object, other: object, key: str = "") -> str | None:
     """The dotted key of the first difference of two nested tables; None if there is none."""
     if not (isinstance(one, dict) and isinstance(other, dict)):
         return None if one == other else key or "the text"
@@ -351,7 +353,7 @@ def _first_difference(one: Any, other: Any, key: str = "") -> str | None:
     return None
 
 
-def _data(text: Any) -> Any:
+def _data(text: Any) -> object:
     """The data of a scene, apart from its comments; as it is, where it is neither TOML nor JSON."""
     for read in (tomllib.loads, json.loads):
         with suppress(ValueError, TypeError, AttributeError, RecursionError):

@@ -25,7 +25,7 @@ from chapsym.dynamics.levels.frames import cores
 
 from ..plan.models import Chosen, State
 from ..plan.plan import Plan, asked_for, plan_from
-from ..read.errors import SceneError
+from ..read.errors import Data, SceneError
 from ..read.task import Columns
 from ..result.dataset import OF_BALLS, arrays, layout, provenance
 from .store import Store, check_same, difference
@@ -233,7 +233,7 @@ def computed(
     return columns, after
 
 
-def unit(text: str, about: dict[str, Any], path: str, chunk: int, segment: int, state: State | None) -> State:
+def unit(text: str, about: Data, path: str, chunk: int, segment: int, state: State | None) -> State:
     """Computes and writes one unit on a worker; the state after it.
 
     text, about: the scene and the provenance of its plan, which the worker's must equal.
@@ -289,7 +289,7 @@ def _missing(plan: Plan, sink: "Memory | Store", tally: Tally, scheduler: str | 
             tally.kept(chunk, segment + 1, state)
 
     lost: dict[int, str] = {}
-    sent: tuple[Any, ...] | None = None
+    sent: tuple[str, Data, str] | None = None
     team: AbstractContextManager[jobs.Crew]
     if scheduler is None:  # the higher precisions set the precision of a whole process
         team = jobs.threads(1 if isinstance(plan.model, Chosen) else min(ABREAST, cores()))
