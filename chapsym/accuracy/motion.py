@@ -381,8 +381,7 @@ class Motion:
     @property
     def steps(self) -> np.ndarray:
         """The steps between two frames, at most, of each ball, (n,)."""
-        found: np.ndarray = -(-self.total // max(self.gamma.shape[1] - 1, 1))
-        return found
+        return -(-self.total // max(self.gamma.shape[1] - 1, 1))
 
     def of(self, some: np.ndarray) -> Motion:
         """Some of the balls."""

@@ -376,5 +376,4 @@ def run(kernel: Kernel, text: str, letter: Callable[..., Any] | None = None) -> 
 
     scope: dict[str, Any] = {LETTER: letter}
     exec(compile(ast.fix_missing_locations(module), f"{kernel.name}.py", "exec"), scope)  # our own text, never a user's
-    found: Callable[..., Any] = scope[kernel.name]
-    return found
+    return scope[kernel.name]

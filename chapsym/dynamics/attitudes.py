@@ -25,8 +25,7 @@ def roll_pitch_yaw(halves: Sequence[tuple[Any, Any]]) -> tuple[Any, ...]:
     """The quaternion of Rz(yaw) Ry(pitch) Rx(roll), from cosines and sines of half the angles, numbers or arrays."""
     roll, pitch, yaw = halves
     about_y = generated.compose(pitch[0], 0, pitch[1], 0, *roll, 0, 0)
-    found: tuple[Any, ...] = generated.compose(yaw[0], 0, 0, yaw[1], *about_y)
-    return found
+    return generated.compose(yaw[0], 0, 0, yaw[1], *about_y)
 
 
 def attitude_with(gamma: Floats) -> Floats:

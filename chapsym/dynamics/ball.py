@@ -345,8 +345,7 @@ class Ball(Parameters):
     @property
     def exact(self) -> tuple[Any, Any, Any]:
         """J, D and the radius as they were given: arrays of Fractions where they were exact numbers, else floats."""
-        found: tuple[Any, Any, Any] = self.__dict__.get("_given", (self.mass_tensor, self.D, self.radius))
-        return found
+        return self.__dict__.get("_given", (self.mass_tensor, self.D, self.radius))
 
     def _values(self) -> tuple[Asked, ...]:
         return *self.exact, self.axes

@@ -351,8 +351,7 @@ def rolling_radius(ball: Any) -> Floats:
     """The radius of a ball whose contact point is traced; raises BadInput if it has none."""
     if ball.radius is None:
         raise BadInput("the contact point needs the radius: give the ball its radius")
-    radius: Floats = ball.radius
-    return radius
+    return ball.radius
 
 
 def whole_number(value: int, name: str, least: int, most: int | None = None) -> int:

@@ -352,11 +352,10 @@ class Stepper(UnderWay):
 
     def _march_on(self, first: int, count: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
         momenta, verticals, attitudes, contacts = frames.values()
-        took: tuple[int, int, float] = self._march(
+        return self._march(
             *self._state, self._taken - first, first, count, every, self._scale, momenta, verticals,
             self._follows, self._spin, self._spot, self._radius, attitudes, contacts,
         )  # fmt: skip
-        return took
 
     def _stopped(self, status: int, before: list[Floats] | None, again: Callable[[], Any]) -> Status:
         """Why a step was not taken; the state becomes the one before it, which a composition has left."""

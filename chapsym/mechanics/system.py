@@ -487,8 +487,7 @@ def in_floats(
     if any(hasattr(np, x.name) for x in symbols):  # such as pi, which would be that of the module
         put = {x: sp.Symbol(f"s{i}") for i, x in enumerate(symbols)}
         symbols, expressions = list(put.values()), [e.xreplace(put) for e in expressions]
-    made: Callable[..., Any] = sp.lambdify(symbols, expressions, module, cse=cse)
-    return made
+    return sp.lambdify(symbols, expressions, module, cse=cse)
 
 
 def several(value: Any, what: str) -> tuple[Any, ...]:

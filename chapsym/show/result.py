@@ -126,8 +126,7 @@ class Result:
         BadInput
             As `chapsym.interpolated` does.
         """
-        found: Dataset = interpolated(self.dataset, times)
-        return found
+        return interpolated(self.dataset, times)
 
     def save(self, path: str | Path) -> None:
         """Writes the result to .zarr, .nc, .csv, .parquet or .npz, whole; raises SceneError if the disk refuses."""

@@ -134,12 +134,11 @@ class OneBall:
     ) -> tuple[int, int, float]:
         """Takes `count` steps from `first` on, and keeps every `every`-th state of the ball i, and its spread."""
         with_body, attitude, contact, radius = self._body
-        went: tuple[int, int, float] = self._march(
+        return self._march(
             *self._taken, first, count, every, *self._scales,
             frames.momentum[i], low.momentum[i], frames.gamma[i], low.gamma[i], with_body, attitude, contact, radius,
             frames.attitude[i], low.attitude[i], frames.contact[i], low.contact[i], *self._proof, spread,
         )  # fmt: skip
-        return went
 
 
 def _run_one(

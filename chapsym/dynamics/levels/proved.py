@@ -79,5 +79,4 @@ def length(v: Floats) -> Floats:
     """|v| of vectors, without overflow of their squares."""
     most = np.abs(v).max(axis=-1, keepdims=True)
     scale = np.where(most > 0, most, 1.0)
-    size: Floats = np.sqrt(((v / scale) ** 2).sum(axis=-1)) * scale[..., 0]
-    return size
+    return np.sqrt(((v / scale) ** 2).sum(axis=-1)) * scale[..., 0]

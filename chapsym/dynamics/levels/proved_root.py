@@ -188,6 +188,6 @@ def _slope(tangent: Vector, hessian: Vector, K: Vector, box: Sequence[arb]) -> l
     rows = []
     for i in range(3):
         for j in range(3):
-            bent = sum((hessian[3 * place[min(j, k), max(j, k)] + i] * box[k] for k in range(3)), arb(0))
+            bent = sum(hessian[3 * place[min(j, k), max(j, k)] + i] * box[k] for k in range(3))
             rows.append(tangent[3 * i + j] + bent - 2 * K[i] * box[j])
     return rows

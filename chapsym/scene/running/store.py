@@ -171,13 +171,11 @@ class Store:
     @property
     def _about(self) -> Data:
         """The attributes of the group, but for those that need not be those of this plan."""
-        found: Data = self._document["attributes"]
-        return {key: value for key, value in found.items() if key not in ("complete", "scene")}
+        return {key: value for key, value in self._document["attributes"].items() if key not in ("complete", "scene")}
 
     @property
     def _arrays(self) -> Data:
-        found: Data = self._document["consolidated_metadata"]["metadata"]
-        return found
+        return self._document["consolidated_metadata"]["metadata"]
 
     def _check_form(self) -> None:
         """Raises SceneError for an array of another form, which another program wrote."""
