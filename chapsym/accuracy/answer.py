@@ -350,7 +350,7 @@ class Accurate:
         """The estimate of the error, at the worst of the times, in the norm of the request."""
         return self.attempts[-1].estimate
 
-    def final(self) -> dict[str, list[Any]]:
+    def final(self) -> dict[str, list[float] | list[str]]:
         """K, γ and the contact point at the end: floats, or decimal strings where a float would not hold them."""
         names = {"angular_momentum": "momentum", "gamma": "gamma", "contact": "contact"}
         run, precision = self.trajectory, self.choice.method.precision

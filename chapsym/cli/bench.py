@@ -1,7 +1,7 @@
 """chapsym bench: what the map costs, compared with what a user would take instead."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -9,7 +9,7 @@ from chapsym.rationals import rationals
 
 from .app import app
 from .options import BALL, Json, argument, ball_from, takes, with_options, writes
-from .output import fail
+from .output import Data, fail
 
 
 @app.command()
@@ -41,7 +41,7 @@ def bench(
     from chapsym.studies.checkout import in_checkout
 
     command = in_checkout("benchmarks", "command")
-    own: dict[str, Any] = {}
+    own: Data = {}
     if momentum is not None or any(value is not None for value in body.values()):
         if momentum is None:
             fail("--momentum K1,K2,K3 goes with a ball of your own", 2)

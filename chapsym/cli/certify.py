@@ -35,7 +35,7 @@ Digits = Annotated[int | None, takes("N", "Decimals; as many as needed by defaul
 Radius = Annotated[str | None, takes("R", "How far parameters may be off; the largest power of 10.")]
 
 
-def _ball(given: Mapping[str, str | None], D: str, J: str = "1,2,4") -> tuple[Any, Any]:
+def _ball(given: Mapping[str, str | None], D: str, J: str = "1,2,4") -> tuple[Any, Fraction]:
     """J and D as they are given; by default those of the command."""
     if all(value is None for value in given.values()):
         given = {"mass_tensor": J, "contact": D}

@@ -1,12 +1,15 @@
 """chapsym check: float64 against the oracle."""
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from . import measured
 from .app import app
 from .options import Json, takes, writes
 from .output import console_for, fail, print_json, print_table, progress_bar
+
+if TYPE_CHECKING:
+    from chapsym.studies.check import Drift, Row
 
 TITLE = "float64 against mpmath: worst error in ulps"
 ABOUT = (
@@ -33,10 +36,10 @@ def check(
 
     if output is not None and not measured.is_page(output):
         fail(f"{str(output)!r}: the page must end in .md", 2)
-    done: list[Any] = []
+    done: list[object] = []
     with progress_bar("checking", len(study.STRATA)) as shown:
 
-        def arrived(row: Any) -> None:
+        def arrived(row: object) -> None:
             done.append(row)
             shown(len(done))
 
@@ -55,7 +58,7 @@ def check(
         fail("the float64 map is outside its budget", 1)
 
 
-def _table(rows: list[Any], moved: Any, budget: float) -> tuple[list[dict[str, Any]], list[str]]:
+def _table(rows: "list[Row]", moved: "Drift", budget: float) -> tuple[list[dict[str, object]], list[str]]:
     """The rows of the table, and the sentences under it."""
     table = [
         {
@@ -75,5 +78,5 @@ def _table(rows: list[Any], moved: Any, budget: float) -> tuple[list[dict[str, A
     ]
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     return f"{value:.3g}" if isinstance(value, float) else str(value)

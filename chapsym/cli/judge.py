@@ -1,11 +1,11 @@
 """chapsym judge: how far the trajectories of an engine are from a certified motion."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from .app import app
 from .options import Json, argument, takes, writes
-from .output import fail, print_json, telling
+from .output import Data, fail, print_json, telling
 
 if TYPE_CHECKING:
     from chapsym.studies.judge import Convergence
@@ -85,7 +85,7 @@ def judge(
         print(f"wrote {output}")
 
 
-def lines(summary: dict[str, Any]) -> list[str]:
+def lines(summary: Data) -> list[str]:
     """A line for each part."""
     from chapsym.studies.judge import limit_of
 

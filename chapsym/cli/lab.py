@@ -12,10 +12,10 @@ import typer
 
 from .app import app
 from .options import Json, argument, takes
-from .output import fail, note, print_json
+from .output import Data, fail, note, print_json
 
 if TYPE_CHECKING:
-    from chapsym.mechanics import System
+    from chapsym.mechanics import Cell, System
 
 #: Takes a call and its arguments, and gives a function that returns its result.
 Later = Callable[..., Callable[[], Any]]
@@ -27,8 +27,8 @@ class Begun(NamedTuple):
     system: "System"
     key: str
     said: Callable[[], str]
-    cells: list[Callable[[], Any]]
-    certified: Callable[[], Any] | None
+    cells: list[Callable[[], "Cell | Data"]]
+    certified: Callable[[], Data] | None
 
 
 @app.command()
@@ -66,7 +66,7 @@ def lab(
         fail(f"{strange[0]!r} is no method; those are {', '.join(METHODS)}", 2)
     done, keys = _there(output), set[str]()
     constraints: dict[str, str] = {}
-    certified: dict[str, Any] = {}
+    certified: Data = {}
     wrong: list[str] = []
     systems = list[tuple[Path, "System"]]()
     for path in _files(files):
@@ -87,7 +87,7 @@ def lab(
             fail(f"{certificates} cannot be written: {error.strerror or error}", 2)
 
     def started(path: Path, system: "System", later: Later) -> Begun:
-        key, cells = system.digest(length, halve), list[Callable[[], Any]]()
+        key, cells = system.digest(length, halve), list[Callable[[], "Cell | Data"]]()
         of, own = path if jobs > 1 else system, methods
         if not method and not system.discrete:
             own = [one for one in methods if one != "own"]
@@ -144,7 +144,7 @@ def lab(
         fail(wrong[-1], 2)
 
 
-def _row(cell: dict[str, Any]) -> str:
+def _row(cell: Data) -> str:
     from chapsym.show.lab import COLUMNS, decided, figures
 
     if cell["failed"]:
@@ -171,14 +171,14 @@ def _crew(jobs: int) -> Iterator[Later]:
         fail("a process that measured a system ended, perhaps for lack of memory: try --jobs 1", 1)
 
 
-def _cell(of: Any, *how: Any) -> Any:
+def _cell(of: "Path | System", *how: Any) -> "Cell":
     """A cell, of a system or of the file of one, which another process reads."""
     from chapsym.mechanics import loaded, measured
 
     return measured(loaded(of) if isinstance(of, Path) else of, *how)
 
 
-def _said(given: Any, decide: bool) -> str:
+def _said(given: "Path | System", decide: bool) -> str:
     """The sentences on a system, or on that of a file: whether its motion keeps its energy.
 
     With `decide` also what is exact, or why it is not.
@@ -187,7 +187,7 @@ def _said(given: Any, decide: bool) -> str:
 
     system = loaded(given) if isinstance(given, Path) else given
 
-    def of(decide: Callable[[], Any], what: str, form: str) -> str:
+    def of(decide: Callable[[], object], what: str, form: str) -> str:
         try:
             return form.format(decide())
         except BadSystem as error:
@@ -204,7 +204,7 @@ def _said(given: Any, decide: bool) -> str:
     return "; ".join(found)
 
 
-def _certify(of: Any, methods: list[str], folder: Path) -> dict[str, Any]:
+def _certify(of: "Path | System", methods: list[str], folder: Path) -> Data:
     """Writes the certificates of a system, or of the file of one: their claims, and why other verdicts have none."""
     from chapsym.files import CannotWrite
     from chapsym.mechanics import BadSystem, certified, loaded
@@ -223,14 +223,14 @@ def _certify(of: Any, methods: list[str], folder: Path) -> dict[str, Any]:
     return {"claims": claims, "none": none}
 
 
-def _of_certificates(found: dict[str, Any], folder: Path | None) -> str:
+def _of_certificates(found: Data, folder: Path | None) -> str:
     """The line of a table on them."""
     written, without = len(found["claims"]), sum(map(len, found["none"].values()))
     line = f"  certificates in {folder}: {written}, of {written + without} exact verdicts"
     return "; ".join([line, *(f"none for {', '.join(of)}: {why}" for why, of in found["none"].items())])
 
 
-def _there(output: Path | None) -> list[dict[str, Any]]:
+def _there(output: Path | None) -> list[Data]:
     if output is None or output.suffix != ".json" or not output.exists():
         return []
     from pydantic import TypeAdapter

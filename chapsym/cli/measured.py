@@ -2,18 +2,22 @@
 
 import datetime
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .output import print_table
+from .output import Row, print_table
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.text import Text
 
 
 class Table(NamedTuple):
     """A table of rows with the same names, and the sentences under it."""
 
     title: str
-    rows: Sequence[Mapping[str, Any]]
+    rows: Sequence[Row]
     sentences: Sequence[str] = ()
 
 
@@ -27,7 +31,7 @@ def is_page(output: Path | None) -> bool:
     return True
 
 
-def write(output: Path, title: str, about: str, tables: Sequence[Table], shown: Callable[[Any], str] = str) -> None:
+def write(output: Path, title: str, about: str, tables: Sequence[Table], shown: Callable[[object], str] = str) -> None:
     """Writes the page, whole; `about` says in a sentence or two what was measured."""
     from chapsym import __version__, files
     from chapsym.studies.checkout import machine
@@ -46,7 +50,7 @@ def write(output: Path, title: str, about: str, tables: Sequence[Table], shown: 
     files.write_text(output, text)
 
 
-def show(console: Any, tables: Sequence[Table], shown: Callable[[Any], Any]) -> None:
+def show(console: "Console", tables: Sequence[Table], shown: Callable[[Any], "str | Text"]) -> None:
     """Prints the tables, each with its sentences and an empty line after it."""
     for table in tables:
         print_table(console, table.title, table.rows, shown)
@@ -55,7 +59,7 @@ def show(console: Any, tables: Sequence[Table], shown: Callable[[Any], Any]) -> 
         console.print()
 
 
-def _rows(rows: Sequence[Mapping[str, Any]], shown: Callable[[Any], str]) -> list[str]:
+def _rows(rows: Sequence[Row], shown: Callable[[object], str]) -> list[str]:
     """The lines of a table, words to the left."""
     if not rows:
         return []

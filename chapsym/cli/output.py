@@ -8,7 +8,16 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext, redirect_stdout
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.text import Text
+
+    from chapsym.scene.running.sweep import Progress
+#: An object of JSON, and a row of a table: values by name.
+Data = dict[str, Any]
+Row = Mapping[str, object]
 
 #: Seconds between two lines of progress where standard error is no terminal.
 PAUSE = 5.0
@@ -35,7 +44,7 @@ def check_printed(path: Path, as_json: bool) -> None:
         fail("--json prints on standard output, where -o - writes the result: choose one", 2)
 
 
-def apart(path: Path | None) -> AbstractContextManager[Any]:
+def apart(path: Path | None) -> AbstractContextManager[object]:
     """Where words about a result go: to standard error where the result is printed."""
     return redirect_stdout(sys.stderr) if path == PRINTED else nullcontext()
 
@@ -71,11 +80,11 @@ def now_and_then() -> Callable[[str], None]:
     return tell
 
 
-def print_json(value: Any) -> None:
+def print_json(value: object) -> None:
     print(json_text(value))
 
 
-def json_text(value: Any, indent: int | None = None) -> str:
+def json_text(value: object, indent: int | None = None) -> str:
     """JSON for standard output: with escapes where that shows no more than some letters."""
     whole = (sys.stdout.encoding or "").lower().startswith("utf")
     return json.dumps(value, ensure_ascii=not whole, allow_nan=False, indent=indent)
@@ -122,7 +131,7 @@ def progress_bar(label: str, total: int) -> Iterator[Callable[..., None]]:
 
 
 @contextmanager
-def following() -> Iterator[Callable[[Any], None]]:
+def following() -> Iterator[Callable[["Progress"], None]]:
     """Yields a function of the `Progress` of a run, as `telling` does of a sentence."""
     left = _time_left()
     with telling() as tell:
@@ -146,18 +155,18 @@ def _time_left() -> Callable[[float, float], str]:
     return left
 
 
-def _balls(at: Any) -> str:
+def _balls(at: "Progress") -> str:
     return f"{at.balls} balls done" + (f", {at.failed} stopped early" if at.failed else "")
 
 
-def console_for(width: int) -> Any:
+def console_for(width: int) -> "Console":
     """Where tables go: as wide as the terminal, or elsewhere so wide."""
     from rich.console import Console
 
     return Console(width=None if sys.stdout.isatty() else width, markup=False, highlight=False)
 
 
-def print_table(console: Any, title: str, rows: Sequence[Mapping[str, Any]], shown: Callable[[Any], Any]) -> None:
+def print_table(console: "Console", title: str, rows: Sequence[Row], shown: Callable[[Any], "str | Text"]) -> None:
     """A table of rows with the same names, words to the left."""
     from rich.table import Table
 

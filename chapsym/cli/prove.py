@@ -6,16 +6,16 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from .app import app
 from .options import Json, Own, Records, argument, takes
-from .output import counted, fail, note, print_json, progress_bar
+from .output import Data, counted, fail, note, print_json, progress_bar
 
 if TYPE_CHECKING:
-    from chapsym.prove import Register
+    from chapsym.prove import Claim, Register
 
 
 @app.command()
@@ -100,7 +100,7 @@ def _write_rocq(certificates: list[Path], folder: Path) -> None:
     note(f"for Rocq in {folder}: {counts}; make -C {folder} -j2 has them judged")
 
 
-def _carried(records: list[dict[str, Any]]) -> str:
+def _carried(records: list[Data]) -> str:
     """The total of what the certificates of all claims contain."""
     counts = [record["evidence"]["carried"] for record in records if record["evidence"]["carried"]]
     statements, sentences = sum(c["statements"] for c in counts), sum(sum(c["sentences"].values()) for c in counts)
@@ -108,7 +108,7 @@ def _carried(records: list[dict[str, Any]]) -> str:
     return f"{judged}, {counted(sentences, 'sentence')} that it did not judge"
 
 
-def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None, register: "Register") -> None:
+def _list_claims(claims: dict[str, "Claim"], as_json: bool, kept_in: Path | None, register: "Register") -> None:
     """Every claim with the verdict on record, and whether what it was made with has changed since."""
     from chapsym.prove import records
 
@@ -131,7 +131,7 @@ def _list_claims(claims: dict[str, Any], as_json: bool, kept_in: Path | None, re
 
 def judge_and_keep(
     wanted: list[str], jobs: int | None, kept_in: Path | None, certificates: Path | None, register: "Register"
-) -> list[dict[str, Any]]:
+) -> list[Data]:
     """Proves the claims, keeps their records and certificates, and says where a verdict is another than it was."""
     from chapsym import files
     from chapsym.prove import prove_all, records
@@ -140,9 +140,9 @@ def judge_and_keep(
     kept = kept_records(kept_in, register)
     if kept and not kept.keys() & claims.keys():  # which would be lost
         fail(f"{path} holds verdicts on other claims, such as {next(iter(kept))}; give --records another file", 2)
-    arrived: list[dict[str, Any]] = []
+    arrived: list[Data] = []
 
-    def keep(record: dict[str, Any]) -> None:
+    def keep(record: Data) -> None:
         arrived.append(record)
         shown(len(arrived))
         with suppress(OSError):  # which is said at the end
@@ -173,8 +173,8 @@ def judge_and_keep(
 
 
 def records_of(
-    claims: dict[str, Any], kept: dict[str, dict[str, Any]], kept_in: Path | None, register: "Register"
-) -> list[dict[str, Any]]:
+    claims: dict[str, "Claim"], kept: dict[str, Data], kept_in: Path | None, register: "Register"
+) -> list[Data]:
     """The record of every claim: the one that is kept while it is fresh and no failure, otherwise judged now."""
     from chapsym.prove import records, unproved
     from chapsym.prove.runner import downstream
@@ -190,7 +190,7 @@ def records_of(
     return [kept[id] for id in claims]
 
 
-def kept_records(kept_in: Path | None, register: "Register") -> dict[str, dict[str, Any]]:
+def kept_records(kept_in: Path | None, register: "Register") -> dict[str, Data]:
     """The records that are kept of a register, by id."""
     from chapsym.prove import records
 
@@ -209,7 +209,7 @@ def register_from(named: str | None) -> "Register":
     return PROOFS if named is None else Register(named)
 
 
-def all_claims(register: "Register", lemmas: bool = False) -> dict[str, Any]:
+def all_claims(register: "Register", lemmas: bool = False) -> "dict[str, Claim]":
     """The claims of a register, and its lemmas if asked."""
     from chapsym.prove import load
 
@@ -230,7 +230,7 @@ def reading() -> Iterator[None]:
         fail(str(error), 1)
 
 
-def tally(records: list[dict[str, Any]]) -> str:
+def tally(records: list[Data]) -> str:
     """The number of claims with each verdict."""
     counts = Counter(record["verdict"] for record in records)
     return f"{counted(len(records), 'claim')}: " + ", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items()))

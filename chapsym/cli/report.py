@@ -3,7 +3,7 @@
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,9 +11,14 @@ import chapsym
 
 from .app import app
 from .options import Json, Own, Records, takes, writes
-from .output import check_apart, fail, print_json
+from .output import Data, check_apart, fail, print_json
 from .prove import all_claims, kept_records, reading, records_of, register_from, tally
 from .study import STUDIES
+
+if TYPE_CHECKING:
+    from chapsym.prove import Claim
+    from chapsym.report.errata import Entry
+    from chapsym.report.questions import Checked, Evidence
 
 
 @app.command()
@@ -69,7 +74,7 @@ def report(
         fail(f"not proved: {', '.join(failed)}", 1)
 
 
-def _earlier_errata(path: Path) -> Mapping[str, Any]:
+def _earlier_errata(path: Path) -> Mapping[str, "Entry"]:
     """The entries of the list that is written again, which keep their earlier states; none if there is no file."""
     from chapsym import files
     from chapsym.report import NotErrata, entries
@@ -80,9 +85,7 @@ def _earlier_errata(path: Path) -> Mapping[str, Any]:
         fail(f"{path} is there and cannot be gone on with: {error}; name another file, or delete it to start anew", 2)
 
 
-def _open_questions(
-    output: Path, folder: Path, kept: dict[str, dict[str, Any]], kept_in: Path | None, as_json: bool
-) -> None:
+def _open_questions(output: Path, folder: Path, kept: dict[str, Data], kept_in: Path | None, as_json: bool) -> None:
     """Writes the page about what the paper left open: proofs, certificates, and the studies that the folder has."""
     from chapsym import files
     from chapsym.report import questions
@@ -107,7 +110,7 @@ def _open_questions(
         print(f"wrote {output}: {clause}; studies: {', '.join(one.name for one in evidence) or 'none'}")
 
 
-def _behind(questions: list[str], claims: dict[str, Any]) -> list[str]:
+def _behind(questions: list[str], claims: dict[str, "Claim"]) -> list[str]:
     """The questions, and the lemmas of our own that their proofs use, directly or through others."""
     from chapsym.proofs import LEMMAS
 
@@ -117,7 +120,7 @@ def _behind(questions: list[str], claims: dict[str, Any]) -> list[str]:
     return reached
 
 
-def _evidence(name: str, folder: Path) -> Any:
+def _evidence(name: str, folder: Path) -> "Evidence | None":
     """The evidence of a study in the folder; None if there is none."""
     from chapsym import files
     from chapsym.report.questions import Evidence
@@ -136,7 +139,7 @@ def _evidence(name: str, folder: Path) -> Any:
         fail(f"{data} cannot be read as what chapsym study {name} -o writes: {type(error).__name__}: {error}", 2)
 
 
-def _certificates() -> list[Any]:
+def _certificates() -> "list[Checked]":
     """Every certificate that the proofs rest on, as the separate checker judges it now."""
     from chapsym import checker, proofs
     from chapsym.report.questions import Checked

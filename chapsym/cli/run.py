@@ -9,14 +9,18 @@ import typer
 
 from .app import INTERRUPTED, app
 from .options import Json, argument, takes, writes
-from .output import apart, check_printed, counted, fail, note, print_json
+from .output import Data, apart, check_printed, counted, fail, note, print_json
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from xarray import Dataset
 
+    from chapsym.dynamics.flow.start import Start
     from chapsym.dynamics.labelled import Arrays
     from chapsym.scene import Scene
     from chapsym.scene.plan.plan import Plan
+    from chapsym.scene.running.sweep import Outcome
 
 #: Seconds that a proof may take where the scene does not say.
 LIMIT = 600.0
@@ -99,7 +103,7 @@ def run(
         fail(f"the frames after {len(motion.times)} are not proved: {stopped}", 1)
 
 
-def _exact(scene: "Scene", destination: Path) -> Any:
+def _exact(scene: "Scene", destination: Path) -> "tuple[Start, tuple[Fraction, ...]]":
     """The start and the times of a scene that asks for a proof; refused before it is run."""
     from chapsym.scene.members.exactly import exact_motion
     from chapsym.scene.result.proved import check_outputs
@@ -123,7 +127,7 @@ def _named(scene: Path, name: str | None) -> Path:
 
 
 def _tell(
-    plan: "Plan", destination: Path, outcome: Any, data: "Dataset | Arrays", answers: list[Any], as_json: bool
+    plan: "Plan", destination: Path, outcome: "Outcome", data: "Dataset | Arrays", answers: list[Any], as_json: bool
 ) -> None:
     """Prints what was run and where it is; units that were not run are an error, balls that stopped early are none."""
     from chapsym.scene.result.proved import PROVED, UNITS, UNITS_OF_MAP, bounds_of
@@ -171,7 +175,7 @@ def _tell(
         fail(f"{clause}; the others are in {destination}, and the same command tries these again", 2)
 
 
-def _print(plan: "Plan", destination: Path, outcome: Any, one: dict[str, Any]) -> None:
+def _print(plan: "Plan", destination: Path, outcome: "Outcome", one: Data) -> None:
     """A line of what was run; of one ball how far the integrals drifted, too."""
     if one:
         steps = "" if plan.task.accuracy is not None else f"{one['steps']} steps, "

@@ -2,9 +2,10 @@
 
 import math
 import re
+from collections.abc import Sequence
 from decimal import Decimal, localcontext
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,7 +13,12 @@ from chapsym.rationals import rationals
 
 from .app import app
 from .options import BALL, Json, argument, ball_from, contact_from, takes, tensor_from, with_options, writes
-from .output import apart, check_printed, fail, print_json, quiet, telling
+from .output import Data, apart, check_printed, fail, print_json, quiet, telling
+
+if TYPE_CHECKING:
+    from chapsym.accuracy.answer import Accurate, Choice
+    from chapsym.scene import Scene
+    from chapsym.scene.members.members import Members
 
 #: The ball and its start, which a scene has, too.
 BALL_AND_START = BALL | {
@@ -90,7 +96,7 @@ def _answer(
             check_printed(output, as_json)
             formats.check_destination(output)
         wanted = scenes.load_for(scene, accuracy, time) if scene else _described(accuracy, time, given)
-        changed: dict[str, Any] = {"limit": limit, "of": of or wanted.run.of}
+        changed: Data = {"limit": limit, "of": of or wanted.run.of}
         if of == "state":  # further outputs are followed, and not to an accuracy of their own
             kept = [name for name in wanted.run.names() if name != "contact"]
             changed |= {"contact": None, "attitude": None, "outputs": kept or ["momentum", "gamma"]}
@@ -128,11 +134,11 @@ def _in_options(sentence: str, all_of_it: bool) -> str:
     return sentence.removeprefix("the scene: ")
 
 
-def _described(accuracy: float, time: float | None, given: dict[str, str]) -> Any:
+def _described(accuracy: float, time: float | None, given: dict[str, str]) -> "Scene":
     """A scene from the options of the command; it reads exact numbers, and refuses what float64 does not hold."""
     from chapsym import scene as scenes
 
-    ball: dict[str, Any] = {"inertia": (0.006, 0.007, 0.009), "mass": 2.0, "radius": 0.1}
+    ball: Data = {"inertia": (0.006, 0.007, 0.009), "mass": 2.0, "radius": 0.1}
     if given.keys() & BALL.keys():  # the numbers as they are written: those of fractions may be too long to be read
         (ball_from if tensor_from(given) is None else contact_from)(given)
         ball = {"D" if name == "contact" else name: _numbers(given[name]) for name in BALL if name in given}
@@ -145,15 +151,15 @@ def _described(accuracy: float, time: float | None, given: dict[str, str]) -> An
     return scenes.checked({"ball": ball, "start": start, "run": {k: v for k, v in run.items() if v is not None}})
 
 
-def _numbers(text: str) -> Any:
+def _numbers(text: str) -> str | list[str] | list[list[str]]:
     """The texts of one number, of a vector, or of the rows of a matrix."""
     flat = text.replace(";", ",").split(",")
     return flat[0] if len(flat) == 1 else flat if len(flat) == 3 else [flat[:3], flat[3:6], flat[6:]]
 
 
-def _final(answer: Any, members: Any) -> dict[str, list[Any]]:
+def _final(answer: "Accurate", members: "Members") -> dict[str, Sequence[float | str]]:
     """K, γ and the contact point at the end, turned from principal axes, from where the ball started."""
-    found: dict[str, list[Any]] = answer.final()
+    found: dict[str, Sequence[float | str]] = {**answer.final()}
     axes = members.axes
     if members.place is not None and "contact" in found:
         found["contact"] = [_sum(x, start) for x, start in zip(found["contact"], members.place[0], strict=True)]
@@ -167,7 +173,7 @@ def _final(answer: Any, members: Any) -> dict[str, list[Any]]:
     return found
 
 
-def _sum(x: Any, start: float) -> Any:
+def _sum(x: float | str, start: float) -> float | str:
     """A float, or a decimal string, and a float."""
     if isinstance(x, float):
         return x + float(start)
@@ -175,7 +181,7 @@ def _sum(x: Any, start: float) -> Any:
         return str(Decimal(x) + Decimal(float(start)))
 
 
-def described(answer: Any, members: Any) -> dict[str, Any]:
+def described(answer: "Accurate", members: "Members") -> Data:
     """The answer for one ball as plain data, in the axes in which it is given."""
     request, choice = answer.request, answer.choice
     return {
@@ -189,14 +195,14 @@ def described(answer: Any, members: Any) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _choice(choice: Any) -> dict[str, Any]:
+def _choice(choice: "Choice") -> Data:
     return {
         "precision": choice.method.label, "order": choice.method.order, "steps": choice.steps,
         "time_step": choice.time_step,
     }  # fmt: skip
 
 
-def print_answer(answer: Any, members: Any) -> None:
+def print_answer(answer: "Accurate", members: "Members") -> None:
     """The answer for a reader, as of `described`."""
     request, choice = answer.request, answer.choice
     unit = "m" if request.of == "contact" else "relative"
@@ -211,7 +217,7 @@ def print_answer(answer: Any, members: Any) -> None:
         print(f"{name:9} {_to_estimate(name, values, request.of, answer.estimate)}")
 
 
-def _to_estimate(name: str, values: list[Any], of: str, estimate: float) -> str:
+def _to_estimate(name: str, values: Sequence[float | str], of: str, estimate: float) -> str:
     """The components with the decimals that the estimate is about; six digits of what was not compared."""
     if (name == "contact") != (of == "contact"):
         return "  ".join(f"{float(x):.6g}" for x in values) + "  (not compared)"
