@@ -28,10 +28,7 @@ SIDES, UNIT = ("3/5",), ("2/7", "3/7", "6/7")
 
 
 def candidates(
-    symbols: Sequence[sp.Symbol],
-    relations: Sequence[sp.Expr],
-    examples: Examples,
-    known: Values | None = None,
+    symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr], examples: Examples, known: Values | None = None
 ) -> Iterator[Exact]:
     """Points with the known values at which all relations hold, if some are found: from examples, primes, or 1.
 

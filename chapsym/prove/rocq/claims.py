@@ -98,13 +98,7 @@ class Claim:
         self._point("counterexamples", text, name, example["point"], facts, algebras)
 
     def _point(
-        self,
-        sort: str,
-        text: str,
-        name: str,
-        values: Mapping[str, Tree],
-        facts: list[Fact],
-        algebras: list[Data],
+        self, sort: str, text: str, name: str, values: Mapping[str, Tree], facts: list[Fact], algebras: list[Data]
     ) -> None:
         """Numbers of every field, or matrices of rational numbers, for which the facts are true."""
         if not any(isinstance(value, list) for value in values.values()):

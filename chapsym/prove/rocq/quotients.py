@@ -133,13 +133,10 @@ def statement(name: str, one: Data, algebra: Data) -> str:
         *(f"  {hypothesis}" for hypothesis in hypotheses),
         f"  {conjunction(equations)}.",
         f"Proof.\n  intros Field {all_names}.",
-        f"  exact (identity Field {_list(names)}\n    {relations}\n    {defined}\n    {nonzero}\n    {listed(entries)}",
+        f"  exact (identity Field [{all_names.replace(' ', '; ')}]",
+        f"    {relations}\n    {defined}\n    {nonzero}\n    {listed(entries)}",
         "    ltac:(vm_cast_no_check (eq_refl true))).\nQed.",
     ])  # fmt: skip
-
-
-def _list(names: Variables) -> str:
-    return "[" + "; ".join(identifier for identifier, _ in names.values()) + "]"
 
 
 Fact = tuple[str, list[tuple[Tree, Tree]]]

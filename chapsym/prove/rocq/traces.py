@@ -27,7 +27,10 @@ def statement(name: str, one: Data, data: Data, point: Data) -> str:
     return theorem(
         name,
         algebra,
-        [*hypotheses, *(_hypothesis(algebra, *turn) for turn in assumed)],
+        [
+            *hypotheses,
+            *(f"{algebra.letters[a][2]}^T = {'- ' * neg}{algebra.letters[b][2]}" for a, b, neg in assumed),
+        ],
         [f"{a} = {b}" for (a, _), (b, _) in sides],
         f"traces {shapes_of(algebra)}\n    {rules_as_data}\n    {' '.join(turned)} {algebra.N}",
         [f"({a}, {b})" for (_, a), (_, b) in sides],
@@ -42,10 +45,6 @@ def _turn(algebra: Algebra, a: str, image: Tree) -> tuple[str, str, bool] | None
     if not isinstance(b, str) or not {a, b} <= algebra.letters.keys():
         return None
     return (a, b, minus) if algebra.letters[b][1] == algebra.letters[a][1][::-1] else None
-
-
-def _hypothesis(algebra: Algebra, a: str, b: str, minus: bool) -> str:
-    return f"{algebra.letters[a][2]}^T = {'- ' * minus}{algebra.letters[b][2]}"
 
 
 def _listed(algebra: Algebra, turns: list[tuple[str, str, bool]]) -> str:

@@ -140,7 +140,7 @@ def theorem(
     """The theorem that a lemma with its data proves, by what it computes of entries, and by what is `known`."""
     binders, variables = _binders(algebra)
     unit, inverse = f"{algebra.N}%:R \\is a @GRing.unit R ->", f"{algebra.N}%:R^-1"
-    letters = [f"{TYPES[shape][1]} {_argument(text)}" for _, shape, text in algebra.letters.values()]
+    letters = [f"{TYPES[of][1]} {f'({text})' if '^' in text else text}" for _, of, text in algebra.letters.values()]
     parameters = [inverse if algebra.N > 1 else "1", *(text for _, text in algebra.parameters.values())]
     whole, data = " /\\\n  ".join(equations), ";\n    ".join(entries)
     return "\n".join([
@@ -198,10 +198,6 @@ def _binders(algebra: Algebra) -> tuple[str, str]:
     groups = {type: " ".join(names) for type, names in types.items() if names}
     binders = "".join(f" ({names} : {type})" for type, names in groups.items())
     return binders, "".join(f" {names}" for names in groups.values())
-
-
-def _argument(text: str) -> str:
-    return f"({text})" if "^" in text else text
 
 
 def _bool(x: bool) -> str:

@@ -238,8 +238,7 @@ class BallTable(Table):
     block_size: Lengths3 | None = Field(None, description="Edges of a bowling ball's block along the axes.")
     block_offset: Lengths3 | None = Field(None, description="Middle of a bowling ball's block, from the centre.")
     rotor: Turnings3 | None = Field(
-        None,
-        description="Angular momentum of a rotor inside, in the body's axes. For certify motion and judge alone.",
+        None, description="Angular momentum of a rotor inside, in the body's axes. For certify motion and judge alone."
     )
     start: StartTable | None = Field(None, description="Its own start, instead of [start].")
 

@@ -155,7 +155,7 @@ class Store:
 
         try:
             array: Any = zarr.open_array(CheckedStore(self.path, read_only=True), path=name, mode="r")
-            return _same(np.asarray(array[...], values.dtype), values)
+            return np.array_equal(np.asarray(array[...], values.dtype), values, equal_nan=values.dtype.kind == "f")
         except ValueError:  # a SceneError, too
             return False
 
@@ -292,11 +292,6 @@ def _read(description: Any) -> Data | None:
         return dict(ArrayV3Metadata.from_dict(description).to_dict())
     except DAMAGED:
         return None
-
-
-def _same(one: np.ndarray, other: np.ndarray) -> bool:
-    """Whether two arrays are equal, NaN to NaN."""
-    return np.array_equal(one, other, equal_nan=one.dtype.kind == "f")
 
 
 def folder_of(store: Path) -> Path:
