@@ -115,6 +115,8 @@ class Combination:
     ends: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
 
 
+#: Combinations, of what is done or plainly of what comes out of it.
+Proof = Callable[[bool], list[Combination]]
 #: Expressions, with how many of their first coefficients in the length of a step are combined; and symbols for ends.
 Shown = tuple[Sequence[tuple[sp.Expr, int]], Mapping[sp.Symbol, sp.Expr]]
 
@@ -127,7 +129,7 @@ class Decided:
     """
 
     verdict: Verdict
-    proofs: Sequence[Callable[[bool], list[Combination]]] = ()
+    proofs: Sequence[Proof] = ()
     judged: "Judged | None" = None
     by: int = 0
 
@@ -187,11 +189,7 @@ class Judged:
         self.system, self.scheme, self.exact, self.looked = exact.system, scheme, exact, looked
         self.n, self.state = exact.n, exact.state
         self.h: Series = fmpq_series([0, 1])
-        self.proofs, self.proofs_of_always, self.power = (
-            list[Callable[[bool], list[Combination]]](),
-            list[Callable[[bool], list[Combination]]](),
-            0,
-        )
+        self.proofs, self.proofs_of_always, self.power = list[Proof](), list[Proof](), 0
         if size(scheme.residual) * len(scheme.unknowns) > MOST_OPERATIONS:
             raise Undecided("a step has more operations than its series may have")
         self.stepped = Stepped(exact, scheme)
@@ -205,7 +203,7 @@ class Judged:
 
     def decided(self, judge: Callable[[Any], Verdict], of: Any) -> Decided:
         """The verdict of one of the judges below, with its findings."""
-        self.proofs, self.power = list[Callable[[bool], list[Combination]]](), 0
+        self.proofs, self.power = list[Proof](), 0
         try:
             verdict = judge(of)
         except (Undecided, BadSystem, sp.PolynomialError) as error:

@@ -23,6 +23,9 @@ from .trees import Data
 
 #: The libraries on which verdicts depend besides this package.
 LIBRARIES = ("sympy", "python-flint", "numpy")
+#: The keys that a record and its evidence have at least.
+KEYS = {"id", "verdict", "printed", "corrected", "evidence", "seconds"}
+KEYS_OF_EVIDENCE = {"title", "fingerprint", "open_in_paper"}
 
 #: How records are run, printed and kept does not change what they say.
 _BESIDES = {"chapsym.prove.runner", "chapsym.prove.records", "chapsym.prove.registers"}
@@ -88,18 +91,9 @@ def _parsed(line: str) -> Data | None:
         record = json.loads(line)
     except (ValueError, RecursionError):
         return None
-    whole = isinstance(record, dict) and record.keys() >= {
-        "id",
-        "verdict",
-        "printed",
-        "corrected",
-        "evidence",
-        "seconds",
-    }
+    whole = isinstance(record, dict) and record.keys() >= KEYS
     evidence = record["evidence"] if whole and record["verdict"] in [*Verdict] else None
-    return (
-        record if isinstance(evidence, dict) and evidence.keys() >= {"title", "fingerprint", "open_in_paper"} else None
-    )
+    return record if isinstance(evidence, dict) and evidence.keys() >= KEYS_OF_EVIDENCE else None
 
 
 def update(path: Path, records: Iterable[Data], claims: dict[str, Claim]) -> None:

@@ -24,18 +24,9 @@ def statement(name: str, one: Data, data: Data, point: Data) -> str:
     known = "I"
     for _ in by_text:
         known = f"(conj erefl {known})"
-    return theorem(
-        name,
-        algebra,
-        [
-            *hypotheses,
-            *(f"{algebra.letters[a][2]}^T = {'- ' * neg}{algebra.letters[b][2]}" for a, b, neg in assumed),
-        ],
-        [f"{a} = {b}" for (a, _), (b, _) in sides],
-        f"traces {shapes_of(algebra)}\n    {rules_as_data}\n    {' '.join(turned)} {algebra.N}",
-        [f"({a}, {b})" for (_, a), (_, b) in sides],
-        f" {known}",
-    )
+    hypotheses += [f"{algebra.letters[a][2]}^T = {'- ' * minus}{algebra.letters[b][2]}" for a, b, minus in assumed]
+    lemma = f"traces {shapes_of(algebra)}\n    {rules_as_data}\n    {' '.join(turned)} {algebra.N}"
+    return theorem(name, algebra, hypotheses, lemma, sides, f" {known}")
 
 
 def _turn(algebra: Algebra, a: str, image: Tree) -> tuple[str, str, bool] | None:

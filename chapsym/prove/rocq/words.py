@@ -10,6 +10,8 @@ from .quotients import Data, Tree, joined, names_in
 
 #: Rows and columns of a letter; True is n, False is 1.
 Shape = tuple[bool, bool]
+#: The left and the right sides of equations, each as it is read and as data.
+Sides = list[tuple[tuple[str, str], tuple[str, str]]]
 TYPES = {(True, True): ("'M[R]_n", "square"), (True, False): ("'cV[R]_n", "column"), (False, True): ("'rV[R]_n", "row")}
 
 
@@ -103,14 +105,8 @@ def statement(name: str, one: Data, data: Data, point: Data) -> str:
         raise LeftOut("a side is a number, and the other is no square matrix")
     sides = [(algebra.matrix(a), algebra.matrix(b)) for a, b in zip(one["left"], one["right"], strict=True)]
     hypotheses, rules_as_data = rules_of(algebra, rules)
-    return theorem(
-        name,
-        algebra,
-        hypotheses,
-        [f"{a} = {b}" for (a, _), (b, _) in sides],
-        f"words {shapes_of(algebra)}\n    {rules_as_data} {algebra.N} {_bool(s)} {_bool(t)}",
-        [f"({a}, {b})" for (_, a), (_, b) in sides],
-    )
+    lemma = f"words {shapes_of(algebra)}\n    {rules_as_data} {algebra.N} {_bool(s)} {_bool(t)}"
+    return theorem(name, algebra, hypotheses, lemma, sides)
 
 
 def rules_of(algebra: Algebra, rules: list[list[Tree]]) -> tuple[list[str], str]:
@@ -128,21 +124,14 @@ def shapes_of(algebra: Algebra) -> str:
     return f"[:: {'; '.join(f'({_bool(s)}, {_bool(t)})' for _, (s, t), _ in algebra.letters.values())}]"
 
 
-def theorem(
-    name: str,
-    algebra: Algebra,
-    hypotheses: list[str],
-    equations: list[str],
-    lemma: str,
-    entries: list[str],
-    known: str = "",
-) -> str:
-    """The theorem that a lemma with its data proves, by what it computes of entries, and by what is `known`."""
+def theorem(name: str, algebra: Algebra, hypotheses: list[str], lemma: str, sides: Sides, known: str = "") -> str:
+    """The theorem that a lemma with its data proves, by what it computes of the sides, and by what is `known`."""
     binders, variables = _binders(algebra)
     unit, inverse = f"{algebra.N}%:R \\is a @GRing.unit R ->", f"{algebra.N}%:R^-1"
     letters = [f"{TYPES[of][1]} {f'({text})' if '^' in text else text}" for _, of, text in algebra.letters.values()]
     parameters = [inverse if algebra.N > 1 else "1", *(text for _, text in algebra.parameters.values())]
-    whole, data = " /\\\n  ".join(equations), ";\n    ".join(entries)
+    whole = " /\\\n  ".join(f"{a} = {b}" for (a, _), (b, _) in sides)
+    data = ";\n    ".join(f"({a}, {b})" for (_, a), (_, b) in sides)
     return "\n".join([
         f"Theorem {name} : forall (R : comUnitRingType) (n : nat){binders},",
         *([f"  {unit}"] if algebra.N > 1 else []),
