@@ -17,9 +17,10 @@ from chapsym.numbers import Double, Enclosure, Precision, Single
 
 from .ball import brief, common_shape, numbers
 from .errors import BadInput
-from .kernels import Row, parts_of
+from .kernels import Function, Row, parts_of
 from .levels.dispatch import precision_of
 
+#: Numbers of one precision.
 Vector = Sequence[Any]
 
 MOST_ROUNDS = 100
@@ -123,8 +124,8 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
 class Equations(NamedTuple):
     """The function that vanishes, its derivatives by the unknowns row by row, their number, and a least size of x."""
 
-    function: Callable[..., Any]
-    slope: Callable[..., Any]
+    function: Function
+    slope: Function
     size: int
     least: float = 0.0
 
@@ -160,7 +161,7 @@ class Equations(NamedTuple):
             raise _unsettled(int(left[0]))
         return x
 
-    def at_level(self, start: Sequence[Any], known: list[Any], level: Precision, index: int = 0) -> list[Any]:
+    def at_level(self, start: Vector, known: Vector, level: Precision, index: int = 0) -> Vector:
         """The root near a float64 root, in the numbers of a precision."""
         # In enclosures a point near a root is found first.
         point = (lambda v: v.mid()) if isinstance(level, Enclosure) else (lambda v: v)
@@ -190,7 +191,7 @@ class Equations(NamedTuple):
         slope = _values(self.slope, [x, *known], self.size**2)
         return value, slope.reshape(-1, self.size, self.size)
 
-    def _correction(self, x: list[Any], known: list[Any]) -> tuple[list[Any], np.ndarray]:
+    def _correction(self, x: Vector, known: Vector) -> tuple[Vector, np.ndarray]:
         """A correction of x, and what a relative change of x changes it by, at least x."""
         zero = 0 * x[0]  # a quotient of whole numbers would be a float
         value, slope = ([zero + e for e in parts_of(of(*x, *known))] for of in (self.function, self.slope))
@@ -199,11 +200,11 @@ class Equations(NamedTuple):
         sizes = np.abs(np.array(x, float)) + self.least
         return solved(rows, value), np.abs(np.linalg.inv(table)) @ np.abs(table) @ sizes
 
-    def _enclosed(self, x: list[Any], known: list[Any]) -> list[Any]:
+    def _enclosed(self, x: Vector, known: Vector) -> Vector:
         """The root near a point, in balls; raises BadInput if it is not proved to be one, and the only one near it."""
         from .levels.proved_root import isolated  # 40 ms with flint, which runs on float64 do not need
 
-        def slope(box: Sequence[Any]) -> list[Any]:
+        def slope(box: Vector) -> Vector:
             return parts_of(self.slope(*(a + b for a, b in zip(x, box, strict=True)), *known))
 
         image = isolated(parts_of(self.function(*x, *known)), slope)
@@ -212,7 +213,7 @@ class Equations(NamedTuple):
         return [a + b for a, b in zip(x, image, strict=True)]
 
 
-def solved(rows: Sequence[Vector], right: Vector) -> list[Any]:
+def solved(rows: Sequence[Vector], right: Vector) -> Vector:
     """The solution of a linear system, by elimination with the largest pivots; ZeroDivisionError if one is 0."""
     table, size = [[*row, value] for row, value in zip(rows, right, strict=True)], len(rows)
     for i in range(size):
@@ -230,7 +231,7 @@ def solved(rows: Sequence[Vector], right: Vector) -> list[Any]:
     return found
 
 
-def _followed(function: Callable[..., Any], arrays: Sequence[np.ndarray], count: int) -> np.ndarray:
+def _followed(function: Function, arrays: Sequence[np.ndarray], count: int) -> np.ndarray:
     """The results (N, count) of a function at the rows of arrays; raises BadInput where it is not defined."""
     try:
         with np.errstate(all="ignore"):
@@ -300,7 +301,7 @@ def _exact(array: np.ndarray, level: Precision, name: str) -> np.ndarray:
     return made
 
 
-def _values(function: Callable[..., Any], arrays: Sequence[np.ndarray], count: int) -> np.ndarray:
+def _values(function: Function, arrays: Sequence[np.ndarray], count: int) -> np.ndarray:
     """The results (N, count) of a function at the rows of some arrays; raises BadInput if they are no such numbers."""
     rows = len(arrays[0])
     parts = parts_of(function(*(array[:, i] for array in arrays for i in range(array.shape[1]))))
@@ -314,7 +315,7 @@ def _values(function: Callable[..., Any], arrays: Sequence[np.ndarray], count: i
     return found
 
 
-def _is_row(row: Any) -> bool:
+def _is_row(row: object) -> bool:
     """Whether this is a function, its groups of arguments with their sizes, and the shape of what it returns."""
     if not (isinstance(row, tuple) and len(row) == 3 and callable(row[0])):
         return False
@@ -327,7 +328,7 @@ def _is_row(row: Any) -> bool:
     return counted and len({name for name, _ in groups}) == len(groups)
 
 
-def _name(function: Callable[..., Any]) -> str:
+def _name(function: Function) -> str:
     return getattr(function, "__name__", brief(function))
 
 

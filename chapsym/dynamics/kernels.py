@@ -17,6 +17,8 @@ from chapsym.generated import TABLE
 from .ball import Floats, numbers
 from .errors import BadInput
 
+#: A generated function of numbers of any precision, or of arrays: it returns one number or several.
+Function = Callable[..., Any]
 #: A row of the table of a generated package: the function, its groups with their lengths, the shape of the result.
 Row = tuple[Any, tuple[tuple[str, int], ...], tuple[int, ...]]
 #: Numbers of each argument that are taken at once: what a function keeps of them stays in the second-level cache.
@@ -85,7 +87,7 @@ def on_arrays(row: Row, alone: Sequence[str] | None = None) -> Callable[..., Flo
     return front
 
 
-def _in_blocks(function: Callable[..., Any], columns: list[np.ndarray], leading: tuple[int, ...]) -> np.ndarray:
+def _in_blocks(function: Function, columns: list[np.ndarray], leading: tuple[int, ...]) -> np.ndarray:
     """The results of a function (*leading, n) for n of them, a block of the leading axes after the other."""
     size = math.prod(leading)
     if size <= 2 * BLOCK or any(column.dtype == object for column in columns):
@@ -101,7 +103,7 @@ def _in_blocks(function: Callable[..., Any], columns: list[np.ndarray], leading:
     return result
 
 
-def _fill(result: np.ndarray, parts: list[Any]) -> np.ndarray:
+def _fill(result: np.ndarray, parts: Sequence[ArrayLike]) -> np.ndarray:
     for i, part in enumerate(parts):
         result[..., i] = part
     return result

@@ -5,7 +5,6 @@ from fractions import Fraction
 from functools import cached_property, partial
 from itertools import combinations, count
 from random import Random
-from typing import Any
 
 import sympy as sp
 from sympy.matrices import dotprodsimp
@@ -25,7 +24,8 @@ MOST_POINTS = 24
 #: Points at which roots may be rational: of quotients of the legs of right triangles.
 MOST_LOOKED, LEGS = 200, tuple(Fraction(p, q) for p, q in ((3, 4), (4, 3), (5, 12), (12, 5), (8, 15), (15, 8), (7, 24)))
 
-Point = dict[sp.Symbol, Any]
+#: Exact values of symbols.
+Point = dict[sp.Symbol, sp.Expr]
 
 
 class Letters:
@@ -49,7 +49,7 @@ class Letters:
         """The meaning of each letter, in letters before it."""
         return {letter: stands for stands, letter in self._of.items()}
 
-    def into(self, expr: Any) -> sp.Expr:
+    def into(self, expr: sp.Expr) -> sp.Expr:
         """An expression with its functions replaced by letters; raises BadSystem for others than these."""
         expr = sp.sympify(expr, strict=True)  # a text is not evaluated
         if expr not in self._read:
@@ -146,7 +146,7 @@ class Algebra:
         For what it cannot hold.
     """
 
-    def __init__(self, system: System, *more: Any) -> None:
+    def __init__(self, system: System, *more: sp.Expr) -> None:
         self.system = system
         self.letters = Letters((*system.coordinates, *system.velocities))
         self._numbers = {x: rational(v, f"{system.name}: the parameter {x}") for x, v in system.parameters.items()}
@@ -158,7 +158,7 @@ class Algebra:
         without(f"{system.name}: there is", set().union(*(e.free_symbols for e in self.more)) - known)
         self._check()
 
-    def into(self, expr: Any) -> Any:
+    def into(self, expr: sp.Expr | sp.MatrixBase) -> sp.Expr | sp.MatrixBase:
         """An expression, or a matrix of them, in letters, with the numbers of the parameters."""
         if isinstance(expr, sp.MatrixBase):
             return expr.applyfunc(self.into)
@@ -267,7 +267,7 @@ class Algebra:
         except (ArithmeticError, sp.PolynomialError):
             return
 
-    def is_zero(self, expr: Any) -> bool:
+    def is_zero(self, expr: sp.Expr) -> bool:
         """Whether a rational function is 0 in the ring; raises BadSystem if it is defined nowhere."""
         try:
             return self.ring.is_zero(expr)
@@ -286,7 +286,7 @@ class Algebra:
                 found, times = [sp.expand(x * letter) for x in found], times * letter
         return [self.ring.normal(x) for x in found], times
 
-    def shown(self, state: Mapping[sp.Symbol, Any]) -> dict[str, str]:
+    def shown(self, state: Mapping[sp.Symbol, sp.Expr]) -> dict[str, str]:
         """A point as text: without the angles of which only sines and cosines are there."""
         bare = set().union(*(e.free_symbols for e in (*self.rows, *self.offsets, *self.more, *self.holonomic)))
         hidden = set(self.letters.arguments("sin").values()) - bare

@@ -9,11 +9,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
-from typing import Any
 
 import sympy as sp
 
-from .algebra import Algebra, adjugate, determinant, generic, pivots, rank, size
+from .algebra import Algebra, Point, adjugate, determinant, generic, pivots, rank, size
 from .system import BadSystem, System, a_system
 
 #: Different parts of the fields and brackets that are decided: 2000 take some seconds, and the time grows faster.
@@ -214,7 +213,7 @@ def bracket_of(x: Sequence[sp.Expr], y: Sequence[sp.Expr], algebra: Algebra) -> 
     return [along(x, b, algebra) - along(y, a, algebra) for a, b in zip(x, y, strict=True)]
 
 
-def _inside(span: Sequence[Any], vector: Sequence[sp.Expr], point: dict[sp.Symbol, Any], algebra: Algebra) -> bool:
+def _inside(span: Sequence[Sequence[sp.Expr]], vector: Sequence[sp.Expr], point: Point, algebra: Algebra) -> bool:
     """Whether a vector is in a span wherever the minor that is not 0 at the point is not: by Kronecker's theorem, all
     minors that border it are 0."""
     columns, larger = pivots(_matrix(span).xreplace(point)), _matrix([*span, vector])

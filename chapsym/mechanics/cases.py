@@ -1,7 +1,7 @@
 """Claims from cases: a statement, its proof, and a false variant; judged by the checker where they are made."""
 
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,6 +10,7 @@ import sympy as sp
 from chapsym.derive import Quotient
 from chapsym.prove import Claim, Comparison, Equation, Examples, Identity, Proof, Verdict
 from chapsym.prove.statements import Statement
+from chapsym.prove.trees import Data
 from chapsym.prove.witness import true_at
 
 from .algebra import Point
@@ -38,7 +39,7 @@ class Certified:
     """
 
     verdict: str
-    certificate: Mapping[str, Any] | None = None
+    certificate: Data | None = None
     why: str = ""
 
 

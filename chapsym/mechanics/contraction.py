@@ -9,7 +9,6 @@ first order in s a density that it keeps is one that the motion keeps: if that k
 """
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import sympy as sp
 from flint import fmpq, fmpq_mat, fmpq_series
@@ -43,7 +42,7 @@ def has_volume(system: System, scheme: Scheme, kept: int) -> None:
 
 
 def logarithm(
-    exact: Exact, density: sp.Expr, by: Sequence[sp.Symbol], step: Callable[[State], tuple[State, Any]], count: int
+    exact: Exact, density: sp.Expr, by: Sequence[sp.Symbol], step: Callable[[State], tuple[State, object]], count: int
 ) -> Series:
     """`count` terms of the logarithm of the factor of a volume in a step, which is taken in twice as many terms.
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -14,6 +14,9 @@ from .algebra import Algebra, adjugate, determinant, generic, pivots
 from .brackets import kernel
 from .series import replaced
 from .system import BadSystem, System, a_system, dot, expression, rate, without
+
+if TYPE_CHECKING:
+    from sympy.physics.mechanics import KanesMethod
 
 
 @dataclass(frozen=True)
@@ -171,7 +174,7 @@ class OnShell:
     (A a = turning, and M a - forced orthogonal to the fields that span the allowed velocities.)
     """
 
-    def __init__(self, system: System, *more: Any) -> None:
+    def __init__(self, system: System, *more: sp.Expr) -> None:
         v, n = list(system.velocities), len(system.coordinates)
         matrix, right = system.equations
         self.algebra = algebra = Algebra(system, *more, *matrix[:n, :n], *right, *v)
@@ -254,7 +257,7 @@ def in_symbols(expr: Any) -> Any:
     return expr.xreplace({f: sp.Symbol(f.func.__name__) for f in expr.atoms(AppliedUndef)})
 
 
-def of_kane(method: Any) -> dict[sp.Symbol, sp.Expr]:
+def of_kane(method: "KanesMethod") -> dict[sp.Symbol, sp.Expr]:
     """The accelerations of the coordinates by Kane's method, for `agree`.
 
     Parameters
@@ -280,7 +283,7 @@ def of_kane(method: Any) -> dict[sp.Symbol, sp.Expr]:
     except (AttributeError, TypeError, ValueError):
         raise BadSystem("this is no KanesMethod whose kanes_equations have been formed") from None
     pushed = dict(zip([x.diff() for x in u], forced[len(q) :], strict=True))
-    speeds: dict[Any, Any] = next(iter(sp.solve([x.diff() - rates[x.diff()] for x in q], u, dict=True)), {})
+    speeds: dict[sp.Expr, sp.Expr] = next(iter(sp.solve([x.diff() - rates[x.diff()] for x in q], u, dict=True)), {})
     if not set(u) <= speeds.keys():
         raise BadSystem("the speeds of this KanesMethod do not follow from the rates of its coordinates")
     found = {}

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache, partial
 from itertools import islice, product
 from operator import mul
-from typing import Any, Literal
+from typing import Literal, TypeVar
 
 import sympy as sp
 from flint import fmpq, fmpq_mat, fmpq_series, nmod, nmod_mat
@@ -46,7 +46,7 @@ VOLUMES = "the volume", "a smooth volume"
 
 
 #: Symbols, and their numbers at the exact state.
-Named = tuple[Any, list[fmpq]]
+Named = tuple[sp.Matrix, list[fmpq]]
 
 
 @dataclass(frozen=True)
@@ -117,6 +117,9 @@ class Combination:
 
 #: Combinations, of what is done or plainly of what comes out of it.
 Proof = Callable[[bool], list[Combination]]
+#: The coefficients of 1, h and h² of an expression in the length of a step.
+Powers = tuple[sp.Expr, sp.Expr, sp.Expr]
+T = TypeVar("T")
 #: Expressions, with how many of their first coefficients in the length of a step are combined; and symbols for ends.
 Shown = tuple[Sequence[tuple[sp.Expr, int]], Mapping[sp.Symbol, sp.Expr]]
 
@@ -201,7 +204,7 @@ class Judged:
         #: Momenta after the reaction at the place, by the state and the first multipliers.
         self.kicked = [*scheme.state[: self.n], *(p + x for p, x in zip(scheme.state[self.n :], rows, strict=True))]
 
-    def decided(self, judge: Callable[[Any], Verdict], of: Any) -> Decided:
+    def decided(self, judge: Callable[[T], Verdict], of: T) -> Decided:
         """The verdict of one of the judges below, with its findings."""
         self.proofs, self.power = list[Proof](), 0
         try:
@@ -217,7 +220,7 @@ class Judged:
         there, z = self.stepped.step(first, guess, self.h)
         return first, there, z, self.stepped.solved(there, z, self.h)
 
-    def wrong(self, what: str, *pairs: tuple[str, Series, Any]) -> Verdict | None:
+    def wrong(self, what: str, *pairs: tuple[str, Series, Series]) -> Verdict | None:
         """Where the first of some series differ, if they do."""
         for k in range(self.looked):
             for name, one, other in pairs:
@@ -407,7 +410,7 @@ class Judged:
         if not self.stepped.has_momenta:
             could.append((list(self.state[self.n :]), list(self.system.velocities)))
 
-        def same(block: Sequence[int], of: Sequence[Any], sign: int) -> bool:
+        def same(block: Sequence[int], of: Sequence[Series], sign: int) -> bool:
             pairs = [(other[i], x) for i, x in zip(block, of, strict=True)]
             return all(_at(x, k) == sign * _at(y, k) for x, y in pairs for k in range(self.looked - 1))
 
@@ -420,7 +423,7 @@ class Judged:
         ends = [sp.Symbol(f"end {i}") for i in range(len(end))]
         there_again = dict(zip(ends, end, strict=True))
 
-        def missed(around: Sequence[Any], unknowns: Sequence[Any]) -> list[sp.Expr]:
+        def missed(around: Sequence[sp.Expr], unknowns: Sequence[sp.Expr]) -> list[sp.Expr]:
             """The expressions that should be 0 in the step back from a state, with unknowns."""
             final = self._with(turned, self._with(scheme.after, around, unknowns, back), unknowns)
             off = [x - y for x, y in zip(final, begin, strict=True)]
@@ -432,7 +435,7 @@ class Judged:
         for choice in islice(product(*choices), MOST_CHOICES):
             unknowns = [x for block in choice for x in block]
 
-            def shown(into: Callable[..., sp.Expr], unknowns: Sequence[Any] = unknowns) -> Shown:
+            def shown(into: Callable[..., sp.Expr], unknowns: Sequence[sp.Expr] = unknowns) -> Shown:
                 of = missed(self._with(turned, ends, symbols), unknowns)
                 return [(into(e, replaced_ends), 0) for e in of], {x: into(e) for x, e in there_again.items()}
 
@@ -441,7 +444,7 @@ class Judged:
         return False
 
     def _with(
-        self, expressions: Sequence[sp.Expr], state: Sequence[Any], unknowns: Sequence[Any], back: int = 1
+        self, expressions: Sequence[sp.Expr], state: Sequence[sp.Expr], unknowns: Sequence[sp.Expr], back: int = 1
     ) -> list[sp.Expr]:
         symbols = (*self.scheme.state, *self.scheme.unknowns, STEP)
         return replaced(expressions, dict(zip(symbols, (*state, *unknowns, STEP * back), strict=True)))
@@ -607,10 +610,10 @@ def _small(x: int) -> sp.Rational | None:
     return None
 
 
-def coefficients(expressions: Iterable[sp.Expr]) -> list[tuple[sp.Expr, sp.Expr, sp.Expr]]:
+def coefficients(expressions: Iterable[sp.Expr]) -> list[Powers]:
     """The coefficients of 1, h and h² of expressions in the length of a step; of shared parts once."""
 
-    def made(expr: sp.Expr, of: Callable[[sp.Expr], tuple[Any, Any, Any]]) -> tuple[Any, Any, Any]:
+    def made(expr: sp.Expr, of: Callable[[sp.Expr], Powers]) -> Powers:
         if not expr.args:
             return expr, sp.S.Zero, sp.S.Zero
         parts = [of(x) for x in expr.args]
@@ -644,7 +647,7 @@ def _bent(wave: sp.Expr) -> sp.Expr:
     return {sp.sin: s, sp.cos: c, sp.tan: s / c}[wave.func]
 
 
-def _guessed(x: Sequence[fmpq], of: Sequence[Named]) -> Any:
+def _guessed(x: Sequence[fmpq], of: Sequence[Named]) -> sp.Matrix | None:
     """The sum of halves of vectors of symbols that has some numbers where these have theirs; None if there is none."""
     for backwards in product((0, 1, -1, 2, -2), repeat=len(of)):
         halves = backwards[::-1]  # of the first first

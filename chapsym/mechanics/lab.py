@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from chapsym.prove.trees import Data
+
 from .judged import Verdict, verdicts
 from .methods import Scheme
 from .motion import Motion, NotSolved, Runner, whole_number
@@ -90,12 +92,12 @@ class Cell:
     work: tuple[tuple[float, float], ...] = ()
     verdicts: dict[str, Verdict] = field(default_factory=dict)
 
-    def data(self) -> dict[str, Any]:
+    def data(self) -> Data:
         """The cell for JSON, which has no NaN."""
         return _finite(asdict(self))
 
     @classmethod
-    def of(cls, data: dict[str, Any]) -> "Cell":
+    def of(cls, data: Data) -> "Cell":
         """The cell with these data."""
         curves = {name: tuple((float(x), float(y)) for x, y in data.get(name, ())) for name in ("curve", "work")}
         decided = {name: Verdict(**one) for name, one in data.get("verdicts", {}).items()}
@@ -199,7 +201,7 @@ def _finite(data: Any) -> Any:
     return None if isinstance(data, float) and not math.isfinite(data) else data
 
 
-def _figures(motion: Motion) -> dict[str, Any]:
+def _figures(motion: Motion) -> Data:
     energy, part = motion.energy, max(1, len(motion.energy) // END)
     some = np.linspace(0, len(energy) - 1, min(KEPT, len(energy))).astype(int)
     return {

@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import sympy as sp
 from flint import fmpq, fmpq_poly, fmpq_series
@@ -11,14 +10,14 @@ from flint import fmpq, fmpq_poly, fmpq_series
 from chapsym.derive import Quotient
 from chapsym.numbers.precisions import flint_terms
 from chapsym.prove import Comparison, Equation, Identity
-from chapsym.prove.polynomials import parameters
+from chapsym.prove.polynomials import Ratio, parameters
 from chapsym.prove.statements import Statement
 
 from .cases import MOST_LETTERS, SAID, Case, Certified, Made, fresh, made
 from .judged import BEYOND, VOLUMES, Combination, Decided, Judged, decided, quantities_of, tableau_conditions
 from .lab import keeps
 from .methods import Scheme, scheme_of
-from .series import State, _at, evaluated, replaced
+from .series import Series, State, _at, evaluated, replaced
 from .system import STEP, BadSystem, System
 
 #: Cells of a method in the ids of its claims.
@@ -115,7 +114,7 @@ def _stated(one: Combination, names: Mapping[sp.Symbol, sp.Symbol], more: int) -
     values = dict(zip(symbols, parameters(" ".join(map(str, symbols))), strict=True))
     unit = values[symbols[0]] ** 0
 
-    def read(expressions: Iterable[sp.Expr]) -> list[Any]:
+    def read(expressions: Iterable[sp.Expr]) -> list[Ratio]:
         return [unit * 0 + e for e in evaluated(expressions, values, lambda p, q: unit * int(p) / (unit * int(q)))]
 
     values |= dict(zip(at, read(ends), strict=True))
@@ -137,11 +136,13 @@ class _Steps:
         self.ring = Quotient([STEP], [STEP**most])
         self.symbols = (*self.scheme.state, *self.scheme.unknowns)
 
-    def polynomial(self, x: Any) -> sp.Expr:
+    def polynomial(self, x: Series) -> sp.Expr:
         """A series, cut off."""
         return sum((_rational(_at(x, k)) * STEP**k for k in range(self.most)), sp.S.Zero)
 
-    def put(self, expressions: Iterable[sp.Expr], symbols: Iterable[sp.Symbol], values: Iterable[Any]) -> list[sp.Expr]:
+    def put(
+        self, expressions: Iterable[sp.Expr], symbols: Iterable[sp.Symbol], values: Iterable[Series]
+    ) -> list[sp.Expr]:
         """Expressions with symbols replaced by polynomials, and sines and cosines of these cut off."""
 
         def wave(of: sp.Expr) -> sp.Expr:
@@ -152,7 +153,7 @@ class _Steps:
         known = {x: v if isinstance(v, sp.Expr) else self.polynomial(v) for x, v in zip(symbols, values, strict=True)}
         return replaced(self.exact.read(expressions), known, wave)
 
-    def equal(self, text: str, left: Sequence[sp.Expr], right: Sequence[Any]) -> Equation:
+    def equal(self, text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr | Series]) -> Equation:
         """With all that is beyond, which is shorter so than as a cofactor."""
         h, sides = fmpq_poly([0, 1]), [e if isinstance(e, sp.Expr) else self.polynomial(e) for e in right]
         try:

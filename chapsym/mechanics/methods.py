@@ -12,6 +12,7 @@ from typing import Any
 
 import sympy as sp
 
+from chapsym.dynamics.implicit import Vector
 from chapsym.numbers import brief
 
 from .system import STEP, BadSystem, System, a_system, after
@@ -58,7 +59,7 @@ class Scheme:
     stages: Sequence[Sequence[sp.Rational]] = ()
     integrals: Mapping[str, sp.Expr] = field(default_factory=dict)
 
-    def step(self, state: Any, first: Any, length: Any, rates: Callable[[Any], Any], number: Any) -> Any:
+    def step(self, state: Vector, first: Vector, length: Any, rates: Callable[[Any], Vector], number: Any) -> Any:
         """The next state in any numbers, by `after` at the state and, of an explicit method, what it is at others."""
         known, at = [first], first
         for row in self.stages:
@@ -301,7 +302,7 @@ METHODS: dict[str, Method] = {
 }  # fmt: skip
 
 
-def scheme_of(system: System, method: Any) -> Scheme:
+def scheme_of(system: System, method: object) -> Scheme:
     """The equations of a method, by its name, for a system; raises BadSystem for none."""
     if not isinstance(method, str) or method not in METHODS:
         raise BadSystem(f"{brief(method)} is no method; those are {', '.join(METHODS)}")

@@ -19,8 +19,8 @@ import numpy as np
 import sympy as sp
 
 from chapsym.codegen import Kernel, build, c_files, passes
-from chapsym.dynamics.implicit import solved
-from chapsym.dynamics.kernels import parts_of
+from chapsym.dynamics.implicit import Vector, solved
+from chapsym.dynamics.kernels import Function, parts_of
 from chapsym.numbers import Double, Enclosure, Precision, brief, named
 from chapsym.numbers.precisions import is_whole
 
@@ -215,7 +215,7 @@ class Runner:
             raise BadSystem(f"{what} is {brief(value)}, which is beyond the numbers") from None
 
     @cached_property
-    def functions(self) -> dict[str, Callable[..., Any]]:
+    def functions(self) -> dict[str, Function]:
         """The kernels in Python."""
         scope: dict[str, Any] = {}
         kernels = [*self.kernels, *([] if self.in_floats else self.more)]
@@ -319,7 +319,7 @@ class Runner:
         counts = 1, len(self.system.constraints), len(self.system.holonomic), len(self.integrals)
         return [[columns.pop(0) for _ in range(count)] for count in counts]
 
-    def _of(self, name: str, q: Sequence[Any], v: Sequence[Any], fixed: np.ndarray) -> list[Any]:
+    def _of(self, name: str, q: Vector, v: Vector, fixed: np.ndarray) -> Vector:
         """The result of a kernel at a place and velocity."""
         unknowns = [0] * len(self.scheme.unknowns)  # which it has not
         of = self.functions[name]
@@ -363,7 +363,7 @@ class Runner:
         return bool(np.isfinite(slope).all() and np.linalg.matrix_rank(slope) < len(unknowns))
 
     @cached_property
-    def measures(self) -> list[Callable[..., Any]]:
+    def measures(self) -> list[Function]:
         """The energy, what the constraints on velocities and on places set to 0, and the integrals, on arrays."""
         system = self.system
         symbols = (*system.coordinates, *system.velocities, STEP)

@@ -6,7 +6,7 @@ All coefficients are rational numbers.  A state has its angles at 0, or where th
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, lru_cache, partial, reduce
 from operator import add, is_not, mul
-from typing import Any
+from typing import Any, TypeVar
 
 import sympy as sp
 from flint import ctx, fmpq, fmpq_mat, fmpq_series
@@ -25,19 +25,23 @@ TURNS = ((3, 4, 5), (12, 5, 13), (8, 15, 17))
 #: An angle is turned where it is taken no more times than this.
 MOST_TURNS = 100
 
-Series = Any  # python-flint has no types
+#: A number or a series in the length of a step: fmpq or fmpq_series.
+Series = Any
 State = list[Series]
+T = TypeVar("T")
+Of = Callable[[sp.Expr], T]
+Made = Callable[[sp.Expr, Of[T]], T]
 
 
 class Undecided(ArithmeticError):
     """Exact series do not decide it; the message says why."""
 
 
-def by_parts(expressions: Iterable[Any], known: Mapping[sp.Expr, Any], made: Callable[..., Any]) -> list[Any]:
+def by_parts(expressions: Iterable[sp.Expr], known: Mapping[sp.Expr, T], made: Made[T]) -> list[T]:
     """The results of `made` for expressions, by its results for their parts, which `of` gives; of shared parts once."""
     found = dict(known)
 
-    def of(expr: sp.Expr) -> Any:
+    def of(expr: sp.Expr) -> T:
         if expr not in found:
             found[expr] = made(expr, of)
         return found[expr]
@@ -49,7 +53,7 @@ def by_parts(expressions: Iterable[Any], known: Mapping[sp.Expr, Any], made: Cal
 Operation = tuple[Any, tuple[int, ...]]
 
 
-def evaluated(expressions: Iterable[Any], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:
+def evaluated(expressions: Iterable[sp.Expr], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:
     """Expressions in any numbers: fractions, series, those of a finite field."""
     operations, ends = _operations(tuple(expressions))
     found: list[Any] = []
@@ -69,7 +73,7 @@ def evaluated(expressions: Iterable[Any], values: Mapping[sp.Symbol, Any], numbe
 
 
 @lru_cache(256)  # the same equations are evaluated at many states
-def _operations(expressions: tuple[Any, ...]) -> tuple[list[Operation], list[int]]:
+def _operations(expressions: tuple[sp.Expr, ...]) -> tuple[list[Operation], list[int]]:
     """What is done for expressions, shared parts once, and the places of the results."""
     operations = list[Operation]()
 
@@ -81,7 +85,7 @@ def _operations(expressions: tuple[Any, ...]) -> tuple[list[Operation], list[int
     return operations, by_parts(expressions, {}, made)
 
 
-def _operation(expr: sp.Expr) -> tuple[Callable[..., Any], Sequence[sp.Expr]]:
+def _operation(expr: sp.Expr) -> tuple[Callable[..., Series], Sequence[sp.Expr]]:
     """What an expression does with its parts."""
     if isinstance(expr, sp.Add | sp.Mul):
         one = add if isinstance(expr, sp.Add) else mul
@@ -94,19 +98,19 @@ def _operation(expr: sp.Expr) -> tuple[Callable[..., Any], Sequence[sp.Expr]]:
     raise Undecided(f"{expr!s:.60} has no exact series")
 
 
-def _power(p: int, q: int, base: Any) -> Any:
+def _power(p: int, q: int, base: Series) -> Series:
     """base^(p/q), q 1 or 2."""
     whole = (base if q == 1 else _root(base)) ** abs(p)
     return 1 / whole if p < 0 else whole
 
 
-def series(x: Any) -> Series:
+def series(x: Series) -> Series:
     """A number as a series."""
     return x if isinstance(x, fmpq_series) else fmpq_series([x])
 
 
 def replaced(
-    expressions: Iterable[Any], put: Mapping[sp.Symbol, Any], turned: Callable[[sp.Expr], sp.Expr] = lambda wave: wave
+    expressions: Iterable[sp.Expr], put: Mapping[sp.Symbol, sp.Expr], turned: Of[sp.Expr] = lambda wave: wave
 ) -> list[sp.Expr]:
     """Expressions with symbols replaced by others, and sines and cosines of expanded sums; shared parts once."""
 
@@ -138,7 +142,7 @@ class Exact:
         self._linear, self._right = self.read(matrix), self.read(right)
         self.symbols = (*system.coordinates, *system.velocities)
 
-    def read(self, expressions: Iterable[Any]) -> list[sp.Expr]:
+    def read(self, expressions: Iterable[sp.Expr]) -> list[sp.Expr]:
         """Expressions with the numbers of the parameters."""
         return replaced(expressions, self.numbers, self._turned)
 
@@ -180,7 +184,7 @@ class Exact:
             found |= {f"sin({x})": f"{b}/{c}", f"cos({x})": f"{a}/{c}"}
         return found
 
-    def at(self, expressions: Iterable[Any], state: Sequence[Series]) -> list[Series]:
+    def at(self, expressions: Iterable[sp.Expr], state: Sequence[Series]) -> list[Series]:
         """Expressions of coordinates, and of velocities, at a state (of coordinates alone, too)."""
         return self._at(self.read(expressions), state)
 
@@ -293,7 +297,7 @@ class Stepped:
         return self.scheme.step(state, first, length, rates, lambda a: fmpq(a.p, a.q)), unknowns
 
 
-def _at(x: Any, k: int) -> fmpq:
+def _at(x: Series, k: int) -> fmpq:
     """The coefficient of the power k."""
     if isinstance(x, fmpq_series):
         return x[k]

@@ -5,21 +5,23 @@ c + B r, with a point c, a nearly orthogonal matrix B and balls r, which the der
 Computational Ordinary Differential Equations (1992) 425.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
+import sympy as sp
 from flint import arb_mat
 
 from chapsym.dynamics.errors import BadInput
-from chapsym.dynamics.implicit import Equations
-from chapsym.dynamics.kernels import parts_of
+from chapsym.dynamics.implicit import Equations, Vector
+from chapsym.dynamics.kernels import Function, parts_of
 from chapsym.numbers import Double, Enclosure, Precision
 
 from .methods import Scheme
 
-Numbers = list[Any]
+#: The state of a method: numbers, or in enclosures a set of them (see `Sets`).
+State = Any
 #: Why there is no step.
 UNSOLVED = "has no solution near the last one"
 
@@ -35,22 +37,22 @@ class Steps:
     """
 
     def __init__(
-        self, scheme: Scheme, functions: Mapping[str, Callable[..., Any]], level: Precision,
-        unknowns: Sequence[float], fixed: Sequence[Any],
+        self, scheme: Scheme, functions: Mapping[str, Function], level: Precision,
+        unknowns: Sequence[float], fixed: Vector,
     ) -> None:  # fmt: skip
         self.scheme, self.functions, self.level, self.fixed = scheme, functions, level, fixed
-        self.unknowns = list(unknowns)
+        self.unknowns: Vector = unknowns
         self.equations = Equations(functions["residual"], functions["slope"], len(unknowns), 1.0)
 
-    def number(self, value: Any) -> Any:
+    def number(self, value: sp.Rational) -> Any:
         """The number of a rational one of SymPy."""
         return self.level.number(Fraction(value.p, value.q))
 
-    def of(self, name: str, unknowns: Sequence[Any], at: Sequence[Any]) -> Numbers:
+    def of(self, name: str, unknowns: Vector, at: Vector) -> Vector:
         """The result of a kernel."""
         return [0 * self.fixed[-1] + x for x in parts_of(self.functions[name](*unknowns, *at, *self.fixed))]
 
-    def root(self, at: Sequence[Any]) -> Numbers:
+    def root(self, at: Vector) -> Vector:
         """The unknowns at a state."""
         known = [*at, *self.fixed]
         try:
@@ -60,21 +62,21 @@ class Steps:
         except BadInput:
             raise NotSolved(UNSOLVED) from None
 
-    def after(self, root: Numbers, at: Sequence[Any]) -> Any:
+    def after(self, root: Vector, at: Vector) -> Vector:
         """The next state by the unknowns of a step."""
         found = self.of("after", root, at)
         return self.scheme.step(at, found, self.fixed[-1], lambda x: self.of("after", self.root(x), x), self.number)
 
-    def step(self, state: Any) -> tuple[Numbers, Any]:
+    def step(self, state: State) -> tuple[Vector, State]:
         """Place and velocity where the step is evaluated, and the next state."""
         root = self.root(state)
         return self.of("seen", root, state), self.after(root, state)
 
-    def first(self, state: Sequence[Any]) -> Any:
+    def first(self, state: Vector) -> State:
         """A state as `step` takes it."""
         return list(state)
 
-    def numbers(self, state: Any) -> Numbers:
+    def numbers(self, state: State) -> Vector:
         """A state as numbers."""
         return state
 
@@ -84,18 +86,18 @@ class Sets(Steps):
 
     level: Enclosure
 
-    def first(self, state: Sequence[Any]) -> Any:
+    def first(self, state: Vector) -> State:
         """A state of balls."""
         size = len(state)
         unit = arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
         return [x.mid() for x in state], unit, arb_mat(size, 1, [x - x.mid() for x in state])
 
-    def numbers(self, state: Any) -> Numbers:
+    def numbers(self, state: State) -> Vector:
         """A state as balls."""
         point, frame, box = state
         return [c + x for c, x in zip(point, (frame * box).entries(), strict=True)]
 
-    def step(self, state: Any) -> tuple[Numbers, Any]:
+    def step(self, state: State) -> tuple[Vector, State]:
         """c moves as a point, and B r by the derivatives on the whole set."""
         point, frame, box = state
         size, at, middle = len(point), self.numbers(state), self.root(point)
@@ -122,7 +124,7 @@ class Sets(Steps):
             ) from None
         return self.of("seen", root, at), (point, frame, (inverse * turned) * box + inverse * rest)
 
-    def _moved(self, root: Numbers, rows: Sequence[np.ndarray]) -> list[np.ndarray]:
+    def _moved(self, root: Vector, rows: Sequence[np.ndarray]) -> list[np.ndarray]:
         """The next rows after rows of a number and its derivatives by the first state.
 
         For the unknowns z, F(z, y) = 0: z' = -F_z⁻¹ F_y, and so that of G(z, y) is G_y - G_z F_z⁻¹ F_y.
@@ -136,7 +138,7 @@ class Sets(Steps):
         return [np.array([x, *row], object) for x, row in zip(values, by_first.tolist(), strict=True)]
 
 
-def _orthogonal(matrix: Any, box: Any) -> list[list[float]]:
+def _orthogonal(matrix: arb_mat, box: arb_mat) -> list[list[float]]:
     """An orthogonal matrix about along the columns of another, the longest of the set first."""
     middle = np.array(matrix.mid().tolist(), float)
     longest = np.argsort(-np.linalg.norm(middle, axis=0) * np.array([float(x.rad()) for x in box.entries()]))

@@ -33,14 +33,14 @@ def without(where: str, strange: Set[sp.Basic], what: str = "no coordinate, velo
         raise BadSystem(f"{where} {', '.join(sorted(map(str, strange)))}, which is {what}")
 
 
-def a_symbol(x: Any) -> sp.Symbol:
+def a_symbol(x: object) -> sp.Symbol:
     """The same; raises BadSystem for what is no symbol."""
     if not isinstance(x, sp.Symbol):
         raise BadSystem(f"a coordinate must be a symbol, such as symbols('x'), not {brief(x)}")
     return x
 
 
-def a_system(given: Any) -> "System":
+def a_system(given: object) -> "System":
     """The same; raises BadSystem for what is no system."""
     if not isinstance(given, System):
         raise BadSystem(f"system must be a System, not {brief(given)}")
@@ -69,7 +69,7 @@ def dot(x: sp.Symbol) -> sp.Symbol:
     return sp.Symbol(f"{a_symbol(x).name}_dot")
 
 
-def rate(expr: Any, coordinates: Sequence[sp.Symbol]) -> Any:
+def rate(expr: sp.Expr | sp.MatrixBase, coordinates: Sequence[sp.Symbol]) -> sp.Expr | sp.MatrixBase:
     """d/dt of an expression, or of a matrix of them, in coordinates and constants.
 
     Parameters
@@ -208,7 +208,7 @@ class System:
     integrals: Mapping[str, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        def put(name: str, value: Any) -> None:
+        def put(name: str, value: object) -> None:
             object.__setattr__(self, name, value)
 
         if not isinstance(self.name, str):
@@ -290,7 +290,7 @@ class System:
             raise BadSystem(f"{self.name}: a discretization of one's own has no forces")
         return Discrete(action, tuple(rules), dict(zip(names, quantities, strict=True)))
 
-    def digest(self, *more: Any) -> str:
+    def digest(self, *more: object) -> str:
         """A hash of all that a run depends on; raises BadSystem where it cannot be written."""
         parts = (self.coordinates, self.lagrangian, self.constraints, self.holonomic, self.forces, self.parameters)
         own = vars(self.discrete) if self.discrete else None, self.integrals
@@ -481,7 +481,7 @@ def number(value: Any, what: str) -> float:
 
 
 def in_floats(
-    symbols: Sequence[sp.Symbol], expressions: Sequence[Any], module: str, cse: bool = False
+    symbols: Sequence[sp.Symbol], expressions: Sequence[sp.Expr | sp.MatrixBase], module: str, cse: bool = False
 ) -> Callable[..., Any]:
     """Expressions, or matrices of them, as a function of floats by NumPy or `math`, of arrays by NumPy."""
     if any(hasattr(np, x.name) for x in symbols):  # such as pi, which would be that of the module
@@ -490,7 +490,7 @@ def in_floats(
     return sp.lambdify(symbols, expressions, module, cse=cse)
 
 
-def several(value: Any, what: str) -> tuple[Any, ...]:
+def several(value: object, what: str) -> tuple[Any, ...]:
     """A sequence as a tuple; raises BadSystem for anything else."""
     if isinstance(value, str | sp.Basic) or not isinstance(value, Iterable) or getattr(value, "ndim", 1) == 0:
         raise BadSystem(f"{what} must be a sequence, such as a list, not {brief(value)}")
@@ -504,7 +504,7 @@ def _smooth(expr: sp.Expr, what: str) -> None:
         raise BadSystem(f"{what} has {strange[0]}, which is not sin, cos, a square root or a whole power")
 
 
-def expression(value: Any, what: str) -> sp.Expr:
+def expression(value: object, what: str) -> sp.Expr:
     """An expression of numbers and symbols, with floats as they are written; a text is not evaluated."""
     try:
         found = sp.sympify(value, strict=True)

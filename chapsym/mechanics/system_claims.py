@@ -84,7 +84,7 @@ class Moving(OnShell):
         more = tuple(sorted(set().union(*(e.free_symbols for e in expressions)) - set(own.symbols), key=str))
         return self._rings.setdefault(more, Quotient((*own.symbols, *more), own.relations))
 
-    def equal(self, text: str, left: Sequence[Any], right: Sequence[Any]) -> Equation:
+    def equal(self, text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> Equation:
         """In the ring of the system."""
         left, right = ([sp.sympify(e, strict=True) for e in side] for side in (left, right))
         return Equation(text, left, right, self.ring(*left, *right))
@@ -283,7 +283,7 @@ def _not_0(text: str, minor: sp.Expr, point: Point) -> Comparison:
 
 
 def _bordering(
-    algebra: Algebra, text: str, vectors: Sequence[Any], columns: Sequence[int], more: Sequence[Any]
+    algebra: Algebra, text: str, vectors: Sequence[Sequence[sp.Expr]], columns: Sequence[int], more: Sequence[sp.Expr]
 ) -> list[Statement]:
     """That a vector is in a span, where one minor is not 0: those that border it are 0; nothing if that is seen."""
     matrix = sp.Matrix([*map(list, vectors), list(more)])
