@@ -115,7 +115,7 @@ def exact_array(value: ArrayLike) -> np.ndarray:
     return np.array([exact_fraction(x) for x in found.flat], dtype=object).reshape(found.shape)
 
 
-def _has_mask(value: Any) -> bool:
+def _has_mask(value: object) -> bool:
     """Whether any entry is masked, in lists of arrays, too, of which NumPy forgets the masks."""
     if "numpy.ma" not in sys.modules:  # nothing is masked, and its import takes 10 ms
         return False
@@ -124,7 +124,7 @@ def _has_mask(value: Any) -> bool:
     return bool(np.ma.is_masked(value))
 
 
-def _not_numbers(value: Any, name: str) -> BadInput:
+def _not_numbers(value: object, name: str) -> BadInput:
     return BadInput(f"{name} must be real numbers, not {brief(value)}")
 
 
@@ -135,7 +135,7 @@ def flag(value: bool, name: str) -> bool:
     return bool(value)
 
 
-def callback(progress: Any) -> None:
+def callback(progress: object) -> None:
     """Raises BadInput for a progress that cannot be called."""
     if not callable(progress):
         raise BadInput(f"progress must be a function, which is called with how far it is, not {brief(progress)}")
@@ -158,7 +158,7 @@ class Parameters(Brief):
     def __hash__(self) -> int:
         return hash(tuple(None if x is None else (x.shape, *x.ravel().tolist()) for x in self._values()))
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         return type(self), self._values()
 
 

@@ -272,7 +272,7 @@ def of_motion(run: Trajectory, limit: float = 600.0) -> Bounds:
     return Bounds(**bounds, steps=np.array(index[max(count - 1, 0)]))
 
 
-def _exact_ball(ball: Any) -> ExactBall:
+def _exact_ball(ball: Ball | ExactBall) -> ExactBall:
     if isinstance(ball, ExactBall):
         return ball
     one = in_principal_axes(ball)

@@ -98,7 +98,7 @@ class StepNotTaken(ArithmeticError):
     ('FOLDED', 0.86464)
     """
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.status, self.reach, self.index, self.trajectory)
 
     def __init__(self, status: Status, reach: float, index: int | None = None, trajectory: Any = None) -> None:

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
+#: A result of any kind: a dataclass of arrays with these vectors.
+Run = TypeVar("Run", bound=Any)
 #: The vectors of arguments and of results, by their names.
 VECTORS = ("momentum", "angular_momentum", "omega", "gamma")
 
@@ -60,7 +62,7 @@ def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
     return {"ball": ball.principal, **found}
 
 
-def in_axes_of(ball: Ball, found: Any) -> Any:
+def in_axes_of(ball: Ball, found: Run) -> Run:
     """A result in principal axes, in those of the ball."""
     frames = getattr(found, "index", None) is not None or np.ndim(getattr(found, "time", 0.0)) > 0
     assert ball.axes is not None
@@ -226,7 +228,7 @@ TAKEN = int(Status.TAKEN)
 FRAMES = ("index", "momentum", "gamma", "attitude", "contact")
 
 
-def some_frames(run: Any, which: np.ndarray | slice) -> Any:
+def some_frames(run: Run, which: np.ndarray | slice) -> Run:
     """Some of the frames of one ball: of a run of any kind, what it has beyond float64, or its bounds."""
     names = {field.name for field in fields(run)}.intersection(FRAMES)
     kept = {name: array[which] for name in names if (array := getattr(run, name)) is not None}
@@ -234,7 +236,7 @@ def some_frames(run: Any, which: np.ndarray | slice) -> Any:
     return replace(run, **kept, **{name: some_frames(x, which) for name, x in more.items() if x is not None})
 
 
-def put_at(run: Any, place: Floats) -> Any:
+def put_at(run: Run, place: Floats) -> Run:
     """A run of any kind with a contact point that starts at a place, (..., m); its bounds cover what the sum rounds."""
     low, bounds, place = getattr(run, "low", None), getattr(run, "proved", None), place[..., np.newaxis, :]
     if low is None:
@@ -247,7 +249,7 @@ def put_at(run: Any, place: Floats) -> Any:
     return replace(run, proved=replace(bounds, contact=np.nextafter(bounds.contact, np.inf) + rounded))
 
 
-def finished(run: Any, reach: Floats) -> Any:
+def finished(run: Run, reach: Floats) -> Run:
     """A run of any kind; of one ball that stopped, StepNotTaken with `reach` and the frames before."""
     if run.status.shape or run.status.item() == TAKEN:
         return run

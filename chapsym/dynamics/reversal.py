@@ -53,7 +53,7 @@ class NotRetraced(ArithmeticError):
             "is another one; take a shorter time step"
         )
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         return type(self), (self.index, self.balls, self.trajectory)
 
 

@@ -1,5 +1,6 @@
 """The display of results: a line in a terminal, a small table and the trace on the plane in a notebook."""
 
+from collections.abc import Mapping
 from dataclasses import fields
 from html import escape
 from typing import Any
@@ -36,7 +37,7 @@ def _short(value: Any) -> str:
     return str(value.item()) if value.size == 1 and not value.shape else str(tuple(value.tolist()))
 
 
-def html(run: Any, columns: dict[str, Any]) -> str:
+def html(run: object, columns: Mapping[str, np.ndarray]) -> str:
     """A `Trajectory`: its line, the first and the last of its frames, and of one ball the trace of its contact point.
 
     columns: what is shown of each frame, (frames, ...), of one ball; nothing of several.
@@ -50,11 +51,11 @@ def html(run: Any, columns: dict[str, Any]) -> str:
     return f"<p>{escape(repr(run))}</p>{table}{'' if trace is None else _curve(trace)}"
 
 
-def _cell(value: Any) -> str:
+def _cell(value: np.ndarray) -> str:
     return ", ".join(f"{float(x):.6g}" for x in np.ravel(value))
 
 
-def _curve(points: Any) -> str:
+def _curve(points: np.ndarray) -> str:
     """A curve in the plane, (points, 2), with one scale for both directions."""
     plane = np.asarray(points[:, :2], dtype=np.float64)
     least, size = plane.min(axis=0), np.ptp(plane, axis=0)

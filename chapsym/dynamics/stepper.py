@@ -357,7 +357,7 @@ class Stepper(UnderWay):
             self._follows, self._spin, self._spot, self._radius, attitudes, contacts,
         )  # fmt: skip
 
-    def _stopped(self, status: int, before: list[Floats] | None, again: Callable[[], Any]) -> Status:
+    def _stopped(self, status: int, before: list[Floats] | None, again: Callable[[], object]) -> Status:
         """Why a step was not taken; the state becomes the one before it, which a composition has left."""
         state = self._state[0]
         why = double.explained(status, self._scale * state[K : K + 3], state[G : G + 3], self._J, self._D)
@@ -378,7 +378,7 @@ class Stepper(UnderWay):
         if self._follows:
             self._ends["attitude"][1], self._ends["contact"][1] = self._spin, self._spot
 
-    def __getstate__(self) -> tuple[Any, ...]:
+    def __getstate__(self) -> tuple[object, ...]:
         settings = self.ball, self.order, self._follows, self._traced, self.time_step
         moving = self._spin, self._spot, *self._ends.values()
         return settings, self._scale, self._taken, self._state, moving, self._start

@@ -88,7 +88,7 @@ def exponent_of(x: Fraction) -> int:
     return x.numerator.bit_length() - x.denominator.bit_length() + 1
 
 
-def _on_numbers(K: Exact, g: Exact, J: Exact, D: Fraction, digits: int) -> tuple[int, Any, list[Fraction]]:
+def _on_numbers(K: Exact, g: Exact, J: Exact, D: Fraction, digits: int) -> tuple[int, Fraction, list[Fraction]]:
     """`branch.small_rotation` with this many digits: (status, reach, rotation)."""
     import mpmath
 

@@ -31,7 +31,7 @@ from chapsym.numbers.precisions import flint_bits
 from ..ball import Asked, Ball
 from ..errors import BadInput, StepNotTaken
 from ..levels.balls import exact
-from ..levels.proved_root import enclosed
+from ..levels.proved_root import Vector, enclosed
 from ..levels.start import fraction
 from ..map import in_float64, step, unit_exactly
 from .candidates import Quadric, momentum_forms, quadrics
@@ -65,7 +65,7 @@ class Factor:
     coordinates: tuple[fmpz_poly, ...]
     multiplicity: int
 
-    def points(self, bits: int) -> list[tuple[Any, ...]]:
+    def points(self, bits: int) -> list[Vector]:
         """Arb enclosures of homogeneous coordinates, computed with `bits`; coordinates that vanish are exactly 0."""
         for coarse in (COARSE, bits):
             with flint_bits(coarse):
@@ -76,7 +76,7 @@ class Factor:
         with flint_bits(bits):
             return [tuple(c(x) for c in self.coordinates) for x in real]
 
-    def _refined(self, root: Any, bits: int) -> Any:
+    def _refined(self, root: arb, bits: int) -> arb:
         """The root in an interval, by interval Newton steps while they help: each is short, and can be interrupted."""
         slope, known = self.polynomial.derivative(), -math.inf
         with flint_bits(bits + self.polynomial.height_bits()):
@@ -272,8 +272,8 @@ class Branch:
     small_rotation: whether it is the one that `step` takes.
     """
 
-    rotation: tuple[Any, ...]
-    angle: Any
+    rotation: Vector
+    angle: arb
     multiplicity: int
     small_rotation: bool = False
 
