@@ -17,9 +17,7 @@ class NotProved(ArithmeticError):
     """The balls are too wide for what the proof needs."""
 
 
-def near_root(
-    k: Sequence[arb], g: Sequence[arb], I: Sequence[arb], D: arb, near: Sequence[arb] | None = None
-) -> Vector:
+def near_root(k: Sequence[arb], g: Sequence[arb], I: Vector, D: arb, near: Vector | None = None) -> Vector:
     """The Gibbs vector with k = 𝒦/2 and γ by Newton's iteration from 0 or near, in the middle of balls; no proof."""
     given = *_middles(k), *_middles(g), *_middles(I), D.mid()
     u: Vector = (arb(0), arb(0), arb(0)) if near is None else _middles(near)

@@ -1,7 +1,7 @@
 """The file of a certificate: one JSON object of strings and whole numbers, sealed by a digest."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -30,9 +30,7 @@ def accepted(document: Document) -> Document:
     return document
 
 
-def widest(
-    radii: Sequence[Fraction], found: Callable[[Fraction], Document], progress: Callable[[str], None]
-) -> Document:
+def widest(radii: list[Fraction], found: Callable[[Fraction], Document], progress: Callable[[str], None]) -> Document:
     """The finding with the largest radius for which there is one, among halved radii; smaller ones are easier.
 
     Raises what `found` raises for the smallest, NotProved or checker.Rejected.

@@ -15,7 +15,7 @@ from chapsym.rationals import rational, rationals
 
 from .app import app
 from .options import BALL, Json, argument, ball_from, takes, with_options, writes
-from .output import check_apart, counted, fail, print_json, telling
+from .output import Data, check_apart, counted, fail, print_json, telling
 
 certify = typer.Typer(
     help="""Find and check certificates of what the paper left open.
@@ -320,9 +320,7 @@ def within(error: float | None, unit: str) -> str:
     return f"is within {float(shown):.2g}{unit} at these frames: proved"
 
 
-def _deliver(
-    output: Path | None, as_json: bool, search: Callable[..., dict[str, Any]], *given: Any, **options: Any
-) -> None:
+def _deliver(output: Path | None, as_json: bool, search: Callable[..., Data], *given: Any, **options: Any) -> None:
     """Finds a certificate with its progress on standard error, writes it, and prints what the checker says of it."""
     from chapsym import checker, files
     from chapsym.certificates.document import write

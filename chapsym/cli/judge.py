@@ -70,9 +70,7 @@ def judge(
             {"file": run.file, "time_step": run.step, "departure": summary(one, case.time)}
             for run, one in zip(runs, found, strict=True)
         ]
-        print_json(
-            {"case": case.name, "results": rows, "convergence": {name: vars(one) for name, one in known.items()}}
-        )
+        print_json({"case": case.name, "results": rows, "convergence": {name: vars(x) for name, x in known.items()}})
         return
     for run, one in zip(runs, found, strict=True):
         step = "" if run.step is None else f", step {run.step:g} s"

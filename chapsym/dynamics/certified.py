@@ -205,9 +205,7 @@ def _orbit(
                 f"the true orbit{f' of ball {i}' if shape else ''} does not take step {int(part.taken[0])}:"
                 f" {Status(int(part.status[0])).sentence}"
             )
-    found = {
-        name: None if first[name] is None else in_shape(shape, array) for name, array in zip(NAMES, arrays, strict=True)
-    }
+    found = {name: None if first[name] is None else in_shape(shape, x) for name, x in zip(NAMES, arrays, strict=True)}
     return found, np.array(selected, dtype=np.int64).reshape(shape)
 
 

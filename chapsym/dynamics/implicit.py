@@ -103,9 +103,7 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
                 flat = [_floats(array, level.dtype, name) for array, name in zip(flat, names, strict=True)]
                 flat[0] = system.in_floats(flat[0], flat[1:])
             else:
-                first, *others = (
-                    _floats(array, np.dtype(float), name) for array, name in zip(flat, names, strict=True)
-                )
+                first, *others = (_floats(x, np.dtype(float), name) for x, name in zip(flat, names, strict=True))
                 start = system.in_floats(first, others)
                 exact = [_exact(array, level, name) for array, name in zip(flat[1:], names[1:], strict=True)]
                 flat = [np.empty((rows, size), dtype=object), *exact]

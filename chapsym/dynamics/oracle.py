@@ -7,12 +7,8 @@ expressions; only (4.13) as the paper prints it, in matrices, and (4.12) for the
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import TypeAlias
 
 from mpmath import MPContext, matrix, mpf
-
-#: Numbers that mpmath takes.
-Given: TypeAlias = mpf | float
 
 
 class OracleFailed(ArithmeticError):
@@ -33,7 +29,9 @@ class OracleStep:
 class Oracle:
     """Solves (4.13) for Ω at `digits` digits by continuation from Ω = 1 along t𝒦, 0 ≤ t ≤ 1."""
 
-    def __init__(self, mass_tensor: Sequence[Given], D: Given, gamma: Sequence[Given], digits: int = 40) -> None:
+    def __init__(
+        self, mass_tensor: Sequence[mpf | float], D: mpf | float, gamma: Sequence[mpf | float], digits: int = 40
+    ) -> None:
         self.digits = digits
         self._given = [*mass_tensor], D, [*gamma]
         self.n = len(self._given[0])
@@ -72,7 +70,7 @@ class Oracle:
         moved = [self.components(self.momentum(rotation * self.skew(unit[i, :]))) for i in range(unit.rows)]
         return self.mp.matrix(moved).T
 
-    def step(self, momentum: Sequence[Given]) -> OracleStep:
+    def step(self, momentum: Sequence[mpf | float]) -> OracleStep:
         """The step from 𝒦; raises OracleFailed at a fold.
 
         Ω = 1 + O(𝒦): the entries of Ω need as many more digits as 𝒦 is small.

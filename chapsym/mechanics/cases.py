@@ -77,7 +77,9 @@ class Case:
         related = [one for one in statements if isinstance(one, Equation) and isinstance(one.algebra, Quotient)]
 
         def prove(p: Proof) -> None:
-            at = (x for x in points if all(true_at(one, x) for one in related if _covers(x, one)))
+            letters = [set().union(*(e.free_symbols for e in (*one.left, *one.right))) for one in related]
+            own = [*zip(related, letters, strict=True)]  # other symbols are free
+            at = (x for x in points if all(true_at(one, x) for one, symbols in own if symbols <= x.keys()))
             p.examples = Examples(numbers=next(at, {}))
             for text in (*self.premises, *(f"{text}: as chapsym forms them" for text in texts)):
                 p.assume(text)
@@ -97,11 +99,6 @@ class Case:
         if data is None or data["verdict"] != Verdict.HOLDS or left:
             return Certified(verdict, None, next(iter([*problems, *left]), SAID))
         return Certified(verdict, data)
-
-
-def _covers(point: Point, one: Equation) -> bool:
-    """Whether it has a value for each letter; other symbols are free."""
-    return set().union(*(e.free_symbols for e in (*one.left, *one.right))) <= point.keys()
 
 
 #: With points at which it may have a value.

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import sympy as sp
 from flint import fmpq, fmpq_poly, fmpq_series
@@ -140,9 +141,7 @@ class _Steps:
         """A series, cut off."""
         return sum((_rational(_at(x, k)) * STEP**k for k in range(self.most)), sp.S.Zero)
 
-    def put(
-        self, expressions: Iterable[sp.Expr], symbols: Iterable[sp.Symbol], values: Iterable[Series]
-    ) -> list[sp.Expr]:
+    def put(self, expressions: Iterable[sp.Expr], symbols: Iterable[sp.Symbol], values: Iterable[Any]) -> list[sp.Expr]:
         """Expressions with symbols replaced by polynomials, and sines and cosines of these cut off."""
 
         def wave(of: sp.Expr) -> sp.Expr:

@@ -100,7 +100,8 @@ def _operation(expr: sp.Expr) -> tuple[Callable[..., Series], Sequence[sp.Expr]]
 
 def _power(p: int, q: int, base: Series) -> Series:
     """base^(p/q), q 1 or 2."""
-    whole = (base if q == 1 else _root(base)) ** abs(p)
+    root = base if q == 1 else (series(base) / series(base)[0]).sqrt() * series(base)[0].sqrt()
+    whole = root ** abs(p)
     return 1 / whole if p < 0 else whole
 
 
@@ -124,10 +125,6 @@ def replaced(
         return turned(new) if isinstance(new, sp.sin | sp.cos | sp.tan) else new
 
     return by_parts(expressions, put, made)
-
-
-def _root(x: Series) -> Series:
-    return (series(x) / series(x)[0]).sqrt() * series(x)[0].sqrt()
 
 
 class Exact:

@@ -90,9 +90,7 @@ def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
             whole.append([symbol, what, _value(value)])
         except NotAlgebra as error:
             raise checker.Rejected(f"the value of {symbol} cannot be given to the checker: {error}") from None
-    names = names_in(
-        [0, *(tree for _, _, value in whole for tree in formulas.entries((formulas.rank_of(value), value)))]
-    )
+    names = names_in([0, *(tree for _, _, v in whole for tree in formulas.entries((formulas.rank_of(v), v)))])
     turned = {name: f"{name}^T" for name in names}  # only which symbols are read is asked
     transposes, used = turned | {image: name for name, image in turned.items()}, set()
     for part in formulas.parts(f"{printed}, {proof.corrected_text or ''}"):
@@ -139,13 +137,11 @@ def carried(data: Data) -> Data:
         "sentences": dict(sentences),
         "text": f"statements that the checker accepted: {sizes['statements']}{same}{more}; "
         f"counterexamples: {sizes['counterexamples']}; sentences: {listed}{nothing}",
-        "judged": [_cut(line) for line in shown.lines(data, parts=False)],
+        "judged": [
+            line if len(line) <= LONGEST else f"{line[:LONGEST]}... ({len(line)} letters)"
+            for line in shown.lines(data, parts=False)  # `checker --show` has all of them
+        ],
     }
-
-
-def _cut(line: str) -> str:
-    """The beginning of a long line; `checker --show` has all of it."""
-    return line if len(line) <= LONGEST else f"{line[:LONGEST]}... ({len(line)} letters)"
 
 
 def write(data: Data, folder: Path) -> None:
@@ -375,8 +371,9 @@ class _Maker:
             if isinstance(statement, Equation) and _alike(statement.algebra, algebra):
                 expressions += [*statement.left, *statement.right]
         for letter in self._steps:
-            if _alike(STEPS[letter].algebra, algebra):
-                expressions += [unfolded(letter), *_used(STEPS[letter])]
+            if _alike((step := STEPS[letter]).algebra, algebra):
+                by = step.by.values() if isinstance(step.by, Mapping) else ()
+                expressions += map(unfolded, (letter, step.of, *by))
         symbols = sorted(set().union(*(e.free_symbols for e in expressions)), key=lambda x: str(x.name))
         return {
             "kind": "words",
@@ -443,12 +440,6 @@ def _alike(one: object, other: WordAlgebra) -> bool:
     """Whether an algebra is another one, or that of its traces."""
     one = _letters_of(one)
     return isinstance(one, WordAlgebra) and bool((one.transposes, one.rules) == (other.transposes, other.rules))
-
-
-def _used(step: Step) -> list[sp.Expr]:
-    """The expression that a step writes down, its letters unfolded."""
-    by = step.by.values() if isinstance(step.by, Mapping) else ()
-    return [unfolded(x) for x in (step.of, *by)]
 
 
 def _relations(comparison: Comparison | Count) -> list[list[Tree]]:

@@ -145,17 +145,19 @@ class Judgement:
     def _settled(self) -> Data:
         """The grounds of the claim, with the claims that were proved anew for it."""
         rests = [statement for _, statement, _ in self.proof.decided if isinstance(statement, Rest)]
-        return argument.settlement(
-            {self.claim.id: self.grounds} | {one.name: one.grounds for one in rests if one.grounds}
-        )
+        return argument.settlement({self.claim.id: self.grounds} | {x.name: x.grounds for x in rests if x.grounds})
 
     def record(self, downstream: Sequence[str] = ()) -> Data:
         """The claim's row of the register, as the command's contract has it."""
-        known = vars(self.proof) | {
+        proof = self.proof
+        known = vars(proof) | {
             "title": self.claim.title, "open_in_paper": self.open_in_paper, "derivation": self.proof.lines,
             "uses": list(self.claim.uses), "downstream": list(downstream),
             "carried": certificates.carried(self.certificate) if self.certificate else None,
-            "answer": self.proof.answer, "theorems": [_theorem(self.proof, part) for part in self.proof.stated],
+            "answer": proof.answer, "theorems": [
+                {"part": part, **asdict(stated), "steps": [asdict(step) for step in proof.steps[part]]}
+                for part, stated in proof.stated.items()
+            ],
             "settled": self._settled() if self.verdict is Verdict.SETTLED else None,
         }  # fmt: skip
         return {
@@ -166,11 +168,6 @@ class Judgement:
             "evidence": {name: known[name] for name in EVIDENCE},
             "seconds": round(self.seconds, 3),
         }
-
-
-def _theorem(proof: Proof, part: str) -> Data:
-    """The theorem of a proof, with its steps."""
-    return {"part": part, **asdict(proof.stated[part]), "steps": [asdict(step) for step in proof.steps[part]]}
 
 
 class TwoProofs(ValueError):

@@ -224,13 +224,8 @@ def _joined(parts: list[Members]) -> Members:
         whole("axes", lambda part: np.tile([1.0, 0.0, 0.0, 0.0], (len(part), 1))),
         whole("attitude", lambda part: attitude_with(part.gamma)),
         whole("place", lambda part: np.zeros((len(part), part.dimension - 1))),
-        {key: np.concatenate([_values(part, key) for part in parts]) for key in keys},
+        {key: np.concatenate([part.parameters.get(key, np.full(len(part), np.nan)) for part in parts]) for key in keys},
     )  # fmt: skip
-
-
-def _values(part: Members, key: str) -> Floats:
-    """The values of a parameter; NaN for balls of which it is not varied."""
-    return part.parameters.get(key, np.full(len(part), np.nan))
 
 
 def _whole(parts: list[Members], name: str, default: Callable[[Members], Any] = lambda part: None) -> Any:

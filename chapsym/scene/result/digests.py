@@ -90,10 +90,8 @@ def said(path: Path) -> Data | None:
 
 def disputed(path: Path) -> list[str]:
     """The arrays that say of themselves what the group does not say of them."""
-    listed = {
-        file.parent.name for file in path.glob(f"*/{DIGESTS}") if read_object(file).get("array") == file.parent.name
-    }
-    found = metadata(path)
+    own = [file for file in path.glob(f"*/{DIGESTS}") if read_object(file).get("array") == file.parent.name]
+    listed, found = {file.parent.name for file in own}, metadata(path)
     return sorted(name for name in listed | set(found) if read_object(path / name / "zarr.json") != found.get(name))
 
 

@@ -61,9 +61,7 @@ def check_scene(dataset: "Dataset", scene: str) -> None:
 
 def bounds_of(data: "Dataset | Arrays") -> dict[str, float | None]:
     """The greatest bound at any frame of a result of the map that has bounds; None where one is not finite."""
-    greatest = {
-        name: float(np.nanmax(data[name + BOUND].values)) for name in UNITS_OF_MAP if name + BOUND in data.variables
-    }
+    greatest = {x: float(np.nanmax(data[x + BOUND].values)) for x in UNITS_OF_MAP if x + BOUND in data.variables}
     return {name: error if math.isfinite(error) else None for name, error in greatest.items()}
 
 
