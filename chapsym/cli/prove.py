@@ -91,9 +91,8 @@ def _write_rocq(certificates: list[Path], folder: Path) -> None:
     from chapsym.prove.rocq import write
 
     try:
-        written = write(
-            (json.loads(file.read_text(encoding="utf-8")) for file in certificates if file.exists()), folder
-        )
+        whole = (json.loads(file.read_text(encoding="utf-8")) for file in certificates if file.exists())
+        written = write(whole, folder)
     except OSError as error:
         fail(f"{folder} cannot be written: {error.strerror or error}", 2)
     counts = f"claims: {written.claims}, theorems: {written.theorems.total()}"

@@ -214,10 +214,8 @@ class Exact:
         slope = inverse(fmpq_mat([[_at(x, 0) for x in row] for row in rows]))
         found: list[Series] = [fmpq_series([0])] * size
         for _ in range(ctx.cap):
-            short = [
-                sum((a * x for a, x in zip(row, found, strict=True)), -r) for row, r in zip(rows, right, strict=True)
-            ]
-            found = _less(found, slope, short)
+            off = [sum((a * x for a, x in zip(of, found, strict=True)), -r) for of, r in zip(rows, right, strict=True)]
+            found = _less(found, slope, off)
         return found
 
     @property

@@ -273,10 +273,8 @@ class Proof:
             for h in self.assumed
             if not h.symbols <= exact.keys() and not h.symbols.isdisjoint(exact)
         ]
-        assumed = [h for h in self.assumed if h.symbols <= exact.keys()]
-        self.problems += [
-            f"the counterexample violates the hypothesis {h.text}" for h in assumed if not h.true_at(exact)
-        ]
+        violated = [h.text for h in self.assumed if h.symbols <= exact.keys() and not h.true_at(exact)]
+        self.problems += [f"the counterexample violates the hypothesis {text}" for text in violated]
 
     def control(self, *statements: Statement) -> None:
         """Mutated statements, which the same machinery must reject."""

@@ -66,9 +66,7 @@ def some(ring: Quotient, examples: Examples) -> Iterator[Exact]:
             yield drawn(ring, partial(small, numbers, 1 + i // 20), start)
 
 
-def look(
-    equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples
-) -> tuple[list[Data], list[str]]:
+def look(equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples) -> witness.Looked:
     """As `witness.look`, at points found for the relations of each equation, where the examples have none."""
     found: dict[tuple[object, ...], Data] = {}
     wrong = []

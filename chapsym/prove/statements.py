@@ -399,9 +399,8 @@ class Count:
 
     def numbers(self) -> dict[sp.Symbol, sp.Integer]:
         """The numbers of solutions."""
-        eliminant = sp.Poly(
-            [sp.Rational(int(c.p), int(c.q)) for c in self.elimination().eliminant][::-1], sp.Symbol("t")
-        )
+        found = self.elimination().eliminant
+        eliminant = sp.Poly([sp.Rational(int(c.p), int(c.q)) for c in found][::-1], sp.Symbol("t"))
         parts = [(part.count_roots(), part.degree(), power) for part, power in eliminant.sqf_list()[1]]
         counts = [(real, degree, real * power, degree * power) for real, degree, power in parts]
         return {name: sp.Integer(sum(n)) for name, n in zip(NUMBERS, zip((0,) * 4, *counts, strict=True), strict=True)}
@@ -412,10 +411,8 @@ class Count:
 
     def _forms(self, expressions: Sequence[sp.Expr]) -> list[Form]:
         """Expressions at the point, by their terms in the unknowns."""
-        polynomials = [
-            sp.Poly(words.unfolded(e).xreplace(self.point), *self.unknowns, domain="QQ") for e in expressions
-        ]
-        return [{m: fmpq(int(c.p), int(c.q)) for m, c in polynomial.terms()} for polynomial in polynomials]
+        forms = [sp.Poly(words.unfolded(e).xreplace(self.point), *self.unknowns, domain="QQ") for e in expressions]
+        return [{m: fmpq(int(c.p), int(c.q)) for m, c in form.terms()} for form in forms]
 
 
 Statement = Equation | Fact | Identity | Comparison | Count | Rest | Zero

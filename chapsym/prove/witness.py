@@ -60,11 +60,11 @@ class Examples:
 
 
 GENERIC = "generic"
+#: The witnesses that are found, and the statements that fail there.
+Looked = tuple[list[Data], list[str]]
 
 
-def look(
-    equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples
-) -> tuple[list[Data], list[str]]:
+def look(equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples) -> Looked:
     """Evaluates the equations at every case; returns the witnesses found and the statements that fail there.
 
     A statement with a zero denominator in a case, or off a hypothesis, is not made there, and does not count.
