@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from .ball import Ball
     from .n.ball_n import BallN
-    from .results import Trajectory
 
 #: The attributes of a variable or of the whole: texts and numbers, and lists of them.
 Attributes = Mapping[str, Any]
@@ -167,7 +166,7 @@ def coordinates(names: Iterable[str], variables: Mapping[str, Labelled], n: int)
     return {"ball": texts(names, "ball")} | {dim: texts(of, dim) for dim, of in labels(n).items() if dim in used}
 
 
-def of_run(run: "Trajectory") -> Arrays:
+def of_run(run: Any) -> Arrays:
     """A `Trajectory` as the result of a scene with the same outputs; where it has times, with ω and the energy, too."""
     n, shape, count = run.gamma.shape[-1], run.status.shape, run.status.size
     motion = run.order == 0 and run.time_step is not None
