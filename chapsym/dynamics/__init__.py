@@ -1,4 +1,4 @@
-"""The map: one ball or many, three dimensions or n, its branches, compositions and reductions."""
+"""The map, for one ball or many, in three dimensions or n: steps, branches, compositions and reductions."""
 
 from .ball import Ball
 from .certified import Certificate, certify

@@ -1,4 +1,4 @@
-"""The attitude that a ball starts from."""
+"""The attitude at the start of a run."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from . import kernels
 from .ball import SINGLE_TOLERANCE, UNIT_TOLERANCE, Floats, in_single, numbers, over_states
 from .errors import BadInput
 
-#: How far R γ may be from e₃ for an attitude that is given with its γ.
+#: The largest accepted |R γ - e₃| for an attitude that is given together with γ.
 AGREEMENT = 1e-9
-#: The same for an attitude that is given in float32, up to 10⁶ steps of it.
+#: The same for a float32 attitude, after up to 10⁶ steps in float32.
 SINGLE_AGREEMENT = 1e-4
 
 
 def roll_pitch_yaw(halves: Sequence[tuple[Any, Any]]) -> tuple[Any, ...]:
-    """The quaternion of Rz(yaw) Ry(pitch) Rx(roll), from cosines and sines of half the angles, numbers or arrays."""
+    """The quaternion of Rz(yaw) Ry(pitch) Rx(roll), from the cosines and sines of half the angles."""
     roll, pitch, yaw = halves
     about_y = generated.compose(pitch[0], 0, pitch[1], 0, *roll, 0, 0)
     return generated.compose(yaw[0], 0, 0, yaw[1], *about_y)
@@ -34,7 +34,7 @@ def attitude_with(gamma: Floats) -> Floats:
         return np.array(_least(*gamma.tolist()))
     x, y, z = gamma[..., 0], gamma[..., 1], gamma[..., 2]
     zero = np.zeros_like(z)
-    # Components that are so small that their squares vanish are negligible for a half turn.
+    # Components whose squares underflow are negligible for a half turn.
     x, y = (np.where(np.abs(v) < 1e-150, 0.0, v) for v in (x, y))
     upper = np.stack([1 + z, y, -x, zero], axis=-1)
     # Upside down, the axis of the half turn is free: take e₁.  1 + z cancels there, so use x² + y² = (1-z)(1+z).
@@ -55,7 +55,7 @@ def _least(x: float, y: float, z: float) -> tuple[float, ...]:
 
 
 def initial_attitude(attitude: bool | ArrayLike, gamma: Floats) -> Floats:
-    """The attitude to start from: the one that was given, checked against γ, or the least rotation."""
+    """The first attitude: the given one, checked against γ, or the least rotation."""
     if isinstance(attitude, bool | np.bool_):
         return attitude_with(gamma)
     given = numbers(attitude, "attitude", 4)

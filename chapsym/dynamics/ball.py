@@ -1,4 +1,4 @@
-"""The ball: its mass tensor, its D = mρ², and the checks that a body can have them."""
+"""The ball: its mass tensor and D = mρ², and the checks that a body can have these values."""
 
 from __future__ import annotations
 
@@ -26,25 +26,25 @@ from .shown import Brief
 Asked = Floats | Any
 
 FLOAT64 = np.dtype(np.float64)
-#: NumPy broadcasts no more.
+#: The maximal number of axes that NumPy broadcasts.
 MOST_AXES = 32
 #: Below this float64 loses digits.
 SMALLEST = np.finfo(np.float64).tiny
 #: Up to this float64 has all integers.
 LARGEST_INTEGER = 2**53
-#: Numbers by their class, which are not real ones: of dates NumPy says that they are integers.
+#: Classes that count as numbers but are not real numbers; NumPy counts time differences as integers.
 _NO_REALS = (complex, np.complexfloating, np.timedelta64)
-#: How far |γ|² may be from 1: more than the rounding of 10⁶ steps, so that a run may go on from its end.
+#: The largest accepted error of |γ|²: above the rounding of 10⁶ steps, so that the end of a run may start another.
 UNIT_TOLERANCE = 1e-12
-#: The same for what is given in float32: it is divided by its length.
+#: The same for float32 input, which is divided by its length.
 SINGLE_TOLERANCE = 1e-6
 
 
 def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
-    """`value` as finite float64 numbers, with the last axis of length `trailing` if that is given.
+    """`value` as finite float64 numbers, with a last axis of length `trailing` if given.
 
-    Real numbers of any kind are taken, `Fraction` and `Decimal` too; complex numbers, texts, dates and
-    masked entries are refused with BadInput.
+    Real numbers of any kind are accepted, also `Fraction` and `Decimal`.  Raises BadInput for complex numbers, texts,
+    dates and masked entries.
     """
     if trailing == 3 and is_vector(value):
         return value.copy()
@@ -59,14 +59,14 @@ def numbers(value: ArrayLike, name: str, trailing: int | None = None) -> Floats:
 
 
 def is_vector(value: ArrayLike) -> TypeGuard[Floats]:
-    """Whether this is one float64 vector, and finite: what needs no more checks."""
+    """Whether this is one finite float64 vector, which needs no more checks."""
     return (
         type(value) is np.ndarray and value.dtype == FLOAT64 and value.shape == (3,) and isfinite(sum(value.tolist()))
     )
 
 
 def is_unit(x: float, y: float, z: float) -> bool:
-    """Whether this is a unit vector for sure."""
+    """Whether this is certainly a unit vector."""
     return abs(x * x + y * y + z * z - 1.0) < 0.5 * UNIT_TOLERANCE
 
 
@@ -100,7 +100,7 @@ def _as_float(value: ArrayLike, name: str) -> Floats:
 
 
 def beyond_float64(value: ArrayLike) -> bool:
-    """Whether these are numbers that float64 need not hold: objects, integers beyond 2⁵³, long doubles."""
+    """Whether float64 may be unable to represent these numbers: objects, integers beyond 2⁵³, long doubles."""
     array = np.asarray(value)
     if array.dtype == FLOAT64:
         return False
@@ -110,13 +110,13 @@ def beyond_float64(value: ArrayLike) -> bool:
 
 
 def exact_array(value: ArrayLike) -> np.ndarray:
-    """Numbers as Fractions: those of Fractions, Decimals, mpmath and SymPy as they are, floats as the binary ones."""
+    """Numbers as Fractions: exact for Fractions, Decimals, mpmath, SymPy, and for floats as binary numbers."""
     found = np.asarray(value, dtype=object)
     return np.array([exact_fraction(x) for x in found.flat], dtype=object).reshape(found.shape)
 
 
 def _has_mask(value: object) -> bool:
-    """Whether any entry is masked, in lists of arrays, too, of which NumPy forgets the masks."""
+    """Whether any entry is masked, also in lists of arrays, whose masks NumPy drops."""
     if "numpy.ma" not in sys.modules:  # nothing is masked, and its import takes 10 ms
         return False
     if isinstance(value, list | tuple):
@@ -136,13 +136,13 @@ def flag(value: bool, name: str) -> bool:
 
 
 def callback(progress: object) -> None:
-    """Raises BadInput for a progress that cannot be called."""
+    """Raises BadInput unless `progress` is callable."""
     if not callable(progress):
         raise BadInput(f"progress must be a function, which is called with how far it is, not {brief(progress)}")
 
 
 class Parameters(Brief):
-    """The parameters of balls of every dimension: those with the same parameters are equal; a copy is checked anew."""
+    """The parameters of a ball in any dimension: balls with equal parameters are equal; a copy is checked again."""
 
     def _values(self) -> tuple[Asked, ...]:
         return tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
@@ -164,10 +164,10 @@ class Parameters(Brief):
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
 class Ball(Parameters):
-    """A ball, or an array of balls, that rolls without slipping; balanced: its centre of mass is its centre.
+    """A ball, or an array of balls, that rolls without slipping; balanced: the centre of mass is the centre.
 
-    Fractions, Decimals, integers, long doubles and numbers of mpmath and SymPy are kept as they are for `Digits` and
-    `Enclosure`.
+    `Digits` and `Enclosure` use Fractions, Decimals, integers, long doubles and numbers of mpmath and SymPy without
+    rounding to float64.
 
     Parameters
     ----------
@@ -177,10 +177,10 @@ class Ball(Parameters):
     D : array_like
         m ρ² in kg m², shape (...); D = 0 is the Euler top.
     radius : array_like, optional
-        ρ in m, shape (...); needed for the trace of the contact point only.
+        ρ in m, shape (...); needed only for the contact point.
     axes : array_like, optional
-        Unit quaternions, (..., 4), that turn the principal axes of the body, in which J is, to the axes in which
-        vectors and attitudes are given and returned (`from_inertia` finds them); None where these are the same.
+        Unit quaternions, (..., 4), from the principal axes, in which J is given, to the axes of all vectors and
+        attitudes, given or returned (`from_inertia` finds them); None where both are the same.
 
     Raises
     ------
@@ -253,12 +253,11 @@ class Ball(Parameters):
         Parameters
         ----------
         inertia : array_like
-            A symmetric tensor (3, 3), or one for each ball, (..., 3, 3): it is diagonalised, its `axes` are kept,
-            and all vectors and attitudes, given or returned, are in the axes in which it is given.  Off its diagonal it
-            has -∫xy dm, ..., as ixy, ... of URDF, SDF and MJCF; SolidWorks shows both signs, and calls this one
-            negative.  Or principal moments I1 = J2 + J3, ..., (3,), or a row for each ball, (..., 3), where that is not
-            symmetric and 3 x 3.  Of one flat body, whose floats were written with few digits, what these leave below 0
-            is 0.
+            A symmetric tensor (3, 3), or one for each ball, (..., 3, 3): it is diagonalised, its `axes` are kept, and
+            all vectors and attitudes are given and returned in its axes.  The off-diagonal entries are -∫xy dm, ...,
+            like ixy, ... of URDF, SDF and MJCF; SolidWorks shows both signs, and calls this one negative.  Or principal
+            moments I1 = J2 + J3, ..., (3,), or a row for each ball, (..., 3), unless that is symmetric and 3 x 3.  For
+            one flat body, a moment J that is negative by the rounding of the given digits is set to 0.
         mass : array_like, optional
             In kg, with the radius in the place of D.
         radius : array_like, optional
@@ -266,7 +265,7 @@ class Ball(Parameters):
         D : array_like, optional
             m ρ² in kg m², in the place of the mass.
         batch : bool, optional
-            Whether inertia is rows of principal moments, also where it is symmetric and 3 x 3.
+            Whether inertia is rows of principal moments, even if it is symmetric and 3 x 3.
 
         Returns
         -------
@@ -275,7 +274,7 @@ class Ball(Parameters):
         Raises
         ------
         BadInput
-            For an inertia that no body has, and as `Ball`.
+            For an inertia that no body has, and as for `Ball`.
 
         Examples
         --------
@@ -312,7 +311,7 @@ class Ball(Parameters):
         Parameters
         ----------
         mass_tensor : array_like
-            J in principal axes, a row for each ball, (..., 3); a tensor that is not diagonal goes with `from_inertia`.
+            J in principal axes, a row for each ball, (..., 3); `from_inertia` accepts a tensor that is not diagonal.
         mass : array_like, optional
             In kg, with the radius in the place of D.
         radius : array_like, optional
@@ -344,7 +343,7 @@ class Ball(Parameters):
 
     @property
     def exact(self) -> tuple[Any, Any, Any]:
-        """J, D and the radius as they were given: arrays of Fractions where they were exact numbers, else floats."""
+        """J, D and the radius as given: arrays of Fractions for exact numbers, else floats."""
         return self.__dict__.get("_given", (self.mass_tensor, self.D, self.radius))
 
     def _values(self) -> tuple[Asked, ...]:
@@ -352,16 +351,16 @@ class Ball(Parameters):
 
     @cached_property
     def is_one(self) -> bool:
-        """Whether this is one ball, not an array of balls."""
+        """Whether this is a single ball, not an array of balls."""
         return self.mass_tensor.ndim == 1 and self.D.ndim == 0 and (self.radius is None or self.radius.ndim == 0)
 
     @cached_property
     def principal(self) -> Ball:
-        """The same ball in its principal axes, for what takes no other: give it vectors turned by `to_principal`."""
+        """The same ball in its principal axes; its vectors are those of `to_principal`."""
         return self if self.axes is None else Ball(self.mass_tensor, self.D, self.radius)
 
     def to_principal(self, vectors: ArrayLike, *, frames: bool = False) -> Floats:
-        """Vectors (momentum, omega, gamma) in principal axes from those in the axes of the user.
+        """Vectors (momentum, omega, gamma), converted from the axes of the user to principal axes.
 
         Parameters
         ----------
@@ -378,7 +377,7 @@ class Ball(Parameters):
         Raises
         ------
         BadInput
-            For what is not such vectors, where the ball has `axes`.
+            If the ball has `axes` and these are not such vectors.
 
         Examples
         --------
@@ -390,7 +389,7 @@ class Ball(Parameters):
         return self._turned(principal_axes.to_principal, vectors, frames)
 
     def from_principal(self, vectors: ArrayLike, *, frames: bool = False) -> Floats:
-        """Vectors in the axes of the user from those in principal axes; the way back of `to_principal`."""
+        """Vectors, converted from principal axes to the axes of the user: the inverse of `to_principal`."""
         return self._turned(principal_axes.from_principal, vectors, frames)
 
     def _turned(self, turn: Callable[[Floats, Floats], Floats], vectors: ArrayLike, frames: bool) -> Floats:
@@ -409,7 +408,7 @@ class Ball(Parameters):
 
 
 def in_principal_axes(ball: Ball) -> Ball:
-    """The ball; raises BadInput for any other object, and for one with axes, whose vectors are in other axes."""
+    """The ball; raises BadInput for any other object, and for a ball with axes."""
     if not isinstance(ball, Ball):
         raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
     if ball.axes is not None:
@@ -421,7 +420,7 @@ def in_principal_axes(ball: Ball) -> Ball:
 
 
 def keep(ball: Any, **parameters: Floats | None) -> None:
-    """Gives a new ball its parameters, which nobody changes any more."""
+    """Sets the parameters of a new ball, read-only."""
     for name, values in parameters.items():
         if values is not None:
             values.flags.writeable = False
@@ -429,14 +428,14 @@ def keep(ball: Any, **parameters: Floats | None) -> None:
 
 
 def checked_before(mass_tensor: Floats, D: Floats, radius: Asked = None) -> Ball:
-    """Balls in principal axes with parameters that another ball has, which is not checked again."""
+    """Balls in principal axes with the parameters of another ball, which are not checked again."""
     ball = object.__new__(Ball)
     ball.__dict__.update(mass_tensor=mass_tensor, D=D, radius=radius, axes=None)
     return ball
 
 
 def common_shape(shapes: Sequence[tuple[int, ...]], names: str) -> tuple[int, ...]:
-    """The shape to which leading axes broadcast; raises BadInput if they do not."""
+    """The broadcast shape of the leading axes; raises BadInput if they do not broadcast."""
     try:
         return np.broadcast_shapes(*shapes)
     except ValueError:
@@ -445,7 +444,7 @@ def common_shape(shapes: Sequence[tuple[int, ...]], names: str) -> tuple[int, ..
 
 
 def over_states(array: Floats, name: str, shape: tuple[int, ...], axes: int = 1) -> Floats:
-    """An array with `axes` of its own, for states with the leading axes `shape`; raises BadInput if it has others."""
+    """An array (..., *axes) for states with the leading axes `shape`; raises BadInput if it does not broadcast."""
     own = array.ndim - axes
     try:
         return np.broadcast_to(array, (*shape, *array.shape[own:]))
@@ -454,19 +453,19 @@ def over_states(array: Floats, name: str, shape: tuple[int, ...], axes: int = 1)
 
 
 def inertia_of(tensor: Floats) -> Floats:
-    """(J2 + J3, J1 + J3, J1 + J2), (..., 3): sums, as J1 + J2 + J3 - J1 would lose what is small relative to J1."""
+    """(J2 + J3, J1 + J3, J1 + J2), (..., 3): as sums, since J1 + J2 + J3 - J1 would cancel for a large J1."""
     return np.stack([tensor[..., i] + tensor[..., j] for i, j in ((1, 2), (0, 2), (0, 1))], axis=-1)
 
 
 def largest_moment(tensor: Floats, D: Floats) -> Floats:
-    """Jᵢ + Jⱼ + D, (...), of the two largest of (..., n): float64 may hold it where it does not hold the sum of all."""
+    """Jᵢ + Jⱼ + D, (...), for the two largest J of (..., n): it may be finite where the sum of all overflows."""
     return np.asarray(np.sort(tensor, axis=-1)[..., -2:].sum(axis=-1) + D)
 
 
 def mass_tensor_of(inertia: ArrayLike, rounding: float = 0.0) -> Floats:
     """J from the principal moments of inertia; raises BadInput if no body has them.
 
-    rounding: by how much a moment J that was rounded may be below 0: it is 0 then.
+    rounding: a moment J in [-rounding, 0) is set to 0.
     """
     moments = numbers(inertia, "inertia", 3)
     tensor = _rounded_tensor(moments, rounding)
@@ -484,7 +483,7 @@ def mass_tensor_of(inertia: ArrayLike, rounding: float = 0.0) -> Floats:
 
 
 def _rounded_tensor(moments: Floats, least: float = 0.0) -> Floats:
-    """J from principal moments, where what is below 0 by a rounding is 0."""
+    """J from principal moments; a J that is negative by a rounding, or by at most `least`, is 0."""
     with np.errstate(over="ignore", under="ignore"):
         tensor = (moments / 2).sum(axis=-1, keepdims=True) - moments
     rounding = np.maximum(4 * np.finfo(np.float64).eps * np.abs(moments).max(axis=-1, keepdims=True), least)
@@ -492,16 +491,16 @@ def _rounded_tensor(moments: Floats, least: float = 0.0) -> Floats:
 
 
 def rounded_by(inertia: Any) -> float:
-    """The error that rounding an inertia to its digits may make in a moment of ∫xxᵀdm; 0 for whole numbers.
+    """A bound of the error in a moment of ∫xxᵀdm from rounding an inertia to its digits; 0 for whole numbers.
 
-    Each entry is off by half a unit of its last digit: of principal moments J by ¾ of a unit; of a tensor ½ tr I by ¾
-    and I by 3/2 of one.  The unit is that of the largest entry, where all have as many digits, or of all, where they
-    have as many places.  At most a hundredth of the largest is believed.
+    Each entry has an error of half a unit of its last digit.  Then J from principal moments has ¾ of a unit; from a
+    tensor, ½ tr I has ¾ and I has 3/2 of a unit.  The unit is that of the largest entry if all entries have equally
+    many digits, or the common one if they have equally many decimal places; at most a hundredth of the largest.
     """
     entries = np.array(inertia, dtype=object).ravel().tolist()
     if not all(isinstance(x, float) and isfinite(x) for x in entries):
         return 0.0
-    entries = [float(x) for x in entries]  # those of NumPy have another repr
+    entries = [float(x) for x in entries]  # NumPy's floats have another repr
     broken = [x for x in entries if x != round(x)]
     if not broken:
         return 0.0
@@ -539,12 +538,12 @@ def contact_term(mass: ArrayLike | None, radius: ArrayLike | None, D: ArrayLike 
 
 
 def in_single(value: ArrayLike) -> bool:
-    """Whether an array is of float32, in any byte order."""
+    """Whether an array has the type float32, in any byte order."""
     return np.asarray(value).dtype.newbyteorder("=") == np.float32
 
 
 def unit_vertical(gamma: ArrayLike, n: int = 3) -> Floats:
-    """γ as checked unit vectors, shape (..., n); a float32 array, which cannot be so near to unit, as divided."""
+    """γ as checked unit vectors, shape (..., n); a float32 array is divided by its lengths."""
     if n == 3 and is_vector(gamma) and is_unit(*gamma.tolist()):
         return gamma.copy()
     array = numbers(gamma, "gamma", n)
@@ -561,7 +560,7 @@ def unit_vertical(gamma: ArrayLike, n: int = 3) -> Floats:
 
 
 def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
-    """The common leading shape of balls and vectors, and all of them as flat arrays, to be read.
+    """The common leading shape of balls and vectors, and all of them as flat read-only arrays.
 
     Returns (shape, [vector (n, 3) ..., mass_tensor (n, 3), D (n,)]); raises BadInput for a ball that has axes.
     """
@@ -579,17 +578,17 @@ def batch(ball: Ball, *vectors: Floats) -> tuple[tuple[int, ...], list[Floats]]:
 
 
 def in_shape(shape: tuple[int, ...], array: Asked) -> Asked:
-    """A flat array (n, ...) with the leading axes `shape` instead of n; None stays None."""
-    if array is None or (not shape and array.ndim > 1):  # a view of one ball's is had at once
+    """A flat array (n, ...) with the leading axes `shape` in place of n; None stays None."""
+    if array is None or (not shape and array.ndim > 1):  # a view of one ball is faster
         return None if array is None else array[0]
     return array.reshape(shape + array.shape[1:])
 
 
 def is_followed(attitude: bool | ArrayLike) -> bool:
-    """Whether an attitude is asked for: True, or one to start from."""
+    """Whether the attitude is followed: True, or a first attitude."""
     return not isinstance(attitude, bool | np.bool_) or bool(attitude)
 
 
 def _filled(shape: tuple[int, ...], value: Floats) -> Floats:
-    """`value` broadcast to a shape; itself where it has it."""
+    """`value` broadcast to a shape; unchanged if it has that shape."""
     return np.ascontiguousarray(np.broadcast_to(value, shape))

@@ -1,4 +1,4 @@
-"""Certificates: the true orbit of a float trajectory in Arb's balls, and proved bounds of its errors."""
+"""Certificates: Arb balls that contain the true orbit of a float trajectory, and proved bounds of its errors."""
 
 import math
 from collections.abc import Callable
@@ -30,24 +30,25 @@ NAMES = ("momentum", "gamma", "attitude", "contact")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Brief):
-    """The frames of a trajectory as balls that contain the true orbit, and bounds of the errors of the trajectory.
+    """Balls that contain the true orbit at the frames of a trajectory, and bounds of the errors of the trajectory.
 
-    The true orbit is that of the map, the small-rotation branch, from the very numbers of frame 0: 𝒦 as it is, γ and
-    the attitude divided by their lengths, without any rounding after that; for the orders 4, 6 and 8 with the stage
-    coefficients as the 40 digits that are written in `coefficients`.  For `roll` it starts at the 𝒦 of frame 0.
+    The true orbit is the orbit of the map on the small-rotation branch, without rounding.  It starts at the numbers of
+    frame 0, with γ and the attitude divided by their lengths; for `roll`, too, at the 𝒦 of frame 0.  The orders 4, 6
+    and 8 have the stage coefficients of `coefficients`, to their 40 digits.
 
     Attributes
     ----------
     trajectory : Trajectory
         The certified trajectory.
     momentum, gamma, attitude, contact : numpy.ndarray or None
-        Arb's balls, shaped as those of the trajectory; None where it has none.
+        Arb's balls, in the shapes of the trajectory; None if the trajectory has no such array.
     momentum_error, gamma_error, attitude_error, contact_error : numpy.ndarray or None
-        Upper bounds, (..., frames), of the length of the difference between the trajectory and the true orbit, in the
-        unit of the array.  NaN after the last step.
+        Upper bounds, (..., frames), of the distance between the trajectory and the true orbit, in the unit of the
+        array.  NaN after the last step.
     selected : numpy.ndarray
-        How many rotations (one a step for order 2), (...), are those that the float64 continuation selects: each is
-        proved to be a root, and the only one near by, but not the small rotation.  0: the whole orbit is proved.
+        The number of rotations (one per step for order 2), (...), that the float64 continuation selects: each is proved
+        to be a root and the only one near by, but is not proved to be the small rotation.  0: the whole orbit is
+        proved.
 
     Examples
     --------
@@ -70,7 +71,7 @@ class Certificate(Brief):
     selected: np.ndarray
 
     def digits(self, name: str) -> np.ndarray:
-        """The true values as decimal strings, each rounded to the digits that its ball proves: all are right.
+        """The true values as decimal strings, each rounded to the digits that its ball proves.
 
         Parameters
         ----------
@@ -80,12 +81,12 @@ class Certificate(Brief):
         Returns
         -------
         numpy.ndarray
-            Of strings, shaped as the array.  A value that may be 0 is "0E-n": it is below 10^-n.
+            Strings, in the shape of the array.  A value that may be 0 is "0E-n": it is below 10^-n.
 
         Raises
         ------
         BadInput
-            For another name, and for what the trajectory does not have.
+            For another name, and for an array that the trajectory does not have.
 
         Examples
         --------
@@ -114,18 +115,18 @@ class Certificate(Brief):
 def certify(
     trajectory: Trajectory, *, bits: int = 128, progress: Callable[[int], None] = lambda steps_done: None
 ) -> Certificate:
-    """Encloses the true orbit of a trajectory, and bounds the errors of the trajectory, rigorously.
+    """Encloses the true orbit of a trajectory and bounds the errors of the trajectory, rigorously.
 
-    The branch is proved by lemma `small-branch` where |𝒦| is within its bound, and beyond it by lemma `straight-path`,
-    step by step.  Where that does not reach, as near a fold, the float64 continuation selects the root; it is proved
-    only that this is a root, and the only one near by: `selected` counts such steps.
+    The branch is proved by lemma `small-branch` if |𝒦| is within its bound, and otherwise step by step by lemma
+    `straight-path`.  If neither applies, as near a fold, the float64 continuation selects the root, which is proved
+    only to be a root and the only one near by: `selected` counts such steps.
 
     Parameters
     ----------
     trajectory : Trajectory
         At any precision, of one ball or a batch, of the order 2, 4, 6 or 8, with its attitude and contact.
     bits : int, optional
-        The number of correct bits of the balls; the run is repeated with as many more as its length costs.
+        The number of correct bits of the balls; the run is repeated with more working bits until these are left.
     progress : callable, optional
         Called with the steps done so far (of all balls together); a run that is repeated counts again.
 
@@ -136,8 +137,8 @@ def certify(
     Raises
     ------
     BadInput
-        One sentence, for what is no such trajectory, and where the true orbit cannot be followed to the end: balls that
-        grow too much, or a step that the true orbit does not have.
+        For anything that is no such trajectory, and if the true orbit cannot be followed to the end: the balls grow too
+        much, or the true orbit does not have a step.
 
     Examples
     --------
@@ -160,7 +161,7 @@ def certify(
 
 
 def exactly(trajectory: Trajectory, name: str) -> np.ndarray:
-    """An array of a trajectory as exact fractions, of balls their middles; None where there are no numbers."""
+    """An array of a trajectory as exact fractions, the midpoints of balls; None where there are no numbers."""
     array = getattr(trajectory, name)
     rest = None if trajectory.low is None else getattr(trajectory.low, name)
     lows = [0.0] * array.size if rest is None else rest.flat
@@ -171,14 +172,14 @@ def exactly(trajectory: Trajectory, name: str) -> np.ndarray:
 def _orbit(
     trajectory: Trajectory, given: dict[str, Any], bits: int, progress: Callable[[int], None]
 ) -> tuple[dict[str, np.ndarray | None], np.ndarray]:
-    """The frames of the true orbit, and how many rotations of each ball were selected."""
+    """The frames of the true orbit, and the number of selected rotations of each ball."""
     from .levels.balls import run  # 40 ms, with mpmath and flint
 
     index, count = trajectory.index, len(trajectory.index)
     every = int(index[1] - index[0]) if count > 1 else 1
     start = [np.asarray(getattr(trajectory, name)[..., 0, :], dtype=float) for name in ("momentum", "gamma")]
     shape, (_, _, J, D) = batch(trajectory.ball, *start)
-    if trajectory.momentum.dtype == object:  # of Digits or Enclosure: its ball is that which was given
+    if trajectory.momentum.dtype == object:  # of Digits or Enclosure: its ball is the given one
         J, D = (exact_numbers(x, y, shape) for x, y in zip(trajectory.ball.exact[:2], (J, D), strict=True))
     first: dict[str, Any] = {
         name: None if array is None else array[..., 0, :].reshape(len(D), array.shape[-1])
@@ -227,7 +228,7 @@ def errors_of(balls: np.ndarray, given: Any, bits: int) -> Floats:
 
 
 def proved_digits(x: Any) -> str:
-    """A decimal number to which every number of the ball rounds; "nan" for what is no ball."""
+    """A decimal number to which every number of the ball rounds; "nan" for a ball without numbers."""
     if not hasattr(x, "rad"):
         return "nan"
     middle, radius = fraction(x), fraction(x.rad())

@@ -1,9 +1,9 @@
 """Published coefficients of symmetric compositions of a self-adjoint step of order 2.
 
-The map is self-adjoint (the lemma `self-adjoint`), so Φ_{cₛε} ... Φ_{c₁ε} with c_{s+1-i} = c_i is, too, and has the
-order 4, 6 or 8 (the lemma `composition-order`).  Each set is given with the 40 digits of a solution of the order
-conditions.  Suzuki's are algebraic numbers.  Those of Kahan and Li are published with 26
-digits, and one parameter is free: c₁ is as published, and the others are Newton's from the published ones.
+The map is self-adjoint (lemma `self-adjoint`), so Φ_{cₛε} ... Φ_{c₁ε} with c_{s+1-i} = c_i is self-adjoint, too, and
+has the order 4, 6 or 8 (lemma `composition-order`).  Each set has 40 digits of a solution of the order conditions.
+Suzuki's coefficients are algebraic numbers.  Kahan and Li's are published with 26 digits, and one parameter is free: c₁
+is as published, and Newton's iteration refines the others from the published values.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from .errors import BadInput
 
 @dataclass(frozen=True)
 class Composition:
-    """A palindromic composition: its order, its source, and c₁ up to the middle one as decimal numbers."""
+    """A palindromic composition: its order, its source, and c₁ to the middle coefficient as decimal numbers."""
 
     order: int
     source: str
@@ -26,7 +26,7 @@ class Composition:
 
     @property
     def exact(self) -> tuple[Fraction, ...]:
-        """c₁, ..., cₛ as they are written here."""
+        """c₁, ..., cₛ as exact fractions of the decimal numbers."""
         half = tuple(map(Fraction, self.half))
         return half + half[-2::-1]
 

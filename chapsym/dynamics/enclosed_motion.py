@@ -1,4 +1,4 @@
-"""The motion of the continuous ball with proved digits: from exact data, at the times that are asked for."""
+"""The motion of the continuous ball with proved digits, from exact data, at given times."""
 
 import math
 import time as clock
@@ -26,28 +26,28 @@ if TYPE_CHECKING:
 
     from .flow.path import Path
 
-#: The parts of a frame, vectors of balls.
+#: The parts of a frame, vectors of Arb balls.
 Frame = dict[str, tuple["arb", ...]]
 
-#: The quantities of a frame; `contact` where the ball has a radius.
+#: The quantities of a frame; `contact` if the ball has a radius.
 PARTS = ("gamma", "angular_momentum", "omega", "attitude", "contact")
-#: Bits of the first attempt beyond those of the digits, and for each doubling of the turns.
+#: The bits of the first attempt beyond those of the digits, and for each doubling of the turns.
 GUARD, OF_TURNS = 24, 2
 #: The most digits, and the most bits that an attempt may have.
 MOST_DIGITS, MOST_BITS = 4_000, 2**20
-#: The longest limit, in seconds: what is longer has no end.
+#: The largest limit in seconds; a larger one is no limit.
 LONGEST = 1e9
-#: Bits by which a radius may grow when it is written: it and the middle are rounded, which adds .15 of it.
+#: The bits by which writing may enlarge a radius: radius and midpoint are rounded, which adds .15 of it.
 ROUNDED = 0.25
-#: Bits beyond those that were missing, for the next attempt.
+#: The bits of the next attempt beyond the missing ones.
 MARGIN = 6
 
 
 @dataclass(frozen=True, repr=False)
 class ExactBall(Brief):
-    """A ball with exact numbers; `Ball` has the nearest float64.
+    """A ball with exact numbers, where `Ball` has the nearest float64.
 
-    A number is an int, a Fraction, a Decimal, or a text such as "0.1" or "2/7"; a float is the binary number it is.
+    A number is an int, a Fraction, a Decimal, a string such as "0.1" or "2/7", or a float, taken as its binary value.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ class ExactBall(Brief):
     D : number
         m ρ² in kg m².
     radius : number, optional
-        ρ in m, for the contact point only.
+        ρ in m, needed only for the contact point.
 
     Raises
     ------
@@ -100,7 +100,7 @@ class ExactBall(Brief):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CertifiedMotion(Brief):
-    """The motion at the times that were reached, in Arb's balls that contain it.
+    """Arb balls that contain the motion, at the times that were reached.
 
     Attributes
     ----------
@@ -109,15 +109,15 @@ class CertifiedMotion(Brief):
     gamma, angular_momentum, omega : numpy.ndarray
         γ, K in kg m²/s and ω in rad/s, (frames, 3).
     attitude : numpy.ndarray
-        (frames, 4), unit, its first component that is proved not to be 0 positive.
+        Unit quaternions, (frames, 4); the first component that is proved not to be 0 is positive.
     contact : numpy.ndarray or None
         In m, (frames, 2).
     digits : int
         Every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
     steps, bits : int
-        Of the run that proved it.
+        The steps and the working bits of the run that proved it.
     stopped : str or None
-        One sentence, where not all times were reached; else None.
+        One sentence if not all times were reached; else None.
 
     Examples
     --------
@@ -139,7 +139,7 @@ class CertifiedMotion(Brief):
     stopped: str | None = None
 
     def write(self) -> dict[str, Any]:
-        """For JSON: each number as [middle, radius], decimal strings; the true number is in that interval."""
+        """For JSON: each number as decimal strings [middle, radius]; the true number is in that interval."""
         arrays = {name: array for name in PARTS if (array := getattr(self, name)) is not None}
         frames = [
             {
@@ -164,35 +164,35 @@ def certified_motion(
     limit: float = 600.0,
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> CertifiedMotion:
-    """Encloses the motion of the continuous ball (2.3) at some times: the digits are proved.
+    """Encloses the motion of the continuous ball (2.3) at given times, to proved digits.
 
-    Polynomials in time are proved in Arb's balls, step by step (`dynamics/flow`); the run is repeated with more bits
-    until the digits are there.  Where that takes longer than the limit, the times that were reached are returned, and
-    `stopped` says why.  All numbers are exact (see `ExactBall`).
+    Each step bounds the error of polynomials in time in Arb's balls (`dynamics/flow`); the run is repeated with more
+    bits until the digits are proved.  If this takes longer than the limit, the times that were reached are returned,
+    and `stopped` gives the reason.  All input is exact (see `ExactBall`).
 
     Parameters
     ----------
     ball : ExactBall or Ball
-        An `ExactBall`, or one `Ball` in principal axes, whose floats are taken exactly.  The axes of a tensor that is
-        not diagonal are enclosed, and all vectors are in its own axes.
+        An `ExactBall`, or one `Ball` in principal axes, whose floats are taken exactly.  If the tensor is not diagonal,
+        its principal axes are enclosed, and all vectors are in the axes in which it is given.
     angular_momentum : array_like
         K in kg m²/s, in the axes of the body.
     gamma : array_like
-        The unit vertical, upwards; it is divided by its length.
+        The vertical, upwards; it is divided by its length.
     times : number or sequence of numbers
-        One in s from 0 on, or several in ascending order.
+        One time ≥ 0 in s, or several in ascending order.
     digits : int, optional
         Every radius is at most 10^-digits, relative to the length of K and of ω, and to the ball's radius.
     attitude : array_like, optional
-        A quaternion, scalar first, which turns γ up and is divided by its length; the least rotation by default.
-        It and γ may differ by rounding, 1e-5 at most: then the attitude is taken.
+        A quaternion, scalar first, that turns γ to the vertical; it is divided by its length; by default the least
+        rotation.  If the two differ by rounding, at most 1e-5, γ follows from the attitude.
     rotor : array_like, optional
         a in kg m²/s, the constant angular momentum of a rotor inside, in the axes of the body (lemmas `gyrostat-rotor`,
         `gyrostat-motion`); then K = B(γ)ω + a, and K ≠ a.
     limit : float, optional
-        Seconds for all attempts.
+        The largest duration of all attempts, in seconds.
     progress : callable, optional
-        Called with sentences.
+        Called with one sentence at a time on the progress.
 
     Returns
     -------
@@ -201,7 +201,7 @@ def certified_motion(
     Raises
     ------
     BadInput
-        For what is no motion.
+        For input that defines no motion.
 
     References
     ----------
@@ -240,10 +240,10 @@ def certified_motion(
 
 
 def of_motion(run: Trajectory, limit: float = 600.0) -> Bounds:
-    """Bounds of the distance of the frames of one ball from the motion that starts at the numbers of frame 0.
+    """Bounds of the distance of the frames of a ball from the motion that starts at the numbers of frame 0.
 
-    run: in float64, with a time step, in principal axes.  Enclosed are the digits that it may have, and two more.
-    A frame that is not reached within `limit` seconds has inf.
+    run: in float64, with a time step, in principal axes.  The enclosure has two digits more than the estimated error of
+    the run.  A frame that is not reached within `limit` seconds has inf.
     """
     from flint import fmpq
 
@@ -332,11 +332,11 @@ def follow(
 
 
 class _TimeUp(Exception):
-    """The limit is reached."""
+    """The time limit is reached."""
 
 
 class _Search:
-    """Attempts with more and more bits; the frames of the best of them."""
+    """Attempts with increasing bits, and the frames of the best attempt."""
 
     def __init__(
         self, start: Any, times: tuple[Fraction, ...], digits: int, deadline: float, progress: Callable[[str], None]
@@ -351,7 +351,7 @@ class _Search:
         return self.kept == len(self.times)
 
     def doublings(self) -> int:
-        """About log₂ of the turns, at most, and of those at the start; BadInput where ω does not follow from K."""
+        """About log₂ of the angle turned at the rate of the start, in radians; BadInput if K does not determine ω."""
         from .levels.proved_root import upper
 
         with flint_bits(1024):
@@ -368,7 +368,7 @@ class _Search:
         return max(exponent_of(turns), 0) if turns else 0
 
     def attempt(self, bits: int) -> int | None:
-        """Follows the motion with this many bits; returns how many more are needed, or None: the time is up."""
+        """Follows the motion with this many bits; returns the number of missing bits, or None if the time is up."""
         missing, frames = -math.inf, list[Frame]()
         with flint_bits(bits):
             try:
@@ -389,12 +389,12 @@ class _Search:
                 return self._more(path, bits)
             except _TimeUp:
                 return None
-            except (np.linalg.LinAlgError, ArithmeticError):  # of the floats that propose the steps
+            except (np.linalg.LinAlgError, ArithmeticError):  # an overflow of the floats that propose the steps
                 raise BadInput("the numbers are too far apart in size to find steps of the motion") from None
         return math.ceil(missing) + MARGIN if math.isfinite(missing) else bits
 
     def _more(self, path: "Path", bits: int) -> int:
-        """The bits that were lost, for all of the time, but no more than twice as many as there were."""
+        """The bits that were lost, extrapolated to the whole time, but at most twice the present ones."""
         if path.time == 0:
             return bits
         lost = max(bits + path.width, 0.0)
@@ -402,7 +402,7 @@ class _Search:
         return math.ceil(min(max(foreseen - bits, bits / 4), bits)) + math.ceil(self.digits * math.log2(10))
 
     def _tell(self, time: Fraction, bits: int) -> None:
-        """At the end of a step, and at each of the frames, of which a step may have many."""
+        """Reports the progress, at the end of each step and at each frame."""
         if clock.monotonic() > self.deadline:
             raise _TimeUp
         last = float(self.times[-1])
@@ -410,7 +410,7 @@ class _Search:
         self.progress(f"{bits} bits: {float(time):.6g} s of {last:.6g} s, {part:.0%}")
 
     def found(self, why: str | None) -> CertifiedMotion:
-        """The frames that are proved; `why`: the reason why not all are, as a part of a sentence."""
+        """The proved frames; why: the reason why not all are proved, as a part of a sentence."""
         kept, frames = self.times[: self.kept], self.frames[: self.kept]
         stopped = None
         if why is not None:
@@ -427,14 +427,14 @@ class _Search:
 
 
 def _signed(frame: Frame) -> Frame:
-    """The frame with the sign of its quaternion for which the first component proved not to be 0 is positive."""
+    """The frame with the sign of its quaternion that makes the first component proved not to be 0 positive."""
     a = frame["attitude"]
     first = next((x for x in a if not x.contains(0)), None)
     return frame | {"attitude": tuple(-x for x in a)} if first is not None and first < 0 else frame
 
 
 def _missing(frame: Frame, digits: int, radius: Fraction | None) -> float:
-    """How many bits more would make the radii small enough; at most 0 if they are."""
+    """The number of bits that the radii still lack; at most 0 if they are small enough."""
     worst = -math.inf
     for name, vector in frame.items():
         widest = max(fraction(x.rad()) for x in vector)
@@ -455,16 +455,16 @@ def _log2(x: Fraction) -> float:
 
 
 def decimal(x: Fraction) -> str:
-    """A fraction as a decimal number where it is one, else as a quotient."""
+    """A fraction as a decimal number if it is finite, else as a quotient."""
     context = decimals(x.numerator.bit_length() + x.denominator.bit_length() + 1)
     found = context.divide(x.numerator, x.denominator)
     return str(x) if context.flags[Inexact] else f"{found:f}"
 
 
 def written(x: "arb", digits: int) -> tuple[str, str]:
-    """(middle, radius) as decimal strings, whose ball contains that of x; the radius has two digits or three.
+    """(middle, radius), decimal strings of a ball that contains the ball x; the radius has two or three digits.
 
-    digits: of a number that has none of its own, as its radius is 0.
+    digits: those of a number whose radius is 0.
     """
     middle, radius = fraction(x), fraction(x.rad())
     if not radius and (text := decimal(middle)) and len(text) <= 40:

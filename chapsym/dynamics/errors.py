@@ -1,4 +1,4 @@
-"""The errors, each with one sentence for the user; and why a step was not taken."""
+"""The errors, each with one sentence for the user, and the reasons why a step was not taken."""
 
 from enum import IntEnum
 from typing import Any
@@ -11,7 +11,7 @@ from .loops.branch import moments
 
 
 class BadInput(ValueError):
-    """The input has no answer: what was wrong, where, and what would be right.
+    """The input is wrong or has no answer; the message names the argument and what would be right.
 
     Examples
     --------
@@ -71,7 +71,7 @@ _SENTENCES = {
 
 
 class TooWide(ArithmeticError):
-    """The balls have grown so much that a step cannot be proved: more bits are needed."""
+    """The balls are too wide to prove a step: more bits are needed."""
 
 
 class StepNotTaken(ArithmeticError):
@@ -84,7 +84,7 @@ class StepNotTaken(ArithmeticError):
     reach : float
         The fraction of the momentum that the branch attains.
     index : int or None
-        Which step of a trajectory it was (0 is the first).
+        The index of the step in a trajectory (0 is the first).
     trajectory : Trajectory or None
         The states before it, if there are any.
 
@@ -113,9 +113,9 @@ class StepNotTaken(ArithmeticError):
 def explain(status: int, K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float) -> Status:
     """Why a step was not taken: UNREACHABLE if no rotation at all has this momentum."""
     inertia = np.array(moments(J))
-    rounded = status == Status.NO_INERTIA and (g * g * inertia).sum() > 0.0  # it has some, which D rounds away
+    rounded = status == Status.NO_INERTIA and (g * g * inertia).sum() > 0.0  # its inertia is lost in the rounding of D
     if rounded or status in (Status.FOLDED, Status.NOT_CONVERGED):
-        # Scaled so that Λmax is below 1: then no rotation has a component above 2, and nothing overflows.
+        # Scaled to Λmax below 1: then no rotation has a component above 2, and nothing overflows.
         shift = -int(np.frexp(J.sum() + D)[1])
         with np.errstate(over="ignore", under="ignore"):
             k = np.clip(np.ldexp(K, shift), -4.0, 4.0)
@@ -131,7 +131,7 @@ def explain(status: int, K: np.ndarray, g: np.ndarray, J: np.ndarray, D: float) 
 
 
 def largest_momentum(direction: np.ndarray, g: np.ndarray, J: np.ndarray, D: float) -> float:
-    """The largest component of 𝒦(q, γ) along `direction` over all rotations.
+    """The maximum over all rotations of the component of 𝒦(q, γ) along `direction`.
 
     ⟨n, 𝒦(q, γ)⟩ is a quadratic form in the four Euler parameters: its largest eigenvalue.
     """

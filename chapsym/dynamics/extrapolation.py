@@ -1,11 +1,11 @@
-"""The continuous ball to high order: the rotation of a long step, extrapolated from the map with shorter steps.
+"""The continuous ball to high order: the rotation of a long step is extrapolated from the map with shorter steps.
 
-The map is self-adjoint, so the rotation that n steps of length h/n make together is an even power series in h/n.
-Its quaternions for c values of n up to 7, with the weights n²/(n² - m²) multiplied over the other m, leave an error of
-order h^(2c+1).  The steps are fitted to steady rotation (`loops.lanes`), which leaves less of it.  K and γ are then
-turned by *one* rotation: ⟨K,γ⟩, |K|² and |γ|² are kept to rounding, at every order.  A step is no longer exactly
-self-adjoint, as compositions are, nor is the measure kept: both to the order h^(2c+1).  In double-double there are
-columns up to n = 14, which are not fitted.
+The map is self-adjoint, so the rotation of n steps of length h/n together is an even power series in h/n.  The
+quaternions for c values of n up to 7, weighted by the product of n²/(n² - m²) over the other m, have an error of order
+h^(2c+1).  The steps are fitted to steady rotation (`loops.lanes`), which reduces this error.  K and γ are then turned
+by *one* rotation: ⟨K,γ⟩, |K|² and |γ|² are kept to rounding, at every order.  Unlike a composition, a step is
+self-adjoint and keeps the measure only to the order h^(2c+1).  In double-double there are columns up to n = 14, which
+are not fitted.
 """
 
 from __future__ import annotations
@@ -39,17 +39,17 @@ from .map import MOST_STEPS, flag, rolling_radius, seconds, whole_number
 from .results import in_given_axes
 from .shown import Brief
 
-#: Steps of the map between two moments at which the run can be interrupted.
+#: Steps of the map between two points at which the run can be interrupted.
 CHUNK = 200_000
-#: From this many balls on a block of eight is faster than one after another.
+#: From this many balls on, a block of eight is faster than single balls.
 FEW = 6
-#: Columns in double-double, at most and as a rule: more of them make more of the roundings than they leave of the rest.
+#: The largest and the default number of columns in double-double: more columns amplify roundings more than they gain.
 MOST_OF_PAIRS = 12
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Extrapolated(Brief):
-    """States of the continuous ball after a number of equal times, for one ball or a batch (...).
+    """States of the continuous ball after equal time steps, for one ball or a batch (...).
 
     Attributes
     ----------
@@ -62,17 +62,17 @@ class Extrapolated(Brief):
     contact : ndarray or None
         The contact point on the plane in m, from (0, 0), shape (..., 2).
     index : ndarray or None
-        None; or the steps after which the frames are, shape (frames,), and those above are (..., frames, 3), ...
+        The step numbers of the frames, shape (frames,); the arrays above are then (..., frames, 3), ...; or None.
     doubt : ndarray
-        The sum over the steps of the angle between the rotation and the one with a column less, in radians, shape
-        (...): that of the local errors of one column less.  It is no bound, nor an estimate where the motion makes such
-        errors grow, as near an unstable rotation; `roll` has one.
+        The sum over the steps of the angle between the rotation and the rotation with one column less, in radians,
+        shape (...): the local errors of one column less.  It is no bound, and no estimate if the motion amplifies
+        errors, as near an unstable rotation; `roll` has an estimate.
     status : ndarray
-        A `Status` for each ball, shape (...); from where it is not TAKEN on the numbers above are NaN.
+        A `Status` for each ball, shape (...); if it is not TAKEN, the numbers above are NaN from that step on.
     taken : ndarray
-        The steps of each ball before that, shape (...).
+        The number of steps taken by each ball, shape (...).
     low : Extrapolated or None
-        In double-double, what the numbers above have beyond float64, as a record of its own; else None.
+        In double-double, the low halves of the numbers above, as a record; else None.
 
     Examples
     --------
@@ -98,7 +98,7 @@ class Extrapolated(Brief):
 def weights(columns: int, first: int = 0) -> tuple[Fraction, ...]:
     """The exact weights of the columns n = 8 - columns, ..., 7: Σ w = 1 and Σ w/n^(2j) = 0 for 0 < j < columns.
 
-    first: the n of the first column, where that is another.
+    first: the n of the first column, if it is another.
     """
     every = range(first, first + columns) if first else range(LAST + 1 - columns, LAST + 1)
     return tuple(prod((Fraction(n * n, n * n - m * m) for m in every if m != n), start=Fraction(1)) for n in every)
@@ -106,7 +106,7 @@ def weights(columns: int, first: int = 0) -> tuple[Fraction, ...]:
 
 @cache
 def weights_of_pairs(columns: int) -> Floats:
-    """The arguments of `march_long_pairs`: the weights, and the changes by the last column, (columns, 4)."""
+    """The arguments of `march_long_pairs`: the weights and their changes by the last column, (columns, 4)."""
     whole, fewer = (weights(n, FIRST) for n in (columns, columns - 1))
     return np.array([
         [*Pair.of(w).halves(), *Pair.of(w - v).halves()] for w, v in zip(whole, (*fewer, Fraction(0)), strict=True)
@@ -114,7 +114,7 @@ def weights_of_pairs(columns: int) -> Floats:
 
 
 def stages_of(columns: int, first: int = 0) -> int:
-    """How many steps of the map a long step is; first: as of `weights`."""
+    """The number of steps of the map in a long step; first: as for `weights`."""
     first = first or LAST + 1 - columns
     return sum(range(first, first + columns))
 
@@ -137,48 +137,48 @@ def extrapolate(
 ) -> Extrapolated:
     """Follows the continuous ball (2.12, 2.13) for `steps` times `time_step`, to the order 2 `columns`.
 
-    A ball has the same bits alone and in a batch, whatever ran before.
+    A ball has the same bits alone and in a batch.
 
     Parameters
     ----------
     ball : Ball
         One ball or a batch, (...).
     angular_momentum : array_like
-        K in kg m²/s, shape (..., 3); it broadcasts with γ and with the balls.
+        K in kg m²/s, shape (..., 3); it broadcasts with γ and the balls.
     gamma : array_like
         Unit verticals upwards, shape (..., 3).
     time_step : float or Fraction
-        Seconds, negative for back in time; a Fraction keeps 106 bits in double-double.
+        Seconds, negative for backward in time; a Fraction keeps 106 bits in double-double.
     steps : int
         The number of steps.
     columns : int, optional
-        2 to 6, the default.  A step is 8 - columns, ..., 6 and 7 steps of the map, side by side; its error is of the
-        order time_step^(2 columns), ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.  In double-double 2 to 12, the default,
-        of 3, 4, ..., columns + 2 steps of the map.
+        2 to 6, the default.  A step consists of 8 - columns, ..., 6 and 7 steps of the map, in parallel; its error has
+        the order time_step^(2 columns), and ⟨K,γ⟩, |K|² and |γ|² are kept to rounding.  In double-double 2 to 12, the
+        default, of 3, 4, ..., columns + 2 steps of the map.
     every : int, optional
-        Without it only the end is kept; with it the start and every `every`-th state.
+        If given, the start and every `every`-th state are kept; else only the end.
     attitude : bool or array_like, optional
         True (from the least rotation with R γ = e₃) or unit quaternions, (..., 4), to be followed.
     contact : bool, optional
-        Whether to trace the contact point, to the same order; it needs `ball.radius`, and implies the attitude.
+        Whether to trace the contact point, to the same order; needs `ball.radius`, and implies the attitude.
     precision : str or Precision, optional
-        "double" (the default) or "double-double", in which γ (and an attitude) is divided by its length.
+        "double" (the default), or "double-double", which divides γ (and an attitude) by its length.
     threads : int, optional
-        How many cores a batch may use; 0, the default, for all.
+        The number of cores that a batch may use; 0, the default, for all.
     progress : callable, optional
-        Called with the steps done so far, of all balls together, whenever one ball or eight have all of theirs.
+        Called with the steps done so far, of all balls together, whenever a ball or a block of eight is complete.
 
     Returns
     -------
     Extrapolated
-        The end, or the frames that `every` asks for.
+        The end, or the frames if `every` is given.
 
     Raises
     ------
     StepNotTaken
-        For one ball, where the map has no step of length time_step/n; a batch reports `status`.
+        For one ball, if the map has no step of length time_step/n; a batch reports `status`.
     BadInput
-        As `step` does, for a time_step that is not one finite number, and for counts out of range.
+        As `step` does, for a time_step that is not a single finite number, and for counts out of range.
 
     References
     ----------
@@ -236,14 +236,14 @@ def _march(
     frames: Frames, balls: Balls, how: tuple[Any, ...], columns: int, threads: int, alone: bool,
     progress: Callable[[int], None],
 ) -> Floats:  # fmt: skip
-    """Takes all long steps, of one ball that is `alone`, or of many; returns doubt, (n,)."""
+    """Takes all long steps, of one ball (`alone`) or of many; returns doubt, (n,)."""
     n, (h, steps, *what), weights = len(balls.D), how, loop_weights(columns)
     doubt, chunk = np.empty(n), max(1, CHUNK // stages_of(columns))
     states = frames.momentum, frames.gamma, frames.attitude, frames.contact, balls.mass_tensor, balls.D, balls.radius
     ends = doubt, frames.taken, frames.status, frames.reach
 
     def chunks(some: slice, lanes: int) -> Iterator[int]:
-        """Takes the steps of some balls, and gives how many were taken: between two it can be interrupted."""
+        """Takes the steps of some balls in chunks, between which it can be interrupted; yields the steps taken."""
         kept, march = (
             np.empty((ROWS + loop.ROWS, LANES * lanes)),
             native.loop(march_alone if lanes == 1 else march_lanes),
@@ -281,7 +281,7 @@ def _march(
 
 @cache
 def loop_weights(columns: int) -> tuple[Floats, Floats, Floats]:
-    """The arguments of the loops: the weights of the columns, as of `march_lanes`, and those of the guesses."""
+    """The arguments of the loops: the weights of the columns, as for `march_lanes`, and those of the guesses."""
     rows = [
         np.array((Fraction(0),) * fewer + weights(columns - fewer), dtype=float)[:columns]
         for fewer in range(2 + CHANGES)

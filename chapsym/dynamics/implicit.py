@@ -1,6 +1,7 @@
 """Equations F(x, known) = 0 as maps: the kernels of any register, solved for x in the numbers of every precision.
 
-Newton's iteration finds a root near a guess, which says the branch.  In enclosures the interval Newton test proves it.
+Newton's iteration finds a root near a guess, which selects the branch.  In enclosures the interval Newton test proves
+the root.
 """
 
 import math
@@ -24,43 +25,44 @@ from .levels.dispatch import precision_of
 Vector = Sequence[Any]
 
 MOST_ROUNDS = 100
-#: Roundings of x that the last correction may be as large as.
+#: The largest size of the last correction, in roundings of x.
 LAST = 4
-#: A correction stays if it is at least this fraction of the one before; after this number of rounds it is noise if it
-#: is below this power of the unit.
+#: Corrections stagnate at this fraction of the one before or above; after this number of rounds a correction below this
+#: power of the unit is noise.
 STAYS, ROUNDS, NEARLY = 0.75, 3, 0.6
-#: Digits that the last correction in many digits may lack, of those that Newton's iteration doubles.
+#: Digits that the last correction in many digits may lack of those that Newton's iteration doubles.
 LOST = 4
 
 
 def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Callable[..., Any]:
-    """The map that solves the equations of a generated kernel, for one or for many.
+    """The map that solves the equations of a generated kernel, for one point or for many.
 
     Parameters
     ----------
     residual : tuple
-        A row of the TABLE of a generated package: its first group of arguments are the n unknowns, the others are
-        known; it returns what vanishes, n numbers.
+        A row of the TABLE of a generated package, for F: its first group of arguments are the n unknowns, the others
+        are known; it returns n numbers.
     jacobian : tuple
-        Another, with the same groups: the derivatives of the first by the unknowns, row by row.
+        A row with the same groups, for the derivatives of F by the unknowns, row by row.
     then : tuple, optional
-        Another, whose groups are among these: what follows from the root.
+        A row whose groups are among these, for quantities that follow from the root.
 
     Returns
     -------
     callable
-        ``step(guess, *known, precision="double")``: arrays (..., k) for a group of k numbers, whose leading axes
-        broadcast.  It gives the roots (..., n), and what follows from them where `then` is given; in double-double,
-        ``Digits(n)`` and ``Enclosure(bits)`` as arrays of such numbers, which it takes, too.  An enclosure contains
-        a root, the only one in a box round it, for all known numbers in theirs: this is proved, if the second kernel
-        is the derivative of the first, as one is that `Carrier.along` makes.  Other numbers are as near to a root as
-        roundings let them; of two roots that are nearly one, this is not near.
+        ``step(guess, *known, precision="double")``: the arguments are arrays (..., k) for groups of k numbers, whose
+        leading axes broadcast.  It returns the roots (..., n), and the results of `then` if it is given; in
+        double-double, ``Digits(n)`` and ``Enclosure(bits)`` these are arrays of such numbers, which are accepted as
+        arguments, too.  For all known numbers in their enclosures, an enclosure contains a root, the only one in a box
+        round it: this is proved, if the second kernel is the derivative of the first, as a kernel made by
+        `Carrier.along` is.  Other numbers are as near to a root as rounding allows, which is not near for two roots
+        that nearly coincide.
 
     Raises
     ------
     BadInput
-        If the kernels do not fit together, or, from a call, if the arrays do not fit, if the iteration from a guess
-        does not settle, or if a root is not proved.
+        If the kernels do not fit together, and, in a call, if the arrays do not fit, if the iteration does not
+        converge, or if a root is not proved.
 
     Examples
     --------
@@ -120,19 +122,19 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
 
 
 class Equations(NamedTuple):
-    """The function that vanishes, its derivatives by the unknowns row by row, their number, and a least size of x."""
+    """F, its derivatives by the unknowns row by row, the number of unknowns, and a least size of x."""
 
     function: Function
     slope: Function
     size: int
     least: float = 0.0
 
-    @np.errstate(all="ignore")  # what overflows does not settle
+    @np.errstate(all="ignore")  # an overflow does not converge
     def in_floats(self, x: np.ndarray, known: Sequence[np.ndarray]) -> np.ndarray:
-        """The roots near points x (N, n), each by corrections of its own; raises BadInput where they do not settle.
+        """The roots near points x (N, n), each with its own corrections; raises BadInput if they do not converge.
 
-        A correction is measured by what a rounding of x may change it by, `scale`.  It is the last one if it is as
-        small as that for every unknown; or if it does not shrink any more, and is not far above.
+        `scale` is the change of a correction by a rounding of x.  A correction is the last one if it is not larger for
+        any unknown, or if it no longer shrinks and is not much larger.
         """
         x, left = x.copy(), np.arange(len(x))
         unit = np.finfo(x.dtype).eps
@@ -160,7 +162,7 @@ class Equations(NamedTuple):
         return x
 
     def at_level(self, start: Vector, known: Vector, level: Precision, index: int = 0) -> Vector:
-        """The root near a float64 root, in the numbers of a precision."""
+        """The root near a float64 root, at a precision."""
         # In enclosures a point near a root is found first.
         point = (lambda v: v.mid()) if isinstance(level, Enclosure) else (lambda v: v)
         middle = [point(value) for value in known]
@@ -184,13 +186,13 @@ class Equations(NamedTuple):
         raise BadInput(f"number {index} does not settle: the root is nearly singular, or more digits are needed")
 
     def _at(self, x: np.ndarray, known: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-        """The function that vanishes (N, n), and its derivatives (N, n, n)."""
+        """F, (N, n), and its derivatives, (N, n, n)."""
         value = _values(self.function, [x, *known], self.size)
         slope = _values(self.slope, [x, *known], self.size**2)
         return value, slope.reshape(-1, self.size, self.size)
 
     def _correction(self, x: Vector, known: Vector) -> tuple[Vector, np.ndarray]:
-        """A correction of x, and what a relative change of x changes it by, at least x."""
+        """A correction of x, and its change by a relative change of x, at least |x|."""
         zero = 0 * x[0]  # a quotient of whole numbers would be a float
         value, slope = ([zero + e for e in parts_of(of(*x, *known))] for of in (self.function, self.slope))
         rows = [slope[i * self.size : (i + 1) * self.size] for i in range(self.size)]
@@ -199,8 +201,8 @@ class Equations(NamedTuple):
         return solved(rows, value), np.abs(np.linalg.inv(table)) @ np.abs(table) @ sizes
 
     def _enclosed(self, x: Vector, known: Vector) -> Vector:
-        """The root near a point, in balls; raises BadInput if it is not proved to be one, and the only one near it."""
-        from .levels.proved_root import isolated  # 40 ms with flint, which runs on float64 do not need
+        """The root near a point, in balls; raises BadInput if it is not proved to be a root, the only one near by."""
+        from .levels.proved_root import isolated  # takes 40 ms with flint; float64 does not need it
 
         def slope(box: Vector) -> Vector:
             return parts_of(self.slope(*(a + b for a, b in zip(x, box, strict=True)), *known))
@@ -230,11 +232,11 @@ def solved(rows: Sequence[Vector], right: Vector) -> Vector:
 
 
 def _followed(function: Function, arrays: Sequence[np.ndarray], count: int) -> np.ndarray:
-    """The results (N, count) of a function at the rows of arrays; raises BadInput where it is not defined."""
+    """The results (N, count) of a function at the rows of arrays; raises BadInput if it is not defined there."""
     try:
         with np.errstate(all="ignore"):
             found = _values(function, arrays, count)
-        # Numbers without `is_finite` divide by 0 with an exception, which Arb's balls do not.
+        # Numbers without `is_finite` raise on a division by 0; Arb's balls do not.
         whole = found.dtype != object and np.isfinite(found).all()
         if whole or (found.dtype == object and all(getattr(x, "is_finite", lambda: True)() for x in found.flat)):
             return found
@@ -244,7 +246,7 @@ def _followed(function: Function, arrays: Sequence[np.ndarray], count: int) -> n
 
 
 def _array(value: ArrayLike, name: str, size: int) -> np.ndarray:
-    """The numbers of a group, along the last axis: floats; or exact ones, and those of other precisions, unchanged."""
+    """The numbers of a group, along the last axis: floats, or unchanged if exact or of another precision."""
     try:
         array = np.asarray(value)
     except Exception:  # rows of different length, and whatever an object raises
@@ -265,7 +267,7 @@ def _array(value: ArrayLike, name: str, size: int) -> np.ndarray:
 
 
 def _exactly(one: Any) -> Any:
-    """A rational number as a fraction, and a number of another precision as it is."""
+    """A rational number as a fraction; a number of another precision unchanged."""
     if isinstance(one, Rational):
         return Fraction(int(one.numerator), int(one.denominator))
     if isinstance(one, float | np.floating):
@@ -287,7 +289,7 @@ def _floats(array: np.ndarray, dtype: np.dtype, name: str) -> np.ndarray:
 
 
 def _exact(array: np.ndarray, level: Precision, name: str) -> np.ndarray:
-    """The same numbers in a precision; those that are in it already stay."""
+    """The same numbers at a precision; numbers of this precision are unchanged."""
     made, kind = np.empty(array.shape, dtype=object), type(level.number(Fraction(0)))
     for where, value in np.ndenumerate(array):
         if isinstance(value, float | Fraction):
@@ -300,7 +302,7 @@ def _exact(array: np.ndarray, level: Precision, name: str) -> np.ndarray:
 
 
 def _values(function: Function, arrays: Sequence[np.ndarray], count: int) -> np.ndarray:
-    """The results (N, count) of a function at the rows of some arrays; raises BadInput if they are no such numbers."""
+    """The results (N, count) of a function at the rows of some arrays; raises BadInput for other results."""
     rows = len(arrays[0])
     parts = parts_of(function(*(array[:, i] for array in arrays for i in range(array.shape[1]))))
     kinds = "fiu" if arrays[0].dtype != object else "fiuO"
@@ -314,7 +316,7 @@ def _values(function: Function, arrays: Sequence[np.ndarray], count: int) -> np.
 
 
 def _is_row(row: object) -> bool:
-    """Whether this is a function, its groups of arguments with their sizes, and the shape of what it returns."""
+    """Whether this is a function, its groups of arguments with their sizes, and the shape of its result."""
     if not (isinstance(row, tuple) and len(row) == 3 and callable(row[0])):
         return False
     groups, shape = row[1:]

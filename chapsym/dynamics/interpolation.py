@@ -1,4 +1,4 @@
-"""The motion between the frames of a run: quintics through the states, with the rates that (2.3) gives for them."""
+"""The motion between the frames of a run: quintics through the states, with their rates by (2.3)."""
 
 from dataclasses import dataclass
 
@@ -10,11 +10,11 @@ from .ball import Asked, Ball, Floats, numbers
 from .errors import BadInput
 from .shown import Brief
 
-#: Frames with more turning than this between them, in radians, tell too little of what is between.
+#: The largest rotation between two frames, in radians, that the interpolation accepts.
 MOST_TURN = 1.5
-#: 𝒦 with a horizontal part below this, relatively, gives no directions on the plane.
+#: The least relative horizontal part of 𝒦 that defines a direction on the plane.
 VERTICAL = 1e-9
-#: The values that replace absent frames, where they are not 0.
+#: The values that replace missing frames, if they are not 0.
 RESTING = {"gamma": [0.0, 0.0, 1.0], "attitude": [1.0, 0.0, 0.0, 0.0]}
 
 _torque = kernels.kernel("torque")
@@ -22,10 +22,10 @@ _torque = kernels.kernel("torque")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Moments(Brief):
-    """States of a run at given times, (..., times, ...) or (...) for one time, in float64; NaN behind a stop.
+    """States of a run at given times, (..., times, ...) or (...) for one time, in float64; NaN after a stop.
 
-    time: seconds, or step numbers where the run has no time step.
-    momentum, gamma, attitude, contact: as those of the run; omega: body axes, rad/s, or radians a step.
+    time: seconds, or step numbers if the run has no time step. momentum, gamma, attitude, contact: as in the run;
+    omega: in body axes, in rad/s, or in radians per step.
     """
 
     time: Floats
@@ -40,7 +40,7 @@ class Moments(Brief):
 class States:
     """The frames of a run in principal axes: clock (frames,), K in the unit of the clock, and the rest as `Moments`.
 
-    there: which frames there are, (..., frames); the values of the others are not used, but finite (`standing`).
+    there: which frames exist, (..., frames); the values of the others are finite (`standing`), and not used.
     """
 
     ball: Ball
@@ -51,9 +51,9 @@ class States:
     attitude: Asked = None
     contact: Asked = None
 
-    @np.errstate(over="ignore", under="ignore", invalid="ignore")  # what overflows is far
+    @np.errstate(over="ignore", under="ignore", invalid="ignore")  # an overflow is a large rotation
     def turning(self) -> float:
-        """The largest turning between next frames, of all balls, in radians; 0 where there is one frame."""
+        """The largest rotation between successive frames of all balls, in radians; 0 for a single frame."""
         speed = np.sqrt((self._omega() ** 2).sum(axis=-1))
         turns = np.maximum(speed[..., 1:], speed[..., :-1]) * np.diff(self.clock)
         return float(np.max(turns, initial=0.0, where=self.there[..., 1:] & self.there[..., :-1]))
@@ -64,7 +64,7 @@ class States:
     def _body(self) -> tuple[Floats, Floats]:
         return self.ball.mass_tensor[..., np.newaxis, :], np.asarray(self.ball.D)[..., np.newaxis]
 
-    @np.errstate(over="ignore", under="ignore", invalid="ignore")  # a damaged frame may have any number
+    @np.errstate(over="ignore", under="ignore", invalid="ignore")  # a damaged frame may have any numbers
     def at(self, times: ArrayLike) -> Moments:
         """The states at these times, by quintics; raises BadInput for times out of range and frames too far apart."""
         given = numbers(times, "times")
@@ -100,12 +100,13 @@ class States:
         return Moments(wanted, *found)
 
     def _rolling(self, spin: Floats, bent: Floats) -> tuple[Floats, Floats] | None:
-        """Velocity and acceleration of the contact point, (..., frames, 2): ρ ω × e₃ in space; None if not known."""
+        """Velocity and acceleration of the contact point, (..., frames, 2): ρ ω × e₃ in space; None if unknown."""
         radius = np.asarray(self.ball.radius)[..., np.newaxis, np.newaxis]
         if self.attitude is not None:
             x, y = (kernels.transport(self.attitude, np.broadcast_to(e, self.gamma.shape)) for e in np.eye(3)[:2])
             return radius * _rolled(spin, x, y), radius * _rolled(bent, x, y)
-        # Without the attitude: 𝒦 stays in space, so its horizontal part gives the directions, but for one angle.
+        # Without the attitude, the horizontal part of 𝒦, which is constant in space, gives the directions up to one
+        # angle.
         level = self.momentum - (self.momentum * self.gamma).sum(axis=-1, keepdims=True) * self.gamma
         vertical = (level**2).sum(axis=-1) <= VERTICAL**2 * (self.momentum**2).sum(axis=-1)
         if (vertical & self.there).any():
@@ -124,7 +125,7 @@ class States:
 
 
 def standing(**arrays: Asked) -> tuple[np.ndarray, dict[str, Asked]]:
-    """Which frames (...) of some arrays (..., k) are finite in all, and the arrays with a ball at rest elsewhere."""
+    """Which frames (...) are finite in all arrays (..., k), and the arrays with a ball at rest in the other frames."""
     given = {name: np.array(array, dtype=np.float64) for name, array in arrays.items() if array is not None}
     there = np.all([np.isfinite(array).all(axis=-1) for array in given.values()], axis=0)
     for name, array in given.items():
@@ -151,20 +152,20 @@ class Quintic:
         return np.where(s == 0, value[..., i, :], np.where(s == 1, value[..., j, :], found))
 
     def known(self, there: np.ndarray) -> np.ndarray:
-        """At which times there are the frames that are needed, (..., times), of (..., frames)."""
+        """At which times, (..., times), the required frames exist; there: (..., frames)."""
         s = self.s[:, 0]
         return np.asarray((there[..., self.at] | (s == 1)) & (there[..., self.next] | (s == 0)))
 
 
 def _half(value: Floats, rate: Floats, second: Floats, h: Floats, s: Floats, r: Floats) -> Floats:
-    """The share of one end, s from it and r = 1 - s from the other, in parts of the interval."""
+    """The contribution of one end, at the fraction s of the interval from it and r = 1 - s from the other."""
     return np.asarray(
         r**3 * ((1 + 3 * s + 6 * s * s) * value + h * s * (1 + 3 * s) * rate + h * h * s * s / 2 * second)
     )
 
 
 def _fixed_in_space(v: Floats, spin: Floats, bent: Floats) -> tuple[Floats, Floats]:
-    """v' = v × ω and v'', of a vector that stays in space, seen from the body."""
+    """v' = v × ω and v'' of a vector that is constant in space, in body axes."""
     rate = np.cross(v, spin)
     return rate, np.cross(rate, spin) + np.cross(v, bent)
 
@@ -181,7 +182,7 @@ def _times(q: Floats, v: Floats) -> Floats:
 
 
 def _one_sign(q: Floats) -> Floats:
-    """Each quaternion with the sign that is nearer to the one before: q and -q are one attitude."""
+    """Each quaternion with the sign that makes it nearer to the one before: q and -q are one attitude."""
     turned = np.where((q[..., 1:, :] * q[..., :-1, :]).sum(axis=-1, keepdims=True) < 0, -1.0, 1.0)
     return np.concatenate([q[..., :1, :], q[..., 1:, :] * np.cumprod(turned, axis=-2)], axis=-2)
 

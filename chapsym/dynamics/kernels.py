@@ -19,16 +19,16 @@ from .errors import BadInput
 
 #: A generated function of numbers of any precision, or of arrays: it returns one number or several.
 Function = Callable[..., Any]
-#: A row of the table of a generated package: the function, its groups with their lengths, the shape of the result.
+#: A row of the TABLE of a generated package: the function, its groups with their lengths, the shape of the result.
 Row = tuple[Any, tuple[tuple[str, int], ...], tuple[int, ...]]
-#: Numbers of each argument that are taken at once: what a function keeps of them stays in the second-level cache.
+#: Numbers of each argument in one block: the intermediate values of a function stay in the second-level cache.
 BLOCK = 8192
 
 
 def _array(value: ArrayLike, name: str, trailing: int | None) -> np.ndarray:
-    """The values of an argument: float64, or as they are where an array holds the numbers of another precision.
+    """The values of an argument: float64, or unchanged for an array of the numbers of another precision.
 
-    They are only read: finite float64 numbers are not copied.
+    They are read-only: finite float64 numbers are not copied.
     """
     if type(value) is not np.ndarray or (trailing is not None and value.shape[-1:] != (trailing,)):
         return numbers(value, name, trailing)
@@ -39,26 +39,26 @@ def _array(value: ArrayLike, name: str, trailing: int | None) -> np.ndarray:
 
 
 def kernel(name: str) -> Callable[..., Floats]:
-    """The NumPy front of a kernel of the ball: arrays in the order of its groups, an array of its shape out."""
+    """A kernel of the ball as a function of NumPy arrays, in the order of its groups; it returns an array."""
     return on_arrays(TABLE[name], ("D",))
 
 
 def on_arrays(row: Row, alone: Sequence[str] | None = None) -> Callable[..., Floats]:
-    """The NumPy front of a generated kernel, of any register.
+    """A generated kernel of any register as a function of NumPy arrays.
 
     Parameters
     ----------
     row : tuple
-        A row of the TABLE of a generated package: the function, its groups of arguments, and the shape of its result.
+        A row of the TABLE of a generated package: the function, its groups of arguments, and its result's shape.
     alone : sequence of str, optional
         The groups of a single number that have no axis of their own; all such groups by default.
 
     Returns
     -------
     callable
-        It takes an array (..., n) for each group of n numbers, and (...) for one that is alone; the leading axes
-        broadcast.  The result is (..., *shape).  Long arrays are taken in blocks that stay in the cache: each number
-        has the bits that the function gives it alone.  Raises BadInput for arrays that do not fit.
+        It takes an array (..., n) for each group of n numbers, and (...) for a group in `alone`; the leading axes
+        broadcast.  The result is (..., *shape).  Long arrays are processed in blocks that stay in the cache; this does
+        not change the bits of a result.  Raises BadInput for arrays that do not fit.
     """
     function, groups, shape = row
     name = function.__name__
@@ -88,7 +88,7 @@ def on_arrays(row: Row, alone: Sequence[str] | None = None) -> Callable[..., Flo
 
 
 def _in_blocks(function: Function, columns: list[np.ndarray], leading: tuple[int, ...]) -> np.ndarray:
-    """The results of a function (*leading, n) for n of them, a block of the leading axes after the other."""
+    """The n results of a function, (*leading, n), computed in blocks of the leading axes."""
     size = math.prod(leading)
     if size <= 2 * BLOCK or any(column.dtype == object for column in columns):
         parts = parts_of(function(*columns))
@@ -110,11 +110,11 @@ def _fill(result: np.ndarray, parts: Sequence[ArrayLike]) -> np.ndarray:
 
 
 def parts_of(result: Any) -> list[Any]:
-    """The results of a generated function, one or several numbers."""
+    """The results of a generated function as a tuple."""
     return list(result) if isinstance(result, tuple) else [result]
 
 
-# Quantities of a state, a ball or a rotation; `kernel` wraps any other.
+# Quantities of a state, a ball or a rotation; `kernel` wraps the others.
 momentum = kernel("momentum")
 tangent_jacobian = kernel("tangent_jacobian")
 tangent_hessian = kernel("tangent_hessian")

@@ -1,6 +1,6 @@
-"""Labelled arrays and the one table that files and pandas have of them: names, units, columns.
+"""Labelled arrays, and their table for files and pandas: names, units, columns.
 
-Their names are those of xarray.Dataset, so that a run, its summary and its files take either: loading xarray takes
+The classes have the attributes of xarray.Dataset, so that runs, summaries and files accept both: loading xarray takes
 longer than most runs.
 """
 
@@ -27,15 +27,14 @@ if TYPE_CHECKING:
 
 #: The attributes of a variable or of the whole: texts and numbers, and lists of them.
 Attributes = Mapping[str, Any]
-#: `taken` and `status` of balls whose turn has not come.
+#: `taken` and `status` of balls that have not started.
 NOT_RUN = -1
-#: The quantities that a run keeps of each frame.
 FRAMES = ("momentum", "gamma", "attitude", "contact")
 #: The attributes of the times of frames.
 TIME = {"units": "s", "long_name": "time"}
-#: Where tables have what is in no row, as JSON.
+#: The column with the data that are in no row, as JSON.
 NOTES = "chapsym"
-#: Rows of one batch, whose memory is bounded.
+#: Rows of one batch, which bound its memory.
 ROWS = 2**17
 
 
@@ -49,12 +48,12 @@ class Labelled:
 
     @property
     def dtype(self) -> np.dtype:
-        """The type of its numbers, or object for texts."""
+        """The type of its numbers, or object for strings."""
         return self.values.dtype
 
 
 class Arrays:
-    """variables: by name, of which `coords` are those that label the others.  attrs: of the whole."""
+    """variables: by name; `coords` are those that label the others.  attrs: of the whole."""
 
     def __init__(self, variables: Mapping[str, Labelled], coords: Iterable[str], attrs: Attributes) -> None:
         self.variables, self.coords, self.attrs = dict(variables), tuple(coords), dict(attrs)
@@ -76,7 +75,7 @@ class Arrays:
         return (name for name in self.variables if name not in self.coords)
 
     def isel(self, ball: int | slice) -> "Arrays":
-        """One ball, without the dimension of the balls, or some of them."""
+        """One ball, without the dimension of the balls, or several balls."""
         kept = {name: _of(one, ball) for name, one in self.variables.items()}
         return Arrays(kept, self.coords, self.attrs)
 
@@ -85,7 +84,7 @@ class Arrays:
         return Arrays(self.variables, self.coords, self.attrs | dict(attrs))
 
     def dataset(self) -> "Dataset":
-        """The same as an xarray.Dataset, whose frames are found by their time."""
+        """The same as an xarray.Dataset, indexed by time."""
         need("scenes", "xarray")
         import xarray
 
@@ -104,9 +103,10 @@ def _of(one: Labelled, ball: int | slice) -> Labelled:
 
 
 def with_clock(data: "Dataset") -> "Dataset":
-    """A result whose frames are found by their `time`, or where there is none by their `step`.
+    """A result whose frames are indexed by their `time`, or by their `step` if there are no times.
 
-    `data.sel(time=5.0, method="nearest")` is the frame next to 5 s, `data.sel(time=slice(1, 2))` are those between.
+    `data.sel(time=5.0, method="nearest")` is the frame nearest to 5 s, `data.sel(time=slice(1, 2))` are the frames
+    between.
     """
     name = next((name for name in ("time", "step") if name in data.coords and data[name].dims == ("frame",)), None)
     return data if name is None or name in data.xindexes else data.set_xindex(name)
@@ -122,7 +122,6 @@ def texts(names: Iterable[str], dim: str) -> Labelled:
     return Labelled((dim,), np.array(list(names), dtype=object))
 
 
-#: The attributes of the outcome that every run has for each ball.
 OUTCOME: dict[str, Attributes] = {
     "taken": about("steps taken"),
     "status": {
@@ -134,9 +133,9 @@ OUTCOME: dict[str, Attributes] = {
 
 
 def bodies(ball: "Ball | BallN", axes: np.ndarray | None, shape: tuple[int, ...]) -> dict[str, Labelled]:
-    """The parameters of balls, and the turns from their principal axes to those of the user.
+    """The parameters of balls, and the rotations from their principal axes to the axes of the user.
 
-    shape: the leading axes of the batch, to which they broadcast; the balls are along one axis here.
+    shape: the leading axes of the batch, to which they broadcast; here the balls are along one axis.
     """
     tensor = about("principal mass tensor J, principal axes", "kg m2")
     given = {
@@ -155,19 +154,19 @@ def bodies(ball: "Ball | BallN", axes: np.ndarray | None, shape: tuple[int, ...]
 
 
 def moments(step: np.ndarray, time_step: float | None) -> dict[str, Labelled]:
-    """`step` and, where it is known, `time` of each frame."""
+    """`step` and, if known, `time` of each frame."""
     found = {"step": Labelled(("frame",), step, about("step of the map"))}
     return found if time_step is None else found | {"time": Labelled(("frame",), step * time_step, TIME)}
 
 
 def coordinates(names: Iterable[str], variables: Mapping[str, Labelled], n: int) -> dict[str, Labelled]:
-    """The names of the balls, and the labels of all components that variables have."""
+    """The names of the balls, and the labels of the components of the variables."""
     used = {dim for one in variables.values() for dim in one.dims}
     return {"ball": texts(names, "ball")} | {dim: texts(of, dim) for dim, of in labels(n).items() if dim in used}
 
 
 def of_run(run: Any) -> Arrays:
-    """A `Trajectory` as the result of a scene with the same outputs; where it has times, with ω and the energy, too."""
+    """A `Trajectory` as the result of a scene with the same outputs; if it has times, also with ω and the energy."""
     n, shape, count = run.gamma.shape[-1], run.status.shape, run.status.size
     motion = run.order == 0 and run.time_step is not None
     columns = {name: getattr(run, name) for name in FRAMES}
@@ -198,7 +197,7 @@ def of_run(run: Any) -> Arrays:
 
 
 def _of_quotient(bound: np.ndarray | None, K: np.ndarray, epsilon: float) -> np.ndarray | None:
-    """A bound for K = 𝒦/ε, rounded, from that of 𝒦."""
+    """A bound for the rounded K = 𝒦/ε, from the bound for 𝒦."""
     if bound is None:
         return None
     return np.nextafter(bound / epsilon, np.inf) + 2.0**-52 * np.abs(K).sum(axis=-1)
@@ -227,13 +226,13 @@ class Structure(TypedDict):
 
 
 def plain(attrs: Mapping[str, Any] | dict[Any, Any]) -> dict[str, Any]:
-    """Attributes as JSON has them."""
+    """Attributes as plain JSON values."""
     arrays = (np.ndarray, np.generic)
     return {str(key): value.tolist() if isinstance(value, arrays) else value for key, value in attrs.items()}
 
 
 def structure(data: "Dataset | Arrays") -> Structure:
-    """The plain data that the rows lack: labels of components; the columns and attributes of each variable."""
+    """The plain data that are in no row: labels of components; the columns and attributes of each variable."""
     dims = [str(dim) for dim in data.dims if dim not in ("ball", "frame") and dim in data]
     labels = {dim: data[dim].values.tolist() for dim in dims}
     variables: dict[str, Column] = {
@@ -253,7 +252,7 @@ def structure(data: "Dataset | Arrays") -> Structure:
 
 
 def batches(data: "Dataset | Arrays", variables: Mapping[str, Column]) -> Iterator[dict[str, np.ndarray]]:
-    """The columns of some balls after the others, each (rows,); what a ball has once is in each of its rows."""
+    """The columns, each (rows,), batch by batch of balls; a value per ball is in each row of the ball."""
     frames = data.sizes["frame"]
     several = max(1, ROWS // frames)
     for first in range(0, max(1, data.sizes["ball"]), several):
@@ -272,7 +271,7 @@ def batches(data: "Dataset | Arrays", variables: Mapping[str, Column]) -> Iterat
 
 
 def is_ours(head: str) -> bool:
-    """Whether a table of text with this first line was written by chapsym, now or before."""
+    """Whether chapsym, in this or an older version, wrote a table of text with this first line."""
     names = set(head.rstrip().replace('"', "").split(","))
     if NOTES in names or {"step", "momentum_0"} <= names:
         return True
@@ -283,14 +282,14 @@ def is_ours(head: str) -> bool:
 
 
 def in_rows(one: Column) -> bool:
-    """Whether a variable of `structure` is in each row: it differs by frame, or it says of which ball the row is."""
+    """Whether a variable of `structure` is in each row: it has a value per frame, or is a coordinate."""
     return "frame" in one["dims"] or one["coordinate"]
 
 
 def frame(data: "Dataset | Arrays", balls: bool = False) -> "DataFrame":
-    """The table in pandas: a row for each ball and frame, or for each ball with what it has once.
+    """The table in pandas: a row for each ball and frame, or for each ball with its values per ball.
 
-    The columns are those of files; `attrs["units"]` has the unit of each.
+    The columns are those of files; `attrs["units"]` has their units.
     """
     need("scenes", "pandas")
     import pandas
@@ -305,13 +304,13 @@ def frame(data: "Dataset | Arrays", balls: bool = False) -> "DataFrame":
 
 
 def _suffixes(dims: Iterable[str], labels: Mapping[str, list[str]]) -> list[str]:
-    """The ends of the columns' names: _1, _2, ... of a vector; _1_1, _1_2, ... of a matrix; of a number none."""
+    """The suffixes of the columns: _1, _2, ... for a vector; _1_1, _1_2, ... for a matrix; none for a number."""
     inner = [labels[dim] for dim in dims if dim in labels]
     return ["".join(f"_{label}" for label in chosen) for chosen in product(*inner)]
 
 
 def _ordered(variables: dict[str, Column]) -> dict[str, Column]:
-    """Ball and frame first, then what has a value in every frame, then what a ball has once."""
+    """Ball, step and time first, then the other coordinates, then the rest; values per frame before values per ball."""
 
     def rank(name: str) -> tuple[int, bool]:
         leading = {"ball": 0, "step": 1, "time": 2}

@@ -1,4 +1,4 @@
-"""The map and its symmetric compositions: one step, or many, or one of exact numbers; and what is checked of these."""
+"""The map and its symmetric compositions: single steps, trajectories, steps of exact numbers, and their checks."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from .levels.frames import Balls, Frames, given
 from .levels.start import exponent_of, fraction
 from .results import Bounds, Step, Trajectory, finished, in_given_axes, of_balls
 
-#: The digits of a step of exact numbers that pairs cannot hold, before it is rounded to pairs.
+#: The digits of a step of exact numbers that are no floats, before it is rounded to pairs.
 BEYOND_DOUBLE_DOUBLE = Digits(40)
-#: More steps are refused; a larger `every` keeps the first frame only.
+#: The largest number of steps; a larger `every` keeps only the first frame.
 MOST_STEPS = 2**62
 
 
@@ -33,11 +33,10 @@ MOST_STEPS = 2**62
 def step(
     ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Precision = "double", proved: bool = False
 ) -> Step:
-    """One step of the map (5.3) on the small-rotation branch: the first step of `trajectory`, to the bit.
+    """One step of the map (5.3) on the small-rotation branch, the same bits as the first step of `trajectory`.
 
-    Solves 𝒦(q, γ) = 𝒦 for the rotation Ω (5.2) that is continued from the identity, and carries
-    𝒦 and γ to Ωᵀ𝒦 and Ωᵀγ.  𝒦 and γ broadcast with each other and with the balls.  For a ball with `axes` they, and
-    the results, are in these axes.
+    Solves 𝒦(q, γ) = 𝒦 for the rotation Ω (5.2) on the branch continued from the identity, and maps 𝒦 and γ to Ωᵀ𝒦 and
+    Ωᵀγ.  𝒦 and γ broadcast with each other and with the balls.  For a ball with `axes` all vectors are in these axes.
 
     Parameters
     ----------
@@ -49,12 +48,12 @@ def step(
         Unit verticals upwards, shape (..., 3).
     precision : str or Precision, optional
         "single", "double" (the default), "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
-        Floats that are given are taken as exact at every precision, and on `Digits` and `Enclosure` so are Fractions,
-        Decimals and numbers of mpmath and SymPy, of the ball, too; but γ is divided by its length on all but "double".
+        Floats are taken as exact at every precision; `Digits` and `Enclosure` also take Fractions, Decimals and numbers
+        of mpmath and SymPy as exact, also in the ball.  All but "double" divide γ by its length.
     proved : bool, optional
-        Whether `Step.proved` bounds the distance of the rotation, 𝒦 and γ from the exact step: a proof by the residual
-        at the rotation, whatever found it, with lemma `small-branch` and beyond its bound `straight-path`.  It is of
-        "double" and principal axes, and inf where the lemmas do not reach, as near a fold.
+        Whether `Step.proved` bounds the distance of the rotation, 𝒦 and γ from the exact step.  The proof uses only the
+        residual at the rotation, with lemma `small-branch` and beyond its bound `straight-path`.  Only for "double" and
+        principal axes; a bound is inf if neither lemma applies, as near a fold.
 
     Returns
     -------
@@ -100,7 +99,8 @@ def _only_in_double(proved: bool, precision: Precision) -> None:
 def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) -> Step:
     """One step of the composition of order 2, 4, 6 or 8.
 
-    All momentum integrals stay exact: every stage turns 𝒦 and γ by one rotation (lemma `momentum-integrals-composed`).
+    All momentum integrals are kept to rounding: every stage turns 𝒦 and γ by one rotation (lemma
+    `momentum-integrals-composed`).
 
     Parameters
     ----------
@@ -114,13 +114,13 @@ def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) 
     Returns
     -------
     Step
-        `rotation` is the product of the rotations of the stages; where a stage is not taken, `reach` is the fraction
-        of its momentum that the small-rotation branch attains.
+        `rotation` is the product of the rotations of the stages; if a stage is not taken, `reach` is the fraction of
+        its momentum that the small-rotation branch attains.
 
     Raises
     ------
     StepNotTaken, BadInput
-        As `step` does; BadInput also for another order.
+        As `step` does, and BadInput for another order.
 
     Examples
     --------
@@ -132,7 +132,7 @@ def compose_step(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int) 
     >>> round(float(after.momentum @ after.momentum), 12)
     0.0125
     """
-    substeps(order)  # which refuses others
+    substeps(order)  # which refuses other orders
     return composed(ball, momentum, gamma, order, NAMED["double"])
 
 
@@ -155,7 +155,7 @@ def trajectory(
 ) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
-    For a ball with `axes`, momentum, γ and attitude, and the results, are in these axes.
+    For a ball with `axes`, all vectors and attitudes, given and returned, are in these axes.
 
     Parameters
     ----------
@@ -163,13 +163,13 @@ def trajectory(
         One ball or a batch, (...).
     momentum, gamma : array_like
         𝒦 in kg m² and γ, as for `step`, shape (..., 3); both broadcast with the balls.  A momentum of Fractions keeps
-        106 bits in double-double and at higher precisions, so that εK may be exact there.
+        106 bits in double-double, and all bits at higher precisions, so that εK may be exact.
     steps : int
         The number of steps.
     order : int, optional
         2 (the default), or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`): 𝒦, γ, the
         attitude and the contact point then converge with that order to those of the continuous ball (2.3), and the
-        momentum integrals stay exact.
+        momentum integrals are kept to rounding.
     every : int, optional
         The number of steps from one frame to the next; by default 1.
     attitude : bool or array_like, optional
@@ -177,29 +177,29 @@ def trajectory(
     contact : bool, optional
         Whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
     time_step : float, optional
-        ε in seconds, for what follows from it: `Trajectory.time`, K and ω.
+        ε in seconds, which `Trajectory.time`, K and ω need.
     precision : str or Precision, optional
         "single", "double" (the default), "double-double" (31 digits), `Digits(n)` (mpmath) or `Enclosure(bits)` (Arb).
-        Floats that are given are taken as exact, but γ (and an attitude) is divided by its length on all but "double",
-        and "single" rounds all to float32.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64;
-        at higher precisions they are the 40 digits of `coefficients`, and the map composed with those is what an
-        Enclosure encloses: `bits` are correct in every frame, for the length of each vector.  Its branch is proved by
-        the lemmas `small-branch` and `straight-path`; where neither reaches, as near a fold, the float64 continuation
-        selects it (`Certificate.selected`).
+        Floats are taken as exact, but "single" rounds all input to float32, and all but "double" divide γ (and an
+        attitude) by its length.  The coefficients of the orders 4, 6, 8 are rounded to float32 or float64; at higher
+        precisions they are the 40 digits of `coefficients`, and an Enclosure encloses the map composed with these:
+        `bits` are correct in every frame, relative to the length of each vector.  Its branch is proved by the lemmas
+        `small-branch` and `straight-path`; if neither applies, as near a fold, the float64 continuation selects the
+        branch (`Certificate.selected`).
     proved : bool, optional
-        Whether `Trajectory.proved` has bounds of the distance of every frame from the exact orbit of the map: a proof
-        that a second run, in double-double, carries along.  It takes some ten times as long as the run in "double"; it
-        is of "double" and "double-double", and of principal axes.
+        Whether `Trajectory.proved` has bounds of the distance of every frame from the exact orbit of the map.  A second
+        run, in double-double, carries the proof and takes about ten times as long as the run in "double".  Only for
+        "double" and "double-double", and principal axes.
     threads : int, optional
-        How many cores a batch may use; 0, the default, for all.  Digits and Enclosure use one.
+        The number of cores that a batch may use; 0, the default, for all.  Digits and Enclosure use one.
     progress : callable, optional
-        Called with the steps done so far (of all balls together), every 200 000 steps or so.
+        Called with the steps done so far (of all balls together), about every 200 000 steps.
 
     Returns
     -------
     Trajectory
-        The start and every `every`-th state.  In a batch in which a ball cannot take a step the others go on, and
-        `status` and `taken` say which stopped, and where.
+        The start and every `every`-th state.  In a batch, a ball that cannot take a step stops, the others continue,
+        and `status` and `taken` show which balls stopped, and where.
 
     Raises
     ------
@@ -257,7 +257,7 @@ def trajectory(
 def composed(
     ball: Ball, momentum: ArrayLike, gamma: ArrayLike, order: int, precision: Precision, proved: bool = False
 ) -> Step:
-    """One step of the composition of any order; `proved` is for the map itself in float64."""
+    """One step of the composition of any order; `proved` only for order 2 in float64."""
     shape, _, balls = given(ball, momentum, gamma, precision)
     return dispatch.step(precision, shape, balls, order, proved)
 
@@ -266,10 +266,10 @@ def exact_step(
     mass_tensor: Sequence[Fraction], D: Fraction, momentum: Sequence[Fraction], gamma: Sequence[Fraction],
     precision: Precision, proved: bool = False,
 ) -> Step:  # fmt: skip
-    """`step` of one ball from exact rational numbers, which are rounded once; what is proved is of the rounded ones.
+    """`step` of one ball from exact rational numbers, rounded once; bounds are proved for the rounded numbers.
 
-    Single, Double: to floats.  DoubleDouble: numbers that are no floats are taken at 40 digits, and the step is rounded
-    to pairs.  Digits and Enclosure: to what those carry, of any size.
+    Single, Double: to floats.  DoubleDouble: numbers that are no floats are used at 40 digits, and the step is rounded
+    to pairs.  Digits and Enclosure: to their working precision, of any size.
 
     Raises BadInput, also for a gamma that is not unit to the digits of the precision, and StepNotTaken as `step` does.
     """
@@ -300,17 +300,17 @@ def _in_pairs(step: Step, precision: DoubleDouble) -> Step:
 
 
 def check_body(J: Sequence[Fraction], D: Fraction) -> None:
-    """Raises BadInput unless a body has these moments; as `Ball` does, but of any size."""
+    """Raises BadInput unless a body has these moments, as `Ball` does, but for numbers of any size."""
     largest = max(map(abs, (*J, D)))
     scale = Fraction(1)
     if largest and not 1e-300 < largest < 1e300:
         scale = Fraction(2) ** -exponent_of(largest)
-    # A moment far below the rest must not become 0: it is the difference between a body and none.
+    # A moment far below the others must not become 0, or the body would have no inertia.
     Ball([_at_least(x * scale) for x in J], _at_least(D * scale))
 
 
 def check_tensor(rows: Sequence[Sequence[Fraction]], D: Fraction) -> tuple[Any, ...]:
-    """A tensor ∫xxᵀdm by rows, or its diagonal if it has nothing else; raises BadInput for that of no body."""
+    """A tensor ∫xxᵀdm by rows, or its diagonal if it is diagonal; raises BadInput unless a body has it."""
     if any(rows[i][j] != rows[j][i] for i in range(3) for j in range(i)):
         raise BadInput("mass_tensor must be symmetric: give the two entries of each pair alike")
     diagonal = tuple(rows[i][i] for i in range(3))
@@ -355,7 +355,7 @@ def rolling_radius(ball: Any) -> Floats:
 
 
 def whole_number(value: int, name: str, least: int, most: int | None = None) -> int:
-    """A count from `least` to `most`, or without it 2^62 for all that is larger; raises BadInput for anything else."""
+    """A count from `least` to `most`, or, without `most`, cut at 2^62; raises BadInput for anything else."""
     if type(value) is int and least <= value < MOST_STEPS and (most is None or value <= most):
         return value
     if not is_whole(value) or value < least or (most is not None and value > most):
@@ -366,7 +366,7 @@ def whole_number(value: int, name: str, least: int, most: int | None = None) -> 
 
 
 def time_limit(value: Any) -> float:
-    """A limit in seconds; raises BadInput for what is no positive number."""
+    """A limit in seconds; raises BadInput for anything but a positive number."""
     real = is_whole(value) or isinstance(value, float | np.floating)
     if not real or not value > 0:
         raise BadInput(f"limit must be a positive number of seconds, not {brief(value)}")
@@ -387,7 +387,7 @@ def step_numbers(index: ArrayLike) -> np.ndarray:
 
 
 def step_of_run(time_step: Any, steps: int) -> float | None:
-    """The time step of a run, if it is given, in seconds; raises BadInput for none, and for steps beyond float64."""
+    """The time step of a run in seconds, if given; raises BadInput for an invalid one, and for times beyond float64."""
     epsilon = None if time_step is None else seconds(time_step)
     if epsilon is not None and not steps * epsilon < math.inf:
         raise BadInput("steps times time_step is beyond the range of float64, about 1.8e308 s")
@@ -395,7 +395,7 @@ def step_of_run(time_step: Any, steps: int) -> float | None:
 
 
 def seconds(value: Any, positive: bool = True) -> float:
-    """A time step in seconds; raises BadInput for what is not one number, or not a positive one."""
+    """A time step in seconds; raises BadInput for anything but a single number, positive if `positive`."""
     if type(value) is float and 0.0 < value < math.inf:
         return value
     epsilon = value if type(value) is float and -math.inf < value < math.inf else numbers(value, "time_step")

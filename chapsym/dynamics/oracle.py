@@ -1,7 +1,7 @@
 """An independent oracle: the matrix equation (4.13), solved for Ω in mpmath, in three dimensions or n.
 
-It shares no formula with the generated kernels: no Euler parameters, no vectors, no derived
-expressions; only (4.13) as the paper prints it, in matrices, and (4.12) for the step.
+It shares no formula with the generated kernels: no Euler parameters, no vectors, no derived expressions.  It uses
+(4.13) as printed in the paper, in matrices, and (4.12) for the step.
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ class OracleFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class OracleStep:
-    """Ω of one step, and 𝒦 and γ after it (mpmath matrices; vectors are lists); q0 and q in three dimensions only."""
+    """Ω of a step, 𝒦 and γ after it (mpmath matrices; vectors are lists); q0 and q only in three dimensions."""
 
     rotation: matrix
     momentum: list[mpf]
@@ -35,7 +35,8 @@ class Oracle:
         self.digits = digits
         self._given = [*mass_tensor], D, [*gamma]
         self.n = len(self._given[0])
-        #: Where the components of a skew matrix are: those of a vector, or in n dimensions those below the diagonal.
+        #: The places of the components of a skew matrix: those of a vector, or in n dimensions those below the
+        #: diagonal.
         below = [(i, j) for i in range(self.n) for j in range(i)]
         self.places = [(2, 1), (0, 2), (1, 0)] if self.n == 3 else below
         self._set_precision(digits + 10)
@@ -50,11 +51,11 @@ class Oracle:
 
     def momentum(self, X: matrix) -> matrix:
         """(4.13), first form; linear in X."""
-        turned, rest = X * self.shifted, self.Gamma * X  # with their transposes, as the two factors are symmetric
+        turned, rest = X * self.shifted, self.Gamma * X  # transposes, as both factors are symmetric
         return turned - turned.T + self.D / 2 * (rest - rest.T)
 
     def skew(self, v: Sequence[mpf]) -> matrix:
-        """The skew matrix with these components."""
+        """The skew matrix with the components v."""
         found = self.mp.matrix(self.n, self.n)
         for (i, j), x in zip(self.places, v, strict=True):
             found[i, j], found[j, i] = x, -x
@@ -73,7 +74,7 @@ class Oracle:
     def step(self, momentum: Sequence[mpf | float]) -> OracleStep:
         """The step from 𝒦; raises OracleFailed at a fold.
 
-        Ω = 1 + O(𝒦): the entries of Ω need as many more digits as 𝒦 is small.
+        Ω = 1 + O(𝒦): for a small 𝒦 the entries of Ω need more digits.
         """
         size = max(abs(self.mp.mpf(x)) for x in momentum) / self.mp.norm(self.shifted)
         small = max(0, -int(self.mp.log10(size))) if size else 0
@@ -94,7 +95,7 @@ class Oracle:
         rotation, t, dt = mp.eye(self.n), mp.mpf(0), mp.mpf(1)
         while t < 1:
             trial = min(mp.mpf(1), t + dt)
-            # On the way a root is good enough to start from; the last one gets all digits.
+            # On the way a root need only be a guess for the next; the last root gets all digits.
             enough = mp.mpf(10) ** (-self.digits // 2 - 8) if trial == 1 else mp.mpf("1e-12")
             moved = self._newton(rotation, trial * target, enough)
             if moved is None:
@@ -106,10 +107,10 @@ class Oracle:
         return rotation
 
     def _newton(self, rotation: matrix, target: matrix, enough: mpf) -> matrix | None:
-        """Newton in so(n), Ω becoming Ω·Cayley(ξ), down to a correction `enough`.
+        """Newton's iteration in so(n), Ω becoming Ω·Cayley(ξ), down to a correction `enough`.
 
-        None unless the first correction is at most 0.2 (radians) and each is below 3/4 of the one before:
-        a longer step might leave the branch.
+        None unless the first correction is at most 0.2 (radians) and each is below 3/4 of the one before, since a
+        longer step might leave the branch.
         """
         mp = self.mp
         one, largest = mp.eye(self.n), mp.mpf("0.2")
@@ -132,7 +133,7 @@ class Oracle:
 
 @cache
 def _context(dps: int) -> MPContext:
-    """A context of its own for each precision: no global state."""
+    """A context for each precision, without global state."""
     context = MPContext()
     context.dps = dps
     return context

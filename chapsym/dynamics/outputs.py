@@ -1,4 +1,4 @@
-"""The outputs of scenes: all that is known of each, its unit, size and columns, in one record of `OUTPUTS`."""
+"""The outputs of scenes: unit, size, columns and derivation of each, in one record of `OUTPUTS`."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -8,21 +8,21 @@ from . import kernels
 from .ball import Floats
 from .n.ball_n import invariants_n
 
-#: K = 𝒦/ε in kg m²/s.  An output sees ε through it alone, so that whatever is made of it needs a run with times.  It is
-#: one quantity of the motion and of the map, and 𝒦 is `discrete_momentum`; `momentum` is the one or the other.
+#: K = 𝒦/ε in kg m²/s.  An output depends on ε only through K, so an output derived from K needs a run with times.  K is
+#: the same quantity for the motion and the map, 𝒦 is `discrete_momentum`; `momentum` is K or 𝒦.
 K = "angular_momentum"
-#: The ends of the names of what a column may have with it: what lies beyond float64, and what its error is below.
+#: The suffixes of the companions of a column: its part beyond float64, and a bound of its error.
 LOW, BOUND = "_low", "_bound"
 
 
 @dataclass(frozen=True)
 class Output:
-    """long_name, units (in n dimensions): as files have them of the map; `motion` has both of the motion.
+    """long_name, units (in n dimensions): for the map, as in files; motion: both for the motion.
 
-    dims: besides ball and frame; dims_n: the same in more than three dimensions, None where it is not known there.
-    derive: its values from J, D and what it `needs`, other outputs or `K`; of these, `with_D` enter with D alone.
-    Without `derive` it is a column that models follow.  kernels: the generated ones that `derive` evaluates.
-    per_ball: one value a ball, not one a frame.  radius: whether the ball must have one.
+    dims: besides ball and frame; dims_n: the same in more than three dimensions, None if not available there. derive:
+    its values from J, D and its `needs`, other outputs or `K`; `with_D` are those that enter only with D. Without
+    `derive` it is a column of the models.  kernels: the generated kernels that `derive` evaluates. per_ball: one value
+    per ball, not per frame.  radius: whether the ball must have a radius.
     """
 
     long_name: str
@@ -42,13 +42,14 @@ class Output:
         return self.dims if n == 3 or self.dims_n is None else self.dims_n
 
     def width(self, n: int) -> int:
-        """The count of its numbers, of one frame of one ball in n dimensions."""
+        """The number of its values in one frame of one ball in n dimensions."""
         return prod(len(labels(n)[dim]) for dim in self.dims_in(n))
 
     def attrs(self, n: int, motion: bool, name: str = "") -> dict[str, str]:
-        """The units and the name in a result, of the motion of the ball or of the map; or those of its error or bound.
+        """The units and the name in a result, for the motion of the ball or for the map; or those of its low part or
+        bound.
 
-        name: its own with the end `LOW` or `BOUND`.
+        name: its own name with the suffix `LOW` or `BOUND`.
         """
         found = {"units": self.units if isinstance(self.units, str) else self.units(n), "long_name": self.long_name}
         if motion and self.motion is not None:
@@ -140,24 +141,24 @@ OUTPUTS: dict[str, Output] = {
 
 
 def whose(name: str) -> str:
-    """The output of which a column is, or with which it goes."""
+    """The output of a column or of its companion."""
     return name.removesuffix(LOW).removesuffix(BOUND)
 
 
 def kernels_for(name: str) -> set[str]:
-    """The generated kernels that make an output of the columns."""
+    """The generated kernels that derive an output from the columns."""
     if name == K:
         return set()
     return set(OUTPUTS[name].kernels).union(*(kernels_for(part) for part in OUTPUTS[name].needs))
 
 
 def timed(name: str) -> bool:
-    """Whether an output needs a run with times: it is made of `K`."""
+    """Whether an output needs a run with times, since it is derived from `K`."""
     return name == K or any(timed(part) for part in OUTPUTS[name].needs)
 
 
 def columns_for(outputs: tuple[str, ...], top: bool) -> frozenset[str]:
-    """The columns that a model must follow for these outputs; a `top` (D = 0) leaves out what enters with D alone."""
+    """The columns that a model must follow for these outputs; a `top` (D = 0) omits those that enter only with D."""
     found: set[str] = set()
     for name in outputs:
         if name == K:

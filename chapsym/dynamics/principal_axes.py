@@ -1,4 +1,4 @@
-"""The principal axes of a tensor, and vectors and attitudes in them; `axes` are unit quaternions to the given axes."""
+"""The principal axes of a tensor, and vectors and attitudes in them; `axes`: unit quaternions to the given axes."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from .errors import BadInput
 
 Floats = NDArray[np.float64]
 
-#: By how much, relatively, a symmetric tensor may differ from its transpose.
+#: The largest relative difference of a tensor from its transpose that counts as rounding.
 ASYMMETRY = 1e-12
-#: Sweeps of Jacobi's rotations: each at least squares the entries off the diagonal.
+#: The number of sweeps of Jacobi's rotations; each at least squares the off-diagonal entries.
 SWEEPS = 7
-#: Orders of the axes that are equally near but for rounding: the first is taken.
+#: Orders of the axes that differ by less than this are equally near, and the first is taken.
 TIED = 1e-12
 
 
@@ -28,7 +28,7 @@ def asymmetry(tensor: Floats) -> Floats:
 
 
 def is_tensor(array: Floats) -> bool:
-    """Whether an array (..., 3, 3) is of symmetric tensors, to rounding."""
+    """Whether an array (..., 3, 3) consists of symmetric tensors, to rounding."""
     return array.shape[-2:] == (3, 3) and bool((asymmetry(array) <= ASYMMETRY).all())
 
 
@@ -49,9 +49,9 @@ def from_inertia_tensor(inertia: Floats) -> Floats:
 def principal(tensor: Floats, least: float = 0.0) -> tuple[Floats, Floats | None]:
     """The principal moments of ∫xxᵀdm, (..., 3), and unit quaternions (..., 4) that turn principal to given axes.
 
-    The axes are right-handed, in the order and with the signs that are nearest to the given axes; None where the tensor
-    is diagonal.  Moments that are negative by rounding, at least `least`, are 0.  Raises BadInput where one is negative
-    by more.
+    The axes are right-handed, in the order and with the signs nearest to the given axes; None if the tensor is
+    diagonal.  Moments that are negative by rounding, or by at most `least`, are 0.  Raises BadInput if one is more
+    negative.
     """
     diagonal = np.diagonal(tensor, axis1=-2, axis2=-1)
     off = np.abs(tensor - diagonal[..., np.newaxis] * np.eye(3)).max(axis=(-2, -1)) > 0
@@ -59,7 +59,7 @@ def principal(tensor: Floats, least: float = 0.0) -> tuple[Floats, Floats | None
         return _of_a_body(diagonal, least), None
     moments, axes = _eigen(tensor)
     orders = np.array([[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]])
-    nearness = np.abs(axes[..., np.arange(3), orders]).sum(axis=-1)  # of each order: Σ |Qᵢ,order(i)|
+    nearness = np.abs(axes[..., np.arange(3), orders]).sum(axis=-1)  # for each order: Σ |Qᵢ,order(i)|
     order = orders[(nearness >= nearness.max(axis=-1, keepdims=True) - TIED).argmax(axis=-1)]
     moments, axes = np.take_along_axis(moments, order, -1), np.take_along_axis(axes, order[..., np.newaxis, :], -1)
     along = np.diagonal(axes, axis1=-2, axis2=-1)
@@ -76,14 +76,14 @@ def principal(tensor: Floats, least: float = 0.0) -> tuple[Floats, Floats | None
 def _eigen(tensor: Floats) -> tuple[Floats, Floats]:
     """Ascending eigenvalues, and eigenvectors as columns, of symmetric tensors (..., 3, 3), by Jacobi's rotations.
 
-    In sums, products, quotients and roots, which every processor rounds alike; LAPACK's order depends on it.
+    It uses sums, products, quotients and roots, which every processor rounds alike; LAPACK's results depend on it.
     """
     exponent = np.frexp(np.abs(tensor).max(axis=(-2, -1), keepdims=True))[1]
     a = np.ldexp(tensor, -exponent)
     axes = np.broadcast_to(np.eye(3), tensor.shape).copy()
     for p, q in ((0, 1), (0, 2), (1, 2)) * SWEEPS:
         off = a[..., p, q]
-        with np.errstate(all="ignore"):  # of 0, or nearly: no rotation
+        with np.errstate(all="ignore"):  # a zero, or nearly: no rotation
             slope = (a[..., q, q] - a[..., p, p]) / (2 * off)
             tan = np.where(slope < 0, -1.0, 1.0) / (np.abs(slope) + np.sqrt(slope * slope + 1))
         tan = np.where(off == 0, 0.0, tan)[..., np.newaxis]
@@ -97,7 +97,7 @@ def _eigen(tensor: Floats) -> tuple[Floats, Floats]:
 
 
 def _of_a_body(moments: Floats, least: float) -> Floats:
-    """Principal moments of ∫xxᵀdm, with 0 for what is negative by rounding; raises BadInput where it is by more."""
+    """Principal moments of ∫xxᵀdm, with 0 for moments that are negative by rounding; raises BadInput beyond that."""
     largest = np.abs(moments).max(axis=-1, keepdims=True)
     rounding = np.maximum(16 * np.finfo(np.float64).eps * largest, least)
     bad = (moments <= -rounding).any(axis=-1) & (moments < 0).any(axis=-1)
@@ -108,7 +108,7 @@ def _of_a_body(moments: Floats, least: float) -> Floats:
 
 
 def no_body(inertia: Floats) -> BadInput:
-    """The sentence on principal moments of inertia, (3,), that no body has."""
+    """The error for principal moments of inertia, (3,), that no body has."""
     listed = ", ".join(f"{x:g}" for x in inertia)
     return BadInput(f"no body has the inertia ({listed}): each principal moment is at most the sum of the other two")
 
@@ -116,7 +116,7 @@ def no_body(inertia: Floats) -> BadInput:
 def quaternions(rotations: Floats) -> Floats:
     """Unit quaternions, scalar first, (..., 4), of rotation matrices (..., 3, 3).
 
-    4qqᵀ is linear in the matrix; its row with the largest diagonal is q, but for the length.
+    4qqᵀ is linear in the matrix; its row with the largest diagonal entry is a multiple of q.
     """
     r = np.moveaxis(rotations, (-2, -1), (0, 1))
     x, y, z = r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]
@@ -136,17 +136,17 @@ def quaternions(rotations: Floats) -> Floats:
 
 
 def inverse(quaternion: Floats) -> Floats:
-    """The rotation back, of unit quaternions (..., 4)."""
+    """The inverse rotations of unit quaternions (..., 4)."""
     return quaternion * [1.0, -1.0, -1.0, -1.0]
 
 
 def to_principal(axes: Floats, vectors: Floats) -> Floats:
-    """Vectors in principal axes, (..., 3), from those in the given axes; NaN stays NaN."""
+    """Vectors, (..., 3), converted from the given axes to principal axes; NaN stays NaN."""
     return _on_arrays(rotate, inverse(axes), vectors)
 
 
 def from_principal(axes: Floats, vectors: Floats) -> Floats:
-    """Vectors in the given axes, (..., 3), from those in principal axes; NaN stays NaN."""
+    """Vectors, (..., 3), converted from principal axes to the given axes; NaN stays NaN."""
     return _on_arrays(rotate, axes, vectors)
 
 
@@ -161,7 +161,7 @@ def attitude_from_principal(axes: Floats, attitude: Floats) -> Floats:
 
 
 def _on_arrays(kernel: Callable[..., tuple[Floats, ...]], first: Floats, second: Floats) -> Floats:
-    """A kernel of two groups on arrays (..., k) that broadcast, without the checks of `kernels`: frames may be NaN."""
+    """A kernel of two groups on arrays (..., k) that broadcast, without the checks of `kernels`, for NaN frames."""
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         parts = kernel(*(array[..., i] for array in (first, second) for i in range(array.shape[-1])))
     return np.stack(parts, axis=-1)

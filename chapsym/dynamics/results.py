@@ -1,4 +1,4 @@
-"""The results of steps and runs: states of one ball or of a batch, in the numbers of a precision."""
+"""The results of steps and runs: states of one ball or of a batch, at any precision."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ VECTORS = ("momentum", "angular_momentum", "omega", "gamma")
 
 
 def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
-    """The arguments that are others in principal axes."""
+    """The arguments that differ in principal axes, converted."""
     try:
         precision = named(given.get("precision", "double"))
     except ValueError as error:
@@ -63,7 +63,7 @@ def _principal_arguments(ball: Ball, given: dict[str, Any]) -> dict[str, Any]:
 
 
 def in_axes_of(ball: Ball, found: Run) -> Run:
-    """A result in principal axes, in those of the ball."""
+    """A result, converted from principal axes to the axes of the ball."""
     frames = getattr(found, "index", None) is not None or np.ndim(getattr(found, "time", 0.0)) > 0
     assert ball.axes is not None
     axes = ball.axes[..., np.newaxis, :] if frames else ball.axes
@@ -87,12 +87,12 @@ R = TypeVar("R")
 
 
 def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
-    """`function` for balls with axes, too: it is given ball.principal, and what goes in and comes out is turned.
+    """Makes `function` accept balls with axes: it gets ball.principal, and its arguments and results are converted.
 
-    function: of a `ball`, then vectors in the body named as in `VECTORS`, `gamma` among them, and perhaps an
+    function: its arguments are a `ball`, body vectors named as in `VECTORS`, `gamma` among them, and possibly an
     `attitude`, `contact` and `precision`.  It returns a dataclass with such vectors, an `attitude`, a `rotation` or a
-    `ball`.  A ball without axes goes to it as it is.  Raises BadInput for a precision beyond float64, which axes have
-    not.
+    `ball`.  A ball without axes is passed unchanged.  Raises BadInput for a precision beyond float64, as axes have
+    float64 only.
     """
 
     @wraps(function)
@@ -119,21 +119,21 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
 class Bounds(Brief):
     """Proved upper bounds of the distance of a result from the exact orbit of the map, in the units of its arrays.
 
-    The exact orbit starts at the numbers that were given, as float64 has them (a momentum of Fractions in a run as it
-    is), with γ and the attitude divided by their lengths; it is that of the map, or of its composition.  Of `roll` it
-    is the motion of the ball.  An attitude that was not given is that of frame 0: what float64 rounds in the least
-    rotation is in no bound.  A bound is inf where none is proved, NaN without a frame.
+    The exact orbit of the map, or of its composition, starts at the given numbers in float64 (in a run, a momentum of
+    Fractions is exact), with γ and the attitude divided by their lengths.  For `roll` it is the motion of the ball.  By
+    default it starts at the attitude of frame 0: no bound includes the rounding of the least rotation to float64.  A
+    bound is inf if none is proved, NaN without a frame.
 
     Attributes
     ----------
     momentum, gamma : ndarray
-        Of a run, shape (..., frames); of a step, (...).
+        For a run (..., frames); for a step (...).
     attitude, contact : ndarray or None
-        Of a run, where it has them, shape (..., frames); else None.
+        For a run with these arrays (..., frames); else None.
     rotation : ndarray or None
-        Of a step, shape (...); else None.
+        For a step (...); else None.
     steps : ndarray or None
-        Of a run, up to which step all is proved, shape (...).
+        For a run, the last step up to which all is proved, (...); else None.
 
     Examples
     --------
@@ -167,13 +167,13 @@ class Step(Brief):
     momentum, gamma : ndarray
         𝒦 and γ after the step, shape (..., 3).
     status : ndarray
-        A `Status` for each ball, shape (...); where it is not TAKEN the numbers above are NaN.
+        A `Status` for each ball, shape (...); if it is not TAKEN, the numbers above are NaN.
     reach : ndarray
         The fraction of the momentum that the small-rotation branch attains, shape (...).
     precision : Precision
         That of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
     low : Step or None
-        For DoubleDouble, the low halves of the numbers, as a step of its own; else None.
+        For DoubleDouble, the low halves of the numbers, as a Step; else None.
     proved : Bounds or None
         With `proved=True`, bounds of the errors of the numbers.
 
@@ -203,7 +203,7 @@ class Step(Brief):
     def write(self) -> dict[str, Any]:
         """q0, q, momentum and gamma of one ball after the step, as floats or decimal strings, and what is proved.
 
-        Raises BadInput of a batch.
+        Raises BadInput for a batch.
         """
         if shape := np.shape(self.status):
             raise BadInput(f"write is of the step of one ball, and this is of a batch of shape {shape}")
@@ -224,12 +224,11 @@ class Step(Brief):
 
 #: `Status.TAKEN`, which takes a microsecond to look up.
 TAKEN = int(Status.TAKEN)
-#: The quantities that a run keeps of each frame.
 FRAMES = ("index", "momentum", "gamma", "attitude", "contact")
 
 
 def some_frames(run: Run, which: np.ndarray | slice) -> Run:
-    """Some of the frames of one ball: of a run of any kind, what it has beyond float64, or its bounds."""
+    """Some of the frames of one ball, in a run of any kind, its low halves or its bounds."""
     names = {field.name for field in fields(run)}.intersection(FRAMES)
     kept = {name: array[which] for name in names if (array := getattr(run, name)) is not None}
     more = {name: getattr(run, name, None) for name in ("low", "proved")}
@@ -237,7 +236,7 @@ def some_frames(run: Run, which: np.ndarray | slice) -> Run:
 
 
 def put_at(run: Run, place: Floats) -> Run:
-    """A run of any kind with a contact point that starts at a place, (..., m); its bounds cover what the sum rounds."""
+    """A run of any kind, with the contact point moved to start at `place`, (..., m); its bounds cover the rounding."""
     low, bounds, place = getattr(run, "low", None), getattr(run, "proved", None), place[..., np.newaxis, :]
     if low is None:
         run.contact[...] += place
@@ -250,7 +249,7 @@ def put_at(run: Run, place: Floats) -> Run:
 
 
 def finished(run: Run, reach: Floats) -> Run:
-    """A run of any kind; of one ball that stopped, StepNotTaken with `reach` and the frames before."""
+    """The run, of any kind; raises StepNotTaken, with `reach` and the frames before, for a single ball that stopped."""
     if run.status.shape or run.status.item() == TAKEN:
         return run
     taken = int(run.taken)
@@ -268,8 +267,8 @@ def of_balls(
 class Trajectory:
     """States of one ball, shape (frames, ...), or of a batch, shape (balls..., frames, ...).
 
-    In n dimensions, of `trajectory_n`: 𝒦 and the attitude R, R γ = eₙ, are (..., frames, n, n), γ is (..., frames, n),
-    and the contact point (..., frames, n-1), from 0; there is no time step, and what follows from one.
+    In n dimensions (`trajectory_n`) 𝒦 and the attitude R, R γ = eₙ, are (..., frames, n, n), γ is (..., frames, n), and
+    the contact point (..., frames, n-1), from 0; there is no time step, and nothing that needs one.
 
     Attributes
     ----------
@@ -284,21 +283,21 @@ class Trajectory:
     contact : ndarray or None
         The contact point on the plane in metres, from (0, 0), shape (..., frames, 2).
     taken : ndarray
-        The number of steps that were taken, shape (...); frames after it are NaN.
+        The number of steps taken, shape (...); later frames are NaN.
     status : ndarray
-        Why a ball stopped, a `Status`, shape (...).
+        The `Status` of each ball, the reason why it stopped, shape (...).
     time_step : float or None
         ε in seconds, if the run has one.
     order : int
-        That of the composition that made the steps; 2 for the map itself, 0 for the continuous motion (`roll`,
-        `exact_top`), of which `index` counts time steps.
+        The order of the composition; 2 for the map itself, 0 for the continuous motion (`roll`, `exact_top`), for which
+        `index` counts time steps.
     precision : Precision
         That of the numbers.  The arrays are float32 for Single, objects (mpf, arb) for Digits and Enclosure.
     low : Trajectory or None
-        For DoubleDouble, a record of the low halves of the numbers, each at most half an ulp of its number:
+        For DoubleDouble, the low halves of the numbers, each at most half an ulp of its number:
         `momentum` + `low.momentum` is 𝒦, and so on; else None.
     error : ndarray or None
-        Of `roll`, an estimate of the largest error at any frame, shape (...); else None.
+        For `roll`, an estimate of the largest error at any frame, shape (...); else None.
     proved : Bounds or None
         With `proved=True`, bounds of the error of each frame.
 
@@ -339,13 +338,13 @@ class Trajectory:
         return html(self, {name: values for name, values in kept.items() if one and values is not None})
 
     def to_xarray(self) -> Dataset:
-        """The same as a Dataset, labelled as the result of a scene: SI units, names of axes, the ball; with `time` also
+        """The run as a Dataset, labelled as the result of a scene: SI units, names of axes, the ball; with `time` also
         `omega`, `energy` and K, `angular_momentum`.
 
-        Its dimensions are `ball`, one for all axes of a batch, and `frame`; `chapsym.Result` draws and writes it.  Its
-        `momentum` is K in kg m² s⁻¹ of the motion (`roll`), and 𝒦 in kg m² of the map: its unit says which.  Beyond
-        float64 the numbers are those of the precision.  Of a run with `proved=True` there is `gamma_bound`, as of the
-        others, (ball, frame): in double-double of the sum with `gamma_low`.
+        Its dimensions are `ball`, a single one for all axes of a batch, and `frame`; `chapsym.Result` draws and writes
+        it.  `momentum` is K in kg m² s⁻¹ for the motion (`roll`), and 𝒦 in kg m² for the map, as its unit shows.
+        Beyond float64 the numbers are those of the precision.  With `proved=True` there are bounds (ball, frame), such
+        as `gamma_bound`; in double-double it bounds the error of `gamma` + `gamma_low`.
 
         Returns
         -------
@@ -370,12 +369,12 @@ class Trajectory:
         return labelled.of_run(self).dataset()
 
     def to_pandas(self, *, balls: bool = False) -> DataFrame:
-        """The same as a table with the columns of a result's CSV, a row for each ball and frame.
+        """The run as a table with the columns of a result's CSV, a row for each ball and frame.
 
         Parameters
         ----------
         balls : bool, optional
-            Whether to have what a ball has once, as J, D, and why it stopped, a row for each ball.
+            Whether to return the values per ball, such as J, D and the status, with a row for each ball.
 
         Returns
         -------
@@ -398,12 +397,12 @@ class Trajectory:
 
     @property
     def discrete_momentum(self) -> Floats:
-        """`momentum` by its whole name: 𝒦 = εK of the map, in kg m², which is not the ball's own K."""
+        """`momentum` by its full name: 𝒦 = εK of the map, in kg m², unlike the ball's angular momentum K."""
         return self.momentum
 
     @property
     def t(self) -> Floats:
-        """`time`, as `solve_ivp` calls it."""
+        """`time`, by the name that `solve_ivp` uses."""
         return self.time
 
     @property
@@ -412,17 +411,17 @@ class Trajectory:
         return self.index * self._time_step()
 
     def at(self, times: ArrayLike) -> Moments:
-        """The states at any times between the frames, as `solve_ivp`'s dense output: 𝒦, γ, ω, attitude and contact.
+        """The states at any times between the frames, as the dense output of `solve_ivp`: 𝒦, γ, ω, attitude, contact.
 
-        Between two frames each is a quintic with the states, and the rates and their rates that (2.3) gives for them:
-        of order 6 in the time h between frames, with errors up to (|ω|h)⁶/46080 of its size, or of a radius: 10⁻⁵ at
-        one radian a frame.  A run of the map passes through its frames in the same way; there (2.3) gives the rates up
-        to an error of the map's own.  In float64, whatever the precision of the run.
+        Between two frames each is a quintic through the states, with their first and second derivatives by (2.3).  It
+        has order 6 in the time h between frames, with relative errors (of the contact point, in radii) up to
+        (|ω|h)⁶/46080, about 10⁻⁵ at one radian per frame.  A run of the map is interpolated in the same way; its
+        derivatives by (2.3) have the error of the map.  The result is in float64 at every precision of the run.
 
         Parameters
         ----------
         times : array_like
-            One number or a list, in seconds, or in steps where the run has no time step.
+            One number or a list, in seconds, or in steps if the run has no time step.
 
         Returns
         -------
@@ -432,8 +431,7 @@ class Trajectory:
         Raises
         ------
         BadInput
-            For times beyond the frames, where a ball turns by more than 1.5 radians between frames, and in n
-            dimensions.
+            For times beyond the frames, if a ball turns by more than 1.5 radians between frames, and in n dimensions.
 
         References
         ----------
@@ -466,12 +464,12 @@ class Trajectory:
         return replace(found, momentum=found.momentum * self._time_step()) if timed else found
 
     def invariants(self) -> Floats:
-        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame; on DoubleDouble in float64, of the first halves.
+        """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ of each frame; for DoubleDouble in float64, of the high halves.
 
         Returns
         -------
         ndarray
-            Shape (..., frames, 3).  In n dimensions those of `invariants_n`, (..., frames, m).
+            Shape (..., frames, 3); in n dimensions those of `invariants_n`, (..., frames, m).
 
         Raises
         ------
@@ -492,7 +490,7 @@ class Trajectory:
 
     def angular_momentum(self) -> Floats:
         """K = 𝒦/ε in kg m²/s, (..., frames, 3)."""
-        momentum, single = self.momentum, self.momentum.dtype == np.float32  # which may not hold ε
+        momentum, single = self.momentum, self.momentum.dtype == np.float32  # which may not represent ε
         with self.precision.working(), np.errstate(all="ignore"):
             K = (momentum.astype(np.float64) if single else momentum) / self._time_step()
             return self._in_range("K = 𝒦/ε", K.astype(momentum.dtype, copy=False))
@@ -514,7 +512,7 @@ class Trajectory:
         return self.derived()["energy"]
 
     def derived(self) -> dict[str, Floats]:
-        """`omega` and `energy`, NaN where a ball of a batch stopped; raises BadInput if the run has no time step."""
+        """`omega` and `energy`, NaN after a ball of a batch stopped; raises BadInput if the run has no time step."""
         with self.precision.working():
             ball, missing = self.ball, self.index > self.taken[..., np.newaxis]
             K = np.where(missing[..., np.newaxis], 0.0, self.angular_momentum())
@@ -528,7 +526,7 @@ class Trajectory:
             return {name: self._in_range(name, x) for name, x in (("omega", omega), ("energy", energy))}
 
     def _in_range(self, name: str, values: Floats) -> Floats:
-        """The values; raises BadInput where those of a frame that was reached are beyond the range of floats."""
+        """The values; raises BadInput if those of a frame that was reached are beyond the range of floats."""
         if values.dtype != object and not np.isfinite(values[self.index <= self.taken[..., np.newaxis]]).all():
             raise BadInput(f"{name} is beyond the range of {values.dtype}; take other units")
         return values

@@ -1,7 +1,7 @@
-"""The way back: with the momentum reversed a ball rolls over the states it came by, to its start.
+"""Time reversal: with the momentum reversed, a ball rolls back through its states to its start.
 
-The map is reversible (lemma `reversible`): with ϱ(𝒦, γ) = (-𝒦, γ), ϱΦϱ = Φ⁻¹; a symmetric composition is, too, and
-both carry the attitude and the contact point along.  So no step needs an inverse: the way back is a run of the map.
+The map is reversible (lemma `reversible`): with ϱ(𝒦, γ) = (-𝒦, γ), ϱΦϱ = Φ⁻¹, also for a symmetric composition, and
+with the attitude and the contact point.  So no step needs an inverse: the way back is a run of the map.
 """
 
 from functools import partial
@@ -17,21 +17,21 @@ from .map import compose_step, step, trajectory
 from .n.run_n import trajectory_n
 from .results import Trajectory
 
-#: Where the way back is this far from the way there, it is looked whether a step back took another branch.
+#: The distance of the way back from the run at which its steps are checked for another branch.
 FAR = 1e-6
 
 
 class NotRetraced(ArithmeticError):
-    """The way back takes another way: a step is so near a fold that the small rotation back is another one.
+    """The way back differs: near a fold, the small rotation of a step back is not the inverse of the step.
 
     Attributes
     ----------
     index : int
-        The step of the run (0 is the first) that is not undone, of the first of the balls.
+        The step of the run (0 is the first) that is not reversed, for the first of the balls.
     balls : list of tuple of int
         The indices of the balls, `()` for one ball.
     trajectory : Trajectory
-        The whole way back, as the map goes it.
+        The whole way back, as computed by the map.
 
     Examples
     --------
@@ -58,23 +58,23 @@ class NotRetraced(ArithmeticError):
 
 
 def reverse(run: Trajectory) -> Trajectory:
-    """The way back: the trajectory that starts where `run` ends, with the momentum reversed, and ends where it began.
+    """The way back: the trajectory from the end of `run`, with the momentum reversed, to its start.
 
-    How near it comes is `retrace_error`: at most 2⁻⁵³·√(2·stages)·(1 + growth) was measured, where growth is the factor
-    by which the run stretches a small change of its start: about the angle turned, in radians, or less, but near an
-    unstable rotation exponential.  To reverse a single state, change the sign of its momentum.
+    `retrace_error` gives its distance from the run.  The largest measured one was 2⁻⁵³·√(2·stages)·(1 + growth), where
+    growth is the factor by which the run amplifies a small change of its start: at most about the angle turned, in
+    radians, but exponential near an unstable rotation.  To reverse a single state, change the sign of its momentum.
 
     Parameters
     ----------
     run : Trajectory
-        Of `trajectory` or `trajectory_n`, of one ball or a batch, in float32 or float64.
+        A run of `trajectory` or `trajectory_n`, for one ball or a batch, in float32 or float64.
 
     Returns
     -------
     Trajectory
-        A motion of its own, forward in its time: frame j corresponds to frame -1-j of the run: `gamma`, `attitude` and
-        `contact` are those of the run up to rounding, and `momentum` is the opposite (the ball turns the other way).
-        So `reverse(reverse(run))` is the run again.  It has the order, the frames and the time step of the run; a
+        A trajectory of its own, forward in time.  Its frame j corresponds to frame -1-j of the run: up to rounding,
+        `gamma`, `attitude` and `contact` are equal, and `momentum` is opposite (the ball turns the other way).  So
+        `reverse(reverse(run))` is the run again.  It has the order, the frames and the time step of the run; its
         contact point starts where that of the run ended.
 
     Raises
@@ -82,8 +82,8 @@ def reverse(run: Trajectory) -> Trajectory:
     BadInput
         If a ball of the run stopped early, or if the run has no frame besides its first.
     NotRetraced
-        If a step back takes another branch than the step there: never where |𝒦| is below the bound of the lemma
-        `small-branch`, and otherwise met only for D > 0, within 1% of a fold; it is looked for in three dimensions.
+        If a step back takes another branch than the step of the run: never for |𝒦| below the bound of lemma
+        `small-branch`, and otherwise observed only for D > 0, within 1% of a fold; checked only in three dimensions.
     StepNotTaken
         As `trajectory` and `trajectory_n` do.
 
@@ -114,7 +114,7 @@ def reverse(run: Trajectory) -> Trajectory:
     return back
 
 
-#: The same, of a run in n dimensions.
+#: `reverse`, for a run in n dimensions.
 reverse_n = reverse
 
 
@@ -124,20 +124,20 @@ def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
     Parameters
     ----------
     run : Trajectory
-        The way there.
+        The run.
     back : Trajectory
         The way back, `reverse(run)`.
 
     Returns
     -------
     numpy.ndarray
-        The largest of the errors of 𝒦, relative to its largest component, of γ and, if there, of the attitude,
-        (..., frames).
+        The largest of the errors of 𝒦, relative to its largest component, of γ and, if followed, of the attitude, (...,
+        frames).
 
     Raises
     ------
     BadInput
-        For what is not two trajectories of equal shape.
+        For anything but two trajectories of equal shape.
 
     Examples
     --------
@@ -150,7 +150,7 @@ def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
         raise BadInput("retrace_error compares a trajectory with its way back, of equal shape: give it reverse(run)")
 
     def apart(there: Floats, here: Floats) -> Floats:
-        """The largest difference in each frame, of vectors or of matrices."""
+        """The largest difference in each frame, of vectors or matrices."""
         frames = run.status.ndim
         return np.asarray(np.abs(there - np.flip(here, frames)).max(axis=tuple(range(frames + 1, there.ndim))))
 
@@ -163,7 +163,7 @@ def retrace_error(run: Trajectory, back: Trajectory) -> Floats:
 
 
 def _frames(run: Trajectory) -> tuple[int, int]:
-    """The steps from the first frame to the last, and from one to the next."""
+    """The number of steps from the first frame to the last, and from one frame to the next."""
     if not isinstance(run, Trajectory):
         raise BadInput(f"reverse takes a Trajectory, not {type(run).__name__}; of a state, reverse the momentum")
     if isinstance(run.precision, DoubleDouble | Digits | Enclosure):
@@ -188,7 +188,7 @@ def _strayed(run: Trajectory, error: Floats) -> list[tuple[tuple[int, ...], int]
 
 
 def _last_not_undone(run: Trajectory, which: tuple[int, ...], frame: int) -> int | None:
-    """The last step between a frame and the next one after which the step back does not return; None if all do."""
+    """The last step between two frames that the step back does not reverse; None if all are reversed."""
     leading = run.momentum.shape[:-2]
     tensor = np.broadcast_to(run.ball.mass_tensor, (*leading, 3))[which]
     axes = None if run.ball.axes is None else np.broadcast_to(run.ball.axes, (*leading, 4))[which]

@@ -1,4 +1,4 @@
-"""The display of results: a line in a terminal, a small table and the trace on the plane in a notebook."""
+"""The display of results: a line in a terminal; in a notebook, a small table and the trace on the plane."""
 
 from collections.abc import Mapping
 from dataclasses import fields
@@ -9,14 +9,14 @@ import numpy as np
 
 from chapsym.numbers import brief
 
-#: Arrays with more numbers are shown by their shape.
+#: The largest array that is shown by its numbers; larger ones are shown by their shape.
 FEW = 4
 #: The size of the picture of a trace, in pixels.
 WIDTH, HEIGHT, MARGIN = 240, 160, 6
 
 
 class Brief:
-    """A record whose repr is a line: few numbers as they are, of larger arrays the shape; what is None is left out."""
+    """A record with a one-line repr: small arrays as numbers, larger ones as shapes; None fields are left out."""
 
     def __repr__(self) -> str:
         given = {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
@@ -30,7 +30,7 @@ def _short(value: Any) -> str:
     if not isinstance(value, np.ndarray | np.generic):
         try:
             return repr(value)
-        except ValueError:  # whole numbers of more digits than Python writes
+        except ValueError:  # integers with more digits than Python prints
             return brief(value)
     if value.size > FEW:
         return f"<{' × '.join(map(str, value.shape))}>"
@@ -38,9 +38,9 @@ def _short(value: Any) -> str:
 
 
 def html(run: object, columns: Mapping[str, np.ndarray]) -> str:
-    """A `Trajectory`: its line, the first and the last of its frames, and of one ball the trace of its contact point.
+    """A `Trajectory`: its line, its first and last frames, and, for one ball, the trace of the contact point.
 
-    columns: what is shown of each frame, (frames, ...), of one ball; nothing of several.
+    columns: the values shown for each frame, (frames, ...), for one ball; none for several.
     """
     rows = "".join(
         f"<tr><th>{escape(name)}</th>" + "".join(f"<td>{escape(_cell(values[i]))}</td>" for i in (0, -1)) + "</tr>"

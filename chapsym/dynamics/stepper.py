@@ -1,4 +1,4 @@
-"""One ball under way: prepared once, so that a step, or a new momentum, costs about a microsecond."""
+"""One ball for control loops: prepared once, so that a step, or a new momentum, costs about a microsecond."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from .results import Bounds, Trajectory, finished
 
 
 class UnderWay:
-    """One ball under way, in three dimensions or n: what moves is kept where a call finds it."""
+    """One ball in progress, in three dimensions or n: the object keeps the state between calls."""
 
     _ball: Any
     _order: int
@@ -35,7 +35,7 @@ class UnderWay:
     _follows: bool
     _traced: bool
     _taken: int
-    #: The frames of a call of which only the end is kept: the second row is the present state.
+    #: Buffers for a call that keeps only its end: the second row is the present state.
     _ends: dict[str, Floats]
 
     #: Fixed at the start.
@@ -52,7 +52,7 @@ class UnderWay:
         Raises
         ------
         StepNotTaken
-            Where one cannot be taken, with its `index` in this call; the state is then that before it.
+            If a step cannot be taken, with its `index` in this call; the state is then the one before it.
 
         Examples
         --------
@@ -68,7 +68,7 @@ class UnderWay:
             raise StepNotTaken(Status(status), reach, taken)
 
     def trajectory(self, steps: int, every: int = 1) -> Trajectory:
-        """Takes `steps` steps; returns the present state and every `every`-th after it, `index` counting from here.
+        """Takes `steps` steps; returns the present state and every `every`-th one after it, with `index` from 0.
 
         Parameters
         ----------
@@ -80,7 +80,7 @@ class UnderWay:
         Returns
         -------
         Trajectory
-            As of `trajectory`, from the present state on.
+            As the result of `trajectory`, from the present state on.
 
         Raises
         ------
@@ -117,7 +117,7 @@ class UnderWay:
 
     @property
     def momentum(self) -> Floats:
-        """𝒦 in kg m², a copy; another may be given: γ, the attitude and the contact point stay.
+        """A copy of 𝒦 in kg m²; assign another 𝒦 to continue with the same γ, attitude and contact point.
 
         Returns
         -------
@@ -127,7 +127,7 @@ class UnderWay:
         Raises
         ------
         BadInput
-            For another that is no momentum; the state is then as before.
+            If an assigned value is no momentum; the state is then unchanged.
 
         Examples
         --------
@@ -142,17 +142,17 @@ class UnderWay:
 
     @momentum.setter
     def momentum(self, momentum: ArrayLike) -> None:
-        """Goes on with another 𝒦."""
+        """Continues with another 𝒦."""
         self._go_on(momentum)
 
     @property
     def gamma(self) -> Floats:
-        """γ, (3,) or (n,), a copy."""
+        """A copy of γ, (3,) or (n,)."""
         return self._ends["gamma"][1].copy()
 
     @property
     def attitude(self) -> Asked:
-        """The attitude, from the body to space, a copy; None if it is not followed.
+        """A copy of the attitude, from the body to space; None if it is not followed.
 
         Returns
         -------
@@ -170,7 +170,7 @@ class UnderWay:
 
     @property
     def contact(self) -> Asked:
-        """The contact point in metres, (2,) or (n-1,), a copy; None if it is not traced."""
+        """A copy of the contact point in metres, (2,) or (n-1,); None if it is not traced."""
         return self._ends["contact"][1].copy() if self._traced else None
 
     @property
@@ -182,29 +182,30 @@ class UnderWay:
         raise NotImplementedError
 
     def _frames(self, count: int) -> dict[str, Floats]:
-        """Rows for this many states."""
+        """Buffers for this many states."""
         raise NotImplementedError
 
     def _take(self, steps: int, every: int, frames: dict[str, Floats]) -> tuple[int, int, float]:
-        """Takes steps into frames, up to the first that is not taken; returns (taken, status, reach)."""
+        """Takes steps into frames, until one is not taken; returns (taken, status, reach)."""
         raise NotImplementedError
 
 
 class Stepper(UnderWay):
-    """One ball under way, for control loops and other integrators: steps of the map without the price of a call.
+    """One ball for control loops and your own integrators: steps of the map with little cost per call.
 
-    The states are those of `trajectory` from the same start, to the bit, however the steps are shared out to calls; so
-    they are after a restart or a new momentum.
+    The states have the same bits as `trajectory` from the same start, for any division of the steps into calls, also
+    after a restart or a new momentum.
 
-    Objects share nothing that changes: each may run in a thread of its own, and compiled steps let other threads run.
-    One object is for one thread at a time.  `copy.copy` makes another that goes on from the same state.
+    Objects share no mutable data: each may run in a thread of its own, and compiled steps let other threads run.  Use
+    an object in one thread at a time.  `copy.copy` makes another object that continues from the same state.
 
     Parameters
     ----------
     ball : Ball
         One ball in principal axes.
     momentum, gamma : array_like
-        𝒦 in kg m² and the unit vertical upwards, as for `trajectory`, shape (3,), in float64.  All is checked here.
+        𝒦 in kg m² and the unit vertical upwards, as for `trajectory`, shape (3,), in float64.  All arguments are
+        checked here.
     order : int, optional
         As for `trajectory`: 2 (the default), 4, 6 or 8.
     attitude : bool or array_like, optional
@@ -249,14 +250,13 @@ class Stepper(UnderWay):
         self._radius = float(rolling_radius(ball)) if traced else 0.0
         self._stages = substeps(order).copy()
         self._march = double.DOUBLE.loop(loop.march)
-        #: The attitude and the contact point, which move in the loop.
         self._spin, self._spot = np.zeros(4), np.zeros(2)
         self._ends = self._frames(2)
         self._momentum, self._gamma = self._ends["momentum"][1], self._ends["gamma"][1]
         self._proof: Proof | None = None
 
     def restart(self, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = True) -> None:
-        """Starts anew from 𝒦, γ and, where they are followed, an attitude and the contact point (0, 0).
+        """Restarts from 𝒦, γ and, if followed, an attitude and the contact point (0, 0).
 
         Parameters
         ----------
@@ -268,7 +268,7 @@ class Stepper(UnderWay):
         Raises
         ------
         BadInput
-            As the object does when it is made; then the state is as before.
+            As `Stepper` does; the state is then unchanged.
 
         Examples
         --------
@@ -297,15 +297,15 @@ class Stepper(UnderWay):
 
     @property
     def proved(self) -> Bounds:
-        """Bounds of the distance of the present state from the exact orbit of the map, from the last start on.
+        """Bounds of the distance of the present state from the exact orbit of the map since the last start.
 
-        A start is that of the object, a restart, or a new momentum; the exact orbit begins at the numbers there.  A run
-        in double-double carries the proof: it goes on from where it was asked last, and takes about 1 µs a step.
+        The last start is the creation of the object, a restart, or a new momentum; the exact orbit begins at its
+        numbers.  A run in double-double carries the proof: it continues from the last query, at about 1 µs per step.
 
         Returns
         -------
         Bounds
-            Those of one state, with `steps` those since the start if all is proved, and else 0.
+            The bounds of one state; `steps` is the number of steps since the start if all is proved, and else 0.
 
         Examples
         --------
@@ -328,7 +328,7 @@ class Stepper(UnderWay):
         return np.array(angular_velocity(*(*angular_momentum, *self._gamma.tolist(), *self._J.tolist(), self._D)))
 
     def _frames(self, count: int) -> dict[str, Floats]:
-        """Rows for this many states; none for an attitude and a contact point that are not followed."""
+        """Buffers for this many states; empty for an attitude and a contact point that are not followed."""
         body = count if self._follows else 0
         return {
             "momentum": np.empty((count, 3)), "gamma": np.empty((count, 3)),
@@ -358,7 +358,7 @@ class Stepper(UnderWay):
         )  # fmt: skip
 
     def _stopped(self, status: int, before: list[Floats] | None, again: Callable[[], object]) -> Status:
-        """Why a step was not taken; the state becomes the one before it, which a composition has left."""
+        """Why a step was not taken; the state is reset to the one before it, which a composition has left."""
         state = self._state[0]
         why = double.explained(status, self._scale * state[K : K + 3], state[G : G + 3], self._J, self._D)
         if before is not None:
@@ -368,11 +368,11 @@ class Stepper(UnderWay):
         return why
 
     def _moving(self) -> list[Floats]:
-        """The numbers that the loop changes."""
+        """The arrays that the loop changes."""
         return [self._state[0], self._state[-1], self._spin, self._spot]
 
     def _show(self) -> None:
-        """Makes the state that moves in the loop the present one."""
+        """Copies the state of the loop to the present state."""
         state = self._state[0]
         self._momentum[:], self._gamma[:] = self._scale * state[K : K + 3], state[G : G + 3]
         if self._follows:
@@ -405,13 +405,13 @@ class Proof:
         self._run.begin_at(spot)
 
     def _rows(self, precision: str, attitude: Asked) -> Any:
-        """Frames for the start and the present state."""
+        """Buffers for the start and the present state."""
         return dispatch.begun(NAMED[precision], self._balls, 2, None if attitude is None else attitude[np.newaxis])
 
     def bounds(self, ball: Stepper) -> Bounds:
         """The bounds of the present state of a Stepper."""
         steps, now = ball._taken - self._taken, min(ball._taken, 1)
-        for first in range(0, steps, double_double.CHUNK):  # between two of them it can be interrupted
+        for first in range(0, steps, double_double.CHUNK):  # can be interrupted between two of them
             count = min(double_double.CHUNK, steps - first)
             went, _, _ = self._run.take(first, count, steps, self._frames, self._frames.low, 0, self._spread)
             self._taken += count

@@ -110,17 +110,17 @@ def carlson(x: Floats, y: Floats, z: Floats) -> Floats:
     return np.asarray(series / np.sqrt(mean))
 
 
-#: How near to the curve a γ must be whose argument is asked for; next to the separatrix roundings of a run lead 1/k'
-#: times as far, which is followed up to 1/k' = 10⁶.
+#: The largest accepted distance from the curve of a γ for `argument`; near the separatrix roundings of a run grow 1/k'
+#: times, and are accepted up to 1/k' = 10⁶.
 ON_CURVE, NEAREST = 1e-9, 1e-6
 MOST_CORRECTIONS = 60
-#: A correction of the increment below this, relatively, is the last: Newton squares it.
+#: The relative size of the last correction of the increment, since Newton's iteration squares it.
 SETTLED = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Curve(Brief):
-    """γ = (C_a cn u, C_b sn u, C_c dn u) on the axes (a, b, c), a level ⟨γ,Λ⁻¹γ⟩ = l on the sphere, for one ball.
+    """The level ⟨γ,Λ⁻¹γ⟩ = l on the sphere: γ = (C_a cn u, C_b sn u, C_c dn u) on the axes (a, b, c), for one ball.
 
     `Curve.through` makes it from a ball and a γ.
 
@@ -129,11 +129,11 @@ class Curve(Brief):
     ball : Ball
         The ball.
     axes : tuple of int
-        Which component has cn, sn, dn: decreasing Λ for l > 1/Λ_b, the middle one, else increasing.
+        The components with cn, sn and dn: by decreasing Λ if l > 1/Λ_b, b the middle axis, else by increasing Λ.
     amplitudes : tuple of float
         C_a, C_b > 0 and C_c, whose sign selects the half of the sphere.
     modulus, complement : float
-        k and k' = √(1 - k²); k' is known to its own last digits, also near the separatrix k = 1.
+        k and k' = √(1 - k²); k' has full relative accuracy, also near the separatrix k = 1.
     level : float
         l.
     rate : float
@@ -141,7 +141,7 @@ class Curve(Brief):
     inertia : tuple of float
         (Λ_a, Λ_b, Λ_c).
     gaps : tuple of float
-        (Λ_b - Λ_c, Λ_a - Λ_c, Λ_a - Λ_b), from J, which a large D does not round.
+        (Λ_b - Λ_c, Λ_a - Λ_c, Λ_a - Λ_b), computed from J, so that a large D does not cancel.
     slack : float
         F = 1 - Dl, as a sum of positive terms (lemma `stable-inverse`).
 
@@ -186,13 +186,13 @@ class Curve(Brief):
         Raises
         ------
         BadInput
-            For a batch of balls, where the map fixes γ, and where float64 cannot hold the curve.
+            For a batch of balls, for a γ that the map fixes, and for a curve beyond the range of float64.
         """
         in_principal_axes(ball)
         g = unit_vertical(gamma)
         if not ball.is_one or g.shape != (3,):
             raise BadInput("a curve is of one ball and one gamma, not of a batch")
-        with np.errstate(all="ignore"):  # what float64 cannot hold is refused
+        with np.errstate(all="ignore"):  # what overflows is refused
             curve = cls._found(ball, g)
         sizes = np.abs([*curve.amplitudes, curve.rate, curve.slack, curve.level])
         if not (np.isfinite([*sizes, curve.modulus, curve.complement]).all() and sizes.all()):
@@ -205,7 +205,7 @@ class Curve(Brief):
         order = np.argsort(tensor, kind="stable")  # the largest moment first
         if not across(tensor, moments, g).any():
             raise BadInput("the map fixes this gamma (a principal axis, or a ball with equal moments): it is no curve")
-        # Λ_b l - 1 = x² - y²: its sign says on which side of the separatrix γ is.
+        # The sign of Λ_b l - 1 = x² - y² gives the side of the separatrix.
         first, middle, last = order
         x = float(abs(g[last]) * np.sqrt((tensor[last] - tensor[middle]) / moments[last]))
         y = float(abs(g[first]) * np.sqrt((tensor[middle] - tensor[first]) / moments[first]))
@@ -241,7 +241,7 @@ class Curve(Brief):
 
     @property
     def period(self) -> float:
-        """4K(k), after which γ is back; infinite on the separatrix."""
+        """The period 4K(k) of γ in u; infinite on the separatrix."""
         return 4.0 * quarter_period(self.complement)
 
     def point(self, u: ArrayLike) -> Floats:
@@ -255,7 +255,7 @@ class Curve(Brief):
     def argument(self, gamma: ArrayLike) -> Floats:
         """u in [-2K, 2K] with γ(u) = γ, for γ on the curve.
 
-        An error of γ along the curve is one of u divided by |dγ/du|.
+        An error of γ along the curve, divided by |dγ/du|, is an error of u.
 
         Parameters
         ----------
@@ -282,7 +282,7 @@ class Curve(Brief):
 
 
 def across(tensor: Floats, moments: Floats, g: Floats) -> Floats:
-    """γ × Λ⁻¹γ, (..., 3), with Λ₂ - Λ₃ = J₃ - J₂, ..., which a large D does not round."""
+    """γ × Λ⁻¹γ, (..., 3), by Λ₂ - Λ₃ = J₃ - J₂, ..., in which a large D does not cancel."""
     b, c = np.roll(np.arange(3), -1), np.roll(np.arange(3), -2)
     gaps = tensor[..., c] - tensor[..., b]
     return np.asarray(g[..., b] * g[..., c] * (gaps / moments[..., b] / moments[..., c]))
@@ -301,7 +301,7 @@ def _parts(curve: Curve, sn: Floats, cn: Floats, dn: Floats) -> tuple[Floats, Fl
 
 
 def height_of(curve: Curve, half: ArrayLike, mean: ArrayLike = 0.0) -> tuple[Floats, Floats]:
-    """The h whose step leads from γ(ū - δu) to γ(ū + δu), and its derivative in δu at a fixed u = ū - δu.
+    """The h of the step from γ(ū - δu) to γ(ū + δu), and its derivative in δu at a fixed u = ū - δu.
 
     (5.15) as corrected, h G𝒟 = 2Vw(𝒟 - D(l - μ sn²δu)), solved for h.  half: δu; mean: ū; shapes (...).
     """
@@ -326,10 +326,10 @@ def height_of(curve: Curve, half: ArrayLike, mean: ArrayLike = 0.0) -> tuple[Flo
 
 @np.errstate(all="ignore")  # what overflows is off the branch
 def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
-    """2δu of the step of G_h from γ(u), on the branch that starts at δu = 0 for h = 0: u ↦ u + 2δu.
+    """The increment 2δu of the step u ↦ u + 2δu of G_h from γ(u), on the branch with δu = 0 at h = 0.
 
     Solves (5.15) as corrected for δu by Newton's iteration from δu = Vh/(2(1 - Dl)), the rate of the continuous ball.
-    For D = 0 it does not depend on u (5.15-euler).
+    For D = 0 the increment does not depend on u (5.15-euler).
 
     Parameters
     ----------
@@ -338,7 +338,7 @@ def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
     height : array_like
         h in kg m², (...).
     u : array_like
-        The arguments of the γ, (...).
+        The argument of each γ, (...).
 
     Returns
     -------
@@ -348,7 +348,7 @@ def increment(curve: Curve, height: ArrayLike, u: ArrayLike) -> Floats:
     Raises
     ------
     BadInput
-        Where the iteration leaves the branch, as it does beyond its fold; in a batch that entry is NaN.
+        If the iteration leaves the branch, as beyond its fold; in a batch that entry is NaN.
 
     References
     ----------

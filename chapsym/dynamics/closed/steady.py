@@ -1,9 +1,9 @@
-"""Steady rotation: every step is the same rotation about an axis that stays, so that each state is known directly.
+"""Steady rotation: every step is the same rotation about a fixed axis, so that each state has a closed form.
 
-Lemma `steady`: with w = B(γ)⁻¹𝒦/2 the Gibbs vector of a step is nw if w × Iw = 0, and the next w is the same one.
-That is any state of a ball with three equal moments, and a rotation about a principal axis where B(γ) keeps it: for
-D = 0, for a vertical along it, and for one across it, which is rolling straight.  A ball at rest is one, too.
-In space the contact point runs straight (lemma `straight`).
+Lemma `steady`: with w = B(γ)⁻¹𝒦/2 the Gibbs vector of a step is nw if w × Iw = 0, and the next w is the same.  This
+holds for every state of a ball with three equal moments, and for a rotation about a principal axis if D = 0, if the
+vertical is along the axis, or if it is normal to the axis (rolling straight).  It also holds at rest.  In space the
+contact point moves along a straight line (lemma `straight`).
 """
 
 from __future__ import annotations
@@ -24,19 +24,20 @@ from ..map import rolling_radius, step_numbers, step_of_run
 from ..results import Trajectory, finished, of_balls
 from . import turns
 
-#: A step by more than a quarter turn is beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).
+#: Steps of more than a quarter turn are beyond the fold (lemmas `steady-branch`, `steady-axis`, `steady-roll`).
 QUARTER = 1.0
-#: Frames of balls whose angles are found at a time, and whose vectors are turned at a time: they stay in the caches.
+#: Frames of balls in one block of angles, and in one block of vectors, so that a block stays in the caches.
 CHUNK, BLOCK = 2**16, 2**13
 
 
 def is_steady(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
-    """Which states rotate steadily, so that `steady_frames` has them.
+    """Which states rotate steadily, so that `steady_frames` applies.
 
-    Where J₁ = J₂ = J₃; where 𝒦 = 0; where 𝒦 has one component only and D = 0 or γ is along it; and where γ is across
-    it, if 2(J₂ - J₃)² ≤ (2J₁ + J₂ + J₃)²: then no fold comes before a quarter turn (lemma `steady-roll`).  There is no
-    tolerance: moments or components that differ by an ulp turn the axis by about an ulp a step, which adds up; and from
-    the middle principal axis roundings lead away, exponentially, in a run of the map, but not here.
+    These are the states with J₁ = J₂ = J₃, with 𝒦 = 0, and those whose 𝒦 has a single component and D = 0, or γ along
+    𝒦, or γ normal to 𝒦 if 2(J₂ - J₃)² ≤ (2J₁ + J₂ + J₃)²: then no fold comes before a quarter turn (lemma
+    `steady-roll`).  There is no tolerance: moments or components that differ by an ulp turn the axis by about an ulp
+    per step, which accumulates.  Near the middle principal axis roundings grow exponentially in a run of the map, but
+    not here.
 
     Parameters
     ----------
@@ -48,7 +49,7 @@ def is_steady(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
     Returns
     -------
     numpy.ndarray
-        Of bool, (...).
+        Booleans, (...).
 
     Raises
     ------
@@ -66,7 +67,7 @@ def is_steady(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
 
 
 def _equivalent(K: Floats, g: Floats, J: Floats, D: Floats) -> tuple[np.ndarray, turns.Pair]:
-    """Which balls rotate steadily, and the I, as a pair, of a ball with equal moments that has the same steps."""
+    """Which balls rotate steadily, and the I, as a pair, of the ball with equal moments that has the same steps."""
     axis = np.abs(K).argmax(axis=-1)
     rows = np.arange(len(D))
     along, second, third = (J[rows, (axis + i) % 3] for i in range(3))
@@ -84,12 +85,12 @@ def steady_frames(
     ball: Ball, momentum: ArrayLike, gamma: ArrayLike, index: ArrayLike, *, attitude: bool | ArrayLike = False,
     contact: bool = False, time_step: float | None = None,
 ) -> Trajectory:  # fmt: skip
-    """The states of `trajectory` at the step numbers `index`, each at once, where `is_steady`.
+    """The states of `trajectory` at the step numbers `index`, in closed form, for states with `is_steady`.
 
-    𝒦ₖ = Ω⁻ᵏ𝒦, γₖ = Ω⁻ᵏγ, Rₖ = R₀Ωᵏ for the one rotation Ω by θ, sin θ = 2|w|, about w = B(γ)⁻¹𝒦/2, and the contact
-    point moves by the same vector each step.  The cost does not depend on the step numbers, nor does the error: a few
-    ulps of |𝒦|, of 1, and of the length of the path, for k below 10¹⁴.  γ counts as divided by its length, as on the
-    higher precisions.
+    𝒦ₖ = Ω⁻ᵏ𝒦, γₖ = Ω⁻ᵏγ, Rₖ = R₀Ωᵏ for one rotation Ω about w = B(γ)⁻¹𝒦/2 by the angle θ, sin θ = 2|w|, and the contact
+    point moves by the same vector at each step.  Cost and error do not depend on the step numbers: the error is a few
+    ulps of |𝒦|, of 1, and of the length of the path, for k below 10¹⁴.  γ is divided by its length, as at the higher
+    precisions.
 
     Parameters
     ----------
@@ -105,7 +106,7 @@ def steady_frames(
     Returns
     -------
     Trajectory
-        That of `trajectory`; in a batch `status` says which balls are beyond the fold.
+        As of `trajectory`; in a batch `status` shows which balls are beyond the fold.
 
     Raises
     ------
@@ -163,9 +164,9 @@ def steady_frames(
 
 
 def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floats, turns.Pair, Floats]:
-    """The axis of the steady rotation, (n, 3), half its angle in turns as a pair, and sin θ = |2w|, inf for I = 0."""
+    """The axis of the rotation, (n, 3), half its angle in turns as a pair, and sin θ = |2w|, inf for I = 0."""
     up, down = np.frexp(np.abs(K).max(axis=-1))[1], np.frexp(moment[0] + D)[1]
-    still, hollow = ~K.any(axis=-1), np.ldexp(moment[0], -down) == 0.0  # D may be that much larger, too
+    still, hollow = ~K.any(axis=-1), np.ldexp(moment[0], -down) == 0.0  # D may be larger by the same factor
     with np.errstate(all="ignore"):
         k = np.ldexp(K, -up[:, np.newaxis])
         I, I_ = (np.where(hollow, one, np.ldexp(x, -down)) for x, one in zip(moment, (1.0, 0.0), strict=True))
@@ -182,7 +183,7 @@ def _rotation(K: Floats, g: Floats, moment: turns.Pair, D: Floats) -> tuple[Floa
 
 
 def _spin(*state: Floats) -> tuple[Floats, ...]:
-    """w = B(γ)⁻¹k from k, γ, the moment as a pair and D, and |w|² as a pair."""
+    """w = B(γ)⁻¹k and |w|² as a pair, from k, γ, the moment as a pair, and D."""
     k1, k2, k3, g1, g2, g3 = map(Loose, state[:6])
     w = isotropic_spin(k1, k2, k3, g1, g2, g3, Loose(state[6], state[7]), Loose(state[8]))
     square = dot(w, w).normalised()
@@ -195,13 +196,13 @@ def _half_angle(sine: Floats, sine_: Floats) -> turns.Pair:
     return turns.turns_of_tangent(*pairs.divide(sine, sine_, *pairs.add(1.0, 0.0, *cosine)))
 
 
-@np.errstate(all="ignore")  # what overflows is beyond the fold
+@np.errstate(all="ignore")  # an overflow is beyond the fold
 def _turn(v: Floats, axis: Floats, cosine: Floats, along: Floats, found: Floats) -> None:
     """Writes Ω⁻ᵏv into `found`, (n, frames, 3): `turn` is quadratic in cos and sin of half the angle."""
     moves = axis.any(axis=-1, keepdims=True)
     axis = np.where(moves, axis, [1.0, 0.0, 0.0])
     pure, both = (kernels.turn(np.concatenate([np.full((len(v), 1), c), axis], axis=-1), v) for c in (0.0, 1.0))
-    # At (0, a) it is 2a×(a×v), at (1, a) the half of that less a×v.
+    # At (0, a) the value is 2a×(a×v), at (1, a) half of that less a×v.
     square, mixed = np.where(moves, pure, 0.0), np.where(moves, 2.0 * both - pure, 0.0)
     frames = max(1, BLOCK // max(len(v), 1))
     for at in range(0, cosine.shape[1], frames):

@@ -1,18 +1,19 @@
-"""The Moser-Veselov discrete Euler top, every state at once: each step adds the same increment to Jacobi's u.
+"""The Moser-Veselov discrete Euler top in closed form: each step adds the same increment to Jacobi's u.
 
-So it is for D = 0 (5.15-euler), 𝒦 any, and for vertical momentum 𝒦 = hγ and D > 0 where two J are equal: k = 0, the
-curve is a circle, and (5.15) as corrected does not know ū.  For three different J and D > 0 the increment changes.
-The increment over the period is the rotation number; as a double-double number it is good for 10¹⁴ steps and more.
+This holds for D = 0 and any 𝒦 (5.15-euler).  It also holds for D > 0 and vertical momentum 𝒦 = hγ if two J are equal:
+then k = 0, the curve is a circle, and (5.15) as corrected does not depend on ū.  For three different J and D > 0 the
+increment varies.  The increment over the period is the rotation number; in double-double it suffices for 10¹⁴ steps and
+more.
 
-The attitude: R b/|b|, b = γ × Λ⁻¹γ for γ along 𝒦, is across 𝒦, which is fixed in space, and turns about it.  Along the
-continuous motion its angle is ∫⟨b,Λ⁻¹b⟩/|b|² dt = cu + P(u), P periodic (lemma `top-precession`); the discrete top
-differs by a twist that is the same each step (lemma `top-commutes`).  So its angle after k steps is
-kΨ + P(u_k) - P(u₀), and one step of the map gives Ψ.  For two equal J nothing depends on u, P = 0; so it is for
-vertical momentum with D > 0, too.
+The attitude: for γ along 𝒦 and b = γ × Λ⁻¹γ, R b/|b| is normal to 𝒦, which is fixed in space, and rotates about it.
+Along the continuous motion the angle of this rotation is ∫⟨b,Λ⁻¹b⟩/|b|² dt = cu + P(u), P periodic (lemma
+`top-precession`); the discrete top differs by a twist that is the same at each step (lemma `top-commutes`).  So the
+angle after k steps is kΨ + P(u_k) - P(u₀), and one step of the map gives Ψ.  For two equal J nothing depends on u and
+P = 0, also for vertical momentum with D > 0.
 
-`exact_top` is the way back: one change of |𝒦| makes the increment of the discrete top that of the continuous motion,
-and the constant twist is put right on output, so that a run has no error of the step.  A ball with vertical momentum
-is such a top, with the mass tensor J + D/2 (lemma `vertical-top`).
+`exact_top` is an exact discretisation by a modified momentum: a change of |𝒦| makes the increment of the discrete top
+equal to that of the continuous motion, and the constant twist is corrected on output.  A ball with vertical momentum is
+such a top, with the mass tensor J + D/2 (lemma `vertical-top`).
 """
 
 from __future__ import annotations
@@ -43,23 +44,23 @@ from .vertical import step_vertical
 if TYPE_CHECKING:
     from flint import arb
 
-#: Bits in which a step is found: moments may be equal to 1e-15, and Λl - 1 as small as SMALLEST_TURN².
+#: Working bits of a step: moments may be equal to 1e-15, and Λl - 1 may be as small as SMALLEST_TURN².
 BITS = 512
 MOST_CORRECTIONS = 12
-#: The Gibbs vector of a step is found when a correction is below this, relatively.
+#: The relative size of the last correction of the Gibbs vector of a step.
 SETTLED = 2.0**-130
-#: A direction of 𝒦 that moves less than this while the body turns by 1 is left to `trajectory`.
+#: A direction of 𝒦 that moves by less than this while the body turns by 1 radian is left to `trajectory`.
 SMALLEST_TURN = 1e-40
-#: How far the step of the map may be from where the curve leads: more is another branch.
+#: The largest distance of the step of the map from the point of the curve; a larger one means another branch.
 AGREEMENT = 1e-9
-#: Terms of the series of P: twice as many, until the last ones are rounding.
+#: The first and the largest number of terms of the series of P, which is doubled until the last terms are rounding.
 FEWEST, MOST = 16, 4096
 ROUNDING = 2.0**-52
-#: How far 𝒦 may be from hγ, of its largest component: what the rounding of hγ leaves.
+#: The largest |𝒦 - hγ|, relative to the largest component: the rounding of hγ.
 VERTICAL = 2.0**-52
-#: How far a momentum may be from vertical, relatively, for the `exact_top` of a ball with D > 0.
+#: The largest relative deviation of a momentum from the vertical in `exact_top` of a ball with D > 0.
 NEARLY_VERTICAL = 1e-12
-#: Nodes of Gauss' quadrature for the twist: 24 give it to the last digit for every step below the fold.
+#: Nodes of Gauss' quadrature for the twist: 24 give all digits for every step below the fold.
 NODES = 32
 
 
@@ -72,15 +73,15 @@ class TopMotion(Brief):
     Attributes
     ----------
     curve : Curve
-        The curve of 𝒦/|𝒦| (of γ where 𝒦 = hγ).
+        The curve of 𝒦/|𝒦| (of γ if 𝒦 = hγ).
     size : float
-        What makes 𝒦 of its points, in kg m².
+        The factor from its points to 𝒦, in kg m².
     start : float
-        u at the step 0.
+        u at step 0.
     direction : numpy.ndarray
-        The point there, as it was given.
+        The given point at step 0.
     turns : tuple of float
-        The increment of u over the period 4K(k), with its sign, as a pair: `rotation_number` and what it lacks.
+        The signed increment of u over the period 4K(k), as a pair: `rotation_number` and its rest.
     exact : ExactCurve
         The same motion in Arb's numbers.
 
@@ -121,7 +122,7 @@ class TopMotion(Brief):
         Raises
         ------
         BadInput
-            For D > 0, a batch, and where 𝒦 stays (`is_steady`) or is on a separatrix.
+            For D > 0, for a batch, and if 𝒦 is constant in the body (`is_steady`) or on a separatrix.
         StepNotTaken
             As `step_vertical` does.
         """
@@ -139,7 +140,7 @@ class TopMotion(Brief):
 
     @classmethod
     def vertical(cls, ball: Ball, height: float, gamma: ArrayLike) -> Self:
-        """The ball with 𝒦 = hγ, where D = 0 or two J are equal.
+        """The ball with 𝒦 = hγ, if D = 0 or two J are equal.
 
         Parameters
         ----------
@@ -148,7 +149,7 @@ class TopMotion(Brief):
         height : float
             h in kg m².
         gamma : array_like
-            γ, (3,), which is divided by its length.
+            γ, (3,); it is divided by its length.
 
         Returns
         -------
@@ -157,7 +158,7 @@ class TopMotion(Brief):
         Raises
         ------
         BadInput
-            For other balls and as `free` does.
+            For other balls, and as `free` does.
         StepNotTaken
             As `step_vertical` does.
         """
@@ -172,7 +173,7 @@ class TopMotion(Brief):
 
     @classmethod
     def _through(cls, ball: Ball, size: float, axis: Floats, momentum: Floats | None) -> Self:
-        """The motion from the direction, and the 𝒦 that gives it exactly; else the direction is exact."""
+        """The motion from a direction; momentum: the 𝒦 that defines it exactly, or None if it is exact."""
         unit = axis / np.sqrt(axis @ axis)
         if not moves(ball.mass_tensor, ball.D, unit):
             raise BadInput("the map fixes this direction of the momentum, or nearly so; it has no curve")
@@ -180,7 +181,7 @@ class TopMotion(Brief):
         if curve.complement == 0.0:
             raise BadInput("on the separatrix the period is infinite; run `trajectory`")
         start = float(curve.argument(unit))
-        step = step_vertical(ball, size, unit)  # raises where there is none
+        step = step_vertical(ball, size, unit)  # raises if there is no step
         half = float(increment(curve, size, start)) / 2.0
         if np.abs(curve.point(start + 2.0 * half) - step.gamma).max() > AGREEMENT:
             raise BadInput("the step of the map is not on the branch of the increment; take a shorter time step")
@@ -192,7 +193,7 @@ class TopMotion(Brief):
 
     @property
     def rotation_number(self) -> float:
-        """The increment of a step over the period: turns on the curve a step, with the sign of u's motion."""
+        """The increment of a step over the period: turns on the curve per step, with the sign of du."""
         return self.turns[0]
 
     def phase(self, index: ArrayLike) -> Floats:
@@ -202,7 +203,7 @@ class TopMotion(Brief):
         return self.start + self.curve.period * part
 
     def directions(self, index: ArrayLike) -> Floats:
-        """𝒦/|𝒦| (γ where 𝒦 = hγ) at the step numbers, (frames, 3)."""
+        """𝒦/|𝒦| (γ if 𝒦 = hγ) at the step numbers, (frames, 3)."""
         points = self.curve.point(self.phase(index))
         points[np.asarray(index) == 0] = self.direction
         return points
@@ -223,21 +224,21 @@ class TopMotion(Brief):
         Raises
         ------
         BadInput
-            So near to the separatrix that the series has too many terms.
+            If the top is so near to the separatrix that the series has too many terms.
         """
         with Enclosure(BITS).working():
             mean = _mean(self.exact)
         return mean, _series(self)
 
     def rotations(self, index: ArrayLike) -> Floats:
-        """Unit quaternions Q with R_k = R₀Q_k at the step numbers, (frames, 4), the scalar ≥ 0."""
+        """Unit quaternions Q with R_k = R₀Q_k at the step numbers, (frames, 4), scalar part ≥ 0."""
         index = step_numbers(index)
         (high, low), _ = self.precession
         angle = 2.0 * np.pi * turns.fraction(np.asarray(high), np.asarray(low), index)
         angle = angle + self._wave(self.phase(index)) - self._wave(np.asarray(self.start))
         here = self.directions(index)
         first = self.direction / np.sqrt(self.direction @ self.direction)
-        # The least rotation from the direction now to the first one, and the rest about that.
+        # The least rotation from the present direction to the first one, then a rotation about the first one.
         middle = first + here
         length = np.sqrt((middle * middle).sum(axis=-1))
         least = (
@@ -264,13 +265,13 @@ class TopMotion(Brief):
 
 def moves(tensor: Floats, contact: Floats, direction: Floats) -> np.ndarray:
     """Whether a direction of 𝒦 moves in the body by more than SMALLEST_TURN, (...)."""
-    with np.errstate(all="ignore"):  # what overflows moves
+    with np.errstate(all="ignore"):  # an overflow moves
         J, moments, _ = _in_units(tensor, inertia_of(tensor) + contact[..., np.newaxis])
         return np.asarray(np.abs(across(J, moments, direction)).max(axis=-1) > SMALLEST_TURN)
 
 
 def _in_units(tensor: Floats, moments: Floats) -> tuple[Floats, Floats, np.ndarray]:
-    """J and Λ in units of 2^exponent, in which the largest Λ is about 1: squares of γ × Λ⁻¹γ stay in range."""
+    """J and Λ in units of 2^exponent, so that the largest Λ is about 1 and squares of γ × Λ⁻¹γ stay in range."""
     exponent = np.frexp(moments.max(axis=-1))[1]
     return np.ldexp(tensor, -exponent[..., np.newaxis]), np.ldexp(moments, -exponent[..., np.newaxis]), exponent
 
@@ -282,11 +283,11 @@ def _one(ball: Ball, vector: Floats) -> None:
 
 @dataclass(frozen=True, eq=False)
 class ExactCurve:
-    """A motion in Arb's numbers, with 𝒦 and the mass tensor taken as exact.
+    """A motion in Arb's numbers; 𝒦 and the mass tensor are taken as exact.
 
-    moments: Λ in the order of the curve; direction: of 𝒦, unit, (3,); gibbs: the Gibbs vector of the first step;
-    after: the direction after it.  level: l; rate: V with its sign; k2: k²; quarter: K(k).
-    start: u at the direction; increment: that of u, with its sign.
+    moments: Λ in the order of the curve; direction: the unit vector of 𝒦, (3,); gibbs: the Gibbs vector of the first
+    step; after: the next direction.  level: l; rate: V with its sign; k2: k²; quarter: K(k).  start: u at the
+    direction; increment: the signed increment of u.
     """
 
     curve: Curve
@@ -331,7 +332,7 @@ class ExactCurve:
         )
 
     def nearest(self) -> Curve:
-        """The curve with numbers rounded from these: next to the separatrix roundings of a direction are of its k'."""
+        """The curve in floats, rounded from these: near the separatrix a rounded direction would have another k'."""
         La, Lb, Lc = self.moments
         upper, lower = abs(1 - Lc * self.level), abs(La * self.level - 1)
         bc, ac = abs(Lb - Lc), abs(La - Lc)
@@ -344,7 +345,7 @@ class ExactCurve:
 
 
 def amplitude(curve: Curve, moments: list[arb], direction: list[arb]) -> arb:
-    """φ = am u of a point of the curve, with C_b/C_a of (5.8)."""
+    """The amplitude φ = am u of a point of the curve, with C_b/C_a of (5.8)."""
     from flint import arb
 
     first, second, third = moments
@@ -427,11 +428,11 @@ def _gibbs_vector(rotation: Floats, half: list[arb], direction: list[arb], J: li
 
 
 def is_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> np.ndarray:
-    """Which states `top_frames` has: those of the free top, and vertical 𝒦 on a ball with two equal J.
+    """Which states `top_frames` supports: the free top, and vertical 𝒦 on a ball with two equal J.
 
-    That is D = 0, or 𝒦 = hγ to its last rounding and two of the J equal; and 𝒦 moves in the body (else `is_steady`).
-    Two J that differ by an ulp are different.  A 𝒦 that is off hγ by its rounding is taken as vertical: the motion that
-    was meant differs by a rounding of the start, which is what a run of the map makes of every start.
+    D = 0, or 𝒦 = hγ up to rounding and two J equal; in both cases 𝒦 must move in the body (otherwise see `is_steady`).
+    Two J that differ by an ulp are different.  A 𝒦 that differs from hγ by its rounding is taken as vertical, which
+    changes the start by a rounding, as a run of the map does, too.
 
     Parameters
     ----------
@@ -475,14 +476,14 @@ def top_frames(
     ball: Ball, momentum: ArrayLike, gamma: ArrayLike, index: ArrayLike, *, attitude: bool | ArrayLike = False,
     time_step: float | None = None,
 ) -> Trajectory:  # fmt: skip
-    """The states of `trajectory` at the step numbers `index`, each at once, where `is_top`.
+    """The states of `trajectory` at the step numbers `index`, in closed form, for states with `is_top`.
 
-    𝒦 by Jacobi's functions of u₀ + k δ (5.7, 5.15-euler), γ and the attitude by the precession about 𝒦 (lemmas
-    `top-precession`, `top-commutes`), k δ and k Ψ in double-double.  The cost does not depend on the step numbers, and
-    neither does the error, for k below 10¹⁴: some ulps, and near the separatrix as many more as the period is longer;
-    of γ and the attitude up to 1/k' ulps there, as b is no longer than k' while the top is near its unstable axis.
-    γ counts as divided by its length, as at the higher precisions.  The sign of an attitude's quaternion is that of the
-    scalar of the rotation since frame 0, taken as positive.
+    𝒦 follows from Jacobi's functions of u₀ + k δ (5.7, 5.15-euler), γ and the attitude from the precession about 𝒦
+    (lemmas `top-precession`, `top-commutes`), with k δ and k Ψ in double-double.  Cost and error do not depend on the
+    step numbers, for k below 10¹⁴.  The error is some ulps; near the separatrix it grows with the period, and for γ and
+    the attitude up to 1/k' ulps, since |b| is at most k' while the top is near its unstable axis.  γ is divided by its
+    length, as at the higher precisions.  The sign of the quaternion of an attitude is such that the rotation since
+    frame 0 has a positive scalar part.
 
     Parameters
     ----------
@@ -498,12 +499,12 @@ def top_frames(
     Returns
     -------
     Trajectory
-        That of `trajectory`, without the contact point; in a batch `status` says which balls are beyond the fold.
+        As of `trajectory`, without the contact point; in a batch `status` shows which balls are beyond the fold.
 
     Raises
     ------
     BadInput
-        As `trajectory` does, and for a ball that is no such top, on a separatrix, or too near to one.
+        As `trajectory` does, and for a ball that is no such top, is on a separatrix or too near to one.
     StepNotTaken
         For one ball beyond the fold.
 
@@ -564,7 +565,7 @@ def motion_of(ball: Ball, K: Floats, g: Floats) -> TopMotion:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ExactTop(Brief):
-    """A top with D = 0 whose discrete motion is the continuous motion of `origin`, sampled once a step.
+    """A top with D = 0 whose discrete motion is the continuous motion of `origin`, sampled once per step.
 
     Attributes
     ----------
@@ -573,11 +574,11 @@ class ExactTop(Brief):
     momentum : numpy.ndarray
         Its 𝒦 in kg m², (3,), along that of `origin`.
     twist : float
-        The angle about 𝒦 by which each step must still be turned, in radians.
+        The rotation about 𝒦 that remains to be added to each step, in radians.
     origin : Ball
         The ball.
     size : float
-        Its εK along 𝒦's direction, in kg m².
+        The component of its εK along 𝒦, in kg m².
 
     Examples
     --------
@@ -594,19 +595,19 @@ class ExactTop(Brief):
     size: float
 
     def restore(self, run: Trajectory) -> Trajectory:
-        """The continuous motion of `origin` from a trajectory of `ball` with `momentum`: εK, γ and the attitude.
+        """The continuous motion of `origin`, εK, γ and the attitude, from a trajectory of `ball` with `momentum`.
 
-        Step k is turned by k `twist` about 𝒦, so that nothing adds up.
+        Step k is rotated by k `twist` about 𝒦, so that no error accumulates.
 
         Parameters
         ----------
         run : Trajectory
-            Of `ball` with `momentum`, from the γ for which this top was made.
+            A run of `ball` with `momentum`, from the γ for which this top was made.
 
         Returns
         -------
         Trajectory
-            Without the contact point: its discrete steps are chords.  The order is 0: the steps are no composition of
+            Without the contact point, whose discrete steps are chords.  The order is 0: the steps are no composition of
             the map.
 
         Raises
@@ -632,7 +633,7 @@ class ExactTop(Brief):
         off = np.abs(np.cross(scaled[0], run.gamma[0])).max()
         if float(self.origin.D) > 0.0 and off > NEARLY_VERTICAL * size[0, 0]:
             raise BadInput("this run does not start at the gamma along the momentum, for which the exact top was made")
-        axis = np.sign(self.size) * scaled / size  # γ itself where D > 0, though 𝒦 may point downwards
+        axis = np.sign(self.size) * scaled / size  # γ itself if D > 0, though 𝒦 may point downwards
         half = run.index * (self.twist / 2)
         turned = np.concatenate([np.cos(half)[:, np.newaxis], np.sin(half)[:, np.newaxis] * axis], axis=-1)
         attitude = None if run.attitude is None else kernels.compose(run.attitude, turned)
@@ -643,12 +644,12 @@ class ExactTop(Brief):
         )  # fmt: skip
 
 
-@np.errstate(all="ignore")  # what overflows is refused
+@np.errstate(all="ignore")  # an overflow is refused
 def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
     """The top whose discrete motion from γ is the continuous motion of `ball` with the momentum εK.
 
-    Then `trajectory(top.ball, top.momentum, gamma, steps)` costs what the map costs, and `top.restore` of it has no
-    error but roundings, for every ε up to the fold of the top's branch.
+    `trajectory(top.ball, top.momentum, gamma, steps)` costs the same as the map, and `top.restore` of this trajectory
+    has only rounding errors, for every ε up to the fold of the top's branch.
 
     Parameters
     ----------
@@ -692,7 +693,7 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
             raise BadInput("for D > 0 only a motion with vertical momentum is a top's: momentum must be along gamma")
     axis = g if contact > 0.0 else K / size
     top = Ball(ball.mass_tensor + contact / 2, 0.0)
-    # In units in which the largest moment is about 1: products of three moments stay in range.
+    # In units in which the largest moment is about 1, products of three moments stay in range.
     exponent = int(np.frexp(top.inertia.max())[1])
     moments = np.ldexp(ball.inertia, -exponent)
     # 1 - Dl as a sum of positive terms.
@@ -707,7 +708,7 @@ def exact_top(ball: Ball, momentum: ArrayLike, gamma: ArrayLike) -> ExactTop:
 
 
 def _fixed(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
-    """A rotation about a principal axis: 𝒦 = Λ sin θ is to turn by θ = speed/Λ."""
+    """A rotation about a principal axis: 𝒦 = Λ sin θ for the rotation angle θ = speed/Λ."""
     level = float((axis * axis / top.inertia).sum())
     if abs(speed * level) >= np.pi / 2:
         raise BadInput("a step of more than 90° about this axis is beyond the branch of the top; take a shorter one")
@@ -725,7 +726,7 @@ def _moving(top: Ball, axis: Floats, speed: float) -> tuple[float, float]:
         step = step_vertical(top, tau, axis)
     except StepNotTaken:
         step = None
-    far = abs(advance) > curve.period / 2  # the heights of half steps come back after half a period, beyond the fold
+    far = abs(advance) > curve.period / 2  # the heights of half steps recur after half a period, beyond the fold
     if step is None or far or not slope * curve.rate > 0.0 or not np.abs(step.gamma - ahead).max() <= AGREEMENT:
         raise BadInput("the continuous motion of this step is beyond the branch of the top; take a shorter time step")
     before, there = (across(top.mass_tensor, top.inertia, v) for v in (axis, step.gamma))

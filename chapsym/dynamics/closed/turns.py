@@ -1,7 +1,7 @@
-"""k times an angle without losing its digits: double-double fractions of a turn, on NumPy arrays.
+"""Multiples kτ of an angle to full accuracy: double-double fractions of a turn, on NumPy arrays.
 
-A state k steps on is known from k times a constant angle.  In float64 the product would be off by k roundings;
-here an angle τ (in turns) is a pair of floats, and the fraction of kτ is left exact to 2⁻¹⁰⁰k.
+A state after k steps follows from k times a constant angle.  In float64 the product would have an error of k roundings;
+here an angle τ (in turns) is a pair of floats, and the fraction of kτ is exact to 2⁻¹⁰⁰k.
 """
 
 from collections.abc import Callable
@@ -19,16 +19,16 @@ FULL_TURN = (6.283185307179586, 2.4492935982947064e-16)
 #: Halvings of an angle of 45° or less before the series, and its terms: tan φ is then below 0.0246, and tan²⁰φ 2⁻¹⁰⁶.
 HALVINGS = 5
 TERMS = 10
-#: So few balls are computed one by one.
+#: Up to this many balls are computed one by one.
 FEW = 16
-#: From this many step numbers on there are fewer angles than frames.
+#: From this many step numbers on, fewer angles than frames are computed.
 MANY = 64
 #: Step numbers are split here, so that each part is a float.
 SPLIT = 2**32
 
 
 def each(function: Callable[..., tuple], *arrays: Floats) -> tuple[Floats, ...]:
-    """A function of pairs on flat arrays; for a few entries one by one in Python's floats: the same bits, faster."""
+    """A function of pairs on flat arrays; for a few entries one by one in Python's floats, faster, to the same bits."""
     if not 0 < arrays[0].size <= FEW:
         return function(*arrays)
     rows = [function(*row) for row in zip(*(a.tolist() for a in arrays), strict=True)]
@@ -36,7 +36,7 @@ def each(function: Callable[..., tuple], *arrays: Floats) -> tuple[Floats, ...]:
 
 
 def root(a: Floats, a_: Floats) -> Pair:
-    """√a of pairs a ≥ 0, as `pairs.root`, which it is for floats."""
+    """√a of pairs a ≥ 0, by `pairs.root`."""
     if isinstance(a, float):
         return pairs.root(a, a_)
     high = np.sqrt(a)
@@ -65,7 +65,7 @@ def fraction(turns: Floats, turns_: Floats, index: np.ndarray) -> Floats:
     total, rest = np.zeros(()), np.zeros(())
     for part in (index - low, low):
         p, p_ = pairs.two_product(turns, part.astype(np.float64))
-        # The whole turns of each half go exactly; what is left are fractions and their roundings.
+        # The whole turns of each half are removed exactly; fractions and their roundings remain.
         p, p_ = p - np.rint(p), p_ - np.rint(p_)
         q = turns_ * part
         total, e = pairs.two_sum(total, p)
@@ -76,7 +76,7 @@ def fraction(turns: Floats, turns_: Floats, index: np.ndarray) -> Floats:
 
 
 def cosine_and_sine(fractions: Floats) -> tuple[Floats, Floats]:
-    """cos and sin of 2π times a fraction of a turn, each within 1 ulp of 1: what is rounded is an eighth at most."""
+    """cos and sin of 2π times a fraction of a turn, each within 1 ulp of 1: the rounded part is at most an eighth."""
     quarters = np.rint(4.0 * fractions)
     angle = (fractions - 0.25 * quarters) * FULL_TURN[0]
     cosine, sine = np.cos(angle), np.sin(angle)
@@ -88,8 +88,8 @@ def cosine_and_sine(fractions: Floats) -> tuple[Floats, Floats]:
 def cosines_and_sines(turns: Floats, turns_: Floats, index: np.ndarray) -> tuple[Floats, Floats]:
     """cos and sin of 2πkτ for pairs τ, (n,), and ascending step numbers k, (frames,): two arrays (n, frames).
 
-    Many step numbers at equal distances are made of a coarse and a fine part, so that there are few angles:
-    a product of two rotations, within 3 ulps.
+    Many equidistant step numbers are split into a coarse and a fine part, so that there are few angles: a product of
+    two rotations, within 3 ulps.
     """
     high, low = turns[:, np.newaxis], turns_[:, np.newaxis]
     count, every = len(index), int(index[1] - index[0]) if len(index) > 1 else 1

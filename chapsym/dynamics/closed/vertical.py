@@ -1,4 +1,4 @@
-"""The reduced map G_h on the sphere: vertical momentum 𝒦 = hγ (Section 5), where the state is γ alone."""
+"""The reduced map G_h on the sphere: vertical momentum 𝒦 = hγ (Section 5); the state is γ alone."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..results import Step, finished
 from ..shown import Brief
 from .elliptic import Curve, increment
 
-#: Turns over which the rotation number is a mean, and the least and most steps for them.
+#: The number of turns over which the rotation number is averaged, and the least and the largest number of steps.
 TURNS, LEAST, MOST = 100, 2**11, 2**18
 
 
@@ -68,7 +68,7 @@ class VerticalTrajectory(Brief):
         return np.asarray((self.gamma * self.gamma / inertia).sum(axis=-1))
 
 
-@np.errstate(over="ignore", under="ignore", invalid="ignore")  # as compiled: `status` reports it
+@np.errstate(over="ignore", under="ignore", invalid="ignore")  # an overflow is reported by `status`
 def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     """One step of the reduced map G_h (5.6 as corrected): γ ↦ Ωᵀγ with 𝒦(q, γ) = hγ, on the small-rotation branch.
 
@@ -84,7 +84,7 @@ def step_vertical(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> Step:
     Returns
     -------
     Step
-        With the momentum hγ.
+        The step, with the momentum hγ.
 
     Raises
     ------
@@ -127,12 +127,12 @@ def trajectory_vertical(
     steps : int
         The number of steps.
     every : int, optional
-        Of which a frame is kept, next to frame 0.
+        The number of steps from one frame to the next.
 
     Returns
     -------
     VerticalTrajectory
-        In a batch frames after a stop are NaN, and the others go on.
+        In a batch the frames of a ball after its stop are NaN, and the others continue.
 
     Raises
     ------
@@ -168,7 +168,7 @@ def _flat(ball: Ball, height: ArrayLike, gamma: ArrayLike) -> tuple[tuple[int, .
 
 
 def _taken(given: list[Floats], steps: int, every: int, rotation: bool = False) -> Frames:
-    """Steps of every ball, by the closed form where it holds; rotation: of one step, as the attitude of frame 1."""
+    """Steps of every ball, by the closed form if it holds; rotation: of one step, as the attitude of frame 1."""
     g, J, D, h = given
     precision, still = NAMED["double"], [1.0, 0.0, 0.0, 0.0] if rotation else None
     balls = Balls(h[:, np.newaxis] * g, g, J, D, np.zeros(len(D)))
@@ -189,14 +189,14 @@ def _closed(
 ) -> bool:
     """Whether the closed form takes every step of the ball i, whose D is 0, into its frames.
 
-    Lemma `small-branch`: where there is a radius, a root with |q| < q₀ is that of the small-rotation branch.
+    Lemma `small-branch`: if there is a radius, a root with |q| < q₀ is the root of the small-rotation branch.
     """
     ball, q = np.empty(loop.ROWS), np.zeros(4)
     loop.entered((float(h), 0.0, 0.0), g, J, 0.0, ball)
     k, inertia, state = ball[loop.K], ball[loop.I : loop.D], np.array([*g, 0.0, 0.0, 0.0, 0.0])
     if ball[loop.RADIUS] < 0.0:
         return False
-    for first in range(0, steps, double.CHUNK):  # between two of them the run can be interrupted
+    for first in range(0, steps, double.CHUNK):  # the run can be interrupted between two of them
         count = min(double.CHUNK, steps - first)
         if not march(state, inertia, k, first, count, every, frames.gamma[i], q):
             return False
@@ -207,10 +207,10 @@ def _closed(
 
 
 def phases(curve: Curve, height: float, gamma: ArrayLike) -> Floats:
-    """u of successive γ of G_h, (steps + 1, 3), going on from turn to turn, (steps + 1,).
+    """The arguments u of successive γ of G_h, (steps + 1, 3), unwrapped, (steps + 1,).
 
-    The increments vary with u, by less than a turn: each is taken nearest to that of the first step, which is the
-    branch's (`increment`).
+    The increments vary with u, by less than a turn: each is taken nearest to the increment of the first step, which is
+    that of the branch (`increment`).
     """
     u = curve.argument(gamma)
     period, first = curve.period, float(increment(curve, height, u[0]))
@@ -220,11 +220,11 @@ def phases(curve: Curve, height: float, gamma: ArrayLike) -> Floats:
 
 
 def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
-    """Turns around the curve of γ a step of G_h with 𝒦 = hγ, in the mean over infinitely many; negative against u.
+    """The mean number of turns around the curve of γ per step of G_h with 𝒦 = hγ; negative for decreasing u.
 
-    A mean with weights exp(-1/t(1-t)) over some hundred turns, whose error falls faster than any power of their number
-    (Das and Yorke's weighted Birkhoff average): to about 1e-12 turns for a curve that is not next to the separatrix.
-    For D = 0 every increment is the same, and this is one of them.
+    The mean over infinitely many steps is computed as a weighted Birkhoff average (Das and Yorke) over some hundred
+    turns, with weights exp(-1/t(1-t)).  Its error falls faster than any power of their number: to about 1e-12 turns for
+    a curve that is not near the separatrix.  For D = 0 every increment is the same, and one is returned.
 
     Parameters
     ----------
@@ -238,7 +238,7 @@ def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
     Returns
     -------
     float
-        Turns a step.
+        Turns per step.
 
     Raises
     ------
@@ -259,7 +259,7 @@ def rotation_number(ball: Ball, height: float, gamma: ArrayLike) -> float:
     if curve.complement == 0.0:
         raise BadInput("on the separatrix there is no turn, so no rotation number")
     start = float(curve.argument(gamma))
-    step_vertical(ball, height, gamma)  # raises where there is none
+    step_vertical(ball, height, gamma)  # raises if there is no step
     turn = abs(float(increment(curve, height, start))) / curve.period
     steps = LEAST if turn * LEAST >= TURNS else min(int(TURNS / turn), MOST) if turn * MOST > TURNS else MOST
     u = phases(curve, height, trajectory_vertical(ball, height, gamma, steps).gamma)

@@ -7,7 +7,7 @@ those of the step: times its length.
 The polynomials: p(τ), the direction of a quaternion, and w(τ).  With P the rotation of p, K and γ those of P,
     ε = 2 vec(p̄e)/|p|², e = p' - ½ p∘w:  P turns with w + ε;     κ = B(γ)w + a - K.
 
-Lemma (by hand).  The motion is R = P·Rot, Rot the rotation of the quaternion (1, ξ), and with A = B⁻¹C,
+Lemma (by hand).  The motion is R = P·Rot with Rot the rotation of the quaternion (1, ξ).  With A = B⁻¹C,
 Cξ = (Iw + a) × ξ - I(w × ξ), X ≥ |ξ|, X ≤ ¼, β ≥ ‖B⁻¹‖, s = 5βσX ≤ ½, σ = ½(I_max - I_min) and W ≥ |w|
     |ξ' - Aξ| ≤ q = ½(θ + |ε| + (δ + |ε|)X(1 + X)),     θ = β(8σX²W + 2X²|a| + 5σXδ + |κ|),
     δ = (sW + 2βX|a| + β|κ|)/(1 - s).
@@ -20,9 +20,9 @@ Cξ = (Iw + a) × ξ - I(w × ξ), X ≥ |ξ|, X ≤ ¼, β ≥ ‖B⁻¹‖, s 
 4. The quaternion Q of Rot has Q' = ½(d - ε)∘Q, so that ξ' = ½(Δ + Δ × ξ + ⟨Δ,ξ⟩ξ) with Δ = d - ε.
 If |SAS⁻¹| ≤ L with S diagonal, its entries from s to 1, and M is a matrix of polynomials with M(0) = 1 and
 |M' - AM| ≤ η, then from |ξ(0)| ≤ r (Gronwall, for Sξ)
-    |ξ| ≤ (r + q)exp(L)/s ≤ X, which proves that X was enough, and |ξ(1) - M(1)ξ(0)| ≤ (q + ηr)exp(L)/s.
+    |ξ| ≤ (r + q)exp(L)/s ≤ X, which proves that X was large enough, and |ξ(1) - M(1)ξ(0)| ≤ (q + ηr)exp(L)/s.
 
-A function of τ in [0, 1] is contained in a polynomial in Arb's balls, on which the kernels run as they are.
+A function of τ in [0, 1] is contained in a polynomial in Arb's balls, on which the kernels run unchanged.
 """
 
 from collections.abc import Iterable, Sequence
@@ -40,24 +40,24 @@ from ..loops.vectors import cross, dot_four
 from .series import Series, bend
 
 Polynomials = Sequence[arb_poly]
-#: The numbers that the kernels take: at one time, over a whole step, or as series.
+#: The arguments of the kernels: at one time, over a whole step, or as series.
 Entry = TypeVar("Entry", arb, arb_poly, arb_series)
 
-#: All τ that there are.
+#: The ball of all τ.
 UNIT = arb(0.5, 0.5)
-#: Pieces of a step on which the size of A is bounded apart.
+#: Pieces of a step on which the size of A is bounded separately.
 PIECES = 8
-#: Sums of entries below this do not count in the choice of S.
+#: Sums of entries below this are ignored in the choice of S.
 FLAT = 1e-9
-#: The factor of the bound of |ξ| that is tried first.
+#: The factor of the first trial bound of |ξ|.
 ROOM = 1.5
 
 
 def cut(polynomials: Iterable[arb_poly], degree: int) -> list[arb_poly]:
-    """Polynomials of a degree that contain these on [0, 1]: their constants are wide enough for what is beyond."""
+    """Polynomials of a lower degree that contain these on [0, 1]: the constants enclose the truncated terms."""
     found = []
     for poly in polynomials:
-        coefficients = poly.coeffs()  # by the list: python-flint 0.7 has no `truncate`
+        coefficients = poly.coeffs()  # python-flint 0.7 has no `truncate`
         beyond = arb_poly(coefficients[degree + 1 :])(UNIT).abs_upper()
         found.append(arb_poly(coefficients[: degree + 1]) + arb(0, beyond))
     return found
@@ -69,12 +69,12 @@ def bound(vector: Iterable[arb_poly]) -> arb:
 
 
 def exact(poly: arb_poly | arb_series) -> arb_poly:
-    """The middles."""
+    """The midpoints."""
     return arb_poly([x.mid() for x in poly.coeffs()])
 
 
 class Body(NamedTuple):
-    """J and D in balls, and I of them; a, of a rotor, per unit of the time in which ω is."""
+    """J, D and I in balls; a, of a rotor, in the unit of time of ω."""
 
     J: Vector
     D: arb
@@ -86,7 +86,7 @@ class Body(NamedTuple):
         return moments(self.J)
 
     def during(self, length: arb) -> "Body":
-        """The body with a in the unit of time of a step of that length."""
+        """The body with a in the unit of time of a step of this length."""
         return self._replace(rotor=tuple(length * x for x in self.rotor))
 
     def bent(self, w: Sequence[Entry], x: Sequence[Entry]) -> list[Entry]:
@@ -95,9 +95,9 @@ class Body(NamedTuple):
 
 
 class Defects(NamedTuple):
-    """The defects of polynomials in the equations: e, κ with R replaced by |p|²R, and |p|² - 1, polynomials.
+    """The defects of polynomials in the equations, as polynomials: e, κ with R replaced by |p|²R, and |p|² - 1.
 
-    R: |p|²R row by row; unit: contains 1/|p|².
+    R: |p|²R row by row; unit: encloses 1/|p|².
     """
 
     e: Polynomials
@@ -124,9 +124,9 @@ def defects(p: Polynomials, w: Polynomials, k: Vector, body: Body, degree: int) 
 
 
 class Step(NamedTuple):
-    """The effect of a step on ξ: M, all that ξ(1) - Mξ(0) may be, and on [0, 1] a bound of |ξ|.
+    """The effect of a step on ξ: M, an enclosure of ξ(1) - Mξ(0), and a bound of |ξ| on [0, 1].
 
-    slip: what ϖ may differ from w by.
+    slip: a bound of |ϖ - w|.
     """
 
     M: arb_mat
@@ -136,9 +136,9 @@ class Step(NamedTuple):
 
 
 def deviation(series: Series, w: Polynomials, size: arb, found: Defects, body: Body, start: arb) -> Step:
-    """The lemma, for |ξ(0)| ≤ start; to be called with the precision of matrices.  Raises TooWide.
+    """The lemma, for |ξ(0)| ≤ start; call it at the precision of matrices.  Raises TooWide.
 
-    series: gives M, floats that need not be right.  w: the exact polynomials.  size: a bound of |k|.
+    series: gives M, unproved floats.  w: the exact polynomials.  size: a bound of |k|.
     """
     degree = series.a.shape[1] - 1
     omega, gamma = cut(w, degree), cut([x * found.unit for x in found.R[6:]], degree)
@@ -148,7 +148,7 @@ def deviation(series: Series, w: Polynomials, size: arb, found: Defects, body: B
     inverse, growth, largest, W = _sizes(omega, gamma, body, weights)
     M = [[arb_poly(series.Phi[:, i, j].tolist()) for j in range(3)] for i in range(3)]
     eta = (inverse * _slip(M, omega, gamma, body)).abs_upper()
-    # With |p|² = 1 + η what is computed has (2η + η²)Dγ × (w × γ) - ηK too much.
+    # With |p|² = 1 + η the computed value has the error (2η + η²)Dγ × (w × γ) - ηK.
     kappa = bound(found.kappa) + (2 * off + off * off) * body.D * W + off * size
     I = body.inertia
     sigma = ((highest(*I) - lowest(*I)) / 2).abs_upper()
@@ -169,9 +169,9 @@ def deviation(series: Series, w: Polynomials, size: arb, found: Defects, body: B
 
 
 def _weights(series: Series) -> list[float]:
-    """The entries of S, powers of 2: with them the rows and the columns of A are about as large (Osborne).
+    """The entries of S, powers of 2, that make the rows and columns of A about equally large (Osborne).
 
-    The least is no less than makes exp(L)/s the smallest: a ball with two equal moments has a column of zeros.
+    The least entry is bounded below so that exp(L)/s is smallest: a ball with two equal moments has a column of zeros.
     """
     whole = np.abs(series.A).sum(axis=0)
     size, found = whole * (1 - np.eye(3)), np.zeros(3)

@@ -1,10 +1,10 @@
-"""One continuous motion under way: a step finds polynomials, mends them until rounding is left, and proves them.
+"""One continuous motion in progress: a step finds polynomials, corrects them to rounding, and proves them.
 
-What finds them may be wrong: only what `deviation` proves of them is used.
+How they are found is not proved: only the bounds that `deviation` proves of them are used.
 
-Corrections gain more bits each time.  Neighbours of the motion have ξ' = Aξ (see `deviation`).  With Φ' = AΦ, Φ(0) = 1
-and Ψ = Φ⁻¹ the defects e and κ of p and w are taken away, to the first order, by ξ = -½Φ∫Ψ(B⁻¹κ + ε): a correction
-gains as many bits as Φ has.  Φ is mended in the same way, by -Φ∫Ψ(Φ' - AΦ), and then has twice as many bits.
+Each correction gains more bits than the last.  Neighbours of the motion have ξ' = Aξ (see `deviation`).  With Φ' = AΦ,
+Φ(0) = 1 and Ψ = Φ⁻¹ ξ = -½Φ∫Ψ(B⁻¹κ + ε) removes the defects e and κ of p and w to the first order: a correction gains
+as many bits as Φ has.  Φ is corrected in the same way, by -Φ∫Ψ(Φ' - AΦ), which doubles its bits.
 """
 
 import math
@@ -33,14 +33,14 @@ Rows = Sequence[Row]
 
 
 class Neighbours:
-    """Φ and Ψ of a step, exact polynomials; to be called with the precision of what is gained."""
+    """Φ and Ψ of a step, exact polynomials; call its methods at the precision of the gained bits."""
 
     def __init__(self, series: Series, body: Body) -> None:
         back = linear(-np.transpose(series.A, (0, 2, 1)), np.zeros((len(series.A) - 1, 3, 3)), np.eye(3))
         self.body, self.phi, self.psi = body, _rows(series.Phi), _rows(np.transpose(back, (0, 2, 1)))
 
     def mend(self, p: Polynomials, w: Polynomials, terms: int) -> None:
-        """Gives Φ and Ψ twice as many bits, if p and w have as many."""
+        """Doubles the bits of Φ and Ψ, if p and w have that many."""
         with flint_terms(terms):
             gamma, omega, phi, psi = generated.rotation(*_series(p))[6:], _series(w), *map(_all, (self.phi, self.psi))
             off = []
@@ -60,7 +60,7 @@ class Neighbours:
             a, omega = _series(p), _series(w)
             e, kappa, (off,) = map(_series, (found.e, found.kappa, [found.off]))
             gamma = generated.rotation(*a)[6:]
-            # κ is that of |p|²R in place of R; what this is off by is taken away with the rest.
+            # κ has |p|²R in place of R; the corrections remove this error, too.
             central = generated.contact_momentum(*(*omega, *gamma, *self.body.J, -self.body.D))
             whole = [x + y for x, y in zip(central, self.body.rotor, strict=True)]
             b = self._solved([x + off * y for x, y in zip(kappa, whole, strict=True)], gamma)
@@ -78,7 +78,7 @@ class Neighbours:
 
 
 def _series(polynomials: Iterable[arb_poly | arb_series]) -> list[arb_series]:
-    """The middles, rounded, as series."""
+    """The rounded midpoints, as series."""
     return [arb_series(exact(exact(x) * arb(1))) for x in polynomials]
 
 
@@ -91,7 +91,7 @@ def _exact(series: Row) -> list[arb_poly]:
 
 
 def _rows(matrices: Floats) -> Sequence[Polynomials]:
-    """A matrix of polynomials, from that of each term."""
+    """A matrix of polynomials, from the matrices of their coefficients."""
     return [[arb_poly(matrices[:, i, j].tolist()) for j in range(3)] for i in range(3)]
 
 
@@ -101,28 +101,28 @@ def _product(left: Rows, right: Rows) -> Rows:
     return [[sum(x * y for x, y in zip(row, column, strict=True)) for column in columns] for row in left]
 
 
-#: A step is this part of the radius of convergence, where the price of a unit of time is least, and this many radians.
+#: The length of a step, as a part of the radius of convergence (least cost per unit of time), and in radians.
 PART, RADIANS = 1 / math.e, 2.0
-#: The unit of time of the series is at most so much shorter than the step, after a few looks.
+#: The largest ratio of the step to the unit of time of the series, and the number of trials for it.
 ALIKE, LOOKS = 1.5, 4
-#: How often a step that cannot be proved is halved.
+#: The number of times that a step without a proof is halved.
 HALVINGS = 5
-#: Bits that a correction in float64 is taken to gain, and that are carried beyond those known so far.
+#: The bits that a correction in float64 is assumed to gain, and the bits that are carried beyond the known ones.
 GAIN, BEYOND = 48, 66
-#: The error after the last correction is this many bits above the rounding.
+#: The number of bits by which the error after the last correction exceeds the rounding.
 LEFT = 11
-#: Bits for each that a correction gains from which on the next gain twice as many, and bits of them that are lost.
+#: Φ gets more bits while more than this many times the gain is missing; and the bits that its correction loses.
 FAR, LOST = 4, 12
-#: Corrections that may do nothing, and how many times as many terms are tried then.
+#: The number of ineffective corrections that is allowed, and the factor of the number of terms that is tried then.
 STUCK, MORE_TERMS = 1, 1.25
 
 
 class Path:
-    """A motion in balls of `precision` bits; every method is to be called with that precision set.
+    """A motion in balls of `precision` bits; call every method with that precision set.
 
-    attitude: a quaternion, K: the momentum, rotor: that of a rotor, in the axes of the body, all in balls.
-    time: since the start, exactly.  steps: taken so far.  tick: called within a step; what it raises ends it.
-    given: a frame in other axes, from those of the tensor.
+    attitude: a quaternion; K: the momentum; rotor: the momentum of a rotor, in body axes; all in balls.  time: exact,
+    since the start.  steps: taken so far.  tick: called within a step; an exception that it raises ends the step.
+    given: converts a frame from the axes of the tensor to other axes.
     """
 
     def __init__(
@@ -146,11 +146,11 @@ class Path:
 
     @property
     def width(self) -> float:
-        """The logarithm to base 2 of how far the attitude may be off."""
+        """The logarithm to base 2 of a bound of the error of the attitude."""
         return _log(self.spread.size)
 
     def advance(self, end: Fraction) -> None:
-        """Goes on to a later time, or a part of the way; raises TooWide where the balls allow no proof."""
+        """Advances to a later time, or a part of the way; raises TooWide if the balls allow no proof."""
         for halved in range(HALVINGS + 1):
             series, length = self._series(end - self.time, 0.5**halved)
             k = tuple(ball(length) * x for x in self.k)
@@ -174,7 +174,7 @@ class Path:
         self.time, self.steps = self.time + length, self.steps + 1
 
     def _series(self, left: Fraction, part: float) -> tuple[Series, Fraction]:
-        """The series in float64 in units of the next step, and its length: a part of what serves best."""
+        """The series in float64 in units of the next step, and the length of the step: `part` of the best length."""
         a, k, J, s = (np.array([long_float(x) for x in v]) for v in (self.p, self.k, self.body.J, self.body.rotor))
         D = long_float(self.body.D)
         whole = float(left)
@@ -186,7 +186,7 @@ class Path:
             most = part * min(PART * unit_of_time * found.reach(), RADIANS / rate if rate else math.inf)
             if not most > 0:
                 raise TooWide
-            # Rounding grows with the powers of the length: the unit is to be about that.
+            # Rounding grows with the powers of the length, so the unit is about the length.
             if min(most, whole) < ALIKE * unit_of_time:
                 break
             unit_of_time = min(most, whole)
@@ -196,7 +196,7 @@ class Path:
         return found.scaled(LONG(float(length)) / LONG(unit_of_time)), length
 
     def _degree(self, series: Series) -> int:
-        """This many terms that what is beyond is below the rounding."""
+        """The number of terms that makes the truncation error less than the rounding."""
         small = series.sizes() < 2.0**-self.precision
         if small[-2:].all():
             return max(int(np.flatnonzero(~small)[-1]), 1) + 3
@@ -205,7 +205,7 @@ class Path:
         return max(math.ceil(self.precision / bits), 2) + 4
 
     def _mended(self, series: Series, k: Vector, body: Body) -> tuple[Polynomials, Polynomials, Defects]:
-        """Exact polynomials p and w, and what they leave at the whole precision; k and `body` are those of the step."""
+        """Exact polynomials p and w, and their defects at the whole precision; k and `body` are those of the step."""
         degree = self._degree(series)
         terms = min(degree + 1, TERMS)
         p = [x - x(0) + y for x, y in zip(_polys(series.a[:, :terms]), self.p, strict=True)]
@@ -236,11 +236,11 @@ class Path:
             bits = known + gain
 
     def _terms(self, degree: int, bits: int) -> int:
-        """This many terms serve for this many bits."""
+        """The number of terms that this many bits need."""
         return max(TERMS, min(degree, degree * bits // self.precision)) + 1
 
     def frame(self, time: Fraction) -> dict[str, Vector]:
-        """The attitude, γ, K, ω and the contact point, if there is one, at the end of the last step or within it."""
+        """The attitude, γ, K, ω and the contact point, if any, at the end of the last step or within it."""
         p, within, contact = self.p, self.spread.size, self.contact
         if time != self.time:
             assert self.last is not None
@@ -258,7 +258,7 @@ class Path:
 
 
 class Last(NamedTuple):
-    """A step: when it began, its length, p, a bound of |ξ| on it, and the contact point and the way it goes."""
+    """A step: its start, its length, p, a bound of |ξ| on it, the contact point and its path."""
 
     time: Fraction
     length: Fraction

@@ -1,4 +1,4 @@
-"""Exact data of a motion, and the balls that contain them at any precision."""
+"""The exact data of a motion, and balls that contain them at any precision."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -43,12 +43,12 @@ def ball(x: Number) -> arb:
 
 
 def balls(v: Sequence[Number]) -> Vector:
-    """A vector of them."""
+    """A vector of such balls."""
     return tuple(map(ball, v))
 
 
 def exactly(value: Any, name: str) -> Fraction:
-    """A number as it is written: of a text, a Decimal, a Fraction or an integer; a float is the binary number it is."""
+    """An exact number: a string, a Decimal, a Fraction, an integer, or a float, taken as its binary value."""
     if isinstance(value, str):
         try:
             return rational(value, name)
@@ -78,22 +78,22 @@ def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
     return tuple(exactly(x, f"{name} {i}") for i, x in enumerate(listed, start=1))
 
 
-#: The rotation that turns no axes.
+#: The identity.
 NO_TURN: Vector = (arb(1), arb(0), arb(0), arb(0))
 
 
 class Principal(NamedTuple):
-    """Principal moments of ∫xxᵀdm, and the unit quaternion that turns principal axes to the given ones."""
+    """Principal moments of ∫xxᵀdm, and the unit quaternion from the principal to the given axes."""
 
     moments: Vector
     turn: Vector = NO_TURN
 
     def inward(self, vector: Balls) -> Vector:
-        """A vector in principal axes, from the given ones."""
+        """A vector, converted from the given axes to principal axes."""
         return tuple(vector) if self.turn == NO_TURN else tuple(generated.transport(*self.turn, *vector))
 
     def given(self, frame: dict[str, Vector]) -> dict[str, Vector]:
-        """A frame in the given axes, from principal ones."""
+        """A frame, converted from principal axes to the given axes."""
         if self.turn == NO_TURN:
             return frame
         found = {name: generated.rotate(*self.turn, *frame[name]) for name in ("gamma", "angular_momentum", "omega")}
@@ -104,8 +104,8 @@ class Principal(NamedTuple):
 def principal(tensor: Sequence[Balls]) -> Principal:
     """The principal axes of a symmetric matrix of balls; raises TooWide where its moments may be equal.
 
-    An eigenvector of a real eigenvalue that is simple is a real one times a complex number, so its components divided
-    by one of them are real.  The third axis is normal to two others.
+    An eigenvector of a simple real eigenvalue is a complex multiple of a real vector, so ratios of its components are
+    real.  The third axis is normal to the two others.
     """
     if all(tensor[i][j] == 0 for i in range(3) for j in range(3) if i != j):
         return Principal(tuple(tensor[i][i] for i in range(3)))
@@ -132,7 +132,7 @@ def principal_exactly(rows: Sequence[Sequence[Fraction]]) -> Principal:
     if round_ is None:
         return principal([balls(row) for row in rows])
     twice, once, axis = round_
-    least_ = min(range(3), key=lambda i: abs(axis[i]))  # an axis that this one is farthest from
+    least_ = min(range(3), key=lambda i: abs(axis[i]))  # the axis that is farthest from this one
     third = unit(balls(axis))
     first = unit(balls(cross(axis, [Fraction(i == least_) for i in range(3)])))
     turn = tuple(quaternions(np.array([first, cross(third, first), third], dtype=object).T))
@@ -157,12 +157,12 @@ def _round(rows: Sequence[Sequence[Fraction]]) -> tuple[Fraction, Fraction, Sequ
 
 @dataclass(frozen=True)
 class Start:
-    """A motion's data.
+    """The data of a motion.
 
-    mass_tensor, D: exact; or, where the tensor is not diagonal in the axes of the body, `axes`: its principal moments
-    and axes in balls at the precision that is set, and no mass_tensor.
-    attitude: its quaternion of any length, in such balls.  momentum: K in principal axes, of their attitude and them.
-    radius, position: exact, or None.  rotor: the angular momentum of a rotor, in the axes of the body; it is part of K.
+    mass_tensor, D: exact.  axes: for a tensor that is not diagonal in the axes of the body, in place of mass_tensor, a
+    function that gives its principal moments and axes in balls at the precision that is set.  attitude: gives a
+    quaternion of any length, in such balls.  momentum: gives K in principal axes.  radius: exact, or None.  position:
+    exact.  rotor: the angular momentum of a rotor, in body axes; it is part of K.
     """
 
     mass_tensor: Sequence[Fraction]
@@ -175,7 +175,7 @@ class Start:
     axes: Callable[[], Principal] | None = None
 
     def path(self, precision: int) -> Path:
-        """The motion at the start, with that precision set; raises TooWide where it does not tell the axes apart."""
+        """The motion at the start, at this precision; raises TooWide if this does not separate the axes."""
         axes = Principal(balls(self.mass_tensor)) if self.axes is None else self.axes()
         a = unit(generated.compose(*unit(self.attitude()), *axes.turn))
         radius, rotor = None if self.radius is None else ball(self.radius), axes.inward(balls(self.rotor))
@@ -186,19 +186,19 @@ class Start:
 
 
 def upright(gamma: Sequence[Number]) -> Callable[[], Balls]:
-    """The least rotation that turns γ, of any length, up."""
+    """The least rotation that turns γ, of any length, to the vertical."""
     return lambda: least(*unit(balls(gamma)))
 
 
 def fixed(momentum: Sequence[Number]) -> Callable[[Balls, Principal], Balls]:
-    """K as it is."""
+    """The constant K."""
     return lambda attitude, axes: axes.inward(balls(momentum))
 
 
 def turning(
     omega: Sequence[Number], D: Fraction, space: bool, rotor: Sequence[Number] = NO_ROTOR
 ) -> Callable[[Balls, Principal], Balls]:
-    """K = B(γ)ω + a, ω in the axes of the body or of space, a of the rotor."""
+    """K = B(γ)ω + a, with ω in body axes or in space axes, and a of the rotor."""
 
     def momentum(attitude: Balls, axes: Principal) -> Balls:
         v = generated.transport(*(*attitude, *balls(omega))) if space else axes.inward(balls(omega))

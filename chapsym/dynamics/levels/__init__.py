@@ -1,1 +1,1 @@
-"""The levels of precision: how a run is done in each kind of number."""
+"""The precision levels: a run in each type of number."""

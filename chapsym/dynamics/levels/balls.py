@@ -1,22 +1,22 @@
 """Runs and steps at any precision, in Arb's numbers: as enclosures for Enclosure(bits), as points for Digits(n).
 
-`ArbBall`: every step encloses the true one, of every state that there may be.  The rotation since the start is followed
-as a point and what it may be off by: its error grows as that of the motion does.  `proved_root` proves the
-root of each step for all states, where lemma `small-branch` holds, and |𝒦| is an integral of the map so that it is
-looked at once, and beyond it where lemma `straight-path` does.  Elsewhere, as near a fold, the branch is that which the
-float64 continuation selects, and the interval Newton test encloses its root: `selected` counts such steps.
+`ArbBall`: every step encloses the true step of every state in the enclosure.  The rotation since the start is a point
+and a bound of its error, which grows like the errors of the motion.  `proved_root` proves the root of each step for all
+states, by lemma `small-branch` (checked once, as |𝒦| is an integral of the map), and beyond its bound by lemma
+`straight-path`.  Elsewhere, as near a fold, the float64 continuation selects the branch, and the interval Newton test
+encloses its root: `selected` counts such steps.
 
-How far the true rotation is from the point is a parallelepiped that turns and shears with the map, `Spread`.  𝒦 and γ
-of a step are those of the start, turned back by the rotation since then.  The true one is p∘(1, ξ), p an exact point
-and ξ = Br, r in a box.  A step takes ξ to Mξ + w, M a matrix in balls: the mean-value form, with M for all states that
-there may be.  So B becomes the orthogonal factor of MB (Lohner), and the box grows by what the motion itself and the
-roundings of p do: linearly, where the motion is regular, and not by a factor each step.
+The error of the rotation is in a parallelepiped that turns and shears with the map, `Spread`.  𝒦 and γ of a step are
+those of the start, turned back by the rotation since then.  The true rotation is p∘(1, ξ), with p an exact point and
+ξ = Br, r in a box.  A step takes ξ to Mξ + w, with M a matrix in balls: the mean-value form, with M for all states in
+the enclosure.  So B becomes the orthogonal factor of MB (Lohner), and the box grows by the motion itself and the
+roundings of p: linearly for a regular motion, and not by a factor per step.
 
 `DigitsBall`: the midpoints alone, with guard bits.
 
-`root` finds the Gibbs vector of a step, to any number of bits: float64, then corrections.  Only midpoints count: it is
-a point, of which nothing is proved there.  Where lemma `small-branch` holds, the root is one in a convex region on
-which G is monotone, so any iteration that settles there has found it.
+`root` finds the Gibbs vector of a step, to any number of bits: in float64, then by corrections.  Only midpoints count:
+the result is a point, and nothing is proved of it.  If lemma `small-branch` holds, the root is in a convex region on
+which G is monotone, so an iteration that converges there has found it.
 """
 
 import math
@@ -45,18 +45,18 @@ from .frames import Balls, Frames
 from .proved_root import MATRIX_BITS, Vector, certified, enclosed, inverse_slope, on_path, refined, stretch, unit, upper
 from .start import Exact, exponent_of, fraction, least, magnitude, start
 
-#: The start of a ball: 𝒦, γ, J and D, exactly; the exact coefficients of the composition; the attitude, empty for
-#: the least rotation, or None; and the radius.
+#: The start of a ball: exact 𝒦, γ, J and D; the exact coefficients of the composition; the attitude, empty for the
+#: least rotation, or None; and the radius.
 Given = tuple[Exact, Exact, Exact, Fraction, Exact, Sequence[float | Fraction] | None, float]
 #: Steps of a ball between two calls of `progress`.
 CHUNK = 200
-#: Steps between two looks at the radii.
+#: Steps between two checks of the radii.
 LOOK = 16
-#: How often more bits may not help before the run stops: a root that cannot be proved with some may be with more.
+#: The number of attempts with more bits that may fail to help before the run stops.
 MOST_STUCK = 4
-#: How often over a root may lose the bits that the conditioning costs.
+#: The number of times that a root may lose the bits of the conditioning.
 CONDITION = 3
-#: The most bits beyond those that are asked for.
+#: The largest number of extra bits.
 MOST_GUARD = 2**22
 
 
@@ -66,9 +66,10 @@ def run(
 ) -> list[int]:  # fmt: skip
     """Takes `steps` steps of every ball into `frames`, one ball after the other; frame 0 is written anew.
 
-    Returns for each ball how many rotations are not proved to be the branch's, but selected (`ArbBall.selected`).
+    Returns for each ball the number of rotations that are selected, not proved to be those of the branch
+    (`ArbBall.selected`).
 
-    Enclosure(bits): with as many bits more as the radii grow by, which is measured, so that `bits` are left at the end.
+    Enclosure(bits): extra bits make up for the measured growth of the radii, so that `bits` are left at the end.
     """
     done, selected = 0, list[int]()
     for i in range(len(balls.D)):
@@ -96,7 +97,7 @@ def _given(balls: Balls, i: int, frames: Frames, order: int) -> Given:
 
 @dataclass(frozen=True, eq=False)
 class _Way:
-    """The steps of one ball, and the frames that they fill."""
+    """The steps of one ball, and its frames."""
 
     frames: Frames
     i: int
@@ -105,7 +106,7 @@ class _Way:
     progress: Callable[[int], None]
 
     def take(self, ball: "DigitsBall | ArbBall", bits: int, enough: Callable[[int], bool] = lambda step: True) -> None:
-        """Takes the steps and writes the frames, with this many bits; stops early where `enough` says no."""
+        """Takes the steps and writes the frames, with this many bits; stops early if `enough` is false."""
         f, i = self.frames, self.i
         kept = (f.momentum, f.gamma, *((f.attitude, f.contact) if f.with_body else ()))
         f.taken[i] = 0
@@ -129,7 +130,7 @@ class _Way:
 
 
 def _enclosed(precision: Enclosure, given: Given, way: _Way) -> int:
-    """The run with more bits until `precision.bits` are left, or BadInput; returns how many rotations were selected."""
+    """The run with more bits until `precision.bits` are left, or BadInput; returns the number of selected rotations."""
     guard, before, stuck = precision.guard, (0, -math.inf), 0
     _, lost = magnitude(*given[2:4])
     while guard <= MOST_GUARD:
@@ -140,7 +141,7 @@ def _enclosed(precision: Enclosure, given: Given, way: _Way) -> int:
         stuck = stuck + 1 if (step, left) <= before and guard > CONDITION * lost else 0
         if stuck == MOST_STUCK:
             break
-        # The bits that a step has cost, and a little more, for all steps.
+        # The bits that a step has cost, and some more, for all steps.
         cost = (bits - left) / step if step else 0.0
         guard, before = max(2 * guard, math.ceil(1.1 * cost * way.steps) + precision.guard), (step, left)
     raise BadInput(
@@ -150,10 +151,10 @@ def _enclosed(precision: Enclosure, given: Given, way: _Way) -> int:
 
 
 def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, float, int]:
-    """Runs with this many bits while those that are wanted are left.
+    """Runs with this many bits while the wanted bits are left.
 
-    Returns the step where they were last counted, the bits left there, and how many rotations were selected.  None
-    are left where a step could not be proved.
+    Returns the step at which they were last counted, the bits left there, and the number of selected rotations.  No
+    bits are left if a step could not be proved.
     """
     seen: tuple[int, float] = (0, math.inf)
     with flint_bits(bits):
@@ -174,30 +175,31 @@ def _attempt(bits: int, wanted: int, given: Given, way: _Way) -> tuple[int, floa
         if f.status[i] != Status.TAKEN:
             seen = (int(f.taken[i]), ball.bits())
     if seen[1] < wanted:
-        f.status[i], f.reach[i] = Status.TAKEN, 1.0  # of balls that were too wide to tell
+        f.status[i], f.reach[i] = Status.TAKEN, 1.0  # of balls that were too wide for a proof
     return *seen, ball.selected
 
 
-#: Up to this many bits, corrections by the float64 Jacobian; beyond, Newton's, each with twice the bits of the last.
+#: Up to this many bits the corrections use the float64 Jacobian; beyond, Newton's iteration doubles the bits.
 CHORD_BITS = 300
-#: Numbers of this many bits below 1 are in the range of float64.
+#: The largest k for which float64 represents 2^-k with all bits.
 FLOAT_BITS = 1000
-#: The error, relative to the one before, that the first correction by the float64 Jacobian is taken to leave.
+#: The assumed factor of the error by the first correction with the float64 Jacobian.
 GAIN = 2.0**-40
-#: Bits that Newton's iterates are short of twice those before.
+#: The bits by which a Newton iterate falls short of twice the bits of the last.
 SHORT = 12
 MOST_ROUNDS = 100
-#: The most rounds in float64, and the relative correction that is the last one: without a guess, and with one.  The
-#: inverse is that of the last but one, so that each correction with it gains the digits of the last.
+#: The largest number of rounds in float64, and the relative correction that is the last one: without a guess, and with
+#: one.  The inverse is that of the last but one iterate, so that each correction with it gains the digits of the last
+#: one.
 COLD, WARM = (100, 1e-7), (3, 1e-12)
 
 Floats = tuple[float, ...]
-#: A point, and how far from it a root is at most; None where that is not proved.
+#: A point, and a bound of its distance from a root; None if none is proved.
 Near = tuple[Vector, arb] | None
 
 
 class NotSettled(ArithmeticError):
-    """The corrections did not become small."""
+    """The corrections did not converge."""
 
 
 def extrapolated(past: Sequence[Floats]) -> Floats:
@@ -211,10 +213,10 @@ def extrapolated(past: Sequence[Floats]) -> Floats:
 
 
 def root(guess: Floats, state: Vector, bits: int, lost: int, unit: arb) -> tuple[Vector, Floats]:
-    """The Gibbs vector with this many bits, from a guess in float64; returns it, exact numbers, and its float64 value.
+    """The Gibbs vector with this many bits, from a guess in float64, as exact numbers, and its float64 value.
 
     state: k, γ, I and D, the largest moment about 1; unit: a power of two about |k|.  lost: the bits that the
-    conditioning costs.  Raises NotSettled, or another ArithmeticError, where it does not settle.
+    conditioning costs.  Raises NotSettled, or another ArithmeticError, if it does not converge.
     """
     before, precisions = ctx.prec, [bits]
     while precisions[-1] > CHORD_BITS + 4 * lost:
@@ -233,7 +235,7 @@ def root(guess: Floats, state: Vector, bits: int, lost: int, unit: arb) -> tuple
 
 
 def _rounded(state: Vector) -> Vector:
-    """The state with the bits of the working precision."""
+    """The state, rounded to the working precision."""
     return tuple(+x for x in state)
 
 
@@ -254,7 +256,7 @@ def _in_float64(guess: Floats, state: Floats) -> tuple[Floats, list[float]]:
 
 
 def _chord(start: Floats, state: Vector, inverse: Sequence[float], lost: int, unit: arb) -> Vector:
-    """Corrections with one approximate inverse until the next would be below a unit, or below `lost` bits.
+    """Corrections with one approximate inverse until the next one would be below a unit, or below `lost` bits.
 
     The corrections are floats, in that unit.  Raises NotSettled if they do not shrink.
     """
@@ -266,7 +268,7 @@ def _chord(start: Floats, state: Vector, inverse: Sequence[float], lost: int, un
         d1, d2, d3 = adjoint(inverse, [float(r * large) for r in gibbs_residual(u1, u2, u3, *state)])
         u1, u2, u3 = u1 - d1 * unit, u2 - d2 * unit, u3 - d3 * unit
         change = max(abs(d1), abs(d2), abs(d3))
-        # The next correction is taken to shrink by the same factor.
+        # The next correction is assumed to shrink by the same factor.
         gain = change / before if before else GAIN
         if change * gain <= least or change <= 4 * 2.0**lost * least:
             return u1.mid(), u2.mid(), u3.mid()
@@ -287,16 +289,16 @@ def _newton(u: Vector, state: Vector, bits: int) -> Vector:
     return tuple((x - y).mid() for x, y in zip(u, d, strict=True))
 
 
-#: Bits of Digits for the roundings of one step.
+#: The guard bits of Digits for the roundings of one step.
 GUARD = 8
-#: A rotation with a smaller q₀ is taken as a quaternion in balls: its Gibbs vector is too long.
+#: A rotation with a smaller q₀ is a quaternion in balls, since its Gibbs vector is too long.
 LEAST_SCALAR = 0.125
-#: The mean-value form is for small ξ.
+#: The largest |ξ| of the mean-value form.
 LARGEST = 0.125
 
 
 class Spread:
-    """ξ = Br of balls; every method is to be called with the precision of matrices."""
+    """ξ = Br in balls; call every method at the precision of matrices."""
 
     def __init__(self) -> None:
         self.restart(arb(0))
@@ -322,14 +324,14 @@ class Spread:
 
 
 def small(size: arb) -> arb:
-    """A bound of |ξ|; raises TooWide where the form is not for it."""
+    """A bound of |ξ|; raises TooWide if it is too large for the mean-value form."""
     if not size < LARGEST:
         raise TooWide
     return size
 
 
 def orthogonal(matrix: arb_mat, box: arb_mat) -> arb_mat:
-    """Exact, and orthogonal to rounding: the axes of a parallelepiped, from its longest edge on."""
+    """The axes of a parallelepiped, by decreasing length of its edges: exact numbers, orthogonal to rounding."""
     e = [float(x) for x in matrix.entries()]
     radii = [x.rad() for x in box.entries()]
     largest = max(radii)
@@ -354,10 +356,10 @@ def cross_matrix(v: Sequence[arb]) -> arb_mat:
 def carried(u: Vector, inverse: arb_mat, k: Vector, g: Vector, D: arb, size: arb) -> tuple[arb_mat, arb]:
     """M and a bound of |w| for a step: ξ becomes Mξ + w, |ξ| ≤ size.
 
-    u: the Gibbs vector of the point; inverse: A⁻¹ for every middle between it and another state's; k, γ: for all
-    states.  By lemma `state-error` the Gibbs vector at ξ is ũ + δ with Aδ = -Sξ, S by what ξ changes in k and γ,
-    v - ṽ = 2[ṽ + ṽ × ξ]ₓξ/(1 + |ξ|²); and (1, -ũ)(1, ξ)(1, ũ + δ) is a multiple of (1, ξ').  The vector after
-    the 2 is within 2|ξ||v| of ṽ, as the v of all states are.
+    u: the Gibbs vector of the point; inverse: A⁻¹ for every midpoint between u and the Gibbs vector of another state;
+    k, γ: for all states.  By lemma `state-error` the Gibbs vector at ξ is ũ + δ with Aδ = -Sξ; S follows from the
+    change of k and γ by ξ, v - ṽ = 2[ṽ + ṽ × ξ]ₓξ/(1 + |ξ|²); and (1, -ũ)(1, ξ)(1, ũ + δ) is a multiple of (1, ξ').
+    The vector after the factor 2 is within 2|ξ||v| of ṽ, as is the v of every state.
     """
     (u1, u2, u3), (g1, g2, g3) = u, g
     square, inner = dot(u, u), dot(g, u)
@@ -385,10 +387,10 @@ def exact(x: float | Fraction) -> arb:
 
 
 class _UnderWay:
-    """A ball that takes steps in `precision` bits.
+    """A ball that takes steps with `precision` bits.
 
-    All is scaled by a power of two, exactly, so that the largest moment of inertia is about 1.  Every method is to be
-    called with that precision set.
+    An exact power of two scales all quantities, so that the largest moment of inertia is about 1.  Call every method
+    with that precision set.
     """
 
     def __init__(self, precision: int, given: Given) -> None:
@@ -409,7 +411,7 @@ class _UnderWay:
         self.past: list[deque[Floats]] = [deque(maxlen=len(WEIGHTS)) for _ in stages]
 
     def _root(self, k: Vector, past: deque[Floats]) -> tuple[Vector, Floats] | None:
-        """A point near the Gibbs vector, and its float64 value; None where no iteration finds it."""
+        """A point near the Gibbs vector, and its float64 value; None if no iteration finds it."""
         state = *k, *self.g, *self.I, self.D
         try:
             return root(extrapolated(past), state, self.root_bits, self.lost, self.unit)
@@ -422,7 +424,7 @@ class _UnderWay:
         return tuple(map(exact, start(k, vertical, tensor, fraction(self.D))))
 
     def _follow(self, q: Vector, g: Vector) -> None:
-        """Moves the contact point by the rotation q; g: γ of all states."""
+        """Moves the contact point by the rotation q; g: γ of all states in the enclosure."""
         x, y, _ = rotate(*self._attitude(), *centre_step(*q, *g))
         self.x = (self.x[0] + x, self.x[1] + y)
 
@@ -431,13 +433,13 @@ class _UnderWay:
 
 
 class DigitsBall(_UnderWay):
-    """A ball that takes steps at N digits, with guard bits for all: midpoints inside, mpmath's numbers outside."""
+    """A ball that takes steps at N digits with guard bits, on midpoints; its frames are mpmath's numbers."""
 
     def __init__(self, precision: Digits, given: Given, steps: int = 1) -> None:
         K, _, J, D, stages, _, self.radius = given
         self.context = precision.context
         exponent, lost = magnitude(J, D)
-        # Roundings of the state add up to the square of the number of steps, as its frequencies drift.
+        # The effect of roundings grows with the square of the number of steps, as the frequencies drift.
         more = 2 * math.ceil(math.log2(steps * len(stages) + 1)) + 2 * lost
         bits = self.context.prec + more + GUARD
         small = max(0, -size_of(K, exponent))
@@ -450,7 +452,7 @@ class DigitsBall(_UnderWay):
         self.bounds = [certificate([abs(float(c)) * x for x in half], inertia, contact)[0] for c in stages]
 
     def step(self) -> None:
-        """Takes one step; raises StepNotTaken, the ball then being where the step began or at a stage of it."""
+        """Takes one step; raises StepNotTaken, with the ball at the start of the step or at one of its stages."""
         for c, bound, past in zip(self.stages, self.bounds, self.past, strict=True):
             k = self.k if c is None else tuple(c * x for x in self.k)
             u = self._gibbs(k, bound, past)
@@ -464,7 +466,7 @@ class DigitsBall(_UnderWay):
             )
 
     def _gibbs(self, k: Vector, bound: float, past: deque[Floats]) -> Vector | None:
-        """The Gibbs vector where `small-branch` or `straight-path` says that it is that of the branch; else None."""
+        """The Gibbs vector, if `small-branch` or `straight-path` proves that it is that of the branch; else None."""
         found = self._root(k, past) if bound >= 0.0 or bound == BEYOND else None
         if found is None:
             past.clear()
@@ -477,14 +479,14 @@ class DigitsBall(_UnderWay):
         return u
 
     def _on_path(self, root: Vector, k: Vector) -> bool:
-        """Whether the straight path joins a root to no rotation: an inequality with room, evaluated in float64."""
+        """Whether the straight path joins a root to the identity: an inequality with a margin, evaluated in float64."""
         u, half, g = (tuple(map(float, v)) for v in (root, k, self.g))
         spread = 0.5 * (max(self.floats[:3]) - min(self.floats[:3]))
         proved, _ = joined(u, dot(u, u), half, math.hypot(*half), g, self.floats[:3], self.floats[3], spread)
         return proved > 0
 
     def _rotation(self, k: Vector) -> Vector:
-        """The rotation where neither lemma holds, refined."""
+        """The refined rotation if neither lemma holds."""
         K = tuple(2 * x for x in k)
         q = refined(self._near(K, self.g), K, self.g, self.J, (self.D,))
         if q is None:
@@ -500,11 +502,11 @@ class DigitsBall(_UnderWay):
 
 
 class ArbBall(_UnderWay):
-    """A ball that takes steps in balls."""
+    """A ball that takes steps in Arb balls."""
 
     def __init__(self, precision: int, given: Given) -> None:
         super().__init__(precision, given)
-        # The steps compose the rotation since the start: 𝒦 and γ are those of the start, turned back by it.
+        # The steps compose the rotation since the start; 𝒦 and γ are those of the start, turned back by this rotation.
         self.first_k, self.first_g, self.length = self.k, self.g, upper(self.k)
         self.p: Vector = (arb(1), arb(0), arb(0), arb(0))
         self.spread, self.matrix_bits = Spread(), MATRIX_BITS + 3 * self.lost
@@ -514,7 +516,7 @@ class ArbBall(_UnderWay):
         self.selected = 0
 
     def step(self) -> None:
-        """Takes one step; raises StepNotTaken, and TooWide where the balls are too large to prove one."""
+        """Takes one step; raises StepNotTaken, and TooWide if the balls are too large to prove a step."""
         for c, bound, past in zip(self.stages, self.bounds, self.past, strict=True):
             k, (wide, g) = self.k, self._all()
             if c is not None:
@@ -528,15 +530,15 @@ class ArbBall(_UnderWay):
             )
 
     def _all(self) -> tuple[Vector, Vector]:
-        """k and γ of all states that there may be: a turn by ξ moves a vector by 2|ξ| of its length at most."""
+        """k and γ of all states in the enclosure: ξ moves a vector by at most 2|ξ| times its length."""
         off = 2 * self.spread.size
         along, across = arb(0, (off * self.length).abs_upper()), arb(0, off.abs_upper())
         return tuple(x + along for x in self.k), tuple(x + across for x in self.g)
 
     def _proved(self, k: Vector, every: Vector, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
-        """A point, and how far the branch's Gibbs vectors of all states are from it; None where that is not proved.
+        """A point, and a bound of its distance from the branch's Gibbs vectors of all states; None if none is proved.
 
-        k: that of the point that is followed; every: k, γ, I and D of all states.
+        k: that of the followed point; every: k, γ, I and D of all states.
         """
         found = self._root(k, past)
         if found is None:
@@ -551,9 +553,10 @@ class ArbBall(_UnderWay):
             return u, (length / slope).abs_upper()
 
     def _selected(self, every: Vector, bound: tuple[arb, arb] | None, past: deque[Floats]) -> Near:
-        """The same for the root that the continuation selects; None where its rotation is too long: it is taken here.
+        """The same for the root that the continuation selects; None if its Gibbs vector is too long: the step is taken
+        here.
 
-        A root that is proved to be the branch's after all serves the next steps as a guess.
+        A root that is then proved to be that of the branch is a guess for the next steps.
         """
         q = self._rotation(every)
         squared = q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
@@ -575,7 +578,7 @@ class ArbBall(_UnderWay):
     def _turn_by(self, u: Vector, off: arb, k: Vector, every: Vector) -> None:
         """Turns by the rotation whose Gibbs vector is within `off` of u, by the mean-value form.
 
-        As ∂G/∂u is affine in u, that of the point is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.
+        As ∂G/∂u is affine in u, the Gibbs vector of the point is u - A⁻¹G(u) with A = ∂G/∂u at the midpoint of the two.
         """
         r = gibbs_residual(*(*u, *k, *self.g, *self.I, self.D))
         with flint_bits(self.matrix_bits):
@@ -593,7 +596,7 @@ class ArbBall(_UnderWay):
             self.spread.moved(M, more + 2 * far)
 
     def _rotation(self, every: Vector) -> Vector:
-        """The rotations of all states, where neither lemma holds."""
+        """The rotations of all states if neither lemma holds."""
         K, g = tuple(2 * x for x in every[:3]), every[3:6]
         q = enclosed(self._near(K, g), K, g, self.J, (self.D,))
         if q is None:
@@ -601,7 +604,7 @@ class ArbBall(_UnderWay):
         return q
 
     def _turned(self) -> Vector:
-        """The rotation since the start, of any length, with all that there may be."""
+        """A quaternion, of any length, that encloses the rotation since the start."""
         off = arb(0, self.spread.size)
         return compose(*(*self.p, 1, off, off, off))
 
@@ -625,7 +628,7 @@ class ArbBall(_UnderWay):
 
 
 def point(p: Iterable[arb]) -> tuple[Vector, arb]:
-    """The middle of a quaternion in balls, and a bound of how far it is off, relative to its length."""
+    """The midpoint of a quaternion in balls, and a bound of its error, relative to its length."""
     balls = list(p)
     middle = tuple(x.mid() for x in balls)
     with flint_bits(MATRIX_BITS):

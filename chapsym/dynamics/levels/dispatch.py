@@ -1,4 +1,4 @@
-"""A run at any precision: the level that takes the steps, and the arrays that it fills."""
+"""A run at any precision: the level that takes the steps, and the arrays of its frames."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -18,14 +18,14 @@ from . import double, double_double, proved
 from .frames import Balls, Frames
 from .start import exponent_of, fraction
 
-#: The levels that know no other number than floats.
+#: The levels whose only numbers are floats.
 LEVELS: dict[type[Precision], Callable[..., None]] = {
     Single: double.run_single, Double: double.run, DoubleDouble: double_double.run,
 }  # fmt: skip
 
 
 def precision_of(precision: str | Precision) -> Precision:
-    """The precision that a user named; raises BadInput for anything else."""
+    """The precision with this name; raises BadInput for anything else."""
     if isinstance(precision, str) and precision in NAMED:
         return NAMED[precision]
     try:
@@ -35,7 +35,7 @@ def precision_of(precision: str | Precision) -> Precision:
 
 
 def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None, least: bool = False) -> Frames:
-    """Frames of a precision, NaN but for the first, or BadInput; attitude: at the start, (n, 4), if it is followed."""
+    """Frames of a precision, NaN after the first, or BadInput; attitude: at the start, (n, 4), if it is followed."""
     n, body = len(balls.D), 0 if attitude is None else count
     shapes = (n, count, 3), (n, count, 3), (n, body, 4), (n, body, 2)
     try:
@@ -47,7 +47,7 @@ def begun(precision: Precision, balls: Balls, count: int, attitude: Asked = None
         raise no_room(count, n) from None
     ends = np.zeros(n, dtype=np.int64), np.zeros(n, dtype=np.int64), np.ones(n)
     frames = Frames(momenta, verticals, attitudes, traces, *ends, attitude is not None, low, least)
-    with np.errstate(over="ignore", under="ignore"):  # a precision of a smaller range refuses what it cannot hold
+    with np.errstate(over="ignore", under="ignore"):  # a precision of a smaller range refuses numbers beyond it
         frames.momentum[:, 0], frames.gamma[:, 0] = balls.momentum, balls.gamma
     if attitude is not None:
         frames.attitude[:, 0], frames.contact[:, 0] = attitude, 0.0
@@ -63,10 +63,10 @@ def run(
     precision: Precision, balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int,
     progress: Callable[[int], None],
 ) -> None:  # fmt: skip
-    """`double.run` at a precision.  Frame 0 is given in float64; others write it anew, γ divided by its length."""
-    substeps(order)  # raises BadInput for no order
+    """`double.run` at a precision.  Frame 0 is given in float64; other levels rewrite it, γ divided by its length."""
+    substeps(order)  # raises BadInput for another order
     if isinstance(precision, Digits | Enclosure):
-        from .balls import run as run_in_arb  # 40 ms, with mpmath and flint
+        from .balls import run as run_in_arb  # takes takes 40 ms, with mpmath and flint
 
         run_in_arb(precision, balls, steps, every, frames, order, progress)
     else:
@@ -79,7 +79,7 @@ def run_proved(
 ) -> Bounds:  # fmt: skip
     """`run` in float64 or double-double, with proved bounds of the errors of its frames, (n, frames) each.
 
-    A run in double-double carries the proof; that in float64 is compared with it.
+    A run in double-double carries the proof; a run in float64 is compared with it.
     """
     n, count, stages = *frames.momentum.shape[:2], len(substeps(order))
     pairs = frames
@@ -101,7 +101,7 @@ def run_proved(
 
 
 def provable(precision: Precision) -> None:
-    """Raises BadInput for a precision of which no bounds are proved."""
+    """Raises BadInput for a precision without proved bounds."""
     if not isinstance(precision, Double | DoubleDouble):
         raise BadInput(
             'proved=True takes the precisions "double" and "double-double"; Enclosure(bits) is a proof of its own, and '
@@ -109,16 +109,16 @@ def provable(precision: Precision) -> None:
         )
 
 
-#: Bits that a small rotation gets beyond those that its size costs.
+#: The bits of a small rotation beyond those that its size costs.
 FINER = 200
 
 
 def step(
     precision: Precision, shape: tuple[int, ...], balls: Balls, order: int, with_proof: bool = False
 ) -> Step:  # fmt: skip
-    """The first step of a run of each ball, with the leading axes `shape` of the result; with proof: in float64.
+    """The first step of a run of each ball, with the leading axes `shape` of the result; with_proof: in float64.
 
-    The rotation is the attitude of a run that starts as the identity; the map on floats takes a shorter way there.
+    The rotation is the attitude of a run that starts at the identity; for floats, the map gives it directly.
     """
     low, bounds = None, None
     if order == 2 and isinstance(precision, Single | Double):
@@ -142,14 +142,14 @@ def step(
 
 
 def _after_one(precision: Precision, balls: Balls, order: int) -> Frames:
-    """The two frames of a run of one step, with attitudes that start as the identity and end as the rotation."""
+    """The two frames of a run of one step; the attitudes are the identity and the rotation."""
     frames = _two_frames(precision, balls, order)
-    if isinstance(precision, Enclosure):  # bits of an attitude are relative to 1; a small rotation needs them of itself
+    if isinstance(precision, Enclosure):  # these bits are relative to 1, but needed of a small rotation
         lacking = max(map(partial(_lacking, precision.bits), frames.attitude[frames.status == 0, 1, 1:]), default=0)
         if lacking:
             finer = replace(precision, bits=min(precision.bits + lacking, MOST_BITS))
             frames.attitude[:] = _two_frames(finer, balls, order).attitude
-    if frames.low is not None:  # where momenta are tiny, they were taken 2^beyond times as large
+    if frames.low is not None:  # tiny momenta were scaled by 2^beyond
         beyond = [pairs_loop.scales(*ball)[1] for ball in zip(balls.momentum, balls.mass_tensor, balls.D, strict=True)]
         for of in (frames, frames.low):
             of.attitude[:, 1, 1:] = np.ldexp(of.attitude[:, 1, 1:], -np.array(beyond, np.int64)[:, np.newaxis])
@@ -163,7 +163,7 @@ def _two_frames(precision: Precision, balls: Balls, order: int) -> Frames:
 
 
 def _lacking(bits: int, vector: np.ndarray) -> int:
-    """How many more bits relative to 1 an enclosed vector needs to have `bits` relative to its length."""
+    """The number of bits that an enclosed vector lacks for `bits` bits relative to its length."""
     size = max(abs(x.mid()) for x in vector)
     if not any(x.rad() > size * 2.0 ** (3 - bits) for x in vector):
         return 0

@@ -1,9 +1,9 @@
-"""Runs in float64 and float32: one ball after the other, or in blocks on every core where the loops are compiled.
+"""Runs in float64 and float32: one ball after the other, or in blocks on every core if the loops are compiled.
 
-float32: state, sums and rotations are of that type; each register holds twice as many balls.  𝒦, γ, the attitude and
-the contact point are summed with compensation, and the integrals restored, as in float64.  Two things are float64
-still: the continuation of a step that neither `small-branch` nor `straight-path` proves, rounded, and why a step has no
-rotation.
+float32: state, sums and rotations have that type; each register holds twice as many balls.  As in float64, 𝒦, γ, the
+attitude and the contact point have compensated sums, and the integrals are restored.  Two things stay in float64: the
+continuation of a step that neither `small-branch` nor `straight-path` proves, whose result is rounded, and the reason
+why a step has no rotation.
 """
 
 from collections.abc import Callable
@@ -21,20 +21,19 @@ from ..loops import block, gibbs, loop
 from ..loops.guess import stage_weights
 from .frames import Balls, Count, Frames, cores, share
 
-#: Shorter runs than this are not shared out to cores.
+#: Shorter runs use one core.
 SHORT_RUN = 2000
-#: Steps of a ball, or of all balls of a block together, between two calls of `progress`: about ten milliseconds.
+#: Steps of a ball, or of all balls of a block together, between calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
-#: Blocks that one call takes, at most.
+#: The largest number of blocks in one call.
 BLOCKS = 64
 
 
 @dataclass(frozen=True, eq=False)
 class Numbers:
-    """A type of numbers that the loops are compiled for.
+    """A type of numbers for which the loops are compiled.
 
-    lanes, register: of a block.  rests: whether the attitude and the contact point carry the rests of their sums, which
-    blocks do not.
+    lanes, register: of a block.  rests: whether attitude and contact point have compensated sums; blocks have none.
     """
 
     dtype: Any
@@ -55,17 +54,17 @@ def run(
     balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None],
     of: Numbers = DOUBLE,
 ) -> None:  # fmt: skip
-    """Takes `steps` steps of every ball into `frames`; `progress` is called with the steps of all balls together.
+    """Takes `steps` steps of every ball into `frames`; `progress` gets the steps of all balls together.
 
-    order: of the composition, 2 for the map itself.  threads: how many cores to use; 0 for all that there are.
-    of: the numbers of the balls and of the frames.
+    order: of the composition, 2 for the map itself.  threads: the number of cores; 0 for all. of: the numbers of the
+    balls and of the frames.
     """
     count, n, stages = Count(progress), len(balls.D), substeps(order).astype(of.dtype)
     if steps == 0 or n == 0:
         return
     task, width = _run_one, 1
     if n > 1 and not (frames.with_body and of.rests) and native.is_compiled():
-        # Several blocks at once where they take all their steps in one call; each core gets its share.
+        # Several blocks in one call if they take all their steps in it; each core gets its share.
         at_once = max(1, min(CHUNK // (of.lanes * len(stages) * steps), BLOCKS, -(-n // (of.lanes * cores() * 4))))
         task, width = _run_blocks, of.lanes * at_once
 
@@ -125,7 +124,7 @@ def _run_one(
 
 
 def begun(K: Floats, g: Floats, J: Floats, D: float, of: Numbers, stages: Floats) -> tuple[list[Floats], float]:
-    """The state that the loop of one ball takes, and the scale with 𝒦 = scale·k."""
+    """The argument of the loop of one ball, and the scale with 𝒦 = scale·k."""
     state, bounds, weights = np.zeros(loop.ROWS, of.dtype), np.zeros((2, len(stages)), of.dtype), _weights(stages, of)
     scale = of.loop(loop.prepare)(K, g, J, D, stages, state, *bounds)
     _, places, vectors = weights.shape
@@ -164,28 +163,27 @@ def _run_blocks(
         count.add(now * n)
         if count.stopped:
             return
-        if status.all():  # no ball goes on
+        if status.all():  # all balls have stopped
             break
     for i in map(int, np.flatnonzero(status)):
         ball = which.start + i
         status[i] = explained(status[i], ended[i, :3], ended[i, 3:], balls.mass_tensor[ball], balls.D[ball])
 
 
-#: float32 has numbers from 2^-126 to 2^128; the scaled ones of a step need a little room.
+#: The exponents of accepted numbers: float32 has 2^-126 to 2^128, and the scaled numbers of a step need a margin.
 RANGE = 2.0**-120, 2.0**120
-#: A momentum below this, for Λmax = 1, turns the ball by less than the compensated sums of 𝒦 and γ can hold.
+#: The least momentum for Λmax = 1: a smaller rotation is lost in the compensated sums of 𝒦 and γ.
 SLOWEST = gibbs.SINGLE["SMALLEST"]
 
 
 def run_single(
     balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None]
 ) -> None:
-    """`run` in float32, from the float64 state in `balls`: rounded, γ and the attitude divided by their length.
+    """`run` in float32, from the float64 state in `balls`, rounded, with γ and the attitude divided by their length.
 
-    The contact point is summed in units of the radius.  A ball that turns by less than 2^-36 or so a step, where its
-    checks would underflow, is as right, but takes each step by the continuation.  Raises BadInput for momenta,
-    moments of inertia or a path beyond the range of float32, and for a momentum so small that the ball would stand
-    still.
+    The contact point is summed in units of the radius.  A ball that turns by less than about 2^-36 per step, whose
+    checks would underflow, takes each step by the continuation, with the same accuracy.  Raises BadInput for momenta,
+    moments of inertia or a path beyond the range of float32, and for a momentum so small that the ball would not move.
     """
     in_single = rounded(balls)
     slow = balls.momentum.any(axis=1) & (
@@ -200,7 +198,7 @@ def run_single(
     frames.momentum[:, 0], frames.gamma[:, 0] = in_single.momentum, in_single.gamma
     if frames.with_body:
         frames.attitude[:, 0] = unit(frames.attitude[:, 0])
-    with np.errstate(under="ignore", over="ignore"):  # what overflows is refused
+    with np.errstate(under="ignore", over="ignore"):  # an overflow is refused
         run(in_single, steps, every, frames, order, threads, progress, SINGLE)
         traces = frames.contact
         traces *= balls.radius.astype(np.float32)[:, np.newaxis, np.newaxis]
@@ -210,7 +208,7 @@ def run_single(
 
 @np.errstate(under="ignore")
 def rounded(balls: Balls) -> Balls:
-    """The balls in float32, γ divided by its length, with the radius 1; raises BadInput where they leave its range."""
+    """The balls in float32, γ divided by its length, with the radius 1; raises BadInput beyond the range of float32."""
     with np.errstate(over="ignore", under="ignore"):  # which is refused
         largest = largest_moment(balls.mass_tensor, balls.D)
     for name, size in (("momentum", np.abs(balls.momentum).max(axis=1)), ("moment of inertia", largest)):

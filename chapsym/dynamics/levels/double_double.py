@@ -17,7 +17,7 @@ from ..loops import proved as loops_proved
 from . import proved
 from .frames import Balls, Count, Frames, cores, share
 
-#: Shorter runs than this are not shared out to cores.
+#: Shorter runs use one core.
 SHORT_RUN = 500
 #: Fewer balls than this do not fill a block.
 FEW = 4
@@ -29,9 +29,9 @@ def run(
     balls: Balls, steps: int, every: int, frames: Frames, order: int, threads: int, progress: Callable[[int], None],
     spread: Floats | None = None,
 ) -> None:  # fmt: skip
-    """`double.run` in double-double.  It writes frame 0 anew: γ and the attitude are divided by their lengths.
+    """`double.run` in double-double.  It rewrites frame 0: γ and the attitude are divided by their lengths.
 
-    spread: how far the exact orbit may be is written there, (n, frames, 4), by `loops.proved`.
+    spread: (n, frames, 4); `loops.proved` writes bounds of the distance of the exact orbit there.
     """
     low = frames.low
     assert low is not None
@@ -79,15 +79,15 @@ def least_rotation(x: Pair, y: Pair, z: Pair) -> list[Pair]:
     return [p0 / length, y / length, -x / length, Pair(0.0)] if length > 0 else list(map(Pair, (0.0, 1.0, 0.0, 0.0)))
 
 
-@np.errstate(all="ignore")  # of a momentum beyond what squares hold: the march does not take it
+@np.errstate(all="ignore")  # of a momentum whose squares overflow: the march refuses it
 def _add(rest: Floats, state: Floats, shift: int) -> None:
-    """Gives the start what 𝒦 has beyond float64, and its integrals, to which it is restored."""
+    """Adds the low half of 𝒦 to the start, and its integrals, to which the state is restored."""
     state[1:6:2] = np.ldexp(rest, shift)
     loop.remember_pairs(state)
 
 
 def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | None) -> tuple[Floats, Floats]:
-    """Writes frame 0 of a ball; its attitude and its contact point as pairs."""
+    """Writes frame 0 of a ball, the attitude and the contact point as pairs."""
     frames.gamma[i, 0], low.gamma[i, 0] = state[loop.G : loop.I : 2], state[loop.G + 1 : loop.I : 2]
     low.momentum[i, 0] = 0.0 if rest is None else rest[i]
     attitude, contact = np.zeros((4, 2)), np.zeros(4)
@@ -101,9 +101,9 @@ def _begin(frames: Frames, low: Frames, i: int, state: Floats, rest: Floats | No
 
 
 class OneBall:
-    """One ball under way in double-double, with a proof of how far the exact orbit may be, or without.
+    """One ball in progress in double-double, with or without proved bounds of the distance of the exact orbit.
 
-    frames, low: their first frame is written; the steps of a call of `take` go into those that it is given.
+    frames, low: their first frame is written; `take` writes its steps into its own arguments.
     """
 
     def __init__(
@@ -122,11 +122,11 @@ class OneBall:
         self._proof = proved.begun(self.state, stages, beyond) if proves else (np.empty((0, 2)), np.empty(0))
 
     def begin_at(self, spot: Floats) -> None:
-        """Begins at a contact point that is not (0, 0)."""
+        """Starts at a contact point that is not (0, 0)."""
         self._body[2][::2] = spot
 
     def lose(self) -> None:
-        """Has nothing proved from here on."""
+        """Gives up the proof from this step on."""
         self._proof[1][loops_proved.BALL] = np.inf
 
     def take(
@@ -184,7 +184,7 @@ def _run_block(
         count.add(now * n)
         if count.stopped:
             return
-        if status.all():  # no ball goes on
+        if status.all():  # all balls have stopped
             break
     for lane in map(int, np.flatnonzero(status)):
         i = which.start + lane
@@ -196,7 +196,7 @@ def run_long(
     balls: Balls, h: Pair, steps: int, every: int, frames: Frames, weights: Floats, threads: int,
     progress: Callable[[int], None],
 ) -> Floats:  # fmt: skip
-    """Long steps of h seconds from K, with frame 0 anew as in `run`; returns the sum of the doubts, (n,)."""
+    """Long steps of h seconds from K; frame 0 is rewritten as by `run`; returns the sum of the doubts, (n,)."""
     low, doubt, count = frames.low, np.zeros(len(balls.D)), Count(progress)
     assert low is not None
     march, chunk = native.loop(loop.march_long_pairs), max(1, CHUNK // (len(weights) * loop.FIRST * 4))

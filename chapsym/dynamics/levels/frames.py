@@ -1,4 +1,4 @@
-"""The start of a run, its frames, and how its work is shared among threads."""
+"""The start of a run, its frames, and the sharing of its work among threads."""
 
 import os
 import threading
@@ -15,9 +15,9 @@ from chapsym.numbers import Digits, Enclosure, Precision
 
 from ..ball import Ball, Floats, batch, beyond_float64, exact_array, numbers, unit_vertical
 
-#: The work of each thread comes in about this many parts, so that none is idle for long at the end.
+#: The number of parts of the work of each thread, so that none is idle for long at the end.
 SHARES = 16
-#: Seconds between two looks at work that runs in a thread of its own.
+#: Seconds between two checks of work in a thread of its own.
 OFTEN = 0.1
 
 
@@ -25,8 +25,8 @@ OFTEN = 0.1
 class Balls:
     """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,).
 
-    Floats, or on Digits and Enclosure exact fractions of any size.
-    rest: what 𝒦 has beyond float64, (n, 3), for the precisions that can hold it; None for nothing.
+    Floats, or for Digits and Enclosure exact fractions of any size. rest: the low half of 𝒦, (n, 3), for the precisions
+    that can hold it; or None.
     """
 
     momentum: Floats
@@ -38,7 +38,7 @@ class Balls:
 
 
 def exactly(given: ArrayLike, floats: Floats, shape: tuple[int, ...]) -> Any:
-    """The given numbers, as Fractions in the shape of the floats, where they are exact; else the floats."""
+    """The given numbers, as Fractions in the shape of the floats, if they are exact; else the floats."""
     if not beyond_float64(given):
         return floats
     return np.broadcast_to(exact_array(given), (*shape, *floats.shape[1:])).reshape(floats.shape)
@@ -47,7 +47,7 @@ def exactly(given: ArrayLike, floats: Floats, shape: tuple[int, ...]) -> Any:
 def given(
     ball: Ball, momentum: ArrayLike, gamma: ArrayLike, precision: Precision
 ) -> tuple[tuple[int, ...], Floats, Balls]:
-    """The leading axes of the states, γ in float64, and the balls of a run: on Digits and Enclosure as given."""
+    """The leading axes of the states, γ in float64, and the balls of a run: for Digits and Enclosure as given."""
     shape, floats = batch(ball, numbers(momentum, "momentum", 3), unit_vertical(gamma))
     rest, state = None, tuple[Any, ...](floats)
     if isinstance(precision, Digits | Enclosure):
@@ -62,11 +62,11 @@ def given(
 
 @dataclass(frozen=True, eq=False)
 class Frames:
-    """The frames of a run: (n, frames, ...) arrays whose frame 0 is given, and how each ball ended, (n,).
+    """The frames of a run: arrays (n, frames, ...) whose frame 0 is given, and the outcome of each ball, (n,).
 
-    attitude and contact have no frames unless `with_body`.  The arrays are of the numbers of the precision: float32,
-    float64, or objects; `low` has the second halves of double-double numbers.  least: the attitudes start as the least
-    rotations with R γ = e₃, which have more digits at other precisions than in frame 0.
+    attitude and contact have no frames unless `with_body`.  The arrays have the numbers of the precision: float32,
+    float64, or objects; `low` has the low halves of double-double numbers.  least: the first attitudes are the least
+    rotations with R γ = e₃, which other precisions compute to more digits than frame 0 has.
     """
 
     momentum: np.ndarray
@@ -82,14 +82,14 @@ class Frames:
 
 
 class Count:
-    """Adds up the steps that the threads have taken; they end where `stopped` is set."""
+    """Adds up the steps of the threads, which end when `stopped` is set."""
 
     def __init__(self, progress: Callable[[int], None]) -> None:
         self._progress, self._lock, self._done = progress, threading.Lock(), 0
         self.stopped = False
 
     def add(self, steps: int) -> None:
-        """This many steps more."""
+        """Adds a number of steps."""
         with self._lock:
             self._done += steps
             self._progress(self._done)
@@ -101,7 +101,7 @@ def cores() -> int:
 
 
 def share(task: Callable[[int], None], starts: range, workers: int, count: Count) -> None:
-    """Runs the tasks in threads, some at a time for each; an interrupt stops each at its next chunk."""
+    """Runs the tasks in threads, several tasks at a time; an interrupt stops each thread at its next chunk."""
     if workers < 2:
         for start in starts:
             task(start)
@@ -125,9 +125,9 @@ def share(task: Callable[[int], None], starts: range, workers: int, count: Count
 
 
 def watched(work: Callable[[], None], look: Callable[[], None], stop: Callable[[], None]) -> None:
-    """Does `work` in a thread of its own, so that an interrupt is heard while compiled code runs.
+    """Does `work` in a thread of its own, so that an interrupt takes effect while compiled code runs.
 
-    look: called every `OFTEN` seconds; what it raises ends the work.  stop: asks the work to end; called until it has.
+    look: called every `OFTEN` seconds; an exception ends the work.  stop: asks the work to end; called until it ends.
     """
     with ThreadPoolExecutor(1) as pool:
         future = pool.submit(work)

@@ -1,4 +1,4 @@
-"""Bounds of how far a run in float64 or double-double is from the exact orbit of the map, proved step by step."""
+"""Bounds of the distance of a run in float64 or double-double from the exact orbit of the map, proved step by step."""
 
 from math import inf, nan
 
@@ -12,18 +12,18 @@ from ..loops import proved
 from ..loops.proved import PAIR, WIDER
 from .frames import Balls, Count, Frames, cores, share
 
-#: More than the error of a rounded subnormal number, in each part of a sum.
+#: A bound of the error of a rounded subnormal number, in each part of a sum.
 FLOOR = 2.0**-1070
-#: Balls of which a thread bounds a step in one call.
+#: The number of balls for which a thread bounds a step in one call.
 MANY = 12_500
 
 
 def begun(state: Floats, stages: Floats, beyond: int) -> tuple[Floats, Floats]:
-    """The arguments of the march: m and radius² of each stage, (s, 2), and the set of one point that moves."""
+    """The arguments of the march: m and radius² of each stage, (s, 2), and the moving set, at first one point."""
     box = np.zeros(proved.ROWS)
     box[[0, 4, 8]] = 1.0
     box[[proved.G_OFF, proved.A_OFF]] = PAIR
-    if beyond:  # the momentum is taken 2^beyond times as large, which is another ball
+    if beyond:  # the momentum is scaled by 2^beyond, which is another ball
         box[proved.BALL] = inf
     I, D = tuple(state[loop.I : loop.J : 2].tolist()), float(state[loop.D])
     stage_momenta = (tuple((c * state[loop.K : loop.G : 2]).tolist()) for c in stages[:, 0])
@@ -35,7 +35,7 @@ def errors(
 ) -> list[Asked]:  # fmt: skip
     """Upper bounds, (n, frames), of the errors of a run: in 𝒦, γ, the attitude and the contact point.
 
-    pairs: the run in double-double from the same start, and `spread`: how far the exact orbit may be from that.
+    pairs: the run in double-double from the same start; spread: bounds of its distance from the exact orbit.
     """
     low = pairs.low
     assert low is not None
@@ -50,7 +50,7 @@ def errors(
         beyond = run.low if run.low is None else getattr(run.low, name)
         with np.errstate(invalid="ignore", over="ignore", under="ignore"):
             off = length((ours - high) + ((0.0 if beyond is None else beyond) - rest))
-            # The contact point is a sum of as many parts as rotations, each of a radius at most.
+            # The contact point is a sum of one part per rotation, each at most a radius.
             parts = index * stages if name == "contact" else 0.0 * index
             part = spread[:, :, i] + PAIR * (1.0 + parts * parts)
             bound = np.nextafter(WIDER * (off + sizes[i] * part), inf) + FLOOR * (1.0 + parts)
@@ -60,7 +60,7 @@ def errors(
 
 
 def of_step(balls: Balls, q: Floats, K: Floats, g: Floats) -> Floats:
-    """Upper bounds of the errors of a step of each ball in 𝒦, γ and the rotation, (n, 3); inf where none is proved.
+    """Upper bounds of the errors of a step of each ball in 𝒦, γ and the rotation, (n, 3); inf if none is proved.
 
     balls: before the step; q, K, g: the rotations, 𝒦 and γ after it, in float64.
     """

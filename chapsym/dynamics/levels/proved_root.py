@@ -1,11 +1,11 @@
-"""Proofs of a root in Arb's balls: by a point near it and a slope with which G is monotone there; or an interval test.
+"""Proofs of a root in Arb's balls: by a point near it and a slope with which G is monotone, or by an interval test.
 
-⟨x, G(v + x) - G(v)⟩ ≥ m|x|² in a ball of Gibbs vectors: so the root is within |G(u)|/m of any u, for all 𝒦 and γ in
-their balls.  m is that of lemma `small-branch`, for all γ, or beyond its bound that of lemma `straight-path`, for
-every step.  As ∂G/∂u is affine in u, the root is u - A⁻¹G(u) with A = ∂G/∂u at the middle between the two.
+⟨x, G(v + x) - G(v)⟩ ≥ m|x|² in a ball of Gibbs vectors, so the root is within |G(u)|/m of any u, for all 𝒦 and γ in
+their balls.  Lemma `small-branch` gives m for all γ; beyond its bound, lemma `straight-path` gives m for each step.  As
+∂G/∂u is affine in u, the root is u - A⁻¹G(u) with A = ∂G/∂u at the midpoint of the two.
 
-Where neither holds, the interval Newton test proves that a box has one root: `enclosed` in Euler parameters, and
-`isolated` of any equations.  Newton's iteration finds the point, with the bits of the context.
+If neither holds, the interval Newton test proves that a box has one root: `enclosed` in Euler parameters, and
+`isolated` for any equations.  Newton's iteration finds the point, with the bits of the context.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -24,11 +24,11 @@ from ..loops.twins import twin
 #: Components in Arb's balls, or points among them.
 Vector = tuple[arb, ...]
 
-#: The precision of the matrices beyond what a determinant can lose: what they multiply is as small as the radii.
+#: The precision of the matrices beyond the loss in a determinant: they multiply numbers as small as the radii.
 MATRIX_BITS = 64
-#: The box in which `straight-path` is tested has this many times |G(u)|/I_min: enough if m is not much below I_min.
+#: The size of the box of the test of `straight-path`, in |G(u)|/I_min: enough if m is not much below I_min.
 WIDER = 1024
-#: Refinement must stay this near to the float64 root, else another branch may have been met.
+#: The largest distance of the refined root from the float64 root; beyond, it may be on another branch.
 NEAR = 1e-6
 MOST_REFINEMENTS = 60
 MOST_INFLATIONS = 12
@@ -41,7 +41,7 @@ def upper(v: Iterable[arb]) -> arb:
 
 
 def inverse_slope(u: Vector, off: arb, state: Vector) -> arb_mat:
-    """(∂G/∂u)⁻¹ in a box of half the edge `off` round u, for all k, γ, I and D of a state."""
+    """(∂G/∂u)⁻¹ in a box with half edge `off` round u, for all k, γ, I and D of a state."""
     box = tuple(x + arb(0, off) for x in u)
     det, _, _, _, c11, c12, c13, c21, c22, c23, c31, c32, c33 = gibbs_newton(*(*box, *state))
     if not det > 0:
@@ -52,8 +52,8 @@ def inverse_slope(u: Vector, off: arb, state: Vector) -> arb_mat:
 def newton_enclosure(u: Vector, r: Vector, slope: arb, state: Vector, matrix_bits: int) -> Vector:
     """The root of G within |r|/m of a point u, r = G(u), where G is monotone with m = `slope`.
 
-    state: k, γ, I and D, in balls.  The root is u - A⁻¹r with A = ∂G/∂u at the middle between the two.  Raises TooWide
-    where det A may be 0.
+    state: k, γ, I and D, in balls.  The root is u - A⁻¹r with A = ∂G/∂u at the midpoint of the two.  Raises TooWide if
+    det A may be 0.
     """
     with flint_bits(matrix_bits):
         d = inverse_slope(u, (upper(r) / slope).abs_upper(), state) * arb_mat(3, 1, r)
@@ -62,13 +62,13 @@ def newton_enclosure(u: Vector, r: Vector, slope: arb, state: Vector, matrix_bit
 
 @cache
 def joined() -> Callable[..., tuple[arb, arb]]:
-    """`path.joined` in balls: its comparisons are certain."""
+    """`path.joined` in balls, with certain comparisons."""
     with flint_bits(MATRIX_BITS):
         return twin(path, lambda x: arb(repr(x)), max=highest, min=lowest, sqrt=arb.sqrt)["joined"]
 
 
 def on_path(u: Vector, length: arb, *state: arb) -> arb | None:
-    """m where G is monotone with it in a box round u that contains a root, and this is the branch's; else None.
+    """A monotonicity constant m of G in a box round u that contains the root of the branch; None without a proof.
 
     length: a bound of |G(u)|; state: k, γ, I and D.  With |G(u)| ≤ m · (half an edge) the root is in the box.
     """
@@ -78,7 +78,7 @@ def on_path(u: Vector, length: arb, *state: arb) -> arb | None:
 
 
 def stretch(box: Vector, *state: arb) -> arb | None:
-    """m by lemma `straight-path`, for every point of a box treated as if it were the root; None where it fails."""
+    """m by lemma `straight-path`, for every point of a box treated as if it were the root; None if it fails."""
     k, g, I, D = state[:3], state[3:6], state[6:9], state[9]
     least = lowest(*I)
     square, half = (sum((x * x for x in v), arb(0)) for v in (box, k))
@@ -97,9 +97,9 @@ def lowest(*v: arb) -> arb:
 
 
 def certified(size: arb, inertia: Vector) -> tuple[arb, arb] | None:
-    """(radius, m) by lemma `small-branch` for |𝒦| ≤ size, both exact; None where |𝒦| is beyond its bound.
+    """(radius, m) by lemma `small-branch` for |𝒦| ≤ size, both exact; None if |𝒦| is beyond its bound.
 
-    There is one root with |u| < 1, it has |u| ≤ radius and is that of the small-rotation branch, and in this ball
+    There is one root with |u| < 1; it has |u| ≤ radius and is on the small-rotation branch, and in this ball
     ⟨x, (∂G/∂u)x⟩ ≥ m|x|².
     """
     least = lowest(*inertia)
@@ -110,7 +110,7 @@ def certified(size: arb, inertia: Vector) -> tuple[arb, arb] | None:
     inner = size / (least + (least * least - size * size).sqrt())
     if not inner * slope < least:
         return None
-    # The root is within `inner`; a point near it may be a little outside.
+    # The root is within `inner`; a point near it may be slightly outside.
     radius = inner.abs_upper() + (least / slope - inner).abs_lower() / 8
     radius = (radius if radius < 1 else arb(1)).abs_upper()
     m = (least - radius * slope).abs_lower()
@@ -118,7 +118,7 @@ def certified(size: arb, inertia: Vector) -> tuple[arb, arb] | None:
 
 
 def refined(q: Vector, K: Vector, g: Vector, J: Vector, D: Vector) -> Vector | None:
-    """The one root near a rotation, by midpoints: Newton squares a correction, up to what the conditioning costs."""
+    """The root near a rotation, by midpoints: Newton's iteration squares a correction, but for the conditioning."""
     q = tuple(x.mid() for x in unit(q))
     settled = arb(2) ** (-ctx.prec // 2 - 2)
     for _ in range(MOST_REFINEMENTS):
@@ -141,7 +141,7 @@ def unit(v: Iterable[arb]) -> Vector:
 
 
 def enclosed(q: Vector, K: Vector, g: Vector, J: Vector, D: Vector) -> Vector | None:
-    """Unit Euler parameters as balls that contain the one root near the float64 root, by the interval Newton test."""
+    """Balls that contain the unit Euler parameters of the root near the float64 root, by the interval Newton test."""
     point = refined(q, K, g, J, D)
     if point is None:
         return None
@@ -156,16 +156,16 @@ def enclosed(q: Vector, K: Vector, g: Vector, J: Vector, D: Vector) -> Vector | 
 
 
 def isolated(value: Sequence[arb], slope: Callable[[Sequence[arb]], Sequence[arb]]) -> list[arb] | None:
-    """The zero of a map F of which F(0) = `value`, in balls; None if it is not proved.
+    """The zero of a map F with F(0) = `value`, in balls; None if it is not proved.
 
-    slope: of a box round 0, what contains F' in it, row by row.  The interval Newton test: where the image of a box is
-    inside it, the box contains one zero, and the image contains that.  The box is widened until it does.
+    slope: from a box round 0, an enclosure of F' on it, row by row.  The interval Newton test: if the image of a box is
+    inside the box, the box contains one zero, which is in the image.  The box is widened until this holds.
     """
     size, least = len(value), arb(2) ** -ctx.prec
     target = arb_mat(size, 1, value)
     try:
         largest = max(x.abs_upper() for x in _divided(target, slope([arb(0)] * size)))
-        radius = 4 * largest if largest > 0 else least  # where the value is exactly 0 the box needs a size of its own
+        radius = 4 * largest if largest > 0 else least  # if the value is exactly 0, the box needs a size of its own
         for _ in range(MOST_INFLATIONS):
             box = [arb(0, radius)] * size
             image = [-x for x in _divided(target, slope(box))]
@@ -178,7 +178,7 @@ def isolated(value: Sequence[arb], slope: Callable[[Sequence[arb]], Sequence[arb
 
 
 def _divided(target: arb_mat, matrix: Sequence[arb]) -> list[arb]:
-    """The solution of a linear system for every matrix in balls; raises ZeroDivisionError where one may be singular."""
+    """The solution of a linear system for every matrix in balls; raises ZeroDivisionError if one may be singular."""
     return arb_mat(target.nrows(), target.nrows(), matrix).solve(target).entries()
 
 

@@ -1,7 +1,7 @@
-"""Where a step on a high precision starts: the rotation that the continuation finds, in float64 or in mpmath's numbers.
+"""The first guess of a step at a high precision: the rotation by the continuation, in float64 or in mpmath's numbers.
 
-float64 says which branch it is wherever it can.  Where it fails, or might, by the range of its exponents or because D
-is large relative to J, the same continuation, the text of `branch` read once more, runs on numbers with enough digits.
+The branch is selected in float64 if possible.  If float64 may fail, by the range of its exponents or because D is large
+relative to J, the same continuation, from the text of `branch`, runs on numbers with enough digits.
 """
 
 import math
@@ -20,11 +20,11 @@ from ..loops.twins import twin
 
 Exact = Sequence[Fraction]
 
-#: With a ratio of the moments of inertia above this, or a momentum below or above this, float64 is not asked.
+#: float64 is not used for a larger ratio of the moments of inertia, or a momentum outside this range.
 STIFF, TINY, HUGE = 1e8, 2.0**-900, 2.0**10
-#: The exponent of a least moment, in units of the largest: smaller numbers of float64 have fewer bits.
+#: The least exponent of a moment relative to the largest: smaller numbers of float64 have fewer bits.
 LEAST_EXPONENT = -1000
-#: The digits of the continuation beyond those that the ratio of the moments costs twice.
+#: The digits of the continuation beyond twice those that the ratio of the moments costs.
 DIGITS = 40
 
 
@@ -35,7 +35,7 @@ def start(K: Exact, g: Exact, J: Exact, D: Fraction) -> tuple[Fraction, ...]:
     J, D, K = [x * scale for x in J], D * scale, [x * scale for x in K]
     factor = Fraction(1)
     largest = max(map(abs, K))
-    if largest > HUGE:  # no rotation has so much; floats could not hold it
+    if largest > HUGE:  # no rotation has such a momentum; it would overflow in floats
         factor = Fraction(2) ** (10 - exponent_of(largest))
         K = [x * factor for x in K]
     least = min((x for x in moments if x > 0), default=Fraction(1)) * scale
@@ -67,7 +67,7 @@ def magnitude(J: Exact, D: Fraction) -> tuple[int, int]:
 
 
 def fraction(x: Any) -> Fraction:
-    """A number of any precision, exactly; of a ball its midpoint."""
+    """A number of any precision as an exact fraction; the midpoint of a ball."""
     if hasattr(x, "mid"):
         man, exp = x.mid().man_exp()
         return Fraction(int(man)) * Fraction(2) ** int(exp)
@@ -75,7 +75,7 @@ def fraction(x: Any) -> Fraction:
 
 
 def least(x: Any, y: Any, z: Any) -> tuple[Any, Any, Any, Any]:
-    """The quaternion, of any length, of the least rotation that turns (x, y, z) up: as `attitude_with`."""
+    """A quaternion, of any length, of the least rotation that turns (x, y, z) to the vertical, as `attitude_with`."""
     flat = x * x + y * y
     zero = 0 * flat
     if flat == 0 and z < 0:
@@ -110,4 +110,4 @@ def on(context: Any) -> Callable[..., tuple]:
         branch, context.mpf, frexp=context.frexp, ldexp=context.ldexp, sqrt=context.sqrt, shifted=shifted,
         UNIT_ROUNDOFF=unit, SMALLEST=0, LEAST=-math.inf, SINGULAR=unit * 8,
     )  # fmt: skip
-    return partial(names["continued"], shortest=8 * unit)  # a step that is shorter is a fold
+    return partial(names["continued"], shortest=8 * unit)  # a shorter step means a fold

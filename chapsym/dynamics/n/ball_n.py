@@ -11,9 +11,9 @@ from ..ball import Floats, Parameters, common_shape, keep, largest_moment, numbe
 from ..errors import BadInput
 from . import so_n
 
-#: How far 𝒦 + 𝒦ᵀ may be from 0, relative to 𝒦.
+#: The largest accepted |𝒦 + 𝒦ᵀ|, relative to 𝒦.
 SKEW_TOLERANCE = 1e-12
-#: How far R Rᵀ may be from 1, and R γ from eₙ, for an attitude that is given.
+#: The largest accepted |R Rᵀ - 1| and |R γ - eₙ| of a given attitude.
 AGREEMENT = 1e-9
 
 
@@ -28,13 +28,13 @@ class BallN(Parameters):
     D : array_like
         m ρ² in kg m², shape (...); D = 0 is the Euler top on SO(n).
     radius : array_like, optional
-        ρ in m, shape (...); needed for the trace of the contact point only.
+        ρ in m, shape (...); needed only for the contact point.
 
     Raises
     ------
     BadInput
-        For a moment below 0, a D below 0, a radius that is not positive, and for moments with which the momentum
-        operator is singular at every γ: at most one may vanish, two if D > 0.
+        For a moment below 0, a D below 0, a radius that is not positive, and if the momentum operator is singular at
+        every γ: at most one moment may vanish, two if D > 0.
 
     References
     ----------
@@ -97,7 +97,7 @@ def skew(vector: ArrayLike) -> Floats:
     Raises
     ------
     BadInput
-        For what is not finite vectors of three real numbers.
+        For anything but finite vectors of three real numbers.
 
     References
     ----------
@@ -129,7 +129,7 @@ def axial(matrix: ArrayLike) -> Floats:
     Raises
     ------
     BadInput
-        For what is not finite matrices of this shape, skew to 1e-12 of their largest entry.
+        For anything but finite matrices of this shape, skew to 1e-12 of their largest entry.
 
     Examples
     --------
@@ -155,7 +155,7 @@ def skew_matrices(value: ArrayLike, n: int, name: str = "momentum") -> Floats:
 
 
 def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
-    """The integrals of the map on every branch (prop-2): functions of 𝒦 and γ that no rotation of both changes.
+    """The integrals of the map on every branch (prop-2): functions of 𝒦 and γ that are invariant under rotations.
 
     Parameters
     ----------
@@ -167,13 +167,13 @@ def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
     Returns
     -------
     numpy.ndarray
-        (..., m): tr 𝒦²ʲ for j = 1, ..., ⌊n/2⌋, then γᵀ𝒦²ʲγ for j = 1, ..., ⌊(n-1)/2⌋, then |γ|²: as many as are
-        independent.
+        (..., m): tr 𝒦²ʲ for j = 1, ..., ⌊n/2⌋, then γᵀ𝒦²ʲγ for j = 1, ..., ⌊(n-1)/2⌋, then |γ|²: a complete set of
+        independent ones.
 
     Raises
     ------
     BadInput
-        As `step_n` does, but not for a γ that is not unit, and for invariants beyond the range of float64.
+        As `step_n` does, except that γ need not be unit, and for invariants beyond the range of float64.
 
     References
     ----------
@@ -202,11 +202,11 @@ def invariants_n(momentum: ArrayLike, gamma: ArrayLike) -> Floats:
 def attitudes_with(gamma: Floats) -> Floats:
     """The attitudes of the least rotations with R γ = eₙ, (..., n, n), from the body to space.
 
-    R = 1 - vvᵀ/(1 + γₙ) + 2 eₙγᵀ with v = γ + eₙ; upside down, a half turn of the last two axes.
+    R = 1 - vvᵀ/(1 + γₙ) + 2 eₙγᵀ with v = γ + eₙ; for γ = -eₙ, a half turn of the last two axes.
     """
     n, last = gamma.shape[-1], gamma[..., -1]
     flat2 = (gamma[..., :-1] ** 2).sum(axis=-1)
-    # 1 + γₙ cancels for a γ that points down; there it is the same as (1 - γₙ²)/(1 - γₙ).
+    # 1 + γₙ cancels for a γ that points down; there use (1 - γₙ²)/(1 - γₙ).
     upper = np.where(last < 0, flat2 / (1 - np.minimum(last, 0)), 1 + last)
     down = upper == 0
     upper = np.where(down, 1.0, upper)
@@ -218,7 +218,7 @@ def attitudes_with(gamma: Floats) -> Floats:
 
 
 def initial_attitudes(attitude: bool | ArrayLike, gamma: Floats, shape: tuple[int, ...]) -> Floats:
-    """The attitudes to start from, (b, n, n): those that were given, checked against γ, or the least rotations."""
+    """The first attitudes, (b, n, n): the given ones, checked against γ, or the least rotations."""
     n = gamma.shape[-1]
     if isinstance(attitude, bool | np.bool_):
         return attitudes_with(gamma)

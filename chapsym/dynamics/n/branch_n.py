@@ -1,13 +1,12 @@
-"""The small-rotation branch for every n: the Ω with a given momentum, continued from the identity, in batches.
+"""The small-rotation branch for every n: the Ω with a given momentum, continued from the identity, for batches.
 
-For fixed γ the branch is the curve Ω(t) with 𝒦(Ω(t), γ) = t𝒦 that starts at Ω(0) = 1.  From a point of
-it Newton's iteration in so(n), Ω becoming Ω·Cayley(ξ), aims at a later t.  It is believed to have stayed
-on the branch if the first correction, which is the step along the tangent, is at most LARGEST and each
-correction is below SHRINK of the one before: Newton on Kantorovich's majorant does so exactly when the
-number that his theorem bounds by 1/2 is at most 1/4.  Otherwise the step along t is halved; where steps
-shrink to nothing is the fold.  The ratio of two corrections measures that number, it does not bound it; the tests
-compare with steps that are proven to stay on the branch, which are shorter (|𝒦| times the step at most σ²/2l,
-σ the least singular value of the Jacobian, l = 2 max J + D).
+For fixed γ the branch is the curve Ω(t) with 𝒦(Ω(t), γ) = t𝒦 and Ω(0) = 1.  From a point of it Newton's iteration in
+so(n), Ω becoming Ω·Cayley(ξ), goes to a later t.  It is assumed to stay on the branch if the first correction, the step
+along the tangent, is at most LARGEST and each correction is below SHRINK of the one before: for Newton's iteration on
+Kantorovich's majorant this is equivalent to the number of his theorem, which must be below 1/2, being at most 1/4.
+Otherwise the step along t is halved; if the steps shrink to nothing, the branch folds.  The ratio of two corrections
+estimates that number and does not bound it; the tests compare with shorter steps that are proven to stay on the branch
+(|𝒦| times the step at most σ²/2l, σ the least singular value of the Jacobian, l = 2 max J + D).
 
 Units: J, D and 𝒦 are first scaled by a power of two, exactly, so that the largest moment is about 1.
 """
@@ -22,13 +21,13 @@ from . import so_n
 LARGEST = 0.5
 #: The largest ratio of a correction to the one before.
 SHRINK = 1 / 6
-#: A correction below this, relative to the rotation, is the last one: Newton squares it.
+#: The size of the last correction, relative to the rotation, since Newton's iteration squares it.
 SETTLED = 1e-9
-#: A step along t below this fraction of what is behind it is a fold.
+#: A step along t below this fraction of the way so far means a fold.
 SHORTEST = 1e-15
-#: The path is followed as far as a momentum of 2^FARTHEST; no entry of 𝒦(Ω, γ) is above 1.
+#: The path ends at a momentum of 2^FARTHEST; no entry of 𝒦(Ω, γ) is above 1.
 FARTHEST = 3
-#: An eigenvalue of the inertia about the contact point below this, for a largest one of about 1, is rounding.
+#: The size of a rounding in an eigenvalue of the inertia about the contact point, the largest being about 1.
 SINGULAR = 2.0**-50
 MOST_STEPS = 5000
 MOST_CORRECTIONS = 20
@@ -47,7 +46,7 @@ def small_rotation(K: Floats, gamma: Floats, J: Floats, D: Floats) -> tuple[Floa
             break
         ahead = np.minimum(t[going] + step[going], 1.0)
         moved, settled = corrected(E[going], ahead[:, np.newaxis] * k[going], gamma[going], J[going], D[going])
-        # The Jacobian is positive definite at rest: where its determinant is not positive, a fold has been passed.
+        # The Jacobian is positive definite at rest: a determinant that is not positive means that a fold was passed.
         slope = so_n.jacobian(moved, gamma[going], J[going], D[going])
         settled &= np.linalg.slogdet(slope)[0] > 0
         arrived, refused = going[settled], going[~settled]
@@ -55,7 +54,7 @@ def small_rotation(K: Floats, gamma: Floats, J: Floats, D: Floats) -> tuple[Floa
         step[arrived] *= 2
         step[refused] /= 2
         status[refused[step[refused] < SHORTEST * t[refused]]] = Status.FOLDED
-        status[arrived[t[arrived] == 1]] = Status.TAKEN  # never on a path that was cut: no rotation has its end
+        status[arrived[t[arrived] == 1]] = Status.TAKEN  # never on a cut path: no rotation has its end
         going = going[(status[going] == Status.NOT_CONVERGED) & (t[going] < 1)]
     E[status != Status.TAKEN] = np.nan
     return so_n.orthogonal(E), status, t * end
@@ -84,7 +83,7 @@ def corrected(E: Floats, k: Floats, gamma: Floats, J: Floats, D: Floats) -> tupl
 
 
 def _solved(matrix: Floats, vector: Floats) -> Floats:
-    """Solutions of linear systems, (b, N); infinite where a matrix is singular."""
+    """Solutions of linear systems, (b, N); infinite for a singular matrix."""
     try:
         return np.linalg.solve(matrix, vector[..., np.newaxis])[..., 0].astype(np.float64, copy=False)
     except np.linalg.LinAlgError:
@@ -94,7 +93,7 @@ def _solved(matrix: Floats, vector: Floats) -> Floats:
 
 
 def _scaled(K: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """𝒦, J and D times a power of two for a largest moment of about 1, 𝒦 cut at 2^FARTHEST, and the fraction left."""
+    """𝒦, J and D times a power of two, the largest moment about 1, 𝒦 cut at 2^FARTHEST, and the fraction left."""
     exponent = np.frexp(largest_moment(J, D))[1]
     largest = np.abs(K).max(axis=(-2, -1))
     shift = np.where(largest > 0, np.minimum(-exponent, FARTHEST - np.frexp(largest)[1]), -exponent)

@@ -1,7 +1,7 @@
 """Runs at N digits: `run_n.continued` on the midpoints of Arb's numbers, with guard bits.
 
-A stage starts from the float64 rotation of the continuation, which says which branch it is; Newton's iteration gives it
-its digits.
+A stage starts from the float64 rotation of the continuation, which selects the branch; Newton's iteration adds the
+digits.
 """
 
 import math
@@ -22,7 +22,7 @@ from ..levels.frames import Count
 from . import so_n
 from .branch_n import small_rotation
 
-#: Corrections of Newton from a float64 rotation: each doubles the digits.
+#: The largest number of Newton corrections from a float64 rotation; each doubles the digits.
 MOST_ROUNDS = 100
 
 _exactly, _middle, _root = (np.frompyfunc(f, 1, 1) for f in (exact, arb.mid, arb.sqrt))
@@ -44,7 +44,7 @@ def run(
     """
     balls, context = len(state["gamma"]), precision.context
     outcome = np.zeros(balls, dtype=np.int64), np.zeros(balls, dtype=np.int64), np.ones(balls)
-    # The roundings of the steps add up to the square of their number, as frequencies drift.
+    # The effect of roundings grows with the square of the number of steps, as the frequencies drift.
     bits = context.prec + 2 * math.ceil(math.log2(steps * len(stages) + 1)) + GUARD
     with flint_bits(bits):
         now: dict[str, Any] = {name: _exactly(x) for name, x in state.items()}
@@ -62,7 +62,7 @@ def run(
 
 
 def _rotations(K: Any, gamma: Any, J: Any, D: Any) -> tuple[Any, np.ndarray, Floats]:
-    """`branch_n.small_rotation` in Arb's numbers, whose radii do not matter."""
+    """`branch_n.small_rotation` in Arb's numbers, whose radii are not used."""
     rough, status, reach = small_rotation(*(x.astype(float) for x in (K, gamma, J, D)))
     E = rough.astype(object)
     for i in np.flatnonzero(status == Status.TAKEN):
@@ -76,7 +76,7 @@ def _rotations(K: Any, gamma: Any, J: Any, D: Any) -> tuple[Any, np.ndarray, Flo
 
 
 def _refined(E: Any, K: Any, gamma: Any, J: Any, D: Any) -> Any:
-    """Newton's iteration for one ball from E nearby; None where it does not settle."""
+    """Newton's iteration for one ball from a nearby E; None if it does not converge."""
     n, tiny = E.shape[-1], arb(2) ** (-ctx.prec - GUARD)
     for _ in range(MOST_ROUNDS):
         E = _middle(so_n.orthogonal(E))

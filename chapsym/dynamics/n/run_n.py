@@ -1,9 +1,9 @@
-"""The map on SO(n) × Sⁿ⁻¹ for every n ≥ 3 (Section 4): steps and trajectories, and one ball under way.
+"""The map on SO(n) × Sⁿ⁻¹ for every n ≥ 3 (Section 4): steps, trajectories, and a stepper.
 
-The state is 𝒦, skew, and γ, a unit vector.  A step finds the rotation Ω with 𝒦(Ω, γ) = 𝒦 (4.13) that is
-continued from the identity, and goes to Ωᵀ𝒦Ω and Ωᵀγ (4.11, 4.12).  For n = 3 it is `step`, in matrices.
+The state is a skew matrix 𝒦 and a unit vector γ.  A step finds the rotation Ω with 𝒦(Ω, γ) = 𝒦 (4.13) on the branch
+continued from the identity, and maps to Ωᵀ𝒦Ω and Ωᵀγ (4.11, 4.12).  For n = 3 this is `step`, in matrices.
 
-Below the bound of `near_n` a run begins each step at a guess by the last rotations (`loop_n`), else at the identity.
+Below the bound of `near_n` a step starts at a guess from the last rotations (`loop_n`), else at the identity.
 """
 
 from __future__ import annotations
@@ -33,13 +33,11 @@ from .ball_n import BallN, initial_attitudes, skew_matrices
 from .branch_n import small_rotation
 from .near_n import limits
 
-#: The Jacobians of the balls that are solved together take about this many numbers: what a cache holds.
+#: The numbers in the Jacobians of the balls that are solved together, which fit into a cache.
 BLOCK = 2**15
-#: Stages of a ball between two moments at which the run can be interrupted.
+#: Stages of a ball between two points at which the run can be interrupted.
 CHUNK = 10_000
-#: The quantities that move, of which frames may be kept.
 MOVING = ("momentum", "gamma", "attitude", "contact")
-#: Nobody counts the steps of a call.
 UNCOUNTED = Count(lambda done: None)
 
 
@@ -48,7 +46,7 @@ def _stepped(
     precision: str | Precision, state: dict[str, Floats], order: int, steps: int, every: int, threads: int = 1,
     count: Count = UNCOUNTED,
 ) -> tuple[dict[str, Floats], np.ndarray, np.ndarray, Floats]:  # fmt: skip
-    """The frames of a run from its start on, (b, frames, ...), and (taken, status, reach), (b,); or BadInput."""
+    """The frames of a run from its start, (b, frames, ...), and (taken, status, reach), (b,); or BadInput."""
     chosen, stages, kept = precision_of(precision), substeps(order), steps // every + 1
     if not isinstance(chosen, Double | Digits):
         raise BadInput(f'in n dimensions precision is "double" or chapsym.Digits(N), not {brief(precision)}')
@@ -59,17 +57,16 @@ def _stepped(
         raise no_room(kept, len(state["gamma"])) from None
     if isinstance(chosen, Double):
         return frames, *run(state, frames, stages, steps, every, threads, count)
-    from . import precise_n  # mpmath takes 40 ms
+    from . import precise_n  # takes 40 ms for mpmath
 
     return frames, *precise_n.run(chosen, state, frames, COMPOSITIONS[order].exact, steps, every, count, continued)
 
 
-#: The results of `step_n` and `trajectory_n`.
 StepN, TrajectoryN = Step, Trajectory
 
 
 def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str | Precision = "double") -> Step:
-    """One step of the map (4.11), (4.12), (4.13) on the small-rotation branch: the first step of `trajectory_n`.
+    """One step of the map (4.11, 4.12, 4.13) on the small-rotation branch, as the first step of `trajectory_n`.
 
     Parameters
     ----------
@@ -85,7 +82,7 @@ def step_n(ball: BallN, momentum: ArrayLike, gamma: ArrayLike, *, precision: str
     Returns
     -------
     Step
-        With the rotation Ω and 𝒦, (..., n, n), and γ, (..., n).
+        The rotation Ω and 𝒦, (..., n, n), and γ, (..., n).
 
     Raises
     ------
@@ -131,8 +128,8 @@ def trajectory_n(
 ) -> Trajectory:
     """Takes `steps` steps of the map on the small-rotation branch and keeps every `every`-th state.
 
-    A ball below the bound of `near_n` begins each step at a guess by the last ones, compiled;
-    one above it is continued from the identity at each step.
+    Below the bound of `near_n`, compiled steps start at a guess from the last steps; above it, each step is continued
+    from the identity.
 
     Parameters
     ----------
@@ -147,23 +144,23 @@ def trajectory_n(
     order : int, optional
         2, or 4, 6, 8 for a symmetric composition of the map with stages cᵢ𝒦 (`substeps`), as for `trajectory`.
     every : int, optional
-        The steps from one frame to the next.
+        The number of steps from one frame to the next.
     attitude : bool or array_like, optional
         True (from the least rotation with R γ = eₙ) or rotations, (..., n, n), to be followed.
     contact : bool, optional
         Whether to trace the contact point; it needs `ball.radius`, and implies the attitude.
     threads : int, optional
-        How many cores a batch may use where its steps are compiled; 0 for all.
+        The number of cores that a batch may use if its steps are compiled; 0 for all.
     precision : str or Precision, optional
-        "double", or `Digits(N)` for N digits in mpmath's numbers, at milliseconds a step.  That starts from the floats
-        that are given, γ divided by its length, and the attitude from the rotation nearest to that of float64.
+        "double", or `Digits(N)` for N digits in mpmath's numbers, at milliseconds per step.  It starts from the given
+        floats, with γ divided by its length, and the attitude replaced by the nearest rotation.
     progress : callable, optional
         Called with the steps done so far, of all balls together.
 
     Returns
     -------
     Trajectory
-        In a batch the others go on where a ball stops, and `status` and `taken` say which stopped, where.
+        In a batch, the others continue if a ball stops, and `status` and `taken` show which stopped, and where.
 
     Raises
     ------
@@ -200,17 +197,17 @@ def trajectory_n(
 
 
 class StepperN(UnderWay):
-    """One ball in n dimensions under way, as `Stepper` in three: steps of the map without the price of a call.
+    """One ball in n dimensions for control loops, as `Stepper` in three: steps of the map with little cost per call.
 
-    The states are those of `trajectory_n` from the same start, to the bit, however the steps are shared out to calls.
+    The states have the same bits as `trajectory_n` from the same start, for any division of the steps into calls.
 
-    Objects share nothing that changes: each may run in a thread of its own.  `copy.copy` makes another that goes on
+    Objects share no mutable data: each may run in a thread of its own.  `copy.copy` makes another object that continues
     from the same state.
 
     Parameters
     ----------
     ball : BallN
-        One ball.  What is given is as for `trajectory_n`, and all is checked here.
+        One ball.  All arguments are as for `trajectory_n`, and are checked here.
     momentum : array_like
         𝒦, skew, in kg m², (n, n).
     gamma : array_like
@@ -248,7 +245,7 @@ class StepperN(UnderWay):
         self.restart(momentum, gamma, attitude)
 
     def restart(self, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = True) -> None:
-        """Starts anew from 𝒦, γ and, where they are followed, an attitude and the contact point 0.
+        """Restarts from 𝒦, γ and, if followed, an attitude and the contact point 0.
 
         Parameters
         ----------
@@ -262,7 +259,7 @@ class StepperN(UnderWay):
         Raises
         ------
         BadInput
-            As StepperN does; then the state is as before.
+            As StepperN does; the state is then unchanged.
 
         Examples
         --------
@@ -291,7 +288,7 @@ class StepperN(UnderWay):
     def _begin(self, state: dict[str, Floats]) -> None:
         bounds = limits(state["momentum"], state["mass_tensor"], state["D"], self._stages)
         self._below, self._taken = bool((bounds[0] > 0).all()), 0
-        #: The state that moves: above the bound, and below it.
+        #: The moving state: above the bound, and below it.
         self._state, self._one = state, begun(state, bounds, self._stages).ball(0)
         self._ends = {name: np.repeat(state[name], 2, axis=0) for name in MOVING if name in state}
 
@@ -302,7 +299,7 @@ class StepperN(UnderWay):
         in_parts = self.order > 2 or not self._below
         before = self._state, self._one.copy() if in_parts else self._one
         taken, status, reach = self._march(steps, every, frames)
-        if status != Status.TAKEN and in_parts:  # some stages of the last step were
+        if status != Status.TAKEN and in_parts:  # some stages of the last step were taken
             self._state, self._one = before
             self._march(taken, every, frames)
         if frames is not self._ends or taken < steps:
@@ -320,7 +317,7 @@ class StepperN(UnderWay):
         return int(taken[0]), int(status[0]), float(reach[0])
 
     def _show(self) -> None:
-        """Makes the state that moves in the loop the present one."""
+        """Copies the state of the loop to the present state."""
         if self._below:
             self._one.keep(self._ends, 1)
         else:
@@ -330,11 +327,10 @@ class StepperN(UnderWay):
 
 @dataclass(frozen=True, eq=False)
 class Under:
-    """Balls under way: what moves and what does not, each array with the balls along its first axis.
+    """Balls in progress: their states and constants, each array with the balls along its first axis.
 
     Moments are divided by `scale`, so that the largest is about 1; 𝒦 = scale·k.
-    stages, near, enough, past, use: cᵢ of each stage of a step and what it has of its own, (b, s, ...);
-    `near_n.limits`, `loop_n.remember`.
+    stages, near, enough, past, use: (b, s, ...), of each stage of a step: cᵢ, `near_n.limits` and `loop_n.remember`.
     """
 
     k: Floats
@@ -352,11 +348,11 @@ class Under:
     rho: Floats
 
     def ball(self, i: int) -> Self:
-        """One of the balls, in the same memory."""
+        """One of the balls, as a view."""
         return type(self)(*(x[i] for x in vars(self).values()))
 
     def copy(self) -> Self:
-        """The same in other memory."""
+        """A copy in memory of its own."""
         return type(self)(*(x.copy() for x in vars(self).values()))
 
     def keep(self, frames: dict[str, Floats], frame: int) -> None:
@@ -369,7 +365,7 @@ class Under:
 def start(
     ball: BallN, momentum: ArrayLike, gamma: ArrayLike, attitude: bool | ArrayLike = False, contact: bool = False
 ) -> tuple[tuple[int, ...], dict[str, Floats]]:
-    """The common leading shape, and the state that `run` takes, arrays to read, checked; raises BadInput."""
+    """The common leading shape, and the state for `run`, checked read-only arrays; raises BadInput."""
     if not isinstance(ball, BallN):
         raise BadInput(f"ball must be a chapsym.BallN, not {type(ball).__name__}")
     K, g = skew_matrices(momentum, ball.n), unit_vertical(gamma, ball.n)
@@ -396,10 +392,10 @@ def run(
 ) -> tuple[np.ndarray, np.ndarray, Floats]:  # fmt: skip
     """Takes `steps` steps of each ball into the frames from 1 on, of which every `every`-th is kept.
 
-    state: momentum (b, n, n), gamma (b, n), mass_tensor (b, n) and D (b,); to be followed, attitude (b, n, n),
-    contact (b, n-1) and radius (b,).  frames: of what moves, (b, frames, ...); the first is written here.
-    stages: cᵢ of the composition, (s,).  threads: how many cores compiled steps may use.  count: of all balls' steps.
-    Returns (taken, status, reach), (b,).
+    state: momentum (b, n, n), gamma (b, n), mass_tensor (b, n) and D (b,); to be followed, attitude (b, n, n), contact
+    (b, n-1) and radius (b,).  frames: arrays (b, frames, ...) of the moving quantities; frame 0 is written here.
+    stages: cᵢ of the composition, (s,).  threads: the number of cores for compiled steps.  count: of the steps of all
+    balls.  Returns (taken, status, reach), (b,).
     """
     for name, array in frames.items():
         array[:, 0] = state[name]
@@ -419,7 +415,7 @@ def march(
     under: Under, frames: dict[str, Floats], at: np.ndarray, steps: int, every: int,
     outcome: tuple[np.ndarray, np.ndarray, Floats], threads: int, count: Count,
 ) -> None:  # fmt: skip
-    """Steps balls below the bound, and writes the rows `at` of the frames and of (taken, status, reach)."""
+    """Takes steps of balls below the bound, and writes the rows `at` of the frames and of (taken, status, reach)."""
 
     def task(i: int) -> None:
         own = {name: array[at[i]] for name, array in frames.items()}
@@ -430,13 +426,13 @@ def march(
 
 
 def blocks(balls: np.ndarray, n: int) -> Iterator[np.ndarray]:
-    """The numbers of the balls of a batch, of those together that are solved together."""
+    """The indices of the balls of a batch, in the blocks that are solved together."""
     size = max(1, BLOCK // (n * n * n * (n - 1) // 2))
     return (balls[first : first + size] for first in range(0, len(balls), size))
 
 
 def some_balls(state: dict[str, Floats], at: np.ndarray) -> dict[str, Floats]:
-    """The state of some of the balls."""
+    """The states of some of the balls."""
     return {name: array[at] for name, array in state.items()}
 
 
@@ -445,10 +441,10 @@ def continued(
     outcome: tuple[np.ndarray, np.ndarray, Floats], at: np.ndarray, count: Count,
     rotations: Callable[..., tuple[Floats, np.ndarray, Floats]] = small_rotation,
 ) -> dict[str, Floats]:  # fmt: skip
-    """Steps some balls together, and writes the rows `at` of the frames and of (taken, status, reach).
+    """Takes steps of some balls together, and writes the rows `at` of the frames and of (taken, status, reach).
 
-    rotations: what finds the rotations of a stage, as `small_rotation` in float64.
-    Returns the state of the balls that took all steps.
+    rotations: a function that finds the rotations of a stage, as `small_rotation` in float64.  Returns the states of
+    the balls that took all steps.
     """
     taken, status, reach = outcome
     for step in range(1, steps + 1):
@@ -470,7 +466,7 @@ def continued(
 
 
 def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:
-    """The state after the rotation 1 + E: 𝒦 and γ, and those of attitude and contact that there are."""
+    """The state after the rotation 1 + E: 𝒦 and γ, and attitude and contact if followed."""
     K, g = state["momentum"], state["gamma"]
     after = {**state, "momentum": so_n.carried(K, E), "gamma": so_n.transported(g, E)}
     if "contact" in state:
@@ -483,7 +479,7 @@ def _moved(state: dict[str, Floats], E: Floats) -> dict[str, Floats]:
 
 @np.errstate(under="ignore")
 def begun(state: dict[str, Floats], limits: tuple[Floats, Floats], stages: Floats) -> Under:
-    """Balls at their start, from the state that `run` takes, in memory of their own."""
+    """Balls at their start, from the state for `run`, in memory of their own."""
     K, g, J, D = (state[x] for x in ("momentum", "gamma", "mass_tensor", "D"))
     b, n, s = *g.shape, len(stages)
     exponent = np.frexp(largest_moment(J, D))[1]
@@ -523,7 +519,7 @@ def advance(one: Under, frames: dict[str, Floats], steps: int, every: int, count
 
 
 def _safely(one: Under, s: int, with_body: bool) -> tuple[int, float]:
-    """A stage of a ball that Newton did not find, by the continuation from the identity; returns (status, reach)."""
+    """A stage at which Newton's iteration failed, by the continuation from the identity; returns (status, reach)."""
     E, status, reach = small_rotation(
         *(np.asarray(x)[np.newaxis] for x in (one.stages[s] * one.k, one.g, one.J, one.D))
     )

@@ -1,7 +1,7 @@
 """so(n) and the momentum (4.13) on arrays, for every n.
 
-A rotation Ω is kept as E = Ω - 1: the words of (4.13) are linear in Ω and vanish at Ω = 1, so 𝒦 is the
-same function of E, and a small rotation has all its digits.  Vectors are (..., n), matrices (..., n, n).
+A rotation Ω is stored as E = Ω - 1: the terms of (4.13) are linear in Ω and their sum vanishes at Ω = 1, so 𝒦 is the
+same function of E, and a small rotation keeps all its digits.  Vectors are (..., n), matrices (..., n, n).
 """
 
 from functools import cache
@@ -13,7 +13,7 @@ from ..ball import Floats
 
 @cache
 def places(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """The rows and the columns of the coordinates of a skew matrix: what is below the diagonal."""
+    """The rows and the columns of the coordinates of a skew matrix: the entries below the diagonal."""
     return np.tril_indices(n, -1)
 
 
@@ -34,12 +34,12 @@ def from_coordinates(x: Floats, n: int) -> Floats:
 
 @cache
 def _basis(n: int) -> Floats:
-    """The transposes of the skew matrices with one coordinate 1, one below the other, (N n, n)."""
+    """The stacked transposes of the skew matrices with one coordinate 1, (N n, n)."""
     return np.ascontiguousarray(from_coordinates(np.eye(n * (n - 1) // 2), n).mT.reshape(-1, n))
 
 
 def twist(X: Floats, gamma: Floats) -> Floats:
-    """(X - Xᵀ)γ, (..., n); half of it is Δr/ρ of a step in the body, γ upwards (4.9 with 2.9 as corrected)."""
+    """(X - Xᵀ)γ, (..., n): twice Δr/ρ of a step, in the body, γ upwards (4.9 with 2.9 as corrected)."""
     return ((X - X.mT) @ gamma[..., np.newaxis])[..., 0]
 
 
@@ -54,7 +54,7 @@ def momentum(X: Floats, gamma: Floats, J: Floats, D: Floats) -> Floats:
 
 
 def jacobian(E: Floats, gamma: Floats, J: Floats, D: Floats) -> Floats:
-    """The derivative of 𝒦 along Ω(1 + ξ), ξ skew, in coordinates, (..., N, N): exactly 𝒦(Ωξ), as 𝒦 is linear."""
+    """The derivative of 𝒦 along Ω(1 + ξ), ξ skew, in coordinates, (..., N, N): 𝒦(Ωξ), as 𝒦 is linear."""
     n = E.shape[-1]
     transposed = (_basis(n) @ (E.mT + np.eye(n))).reshape(*E.shape[:-2], -1, n, n)
     columns = momentum(transposed.mT, gamma[..., np.newaxis, :], J[..., np.newaxis, :], D[..., np.newaxis])
@@ -68,30 +68,30 @@ def turned(E: Floats, xi: Floats) -> Floats:
 
 
 def orthogonal(E: Floats) -> Floats:
-    """E of the rotation nearest to 1 + E, which is one but for roundings: a step of Newton and Schulz."""
+    """E of the rotation nearest to 1 + E, a rotation but for rounding, by a Newton-Schulz step."""
     defect = E + E.mT + E.mT @ E
     return E - (defect + E @ defect) / 2
 
 
 def polar(R: Floats) -> Floats:
-    """The rotation nearest to R, in the same way."""
+    """The rotation nearest to a nearly orthogonal R, by a Newton-Schulz step."""
     return R - R @ (R.mT @ R - np.eye(R.shape[-1])) / 2
 
 
 def carried(skew: Floats, E: Floats) -> Floats:
-    """ΩᵀAΩ for a skew matrix A, as A and an increment: exactly skew."""
+    """ΩᵀAΩ for a skew matrix A, as A plus an increment: exactly skew."""
     first = skew @ E
     half = first + E.mT @ first / 2
     return skew + (half - half.mT)
 
 
 def transported(gamma: Floats, E: Floats) -> Floats:
-    """Ωᵀγ, as γ and an increment."""
+    """Ωᵀγ, as γ plus an increment."""
     return gamma + (E.mT @ gamma[..., np.newaxis])[..., 0]
 
 
 def invariants(K: Floats, gamma: Floats) -> Floats:
-    """`invariants_n` of what was checked, floats or other numbers."""
+    """`invariants_n` without checks, of floats or other numbers."""
     n, g = K.shape[-1], gamma[..., np.newaxis]
     square, power, moved = K @ K, np.eye(n), g
     traces, weights = [], []

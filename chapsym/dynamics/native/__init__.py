@@ -1,4 +1,4 @@
-"""The loops as compiled C, made of generated/loops.c when chapsym is built; where there is none, as plain Python.
+"""The loops as C, compiled from generated/loops.c when chapsym is built; without it, as plain Python.
 
 Both take the same steps, to the bit.
 """
@@ -19,7 +19,7 @@ from ..loops.twins import single
 
 @cache
 def loop(function: Callable[..., Any], dtype: Any = np.float64) -> Callable[..., Any]:
-    """A function of the loops that is exported, for float64 or float32: compiled, or as it is, and as silent."""
+    """An exported function of the loops, for float64 or float32: compiled, or in Python without NumPy's warnings."""
     name = f"{function.__module__.rpartition('.')[2]}_{function.__name__}"
     table = _tables().get(np.dtype(dtype).name)
     if table is not None:
@@ -35,7 +35,7 @@ def is_compiled() -> bool:
 
 @cache
 def _tables() -> dict[str, dict[str, Callable[..., Any]]]:
-    """The compiled loops by the type of their numbers; empty where there are none, or they are of another text."""
+    """The compiled loops by number type; empty if there are none, or if they were compiled from another text."""
     try:
         from . import compiled  # type: ignore[attr-defined]
     except ImportError:

@@ -1,1 +1,1 @@
-"""All solutions of a step, and where two of them meet."""
+"""All solutions of a step, and their folds."""

@@ -1,7 +1,7 @@
 """(5.2) as three quadrics in P³, 𝒦(q, γ) - 𝒦(q0² + |q|²), and their eight complex common points in float64.
 
-A rotation is a real point (q0, q1, q2, q3) up to a factor.  The coefficients are read off the momentum kernel, in the
-numbers that it is given: fmpq, arrays.  The points are found for many balls at once.
+A rotation is a real point (q0, q1, q2, q3) up to a factor.  The coefficients are computed with the momentum kernel, in
+the numbers of its arguments: fmpq, arrays.  The points are found for many balls at once.
 
 Macaulay's matrix of degree 4 has an 8-dimensional kernel, on which a linear form over another acts as multiplication:
 its eigenvectors are the points (as in `enclosed`).  They are then polished by Newton's iteration in C⁴, where the
@@ -22,9 +22,9 @@ from chapsym.generated import momentum
 from ..ball import Floats
 
 EPSILON = 2.0**-52
-#: Newton's iterations on the eigenvectors; they converge quadratically from about 1e-10, or are not trusted.
+#: The number of Newton iterations on the eigenvectors; they converge quadratically from about 1e-10, or are rejected.
 POLISHINGS = 3
-#: Roundings of a residual, in units of EPSILON and of the norm of the forms.
+#: A bound of the rounding of a residual, in units of EPSILON and of the norm of the forms.
 ROUNDINGS = 16.0
 #: A quadratic form: the coefficient of x_a x_b under (a, b), a ≤ b.
 Quadric = dict[tuple[int, ...], Any]
@@ -36,10 +36,9 @@ PAIRS = tuple(itertools.combinations_with_replacement(range(4), 2))
 class Candidates:
     """The eight points of each ball.
 
-    points: (n, 8, 4), complex, of length 1, with the phase for which the imaginary part is least.
-    error: how far the root may be, by Newton-Kantorovich with roundings, (n, 8).
-    bend: |F'⁻¹F''|, (n, 8): no other root is nearer than about 1/bend, if error·bend is small.
-    sound: whether the matrices of the ball were of full rank, (n,).
+    points: (n, 8, 4), complex, of length 1, with the phase that makes the imaginary part least.  error: a bound of the
+    distance of the root, by Newton-Kantorovich with roundings, (n, 8). bend: |F'⁻¹F''|, (n, 8): no other root is nearer
+    than about 1/bend, if error·bend is small. sound: whether the matrices of the ball had full rank, (n,).
     """
 
     points: np.ndarray
@@ -64,7 +63,7 @@ def momentum_forms(gamma: Sequence[Any], mass_tensor: Sequence[Any], D: Any) -> 
 
 
 def quadrics(momentum: Sequence[Any], gamma: Sequence[Any], mass_tensor: Sequence[Any], D: Any) -> list[Quadric]:
-    """𝒦(q, γ) - 𝒦(q0² + |q|²), whose real zeros are the rotations with the momentum 𝒦."""
+    """The quadrics 𝒦(q, γ) - 𝒦(q0² + |q|²); their real zeros are the rotations with the momentum 𝒦."""
     forms = zip(momentum_forms(gamma, mass_tensor, D), momentum, strict=True)
     return [{at: c - k if at[0] == at[1] else c for at, c in form.items()} for form, k in forms]
 
@@ -78,7 +77,7 @@ def candidates(forms: Floats) -> Candidates:
         points = points + correction
         points /= np.linalg.norm(points, axis=-1, keepdims=True)
     correction, inverse = _newton(basis, points)
-    # |F'⁻¹F''| for orthonormal forms: its Frobenius norm is that of 2F'⁻¹.
+    # For orthonormal forms |F'⁻¹F''| has the Frobenius norm of 2F'⁻¹.
     size = np.linalg.norm(inverse, axis=(-2, -1))
     bend, noise = 2 * size, ROUNDINGS * EPSILON * stretch[:, np.newaxis] * size
     error = 2 * (np.linalg.norm(correction, axis=-1) + noise)
@@ -87,7 +86,7 @@ def candidates(forms: Floats) -> Candidates:
 
 
 def _orthonormal(forms: Floats) -> tuple[Floats, Floats]:
-    """Orthonormal forms that span the same, and the condition number of the given ones (very large if dependent)."""
+    """Orthonormal forms with the same span, and the condition number of the given forms (very large if dependent)."""
     _, sizes, right = np.linalg.svd(forms.reshape(-1, 3, 16), full_matrices=False)
     with np.errstate(divide="ignore", invalid="ignore"):
         stretch = sizes[:, 0] / sizes[:, 2]
@@ -127,7 +126,7 @@ def _newton(basis: Floats, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     singular = ~(np.abs(np.linalg.det(matrix)) > 1e-100)
     matrix[singular] = np.eye(4)
     inverse = np.linalg.inv(matrix)[..., :3]
-    inverse[singular] = 1e100  # nothing is proved with it
+    inverse[singular] = 1e100  # not used in a proof
     return -np.einsum("npai,npi->npa", inverse, value), inverse
 
 

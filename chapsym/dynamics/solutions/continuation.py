@@ -1,10 +1,10 @@
-"""Branches followed along a path of momenta, their folds, and how far a state is from one, for whole batches.
+"""Branches along a path of momenta, their folds, and the distance of a state from a fold, for batches.
 
-The balls of a batch are marched together along a segment of momenta, each up to its end or to a fold.
-The chart and the step length are those of `branch`: around a root p on the segment 𝒦(t) = A + tE write q ∝ p ∘ (1, w);
-F(w) = 𝒦(p ∘ (1, w), γ) - 𝒦(t)(1 + |w|²) is quadratic, and a step is as long as the Newton-Kantorovich test allows.
-Near a fold the steps shrink with the distance; from there Newton's iteration on the extended system F = 0, det F' = 0
-in (w, t) finds the fold: the system is regular where the fold is simple.
+The balls of a batch are continued together along a segment of momenta, each to its end or to a fold.  The chart and the
+step length are those of `branch`: around a root p on the segment 𝒦(t) = A + tE write q ∝ p ∘ (1, w); F(w) = 𝒦(p ∘ (1,
+w), γ) - 𝒦(t)(1 + |w|²) is quadratic, and a step is as long as the Newton-Kantorovich test allows.  Near a fold the
+steps shrink with the distance; then Newton's iteration on the extended system F = 0, det F' = 0 in (w, t) finds the
+fold: the system is regular if the fold is simple.
 """
 
 from __future__ import annotations
@@ -22,36 +22,36 @@ from ..errors import BadInput, Status
 from ..loops.branch import CONTRACTION, ROUNDINGS, SETTLED, SINGULAR, SMALLEST, UNIT_ROUNDOFF
 from ..shown import Brief
 
-#: The march towards a fold ends where a step is below this fraction of the way: Newton does the rest.
+#: The march towards a fold ends at a step below this fraction of the way; then Newton's iteration takes over.
 NEAR_FOLD = 1e-6
-#: Newton must find the fold within this fraction of the way from where the march ended, which is some steps ahead.
+#: The largest distance of the fold from the end of the march, as a fraction of the way: some steps.
 AHEAD = 1e-2
 MOST_STEPS = 5000
 #: Log₂ of a momentum beyond all rotations, for Λmax below 1.
 BEYOND = 3
 MOST_CORRECTIONS = 12
-#: Newton's iterations on the extended system, and the correction that is the last one.
+#: The largest number of Newton iterations on the extended system, and the correction that is the last one.
 MOST_EXTENDED = 12
 CLOSE = 1e-8
-#: How far a given rotation may be from a root.
+#: The largest accepted distance of a given rotation from a root.
 AT_THE_ROOT = 1e-6
-#: The places of the second derivatives 11, 22, 33, 23, 13, 12 in a symmetric matrix.
+#: The indices of the second derivatives 11, 22, 33, 23, 13, 12 in a symmetric matrix.
 PAIR = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2]])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Fold(Brief):
-    """Where a branch turns back, for one ball or a batch with the leading axes (...).
+    """The fold of a branch, for one ball or a batch with the leading axes (...).
 
     Attributes
     ----------
     reach : numpy.ndarray
-        The parameter t of the path there, shape (...).
+        The parameter t of the path at the fold, shape (...).
     rotation : numpy.ndarray
-        The Euler parameters there, q0 ≥ 0, shape (..., 4).
+        The Euler parameters at the fold, q0 ≥ 0, shape (..., 4).
     settled : numpy.ndarray
-        Whether Newton found a simple fold, shape (...).  Otherwise the Jacobian is singular near `reach`, which is a
-        lower bound, as where branches cross.
+        Whether Newton's iteration found a simple fold, shape (...).  Otherwise the Jacobian is singular near `reach`,
+        which is a lower bound, as at a crossing of branches.
 
     Examples
     --------
@@ -75,11 +75,11 @@ class Followed(Brief):
     rotation : numpy.ndarray
         The Euler parameters at each of the momenta, q0 ≥ 0, shape (..., m, 4), NaN beyond a fold.
     status : numpy.ndarray
-        TAKEN if the end was reached, FOLDED if not, NOT_CONVERGED where float64 cannot tell, shape (...).
+        TAKEN if the end was reached, FOLDED if not, NOT_CONVERGED if float64 cannot decide, shape (...).
     reach : numpy.ndarray
-        How far the branch goes: k + s at the fraction s between the momenta k and k + 1, shape (...).
+        The end of the branch: k + s at the fraction s between the momenta k and k + 1, shape (...).
     fold : Fold
-        Where it folds, NaN for those that do not.
+        The folds, NaN for branches without one.
 
     Examples
     --------
@@ -96,11 +96,11 @@ class Followed(Brief):
     fold: Fold
 
 
-@np.errstate(all="ignore")  # what overflows settles nowhere: `status` reports it
+@np.errstate(all="ignore")  # an overflow does not converge: `status` reports it
 def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> Followed:
-    """Follows the rotation with the first momentum of the path along straight lines from each to the next.
+    """Continues the rotation with the first momentum of a path along straight lines from each momentum to the next.
 
-    Where moments differ 10⁴ times steps are so short that it ends, after half a minute or so, as NOT_CONVERGED.
+    For moments with a ratio of 10⁴ the steps are so short that it ends as NOT_CONVERGED, after about half a minute.
 
     Parameters
     ----------
@@ -168,9 +168,9 @@ def follow(ball: Ball, path: ArrayLike, gamma: ArrayLike, rotation: ArrayLike = 
 
 @np.errstate(under="ignore")
 def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike | None = None) -> Fold:
-    """The fold of a branch along t𝒦: the largest t to which it can be continued, and the rotation there.
+    """The fold of a branch along t𝒦: the largest t to which the branch can be continued, and the rotation there.
 
-    There always is a fold, as no rotation has more than 2Λmax; where `follow` is not converged before it, reach is NaN.
+    There always is a fold, as |𝒦| ≤ 2Λmax for every rotation; if `follow` does not converge before it, reach is NaN.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike 
     gamma : array_like
         Unit verticals upwards, shape (..., 3).
     rotation : array_like, optional
-        A solution of (5.2) for 𝒦, shape (..., 4), to be followed from t = 1 upwards; by default the small rotation,
+        A solution of (5.2) for 𝒦, shape (..., 4), which is continued from t = 1 upwards; by default the small rotation,
         from t = 0.
 
     Returns
@@ -209,7 +209,7 @@ def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike 
     size = np.abs(flat).max(axis=1)
     if not (size > 0).all():
         raise BadInput("momentum must not be 0: a branch folds along t times the momentum")
-    # |𝒦| ≤ 2Λmax, and no component is larger: at 4Λmax every branch has folded.
+    # |𝒦| ≤ 2Λmax, as is every component: at 4Λmax every branch has folded.
     start = np.full(len(D), 0.0 if rotation is None else 1.0)
     with np.errstate(over="ignore", under="ignore"):
         end = np.maximum(4 * largest_moment(J, D), 2 * start * size)
@@ -224,7 +224,7 @@ def fold(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike 
 
 
 def margin(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLike | None = None) -> Floats:
-    """The relative increase of the momentum at which the branch of the state folds: t - 1 for the fold at t𝒦.
+    """The relative increase of the momentum at which the branch of a state folds: t - 1 for the fold at t𝒦.
 
     Parameters
     ----------
@@ -240,7 +240,7 @@ def margin(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, rotation: ArrayLik
     Returns
     -------
     numpy.ndarray
-        Shape (...).  Negative if the small rotation folds before it reaches 𝒦, NaN where float64 cannot tell.
+        Shape (...).  Negative if the small-rotation branch folds before it reaches 𝒦, NaN if float64 cannot decide.
 
     Raises
     ------
@@ -262,7 +262,7 @@ def _upright(q: Floats) -> Floats:
 
 @dataclass
 class Marchers:
-    """Balls, flat, each with the rotation where it is; scaled so that Λmax is about 1."""
+    """Balls along one axis, each with its present rotation; scaled so that Λmax is about 1."""
 
     q: Floats
     g: Floats
@@ -272,7 +272,7 @@ class Marchers:
 
     @classmethod
     def at(cls, rotation: ArrayLike, shape: tuple, K: Floats, g: Floats, J: Floats, D: Floats) -> Marchers:
-        """Balls at a rotation that must have the momentum K, polished; raises BadInput if it does not."""
+        """Balls at a rotation with the momentum K, refined; raises BadInput if it does not have this momentum."""
         q = over_states(numbers(rotation, "rotation", 4), "rotation", shape).reshape(-1, 4).copy()
         if (np.abs((q * q).sum(axis=1) - 1) > UNIT_TOLERANCE).any():
             raise BadInput("rotation must be unit Euler parameters (scalar first); divide by the length")
@@ -322,7 +322,7 @@ class Marchers:
         """The longest step s with s|d|·|F''| ≤ CONTRACTION, d = F'⁻¹E, F'' = H - 2(𝒦 + sE)⊗1; and det T.
 
         The test holds in every norm: with T = U S Vᵀ this is that of z in w = V S^(-1/2) z, in which a singular
-        direction does not carry its small divisor over to the others.
+        direction does not spread its small divisor to the others.
         """
         T = self.tangent()
         U, S, V = np.linalg.svd(nonsingular(T))
@@ -338,7 +338,7 @@ class Marchers:
             return longest / speed, np.linalg.det(T)
 
     def correct(self, K: Floats) -> np.ndarray:
-        """Newton's iteration at the (scaled) momentum K, in place; returns which balls settled."""
+        """Newton's iteration at the (scaled) momentum K, in place; returns which balls converged."""
         settled = np.zeros(len(self.D), dtype=bool)
         for _ in range(MOST_CORRECTIONS):
             inverse = np.linalg.inv(nonsingular(self.tangent()))
@@ -346,10 +346,10 @@ class Marchers:
             w[settled] = 0.0
             self.turn(w, ~settled)
             extent = np.abs(self.q[:, 1:]).max(axis=1)
-            # Without momentum the small rotation is none: no digits of a rounding are asked for.
+            # Without momentum the small rotation is the identity: its rounding needs no accuracy.
             still = ~K.any(axis=1) & (extent < AT_THE_ROOT)
             self.q[still, 1:], settled[still] = 0.0, True
-            # The change of the rotation by a rounding of the residual, for Λmax of about 1.
+            # The change of the rotation by a rounding of the residual, for Λmax about 1.
             size = np.abs(K).max(axis=1) + 2 * extent
             noise = ROUNDINGS * UNIT_ROUNDOFF * np.abs(inverse).max(axis=(1, 2)) * size
             settled |= np.abs(w).max(axis=1) <= np.maximum(np.maximum(SETTLED * extent, noise), SMALLEST)
@@ -358,7 +358,7 @@ class Marchers:
         return settled
 
     def fold(self, A: Floats, B: Floats, t: Floats) -> tuple[Floats, Floats, np.ndarray]:
-        """Newton on F = 0, det F' = 0 from near a fold: (t, q, whether it settled, near where it began)."""
+        """Newton's iteration on F = 0, det F' = 0 from near a fold: (t, q, whether it converged near its start)."""
         A, E, end = self._way(A, B)
         t = t * end
         start, first, settled = t.copy(), self.q.copy(), np.zeros(len(t), dtype=bool)
@@ -387,7 +387,7 @@ class Marchers:
         return matrix, np.concatenate([self.gap(K), det[:, np.newaxis]], axis=1)
 
     def _way(self, A: Floats, B: Floats) -> tuple[Floats, Floats, Floats]:
-        """A and (B - A)/end, scaled; end, a power of two, shortens a way beyond all rotations (|𝒦| ≤ 2Λmax)."""
+        """A and (B - A)/end, scaled; end, a power of two, shortens a way to momenta of no rotation (|𝒦| > 2Λmax)."""
         E = B - A
         beyond = np.clip(np.frexp(np.abs(E).max(axis=1))[1] - self.exponent - BEYOND, 0, 1000)
         return self._scaled(A), np.ldexp(E, -(self.exponent + beyond)[:, np.newaxis]), np.ldexp(1.0, beyond)
@@ -410,13 +410,13 @@ class Marchers:
         return np.stack(residual(*(*self.q.T, *K.T, *self.g.T, *self.J.T, self.D)), axis=-1)
 
     def turn(self, w: np.ndarray, which: np.ndarray) -> None:
-        """q ∘ (1, w), divided by its length, of some of the balls: for w = 0, too, a rounding may change it."""
+        """q ∘ (1, w), divided by its length, for some of the balls; a rounding may change it even for w = 0."""
         turned = np.stack(compose(*(*self.q.T, 1.0, *w.T)), axis=-1)
         self.q = np.where(which[:, np.newaxis], turned / length(turned)[:, np.newaxis], self.q)
 
 
 def total(x: Floats, axis: int) -> Floats:
-    """The sum along an axis, term by term: NumPy's order depends on how many balls there are."""
+    """The sum along an axis, term by term: NumPy's order depends on the number of balls."""
     first, *others = np.moveaxis(x, axis, 0)
     return sum(others, start=first)
 
@@ -428,6 +428,6 @@ def length(x: Floats) -> Floats:
 
 
 def nonsingular(matrices: Floats) -> Floats:
-    """The same matrices, with the identity for one that is singular."""
+    """The same matrices, with the identity in place of singular ones."""
     singular = ~(np.abs(np.linalg.det(matrices)) > 0)
     return np.where(singular[:, np.newaxis, np.newaxis], np.eye(matrices.shape[-1]), matrices)

@@ -1,17 +1,17 @@
-"""Every rotation with a given momentum, from exact rational input: counted and enclosed, complete by proof.
+"""All rotations with a given momentum, from exact rational input: counted and enclosed, complete by proof.
 
-The rotations are the real common points of three quadrics (5.2).  Where these have finitely many complex points in
-common, `common_points` counts the real ones exactly and gives each as a rational function of an algebraic number,
-which is enclosed to any precision; each simple one must also pass the interval Newton test of `proved_root`.
+The rotations are the real common points of three quadrics (5.2).  If these have finitely many common complex points,
+`common_points` counts the real ones exactly and gives each as a rational function of an algebraic number, which is
+enclosed to any precision; each simple one must also pass the interval Newton test of `proved_root`.
 
-The forms of degree 4 in the ideal are the row space of a Macaulay matrix, and a common point x is a functional on
-S₄ that it kills.  Let N hold all functionals that it kills, and h be a linear form for which N restricted to h·S₃
-has full rank.  Then no common point has h = 0, so that they are finitely many (8 with multiplicity, by Bézout), and
-x_v/h acts on N as multiplication in the algebra of the points.  The characteristic polynomial of a form that
-separates the points, the *eliminant*, has one root for each point, of its multiplicity, and a real root for each
-real point; the points are rational functions of the root (Rouillier's rational univariate representation).
-That the form separates is decided by the trace form of the algebra, whose rank is the number of points; its
-signature is the number of the real ones (Hermite), which must be what the eliminant says.
+The forms of degree 4 in the ideal are the row space of a Macaulay matrix, and a common point x is a functional on S₄
+that it kills.  Let N hold all functionals that it kills, and h be a linear form for which N restricted to h·S₃ has full
+rank.  Then no common point has h = 0, so there are finitely many (8 with multiplicity, by Bézout), and x_v/h acts on N
+as multiplication in the algebra of the points.  The characteristic polynomial of a form that separates the points, the
+*eliminant*, has one root for each point, of its multiplicity, and a real root for each real point; the points are
+rational functions of the root (Rouillier's rational univariate representation).  The trace form of the algebra decides
+whether the form separates: its rank is the number of points.  Its signature is the number of real points (Hermite),
+which must agree with the eliminant.
 """
 
 import itertools
@@ -36,13 +36,13 @@ from ..levels.start import fraction
 from ..map import in_float64, step, unit_exactly
 from .candidates import Quadric, momentum_forms, quadrics
 
-#: A form with rational coefficients, each under the ascending indices of the variables of its monomial.
+#: A form with rational coefficients, by the ascending indices of the variables of each monomial.
 Form = Mapping[tuple[int, ...], fmpq]
 
 VARIABLES = range(4)
 #: The degree at which the Macaulay matrix is complete: 3·(2 - 1) + 1.
 DEGREE = 4
-#: Bits with which roots are separated at first, and those of which they may have fewer than asked.
+#: The first bits for the separation of roots, and the bits that a root may lack of the wanted ones.
 COARSE, LOST = 64, 16
 #: A point of P³ is on at most 3 of the planes (1, k, k², k³), so that one of 25 planes misses 8 points;
 #: two points have equal quotients for at most 3 forms, and 8 points are 28 pairs.
@@ -56,7 +56,7 @@ class NotFinite(ArithmeticError):
 
 @dataclass(frozen=True)
 class Factor:
-    """The real points that share a multiplicity and the coordinates that vanish.
+    """The real points with a common multiplicity and common vanishing coordinates.
 
     The points are (c₀(t) : c₁(t) : c₂(t) : c₃(t)) for the real roots t of a polynomial without square factors.
     """
@@ -66,7 +66,7 @@ class Factor:
     multiplicity: int
 
     def points(self, bits: int) -> list[Vector]:
-        """Arb enclosures of homogeneous coordinates, computed with `bits`; coordinates that vanish are exactly 0."""
+        """Arb enclosures of homogeneous coordinates, computed with `bits`; vanishing coordinates are exactly 0."""
         for coarse in (COARSE, bits):
             with flint_bits(coarse):
                 roots: Any = self.polynomial.complex_roots()
@@ -77,7 +77,7 @@ class Factor:
             return [tuple(c(x) for c in self.coordinates) for x in real]
 
     def _refined(self, root: arb, bits: int) -> arb:
-        """The root in an interval, by interval Newton steps while they help: each is short, and can be interrupted."""
+        """The root in an interval, by interval Newton steps while they help, between which it can be interrupted."""
         slope, known = self.polynomial.derivative(), -math.inf
         with flint_bits(bits + self.polynomial.height_bits()):
             while known < root.rel_accuracy_bits() < bits:
@@ -88,7 +88,7 @@ class Factor:
 
 @dataclass(frozen=True)
 class Points:
-    """All common points: the number of the real ones, and the factors of the eliminant."""
+    """All common points: the number of real points, and the factors of the eliminant."""
 
     real: int
     factors: tuple[Factor, ...]
@@ -97,7 +97,7 @@ class Points:
 def common_points(forms: Sequence[Form]) -> Points:
     """The common points of forms of degree 1 and 2 in (q0, q1, q2, q3), three quadrics among them.
 
-    Raises NotFinite if they are infinitely many, and ArithmeticError if the two counts differ.
+    Raises NotFinite if there are infinitely many, and ArithmeticError if the two counts differ.
     """
     algebra = _Algebra(forms)
     distinct, signature = algebra.inertia()
@@ -130,7 +130,7 @@ class _Algebra:
         by_variable = [fmpz_mat([rows[place[tuple(sorted((*m, v)))]] for m in below]) for v in VARIABLES]
         for k in PLANES:
             plane = sum((c * x for c, x in zip(_powers(k), by_variable, strict=True)), fmpz_mat(len(below), size))
-            # The first rows that span them all.
+            # The first rows that span all rows.
             reduced, _, rank = plane.transpose().rref()
             chosen = [next(j for j in range(len(below)) if reduced[i, j] != 0) for i in range(rank)]
             if rank == size:
@@ -142,7 +142,7 @@ class _Algebra:
         self.size = size
         self.basis = [below[i] for i in chosen]
         self.variables = [inverse * x for x in own]
-        # Free of denominators: the same positive multiple of each.
+        # All multiplied by one positive number, so that there are no denominators.
         scale = _common(variable.numer_denom()[1] for variable in self.variables)
         self.integral = [(scale * variable).numer_denom()[0] for variable in self.variables]
 
@@ -152,7 +152,7 @@ class _Algebra:
 
     def inertia(self) -> tuple[int, int]:
         """Rank and signature of the trace form (a, b) -> tr(ab): the numbers of points, and of real points."""
-        # Each times a positive number, which the inertia does not see.
+        # Each multiplied by a positive number, which does not change the inertia.
         elements = [_primitive(reduce(fmpz_mat.__mul__, (self.integral[v] for v in m))) for m in self.basis]
         form = _traces(elements, elements)
         # All roots are real, so that Descartes' rule is exact.
@@ -174,13 +174,13 @@ def _killed(forms: Sequence[Form]) -> fmpz_mat:
                 row[place[tuple(sorted(e + m))]] = (c * denominator).p
             rows.append(row)
     columns, nullity = fmpz_mat(rows).nullspace()
-    # Each without what its numbers have in common: 20 times as many digits, where those of the forms are many.
+    # Each divided by its content; without this, long coefficients would give 20 times as many digits.
     killed = columns.transpose().tolist()[:nullity]
     return fmpz_mat([_primitive(fmpz_mat([one])).entries() for one in killed]).transpose()
 
 
 def _primitive(matrix: fmpz_mat) -> fmpz_mat:
-    """A matrix without what its numbers have in common."""
+    """A matrix divided by its content."""
     common = reduce(fmpz.gcd, matrix.entries(), fmpz(0))
     return fmpz_mat(matrix.nrows(), matrix.ncols(), [x if common == 0 else x // common for x in matrix.entries()])
 
@@ -205,7 +205,7 @@ def _representation(algebra: _Algebra, multiplication: fmpq_mat, parts: list) ->
 
 
 def _split(part: fmpz_poly, coordinates: Sequence[fmpz_poly]) -> Iterator[tuple[fmpz_poly, tuple[fmpz_poly, ...]]]:
-    """The factors of a polynomial at whose roots a coordinate vanishes always, then written as 0, or never."""
+    """The factors of a polynomial at whose roots each coordinate vanishes always (then it is written as 0) or never."""
     pieces = [(part, tuple(coordinates))]
     for v in VARIABLES:
         finer = []
@@ -249,15 +249,15 @@ def _sign_changes(coefficients: Sequence[fmpz]) -> int:
     return sum(a != b for a, b in itertools.pairwise(signs))
 
 
-#: Bits of the longest coefficients of the equations: those of float64 have fewer, and take some seconds.
+#: The largest number of bits of a coefficient; float64 input has fewer, and takes some seconds.
 MOST_BITS = 10_000
-#: Working precisions are doubled at most so often.
+#: The largest number of times that the working precision is doubled.
 MOST_PRECISIONS = 14
-#: Bits that an enclosure has beyond those that are written.
+#: The bits of an enclosure beyond those of the output.
 SPARE = 12
-#: The rounding of a float64 step is below this, even where D is large or a fold is near.
+#: A bound of the rounding of a float64 step, even for a large D or near a fold.
 SAME = 1e-3
-#: The float64 step belongs to the nearest rotation, if the next one is this many times farther away.
+#: The float64 step belongs to the nearest rotation if the second nearest is this many times farther away.
 CLEARLY = 4.0
 
 
@@ -269,7 +269,7 @@ class Branch:
     that is not 0 is positive.  A parameter that is 0 is exactly 0.
     angle: of the rotation, in [0, π].
     multiplicity: as a root of (5.2); 1 means that the tangent Jacobian is regular.
-    small_rotation: whether it is the one that `step` takes.
+    small_rotation: whether this is the rotation of `step`.
     """
 
     rotation: Vector
@@ -280,9 +280,9 @@ class Branch:
 
 @dataclass(frozen=True)
 class PreciseBranches:
-    """All rotations with a momentum, by angle, in the numbers of a precision; `write` gives the contract's JSON fields.
+    """All rotations with a momentum, by angle, at a precision; `write` gives the fields of the JSON form.
 
-    complete: whether it is proved that there is no other; if not, `reason` says why.
+    complete: whether it is proved that there is no other; if not, `reason` is a sentence.
     """
 
     precision: Precision
@@ -305,13 +305,13 @@ def precise_branches(
     gamma: Sequence[Fraction],
     precision: Precision,
 ) -> PreciseBranches:
-    """Every rotation Ω with 𝒦(q, γ) = 𝒦 (5.2) of one ball, from exact rational input.
+    """All rotations Ω with 𝒦(q, γ) = 𝒦 (5.2) of one ball, from exact rational input.
 
     (q0, q) and (-q0, -q) are one rotation.  The equations are solved as they are given: a γ that is unit to the
     digits of the precision only is taken as it is.  The set is complete unless the complex solutions are infinitely
     many for a reason that is not understood, or the real ones are.
 
-    Raises BadInput as `exact_step` does, and for numbers beyond those of float64 in length.
+    Raises BadInput as `exact_step` does, and for numbers with more bits than those of float64.
     """
     unit_exactly(gamma, precision)
     J, (contact,), K, g = np.split(np.array(in_float64(mass_tensor, (D,), momentum, gamma)), [3, 4, 7])
@@ -336,7 +336,7 @@ def precise_branches(
 
 
 def _proportional(K: list, g: list, J: list, D: list) -> Iterator[Form]:
-    """Linear equations that every rotation satisfies where 𝒦(q, γ) is q0 times a linear L(q), as for equal moments.
+    """Linear equations of every rotation if 𝒦(q, γ) is q0 times a linear L(q), as for equal moments.
 
     Then q0 L(q) = 𝒦 ≠ 0, so that q0 ≠ 0 and 𝒦 × L(q) = 0, while the quadrics have a conic of complex points at q0 = 0.
     """
@@ -349,7 +349,7 @@ def _proportional(K: list, g: list, J: list, D: list) -> Iterator[Form]:
 
 
 def _why_infinite(equations: Sequence[Quadric]) -> str:
-    """One sentence for quadrics that have a curve in common."""
+    """One sentence for quadrics with a common curve."""
 
     def common(i: int, j: int) -> bool:
         return all(e[pair] == 0 for e in equations for pair in ((i, i), (i, j), (j, j)))
@@ -364,13 +364,13 @@ def _why_infinite(equations: Sequence[Quadric]) -> str:
 
 
 def _enclosures(points: Points, precision: Precision, given: Sequence[Sequence[Fraction]]) -> tuple[Branch, ...]:
-    """The rotations in Arb, apart from each other, each component to the digits of the precision, by angle."""
+    """Disjoint enclosures of the rotations in Arb, each component to the digits of the precision, by angle."""
     wanted = _bits(precision) + SPARE
     bits = 2 * wanted + 64
     for _ in range(MOST_PRECISIONS):
         with flint_bits(bits):
             found = [_branch(c, f.multiplicity) for f in points.factors for c in f.points(bits)]
-            # A leading parameter that has this many bits has a sign.
+            # A leading parameter with this many bits has a certain sign.
             precise = all(x.rel_accuracy_bits() >= wanted for b in found for x in (*b.rotation, b.angle))
             if precise and _apart(found) and _confirmed(found, given):
                 return tuple(sorted(found, key=cmp_to_key(_order)))
@@ -398,7 +398,7 @@ def _apart(branches: Sequence[Branch]) -> bool:
 
 
 def _confirmed(branches: Sequence[Branch], given: Sequence[Sequence[Fraction]]) -> bool:
-    """Whether the interval Newton test, on the kernels, finds every simple root, at the same place."""
+    """Whether the interval Newton test, with the kernels, confirms every simple root."""
     state = [tuple(map(exact, vector)) for vector in given]
     for branch in branches:
         if branch.multiplicity == 1:
@@ -421,7 +421,7 @@ def _order(a: Branch, b: Branch) -> int:
 
 
 def _with_small_rotation(branches: tuple[Branch, ...], taken: Asked) -> tuple[Branch, ...]:
-    """The same, with the one marked that the float64 step takes, if it takes one."""
+    """The same, with a mark at the rotation of the float64 step, if it takes one."""
     if taken is None:
         return branches
     places = [np.array([float(x.mid()) for x in branch.rotation]) for branch in branches]
@@ -433,7 +433,7 @@ def _with_small_rotation(branches: tuple[Branch, ...], taken: Asked) -> tuple[Br
 
 
 def _the_small_one(taken: Asked, given: Sequence[Sequence[Fraction]], precision: Precision) -> tuple[Branch, ...]:
-    """The small rotation, if there is one that the interval Newton test encloses."""
+    """The small rotation, if the interval Newton test encloses it."""
     if taken is None:
         return ()
     bits = 2 * (_bits(precision) + SPARE) + 64
@@ -459,7 +459,7 @@ def _written(precision: Precision, branch: Branch) -> dict[str, Any]:
 
 
 def _number(precision: Precision, value: arb) -> Any:
-    """An Arb ball for JSON: the ball itself, or its midpoint, which is nearer than the digits that are written."""
+    """An Arb ball for JSON: the ball itself, or its midpoint, accurate to the digits of the output."""
     if isinstance(precision, Enclosure):
         return precision.write(value)
     return precision.write(precision.number(fraction(value)))

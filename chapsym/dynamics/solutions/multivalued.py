@@ -1,10 +1,10 @@
-"""Every rotation with a given momentum, in float64, for one ball or a batch.
+"""All rotations with a given momentum, in float64, for one ball or a batch.
 
-The eight complex solutions of (5.2) are found together (`candidates`).  A ball is settled if each of them is proved,
-up to roundings, to be an isolated root: the Newton-Kantorovich test holds with room to spare, and the eight differ.
-Then Bézout's theorem leaves no other, and a root is real if its conjugate is not another one.  Complex roots far from
-all real points need no such proof.  A ball that is not settled in this way, which is near a fold or has infinitely
-many complex solutions, is counted exactly (`precise_branches`): float64 numbers are rational numbers.
+The eight complex solutions of (5.2) are found together (`candidates`).  A ball is settled if each of them is proved, up
+to roundings, to be an isolated root: the Newton-Kantorovich test holds with room to spare, and the eight differ.  Then
+Bézout's theorem excludes others, and a root is real if its conjugate is not another root.  Complex roots far from all
+real points need no such proof.  A ball that is not settled in this way, near a fold or with infinitely many complex
+solutions, is counted exactly (`precise_branches`): float64 numbers are rational numbers.
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ from ..shown import Brief
 from .candidates import Candidates, candidates, quadrics
 from .continuation import Marchers, nonsingular
 
-#: Most rotations that can have one momentum: the Bézout number of three quadrics.
+#: The largest number of rotations with one momentum: the Bézout number of three quadrics.
 MOST = 8
-#: The largest error·bend; the theorem asks for at most 1/2, without room for what the two leave out.
+#: The largest error·bend: the theorem requires at most 1/2, and both are approximate.
 CERTAIN = 1 / 16
 #: Roots nearer than this, in units of 1/bend, are one root.
 SAME = 1 / 3
 #: A complex point of length 1 with an imaginary part above this is counted as complex.
 FAR = 0.05
-#: A q0 of a unit quaternion that is not above this is 0: the rotation is by π.
+#: A q0 of a unit quaternion up to this is 0: a rotation by π.
 ROUNDING = 2.0**-51
-#: Balls that are worked on together.
+#: The number of balls in a block.
 CHUNK = 1024
-#: The rounding of a step is below this, even where D is large or a fold is near.
+#: A bound of the rounding of a step, even for a large D or near a fold.
 ROUNDED = 1e-3
 POLISHINGS = 2
 
@@ -49,15 +49,15 @@ class Branches(Brief):
         Euler parameters (q0, q1, q2, q3), q0 ≥ 0, and at q0 = 0 the first of the others that is not 0 is positive;
         shape (..., 8, 4), NaN beyond the count.
     angle : numpy.ndarray
-        Of the rotations, in [0, π], shape (..., 8), NaN beyond the count.
+        The rotation angles in [0, π], shape (..., 8), NaN beyond the count.
     multiplicity : numpy.ndarray
-        Of the roots, shape (..., 8), 0 beyond the count; above 1 at a fold.
+        The multiplicities of the roots, shape (..., 8), 0 beyond the count; above 1 at a fold.
     count : numpy.ndarray
         The number of rotations, shape (...).
     small : numpy.ndarray
-        The place of the rotation that `step` takes, or -1 if it takes none, shape (...).
+        The index of the rotation of `step`, or -1 if it takes none, shape (...).
     complete : numpy.ndarray
-        Whether the rotations are known to be all, shape (...).
+        Whether the rotations are known to be complete, shape (...).
 
     Examples
     --------
@@ -78,9 +78,9 @@ class Branches(Brief):
     complete: np.ndarray
 
 
-@np.errstate(all="ignore")  # a root that overflows is none
+@np.errstate(all="ignore")  # an overflow is no root
 def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool = True) -> Branches:
-    """Every rotation Ω with 𝒦(q, γ) = 𝒦 (5.2): all branches of the map.
+    """All rotations Ω with 𝒦(q, γ) = 𝒦 (5.2): the branches of the map.
 
     Parameters
     ----------
@@ -91,9 +91,8 @@ def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool 
     gamma : array_like
         Unit verticals upwards, shape (..., 3).  Both broadcast with the balls.
     settle : bool, optional
-        Whether a ball that float64 does not settle is counted exactly, in some 0.1 s each, or in some 10 s where its
-        moments or its momentum have components 10¹⁰⁰ times others; otherwise it is not complete, and its rotations
-        are a guess.
+        Whether a ball that float64 does not settle is counted exactly, in about 0.1 s, or about 10 s if components of
+        its moments or momentum have ratios of 10¹⁰⁰; otherwise it is not complete, and its rotations are a guess.
 
     Returns
     -------
@@ -136,7 +135,7 @@ def branches(ball: Ball, momentum: ArrayLike, gamma: ArrayLike, *, settle: bool 
 def _solve(found: Branches, part: slice, K: Floats, g: Floats, J: Floats, D: Floats) -> None:
     """The rotations of some balls, written into their rows."""
     K, J, D = _scaled(K, J, D)
-    # Where D is large, half turns differ in q0 by J/D only: measured in a larger unit of q0 they are far apart.
+    # For a large D, half turns differ in q0 only by J/D; in a larger unit of q0 they are far apart.
     with np.errstate(over="ignore", divide="ignore"):
         unit = np.minimum(1 + D / J.max(axis=1), 1e20) ** 0.75
     forms = _forms(K, g, J, D)
@@ -151,7 +150,7 @@ def _solve(found: Branches, part: slice, K: Floats, g: Floats, J: Floats, D: Flo
     q[real] = _signed(roots)
     q[~real] = np.nan
     angle = 2 * np.arctan2(np.linalg.norm(q[..., 1:], axis=-1), q[..., 0])
-    order = np.lexsort((-q[..., 3], -q[..., 2], -q[..., 1], angle))  # NaN comes last
+    order = np.lexsort((-q[..., 3], -q[..., 2], -q[..., 1], angle))  # NaN is last
     found.rotation[part] = np.take_along_axis(q, order[..., np.newaxis], axis=1)
     found.angle[part] = np.take_along_axis(angle, order, axis=1)
     found.count[part] = real.sum(axis=1)
@@ -159,7 +158,7 @@ def _solve(found: Branches, part: slice, K: Floats, g: Floats, J: Floats, D: Flo
 
 
 def _scaled(K: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats, Floats]:
-    """The same in units in which Λmax is about 1; a momentum that no rotation has is made smaller, not attainable."""
+    """The same in units in which Λmax is about 1; an unattainable momentum is reduced, but stays unattainable."""
     exponent = np.frexp(np.maximum(largest_moment(J, D), np.finfo(float).tiny))[1]
     K = np.clip(np.ldexp(K, -exponent[:, np.newaxis]), -16.0, 16.0)
     return K, np.ldexp(J, -exponent[:, np.newaxis]), np.ldexp(D, -exponent)
@@ -200,14 +199,14 @@ def _polished(q: Floats, K: Floats, g: Floats, J: Floats, D: Floats) -> Floats:
 
 
 def _signed(q: Floats) -> Floats:
-    """The one of q and -q whose first component that is not 0 is positive; a q0 that is rounding is 0."""
+    """q or -q, such that the first component that is not 0 is positive; a q0 that is rounding becomes 0."""
     q = np.where(np.abs(q) > [ROUNDING, 0.0, 0.0, 0.0], q, 0.0)
     leading = np.take_along_axis(q, (q != 0).argmax(axis=1)[:, np.newaxis], axis=1)
     return np.where(leading < 0, -q, q)
 
 
 def _settle(found: Branches, i: np.intp, K: Floats, g: Floats, J: Floats, D: float) -> None:
-    """The rotations of one ball, from exact arithmetic, which is loaded only when it is needed."""
+    """The rotations of one ball by exact arithmetic, which is imported only when needed."""
     from chapsym.numbers import Double
 
     from .enclosed import precise_branches
@@ -222,7 +221,7 @@ def _settle(found: Branches, i: np.intp, K: Floats, g: Floats, J: Floats, D: flo
 
 
 def _mark_small(found: Branches, K: Floats, g: Floats, J: Floats, D: Floats) -> None:
-    """Says which of the rotations is the one that `step` takes."""
+    """Marks the rotation of `step`."""
     taken = step(Ball(J, D), K, g)
     distance = np.abs(found.rotation - taken.rotation[:, np.newaxis]).max(axis=-1)
     distance = np.where(np.isnan(distance), np.inf, distance)
