@@ -1,4 +1,4 @@
-"""A ball rolled to an accuracy: precision, order and steps by a law, the error estimated by the run itself."""
+"""A ball rolled to an accuracy: a law chooses precision, order and steps, and the run estimates its error."""
 
 from .answer import Accurate, Attempt, Choice, Method, Request, accurate, distance, foreseen, methods, take
 from .motion import roll

@@ -1,4 +1,4 @@
-"""One ball to an accuracy: long steps in double precision, beyond them double-double, each with its own estimate."""
+"""One ball to an accuracy: long steps in double precision, or in double-double, each with its own error estimate."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ from .motion import MARGIN, Motion, Problem, lengths
 
 #: The quantities that an accuracy may refer to.
 NORMS = ("state", "contact")
-#: The coefficients of the compositions have 40 digits, and the times of a run are as exact as they.
+#: The digits of the coefficients of compositions, and of the times of a run.
 LEAST = 1e-30
-#: Orders of `trajectory`; that of `extrapolate` in double-double, at most; and that of a steady rotation.
+#: The orders of `trajectory`, the highest of `extrapolate` in double-double, and that of a steady rotation.
 COMPOSED, OF_PAIRS, STEADY = (2, 4, 6, 8), 2 * MOST_OF_PAIRS, 0
-#: Below this not all 106 bits of double-double, of a stage of a composition, are within the range of float64.
+#: The least number whose 106 bits, in a stage of a composition in double-double, are within the range of float64.
 SMALLEST = 2.0**-900
-#: The least number of times at which runs are compared: a difference may be small by chance at one, not at each.
+#: The least number of times at which runs are compared: a difference may be small by chance at a single time.
 CHECKS, FEW = 16, 4
 
 
@@ -44,9 +44,9 @@ CHECKS, FEW = 16, 4
 class Request:
     """The continuous ball (2.3) from K (kg m²/s) and γ for `time` seconds, to an absolute `accuracy` at every frame.
 
-    of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance in metres.  An attitude that is asked for
-    counts, too: its angle in radians, or how far that moves the surface, in metres.
-    frames: how many equal times, the last of them the end.  attitude: True, or a unit quaternion to be followed.
+    of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance in metres.  A followed attitude counts,
+    too: its angle in radians, or, in metres, this angle times the radius. frames: the number of equal time intervals.
+    attitude: True, or a unit quaternion to be followed.
     """
 
     ball: Ball
@@ -78,18 +78,18 @@ class Request:
         else:
             object.__setattr__(self, "attitude", initial_attitude(self.attitude, g[0]))
         if self.body is True:
-            # Left to the run: every precision makes the least rotation in its own numbers.  What squares to nothing
-            # turns one of wider range by another half turn than float64, where γ is upside down.
+            # The run computes the least rotation at its own precision.  For γ upside down, components whose squares
+            # underflow in float64 select another half turn at a precision of wider range.
             object.__setattr__(self, "gamma", np.where(abs(self.gamma) < 1e-150, 0.0, self.gamma))
 
     @property
     def body(self) -> Any:
-        """The attitude that a run follows, as `trajectory` takes it."""
+        """The followed attitude, as the argument of `trajectory`."""
         return True if self.attitude is False and self.of == "contact" else self.attitude
 
     @cached_property
     def rate(self) -> float:
-        """|ω| at the start, in rad/s; raises BadInput for what has none."""
+        """|ω| at the start, in rad/s; raises BadInput if K does not determine it."""
         K, gamma = self.angular_momentum, self.gamma
         ball, moment = self._scaled()
         size = int(np.frexp(abs(K).max())[1])
@@ -111,19 +111,19 @@ class Request:
         return float(ball.inertia.max() + ball.D) / least if least > 0 else math.inf
 
     def _scaled(self) -> tuple[Ball, int]:
-        """The ball in units in which its largest moment is about 1, and the power of two that was left out."""
+        """The ball in units in which its largest moment is about 1, and the power of two of these units."""
         ball = self.ball
         power = int(np.frexp(ball.inertia.max() / 2 + ball.D / 2)[1])
         return Ball(np.ldexp(ball.mass_tensor, -power), np.ldexp(ball.D, -power)), power
 
     @property
     def angle(self) -> float:
-        """About how far the ball turns, in radians."""
+        """The approximate angle that the ball turns, in radians."""
         return self.rate * self.time
 
     @property
     def unit(self) -> float:
-        """The size in the norm of a relative error 1 of the motion: 1, or the radius in metres."""
+        """The norm of a relative error 1 of the motion: 1, or the radius in metres."""
         return float(self.ball.radius) if self.of == "contact" else 1.0  # type: ignore[arg-type]
 
 
@@ -135,7 +135,7 @@ def _positive(value: Any, name: str) -> float:
 
 
 def distance(request: Request, run: Trajectory, other: Trajectory) -> Floats:
-    """The distance of two runs with the same steps in the request's norm, at each frame but the first, (frames,).
+    """The distance of two runs with the same frames in the norm of the request, at each frame but the first, (frames,).
 
     Both are in float64 or in double-double.
     """
@@ -171,14 +171,14 @@ def exact_values(request: Request, run: Trajectory, name: str) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Method:
-    """A precision and an order: 2 to 8; from 10 on that of `extrapolate`; 0 for a steady rotation."""
+    """A precision and an order: 2 to 8; from 10 on for `extrapolate`; 0 for a steady rotation."""
 
     precision: Precision
     order: int
 
     @property
     def label(self) -> str:
-        """The precision's name, with its digits."""
+        """The name of the precision, with its digits."""
         return label_of(self.precision)
 
     @property
@@ -202,7 +202,7 @@ def label_of(precision: Precision) -> str:
 
 
 def methods(precision: Precision) -> list[Method]:
-    """All that can be asked of a precision."""
+    """All methods at a precision."""
     found = [Method(precision, order) for order in COMPOSED]
     if precision == NAMED["double-double"]:
         found.append(Method(precision, OF_PAIRS))
@@ -212,7 +212,7 @@ def methods(precision: Precision) -> list[Method]:
 
 
 def checks(request: Request, method: Method) -> int:
-    """The equal times at which two runs are compared, a multiple of the frames: few where the steps are long."""
+    """The number of equal times at which two runs are compared, a multiple of the frames: few for long steps."""
     least = FEW if method.columns else CHECKS
     return request.frames * -(-least // request.frames)
 
@@ -220,9 +220,9 @@ def checks(request: Request, method: Method) -> int:
 def take(
     request: Request, method: Method, steps: int, frames: int, progress: Callable[[int], None] = lambda done: None
 ) -> Trajectory:
-    """The ball after `frames` equal parts of the time in `steps` steps, a multiple of them.
+    """The ball after `frames` equal parts of the time, in `steps` steps, a multiple of `frames`.
 
-    progress: called with the steps done.  Raises StepNotTaken where the map has no step of this length.
+    progress: called with the steps done.  Raises StepNotTaken if the map has no step of this length.
     """
     exactly, every = Fraction(request.time) / steps, steps // frames
     step = request.time / steps
@@ -239,7 +239,7 @@ def take(
 
 
 def in_range(step: float, K: Floats) -> None:
-    """Raises BadInput where the step or εK is so small that float64 loses digits of it that no comparison shows."""
+    """Raises BadInput if the step or εK is so small that float64 loses digits of it, which no comparison shows."""
     largest = float(abs(K).max())
     if step < SMALLEST or 0.0 < step * largest < SMALLEST:
         what = "a step of ε = T/n" if step < SMALLEST else "εK"
@@ -271,22 +271,22 @@ def _extrapolated(
 
 #: Nominal seconds of a stage in double-double.
 STAGE = 3e-7
-#: In double-double the error of c columns after t seconds is about DOUBLED^c (|ω|h)^(2c) (1 + |ω|t): to a factor of
-#: five the median of 40 random balls.  Steps of LONGEST radians, at most, are tried.
+#: In double-double the error of c columns after t seconds is about DOUBLED^c (|ω|h)^(2c) (1 + |ω|t), within a factor of
+#: five of the median of 40 random balls.  LONGEST is the longest trial step in radians.
 DOUBLED, LONGEST = 0.0125, 2.0
-#: Runs of FEWEST columns or more are compared with LESS columns fewer, whose orders, too, are those of long steps.
+#: Runs have at least FEWEST columns, and are compared with runs of LESS columns fewer, also of high order.
 FEWEST, LESS = 7, 2
-#: How many times their distance the error is held to be: where both are as exact as their roundings, that is one draw.
+#: The factor from the distance of two runs to the error estimate: if both are exact to rounding, it is one sample.
 LIKELY = 4.0
-#: The unit roundoff of double-double: a few units of its last place.
+#: The assumed unit roundoff of double-double: a few units of its last place.
 ROUNDED = 2.0**-103
-#: Runs of more steps are refused.
+#: The largest number of steps.
 MOST_STEPS = 2**53
 
 
 @dataclass(frozen=True)
 class Choice:
-    """A method, how many steps it takes, their mean length in seconds, and nominal seconds with its verification."""
+    """A method, the number of its steps, their mean length in seconds, and nominal seconds with its verification."""
 
     method: Method
     steps: int
@@ -294,7 +294,7 @@ class Choice:
     seconds: float
 
     def sentence(self) -> str:
-        """The choice for a reader."""
+        """The choice as text."""
         order = f"order {self.method.order}" if self.method.order != STEADY else "steady rotation"
         order = f"extrapolated to {order}" if self.method.columns else order
         return f"{in_words(self.method.label)}, {order}, {self.steps} steps of {self.time_step:.6g} s"
@@ -302,7 +302,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class Attempt:
-    """A choice, the estimate of its error (infinite if a step could not be taken), and the seconds of the processor."""
+    """A choice, its estimated error (infinite if a step could not be taken), and its processor seconds."""
 
     choice: Choice
     estimate: float
@@ -316,13 +316,13 @@ class Accurate:
     Attributes
     ----------
     trajectory : Trajectory
-        The states at the times asked for; its order is 12 or more for long steps, 0 for a steady rotation.
+        The states at the requested times; its order is 12 or more for long steps, 0 for a steady rotation.
     request : Request
-        What was asked for.
+        The request.
     attempts : list of Attempt
-        All that was tried, the last of them the one that is delivered.
+        All attempts; the last one is the result.
     seconds : float
-        Those of the processor, for everything.
+        The processor seconds of all attempts.
 
     Examples
     --------
@@ -342,16 +342,16 @@ class Accurate:
 
     @property
     def choice(self) -> Choice:
-        """The choice that was run: precision, order and steps."""
+        """The choice of the last attempt: precision, order and steps."""
         return self.attempts[-1].choice
 
     @property
     def estimate(self) -> float:
-        """The estimate of the error, at the worst of the times, in the norm of the request."""
+        """The estimate of the largest error at the requested times, in the norm of the request."""
         return self.attempts[-1].estimate
 
     def final(self) -> dict[str, list[float] | list[str]]:
-        """K, γ and the contact point at the end: floats, or decimal strings where a float would not hold them."""
+        """K, γ and the contact point at the end: floats, or decimal strings of numbers with more digits."""
         names = {"angular_momentum": "momentum", "gamma": "gamma", "contact": "contact"}
         run, precision = self.trajectory, self.choice.method.precision
         there = {quantity: name for quantity, name in names.items() if getattr(run, name) is not None}
@@ -377,8 +377,8 @@ def accurate(
 ) -> Accurate:
     """Follows the continuous ball (2.3) for `time` seconds to an absolute `accuracy`, by the cheapest method.
 
-    In double precision the error is estimated as by `roll`; where that is not accurate enough, long steps in
-    double-double are compared with those of a lower order.
+    In double precision the error is estimated as by `roll`; if that is not accurate enough, long steps in double-double
+    are compared with steps of a lower order.
 
     Parameters
     ----------
@@ -389,20 +389,20 @@ def accurate(
     gamma : array_like
         The unit vertical, upwards, shape (3,).
     time : float
-        The length of the motion, in seconds.
+        The duration of the motion, in seconds.
     accuracy : float
-        The largest error, in the norm that `of` names.
+        The largest error, in the norm `of`.
     of : str, optional
         "state" (the default), the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance of the contact points in
         metres (it needs `ball.radius`).
     frames : int, optional
-        The number of equal intervals of `time`, by default 1; the accuracy is promised at the end of each.
+        The number of equal intervals of `time`, by default 1; the accuracy refers to the end of each.
     attitude : bool or array_like, optional
         True or a unit quaternion, (4,), to be followed; its angle counts, too.
     limit : float, optional
-        The longest expected duration of the run, in seconds; by default 600.
+        The longest expected computing time, in seconds; by default 600.
     progress : callable, optional
-        Called with a sentence on the method, before each precision is tried, and with how far that is.
+        Called with a sentence on the method before each attempt, and on its progress.
 
     Returns
     -------
@@ -412,8 +412,7 @@ def accurate(
     Raises
     ------
     BadInput
-        For a request that cannot be met: one that would take longer than the limit, or that is finer than every
-        precision.
+        For a request that cannot be met: if it would take longer than the limit, or is finer than every precision.
 
     References
     ----------
@@ -455,12 +454,12 @@ def answered(request: Request, limit: float, progress: Callable[[str], None]) ->
 
 
 def foreseen(request: Request, limit: float) -> Choice:
-    """The choice that `answered` would try first; raises BadInput as that."""
+    """The choice that `answered` would try first; raises BadInput likewise."""
     return _foreseen(request, limit)[1]
 
 
 def _foreseen(request: Request, limit: Any) -> tuple[Problem | None, Choice]:
-    """The problem in double precision, None where that has not the accuracy, and what is tried first."""
+    """The problem in double precision, None if that lacks the accuracy, and the first choice."""
     limit = time_limit(limit)
     in_range(request.time, request.angular_momentum)
     problem = _problem(request)
@@ -497,7 +496,7 @@ def _as_trajectory(request: Request, found: Motion) -> Trajectory:
 
 
 def _within(choice: Choice, limit: float) -> Choice:
-    """A choice within the seconds that are left; raises BadInput for another."""
+    """The choice, if it is within the seconds left; else raises BadInput."""
     if choice.seconds > limit:
         raise BadInput(
             f"the cheapest run ({choice.sentence()}) would take about {choice.seconds:.2g} s, "
@@ -507,10 +506,10 @@ def _within(choice: Choice, limit: float) -> Choice:
 
 
 def _doubled(request: Request, limit: float, finer: float = 1.0, noisy: float = 1.0) -> Choice:
-    """Long steps in double-double of the fewest stages, `finer` times as many as by the law.
+    """Long steps in double-double with the fewest stages, `finer` times as many as by the law.
 
-    noisy: how many times as large as expected its roundings have become.
-    Raises BadInput where rounding alone is larger, or the steps are too many, or take too long.
+    noisy: the factor from the expected to the observed rounding error.
+    Raises BadInput if rounding alone is larger than the accuracy, or the steps are too many, or take too long.
     """
     precision, found = NAMED["double-double"], []
     for columns in range(FEWEST, MOST_OF_PAIRS + 1):
@@ -533,8 +532,9 @@ def _doubled(request: Request, limit: float, finer: float = 1.0, noisy: float = 
 
 
 def _rounded(request: Request, columns: int, steps: int) -> float:
-    """The expected rounding error of long steps in double-double, which their weights multiply."""
-    # No comparison shows the rounding of J, D, K and γ; the factor is the least that covered some twenty random balls.
+    """The expected rounding error of long steps in double-double, amplified by their weights."""
+    # No comparison shows the rounding of J, D, K and γ; the factor is the least one that covered about twenty random
+    # balls.
     shared = 2 * ROUNDED * math.sqrt(request.condition) * (1 + request.angle) * request.unit
     path = request.angle if request.of == "contact" else 0.0
     weight = float(sum(map(abs, weights(columns, FIRST))))
@@ -544,7 +544,7 @@ def _rounded(request: Request, columns: int, steps: int) -> float:
 def _by_double_double(
     request: Request, limit: float, attempts: list[Attempt], progress: Callable[[str], None]
 ) -> Trajectory:
-    """Long steps in double-double, verified by the same with fewer columns, and shorter until they are."""
+    """Long steps in double-double, verified by a run with fewer columns, and shortened until they are accurate."""
     finer, noisy, before = 1.0, 1.0, math.inf
     for _ in range(motion.ATTEMPTS):
         started = clock.thread_time()
@@ -553,7 +553,7 @@ def _by_double_double(
         fewer, apart, longer = Method(method.precision, method.order - 2 * LESS), math.inf, 2.0
 
         def report(before: int, done: int, choice: Choice = choice) -> None:
-            """How much of the run, and of the one that it is compared with, is done."""
+            """Reports the completed part of the run and of its comparison run."""
             progress(f"{choice.sentence()}: {(before + done) / (2 * choice.steps):.0%}")
 
         try:
@@ -565,11 +565,11 @@ def _by_double_double(
             if error.status == Status.NO_INERTIA:
                 raise BadInput(f"the ball cannot be followed: {error}") from None
         rounded = _rounded(request, method.columns, choice.steps)
-        estimate = LIKELY * apart + noisy * rounded  # not without the noise that was seen: one draw may be small
+        estimate = LIKELY * apart + noisy * rounded  # with the largest observed noise: one sample may be small
         attempts.append(Attempt(choice, estimate, clock.thread_time() - started))
         if estimate <= request.accuracy:
             return some_frames(run, slice(None, None, every // request.frames))
-        if before / 2 < apart < math.inf:  # it is what the motion makes of roundings: fewer columns have less
+        if before / 2 < apart < math.inf:  # amplified roundings: fewer columns have less
             noisy = max(noisy, LIKELY * apart / rounded)
         else:
             finer *= min(max(motion.LEAST_FINER, longer), motion.MOST_FINER)

@@ -1,7 +1,7 @@
-"""The distance of a run of the map from the motion of the ball, by a pilot run with these steps and half of them.
+"""The distance of a run of the map from the motion of the ball, by pilot runs with these steps and with half steps.
 
-The integrals of the map, which it keeps whatever the step, do not tell that.  The error of an order p falls by 2^p
-where the step is halved, so the motion is 2^p/(2^p - 1) times as far as the finer run is (Richardson).
+The integrals of the map do not show it, as every step keeps them.  Half steps divide the error of order p by 2^p, so
+the distance to the motion is 2^p/(2^p - 1) times the distance to the finer run (Richardson).
 """
 
 import json
@@ -14,19 +14,19 @@ import numpy as np
 from chapsym.dynamics import Ball, Status, Trajectory, kernels, substeps, trajectory
 from chapsym.dynamics.ball import Floats, in_principal_axes
 
-#: Stages of the map that the finer run of a pilot takes, all balls together.
+#: The number of stages of the map in the finer pilot run, of all balls together.
 MOST = 2**16
-#: The largest number of balls that are followed: enough for the lanes in which the run itself may be.
+#: The largest number of balls in a pilot run: enough to fill the lanes.
 BALLS = 8
 
 
 @dataclass(frozen=True)
 class Discretisation:
-    """The largest distances of a run from the motion of the ball, at all steps up to `time`; estimates.
+    """Estimates of the largest distances of a run from the motion of the ball, at all steps up to `time`.
 
-    time, end: in s; the pilot and the run end there.  gamma: |Δγ|.  omega: |Δω| in rad/s, None beyond float64.
-    attitude: the angle between the two in degrees; contact: in m; None where the run does not follow them.
-    balls: how many were followed, those that stop left out.
+    time, end: of the pilot and of the run, in s.  gamma: |Δγ|.  omega: |Δω| in rad/s, None beyond float64.  attitude:
+    the angle between the two in degrees; contact: in m; None if the run does not follow them. balls: the number of
+    balls in the pilot, without those that stop.
     """
 
     time: float
@@ -51,7 +51,7 @@ class Discretisation:
 
 
 def read(text: object) -> Discretisation | None:
-    """Reads the text of `write`; None for anything else."""
+    """The estimate from the text of `write`; None for anything else."""
     try:
         found = Discretisation(**json.loads(text))  # type: ignore[arg-type]
         numbers = [float(x) for x in vars(found).values() if x is not None]
@@ -67,7 +67,7 @@ def discretisation(
     """The estimate for balls (n,) from 𝒦 = εK (n, 3), γ (n, 3) in `steps` steps of `time_step` seconds.
 
     order, precision, attitude, contact: of the run.
-    None where there are no steps, or no ball gets to the end of the pilot.
+    None if there are no steps, or no ball reaches the end of the pilot.
     """
     some = np.unique(np.linspace(0, len(gamma) - 1, BALLS).astype(int))
     pilot = min(steps, max(MOST // (2 * len(some) * len(substeps(order))), 1))
@@ -82,7 +82,7 @@ def discretisation(
             contact=contact, time_step=time_step / finer, precision=precision,
         )  # fmt: skip
 
-    # Two runs in float32 would have its rounding of the ball and of the start in common.
+    # Two runs in float32 would share the rounding of the ball and of the start.
     coarse, fine = run(1, precision), run(2, "double" if precision == "single" else precision)
     there = (coarse.status == Status.TAKEN) & (fine.status == Status.TAKEN)
     if not there.any():

@@ -1,16 +1,16 @@
-"""A ball in SI units: its continuous motion at equal times, to an accuracy, or the map in its place.
+"""A ball in SI units: its continuous motion at equal times to an accuracy, or the map instead.
 
-Long steps of order 12, each ball with its own, as long as the accuracy allows; frames inside are interpolated
-(`loops.following`).  The stated error is that of all steps together, carried on by the flow
-(`loops.carried`).  It is an estimate in that the size of the error of a step (`loops.following.left`) and its direction
-are.  A ball whose error is larger than the accuracy is followed again with shorter steps.
+Each ball has long steps of order 12, as long as the accuracy allows; frames inside a step are interpolated
+(`loops.following`).  The stated error is the sum of the errors of all steps, transported by the flow (`loops.carried`).
+It is an estimate, since the size of the error of a step (`loops.following.left`) and its direction are estimates.  A
+ball whose error is larger than the accuracy is followed again with shorter steps.
 
-Where the roundings of long steps are too many: compositions of the map.  The error of an order p after t seconds is
-about c (|ω|h)^p (1 + |ω|t), with nearly the same c for every ball that is not near a separatrix.  A run is compared
+If the rounding of long steps is too large, compositions of the map are used.  The error of an order p after t seconds
+is about c (|ω|h)^p (1 + |ω|t), with nearly the same c for all balls that are not near a separatrix.  A run is compared
 with one of fewer steps, and by Richardson's rule its own error is their difference / (r^p - 1), where r is the ratio of
-the steps; it is taken `SAFETY` times as large.  A run that fails teaches the law, and is taken again with more steps.
-Where errors do not yet fall as they should, two runs may be alike by chance: no error is held to be less than `SAFETY`
-times that of the law as it was taught, and a run whose predecessor, of half as many steps, has stopped is not believed.
+the steps; the estimate is `SAFETY` times this.  A run that fails corrects the law, and is repeated with more steps.  If
+errors do not yet fall at their order, two runs may agree by chance: no estimate is less than `SAFETY` times the error
+by the corrected law, and a run is rejected if its predecessor, with half as many steps, has stopped.
 """
 
 from __future__ import annotations
@@ -74,46 +74,46 @@ from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
 from chapsym.generated import contact_momentum
 from chapsym.numbers import Digits, Enclosure, Precision
 
-#: Where the contact point begins.
+#: The default contact point at the start.
 HERE = (0.0, 0.0)
-#: Momenta between these need no closer look.
+#: Momenta in this range need no further checks.
 ORDINARY = 1e-290, 1e290
 #: The reach of a ball that stops.
 UNKNOWN = np.full(1, np.nan)
-#: The default accuracy: an error of that size is neither seen nor measured.
+#: The default accuracy: an error of this size is neither visible nor measurable.
 DEFAULT = 1e-6
-#: The finest accuracy of double precision; and the part of an accuracy that rounding may take.
+#: The finest accuracy of double precision, and the fraction of an accuracy that rounding may take.
 FINEST, ROUNDING = 1e-12, 0.5
-#: How many times a ball is followed by long steps, at most, and what part of the accuracy those after the first aim
-#: at.
+#: The largest number of runs of a ball by long steps, and the fraction of the accuracy at which those after the first
+#: aim.
 TRIES, AIM = 4, 0.4
-#: How many roundings of the start those of a composition are, after which they grow as it does.
+#: The rounding of a composition, in roundings of the start, which then grow with the motion.
 SENSITIVE = 16.0
-#: By what part, at least, the error of a step is lowered at once.
+#: The least factor that is applied to the error of a step at once.
 FINER = 1e-6
-#: Balls that a core takes at once, and seconds of a long step and of a frame.
+#: The number of balls in a block of a core, and the seconds of a long step and of a frame.
 TOGETHER, STEP, FRAME = 64, 1.5e-6, 2e-7
-#: Nominal seconds up to which a run is not watched, and which part of a ball is done, at most, while it is followed.
+#: Nominal seconds up to which a run is not watched, and the largest reported part of a ball in progress.
 QUICK, MOSTLY = 0.2, 0.99
 #: The quantities that an accuracy may refer to.
 PARTS = frozenset({"momentum", "gamma", "omega", "attitude", "contact"})
-#: Quantities whose errors are as large as one of the attitude.
+#: Quantities with errors as large as those of the attitude.
 TURNED = frozenset({"momentum", "gamma", "attitude"})
-#: The order of long steps with all columns; lower ones are of the map and its compositions.
+#: The order of long steps with all columns; lower orders are those of the map and its compositions.
 EXTRAPOLATED = 2 * MOST_COLUMNS
-#: The vertical in space; and a unit quaternion times this turns the other way.
+#: The vertical in space; and the signs of the conjugate quaternion.
 _UP, _INVERSE = np.array([0.0, 0.0, 1.0]), np.array([1.0, -1.0, -1.0, -1.0])
-#: c of each order, measured on balls of all shapes; and the part of the accuracy that the law is to give.
+#: c of each order, measured on balls of all shapes; and the fraction of the accuracy at which the law aims.
 LAW, MARGIN = {2: 0.16, 4: 4.8e-3, 6: 1.9e-3, 8: 1.5e-5}, 0.1
-#: How many times as large as Richardson's rule says an error is taken to be, and by which ratio steps are compared.
+#: The safety factor on Richardson's rule, and the ratio of the compared steps.
 SAFETY, RATIO = 4.0, 1.5
-#: Up to how many times the error that the order lets expect, or that rounding may leave, one verified run is enough.
+#: One verified run is enough up to this many times the error that is expected from the order, or from rounding.
 LAWFUL, FINE = 2.0, 100.0
-#: By how many roundings the start of a verifying run differs from that of the run.
+#: The difference of the start of a verifying run from that of the run, in roundings.
 ROUNDED = 8
-#: A direction that nothing prefers.
+#: A generic direction.
 ASIDE = np.array([0.6, 0.64, 0.48])
-#: Runs that are tried, and how many times the steps of one, at least and at most, the next of the same order has.
+#: The largest number of trial runs, and the least and the largest ratio of the steps of successive runs of an order.
 ATTEMPTS, LEAST_FINER, MOST_FINER = 8, 1.2, 4.0
 
 
@@ -144,14 +144,14 @@ def roll(
     ball : Ball
         One ball or a batch, (...).
     omega : array_like
-        The angular velocity at the start in rad/s, shape (..., 3), in body axes (those of the inertia tensor), or in
-        those of space.
+        The angular velocity at the start in rad/s, shape (..., 3), in body axes (those of the inertia tensor) or in
+        space axes.
     time_step : float
-        Seconds: the run lasts `steps` times `time_step`; the steps of the solver are chosen.
+        In seconds: the duration is `steps` times `time_step`; the solver chooses its own steps.
     steps : int
         The number of time steps.
     gamma : array_like, optional
-        The unit vertical, upwards, in body axes, shape (..., 3); by default that of the attitude, or (0, 0, 1).
+        The unit vertical, upwards, in body axes, shape (..., 3); by default from the attitude, or (0, 0, 1).
     axes : str, optional
         The axes of `omega`: "body" (the default) or "space".
     every : int, optional
@@ -163,21 +163,21 @@ def roll(
     position : array_like, optional
         The contact point at the start in m, shape (..., 2); by default (0, 0).
     accuracy : float, optional
-        That of γ, of K, ω and the contact point relative to |K|, the largest |ω| and the radius, and of the attitude
-        in radians, at every frame; by default 1e-6.  `error` of the result is an estimate of the error that was
-        reached: the errors of all steps, carried on by the flow.  It is larger than the accuracy where a start is too
-        near to a separatrix.
+        The accuracy at every frame, by default 1e-6: of γ; of K, ω and the contact point, relative to |K|, the largest
+        |ω| and the radius; and of the attitude in radians.  `error` of the result estimates the error that was reached:
+        the errors of all steps, transported by the flow.  It is larger than the accuracy if a start is too near to a
+        separatrix.
     order : int, optional
         As of `trajectory`; it replaces the motion by the map, as `map` does.
     precision : str or Precision, optional
         As of `trajectory`; it replaces the motion by the map, as `map` does.  On `Digits` and `Enclosure` 𝒦 is that
         of the numbers as given; what an attitude turns, γ or ω of the axes of space, has the digits of float64.
     map : bool, optional
-        Whether to replace the motion by the map in steps of `time_step`, as `trajectory` does, with
+        Whether to compute the map in steps of `time_step` instead of the motion, as `trajectory` does, with
         𝒦 = ε(Λω - D⟨ω,γ⟩γ).
     proved : bool, optional
-        Whether `Trajectory.proved` bounds the error of every frame: against the motion of the ball that starts at the
-        numbers of frame 0, by `certified_motion`, which takes a thousand times as long; with `map`, as `trajectory`
+        Whether `Trajectory.proved` bounds the error of every frame, compared with the motion of the ball that starts at
+        the numbers of frame 0, by `certified_motion`, which takes a thousand times as long; with `map`, as `trajectory`
         does.  Only for one ball in principal axes.
     threads : int, optional
         As of `trajectory`.
@@ -187,15 +187,15 @@ def roll(
     Returns
     -------
     Trajectory
-        The states; of the motion, with `error`.  In a batch in which a ball cannot be followed the others go on, and
-        `status` says which stopped.
+        The states, for the motion with `error`.  In a batch, the others continue if a ball cannot be followed, and
+        `status` shows which stopped.
 
     Raises
     ------
     StepNotTaken
         For one ball that cannot be followed.
     BadInput
-        For what no ball or run can have, and for an accuracy beyond double precision.
+        For arguments that no ball or run can have, and for an accuracy beyond double precision.
 
     References
     ----------
@@ -253,7 +253,7 @@ def roll(
 def _start(
     ball: Ball, omega: ArrayLike, gamma: ArrayLike | None, attitude: bool | ArrayLike, axes: str
 ) -> tuple[Floats, Floats, bool | Floats]:
-    """ω and γ in body axes, and the attitude that is to be followed."""
+    """ω and γ in body axes, and the first attitude."""
     spin = numbers(omega, "omega", 3)
     turned: bool | Floats = (
         bool(attitude) if isinstance(attitude, bool | np.bool_) else numbers(attitude, "attitude", 4)
@@ -268,7 +268,7 @@ def _start(
     if not isinstance(ball, Ball):
         raise BadInput(f"ball must be a chapsym.Ball, not {type(ball).__name__}")
     if not (ball.is_one and spin.ndim == vertical.ndim == 1):
-        batch(ball.principal, spin, vertical)  # so that a mistake is reported in the names of this function
+        batch(ball.principal, spin, vertical)  # so that an error names the arguments of this function
     if not isinstance(turned, bool):
         turned = initial_attitude(turned, vertical)
     if not isinstance(axes, str) or axes not in ("body", "space"):
@@ -280,8 +280,8 @@ def _start(
 
 
 def _exact_momentum(ball: Ball, omega: ArrayLike, gamma: ArrayLike, time_step: Any) -> tuple[np.ndarray, np.ndarray]:
-    """𝒦 = ε(Λω - D⟨ω,γ⟩γ/⟨γ,γ⟩), as γ is divided by its length, and γ: in Fractions, of the numbers as given."""
-    seconds(time_step)  # refuses what is none
+    """𝒦 = ε(Λω - D⟨ω,γ⟩γ/⟨γ,γ⟩), as γ is divided by its length, and γ: in Fractions, from the numbers as given."""
+    seconds(time_step)  # refuses others
     J, D, epsilon, spin, upwards = map(exact_array, (*ball.exact[:2], time_step, omega, gamma))
     along, length = ((x * upwards).sum(axis=-1, keepdims=True) for x in (spin, upwards))
     turning = (J.sum(axis=-1, keepdims=True) - J) * spin
@@ -294,7 +294,7 @@ def _rolled(
     epsilon: float, steps: int, every: int, order: int, accuracy: float | None, threads: int,
     progress: Callable[[int], None], proved: bool,
 ) -> Trajectory:  # fmt: skip
-    """The map, or to an accuracy the motion as a trajectory of order 0, in principal axes."""
+    """The map, or the motion to an accuracy as a trajectory of order 0, in principal axes."""
     K = _momentum(ball, omega, gamma, epsilon)
     if accuracy is None:
         return trajectory(
@@ -324,8 +324,8 @@ def _rolled(
 
 
 def _momentum(ball: Ball, omega: Floats, gamma: Floats, epsilon: float) -> Floats:
-    """K = Λω - D⟨ω,γ⟩γ; raises BadInput where float64 loses digits of K or 𝒦 = εK."""
-    if ball.is_one and omega.ndim == gamma.ndim == 1:  # in floats, which a single ball is faster in
+    """K = Λω - D⟨ω,γ⟩γ; raises BadInput if float64 loses digits of K or 𝒦 = εK."""
+    if ball.is_one and omega.ndim == gamma.ndim == 1:  # floats are faster for a single ball
         numbers_of = (*omega.tolist(), *gamma.tolist(), *ball.mass_tensor.tolist(), float(ball.D))
         several = contact_momentum(*numbers_of)
         K = np.array(several)
@@ -362,10 +362,10 @@ class Motion:
     """n balls at frames + 1 equal times.
 
     angular_momentum: K in kg m²/s, (n, frames + 1, 3).  gamma: (n, frames + 1, 3).  attitude: (n, frames + 1, 4), or
-    None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.
-    reached: the last frame of each ball, (n,); later ones are NaN.  status: why it stopped, a `Status`, (n,).
-    error: an estimate of each ball's largest error at any frame, (n,), in the norm of `apart`.
-    order, total: of each ball, (n,), and its steps; 0 of a steady rotation, which needs none.
+    None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.  reached: the last frame of each ball, (n,); later
+    frames are NaN.  status: why it stopped, a `Status`, (n,). error: an estimate of the largest error of each ball at
+    any frame, (n,), in the norm of `apart`. order, total: the order and the number of steps of each ball, (n,); 0 for a
+    steady rotation, which needs none.
     """
 
     angular_momentum: Floats
@@ -380,7 +380,7 @@ class Motion:
 
     @property
     def steps(self) -> np.ndarray:
-        """The steps between two frames, at most, of each ball, (n,)."""
+        """The largest number of steps between two frames, of each ball, (n,)."""
         return -(-self.total // max(self.gamma.shape[1] - 1, 1))
 
     def of(self, some: np.ndarray) -> Motion:
@@ -389,7 +389,7 @@ class Motion:
         return Motion(**arrays)
 
     def put(self, where: np.ndarray, other: Motion) -> None:
-        """Copies balls to their place among these."""
+        """Copies other balls to the places `where`."""
         for name, array in vars(other).items():
             if array is not None:
                 getattr(self, name)[where] = array
@@ -397,10 +397,10 @@ class Motion:
 
 @dataclass(eq=False)
 class Problem:
-    """A problem: n balls from K and γ, `frames` times `interval` seconds apart, to an accuracy.
+    """A problem: n balls from K and γ, at `frames` times, `interval` seconds apart, to an accuracy.
 
-    attitude: (n, 4) or None, where it is not followed.  contact: whether it is.
-    parts: what the accuracy is of; with metres in metres, of relative errors and angles times the radius.
+    attitude: (n, 4), or None if it is not followed.  contact: whether the contact point is followed. parts: the
+    quantities of the accuracy; metres: whether it is in metres: relative errors and angles times the radius.
     """
 
     ball: Ball
@@ -416,14 +416,14 @@ class Problem:
     threads: int = 0
 
     def __post_init__(self) -> None:
-        """Finds `units`, and what `loops.expected` finds of each ball at the start: `survey`, (FOUND, n)."""
+        """Computes `units`, and `survey`, (FOUND, n), the estimates of `loops.expected` for each ball at the start."""
         ball, n = self.ball, len(self.K)
         #: The unit of each ball's error, (n,): 1, or the radius in m.
         self.units = np.empty(n)
         self.units[:] = ball.radius if self.metres and ball.radius is not None else 1.0
         self.survey: Floats = np.empty((FOUND, n))
         survey = native.loop(surveyed)
-        #: The error that rounding alone may cause for any ball, and whether there is one ball that may rotate steadily.
+        #: The largest error of any ball by rounding alone, and whether some ball may rotate steadily.
         self.floor, self.single = survey(
             self.K, self.gamma, np.ascontiguousarray(ball.mass_tensor), ball.D, self.units, self.end, self.accuracy,
             self.survey,
@@ -451,8 +451,8 @@ class Problem:
 
     @property
     def expected(self) -> float:
-        """About how many long steps all balls take."""
-        with np.errstate(over="ignore", under="ignore"):  # of what is refused
+        """The approximate number of long steps of all balls."""
+        with np.errstate(over="ignore", under="ignore"):  # of arguments that are refused
             return float((self.end / self.survey[FIRST]).sum()) if self.frames else 0.0
 
     def nothing(self) -> Motion:
@@ -477,7 +477,7 @@ class Problem:
     def take(
         self, order: int, steps: int, stride: int = 1, progress: Callable[[int], None] = lambda steps: None
     ) -> Motion:
-        """The balls at every `stride`-th frame, by `steps` steps of a composition from one to the next."""
+        """The balls at every `stride`-th frame, by `steps` steps of a composition between these frames."""
         step, total = stride * self.interval / steps, steps * (self.frames // stride)
         run = trajectory(
             self.ball, step * self.K, self.gamma, total, order=order, every=steps, time_step=step,
@@ -491,12 +491,12 @@ class Problem:
 
 
 def nominal(problem: Problem) -> float:
-    """Seconds of one core for the motion, by nominal prices."""
+    """The nominal seconds of one core for the motion."""
     return 1e-4 + problem.expected * STEP + problem.frames * len(problem) * FRAME
 
 
 def moved(problem: Problem, progress: Callable[[float], None] = lambda done: None) -> Motion:
-    """The motion to the accuracy, or BadInput where rounding alone is more; `progress` is of the balls done."""
+    """The motion to the accuracy, or BadInput if rounding alone is larger; `progress` gets the number of balls done."""
     steady = _check(problem)
     if steady is None:
         found = _follow(problem, progress)
@@ -512,7 +512,7 @@ def moved(problem: Problem, progress: Callable[[float], None] = lambda done: Non
 
 @np.errstate(all="ignore")  # of a ball at rest the axis is 0/0
 def _spin(problem: Problem, some: np.ndarray, found: Motion) -> None:
-    """Balls that rotate steadily, at once: about an axis that is fixed in body and space, along a straight line."""
+    """Balls that rotate steadily, in closed form: about an axis fixed in body and space, along a straight line."""
     few = problem.of(some)
     omega, time = omega_of(few, few.K, few.gamma), np.arange(problem.frames + 1) * problem.interval
     rate = few.rate[:, np.newaxis]
@@ -533,7 +533,7 @@ def _spin(problem: Problem, some: np.ndarray, found: Motion) -> None:
 
 
 def _check(problem: Problem) -> np.ndarray | None:
-    """Which balls rotate steadily, None if none do; raises BadInput for what double precision cannot have."""
+    """Which balls rotate steadily, None if none do; raises BadInput for an accuracy beyond double precision."""
     worst, steady = problem.floor, None
     if problem.single:
         steady = is_steady(problem.ball, problem.K, problem.gamma)
@@ -562,7 +562,7 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
     done = 0.0
 
     def report(part: float, others: int = 0) -> None:
-        """A ball that is followed again does not count twice."""
+        """Reports the progress; a ball that is followed again does not count twice."""
         nonlocal done
         done = max(done, others + part)
         progress(done)
@@ -583,7 +583,7 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         part, last = problem.of(some), attempt + 1 == TRIES
         again, further = part.nothing(), partial(report, others=len(problem) - len(some))
         _, noise[some], started[some] = _run(part, first[some], allowed[some], again, further, last)
-        # Where the steps are not shorter, they are as short as rounding lets them be.
+        # If the steps are not shorter, they are as short as rounding allows.
         noise[some[(again.total <= found.total[some]) & ~given_up[some]]] = np.inf
         found.put(some, again)
     poor = np.flatnonzero((found.error > accuracy) & (SENSITIVE * started <= accuracy) | (found.status != Status.TAKEN))
@@ -591,7 +591,7 @@ def _follow(problem: Problem, progress: Callable[[float], None]) -> Motion:
         part = problem.of(poor)
         other = composed(part, partial(report, others=len(problem) - len(poor)))
         other.error[:] += np.nan_to_num(SENSITIVE * started[poor])
-        # That estimate may miss how sensitive a ball is: it is believed where it is within the accuracy, or alone.
+        # This estimate may miss the sensitivity of a ball: it is used if it is within the accuracy, or the only one.
         better = (other.error <= accuracy) | (found.status[poor] != Status.TAKEN)
         found.put(poor[better], other.of(better))
     progress(len(problem))
@@ -602,9 +602,9 @@ def _run(
     problem: Problem, first: Floats, allowed: Floats, found: Motion, progress: Callable[[float], None],
     patient: bool = False,
 ) -> tuple[float, Floats, Floats]:  # fmt: skip
-    """Follows all balls into `found`, where `patient` none is given up.
+    """Follows all balls into `found`; if `patient`, none is given up.
 
-    Returns the largest error, and what roundings of the steps, and of the start, may have made of all.
+    Returns the largest error, and for each ball the estimated effect of roundings of the steps, and of the start.
     """
     n, ball, follows, traced = len(problem), problem.ball, problem.attitude is not None, problem.contact
     reported, reach, noise, started = np.zeros((n, REPORTED)), np.empty(n), np.empty(n), np.empty(n)
@@ -631,12 +631,12 @@ def _run(
             count.add(len(found[-1]))
 
         def look() -> None:
-            """Reports how many balls are done, those that are not by the steps that they are expected to take."""
+            """Reports the number of balls done, counting others by the fraction of their expected steps."""
             part = np.minimum(reported[:, STEPS] * first / problem.end, MOSTLY)
             progress(float(np.where(found.reached == problem.frames, 1.0, part).sum()))
 
         def stop() -> None:
-            """Ends what runs: a ball is given up once it is said to be."""
+            """Ends the work: a ball with UNTIL below 1 is given up."""
             count.stopped = True
             reported[:, UNTIL] = 0.0
 
@@ -656,12 +656,12 @@ def _run(
 
 
 def composed(problem: Problem, progress: Callable[[float], None] = lambda part: None) -> Motion:
-    """Runs all balls until each is verified, with more steps those that are not.
+    """Runs all balls until each is verified, with more steps for the others.
 
-    Steps and estimates of a ball depend on it alone; balls of the same steps share a run.  A ball that more steps do
-    not help keeps the error that it has: rounding alone is larger than the accuracy.  Where steps resonate an error
-    hardly falls, which one compared run may hide: one that is far from what its order lets expect is not believed to
-    fall by more than half of the decades that it should, and is verified twice.
+    Steps and estimates of a ball depend only on the ball; balls of the same steps share a run.  A ball that more steps
+    do not improve keeps its error: rounding alone is larger than the accuracy.  If steps resonate, an error hardly
+    falls, which a single comparison may hide: an error far above the expectation of its order is assumed to fall by at
+    most half of the expected decades, and is verified twice.
     """
     n = len(problem)
     found, left, (factor, gain) = problem.nothing(), np.arange(n), np.ones((2, n))
@@ -669,7 +669,7 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
     found.order[:], steps = cheapest(problem, factor)
 
     def still(taken: int) -> None:
-        """Balls are counted once they are verified; who is called may end the run."""
+        """Counts verified balls; the callback may end the run."""
         progress(n - len(left))
 
     for attempt in range(ATTEMPTS):
@@ -701,9 +701,9 @@ def composed(problem: Problem, progress: Callable[[float], None] = lambda part: 
         wanted, finer = cheapest(part, factor[left])
         least, most = LEAST_FINER * taken, MOST_FINER * taken
         finer = np.where(wanted == order, shared(np.minimum(np.maximum(finer, least), most)), finer)
-        # One that stopped has no estimate of the steps it needs.
+        # A ball that stopped has no estimate of the steps that it needs.
         found.order[left], steps[left] = np.where(known, wanted, order), np.where(known, finer, 2 * taken)
-        # More steps help where they gain half of what they should, in decades.
+        # More steps help if they gain half of the expected decades.
         gain[left] = np.where(found.order[left] == order, (steps[left] / taken) ** (order / 2), 2.0)
     return found
 
@@ -715,9 +715,9 @@ def _error(problem: Problem, order: Any, step: Any) -> Floats:
 
 
 def cheapest(problem: Problem, factor: Floats) -> tuple[np.ndarray, np.ndarray]:
-    """The order of the fewest stages that is expected to do, and its steps, of each ball, at `factor` times the law.
+    """The order with the fewest stages for the accuracy, and its steps, for each ball, at `factor` times the law.
 
-    There are enough steps for the last frame to be compared: an error may grow a thousandfold within one.
+    There are enough steps to compare the last frame, as an error may grow a thousandfold within one frame.
     """
     found = []
     for order in LAW:
@@ -729,15 +729,15 @@ def cheapest(problem: Problem, factor: Floats) -> tuple[np.ndarray, np.ndarray]:
 
 
 def shared(steps: Floats, least: int = 1) -> np.ndarray:
-    """Whole steps, rounded up to one of four numbers between powers of two: balls that need as many share them."""
+    """Whole steps, rounded up to one of four numbers per power of two, so that balls share them."""
     part, exponent = np.frexp(steps)
     return np.maximum(np.ceil(np.ldexp(np.ceil(8 * part), exponent - 3)), least).astype(np.int64)
 
 
 def _verified(problem: Problem, order: int, steps: int, run: Motion, progress: Callable[[int], None]) -> Floats:
-    """The error of each ball by a run of fewer steps, infinite if one has stopped; and what rounding may leave.
+    """The error of each ball by a run of fewer steps, infinite for a ball that has stopped, and the effect of rounding.
 
-    That run starts a few roundings away from the other, so that a ball that is sensitive to its start shows it.
+    The starts of the two runs differ by a few roundings, to show the sensitivity of a ball to its start.
     """
     stride, fewer = (2, 1) if steps == 1 else (1, 1 if steps == 2 else round(steps / RATIO))
     left = (stride * steps / fewer) ** order - 1
@@ -748,15 +748,15 @@ def _verified(problem: Problem, order: int, steps: int, run: Motion, progress: C
     off = np.where(np.isnan(off), np.inf, off) * problem.frames / (problem.frames // stride * stride)
     rounded = problem.survey[FLOOR]
     if run.contact is not None and problem.ball.radius is not None and "contact" in problem.parts:
-        # The way of the contact point is a sum of as many terms as there are steps of the map, and each turns with the
-        # attitude, which is a product of as many.
+        # The contact point is a sum of one term per step of the map; each term turns with the attitude, a product of as
+        # many rotations.
         way = np.nan_to_num(np.abs(run.contact)).max(axis=(-2, -1)) / problem.ball.radius + problem.rate * problem.end
         rounded = rounded + problem.units * way * 2.0**-53 * (problem.frames * len(substeps(order)) * steps) ** 0.5
     return np.asarray(off * share + rounded)
 
 
 def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
-    """ω of (n, 3) or (n, frames, 3); NaN where K is."""
+    """ω, (n, 3) or (n, frames, 3); NaN where K is NaN."""
     tensor, D = problem.ball.mass_tensor, problem.ball.D
     if K.ndim == 3:
         tensor, D = tensor[:, np.newaxis], D[:, np.newaxis]
@@ -767,11 +767,11 @@ def omega_of(problem: Problem, K: Floats, gamma: Floats) -> Floats:
     return np.where(missing, np.nan, omega)
 
 
-@np.errstate(all="ignore")  # frames that were not reached are NaN
+@np.errstate(all="ignore")  # later frames are NaN
 def apart(problem: Problem, run: Motion, other: Motion, stride: int = 1) -> Floats:
-    """The distance of two runs at each common frame, (n, frames): other has every `stride`-th frame of run.
+    """The distance of two runs at each common frame, (n, frames); `other` has every `stride`-th frame of `run`.
 
-    The largest of the parts that are asked for: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle
+    The largest of the requested parts: |ΔK|/|K|, |Δγ|, |Δω| over the largest |ω| of the ball, the angle
     between the attitudes in radians, and the distance of the contact points in radii; times the radius, if the accuracy
     is in metres.
     """
@@ -795,12 +795,12 @@ def apart(problem: Problem, run: Motion, other: Motion, stride: int = 1) -> Floa
 
 
 def _over(a: Floats, size: Floats) -> Floats:
-    """a / size; of a ball at rest a itself, which is 0."""
+    """a / size; for a ball at rest a itself, which is 0."""
     return np.asarray(a / np.where(size > 0, size, 1.0))
 
 
 def lengths(v: np.ndarray) -> Floats:
-    """The lengths of vectors, (..., n) floats or Fractions, whose squares float64 need not hold; (...)."""
+    """The lengths, (...), of vectors (..., n) of floats or Fractions, whose squares may be beyond float64."""
     v = v.astype(float)
     largest = abs(v).max(axis=-1, keepdims=True)
     unit = v / np.where(largest > 0, largest, 1.0)
