@@ -1,4 +1,4 @@
-"""The precisions: how a number is made and written on each."""
+"""The precisions: making and writing the numbers of each."""
 
 from .pair import Pair
 from .precisions import (

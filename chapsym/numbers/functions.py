@@ -1,6 +1,6 @@
-"""sin, cos, sqrt and π in the numbers of every precision: what generated kernels import where they have such letters.
+"""sin, cos, sqrt and π in the numbers of every precision, for generated kernels with these functions.
 
-Each is within these roundings u of the type of what it is given, at arguments up to 1e5 (`tests/numbers` measures it):
+The errors, in roundings u of the type of the argument, for arguments up to 1e5 (measured by `tests/numbers`):
 
 ============================  =============  =====================  ======
 numbers                       sqrt           sin, cos               pi
@@ -12,11 +12,11 @@ mpmath's, of d digits         1              1                      1
 Arb's balls                   they contain it, for every number in the argument
 ============================  =============  =====================  ======
 
-A generated text gives a function all arguments of its kernel, so that a whole number among enclosures is one of them.
-The square root of a pair is so from 1e-285 on.
+A generated text passes all arguments of its kernel to a function, so that an integer among enclosures becomes one.  The
+bound for the square root of a pair holds from 1e-285 on.
 
-On arrays NumPy has sines and cosines of its own, whose last bits may differ from those of numbers; the text in C calls
-those of its mathematics library.
+On arrays NumPy's sines and cosines may differ in the last bits from those of numbers; the text in C calls its
+mathematics library.
 """
 
 import math
@@ -29,7 +29,7 @@ import numpy as np
 from .pair import Pair
 from .precisions import Digits
 
-#: Digits in which the sine of a pair is computed: more than its 32, and at large arguments mpmath takes more itself.
+#: The digits for the sine of a pair: more than its 32; for large arguments mpmath adds more.
 PAIR_DIGITS = 40
 
 
@@ -39,7 +39,7 @@ def sin(x: Any, *like: Any) -> Any:
     Raises
     ------
     TypeError
-        For numbers that have no sine among them, as fractions.
+        For numbers without a sine, such as fractions.
 
     Examples
     --------
@@ -57,7 +57,7 @@ def cos(x: Any, *like: Any) -> Any:
 
 
 def sqrt(x: Any, *like: Any) -> Any:
-    """The square root of x, as `sin`; below 0 as the type has it: ValueError, NaN, or mpmath's complex number."""
+    """The square root of x, as `sin`; below 0 as for the type: ValueError, NaN, or a complex number of mpmath."""
     return _applied("sqrt", _widened(x, like))
 
 
@@ -74,7 +74,7 @@ def pi(*like: Any) -> Any:
 
 
 def _widened(x: Any, like: Sequence[Any]) -> Any:
-    """x in the widest of the types: of arrays their common one, with whole numbers as float64."""
+    """x in the widest of the types: for arrays their common type, with integers as float64."""
     arrays = [y for y in (x, *like) if isinstance(y, np.ndarray | np.generic)]
     if arrays and not any(y.dtype == object for y in arrays):
         others = [y for y in like if not isinstance(y, np.ndarray | np.generic)]
@@ -123,6 +123,6 @@ def _each(function: Any, array: Any) -> Any:
 
 def _pair(x: Any) -> Pair:
     """The pair nearest to a number of mpmath."""
-    from mpmath.libmp import to_rational  # 15 ms, which numbers without pairs do not need
+    from mpmath.libmp import to_rational  # takes 15 ms; only pairs need it
 
     return Pair.of(Fraction(*to_rational(x._mpf_)))

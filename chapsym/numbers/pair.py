@@ -1,4 +1,4 @@
-"""Double-double numbers with operators, so that the generated kernels run on them as they do on floats."""
+"""Double-double numbers with operators, so that the generated kernels run on them as on floats."""
 
 from collections.abc import Callable
 from fractions import Fraction

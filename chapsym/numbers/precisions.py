@@ -1,7 +1,6 @@
-"""float32 and float64, double-double, mpmath at N digits, and Arb balls at N bits: how each is made and written.
+"""float32 and float64, double-double, mpmath at N digits, and Arb balls at N bits: their numbers and output.
 
-A kernel is `+ - * /` on whatever numbers it is given.  A precision makes those numbers from exact fractions, and writes
-results.
+A kernel is `+ - * /` on numbers of any type.  A precision makes these numbers from exact fractions, and writes results.
 """
 
 import copyreg
@@ -28,9 +27,9 @@ if TYPE_CHECKING:
 WRITTEN = 32
 
 
-#: flint has one precision for all threads, so one of them counts with it at a time.
+#: flint has one precision for all threads, so only one thread computes with it at a time.
 FLINT = RLock()
-# A process that is forked while another thread counts has a lock that nobody would release.
+# A process that is forked while another thread computes has a lock that nothing would release.
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=FLINT._at_fork_reinit)  # type: ignore[attr-defined]
 
@@ -40,17 +39,17 @@ _OPEN: dict[str, list[object]] = {"prec": [], "cap": []}
 
 
 def flint_bits(bits: int) -> AbstractContextManager[None]:
-    """Sets the bits of flint's numbers within a `with` block; other threads that use this function wait for it."""
+    """Sets the bits of flint's numbers within a `with` block; other threads that call this function wait."""
     return _flint("prec", bits)
 
 
 def flint_terms(count: int) -> AbstractContextManager[None]:
-    """Cuts flint's series to this many terms within a `with` block, as `flint_bits` sets the bits."""
+    """Sets the number of terms of flint's series within a `with` block, like `flint_bits`."""
     return _flint("cap", count)
 
 
 def _parts(ball: "arb") -> "tuple[Callable[..., arb], tuple[object, ...]]":
-    """How a ball of flint is made anew, exactly."""
+    """The parts from which a ball of flint is rebuilt exactly."""
     if not ball.is_finite():
         return type(ball), (ball.str(),)
     return _ball, tuple((int(man), int(exp)) for man, exp in (ball.mid().man_exp(), ball.rad().man_exp()))
@@ -60,13 +59,13 @@ def _ball(middle: tuple[int, int], radius: tuple[int, int]) -> "arb":
     from flint import arb
 
     man, exp = radius
-    more = 31 - man.bit_length()  # of the 30 bits of a radius; flint takes what is below as one unit
+    more = 31 - man.bit_length()  # of the 30 bits of a radius; flint rounds a smaller part up
     return arb(arb(middle), arb(((man << more) - 1, exp - more))) if man else arb(middle)
 
 
 def _context(count: int, guard: int) -> "MPContext":
-    """A context of mpmath, whose numbers can be copied and go to other processes."""
-    import mpmath  # 40 ms with flint, which runs on float64 do not need
+    """A context of mpmath, whose numbers can be copied and sent to other processes."""
+    import mpmath  # takes 40 ms with flint; float64 does not need it
 
     context = mpmath.MPContext()
     context.dps = count + guard
@@ -80,7 +79,7 @@ def _number(count: int, guard: int, parts: tuple[int, ...]) -> "mpf":
     return _common(count, guard).make_mpf((parts[0], MPZ(parts[1]), *parts[2:]))
 
 
-#: Contexts of numbers that come from elsewhere.
+#: Contexts of unpickled numbers.
 _common = cache(_context)
 
 
@@ -95,21 +94,21 @@ def _flint(name: str, value: int) -> Iterator[None]:
             blocks.append(mine)
             setattr(ctx, name, value)
             yield
-        finally:  # which an interrupt may delay until blocks around this one have ended, and have set what was before
+        finally:  # an interrupt may delay this until the outer blocks have ended and have restored their settings
             if mine in blocks:
                 setattr(ctx, name, before)
                 del blocks[blocks.index(mine) :]
 
 
-#: Beyond these a run ends because memory is exhausted, an error that cannot be caught.
+#: The limits beyond which a run exhausts memory, an error that cannot be caught.
 MOST_DIGITS, MOST_BITS = 1_000_000, 10_000_000
 
 
 def brief(value: object) -> str:
-    """A short text of a value that is refused, for a sentence."""
+    """A short text of a refused value, for a sentence."""
     try:
         text = " ".join(repr(value).split())  # an array is one line, too
-    except Exception:  # whole numbers of more digits than Python writes, and whatever an object raises
+    except Exception:  # integers with more digits than Python prints, and whatever an object raises
         text = f"an object of the type {type(value).__name__} that has no short text"
     return text if len(text) <= 60 else text[:57] + "..."
 
@@ -120,7 +119,7 @@ def is_whole(value: object) -> bool:
 
 
 def _whole(precision: object, name: str, least: int, most: int) -> None:
-    """Makes the count of a precision, and its guard, whole numbers of Python; raises ValueError for others."""
+    """Converts the count of a precision, and its guard, to integers of Python; raises ValueError for others."""
     kind = type(precision).__name__
     for field, what, lowest in ((name, f"{kind}(n) takes", least), ("guard", f"guard of {kind} must be", 0)):
         given = getattr(precision, field)
@@ -132,7 +131,7 @@ def _whole(precision: object, name: str, least: int, most: int) -> None:
 class Precision(ABC):
     """One kind of number."""
 
-    #: The type of arrays of such numbers, or of the first halves of pairs.
+    #: The type of arrays of such numbers, or of the high halves of pairs.
     dtype: ClassVar[np.dtype] = np.dtype(object)
 
     @abstractmethod
@@ -141,7 +140,7 @@ class Precision(ABC):
 
     @abstractmethod
     def write(self, value: Any) -> Any:
-        """The number for JSON: a float, or a decimal string that a float could not hold."""
+        """The number for JSON: a float, or a decimal string with more digits."""
 
     @property
     @abstractmethod
@@ -150,7 +149,7 @@ class Precision(ABC):
 
     @contextmanager
     def working(self) -> Iterator[None]:
-        """Within it the arithmetic has this precision."""
+        """A context in which the arithmetic has this precision."""
         yield
 
 
@@ -164,7 +163,7 @@ class Single(Precision):
         return np.float32(float(value))
 
     def write(self, value: np.float32) -> float:
-        """The shortest decimal number that is this float32: as a float64 it would have digits that mean nothing."""
+        """The shortest decimal number that rounds to this float32: as a float64 it would have meaningless digits."""
         return float(str(np.float32(value)))
 
 
@@ -196,7 +195,7 @@ class DoubleDouble(Precision):
 
 @dataclass(frozen=True)
 class Digits(Precision):
-    """mpmath numbers, correct to `count` significant digits; a context of its own, no global state.
+    """mpmath numbers, correct to `count` significant digits; each has its own context, without global state.
 
     Parameters
     ----------
@@ -227,7 +226,7 @@ class Digits(Precision):
 
     @cached_property
     def context(self) -> "MPContext":
-        """The mpmath context that the numbers belong to."""
+        """The mpmath context of the numbers."""
         return _context(self.count, self.guard)
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -299,24 +298,24 @@ class Enclosure(Precision):
 
 #: The precisions without a parameter, by the names that users give.
 NAMED: dict[str, Precision] = {"single": Single(), "double": Double(), "double-double": DoubleDouble()}
-#: Other names of them: NumPy's, and an old one.
+#: Other names of these: NumPy's, and an old one.
 OTHERS = {"float32": "single", "float64": "double", "quad": "double-double"}
 
 
 def own_name(name: object) -> Any:
-    """The name of a precision where another, or NumPy's type, is given; all else as it is."""
+    """The name of a precision for another name of it, or NumPy's type; anything else unchanged."""
     if isinstance(name, type | np.dtype) and name in (np.float32, np.float64):
         name = np.dtype(name).name
     return OTHERS.get(name, name) if isinstance(name, str) else name
 
 
 def in_words(identifier: str) -> str:
-    """The name for readers of a precision of JSON: there "quad" is double-double, and "Ball" an enclosure."""
+    """The readable name of a precision in JSON, where "quad" is double-double, and "Ball" an enclosure."""
     return identifier.replace("quad", "double-double").replace("Ball(", "Enclosure(")
 
 
 def named(precision: "str | Precision") -> Precision:
-    """The precision that a user named; raises ValueError, one sentence, for anything else."""
+    """The precision with this name; raises ValueError, one sentence, for anything else."""
     if isinstance(precision, Precision):
         return precision
     precision = own_name(precision)
