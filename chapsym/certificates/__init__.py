@@ -1,6 +1,6 @@
-"""Certificates: what is proved of the map, as files that a checker verifies without this code.
+"""Certificates: files of statements on the map and their proofs, which a checker verifies without this code.
 
-A module for each kind of certificate finds it; `balls` and `document` are what they share.
-`chapsym.checker` imports nothing from here; here it says which sentence the numbers of a file make, how wide a box
-its own intervals bear, and where a motion of the continuous ball is back.
+One module searches for each kind of certificate; `balls` and `document` are shared.  `chapsym.checker` imports nothing
+from here.  The search uses it for the statement of a file, for the size of a box that its intervals can prove, and for
+the returns of a motion of the continuous ball.
 """

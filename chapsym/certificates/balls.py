@@ -14,11 +14,11 @@ MOST_CORRECTIONS = 64
 
 
 class NotProved(ArithmeticError):
-    """The balls are too wide for what the proof needs."""
+    """The balls are too wide for the proof."""
 
 
 def near_root(k: Sequence[arb], g: Sequence[arb], I: Vector, D: arb, near: Vector | None = None) -> Vector:
-    """The Gibbs vector with k = 𝒦/2 and γ by Newton's iteration from 0 or near, in the middle of balls; no proof."""
+    """The Gibbs vector with k = 𝒦/2 and γ by Newton's iteration from 0 or near, at the midpoints of balls; no proof."""
     given = *_middles(k), *_middles(g), *_middles(I), D.mid()
     u: Vector = (arb(0), arb(0), arb(0)) if near is None else _middles(near)
     enough = arb(2) ** -(ctx.prec // 2 + 4)
@@ -35,7 +35,7 @@ def _middles(v: Iterable[arb]) -> Vector:
 
 
 def rounded(x: arb, digits: int) -> str:
-    """The numbers of a ball rounded to this many decimals; raises NotProved where they round differently."""
+    """The common rounding of the numbers of a ball to decimals; raises NotProved if they round differently."""
     middle, off = fraction(x), fraction(x.rad())
     found = round(middle - off, digits)
     if found != round(middle + off, digits):
@@ -53,7 +53,7 @@ def decimal(x: Fraction, digits: int) -> str:
 
 
 def decimals(x: Fraction) -> int | None:
-    """How many decimals a number has; None for infinitely many."""
+    """The number of decimals of a number; None for infinitely many."""
     most = x.denominator.bit_length()
     return next((n for n in range(most + 1) if 10**n % x.denominator == 0), None)
 
@@ -66,7 +66,7 @@ def simplest(low: Fraction, high: Fraction) -> Fraction:
 
 
 def shortest(x: Fraction) -> str:
-    """An exact text of a number: 1e-40 for a power of 10 below 1, a decimal, else a fraction."""
+    """A number as an exact string: 1e-40 for a power of 10 below 1, a decimal, else a fraction."""
     digits = decimals(x)
     if digits is None:
         return str(x)

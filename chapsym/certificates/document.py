@@ -13,12 +13,12 @@ from .balls import NotProved, shortest
 
 #: The object of a certificate, or of a part of it.
 Document = dict[str, Any]
-#: The fields that follow from the others.
+#: The fields that are computed from the others.
 MADE = ("format", "kind", "statement", "digest")
 
 
 def stated(kind: str, **fields: Any) -> Document:
-    """The object of a certificate, with the statement that its numbers make, and sealed by its digest."""
+    """The object of a certificate, with the statement of its numbers and its digest."""
     sentence = checker.statement({"kind": kind, **fields})
     document = {"format": checker.FORMAT, "kind": kind, "statement": sentence, **fields}
     return {**document, "digest": checker.digest(document)}
@@ -31,7 +31,7 @@ def accepted(document: Document) -> Document:
 
 
 def widest(radii: list[Fraction], found: Callable[[Fraction], Document], progress: Callable[[str], None]) -> Document:
-    """The finding with the largest radius for which there is one, among halved radii; smaller ones are easier.
+    """The certificate with the largest possible radius, by bisection among radii; smaller ones are easier.
 
     Raises what `found` raises for the smallest, NotProved or checker.Rejected.
     """

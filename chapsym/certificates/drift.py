@@ -1,7 +1,7 @@
 """Certificate `energy-drift`: a closed orbit of the continuous ball, with the integrals over it of X₃(H) and div_μ X₃.
 
-The search varies one component of the momentum until the solution is back; where it is back, and the integrals, are as
-the checker encloses them (checker/drift.py, which says why that proves them).
+The search varies one component of the momentum until the solution returns; the return and the integrals are computed by
+the enclosures of the checker (checker/drift.py has the proof).
 """
 
 import itertools
@@ -23,17 +23,17 @@ from .balls import decade, shortest
 from .document import Document, accepted, stated
 
 KIND = "energy-drift"
-#: The steps of the secant method; the window in which each looks for the return.
+#: The steps of the secant method; the window of each step for the time of return.
 ROUNDS, WINDOW = 12, "1/100"
 
 
 class Return(Orbit):
-    """The starts of a certificate, and how they return; `time` is when, about."""
+    """The starts of a certificate, and how they return; `time`: the approximate time of return."""
 
     time: Fraction
 
     def crossing(self, models: Sequence[Model], length: int, wanted: Interval) -> Interval:
-        """As of `Orbit`: in the last step, which begins at `early`."""
+        """As for `Orbit`: in the last step, which begins at `early`."""
         back = super().crossing(models, length, wanted)
         self.time = (self.early + middle(back) * length) / 2**self.bits
         return back
@@ -45,7 +45,7 @@ def energy_drift(
 ) -> Document:  # fmt: skip
     """Finds the closed orbit near a start, one component of its momentum adjusted, and encloses it.
 
-    Raises BadInput where there is none, or where the checker does not prove it.
+    Raises BadInput if there is none, or if the checker does not prove it.
     """
     _check(J, D, gamma, signs, time)
     try:
@@ -89,7 +89,7 @@ def listed(values: Sequence[object]) -> str:
 
 
 def components(J: np.ndarray, D: float, K: np.ndarray, g: np.ndarray) -> tuple[int, int]:
-    """The section and the component along it that tell states best apart, the flow across the section taken in."""
+    """The section and the component along it that separate states best, including the flow across the section."""
     w = np.linalg.solve(np.diag(J.sum() - J + D) - D * np.outer(g, g), K)
     rates = [*np.cross(K, w), *np.cross(g, w)]
     of_energy = [*w, *(D * (g @ w) * w)]
@@ -102,7 +102,7 @@ def components(J: np.ndarray, D: float, K: np.ndarray, g: np.ndarray) -> tuple[i
 
 
 def refined(fields: Mapping[str, Any], digits: int, progress: Callable[[str], None]) -> Document:
-    """With the varied component and the time to this many decimals, by the secant method from a near orbit."""
+    """The fields with the varied component and the time to this many decimals, by the secant method."""
     unit, varied = Fraction(1, 10**digits), STATE.index(fields["varied"])
     momentum = [Fraction(x) for x in fields["start"]["momentum"]]
     before: tuple[Fraction, Fraction] | None = None
@@ -131,7 +131,7 @@ def middle(x: Interval) -> Fraction:
 
 
 def outward(x: Interval) -> list[str]:
-    """An interval as [centre, radius] in decimals, which contain it."""
+    """An interval as decimal [centre, radius] that contain it."""
     radius = Fraction(x.width, 2 << x.bits)
     digits = max(2 - decade(radius), 0)
     centre = round(middle(x), digits)

@@ -1,11 +1,11 @@
-"""Families of periodic orbits of the whole map, looked for from the symmetric ones.
+"""Families of periodic orbits of the whole map, found from the symmetric orbits.
 
-A reversor (𝒦, γ) ↦ -R(𝒦, γ), R the rotation by π about an axis a, keeps the level M and fixes the states with 𝒦_a =
-γ_a = 0.  If x is fixed by that of a, and after n steps is fixed by that of b, or is mapped by it to the next state,
-then x is back after 2n or 2n + 1 steps, up to R_aR_b.  On M such a point is an accident: there are two conditions
-for one unknown.  But ⟨𝒦, γ⟩ may vary: through each leads a family of periodic orbits, mirrored by the reversor, so
-with a fold of ⟨𝒦, γ⟩ in the middle; elsewhere the orbits are not symmetric.  As the map is near an integrable one,
-⟨𝒦, γ⟩ hardly changes along it.
+A reversor (𝒦, γ) ↦ -R(𝒦, γ), R the rotation by π about an axis a, keeps the level M and fixes the states with
+𝒦_a = γ_a = 0.  If the reversor of a fixes x, and after n steps the reversor of b fixes the state or maps it to the next
+one, then x returns after 2n or 2n + 1 steps, up to R_aR_b.  On M such points are exceptional: two conditions for one
+unknown.  But ⟨𝒦, γ⟩ may vary: through each such point leads a family of periodic orbits.  The reversor mirrors the
+family, which thus has a fold of ⟨𝒦, γ⟩ in the middle; elsewhere the orbits are not symmetric.  As the map is near an
+integrable one, ⟨𝒦, γ⟩ hardly changes along it.
 """
 
 from collections.abc import Callable, Iterator
@@ -24,12 +24,12 @@ from chapsym.dynamics.map import step
 
 from .passage import Level, Map, Vector, columns
 
-#: Starts along each of the two angles of 𝒦 and γ, Newton's iterations, their longest and what is settled.
+#: Starts along each of the two angles of 𝒦 and γ, Newton iterations, their largest correction, and the tolerance.
 GRID, ROUNDS, LONGEST, SETTLED = (8, 16), 24, 0.2, 1e-11
 DIFFERENCE = 1e-6
-#: Members of a family that are looked at, their distance, Newton's iterations for each, and halvings of the distance.
+#: Members of a family that are computed, their distance, Newton iterations for each, and halvings of the distance.
 MEMBERS, APART, CORRECTIONS, HALVINGS = 16, 0.02, 6, 6
-#: Two families whose ⟨𝒦, γ⟩ agree so far are one; a motion whose γ_i vary less is a steady rotation.
+#: Families whose ⟨𝒦, γ⟩ agree to this are the same; a motion whose γ_i vary by less than this is a steady rotation.
 SAME = 1e-7
 
 
@@ -43,7 +43,7 @@ class Member:
     along: Floats = field(default_factory=lambda: np.zeros(4))
 
     def mirrored(self) -> "Member":
-        """The image by the reversor -1: of the orbit that goes back, with the inverse derivative."""
+        """The image by the reversor -1: a member of the reversed orbit, with the inverse derivative."""
         return Member(self.height, [-x for x in self.momentum], [-x for x in self.gamma])
 
 
@@ -81,7 +81,7 @@ def _solved(ball: Ball, size: float, period: int, a: int, b: int) -> list[Floats
         end = before = _fixed(angles, size, a)
         for _ in range((period + 1) // 2):
             before, end = end, _after(ball, end)
-        # Odd: the last two states are each other's mirror images; so their sum is fixed.
+        # Odd: the last two states are mirror images of each other, so their sum is fixed.
         middle = end + before if period % 2 else end
         return middle[:, [b, 3 + b]]
 
@@ -112,7 +112,7 @@ def _after(ball: Ball, state: Floats) -> Floats:
 
 
 def _steady(ball: Ball, state: Floats, period: int) -> bool:
-    """Whether an axis of the body keeps its angle with γ: the whole circle of its states is periodic, at one ⟨𝒦, γ⟩."""
+    """Whether a body axis keeps its angle with γ, so that the whole circle of states is periodic, at one ⟨𝒦, γ⟩."""
     states = [state]
     for _ in range(period):
         states.append(_after(ball, states[-1]))
@@ -120,7 +120,7 @@ def _steady(ball: Ball, state: Floats, period: int) -> bool:
 
 
 def _followed(level: Level, steps: int, state: Floats) -> list[Member]:
-    """A stretch of the family of a symmetric orbit, with the working precision of Arb."""
+    """A stretch of the family of a symmetric orbit, at the working precision of Arb."""
     K, g = ([exact(x) for x in v] for v in (state[:3], state[3:]))
     members = [_corrected(level, steps, Member(dot(K, g), K, g))]
     while len(members) < MEMBERS:
@@ -132,7 +132,7 @@ def _followed(level: Level, steps: int, state: Floats) -> list[Member]:
 
 
 def _ahead(level: Level, member: Member, distance: Fraction) -> Member:
-    """A point near the family, so far along it."""
+    """A point near the family, at this distance along it."""
     return _moved(level, member, [exact(distance * Fraction(x)) for x in member.along])
 
 
@@ -148,7 +148,7 @@ def _corrected(level: Level, steps: int, member: Member) -> Member:
 
 
 def _moved(level: Level, member: Member, by: Vector) -> Member:
-    """The member varied as `Passage.change` says."""
+    """The member, varied as in `Passage.change`."""
     K, g = member.momentum, member.gamma
     towards = cross(cross(K, g), K)
     K = [(x + y + by[3] * z).mid() for x, y, z in zip(K, cross(by[:3], K), towards, strict=True)]
@@ -159,7 +159,7 @@ def _moved(level: Level, member: Member, by: Vector) -> Member:
 
 
 def solved(level: Level, steps: int, member: Member, rounds: int) -> tuple[Vector, Vector]:
-    """The orbit of the exact level by Newton's method from one near by; on the level, but for rounding."""
+    """The orbit of the exact level by Newton's method from a nearby one; on the level to rounding."""
     at = Map.of(level)
     K, g = on_level(level, member.momentum, member.gamma)
     for _ in range(rounds):
@@ -189,7 +189,7 @@ def extent(family: list[Member]) -> tuple[Fraction, Fraction]:
 
 
 def near(level: Level, steps: int, family: list[Member]) -> Member:
-    """A member whose ⟨𝒦, γ⟩ is near the `level.height`, which must be in the extent of the family: by halving."""
+    """A member whose ⟨𝒦, γ⟩ is near `level.height`, which must be in the extent of the family, by bisection."""
     before, after = next(
         (x, y)
         for x, y in pairwise(family)

@@ -1,7 +1,8 @@
 """Certificate `heteroclinic`: two orbits between the unstable rotations whose ends differ, so that Δ is not constant.
 
 On the level ⟨γ,Λ⁻¹γ⟩ = 1/Λ2 the reduced map is that of lemma `separatrix-map`: u ↦ ũ with F(X) = D(tanh ũ - tanh u),
-X = coth ½(ũ - u).  Here e^Δ is found in Arb's numbers without proof; the file has what the checker encloses anew.
+X = coth ½(ũ - u).  Here e^Δ is computed in Arb's numbers without proof; the checker encloses the numbers of the file
+again.
 """
 
 import math
@@ -23,11 +24,11 @@ from .document import Document, accepted, stated, widest
 from .reduced import Top
 
 KIND = "heteroclinic"
-#: Digits of the difference that the file has at least, and decimals that the ends of the orbits have beyond its own.
+#: The least number of digits of the difference in the file, and decimals of the ends of the orbits beyond those.
 SIGNIFICANT, SPARE = 3, 3
-#: Bits beyond the digits, and Newton's iterations of a step.
+#: Bits beyond the digits, and Newton iterations of a step.
 SPARE_BITS, CORRECTIONS = 96, 60
-#: How many radii are tried, from the last decimal on, each a tenth of the one before.
+#: The number of trial radii, from the last decimal on, each a tenth of the one before.
 RADII = 12
 
 
@@ -42,7 +43,7 @@ class Orbits:
         self.growth = (self.last + 1) / (self.last - 1)
 
     def end(self, x: Fraction, digits: int) -> tuple[arb, int]:
-        """e^Δ, and how many steps of both orbits find it to the digits."""
+        """e^Δ, and the number of steps of both orbits that give it to the digits."""
         first, steps = self._half(exact(x), digits)
         if x == 1:
             return first * first, steps
@@ -77,9 +78,9 @@ def heteroclinic(
 ) -> Document:  # fmt: skip
     """Finds the certificate that Δ is not constant on the level 1/Λ2 of a top with J1 < J2 < J3, h > 0.
 
-    starts: two x = e^2u; 1 and about e^c by default, c the limit of the increments.  digits: decimals of the file; what
-    the difference needs.  radius: how far each of J, D and h may be off; the largest power of 10 by default.
-    Returns the object of the file (`document`).  Raises BadInput, one sentence, for what has no certificate.
+    starts: two x = e^2u; by default 1 and about e^c, c the limit of the increments.  digits: decimals of the file; by
+    default as needed for the difference.  radius: of J, D and h; by default the largest power of 10.  Returns the
+    object of the file (`document`).  Raises BadInput if there is no certificate.
     """
     _check(top, starts, digits, radius)
     if starts is None:
@@ -122,7 +123,7 @@ def _bits(digits: int) -> int:
 
 
 def _digits(top: Top, starts: tuple[Fraction, Fraction], progress: Callable[[str], None]) -> int:
-    """Decimals with which the two ends differ by SIGNIFICANT digits."""
+    """The number of decimals with which the two ends differ by SIGNIFICANT digits."""
     digits = 20
     while digits <= MOST_DIGITS:
         progress(f"looking for the difference with {digits} digits")

@@ -3,7 +3,7 @@ turns.
 
 δ = s(-1)^p(γ_a⁰γ_b^q - γ_b⁰γ_a^q), with s = ±1 the direction of the motion, has the sign of the displacement after q
 steps less p half turns, where this is below half a turn.  If G_h preserved a measure with a positive continuous density
-on the circle, it would be conjugate to a rotation, and δ would have one sign, or be 0, everywhere.
+on the circle, it would be conjugate to a rotation, and δ would have the same sign everywhere, or be 0 everywhere.
 """
 
 import contextlib
@@ -31,12 +31,12 @@ from .reduced import Reduced, Top, Vector, cross
 from .resonance import Resonance, spare_bits
 
 KIND = "no-invariant-measure"
-#: Significant digits that the smaller displacement has at least, and how many more are tried where a number happens to
-#: lie between two decimals.
+#: The least number of significant digits of the smaller displacement, and the extra digits that are tried if a number
+#: happens to lie between two decimals.
 SIGNIFICANT, MORE = 3, 3
-#: Decimals by which a radius must be smaller for every step; boxes grow by less.
+#: Decimals by which a radius must shrink for each step; boxes grow by less.
 LOST = 3
-#: Arcs of a half circle that are tried first.
+#: The first trial number of arcs of a half circle.
 FEWEST_ARCS = 32
 
 
@@ -64,12 +64,11 @@ def no_invariant_measure(
 ) -> Document:  # fmt: skip
     """Finds the certificate that G_h of a top preserves no measure with a positive continuous density.
 
-    steps: q; the least odd one that turns by `half_turns` by default.  half_turns: p; 1, or what the level has.
-    level: l; in the middle of the plateau by default.  digits: decimals of the file; what the displacement needs.
-    radius: how far each of J, D, h and l may be off; the largest power of 10 that is proved by default, and 0 where a
-    component of J is 0, as it must not be negative.
-    Returns the object of the file (`document`), which `chapsym.checker` accepts.
-    Raises BadInput, one sentence, for what has no certificate.
+    steps: q; by default the least odd one that turns by `half_turns`.  half_turns: p; by default 1, or that of the
+    level. level: l; by default in the middle of the plateau.  digits: decimals of the file; by default as needed for
+    the displacement.  radius: of J, D, h and l; by default the largest power of 10 that is proved, and 0 if a component
+    of J is 0, as J must not be negative.  Returns the object of the file (`document`), which `chapsym.checker` accepts.
+    Raises BadInput if there is no certificate.
     """
     _check(top, steps, half_turns, digits, radius)
     try:
@@ -119,7 +118,7 @@ def _check(top: Top, steps: int | None, half_turns: int | None, digits: int | No
 
 
 def _least_digits(top: Top, at: Resonance) -> int:
-    """Decimals for the level, and SIGNIFICANT digits of both displacements; raises BadInput off the plateau."""
+    """Decimals of the level, and SIGNIFICANT digits of both displacements; raises BadInput off the plateau."""
     spare = spare_bits(at.steps)
     bits = spare
     while bits < MOST_DIGITS * 10 // 3:
@@ -141,7 +140,7 @@ def _least_digits(top: Top, at: Resonance) -> int:
 
 
 def _arcs(top: Top, at: Resonance, digits: int) -> int:
-    """The least power of 2 of arcs over which the checker accepts the branch; raises BadInput where none is found."""
+    """The least power of 2 of arcs for which the checker accepts the branch; raises BadInput if none is found."""
     arcs, reason = FEWEST_ARCS, ""
     while arcs <= MOST_ARCS:
         try:
@@ -180,7 +179,7 @@ def _largest(
 
 
 def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
-    """Powers of 10 down to what boxes that grow in every step need, for parameters of any size; 0 where a J is 0."""
+    """Trial powers of 10, down to one for boxes that grow in each step, for parameters of any size; 0 if a J is 0."""
     if min(top.J) == 0:
         return [Fraction(0)]
     scales = [abs(decade(abs(x))) for x in (*top.J, top.D, top.height, at.level)]
@@ -188,12 +187,12 @@ def _radii(top: Top, at: Resonance, digits: int) -> list[Fraction]:
 
 
 def _precise(at: Resonance, digits: int) -> AbstractContextManager[None]:
-    """The precision that this many decimals need after the steps."""
+    """The working precision for this many decimals after the steps."""
     return flint_bits(math.ceil(digits * 10 / 3) + spare_bits(at.steps))
 
 
 def _orbits(top: Top, at: Resonance) -> list[Orbit]:
-    """The orbits from both starts; δ as if all steps turned in the direction of the first."""
+    """The orbits from both starts, and δ if all steps turn in the direction of the first."""
     reduced, found = Reduced(top), list[Orbit]()
     for name in at.starts:
         gibbs, gammas = reduced.orbit(at.level, at.axes, tangent(name), at.steps)
@@ -203,7 +202,7 @@ def _orbits(top: Top, at: Resonance) -> list[Orbit]:
 
 
 def _fields(top: Top, at: Resonance, radius: Fraction, digits: int) -> Document:
-    """All but the orbits."""
+    """All fields but the orbits."""
     fields = {
         "ball": {"J": [str(x) for x in top.J], "D": str(top.D), "height": str(top.height), "level": shortest(at.level)},
         "radius": shortest(radius),

@@ -1,4 +1,4 @@
-"""A certificate of where the continuous ball is: the frames of a certified motion, and the start they are from."""
+"""A certificate of a motion of the continuous ball: the frames of a certified motion, and their start."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -18,14 +18,14 @@ from .balls import decade, shortest
 from .document import Document, stated
 
 KIND = "motion"
-#: Bits of the first attempt beyond those of the digits, how many more the next ones have, and the most beyond.
+#: Bits of the first attempt beyond those of the digits, the increment for the next attempts, and the maximum.
 GUARD, MORE, MOST = 48, 1.5, 512
-#: A number of the start with so small a denominator, and this many bits known, is written as a quotient.
+#: The largest denominator of a number of the start that is written as a quotient, and the known bits that this needs.
 SIMPLE, KNOWN = 10**18, 512
 
 
 def check_start(start: Start) -> None:
-    """Raises BadInput for principal axes that are not those that are given, and for a rotor with π in its numbers."""
+    """Raises BadInput for principal axes other than the given axes, and for a rotor with π in its numbers."""
     if start.axes is not None:
         raise BadInput("a certificate is of principal axes: give the principal moments, and all vectors in their axes")
     if any(x.of_pi for x in start.rotor):
@@ -33,11 +33,10 @@ def check_start(start: Start) -> None:
 
 
 def motion(start: Start, found: CertifiedMotion, progress: Callable[[str], None] = lambda sentence: None) -> Document:
-    """The certificate of the frames that were found from a start, accepted by the checker.
+    """The certificate of the frames from a start, accepted by the checker.
 
-    The checker encloses the motion with more and more bits, as it loses some in each turn, more of a ball with unlike
-    moments.  Raises BadInput where it accepts no certificate with MOST bits more than those of the digits, and as
-    `check_start` does.
+    The checker tries increasing bits, as it loses some bits per turn, more for a ball with unequal moments.  Raises
+    BadInput if it accepts no certificate with MOST bits beyond those of the digits, and as `check_start` does.
     """
     check_start(start)
     if len(found.times) > checker.form.MOST:
@@ -57,7 +56,7 @@ def motion(start: Start, found: CertifiedMotion, progress: Callable[[str], None]
 
 
 def document(start: Start, found: CertifiedMotion, bits: int) -> Document:
-    """The certificate, for a checker with this many bits: not checked."""
+    """The unchecked certificate, for a checker with this many bits."""
     ball: Document = {"J": [shortest(x) for x in start.mass_tensor], "D": shortest(start.D)}
     if any(map(any, start.rotor)):
         ball["rotor"] = [shortest(x.rational) for x in start.rotor]
@@ -77,7 +76,7 @@ def document(start: Start, found: CertifiedMotion, bits: int) -> Document:
 
 
 def _start(start: Start, bits: int) -> dict[str, list[list[str]]]:
-    """The attitude, its greatest number 1, and the momentum: quotients where they seem to be, else [middle, radius]."""
+    """The attitude, scaled to greatest number 1, and the momentum: likely quotients as such, else [middle, radius]."""
     with flint_bits(bits + KNOWN):
         a = start.attitude()
         greatest = max(a, key=lambda x: abs(fraction(x)))
@@ -88,9 +87,9 @@ def _start(start: Start, bits: int) -> dict[str, list[list[str]]]:
 
 
 def _known(x: arb, bits: int) -> list[str]:
-    """A ball as [middle, radius]; what is a quotient with a small denominator as that.
+    """A ball as [middle, radius]; with radius 0 if it contains a quotient with a small denominator.
 
-    The start is what the certificate says: nothing rests on whether a number of a scene was this quotient.
+    The certificate defines its start: its proof does not depend on whether a number of a scene was this quotient.
     """
     middle, radius = fraction(x.mid()), fraction(x.rad())
     simple = middle.limit_denominator(SIMPLE)
@@ -101,7 +100,7 @@ def _known(x: arb, bits: int) -> list[str]:
 
 
 def _claims(name: str, row: Sequence[arb], share: Fraction, radius: Fraction) -> list[list[str]]:
-    """The numbers of a frame, up to a power of 10 that is at most this share of their size."""
+    """The numbers of a frame, rounded to a power of 10 that is at most this share of their size."""
     middles = [fraction(x.mid()) for x in row]
     if name in ("angular_momentum", "omega"):
         size = max(map(abs, middles))

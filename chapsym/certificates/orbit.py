@@ -1,7 +1,7 @@
 """Certificate `periodic-orbit`: a point that is back after q steps, where det DG^q ≠ 1 and det(1 - DG^q) ≠ 0 on the
 level M.
 
-Looked for with Newton's method, in as many bits as the checker needs to prove it.
+Newton's method finds it, with as many bits as the checker needs for its proof.
 """
 
 import math
@@ -26,11 +26,11 @@ from .families import Member
 from .passage import Level, Map, Passage, Vector, identity
 
 KIND = "periodic-orbit"
-#: Bits with which families are followed; ⟨𝒦, γ⟩ must vary by more than 2^-RESOLVED along one.
+#: The working bits for families; ⟨𝒦, γ⟩ must vary by more than 2^-RESOLVED along a family.
 SEARCH_BITS, RESOLVED = 256, 160
-#: Decimals beyond those of det(1 - DG^q), at least; by default, with one a step, by which a checker's boxes may grow.
+#: The least number of decimals beyond those of det(1 - DG^q); by default one more per step, for the growth of boxes.
 SIGNIFICANT, SPARE_DIGITS = 3, 20
-#: Decimals that a box of parameters loses in a step, at most.
+#: A bound of the decimals that a box of parameters loses in a step.
 GROWTH = 4
 
 
@@ -42,14 +42,12 @@ def periodic_orbit(
     """Finds the certificate of an orbit of this many steps, not symmetric, with det DG^q < 1 and without an eigenvalue
     1.
 
-    Of it and its mirror image, with the reciprocal determinant, it is the one that contracts volumes.
+    The orbit contracts volumes; its mirror image has the reciprocal determinant.
 
-    J, D: the ball.  size: |𝒦|².  height: ⟨𝒦, γ⟩; the shortest decimal in the middle of the widest family by
-    default.
-    digits: decimals of the numbers in the file; enough by default.  attracting: all eigenvalues are to be inside
-    the unit circle.  radius: how far each of J, D and the integrals may be off; the largest power of 10 by default, and
-    none where a component of J is 0.
-    Returns the object of the file (`document`).  Raises BadInput, one sentence, for what has no certificate.
+    J, D: the ball.  size: |𝒦|².  height: ⟨𝒦, γ⟩; the shortest decimal in the middle of the widest family by default.
+    digits: decimals of the numbers in the file; by default as needed.  attracting: whether all eigenvalues must be
+    inside the unit circle.  radius: of J, D and the integrals; by default the largest power of 10, and none if a
+    component of J is 0.  Returns the object of the file (`document`).  Raises BadInput if there is no certificate.
     """
     _check(J, D, size, steps, height, digits)
     level, near = _found(Level(J, D, size, Fraction(0)), steps, height, attracting, progress)
@@ -72,7 +70,7 @@ def periodic_orbit(
 
 
 def _with_radius(found: Document, radius: Fraction | None, steps: int, progress: Callable[[str], None]) -> Document:
-    """The certificate for all numbers within a radius, which must be 0 where a component of J is."""
+    """The certificate for all numbers within a radius, which must be 0 if a component of J is 0."""
     if radius == 0 or (radius is None and min(map(Fraction, found["ball"]["J"])) == 0):
         return found
     fields = {name: value for name, value in found.items() if name not in (*MADE, "radius")}
@@ -108,7 +106,7 @@ def _check(
 def _found(
     level: Level, steps: int, height: Fraction | None, attracting: bool, progress: Callable[[str], None]
 ) -> tuple[Level, Member]:
-    """The level of the widest family that serves, and a member near it."""
+    """The level of the widest suitable family, and a member near it."""
     best: tuple[Fraction, Level, Member] | None = None
     with flint_bits(SEARCH_BITS):
         for family in families.families(level, steps, progress):
@@ -136,7 +134,7 @@ def multipliers(W: arb_mat) -> tuple[Any, Any, Any]:
 
 
 def determinants(passage: Passage) -> tuple[arb, arb]:
-    """det DG^q and det(1 - DG^q) on M; raises NotProved unless they are proved to be other than 1 and 0."""
+    """det DG^q and det(1 - DG^q) on M; raises NotProved unless they are proved not to be 1 and 0."""
     det, unit, _ = multipliers(passage.derivative())
     if det.contains(1) or unit.contains(0):
         raise NotProved("det DG^q may be 1, or an eigenvalue may be")
@@ -144,7 +142,7 @@ def determinants(passage: Passage) -> tuple[arb, arb]:
 
 
 def _digits(passage: Passage, steps: int, wanted: int | None) -> int:
-    """Decimals that show det DG^q - 1 and det(1 - DG^q); raises BadInput where fewer are wanted."""
+    """The number of decimals that show det DG^q - 1 and det(1 - DG^q); raises BadInput if fewer are wanted."""
     det, unit = determinants(passage)
     least = math.ceil(-math.log10(min(abs(fraction(det.mid()) - 1), abs(fraction(unit.mid())))))
     if wanted is not None and wanted < least + SIGNIFICANT:

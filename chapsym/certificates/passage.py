@@ -1,8 +1,8 @@
-"""q steps of the whole map in Arb's balls: how far they turn the body, and the derivative of that.
+"""q steps of the whole map in Arb's balls: their rotation of the body, and its derivative.
 
-A step carries 𝒦 and γ by one rotation.  So the level M of |γ|, |𝒦| and ⟨𝒦, γ⟩ is, where 𝒦 and γ are not parallel,
-the set of all (R𝒦, Rγ), R in SO(3); a tangent vector is (w × 𝒦, w × γ); and a point is back after q steps if and
-only if the product T of their rotations is 1.
+A step turns 𝒦 and γ by one rotation.  So, if 𝒦 and γ are not parallel, the level M of |γ|, |𝒦| and ⟨𝒦, γ⟩ is the set of
+all (R𝒦, Rγ), R in SO(3); a tangent vector is (w × 𝒦, w × γ); and a point returns after q steps if and only if the
+product T of their rotations is 1.
 """
 
 from collections.abc import Sequence
@@ -36,9 +36,9 @@ class Level:
 class Passage:
     """A passage of q steps: the product T of their rotations, and its change with the start.
 
-    quaternion: of T, which takes the start to the end.  turned: T, (3, 3).  change: the ω of dT = [ω]×T for four
-    variations of the start, (3, 4): (w × 𝒦, w × γ) for w = e1, e2, e3, and ((𝒦 × γ) × 𝒦, 0), which turns 𝒦 alone,
-    and which changes ⟨𝒦, γ⟩ by |𝒦 × γ|².  gibbs: the Gibbs vectors of the steps.
+    quaternion: of T, which maps the start to the end.  turned: T, (3, 3).  change: the ω of dT = [ω]×T for four
+    variations of the start, (3, 4): (w × 𝒦, w × γ) for w = e1, e2, e3, and ((𝒦 × γ) × 𝒦, 0), which turns only 𝒦, and
+    changes ⟨𝒦, γ⟩ by |𝒦 × γ|².  gibbs: the Gibbs vectors of the steps.
     """
 
     quaternion: Vector
@@ -47,7 +47,7 @@ class Passage:
     gibbs: list[Vector]
 
     def error(self) -> arb_mat:
-        """The vector part of the quaternion, which is 0 if and only if the point is back."""
+        """The vector part of the quaternion, which is 0 if and only if the point returns."""
         return column(self.quaternion[1:])
 
     def slope(self) -> arb_mat:
@@ -60,7 +60,7 @@ class Passage:
 
 
 class Map:
-    """The steps of one ball at one |𝒦|², for all parameters in balls; to be used with one precision of Arb's."""
+    """The steps of one ball at one |𝒦|², for all parameters in Arb balls; use it at a single precision."""
 
     def __init__(self, J: Vector, D: arb, size: arb) -> None:
         self.inertia, self.D = (J[1] + J[2], J[0] + J[2], J[0] + J[1]), D
@@ -75,7 +75,7 @@ class Map:
         return cls([exact(x) for x in level.J], exact(level.D), exact(level.size))
 
     def passage(self, momentum: Vector, gamma: Vector, steps: int) -> Passage:
-        """`steps` steps from 𝒦 and γ.  Raises NotProved or TooWide where the balls are too wide."""
+        """`steps` steps from 𝒦 and γ.  Raises NotProved or TooWide if the balls are too wide."""
         K, g = column(momentum), column(gamma)
         dK, dg, change = self._variations(momentum, gamma)
         turned, quaternion, gibbs = identity(), (arb(1), arb(0), arb(0), arb(0)), []

@@ -1,9 +1,8 @@
-"""The levels on which G_h turns by p half turns in q steps, for some points of the circle: a plateau, found.
+"""Search for a plateau: the levels on which G_h turns by p half turns in q steps, for some points of the circle.
 
-The displacement after q steps is least and largest at two `starts`, nearly: for odd q the points with γ_a = 0 and
-γ_b = 0, which reflections fix.  So the levels on which one of them returns to p half turns are the ends of the plateau;
-it is about as narrow,
-relative to the range of levels, as the q-th power of the nome.  Nothing here is proved: the checker does that.
+The displacement after q steps is nearly extreme at two `starts`: for odd q the points with γ_a = 0 and γ_b = 0, which
+reflections fix.  So the levels on which one of them has p half turns are the ends of the plateau.  Its width, relative
+to the range of levels, is about the q-th power of the nome.  Nothing here is proved: the checker proves it.
 """
 
 import contextlib
@@ -23,9 +22,9 @@ from chapsym.numbers.precisions import flint_bits
 from .balls import NotProved
 from .reduced import Axes, Reduced, Top, angle, cross
 
-#: The levels that are looked at have x/(1 - x) = e^t for this many t up to ±REACH, x from the separatrix to the axis.
+#: The trial levels have x/(1 - x) = e^t for this many t up to ±REACH, x from the separatrix to the axis.
 LEVELS, REACH = 29, 14.0
-#: Bits and steps of this look, and how well it finds the level, in half turns.
+#: The bits and steps of this search, and its accuracy for the level, in half turns.
 LOOK_BITS, LOOK_STEPS, LOOK_NEAR = 64, 63, 1e-3
 MOST_SECANTS = 60
 #: Steps of the iteration for the start of a symmetric step.
@@ -34,7 +33,7 @@ MIDDLE_STEPS = 30
 
 @dataclass(frozen=True)
 class Staircase:
-    """Half turns after 1, 2, ... steps from the point γ_b = 0 of circles around one axis, from the separatrix on."""
+    """Half turns after 1, 2, ... steps from the point γ_b = 0 of circles around an axis, from the separatrix on."""
 
     axes: Axes
     levels: list[Fraction]
@@ -50,7 +49,7 @@ class Staircase:
 
 
 def staircases(top: Top, steps: int, progress: Callable[[str], None]) -> list[Staircase]:
-    """The circles around both axes, without those on which a step is not found."""
+    """The circles around both axes, except those without a step."""
     found = []
     for axes in top.sides():
         _, b, c = axes
@@ -78,7 +77,7 @@ def half_turns(top: Top, level: Fraction, axes: Axes, steps: int) -> list[float]
 
 
 def refined(top: Top, ends: tuple[Fraction, Fraction], axes: Axes, steps: int, turns: int) -> tuple[Fraction, Fraction]:
-    """Halves the way between two levels, one with fewer turns, until q steps from both turn nearly the same."""
+    """Bisects two levels, one with fewer turns, until q steps from both turn nearly the same."""
     (low, high), off = ends, [math.inf, math.inf]
     for _ in range(LOOK_BITS):
         middle = (low + high) / 2
@@ -93,7 +92,7 @@ def refined(top: Top, ends: tuple[Fraction, Fraction], axes: Axes, steps: int, t
 
 
 def starts(top: Top, level: Fraction, axes: Axes, steps: int) -> tuple[str, str]:
-    """Where the displacement after q steps is extreme, as a certificate names it: on lines that reversors fix.
+    """The starts with extreme displacement after q steps, as named in a certificate: on lines that reversors fix.
 
     For odd q γ_a = 0 and γ_b = 0; for even q γ_b = 0, and the start of a step that ends at its reflection, nearly.
     """
@@ -111,7 +110,7 @@ def starts(top: Top, level: Fraction, axes: Axes, steps: int) -> tuple[str, str]
 def end_of_plateau(
     reduced: Reduced, near: tuple[Fraction, Fraction], axes: Axes, t: Fraction, steps: int, bits: int
 ) -> Fraction:
-    """The level near two others on which a start is on its line through 0 again, by secants."""
+    """The level near two others on which a start returns to its line through 0, by the secant method."""
 
     def off(level: Fraction) -> Fraction:
         _, orbit = reduced.orbit(level, axes, t, steps)
@@ -131,12 +130,12 @@ def end_of_plateau(
 
 
 def unit_in_last_place(x: Fraction, bits: int) -> Fraction:
-    """2^-bits times a power of 2 about as large as x."""
+    """2^-bits times a power of 2 about the size of x."""
     return Fraction(2) ** (exponent_of(x) - bits)
 
 
 def nome_power(top: Top, level: Fraction, axes: Axes, steps: int) -> float:
-    """The logarithm to base 2 of nome^q, the size of the displacement but for a factor: -q·πK'/K, over log 2."""
+    """The logarithm to base 2 of nome^q, the size of the displacement up to a factor: -q·πK'/K, over log 2."""
     La, Lb, Lc = (top.moments[i] for i in axes)
     k2 = (Lc * level - 1) * (La - Lb) / ((La * level - 1) * (Lc - Lb))  # the modulus² of (5.8), between 0 and 1
     with flint_bits(LOOK_BITS):

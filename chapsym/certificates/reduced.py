@@ -21,13 +21,13 @@ from .balls import NotProved, near_root
 
 Vector = tuple[arb, ...]
 Axes = tuple[int, int, int]
-#: Steps in h from 0 by which a root beyond the bound of `small-branch` is continued.
+#: The number of steps in h from 0 that continue a root beyond the bound of `small-branch`.
 CONTINUED = 16
 
 
 @dataclass(frozen=True)
 class Top:
-    """A ball that rolls with 𝒦 = hγ, exactly: its mass tensor J, D = mρ² and the height h, in kg m²."""
+    """A ball that rolls with 𝒦 = hγ: its exact mass tensor J, D = mρ² and vertical momentum h, in kg m²."""
 
     J: tuple[Fraction, Fraction, Fraction]
     D: Fraction
@@ -50,7 +50,7 @@ class Top:
         return (order[0], order[1], order[2]), (order[2], order[1], order[0])
 
     def axes_of(self, level: Fraction) -> Axes:
-        """The axes (a, b, c) of the circles at a level; raises BadInput where there is none."""
+        """The axes (a, b, c) of the circles at a level; raises BadInput if there are none."""
         near, far = self.sides()
         least, middle, most = (1 / self.moments[i] for i in near)
         if not least < level < most or level == middle:
@@ -61,9 +61,9 @@ class Top:
 
 
 class Reduced:
-    """G_h of a top at points, with nothing proved: which roots these are, and that they are some, is for the checker.
+    """G_h of a top at points, unproved: the checker proves that these are roots, and which ones.
 
-    Where |h| is beyond the bound of lemma `small-branch`, `is_small` is False: each root is one near those of the small
+    If |h| is beyond the bound of lemma `small-branch`, `is_small` is False: each root is near those of the small
     branch, which is continued from h = 0.
     """
 
@@ -88,7 +88,7 @@ class Reduced:
     def root(self, gamma: Vector, near: Vector | None = None) -> Vector:
         """The Gibbs vector of the step from γ.
 
-        near: beyond the bound, that of a γ near by; without it the root is continued from h = 0.
+        near: beyond the bound, the Gibbs vector of a nearby γ; without it the root is continued from h = 0.
         """
         if self.is_small:
             return near_root(self._momentum(gamma), gamma, self.I, self.D)
@@ -98,7 +98,7 @@ class Reduced:
         return cast(Vector, near)
 
     def orbit(self, level: Fraction, axes: Axes, t: Fraction, steps: int) -> tuple[list[Vector], list[Vector]]:
-        """The Gibbs vectors of steps from a start, and γ before, between and after them."""
+        """The Gibbs vectors of the steps from a start, and γ before, between and after them."""
         gibbs, gammas = list[Vector](), [self.start(level, axes, t)]
         for _ in range(steps):
             gibbs.append(self.root(gammas[-1], gibbs[-1] if gibbs else None))
@@ -111,7 +111,7 @@ class Reduced:
 
 
 def cross(x: Vector, y: Vector, axes: Axes) -> arb:
-    """x_a y_b - x_b y_a: positive where y is ahead of x in the plane of (a, b), by less than a half turn."""
+    """x_a y_b - x_b y_a: positive if y is ahead of x in the plane of (a, b), by less than a half turn."""
     a, b, _ = axes
     return x[a] * y[b] - x[b] * y[a]
 

@@ -1,4 +1,4 @@
-"""A circle on which G_h turns by p half turns in q steps: looked for on both sides, or on a level that is given."""
+"""Search for a circle on which G_h turns by p half turns in q steps: on both sides, or on a given level."""
 
 import math
 from collections.abc import Callable
@@ -14,17 +14,17 @@ from . import plateau
 from .balls import simplest
 from .reduced import Axes, Reduced, Top
 
-#: The precision beyond the digits: for what a step may widen the balls, and to decide how numbers round.
+#: The bits beyond the digits, for the growth of the balls in a step, and to decide how numbers round.
 STEP_BITS, SPARE_BITS = 4, 64
-#: A plateau is resolved when it is 2^RESOLVED_BITS units in the last place wide.
+#: A plateau is resolved if its width is 2^RESOLVED_BITS units in the last place.
 RESOLVED_BITS = 40
 
 
 @dataclass(frozen=True)
 class Resonance:
-    """A level, and what happens there: p half turns in q steps, most and least nearly from two starts.
+    """A level with p half turns in q steps, and two starts with nearly the most and the fewest half turns.
 
-    arcs: into how many the half circle is cut to prove the branch; 0 within the bound of lemma `small-branch`.
+    arcs: the number of arcs of the half circle that prove the branch; 0 within the bound of lemma `small-branch`.
     """
 
     axes: Axes
@@ -36,9 +36,9 @@ class Resonance:
 
 
 def find(top: Top, steps: int | None, half_turns: int, progress: Callable[[str], None]) -> Resonance:
-    """The simplest level in the middle of the plateau with this rotation number; the fewest steps where none are given.
+    """The simplest level in the middle of the plateau with this rotation number; by default with the fewest steps.
 
-    Raises BadInput where there is none, or where it is too narrow.
+    Raises BadInput if there is none, or if it is too narrow.
     """
     axes, near, steps = _circle(top, steps, half_turns, progress)
     starts = plateau.starts(top, near[0], axes, steps)
@@ -80,7 +80,7 @@ def turns(half_turns: int) -> str:
 
 
 def on_level(top: Top, level: Fraction, steps: int | None, half_turns: int | None) -> Resonance:
-    """A level that is given, with the half turns that it has; raises BadInput where there are others."""
+    """A given level, with its half turns; raises BadInput if it has others."""
     axes = top.axes_of(level)
     if steps is None:
         raise BadInput("a level needs the number of steps after which its points return, --steps")
@@ -97,7 +97,7 @@ def _middle(
     top: Top, near: tuple[Fraction, Fraction], axes: Axes, steps: int, starts: tuple[str, str],
     progress: Callable[[str], None],
 ) -> Fraction:  # fmt: skip
-    """The simplest level in the middle half of the plateau, with twice the precision until it is resolved."""
+    """The simplest level in the middle half of the plateau, at a precision that is doubled until it is resolved."""
     bits = math.ceil(-plateau.nome_power(top, near[0], axes, steps)) + spare_bits(steps)
     while bits < MOST_DIGITS * 10 // 3:
         progress(f"looking for {steps} steps around axis {axes[2] + 1} with {bits} bits")
@@ -113,7 +113,7 @@ def _middle(
 
 
 def spare_bits(steps: int) -> int:
-    """How many bits beyond those of the numbers this many steps need."""
+    """The number of bits that this many steps need beyond those of the numbers."""
     return STEP_BITS * steps + SPARE_BITS
 
 

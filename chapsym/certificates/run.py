@@ -1,4 +1,4 @@
-"""A certificate of how far a run of the map in float64 is from the exact orbit."""
+"""A certificate of the distance of a run of the map in float64 from the exact orbit."""
 
 import math
 from collections.abc import Callable
@@ -15,15 +15,15 @@ from .balls import shortest
 from .document import Document, accepted, stated
 
 KIND = "map-run"
-#: Bits for numbers of the size of 1 and their bounds, and bits a step, in the order in which they are tried.
+#: Bits for numbers of size 1 and their bounds, and bits per step, in the order of the trials.
 GUARD, A_STEP = 128, (2.5, 4.0, 8.0, 24.0)
 
 
 def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: None) -> Document:
     """The certificate of a run of one ball in float64 with proved bounds, accepted by the checker.
 
-    The checker follows the orbit from the start in integers and compares each frame with it.  Raises BadInput for
-    other runs, and where the checker proves too little.
+    The checker follows the orbit from the start in integers and compares each frame with it.  Raises BadInput for other
+    runs, and if the checker proves too little.
     """
     if run.order != 2 or not isinstance(run.precision, Double) or run.status.shape or run.proved is None:
         raise BadInput("a certificate is of one ball, of the map itself, in double precision with proved=True")
@@ -46,7 +46,7 @@ def map_run(run: Trajectory, progress: Callable[[str], None] = lambda sentence: 
 
 
 def _document(run: Trajectory, bits: int) -> Document:
-    """The certificate, for a checker with this many bits: not checked."""
+    """The unchecked certificate, for a checker with this many bits."""
     assert run.proved is not None
     rows = zip(run.index, run.momentum, run.gamma, run.proved.momentum, run.proved.gamma, strict=True)
     (_, K, g, *_), *after = rows

@@ -1,4 +1,4 @@
-"""python -m chapsym.certificates.rocq CERTIFICATE... DIR: with Python alone, of what the checker accepts."""
+"""python -m chapsym.certificates.rocq CERTIFICATE... DIR: for accepted certificates, with Python alone."""
 
 import sys
 from pathlib import Path

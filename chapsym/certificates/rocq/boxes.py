@@ -1,4 +1,4 @@
-"""The boxes in which the steps of a certificate lie, with the room that another arithmetic needs to prove it."""
+"""The boxes that contain the steps of a certificate, with a margin for the proof in another arithmetic."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,25 +12,25 @@ from chapsym.checker.step import Ball, gibbs_vector, jacobian, residual
 
 #: The object of a certificate, or of a part of it.
 Document = dict[str, Any]
-#: The unit of a row near the inverse of a derivative; and how far its product with the derivative may be from 1.
+#: The unit of a row of an approximate inverse derivative; and the largest error of its product with the derivative.
 ROW, KAPPA = Fraction(1, 10**8), Fraction(1, 10**5)
 
 
 @dataclass(frozen=True)
 class Box:
-    """The vectors within a radius of decimals."""
+    """The vectors within a radius of decimal numbers."""
 
     centre: list[Fraction]
     radius: Fraction
 
     def end(self, sign: int) -> list[Fraction]:
-        """The least entries, or the greatest."""
+        """The least or the greatest entries."""
         return [x + sign * self.radius for x in self.centre]
 
 
 @dataclass(frozen=True)
 class Step:
-    """Where u and γ after it are, and what proves that: bounds of F(centre of u) and of |u - centre|, and rows."""
+    """The boxes of u and the next γ, and their proof: bounds of F(centre of u) and of |u - centre|, and rows."""
 
     u: Box
     after: Box
@@ -40,7 +40,7 @@ class Step:
 
 
 class Walk:
-    """The orbits of a certificate in boxes; raises `chapsym.checker.Rejected` where it proves nothing."""
+    """The orbits of a certificate in boxes; raises `chapsym.checker.Rejected` if it proves nothing."""
 
     def __init__(self, data: Document):
         self.data, self.circle, self.radius = data, measure.Circle(data), Fraction(data["radius"])
@@ -60,13 +60,13 @@ class Walk:
         return Interval.enclosing(x - radius, x + radius, self.circle.level.bits)
 
     def box(self, v: Vector) -> Box:
-        """One that contains these, and a little more."""
+        """A box that contains these intervals, slightly larger."""
         ends = [(Fraction(x.lo, 2**x.bits), Fraction(x.hi, 2**x.bits)) for x in v]
         centre = [round((lo + hi) / 2, self.digits) for lo, hi in ends]
         return Box(centre, roomy(max(max(c - lo, hi - c) for (lo, hi), c in zip(ends, centre, strict=True))))
 
     def step(self, before: Box, near: Sequence[str]) -> Step:
-        """A step from a box, whose Gibbs vector is near the numbers of the file."""
+        """A step from a box, with a Gibbs vector near the numbers of the file."""
         ball, height = self.circle.ball, self.circle.height
         middle = Ball([x.point() for x in ball.inertia], ball.D.point())
         point = [self.enclosed(x).point() for x in before.centre]
@@ -92,7 +92,7 @@ class Walk:
         return start, found
 
     def vector(self, box: Box) -> Vector:
-        """The vectors of a box."""
+        """The interval vector of a box."""
         return [self.enclosed(x, box.radius) for x in box.centre]
 
 
@@ -105,7 +105,7 @@ def roomy(x: Fraction) -> Fraction:
 
 
 def inverse(matrix: Sequence[Any]) -> list[list[Fraction]]:
-    """A matrix near the inverse of one of 3 × 3."""
+    """An approximate inverse of a 3 × 3 matrix."""
     columns: list[Any] = [cross(matrix[i - 2], matrix[i - 1]) for i in range(3)]
     det = dot(matrix[0], columns[0])
     return [[round(columns[j][i] / det / ROW) * ROW for j in range(3)] for i in range(3)]

@@ -39,7 +39,7 @@ def ends(box: Box) -> str:
 
 
 class Theorem:
-    """The text, str(Theorem(…)), of a certificate that the checker has accepted; raises Rejected if there is none."""
+    """The theorem of an accepted certificate, as text by str(Theorem(…)); raises Rejected if there is none."""
 
     def __init__(self, name: str, data: Document):
         if "branch" in data or any(one["start"] not in ZEROS for one in data["orbits"]):
@@ -104,7 +104,7 @@ Print Assumptions {self.name}.
 """
 
     def _orbit(self, data: Document) -> tuple[str, str, str]:
-        """The lemmas of an orbit, what is said of it, and the proof."""
+        """The lemmas of an orbit, its conclusions, and the proof."""
         circle, q, name = self.walk.circle, self.data["steps"], data["start"]
         zero, other = (circle.a, circle.b) if name == "a" else (circle.b, circle.a)
         places = [f"x{i + 1}" for i in (zero, other, circle.c)]
@@ -133,7 +133,7 @@ Print Assumptions {self.name}.
         )
 
     def _rounded(self, steps: Sequence[Document], found: Sequence[Step]) -> list[tuple[str, str]]:
-        """The numbers of the file are right, and how that is proved; raises Rejected if the boxes are too wide."""
+        """That the numbers of the file are right, with its proof; raises Rejected if the boxes are too wide."""
         facts = []
         for k, (given, step) in enumerate(zip(steps, found, strict=True), 1):
             for key, of, box in (("u", f"(u {k}%nat)", step.u), ("gamma", f"(g {k}%nat)", step.after)):
@@ -144,7 +144,7 @@ Print Assumptions {self.name}.
         return facts
 
     def _turns(self, gammas: Sequence[Vector], displacement: str) -> list[tuple[str, str]]:
-        """Each step turns in one direction; on which side of the start each ends, and how far from it the last."""
+        """The direction of the steps, the side of the start on which each ends, and the distance of the last one."""
         circle, (a, b, _), q = self.walk.circle, self.axes, self.data["steps"]
 
         def sine(v: int, w: int) -> str:
@@ -193,11 +193,11 @@ Qed.
 
 
 def write(texts: Mapping[str, str], folder: Path) -> None:
-    """Writes theorems, by name, with what Rocq needs to judge them; raises OSError if it cannot be."""
+    """Writes theorems, by name, with the files that Rocq needs; raises OSError if this fails."""
     folder.mkdir(parents=True, exist_ok=True)
     library = folder / "Steps.v"
     content = (HERE / library.name).read_bytes()
-    if not library.exists() or library.read_bytes() != content:  # otherwise Rocq need not judge it again
+    if not library.exists() or library.read_bytes() != content:  # unchanged files need not be judged again
         library.write_bytes(content)
     for name, text in texts.items():
         (folder / f"{name}.v").write_text(text, encoding="utf-8")
