@@ -1,28 +1,28 @@
 """The conclusions of a proof, as data: hypotheses and conclusions, the steps between them, and readings of a question.
 
-The texts are names: two say the same where they are equal, letter for letter.  That the steps join and that nothing is
-left out is decided; what a sentence says is not.
+The texts are names: two are the same statement if they are equal, letter for letter.  It is decided that the steps
+connect and that none is missing; the contents of the sentences are not checked.
 """
 
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 
-#: How a reading of a question may be answered: what is asked for does not exist, exists, exists for a trivial reason.
+#: The answers to a reading of a question: the thing does not exist, exists, or exists for a trivial reason.
 NO, YES, TRIVIALLY, OPEN = ANSWERS = ("no", "yes", "trivially yes", "open")
 
-#: The words for what is settled.
+#: The words for a settled question.
 MACHINE_CHECKED, BY_HAND = "machine-checked", "by hand"
 
 
 @dataclass(frozen=True)
 class Theorem:
-    """Where the letters are as quantified and the hypotheses hold, the conclusions do; other letters are arbitrary.
+    """If the letters are as quantified and the hypotheses hold, the conclusions hold; other letters are arbitrary.
 
     Parameters
     ----------
     quantifiers, hypotheses, conclusions : tuple of str
-        Texts: two say the same where they are equal, letter for letter.
+        Texts: two are the same statement if they are equal, letter for letter.
 
     Examples
     --------
@@ -43,7 +43,7 @@ class Theorem:
 
 @dataclass(frozen=True)
 class Step:
-    """An inference of `gives` from `needs`: how many sentences argue it, and the decided statements that it uses."""
+    """An inference of `gives` from `needs`: the number of its sentences, and the decided statements that it uses."""
 
     gives: str
     needs: tuple[str, ...]
@@ -53,23 +53,23 @@ class Step:
 
 @dataclass(frozen=True)
 class Reading:
-    """One way to read a question: whether there is such a thing, and what answers it, in the order in which it joins.
+    """One reading of a question: whether there is a thing, and the proofs that answer it, in the order of use.
 
     Parameters
     ----------
     asked : str
         The reading in words.
     thing : str
-        What is asked for, after "there is a".
+        The thing in question, to follow "there is a".
     answer : str
         "no", "yes", "trivially yes" or "open".
     by : tuple of str, optional
-        Lemmas, and parts of the question's own proof; none if it is open.
+        Lemmas, and parts of the proof of the question; none if it is open.
 
     Raises
     ------
     ValueError
-        For another answer, and if it is open and something answers it, or neither.
+        For another answer, for an open reading with `by`, and for an answered one without.
 
     Examples
     --------
@@ -89,12 +89,12 @@ class Reading:
 
     @property
     def goal(self) -> str:
-        """The statements that must be concluded."""
+        """The required conclusions."""
         return no(self.thing) if self.answer == NO else there_is(self.thing)
 
 
 class Gap(Exception):
-    """Something does not follow; the message says what."""
+    """Something does not follow; the message names it."""
 
 
 def there_is(thing: str) -> str:
@@ -103,7 +103,7 @@ def there_is(thing: str) -> str:
     Parameters
     ----------
     thing : str
-        What there is, after "there is a".
+        The thing, to follow "there is a".
 
     Returns
     -------
@@ -124,7 +124,7 @@ def no(thing: str) -> str:
     Parameters
     ----------
     thing : str
-        What there is not, after "there is no".
+        The thing, to follow "there is no".
 
     Returns
     -------
@@ -140,13 +140,13 @@ def no(thing: str) -> str:
 
 
 def sentences(texts: Iterable[str]) -> int:
-    """The number of sentences of a text, ended by stops and colons; the numbers of its paragraphs do not count."""
+    """The number of sentences of a text, which end in full stops or colons; numbers of paragraphs do not count."""
     whole = re.sub(r"(^|\n)\s*\d+\.\s", r"\1", "\n".join(texts))
     return sum(any(map(str.isalpha, part)) for part in re.split(r"[.:](?:\s|$)", whole))
 
 
 def gaps(theorem: Theorem, steps: Sequence[Step], known: Collection[str]) -> list[str]:
-    """Why the steps do not prove a theorem from what is known; empty if they do, and nothing of it all is idle."""
+    """Why the steps do not prove a theorem from known statements; empty if they do and nothing is unused."""
     found, have, used = [], {*known, *theorem.given}, set(theorem.conclusions)
     for step in steps:
         found += [f"«{step.gives}» needs «{need}», which nothing gives" for need in step.needs if need not in have]
@@ -161,7 +161,7 @@ def gaps(theorem: Theorem, steps: Sequence[Step], known: Collection[str]) -> lis
 
 
 def assembled(reading: Reading, theorems: Mapping[str, Theorem]) -> Theorem:
-    """The answer to a reading, with all that its lemmas need and no earlier one gives; raises Gap if there is none."""
+    """The answer to a reading, with the hypotheses that no earlier lemma gives; raises Gap if there is none."""
     quantifiers: dict[str, None] = {}
     hypotheses: dict[str, None] = {}
     given: dict[str, str] = {}
@@ -185,7 +185,7 @@ def assembled(reading: Reading, theorems: Mapping[str, Theorem]) -> Theorem:
 
 
 def row(reading: Reading, theorem: Theorem | None) -> dict[str, object]:
-    """A reading with the theorem that answers it, as a record has it."""
+    """A reading with the theorem that answers it, as in a record."""
     made = asdict(theorem) if theorem else None
     text = cited_text(reading, theorem) if theorem else None
     return {"asked": reading.asked, "answer": reading.answer, "by": list(reading.by), "theorem": made, "text": text}

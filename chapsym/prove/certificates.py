@@ -1,6 +1,6 @@
 """The statements that a proof decided, as data for the checker: a certificate of kind register-claim.
 
-What is no equation of an algebra, or could not be exported, is listed as a sentence; the checker counts those.
+Statements that are no equations of an algebra, or cannot be exported, are listed as sentences, which are counted.
 """
 
 import json
@@ -30,11 +30,11 @@ from .polynomials import Identity
 from .statements import Comparison, Count, Equation, Point, Rest, Side, Statement, Value, Values, Zero, contradicts
 from .trees import Data, NotAlgebra, Tree, nested, number, shared, tree
 
-#: The trace of words, as the value of a symbol.
+#: A symbol whose value is the trace of words.
 TRACE = sp.Function("tr")
 #: Letters of a judged formula in a record.
 LONGEST = 400
-#: The lists of a certificate that are made of what was decided.
+#: The lists of decided statements in a certificate.
 PARTS = (
     "algebras", "derivation", "points", "statements", "comparisons", "counts", "zeros", "counterexamples", "rests",
     "sentences",
@@ -70,20 +70,20 @@ def certificate(id: str, printed: str, proof: Proof, verdict: str = "open") -> D
             one |= {} if i in found else {"words": True}
     try:
         checker.check(_sealed(data))
-    except register.Undecided:  # SymPy decided it, and the data do not show how
+    except register.Undecided:  # decided by SymPy, without data that show how
         checker.check(_sealed(data | {"verdict": "open"}))
         data["verdict"] = "open"
     return _sealed(data)
 
 
 def _sealed(data: Data) -> Data:
-    """The object with its statement and its digest."""
+    """The object with its statement and digest."""
     data = data | {"statement": checker.statement(data)}
     return data | {"digest": checker.digest(data)}
 
 
 def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
-    """The symbols that the formulas have, and what vanishes, as data."""
+    """The symbols of the formulas, and the vanishing expressions, as data."""
     whole = []
     for symbol, (value, what) in proof.glossary.items():
         try:
@@ -91,7 +91,7 @@ def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
         except NotAlgebra as error:
             raise checker.Rejected(f"the value of {symbol} cannot be given to the checker: {error}") from None
     names = names_in([0, *(tree for _, _, v in whole for tree in formulas.entries((formulas.rank_of(v), v)))])
-    turned = {name: f"{name}^T" for name in names}  # only which symbols are read is asked
+    turned = {name: f"{name}^T" for name in names}  # only the symbols that are read matter
     transposes, used = turned | {image: name for name, image in turned.items()}, set()
     for part in formulas.parts(f"{printed}, {proof.corrected_text or ''}"):
         for numbers in (None, names):  # traces or not
@@ -111,7 +111,7 @@ def _value(of: Side) -> Any:
     return [tree(x) for x in of] if of.cols == 1 else [[tree(x) for x in row] for row in of.tolist()]
 
 
-#: The lists, other than statements, that a record counts, and the words for them.
+#: The lists, besides statements, that a record counts, and their names.
 COUNTED = {
     "derivation": "steps from the premises", "comparisons": "comparisons", "counts": "counts of solutions",
     "hypotheses": "hypotheses", "zeros": "solutions near points", "rests": "rests on other certificates",
@@ -119,7 +119,7 @@ COUNTED = {
 
 
 def carried(data: Data) -> Data:
-    """The judged parts of a certificate that the checker accepted, counted and as text; the sentences, not judged."""
+    """The checked parts of an accepted certificate, counted and as text, and the sentences, which are not checked."""
     sizes = {name: len(part) for name, part in data.items() if isinstance(part, list)}
     identical = sum(one["left"] == one["right"] for one in data["statements"])
     failing = sum("refuted" in one for one in data["comparisons"])
@@ -145,7 +145,7 @@ def carried(data: Data) -> Data:
 
 
 def write(data: Data, folder: Path) -> None:
-    """The certificate in the file of its claim, a part a line; raises CannotWrite if it cannot be."""
+    """Writes the certificate to the file of its claim, one line per part; raises CannotWrite if this fails."""
     lines = []
     for name, part in data.items():
         if isinstance(part, list) and part:
@@ -166,7 +166,7 @@ class _Maker:
         self.algebras, self.derivation, self.statements, self.counterexamples = (
             self.parts[name] for name in ("algebras", "derivation", "statements", "counterexamples")
         )
-        #: For each algebra: itself, or that of its traces, and its symbols.
+        #: For each algebra: the algebra itself, or that of its traces, and its symbols.
         self._sources: dict[int, tuple[Any, list[sp.Symbol]]] = {}
         self._ideals: dict[int, Ideal] = {}
         stated = [statement for _, statement, _ in proof.decided if isinstance(statement, Equation)]
@@ -185,13 +185,13 @@ class _Maker:
         return Algebra(algebra, Work())
 
     def counterexample(self, point: Point) -> None:
-        """A point, with the hypotheses there; what it refutes is added with the statements."""
+        """A point, with its hypotheses; the refuted statements are added with the statements."""
         exact = {symbol.name: _entry(entry) for symbol, entry in self._completed(point).items()}
         hypotheses = [{"text": h.text, **_sides(h)} for h in point.hypotheses]
         self.counterexamples.append({"point": exact, "hypotheses": hypotheses, "refutes": [], "agrees": []})
 
     def _completed(self, point: Point) -> Values:
-        """The point with values of the variables that the relations have besides those of the printed statements."""
+        """The point, with values of the variables that are only in the relations."""
         exact = point.exact
         for _, statement, holds in self.proof.decided:
             if isinstance(statement, Equation) and not holds:
@@ -203,7 +203,7 @@ class _Maker:
         return exact
 
     def add(self, role: str, statement: Statement, holds: bool) -> None:
-        """A decided statement, with what proves or refutes it; or a sentence."""
+        """Adds a decided statement, with its proof or refutation, or a sentence."""
         try:
             part, data = self._exported(statement, holds, holds or (role == "printed" and contradicts(statement)))
             why = statement.method
@@ -220,7 +220,7 @@ class _Maker:
         self.parts[part].append(one)
 
     def _exported(self, statement: Statement, holds: bool, judged: bool) -> tuple[str, Data]:
-        """In which list a statement is, and what proves it; what is no equation and not `judged` is a sentence."""
+        """The list of a statement, and its proof; one that is neither an equation nor `judged` is a sentence."""
         match statement:
             case Equation():
                 one = {"algebra": self._algebra(statement.algebra), **_sides(statement)}
@@ -249,7 +249,7 @@ class _Maker:
         return one | {"point": self._good_point(one, sp.symbols(names), ()), "cofactors": [[]] * half}
 
     def _count(self, count: Count, holds: bool) -> Data:
-        """A count, with what proves the numbers of solutions."""
+        """A count, with the proof of the numbers of solutions."""
         found = count.elimination()
         names = [f"y{i}" for i in range(len(count.unknowns))]
         return {
@@ -270,7 +270,7 @@ class _Maker:
         }  # fmt: skip
 
     def _compare(self, example: Data, one: Data, i: int) -> None:
-        """Notes that a point refutes a printed statement, or that what is correct holds there."""
+        """Records that a point refutes a printed statement, or that a corrected one holds there."""
         point, refutes = register.entries(example["point"]), "refuted" in one
         if not refutes and one["role"] not in ("corrected", "under"):
             return
@@ -278,7 +278,7 @@ class _Maker:
             if not refutes:
                 register.check_hypotheses(self.algebras[one["algebra"]], point, "", whole=False)
             agrees = register.holds(one, self.algebras[one["algebra"]], point, derivation.valued(self.derivation), "")
-        except checker.Rejected:  # the point says nothing of some variable
+        except checker.Rejected:  # the point has no value for some variable
             return
         if refutes and not agrees:
             example["refutes"].append(i)
@@ -287,7 +287,7 @@ class _Maker:
             example["agrees"].append(i)
 
     def finish(self) -> None:
-        """Leaves out what is not used, and gives each algebra of words a point."""
+        """Omits unused parts, and gives each algebra of words a point."""
         stated = [*self.statements, *(h for one in self.counterexamples if one["refutes"] for h in one["hypotheses"])]
         trees = [tree for one in stated for tree in (*one["left"], *one["right"])]
         trees += [tree for one in self.parts["counts"] for tree in (*one["equations"], *one["nonzero"])]
@@ -307,7 +307,7 @@ class _Maker:
         self.counterexamples[:] = kept
 
     def _leave_out_algebras(self) -> None:
-        """Leaves out algebras in which nothing is left."""
+        """Omits algebras without statements."""
         using = [*self.statements, *self.parts["counts"], *self.derivation]
         kept = sorted({one["algebra"] for one in using})
         for one in using:
@@ -334,7 +334,7 @@ class _Maker:
         }  # fmt: skip
 
     def _places(self, step: Step) -> list[Any]:
-        """The matrices of a step, and the cofactors by which the rules hold of them."""
+        """The matrices of a step, and the cofactors that prove the rules for them."""
 
         def rows(of: Value) -> Tree | list[Tree]:
             return [[tree(x) for x in row] for row in of.tolist()] if isinstance(of, sp.MatrixBase) else tree(of)
@@ -364,7 +364,7 @@ class _Maker:
         return i
 
     def _words(self, algebra: WordAlgebra) -> tuple[Data, list[sp.Symbol]]:
-        """With the letters and parameters of all statements of the claim that it decides, and of its derivation."""
+        """The algebra, with the letters and parameters of all statements of the claim in it, and of its derivation."""
         expressions = [*algebra.transposes, *algebra.transposes.values(), *algebra.rules.values()]
         expressions += [letter for pair in algebra.rules for letter in pair]
         for _, statement, _ in self.proof.decided:
@@ -408,7 +408,7 @@ class _Maker:
         return _place(self.parts["points"], dict(sorted((x.name, _entry(v)) for x, v in exact.items())))
 
     def _cofactors(self, one: Data) -> list[list[Tree]]:
-        """For each entry of left - right, in the numerator that the checker forms."""
+        """The cofactors of each entry of left - right, for the numerator that the checker forms."""
         ring = quotients(self.algebras[one["algebra"]], Ring(self.algebras[one["algebra"]]["variables"], Work()))
         more = derivation.entries([*one["left"], *one["right"]], self._defined)
         if one["algebra"] not in self._ideals:
@@ -423,7 +423,7 @@ class _Maker:
 
 
 class NotFound(Exception):
-    """A part that a certificate needs besides the statement was not found; the message says which."""
+    """A part that a certificate needs besides the statement was not found; the message names it."""
 
 
 def _sides(equation: Equation) -> Data:
@@ -443,7 +443,7 @@ def _alike(one: object, other: WordAlgebra) -> bool:
 
 
 def _relations(comparison: Comparison | Count) -> list[list[Tree]]:
-    """The relations as the checker reads them: > and ≥ turned round."""
+    """The relations as the checker reads them, with > and ≥ reversed."""
     return [
         [_OPERATIONS[r.rel_op], tree(r.lhs), tree(r.rhs)] if r.rel_op in _OPERATIONS
         else [_OPERATIONS[r.reversed.rel_op], tree(r.rhs), tree(r.lhs)]
@@ -460,7 +460,7 @@ def _entry(x: Value) -> Tree:
 
 
 def _place(among: list[Data], data: Data) -> int:
-    """Where data stand in a list, to which they are added if they are new."""
+    """The index of data in a list, to which they are added if they are new."""
     text = json.dumps(data)
     i = next((i for i, other in enumerate(among) if json.dumps(other) == text), len(among))
     among += [data][: i == len(among)]

@@ -20,7 +20,7 @@ from .statements import Rest
 from .trees import Data
 from .witness import Examples
 
-#: The fields of a record besides the verdict, in order: those that a `Proof` collects, and those of its claim.
+#: The fields of a record besides the verdict, in order: those of a `Proof`, and those of its claim.
 EVIDENCE = (
     "title", "slip", "hypotheses", "inferences", "condition", "reason", "open_in_paper", "tried", "question", "answer",
     "readings", "settled", "theorems", "certificates", "measured", "conjectures", "derivation", "checks", "controls",
@@ -37,7 +37,7 @@ class Claim:
     id : str
         The name of the claim.
     printed : str
-        How it is printed: the formula in LaTeX.
+        The printed formula in LaTeX.
     uses : tuple of str
         The ids of the claims on which it rests.
     prove : callable
@@ -54,7 +54,7 @@ class Claim:
 
     @property
     def title(self) -> str:
-        """The first line of the proof's docstring, which an interpreter that optimizes drops: then from the source."""
+        """The first line of the docstring of the proof; an optimizing interpreter drops it, then from the source."""
         return str(self.prove.__doc__ or _docstring(self.prove)).strip().partition("\n")[0]
 
     @property
@@ -108,9 +108,9 @@ class Judgement:
     proof : Proof
         The evidence.
     seconds : float
-        How long the proof took.
+        The duration of the proof.
     certificate : dict or None
-        What was decided, as data that the checker accepted.
+        The decided statements, as data that the checker accepted.
     """
 
     claim: Claim
@@ -120,7 +120,7 @@ class Judgement:
     certificate: Data | None = None
 
     def certified(self) -> "Judgement":
-        """With what was decided as data that the checker accepted; where it does not, the claim is open."""
+        """The judgement with its certificate; the claim is open if the checker does not accept it."""
         try:
             return replace(
                 self,
@@ -132,23 +132,23 @@ class Judgement:
 
     @property
     def open_in_paper(self) -> bool:
-        """Whether the claim is a question of the paper that is left open here, too, and nothing failed."""
+        """Whether the claim is a question of the paper that stays open here, and nothing failed."""
         return self.verdict is Verdict.OPEN and bool(self.proof.tried) and not self.proof.problems
 
     @property
     def grounds(self) -> Grounds:
-        """The theorem of the claim and its grounds, without those of the claims that it rests on."""
+        """The theorem of the claim and its own grounds, without those of the claims that it uses."""
         proof = self.proof
         decided = [statement for _, statement, holds in proof.decided if holds and not isinstance(statement, Rest)]
         return Grounds(proof.stated.get(""), len(decided), len(proof.certificates), argument.sentences(proof.said))
 
     def _settled(self) -> Data:
-        """The grounds of the claim, with the claims that were proved anew for it."""
+        """The grounds of the claim, with the claims that were proved again for it."""
         rests = [statement for _, statement, _ in self.proof.decided if isinstance(statement, Rest)]
         return argument.settlement({self.claim.id: self.grounds} | {x.name: x.grounds for x in rests if x.grounds})
 
     def record(self, downstream: Sequence[str] = ()) -> Data:
-        """The claim's row of the register, as the command's contract has it."""
+        """The record of the claim, in the JSON form of the command."""
         proof = self.proof
         known = vars(proof) | {
             "title": self.claim.title, "open_in_paper": self.open_in_paper, "derivation": self.proof.lines,
@@ -171,7 +171,7 @@ class Judgement:
 
 
 class TwoProofs(ValueError):
-    """An id that another proof judges already, and the place of that one."""
+    """An id that another proof already has; the message has its place."""
 
     def __init__(self, id: str, other: str) -> None:
         super().__init__(f"two proofs judge the claim {id}")
@@ -195,7 +195,7 @@ def claim(
     uses : sequence of str, optional
         The ids of the claims on which it rests.
     files : sequence of Path, optional
-        What the proof reads; its records depend on them.
+        The files that the proof reads; its records depend on them.
 
     Returns
     -------
@@ -205,7 +205,7 @@ def claim(
     Raises
     ------
     TypeError
-        Where these are of another type.
+        For arguments of other types.
     TwoProofs
         On the proof, if another one has the id.
 
@@ -228,20 +228,20 @@ def claim(
         if prove.__module__ != "__main__":  # a script that runs alone is run through its package name
             new = Claim(id, printed, tuple(uses), prove, tuple(files))
             old = _REGISTER.setdefault(id, new)
-            if old.place != new.place:  # else one file under two names
+            if old.place != new.place:  # otherwise one file would have two names
                 raise TwoProofs(id, old.place)
         return prove
 
     return register
 
 
-#: The judgements of this process, while it is to judge each claim only `once`.
+#: The judgements of this process within `once`.
 _KNOWN: dict[Claim, Judgement] | None = None
 
 
 @contextmanager
 def once() -> Iterator[None]:
-    """Within this a claim is judged once, though others rest on it: its proof must not change meanwhile."""
+    """A context in which each claim is judged only once, though others use it: its proof must not change meanwhile."""
     global _KNOWN
     _KNOWN, before = {}, _KNOWN
     try:
@@ -251,7 +251,7 @@ def once() -> Iterator[None]:
 
 
 def judgement_of(claim: Claim) -> Judgement:
-    """A claim judged now, with what was decided as data that the checker accepted; or what it was, within `once`."""
+    """The judgement of a claim, with its certificate; within `once` that of before."""
     if _KNOWN is None:
         return claim.judge().certified()
     if claim not in _KNOWN:

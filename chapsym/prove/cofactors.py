@@ -1,8 +1,8 @@
-"""A polynomial of an ideal by the relations: p = Σ cofactor · relation.
+"""The representation of a polynomial of an ideal by its relations: p = Σ cofactor · relation.
 
-Division by the relations gives the cofactors.  Where it leaves a remainder, the relations are completed towards a
-Gröbner basis, each new element with its own cofactors (Buchberger's algorithm), until it leaves none.
-Nothing rests on it: the checker multiplies out what is found here.
+Division by the relations gives the cofactors.  If there is a remainder, the relations are completed towards a Gröbner
+basis, each new element with its own cofactors (Buchberger's algorithm), until there is none.  No proof depends on this
+search: the checker multiplies out its result.
 """
 
 from collections.abc import Sequence
@@ -64,12 +64,12 @@ class Ideal:
                 return None
 
     def _extend(self, new: Element) -> None:
-        """With the pairs that matter: where leading monomials share no variable, the S-polynomial reduces to 0."""
+        """Adds an element and its pairs, but for leading monomials without a common variable (S-polynomials 0)."""
         self._pairs += [(old, new) for old in self._basis if any(map(min, old.lead, new.lead))]
         self._basis.append(new)
 
     def _completed_by_one(self) -> bool:
-        """Adds the next element of the Gröbner basis; whether there was one."""
+        """Adds the next element of the Gröbner basis; returns whether there was one."""
         while self._pairs:
             found = self._s_polynomial(*self._pairs.pop(0))
             remainder, quotients = self._divided(found.polynomial)
@@ -89,13 +89,13 @@ class Ideal:
         return self._none.less(left, a).less(right, b)
 
     def _divided(self, polynomial: fmpq_mpoly) -> tuple[fmpq_mpoly, list[fmpq_mpoly]]:
-        """The remainder, and the quotient for each element: the first whose leading term divides a term divides it."""
+        """The remainder, and the quotient for each element: the first element that divides a term is used."""
         remainder, quotients = self._none.polynomial, [self._none.polynomial] * len(self._basis)
         leading = [self._context.from_dict({x.lead: x.polynomial.leading_coefficient()}) for x in self._basis]
         while polynomial != 0:
             made = self._none.polynomial
             for i, term in enumerate(leading):
-                quotient, polynomial = divmod(polynomial, term)  # the rest has what this term does not divide
+                quotient, polynomial = divmod(polynomial, term)  # the rest has a term that this one does not divide
                 quotients[i] += quotient
                 made -= quotient * (self._basis[i].polynomial - term)
             remainder, polynomial = remainder + polynomial, made
@@ -109,7 +109,7 @@ def ideal(of: Quotients) -> Ideal:
 
 
 def terms(of: Quotient) -> dict[Monomial, int]:
-    """The numerator that the checker forms."""
+    """The terms of the numerator that the checker forms."""
     size = len(of.numerator.ring.variables)
     return {tuple(m >> FIELD * i & 0xFFFF for i in range(size)): c for m, c in of.numerator.terms.items()}
 
@@ -121,7 +121,7 @@ def expression(of: Quotient) -> sp.Expr:
 
 
 def trees(ideal: Ideal, difference: Quotient) -> list[Tree] | None:
-    """The cofactors of a numerator as the checker reads them; None if it is not in the ideal."""
+    """The cofactors of a numerator as trees for the checker; None if it is not in the ideal."""
     cofactors = ideal.cofactors(terms(difference))
     names = difference.numerator.ring.variables
     return None if cofactors is None else [factored(cofactor.to_dict(), names) for cofactor in cofactors]

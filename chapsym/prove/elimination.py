@@ -1,7 +1,7 @@
 """The data that prove a count of solutions (checker/roots.py): a chart and combinations, by linear algebra.
 
-The forms of one degree in the ideal of the equations are the row space of a Macaulay matrix.  Its rows are reduced
-with the unwanted monomials in front: the rows below have none of these, and the columns next to them the combinations.
+The forms of one degree in the ideal of the equations are the row space of a Macaulay matrix.  Its rows are reduced with
+the unwanted monomials first: the lower rows have none of these, and the adjoined columns have the combinations.
 """
 
 import itertools
@@ -14,19 +14,19 @@ from typing import Any, NamedTuple
 from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
 Monomial = tuple[int, ...]
-#: A form by its terms; and one that can be looked up in a cache.
+#: A form by its terms; and a hashable form.
 Form = Mapping[Monomial, fmpq]
 Key = tuple[tuple[Monomial, fmpq], ...]
-#: The charts that are tried, and the degrees of the combinations.
+#: The number of trial charts, and the degrees of the combinations.
 CHARTS, MOST_DEGREE = 12, 8
 
 
 class NotCounted(ArithmeticError):
-    """No combinations were found; the message says why that may be."""
+    """No combinations were found; the message has a possible reason."""
 
 
 class Elimination(NamedTuple):
-    """The chart; for each combination the factors of the equations; y on the curve, and the eliminant, by t."""
+    """The chart; the factors of the equations for each combination; y on the curve, and the eliminant, in t."""
 
     chart: list[list[int]]
     combinations: list[list[dict[Monomial, int]]]
@@ -45,7 +45,7 @@ class Elimination(NamedTuple):
 
 @cache
 def eliminate(equations: tuple[Key, ...], size: int) -> Elimination:
-    """The elimination for homogeneous equations in a number of unknowns; raises NotCounted."""
+    """The elimination for homogeneous equations in `size` unknowns; raises NotCounted."""
     ring = fmpq_mpoly_ctx.get(tuple(f"y{i}" for i in range(size)), Ordering.degrevlex)
     for chart in itertools.islice(_charts(size), CHARTS):
         places = [sum((x * c for c, x in zip(row, ring.gens(), strict=True)), ring.constant(0)) for row in chart]
@@ -64,7 +64,7 @@ def eliminate(equations: tuple[Key, ...], size: int) -> Elimination:
 
 
 def _charts(size: int) -> Iterator[list[list[int]]]:
-    """The unknowns themselves, and then products of two triangular matrices with small entries."""
+    """The charts: the unknowns, then products of two triangular matrices with small entries."""
     for seed in itertools.count():
         entry = random.Random(seed).randint
         low, high = (
@@ -74,7 +74,7 @@ def _charts(size: int) -> Iterator[list[list[int]]]:
 
 
 def _value(form: Form, places: Sequence[Any], one: Any) -> Any:
-    """A form at other polynomials."""
+    """The value of a form at other polynomials."""
     total = 0 * one
     for monomial, c in form.items():
         part = one * c
@@ -85,26 +85,26 @@ def _value(form: Form, places: Sequence[Any], one: Any) -> Any:
 
 
 def _combinations(forms: Sequence[fmpq_mpoly], size: int) -> list[list[dict[Monomial, int]]] | None:
-    """The forms linear in y1, ..., y(n-1), and for each of these a power of it where y0 and the later y are 0."""
+    """The forms linear in y1, ..., y(n-1), and for each of these a power of it at y0 = 0 and later y = 0."""
     powers = [_power(forms, i, size) for i in range(size - 1, 0, -1)]
     if None in powers:
         return None
     linear: dict[int, list[dict[Monomial, int]]] = {}
     for degree in range(1, MOST_DEGREE + 1):
-        # The leading power of t stands at y1, ..., y(n-1), and at 1 in the last.
+        # The leading power of t is at y1, ..., y(n-1), and at 1 in the last form.
         leads = [_monomial({i: 1, size - 1: degree - 1}, size) for i in range(1, size - 1)]
         leads.append(_monomial({size - 1: degree}, size))
         unwanted = [m for m in _monomials(size, degree) if sum(m[1:-1]) > 1]
         found = _reduced(forms, unwanted, leads, degree)
         linear |= {i: found[lead] for i, lead in enumerate(leads) if lead in found and i not in linear}
-        if len(linear) == size - 1:  # the last is a power of t where y0 is 0
+        if len(linear) == size - 1:  # the last form is a power of t at y0 = 0
             return [linear[i] for i in range(size - 1)] + [power for power in powers[1:] if power is not None]
     return None
 
 
 def _power(forms: Sequence[fmpq_mpoly], i: int, size: int) -> list[dict[Monomial, int]] | None:
-    """A combination that is a power of yi where y0 and the later y are 0."""
-    highest = 1 + sum(form.total_degree() - 1 for form in forms)  # where Macaulay's matrix is complete
+    """A combination that is a power of yi at y0 = 0 and later y = 0."""
+    highest = 1 + sum(form.total_degree() - 1 for form in forms)  # the degree at which Macaulay's matrix is complete
     for degree in range(1, highest + 1):
         lead = _monomial({i: degree}, size)
         others = [m for m in _monomials(size, degree) if not m[0] and not any(m[i + 1 :]) and m != lead]
@@ -116,7 +116,7 @@ def _power(forms: Sequence[fmpq_mpoly], i: int, size: int) -> list[dict[Monomial
 def _reduced(
     forms: Sequence[fmpq_mpoly], unwanted: Sequence[Monomial], leads: Sequence[Monomial], degree: int
 ) -> dict[Monomial, list[dict[Monomial, int]]]:
-    """Combinations of a degree that have none of the unwanted monomials, each by the first of the leads that it has."""
+    """Combinations of a degree without the unwanted monomials, by the first of the leads that each contains."""
     columns = {m: i for i, m in enumerate([*unwanted, *leads])}
     multiples = [
         (form, m)
@@ -144,7 +144,7 @@ def _reduced(
 def _integral(
     multiples: Sequence[tuple[int, Monomial]], factors: Sequence[fmpq], count: int
 ) -> list[dict[Monomial, int]]:
-    """The factors of each form, without a common factor or denominator."""
+    """The factors of each form, without common factors or denominators."""
     whole = lcm(*(int(c.q) for c in factors))
     integers = [int(c.p) * (whole // int(c.q)) for c in factors]
     common = gcd(*integers)
@@ -156,7 +156,7 @@ def _integral(
 
 
 def _linear(combination: Sequence[Mapping[Monomial, int]], forms: Sequence[fmpq_mpoly], size: int) -> list[fmpq_poly]:
-    """The coefficients of 1, y1, ..., y(n-1), by t, where y0 is 1."""
+    """The coefficients of 1, y1, ..., y(n-1), in t, at y0 = 1."""
     context = forms[0].context()
     whole = sum((context.from_dict(dict(c)) * f for c, f in zip(combination, forms, strict=True)), context.constant(0))
     row = [fmpq_poly() for _ in range(size - 1)]
@@ -183,7 +183,7 @@ def _monomial(powers: Mapping[int, int], size: int) -> Monomial:
 
 
 def _monomials(size: int, degree: int) -> Iterator[Monomial]:
-    """All of a degree; none of a negative one."""
+    """All monomials of a degree; none for a negative degree."""
     for powers in itertools.product(range(degree + 1), repeat=size - 1):
         if sum(powers) <= degree:
             yield (degree - sum(powers), *powers)

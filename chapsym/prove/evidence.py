@@ -1,8 +1,8 @@
 """The evidence for a verdict, and the rule that turns evidence into one.
 
-A proof is a function that receives a `Proof`, states the printed formulas, lemmas, controls and,
-where the printed form fails, its correction and an exact counterexample.  The verdict is computed
-from what those checks gave; no proof can assert one.
+A proof is a function that receives a `Proof`, states the printed formulas, lemmas, controls and, if the printed form
+fails, its correction and an exact counterexample.  The verdict is computed from the results of these checks; no proof
+can assert one.
 """
 
 import re
@@ -23,13 +23,13 @@ from .statements import Comparison, Count, Equation, Point, Rest, Side, Statemen
 from .trees import Data
 from .witness import Examples
 
-#: A rational number, as it is written.
+#: A rational number, as text.
 NUMBER = re.compile(r"-?\d+(/\d+)?")
-#: How the relations of a count or of a comparison are said of a number.
+#: The wording of the relations of a count or of a comparison with a number.
 SAID = {"==": "", "!=": "not ", "<": "less than ", "<=": "at most ", ">": "more than ", ">=": "at least "}
 
 
-#: Kinds of errors in a statement that is not true as printed, by their effect on a reader.
+#: The kinds of errors of statements that are not true as printed, by their effect on a reader.
 SLIPS = ("serious", "typo", "convention", "reading")
 
 
@@ -56,7 +56,7 @@ class Verdict(StrEnum):
 class Proof:
     """Collects the derivation and the decided statements of one claim.
 
-    A proof is a function that receives one, and calls its methods.
+    A proof is a function that receives a `Proof` and calls its methods.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Proof:
     controls : list of dict
         The mutated statements: `statement` and `rejected` of each.
     problems : list of str
-        Why the verdict is `open`, where something failed or is missing.
+        Why the verdict is `open`, if something failed or is missing.
 
     Examples
     --------
@@ -115,7 +115,7 @@ class Proof:
     _since: tuple[int, int] = (0, 0)
 
     def say(self, *texts: str) -> None:
-        """Lines of the derivation."""
+        """Adds lines to the derivation."""
         self.said += map(str, texts)
         self.lines += map(str, texts)
 
@@ -124,7 +124,7 @@ class Proof:
         self.inferences += map(str, texts)
 
     def show(self, name: str, value: object) -> None:
-        """A line of the derivation that shows an expression that was just derived."""
+        """Adds a line with a derived expression to the derivation."""
         if isinstance(value, sp.MatrixBase):
             value = "[" + ",  ".join(str(unfolded(entry)) for entry in value) + "]"
         elif isinstance(value, sp.Expr):
@@ -132,30 +132,30 @@ class Proof:
         self.lines.append(f"    {name} = {value}")
 
     def assume(self, text: str, *relations: Relational) -> None:
-        """A hypothesis under which the claim is judged.
+        """Adds a hypothesis under which the claim is judged.
 
-        The relations must hold at every witness that has values for their symbols, and at one at least.  A
-        counterexample that has a value for one of the symbols must have one for each, and they hold there.
+        The relations must hold at every witness with values for their symbols, and at least at one.  A counterexample
+        with a value for one of the symbols must have values for all, and the relations must hold there.
 
         Parameters
         ----------
         text : str
             The hypothesis in words or signs.
         *relations : sympy relational
-            What it says as relations: `0 < x`, `sp.Ne(x, 0)`.
+            The same as relations: `0 < x`, `sp.Ne(x, 0)`.
         """
         self.hypotheses.append(str(text))
         if relations:
             self.assumed.append(Comparison(text, relations))
 
     def reads(self, *given: Mapping[str, tuple[Side, str]] | tuple[str, Side, str]) -> None:
-        """Sets the meanings of symbols, so that the checker reads the formulas and compares them with what was decided.
+        """Sets the meanings of symbols, so that the checker reads the formulas and compares them with the statements.
 
         Parameters
         ----------
         *given : tuple or mapping
-            (TeX, an expression, a column or a matrix in the letters of the statements, what it is), or tables of these,
-            {TeX: (value, what it is)}.
+            (TeX, value, meaning), with an expression, a column or a matrix in the letters of the statements as the
+            value, or tables {TeX: (value, meaning)}.
 
         Raises
         ------
@@ -177,7 +177,7 @@ class Proof:
         self.problems += [f"lemma fails: {s.text}" for s in statements if not self._decide(s)]
 
     def route(self, name: str, *statements: Statement) -> None:
-        """A second, independent proof of what was stated; it must agree."""
+        """Adds a second, independent proof of the statements; it must agree."""
         self.lines.append(f"  second route: {name}")
         decided = [self._decide(s, "second route") for s in statements]
         holds = bool(decided) and all(decided)
@@ -186,15 +186,15 @@ class Proof:
             self.problems.append(f"the second route fails: {name}")
 
     def printed(self, *statements: Statement) -> None:
-        """Decides statements of the paper, each as printed.
+        """Decides statements of the paper as printed.
 
-        A count or a comparison that is false is its own counterexample, but for a count that also says where something
-        does not vanish.
+        A false count or comparison is its own counterexample, except for a count that also states where something does
+        not vanish.
 
         Parameters
         ----------
         *statements : Statement
-            Such as an `Equation`, a `Comparison` or a `Count`.
+            For example an `Equation`, a `Comparison` or a `Count`.
         """
         decided = [(s, self._decide(s, "printed")) for s in statements]
         self._printed += decided
@@ -203,33 +203,33 @@ class Proof:
                 self._contradict(statement)
 
     def corrected(self, text: str, *statements: Statement) -> None:
-        """The smallest correction of what is printed, and the statements that prove it."""
+        """Adds the smallest correction of the printed statement, and the statements that prove it."""
         self.corrected_text = str(text)
         self._corrected += [(s, self._decide(s, "corrected")) for s in statements]
 
     def under(self, condition: str, *statements: Statement) -> None:
-        """Decides the printed statements under a hypothesis that the paper leaves out."""
+        """Decides the printed statements under a hypothesis that the paper omits."""
         self.condition = str(condition)
         self._corrected += [(s, self._decide(s, "under", f"under {condition}: ")) for s in statements]
 
     def slips(self, kind: str, *follows: str) -> None:
-        """Sets the kind of the error, by our judgement.
+        """Sets the kind of the error, which is our judgement.
 
-        Whether it is an error the proof decides, not this.
+        The proof, not this, decides whether it is an error.
 
         Parameters
         ----------
         kind : str
-            `serious`, it misleads who computes with it; `typo`, a misprint that the text around it mends;
-            `convention`, a sign or an order that the paper takes otherwise elsewhere; `reading`, true or false as
-            one reads it, or under what is left out.
+            `serious`, computations with it go wrong; `typo`, a misprint that the context corrects; `convention`, a sign
+            or an order that differs from the rest of the paper; `reading`, true or false depending on the reading, or
+            on an omitted hypothesis.
         *follows : str
-            The errors from which it follows, of claims that it uses.
+            The claims that it uses, from whose errors it follows.
 
         Raises
         ------
         ValueError
-            For another kind, and for an error of a claim that is not used.
+            For another kind, and for a claim that is not used.
         """
         if kind not in SLIPS:
             raise ValueError(f"a slip is one of {', '.join(SLIPS)}, not {kind!r}")
@@ -238,9 +238,9 @@ class Proof:
         self.slip = {"kind": kind, "follows": list(follows)}
 
     def counterexample(self, point: Point) -> None:
-        """Evaluates every printed and corrected formula that was stated so far at an exact point.
+        """Evaluates all printed and corrected formulas so far at an exact point.
 
-        The hypotheses must hold there, some printed formula must fail, every corrected one must hold.
+        There the hypotheses and every corrected formula must hold, and some printed formula must fail.
 
         Parameters
         ----------
@@ -277,7 +277,7 @@ class Proof:
         self.problems += [f"the counterexample violates the hypothesis {text}" for text in violated]
 
     def control(self, *statements: Statement) -> None:
-        """Mutated statements, which the same machinery must reject."""
+        """Adds mutated statements, which the same algorithms must reject."""
         for statement in statements:
             _check(statement)
             rejected = not statement.holds()
@@ -287,7 +287,7 @@ class Proof:
                 self.problems.append(f"control accepted: {statement.text}")
 
     def witness(self, name: str, values: Mapping[str, str], *statements: Statement) -> None:
-        """An exact point at which the hypotheses hold and the statements, evaluated, are true."""
+        """Adds an exact point at which the hypotheses hold and the evaluated statements are true."""
         wrong = [s.text for s in statements if not s.holds()]
         self.problems += [f"fails at its witness ({name}): {text}" for text in wrong]
         numbers = {x: sp.Rational(v) for x, v in values.items() if NUMBER.fullmatch(str(v))}
@@ -300,15 +300,15 @@ class Proof:
         )
 
     def define(self, reason: str) -> None:
-        """Nothing to decide: a definition, and why it is one."""
+        """States that there is nothing to decide: a definition, with the reason why it is one."""
         self.reason = str(reason)
 
     def leave_open(self, *tried: str) -> None:
-        """A question that the paper leaves open and that is not settled here: what was tried."""
+        """States that a question of the paper is not settled here, with the attempts."""
         self.tried += map(str, tried)
 
     def certificate(self, file: str, statement: str, digest: str, accepted: bool) -> None:
-        """A file that the independent checker has judged, with the sentence that it proves."""
+        """Adds a file that the independent checker has judged, with the sentence that it proves."""
         self.certificates.append({"file": file, "statement": statement, "digest": digest, "accepted": accepted})
         self.lines.append(f"  {'✓' if accepted else '✗'} certificate {file}: {statement}")
         if not accepted:
@@ -320,15 +320,15 @@ class Proof:
         self._since = len(self.said), len(self.decided)
 
     def step(self, gives: str, *needs: str) -> None:
-        """Adds a conclusion from the statements that it needs, by the sentences said since the last step.
+        """Adds a conclusion from the statements that it needs, by the sentences since the last step.
 
         Parameters
         ----------
         gives : str
             The conclusion.
         *needs : str
-            Of what the theorem is given, of what a step before gives, ids that the claim uses, files of accepted
-            certificates, texts of decided statements.
+            Hypotheses of the theorem, conclusions of earlier steps, ids that the claim uses, files of accepted
+            certificates, and texts of decided statements.
         """
         said, decided = self._since
         checks = tuple(statement.text for _, statement, _ in self.decided[decided:])
@@ -338,11 +338,11 @@ class Proof:
         self._since = len(self.said), len(self.decided)
 
     def ask(self, words: str, where: str) -> None:
-        """A question of the paper, word for word, and where it stands."""
+        """Adds a question of the paper, word for word, and its place."""
         self.question = {"words": words, "where": where}
 
     def settle(self, readings: Sequence[Reading]) -> None:
-        """Readings of a question that the paper leaves open, each with the theorem that the lemmas make, or open."""
+        """Adds readings of an open question of the paper, each with the theorem from the lemmas, or open."""
         known = {part: theorem for part, theorem in self.stated.items() if not self.gaps(part)}
         for _, rest, holds in self.decided:
             if isinstance(rest, Rest) and holds and rest.grounds and rest.grounds.theorem:
@@ -356,26 +356,26 @@ class Proof:
             self.readings.append(argument.row(one, made))
 
     def gaps(self, part: str) -> list[str]:
-        """Why the steps do not prove what a part states; empty if they do."""
+        """Why the steps do not prove the theorem of a part; empty if they do."""
         decided = {statement.text for _, statement, holds in self.decided if holds}
         files = {one["file"] for one in self.certificates if one["accepted"]}
         return argument.gaps(self.stated[part], self.steps[part], {*self.uses, *decided, *files})
 
     @property
     def answer(self) -> str | None:
-        """Sets the answer to a question: the theorems, made from the statements of the lemmas."""
+        """Sets the answer to a question: the theorems from the statements of the lemmas."""
         return "  ".join(one["text"] for one in self.readings if one["theorem"]) or None
 
     def measure(self, *findings: str) -> None:
-        """Numerical evidence besides what is proved, with its digits; no verdict rests on it."""
+        """Adds numerical evidence, with its digits; no verdict depends on it."""
         self.measured += map(str, findings)
 
     def conjecture(self, *texts: str) -> None:
-        """Adds a statement that is believed and not proved; no verdict rests on it."""
+        """Adds a statement that is conjectured and not proved; no verdict depends on it."""
         self.conjectures += map(str, texts)
 
     def verdict(self) -> Verdict:
-        """The verdict that the evidence supports; `open` when anything is missing or failed."""
+        """The verdict from the evidence; `open` if anything is missing or failed."""
         if self.tried:
             return Verdict.OPEN
         self._look_at_witnesses()
@@ -410,7 +410,7 @@ class Proof:
         return Verdict.CONDITIONAL if self.condition else Verdict.CORRECTED
 
     def _look_at_witnesses(self) -> None:
-        """Every true statement must be true at an exact point of its algebra; what is false, refuted at one."""
+        """Every true statement must be true at an exact point of its algebra; a false one must be refuted at one."""
         true = _equations([pair for pair in [*self._printed, *self._corrected] if pair[1]])
         found, wrong = witness.look(true, self.assumed, self.examples)
         if not found and not self.witnesses:

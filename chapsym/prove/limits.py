@@ -12,12 +12,12 @@ from .statements import Comparison, Equation, Side
 
 @dataclass(frozen=True)
 class Limit(Equation):
-    """An equation that says what something tends to as a variable tends to 0, whatever the others are."""
+    """An equation for the limit of an expression as a variable tends to 0, for all values of the others."""
 
     along: sp.Symbol = sp.S.Zero
 
     def bound_by(self, assumed: Sequence[Comparison]) -> list[str]:
-        """The hypotheses with which the variable cannot tend to 0: all that have it, but for its sign."""
+        """The hypotheses that keep the variable from tending to 0: all that contain it, except for its sign."""
         return [
             h.text
             for h in assumed
@@ -27,37 +27,37 @@ class Limit(Equation):
 
 
 def tends(text: str, expression: sp.Expr, along: sp.Symbol, order: int, to: Side, ring: Quotient) -> Limit:
-    """The statement that expression / along^order tends to something as along tends to 0.
+    """The statement that expression / along^order tends to `to` as along tends to 0.
 
-    As an equation: the expression is along^order · (what it tends to) + along^(order + 1) · (a quotient), and the
-    denominator of the quotient is start · (1 + along · ...), where start, by which this divides, is not 0.
+    As an equation: the expression is along^order · (the limit) + along^(order + 1) · (a quotient), and the denominator
+    of the quotient is start · (1 + along · ...), where start, a divisor, is not 0.
 
     Parameters
     ----------
     text : str
-        What is said, in the certificate, too.
+        The statement in words, also for the certificate.
     expression : sympy.Expr, or a matrix or list of them
-        What tends, rational in `along`.
+        The expression, rational in `along`.
     along : sympy.Symbol
-        What tends to 0: a variable of the ring that is in none of its relations.
+        The variable that tends to 0: a variable of the ring that is in none of its relations.
     order : int
         The power by which the expression is divided.
     to : sympy.Expr, or a matrix or list of them
-        What it tends to.
+        The limit.
     ring : Quotient
-        Where the equation is decided.
+        The ring in which the equation is decided.
 
     Returns
     -------
     Equation
-        Its left side has the expressions, and the denominators.
+        The equation, with the expressions and the denominators on its left side.
 
     Raises
     ------
     ArithmeticError
-        Where the expression has a pole at along = 0.
+        If the expression has a pole at along = 0.
     ValueError
-        If it is not rational, or a relation of the ring or what it tends to has `along`.
+        If it is not rational, or if a relation of the ring or the limit contains `along`.
 
     Examples
     --------
@@ -91,9 +91,9 @@ def tends(text: str, expression: sp.Expr, along: sp.Symbol, order: int, to: Side
 
 
 def _rest(expression: sp.Expr, along: sp.Symbol, order: int) -> tuple[sp.Expr, sp.Poly]:
-    """The numerator of what is left beyond the first terms, over along^(order + 1), and the denominator.
+    """The numerator of the rest after the first terms, over along^(order + 1), and the denominator.
 
-    The first terms are those that Taylor's series has; the last of them is left to be said.
+    The first terms are those of Taylor's series; the last of them is part of the statement.
     """
     try:
         above, below = (sp.Poly(part, along) for part in sp.fraction(sp.cancel(expression)))

@@ -1,4 +1,4 @@
-"""False variants of a statement, made and not typed."""
+"""False variants of a statement, generated automatically."""
 
 from collections.abc import Iterator
 
@@ -8,24 +8,24 @@ from .statements import Equation
 
 
 def mutations(statement: Equation, most: int = 4) -> list[Equation]:
-    """Variants of an equation with the sign of one term of its right side turned: negative controls.
+    """Variants of an equation with the sign of one term of the right side changed: negative controls.
 
     Parameters
     ----------
     statement : Equation
-        The equation; the terms are those of the sums and products of its right side, as they are written.
+        The equation; the terms are those of the sums and products of its right side, as written.
     most : int
-        How many variants are made.
+        The largest number of variants.
 
     Returns
     -------
     list of Equation
-        For `Proof.control`.  A term that is zero in the algebra is left as it is, as nothing would be false.
+        Statements for `Proof.control`.  A term that is zero in the algebra is unchanged, as the variant would be true.
 
     Raises
     ------
     ValueError
-        If no term can be turned.
+        If no term can be changed.
 
     Examples
     --------
@@ -46,14 +46,14 @@ def mutations(statement: Equation, most: int = 4) -> list[Equation]:
             if len(found) < most and not statement.algebra.is_zero(entry - turned):
                 text = f"{statement.text}, with the sign of {term} turned"
                 one = Equation(text, statement.left, [*right[:i], turned, *right[i + 1 :]], statement.algebra)
-                found += [] if one.holds() else [one]  # of a statement that is false itself, one may be true
+                found += [] if one.holds() else [one]  # a variant of a false statement may be true
     if not found:
         raise ValueError(f"no term of the right side of «{statement.text}» can be turned: give a false variant")
     return found
 
 
 def _turned(expression: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
-    """Each term of the sums in an expression, and the expression with the sign of that term turned."""
+    """Each term of the sums in an expression, and the expression with the sign of that term changed."""
     if not isinstance(expression, sp.Add):
         yield expression, -expression
         return

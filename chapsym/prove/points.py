@@ -1,4 +1,4 @@
-"""Rational points at which relations hold: a statement that is proved from them is not empty."""
+"""Rational points at which relations hold, which show that a statement proved from them is not vacuous."""
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import suppress
@@ -20,7 +20,7 @@ from .witness import Examples
 Exact = dict[sp.Symbol, sp.Rational]
 #: A number for a symbol.
 Draw = Callable[[sp.Symbol], Fraction]
-#: Directions that may be tried on one relation, and points that are drawn where hypotheses must hold.
+#: The number of trial directions for a relation, and of drawn points if hypotheses must hold.
 MOST_LINES, MOST_DRAWN = 20, 200
 
 #: The sides of a right triangle, and the components of a unit vector: for relations of symbols in no table.
@@ -30,9 +30,9 @@ SIDES, UNIT = ("3/5",), ("2/7", "3/7", "6/7")
 def candidates(
     symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr], examples: Examples, known: Values | None = None
 ) -> Iterator[Exact]:
-    """Points with the known values at which all relations hold, if some are found: from examples, primes, or 1.
+    """Points with the known values at which all relations hold, if found: from examples, primes, or 1.
 
-    And from triangles and unit vectors with rational sides.
+    Also from triangles and unit vectors with rational sides.
     """
     known = dict(known or {})
     primes = {symbol: sp.Integer(sp.prime(i)) for i, symbol in enumerate(symbols, 1)}
@@ -48,7 +48,7 @@ def candidates(
 def allowed(
     symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr], assumed: Sequence[Comparison], examples: Examples
 ) -> Iterator[Exact]:
-    """Points where the relations hold and all that is assumed, which has its equations as relations, too."""
+    """Points where the relations and all assumptions hold; equations among the assumptions are relations, too."""
     yield from (x for x in candidates(symbols, relations, examples) if witness.allowed(x, assumed))
     equations = [r for h in assumed for r in h.relations if isinstance(r, sp.Eq) and r.free_symbols <= set(symbols)]
     more = [*relations, *(sp.fraction(sp.together(r.lhs - r.rhs))[0] for r in equations)]
@@ -57,7 +57,7 @@ def allowed(
 
 
 def some(ring: Quotient, examples: Examples) -> Iterator[Exact]:
-    """Points where the relations of a ring hold: those that are found from examples, and others that are drawn."""
+    """Points where the relations of a ring hold: found from examples, then drawn at random."""
     yield from candidates(ring.symbols, ring.relations, examples)
     numbers = Random(0)
     with suppress(ArithmeticError):  # where no point is known
@@ -67,7 +67,7 @@ def some(ring: Quotient, examples: Examples) -> Iterator[Exact]:
 
 
 def look(equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples) -> witness.Looked:
-    """As `witness.look`, at points found for the relations of each equation, where the examples have none."""
+    """As `witness.look`, at points found for the relations of each equation, if the examples have none."""
     found: dict[tuple[object, ...], Data] = {}
     wrong = []
     for equation in equations:
@@ -83,7 +83,7 @@ def look(equations: Sequence[Equation], assumed: Sequence[Comparison], examples:
 
 
 def _moved(start: Exact, relations: Sequence[sp.Expr], fixed: Collection[sp.Symbol]) -> Exact | None:
-    """The point with one coordinate changed for each relation that fails there; None if no rational one is found."""
+    """The point, with one coordinate changed for each failing relation; None if no rational point is found."""
     point = dict(start)
     for i, relation in enumerate(relations):
         if relation.xreplace(point) == 0:
@@ -117,17 +117,17 @@ def _fraction(x: sp.Rational) -> fmpq:
 
 
 def first(ring: Quotient, examples: Examples | None = None) -> Exact:
-    """A point where all relations hold; raises ArithmeticError where none is known."""
+    """A point where all relations hold; raises ArithmeticError if none is known."""
     if (point := next(candidates(ring.symbols, ring.relations, examples or Examples()), None)) is not None:
         return point
     raise ArithmeticError(f"no rational point is known where {', '.join(f'{r} = 0' for r in ring.relations)}")
 
 
 def drawn(ring: Quotient, draw: Draw, start: Exact) -> Exact:
-    """A point where all relations hold, of numbers that are drawn, from one that is known.
+    """A random point where all relations hold, from a known one.
 
-    One relation after the other: by the line through the point in a direction that is drawn, which meets a quadric
-    again at a rational point; or solved for a variable in which it is linear.
+    Each relation in turn is solved by a line through the point in a random direction, which meets a quadric again at a
+    rational point, or for a variable in which the relation is linear.
     """
     related = set().union(*(relation.free_symbols for relation in ring.relations))
     found = {x: start[x] if x in related else _number(draw(x)) for x in ring.symbols}
@@ -140,7 +140,7 @@ def drawn(ring: Quotient, draw: Draw, start: Exact) -> Exact:
 
 
 def _on_line(relation: sp.Expr, own: Sequence[sp.Symbol], values: Exact, draw: Draw) -> Exact | None:
-    """Values of its own symbols, those of no relation before, at which a relation holds; None if none are found."""
+    """Values of the symbols that no earlier relation has, at which a relation holds; None if none are found."""
     if not own:
         return None
     left = relation.xreplace({x: v for x, v in values.items() if x not in own})

@@ -1,10 +1,9 @@
-"""Identities between rational functions of free parameters: a way to decide that needs no ideal.
+"""Identities between rational functions of free parameters, decided without an ideal.
 
-Where the constraints of a claim (rotations, unit vectors, a vertical momentum) are solved by rational
-functions of free parameters, both sides of an identity are quotients of polynomials, and it holds exactly
-when the numerator of the difference is the polynomial 0.  The arithmetic is that of python-flint's
-multivariate polynomials.  It shares nothing with the rewriting of words or with division by a
-Gröbner basis: what both decide is decided twice.
+If rational functions of free parameters solve the constraints of a claim (rotations, unit vectors, a vertical
+momentum), both sides of an identity are quotients of polynomials, and the identity holds exactly when the numerator of
+the difference is the polynomial 0.  The arithmetic is that of python-flint's multivariate polynomials.  It shares
+nothing with the rewriting of words or with division by a Gröbner basis, so that it is an independent second decision.
 """
 
 from collections.abc import Sequence
@@ -16,21 +15,21 @@ from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx
 
 from chapsym.checker.interval import Arithmetic
 
-#: The most products of terms in one multiplication; the proofs need a third of it.
+#: The largest number of products of terms in one multiplication; the proofs need a third of it.
 LIMIT = 10_000_000
 
 
 class TooLarge(ArithmeticError):
-    """An expression grows beyond all use, as it does where a wrong definition leaves nothing to cancel."""
+    """An expression grows too large, as with a wrong definition, after which nothing cancels."""
 
 
-#: How a rational function was made: a parameter, an integer, an operation with its operands (of ^ the last is a power),
-#: or None: it is written as what it is in lowest terms.
+#: The origin of a rational function: a parameter, an integer, an operation with its operands (the last one of ^ is a
+#: power), or None for its lowest terms.
 Made = str | int | tuple[Any, ...] | None
 
 
 class Ratio(Arithmetic):
-    """A rational function over Q in lowest terms; its denominator is monic and not 0.  It knows how it was made."""
+    """A rational function over Q in lowest terms, with its origin; its denominator is monic and not 0."""
 
     __slots__ = ("denominator", "made", "numerator")
     made: Made
@@ -38,7 +37,7 @@ class Ratio(Arithmetic):
     def __init__(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> None:
         if denominator == 0:
             raise ZeroDivisionError("the denominator is the polynomial 0")
-        if denominator == 1:  # of most
+        if denominator == 1:  # in most cases
             self.numerator, self.denominator = numerator, denominator
             return
         common = numerator.gcd(denominator) * denominator.leading_coefficient()
@@ -54,11 +53,11 @@ class Ratio(Arithmetic):
     def __add__(self, other: object) -> "Ratio":
         if (other := self._coerced(other)) is None:
             return NotImplemented
-        if self.made == 0 or other.made == 0:  # of matrices with many zeros
+        if self.made == 0 or other.made == 0:  # for matrices with many zeros
             return other if self.made == 0 else self
         common = self.denominator.gcd(other.denominator)
         mine, its = self.denominator / common, other.denominator / common
-        # Both are in lowest terms: only a factor of what their denominators share can cancel.
+        # Both are in lowest terms: only a factor of the common factor of their denominators can cancel.
         total = Ratio(_product(self.numerator, its) + _product(other.numerator, mine), common)
         whole = _product(total.denominator, _product(mine, its))
         return Ratio._lowest(total.numerator, whole, ("+", self, other))
@@ -69,7 +68,7 @@ class Ratio(Arithmetic):
         for one, another in ((self, other), (other, self)):
             if one.made in (0, 1):
                 return one if one.made == 0 else another
-        # Both are in lowest terms: what cancels is crosswise, and the product is in lowest terms, too.
+        # Both are in lowest terms: after crosswise cancellation the product is in lowest terms, too.
         one, two = Ratio(self.numerator, other.denominator), Ratio(other.numerator, self.denominator)
         above, below = _product(one.numerator, two.numerator), _product(one.denominator, two.denominator)
         return Ratio._lowest(above, below, ("*", self, other))
@@ -88,7 +87,7 @@ class Ratio(Arithmetic):
         return Ratio._lowest(result.numerator, result.denominator, ("^", self, power) if power else 1)
 
     def lowest(self) -> "Ratio":
-        """The same, which does not know how it was made: it is written in lowest terms."""
+        """The same without its origin: it is written in lowest terms."""
         return Ratio._lowest(self.numerator, self.denominator, None)
 
     @classmethod
@@ -99,7 +98,7 @@ class Ratio(Arithmetic):
         return ratio
 
     def _inverse(self) -> "Ratio":
-        """1 over it."""
+        """The reciprocal."""
         flipped = Ratio(self.denominator, self.numerator)
         return Ratio._lowest(flipped.numerator, flipped.denominator, ("^", self, -1))
 

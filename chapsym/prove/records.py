@@ -1,7 +1,7 @@
-"""Verdict records: one JSON Lines file, each line with the fingerprint of what its proof depends on.
+"""Verdict records: a JSON Lines file, each line with the fingerprint of the inputs of its proof.
 
-A record is fresh while the proof script, the derivations that it imports, the rules of evidence and the
-libraries that decide are those that it was made with.  A fresh record can be shown; a stale one is proved again.
+A record is fresh while the proof script, the imported derivations, the rules of evidence and the deciding libraries are
+unchanged.  A fresh record can be shown; a stale one is proved again.
 """
 
 import hashlib
@@ -27,12 +27,12 @@ LIBRARIES = ("sympy", "python-flint", "numpy")
 KEYS = {"id", "verdict", "printed", "corrected", "evidence", "seconds"}
 KEYS_OF_EVIDENCE = {"title", "fingerprint", "open_in_paper"}
 
-#: How records are run, printed and kept does not change what they say.
+#: Modules that run, print and store records, which do not change a verdict.
 _BESIDES = {"chapsym.prove.runner", "chapsym.prove.records", "chapsym.prove.registers"}
 
 
 class BrokenRecords(ValueError):
-    """The file of records cannot be read as such."""
+    """The file is no readable file of records."""
 
 
 def default_path(register: Register = PROOFS) -> Path:
@@ -46,7 +46,7 @@ def default_path(register: Register = PROOFS) -> Path:
 
 
 def fingerprint(claim: Claim) -> str:
-    """A hash of everything that the claim's verdict depends on: sources, files, and the versions of the libraries."""
+    """A hash of all inputs of the verdict of the claim: sources, files, and the versions of the libraries."""
     text, examples = _of_module(claim.prove.__module__), claim.examples_file
     if not claim.files and not examples:
         return text
@@ -63,9 +63,9 @@ def _of_module(module: str) -> str:
 
 
 def read(path: Path) -> dict[str, Data]:
-    """The records of a file, by id; none if there is no file.  The end of a line that was not finished is left out.
+    """The records of a file, by id; none if there is no file.  An unfinished last line is ignored.
 
-    Raises BrokenRecords if it is not such a file, with the line that is not a record.
+    Raises BrokenRecords, with the line that is no record, if it is not such a file.
     """
     records = {}
     if path.exists() and not path.is_dir() and not path.is_file():
@@ -75,7 +75,7 @@ def read(path: Path) -> dict[str, Data]:
     except UnicodeDecodeError as error:
         raise BrokenRecords(f"{path} is not a file of verdict records: it is no text ({error.reason})") from error
     *lines, last = text.split("\n")
-    if last and (_parsed(last) or not lines):  # else the computer stopped as it was added
+    if last and (_parsed(last) or not lines):  # otherwise the computer stopped while it was added
         lines.append(last)
     for number, line in enumerate(lines, start=1):
         record = _parsed(line)
@@ -86,7 +86,7 @@ def read(path: Path) -> dict[str, Data]:
 
 
 def _parsed(line: str) -> Data | None:
-    """The record that a line holds; None if it holds none."""
+    """The record in a line; None if there is none."""
     try:
         record = json.loads(line)
     except (ValueError, RecursionError):
@@ -111,7 +111,7 @@ def update(path: Path, records: Iterable[Data], claims: dict[str, Claim]) -> Non
 
 
 def append(path: Path, record: Data) -> None:
-    """Adds a record, or nothing, to a file that `update` has written; of two for a claim the last one counts."""
+    """Adds a whole record, or nothing, to a file of `update`; the last record of a claim counts."""
     line = files.encoded(json.dumps(record, ensure_ascii=False) + "\n")
     with path.open("ab", buffering=0) as stream:
         before = os.fstat(stream.fileno()).st_size
@@ -120,7 +120,7 @@ def append(path: Path, record: Data) -> None:
 
 
 def stale(records: dict[str, Data], claims: dict[str, Claim]) -> list[str]:
-    """The ids whose record was made with another derivation, or other libraries, than those that are here."""
+    """The ids whose record was made with another derivation, or other libraries, than the present ones."""
     return [
         id for id, record in records.items()
         if id in claims and record["evidence"]["fingerprint"] != fingerprint(claims[id])

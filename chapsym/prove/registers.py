@@ -1,4 +1,4 @@
-"""Registers: where claims are found.  That of chapsym is one; a user's own folder is another.
+"""Registers: places of claims, such as that of chapsym, or a folder of the user.
 
 A register is a folder of scripts, one script, or an importable package.  Its scripts are code, and finding its claims
 runs them, as finding tests runs a folder of tests.
@@ -24,7 +24,7 @@ from chapsym import sources
 from .claims import Claim, TwoProofs
 from .claims import register as registered
 
-#: The file of a register that has no claims, but the list of what is generated from them.
+#: The file of a register with the list of generated kernels, without claims.
 KERNELS = "kernels"
 
 Given = ParamSpec("Given")
@@ -32,17 +32,17 @@ Found = TypeVar("Found")
 
 
 class BrokenScript(ImportError):
-    """A script cannot be loaded, or its claims cannot stand together; the message names the file."""
+    """A script cannot be loaded, or its claims contradict others; the message names the file."""
 
 
 class NoRegister(ValueError):
-    """A place where no claims are found; the message says what would be one."""
+    """A place without claims; the message says what would be right."""
 
 
 def _reading(
     method: "Callable[Concatenate[Register, Given], Found]",
 ) -> "Callable[Concatenate[Register, Given], Found]":
-    """Makes a sentence of what the modules of a register raise where they are looked at."""
+    """Turns the errors of the modules of a register into sentences."""
 
     @wraps(method)
     def read(self: "Register", *given: Given.args, **options: Given.kwargs) -> Found:
@@ -60,16 +60,16 @@ def _reading(
 class Register:
     """Claims in one place.
 
-    A package, or a folder with an `__init__.py`, may say there: `SCRIPTS`, their names in order (without it, all files
-    that end in .py and do not begin with _, but for kernels.py); `CLAIMS`, the ids in order; `LEMMAS`, ids of what is
-    judged only when it is named; `PAPER`, what the claims are of; and `NOTE`, how its formulas are to be read.
+    The `__init__.py` of a package or a folder may define `SCRIPTS`, the names of the scripts in order (by default all
+    files that end in .py and do not begin with _, except kernels.py); `CLAIMS`, the ids in order; `LEMMAS`, ids that
+    are judged only when named; `PAPER`, the title of the paper; and `NOTE`, how to read its formulas.
 
     Parameters
     ----------
     place : str
         A folder with Python scripts, the path of one script, or the name of a package.
     package : bool, optional
-        Whether it is a name, even where a file or a folder is called so.
+        Whether `place` is a name of a package, even if a file or a folder has this name.
 
     Examples
     --------
@@ -80,7 +80,7 @@ class Register:
     """
 
     place: str
-    package: bool = False  # that it is a name, even where a file or a folder is called so
+    package: bool = False  # a name, even if a file or a folder has it
 
     @_reading
     def load(self, lemmas: bool = False) -> dict[str, Claim]:
@@ -98,7 +98,7 @@ class Register:
         Raises
         ------
         NoRegister
-            If there is no such place, or no claim in it.
+            If there is no such place, or it has no claims.
         BrokenScript
             If a script raises on import, or if an id is taken, or listed without a proof, or used and not judged.
         """
@@ -124,7 +124,7 @@ class Register:
 
     @_reading
     def sections(self, claims: Iterable[Claim]) -> dict[str, tuple[int, str]]:
-        """For each claim its script: which one it is, from 1, and the first line of its docstring."""
+        """The script of each claim: its number, from 1, and the first line of its docstring."""
         files = [sources.file(name) for name in self._scripts(self._head())]
         found = {}
         for claim in claims:
@@ -171,11 +171,11 @@ class Register:
         try:
             path = Path(self.place).resolve()
             return path if path.exists() else None
-        except (OSError, ValueError, RuntimeError):  # a name that no file can have, or links in a circle
+        except (OSError, ValueError, RuntimeError):  # a name that no file can have, or circular links
             return None
 
     def _head(self) -> ModuleType:
-        """The package of the scripts: that of this name, or one that is made for the folder."""
+        """The package of the scripts: that of this name, or a new one for the folder."""
         path = self._path()
         if path is None:
             return self._package()
@@ -200,7 +200,7 @@ class Register:
         names = self.place.split(".")
         spec = None
         if all(map(str.isidentifier, names)):
-            with contextlib.suppress(ModuleNotFoundError, ValueError):  # of a module without a spec
+            with contextlib.suppress(ModuleNotFoundError, ValueError):  # for a module without a spec
                 spec = importlib.util.find_spec(self.place)
         if spec is None or spec.submodule_search_locations is None:
             raise NoRegister(
@@ -222,7 +222,7 @@ class Register:
         return [f"{head.__name__}.{name}" for name in names]
 
     def _check(self, claims: dict[str, Claim]) -> None:
-        """Raises BrokenScript where an id is one of chapsym's, or what a claim uses is judged nowhere."""
+        """Raises BrokenScript if an id is one of chapsym's, or if a claim uses an id that nothing judges."""
         package = importlib.import_module(PROOFS.place)
         ours = {*package.CLAIMS, *package.LEMMAS}
         for id, claim in claims.items():
@@ -244,7 +244,7 @@ PROOFS = Register("chapsym.proofs", package=True)
 
 
 def register_of(script: str) -> Register:
-    """The register of a script: that of chapsym for its own, and the script alone for any other."""
+    """The register of a script: that of chapsym for its own scripts, and the script itself for any other."""
     return PROOFS if PROOFS.script(Path(script)) else Register(script)
 
 
@@ -258,7 +258,7 @@ def reached(id: str, claims: Mapping[str, Claim]) -> set[str]:
 
 
 def load(lemmas: bool = False, register: Register = PROOFS) -> dict[str, Claim]:
-    """The claims of a register by id, in order, that of chapsym if no other is named.
+    """The claims of a register by id, in order; by default of that of chapsym.
 
     Parameters
     ----------
@@ -294,7 +294,7 @@ def _guarded(name: str, run: Callable[[], object]) -> None:
         raise
     except BaseException as error:
         said = f"the proof script {_shown(name)} cannot be loaded: {_said(name, error)}"
-        sys.modules.pop(name, None)  # a half of it would be taken for the whole
+        sys.modules.pop(name, None)  # half a module would be taken for the whole
         raise BrokenScript(said) from error
 
 
@@ -316,7 +316,7 @@ def raised(error: BaseException) -> str:
 
 
 def _said(name: str, error: BaseException) -> str:
-    """The error, and in which line of the script, or of a file next to it."""
+    """The error, with the line of the script, or of a file next to it."""
     if isinstance(error, SystemExit):
         return "it leaves Python; what ends it, such as main(__file__), stands under if __name__ == '__main__'"
     said = raised(error)
@@ -326,7 +326,7 @@ def _said(name: str, error: BaseException) -> str:
 
 
 def _shown(name: str) -> str:
-    """A script for a reader: its file, or its name where it is one of chapsym."""
+    """A script for a reader: its file, or its name if it is one of chapsym."""
     if name.startswith(f"{PROOFS.place}."):
         return name.removeprefix(f"{PROOFS.place}.")
     file = Path(sources.file(name) or name)
@@ -338,7 +338,7 @@ def _is(file: str | None, path: Path) -> bool:
 
 
 def _listed(head: ModuleType, name: str) -> list[str] | None:
-    """The list of scripts or claims in the package; None where it has none."""
+    """The list of scripts or claims in the package; None if it has none."""
     given = getattr(head, name, None)
     if given is not None and (not isinstance(given, list | tuple) or not all(isinstance(one, str) for one in given)):
         raise BrokenScript(f"{head.__file__}: {name} must be a list of texts")

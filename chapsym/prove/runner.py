@@ -1,4 +1,4 @@
-"""Runs proofs side by side, and prints what they found."""
+"""Runs proofs in parallel, and prints their findings."""
 
 import contextlib
 import os
@@ -27,7 +27,7 @@ def downstream(id: str, claims: dict[str, Claim]) -> list[str]:
 def prove_one(id: str, folder: Path | None = None, register: Register = PROOFS) -> Data:
     """Judges one claim of a register and returns its record; a proof that raises is an open claim with the reason.
 
-    Its certificate is written to the folder, if one is named; raises CannotWrite if it cannot be.
+    Its certificate is written to the folder, if one is given; raises CannotWrite if this fails.
     """
     judgement = judge(register.load(lemmas=True)[id])
     if folder and judgement.certificate:
@@ -36,7 +36,7 @@ def prove_one(id: str, folder: Path | None = None, register: Register = PROOFS) 
 
 
 def _record(judgement: Judgement, register: Register) -> Data:
-    """The record with its fingerprint, and its users: for a claim of the paper in the paper, for a lemma anywhere."""
+    """The record with its fingerprint and its users: for a claim of the paper those in the paper, for a lemma all."""
     id, paper = judgement.claim.id, register.load()
     record = judgement.record(downstream(id, paper if id in paper else register.load(lemmas=True)))
     record["evidence"]["fingerprint"] = fingerprint(judgement.claim)
@@ -44,13 +44,13 @@ def _record(judgement: Judgement, register: Register) -> Data:
 
 
 def judge(claim: Claim) -> Judgement:
-    """Judges a claim; an exception leaves it open, with the place where it arose, in the proof's own file if it can."""
+    """Judges a claim; an exception leaves it open, with its place, in the file of the proof if possible."""
     try:
-        with contextlib.redirect_stdout(sys.stderr):  # what a proof prints is no result
+        with contextlib.redirect_stdout(sys.stderr):  # the output of a proof is no result
             return judgement_of(claim)
     except KeyboardInterrupt:
         raise
-    except BaseException as error:  # a proof that leaves is no proof
+    except BaseException as error:  # a proof that exits is no proof
         frames = traceback.extract_tb(error.__traceback__)
         place = ([frame for frame in frames if frame.filename == sources.file(claim.prove.__module__)] or frames)[-1]
         reason = f"the proof raised {raised(error)} ({Path(place.filename).name}:{place.lineno})"
@@ -75,13 +75,13 @@ def prove_all(
     ids : sequence of str
         The names of the claims.
     jobs : int, optional
-        How many processes; by default as many as there are processors.
+        The number of processes; by default that of the processors.
     on_result : callable, optional
-        Sees each record as it arrives.
+        Called with each record as it arrives.
     folder : Path, optional
-        Where the certificates are written.
+        The folder for the certificates.
     register : Register, optional
-        Where the claims are; by default that of chapsym.
+        The register of the claims; by default that of chapsym.
 
     Returns
     -------
@@ -110,7 +110,7 @@ def prove_all(
     except BrokenProcessPool:
         for id in ids:
             if id not in records:
-                # A claim that was not judged because a process was lost.
+                # A claim that was not judged, as a process was lost.
                 reason = "not judged: a process that ran proofs ended, perhaps for lack of memory; try --jobs 1"
                 records[id] = _record(_open(register.load(lemmas=True)[id], reason), register)
                 on_result(records[id])
@@ -118,7 +118,7 @@ def prove_all(
 
 
 def _begin() -> None:
-    """In a worker, which judges a claim once, whatever asks for it."""
+    """Initialises a worker, which judges each claim only once."""
     workers.begin()
     once().__enter__()
 
@@ -136,7 +136,7 @@ def explain(record: Data) -> str:
         for kind in ("printed", "corrected"):
             for sides in example[kind]:
                 left, right = ", ".join(sides["left"]), ", ".join(sides["right"])
-                claimed = right.startswith(tuple(filter(None, SAID.values())))  # in words, as `at least 2`
+                claimed = right.startswith(tuple(filter(None, SAID.values())))  # in words, such as `at least 2`
                 sign = " =" if left == right else ", claimed:" if claimed else " ≠"
                 lines += [f"    {kind}: {sides['statement']}:  ({left}){sign} ({right})"]
     for seen in evidence["witnesses"][:1]:
@@ -168,12 +168,12 @@ def explain(record: Data) -> str:
 
 
 def main(script: str) -> None:
-    """Runs the claims of one proof script, prints their derivations, and exits 1 if one is not proved.
+    """Runs the claims of a proof script, prints their derivations, and exits with 1 if one is not proved.
 
     Parameters
     ----------
     script : str
-        `__file__` of a script of `chapsym.proofs`, or of one of your own, anywhere, with ids of its own.
+        `__file__` of a script of `chapsym.proofs`, or of your own script anywhere, with its own ids.
     """
     register = register_of(script)
     try:
@@ -192,7 +192,7 @@ def report(records: Iterable[Data]) -> int:
 
 
 def unproved(records: Iterable[Data]) -> list[str]:
-    """The ids whose proof failed: `open`, and not a question that the paper itself leaves open.
+    """The ids whose proof failed: `open`, and not an open question of the paper.
 
     Parameters
     ----------

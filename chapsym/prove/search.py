@@ -1,4 +1,4 @@
-"""Rational points where a statement fails, its counterexamples, drawn at random."""
+"""Random rational points where a statement fails: its counterexamples."""
 
 from functools import partial
 from random import Random
@@ -13,18 +13,18 @@ from .statements import Comparison, Equation, Point, Values, rational_point
 
 
 def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tries: int = 300) -> Point:
-    """A rational point where the relations of a statement's ring hold and the statement fails.
+    """A rational point at which the relations of the ring of a statement hold and the statement fails.
 
     Parameters
     ----------
     statement : Equation
-        In a quotient ring.
+        An equation in a quotient ring.
     *assumed : sympy relational
-        What must hold at the point, too.
+        Further relations that must hold at the point.
     seed : int
-        Of the random numbers: the same seed finds the same point.
+        The seed of the random numbers: the same seed finds the same point.
     tries : int
-        The number of points that are tried.
+        The number of trial points.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
     Raises
     ------
     ArithmeticError
-        If none is found: this does not say that there is none.
+        If none is found, which does not prove that there is none.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def true(relation: Relational, values: Values) -> bool:
 
 
 def _fails(statement: Equation, values: Exact) -> bool:
-    """Whether both sides have values at a point, and these differ."""
+    """Whether both sides have values at a point, and the values differ."""
     try:
         left, right = statement.at(lambda entry: sp.sympify(entry, strict=True).xreplace(values))
     except ArithmeticError:

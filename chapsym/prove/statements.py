@@ -1,4 +1,4 @@
-"""Statements that exact arithmetic decides, and the exact points at which they are evaluated."""
+"""Statements that exact arithmetic decides, and exact points at which they are evaluated."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -23,7 +23,7 @@ Side: TypeAlias = sp.Expr | sp.MatrixBase | Sequence[sp.Expr]
 
 
 class Algebra(Protocol):
-    """Where an equation is decided: words for every n, or a quotient ring for n = 3."""
+    """The algebra in which an equation is decided: words for every n, or a quotient ring for n = 3."""
 
     def is_zero(self, expr: sp.Expr) -> bool:
         """Whether the expression is zero, exactly."""
@@ -40,12 +40,12 @@ class Equation:
     left, right : sympy.Expr, sympy.Matrix or list
         The sides: an expression, a matrix or a list of entries.
     algebra : Algebra
-        Where it is decided: words for every n, or a quotient ring.
+        The algebra in which it is decided: words for every n, or a quotient ring.
 
     Attributes
     ----------
     written : tuple of list
-        The sides with the letters that derivation.py defined.
+        The sides with the letters of the derivation.
 
     Raises
     ------
@@ -94,7 +94,7 @@ class Equation:
 
 
 def equations(usual: Algebra) -> Callable[..., Equation]:
-    """Makes equations in one algebra, where no other is named.
+    """Makes equations in one algebra, unless another is given.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def _entries(side: Side) -> list[sp.Expr]:
 
 @dataclass(frozen=True)
 class Fact:
-    """A decided statement that is no equation: a count, an order, a strict inequality of rationals.
+    """A decided statement that is no equation: a count, an order, a strict inequality of rational numbers.
 
     Parameters
     ----------
@@ -196,13 +196,13 @@ class Fact:
 
 @dataclass(frozen=True)
 class Rest:
-    """The statement that another certificate is accepted: by its digest, after the id if it is that of a claim."""
+    """The statement that another certificate is accepted, by its digest, after the id for that of a claim."""
 
     text: str
     certificate: str
     truth: bool
     method: str
-    #: The grounds of the claim, where it is one.
+    #: The grounds of the claim, for a claim.
     grounds: Grounds | None = None
 
     @property
@@ -211,13 +211,13 @@ class Rest:
         return self.certificate.split()[0]
 
     def holds(self) -> bool:
-        """Whether it is."""
+        """Whether it is accepted."""
         return self.truth
 
 
 @dataclass(frozen=True)
 class Zero:
-    """The statement that equations have exactly one solution within `radius`, where `nonzero` is not 0.
+    """The statement that equations have exactly one solution within `radius`, and that `nonzero` is not 0 there.
 
     Parameters
     ----------
@@ -228,15 +228,15 @@ class Zero:
     definitions : sequence of (sympy.Symbol, sympy.Expr)
         Names for expressions, defined in order.
     equations : sequence of sympy.Expr
-        What vanishes, in the unknowns, in the other symbols of the point and in the names.
+        Expressions that vanish, in the unknowns, the other symbols of the point and the names.
     nonzero : sequence of sympy.Expr
-        What is not 0.
+        Expressions that are not 0.
     point : mapping
-        {symbol: rational number}: the middle of the unknowns, and the other symbols.
+        {symbol: rational number}: the centre for the unknowns, and the values of the other symbols.
     radius : sympy.Rational
-        How far the solution may be from the point, in each unknown.
+        The largest distance of the solution from the point, in each unknown.
     truth : bool
-        What was decided.
+        The decision.
     method : str
         How it was decided.
     """
@@ -258,9 +258,9 @@ class Zero:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Relations <, ≤, = and ≠ at an exact point, as SymPy writes them: `x < y`, `sp.Eq(x, y)`, `sp.Ne(x, y)`.
+    """Relations <, ≤, = and ≠ at an exact point, in SymPy: `x < y`, `sp.Eq(x, y)`, `sp.Ne(x, y)`.
 
-    A hypothesis has no point of its own: it must hold wherever a claim is evaluated.
+    A hypothesis has no point: it must hold wherever a claim is evaluated.
 
     Parameters
     ----------
@@ -332,7 +332,7 @@ def _compared(relation: Relational, exact: Values) -> bool:
     return bool(relation.func(left, right))
 
 
-#: The solutions that are different, and those counted with multiplicity.
+#: The numbers of different solutions, and of solutions counted with multiplicity.
 REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE = NUMBERS = sp.symbols(
     "real complex real_with_multiplicity complex_with_multiplicity"
 )
@@ -340,17 +340,17 @@ REAL, COMPLEX, REAL_MULTIPLE, COMPLEX_MULTIPLE = NUMBERS = sp.symbols(
 
 @dataclass(frozen=True)
 class Count:
-    """A count: the number of solutions of equations that are homogeneous in some unknowns, in projective space.
+    """A count: the number of solutions, in projective space, of equations that are homogeneous in some unknowns.
 
-    Deciding raises NotCounted if the solutions are infinitely many, or none, complex ones with them, or if a multiple
-    one has no tangent line of its own.
+    Deciding raises NotCounted if there are infinitely many solutions or none, including complex ones, or if a multiple
+    solution has no unique tangent line.
 
     Parameters
     ----------
     text : str
         The statement in words or signs.
     equations : sequence of sympy.Expr
-        What vanishes; they may have letters of a derivation.
+        Expressions that vanish, possibly with letters of a derivation.
     unknowns : sequence of sympy.Symbol
         The unknowns, in which the equations are homogeneous.
     point : mapping
@@ -360,7 +360,7 @@ class Count:
     algebra : Quotient
         The ring of the other symbols.
     nonzero : sequence of sympy.Expr, optional
-        What vanishes at no solution, homogeneous, too.
+        Homogeneous expressions that vanish at no solution.
     method : str, optional
         How it is decided.
 
@@ -388,7 +388,7 @@ class Count:
         object.__setattr__(self, "point", {symbol: sp.Rational(x) for symbol, x in self.point.items()})
 
     def holds(self) -> bool:
-        """Whether the relations hold, and what must not vanish does not."""
+        """Whether the relations hold, and `nonzero` does not vanish."""
         if not all(map(self.elimination().vanishes_at_none, self._forms(self.nonzero))):
             return False
         return Comparison(self.text, self.relations).true_at(self.numbers())
@@ -419,7 +419,7 @@ Statement = Equation | Fact | Identity | Comparison | Count | Rest | Zero
 
 
 def contradicts(statement: Statement) -> TypeGuard[Comparison | Count]:
-    """Whether a statement is its own counterexample where it is false: unless it says where something is not 0."""
+    """Whether a false statement is its own counterexample: unless it states that something is not 0."""
     return isinstance(statement, Comparison) or (isinstance(statement, Count) and not statement.nonzero)
 
 
@@ -437,7 +437,7 @@ class Point:
     Parameters
     ----------
     values : dict of str to str
-        How it is shown.
+        The values as text.
     exact : mapping
         {symbol: rational number or matrix}.
     hypotheses : sequence of Equation, optional
@@ -471,7 +471,7 @@ def rational_point(values: dict[sp.Symbol, str | sp.Rational], hypotheses: Seque
     Parameters
     ----------
     values : dict
-        {symbol: number}, each what `sympy.Rational` takes, such as "3/5".
+        {symbol: number}, with numbers that `sympy.Rational` accepts, such as "3/5".
     hypotheses : sequence of Equation, optional
         What must hold there.
 
@@ -493,7 +493,7 @@ def rational_point(values: dict[sp.Symbol, str | sp.Rational], hypotheses: Seque
 
 
 def _same_shape(a: Value, b: Value) -> tuple[Value, Value]:
-    """Writes the number 0 as the zero matrix where the other side is a matrix."""
+    """Replaces the number 0 by the zero matrix if the other side is a matrix."""
     if isinstance(a, sp.MatrixBase) and b == 0:
         return a, sp.zeros(*a.shape)
     if isinstance(b, sp.MatrixBase) and a == 0:

@@ -19,7 +19,7 @@ Data = dict[str, Any]
 
 
 class NotAlgebra(ValueError):
-    """An expression that is no quotient of polynomials; the message says what it has in it."""
+    """An expression that is no quotient of polynomials; the message names the reason."""
 
 
 def tree(expr: sp.Expr) -> Tree:
@@ -36,7 +36,7 @@ def tree(expr: sp.Expr) -> Tree:
 
 
 def number(x: int | fmpq | sp.Rational) -> int | str:
-    """A rational number as written in a tree: an integer, or a quotient in quotes."""
+    """A rational number in a tree: an integer, or a quotient as a string."""
     if isinstance(x, int):
         return x
     return int(x.p) if x.q == 1 else f"{x.p}/{x.q}"
@@ -75,7 +75,7 @@ def shared(wholes: Sequence[Ratio | int]) -> tuple[list[list[Tree]], list[Tree]]
 
 
 def _count(of: Ratio | int, uses: "Counter[int]") -> None:
-    """The number of times each part occurs; parts of one that is named are counted once."""
+    """The number of occurrences of each part; the parts of a named part are counted once."""
     if isinstance(of, Ratio) and not isinstance(of.made, str | int):
         uses[id(of)] += 1
         if uses[id(of)] == 1 and of.made:
@@ -84,7 +84,7 @@ def _count(of: Ratio | int, uses: "Counter[int]") -> None:
 
 
 def lowest_terms(of: Ratio) -> Tree:
-    """The tree of a rational function as a quotient of polynomials, both in factors."""
+    """The tree of a rational function as a quotient of factored polynomials."""
     names = of.denominator.context().names()
     parts = _operands("*", factored(of.numerator.to_dict(), names))
     _, factors = of.denominator.factor()  # it is monic
@@ -94,7 +94,7 @@ def lowest_terms(of: Ratio) -> Tree:
 
 
 def _simple(operation: str, parts: list[Any], found: Callable[[Ratio | int], Tree]) -> Tree:
-    """A sum, a product or a power of trees, without what changes nothing."""
+    """A sum, a product or a power of trees, without neutral elements."""
     if operation == "^":
         base, power = found(parts[0]), parts[1]
         return base if power == 1 or base in (0, 1) else ["^", base, power]
@@ -106,7 +106,7 @@ def _simple(operation: str, parts: list[Any], found: Callable[[Ratio | int], Tre
 
 
 def factored(polynomial: Terms, names: Sequence[str]) -> Tree:
-    """The tree of a polynomial {exponents: coefficient}, in factors and nested: short where it has many terms."""
+    """The tree of a polynomial {exponents: coefficient}, factored and nested, which is short for many terms."""
     context = fmpq_mpoly_ctx.get(tuple(names), Ordering.degrevlex)
     coefficients = {m: fmpq(int(c.numerator), int(c.denominator)) for m, c in polynomial.items()}
     if not coefficients:
@@ -119,7 +119,7 @@ def factored(polynomial: Terms, names: Sequence[str]) -> Tree:
 
 
 def nested(terms: Terms, names: Sequence[str]) -> Tree:
-    """A sum of terms, with the variable that most of them have in front of these: Horner's form."""
+    """A sum of terms in Horner's form, by the variable that most of them contain."""
     if not terms:
         return 0
     counts = [sum(m[i] > 0 for m in terms) for i in range(len(names))]

@@ -1,9 +1,9 @@
-"""Exact witnesses: points at which the hypotheses of a statement hold, and what it says there.
+"""Exact witnesses: points at which the hypotheses of a statement hold, and the value of the statement there.
 
-A statement that was proved is evaluated at an exact point: this shows that its hypotheses can hold, and checks the
-decision by arithmetic that shares nothing with it.  The point is the example of its algebra, or one that its register
-has in `examples.py`, or one that is searched (`points`): no letter has a meaning here.  A register's examples may have
-degenerate cases, in which the same is done.
+A proved statement is evaluated at an exact point: this shows that its hypotheses can hold, and checks the decision by
+independent arithmetic.  The point is the example of its algebra, or one in `examples.py` of its register, or found by
+search (`points`): no letter has a meaning here.  The examples of a register may have degenerate cases, which are
+evaluated, too.
 """
 
 import random
@@ -35,9 +35,9 @@ class Examples:
     matrices : mapping, optional
         {letter: matrix}.
     cases : mapping, optional
-        {name of a degenerate case: the values that it changes}.
+        {name of a degenerate case: its changed values}.
     others : mapping, optional
-        {symbol: rational number} in the place of others, for relations that these do not obey.
+        {symbol: rational number}, alternative values for relations that the others do not satisfy.
 
     Examples
     --------
@@ -51,11 +51,11 @@ class Examples:
     numbers: Mapping[sp.Symbol, sp.Rational] = field(default_factory=dict)
     matrices: Mapping[sp.Symbol, sp.Matrix] = field(default_factory=dict)
     cases: Mapping[str, Exact] = field(default_factory=dict)
-    #: Numbers that replace others, for relations that these do not obey.
+    #: Alternative values for relations that the others do not satisfy.
     others: Mapping[sp.Symbol, sp.Rational] = field(default_factory=dict)
 
     def of(self, symbols: Collection[sp.Symbol]) -> Exact:
-        """The values of some symbols; KeyError for one that has none."""
+        """The values of some symbols; KeyError for a symbol without a value."""
         return {x: self.numbers[x] if x.is_commutative else self.matrices[x] for x in symbols}
 
 
@@ -85,12 +85,12 @@ def look(equations: Sequence[Equation], assumed: Sequence[Comparison], examples:
 
 
 def allowed(point: Values, assumed: Sequence[Comparison]) -> bool:
-    """Whether the hypotheses hold of which the point has the symbols."""
+    """Whether the hypotheses hold whose symbols all have values."""
     return all(h.true_at(point) for h in assumed if h.symbols <= point.keys())
 
 
 def _point(equation: Equation, case: str, examples: Examples) -> Exact | None:
-    """The values of the symbols of the equation's algebra in a case; None where it does not apply."""
+    """The values of the symbols of the algebra of an equation in a case; None if the case does not apply."""
     algebra = equation.algebra
     if isinstance(algebra, Quotient):
         return _rational(algebra.symbols, algebra.relations, case, examples)
@@ -113,7 +113,7 @@ def _rational(
 
 
 def matrices(symbols: set[sp.Symbol], algebra: WordAlgebra, examples: Examples, case: str = GENERIC) -> Exact | None:
-    """Matrices for the letters, numbers for the parameters; the rules and transposes must be true of them."""
+    """Matrices for the letters and numbers for the parameters that satisfy the rules and transposes."""
     changed = examples.cases.get(case, {})
     symbols = symbols | set(algebra.transposes) | {x for pair in algebra.rules for x in pair}
     known: Exact = {**examples.numbers, **examples.matrices, **algebra.example, **changed}
@@ -125,10 +125,10 @@ def matrices(symbols: set[sp.Symbol], algebra: WordAlgebra, examples: Examples, 
 
 
 def searched(symbols: set[sp.Symbol], algebra: WordAlgebra) -> Iterator[Exact]:
-    """Points for an algebra whose symbols have no values, by what its transposes and rules say of each letter.
+    """Points for an algebra whose symbols have no values, from its transposes and rules.
 
-    A letter is orthogonal, symmetric, skew or any matrix, or a product that a rule gives it; where that is not enough,
-    letters of the rules that fail are 1, 0 or a projection.
+    A letter is an orthogonal, symmetric, skew or general matrix, or a product by a rule; if this is not enough, the
+    letters of the failing rules are 1, 0 or a projection.
     """
     given = algebra.example
     rows = {x.rows for x in given.values() if isinstance(x, sp.MatrixBase)}
@@ -147,7 +147,7 @@ def searched(symbols: set[sp.Symbol], algebra: WordAlgebra) -> Iterator[Exact]:
 
 
 def _by_kind(letters: Sequence[sp.Symbol], algebra: WordAlgebra, n: int) -> Exact:
-    """Matrices of n rows for letters without an example, seeded: by their transposes, then by the rules."""
+    """Seeded random n × n matrices for letters without an example: by their transposes, then by the rules."""
     seed, found = random.Random(n), dict(algebra.example)
 
     def any_matrix() -> sp.Matrix:
@@ -172,7 +172,7 @@ def _by_kind(letters: Sequence[sp.Symbol], algebra: WordAlgebra, n: int) -> Exac
 
 
 def closed(found: Exact, algebra: WordAlgebra) -> Exact:
-    """The matrices with their transposes, and the letters that rules make of two."""
+    """The matrices with their transposes, and the letters that are products of two by a rule."""
     for x in list(found):
         image = algebra.transposes.get(x)
         if image is not None and image.is_Symbol and image != x:
@@ -184,7 +184,7 @@ def closed(found: Exact, algebra: WordAlgebra) -> Exact:
 
 
 def _sound(point: Exact, algebra: WordAlgebra) -> bool:
-    """Whether the rules and the transposes are true of matrices."""
+    """Whether matrices satisfy the rules and the transposes."""
     try:
         return all(_same(evaluate(image, point), point[x].T) for x, image in algebra.transposes.items()) and all(
             _same(point[a] * point[b], v if v.is_number else evaluate(v, point)) for (a, b), v in algebra.rules.items()
@@ -194,7 +194,7 @@ def _sound(point: Exact, algebra: WordAlgebra) -> bool:
 
 
 def true_at(equation: Equation, point: Exact) -> bool | None:
-    """Whether both sides agree at a point; None where a denominator vanishes."""
+    """Whether both sides agree at a point; None if a denominator vanishes."""
     if isinstance(equation.algebra, Quotient):
         left, right = ([e.xreplace(point) for e in side] for side in (equation.left, equation.right))
         if any(value.has(sp.nan, sp.zoo, sp.oo) for value in (*left, *right)):
@@ -208,7 +208,7 @@ def true_at(equation: Equation, point: Exact) -> bool | None:
 
 
 def _same(a: Value, b: Value) -> bool:
-    """Equality of matrices; a number stands for its multiple of the identity (0 for any zero matrix)."""
+    """Equality of matrices; a number is its multiple of the identity (0 for any zero matrix)."""
     if isinstance(a, sp.MatrixBase) and isinstance(b, sp.MatrixBase):
         return bool(a.shape == b.shape and a == b) or (
             1 in a.shape and 1 in b.shape and a.is_zero_matrix and b.is_zero_matrix

@@ -12,7 +12,7 @@ SAME, COUNT = "it has one expression on both sides", "it is a number of solution
 
 
 class Claim:
-    """The text and the theorems of a certificate, by the library that they need; counts by sort; what is left out."""
+    """The text and the theorems of a certificate, by the library that they need; counts by sort; omitted statements."""
 
     def __init__(self, data: Data):
         self.data, self.name = data, f"claim_{apart(data['claim'])}"
@@ -37,7 +37,7 @@ class Claim:
         return one | sides | ({"definitions": names} if names else {})
 
     def _at_a_point(self, one: Data) -> Data:
-        """A statement with names of parts replaced by trees, and the traces of matrices computed."""
+        """A statement with the names of its parts replaced by trees, and with computed traces of matrices."""
         one, values = self._unfolded(one), dict[str, Tree]()
         for name, tree in one.get("definitions", []):
             values[name] = _placed(tree, values)
@@ -86,7 +86,7 @@ class Claim:
             self._point("points", "These hypotheses can be true.", f"{name}_point", values, assumed, [algebra])
 
     def _counterexample(self, name: str, example: Data) -> None:
-        """A point at which printed statements fail, and those in their place hold."""
+        """A point at which printed statements fail, and the corrected ones hold."""
         statements = self.data["statements"]
         refuted, agreeing = ([self._at_a_point(statements[n]) for n in example[part]] for part in ("refutes", "agrees"))
         algebras = [self.data["algebras"][n] for n in dict.fromkeys(one["algebra"] for one in refuted)]

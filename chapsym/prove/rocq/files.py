@@ -1,4 +1,4 @@
-"""The files of a folder that Rocq judges: the libraries, those of each claim, and a Makefile."""
+"""The files of a folder for Rocq: the libraries, those of each claim, and a Makefile."""
 
 from collections import Counter
 from collections.abc import Iterable
@@ -11,7 +11,7 @@ from .quotients import Data
 
 HERE = Path(__file__).resolve().parent
 LIBRARIES = ("Identities", "Points", "Words", "Traces", "Matrices")
-#: The head of a file, by the library that it needs; and the end of its name.
+#: The head of a file and the suffix of its name, by the library that it needs.
 HEADS = {
     "Points": "Require Import Points Identities ZArith List QArith.\nImport ListNotations.\n"
     "Open Scope nat_scope.\nOpen Scope field_of_0.",
@@ -25,7 +25,7 @@ ENDINGS = {"Points": "", "Traces": "_words", "Matrices": "_matrices"}
 
 @dataclass
 class Written:
-    """The statements that were written, counted; the files by the library that they need, with their theorems."""
+    """The number of written statements, and the files by the library that they need, with their theorems."""
 
     claims: int = 0
     theorems: Counter[str] = field(default_factory=Counter)
@@ -43,7 +43,7 @@ class Written:
 
 
 def write(certificates: Iterable[Data], folder: Path) -> Written:
-    """Writes the files of certificates that the checker has accepted to a folder; raises OSError if it cannot be."""
+    """Writes the files of accepted certificates to a folder; raises OSError if this fails."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in (*folder.glob("claim_*"), *folder.glob("axioms_*")):
         old.unlink()
@@ -61,7 +61,7 @@ def write(certificates: Iterable[Data], folder: Path) -> Written:
                 written.files[library][name] = theorems
     for library in LIBRARIES:
         text, path = (HERE / f"{library}.v").read_bytes(), folder / f"{library}.v"
-        if not path.exists() or path.read_bytes() != text:  # otherwise Rocq need not judge it again
+        if not path.exists() or path.read_bytes() != text:  # unchanged files need not be judged again
             path.write_bytes(text)
     for library, files in written.files.items():
         (folder / f"axioms_{library}.v").write_text(_axioms(files), encoding="utf-8")
@@ -71,7 +71,7 @@ def write(certificates: Iterable[Data], folder: Path) -> Written:
 
 
 def _axioms(files: dict[str, list[str]]) -> str:
-    """Has Rocq print the axioms that the theorems of some files use: once for all, which is quicker."""
+    """A file by which Rocq prints the axioms of the theorems of some files, once for all, which is faster."""
     used = "".join(f"  let _ := {name}.{theorem} in\n" for name, theorems in files.items() for theorem in theorems)
     required = f"Require {' '.join(files)}.\n" if files else ""
     return f"{required}Definition theorems :=\n{used}  tt.\nPrint Assumptions theorems.\n"

@@ -39,7 +39,7 @@ class Point:
         return "(" + f" {tree[0]} ".join(map(self.number, tree[1:])) + ")"
 
     def matrix(self, tree: Tree, rows: int) -> str:
-        """A matrix; a number stands for that multiple of the unit matrix."""
+        """A matrix; a number is that multiple of the unit matrix."""
         if self.is_number(tree):
             unit = f"unit_matrix {rows}"
             return unit if tree == 1 else f"({self.number(tree)} *: {unit})"
@@ -71,7 +71,7 @@ def quotient(x: str | int) -> str:
 
 
 def at_point(name: str, values: Mapping[str, Tree], facts: list[Fact], transposes: list[list[Tree]]) -> str:
-    """The theorem: matrices exist for which the facts are true, and which are transposes as it is said."""
+    """The theorem: matrices exist for which the facts and the given transposes are true."""
     point = Point(values)
     texts = [f"({point.matrix(b, len(values[a][0]))} == transposed {identifier(a)})%M" for a, b in transposes]
     for relation, sides in facts:

@@ -1,8 +1,9 @@
-"""Names, comments and numbers as Rocq writes them."""
+"""Names, comments and numbers in the syntax of Rocq."""
 
 import re
 
-#: The replacements of letters that no identifier may have; each begins with an underscore, none with another.
+#: The replacements of letters not allowed in identifiers; each begins with an underscore, and none is a prefix of
+#: another.
 ESCAPES = {"-": "__", ".": "_d", "_": "_u", "+": "_p", "^": "_h", "'": "_q"}
 #: Words of Rocq, and names that the generated files use.
 RESERVED = frozenset({
@@ -17,18 +18,18 @@ RESERVED = frozenset({
 
 
 def identifier(name: str) -> str:
-    """A name as an identifier, another one for each name."""
+    """A name as an identifier; different names have different identifiers."""
     plain = "".join(c if c.isascii() and c.isalnum() else ESCAPES.get(c, f"_x{ord(c):x}_") for c in name)
     return f"{plain}_r" if plain in RESERVED else plain
 
 
 def apart(claim: str) -> str:
-    """The id of a claim as a part of file names, of which no two differ in case alone: a mark behind each capital."""
+    """The id of a claim as a part of file names, with a mark after each capital, so that no two differ only in case."""
     return identifier(re.sub("([A-Z_])", r"\1_", claim))
 
 
 def comment(text: str) -> str:
-    """A text as a comment: without what would end it, open another one, or open a string."""
+    """A text as a comment, without characters that would end it, open another comment or a string."""
     text = "".join(c if c.isprintable() else " " for c in text)
     while "(*" in text or "*)" in text:
         text = text.replace("(*", "( *").replace("*)", "* )")
@@ -36,5 +37,5 @@ def comment(text: str) -> str:
 
 
 def integer(n: int) -> str:
-    """An integer that can stand anywhere."""
+    """An integer, in parentheses if negative."""
     return str(n) if n >= 0 else f"({n})"

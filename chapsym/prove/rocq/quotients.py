@@ -8,7 +8,7 @@ from typing import Any
 
 from .names import identifier, integer
 
-#: An expression as the checker reads it; and an object of a certificate, with such in it.
+#: An expression as the checker reads it; and an object of a certificate, with such expressions.
 Tree = Any
 Data = dict[str, Any]
 #: The identifier of each variable, and its number from 1 on.
@@ -88,7 +88,7 @@ def denominators(trees: Iterable[Tree]) -> list[Tree]:
 
 
 def conjunction(parts: list[str]) -> str:
-    """All of them, a line each."""
+    """A conjunction, with a line for each part."""
     return " /\\\n  ".join(parts)
 
 
@@ -108,12 +108,12 @@ def value(tree: Tree, point: Mapping[str, Tree]) -> Fraction:
 
 
 def trees_of(one: Mapping[str, Tree]) -> list[Tree]:
-    """All of a statement: both sides, and what names stand for."""
+    """All expressions of a statement: both sides, and the values of names."""
     return [*one["left"], *one["right"], *(tree for _, tree in one.get("definitions", []))]
 
 
 def statement(name: str, one: Data, algebra: Data) -> str:
-    """The theorem: the equations hold where relations do and no denominator vanishes; names are what they stand for."""
+    """The theorem: the equations hold where the relations hold and no denominator vanishes; names have their values."""
     definitions = one.get("definitions", [])
     names = variables([*algebra["variables"], *(name for name, _ in definitions)])
     known = denominators(trees_of(one))

@@ -7,14 +7,14 @@ from .words import Algebra, LeftOut, algebra_of, rules_for, rules_of, shapes_of,
 
 
 def statement(name: str, one: Data, data: Data, point: Data) -> str:
-    """The theorem: the traces agree for all matrices for which the rules hold, with the transposes that are given."""
+    """The theorem: the traces agree for all matrices for which the rules hold, with the given transposes."""
     used = names_in([None, *one["left"], *one["right"]])
     rules = rules_for(data, used)
     used = names_in([None, *used, *(part for rule in rules for part in rule)])
     partners = {b for a, b in data["transposes"] if a in used and isinstance(b, str)}
     algebra = algebra_of(data, one, rules, point, partners)
     turns = [turn for turn in (_turn(algebra, a, image) for a, image in data["transposes"]) if turn]
-    if turns:  # what has the trace of its transpose is half the sum of both
+    if turns:  # a term with the trace of its transpose is half the sum of both
         algebra.N = lcm(2, algebra.N)
     by_text = [(a, b) for a, b, _ in turns if algebra.letters[b][2] == f"{algebra.letters[a][2]}^T"]
     assumed = [turn for turn in turns if not {turn[:2], turn[1::-1]} & {*by_text}]
@@ -30,7 +30,7 @@ def statement(name: str, one: Data, data: Data, point: Data) -> str:
 
 
 def _turn(algebra: Algebra, a: str, image: Tree) -> tuple[str, str, bool] | None:
-    """A letter whose transpose is a letter, or minus a letter; None if it is something else."""
+    """A letter whose transpose is a letter, or minus a letter; else None."""
     minus = isinstance(image, list) and image[:2] == ["*", -1] and len(image) == 3
     b = image[2] if minus else image
     if not isinstance(b, str) or not {a, b} <= algebra.letters.keys():

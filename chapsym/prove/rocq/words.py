@@ -21,7 +21,7 @@ class LeftOut(Exception):
 
 @dataclass
 class Algebra:
-    """The letters with their shapes, and how each is written; N is a multiple of all denominators."""
+    """The letters with their shapes and their Rocq names; N is a multiple of all denominators."""
 
     letters: dict[str, tuple[int, Shape, str]]
     parameters: dict[str, tuple[int, str]]
@@ -32,7 +32,7 @@ class Algebra:
         return not any(name in self.letters for name in names_in(tree))
 
     def shape(self, tree: Tree) -> Shape | None:
-        """Rows and columns; None of a number, which stands for any multiple of a unit matrix."""
+        """Rows and columns; None for a number, which is any multiple of a unit matrix."""
         if self.is_number(tree):
             return None
         if isinstance(tree, str):
@@ -44,7 +44,7 @@ class Algebra:
         return shapes[0][0], shapes[-1][1]
 
     def number(self, tree: Tree) -> tuple[str, str]:
-        """A number as it is read, and as data."""
+        """A number for a reader, and as data."""
         if isinstance(tree, str) and tree in self.parameters:
             i, name = self.parameters[tree]
             return name, f"(Param {i})"
@@ -65,7 +65,7 @@ class Algebra:
         return joined(*{"+": ("+", "SSum"), "*": ("*", "SProd")}[tree[0]], map(self.number, tree[1:]))
 
     def matrix(self, tree: Tree) -> tuple[str, str]:
-        """A matrix as it is read, and as data."""
+        """A matrix for a reader, and as data."""
         if self.is_number(tree):
             if tree == 1:
                 return "1%:M", "Unit"
@@ -94,7 +94,7 @@ def _denominators(tree: Tree) -> set[int]:
 
 
 def statement(name: str, one: Data, data: Data, point: Data) -> str:
-    """The theorem: the equations of a statement hold for all matrices for which the rules do."""
+    """The theorem: the equations of a statement hold for all matrices for which the rules hold."""
     rules = rules_for(data, names_in([None, *one["left"], *one["right"]]))
     algebra = algebra_of(data, one, rules, point)
     shapes = {shape for shape in map(algebra.shape, (*one["left"], *one["right"])) if shape}
@@ -148,7 +148,7 @@ def theorem(name: str, algebra: Algebra, hypotheses: list[str], lemma: str, side
 
 
 def rules_for(data: Data, used: set[str]) -> list[list[Tree]]:
-    """The rules about the letters of a statement, and about those that these rules bring in."""
+    """The rules on the letters of a statement, and on the letters of these rules."""
     while True:
         rules = [rule for rule in data["rules"] if {*rule[:2]} <= used]
         more = used.union(*(names_in(rule[2]) for rule in rules))
@@ -178,7 +178,7 @@ def algebra_of(data: Data, one: Data, rules: list[list[Tree]], point: Data, more
 
 
 def _binders(algebra: Algebra) -> tuple[str, str]:
-    """The variables with their types; a transpose is that of another variable."""
+    """The variables with their types; a transpose is the transpose of another variable."""
     types: dict[str, list[str]] = {"R": [text for _, text in algebra.parameters.values()]}
     for _, shape, text in algebra.letters.values():
         plain, transposed = text.removesuffix("^T"), text.endswith("^T")
