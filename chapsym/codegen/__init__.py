@@ -1,4 +1,4 @@
-"""Kernels from decided statements: as Python and C, with the certificates that carry them."""
+"""Kernels from decided statements, as Python and C, with the certificates of these statements."""
 
 from .carriers import Carrier, left, right
 from .kernels import Group, Kernel

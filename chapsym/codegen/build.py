@@ -1,7 +1,8 @@
-"""The package that a register's kernels are written into: made, checked against what is derived, and bound to claims.
+"""The generated package of the kernels of a register: built, checked against the derivation, and tied to claims.
 
-A kernel is refused unless its text computes what the statements that carry it say: the checker evaluates the one, takes
-the other from the certificate of the claim, which is proved anew here, and compares them as rational functions.
+A kernel is refused unless its text computes the expressions of its carrying statements.  The checker evaluates the
+text, takes the expressions from the certificate of the claim, which is proved again here, and compares them as rational
+functions.
 """
 
 import ast
@@ -30,21 +31,21 @@ from .passes import letters
 
 MANIFEST, FINGERPRINTS = "manifest.json", "fingerprints.json"
 EDIT = "Written by `chapsym codegen`: do not edit; change the derivation and generate again."
-#: The values of a kernel as derived, and as a text of its module has them.
+#: The values of a kernel by the derivation, and a function that gives those of a text of its module.
 Computed = tuple[list[str], Callable[[str], list[str]]]
 
 
 class NoKernels(NoRegister):
-    """A register that has no list of kernels; the message says what would be one."""
+    """A register without a list of kernels; the message says what would be right."""
 
 
 class Package:
-    """The kernels of a register, and the folder that they are generated into.
+    """The kernels of a register, and the folder of the generated files.
 
     Parameters
     ----------
     register : Register
-        Whose `kernels.py` has KERNELS.
+        The register; its `kernels.py` has KERNELS.
 
     Raises
     ------
@@ -65,12 +66,12 @@ class Package:
 
     @property
     def is_ours(self) -> bool:
-        """Whether the loops of `dynamics` are made of these kernels."""
+        """Whether the loops of `dynamics` use these kernels."""
         return self.register == PROOFS
 
     @property
     def place(self) -> Path:
-        """Where the package lies: `generated` of the register, or that of chapsym."""
+        """The folder of the package: `generated` of the register, or that of chapsym."""
         return folder() if self.is_ours else self.register.folder / "generated"
 
     @property
@@ -85,14 +86,14 @@ class Package:
 
     @cached_property
     def judged(self) -> dict[str, Judgement]:
-        """The claims that carry kernels, judged now."""
+        """The judgements, made now, of the claims that carry kernels."""
         wanted = {id for kernel in self.kernels for id in kernel.claims}
         known = self.claims if wanted <= self.claims.keys() else PROOFS.load(lemmas=True) | self.claims
         with once():
             return {id: judgement_of(known[id]) for id in sorted(wanted & known.keys())}
 
     def unproved(self) -> list[str]:
-        """Why kernels cannot be made: what is wrong with them, and the claims that carry them and are not proved."""
+        """Why kernels cannot be made: their errors, and the carrying claims that are not proved."""
         named = {id: kernel.name for kernel in self.kernels for id in kernel.claims}
         problems = []
         for id, kernel in named.items():
@@ -138,14 +139,14 @@ class Package:
 
     @cached_property
     def files(self) -> dict[str, str]:
-        """Every generated file but the fingerprints; raises ArithmeticError where a text computes something else."""
+        """Every generated file but the fingerprints; raises ArithmeticError if a text computes something else."""
         files, rows = {"__init__.py": package_source(self.kernels)}, dict[str, dict[str, Any]]()
         for kernel in self.kernels:
             try:
                 files[f"{kernel.name}.py"], rows[kernel.name] = self.source(kernel)
             except Rejected as error:
                 said = str(error)
-                if not said.startswith(f"{kernel.name} "):  # of what its text or its carriers make
+                if not said.startswith(f"{kernel.name} "):  # by its text or its carriers
                     said = f"{kernel.name}: {said.replace('the certificate has', 'it makes')}; divide less in it"
                 raise ArithmeticError(said) from None
         table = {"kernels": rows}
@@ -162,7 +163,7 @@ class Package:
         return files
 
     def text(self, files: Mapping[str, str], path: str) -> str:
-        """The text of a module that the loops are made of: of what is generated the one that is being built."""
+        """The text of a module of the loops; for generated modules the text that is being built."""
         if path == "chapsym.generated":
             return "\n\n".join(files[f"{kernel.name}.py"] for kernel in self.kernels)
         return Path(__file__).parents[1].joinpath(*path.split(".")[1:]).with_suffix(".py").read_text(encoding="utf-8")
@@ -205,18 +206,18 @@ class Package:
         return problems + [f"the fingerprint of {name} belongs to no kernel" for name in strangers]
 
     def check_names(self, trust: Sequence[str]) -> None:
-        """Raises ValueError if a name in `trust` is no kernel's."""
+        """Raises ValueError if a name in `trust` is not the name of a kernel."""
         names = {"all", *(kernel.name for kernel in self.kernels)}
         for name in trust:
             if name not in names:
                 raise ValueError(f"--trust {name}: there is no such kernel; the names are {', '.join(sorted(names))}")
 
     def generate(self, place: Path, trust: Sequence[str] = ()) -> list[str]:
-        """Writes every file into `place` and removes kernels that are no more; returns the names written.
+        """Writes every file into `place` and removes files of former kernels; returns the names written.
 
-        Raises ValueError, before anything is written, if a fingerprint is missing or contradicted and not
-        named in `trust` ("all" names every kernel), or if the folder is another's, whose files would be lost.  The
-        first ones of a folder that has none are trusted.
+        Raises ValueError, before anything is written, if a fingerprint is missing or contradicted and not named in
+        `trust` ("all" names every kernel), or if the folder belongs to another package, whose files would be lost.  The
+        first fingerprints of a folder are trusted.
         """
         self.check_names(trust)
         problems = {} if not (place / FINGERPRINTS).is_file() and not self.is_ours else self.distrusted(place)
@@ -240,7 +241,7 @@ def ours() -> Package:
 
 
 def folder() -> Path:
-    """Where the generated package of chapsym lies: `generated/` of a checkout, or the installed copy."""
+    """The folder of the generated package of chapsym: `generated/` of a checkout, or the installed copy."""
     spec = importlib.util.find_spec("chapsym.generated")
     if spec is None or not spec.submodule_search_locations:
         raise FileNotFoundError("the package chapsym.generated is not installed; reinstall chapsym")
@@ -253,7 +254,7 @@ def is_checkout(place: Path) -> bool:
 
 
 def code(kernel: Kernel, chosen: tuple[str, ...] = passes.PASSES) -> str:
-    """The function of a kernel, with the passes that are chosen."""
+    """The function of a kernel, with the chosen passes."""
     terms, rest = passes.lower(kernel, chosen)
     # Outputs are named o_... so that an output may share its name with an input (K, in `residual`).
     outputs = [f"o_{name}" for name in kernel.outputs]
@@ -294,7 +295,7 @@ def package_source(kernels: Sequence[Kernel]) -> str:
 
 
 def stored_fingerprints(place: Path) -> dict[str, list[str]]:
-    """The trusted values; empty if there are none.  Raises ValueError for a file that has something else."""
+    """The trusted values; empty if there are none.  Raises ValueError for a file with other contents."""
     path = place / FINGERPRINTS
     try:
         found = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
@@ -322,7 +323,7 @@ def _one_a_line(table: Mapping[str, Any]) -> str:
 
 
 def _doubts(what: str, derived: list[str], values: Callable[[str], list[str]], text: bytes) -> list[str]:
-    """The differences of a changed text from the derivation, if there are any."""
+    """The differences of a changed text from the derivation, if any."""
     try:
         return [] if values(text.decode()) == derived else [f"{what} computes another value than the derivation"]
     except Exception as error:
@@ -330,7 +331,7 @@ def _doubts(what: str, derived: list[str], values: Callable[[str], list[str]], t
 
 
 DIGITS = 40
-#: The prefix of the names that replace functions in a text: no kernel may have a name that begins so.
+#: The prefix of names that replace functions in a text; no kernel may have a name with it.
 LETTER = "__letter"
 
 
@@ -347,7 +348,7 @@ def decimal(value: Fraction | sp.Rational) -> str:
 
 @cache
 def fingerprint(kernel: Kernel) -> list[str]:
-    """The values of the expressions at the rational point, letters with values of their own, and of what these are."""
+    """The values of the expressions at the rational point, with independent letters, and those of their meanings."""
     point = {symbol: sp.Rational(at(symbol.name)) for symbol in (*kernel.inputs, *kernel.letters)}
     values = [decimal(e.xreplace(point)) for e in kernel.expressions]
     return values + [f"{function} {decimal(of.xreplace(point))}" for _, function, of in letters(kernel)]
@@ -366,7 +367,7 @@ def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
 
 
 def run(kernel: Kernel, text: str, letter: Callable[..., Any] | None = None) -> Callable[..., Any]:
-    """The function of a module that was generated, whose letters are what `letter` makes of their function and name."""
+    """The function of a generated module; `letter` gives the value of a letter from its function and name."""
     module = ast.parse(text)
     module.body = [node for node in module.body if not isinstance(node, ast.ImportFrom)]
     for node in ast.walk(module):

@@ -1,9 +1,10 @@
-"""The text in C of the functions of the loops: the same operations on the same operands, in the same order.
+"""The functions of the loops as C text: the same operations on the same operands, in the same order.
 
-A function is printed again and again until the kinds of its names and results are known.  A kind is "b", "i" or "r"
-for a truth, an integer or a number of the type that the loops are compiled for; "d" for one that is float64 in float32,
-too; an `Array`; a `Record`; or a tuple of kinds, as of a vector.  In double-double it is "p" or "q" for a pair, `Loose`
-or `Normal`, "e" for a float that counts as exact, "1" for that number.  A function is printed anew for such kinds.
+A function is printed repeatedly until the kinds of its names and results are known.  A kind is "b", "i" or "r" for a
+truth value, an integer or a number of the type of the compiled loops; "d" for a number that is float64 also in float32
+loops; an `Array`; a `Record`; or a tuple of kinds, as of a vector.  In double-double it is "p" or "q" for a pair,
+`Loose` or `Normal`, "e" for a float that counts as exact, "1" for the number 1.  A function is printed separately for
+such kinds.
 """
 
 import ast
@@ -19,14 +20,14 @@ from typing import Any
 from .printer import FUNCTIONS
 from .source import ANNOTATIONS, LOOSE, PAIRS, Array, Function, NotConstant, Program, Record, Varying, constant, meaning
 
-#: Operators of C, each with its precedence: the tighter it binds, the larger.
+#: Operators of C with their precedences; a larger one binds more tightly.
 OPERATORS: dict[type, tuple[str, int]] = {
     ast.BitOr: ("|", 4), ast.BitAnd: ("&", 5), ast.Eq: ("==", 6), ast.NotEq: ("!=", 6), ast.Lt: ("<", 7),
     ast.LtE: ("<=", 7), ast.Gt: (">", 7), ast.GtE: (">=", 7), ast.Add: ("+", 9), ast.Sub: ("-", 9),
     ast.Mult: ("*", 10), ast.Div: ("/", 10), ast.FloorDiv: ("div_i", 12), ast.Mod: ("mod_i", 12),
 }  # fmt: skip
 TERNARY, OR, AND, LESS, BITS, UNARY, ATOM = 1, 2, 3, 6, 8, 11, 12
-#: The kinds of numbers, narrow ones first, and w for the elements of an array of integers of 32 bits.
+#: The kinds of numbers, by increasing range, and w for the elements of an array of 32-bit integers.
 SCALARS = {"b": "int", "i": "int64_t", "r": "real", "d": "double", "w": "int32_t"}
 #: The kinds of double-double.
 LOOSE_SCALARS = {"1": "int64_t", "e": "real", "p": "t_r2", "q": "t_r2"}
@@ -36,10 +37,10 @@ FORMS: dict[type, tuple[str, str, str]] = {
     ast.Sub: ("two_sum", "loose_add_float", "loose_subtract"),
     ast.Mult: ("two_product", "loose_multiply_float", "loose_multiply"),
 }
-#: Functions of Python and its libraries that C has for float64, and those that are casts to a kind.
+#: Functions of Python and its libraries with a C function for float64, and those that are casts to a kind.
 LIBRARY = {"math.sqrt": "sqrt", "math.exp": "exp", "math.log": "log", "abs": "fabs"}
 CASTS = {"int": "i", "float": "r", "numpy.float32": "r", "numpy.float64": "d"}
-#: The module of float32's own loops, and what they take in float64.
+#: The module of the float32 loops, and the functions that they use in float64.
 NARROW, WIDE = "single_loop", "branch"
 #: Calls that make a new array.
 ALLOCATE = ("numpy.empty", "numpy.zeros", "numpy.eye", "copy")
@@ -47,7 +48,7 @@ WIDTH = 118
 
 
 class NotTranslatable(ValueError):
-    """The text of a loop has something that is not translated."""
+    """The text of a loop has an untranslatable construct."""
 
 
 def joined(a: Any, b: Any) -> Any:
@@ -58,7 +59,7 @@ def joined(a: Any, b: Any) -> Any:
 
 
 def c_type(kind: Any) -> str:
-    """The name of a kind in C; that of a tuple has the runs of equal kinds, each tuple inside between underscores."""
+    """The name of a kind in C; for a tuple, the runs of equal kinds, with each inner tuple between underscores."""
     if isinstance(kind, tuple):
         inner = (
             f"_{c_type(one)[2:]}_" if isinstance(one, tuple) else c_type(one) if isinstance(one, Record) else one
@@ -72,7 +73,7 @@ def c_type(kind: Any) -> str:
 
 
 def is_loose(kind: Any) -> bool:
-    """Whether a kind is one of double-double, or a tuple that has some."""
+    """Whether a kind is one of double-double, or a tuple that contains one."""
     return any(map(is_loose, kind)) if isinstance(kind, tuple) else isinstance(kind, str) and kind in LOOSE_SCALARS
 
 
@@ -83,19 +84,19 @@ def widened(kind: tuple[Any, ...]) -> tuple[Any, ...]:
 
 @dataclass(frozen=True)
 class Text:
-    """An expression in C, its kind, and how tightly its outermost operator binds."""
+    """An expression in C, its kind, and the precedence of its outermost operator."""
 
     text: str
     kind: Any
     level: int = ATOM
 
     def at(self, level: int) -> str:
-        """The text where an operand has to bind so tightly."""
+        """The text as an operand that must bind at this precedence."""
         return self.text if self.level >= level else f"({self.text})"
 
     @property
     def parts(self) -> list["Text"]:
-        """The fields of a record, or of the structure that a call returned."""
+        """The fields of a record, or of a returned structure."""
         if isinstance(self.kind, Record):
             return [Text(f"{self.text}.{name}", kind) for name, kind in self.kind.fields]
         if isinstance(self.kind, tuple):
@@ -104,7 +105,7 @@ class Text:
 
 
 def number(value: float) -> Text:
-    """A constant; a float is of the type of the loops, as is a whole number that no integer of C can hold."""
+    """A constant; floats, and integers beyond the range of C, have the type of the loops."""
     value = float(value) if isinstance(value, int) and abs(value) >= 2**63 else value
     if isinstance(value, bool | int):
         return Text(str(int(value)), "b" if isinstance(value, bool) else "i", UNARY if value < 0 else ATOM)
@@ -114,19 +115,19 @@ def number(value: float) -> Text:
 
 @dataclass
 class Statement:
-    """A statement: its text, with the type where it declares; a compound one has a block."""
+    """A statement: its text, with the type for a declaration; a compound statement has a block."""
 
     text: str
     declares: str = ""
     block: "list[Statement] | None" = None
 
 
-#: C does this by an instruction of its own: the exact product is a fused multiply-add there.
+#: Functions with hand-written C: the exact product is a fused multiply-add.
 BY_HAND = {"pairs_two_product": [Statement("real p = a * b"), Statement("return (t_r2){p, fma(a, b, -p)}")]}
 
 
 class Printer:
-    """Prints one function, with the kinds that are known so far; `printers` has those of the others."""
+    """Prints one function, with the kinds known so far; `printers` has the printers of the others."""
 
     def __init__(self, printers: "Printers", function: Function) -> None:
         self.printers, self.function, self.module = printers, function, function.module
@@ -140,17 +141,17 @@ class Printer:
         self.names: dict[str, Any] = {
             a.arg: ANNOTATIONS[ast.unparse(a.annotation)] for a in function.node.args.args if a.annotation
         }
-        #: The type that it returns; the parameters into whose elements it writes.
+        #: The returned type; the parameters to whose elements it writes.
         self.returned: Any = None
         self.written: set[str] = set()
         #: The parts of the records that have a name.
         self.made: dict[str, Sequence[ast.expr]] = {}
-        #: The functions that it calls, each with the one that takes its place in float32, or itself.
+        #: The called functions, each with its replacement in float32, or itself.
         self.calls: dict[Function, Function] = {}
         nodes = [n for n in ast.walk(function.node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
         self.stored = Counter(n.id for n in nodes)
         self.own = {*self.stored, *function.parameters}
-        #: The parameters of a function of pairs that are the high half of one: in C they are the pair.
+        #: The parameters of a function of pairs that are high halves; in C they are whole pairs.
         of_pairs = self.module.name == PAIRS.rpartition(".")[2]
         self.halved = {x for x in function.parameters if of_pairs and f"{x}_" in function.parameters}
         self.statements: list[Statement] | None = None
@@ -159,12 +160,12 @@ class Printer:
         """Prints the function."""
         self.out: list[Statement] = []
         self.depth = self.temporaries = 0
-        #: Names that are declared; those at the beginning, with their types; and names that are a part of a structure.
+        #: Declared names; those declared at the beginning, with their types; and names for parts of structures.
         self.declared, self.above = set(self.function.parameters), dict[str, str]()
         self.within = {x: Text(f"{x}.a0", "r") for x in self.halved} | {
             f"{x}_": Text(f"{x}.a1", "r") for x in self.halved
         }
-        #: The variables of the loops around, and those of loops that have ended.
+        #: The variables of the enclosing loops, and those of finished loops.
         self.loops, self.ended = list[str](), set[str]()
         self.statements = self.out
         for statement in self.function.node.body:
@@ -189,7 +190,7 @@ class Printer:
         return None if isinstance(inside, ast.Name) and inside.id in self.own else meaning(node, self.module.names)
 
     def value(self, node: ast.expr) -> Any:
-        """The value of a constant expression; None for any other, or where it differs in float32."""
+        """The value of a constant expression; None for any other, or if it differs in float32."""
         for n in ast.walk(node):
             if isinstance(n, ast.Name) and n.id in self.own:
                 return None
@@ -233,7 +234,7 @@ class Printer:
                     return self.halves(of, "-{}")
                 sign = "!" if isinstance(op, ast.Not) else "-"
                 of = Text(of.text, "i") if of.kind == "1" else of
-                text = of.at(ATOM if of.text[0] == "-" else UNARY)  # -- is another operator
+                text = of.at(ATOM if of.text[0] == "-" else UNARY)  # `--` is another operator
                 return Text(sign + text, "b" if sign == "!" else of.kind, UNARY)
             case ast.Compare(left=left, ops=ops, comparators=comparators):
                 operands = [self.one(x) for x in (left, *comparators)]
@@ -252,7 +253,7 @@ class Printer:
             case ast.IfExp(test=test, body=body, orelse=orelse):
                 given, before = self.one(test), self.temporaries
                 yes, no = self.expression(body), self.expression(orelse)
-                if isinstance(yes.kind, tuple):  # both are computed, so that it becomes vector code
+                if isinstance(yes.kind, tuple):  # both are computed, for vector code
                     if self.changes(body) or self.changes(orelse):
                         raise TypeError("a call that writes would be made in any case")
                     given, yes, no = map(self.named, (given, yes, no))
@@ -282,7 +283,7 @@ class Printer:
         raise TypeError(f"{ast.unparse(node)} has no form that is known")
 
     def one(self, node: ast.expr) -> Text:
-        """An expression that is compared or asked for its truth: neither a tuple nor a number of double-double."""
+        """An operand of a comparison or a condition: neither a tuple nor a number of double-double."""
         of = self.expression(node)
         if isinstance(of.kind, tuple | Record) or is_loose(of.kind):
             raise TypeError(f"{ast.unparse(node)} has no order and no truth")
@@ -307,7 +308,7 @@ class Printer:
         return Text(text, joined(yes.kind, no.kind), TERNARY)
 
     def unhurried(self, node: ast.expr) -> Text:
-        """An expression that is not always evaluated, or more than once: nothing of it may come before the others."""
+        """An expression that may be evaluated never or twice, so that none of its statements may come before it."""
         before = self.temporaries
         text = self.expression(node)
         if self.temporaries > before:
@@ -315,7 +316,7 @@ class Printer:
         return text
 
     def operation(self, a: Text, op: ast.operator, b: Text) -> Text:
-        """An operation with two operands; the remainder is of integers, as is the quotient."""
+        """An operation with two operands; quotient and remainder are those of integers."""
         if not {a.kind, b.kind}.isdisjoint(("e", "p", "q")):
             return self.loose(a, type(op), b)
         if a.kind == b.kind == "1" and isinstance(op, ast.Mult):
@@ -365,13 +366,13 @@ class Printer:
         return [Text(f"{value.text}.{x}", "r") for x in ("a0", "a1")]
 
     def halves(self, value: Text, form: str) -> Text:
-        """The same done to both halves."""
+        """The same operation on both halves."""
         if value.kind not in ("p", "q"):
             return Text(form.format(value.at(UNARY)), value.kind, OPERATORS[ast.Mult][1])
         return Text(f"(t_r2){{{', '.join(form.format(x.text) for x in self.of(self.named(value)))}}}", value.kind)
 
     def normalised(self, value: Text) -> Text:
-        """A pair of which the low half is small."""
+        """A normalised pair."""
         if value.kind not in ("p", "q"):
             return value
         return Text(self.on_halves("two_sum", *self.of(self.named(value))).text, value.kind)
@@ -469,11 +470,11 @@ class Printer:
         return Text(f"(t_r2){{{high.text}, {low.text}}}", "q" if name == "Normal" else "p")
 
     def adjoined(self, name: str, of: Text) -> Text:
-        """A letter of a kernel, by a function of the mathematics library."""
+        """A letter of a kernel, as a call of the mathematics library."""
         return Text("R(3.141592653589793)" if name == "pi" else f"R({name}({of.text}))", "r")
 
     def called(self, callee: Function | Varying, arguments: Sequence[ast.expr], given: list[Text]) -> Text:
-        """A call of a function of the loops, whose parameters have the kinds of the arguments, too."""
+        """A call of a function of the loops; its parameters get the kinds of the arguments."""
         double, single = (callee.double, callee.single) if isinstance(callee, Varying) else (callee, callee)
         if single is self.function:
             single = double
@@ -504,7 +505,7 @@ class Printer:
         return Text(f"{callee.name if single is not double else double.name}({text})", of.returned)
 
     def several(self, nodes: Sequence[ast.expr]) -> Iterator[Text]:
-        """The values of arguments or of the elements of a tuple, of which some may be starred."""
+        """The values of arguments or of the elements of a tuple; some may be starred."""
         for node in nodes:
             if isinstance(node, ast.Starred):
                 yield from self.named(self.expression(node.value)).parts
@@ -514,11 +515,11 @@ class Printer:
     # -- statements
 
     def note(self, name: str, kind: Any) -> None:
-        """A name has this kind, too."""
+        """Notes that a name has this kind, too."""
         self.names[name] = joined(self.names.get(name, kind), kind)
 
     def writes(self, node: ast.expr) -> None:
-        """The function writes into the array that an expression is a part of, or into the arrays of a record."""
+        """Notes that the function writes to the array of an expression, or to the arrays of a record."""
         name = base_name(node)
         for part in self.made.get(name, ()):
             self.writes(part)
@@ -529,7 +530,7 @@ class Printer:
         self.out += [Statement(text) for text in texts]
 
     def declare(self, kind: str, name: str, text: str) -> None:
-        """Declares a name with a value; it joins a declaration of the same type before it."""
+        """Declares a name with a value, in the preceding declaration if that has the same type."""
         last = self.out[-1] if self.out else Statement("")
         if last.declares == kind and len(last.text) + len(name) + len(text) < WIDTH - 4 * self.depth - 10:
             last.text += f", {name} = {text}"
@@ -537,7 +538,7 @@ class Printer:
             self.out.append(Statement(f"{kind} {name} = {text}", kind))
 
     def assigned(self, name: str, kind: Any, text: str) -> None:
-        """Assigns to a name: where that is the first assignment and in no block, it declares the name."""
+        """Assigns to a name; the first assignment, outside of blocks, declares the name."""
         if name in self.declared or self.depth:
             if name not in self.declared:
                 self.above[name] = c_type(kind)
@@ -547,11 +548,11 @@ class Printer:
         self.declared.add(name)
 
     def named(self, value: Text) -> Text:
-        """A value that may be written several times: it is kept unless it is a name."""
+        """A value that may be used several times: it is stored in a variable unless it is a name."""
         return value if re.fullmatch(r"[\w.]+", value.text) else self.kept(value)
 
     def kept(self, value: Text) -> Text:
-        """A name of what a call returned."""
+        """A variable for the result of a call."""
         self.temporaries += 1
         self.declare(c_type(value.kind), f"t_{self.temporaries}", value.text)
         return Text(f"t_{self.temporaries}", value.kind)
@@ -577,13 +578,13 @@ class Printer:
         """Adds the statements in C of one in Python."""
         try:
             self.translate(node)
-        except (AttributeError, LookupError, TypeError, ValueError) as error:  # no form that is known here
+        except (AttributeError, LookupError, TypeError, ValueError) as error:  # no known form
             if isinstance(error, NotTranslatable):
                 raise
             raise NotTranslatable(f"{self.function.name}: {ast.unparse(node)}: {error}") from error
 
     def translate(self, node: ast.stmt) -> None:
-        """Adds the statements in C of one in Python; a form that is not known raises any error."""
+        """Adds the statements in C of one in Python; an unknown form raises any error."""
         match node:
             case ast.Expr(value=ast.Constant()) | ast.Pass():
                 pass
@@ -635,7 +636,7 @@ class Printer:
         return done
 
     def result(self, node: ast.expr) -> str:
-        """A return of one value, of what a call returns, or of a tuple."""
+        """A return of one value, of the result of a call, or of a tuple."""
         value = self.expression(node)
         if isinstance(value.kind, Array):
             raise TypeError("an array is returned")
@@ -669,7 +670,7 @@ class Printer:
                 self.set(target, self.expression(value))
 
     def assign_each(self, targets: Sequence[ast.expr], values: list[Text]) -> None:
-        """Adds the assignments of several values; where one changes what is read later, all are computed before."""
+        """Adds the assignments of several values; if one changes a value that is read later, all are computed first."""
         words = [set(re.findall(r"\w+", value.text)) for value in values]
         if any(base_name(target) in later for i, target in enumerate(targets) for later in words[i + 1 :]):
             values = [self.kept(value) for value in values]
@@ -677,7 +678,7 @@ class Printer:
             self.set(target, value)
 
     def assign_parts(self, targets: Sequence[ast.expr], value: Text) -> None:
-        """Adds the assignments of what a call returns; names that nothing else assigns stay parts of the structure."""
+        """Adds the assignments of the results of a call; names with no other assignment stay parts of the structure."""
         names = [t.id if isinstance(t, ast.Name) else "" for t in targets]
         if all(name == "_" or (self.stored[name] == 1 and name not in self.function.parameters) for name in names):
             first = next(name for name in names if name != "_")
@@ -700,7 +701,7 @@ class Printer:
         self.declare(str(kind), name, f"{{{', '.join([f'{name}_', *sizes, *strides])}}}")
 
     def allocate(self, name: str, node: ast.Call) -> None:
-        """A new array: one that is empty, zero or the identity, or a copy of a column of a matrix."""
+        """A new array: empty, zero or the identity, or a copy of a column of a matrix."""
         callee = self.callee(node.func)
         if callee == "copy":
             column: Any = node.func.value  # type: ignore[attr-defined]
@@ -726,7 +727,7 @@ class Printer:
         self.out.append(Statement(f"for (int64_t i_ = 0; i_ < {count}; i_++)", block=[Statement(text)]))
 
     def loop(self, name: str, over: str, nodes: Sequence[ast.expr], body: Sequence[ast.stmt]) -> None:
-        """A loop over a range; its end is computed once, and its variable is known inside alone."""
+        """A loop over a range; its end is computed once, and its variable exists only inside."""
         if over not in ("range", "lanes") or any(
             isinstance(n, ast.Name) and n.id == name for x in nodes for n in ast.walk(x)
         ):
@@ -752,7 +753,7 @@ def whole(high: Text, low: Text) -> Text:
 
 
 def base_name(node: ast.expr) -> str:
-    """The name that an expression is, or the array that it is a part of."""
+    """The name of an expression, or of the array that contains it."""
     while isinstance(node, ast.Subscript | ast.Attribute | ast.Call):
         node = node.func if isinstance(node, ast.Call) else node.value
     return node.id if isinstance(node, ast.Name) else ""
@@ -765,12 +766,12 @@ def is_whole(node: ast.expr) -> bool:
 
 
 def is_external(caller: Function, callee: Function) -> bool:
-    """Whether what is in float32 calls a function in float64."""
+    """Whether a function in float32 calls a function in float64."""
     return caller.module.name == NARROW and callee.module.name == WIDE
 
 
 class Printers(dict[Function, Printer]):
-    """A printer for each function that is asked for, and one for each of the kinds that it is specialised for."""
+    """A printer for each requested function, and one for each of its specialisations by kinds."""
 
     def __init__(self, program: Program) -> None:
         self.program, self.specialised = program, dict[tuple[Function, str], Function]()
@@ -789,7 +790,7 @@ class Printers(dict[Function, Printer]):
 
 
 def printed(program: Program, roots: Sequence[Function], kernels: Sequence[Function] = ()) -> Printers:
-    """The printers of some functions and of all that these call; a kernel has numbers as parameters."""
+    """The printers of some functions and of all functions that these call; a kernel has numbers as parameters."""
     found = Printers(program)
     for function in (*roots, *kernels):
         found[function].names |= dict.fromkeys(function.parameters, "r") if function in kernels else {}
@@ -808,7 +809,7 @@ def broken(line: str) -> list[str]:
 
 
 def lines(statements: Sequence[Statement], indent: str = "    ") -> list[str]:
-    """Statements as lines: short ones that follow each other share a line."""
+    """Statements as lines; successive short statements share a line."""
     done, shares = list[str](), False
     for statement in statements:
         text = f"{indent}{statement.text}"
@@ -828,7 +829,7 @@ def lines(statements: Sequence[Statement], indent: str = "    ") -> list[str]:
 
 
 def block(head: str, *statements: Statement | str) -> str:
-    """A function, from its head and its statements; an empty line follows where it has several."""
+    """A function, from its head and its statements; an empty line follows if it has several."""
     body = [Statement(x) if isinstance(x, str) else x for x in statements]
     found = lines([Statement(head, block=body)], "")
     return "\n".join(found) + ("\n\n" if len(found) > 1 else "\n")

@@ -13,10 +13,10 @@ from .source import Function, Program, Record
 PACKAGE = "chapsym.dynamics.loops"
 SINGLE = ("loop", "block")
 LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "proved", "tangent", "following", "expected"
-#: Modules that are compiled apart, at the same time as the others: they take half of the compiler's time.
+#: Modules that are compiled separately, in parallel with the others: they take half of the compile time.
 LONG = "lanes", "following"
 
-#: Loops that gain from registers of 512 bits, those of lanes of balls, and from those of 256; others gain from neither.
+#: Loops that gain from 512-bit registers (lanes of balls), and from 256-bit registers; others gain from neither.
 WIDEST = "block_march_blocks", "lanes_march", "double_double_march_pairs_block", "following_follow"
 WIDER = (
     "lanes_march_alone", "following_follow_alone", "double_double_march_pairs", "double_double_march_long_pairs",
@@ -140,7 +140,7 @@ class Texts:
         self.program, self.roots, self.single = program, roots, single
         self.of = printed(program, roots, kernels)
         double, single_, every = (self.reached(*x) for x in ((roots, "double"), (single, "single"), (roots, "")))
-        #: Each function, after those that it calls, with the guard of the type of numbers that it is for.
+        #: Each function, after those that it calls, with the guard of its number type.
         self.groups = {
             f: "" if f in double and f in single_ else "#ifndef SINGLE" if f in double else "#ifdef SINGLE"
             for f in every
@@ -149,7 +149,7 @@ class Texts:
     def reached(
         self, functions: Iterable[Function], numbers: str, done: dict[Function, None] | None = None
     ) -> dict[Function, None]:
-        """Some functions and all that they call for a type of numbers, each after those that it calls."""
+        """Some functions and all that they call, for a number type, each after those that it calls."""
         done = {} if done is None else done
         for function in functions:
             if function not in done:
@@ -161,7 +161,7 @@ class Texts:
         return done
 
     def text(self) -> str:
-        """All of it."""
+        """The whole text."""
         parts = [PRELUDE, self.typedefs(), self.varying()]
         for guard, functions in groupby(self.groups, key=self.groups.__getitem__):
             parts.append(guarded(guard, "".join(map(self.written, functions))))
@@ -181,11 +181,11 @@ class Texts:
         return "\n".join([*(part for row in rows for part in broken(row)), "\n"])
 
     def inside(self, kind: Any) -> Iterator[Any]:
-        """The structures that a kind needs, itself the last."""
+        """The structures that a kind needs, ending with its own."""
         if isinstance(kind, tuple | Record):
             for one in kind if isinstance(kind, tuple) else (of for _, of in kind.fields):
                 yield from self.inside(one)
-            if kind != ("r", "i"):  # which the first lines have
+            if kind != ("r", "i"):  # defined in the first lines
                 yield kind
         elif kind in ("p", "q"):
             yield ("r", "r")
@@ -196,7 +196,7 @@ class Texts:
         return [(f, self.of[f]) for f in self.groups if f in found]
 
     def varying(self) -> str:
-        """The names that have another value, or are another function, in float32."""
+        """The names with another value, or another function, in float32."""
 
         def definition(name: str, value: Any) -> str:
             text = value.name if isinstance(value, Function) else number(value).text
@@ -222,7 +222,7 @@ class Texts:
         return text
 
     def exports(self) -> str:
-        """The table of the functions that are exported, each with a way in that takes its arguments from a list."""
+        """The table of the exported functions, each with a wrapper that takes its arguments from a list."""
         apart = [f for f in self.roots if f.name.startswith(tuple(f"{name}_" for name in LONG))]
         double = [f for f in self.roots if f not in self.single and f not in apart]
 
@@ -235,7 +235,7 @@ class Texts:
         return f"{ways}\nconst loop_export LOOPS()[] = {{\n{rows}}};\n{count}"
 
     def way_in(self, function: Function) -> str:
-        """A function of one form that calls one that is exported."""
+        """A wrapper, of a common form, of an exported function."""
         of = self.of[function]
         given = ", ".join(f"{of.names[x]}_({i})" for i, x in enumerate(function.parameters))
         wide = "WIDEST " if function.name in WIDEST else "WIDER " if function.name in WIDER else ""
@@ -248,7 +248,7 @@ class Texts:
         return block(head, f"{c_type(of.returned)} out = {call}", *members)
 
     def row(self, function: Function) -> str:
-        """A row of the table: the name, the arguments, with * where it writes, and the results."""
+        """A row of the table: the name, the arguments, with * for those that are written, and the results."""
         of = self.of[function]
         returned = of.returned if isinstance(of.returned, tuple) else (of.returned,)
         if of.returned is not None and not set(returned) <= {"b", "i", "r", "d"}:
@@ -258,12 +258,12 @@ class Texts:
 
 
 def guarded(guard: str, text: str) -> str:
-    """Text that is for one type of numbers alone, or for both where there is no guard."""
+    """Text for one number type, or for both without a guard."""
     return f"{guard}\n{text}#endif\n" if guard and text else text
 
 
 def build(load: Callable[[str], str], kernels: Sequence[Kernel], roundings: Mapping[str, int | None]) -> dict[str, str]:
-    """The files by name; `load` gives the text of a module of the loops, of the kernels or of what these import."""
+    """The files by name; `load` gives the text of a module of the loops, of the kernels, or of their imports."""
     program = Program(load)
     exported = {
         name: [f for f in program.module(f"{PACKAGE}.{name}").functions.values() if f.is_exported] for name in LOOPS
@@ -293,7 +293,7 @@ def build(load: Callable[[str], str], kernels: Sequence[Kernel], roundings: Mapp
     }
 
 
-#: A header, of a name in capitals and what it declares, and its end.
+#: A header, with a name in capitals and its declarations, and its end.
 HEADER = """#ifndef {0}_H
 #define {0}_H
 
@@ -356,7 +356,7 @@ def library(texts: Texts, kernels: Sequence[Kernel], roundings: Mapping[str, int
 def kernels_alone(
     text: str, kernels: Sequence[Kernel], prefix: str, roundings: Mapping[str, int | None]
 ) -> dict[str, str]:
-    """The same of the kernels of another register, whose functions are in a text: PREFIX.h and PREFIX.c."""
+    """The same for the kernels of another register, given as a text: PREFIX.h and PREFIX.c."""
     program = Program(lambda path: text)
     functions = program.module("chapsym.generated").functions
     texts = Texts(program, [], [], [functions[kernel.name] for kernel in kernels])
@@ -393,7 +393,7 @@ def interface(
         call = f"{c_type(returned)} got = {function.name}({', '.join(given)})"
         if set(returned) == {"r"}:
             copied = ["memcpy(result, &got, sizeof got)"]
-        else:  # a result that is a whole number, such as 1, becomes a real one
+        else:  # an integer result, such as 1, becomes a real number
             got = Text("got", returned)
             copied = [
                 f"result[{i}] = {x.text}" for i, x in enumerate(got.parts if isinstance(returned, tuple) else [got])

@@ -1,7 +1,7 @@
-"""The carriers of kernels: the side of a statement that a claim has decided, and the steps from there.
+"""The carriers of kernels: a side of a statement that a claim has decided, and further steps.
 
-The checker judges it (`chapsym.checker.kernels`): it makes the same of the statement in the claim's certificate, and
-compares that with the text of the kernel.
+The checker (`chapsym.checker.kernels`) repeats the steps on the statement in the certificate of the claim, and compares
+the result with the text of the kernel.
 """
 
 from collections.abc import Callable, Mapping
@@ -21,13 +21,13 @@ from chapsym.prove.points import Exact, some
 from chapsym.prove.trees import NotAlgebra, tree
 
 Places = Mapping[sp.Symbol, Any]
-#: Points at which a text is compared with its carrier before cofactors are looked for.
+#: The number of points at which a text is compared with its carrier before the search for cofactors.
 MOST_POINTS = 8
 
 
 @dataclass(frozen=True)
 class Carrier:
-    """Entries that a decided statement has on one side, and steps from there; `left` and `right` make it.
+    """Entries of one side of a decided statement, and further steps; `left` and `right` make it.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class Carrier:
     side : str
         "left" or "right".
     steps : tuple
-        What is done to the entries, in order; the methods add to it.
+        The operations on the entries, in order; the methods add to them.
     """
 
     claim: str
@@ -58,7 +58,7 @@ class Carrier:
         return self._then("along", [_places(move) for move in moves])
 
     def solved(self, matrix: "Carrier") -> "Carrier":
-        """The x with matrix · x = these entries; the matrix has its entries row by row."""
+        """The x with matrix · x = these entries; the matrix is given row by row."""
         if not isinstance(matrix, Carrier):
             raise TypeError(f"the matrix of a linear system is another carrier, not {matrix!r:.40}")
         return self._then("solved", matrix)
@@ -107,10 +107,10 @@ def _trees(by: Any) -> Any:
 
 
 def completed(row: dict[str, Any], text: str, certificates: binding.Certificates, where: str) -> list[dict[str, Any]]:
-    """The carriers of a row, with what the checker needs to know of a text.
+    """The carriers of a row, with the data that the checker needs for a text.
 
-    That is cofactors for the entries that it equals by the relations of the ring alone, and a point at which these hold
-    and nothing divides by 0.  Where there are none, the checker will say so.
+    These are cofactors for the entries that are equal only by the relations of the ring, and a point at which the
+    relations hold and nothing divides by 0.  If there are none, the checker reports it.
     """
     one = binding.carried(row, text, certificates, where)
     carriers, ideals = [dict(carrier) for carrier in row["carriers"]], dict[int, Ideal]()
@@ -119,7 +119,7 @@ def completed(row: dict[str, Any], text: str, certificates: binding.Certificates
         carrier |= {"point": those[0]} if those else {}
     for each in binding.differences(one, where):
         if any(_differs(each, point, where) for point in points[each.carrier]):
-            continue  # it is in no ideal of the relations, which the search below would find out slowly
+            continue  # it is not in the ideal, which the search below would show only slowly
         if each.value.numerator.terms and each.ring.relations:
             if each.carrier not in ideals:
                 ideals[each.carrier] = ideal(each.ring)
@@ -129,20 +129,20 @@ def completed(row: dict[str, Any], text: str, certificates: binding.Certificates
 
 
 def _given(carrier: Mapping[str, Any], certificates: binding.Certificates) -> Exact:
-    """The numbers at the points of the certificate that carries it."""
+    """The numbers at the points of its certificate."""
     points = certificates.get(f"{carrier['claim']} {carrier['certificate']}", {}).get("points", [])
     return {sp.Symbol(x): sp.Rational(v) for point in points for x, v in point.items() if isinstance(v, int | str)}
 
 
 def _differs(one: binding.Difference, point: Mapping[str, Any], where: str) -> bool:
-    """Whether a result and the entry of its carrier have two values at a point, as far as they have any."""
+    """Whether a result and the entry of its carrier differ at a point, if both have values there."""
     with suppress(binding.Rejected):
         return number_at(one.value, {x: Fraction(v) for x, v in point.items()}, where) != 0
     return False
 
 
 def _points(one: binding.Carried, i: int, given: Exact, where: str) -> list[dict[str, Any]]:
-    """Points of a carrier, as the checker takes them."""
+    """Points of a carrier, as in the checker."""
     of, found = one.rings[i], list[dict[str, Any]]()
     ring = Quotient([sp.Symbol(name) for name in of.ring.variables], [expression(r) for r in of.relations])
     for exact in some(ring, Examples(given)):

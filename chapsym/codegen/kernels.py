@@ -1,4 +1,4 @@
-"""A kernel: a function to be generated, and what carries it; a register has its own in `kernels.py`."""
+"""A kernel: a function to be generated, and its carriers; a register has its kernels in `kernels.py`."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from chapsym.prove.registers import raised
 from .carriers import Carrier
 from .printer import NotStraightLine, text
 
-#: Words of C and C++, and names that generated files have for something else.
+#: Words of C and C++, and names that generated files use otherwise.
 RESERVED = {
     "asm", "auto", "bool", "case", "catch", "char", "const", "default", "delete", "do", "double", "enum",
     "explicit", "export", "extern", "false", "float", "friend", "goto", "inline", "int", "long", "namespace", "new",
@@ -34,23 +34,24 @@ class Kernel:
     name : str
         Its name in Python and in C.
     summary : str
-        What it computes, in one line.
+        The computed quantity, in one line.
     carriers : tuple of Carrier
-        The sides of decided statements that are its outputs, one after the other: `left` and `right` make them.
+        The sides of decided statements that are its outputs, in order, made by `left` and `right`.
     groups : tuple of (str, tuple of sympy.Symbol)
-        Its arguments; a group is an array, or a number where it has one symbol.
+        Its arguments; a group is an array, or a number if it has one symbol.
     outputs : tuple of str
-        The names of its results: of a number, a vector, or a matrix, row by row.
+        The names of its results: a number, a vector, or a matrix row by row.
     build : callable
-        Makes the expressions.
+        A function that returns the expressions.
     factored : callable, optional
-        Makes the same values in steps: named intermediate expressions, and the outputs by those names.
+        A function that returns the same values in steps: named intermediate expressions, and the outputs in these
+        names.
     rows_of_three : bool
         Whether the result is a matrix of three columns.
     letters : mapping of sympy.Symbol to sympy.Expr, optional
-        Letters of the statements that are no arguments: what each stands for, the sine, cosine or square root of an
-        expression in the arguments and the letters before it, or π.  The relations of the statements that have these
-        letters must follow: sin² + cos² = 1 of one expression, √x² = x.
+        Letters of the statements that are no arguments, with their meanings: the sine, cosine or square root of an
+        expression in the arguments and earlier letters, or π.  The relations of the statements in these letters must
+        follow from sin² + cos² = 1 of one expression, √x² = x.
     """
 
     name: str
@@ -86,7 +87,7 @@ class Kernel:
         return (len(self.outputs),) if len(self.outputs) > 1 else ()
 
     def problem(self) -> str | None:
-        """Why it cannot be written, in one sentence; None if it can."""
+        """The reason why it cannot be written, in one sentence, or None."""
         names, groups = [symbol.name for symbol in self.inputs], [group for group, _ in self.groups]
         for name in (self.name, *names, *self.outputs, *groups, *map(str, self.letters)):
             is_name = name.isidentifier() and name.isascii() and not name.startswith(("__", "M_"))
@@ -133,12 +134,12 @@ class Kernel:
 
     @cached_property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """The expressions that are computed, derived once."""
+        """The computed expressions, derived once."""
         return tuple(sp.sympify(e, strict=True) if e is not None else e for e in self.build())
 
     @cached_property
     def steps(self) -> tuple[Steps, Sequence[sp.Expr]]:
-        """The same value in the derivation's own steps, if it has some; derived once."""
+        """The same values in the steps of the derivation, if it has any; derived once."""
         return self.factored() if self.factored else ([], self.expressions)
 
     @property

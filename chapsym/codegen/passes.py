@@ -1,6 +1,6 @@
-"""From a kernel's expressions to assignments and outputs: the passes, one by one.
+"""The passes from the expressions of a kernel to assignments and outputs.
 
-Each can be left out, so that the manifest has the operations that it saves, and `chapsym bench kernels` the time.
+Each pass can be omitted: the manifest has the operations that it saves, and `chapsym bench kernels` the time.
 """
 
 from collections.abc import Collection, Iterator, Sequence
@@ -14,11 +14,11 @@ from .printer import BALANCED, POWERS
 
 Assignments = list[tuple[sp.Symbol, sp.Expr]]
 
-#: Compute by the derivation's own steps: entries, cofactors, determinant, one division.
+#: Compute by the steps of the derivation: entries, cofactors, determinant, one division.
 FACTORED = "factored"
 #: Name common subexpressions.
 COMMON = "common"
-#: All, in the order in which they are applied; the last two print (`printer`).
+#: All passes, in the order of application; the last two print (`printer`).
 PASSES = (FACTORED, COMMON, POWERS, BALANCED)
 
 
@@ -30,7 +30,7 @@ def lower(kernel: Kernel, passes: tuple[str, ...] = PASSES) -> tuple[Assignments
     fresh = (s for s in sp.numbered_symbols("t") if s.name not in taken)
     done: Assignments = []
     for names, values in steps:
-        unique = dict(zip(names, values, strict=True))  # a symmetric matrix names an entry twice
+        unique = dict(zip(names, values, strict=True))  # a symmetric matrix has an entry twice
         terms, rest = _simplified([sp.sympify(e) for e in unique.values()], fresh, passes)
         done += [*terms, *zip(unique, rest, strict=True)]
     terms, rest = _simplified([sp.sympify(e) for e in outputs], fresh, passes)
@@ -50,7 +50,7 @@ def _simplified(
 def _name_bases(
     terms: Assignments, rest: list[sp.Expr], fresh: Iterator[sp.Symbol]
 ) -> tuple[Assignments, list[sp.Expr]]:
-    """Gives every base of a power that is not a name one: the product of its copies repeats it."""
+    """Names every base of a power, since the product repeats it."""
     named: Assignments = []
     bases: dict[sp.Expr, sp.Symbol] = {}
 
@@ -69,13 +69,13 @@ def _name_bases(
 
 
 def letters(kernel: Kernel) -> list[tuple[sp.Symbol, str, sp.Expr]]:
-    """The letters of a kernel, each with the function and the argument that it stands for."""
+    """The letters of a kernel, each with its function and argument."""
     found = ((letter, adjoined(stands)) for letter, stands in kernel.letters.items())
     return [(letter, *parts) for letter, parts in found if parts]
 
 
 def operations(kernel: Kernel, chosen: tuple[str, ...] = PASSES) -> int:
-    """The number of + - * / that the text has, each power as its products, and of other functions."""
+    """The number of + - * / in the text, with powers as products, and of other functions."""
     terms, rest = lower(kernel, chosen)
     return sum(map(_count, (*(e for _, e in terms), *rest))) + sum(1 + _count(x) for _, _, x in letters(kernel))
 
@@ -86,6 +86,6 @@ def _count(expr: sp.Expr) -> int:
 
 
 def saved(kernel: Kernel) -> dict[str, int]:
-    """Operations without each pass, less those with all: what the pass saves in this kernel."""
+    """The operations that each pass saves in this kernel: those without it, less those with all passes."""
     full = operations(kernel)
     return {p: operations(kernel, tuple(x for x in PASSES if x != p)) - full for p in PASSES}

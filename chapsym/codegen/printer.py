@@ -1,8 +1,7 @@
 """Expressions to straight-line Python: `+ - * /`, integers and names, and nothing else.
 
-The text must mean the same on float, arrays, mpf, arb and Fraction.  So integer powers are products,
-a rational coefficient p/q multiplies by p and divides by q, and a number that is not an integer
-is never printed on its own.
+The text must compute the same on float, arrays, mpf, arb and Fraction.  So integer powers are products, a rational
+coefficient p/q multiplies by p and divides by q, and no other number than an integer is printed.
 """
 
 from collections.abc import Collection, Sequence
@@ -17,14 +16,14 @@ class NotStraightLine(ValueError):
 
 #: The module with sin, cos, sqrt and pi for numbers of every type.
 FUNCTIONS = "chapsym.numbers.functions"
-#: Print an integer power as a product, and name its base.
+#: Print an integer power as a product with a named base.
 POWERS = "powers"
-#: Print a sum as a balanced tree, so that fewer operations wait for each other.
+#: Print a sum as a balanced tree, with fewer dependent operations.
 BALANCED = "balanced"
 
 
 def text(expr: sp.Expr, passes: Collection[str] = (POWERS, BALANCED)) -> str:
-    """The Python text of an expression; without a pass only to compare speeds."""
+    """The Python text of an expression; passes are omitted only to compare speeds."""
     return _sum(sp.sympify(expr), passes)
 
 
@@ -39,7 +38,7 @@ def _added(pieces: Sequence[str]) -> str:
 
 
 def _tree(pieces: Sequence[str]) -> str:
-    """The sum as a balanced tree, in which no operation waits for more than the logarithm of the others."""
+    """The sum as a balanced tree, of logarithmic depth."""
     if len(pieces) <= 3:
         return _added(pieces)
     half = (len(pieces) + 1) // 2

@@ -1,11 +1,11 @@
-"""The number of roundings that lead to the results of a kernel, counted on its text: a bound of its error in float64.
+"""The number of roundings in the results of a kernel, counted in its text: a bound of its error in float64.
 
-The terms of a formula are it with every sum taken absolutely: |x| of a number x, terms(a) + terms(b) of a ± b,
-terms(a) terms(b) of ab, terms(a) terms(b)/b² of a/b.  A result whose formula has n roundings one after the other is off
-by at most n 2⁻⁵³ (1 + 2⁻¹⁰) of its terms (lemma `rounding`), where nothing over- or underflows and no divisor is below
-2⁻²⁵ of its own terms: those are `MOST` and `DIVISOR`.  Products by a power of 2 are exact.  Nothing overflows where no
-terms are above `LARGEST`.  What underflows is off by 2⁻¹⁰⁷⁵, at most 2⁻¹⁰⁶ of terms that are not below `SMALLEST`: the
-part 2⁻¹⁰ covers this, too.
+The terms of a formula are its value with absolute sums: |x| for a number x, terms(a) + terms(b) for a ± b, terms(a)
+terms(b) for ab, terms(a) terms(b)/b² for a/b.  A result whose formula has n successive roundings has an error of at
+most n 2⁻⁵³ (1 + 2⁻¹⁰) of its terms (lemma `rounding`), if nothing over- or underflows and no divisor is below 2⁻²⁵ of
+its own terms: see `MOST` and `DIVISOR`.  Products by a power of 2 are exact.  Nothing overflows if no terms are above
+`LARGEST`.  An underflow has the error 2⁻¹⁰⁷⁵, at most 2⁻¹⁰⁶ of terms that are not below `SMALLEST`: the part 2⁻¹⁰
+covers this, too.
 """
 
 from collections.abc import Callable, Sequence
@@ -16,19 +16,19 @@ from typing import Any
 
 from .kernels import Kernel
 
-#: Half an ulp of 1, what covers the products of roundings, and the least part of its terms that a divisor may be.
+#: Half an ulp of 1, the factor for products of roundings, and the least divisor relative to its terms.
 UNIT, MOST, DIVISOR = Fraction(1, 2**53), 1 + Fraction(1, 2**10), Fraction(1, 2**25)
-#: Between these are the terms of products and quotients, unless they are 0, and below the greater those of sums.
+#: The range of the terms of products and quotients, unless they are 0; the terms of sums are below the greater one.
 SMALLEST, LARGEST = Fraction(1, 2**969), Fraction(2**1023)
-#: The most roundings, and operations one after the other, of which the lemma is.
+#: The largest number of successive roundings and operations in the lemma.
 DEEPEST = 256
 
 
 @dataclass(frozen=True)
 class Rounded:
-    """A number of a kernel, exactly, with its terms and the roundings that lead to it.
+    """An exact number of a kernel, with its terms and its number of successive roundings.
 
-    steep: the least part of its terms that a divisor on the way is; 0 where something may over- or underflow.
+    steep: the least ratio of a divisor on the way to its terms; 0 if something may over- or underflow.
     """
 
     value: Fraction
@@ -88,7 +88,7 @@ def _in_range(terms: Fraction) -> bool:
 
 
 def _number(x: Number) -> Rounded:
-    """A whole number of a text is rounded, too, where it has more than 53 bits."""
+    """An integer of a text, which is rounded, too, if it has more than 53 bits."""
     if isinstance(x, Rounded):
         return x
     value = Fraction(x)
@@ -97,16 +97,16 @@ def _number(x: Number) -> Rounded:
 
 
 def _is_power_of_two(x: Fraction) -> bool:
-    """Whether it is 2^k, k ≥ 0 or < 0: for whole numbers of a text and their quotients; no argument is known."""
+    """Whether it is 2^k, k ≥ 0 or < 0: for integers of a text and their quotients, as arguments are not known."""
     n = abs(x.numerator) * x.denominator
     return n > 0 and n & (n - 1) == 0
 
 
 def count(kernel: Kernel, function: Callable[..., Any], point: Sequence[Fraction]) -> int | None:
-    """The most roundings of a result of a kernel's text.
+    """The largest number of roundings of a result in the text of a kernel.
 
-    None where it calls functions, which round as they like, or where there are more than the lemma is of.
-    point: any arguments that are no powers of 2, at which nothing is divided by 0.
+    None if it calls functions, whose roundings are unknown, or if there are more roundings than in the lemma. point:
+    any arguments that are no powers of 2, at which nothing is divided by 0.
     """
     if kernel.letters:
         return None
@@ -123,13 +123,13 @@ def bounds(function: Callable[..., Any], *arguments: float) -> list[float]:
     function : callable
         A kernel of `chapsym.generated`, or of another register, that calls no functions.
     *arguments : float
-        Those of the kernel, one number each.
+        The arguments of the kernel, one number each.
 
     Returns
     -------
     list of float
-        One for each result; inf where a divisor is too near to 0 for the lemma, where something may over- or underflow,
-        and of more than 256 roundings.
+        A bound for each result; inf if a divisor is too near to 0 for the lemma, if something may over- or underflow,
+        or for more than 256 roundings.
 
     Raises
     ------

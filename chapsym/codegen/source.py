@@ -1,6 +1,6 @@
-"""The loops as a compiler reads them: their functions and constants, by the text of their modules.
+"""The source of the loops for the compiler: their functions and constants, from the text of their modules.
 
-The modules are read, not imported: they import kernels that codegen is about to write.
+The modules are read and not imported, since they import kernels that codegen writes.
 """
 
 import ast
@@ -12,9 +12,9 @@ from typing import Any
 
 from .printer import FUNCTIONS
 
-#: The numbers of the loops in double-double, and the operations that theirs are made of.
+#: The modules of the double-double numbers of the loops, and of their operations.
 LOOSE, PAIRS = "chapsym.numbers.loose", "chapsym.numbers.pairs"
-#: Packages of which a module imports: what is imported from them is not read.
+#: Packages whose imports are not read.
 OUTSIDE = ("math", "numpy", "typing", "collections.abc", FUNCTIONS, LOOSE)
 
 
@@ -29,7 +29,7 @@ class Array:
         return f"{self.element}{self.rank}"
 
 
-#: The kinds of what a parameter of an exported function, or a field of a named tuple, may be annotated with.
+#: The kinds by annotation, of a parameter of an exported function or a field of a named tuple.
 ANNOTATIONS: dict[str, Any] = {
     "bool": "b", "int": "i", "float": "r", "Vector": Array("r", 1), "Matrix": Array("r", 2), "Cube": Array("r", 3),
     "Tensor": Array("r", 4), "Integers": Array("i", 1), "Doubles": Array("d", 1),
@@ -38,12 +38,12 @@ ANNOTATIONS: dict[str, Any] = {
 
 
 class NotConstant(ValueError):
-    """An expression is not one of constants."""
+    """An expression is not constant."""
 
 
 @dataclass(eq=False)
 class Function:
-    """A function of a module: its tree, the module in which its names are looked up, and for which kinds it is."""
+    """A function of a module: its tree, the module of its names, and the kinds of its specialisation."""
 
     module: "Module"
     node: ast.FunctionDef
@@ -66,7 +66,7 @@ class Function:
 
     @property
     def is_out_of_line(self) -> bool:
-        """Whether it is decorated as one that is called seldom."""
+        """Whether it is decorated as rarely called."""
         return any(isinstance(d, ast.Name) and d.id == "out_of_line" for d in self.node.decorator_list)
 
 
@@ -80,7 +80,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Varying:
-    """A name that has another value, or is another function, in float32; its name in C is for either."""
+    """A name with another value, or another function, in float32; its name in C is that of both."""
 
     name: str
     double: Any
@@ -89,7 +89,7 @@ class Varying:
 
 @dataclass(eq=False)
 class Module:
-    """The names that a module defines and imports: functions, numbers, modules, or the path of something outside."""
+    """The names that a module defines and imports: functions, numbers, modules, or paths of external objects."""
 
     name: str
     functions: dict[str, Function] = field(default_factory=dict)
@@ -97,7 +97,7 @@ class Module:
 
 
 class Program:
-    """Modules that are read when another imports them, from the text that `load` has for their dotted name."""
+    """Modules, read when another imports them, from the text that `load` gives for their dotted name."""
 
     def __init__(self, load: Callable[[str], str]) -> None:
         self._load = load
@@ -127,7 +127,7 @@ class Program:
                 case ast.Assign(targets=[ast.Name(id="SINGLE")], value=ast.Dict(keys=keys, values=values)):
                     varying = {ast.literal_eval(k): constant(v, names) for k, v in zip(keys, values, strict=True) if k}
                 case ast.Assign(targets=[target], value=value):
-                    with suppress(NotConstant):  # what only Python uses
+                    with suppress(NotConstant):  # used only in Python
                         names.update(_bound(target, constant(value, names)))
         for name, other in varying.items():
             names[name] = Varying(f"{module.name}_{name}", names[name], other)
@@ -153,7 +153,7 @@ ARITHMETIC: dict[type, Callable[[Any, Any], Any]] = {
 
 
 def meaning(node: ast.expr, names: dict[str, Any]) -> Any:
-    """The meaning of a name, or of a name in a module; None where it is neither."""
+    """The meaning of a name, or of a name in a module; else None."""
     match node:
         case ast.Name(id=name):
             return names.get(name)
@@ -164,7 +164,7 @@ def meaning(node: ast.expr, names: dict[str, Any]) -> Any:
 
 
 def constant(node: ast.expr, names: dict[str, Any]) -> Any:
-    """The value of an expression of numbers, of names of these or of functions, and of tuples; raises NotConstant."""
+    """The value of an expression of numbers, names of numbers or functions, and tuples; raises NotConstant."""
     match node:
         case ast.Constant(value=bool() | int() | float() as number):
             return number
@@ -185,6 +185,6 @@ def constant(node: ast.expr, names: dict[str, Any]) -> Any:
 
 
 def _bound(target: ast.expr, value: Any) -> dict[str, Any]:
-    """The names that an assignment of a constant gives a value."""
+    """The names and values that an assignment of a constant defines."""
     pairs = zip(target.elts, value, strict=True) if isinstance(target, ast.Tuple) else [(target, value)]
     return {name.id: x for name, x in pairs if isinstance(name, ast.Name) and not isinstance(x, tuple)}
