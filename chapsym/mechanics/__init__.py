@@ -1,4 +1,4 @@
-"""Mechanical systems with constraints on their velocities: a Lagrangian and a constraint, to equations, maps, verdicts.
+"""Mechanical systems with constraints on the velocities: equations, maps and verdicts from a Lagrangian.
 
 >>> from sympy import symbols
 >>> from chapsym.mechanics import System, dot, flag

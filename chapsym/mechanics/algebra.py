@@ -19,7 +19,6 @@ from .system import BadSystem, System, rational, without
 
 #: Digits of the numbers of a system, as all floats have them; of more than `FACTORED` factors would take minutes.
 MOST_DIGITS, FACTORED = 330, 100
-#: The number of points that are tried.
 MOST_POINTS = 24
 #: Points at which roots may be rational: of quotients of the legs of right triangles.
 MOST_LOOKED, LEGS = 200, tuple(Fraction(p, q) for p, q in ((3, 4), (4, 3), (5, 12), (12, 5), (8, 15), (15, 8), (7, 24)))
@@ -34,9 +33,9 @@ class Letters:
     Parameters
     ----------
     reserved : iterable of sympy.Symbol
-        Symbols that the letters must not be called as.
+        Names that the letters must not have.
     plain : bool
-        Whether they are called l0, l1, ..., and not after what they stand for.
+        Whether they are named l0, l1, ..., and not after their meanings.
     """
 
     def __init__(self, reserved: Iterable[sp.Symbol] = (), plain: bool = False) -> None:
@@ -130,20 +129,20 @@ class Letters:
 class Algebra:
     """The ring of a system with its numbers: coordinates, velocities and letters.
 
-    Angles are expanded: sin(a + 2 b) is made of the letters of a and b.  What has relations that the ring does not know
-    is refused: sines and cosines are of single coordinates, which no holonomic constraint binds outside of them; no
-    product of roots is rational.
+    Angles are expanded: sin(a + 2 b) is expressed in the letters of a and b.  Expressions with relations beyond those
+    of the ring are refused: sines and cosines must have single coordinates, which no holonomic constraint contains
+    outside of them; no product of roots may be rational.
 
     Parameters
     ----------
     system : System
     *more : sympy.Expr
-        Expressions beyond the constraints.
+        Further expressions besides the constraints.
 
     Raises
     ------
     BadSystem
-        For what it cannot hold.
+        For expressions that it cannot represent.
     """
 
     def __init__(self, system: System, *more: sp.Expr) -> None:
@@ -217,7 +216,7 @@ class Algebra:
 
     @cached_property
     def ring(self) -> Quotient:
-        """The ring of all that was read."""
+        """The ring of all expressions that were read."""
         return self._ring([*self.letters.circles, *self.letters.roots])
 
     @cached_property
@@ -313,7 +312,7 @@ def adjugate(matrix: sp.Matrix) -> sp.Matrix:
 
 
 def rank(matrix: sp.Matrix, point: Point) -> int:
-    """At a point; 0 where it is not defined there."""
+    """The rank at a point; 0 if the matrix is not defined there."""
     of = matrix.xreplace(point)
     return 0 if of.has(sp.zoo, sp.nan) or of.free_symbols else len(pivots(of))
 
@@ -330,7 +329,7 @@ def has_longer(expr: sp.Expr, digits: int) -> bool:
 
 
 def factors_of(expr: sp.Expr) -> list[sp.Expr]:
-    """The factors of a polynomial, without their powers; itself, where its numbers are long."""
+    """The factors of a polynomial, without their powers; the polynomial itself if its numbers are long."""
     return [expr] if has_longer(expr, FACTORED) else [of for of, _ in sp.factor_list(expr)[1]]
 
 

@@ -1,4 +1,4 @@
-"""Attitudes: by angles about axes, one after the other, or by a unit quaternion; each with its angular velocity."""
+"""Attitudes, by successive angles about axes or by a unit quaternion, with their angular velocities."""
 
 from functools import cached_property
 
@@ -13,7 +13,7 @@ _TURNS = {"x": sp.rot_ccw_axis1, "y": sp.rot_ccw_axis2, "z": sp.rot_ccw_axis3}
 
 
 class Turned:
-    """A body that is turned about its own axes, one after the other.
+    """A body that is rotated successively about its own axes.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class Quaternion:
     Parameters
     ----------
     name : str
-        The coordinates are called this with 0 to 3 behind it.
+        The names of the coordinates are this name followed by 0 to 3.
 
     Attributes
     ----------
@@ -68,8 +68,8 @@ class Quaternion:
     spin, spin_in_space : sympy.Matrix
         The angular velocity in the axes of the body, and in those of space.
     norm, swelling : sympy.Expr
-        |q|², and its rate, halved: that is 0 in a motion, so that a Lagrangian may have a multiple of its square,
-        whose mass matrix would be singular without.
+        |q|², and half its rate, which is 0 in a motion: a multiple of the square of the latter in the Lagrangian makes
+        the mass matrix regular.
 
     Examples
     --------

@@ -1,8 +1,8 @@
-"""Whether constraints are integrable: the flag of brackets of the fields that they allow, with its ranks, exactly.
+"""The integrability of constraints: the flag of brackets of the fields that they allow, with its exact ranks.
 
-The fields X with A X = 0 span D₁, and D_{k+1} has the brackets [X, Y] of X in D₁ and Y in D_k, too.  By Frobenius'
-theorem the constraints are those of n - r functions of the coordinates where D₁ = D₂ has the dimension r; by Chow's
-theorem every place is reached from every other if the flag ends with all n dimensions.
+The fields X with A X = 0 span D₁, and D_{k+1} also has the brackets [X, Y] of X in D₁ and Y in D_k.  By Frobenius'
+theorem, if D₁ = D₂ has the dimension r, the constraints mean that n - r functions of the coordinates are constant; by
+Chow's theorem every position is reached from every other if the flag ends with all n dimensions.
 """
 
 from collections.abc import Sequence
@@ -15,29 +15,29 @@ import sympy as sp
 from .algebra import Algebra, Point, adjugate, determinant, generic, pivots, rank, size
 from .system import BadSystem, System, a_system
 
-#: Different parts of the fields and brackets that are decided: 2000 take some seconds, and the time grows faster.
+#: The largest number of different parts of the fields and brackets: 2000 take some seconds, and the time grows faster.
 MOST_PARTS = 3000
 
 
 @dataclass(frozen=True)
 class Flag:
-    """The span of the brackets of a system's constraints, with the numbers of its parameters.
+    """The span of the brackets of the constraints of a system, with the numbers of its parameters.
 
     Attributes
     ----------
     growth : tuple of int
-        The dimensions of D₁, D₂, ..., until they grow no more, near `point` and at almost all places of the component
-        that it is on: proved by a minor that is not 0 there, and by those that vanish in the ring of the system.
+        The dimensions of D₁, D₂, ..., until they are constant, near `point` and at almost all positions of its
+        component: proved by a minor that is not 0 there, and by minors that vanish in the ring of the system.
     fields : tuple of tuple of sympy.Expr
-        Fields that span D₁, in letters; with a last component for the time where `with_time`.
+        Fields that span D₁, in letters; with a last component for the time if `with_time`.
     condition : sympy.Expr
-        Where it is not 0, the dimensions are at least these; where it is, they may be.
+        If it is not 0 at a position, the dimensions there are at least these; if it is 0, they may be.
     point : mapping
         The exact point, with sines and cosines instead of angles.
     dimension : int
-        That of the places, as the holonomic constraints leave them, and of time.
+        The dimension of the positions under the holonomic constraints, and of time.
     with_time : bool
-        Whether constraints have a part without velocities: then the time is a coordinate of the flag.
+        Whether constraints have a part without velocities; the time is then a coordinate of the flag.
     """
 
     growth: tuple[int, ...]
@@ -49,12 +49,12 @@ class Flag:
 
     @property
     def integrable(self) -> bool:
-        """Whether the constraints are holonomic in disguise."""
+        """Whether the constraints are integrable, that is, holonomic."""
         return len(self.growth) == 1
 
     @property
     def functions(self) -> int:
-        """The number of functions of the coordinates, and of time, that stay constant."""
+        """The number of functions of the coordinates, and of time, that are constant in every motion."""
         return self.dimension - self.growth[-1]
 
     def __str__(self) -> str:
@@ -76,12 +76,12 @@ def flag(system: System) -> Flag:
     Parameters
     ----------
     system : System
-        With sines, cosines and square roots of its coordinates.
+        The system, with sines, cosines and square roots of its coordinates.
 
     Returns
     -------
     Flag
-        With proved dimensions.
+        The flag, with proved dimensions.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def flag(system: System) -> Flag:
     return spanned(a_system(system)).flag
 
 
-#: The numbers of two vectors, and the roots by which their bracket is multiplied.
+#: The indices of two vectors, and the roots by which their bracket is multiplied.
 Bracketed = tuple[int, int, sp.Expr]
 
 
@@ -111,7 +111,7 @@ Bracketed = tuple[int, int, sp.Expr]
 class Span:
     """The proof of a flag: rows A, of which those in `kept` are independent, and fields and brackets that span.
 
-    `made` has of which two vectors one is a bracket; `inside` has brackets that the others span.
+    `made` has the two vectors of each bracket; `inside` has brackets in the span of the others.
     """
 
     flag: Flag
@@ -125,7 +125,7 @@ class Span:
 
 @lru_cache(maxsize=8)
 def spanned(system: System) -> Span:
-    """A flag with what proves it; as `flag`."""
+    """A flag with its proof; as `flag`."""
     algebra = Algebra(system)
     with_time = any(not algebra.is_zero(b) for b in algebra.offsets)
     whole = algebra.rows.row_join(algebra.offsets) if with_time else algebra.rows
@@ -168,14 +168,14 @@ def spanned(system: System) -> Span:
 
 
 def _rows_of_places(algebra: Algebra, with_time: bool) -> sp.Matrix:
-    """The rows of holonomic constraints, whose rank is how many of them are independent."""
+    """The rows of holonomic constraints; their rank is the number of independent ones."""
     count = len(algebra.holonomic)
     rows = algebra.rows[algebra.rows.rows - count :, :]
     return rows.row_join(sp.zeros(count, 1)) if with_time else rows
 
 
 def _whole(rows: sp.Matrix) -> sp.Matrix:
-    """Rows times what they divide by."""
+    """Rows times their denominators."""
     made = []
     for i in range(rows.rows):
         below = sp.lcm_list([sp.fraction(sp.together(e))[1] for e in rows[i, :]] or [sp.S.One])
@@ -184,7 +184,7 @@ def _whole(rows: sp.Matrix) -> sp.Matrix:
 
 
 def kernel(rows: sp.Matrix, at_point: sp.Matrix) -> list[list[sp.Expr]]:
-    """Fields that span the velocities v with A v = 0, by Cramer's rule, of independent rows A."""
+    """Fields that span the velocities v with A v = 0, for independent rows A, by Cramer's rule."""
     columns = pivots(at_point)
     square = rows.extract(list(range(rows.rows)), columns)
     whole, inverse = determinant(square), adjugate(square)
@@ -203,7 +203,7 @@ def _matrix(vectors: Sequence[Sequence[sp.Expr]]) -> sp.Matrix:
 
 
 def along(field: Sequence[sp.Expr], of: sp.Expr, algebra: Algebra) -> sp.Expr:
-    """The derivative along a field, of whose components those beyond the coordinates count nothing."""
+    """The derivative along a field; components beyond the coordinates are ignored."""
     q = algebra.system.coordinates
     return sum((f * algebra.letters.derivative(of, c) for f, c in zip(field, q, strict=False) if f != 0), sp.S.Zero)
 

@@ -1,4 +1,4 @@
-"""Claims from cases: a statement, its proof, and a false variant; judged by the checker where they are made."""
+"""Claims from cases: a statement, its proof, and a false variant, judged by the checker immediately."""
 
 import re
 from collections.abc import Callable, Collection, Sequence
@@ -16,9 +16,9 @@ from chapsym.prove.witness import true_at
 from .algebra import Point
 from .system import BadSystem, System
 
-#: Letters of the name of a system in the id of a claim.
+#: The length of the name of a system in the id of a claim.
 LETTERS = 22
-#: Why what a method says itself has no certificate.
+#: Why a property that is an equation of the method has no certificate.
 SAID = "it is one of the equations, so that nothing is to be decided"
 #: Of an equation in words.
 MOST_LETTERS = 3000
@@ -26,16 +26,16 @@ MOST_LETTERS = 3000
 
 @dataclass(frozen=True)
 class Certified:
-    """An exact verdict, with its certificate or why it has none.
+    """An exact verdict, with its certificate or the reason why it has none.
 
     Attributes
     ----------
     verdict : str
-        Of what it is: "motion", "energy", "dla: order".
+        The name of the verdict: "motion", "energy", "dla: order".
     certificate : dict or None
-        As `chapsym.prove` writes it, accepted by the checker.
+        The certificate of `chapsym.prove`, accepted by the checker.
     why : str
-        Why there is none.
+        Why there is no certificate.
     """
 
     verdict: str
@@ -62,7 +62,7 @@ class Case:
     instead: "Callable[[], Case] | None" = None
 
     def judged(self, verdict: str, id: str, points: Sequence[Point] = ()) -> Certified:
-        """By its own proof, run now, and by the checker; at one of some points, where it has a value."""
+        """The verdict by its own proof, run now, and by the checker, at one of some points where it has a value."""
         found = self._judged(verdict, id, points)
         if found.certificate:
             return found
@@ -106,7 +106,7 @@ Made = tuple[Case, Sequence[Point]]
 
 
 def made(system: System, verdict: str, id: str, known: set[str], case_of: Callable[..., Made], *of: Any) -> Certified:
-    """A verdict by the case that is made of it, if it rests on known claims; its own is one then."""
+    """A verdict by its case, if it rests on known claims, to which it is then added."""
     try:
         case, points = case_of(*of)
         if lacking := [one for one in case.uses if one not in known]:

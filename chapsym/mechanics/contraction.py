@@ -1,4 +1,4 @@
-"""What a step of a method does to the volume that the exact motion keeps: by series from an exact state.
+"""The effect of a step of a method on the volume that the exact motion keeps, by series from an exact state.
 
 The steps are those of places and velocities that obey the constraints.  By the determinant of its derivatives, and by
 the density at both ends, the logarithm of what a step multiplies a volume by is a series in its length.
@@ -19,7 +19,7 @@ from .methods import Scheme
 from .series import Exact, Series, State, Undecided, _at, inverse, series
 from .system import System
 
-#: Why there is nothing to be decided.
+#: Why there is nothing to decide.
 LEAVES = "its steps leave the constraints, on which the volume is"
 REACTS = "its momenta have a reaction, too, of which the volume has none"
 

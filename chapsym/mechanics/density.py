@@ -6,12 +6,12 @@ the divergence of the motion is Σ θⱼ sⱼ with
     θⱼ = div Xⱼ + tr(m⁻¹ Wⱼ),  m = ⟨X, M X⟩,  (Wⱼ)ₗᵢ = ⟨Xₗ, M [Xⱼ, Xᵢ]⟩,
 
 as ṗᵢ = Xᵢ L - ⟨∂L/∂v, [Xᵢ, Xⱼ]⟩ sⱼ, where forces do not depend on velocities.  A volume with the density exp f(q) is
-kept if Xⱼ f = -θⱼ for all j.  For exp f a product of powers is tried: of what θⱼ and m⁻¹ divide by.  There is none if
-the fields Xⱼ - θⱼ ∂/∂f, in q and f, span with their brackets more dimensions than Xⱼ with theirs: they would be tangent
-to the graph of f.
+kept if Xⱼ f = -θⱼ for all j.  For exp f products of powers of the denominators of θⱼ and m⁻¹ are tried.  There is none
+if the fields Xⱼ - θⱼ ∂/∂f, in q and f, span with their brackets more dimensions than Xⱼ with theirs: they would be
+tangent to the graph of f.
 
-Where nothing drives the system, there is no smooth density exp f(q, p) either: the terms of first order in p of the
-equation for f(q, p) say that exp f(q, 0) is kept.
+Without forces, there is no smooth density exp f(q, p) either: by the terms of first order in p of the equation for f(q,
+p), exp f(q, 0) is kept.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -32,11 +32,11 @@ from .equations import OnShell
 from .series import evaluated
 from .system import BadSystem, System, a_system
 
-#: Denominators of the powers in a density, how often brackets are taken of brackets, and the bits of balls.
+#: The largest denominator of the powers in a density, the depth of brackets, and the bits of balls.
 BELOW, MOST_LEVELS, BITS = 12, 3, 400
-#: Of what has more different parts no further brackets are taken, and divergences are not reduced.
+#: Beyond this number of different parts no further brackets are computed, and divergences are not reduced.
 MOST_PARTS = 1000
-#: What is 0 in a numerical rank.
+#: The tolerance of a numerical rank.
 NEAR = 1e-9
 
 
@@ -47,18 +47,18 @@ class Volume:
     Attributes
     ----------
     density : sympy.Expr or None
-        Proved: this density is kept, of the coordinates and the velocities in `by`; where holonomic constraints φ bind
-        the coordinates, of the measure dq/dφ on them.  It is a product of powers of functions, of which the absolute
-        values are meant; where all of these are finite and not 0 the density is smooth and positive: near almost every
-        place of the component that the point is on.  If there is none, none that depends on the place alone is kept,
-        near the point and almost every place of its component: proved.
+        A density in the coordinates and the velocities in `by` that is proved to be kept; with holonomic constraints φ
+        on the coordinates, of the measure dq/dφ on them.  It is a product of powers of absolute values of functions; if
+        all of these are finite and not 0 the density is smooth and positive: near almost every position of the
+        component of the point.  If None, it is proved that no density that depends only on the position is kept, near
+        the point and almost every position of its component.
     by : tuple of sympy.Symbol
         The velocities that determine the others.
     at_all : bool
-        If there is none: whether no smooth density of place and velocity is kept either, rest included; it is proved
-        where nothing drives the system.
+        If density is None: whether no smooth density of position and velocity, rest included, is kept either; proved
+        for systems without forces.
     point : mapping of str to str
-        An exact place, with sines and cosines instead of angles.
+        An exact position, with sines and cosines instead of angles.
     """
 
     density: sp.Expr | None = None
@@ -68,7 +68,7 @@ class Volume:
 
     @property
     def kept(self) -> bool:
-        """Whether one is."""
+        """Whether a smooth volume is kept."""
         return self.density is not None
 
     def __str__(self) -> str:
@@ -83,7 +83,7 @@ def volume(system: System) -> Volume:
     Parameters
     ----------
     system : System
-        With constraints that are linear in the velocities, and forces that do not depend on these.
+        The system, with constraints that are linear in the velocities, and forces that do not depend on velocities.
 
     Returns
     -------
@@ -92,12 +92,12 @@ def volume(system: System) -> Volume:
     Raises
     ------
     BadSystem
-        As `flag` does; for other constraints and forces; if neither is found.
+        As `flag` does; for other constraints and forces; and if no decision is found.
 
     References
     ----------
-    Y. Fedorov, L. García-Naranjo, J. C. Marrero, J. Nonlinear Sci. 25 (2015) 203: densities of the place suffice for
-    what moves by inertia.
+    Y. Fedorov, L. García-Naranjo, J. C. Marrero, J. Nonlinear Sci. 25 (2015) 203: densities of the position suffice for
+    inertial motion.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Equations of motion that somebody typed, or another program derived, decided against those of the principle."""
+"""Equations of motion from other sources, compared exactly with those of the principle."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -28,12 +28,12 @@ class Agreement:
     equal : bool
         True is proved, for all states that obey the constraints; False is shown by the point.
     what : str
-        Which equation they break.
+        The violated equation.
     point : mapping of str to str
-        An exact state at which they do, with sines and cosines instead of angles (an angle that stands outside of
-        them, too, is free of them there); empty where they break none.
+        An exact state at which it is violated, with sines and cosines instead of angles (an angle that also occurs
+        outside of them is independent of them there); empty if none is violated.
     value : str
-        What should be 0 there.
+        The value that should be 0 there.
     """
 
     equal: bool
@@ -49,7 +49,8 @@ class Agreement:
 
 
 def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreement:
-    """Whether accelerations solve the equations of a system, with its numbers, wherever its constraints hold, exactly.
+    """Whether accelerations solve the equations of a system, with its numbers, if its constraints hold, decided
+    exactly.
 
     They do if A a + Ȧ v + ḃ = 0, and if M a - ∂L/∂q + ... is orthogonal to all velocities that the constraints allow.
 
@@ -57,8 +58,8 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     ----------
     system : System
     accelerations : mapping
-        {coordinate: its second derivative, in coordinates, velocities and parameters}; `in_symbols` reads what
-        `sympy.physics.mechanics` gives.
+        {coordinate: its second derivative, in coordinates, velocities and parameters}; `in_symbols` converts results of
+        `sympy.physics.mechanics`.
 
     Returns
     -------
@@ -67,8 +68,8 @@ def agree(system: System, accelerations: Mapping[sp.Symbol, sp.Expr]) -> Agreeme
     Raises
     ------
     BadSystem
-        If one is missing, or has a symbol that the system does not have, if the ring cannot hold it (`Algebra`), or if
-        neither is found.
+        If one is missing, or has a symbol that the system does not have, if the ring cannot represent it (`Algebra`),
+        or if no decision is found.
 
     Examples
     --------
@@ -108,9 +109,9 @@ class Conservation:
     kept : bool
         True is proved, for all states that obey the constraints; False is shown by the point.
     point : mapping of str to str
-        An exact state at which it changes, as that of `Agreement`.
+        An exact state at which it changes, as in `Agreement`.
     rate : str
-        How fast it changes there.
+        Its rate of change there.
     """
 
     kept: bool
@@ -169,7 +170,8 @@ def conserved(system: System, quantity: sp.Expr) -> Conservation:
 
 
 class OnShell:
-    """A system's equations in letters, with the velocities that its constraints bind, and more expressions.
+    """The equations of a system in letters, with the velocities that its constraints determine, and further
+    expressions.
 
     (A a = turning, and M a - forced orthogonal to the fields that span the allowed velocities.)
     """
@@ -200,7 +202,7 @@ class OnShell:
 
     @cached_property
     def along(self) -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
-        """The fields X; an acceleration a that the constraints allow; ⟨X, M X⟩, and Xᵀ(forced - M a)."""
+        """The fields X; an acceleration a that satisfies the constraints; ⟨X, M X⟩, and Xᵀ(forced - M a)."""
         x, first = sp.Matrix(self.fields).T.reshape(self.mass.rows, len(self.fields)), sp.zeros(self.mass.rows, 1)
         for i, value in zip(self.bound, adjugate(self.square) * self.turning.extract(self.kept, [0]), strict=True):
             first[i] = value / determinant(self.square)
@@ -208,7 +210,7 @@ class OnShell:
 
 
 def _shown(value: sp.Expr, algebra: Algebra, bound: Mapping[sp.Symbol, sp.Expr]) -> tuple[dict[str, str], str]:
-    """A point at which an expression is not 0, with the velocities that the constraints bind there, and its value."""
+    """A point at which an expression is not 0, with the dependent velocities there, and its value."""
     for point in algebra.points:
         found = value.xreplace(point)
         rest = {x: e.xreplace(point) for x, e in bound.items()}
@@ -236,7 +238,7 @@ def in_symbols(expr: Any) -> Any:
     Raises
     ------
     BadSystem
-        For what is no real expression of SymPy, and for a second derivative, which has no symbol.
+        For anything but a real expression of SymPy, and for a second derivative, which has no symbol.
 
     Examples
     --------
@@ -263,7 +265,8 @@ def of_kane(method: "KanesMethod") -> dict[sp.Symbol, sp.Expr]:
     Parameters
     ----------
     method : sympy.physics.mechanics.KanesMethod
-        After `kanes_equations`.  Its speeds, which are linear in the rates of the coordinates, are replaced by these.
+        The method, after `kanes_equations`.  Its speeds, linear in the rates of the coordinates, are replaced by these
+        rates.
 
     Returns
     -------
@@ -275,7 +278,7 @@ def of_kane(method: "KanesMethod") -> dict[sp.Symbol, sp.Expr]:
     BadSystem
         If the method has no equations yet, or its speeds do not follow from the rates of the coordinates.
     """
-    from sympy.physics.vector import dynamicsymbols  # with the units of physics, which take 90 ms
+    from sympy.physics.vector import dynamicsymbols  # takes 90 ms, with the units of physics
 
     try:
         q, u, rates = list(method.q), list(method.u), dict(method.kindiffdict())

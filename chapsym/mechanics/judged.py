@@ -1,12 +1,12 @@
-"""The properties of a method on a system: its order, whether its steps return, what it keeps; proved, or refuted.
+"""The properties of a method on a system, proved or refuted: its order, its symmetries, its conserved quantities.
 
-A statement is refuted by the series of a step in its length h from an exact state (`series`): where a coefficient is
-not 0 there, the statement is wrong for all small h.  It is proved by equations: what should vanish is a combination,
-with rational numbers and perhaps with unknowns as factors, of what the method, the constraints and the motion set to 0.
-What is neither stays measured.
+The series of a step in its length h from an exact state (`series`) refutes a statement: if a coefficient is not 0
+there, the statement is wrong for all small h.  Equations prove it: the expression that should vanish is a combination,
+with rational numbers and possibly unknowns as factors, of expressions that the method, the constraints and the motion
+set to 0.  A statement that is neither proved nor refuted stays measured.
 
-Momenta of a method count up to the reactions Aᵀc, which constraints determine: the velocity v of a state (q, p) is that
-with p = ∂L/∂v + Aᵀc and A v + b = 0.
+Momenta of a method are defined up to the reactions Aᵀc: the velocity v of a state (q, p) satisfies p = ∂L/∂v + Aᵀc and
+A v + b = 0.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -31,36 +31,34 @@ from .methods import Scheme
 from .series import Exact, Series, State, Stepped, Undecided, _at, by_parts, evaluated, inverse, replaced
 from .system import STEP, BadSystem, System, a_system, rate
 
-#: A prime in which combinations are looked for, and the largest denominator and numerator of their factors.
+#: The prime for the search of combinations, and the largest denominator and numerator of their factors.
 PRIME, BELOW, ABOVE = 2**61 - 1, 24, 10_000
-#: The most operations in the expressions of a proof, and equations that are combined: what needs more stays measured.
+#: The largest number of operations in the expressions of a proof, and of combined equations; beyond, it stays measured.
 MOST_OPERATIONS, MOST_KNOWN = 100_000, 400
 MOST_CHOICES = 64
-#: How many coefficients of a series are looked at, for methods with equations of a step and for explicit ones, whose
-#: order is higher; and terms beyond, as the last are not those of a step.
+#: The number of computed coefficients of a series, for methods with equations of a step and for explicit ones, whose
+#: order is higher; and further terms, as the last terms are not those of a step.
 LOOKED, LOOKED_FURTHER, BEYOND = 6, 7, 2
-#: How many of them of a volume, at first, and if these show nothing.
+#: The same for a volume, at first, and if these show nothing.
 LOOKED_AT_VOLUMES = 4, 7
-#: Volumes, which are no quantities of a state.
 VOLUMES = "the volume", "a smooth volume"
 
 
-#: Symbols, and their numbers at the exact state.
 Named = tuple[sp.Matrix, list[fmpq]]
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """The verdict on a property of a method on a system.
+    """The verdict on a property of a method for a system.
 
     Attributes
     ----------
     verdict : str
-        "proved", "false" or "measured", where neither is decided: the figure of the lab is all there is.
+        "proved", "false", or "measured" if neither is decided: then there is only the measurement of the lab.
     said : str
-        The order that is proved, what is wrong and where, or what is not decided.
+        The proved order, the error and its place, or the undecided statement.
     point : mapping of str to str
-        The exact coordinates and velocities where it is false.
+        The exact coordinates and velocities at which it is false.
     """
 
     verdict: Literal["proved", "false", "measured"]
@@ -69,19 +67,20 @@ class Verdict:
 
 
 def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
-    """The verdicts on a method on a system, with its numbers.
+    """The verdicts on a method for a system, with its numbers.
 
     Parameters
     ----------
     system : System
     scheme : Scheme
-        As `METHODS[name].scheme(system)` is one.
+        For example `METHODS[name].scheme(system)`.
 
     Returns
     -------
     dict
-        {"order", "self-adjoint", "reversible", and "keeps " with the name of what the exact motion keeps: Verdict}; of
-        volumes "keeps the volume" that the motion keeps, or "keeps a smooth volume" where it keeps none.
+        {name: Verdict}, with the names "order", "self-adjoint", "reversible", and "keeps " followed by the name of a
+        quantity that the exact motion keeps; for volumes "keeps the volume" of the motion, or "keeps a smooth volume"
+        if the motion keeps none.
 
     Examples
     --------
@@ -102,10 +101,10 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
 
 @dataclass(frozen=True)
 class Combination:
-    """Expressions as combinations of those that equations set to 0: an identity where the relations hold.
+    """Expressions as combinations of expressions that equations set to 0: an identity under the relations.
 
-    `right` has factors, and what they are of; `meanings` what letters stand for, and `ends` what symbols for the end of
-    a step stand for.
+    `right` has the factors with their expressions; `meanings` those of letters, and `ends` those of symbols for the end
+    of a step.
     """
 
     left: list[sp.Expr]
@@ -126,7 +125,7 @@ Shown = tuple[Sequence[tuple[sp.Expr, int]], Mapping[sp.Symbol, sp.Expr]]
 
 @dataclass(frozen=True)
 class Decided:
-    """A verdict with what gives combinations that prove it; or what has the series that refute it, by a power of h.
+    """A verdict with the combinations that prove it, or the series that refute it, by a power of h.
 
     Combinations are of what is done, or plainly of what comes out of it.
     """
@@ -174,7 +173,7 @@ def _volume(system: System, digest: str) -> Volume | None:
 
 
 def quantities_of(system: System, of_method: Mapping[str, sp.Expr]) -> dict[str, sp.Expr]:
-    """Quantities that may be kept: energy, momenta along which no force acts, those of the system and the method."""
+    """Candidates for conserved quantities: energy, momenta without a force, those of the system and of the method."""
     found = {"the energy": system.energy} if system.keeps_energy else {}
     for i, (x, p) in enumerate(zip(system.coordinates, system.momenta, strict=True)):
         if system.push[i] == 0 and not any(system.rows[:, i]):
@@ -186,7 +185,7 @@ def quantities_of(system: System, of_method: Mapping[str, sp.Expr]) -> dict[str,
 
 
 class Judged:
-    """A method on a system, with a step in symbols and as series from an exact state."""
+    """A method for a system, with a step in symbols and as series from an exact state."""
 
     def __init__(self, exact: Exact, scheme: Scheme, looked: int) -> None:
         self.system, self.scheme, self.exact, self.looked = exact.system, scheme, exact, looked
@@ -221,7 +220,7 @@ class Judged:
         return first, there, z, self.stepped.solved(there, z, self.h)
 
     def wrong(self, what: str, *pairs: tuple[str, Series, Series]) -> Verdict | None:
-        """Where the first of some series differ, if they do."""
+        """The first power at which some series differ, if any."""
         for k in range(self.looked):
             for name, one, other in pairs:
                 if (by := _at(one, k) - _at(other, k)) != 0:
@@ -230,10 +229,10 @@ class Judged:
         return None
 
     def order(self, adjoint: bool) -> Verdict:
-        """The order of the local error, of place and velocity, less one; false if a step does not follow the motion."""
+        """The order of the local error in position and velocity, less one; false if a step departs from the motion."""
         final = self.after(self.state, self.reactions)[0]
         pairs = list(zip(map(str, self.exact.symbols), final, self.exact.moved, strict=True))
-        looked = 4 if self.reactions else self.looked  # c₃ is not known
+        looked = 4 if self.reactions else self.looked  # c₃ is unknown
         most = next((k - 1 for k in range(looked) if any(_at(x, k) != _at(y, k) for _, x, y in pairs)), self.looked)
         if most < 1 and (wrong := self.wrong("a step of the exact motion differs in", *pairs)):
             return wrong
@@ -246,13 +245,13 @@ class Judged:
         return Verdict("measured", ", ".join(bounds))
 
     def reacted(self, state: State, reaction: Sequence[Series]) -> State:
-        """The state of the method at a place and velocity, with momenta that have Aᵀc more."""
+        """The state of the method at a position and velocity, with Aᵀc added to the momenta."""
         start, _ = self.stepped.first(state)
         of = dict(zip((*self.scheme.state, *self.reacting), (*start, *reaction), strict=False))
         return evaluated(self.exact.read(self.kicked), of) if reaction else start
 
     def after(self, state: State, reaction: Sequence[Series]) -> tuple[State, list[Series]]:
-        """Place and velocity after a step from that state, and the c of the next one."""
+        """Position and velocity after a step from this state, and the c of the next state."""
         final, _ = self.stepped.step(self.reacted(state, reaction), self.stepped.first(self.state)[1], self.h)
         return self.exact.velocities(final, self.stepped.has_momenta)
 
@@ -387,7 +386,7 @@ class Judged:
 
     @property
     def turned(self) -> list[sp.Expr]:
-        """The state with the velocities turned."""
+        """The state with reversed velocities."""
         rest = [-x for x in self.scheme.state[self.n :]]
         if self.stepped.has_momenta:  # of -v
             at_rest = self.system.momenta.xreplace(dict.fromkeys(self.system.velocities, sp.S.Zero))
@@ -463,7 +462,7 @@ class Judged:
         return wrong or self._proved(self.is_kept(quantity))
 
     def keeps_volume(self, of: tuple[Volume, bool]) -> Verdict:
-        """Whether a volume is kept: that of the exact motion, or any, where a method of order 1 follows that."""
+        """Whether a volume is kept: that of the exact motion, or any, for a method of order 1."""
         kept, is_consistent = of
         has_volume(self.system, self.scheme, len(self.always))
         if kept.density is None:
@@ -508,7 +507,7 @@ class Judged:
 
     @cached_property
     def always(self) -> list[sp.Expr]:
-        """Of the constraints on places, and on velocities of a state, those that the equations set to 0 at the end."""
+        """The constraints on positions, and on velocities of a state, that the equations set to 0 at the end."""
         system, (there, _, links) = self.system, self.next_state
         found = list(system.holonomic)
         if not self.stepped.has_momenta:
@@ -601,7 +600,7 @@ def _spanned(aims: Sequence[sp.Expr], known: Sequence[sp.Expr]) -> list[dict[int
 
 
 def _small(x: int) -> sp.Rational | None:
-    """The fraction of small numbers that is x in the finite field."""
+    """The fraction of small numbers that equals x in the finite field."""
     for below in range(1, BELOW + 1):
         above = x * below % PRIME
         above = above - PRIME if above > PRIME // 2 else above
@@ -611,7 +610,7 @@ def _small(x: int) -> sp.Rational | None:
 
 
 def coefficients(expressions: Iterable[sp.Expr]) -> list[Powers]:
-    """The coefficients of 1, h and h² of expressions in the length of a step; of shared parts once."""
+    """The coefficients of 1, h and h² of expressions in the length of a step; shared parts are computed once."""
 
     def made(expr: sp.Expr, of: Callable[[sp.Expr], Powers]) -> Powers:
         if not expr.args:

@@ -1,4 +1,4 @@
-"""Measurements of a method on a system: its energy over many steps, its constraints, its order, its cost."""
+"""Measurements of a method on a system: energy over many steps, constraints, order, cost."""
 
 import math
 from contextlib import suppress
@@ -16,60 +16,60 @@ from .methods import Scheme
 from .motion import Motion, NotSolved, Runner, whole_number
 from .system import System, number
 
-#: Of all steps, the part at each end whose means are compared; and how many points of the energy a cell keeps.
+#: The fraction of the steps at each end whose means are compared, and the number of stored points of the energy.
 END, KEPT = 10, 240
 #: The number of steps that are examined.
 MOST = 1_000_000
 #: Steps on which the order is measured, and differences that are rounding; steps forth and back.
 SHORT, ROUNDING, BACK = 16, 1e-12, 100
-#: Into how many a step is cut for the error against work, and for what is taken as exact.
+#: The numbers of parts of a step for the error against work, and for the reference.
 CUT, FINE = (1, 2, 4, 8, 16), 256
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A method on a system.
+    """The measurements of a method on a system.
 
     Attributes
     ----------
     system, method : str
     steps : int
-        That were asked for.
+        The requested number of steps.
     length : float
         Of a step.
     energy : float
-        At the first step; of what the other figures of the energy are.
+        The energy at the first step, to which the other figures of the energy refer.
     oscillation : float
         The range of the energy in the first tenth of the steps.
     drift : float
         The mean energy of the last tenth less that of the first.
     constraint, places : float
-        The largest |A v + b| of the constraints on velocities, and the largest value of the holonomic ones, where the
-        method looks at a step.
+        The largest |A v + b| of the constraints on velocities, and the largest value of the holonomic ones, at the
+        point of a step where the method is evaluated.
     kept : bool
-        Whether there are constraints on velocities, and an equation of the method says that they are 0 there: proved,
-        the figure is rounding.
+        Whether there are constraints on velocities that an equation of the method sets to 0 there: then they are proved
+        to hold, and the figure is rounding.
     halved : float or None
-        The drift over the same time in steps of half the length, where it was asked for: an error of the method falls
-        by its order, one of the model does not.
+        The drift over the same time in steps of half the length, if requested: an error of the method decreases by its
+        order, an error of the model does not.
     order : float or None
-        That the error shows when the steps are halved; None where rounding hides it.
+        The order by the errors of halved steps; None if rounding hides it.
     returns : float or None
-        How far the place is from its start after some steps, the velocities turned round, and as many steps: 0 but for
-        rounding where the method is reversible by q, v -> q, -v.
+        The distance of the position from its start after some steps, reversed velocities, and as many steps: 0 up to
+        rounding if the method is reversible by q, v -> q, -v.
     integrals : dict of str to float
-        The range of each quantity that the system names, over all steps.
+        The range of each recorded quantity of the system, over all steps.
     microseconds : float
-        Of processor time, a step.
+        Processor time per step.
     failed : str or None
-        Why there are no figures: the step that has no solution.
+        Why there are no figures: the step without a solution.
     curve : list of [float, float]
         Time and energy.
     work : list of [float, float]
-        Processor time in µs of a run of some steps, cut into shorter ones, and how far its last place is from that of
-        steps that are much shorter.
+        Processor time in µs of a run with shorter steps, and the distance of its last position from that of much
+        shorter steps.
     verdicts : dict of str to Verdict
-        What `verdicts` decides, where it was asked for.
+        The result of `verdicts`, if requested.
     """
 
     system: str
@@ -105,7 +105,7 @@ class Cell:
         return cls(**{**data, **curves, "verdicts": decided, **unknown})
 
 
-@np.errstate(all="ignore")  # what is not finite has no figure
+@np.errstate(all="ignore")  # no figure for a number that is not finite
 def measured(
     system: System,
     method: str,
@@ -125,9 +125,9 @@ def measured(
     length : float, optional
         Of a step; that of the system by default.
     halve : bool
-        Whether the drift is measured with steps of half the length, too.
+        Whether the drift is also measured with steps of half the length.
     decide : bool
-        Whether what can be is decided exactly, too.
+        Whether properties are also decided exactly, as far as possible.
 
     Returns
     -------
@@ -173,7 +173,7 @@ def measured(
 
 
 def keeps(system: System, scheme: Scheme) -> bool:
-    """Whether an equation of the method says that the velocities obey the constraints, at each step or after it."""
+    """Whether an equation of the method makes the velocities satisfy the constraints, at each step or after it."""
     rows = list(system.rows * sp.Matrix(system.velocities) + system.offsets)[: len(system.constraints)]
     here = dict(zip((*system.coordinates, *system.velocities), (*scheme.place, *scheme.velocity), strict=True))
     after = dict(zip(scheme.state, scheme.after, strict=True)) if not scheme.stages else {}
@@ -216,7 +216,7 @@ def _figures(motion: Motion) -> Data:
 
 
 def _returns(runner: Runner, h: float) -> float:
-    """The distance of the place from its start after steps forth and back."""
+    """The distance of the position from its start after steps forth and back."""
     there = runner.march(BACK, h).final
     back = runner.march(BACK, h, start=runner.turned(there, h)).final
     n = len(runner.system.coordinates)
@@ -231,5 +231,5 @@ def _order(runner: Runner, h: float) -> float | None:
 
 
 def _place(runner: Runner, h: float, k: int) -> np.ndarray:
-    """The place after some steps, each cut into k."""
+    """The position after some steps, each divided into k."""
     return runner.march(SHORT * k, h / k).final[: len(runner.system.coordinates)]

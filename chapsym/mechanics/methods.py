@@ -1,7 +1,7 @@
 """Methods for systems with constraints on their velocities, as equations for the unknowns of a step.
 
-A state has the coordinates and velocities, or momenta, that a step starts from.  The unknowns are velocities,
-accelerations and multipliers, so that those of one step are near those of the next.  L is the Lagrangian, p = ∂L/∂v,
+A state has the coordinates and velocities, or momenta, at the start of a step.  The unknowns are velocities,
+accelerations and multipliers, so that those of successive steps are near each other.  L is the Lagrangian, p = ∂L/∂v,
 f = ∂L/∂q + F with the forces F, A v + b = 0 the constraints, and h the length of a step.
 """
 
@@ -25,25 +25,25 @@ class Scheme:
     Attributes
     ----------
     state : tuple of sympy.Symbol
-        What a step starts from: first the coordinates.
+        The symbols of the state at the start of a step: first the coordinates.
     unknowns : tuple of sympy.Symbol
-        What the equations are solved for.
+        The unknowns of the equations.
     residual : sequence of sympy.Expr
-        What vanishes at a step, as many as there are unknowns.
+        Expressions that vanish at a step, as many as unknowns.
     after : sequence of sympy.Expr
-        The next state, by state and unknowns; for an explicit method the rates of the state, at any state.
+        The next state, in state and unknowns; for an explicit method the rates of the state, at any state.
     place, velocity : sequence of sympy.Expr
-        Coordinates and velocities at which the step is evaluated: its energy, its constraints.
+        Coordinates and velocities at which the energy and the constraints of the step are evaluated.
     when : sympy.Rational
-        The part of the step after which they are.
+        The fraction of the step after which these are evaluated.
     start, guess : sequence of sympy.Expr
-        The first state and the first guess of the unknowns, by coordinates and velocities.
+        The first state and the first guess of the unknowns, in coordinates and velocities.
     reflects : bool
-        Whether the momenta of a state are those before a reaction that reflects them, not those of its velocities.
+        Whether the momenta of a state are those before a reflecting reaction, not those of its velocities.
     stages : sequence of sequence of sympy.Rational
-        Of an explicit Runge-Kutta method, the rows of its tableau, then its weights; none for another.
+        For an explicit Runge-Kutta method the rows of its tableau, then its weights; otherwise empty.
     integrals : mapping
-        {name: quantity of this method alone}, in coordinates and velocities where the step is evaluated, and `STEP`.
+        {name: quantity of only this method}, in the coordinates and velocities of the evaluation, and `STEP`.
     """
 
     state: Sequence[sp.Symbol]
@@ -79,7 +79,7 @@ class Method:
     name : str
         Its name in tables.
     title : str
-        What it is.
+        Its full name.
     source : str
         Where it comes from.
     scheme : callable
@@ -99,7 +99,7 @@ class Method:
 
 
 class _Parts:
-    """A system's functions at any place and velocity, and the symbols of a scheme."""
+    """The functions of a system at any position and velocity, and the symbols of a scheme."""
 
     def __init__(self, system: System) -> None:
         self.system, self.n, self.m = system, len(system.coordinates), system.rows.rows
@@ -108,7 +108,7 @@ class _Parts:
 
     def symbols(self, name: str, count: int) -> sp.Matrix:
         """Symbols of the unknowns or of the state."""
-        return sp.Matrix([sp.Symbol(f"{name} {i}") for i in range(count)])  # which no symbol of a system is called
+        return sp.Matrix([sp.Symbol(f"{name} {i}") for i in range(count)])  # a name that no symbol of a system has
 
     def at(self, of: sp.Matrix, q: sp.Matrix, v: sp.Matrix | None = None) -> sp.Matrix:
         """A function of coordinates, and of velocities, at others."""
@@ -128,7 +128,7 @@ class _Parts:
         return self.at(self.system.rows.T, q) * multipliers if self.m else sp.zeros(self.n, 1)
 
     def kept(self, q: sp.Matrix, v: sp.Matrix, end: sp.Matrix | None = None) -> sp.Matrix:
-        """A v + b; of holonomic constraints, their values at `end`, where it is given."""
+        """A v + b; for holonomic constraints their values at `end`, if given."""
         rates = self.at(self.system.rows, q) * v + self.at(self.system.offsets, q) if self.m else sp.Matrix([])
         if end is None or not self.system.holonomic:
             return sp.Matrix(rates)
@@ -137,7 +137,8 @@ class _Parts:
 
 
 def discrete(alpha: sp.Rational, system: System) -> Scheme:
-    """The discrete Lagrange-d'Alembert principle with h L(q + α h u, u), u = (q' - q)/h, the constraint at that place.
+    """The discrete Lagrange-d'Alembert principle with h L(q + α h u, u), u = (q' - q)/h, the constraint at this
+    position.
 
     p + h(1 - α) f - ∂L/∂v + A(q)ᵀλ = 0 and p' = ∂L/∂v + h α f, all at (q + α h u, u).
     """
@@ -154,7 +155,7 @@ def discrete(alpha: sp.Rational, system: System) -> Scheme:
 
 
 def own(system: System) -> Scheme:
-    """The discrete Lagrange-d'Alembert principle with a discrete Lagrangian and constraints of one's own.
+    """The discrete Lagrange-d'Alembert principle with a user's discrete Lagrangian and constraints.
 
     p + D₁L(q, q') + A(q)ᵀλ = 0, the discrete constraints, and p' = D₂L(q, q').
     """
@@ -179,7 +180,7 @@ def own(system: System) -> Scheme:
 
 
 def _divided(expr: sp.Expr) -> sp.Expr:
-    """A polynomial over the length of a step, divided by it where it can be."""
+    """A polynomial over the length of a step, divided by it if possible."""
     try:
         whole = sp.Poly(sp.expand(expr * STEP), STEP)
     except sp.PolynomialError:
@@ -206,7 +207,8 @@ def geometric(system: System) -> Scheme:
 
 
 def leapfrog(system: System) -> Scheme:
-    """The nonholonomic leapfrog: half a step of the place, the kick with the reaction there, half a step of the place.
+    """The nonholonomic leapfrog: half a step of the position, the kick with the reaction there, half a step of the
+    position.
 
     p = ∂L/∂v(m, u), p' = ∂L/∂v(m, w) = p + h (f(m, u) + f(m, w))/2 + A(m)ᵀλ, A(m)(u + w)/2 + b(m) = 0, m = q + h u/2,
     q' = m + h w/2.
@@ -246,7 +248,7 @@ def lobatto(system: System) -> Scheme:
 
 
 def midpoint(system: System) -> Scheme:
-    """The implicit midpoint rule for the equations with the accelerations solved for."""
+    """The implicit midpoint rule for the equations solved for the accelerations."""
     of = _Parts(system)
     a, multipliers = of.symbols("a", of.n), of.symbols("lam", of.m)
     velocity = of.v + STEP * a / 2
@@ -259,7 +261,7 @@ def midpoint(system: System) -> Scheme:
 
 
 def explicit(stages: Sequence[Sequence[str]], system: System) -> Scheme:
-    """An explicit Runge-Kutta method for the equations with the accelerations solved for."""
+    """An explicit Runge-Kutta method for the equations solved for the accelerations."""
     of = _Parts(system)
     a, multipliers = of.symbols("a", of.n), of.symbols("lam", of.m)
     return Scheme(
@@ -303,7 +305,7 @@ METHODS: dict[str, Method] = {
 
 
 def scheme_of(system: System, method: object) -> Scheme:
-    """The equations of a method, by its name, for a system; raises BadSystem for none."""
+    """The equations of a method, by its name, for a system; raises BadSystem for an unknown method."""
     if not isinstance(method, str) or method not in METHODS:
         raise BadSystem(f"{brief(method)} is no method; those are {', '.join(METHODS)}")
     return METHODS[method].scheme(a_system(system))

@@ -1,4 +1,4 @@
-"""A method run on a system: its kernels, in C where a compiler is there, in Python otherwise; and what it recorded."""
+"""A run of a method on a system: its kernels, in C if there is a compiler, else in Python; and its records."""
 
 import ctypes
 import itertools
@@ -30,14 +30,14 @@ from .slope import Terms, differentiated, needed, shared
 from .steps import UNSOLVED, NotSolved, Sets, Steps
 from .system import STEP, BadSystem, System, a_system, in_floats, number, rational
 
-#: Newton's iteration: rounds at most; the last correction in units of the unknowns, and one that may stay; and how much
-#: one must be smaller than the one before for the derivatives to serve another round.
+#: Newton's iteration: the largest number of rounds; the last correction, relative to the unknowns, and an acceptable
+#: stagnating one; and the ratio of successive corrections up to which the derivatives are kept.
 MOST_ROUNDS, LAST, STAYS, SHRINKS = 50, 1e-15, 1e-9, 1e-3
-#: The kernels are in steps already.
+#: Without the pass for common parts, as the kernels are in steps already.
 PASSES = (passes.FACTORED, *passes.PASSES[2:])
-#: A number that no float holds.
+#: The largest number of a float.
 BEYOND = int(np.finfo(float).max)
-#: Steps between which an interrupt is seen.
+#: The number of steps between checks for an interrupt.
 PART = 50_000
 ROUTINE = Path(__file__).with_name("march.c").read_text(encoding="utf-8")
 
@@ -49,19 +49,19 @@ class Motion:
     Attributes
     ----------
     time : numpy.ndarray
-        (steps,), when the place is as recorded: at the beginning of a step, or in its middle.
+        (steps,), the times of the recorded positions: at the beginning of a step, or in its middle.
     place, velocity : numpy.ndarray
-        (steps, n), where the method looks at the step.
+        (steps, n), at the point of a step where the method is evaluated.
     energy : numpy.ndarray
         (steps,)
     constraint, places : numpy.ndarray
         (steps,), the largest |A v + b|, and the largest value of the holonomic constraints.
     integrals : dict of str to numpy.ndarray
-        (steps,), the quantities that the system names.
+        (steps,), the recorded quantities of the system.
     final : numpy.ndarray
         The last state.
     seconds : float
-        Of processor time, for the steps.
+        The processor time of the steps.
     """
 
     time: np.ndarray
@@ -76,7 +76,7 @@ class Motion:
 
 
 def whole_number(given: Any, what: str) -> int:
-    """A count that C can hold; raises BadSystem for anything else."""
+    """A count in the range of C; raises BadSystem for anything else."""
     if not is_whole(given) or not 1 <= given < 2**62:
         clause = "to 2^62" if is_whole(given) and given > 0 else "on"
         raise BadSystem(f"{what} must be a whole number from 1 {clause}, not {brief(given)}")
@@ -84,7 +84,7 @@ def whole_number(given: Any, what: str) -> int:
 
 
 class Runner:
-    """A method made ready for a system: derived, generated, compiled.
+    """A method prepared for a system: derived, generated, compiled.
 
     Parameters
     ----------
@@ -92,9 +92,9 @@ class Runner:
     method : str
         One of METHODS.
     compiled : bool, optional
-        Whether C takes the steps; by default where there is a compiler.
+        Whether the steps are compiled C; by default if there is a compiler.
     precision : str or Precision, optional
-        Of the numbers, as for `moved`.
+        The precision of the numbers, as for `moved`.
 
     Examples
     --------
@@ -130,7 +130,7 @@ class Runner:
 
     @cached_property
     def kernels(self) -> list[Kernel]:
-        """The equations, their derivatives by the unknowns, the next state, and where the step is evaluated."""
+        """The equations, their derivatives by the unknowns, the next state, and the point of evaluation."""
         residual, after, place, velocity = map(self._read, ("residual", "after", "place", "velocity"))
         terms, values = shared(residual)
         unknowns = self._groups["unknowns"]
@@ -233,9 +233,9 @@ class Runner:
         length : number, optional
             Of a step; that of the system by default.
         every : int
-            Of which one is recorded.
+            The number of steps from one record to the next.
         start : numpy.ndarray, optional
-            Another state to start from, as `Motion.final` is one, in the numbers of the precision.
+            Another first state, such as `Motion.final`, in the numbers of the precision.
 
         Returns
         -------
@@ -281,7 +281,7 @@ class Runner:
             place, velocity = recorded[:, : len(q)], recorded[:, len(q) :]
             try:
                 (energy,), *kept, integrals = self._measured(place, velocity, fixed)
-            except Exception:  # whatever functions SymPy has for the integrals
+            except Exception:  # for any functions of SymPy in the integrals
                 integrals = [np.array([np.nan])]
                 (energy,), kept = integrals, []
             if not all(map(_are_finite, (energy, *itertools.chain(*kept), *integrals))):
@@ -297,7 +297,7 @@ class Runner:
         return Motion(times, place, velocity, energy, constraint, places, quantities, state, seconds)
 
     def _given(self, start: Any, zero: Any) -> np.ndarray:
-        """A state that somebody gives, in the numbers of a zero."""
+        """A given state, in the numbers of `zero`."""
         try:
             if np.shape(start) != (len(self.scheme.state),) or np.ma.isMaskedArray(start) or np.iscomplexobj(start):
                 raise TypeError
@@ -332,7 +332,7 @@ class Runner:
         return NotSolved(f"{self.system.name}, {self.method}: a function of the system has no value where a step is")
 
     def _beginning(self, fixed: np.ndarray) -> np.ndarray:
-        """The first state in other numbers than float64: velocities that are not given are the smallest there are."""
+        """The first state in other numbers than float64; velocities that are not given are the smallest possible."""
         system, zero = self.system, 0 * fixed[-1]
         given = {x: self._number(value, f"the start of {x}") for x, value in system.start.items()}
         q, v = ([given.get(x, zero) for x in symbols] for symbols in (system.coordinates, system.velocities))
@@ -343,7 +343,7 @@ class Runner:
                 raise self._undefined()
             rows, offsets = found[: -system.rows.rows].reshape(-1, len(q)), found[-system.rows.rows :]
             kept = list[int]()
-            for i in range(len(rows)):  # rows that do not depend on others
+            for i in range(len(rows)):  # independent rows
                 rank = np.linalg.matrix_rank(rows[[*kept, i]][:, free].astype(float))
                 kept += [i] if rank > len(kept) else []
             within, short = rows[kept][:, free], -(rows @ v + offsets)[kept]
@@ -352,7 +352,7 @@ class Runner:
         return np.array(self._of("start", q, v, fixed), object)
 
     def _is_singular(self, q: np.ndarray, v: np.ndarray, fixed: np.ndarray) -> bool:
-        """Whether the derivatives of the first step's equations are singular at its guess."""
+        """Whether the derivatives of the equations of the first step are singular at its guess."""
         state, unknowns = (self._numbers(part, q, v) for part in (self.scheme.start, self.scheme.guess))
         try:
             slope = np.array(self.functions["slope"](*map(float, (*unknowns, *state, *fixed)))).reshape(
@@ -372,7 +372,7 @@ class Runner:
         return [in_floats(symbols, [e.xreplace(numbers) for e in one], "numpy", cse=True) for one in measured]
 
     def velocities(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Coordinates and velocities of a state, in float64; of momenta p = ∂L/∂v is solved, with least |v|."""
+        """Coordinates and velocities of a state, in float64; for momenta the solution of p = ∂L/∂v with least |v|."""
         n = len(self.system.coordinates)
         q, rest = np.split(np.array(state, float), [n])
         if self.scheme.state[n] == self.system.velocities[0]:
@@ -381,7 +381,7 @@ class Runner:
         return q, np.linalg.lstsq(self._mass(q), rest - at_rest, rcond=None)[0]
 
     def turned(self, state: np.ndarray, length: float) -> np.ndarray:
-        """The state with the velocities turned round, for steps of a length."""
+        """The state with reversed velocities, for steps of a length."""
         q, v = self.velocities(state)
         if not self.scheme.reflects:
             return self._numbers(self.scheme.start, q, -v)
@@ -392,7 +392,7 @@ class Runner:
         return self._numbers(list(self.system.mass), q, 0 * q).reshape(len(q), len(q))
 
     def _numbers(self, expressions: Sequence[sp.Expr], q: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """Their values; raises NotSolved where they have none."""
+        """The values of expressions; raises NotSolved if there are none."""
         symbols = (*self.system.coordinates, *self.system.velocities, *self.system.parameters)
         try:
             return np.array(_in_floats(symbols, tuple(expressions))(*q, *v, *self.system.numbers), float)
@@ -401,7 +401,7 @@ class Runner:
 
     @cached_property
     def library(self) -> Any:
-        """The compiled steps; None where they cannot be compiled, which is said."""
+        """The compiled steps; None, with a warning, if they cannot be compiled."""
         scheme = self.scheme
         files = c_files.kernels_alone(_text(self.kernels), self.kernels, "system", {})
         stages = [*scheme.stages, *([[]] if not scheme.stages else [])]
@@ -443,7 +443,7 @@ def _in_floats(symbols: tuple[sp.Symbol, ...], expressions: tuple[sp.Expr, ...])
 
 @cache
 def _has_compiler() -> bool:
-    """Whether there is a compiler of C; says once what that costs if there is none."""
+    """Whether there is a C compiler; warns once if there is none."""
     if shutil.which("cc") is not None:
         return True
     logging.getLogger("chapsym").warning(
@@ -466,16 +466,16 @@ def moved(
     ----------
     system : System
     method : str
-        One of METHODS: "dla" is the discrete Lagrange-d'Alembert principle at the middle.
+        One of METHODS: "dla" is the discrete Lagrange-d'Alembert principle at the midpoint.
     steps : int
     length : number, optional
         Of a step; that of the system by default.
     every : int
-        Of which one step is recorded.
+        The number of steps from one record to the next.
     precision : str or Precision, optional
-        "double" is float64; "double-double", `chapsym.Digits(n)` and `chapsym.Enclosure(bits)` take parameters, start
-        and length exactly, floats as they are written.  An enclosure contains the motion of the method; that each step
-        has the root that it follows, one near the last, is proved.
+        "double" is float64; "double-double", `chapsym.Digits(n)` and `chapsym.Enclosure(bits)` use exact parameters,
+        start and length, with floats as written.  An enclosure contains the motion of the method; it is proved that
+        each step has the followed root, which is near the last root.
 
     Returns
     -------
@@ -484,9 +484,9 @@ def moved(
     Raises
     ------
     BadSystem
-        For a method that is none, a start that breaks a constraint, or what is not rational in another precision.
+        For an unknown method, a start that violates a constraint, or irrational expressions at another precision.
     NotSolved
-        If the equations of a step are not solved, or an enclosure has grown too wide for that.
+        If the equations of a step are not solved, or an enclosure has grown too wide for it.
 
     Examples
     --------
@@ -526,7 +526,7 @@ def _text(kernels: Sequence[Kernel]) -> str:
 def _in_c(
     runner: Runner, steps: int, every: int, state: np.ndarray, unknowns: np.ndarray, *arrays: np.ndarray
 ) -> tuple[int, str]:
-    """A part of the steps after the other, so that they can be interrupted; how many were taken, and why no more."""
+    """Takes the steps in parts, so that they can be interrupted; returns the number taken, and why no more."""
     arrays = (state, unknowns, np.tile(unknowns, 2), *arrays)
     pointers = [array.ctypes.data_as(ctypes.POINTER(ctypes.c_double)) for array in arrays]
     run, done = runner.library.march, 0

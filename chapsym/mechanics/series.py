@@ -18,9 +18,9 @@ from chapsym.prove.points import candidates
 from .methods import Scheme
 from .system import STEP, System, rational
 
-#: Numbers for coordinates that holonomic constraints bind: those of a quaternion, to begin with.
+#: Trial numbers for coordinates with holonomic constraints, first for a quaternion.
 UNIT = ("1/5", "2/5", "4/5", "2/5")
-#: Cosines and sines of angles, which are taken in turn.
+#: Cosines and sines of angles, used in turn.
 TURNS = ((3, 4, 5), (12, 5, 13), (8, 15, 17))
 #: An angle is turned where it is taken no more times than this.
 MOST_TURNS = 100
@@ -34,7 +34,7 @@ Made = Callable[[sp.Expr, Of[T]], T]
 
 
 class Undecided(ArithmeticError):
-    """Exact series do not decide it; the message says why."""
+    """Exact series do not decide the question; the message has the reason."""
 
 
 def by_parts(expressions: Iterable[sp.Expr], known: Mapping[sp.Expr, T], made: Made[T]) -> list[T]:
@@ -54,7 +54,7 @@ Operation = tuple[Any, tuple[int, ...]]
 
 
 def evaluated(expressions: Iterable[sp.Expr], values: Mapping[sp.Symbol, Any], number: Any = fmpq) -> list[Any]:
-    """Expressions in any numbers: fractions, series, those of a finite field."""
+    """The values of expressions in any numbers: fractions, series, a finite field."""
     operations, ends = _operations(tuple(expressions))
     found: list[Any] = []
     try:
@@ -190,7 +190,7 @@ class Exact:
 
     @cached_property
     def state(self) -> State:
-        """Exact coordinates and velocities that obey the constraints, with angles at 0 from where they are turned."""
+        """Exact coordinates and velocities that satisfy the constraints; turned angles start at 0."""
         system, angles = self.system, self.angles
         kept = [e.xreplace(dict.fromkeys(angles, sp.S.Zero)) for e in self.read(system.holonomic)]
         table = {x: sp.Rational(i + 4, i + 3) for i, x in enumerate(system.coordinates)}
@@ -207,7 +207,7 @@ class Exact:
         return [_at(x, 0) for x in self.velocities([*q, *self.at(system.momenta, [*q, *v])])[0]]
 
     def solved(self, place: State, right: Sequence[Series]) -> list[Series]:
-        """[M, -Aᵀ; A, 0] x = right at a place."""
+        """The solution of [M, -Aᵀ; A, 0] x = right at a position."""
         size = self.n + self.m
         entries = self._at(self._linear, place)
         rows = [entries[size * i : size * (i + 1)] for i in range(size)]
@@ -231,7 +231,7 @@ class Exact:
         return self._moved[ctx.cap]
 
     def velocities(self, state: Sequence[Series], has_momenta: bool = True) -> tuple[State, list[Series]]:
-        """Place and velocity v of a place and momenta p, and c, with p = ∂L/∂v + Aᵀc and A v + b = 0."""
+        """Position and velocity v from a position and momenta p, and c, with p = ∂L/∂v + Aᵀc and A v + b = 0."""
         place, momenta = list(state[: self.n]), state[self.n :]
         if not has_momenta:
             return list(state), []
@@ -300,7 +300,7 @@ def _at(x: Series, k: int) -> fmpq:
 
 
 def inverse(matrix: fmpq_mat) -> fmpq_mat:
-    """The inverse; raises Undecided where there is none."""
+    """The inverse; raises Undecided if there is none."""
     try:
         return matrix.inv()
     except ZeroDivisionError:

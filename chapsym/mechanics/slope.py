@@ -1,4 +1,4 @@
-"""Derivatives of equations by unknowns, in steps: of what they share, each is computed once."""
+"""Derivatives of equations by unknowns, in steps: shared parts are computed once."""
 
 from collections.abc import Mapping, Sequence
 

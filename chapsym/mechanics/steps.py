@@ -1,6 +1,6 @@
 """Steps of a method in the numbers of any precision; in enclosures each root is proved.
 
-A ball for each number of a state would grow by a factor a step, as a box does that is turned.  So a set of states is
+Balls for each number of a state would grow by a factor per step, like a rotated box.  So a set of states is
 c + B r, with a point c, a nearly orthogonal matrix B and balls r, which the derivatives of a step move: R. Lohner, in
 Computational Ordinary Differential Equations (1992) 425.
 """
@@ -27,13 +27,13 @@ UNSOLVED = "has no solution near the last one"
 
 
 class NotSolved(ArithmeticError):
-    """A step that was not found; the message says which."""
+    """A step that was not found; the message names it."""
 
 
 class Steps:
-    """A method in the numbers of a precision, each step from the unknowns of the last, by Newton's iteration.
+    """A method at a precision: Newton's iteration for each step starts from the unknowns of the last step.
 
-    Its kernels take unknowns, of which a first guess is given, a state, and what is fixed, last the length of a step.
+    Its kernels take the unknowns, with a given first guess, a state, and the constants, last the length of a step.
     """
 
     def __init__(
@@ -68,12 +68,12 @@ class Steps:
         return self.scheme.step(at, found, self.fixed[-1], lambda x: self.of("after", self.root(x), x), self.number)
 
     def step(self, state: State) -> tuple[Vector, State]:
-        """Place and velocity where the step is evaluated, and the next state."""
+        """The position and velocity at the point of evaluation, and the next state."""
         root = self.root(state)
         return self.of("seen", root, state), self.after(root, state)
 
     def first(self, state: Vector) -> State:
-        """A state as `step` takes it."""
+        """A state as the argument of `step`."""
         return list(state)
 
     def numbers(self, state: State) -> Vector:
@@ -139,7 +139,7 @@ class Sets(Steps):
 
 
 def _orthogonal(matrix: arb_mat, box: arb_mat) -> list[list[float]]:
-    """An orthogonal matrix about along the columns of another, the longest of the set first."""
+    """A nearly orthogonal matrix along the columns of another, the longest of the set first."""
     middle = np.array(matrix.mid().tolist(), float)
     longest = np.argsort(-np.linalg.norm(middle, axis=0) * np.array([float(x.rad()) for x in box.entries()]))
     return np.linalg.qr(middle[:, longest])[0].tolist()

@@ -19,7 +19,7 @@ from chapsym.prove.registers import raised
 
 #: The length of a step.
 STEP = sp.Symbol("step_length")
-#: How far the velocities of a start may be from the constraints, in their own units.
+#: The largest accepted error of the constraints at the start, in their own units.
 NEAR = 1e-9
 
 
@@ -28,20 +28,20 @@ class BadSystem(ValueError):
 
 
 def without(where: str, strange: Set[sp.Basic], what: str = "no coordinate, velocity or parameter") -> None:
-    """Raises BadSystem if there are symbols that have no place where they are."""
+    """Raises BadSystem if there are symbols that are not allowed there."""
     if strange:
         raise BadSystem(f"{where} {', '.join(sorted(map(str, strange)))}, which is {what}")
 
 
 def a_symbol(x: object) -> sp.Symbol:
-    """The same; raises BadSystem for what is no symbol."""
+    """The symbol; raises BadSystem for anything else."""
     if not isinstance(x, sp.Symbol):
         raise BadSystem(f"a coordinate must be a symbol, such as symbols('x'), not {brief(x)}")
     return x
 
 
 def a_system(given: object) -> "System":
-    """The same; raises BadSystem for what is no system."""
+    """The system; raises BadSystem for anything else."""
     if not isinstance(given, System):
         raise BadSystem(f"system must be a System, not {brief(given)}")
     return given
@@ -77,7 +77,7 @@ def rate(expr: sp.Expr | sp.MatrixBase, coordinates: Sequence[sp.Symbol]) -> sp.
     expr : sympy.Expr or sympy.Matrix
         In coordinates and constants.
     coordinates : sequence of sympy.Symbol
-        Those symbols that change; the others are constants.
+        The symbols that change; the others are constants.
 
     Returns
     -------
@@ -119,16 +119,16 @@ def after(x: sp.Symbol) -> sp.Symbol:
 
 @dataclass(frozen=True, eq=False)
 class Discrete:
-    """A discretization of one's own, for the discrete Lagrange-d'Alembert principle.
+    """A discretization of your own, for the discrete Lagrange-d'Alembert principle.
 
     Parameters
     ----------
     lagrangian : sympy.Expr
-        In the coordinates x before and `after(x)` a step, parameters and the length `STEP` of a step: about the action.
+        An approximate action, in the coordinates x before and `after(x)` a step, the parameters and the step `STEP`.
     constraints : sequence of sympy.Expr
-        What vanishes at a step, one for each constraint of the system on velocities.
+        Expressions that vanish at a step, one for each constraint of the system on velocities.
     integrals : mapping, optional
-        {name: quantity of a step} to look at, in the same symbols.
+        {name: quantity of a step} to record, in the same symbols.
 
     Examples
     --------
@@ -149,41 +149,42 @@ class Discrete:
 
 @dataclass(frozen=True, eq=False)
 class System:
-    """A mechanical system whose velocities are constrained.
+    """A mechanical system with constraints on its velocities.
 
     Parameters
     ----------
     name : str
-        What it is called.
+        Its name.
     coordinates : sequence of sympy.Symbol
-        Numbers or angles, with sines and cosines.  A unit vector or a quaternion is given by its components,
-        and by what they keep in `holonomic`.
+        Numbers or angles, with sines and cosines.  A unit vector or a quaternion is given by its components, with its
+        norm in `holonomic`.
     lagrangian : sympy.Expr
         In the coordinates, their velocities `dot(x)` and parameters; of degree two in the velocities.
     constraints : sequence of sympy.Expr
-        What vanishes, affine in the velocities.
+        Expressions that vanish, affine in the velocities.
     holonomic : sequence of sympy.Expr
-        What vanishes, in the coordinates alone.
+        Expressions that vanish, only in the coordinates.
     forces : mapping, optional
-        {coordinate: generalized force along it}, in coordinates and velocities, of what the Lagrangian does not have.
+        {coordinate: generalized force along it}, in coordinates and velocities, for forces that are not in the
+        Lagrangian.
     parameters : mapping
         {symbol: number}, each an int, a fraction, a float or a string such as "3/2".
     start : mapping
-        {coordinate or velocity: number}, likewise; coordinates that are not there are 0, and velocities the
-        smallest that the constraints allow.
+        {coordinate or velocity: number}, likewise; the default is 0 for coordinates, and for velocities the smallest
+        that the constraints allow.
     step : number
-        A usual length of a step.
+        The default length of a step.
     source : str
-        Where it comes from.
+        Its source in the literature.
     discrete : Discrete, optional
-        A discretization of one's own: the method "own".
+        A discretization of your own: the method "own".
     integrals : mapping, optional
-        {name: quantity in coordinates, velocities and parameters} to look at, besides the energy.
+        {name: quantity in coordinates, velocities and parameters} to record, besides the energy.
 
     Raises
     ------
     BadSystem
-        If it is none, in one sentence.
+        For an invalid system, with one sentence.
 
     Examples
     --------
@@ -291,7 +292,7 @@ class System:
         return Discrete(action, tuple(rules), dict(zip(names, quantities, strict=True)))
 
     def digest(self, *more: object) -> str:
-        """A hash of all that a run depends on; raises BadSystem where it cannot be written."""
+        """A hash of all inputs of a run; raises BadSystem if they cannot be written."""
         parts = (self.coordinates, self.lagrangian, self.constraints, self.holonomic, self.forces, self.parameters)
         own = vars(self.discrete) if self.discrete else None, self.integrals
         try:  # a symbol may be called pi, as a number is
@@ -322,14 +323,14 @@ class System:
 
     @cached_property
     def energy(self) -> sp.Expr:
-        """⟨v, ∂L/∂v⟩ - L: that is ⟨v, M v⟩/2 - L(q, 0)."""
+        """The energy ⟨v, ∂L/∂v⟩ - L = ⟨v, M v⟩/2 - L(q, 0)."""
         v = sp.Matrix(self.velocities)
         at_rest = self.lagrangian.xreplace(dict.fromkeys(self.velocities, sp.S.Zero))
         return (v.T * self.mass * v)[0] / 2 - at_rest
 
     @cached_property
     def power(self) -> sp.Expr:
-        """dE/dt less what the reactions of affine constraints do: the power of the forces ⟨F, v⟩."""
+        """dE/dt without the power of the reactions of affine constraints: the power of the forces ⟨F, v⟩."""
         return sp.expand(sum((f * dot(x) for x, f in self.forces.items()), sp.S.Zero))
 
     @property
@@ -342,7 +343,7 @@ class System:
 
     @cached_property
     def rows(self) -> sp.Matrix:
-        """A of A(q) v + b(q) = 0: a row for each constraint, and for the rate of each holonomic one."""
+        """The A of A(q) v + b(q) = 0: a row for each constraint, and for the rate of each holonomic one."""
         made = [[sp.diff(c, v) for v in self.velocities] for c in self.constraints]
         made += [[sp.diff(c, x) for x in self.coordinates] for c in self.holonomic]
         return sp.Matrix(len(made), len(self.coordinates), lambda i, j: sp.expand(made[i][j]))
@@ -376,7 +377,7 @@ class System:
         return np.array([self.value(x) for x in self.parameters])
 
     @cached_property
-    @np.errstate(all="ignore")  # what is not finite is refused
+    @np.errstate(all="ignore")  # numbers that are not finite are refused
     def beginning(self) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities of the start; raises BadSystem if they break a constraint."""
         given = {x: number(v, f"{self.name}: the start of {x}") for x, v in self.start.items()}
@@ -388,7 +389,7 @@ class System:
             rows, offsets, *kept = (np.asarray(x, complex if np.iscomplexobj(x) else float) for x in found)
             if not all(np.isrealobj(x) and np.isfinite(x).all() for x in (rows, offsets, *kept)):
                 raise ArithmeticError
-        except (ArithmeticError, TypeError):  # whole numbers beyond floats, too
+        except (ArithmeticError, TypeError):  # also for integers beyond floats
             raise BadSystem(f"{self.name}: a constraint is not defined at the start") from None
         if not all(abs(x) <= NEAR for x in kept):
             raise BadSystem(f"{self.name}: the start is {max(map(abs, kept)):.3g} off the holonomic constraints")
@@ -405,9 +406,9 @@ class System:
 
 
 def loaded(path: str | Path) -> System:
-    """The system of a file, which has it as SYSTEM; its docstring's first line is its title.
+    """The system of a file, its SYSTEM; the first line of the docstring of the file is the title.
 
-    The file is code, and is run, as the script of a register is.
+    The file is code that is run, as is the script of a register.
 
     Parameters
     ----------
@@ -421,7 +422,7 @@ def loaded(path: str | Path) -> System:
     Raises
     ------
     BadSystem
-        If there is none.
+        If the file has no system.
 
     Examples
     --------
@@ -450,14 +451,14 @@ def loaded(path: str | Path) -> System:
 
 
 def _refuse(value: Any) -> None:
-    """Raises TypeError for what has a float, or a fraction, and is no single real number."""
+    """Raises TypeError for an object that has a float, or a fraction, and is no single real number."""
     strange = np.ma.MaskedArray | np.timedelta64
     if isinstance(value, strange) or np.iscomplexobj(value) or np.ndim(value):
         raise TypeError
 
 
 def rational(value: Any, what: str) -> sp.Rational:
-    """A number of a system, exactly; raises BadSystem with the value, if it is not a number."""
+    """An exact number of a system; raises BadSystem, with the value, if it is no number."""
     try:
         _refuse(value)
         is_long = isinstance(value, sp.Float) and value._prec > sp.Float(0.5)._prec
@@ -469,7 +470,7 @@ def rational(value: Any, what: str) -> sp.Rational:
 
 
 def number(value: Any, what: str) -> float:
-    """The same as a float, which is finite."""
+    """The same as a finite float."""
     try:
         _refuse(value)
         found = float(Fraction(value) if isinstance(value, str) else value)
@@ -484,7 +485,7 @@ def in_floats(
     symbols: Sequence[sp.Symbol], expressions: Sequence[sp.Expr | sp.MatrixBase], module: str, cse: bool = False
 ) -> Callable[..., Any]:
     """Expressions, or matrices of them, as a function of floats by NumPy or `math`, of arrays by NumPy."""
-    if any(hasattr(np, x.name) for x in symbols):  # such as pi, which would be that of the module
+    if any(hasattr(np, x.name) for x in symbols):  # such as pi, which would be the pi of the module
         put = {x: sp.Symbol(f"s{i}") for i, x in enumerate(symbols)}
         symbols, expressions = list(put.values()), [e.xreplace(put) for e in expressions]
     return sp.lambdify(symbols, expressions, module, cse=cse)
@@ -498,14 +499,14 @@ def several(value: object, what: str) -> tuple[Any, ...]:
 
 
 def _smooth(expr: sp.Expr, what: str) -> None:
-    """Raises BadSystem for functions of which there are no kernels."""
+    """Raises BadSystem for functions that kernels do not have."""
     known = sp.Add, sp.Mul, sp.Pow, sp.Number, sp.NumberSymbol, sp.Symbol, sp.sin, sp.cos, sp.tan
     if strange := [e for e in sp.preorder_traversal(expr) if not isinstance(e, known)]:
         raise BadSystem(f"{what} has {strange[0]}, which is not sin, cos, a square root or a whole power")
 
 
 def expression(value: object, what: str) -> sp.Expr:
-    """An expression of numbers and symbols, with floats as they are written; a text is not evaluated."""
+    """An expression of numbers and symbols, with floats as written; a string is not evaluated."""
     try:
         found = sp.sympify(value, strict=True)
     except sp.SympifyError:

@@ -1,9 +1,9 @@
 """The exact verdicts on a system as claims, whose certificates the independent checker judges without chapsym.
 
 The statements are equations between rational functions of coordinates, velocities and letters, with the numbers of the
-parameters: those of sines, cosines and roots, whose relations are hypotheses.  Velocities that the constraints bind are
-written by the others.  That something is the derivative of something is said as a limit, which is such an equation;
-that a rank is reached, by a minor that is not 0 at a rational point.
+parameters: those of sines, cosines and roots, whose relations are hypotheses.  Dependent velocities are expressed by
+the others.  A derivative is stated as a limit, which is such an equation; a rank by a minor that is not 0 at a rational
+point.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -139,7 +139,7 @@ class Moving(OnShell):
 
 
 def certified(system: System, methods: Sequence[str] = ()) -> Iterator[Certified]:
-    """The exact verdicts on a system and on methods, each with its certificate or with why it has none.
+    """The exact verdicts on a system and on methods, each with its certificate or the reason why it has none.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def certified(system: System, methods: Sequence[str] = ()) -> Iterator[Certified
     Yields
     ------
     Certified
-        What `verdicts` leaves `measured` is none.
+        A property that `verdicts` leaves `measured` is not among them.
 
     Examples
     --------
