@@ -1,4 +1,4 @@
-"""Results for the eye: figures and the rolling ball."""
+"""The display of results: figures and the rolling ball."""
 
 from chapsym import extras
 

@@ -1,4 +1,4 @@
-"""A page of `chapsym lab`: for each system a table of methods, and their energies as curves."""
+"""The page of `chapsym lab`: for each system a table of methods, and their energies as curves."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -28,11 +28,11 @@ def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constrai
     Parameters
     ----------
     cells : sequence of mapping
-        As `chapsym.mechanics.Cell.data` gives them.
+        Results of `chapsym.mechanics.Cell.data`.
     titles : mapping
-        Of the methods.
+        The titles of the methods.
     constraints : mapping
-        What is said of the constraints of each system.
+        The sentences on the constraints of each system.
     """
     from .drawing.style import document
 
@@ -48,9 +48,9 @@ def page(cells: Sequence[Mapping[str, Any]], titles: Mapping[str, str], constrai
 
 
 def figures(cell: Mapping[str, Any]) -> list[str]:
-    """The figures of a cell as text, in the order of COLUMNS but for the method, then what else there is, or "".
+    """The figures of a cell as text, in the order of COLUMNS without the method, then further ones, or "".
 
-    - is for what there is not, or what rounding hides.
+    - replaces missing figures, and those hidden by rounding.
     """
 
     def of(name: str, form: str) -> str:
@@ -126,10 +126,10 @@ def _curves(cells: Sequence[Mapping[str, Any]]) -> str:
                 shown = [(x, y if y > 0 else math.nan) for x, y in points]
                 if shown:
                     axes.plot(*zip(*shown, strict=True), marker=mark, color=colour, label=cell["method"])
-                if any(y > 0 for _, y in shown):  # else there is no such scale
+                if any(y > 0 for _, y in shown):  # otherwise there is no such scale
                     axes.set(yscale="log")
         energy.set(xlabel="time", ylabel="|energy - first|")
         error.set(xscale="log", xlabel="µs of processor time", ylabel="error of the place")
-        error.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, 0.4)))  # else they overlap
+        error.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, 0.4)))  # otherwise they overlap
         legend(figure, [energy, error])
     return figure.svg()

@@ -1,4 +1,4 @@
-"""The motion of a ball as moving pictures, .gif or .mp4: the ball as it turns, above its way on the plane."""
+"""The motion of a ball as moving pictures, .gif or .mp4: the turning ball, above its path on the plane."""
 
 import subprocess
 import tempfile
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 FORMATS = ("gif", "mp4")
-#: Pictures a second, and the most of them; a file of 1 MB or so.
+#: Pictures per second, and the largest number of them; a file of about 1 MB.
 RATE, MOST = 20, 200
-#: Radians that a ball may turn from one picture to the next, if its eye is to follow.
+#: The largest rotation in radians between two pictures that the eye can follow.
 TURN = 0.6
-#: Pixels across the ball, and dots an inch.
+#: Pixels across the ball, and dots per inch.
 ACROSS, DPI = 220, 80
 #: Colours of a .gif.
 SHADES = 64
@@ -46,7 +46,7 @@ def missing(dataset: "Dataset") -> str | None:
 
 
 def check_writer(form: str) -> None:
-    """Raises BadInput for "mp4" where there is no ffmpeg."""
+    """Raises BadInput for "mp4" if there is no ffmpeg."""
     if form == "mp4" and not animation.FFMpegWriter.isAvailable():
         raise BadInput("an .mp4 is written by ffmpeg, which is not installed here: install it, or write a .gif")
 
@@ -57,11 +57,11 @@ def save_motion(
     ball: str | int | None = None,
     progress: Callable[[int, int], None] = lambda drawn, of: None,
 ) -> None:
-    """Writes the motion of one ball, the first by default, to a .gif or, where ffmpeg is installed, an .mp4.
+    """Writes the motion of one ball, by default the first, to a .gif or, if ffmpeg is installed, an .mp4.
 
-    It lasts 10 seconds or less; of what turns too fast for 200 pictures it is the first part, and says so.
-    progress: called with the pictures drawn so far, and how many there will be.
-    Raises BadInput for a result without the attitude, and CannotWrite if the disk refuses.
+    It lasts at most 10 seconds; for a motion too fast for 200 pictures it shows the first part, with a note. progress:
+    called with the number of pictures drawn so far, and the total number.  Raises BadInput for a result without the
+    attitude, and CannotWrite if the disk refuses.
     """
     form = path.suffix[1:]
     if form not in FORMATS:
@@ -92,7 +92,7 @@ def _film(one: "Dataset", path: Path, form: str, progress: Callable[[int, int], 
 
 
 class _Gif(animation.PillowWriter):
-    """All pictures in the colours of one of them: a third of the bytes."""
+    """All pictures share the colours of one of them, which takes a third of the bytes."""
 
     def finish(self) -> None:
         """Writes the file."""
@@ -105,7 +105,7 @@ class _Gif(animation.PillowWriter):
 class _Scene:
     """The figure, and at each picture the clock `t`, the attitude and, if known, the contact point.
 
-    The pictures are evenly over the run, or over the part whose turning can be followed: `span` says which.
+    The pictures are evenly spread over the run, or over the part whose rotation can be followed: `span` is this part.
     """
 
     def __init__(self, one: "Dataset") -> None:
@@ -141,7 +141,7 @@ class _Scene:
             self.factor, text = power(reading.size_of(whole))
             self.contact = whole[chosen] / self.factor
             below = self.figure.add_axes((0.17, 0.09, 0.76, 0.29))
-            below.plot(*(whole[:end] / self.factor).T, color="0.75", linewidth=1.0)  # faint: all of its way
+            below.plot(*(whole[:end] / self.factor).T, color="0.75", linewidth=1.0)  # faint: the whole path
             (self.way,) = below.plot([], [], color=COLOURS[0], linewidth=1.6)
             (self.dot,) = below.plot([], [], "o", color=COLOURS[1], markersize=6)
             below.set_aspect("equal", adjustable="datalim")

@@ -1,4 +1,4 @@
-"""A result in Python and in notebooks: a Dataset that shows itself as a table, its most telling figure and its page."""
+"""A result in Python and in notebooks: a Dataset, displayed as a table, its most informative figure and its page."""
 
 import os
 import sys
@@ -37,15 +37,15 @@ if TYPE_CHECKING:
     from .drawing.style import Picture
 
 PLACE = "path must be that of a file"
-#: Numbers beyond which the drift is not computed for a table, as it would take seconds.
+#: The largest number of values for which a table has the drift; more would take seconds.
 MOST = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """The result of a scene, with its pictures.
+    """The result of a scene, with its figures.
 
-    Frames are found by their time: `result.dataset.sel(time=5.0, method="nearest")`.
+    Frames are indexed by their time: `result.dataset.sel(time=5.0, method="nearest")`.
 
     Attributes
     ----------
@@ -68,27 +68,27 @@ class Result:
             raise BadInput(f"dataset must be that of a result, with ball and frame, not {brief(self.dataset)}")
 
     def to_xarray(self) -> "Dataset":
-        """`dataset`, as `Trajectory.to_xarray` makes it of a run in Python."""
+        """`dataset`, in the form of `Trajectory.to_xarray`."""
         return self.dataset
 
     def to_pandas(self, *, balls: bool = False) -> "DataFrame":
-        """The table of the CSV, as `Trajectory.to_pandas`: a row a ball and frame, or a ball with what it has once."""
+        """The table of the CSV, as `Trajectory.to_pandas`: a row per ball and frame, or per ball."""
         return frame(reading.with_balls(self.dataset), balls)
 
     def figures(self) -> dict[str, str | None]:
-        """Every figure by name: None where it can be drawn, else why not, in a sentence."""
+        """All figures by name: None if it can be drawn, else the reason, in a sentence."""
         return figures.available(self.dataset)
 
     def figure(self, name: str | None = None, ball: str | int | None = None) -> "Picture":
-        """A figure of all balls or of one (name or index), by default the most telling; raises BadInput."""
+        """A figure of all balls or of one (name or index), by default the most informative one; raises BadInput."""
         reasons = self.figures()
         telling = next((one for one, reason in reasons.items() if reason is None), next(iter(reasons)))
         return figures.draw(self.dataset, name or telling, ball)
 
     def show(self, ball: str | int | None = None) -> None:
-        """Displays all figures that can be drawn below a notebook's cell; elsewhere opens a folder with them.
+        """Displays all possible figures, in a notebook below the cell, elsewhere in a folder, which is opened.
 
-        Outside of a notebook the folder is a temporary one, whose name is printed.
+        The folder is temporary, and its name is printed.
 
         Parameters
         ----------
@@ -109,17 +109,17 @@ class Result:
         webbrowser.open(folder.as_uri())
 
     def at(self, times: "ArrayLike") -> "Dataset":
-        """The result at any times between its frames, to the order 6 in the time between them: `chapsym.interpolated`.
+        """The result at any times between its frames, of order 6 in the time between frames: `chapsym.interpolated`.
 
         Parameters
         ----------
         times : array_like
-            One number or a list, in seconds, or in steps where the run has no times.
+            One number or a list, in seconds, or in steps if the run has no times.
 
         Returns
         -------
         xarray.Dataset
-            With these times as its frames.
+            The result, with these times as its frames.
 
         Raises
         ------
@@ -129,7 +129,7 @@ class Result:
         return interpolated(self.dataset, times)
 
     def save(self, path: str | Path) -> None:
-        """Writes the result to .zarr, .nc, .csv, .parquet or .npz, whole; raises SceneError if the disk refuses."""
+        """Writes the whole result to .zarr, .nc, .csv, .parquet or .npz; raises SceneError if that fails."""
         path = _path(path, PLACE)
         if not self.dataset.sizes["ball"]:
             raise SceneError("a result without balls has nothing to save")
@@ -145,7 +145,7 @@ class Result:
         write_page(self.dataset, _path(path, PLACE), balls=None if ball is None else [ball])
 
     def grid(self) -> "Dataset":
-        """The dataset of a sweep with a dimension for each range instead of `ball`, and `sample` for the draws.
+        """The dataset of a sweep with a dimension for each range instead of `ball`, and `sample` for random samples.
 
         `grid()["energy"].sel({"start.omega.1": 3.0}, method="nearest")` is the energy for one value of a range.
 
@@ -167,7 +167,7 @@ class Result:
         save_motion(self.dataset, _path(path, PLACE), ball)
 
     def rows(self) -> list[tuple[str, str]]:
-        """The short table: what was rolled, for how long, what was stored, and how far the integrals drifted."""
+        """The short table: the balls, the duration, the stored variables, and the drift of the integrals."""
         return [row for row in _rows(reading.with_balls(self.dataset)) if row[1]]
 
     def __repr__(self) -> str:
@@ -187,7 +187,7 @@ class Result:
         return f"<table>{caption}<tbody>{rows}</tbody></table>{picture}{self._page()}"
 
     def _page(self) -> str:
-        """The page on which the ball rolls, as an element; nothing where it cannot be made."""
+        """The page on which the ball rolls, as an element; empty if it cannot be made."""
         from .rolling import inline
 
         try:
@@ -204,10 +204,10 @@ def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callabl
     Parameters
     ----------
     scene : str, Path, mapping or Scene
-        A .toml file, the same as a dictionary, or what `chapsym.scene.load` makes of it.
+        A .toml file, the same as a dictionary, or the result of `chapsym.scene.load`.
     progress : callable, optional
-        Called with the progress of the run: the `steps` that all balls together took `of` theirs, the `balls` that are
-        done, and how many of them `failed`, that is stopped early.
+        Called with the progress of the run: the `steps` taken by all balls together, the number `of` all steps, the
+        number of `balls` that are done, and the number of those that `failed`, that is, stopped early.
 
     Returns
     -------
@@ -216,9 +216,9 @@ def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callabl
     Raises
     ------
     SceneError
-        For a scene that cannot be run as it is written.
+        For a scene that cannot be run as written.
     BadInput
-        As its plan does.
+        As the plan of the scene does.
 
     Examples
     --------
@@ -239,7 +239,7 @@ def run_scene(scene: "str | Path | Mapping[str, Any] | Scene", progress: Callabl
 
 
 def open_result(path: str | Path) -> Result:
-    """Opens a result; arrays of .zarr are read when they are used.
+    """Opens a result; arrays of .zarr are read on first use.
 
     Parameters
     ----------
@@ -253,7 +253,7 @@ def open_result(path: str | Path) -> Result:
     Raises
     ------
     SceneError
-        For a file that is not there, or is no result.
+        For a missing file, and for a file that is no result.
 
     Examples
     --------
@@ -275,7 +275,7 @@ def _path(given: Any, must: str) -> Path:
 
 
 def in_notebook() -> bool:
-    """Whether this runs in a notebook's kernel."""
+    """Whether this runs in a notebook."""
     if "IPython" not in sys.modules:
         return False
     shell = sys.modules["IPython"].get_ipython()
@@ -283,7 +283,7 @@ def in_notebook() -> bool:
 
 
 def _save_zarr(dataset: "Dataset", path: Path) -> None:
-    """Writes a new .zarr, whole; raises SceneError if the disk refuses."""
+    """Writes a whole new .zarr; raises SceneError if it cannot be written."""
     if path.exists():
         raise SceneError(f"{path} is there already; remove it, or choose another name")
     # The chunks of a part of another .zarr do not fit those of its files.
@@ -334,7 +334,7 @@ def _frames(dataset: "Dataset") -> str:
 
 
 def _drift(dataset: "Dataset") -> str:
-    """The largest relative change of the momentum integrals, from what is stored."""
+    """The largest relative change of the momentum integrals, from the stored variables."""
     from .figures import over_time
 
     if not reading.reached(dataset).any():

@@ -1,1 +1,1 @@
-"""The means of drawing the figures: readings of a result, the style, the sphere."""
+"""Tools for the figures: readings of a result, the style, the sphere."""

@@ -1,4 +1,4 @@
-"""Where a ball may be on the spheres of γ and 𝒦/|𝒦|: its invariant curve, or the region that the integrals leave it."""
+"""The possible states of a ball on the spheres of γ and 𝒦/|𝒦|: its invariant curve, or the region by its integrals."""
 
 from contextlib import suppress
 
@@ -10,17 +10,17 @@ from chapsym.dynamics.ball import Floats
 
 from . import reading
 
-#: 𝒦 is vertical up to this, relatively; and how far an orbit may be from a curve that is drawn for it.
+#: The relative tolerance of a vertical 𝒦, and the largest distance of an orbit from its drawn curve.
 VERTICAL = 1e-9
 NEAR = 1e-6
-#: Points of a curve; on the separatrix u runs from -LONGEST to LONGEST.
+#: The number of points of a curve; on the separatrix u runs from -LONGEST to LONGEST.
 POINTS, LONGEST = 721, 20.0
-#: Places of the other vector on its circle, for the range of the energy.
+#: The number of positions of the other vector on its circle, for the range of the energy.
 ANGLES = 48
 
 
 def bodies_of(dataset: Dataset) -> list[Ball]:
-    """The body of each ball of a result, in its axes; none where the result does not know J and D."""
+    """The body of each ball of a result, in its axes; none if the result does not have J and D."""
     J, D, axes = (reading.per_ball(dataset, name) for name in ("mass_tensor", "D", "axes"))
     if J is None or D is None:
         return []
@@ -46,8 +46,9 @@ def is_vertical(momentum: Floats, gamma: Floats) -> bool:
 def curve_through(body: Ball, orbit: Floats, D: float) -> Floats | None:
     """The curve ⟨x,Λ⁻¹x⟩ = l, Λ = I + D, on which an orbit (frames, 3) of unit vectors runs, (m, 3).
 
-    For γ of a ball with vertical momentum D is the ball's; for 𝒦/|𝒦| of a ball with D = 0 it is Poinsot's polhode.
-    None where the orbit is a fixed point, and where it is not on that curve: then the result's J and D are not its own.
+    For γ of a ball with vertical momentum D is that of the ball; for 𝒦/|𝒦| of a ball with D = 0 it is Poinsot's
+    polhode.  None if the orbit is a fixed point, or is not on this curve: then J and D of the result are not those of
+    the orbit.
     """
     principal = body.to_principal(orbit)
     try:
@@ -63,7 +64,7 @@ def curve_through(body: Ball, orbit: Floats, D: float) -> Floats | None:
 
 
 def energy_range(body: Ball, directions: Floats, cosine: float, of_gamma: bool) -> tuple[Floats, Floats]:
-    """Least and largest ½⟨m,ω⟩/|𝒦|² for γ (if `of_gamma`) or m = 𝒦/|𝒦| at `directions`, (...), the angle kept.
+    """Least and largest ½⟨m,ω⟩/|𝒦|² for γ (if `of_gamma`) or m = 𝒦/|𝒦| at `directions`, (...), at a fixed angle.
 
     directions: unit vectors in principal axes, (..., 3).  The other vector is anywhere on the circle ⟨m,γ⟩ = `cosine`.
     """

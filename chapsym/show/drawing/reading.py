@@ -18,9 +18,9 @@ RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 def with_balls(dataset: "Dataset", ball: str | int | None = None) -> "Dataset":
-    """The result with its dimension `ball` (restored where it was dropped), or the one ball that is named.
+    """The result with its dimension `ball` (restored if it was dropped), or a single ball of it.
 
-    ball: a name, or an index.  Raises BadInput for a ball that is not there, and for a result without frames.
+    ball: a name, or an index.  Raises BadInput for an unknown ball, and for a result without frames.
     """
     if "frame" not in dataset.dims and "rotation_number" not in dataset:
         raise BadInput('this is no result of chapsym: it has no dimension "frame"')
@@ -30,7 +30,7 @@ def with_balls(dataset: "Dataset", ball: str | int | None = None) -> "Dataset":
 
 
 def index_of(dataset: "Dataset", ball: str | int) -> int:
-    """The index of a ball, of its name or an index (from the end if negative); raises BadInput if it is not there."""
+    """The index of a ball, from its name or an index (from the end if negative); raises BadInput if there is none."""
     names = ball_names(dataset)
     if isinstance(ball, str) and ball in names:
         return names.index(ball)
@@ -41,7 +41,7 @@ def index_of(dataset: "Dataset", ball: str | int) -> int:
 
 
 def begun(dataset: "Dataset") -> "Dataset":
-    """The result without the balls whose turn has not come; raises BadInput if no ball's has."""
+    """The result without the balls that have not started; raises BadInput if none has."""
     there = last_frames(dataset) >= 0
     if not there.any():
         raise BadInput("no ball of this result has run yet: resume the run first")
@@ -49,7 +49,7 @@ def begun(dataset: "Dataset") -> "Dataset":
 
 
 def unfinished(dataset: "Dataset") -> str | None:
-    """The finished part of a run that was interrupted, such as "40 % of the run"; None for a finished run."""
+    """The finished part of an interrupted run, such as "40 % of the run"; None for a finished run."""
     if dataset.attrs.get("complete", True) or "frame" not in dataset.dims:
         return None
     there, ended = reached(dataset), stopped(dataset)
@@ -65,7 +65,7 @@ def title(dataset: "Dataset") -> str:
 
 
 def literal(text: str) -> str:
-    """Text that a figure shows as it is written: its dollars enclose no mathematics."""
+    """Text that a figure shows as written: its dollars enclose no mathematics."""
     return text.replace("$", r"\$")
 
 
@@ -101,18 +101,18 @@ def span(t: Floats, label: str) -> str:
 
 
 def of_span(dataset: "Dataset", part: int) -> str:
-    """The note on a line through the first frames alone; nothing if there are no others."""
+    """The note on a line through only the first frames; empty if there are no others."""
     t, label = clock(dataset)
     return f"line: the first {span(t[:part], label)} of {span(t, label)}" if part < len(t) else ""
 
 
 def reached(dataset: "Dataset") -> np.ndarray:
-    """Which frames each ball reached, (balls, frames); none of a ball whose turn has not come."""
+    """Which frames each ball reached, (balls, frames); none for a ball that has not started."""
     shape = dataset.sizes["ball"], dataset.sizes["frame"]
     if "taken" not in dataset:
         return np.ones(shape, dtype=bool)
     taken = np.atleast_1d(dataset["taken"].values)[:, np.newaxis]
-    if "step" not in dataset.coords:  # the steps were chosen for each ball: it went to the end, or was not run
+    if "step" not in dataset.coords:  # each ball has its own steps: it reached the end, or was not run
         return np.broadcast_to(taken >= 0, shape)
     return np.asarray(steps(dataset) <= taken)
 
@@ -120,7 +120,7 @@ def reached(dataset: "Dataset") -> np.ndarray:
 def values(dataset: "Dataset", name: str) -> Floats:
     """A variable as float64, (balls, frames, ...), NaN in the frames that a ball did not reach.
 
-    Decimal strings are rounded to float64.  Raises BadInput where a frame that was reached is not finite.
+    Decimal strings are rounded to float64.  Raises BadInput if a frame that was reached is not finite.
     """
     array = dataset[name].transpose("ball", "frame", ...).values
     with np.errstate(over="ignore"):
@@ -139,7 +139,7 @@ def values(dataset: "Dataset", name: str) -> Floats:
 
 
 def size_of(array: np.ndarray) -> float:
-    """The largest size of the numbers in an array that are there; 0 where there are none."""
+    """The largest absolute value of the numbers in an array, without NaN; 0 if there are none."""
     return float(np.nanmax(np.abs(array), initial=0.0))
 
 
@@ -151,7 +151,7 @@ def stopped(dataset: "Dataset") -> np.ndarray:
 
 
 def last_frames(dataset: "Dataset") -> np.ndarray:
-    """The last frame that each ball reached, (balls,); -1 for a ball whose turn has not come."""
+    """The last frame that each ball reached, (balls,); -1 for a ball that has not started."""
     return reached(dataset).sum(axis=1) - 1
 
 
@@ -165,14 +165,14 @@ def parameters(dataset: "Dataset") -> dict[str, tuple[Floats, str]]:
 
 
 def first_parameter(dataset: "Dataset") -> tuple[str, Floats, str]:
-    """The name, values (balls,) and unit of the first that a sweep varied; of none, the number of each ball."""
+    """The name, values (balls,) and unit of the first swept parameter; without one, the number of each ball."""
     for name, (data, units) in parameters(dataset).items():
         return name, data, units
     return "ball", np.arange(dataset.sizes["ball"], dtype=np.float64), ""
 
 
 def labelled(name: str, units: Any) -> str:
-    """A name with its unit, as an axis is labelled."""
+    """A name with its unit, as the label of an axis."""
     shown = readable(str(units or ""))
     return f"{name}, {shown}" if shown else name
 

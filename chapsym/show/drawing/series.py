@@ -1,4 +1,4 @@
-"""Values over time: lines for a few balls, bands of percentiles for many; nothing is lost by thinning out."""
+"""Values over time: lines for a few balls, bands of percentiles for many; dense series keep their range."""
 
 import warnings
 from collections.abc import Sequence
@@ -10,15 +10,15 @@ from chapsym.dynamics.ball import Floats
 
 from .style import COLOURS, FEW
 
-#: The most vertices of a line; of more frames the range in each of as many intervals is drawn.
+#: The largest number of vertices of a line; for more frames the range in each of as many intervals is drawn.
 MOST = 1500
-#: A line that swings more often than this in a panel would be a striped block.
+#: The largest number of oscillations of a line in a panel; more would be a striped block.
 SWINGS = 100
-#: How many swings of a series with more than that are drawn as a line.
+#: The number of oscillations that are drawn as a line of a series with more.
 SOME = 20
 #: The largest number of frames at which percentiles are taken.
 INSTANTS = 600
-#: Bands around a median: from and to which percentile, how opaque, and the name in the legend.
+#: Bands around a median: the two percentiles, the opacity, and the name in the legend.
 BANDS = ((0, 100, 0.13, None), (5, 95, 0.2, None), (25, 75, 0.3, None))
 
 
@@ -30,7 +30,7 @@ def swings(y: Floats) -> int:
 
 
 def start(series: Floats) -> int:
-    """The number of frames of several series, (frames, k), in the first twenty swings of that with the most."""
+    """The number of frames of several series, (frames, k), in the first twenty oscillations of the fastest one."""
     ways = [np.sign(np.diff(y)) for y in np.nan_to_num(series).T]
     turns = max((np.flatnonzero(way[1:] * way[:-1] < 0) for way in ways), key=len)
     return int(turns[2 * SOME]) + 2 if len(turns) > 2 * SOME else len(series)
@@ -39,9 +39,9 @@ def start(series: Floats) -> int:
 def line(
     axis: Axes, t: Floats, y: Floats, colour: str, label: str | None = None, *, points: bool = False, **options: object
 ) -> None:
-    """One series, t and y (frames,): a line, or where that were too dense the range of y in each interval of t.
+    """One series, t and y (frames,): a line, or, if that is too dense, the range of y in each interval of t.
 
-    points: whether the frames are so far apart that a line between them would mean nothing.
+    points: whether the frames are too far apart for a line between them.
     """
     many = swings(y)
     if points:
@@ -61,7 +61,7 @@ def _range(axis: Axes, t: Floats, y: Floats, intervals: int, **options: object) 
     """The range of a series in each of this many intervals."""
     edges = np.linspace(0, len(t), intervals + 1).astype(int)[:-1]
     low, high = np.fmin.reduceat(y, edges), np.fmax.reduceat(y, edges)
-    # Next intervals share an end, so that a slow series is a line without gaps.
+    # Adjacent intervals share an end, so that a slow series is a line without gaps.
     low[1:], high[1:] = np.fmin(low[1:], y[edges[1:] - 1]), np.fmax(high[1:], y[edges[1:] - 1])
     ends = np.append(t[edges], t[-1])
     axis.fill_between(ends, np.append(low, low[-1]), np.append(high, high[-1]), linewidth=0.8, **options)  # type: ignore[arg-type]
@@ -73,7 +73,7 @@ def instants(frames: int, most: int = INSTANTS) -> np.ndarray:
 
 
 def percentiles(y: Floats, wanted: Sequence[float]) -> Floats:
-    """Percentiles over the balls at each frame, (len(wanted), frames), of y (balls, frames); NaN where none is left."""
+    """Percentiles over the balls at each frame, (len(wanted), frames), of y (balls, frames); NaN if no ball is left."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "All-NaN slice")
         return np.asarray(np.nanpercentile(y, wanted, axis=0))
@@ -83,7 +83,7 @@ def fan(
     axis: Axes, t: Floats, y: Floats, colour: str, label: str | None = None,
     bands: Sequence[tuple[float, float, float, str | None]] = BANDS,
 ) -> None:  # fmt: skip
-    """Many balls, y (balls, frames): the median, and bands that hold some of them."""
+    """Many balls, y (balls, frames): the median, and percentile bands."""
     some = instants(len(t))
     t, y = t[some], y[:, some]
     for low, high, alpha, name in bands:

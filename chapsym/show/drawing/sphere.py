@@ -1,4 +1,4 @@
-"""A unit sphere on paper: seen from far away, what is behind it drawn fainter."""
+"""A unit sphere in a parallel projection, with the points behind it drawn fainter."""
 
 from dataclasses import dataclass
 from typing import Any, Self
@@ -11,16 +11,16 @@ from chapsym.dynamics.ball import Floats
 
 from .style import VERTICES
 
-#: How much fainter what is behind the sphere is.
+#: The opacity of points behind the sphere, relative to those in front.
 BEHIND = 0.28
 CURVE = "#F5CE7E"
-#: Neighbours at a larger angle than this (radians) are points of a discrete orbit, not of a line.
+#: The largest angle in radians between neighbours of a line; beyond it they are points of a discrete orbit.
 NEAR = 0.12
 #: Radians of an orbit in a panel as wide as a figure: a longer line would fill the sphere.
 LONGEST = 200.0
-#: Points that show where the rest of it is.
+#: The number of points that show the rest of an orbit.
 REST = 3000
-#: From where the sphere of space is seen.
+#: The direction of view of the sphere of space.
 EYE = np.array([0.8, -0.5, 0.5])
 
 
@@ -34,10 +34,10 @@ class View:
 
     @classmethod
     def of(cls, points: Floats) -> Self:
-        """Where most of the points (n, 3) are in front: from their mean, or across the plane of a great circle."""
+        """A view with most of the points (n, 3) in front: from their mean, or across the plane of a great circle."""
         mean = points.mean(axis=0)
         if np.sqrt(mean @ mean) < 0.25:
-            # Across the plane, but 55° off its normal: an orbit around the sphere is seen as a wide ellipse.
+            # 55° off the normal of the plane: an orbit around the sphere is a wide ellipse.
             _, axes = np.linalg.eigh(points.T @ points)
             normal, level = axes[:, 0], axes[:, 2]
             normal = normal * np.sign(normal[np.abs(normal).argmax()])
@@ -94,7 +94,7 @@ def draw_globe(axis: Axes, view: View, names: tuple[str, str, str]) -> None:
         x, y, depth = view.project(end)
         front = depth >= -1e-9
         axis.plot(x, y, ".", color="0.35", markersize=5, alpha=1.0 if front else BEHIND, zorder=1)
-        rim = x * x + y * y > 0.36  # beyond which a name stands outside, else to the right of its point
+        rim = x * x + y * y > 0.36  # beyond it a name is outside, else to the right of its point
         axis.annotate(
             name, (1.13 * x, 1.13 * y) if rim else (x, y), xytext=(0, 0) if rim else (7, 7),
             textcoords="offset points", ha="center", va="center", fontsize=10, color="0.25",
@@ -115,7 +115,7 @@ def _draw(axis: Axes, view: View, points: Floats, *, zorder: float, **options: A
 
 
 def draw_curve(axis: Axes, view: View, points: Floats, label: str) -> None:
-    """A curve on which an orbit runs, (m, 3): broad, so that it is seen below the orbit."""
+    """A curve that contains an orbit, (m, 3): broad, so that it is visible below the orbit."""
     _draw(axis, view, points, color=CURVE, linewidth=4.5, zorder=2)
     axis.plot([], [], color=CURVE, linewidth=4.5, label=label)
 
@@ -125,8 +125,8 @@ def draw_orbit(
 ) -> int:
     """An orbit, (frames, 3): a line where neighbours are near, else points; its start a ring, its end a square.
 
-    A line that would be longer than `longest` is drawn to there, and the rest as faint points.  Returns how many frames
-    the line, or the points, are.
+    A line ends at the length `longest`, and the rest is drawn as faint points.  Returns the number of frames of the
+    line, or of the points.
     """
     apart = np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=-1))
     near = len(points) > 2 and apart.max() < NEAR

@@ -1,4 +1,4 @@
-"""The style of the figures, and their bytes: colours that the colour-blind can distinguish, no dates in files."""
+"""The style of the figures, and their bytes: colours for colour-blind readers, no dates in files."""
 
 import io
 import re
@@ -21,16 +21,16 @@ from .reading import RAISED, literal
 
 #: Okabe and Ito's colours.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
-#: The most balls with a colour and a name each; more share a colour scale.
+#: The largest number of balls with a colour and a name each; more share a colour scale.
 FEW = 6
-#: The most vertices that are drawn as such; with more, the layer is rasterised: an SVG stays below 1 MB.
+#: The largest number of vertices in a vector layer; with more it is rasterised, so that an SVG stays below 1 MB.
 VERTICES = 16_000
-#: Inches: on a screen of 390 px the letters are still 10 px high.
+#: Width in inches: on a screen of 390 px the letters are still 10 px high.
 WIDTH = 5.6
 #: Inches of a figure for a desk, with two panels side by side.
 WIDE = 10.4
 MAP = "viridis"
-#: How many letters fit below a figure.
+#: The number of letters that fit below a figure.
 LETTERS = 66
 
 #: Changes to the defaults of matplotlib.
@@ -46,7 +46,7 @@ STYLE = {
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """matplotlib's defaults with this style, whatever the user has set; restored afterwards."""
+    """A context with matplotlib's defaults and this style, independent of the settings of the user."""
     with style.context(["default", STYLE]):
         yield
 
@@ -54,7 +54,7 @@ def styled() -> Iterator[None]:
 def write(figure: Figure, stream: IO[bytes], form: str) -> None:
     """The bytes of a figure, "svg", "png" or "pdf": the same for the same data."""
     with styled(), warnings.catch_warnings():
-        # A name in a script that the font has not: drawn as boxes, of which matplotlib would tell five times.
+        # Glyphs that the font lacks are drawn as boxes, for which matplotlib would warn five times.
         warnings.filterwarnings("ignore", message="Glyph .* missing from")
         metadata = {"svg": ("Date", "Creator"), "png": ("Software",), "pdf": ("CreationDate", "Creator", "Producer")}
         figure.savefig(stream, format=form, metadata=dict.fromkeys(metadata[form]))
@@ -64,7 +64,7 @@ class Picture(Figure):
     """A `matplotlib.figure.Figure` with a display of its own."""
 
     def svg(self) -> str:
-        """The figure as an SVG element, for a page of HTML: as wide as there is room for."""
+        """The figure as an SVG element for an HTML page, as wide as the page allows."""
         stream = io.BytesIO()
         write(self, stream, "svg")
         text = stream.getvalue().decode()
@@ -90,7 +90,7 @@ def new(
 
 
 def entitle(figure: Figure, title: str) -> None:
-    """The title of a scene above a figure: as it is written, in two lines at most."""
+    """The title of a scene above a figure, as written, in at most two lines."""
     if title:
         lines = textwrap.wrap(" ".join(title.split()), 56, max_lines=2, placeholder=" ...")
         figure.suptitle("\n".join(lines), parse_math=False)
@@ -98,7 +98,7 @@ def entitle(figure: Figure, title: str) -> None:
 
 
 def add_note(figure: Figure, text: str) -> None:
-    """A line below the axes of a figure, after what stands there, or above its legend: both have one place."""
+    """Adds a line below the axes of a figure, after earlier notes, or above its legend."""
     if text and figure.legends:
         before = figure.legends[0].get_title().get_text()
         figure.legends[0].set_title("\n".join(filter(None, (before, text))))
@@ -120,7 +120,7 @@ def legend(figure: Figure, axes: Sequence[Axes]) -> None:
 
 
 def power(size: float) -> tuple[float, str]:
-    """The power of ten that makes ticks of values of this size short, and its text: (1e-6, "10⁻⁶")."""
+    """The power of ten for short tick labels of values of this size, and its text: (1e-6, "10⁻⁶")."""
     if not np.isfinite(size) or size == 0.0 or 1e-2 <= size < 1e5:
         return 1.0, ""
     exponent = 3 * int(np.floor(np.log10(size) / 3))
@@ -134,7 +134,7 @@ def in_power(name: str, units: str, factor: str) -> str:
 
 
 def at_least(axis: Axes, span: float) -> None:
-    """Widens the range of y to `span`, about its middle: what is smaller than that is flat."""
+    """Widens the range of y to `span`, about its middle, so that smaller changes look flat."""
     low, high = axis.get_ylim()
     if high - low < span:
         middle = (low + high) / 2
@@ -149,7 +149,7 @@ def colour_bar(mapped: ScalarMappable, axes: Sequence[Axes], label: str) -> None
 
 
 def scale(axes: Sequence[Axes], data: np.ndarray, label: str) -> Any:
-    """A colour bar for some values; returns what turns a value into its colour."""
+    """A colour bar for some values; returns the map from values to colours."""
     finite = data[np.isfinite(data)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     mapped = ScalarMappable(Normalize(low, high if high > low else low + 1.0), MAP)
@@ -157,7 +157,7 @@ def scale(axes: Sequence[Axes], data: np.ndarray, label: str) -> Any:
     return mapped.to_rgba
 
 
-#: A page with tables and figures.  The figures are drawn for a light one: on a dark one they change to light lines.
+#: A page with tables and figures.  The figures are drawn for a light page: on a dark one their lines become light.
 DOCUMENT = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{title}</title>
@@ -182,5 +182,5 @@ small {{ color: var(--muted); }}
 
 
 def document(title: str, body: str) -> str:
-    """A page of HTML that needs no network, in the colours that the reader's system has, light or dark."""
+    """An HTML page that needs no network, in the light or dark colours of the reader's system."""
     return DOCUMENT.format(title=escape(title), body=body)

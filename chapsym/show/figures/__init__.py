@@ -1,4 +1,4 @@
-"""Pictures of a result, each drawn only where its variables are there."""
+"""Figures of a result, each drawn only if the result has its variables."""
 
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 __all__ = ["FORMATS", "available", "draw", "save", "save_all"]
 
 FORMATS = ("svg", "png", "pdf")
-#: The figure that no result of chapsym has: its balls roll.
+#: A figure that results of chapsym do not have, as their balls roll.
 SLIP = "slip"
 
 
 class Kind(NamedTuple):
-    """A kind of figure: what draws it, and why it cannot be drawn of a result, in a sentence; None if it can.
+    """A kind of figure: its function, and one for the reason why a result cannot be drawn, in a sentence, or None.
 
-    curve: whether it is a curve between the frames.  warns: whether it says so where they are too far apart for that.
+    curve: whether it is a curve between the frames.  warns: whether it has a note if they are too far apart for this.
     """
 
     draw: "Callable[[Dataset], Picture]"
@@ -37,7 +37,7 @@ class Kind(NamedTuple):
 
 
 def _needs(*needed: "tuple[Callable[[Dataset], Any], str]") -> "Callable[[Dataset], str | None]":
-    """The needs of a figure, each with the sentence that says why it cannot be drawn without."""
+    """The needs of a figure, each with the sentence for a result without it."""
     return lambda dataset: next((sentence for there, sentence in needed if not there(dataset)), None)
 
 
@@ -47,7 +47,7 @@ def _any_of(*names: str) -> "Callable[[Dataset], bool]":
 
 @cache
 def kinds() -> dict[str, Kind]:
-    """The kinds of figures by name, the most telling first; what draws them, matplotlib too, is imported here."""
+    """The kinds of figures by name, the most informative first; their modules, and matplotlib, are imported here."""
     from . import contact, over_time, phase, spheres
 
     timed = "(and give run.time_step)"
@@ -87,7 +87,7 @@ def kinds() -> dict[str, Kind]:
 
 
 def available(dataset: "Dataset") -> dict[str, str | None]:
-    """Every figure by name: None where it can be drawn, else why not, in a sentence."""
+    """All figures by name: None if it can be drawn, else the reason, in a sentence."""
     whole = reading.with_balls(dataset)
     return {name: kind.missing(whole) for name, kind in kinds().items() if name != SLIP or name in whole}
 
@@ -95,8 +95,8 @@ def available(dataset: "Dataset") -> dict[str, str | None]:
 def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Picture":
     """A figure of a result, or of one of its balls (its name or index).
 
-    Raises BadInput for a figure or ball that is not there, for one whose variables are missing, and where a frame that
-    was reached is not finite.  The figure is a matplotlib Figure that notebooks show as it is; pyplot is not touched.
+    Raises BadInput for an unknown figure or ball, for missing variables, and for a reached frame that is not finite.
+    The figure is a matplotlib Figure that notebooks display; pyplot is not used.
     """
     from ..drawing.style import add_note, styled
 
@@ -110,7 +110,7 @@ def draw(dataset: "Dataset", name: str, ball: str | int | None = None) -> "Pictu
     if reason is not None:
         raise BadInput(f"{name}: {reason}")
     begun = reading.begun(chosen)
-    with styled(), np.errstate(over="ignore", invalid="ignore"):  # a damaged frame may have any number
+    with styled(), np.errstate(over="ignore", invalid="ignore"):  # a damaged frame may have any numbers
         figure = kind.draw(curves.finer(begun) if kind.curve else begun)
         if kind.warns:
             add_note(figure, curves.note(begun))
@@ -133,7 +133,7 @@ def save(figure: "Picture", path: Path) -> None:
 def save_all(
     dataset: "Dataset", folder: Path, formats: Sequence[str] = ("svg",), *, names: Sequence[str] | None = None
 ) -> list[Path]:
-    """Draws all figures that can be drawn, or those that are named, into a folder, which is made; the files written.
+    """Draws all possible figures, or the named ones, into a folder, which is created; returns the written files.
 
     Raises BadInput as `draw` does, and CannotWrite if the disk refuses.
     """
@@ -142,7 +142,7 @@ def save_all(
     for name in wanted:
         if reasons.get(name) is not None:  # before a folder is made
             raise BadInput(f"{name}: {reasons[name]}")
-    drawn = {name: draw(dataset, name) for name in wanted}  # before a folder is made, too
+    drawn = {name: draw(dataset, name) for name in wanted}  # before a folder is made
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""The trace of the contact point on the plane: of one ball, of several in colours, of thousands as a density."""
+"""The trace of the contact point on the plane: one ball, several in colours, or thousands as a density."""
 
 from itertools import combinations
 from typing import Any
@@ -15,13 +15,13 @@ from ..drawing import curves, reading, series
 from ..drawing.style import COLOURS, FEW, VERTICES, WIDTH, Picture, colour_bar, in_power, legend, new, power, scale
 from .over_time import mean
 
-#: Inches of the trace's panel, from flat to tall.
+#: The least and the largest height of the panel of the trace, in inches.
 LOW, HIGH = 2.2, 5.6
-#: Cells of the density along each side; and when ellipses around the balls are drawn, as parts of the run.
+#: Cells of the density along each side; and the times of the ellipses around the balls, as fractions of the run.
 CELLS = 360
 MOMENTS = (0.25, 0.5, 0.75, 1.0)
 SHARES = (50, 90)
-#: Traces that stay this near to their chord (of its length) are shown a second time, enlarged across it.
+#: Traces within this fraction of their length of their chord are shown again, enlarged across it.
 STRAIGHT = 0.08
 
 
@@ -66,7 +66,7 @@ def _pairs(dataset: Dataset, trace: Floats, text: str) -> Picture:
 def sideways(trace: Floats, last: np.ndarray) -> list[tuple[Floats, Floats]]:
     """The distance of each ball along the line from its start to its end, and to the left of it, (frames,) each.
 
-    Nothing where the traces are not so straight that a picture with equal axes hides how they bend.
+    None unless the traces are so straight that a picture with equal axes hides their curvature.
     """
     found = []
     for path, end in zip(trace @ [1.0, 1.0j], last, strict=True):
@@ -81,7 +81,7 @@ def sideways(trace: Floats, last: np.ndarray) -> list[tuple[Floats, Floats]]:
 
 
 def _aside(panel: Axes, aside: list[tuple[Floats, Floats]], label: str, factor: float, points: bool) -> None:
-    """The same traces with the direction across the way enlarged; of many waves their range."""
+    """The same traces with the direction across the path enlarged; for many oscillations their range."""
     size = max(float(np.abs(off).max()) for _, off in aside)
     unit, text = power(factor * size)
     for colour, (along, off) in zip(COLOURS, aside, strict=False):
@@ -95,7 +95,7 @@ def _aside(panel: Axes, aside: list[tuple[Floats, Floats]], label: str, factor: 
 
 
 def panel_height(trace: Floats) -> float:
-    """Inches for the panel, such that the trace fills it with equal axes."""
+    """The height of the panel in inches that the trace fills with equal axes."""
     low, high = (f(trace.reshape(-1, trace.shape[-1]), axis=0) for f in (np.nanmin, np.nanmax))
     across, up = (float(x) for x in (high - low)[:2])
     inside = WIDTH - 0.9
@@ -143,12 +143,12 @@ def _arrows(axis: Axes, path: Floats, colour: str, count: int) -> None:
 
 
 def _density(axis: Axes, trace: Floats) -> None:
-    """The number of visits of each place, the mean path, and ellipses that hold 50 and 90 % of the balls."""
+    """The number of visits of each cell, the mean path, and ellipses that contain 50 and 90 % of the balls."""
     going = np.asarray(np.isfinite(trace).all(axis=-1))
     flat = trace[going]
     low, high = flat.min(axis=0), flat.max(axis=0)
     size = float((high - low).max()) / CELLS or 1.0
-    cells = np.maximum(np.ceil((high - low) / size).astype(int), 1)  # square ones
+    cells = np.maximum(np.ceil((high - low) / size).astype(int), 1)  # square cells
     sides = np.stack([low, low + cells * size], axis=-1)
     count, _, _ = np.histogram2d(flat[:, 0], flat[:, 1], bins=cells.tolist(), range=sides)
     norm = LogNorm(1, max(2.0, float(count.max())))
@@ -158,7 +158,7 @@ def _density(axis: Axes, trace: Floats) -> None:
     )  # fmt: skip
     axis.set_aspect("equal", adjustable="datalim")
     colour_bar(ScalarMappable(norm, "viridis_r"), [axis], f"frames of {len(trace)} balls in a cell")
-    frames = np.flatnonzero(going.sum(axis=0) > going[:, 0].sum() // 2)  # of those whose turn has come
+    frames = np.flatnonzero(going.sum(axis=0) > going[:, 0].sum() // 2)  # of the balls that have started
     path = mean(trace[:, frames])
     axis.plot(
         *path.T, color="black", linewidth=1.0, label="mean of the balls", zorder=3, rasterized=len(path) > VERTICES
@@ -171,7 +171,7 @@ def _density(axis: Axes, trace: Floats) -> None:
 
 
 def ellipse(points: Floats, share: float) -> Floats:
-    """The ellipse about the mean of points (balls, 2), shaped as their covariance, that holds `share` % of them."""
+    """The ellipse about the mean of points (balls, 2), in the shape of their covariance, with `share` % of them."""
     centre = points.mean(axis=0)
     widths, axes = np.linalg.eigh(np.atleast_2d(np.cov(points.T, bias=True)))
     widths = np.sqrt(np.maximum(widths, 0.0))

@@ -1,4 +1,4 @@
-"""Values over time: the angular velocity, the attitude, the energy and the integrals, and how far balls are apart."""
+"""Values over time: the angular velocity, the attitude, the energy, the integrals, and the spread of balls."""
 
 import re
 
@@ -14,23 +14,23 @@ from ..drawing.invariant import unit
 from ..drawing.sphere import EYE, LONGEST, View, draw_globe, draw_orbit
 from ..drawing.style import COLOURS, FEW, VERTICES, Picture, add_note, at_least, in_power, legend, new, power
 
-#: A change below this part of the largest component is drawn flat.
+#: The largest change, relative to the largest component, that is drawn flat.
 FLAT = 1e-3
-#: Four lines that swing more often than this in one panel cannot be distinguished.
+#: The largest number of oscillations of four lines that can be distinguished in one panel.
 SWINGS = 40
-#: The least range of an axis for what should stay, in ulps of the value: a wobble of the last digit looks like one.
+#: The least range of an axis for constants, in ulps of the value, so that changes of the last digit look small.
 ULPS = 20
 ULP = float(np.finfo(np.float64).eps)
-#: The outputs of one integral each, with the names that they have in "integrals", which holds all of them.
+#: The outputs with a single integral, and their names in "integrals", which contains all of them.
 OF_ONE = {"vertical_momentum": "K.gamma", "momentum_squared": "K.K", "gamma_squared": "gamma.gamma"}
 SYMBOLS = {
     "K.gamma": r"$\langle\mathcal{K},\gamma\rangle$",
     "K.K": r"$\langle\mathcal{K},\mathcal{K}\rangle$",
     "gamma.gamma": r"$\langle\gamma,\gamma\rangle$",
 }
-#: A spread that grows more than this after a tenth of the run is drawn in logarithms.
+#: A spread that grows by more than this factor after a tenth of the run has a logarithmic axis.
 LOGARITHMIC = 30.0
-#: Distances below this part of the largest are roundoff.
+#: Distances below this fraction of the largest are roundoff.
 ROUNDOFF = 1e-12
 SPREAD = ((5, 95, 0.18, "5 to 95 %"), (25, 75, 0.3, "25 to 75 %"))
 
@@ -49,7 +49,8 @@ def draw_omega(dataset: Dataset) -> Picture:
 def _components(dataset: Dataset, array: Floats, names: list[str], symbol: str, units: str) -> Picture:
     """array (balls, frames, components): one panel with all components of one ball, else a panel for each.
 
-    Where one ball's swing so often that they would be striped blocks, their ranges, and a panel with the first swings.
+    If those of one ball oscillate so often that they would be striped blocks: their ranges, and a panel with the first
+    oscillations.
     """
     t, label = reading.clock(dataset)
     factor, text = power(reading.size_of(array))
@@ -84,7 +85,7 @@ def _components(dataset: Dataset, array: Floats, names: list[str], symbol: str, 
 
 
 def draw_slip(dataset: Dataset) -> Picture:
-    """|v - ρ ω × e₃|, the speed of the ball's point at the plane: 0 of a ball that rolls."""
+    """|v - ρ ω × e₃|, the speed of the contact point of the body: 0 for a ball that rolls."""
     return _components(
         dataset, reading.values(dataset, "slip")[..., np.newaxis], ["slip"], "slip", reading.readable("m s-1")
     )
@@ -94,7 +95,7 @@ def draw_attitude(dataset: Dataset) -> Picture:
     """One ball: its axes on the sphere of space and its quaternion; several: their quaternions."""
     quaternions = continued(reading.values(dataset, "attitude"))
     names = [f"$q_{i}$" for i in range(4)]
-    if len(quaternions) > FEW:  # those of all balls with q₀ ≥ 0 at the start
+    if len(quaternions) > FEW:  # all balls have q₀ ≥ 0 at the start
         quaternions = quaternions * np.where(quaternions[:, :1, :1] < 0, -1.0, 1.0)
     if len(quaternions) > 1:
         return _components(dataset, quaternions, names, "q", "")
@@ -150,14 +151,14 @@ def no_integrals(dataset: Dataset) -> str | None:
 
 
 def draw_integrals(dataset: Dataset) -> Picture:
-    """The map keeps the momentum integrals, so all that is seen is roundoff."""
+    """The changes of the momentum integrals, which the map keeps: only roundoff."""
     found, names = stored(dataset)
     changes = dict(zip(map(_symbol, names), drifts(found, names), strict=True))
     return _changes(dataset, changes, "momentum integrals, and the largest change of each", 3.6)
 
 
 def stored(dataset: Dataset) -> tuple[Floats, list[str]]:
-    """The integrals of a result that has some, (balls, frames, integrals), and their names."""
+    """The integrals in a result, (balls, frames, integrals), and their names."""
     if "integrals" not in dataset:
         some = [name for name in OF_ONE if name in dataset]
         return np.stack([reading.values(dataset, name) for name in some], axis=-1), [OF_ONE[name] for name in some]
@@ -180,7 +181,7 @@ def _symbol(name: str) -> str:
 def drifts(found: Floats, names: list[str]) -> list[Floats]:
     """The relative change of each of the named integrals, (balls, frames, integrals); a list of (balls, frames).
 
-    Each is compared with its size at the start, but ⟨𝒦,γ⟩, which may vanish, with |𝒦||γ|.
+    Each is relative to its size at the start, except ⟨𝒦,γ⟩, which may vanish, relative to |𝒦||γ|.
     """
     sizes = dict(zip(names, np.abs(found[:, 0]).T, strict=True))
     if {"K.gamma", "K.K", "gamma.gamma"} <= sizes.keys():
@@ -189,7 +190,7 @@ def drifts(found: Floats, names: list[str]) -> list[Floats]:
 
 
 def relative(quantity: Floats, size: Floats) -> Floats:
-    """(x - x at the start)/size, (balls, frames), of x (balls, frames) and size (balls,); undivided where that is 0."""
+    """(x - x at the start)/size, (balls, frames), of x (balls, frames) and size (balls,); not divided if that is 0."""
     divisor = np.where(size > 0.0, size, 1.0)[:, np.newaxis]
     return np.asarray((quantity - quantity[:, :1]) / divisor)
 
@@ -242,7 +243,7 @@ def draw_spread(dataset: Dataset) -> Picture:
 def _spread(axis: Axes, t: Floats, far: Floats, colour: str, caption: str, unit: str) -> None:
     low, half = series.percentiles(far, (SPREAD[0][0], 50))
     going = half[np.isfinite(half)]
-    # The median grows by orders between a tenth of the run and its end: linear growth does not.
+    # From a tenth of the run to its end the median grows by orders of magnitude, unlike linear growth.
     logarithmic = len(going) > 10 and going[-1] > LOGARITHMIC * going[len(going) // 10] > 0.0
     factor, text = (1.0, "") if logarithmic else power(float(np.nanmax(far, initial=0.0)))
     series.fan(axis, t, far / factor, colour, "median", SPREAD)
@@ -255,7 +256,7 @@ def _spread(axis: Axes, t: Floats, far: Floats, colour: str, caption: str, unit:
 
 
 def mean(points: Floats) -> Floats:
-    """The mean of those balls that go on, (frames, k), of points (balls, frames, k); NaN where none does."""
+    """The mean over the balls that have not stopped, (frames, k), of points (balls, frames, k); NaN if all have."""
     there = np.isfinite(points).all(axis=-1, keepdims=True)
     with np.errstate(invalid="ignore"):
         return np.asarray(np.where(there, points, 0.0).sum(axis=0) / there.sum(axis=0))

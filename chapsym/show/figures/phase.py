@@ -15,10 +15,10 @@ from .over_time import ULP, ULPS
 
 
 def draw_phase(dataset: Dataset) -> Picture:
-    """u(t) above, without its jumps by a period; below its increment a step, constant for D = 0, else a function of u.
+    """u(t) above, without jumps by a period; below its increment per step, constant for D = 0, else a function of u.
 
-    Where the steps between two frames do not tell how often u went round, it is drawn with its jumps, and below is what
-    it gains from frame to frame, but for those jumps.
+    If the number of periods between two frames is unknown, u has its jumps, and its increments from frame to frame are
+    shown without them.
     """
     t, label = reading.clock(dataset)
     stored, apart = reading.values(dataset, "phase"), np.diff(reading.steps(dataset))
@@ -44,7 +44,7 @@ def draw_phase(dataset: Dataset) -> Picture:
 
 
 def periods(dataset: Dataset) -> Floats | None:
-    """4K(k) of the curve of each ball, (balls,), from J, D and γ at the start; None if the result does not tell."""
+    """4K(k) of the curve of each ball, (balls,), from J, D and γ at the start; None if the result lacks these."""
     bodies = bodies_of(dataset)
     if not bodies or "gamma" not in dataset:
         return None
@@ -59,9 +59,9 @@ def periods(dataset: Dataset) -> Floats | None:
 def gains(u: Floats, apart: np.ndarray, period: Floats | None, turns: Floats | None) -> tuple[Floats, bool]:
     """The increment of u from frame to frame, (balls, frames - 1), and whether whole periods are counted.
 
-    apart: steps between frames; period: of each ball, if known; turns: the rotation numbers, which tell how many pass
-    between two frames.  Without them a step is taken to gain less than half a period; 300 random balls, up to their
-    folds, gained 0.24 of it at most.
+    apart: steps between frames; period: of each ball, if known; turns: the rotation numbers, which give the number of
+    periods between two frames.  Without them the increment of a step is assumed to be below half a period; the largest
+    of 300 random balls, up to their folds, was 0.24 of it.
     """
     gained = np.diff(u, axis=1)
     if period is not None and np.isfinite(period).all() and (turns is not None or (apart == 1).all()):
@@ -75,7 +75,7 @@ def gains(u: Floats, apart: np.ndarray, period: Floats | None, turns: Floats | N
 
 
 def draw_rotation(dataset: Dataset) -> Picture:
-    """Points over the first parameter; a second one is the colour.  Without parameters, over the number of the ball."""
+    """Points over the first parameter, coloured by a second one; without parameters, over the number of the ball."""
     found = reading.per_ball(dataset, "rotation_number")
     assert found is not None
     name, data, units = reading.first_parameter(dataset)

@@ -1,4 +1,4 @@
-"""γ and 𝒦/|𝒦| on their spheres, with the invariant curve, or what the integrals forbid; in four dimensions 𝒦±."""
+"""γ and 𝒦/|𝒦| on their spheres, with the invariant curve, or the forbidden region; in four dimensions 𝒦±."""
 
 from typing import Any
 
@@ -16,11 +16,11 @@ from ..drawing.style import COLOURS, FEW, VERTICES, Picture, empty, entitle, leg
 
 NEEDS = ("gamma", "momentum")
 TITLES = {"gamma": r"$\gamma$", "momentum": r"$\mathcal{K}/|\mathcal{K}|$"}
-#: Pixels of the region that the integrals forbid, and points of a cloud of many balls.
+#: The pixels of the region that the integrals forbid, and the number of points of a cloud of many balls.
 PIXELS, CLOUD = 240, 80_000
-#: The frames of a cloud.
+#: The number of frames of a cloud.
 MOMENTS = 400
-#: How much less of an orbit is drawn as a line where two spheres share the width.
+#: The factor of the length of the line of an orbit if two spheres share the width.
 NARROW = 0.25
 
 
@@ -35,7 +35,7 @@ def missing(dataset: Dataset) -> str | None:
 
 
 def draw(dataset: Dataset) -> Picture:
-    """One sphere for each of γ and 𝒦/|𝒦|; one alone where 𝒦 is vertical, and they are the same."""
+    """One sphere each for γ and 𝒦/|𝒦|; a single one if 𝒦 is vertical, as both are then the same."""
     if "row" in dataset.dims or dataset.sizes.get("axis") == 4:
         return _in_four_dimensions(dataset)
     found = {name: reading.values(dataset, name) for name in NEEDS if name in dataset}
@@ -71,9 +71,9 @@ def _all_vertical(found: dict[str, Floats]) -> bool:
 def _panel(
     axis: Axes, dataset: Dataset, name: str, points: Floats, found: dict[str, Floats], vertical: bool, share: float
 ) -> int:
-    """The orbits of a few balls, of which so large a share is a line; how many frames the shortest of the lines shows.
+    """The orbits of a few balls, with `share` of each as a line; returns the number of frames of the shortest line.
 
-    That is all of them if each line is whole.
+    This is the number of all frames if each line is whole.
     """
     view = View.of(points[np.isfinite(points).all(axis=-1)])
     draw_globe(axis, view, ("1", "2", "3"))
@@ -101,7 +101,7 @@ def _panel(
 
 
 def _forbidden(axis: Axes, view: View, body: Ball, found: dict[str, Floats], of_gamma: bool) -> None:
-    """Greys out where |𝒦|, ⟨𝒦,γ⟩ and the energies of this run do not let the vector be."""
+    """Shades the region that |𝒦|, ⟨𝒦,γ⟩ and the energies of this run exclude."""
     there = np.isfinite(found["gamma"]).all(axis=-1)
     m, gamma = unit(body.to_principal(found["momentum"][there])), body.to_principal(found["gamma"][there])
     energies = kernels.energy(m, gamma, body.mass_tensor, body.D)
@@ -138,7 +138,7 @@ def _cloud(axis: Axes, colours: Floats, points: Floats) -> None:
 def halves(momentum: Floats) -> tuple[Floats, Floats]:
     """The self-dual and the anti-self-dual part of skew matrices (..., 4, 4), (..., 3) each: so(4) = so(3) + so(3).
 
-    The map turns 𝒦 into Ωᵀ𝒦Ω, which turns each part by a rotation of its own: it keeps |𝒦₊| and |𝒦₋|.
+    The map 𝒦 ↦ Ωᵀ𝒦Ω turns each part by its own rotation, so it keeps |𝒦₊| and |𝒦₋|.
     """
     first = np.stack([momentum[..., 2, 1], momentum[..., 0, 2], momentum[..., 1, 0]], axis=-1)
     last = np.stack([momentum[..., 3, 0], momentum[..., 3, 1], momentum[..., 3, 2]], axis=-1)
@@ -157,7 +157,7 @@ def _in_four_dimensions(dataset: Dataset) -> Picture:
     rows = -(-(len(shown) + len(planes)) // 2)
     figure = empty(2.9 * rows + 0.35)
     entitle(figure, reading.title(dataset))
-    # A row of its own each: the labels of the planes would make the spheres different in size.
+    # Each has its own row, as the labels of the planes would change the sizes of the spheres.
     axes = [axis for row in figure.subfigures(rows, 1, squeeze=False).flat for axis in row.subplots(1, 2)]
     for axis, (name, points) in zip(axes, shown, strict=False):
         view = View.of(points[np.isfinite(points).all(axis=-1)])

@@ -1,4 +1,4 @@
-"""The parts of a result for the page: attitudes, contact points and vectors of a few balls at a few thousand frames."""
+"""The data of the page: attitudes, contact points and vectors of a few balls at a few thousand frames."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -12,13 +12,13 @@ from chapsym.dynamics.ball import Floats
 from ..drawing import curves, reading
 from ..drawing.invariant import unit
 
-#: The most balls that are distinguished by their colours.
+#: The largest number of balls that are distinguished by their colours.
 MOST_BALLS = 20
-#: Frames of all balls together, and the least and the most of one.
+#: Frames of all balls together, and the least and the largest number for one ball.
 FRAMES, LEAST, MOST = 40_000, 2_000, 8_000
-#: Radians of turning between frames, beyond which an even turn, and a straight way, would be seen as such.
+#: The largest rotation in radians between frames; beyond it, uniform rotation and straight lines would be visible.
 EVEN = 0.4
-#: Without ω, frames with a larger turn than this between them may hide whole turns.
+#: The largest rotation between frames without ω; beyond it, whole turns may be hidden.
 QUARTER = np.pi / 2
 
 VECTORS = ("omega", "momentum", "gamma")
@@ -31,12 +31,12 @@ TOO_MANY = "it turns too often between the frames shown here, so its turning is 
 
 @dataclass(frozen=True, eq=False)
 class Rolling:
-    """One ball: its frames up to where it stopped, at the kept clock readings.
+    """One ball: its frames until it stopped, at the kept clock readings.
 
-    attitude: unit quaternions, (frames, 4).  turn: rotation vectors in space from frame to frame, (frames - 1, 3);
-    None if they are not known.  contact: m, (frames, 2).  vectors: by name, body axes, (frames, 3).
-    inertia: the principal moments (3,), or None.  axes: the unit quaternion from principal to body axes, or None where
-    they are the same.  notes: what the page must say of the ball.
+    attitude: unit quaternions, (frames, 4).  turn: rotation vectors in space from frame to frame, (frames - 1, 3); None
+    if they are not known.  contact: m, (frames, 2).  vectors: by name, body axes, (frames, 3).  inertia: the principal
+    moments (3,), or None.  axes: the unit quaternion from principal to body axes, or None if they are the same.  notes:
+    the notes of the page on the ball.
     """
 
     name: str
@@ -52,9 +52,9 @@ class Rolling:
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """All that the page shows.  clock: of the kept frames, in `unit` ("s" or "steps").
+    """The contents of the page.  clock: of the kept frames, in `unit` ("s" or "steps").
 
-    between: how many there are from one frame of the result to the next: more than one if they are far apart.
+    between: their number from one frame of the result to the next: more than one if these are far apart.
     """
 
     clock: Floats
@@ -67,7 +67,7 @@ class Motion:
 def motion(dataset: Dataset, balls: Sequence[str | int] | None = None) -> Motion:
     """The motion of the chosen balls, by name or index, or of the first twenty; thinned to a few thousand frames.
 
-    It ends where the last of them stops.
+    It ends when the last ball stops.
     Raises BadInput if the result has no attitude, no radius or more than three dimensions, with what to add.
     """
     dataset = dataset if "ball" in dataset.dims else dataset.expand_dims("ball")
@@ -123,7 +123,7 @@ def _check_drawable(dataset: Dataset) -> None:
 
 
 def _chosen(dataset: Dataset, balls: Sequence[str | int] | None) -> tuple[Dataset, list[str]]:
-    """The result of the balls to show, and what to say of the others."""
+    """The result of the displayed balls, and a note on the others."""
     count = dataset.sizes["ball"]
     chosen = list(range(min(count, MOST_BALLS))) if balls is None else [reading.index_of(dataset, one) for one in balls]
     if not 1 <= len(set(chosen)) == len(chosen) <= MOST_BALLS:
@@ -133,7 +133,7 @@ def _chosen(dataset: Dataset, balls: Sequence[str | int] | None) -> tuple[Datase
 
 
 def _numbers(dataset: Dataset, name: str) -> Floats:
-    """A variable as float64, (balls, frames, ...), of decimal strings too."""
+    """A variable as float64, (balls, frames, ...), also from decimal strings."""
     return np.asarray(dataset[name].transpose("ball", "frame", ...).values).astype(np.float64)
 
 
@@ -143,7 +143,7 @@ def _rolling(one: Dataset, arrays: dict[str, Floats], radius: float, kept: np.nd
     attitude = attitude / np.sqrt((attitude**2).sum(axis=1, keepdims=True))
     omega = kernels.rotate(attitude, arrays["omega"]) if "omega" in arrays else None
     seconds = np.diff(reading.clock(one)[0]) if "time" in one.coords else None
-    # A run to an accuracy has no steps: they were chosen for each ball, and are many.
+    # A run to an accuracy has no common steps: each ball has its own, and they are many.
     steps = np.diff(one["step"].values) if "step" in one.coords else np.full(len(attitude) - 1, np.inf)
     rolled = np.hypot(*np.diff(contact, axis=0).T) / radius if rolls else None
     turns, known = turns_between(attitude, seconds, steps, omega, rolled)
@@ -168,7 +168,7 @@ def _stopped(dataset: Dataset, ball: int, whole: bool) -> list[str]:
     return [f"it stops{after}: {Status(status).sentence if known else f'status {status}'}"]
 
 
-# Between two frames: the rotation that leads from one attitude to the next, with its whole turns.
+# Between two frames: the rotation from one attitude to the next, with its whole turns.
 
 
 def least_turns(attitude: Floats) -> Floats:
@@ -183,12 +183,13 @@ def least_turns(attitude: Floats) -> Floats:
 
 
 def nearest_turns(turns: Floats, expected: Floats) -> tuple[Floats, np.ndarray]:
-    """The rotation vectors (n, 3) of the same rotations that are nearest to those expected, and whether they are near.
+    """The rotation vectors (n, 3) of the same rotations that are nearest to the expected ones, and whether they are
+    near.
 
-    A rotation vector may be longer by whole turns about its own axis; near is within a quarter turn.
+    A rotation vector may be longer by whole turns about its axis; near means within a quarter turn.
     """
     angle = _length(turns)
-    # Where nothing seems to turn, any axis will do for whole turns: take the one that is expected.
+    # For an identity rotation any axis is possible for whole turns: take the expected one.
     still = angle < 1e-9
     axis = unit(np.where(still[:, np.newaxis], expected, turns))
     whole = np.round(((expected * axis).sum(axis=1) - angle) / (2 * np.pi))
@@ -202,10 +203,9 @@ def turns_between(
     """The turns between the frames of one ball, (frames - 1, 3) in space, and which of them are known.
 
     attitude: (frames, 4).  seconds, steps: from frame to frame, (frames - 1,).  omega: in space, (frames, 3), or None.
-    rolled: the way of the contact point from frame to frame in radii, or None.
-    One step of the map turns by less than half a turn.  Over several, the whole turns follow from ω.  Without it a turn
-    is known as long as neither the attitude nor the way, which no ball rolls with less turning, show more than a
-    quarter.
+    rolled: the path of the contact point from frame to frame in radii, or None.  One step of the map turns by less than
+    half a turn.  Over several steps, the whole turns follow from ω.  Without ω a turn is known if the attitude and the
+    path, a lower bound of the rotation, show at most a quarter turn.
     """
     turns = least_turns(attitude)
     if omega is not None and seconds is not None:
@@ -221,7 +221,7 @@ def turns_between(
 def thinned_turns(attitude: Floats, turns: Floats, known: np.ndarray, kept: np.ndarray) -> tuple[Floats, bool]:
     """The turns between the frames that are kept, (len(kept) - 1, 3), the last among them, and whether all are known.
 
-    The turns on the way, added up, tell the whole turns.
+    The sum of the turns between gives the whole turns.
     """
     if len(kept) < 2:
         return np.zeros((0, 3)), True

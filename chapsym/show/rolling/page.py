@@ -1,4 +1,4 @@
-"""The page itself: data, style, scripts and three.js in one file, or packed in one element of another page."""
+"""The page: data, style, scripts and three.js in one file, or packed in one element of another page."""
 
 import base64
 import gzip
@@ -27,9 +27,9 @@ FOLDER = Path(__file__).parent
 MODULES = {"three": "three/three.module.min.js", "three-core": "three/three.core.min.js"}
 MODULES |= {name: f"{name}.js" for name in ("eye", "motion", "ball", "floor", "stage")}
 CORE = '"./three.core.min.js"'
-#: A notebook keeps what it shows: a page of more bytes than this, packed, is left out of it.
+#: The largest packed page, in bytes, that is displayed in a notebook, which stores it.
 MOST = 2_000_000
-#: Unpacks the page in its own frame, which no script of the notebook can reach, nor it them.
+#: Unpacks the page in its own frame, which is isolated from the scripts of the notebook.
 LOADER = (
     "<!doctype html><meta charset=utf-8><script>(async () => {"
     'const bytes = Uint8Array.from(atob("PAGE"), (letter) => letter.charCodeAt(0));'
@@ -43,8 +43,8 @@ LOADER = (
 def write_page(dataset: Dataset, path: str | Path, *, balls: Sequence[str | int] | None = None) -> None:
     """Writes a result as an interactive page: the balls rolling in 3D, in one HTML file that needs no network.
 
-    dataset: with attitude, radius and, to see them roll, contact.  balls: names or indices, at most 20; the first by
-    default.  Raises BadInput if the result lacks what is needed, or the file cannot be written.
+    dataset: with attitude, radius and, for the rolling, contact.  balls: names or indices, at most 20; by default the
+    first.  Raises BadInput if the result lacks a variable, or the file cannot be written.
     """
     text = html(dataset, balls=balls)
     try:
@@ -56,7 +56,7 @@ def write_page(dataset: Dataset, path: str | Path, *, balls: Sequence[str | int]
 def inline(dataset: Dataset) -> str:
     """The page of a result as one HTML element, an iframe that needs no network and no file.
 
-    Raises BadInput as `html` does.  A result whose page is too large has a sentence in its place.
+    Raises BadInput as `html` does.  A sentence replaces a page that is too large.
     """
     packed = gzip.compress(html(dataset).encode(), mtime=0)
     if len(packed) > MOST:
@@ -106,7 +106,7 @@ def _plan_line(dataset: Dataset, found: Motion) -> str:
     """The model, the steps or frames, and the time."""
     parts = [f"model: {dataset.attrs['model']}"] if dataset.attrs.get("model") else []
     span = dataset["time"].values[-1] if found.unit == "s" else found.clock[-1]
-    if "step" in dataset.coords and "accuracy" not in dataset.attrs:  # else the steps are no more than a clock
+    if "step" in dataset.coords and "accuracy" not in dataset.attrs:  # otherwise the steps are only a clock
         count = int(dataset["step"].values[-1])
         steps = f"{count} step{'' if count == 1 else 's'}"
         parts.append(f"{steps} of {span / count:.6g} s" if found.unit == "s" and count else steps)
@@ -116,7 +116,7 @@ def _plan_line(dataset: Dataset, found: Motion) -> str:
 
 
 def _notes(found: Motion) -> list[str]:
-    """The notes of the page, of single balls under their names, of all of them once."""
+    """The notes of the page: those of single balls under their names, common ones once."""
     every_note = [note for ball in found.balls for note in ball.notes]
     common = [note for note in dict.fromkeys(every_note) if every_note.count(note) == len(found.balls)]
     single = [f"{ball.name}: {note}" for ball in found.balls for note in ball.notes if note not in common]
@@ -144,7 +144,7 @@ def _base64(array: np.ndarray, kind: str) -> str:
 
 def _module(file: str) -> str:
     text = _text(file).replace(CORE, '"three-core"')
-    # Not in base64, which is longer, and cannot be packed as well: only what a URL would lose or read otherwise.
+    # Not in base64, which is longer and packs worse: only characters with a meaning in URLs are escaped.
     return "data:text/javascript;charset=utf-8," + re.sub(r"[%#\t\r\n]", lambda found: quote(found[0]), text)
 
 
@@ -153,5 +153,5 @@ def _text(file: str) -> str:
 
 
 def _json(value: Any) -> str:
-    """JSON that may stand inside a script element."""
+    """JSON for a script element."""
     return json.dumps(value, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
