@@ -1,1 +1,1 @@
-"""Studies of the map: what it gets right, and at which price."""
+"""Studies of the accuracy of the map, and of other engines."""

@@ -1,15 +1,15 @@
 """`chapsym check`: the float64 map against the mpmath oracle, over generic and awkward states.
 
-The error of a step is given in ulps, units of 2^-52 relative to |q|, |𝒦| and |γ| = 1.  What float64
-can do depends on the state: a rounding of the residual of 𝒦(q, γ) = 𝒦 moves q by |T⁻¹| times it,
-where T is the tangent Jacobian.  Roundings of D's term lie across γ, where T is as large as D (lemma
-`stable-momentum`): they move q as its own do.  So the promise is relative to the condition number
+The error of a step is given in ulps, units of 2^-52 relative to |q|, |𝒦| and |γ| = 1.  The accuracy of float64 depends
+on the state: a rounding of the residual of 𝒦(q, γ) = 𝒦 changes q by |T⁻¹| times the rounding, where T is the tangent
+Jacobian.  Roundings of the term with D are normal to γ, where T is as large as D (lemma `stable-momentum`): they change
+q like its own roundings.  So the promise is relative to the condition number
 
     κ = 1 + |T⁻¹| (|𝒦| + 2 I_max |q|) / |q|,
 
-and it is: q within `BUDGET`·κ ulps, 𝒦 and γ after the step within `BUDGET`·(1 + |q| κ) ulps.
-Norms of vectors are their largest components.  What is promised is measured; the bounds of `proved=True` are proved for
-each state, and compared with the same errors.
+and the promise is: q within `BUDGET`·κ ulps, 𝒦 and γ after the step within `BUDGET`·(1 + |q| κ) ulps.  Norms of vectors
+are their largest components.  The promise is checked by measurement; the bounds of `proved=True` are proved for each
+state, and compared with the same errors.
 """
 
 from collections.abc import Callable
@@ -44,7 +44,7 @@ class State:
 
 @dataclass(frozen=True)
 class Row:
-    """The worst errors of one stratum, in ulps, and as a fraction of what was promised.
+    """The worst errors of one stratum, in ulps, and as a fraction of the promise.
 
     proved: the states with proved bounds; of_proved: the worst error as a fraction of its bound.
     """
@@ -78,7 +78,7 @@ def _ball(rng: np.random.Generator) -> tuple[Floats, float]:
 def _at_reach(
     rng: np.random.Generator, J: Floats, D: float, g: Floats, fraction: float, along: Floats | None = None
 ) -> State:
-    """A momentum in a direction, random by default, as far along the branch as `fraction` of its fold."""
+    """A momentum in a direction, random by default, at `fraction` of the fold of the branch."""
     K = (_unit(rng) if along is None else along) * 100 * (J.sum() + D)
     return State(J, D, K * float(small_rotation(*[*K, *g, *J, D])[1]) * fraction, g)
 
@@ -125,7 +125,7 @@ def compare(state: State, digits: int = 34) -> tuple[Floats, Floats, float, floa
     The last is the largest error as a fraction of its bound, NaN where nothing is proved.
     """
     found = step(Ball(state.J, state.D), state.K, state.g, proved=True)
-    vertical = mpmath.matrix(state.g)  # exactly; the map is of the unit vector
+    vertical = mpmath.matrix(state.g)  # exactly; the map has the unit vector
     with mpmath.workdps(digits + 10):
         vertical = list(vertical / mpmath.norm(vertical))
     truth: OracleStep = Oracle([*state.J], state.D, vertical, digits).step([*state.K])
@@ -167,7 +167,7 @@ def check_stratum(name: str, states: int, seed: int) -> Row:
 
 
 def check(states: int = 20, seed: int = 20071, on_row: Callable[[Row], None] = lambda row: None) -> list[Row]:
-    """One row for each stratum, side by side on the cores; `on_row` sees each as it is done."""
+    """One row for each stratum, in parallel on the cores; `on_row` gets each row when it is done."""
     rows: dict[str, Row] = {}
 
     def chain(name: str) -> jobs.Chain:
@@ -196,7 +196,7 @@ class Drift:
 
 
 def drift(steps: int = 100_000) -> Drift:
-    """⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ over a real trajectory: each step rounds, and roundings add up like √n."""
+    """The drift of ⟨𝒦,γ⟩, ⟨𝒦,𝒦⟩ and ⟨γ,γ⟩ over a trajectory: the roundings of n steps add up like √n."""
     ball = Ball((0.1, 0.5, 1.6), 0.7)
     run = trajectory(ball, (0.03, -0.02, 0.035), (2 / 7, 3 / 7, 6 / 7), steps, every=max(1, steps // 1000))
     values = run.invariants()

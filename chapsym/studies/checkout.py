@@ -1,4 +1,4 @@
-"""The measurements of a checkout, `benchmarks` and `research`, and the machine they are from."""
+"""The measurements of a checkout, `benchmarks` and `research`, and the machine on which they were made."""
 
 import os
 import platform
@@ -16,17 +16,17 @@ from chapsym import files
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.frames import cores
 
-#: Where `benchmarks` and `research` lie, if this is a checkout: the wheel has neither.
+#: The folder of `benchmarks` and `research`, if this is a checkout: the wheel has neither.
 ROOT = Path(__file__).parents[2]
 #: The packages whose versions belong to a measurement.
 NAMED = ("chapsym", "numpy", "scipy", "heyoka")
 
 
 def in_checkout(package: str, module: str) -> Any:
-    """A module of `benchmarks` or `research`; raises BadInput where these are not, and MissingExtra."""
+    """A module of `benchmarks` or `research`; raises BadInput without these folders, and MissingExtra."""
     if not (ROOT / package / "__init__.py").is_file():
         raise BadInput(f"{package}/ is not in the wheel; run this from a checkout")
-    sys.path.insert(0, str(ROOT))  # some wheels have a `benchmarks` of their own, pyarrow's among them
+    sys.path.insert(0, str(ROOT))  # some wheels, such as that of pyarrow, have a package `benchmarks`
     try:
         return import_module(f"{package}.{module}")
     finally:
@@ -34,9 +34,9 @@ def in_checkout(package: str, module: str) -> Any:
 
 
 def save_figures(package: str, drawn: Mapping[str, str], found: dict[str, Any], folder: Path) -> list[Path]:
-    """The figures of a study by the names of their files; raises BadInput where the folder cannot be written to.
+    """The figures of a study by the names of their files; raises BadInput if the folder cannot be written to.
 
-    drawn: what draws each, a function in a module of the study's package, "module:function".
+    drawn: the function of each figure, "module:function", in a module of the package of the study.
     """
     from chapsym.show import figures
     from chapsym.show.drawing.style import styled
@@ -53,7 +53,7 @@ def save_figures(package: str, drawn: Mapping[str, str], found: dict[str, Any], 
 
 
 def machine() -> dict[str, Any]:
-    """The machine, as a measurement must name it: the processor, its cores, the compiler, and the versions."""
+    """The description of the machine for a measurement: the processor, its cores, the compiler, and the versions."""
     return {
         "cpu": _cpu(),
         "cores": cores(),

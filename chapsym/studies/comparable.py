@@ -1,6 +1,6 @@
-"""Whether a trajectory can be compared with a motion: other axes, units and quaternions are tried, and said first.
+"""Whether a trajectory can be compared with a motion: tests for other axes, units and quaternions.
 
-A judgement of one convention against another would be of the convention.
+A comparison in different conventions would measure the convention.
 """
 
 import tomllib
@@ -19,19 +19,19 @@ from chapsym.dynamics.errors import BadInput
 from .judge import Case, angle, equal, rolling
 from .judge_tables import MORE, NEEDED, Table, Trajectory, in_space
 
-#: How far the first row may be from the start, relatively, beyond its digits: more than float32 rounds; and where a
-#: soft contact gives way: the height of the centre, and the velocity of a ball that starts by itself.
+#: The largest relative deviation of the first row from the start, beyond its digits: above the rounding of float32; and
+#: for a soft contact: that of the height of the centre, and of the velocity of a ball that starts by itself.
 NEAR, SOFT = 1e-5, 0.02
-#: Another convention is meant where it is nearer by the first factor and off by less than the second number, and this
-#: one by more than the third, in degrees; none is sought beyond one that is as near as the last number says.
+#: Another convention is reported if its error is smaller by the first factor and less than the second number, and that
+#: of this one more than the third, in degrees; the search ends at one within the last number.
 NEARER, FAR, SEEN, FITS = 5.0, 10.0, 1.0, 0.1
-#: The later of two readings is better where its error is less than this part of the earlier's, as they round.
+#: The later of two readings is better if its error is less than this fraction of the earlier error, up to rounding.
 SAME = 0.999
-#: Velocities are of the body where, read in space, they are off by more than this part of the greatest.
+#: Velocities are in body axes if, read in space axes, their error is more than this fraction of the greatest.
 OFF = 0.01
-#: Times are in another unit where they are this many times too long for the path; and how far that ratio may vary.
+#: Times are in another unit if they are this many times too long for the path; and the largest variation of the ratio.
 UNIT, STEADY = 300.0, 1.5
-#: Rows of a file that are judged at most, and radians that are turned until a convention shows.
+#: The largest number of rows of a file, and the rotation in radians after which a convention shows.
 MOST_ROWS, TURNED = 2000, 0.5
 
 #: Called with sentences while a motion is certified.
@@ -43,7 +43,7 @@ PLAIN: Way = ("", np.asarray)
 
 
 def _moved(*places: int, signs: Sequence[int]) -> Callable[[np.ndarray], np.ndarray]:
-    """Components from these places, each times its sign: what another convention makes of vectors or quaternions."""
+    """Components from these places, each times its sign: vectors or quaternions, converted from another convention."""
     return lambda array: array[..., places] * np.array(signs, dtype=float)
 
 
@@ -51,14 +51,14 @@ def _moved(*places: int, signs: Sequence[int]) -> Callable[[np.ndarray], np.ndar
 _upright = _moved(0, 2, 1, signs=(1, -1, 1))
 _upside = _moved(0, 1, 2, signs=(1, -1, -1))
 _right_handed = _moved(2, 0, 1, signs=(1, -1, 1))
-#: A turn to axes with z down as one to axes with z up: after it, 180 degrees about x.
+#: A rotation to axes with z down as one to axes with z up: followed by 180 degrees about x.
 _upside_turn = _moved(1, 0, 3, 2, signs=(-1, 1, -1, 1))
-#: A turn in Unity's axes, of axes of the body like them, as one in those of ROS: its axis is no vector, as ω.
+#: A rotation in Unity's axes, also for the body, as one in those of ROS: its axis is a pseudovector, like ω.
 _right_handed_turn = _moved(0, 3, 1, 2, signs=(1, -1, 1, -1))
 
 
 def _upright_turn(q: np.ndarray) -> np.ndarray:
-    """A turn to axes with y up as one to axes with z up: after it, 90 degrees about x."""
+    """A rotation to axes with y up as one to axes with z up: followed by 90 degrees about x."""
     return (q + _upside_turn(q)) / np.sqrt(2)
 
 
@@ -86,7 +86,7 @@ UNITS: tuple[Way, ...] = (
     ("its lengths are in cm: divide them by 100", partial(np.multiply, 1e-2)),
 )
 _TOO = ", of the quaternion, too"
-#: Which axis is up: of vectors, and of the rotation.
+#: The conventions of the upward axis: of vectors, and of the rotation.
 AXES: tuple[tuple[Way, Way], ...] = (
     (PLAIN, PLAIN),
     *((way, turn) for way, too in (((_Y_UP, _upright), _upright_turn), ((_Z_DOWN, _upside), _upside_turn))
@@ -97,7 +97,7 @@ TURNING: tuple[Way, ...] = (PLAIN, (_DEGREES, np.radians))
 
 
 def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
-    """A trajectory as it is and in all other conventions, with what each does otherwise, the fewest first."""
+    """A trajectory unchanged and in all other conventions, with their differences, the fewest first."""
     found = []
     none = run.attitude is None
     for (frame, upturn), order, sense, unit, speed, rate, body in product(
@@ -135,12 +135,12 @@ def _rolling(place: np.ndarray, radius: float, attitude: np.ndarray, omega: np.n
 
 
 def _apart(run: Trajectory, start: Start, soft: float) -> list[str]:
-    """The parts of the first row that are not those of a start, and by how much."""
+    """The parts of the first row that differ from a start, and the differences."""
     found = []
     for part, unit in (("centre", "m"), ("attitude", "degrees"), ("velocity", "m/s"), ("omega", "rad/s")):
         if (values := getattr(run, part)) is None:
             continue
-        size = (start["centre"][2] if part == "centre" else np.linalg.norm(start[part])) or 1.0  # what is 0 has none
+        size = (start["centre"][2] if part == "centre" else np.linalg.norm(start[part])) or 1.0  # a number 0 has none
         limit = 2 * (run.digit or {}).get(part, 0.0) + NEAR * size + soft * size * (part == "velocity")
         if part == "attitude":
             off = float(angle(start[part], values[0]))
@@ -189,9 +189,9 @@ def _check(
 
 
 def check_start(case: Case, run: Trajectory, soft: float = 0.0) -> None:
-    """Raises BadInput unless the first row is the start of the case, and names the convention in which it would be.
+    """Raises BadInput unless the first row is the start of the case; names the convention in which it would be.
 
-    soft: by what part of it the velocity may be another.
+    soft: the largest relative deviation of the velocity.
     """
     start = _rolling(case.path[0], case.radius, case.attitude[0], case.omega[0]) | {"velocity": case.moving[0]}
     _check(run, case.name, lambda read: start, lambda read: case.attitude[1], soft)
@@ -218,7 +218,7 @@ def check_axes(case: Case, run: Trajectory) -> None:
 
 
 def _check_units(table: Table, file: Path, radius: float) -> None:
-    """Raises BadInput where the times, or the radius, are steadily more than the way between rows, and ω, say."""
+    """Raises BadInput if the times, or the radius, are consistently larger than the path between rows, and ω, imply."""
     centre, omega = (np.asarray(table.vectors(names)) for names in (NEEDED[1:4], MORE[3:]))
     speed = np.linalg.norm(rolling(radius, omega), axis=-1)[:-1]
     way = np.linalg.norm(np.diff(centre, axis=0), axis=-1)
@@ -239,8 +239,8 @@ def _check_units(table: Table, file: Path, radius: float) -> None:
 def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: float = 600.0) -> Case:
     """The certified motion of the ball of a file from the first row of a table, at its own times from there.
 
-    Without an attitude, which the motion of a ball with different moments needs, the motion is the file's own.  Raises
-    BadInput where the row is not the start of a ball that rolls, and where another convention fits better.
+    A ball with different moments needs an attitude; without it the motion is that of the file.  Raises BadInput if the
+    row is not the start of a rolling ball, and if another convention fits better.
     """
     from chapsym.scene.members.exactly import exact_motion
     from chapsym.scene.members.members import ball_of, one_ball
@@ -266,7 +266,7 @@ def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: f
         spin, place = np.asarray(read.omega)[0].tolist(), read.centre[0, :2].tolist()
         start = {"attitude": attitude(read).tolist(), "omega": spin, "axes": "space", "position": place}
         text = written("ball", ball) + written("start", start) + written("run", {"time": 1, "frames": 1})
-        scene = checked(tomllib.loads(text), str(file), text)  # with its text, which has numbers exactly
+        scene = checked(tomllib.loads(text), str(file), text)  # with its text, which has exact numbers
         return certified(file.stem, scene, exact_motion(scene)[0], times, progress, limit)
 
     radius = members.ball.radius
@@ -292,7 +292,7 @@ def case_of_body(file: Path, table: Table, progress: Progress = SILENT, limit: f
     return motion(first, chosen)
 
 
-#: Digits that are proved of a case that is made for a judgement.
+#: The proved digits of a case that is made for a judgement.
 DIGITS = 12
 
 
@@ -307,7 +307,7 @@ def case_of_scene(file: Path, progress: Progress = SILENT, limit: float = 600.0)
 
 
 def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], progress: Progress, limit: float) -> Case:
-    """The certified motion from an exact start of a scene, at these times; raises BadInput where it is not reached."""
+    """The certified motion from an exact start of a scene, at these times; raises BadInput if they are not reached."""
     from flint import arb
 
     from chapsym.dynamics.enclosed_motion import follow
@@ -326,7 +326,7 @@ def certified(name: str, scene: Any, start: Any, times: Sequence[Fraction], prog
     found = follow(start, times, DIGITS, limit=limit, progress=progress)
     if found.stopped:
         raise BadInput(f"{name}: the motion is certified to {float(found.times[-1]):g} s only: {found.stopped}")
-    still = [[arb(0)] * 2] * len(times)  # of a body that nothing touches
+    still = [[arb(0)] * 2] * len(times)  # for a body that nothing touches
     parts: list[Any] = [still if found.contact is None else found.contact, found.attitude, found.omega]
     path, attitude, omega = (np.array([[float(x.mid()) for x in row] for row in part]) for part in parts)
     attitude /= np.linalg.norm(attitude, axis=-1, keepdims=True)

@@ -20,20 +20,20 @@ if TYPE_CHECKING:
 BACK = np.array([1.0, -1.0, -1.0, -1.0])
 #: The model of a trajectory of another program.
 FOREIGN = "none: a trajectory of another program"
-#: The results of chapsym that are no text.
+#: The formats of results of chapsym that are no text.
 BINARY = (".npz", ".nc", ".parquet", ".zarr")
-#: The parts that a trajectory must have to be drawn.
+#: The parts of a trajectory that the figures need.
 PLANE = NEEDED[:3]
 
 
 def table_of(file: Path) -> Table:
     """The trajectory of a file: a result of chapsym with one ball, or a table of another program.
 
-    Raises BadInput, one sentence, for what is neither.
+    Raises BadInput, one sentence, for anything else.
     """
     if not _is_result(file):
         return read_table(file, JUDGED)
-    from chapsym.scene.result import formats  # which needs an extra
+    from chapsym.scene.result import formats  # needs an extra
 
     data = formats.load(file)
     if lacking := [name for name in ("time", "attitude", "contact", "radius") if name not in data.variables]:
@@ -75,9 +75,9 @@ def _as_table(file: Path, data: "Dataset") -> Table:
 
 
 def result_of(file: Path) -> "Dataset":
-    """The trajectory of another program as a result: what it has of contact point, attitude, γ, ω and slip.
+    """The trajectory of another program as a result: its contact point, attitude, γ, ω and slip, if any.
 
-    The radius is the height of the centre in the first row.  Raises BadInput for what is no trajectory.
+    The radius is the height of the centre in the first row.  Raises BadInput if it is no trajectory.
     """
     table = read_table(file, PLANE).from_zero()
     time, contact = table.columns["time"], table.vectors(PLANE[1:])

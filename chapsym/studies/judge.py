@@ -15,7 +15,7 @@ from chapsym.dynamics.errors import BadInput
 
 from .judge_tables import Trajectory, in_space
 
-# The truth: a certified motion, from the file that `benchmarks/rolling` holds of it.
+# The truth: a certified motion, from its file in `benchmarks/rolling`.
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,13 +24,12 @@ class Case:
 
     mass in kg, radius in m, inertia: the principal moments about the centre in kg m², (3,), or the tensor, (3, 3).
     time in s, (frames,).  path: the point of contact in m, (frames, 2).  attitude: unit quaternions, scalar first, from
-    the axes of the body to space, (frames, 4).  omega: rad/s in space, (frames, 3).
-    mass and radius 0: a body that nothing touches, with its centre at the origin.  rotor: the angular momentum of one
-    inside in kg m²/s, in the axes of the body, (3,).  velocity: of the centre of a ball that slides, m/s in space,
-    (frames, 3); None: it rolls.  friction: Coulomb's coefficient of a ball that slides.  offset: the centre of mass
-    from the centre in m, in the axes of the body, (3,); then `inertia` is about the centre of mass.  gravity: in m/s²,
-    where it counts: of a ball that slides, and of one with an offset.  own: the motion is the file's own, as none is
-    known without an attitude; what it is by itself can be judged: its height and its slip.
+    the axes of the body to space, (frames, 4).  omega: rad/s in space, (frames, 3).  mass and radius 0: a body that
+    nothing touches, with its centre at the origin.  rotor: the angular momentum of a rotor inside in kg m²/s, in body
+    axes, (3,).  velocity: of the centre of a ball that slides, m/s in space, (frames, 3); None: it rolls.  friction:
+    Coulomb's coefficient of a ball that slides.  offset: the centre of mass from the centre in m, in the axes of the
+    body, (3,); then `inertia` is about the centre of mass.  gravity: in m/s², for a ball that slides or has an offset.
+    own: the motion is that of the file, as it has no attitude; then only its height and its slip can be judged.
     """
 
     name: str
@@ -55,7 +54,7 @@ class Case:
 
 
 def read_case(file: Path) -> Case:
-    """Raises BadInput, one sentence, for a file that is not such data."""
+    """Reads a case; raises BadInput, one sentence, for a file without such data."""
     try:
         data = json.loads(files.text_of(file))
         if isinstance(data, dict) and "frames" in data and "ball" not in data:
@@ -97,9 +96,9 @@ def read_case(file: Path) -> Case:
         raise BadInput(f"{file} is no case: it must be a file of benchmarks/rolling/data that ends in .json") from None
 
 
-# How far one trajectory is from the truth, at each frame.
+# The distance of a trajectory from the truth, at each frame.
 
-#: When a trajectory is said to have departed, or a law to be broken: m, degrees, per cent, m/s.
+#: The limits beyond which a trajectory has departed, or a law is broken: m, degrees, per cent, m/s.
 LIMITS = {"path": 1e-3, "attitude": 1.0, "energy": 1.0, "momentum": 1.0, "height": 1e-3, "slip": 1e-3}
 UNITS = {"path": "m", "attitude": "degrees", "energy": "%", "momentum": "%", "height": "m", "slip": "m/s"}
 
@@ -109,12 +108,12 @@ def limit_of(name: str) -> str:
     return f"{LIMITS[name]:g} {'degree' if name == 'attitude' else UNITS[name]}"
 
 
-#: The parts of a departure that there are, in the order of UNITS, (frames,) each.
+#: The available parts of a departure, in the order of UNITS, (frames,) each.
 Departure = dict[str, np.ndarray]
 
 
 def summary(found: Departure, time: np.ndarray) -> dict[str, Any]:
-    """The greatest error of each part, that at the end, and when the limit is passed: for JSON."""
+    """The greatest error of each part, the error at the end, and the time at which the limit is passed: for JSON."""
     results: dict[str, Any] = {}
     for name, part in found.items():
         results[name] = {"greatest": float(np.abs(part).max()), "end": float(part[-1]), "unit": UNITS[name]}
@@ -127,13 +126,12 @@ def summary(found: Departure, time: np.ndarray) -> dict[str, Any]:
 def departure(case: Case, found: Trajectory) -> Departure:
     """Compares a trajectory with a case, frame by frame.
 
-    path: from the point of contact to that below the centre, m.  attitude: the angle between the two, degrees.
-    Where the file has velocities, energy, momentum: how far the energy, and the momentum about the contact point as a
-    vector in space, are from the true ones, per cent of those at the start: a ball that begins at rest has none.
-    height: of the centre above the radius, m.  slip, with velocities: the velocity of the ball's point at the floor
-    less the true one, which is 0 in rolling, m/s.
-    Without attitudes, energy and momentum are those of a ball with equal moments only.
-    A body that nothing touches has neither height nor slip, its path is from the centre to where it stays, and its
+    path: from the point of contact to that below the centre, m.  attitude: the angle between the two, degrees.  With
+    velocities, energy, momentum: the errors of the energy, and of the momentum about the contact point as a vector in
+    space, in per cent of their values at the start; none for a ball that begins at rest.  height: of the centre above
+    the radius, m.  slip, with velocities: the velocity of the contact point of the ball less the true one, which is 0
+    in rolling, m/s.  Without attitudes, only a ball with equal moments has energy and momentum.  A body that nothing
+    touches has neither height nor slip; its path is the distance of its centre from the fixed position, and its
     momentum is about the centre.
     """
     free = not case.radius
@@ -160,13 +158,13 @@ def departure(case: Case, found: Trajectory) -> Departure:
 
 
 def equal(inertia: np.ndarray) -> bool:
-    """Whether moments, or a tensor, are those of a ball that moves alike from every attitude."""
+    """Whether moments, or a tensor, are those of a ball with the same motion from every attitude."""
     tensor = np.diag(inertia) if inertia.ndim == 1 else inertia
     return bool(np.allclose(tensor, tensor[0, 0] * np.eye(3), rtol=0, atol=1e-12 * tensor[0, 0]))
 
 
 def angle(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Between attitudes, in degrees: from the lengths of the sum and the difference, right for small angles, too."""
+    """The angle between attitudes in degrees, by the lengths of sum and difference, accurate for small angles, too."""
     apart, together = np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)
     near, far = np.minimum(apart, together), np.maximum(apart, together)
     return np.degrees(4 * np.arctan2(near, far))
@@ -180,9 +178,9 @@ def rolling(radius: float, omega: np.ndarray) -> np.ndarray:
 def carried(case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The energy, J, and the momentum about the point of contact, kg m²/s in space, of a state of the body.
 
-    velocity: of the centre.  The energy is the kinetic one and, with an offset, that of the centre of mass above the
-    lowest place that it can have.  A rotor is in the momentum and not in the energy: with K = Bω + a and K' = K × ω it
-    is ½⟨Bω,ω⟩ that is kept (lemma `gyrostat-integrals`).
+    velocity: of the centre.  The energy is the kinetic energy and, with an offset, the potential energy of the centre
+    of mass above its lowest position.  A rotor is in the momentum and not in the energy: with K = Bω + a and K' = K × ω
+    the motion keeps ½⟨Bω,ω⟩ (lemma `gyrostat-integrals`).
     """
     back = attitude * np.array([1, -1, -1, -1])
     turning = in_space(back, omega)
@@ -196,16 +194,16 @@ def carried(case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.nd
     return energy, momentum + case.mass * np.cross(offset, velocity)
 
 
-# The result of several steps of one engine: its order, and the part of its distance that no step removes.
+# The result of several steps of one engine: its order, and the part of its error that no step removes.
 
 
 @dataclass(frozen=True)
 class Convergence:
-    """The convergence of the path, or of the attitude, over steps that are divided by one ratio.
+    """The convergence of the path, or of the attitude, over steps with a common ratio.
 
-    order: from how the differences between neighbouring steps fall; None where they do not fall.
-    of_the_step: how far the finest run is from the limit of the runs.  floor: how far that limit is from the truth: the
-    soft contact, the friction, the rounding.  Both are estimates, in m or degrees, and the greatest at the frames.
+    order: from the decrease of the differences between successive steps; None if they do not decrease. of_the_step: the
+    distance of the finest run from the limit of the runs.  floor: the distance of this limit from the truth, by soft
+    contact, friction and rounding.  Both are estimates, in m or degrees, and the greatest at the frames.
     """
 
     order: float | None
@@ -216,9 +214,9 @@ class Convergence:
 def convergence(case: Case, runs: Sequence[Trajectory], of: str = "path") -> Convergence:
     """The convergence of three runs or more, each with its step, of the path or of the attitude.
 
-    Where runs with the steps h, h/r and h/r² differ by d and d' at most, the order is log(d/d')/log r; the last run and
-    its difference from the one before, over r^order - 1, give the limit of the runs at each frame.  Raises BadInput
-    where steps are missing, equal or of several ratios.
+    If runs with the steps h, h/r and h/r² differ by at most d and d', the order is log(d/d')/log r; the last run and
+    its difference from the one before, over r^order - 1, give the limit of the runs at each frame.  Raises BadInput if
+    steps are missing, equal or have several ratios.
     """
     if missing := [run.file for run in runs if run.step is None]:
         raise BadInput(f"{missing[0]} has no line '# time_step = SECONDS', which several files need")
@@ -242,7 +240,7 @@ def convergence(case: Case, runs: Sequence[Trajectory], of: str = "path") -> Con
 
 
 def _turned(case: Case, attitude: np.ndarray | None) -> np.ndarray:
-    """The attitudes, of their two signs those nearer to the truth."""
+    """The attitudes, with the signs that are nearer to the truth."""
     assert attitude is not None
     along = (attitude * case.attitude).sum(axis=-1, keepdims=True)
     return np.where(along < 0, -attitude, attitude)
@@ -253,7 +251,7 @@ def _distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def sentence(found: Convergence, unit: str) -> str:
-    """The sentence on several steps, estimated."""
+    """The sentence on several steps, with its estimates."""
     if found.order is None:
         return "the differences between steps do not fall: no order"
     return (

@@ -21,7 +21,7 @@ FORMS = (".svg", ".png", ".pdf", ".html")
 def save(
     output: Path, case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Mapping[str, Convergence]
 ) -> None:
-    """Writes the curves, or the page; raises BadInput for another ending, CannotWrite where the disk refuses."""
+    """Writes the curves, or the page; raises BadInput for another suffix, CannotWrite if the file cannot be written."""
     if output.suffix not in FORMS:
         raise BadInput(f"{str(output)!r} must end in {', '.join(FORMS)}")
     files.check_destination(output)
@@ -51,7 +51,7 @@ def draw(data: Mapping[str, Any]) -> Picture:
         if name == "height":
             axis.axhline(0, color="0.5", linestyle=":", linewidth=1)
             axis.ticklabel_format(axis="y", scilimits=(-2, 3))
-        elif any(np.any(line.get_ydata()) for line in axis.lines):  # else none of it can be shown
+        elif any(np.any(line.get_ydata()) for line in axis.lines):  # otherwise nothing can be shown
             axis.set_yscale("log", nonpositive="mask")
         axis.set(ylabel=f"{name}, {UNITS[name]}", xlabel="t, s", xlim=(0, case.time[-1]))
     for axis in axes[len(parts) :]:

@@ -14,15 +14,14 @@ from chapsym.dynamics.errors import BadInput
 
 NEEDED = ("time", "x", "y", "z", "qw", "qx", "qy", "qz")
 MORE = ("vx", "vy", "vz", "wx", "wy", "wz")
-#: Without these a table is not judged; without an attitude by what it has.
+#: The columns that a judgement needs; an attitude is optional.
 JUDGED = NEEDED[:4]
-#: The columns of a table without names: TUM, as trackers write it.
+#: The columns of a table without names: the TUM format of trackers.
 TUM = ("time", "x", "y", "z", "qx", "qy", "qz", "qw")
-#: Numbers from here on are of no ball.
 LARGEST = 1e100
-#: Two times are the same, if they differ by less than this part of the last.
+#: Times are equal if they differ by less than this fraction of the last time.
 SAME_TIME = 1e-9
-#: The names that engines give a part, before its component, in lower case; "angular velocity" comes before "velocity".
+#: The names of parts in engines, before the component, in lower case; "angular velocity" is before "velocity".
 CALLED = {
     "w": r"w|omega|ang ?vel|angular|angular velocity",
     "": r"p|pos|position|translation|com|cent(?:er|re)",
@@ -39,17 +38,17 @@ _TIME = re.compile(
     r"t|time|(?:.* )?(?:time)?stamp|(?:sim|frame|elapsed|world) time|"
     r"(?:time(?:stamp)? |t )?(?:[mnuµμ]?s|n?sec(?:onds)?)"
 )
-#: A time whose unit is said, in its name, to be a part of a second.
+#: A time whose name has a unit below a second.
 _PART = re.compile(r".*(?:\b|_)(milli|micro|nano|[mnuµμ])s(?:ec(?:ond)?s?)?\W*")
-#: A name that ends in the unit of a length, a speed, or a rate of turning, in words.
+#: A name that ends in the unit of a length, a speed, or an angular velocity, in words.
 _UNIT = re.compile(r"(.*\S) (mm|cm|m|rad|deg|degrees|dps)(?: ?p?s(?: 1)?)?")
-#: The digits by which a number in such a unit is moved, and those that are in degrees.
+#: The decimal shift of a number in such a unit, and the units in degrees.
 MOVED, DEGREES = {"mm": 3, "cm": 2}, ("deg", "degrees", "dps")
 _ANGLES = re.compile(r"(?:.* )?(?:roll|pitch|yaw|rpy|euler)(?: .*)?")
 _LONG = re.compile(r"[eE][+-]?\d{4}")
-#: The digits by which such a time is moved.  EuRoC and others have ns.
+#: The decimal shift of such a time.  EuRoC and others have ns.
 PARTS = {"milli": 3, "m": 3, "micro": 6, "u": 6, "µ": 6, "μ": 6, "nano": 9, "n": 9}
-#: Separators of cells; spaces where a line has none of them.  With the first two a comma is the decimal point.
+#: Separators of cells; spaces if a line has none of them.  With the first two, a comma is the decimal point.
 MARKS = "\t;,"
 
 
@@ -82,17 +81,17 @@ class Table:
     digit: Mapping[str, float]
 
     def from_zero(self) -> "Table":
-        """The table with times from the first row on, and these exactly."""
+        """The table with times since the first row, and these times exactly."""
         exact = self.exact_times()
         return replace(self, columns={**self.columns, "time": np.array([float(at) for at in exact])})
 
     def exact_times(self) -> list[Fraction]:
-        """The times since the first row, as they are written."""
+        """The times since the first row, as written."""
         found = [Fraction(text) for text in self.times]
         return [at - found[0] for at in found]
 
     def at(self, times: np.ndarray) -> Trajectory:
-        """The rows at `times`; other rows are left out.  Raises BadInput, one sentence, where one has none."""
+        """The rows at `times`; other rows are omitted.  Raises BadInput, one sentence, if a time has no row."""
         at = _places(self.file, self.columns["time"], times)
         part = replace(self, columns={name: column[at] for name, column in self.columns.items()})
         centre, velocity, omega = (part.vectors(names) for names in (NEEDED[1:4], MORE[:3], MORE[3:]))
@@ -101,12 +100,12 @@ class Table:
         return Trajectory(str(self.file), centre, attitude, velocity, omega, self.step, self.digit)
 
     def vectors(self, names: Sequence[str]) -> np.ndarray | None:
-        """Some columns together, (rows, names); None where one is not there."""
+        """Several columns together, (rows, names); None if one is missing."""
         there = set(names) <= self.columns.keys()
         return np.stack([self.columns[name] for name in names], axis=-1) if there else None
 
     def attitudes(self) -> np.ndarray:
-        """The quaternions, divided by their lengths; raises BadInput where one is not of the length 1."""
+        """The quaternions, divided by their lengths; raises BadInput if one does not have the length 1."""
         attitude = self.vectors(NEEDED[4:])
         assert attitude is not None
         length = np.linalg.norm(attitude, axis=-1, keepdims=True)
@@ -123,9 +122,9 @@ def read_trajectory(file: Path, times: np.ndarray) -> Trajectory:
 
 
 def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
-    """A file with commas, semicolons, tabs or spaces; raises BadInput, one sentence, for what is no trajectory.
+    """A file with commas, semicolons, tabs or spaces; raises BadInput, one sentence, if it is no trajectory.
 
-    needed: the columns without which it is none.
+    needed: the required columns.
     """
     try:
         lines = files.text_of(file).splitlines()
@@ -142,7 +141,7 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
     whole = {*needed, *NEEDED[4:]} if {*NEEDED[4:]} & {*names} else needed  # four numbers of a quaternion, or none
     missing = [name for name in NEEDED if name in whole and name not in names]
     angles = [cell for cell in head if _ANGLES.fullmatch(_words(cell)[0])]
-    if angles and "qw" not in names and "z" in needed and missing[:1] in ([], ["qw"]):  # a drawing goes without
+    if angles and "qw" not in names and "z" in needed and missing[:1] in ([], ["qw"]):  # not needed by a drawing
         clause = f"has the columns {', '.join(angles[:3])}, angles whose order has many conventions"
         raise BadInput(f"{file} {clause}: write the attitude as a quaternion, qw,qx,qy,qz")
     if missing:
@@ -168,7 +167,7 @@ def read_table(file: Path, needed: Sequence[str] = NEEDED) -> Table:
 
 
 def _texts(file: Path, i: int, cells: Sequence[str], names: Sequence[str], where: Mapping[str, int]) -> dict[str, str]:
-    """The numbers of row i in the columns that are known, as texts; others may have anything."""
+    """The numbers of row i in the known columns, as texts; other columns may have anything."""
     if len(cells) != len(names):
         raise BadInput(f"{file}: row {i} has {len(cells)} cells, and the row of names {len(names)}")
     for name, at in where.items():
@@ -178,7 +177,7 @@ def _texts(file: Path, i: int, cells: Sequence[str], names: Sequence[str], where
 
 
 def _commented(lines: Sequence[str], rows: Sequence[str]) -> list[str]:
-    """The line of names that is written as a comment above numbers alone."""
+    """The line of names in a comment above the numbers."""
     if not rows or np.isnan([*map(_number, _cells(rows[0]))]).any():
         return []
     above = [line.lstrip("# ") for line in lines[: lines.index(rows[0])] if line.startswith("#")]
@@ -191,7 +190,7 @@ def _mark(line: str, first: str = "") -> str:
 
 
 def _cells(line: str, first: str = "") -> list[str]:
-    """The cells, without their quotes; `first` separates them, if it is there."""
+    """The cells, without their quotes; `first` is the separator, if the line has it."""
     mark = _mark(line, first)
     parts = line.split(mark) if mark else line.split()
     decimal = "," if mark == "," else "."
@@ -199,7 +198,7 @@ def _cells(line: str, first: str = "") -> list[str]:
 
 
 def _number(text: str) -> float:
-    """The number; NaN for a text that is not a number, or has an exponent that float64 has not."""
+    """The number; NaN for a text that is no number, or has an exponent beyond float64."""
     try:
         return np.nan if _LONG.search(text) else float(text)
     except ValueError:
@@ -207,15 +206,15 @@ def _number(text: str) -> float:
 
 
 def _power(head: str) -> int:
-    """The digits by which a time is to be moved to be in seconds; `rostopic echo -p` writes %time in ns."""
+    """The decimal shift of a time to seconds; `rostopic echo -p` writes %time in ns."""
     found = _PART.fullmatch(head.lower())
     return PARTS[found[1]] if found else 9 * (head.lower() == "%time")
 
 
 def _names(cells: Sequence[str]) -> list[str]:
-    """The names of columns: where several mean one part, that of the very name has it, and the first of the times.
+    """The names of columns: of several for one part, that with the exact name is taken, and the first time.
 
-    tx, ty, tz are the place, as the heads of TUM call it, where nothing else is: elsewhere they are a torque.
+    tx, ty, tz are the position, as in TUM, if there is no other; otherwise they are a torque.
     """
     names = [_name(cell) for cell in cells]
     for name in (*NEEDED, *MORE):
@@ -228,7 +227,7 @@ def _names(cells: Sequence[str]) -> list[str]:
 
 
 def _name(own: str) -> str:
-    """The name of a column here; its own, where it is none of an engine."""
+    """The name of a column here; its own name if no engine uses it."""
     if (indexed := _INDEX.fullmatch(own.lower())) and int(indexed[2]) < len(INDEXED[indexed[1]]):
         return INDEXED[indexed[1]][int(indexed[2])]
     words, _ = _words(own)
@@ -244,7 +243,7 @@ def _name(own: str) -> str:
 
 
 def _words(own: str) -> tuple[str, str]:
-    """The name of a column in words, lower case, without the unit at its end, and this; without what is in brackets."""
+    """The words of the name of a column, in lower case, without brackets and unit, and its unit."""
 
     def plain(text: str) -> str:
         return re.sub(r"[\W_]+", " ", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text)).strip().lower()
@@ -255,9 +254,9 @@ def _words(own: str) -> tuple[str, str]:
 
 
 def _digit(rows: Sequence[Sequence[str]]) -> float:
-    """How far the first row may be from what was meant, by the places or digits that all rows have.
+    """The possible rounding of the first row, by the decimal places or digits that all rows have.
 
-    One number does not say it: tables of all digits, too, have a height of 0.1 or a column of 0.0.
+    One number does not show it: tables with all digits, too, have a height of 0.1 or a column of 0.0.
     """
     texts = [text.lower().partition("e") for row in rows for text in row]
     if not texts:
@@ -268,7 +267,7 @@ def _digit(rows: Sequence[Sequence[str]]) -> float:
 
 
 def _places(file: Path, given: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """The row of each time: the engine is not interpolated."""
+    """The row of each time, without interpolation."""
     if not given.size:
         raise BadInput(f"{file} has no rows")
     near = SAME_TIME * max(times[-1], 1.0)
@@ -299,7 +298,7 @@ def _step(file: Path, lines: list[str]) -> float | None:
 
 
 def in_space(attitude: np.ndarray, vector: np.ndarray) -> np.ndarray:
-    """Vectors of the body, (..., 3), turned by unit quaternions, (..., 4)."""
+    """Vectors in body axes, (..., 3), converted to space by unit quaternions, (..., 4)."""
     from chapsym import generated
 
     rows = np.stack(np.broadcast_arrays(*generated.rotation(*np.moveaxis(attitude, -1, 0))), axis=-1)
