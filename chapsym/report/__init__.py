@@ -12,7 +12,7 @@ from .records import FEDOROV, Source, counts, own, unproved  # noqa: E402
 
 __all__ = ["FEDOROV", "WRITERS", "NotErrata", "Source", "counts", "entries", "own", "unproved"]
 
-#: suffix of a file: what turns records, versions, the entries that the file has now and the source into its text.
+#: suffix of a file: the function from records, versions, the present entries of the file and the source to its text.
 WRITERS: dict[str, Callable[..., str]] = {
     ".html": lambda records, versions, _, source=FEDOROV: page.html(records, versions, source=source),
     ".md": lambda records, versions, _, source=FEDOROV: errata.markdown(records, versions["chapsym"], source),

@@ -46,7 +46,7 @@ def _introduction(records: Sequence[Record], version: str, source: Source, writt
 
 
 def kind(record: Record) -> str:
-    """The kind of error, and the error from which it follows; empty where no kind is given."""
+    """The kind of error, and the error from which it follows; empty if no kind is given."""
     name, follows = slip_of(record)
     return f"{name}{', follows from ' if follows else ''}{' and '.join(map(label, follows))}"
 
@@ -99,8 +99,8 @@ def latex(records: Sequence[Record], version: str, source: Source = FEDOROV) -> 
     return _PREAMBLE + "\n".join([*lines, r"\end{document}", ""])
 
 
-# As data: each entry with its counterexamples, what uses it, and the states that releases gave it, as in
-# `docs/errata.schema.json`.  An entry keeps its earlier states where the same file is written again.
+# As data: each entry with its counterexamples, its users, and its states by release, as in `docs/errata.schema.json`.
+# An entry keeps its earlier states if the same file is written again.
 
 
 class NotErrata(ValueError):
@@ -169,7 +169,7 @@ def _entry(record: Record, source: Source) -> Entry:
 
 
 def _example(example: Mapping[str, Any], source: Source) -> dict[str, Any]:
-    """An exact point, and the two sides of what is printed there."""
+    """An exact point, and both sides of the printed statement there."""
     named = notation.point(example["point"], not source.register)
     printed = []
     for one in example["printed"]:
@@ -185,7 +185,7 @@ def _with_states(entry: Entry, verdict: str, earlier: Mapping[str, Entry], versi
 
 
 def _withdrawn(earlier: Mapping[str, Entry], current: set[str], version: str) -> list[Entry]:
-    """The entries that a release had and that are errors no more."""
+    """The entries of a release that are no longer errors."""
     return [
         entry | {"states": _states(entry["states"], WITHDRAWN, entry["states"][-1]["digest"], version)}
         for id, entry in earlier.items()
@@ -194,7 +194,7 @@ def _withdrawn(earlier: Mapping[str, Entry], current: set[str], version: str) ->
 
 
 def _states(earlier: list[State], verdict: str, digest: str, version: str) -> list[State]:
-    """The states with the newest last: one more if this one is new; it replaces another of the same release."""
+    """The states with the newest last: a new state is added, or replaces another one of the same release."""
     released = [state for state in earlier if state["since"] != version]
     for known in (earlier, released):
         if known and (known[-1]["verdict"], known[-1]["digest"]) == (verdict, digest):

@@ -1,4 +1,4 @@
-"""LaTeX to MathML, such as a browser draws without a library and without the network.
+"""LaTeX to MathML that browsers draw without a library and without the network.
 
 A formula is cut where a line may break: prose in \\text{...} becomes prose of the page, and a comma with
 a space after it ends a piece.  So long formulas wrap on a phone, and only a single long equation scrolls.
@@ -21,7 +21,7 @@ class NotConverted(ValueError):
 
 
 class Piece(NamedTuple):
-    """A part of a formula between two places where a line may break."""
+    """A part of a formula between two possible line breaks."""
 
     kind: str  # "math" or "prose"
     text: str
@@ -44,7 +44,7 @@ def _piece_html(piece: Piece) -> Markup:
 
 
 def pieces(latex: str) -> list[Piece]:
-    """Cuts a formula at its prose and behind its commas, outside braces, \\left ... \\right and matrices."""
+    """Splits a formula at its prose and after its commas, outside braces, \\left ... \\right and matrices."""
     found: list[Piece] = []
     start = depth = 0
     for token in re.finditer(
@@ -66,7 +66,7 @@ def pieces(latex: str) -> list[Piece]:
 
 @cache
 def mathml(latex: str) -> str:
-    """One formula as MathML, to stand in a line; raises NotConverted if anything of it was not understood."""
+    """One formula as inline MathML; raises NotConverted if a part of it is not understood."""
     try:
         named = _NAME.sub(r"\\operatorname", latex.removesuffix("\\ ").strip())
         found = _CONVERTER.convert_with_local_state(named, displaystyle=True)

@@ -1,6 +1,6 @@
 """The uses of claims, as an arc diagram: the claims down the left in the order of the paper, an arc for each use.
 
-Plain SVG with the names of classes that the page's style colours; the page's script highlights.
+Plain SVG with class names: the style of the page has the colours, its script highlights.
 """
 
 from collections.abc import Sequence

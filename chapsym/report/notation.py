@@ -1,4 +1,4 @@
-"""The plain text of the records: exact points and values, grouped for a reader, and as LaTeX."""
+"""The plain text of the records: exact points and values, in groups for a reader, and as LaTeX."""
 
 import ast
 import re
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import takewhile
 from typing import Any
 
-#: The names of symbols in the points of the proofs, as the paper writes them.
+#: The notation of the paper for symbols in the points of the proofs.
 _SYMBOLS = {
     "w": "ω", "g": "γ", "L": "Λ", "rho": "ρ", "gamma": "γ", "omega": "ω", "sigma": "σ", "epsilon": "ε", "k2": "k²",
     "Gamma": "Γ", "Omega": "Ω", "Lambda": "Λ", "delta": "δ", "theta": "θ",
@@ -15,8 +15,8 @@ _SYMBOLS = {
     "R_-": "R_{k-1}", "R": "R_k", "R_+": "R_{k+1}", "r_-": "r_{k-1}", "r": "r_k", "r_+": "r_{k+1}",
     **{f"Omega{i}{i}": f"Ω_{{{i}{i}}}" for i in (1, 2, 3)},
 }  # fmt: skip
-#: Names with this meaning only next to the first: the argument u, the parts of the relation for the increment, a curve
-#: on which the amplitudes are rational, and the root of the integral on the curve.
+#: Names with this meaning only next to the first one: the argument u, the parts of the relation for the increment, a
+#: curve with rational amplitudes, and the root of the integral on the curve.
 _BESIDE = {
     "sh": {"s": "sn u", "c": "cn u", "d": "dn u"},
     "Dscr": {"Dscr": "𝒟", "y": "sn²δu", "e": "cn²δu dn²δu", "w": "w(δu)", "lam": "l - μ sn²δu"},
@@ -88,7 +88,7 @@ def in_line(shown: str | Matrix) -> str:
 
 
 def sides(example: dict[str, Any], compact: bool = False) -> tuple[list[str | Matrix], list[str | Matrix]]:
-    """Both sides of a statement at a point; compact leaves only what differs of more than three entries."""
+    """Both sides of a statement at a point; compact: of more than three entries only the different ones."""
     left, right = list(example["left"]), list(example["right"])
     if compact and len(left) > 3:
         apart = [(a, b) for a, b in zip(left, right, strict=True) if a != b]
@@ -113,11 +113,11 @@ def sign(example: dict[str, Any]) -> str:
 
 
 def differing(example: dict[str, Any]) -> bool:
-    """Whether the compact form of the sides leaves entries out."""
+    """Whether the compact form of the sides omits entries."""
     return len(example["left"]) > 3 and any(a == b for a, b in zip(example["left"], example["right"], strict=True))
 
 
-# To LaTeX.  A word is prose when it has two letters or more and nothing that only formulas have.
+# To LaTeX.  A word is prose if it has two letters or more and nothing specific to formulas.
 
 _FUNCTIONS = ("sn", "cn", "dn", "tr", "Tr", "diag", "sign", "cos", "sin", "exp", "ln", "det", "div", "Ad")
 _COMMANDS = {
@@ -207,7 +207,7 @@ def symbol_latex(text: str) -> str:
 
 
 def _token(text: str, start: int) -> tuple[int, str]:
-    """How many characters the next piece takes, and the piece."""
+    """The length of the next piece, and the piece."""
     here = text[start:]
     for table, mark in ((_SUPERSCRIPTS, "^"), (_SUBSCRIPTS, "_")):
         run = "".join(table[x] for x in takewhile(table.__contains__, here))
@@ -221,7 +221,7 @@ def _token(text: str, start: int) -> tuple[int, str]:
     index = re.match(r"([_^])(?:\{([^{}]*)\}|\(([^()]*)\)|([a-z]+|[^\W_]))", here)
     if index:
         inner = next(x for x in index.groups()[1:] if x is not None)
-        several = re.fullmatch(r"[a-z]{2,3}", inner)  # i, j, k and no word
+        several = re.fullmatch(r"[a-z]{2,3}", inner)  # i, j, k, not a word
         return index.end(), f"{index.group(1)}{{{inner if several else symbol_latex(inner)}}}"
     base, taken = _character(here[0]), 1
     if here[0].isalpha() and here[1:2] in _ACCENTS:
@@ -256,7 +256,7 @@ def _unknown(x: str) -> str:
 
 
 def typed_latex(text: str) -> str:
-    """A command, or a name, as it is typed."""
+    """A command, or a name, as typed."""
     return _prose(text).replace("--", "-{}-")
 
 

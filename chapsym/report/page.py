@@ -1,4 +1,4 @@
-"""The page: one HTML file that opens from disk, with its style, its script and its formulas inside.
+"""The page: one HTML file that opens from disk and contains its style, its script and its formulas.
 
 A section that cannot be rendered shows its own error in its place, and the rest of the page stays.
 """
@@ -19,7 +19,7 @@ from .records import FEDOROV, Record, Source
 
 FOLDER = Path(__file__).parent / "templates"
 
-#: How many links a list shows before it folds.
+#: The number of links that a list shows before it is folded.
 _MANY = 8
 
 #: The sections of the page: anchor, title, and template.
@@ -44,7 +44,7 @@ def html(records: Sequence[Record], versions: Mapping[str, str], source: Source 
 
 
 def templates(*folders: Path) -> Environment:
-    """The templates of the room, and of more folders."""
+    """The templates of this package, and of more folders."""
     found = Environment(
         loader=FileSystemLoader([*folders, FOLDER]), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,
@@ -59,7 +59,7 @@ def style(*more: Path) -> Markup:
 
 
 class Page:
-    """The records, and the templates with what they need to show them."""
+    """The records, and the templates with their functions."""
 
     def __init__(self, records: Sequence[Record], versions: Mapping[str, str], source: Source = FEDOROV) -> None:
         self._templates = templates()
@@ -74,23 +74,23 @@ class Page:
         }  # fmt: skip
 
     def render(self, template: str, **context: Any) -> Markup:
-        """A template of the room's folder, filled in."""
+        """A template of this package, rendered."""
         return Markup(self._templates.get_template(template).render(**context))
 
     def section(self, name: str, title: str, template: str, **context: Any) -> Markup:
-        """The section by its template, or a box that says why there is none."""
+        """The section by its template, or a box with the reason why it is missing."""
         try:
             return self.render(template, **context)
         except Exception as error:  # whatever a record or a template does, the rest of the page stays
             return self.render("failure.html", name=name, title=title, error=f"{type(error).__name__}: {error}")
 
     def claim(self, record: Record) -> Markup:
-        """A claim with all its evidence; links only to what is on the page."""
+        """A claim with all its evidence; links only to parts of the page."""
         return self.section(f"claim-{record['id']}", f"Claim {record['id']}", "claim.html", record=record)
 
 
 def by_method(checks: Sequence[Mapping[str, Any]]) -> list[tuple[str, list[Mapping[str, Any]]]]:
-    """Checks that follow each other with one method, under its name."""
+    """Successive checks with the same method, under its name."""
     return [(method, list(those)) for method, those in groupby(checks, lambda check: str(check.get("method", "")))]
 
 
@@ -104,7 +104,7 @@ def code(text: str) -> Markup:
 _FRACTION = re.compile(r"(\d+)/(\d+)")
 #: A hyphen that is a minus sign: not that of n-dimensional or of the claim 5.12-q0.
 _MINUS = re.compile(r"(?<![A-Za-z0-9])-(?=[ \dA-Za-zΑ-ω])|-(?=[(⟨¼½√])|(?<=\b[A-Za-z])-(?=[a-z]?\d)")
-#: An index, unless it stands in a number, 1.6e7, or in a word, float64.
+#: An index, unless it is in a number, 1.6e7, or in a word, float64.
 _INDEX = re.compile(
     r"\d[\d.]*e\d+|(?<![A-Za-z])[A-Za-z]{3,}\d+|_(?:\{([^{}]*)\}|\(([^()]*)\)|([A-Za-z0-9]{1,3}|[α-ω]))|(?<=[A-Za-zΑ-ω𝒟ℰ])(?<!\d-[A-Za-z])(?<!\d-[A-Za-z]{2})(\d+)"
 )

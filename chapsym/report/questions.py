@@ -8,13 +8,13 @@ from typing import Any
 from .page import FOLDER, Page, style
 from .records import Record
 
-#: claim: what it asks, in words.
+#: claim: its question, in words.
 QUESTIONS = {
     "5.9-open": "Does the reduced map preserve an invariant measure?",
     "6-open": "Is there another integral that tends to the energy?",
 }
 
-#: The fields of a certificate that are shown besides its ball.
+#: The fields of a certificate that are shown after its ball.
 GIVEN = ("radius", "half_turns", "digits")
 
 
@@ -30,7 +30,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Checked:
-    """A certificate file: its name and content, and the numbers that are proved; or why the checker rejects it."""
+    """A certificate file: its name and content, and the proved numbers, or why the checker rejects it."""
 
     name: str
     data: Mapping[str, Any]
@@ -38,7 +38,7 @@ class Checked:
     rejected: str = ""
 
     def rows(self) -> list[tuple[str, str]]:
-        """The rows of the certificate: names and values of its ball and of what is proved."""
+        """The rows of the certificate: names and values of its ball and of the proved numbers."""
         given = {name: self.data[name] for name in GIVEN if name in self.data}
         said = {**self.data.get("ball", {}), **given, **self.proved}
         return [(name.replace("_", " "), ", ".join(v) if isinstance(v, list) else v) for name, v in said.items()]

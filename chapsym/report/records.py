@@ -1,6 +1,6 @@
-"""Reading the records of `chapsym prove --json`: their order in the paper, their verdicts, what hangs on what.
+"""Reading the records of `chapsym prove --json`: their order in the paper, their verdicts, their dependences.
 
-Evidence that a record does not carry is absent, not an error.
+Evidence that a record does not have is empty, not an error.
 """
 
 import re
@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 Record = dict[str, Any]
 
-#: Every verdict, in the order in which they are counted, with what it says.
+#: All verdicts, in the order in which they are counted, with their meanings.
 VERDICTS = {
     "holds": "proved as printed",
     "corrected": "false as printed; the smallest correction is proved",
@@ -23,7 +23,7 @@ VERDICTS = {
 }
 ERRORS = ("corrected", "conditional", "refuted")
 
-#: Kinds of errors, by our judgement: what one is called, and many.
+#: Kinds of errors, by our judgement: the singular and the plural.
 SLIPS = {
     "serious": ("serious error", "serious errors"),
     "typo": ("typo", "typos"),
@@ -40,7 +40,7 @@ SECTIONS = {
     6: "Conclusive remarks",
 }
 
-#: Where the numbered statements stand among the equations: just after the one that is named.
+#: The places of the numbered statements among the equations: just after the given one.
 _STATEMENTS = {
     "remark-1": (3, 4), "remark-2": (3, 5), "prop-1": (4, 12), "prop-2": (4, 13), "remark-3": (4, 14),
     "prop-3": (5, 5), "remark-4": (5, 9), "prop-4": (5, 10),
@@ -57,7 +57,7 @@ class Section(NamedTuple):
 
 
 def place(id: str) -> tuple[int, int] | None:
-    """Section and equation of a claim; None for an id that names neither."""
+    """Section and equation of a claim; None for an id without them."""
     name = re.match(r"(?:prop|remark)-\d+", id)
     if name and name.group() in _STATEMENTS:
         return _STATEMENTS[name.group()]
@@ -66,7 +66,7 @@ def place(id: str) -> tuple[int, int] | None:
 
 
 def section(record: Record) -> tuple[int, str] | None:
-    """The number and the title of a claim's section: what its record says, or else what its id names."""
+    """The number and the title of the section of a claim: from its record, or else from its id."""
     if heading := record["evidence"].get("section"):
         return heading[0], heading[1]
     found = place(record["id"])
@@ -74,7 +74,7 @@ def section(record: Record) -> tuple[int, str] | None:
 
 
 def in_paper_order(records: Iterable[Record]) -> list[Record]:
-    """The records as the paper has them; what names no equation stays behind the record before it."""
+    """The records in the order of the paper; one without an equation stays after the record before it."""
     placed, last = [], (0, 0)
     for record in records:
         heading = record["evidence"].get("section")
@@ -103,7 +103,7 @@ def label(id: str) -> str:
 
 
 def counts(records: Iterable[Record]) -> dict[str, int]:
-    """The number of claims with each verdict, in the order of VERDICTS; verdicts that nothing has are left out."""
+    """The number of claims with each verdict, in the order of VERDICTS, without zeros."""
     found = Counter(record["verdict"] for record in records)
     return {verdict: found[verdict] for verdict in [*VERDICTS, *found] if verdict in found}
 
@@ -124,13 +124,13 @@ def errors(records: Iterable[Record]) -> list[Record]:
 
 
 def truth(record: Record) -> tuple[str, str]:
-    """The true statement that replaces a printed error, as LaTeX, and in prose the condition or the whole truth."""
+    """The true statement in place of a printed error, as LaTeX, and in prose the condition or the whole statement."""
     name = "true_statement" if record["verdict"] == "refuted" else "condition"
     return record.get("corrected") or "", record["evidence"].get(name) or ""
 
 
 def slip_of(record: Record) -> tuple[str, list[str]]:
-    """The kind of a record's error, and the claims from whose errors it follows; an empty kind where none is given."""
+    """The kind of error of a record, and the claims from whose errors it follows; an empty kind if none is given."""
     found = record["evidence"].get("slip") or {"kind": "", "follows": []}
     return found["kind"], found["follows"]
 
@@ -143,7 +143,7 @@ def slips(records: Iterable[Record]) -> dict[str, tuple[int, int]]:
 
 
 def kinds(records: Iterable[Record]) -> str:
-    """The errors by kind, in words; empty where no kind is given.
+    """The errors by kind, in words; empty if no kind is given.
 
     Examples
     --------
@@ -159,12 +159,12 @@ def kinds(records: Iterable[Record]) -> str:
 
 
 def unproved(records: Iterable[Record]) -> list[str]:
-    """The ids of the open claims, but for those that the paper itself leaves open."""
+    """The ids of the open claims, except the open questions of the paper."""
     return [r["id"] for r in records if r["verdict"] == "open" and not r["evidence"].get("open_in_paper")]
 
 
 def uses(records: Sequence[Record]) -> dict[str, list[str]]:
-    """The claims that each claim uses directly, among the records that are there."""
+    """The claims that each claim uses directly, among the given records."""
     known = {record["id"] for record in records}
     return {r["id"]: [id for id in r["evidence"].get("uses", []) if id in known] for r in records}
 
@@ -175,7 +175,7 @@ def users(records: Sequence[Record]) -> dict[str, list[str]]:
     return {record["id"]: [id for id in used if record["id"] in used[id]] for record in records}
 
 
-# The register of a report: what its paper is called, and how a claim of it is proved again.
+# The register of a report: the name of its paper, and the command that proves a claim again.
 
 EXACT = (
     "Each counterexample is exact: all hypotheses that are equations or inequalities hold at the point, and the two "
@@ -185,7 +185,7 @@ EXACT = (
 
 @dataclass(frozen=True)
 class Source:
-    """The paper, and a note on how its list of errata is to be read; `register` is what --register names, if any."""
+    """The paper, and a note on how to read its list of errata; register: the value of --register, if any."""
 
     paper: str
     note: str

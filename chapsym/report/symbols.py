@@ -1,6 +1,6 @@
 """The table of symbols: the paper uses many letters for several things.
 
-It is written once, as the page docs/symbols.md, to which `templates/symbols.md` is a link.
+Its source is the page docs/symbols.md, to which `templates/symbols.md` is a link.
 """
 
 import re
