@@ -1,4 +1,4 @@
-"""A scene file: what to roll, from where, for how long, and where to write it."""
+"""Scene files: the balls, their starts, the duration, and the output."""
 
 from .read.errors import SceneError
 from .read.scene import Scene, checked, load, load_for

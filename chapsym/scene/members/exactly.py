@@ -1,4 +1,4 @@
-"""The one motion of a scene with its numbers as they are written, not their floats: for certified digits."""
+"""The motion of a scene with a single ball, from its numbers as written, not as floats: for certified digits."""
 
 import tomllib
 from collections.abc import Callable, Sequence
@@ -36,10 +36,9 @@ from .members import expand
 
 
 def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
-    """The start of the one ball of a scene of a file, and the times of its frames.
+    """The start of the single ball of a scene file, and the times of its frames.
 
-    Raises SceneError where the scene has several balls, is of the map, or has moments that no body has when its numbers
-    are taken as they are written.
+    Raises SceneError if the scene has several balls, uses the map, or has moments that, as written, no body has.
     """
     name = scene.name or "the scene"
     try:
@@ -51,20 +50,20 @@ def exact_motion(scene: Scene) -> tuple[Start, tuple[Fraction, ...]]:
 
 
 def without_rotors(scene: Scene) -> Scene:
-    """A scene whose balls have no rotor, which runs in float64 refuse."""
+    """A scene without rotors, which runs in float64 refuse."""
     return scene.model_copy(update={"ball": tuple(one.model_copy(update={"rotor": None}) for one in scene.ball)})
 
 
 def case_of(name: str, title: str | None, start: Start) -> Data:
-    """What the file of a certified motion says of its ball, so that `chapsym judge --against` takes it.
+    """The description of the ball in the file of a certified motion, which `chapsym judge --against` needs.
 
-    Nothing of a ball whose tensor is not diagonal in the axes of the body: there its scene is needed.
+    Empty for a tensor that is not diagonal in the axes of the body: `judge` then needs the scene.
     """
     if start.axes is not None:
         return {}
     whole = sum(start.mass_tensor)
     body: Data = {"inertia": [decimal(whole - x) for x in start.mass_tensor]}
-    if start.radius is not None:  # else nothing touches the body
+    if start.radius is not None:  # otherwise nothing touches the body
         body = {"mass": decimal(start.D / start.radius**2), "radius": decimal(start.radius)} | body
     if any(map(any, start.rotor)):
         body["rotor"] = [decimal(x.rational) for x in start.rotor]
@@ -123,7 +122,7 @@ Axes = Callable[[], Principal]
 
 
 def _body(table: Data) -> tuple[tuple[Fraction, ...], Fraction, Axes | None]:
-    """J and D, exactly; where the tensor is not diagonal no J, but its axes."""
+    """Exact J and D; for a tensor that is not diagonal, its axes instead of J."""
     D = _rational(table, "D") if "D" in table else _rational(table, "mass") * _rational(table, "radius") ** 2
     if "mass_tensor" in table:
         return tuple(x.rational for x in _numbers(table, "mass_tensor")), D, None
@@ -157,7 +156,7 @@ def _exactly(table: Data, key: str) -> Any:
 
 
 def _attitude(start: Data) -> Callable[[], Balls]:
-    """The quaternion in balls, of any length where it is given."""
+    """The quaternion in balls, of any length if given."""
     if "rpy" in start:
         angles = _numbers(start, "rpy")
         return lambda: unit(roll_pitch_yaw([(half.cos(), half.sin()) for half in (ball(x) / 2 for x in angles)]))
@@ -176,7 +175,7 @@ def _rolling(start: Data, D: Fraction, radius: Fraction, rotor: Sequence[Turns])
 
 
 def _times(scene: Scene, run: Data) -> tuple[Fraction, ...]:
-    """Those of the frames, the start among them."""
+    """The times of the frames, including the start."""
     steps, every = scene.run.counts()
     whole = _rational(run, "time_step") * every if "time_step" in run else _rational(run, "time") / steps
     return tuple(i * whole for i in range(steps // every + 1))

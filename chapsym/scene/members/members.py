@@ -1,4 +1,4 @@
-"""The balls of a scene with their starts, as arrays: every range spelled out, in principal axes, checked."""
+"""The balls of a scene with their starts, as checked arrays in principal axes, with all ranges expanded."""
 
 import tomllib
 from collections.abc import Callable, Mapping
@@ -32,7 +32,7 @@ from ..read.ranges import MOST_BALLS, Range, Sweep, ranges_in
 from ..read.scene import Scene, ball_place, ball_table, checked, written
 from ..read.tables import ATTITUDES, SCALAR_FIRST, BallTable, StartTable, ranges_of
 
-#: What is this near to a unit vector was meant to be one, and is divided by its length.
+#: The tolerance for a unit vector, which is then divided by its length.
 ROUNDED = 1e-6
 
 
@@ -40,14 +40,14 @@ ROUNDED = 1e-6
 class Members:
     """n balls and their starts, in the principal axes of each.
 
-    names: of the balls, n different ones.
+    names: n different names of the balls.
     ball: a batch of n, or of n balls in d > 3 dimensions.
-    momentum: 𝒦 = εK of one step in kg m², (n, 3), or (n, d, d); K in kg m²/s where the steps are to be chosen.
+    momentum: 𝒦 = εK of one step in kg m², (n, 3), or (n, d, d); K in kg m²/s if the steps are chosen automatically.
     gamma: the unit vertical, upwards, (n, 3) or (n, d).
-    axes: unit quaternions, (n, 4), that turn principal axes to those the user gave; None where they are the same.
+    axes: unit quaternions, (n, 4), from principal axes to the axes of the user; None if they are the same.
     attitude: unit quaternions from the principal axes to space, (n, 4); None for the least rotation with R γ = e₃.
     place: the contact point at the start in m, (n, 2); None for the origin.
-    parameters: what was varied, by dotted key, one value a ball in the unit of the key (`units_of`), (n,).
+    parameters: the swept keys, dotted, with one value per ball in the unit of the key (`units_of`), (n,).
     """
 
     names: tuple[str, ...]
@@ -92,9 +92,9 @@ def _some(ball: Ball | BallN, chosen: int | slice | np.ndarray) -> Ball | BallN:
 
 
 def ball_of(file: Path) -> tuple[Data, Members]:
-    """[ball] of a scene or of a robot's file, as `ball_table` has it, and the ball.
+    """[ball] of a scene or of a robot file, as by `ball_table`, and the ball.
 
-    Raises SceneError, which names the key or the element of that file and its line, for what no body can have.
+    Raises SceneError, with the key or the element of the file and its line, for values that no body can have.
     """
     table = ball_table(file)
     ball = written("ball", {key: value for key, value in table.items() if key != "name"})
@@ -110,8 +110,8 @@ def ball_of(file: Path) -> tuple[Data, Members]:
 def expand(scene: Scene) -> Members:
     """The balls of a scene with their starts, the product of all ranges, checked.
 
-    A range of [start] goes for each ball that has no start of its own, and is drawn afresh for each.
-    Raises SceneError, which names the ball, for what no body can have and for starts that are none.
+    A range of [start] applies to each ball without its own start, with separate random samples.  Raises SceneError,
+    with the name of the ball, for values that no body can have and for invalid starts.
     """
     tables = bodies(scene)
     total = sum(len(body) for body in tables)
@@ -136,7 +136,7 @@ def bodies(scene: Scene) -> list["Body"]:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """One [ball] of a scene, and its start; name: its own, or what it is called without; sweep: its ranges."""
+    """One [ball] of a scene, and its start; name: its own, or the default; sweep: its ranges."""
 
     scene: Scene
     index: int
@@ -146,7 +146,7 @@ class Body:
 
     @classmethod
     def of(cls, scene: Scene, index: int) -> Self:
-        """Its own start, or that of all; and its ranges, those of the ball first."""
+        """The body with its own start, or the common one; and its ranges, those of the ball first."""
         ball, sweep = scene.ball[index], scene.sweep
         start = ball.start or scene.start
         assert start is not None
@@ -159,14 +159,14 @@ class Body:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """What each of its balls is called: those of a sweep are numbered."""
+        """The names of its balls: those of a sweep are numbered."""
         return tuple(f"{self.name} {i}" for i in range(1, len(self) + 1)) if self.sweep.ranges else (self.name,)
 
     def __len__(self) -> int:
         return len(self.sweep)
 
     def members(self) -> Members:
-        """Its members; raises SceneError with the name of the first that cannot be."""
+        """Its members; raises SceneError with the name of the first invalid one."""
         ball, scale = self.scene.ball[self.index], self.scene.task().scale
         at = partial(_place, self.scene, self.index)
         if ball.rotor is not None:
@@ -193,7 +193,7 @@ class Body:
 
 
 def _place(scene: Scene, index: int, table: str | int = "ball", *key: str | int) -> str:
-    """The file, and the line on which a key of a ball or of its start stands."""
+    """The file, and the line of a key of a ball or of its start."""
     own = ("ball", index) if isinstance(scene._data.get("ball"), list) else ("ball",)
     path = (*own, *key) if table == "ball" else (*own, table, *key) if scene.ball[index].start else (table, *key)
     where = place(scene.name, scene.toml, path)
@@ -201,7 +201,7 @@ def _place(scene: Scene, index: int, table: str | int = "ball", *key: str | int)
 
 
 def _first_refused(made: Callable[[slice], object], low: int, high: int) -> tuple[int, BadInput] | None:
-    """The first ball of a batch that is refused, and why, if one is: a batch that is refused is halved."""
+    """The first refused ball of a batch, and the reason, by bisection; or None."""
     try:
         made(slice(low, high))
         return None
@@ -213,7 +213,7 @@ def _first_refused(made: Callable[[slice], object], low: int, high: int) -> tupl
 
 
 def _joined(parts: list[Members]) -> Members:
-    """The balls of several tables one after the other; what one of them does not have is as if it were not given."""
+    """The balls of several tables in sequence; arrays that one of them lacks have defaults."""
     if len({part.ball.radius is None for part in parts}) > 1:
         raise SceneError("some balls have a radius and others have none: give it to all")
     ball, whole = type(parts[0].ball), partial(_whole, parts)
@@ -229,7 +229,7 @@ def _joined(parts: list[Members]) -> Members:
 
 
 def _whole(parts: list[Members], name: str, default: Callable[[Members], Any] = lambda part: None) -> Any:
-    """The arrays of that name one after the other, where any is given; else None."""
+    """The concatenated arrays of a name, if any is given; else None."""
     arrays = [attrgetter(name)(part) for part in parts]
     if all(array is None for array in arrays):
         return None
@@ -258,7 +258,7 @@ class Given:
         return np.full(self.count, value)
 
     def unit(self, value: object, key: str) -> Floats:
-        """Unit vectors: one that varies, or that is typed with few digits, is divided by its length."""
+        """Unit vectors: a swept one, or one with few digits, is divided by its length."""
         array = self.array(value, key)
         length = np.sqrt((array * array).sum(axis=-1, keepdims=True))
         varies = bool(ranges_in(value, key))
@@ -269,7 +269,7 @@ class Given:
 
 
 def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, names: tuple[str, ...]) -> Members:
-    """The members of one table; raises BadInput for what cannot be."""
+    """The members of one table; raises BadInput for invalid ones."""
     with np.errstate(all="ignore"):  # a number beyond float64, and a direction that is 0, are refused by their names
         if ball.mass_tensor is not None and len(ball.mass_tensor) > 3:
             return _members_n(ball, start, given, scale, names)
@@ -288,7 +288,7 @@ def members_of(ball: BallTable, start: StartTable, given: Given, scale: float, n
 
 
 def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
-    """The balls, and what turns their principal axes to those of the table, if these are others."""
+    """The balls, and the rotations from their principal axes to the axes of the table, if they differ."""
     sizes, contact = _sizes(table, given)
     axes, least, rounded = None, 0.0, 0.0
     (shape,) = table.given("mass_tensor", "inertia", "preset")
@@ -311,7 +311,7 @@ def _ball(table: BallTable, given: Given) -> tuple[Ball, Floats | None]:
 
 
 def _sizes(table: BallTable, given: Given) -> tuple[dict[str, Floats], Floats]:
-    """The masses and lengths of a table that are given, as arrays, and D."""
+    """The given masses and lengths of a table, as arrays, and D."""
     sizes = {key: given.array(getattr(table, key), f"ball.{key}") for key in table.given("mass", "radius", "D", *KEYS)}
     with said_by("ball", _no_size(sizes) or ("D" if "D" in sizes else "mass")):
         return sizes, np.asarray(contact_term(sizes.get("mass"), sizes.get("radius"), sizes.get("D")))
@@ -350,7 +350,7 @@ def _start(start: StartTable, given: Given, ball: Ball) -> tuple[Floats, Floats 
 
 
 def _attitude(start: StartTable, given: Given) -> Floats | None:
-    """The unit quaternions from the body to space, (count, 4), scalar first; None where the start does not say them."""
+    """The unit quaternions from the body to space, (count, 4), scalar first; None if the start does not have them."""
     if start.rpy is not None:
         angles = given.array(start.rpy, "start.rpy").T
         if (np.abs(angles) > 2 * np.pi).any():
@@ -383,7 +383,7 @@ def _rolling(start: StartTable, given: Given, ball: Ball) -> Floats:
 
 
 def _momentum_of(omega: Floats, gamma: Floats, ball: Ball, scale: float) -> Floats:
-    """𝒦 = εK with K = Λω - D⟨ω,γ⟩γ; raises BadInput where float64 loses its digits."""
+    """𝒦 = εK with K = Λω - D⟨ω,γ⟩γ; raises BadInput if float64 loses its digits."""
     momentum = scale * kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
     lost = (np.abs(momentum).max(axis=-1) < SMALLEST) & omega.any(axis=-1) & (ball.inertia > 0).all(axis=-1)
     if lost.any():

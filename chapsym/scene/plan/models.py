@@ -1,4 +1,4 @@
-"""The models that a scene may need: ways to follow its balls, and when each serves; `MODELS` has all of them."""
+"""The models of a scene: methods to compute its balls, and their applicability; `MODELS` has all of them."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
@@ -22,7 +22,7 @@ from chapsym.dynamics.results import put_at
 from ..members.members import Members, one_ball
 from ..read.task import Columns, Task
 
-#: What the next segment needs: arrays by name, each (balls, ...); `taken` and `status` are always there.
+#: The state for the next segment: arrays by name, each (balls, ...), always with `taken` and `status`.
 State = dict[str, np.ndarray]
 #: The columns of frames, and the status of each ball.
 Found = tuple[Columns, np.ndarray]
@@ -31,11 +31,11 @@ Progress = Callable[[int], None]
 FOLLOWED = ("momentum", "gamma", "attitude", "contact")
 #: The number of balls from which on a batch runs in vector lanes.
 BATCH = 16
-#: How far 𝒦 may be from hγ, relatively: 𝒦 was rounded, and its motion stays as near as that to the one with 𝒦 = hγ.
+#: The largest relative |𝒦 - hγ|: 𝒦 was rounded, and its motion stays this near to that with 𝒦 = hγ.
 VERTICAL = 4 * np.finfo(np.float64).eps
-#: Next to the separatrix roundings lead from curve to curve, and to the other side of it, where k' is less than this.
+#: For k' below this, near the separatrix, roundings lead from curve to curve, and to the other side of it.
 NEAREST = 1e-6
-#: γ and the attitude of a top lose up to 1/k' ulps: three digits at most.
+#: The least k' of a top: γ and the attitude lose up to 1/k' ulps, at most three digits.
 NEAREST_TOP = 1e-3
 
 STEP = ("gibbs_newton", "gibbs_second", "turn")
@@ -43,17 +43,15 @@ ROLLING = {"momentum": STEP, "attitude": ("compose",), "contact": ("compose", "c
 
 
 class Model(ABC):
-    """A way to follow balls; its name says all that the values depend on.
+    """A method to compute balls; its name determines the values.
 
-    name: as in the plan; title: as readers see it.  about: what it leaves out or knows, one clause.
-    columns: what it can follow.  kernels: the generated ones in its loops, for each column that it follows.
-    motion: whether it is of the motion of the ball to an accuracy, else of the map; high: whether of balls in more than
-    three dimensions.  reduction: whether it is less than the model that serves every such ball, has order 2 and float64
-    only, and a plan says why it does not serve.
-    stepwise: whether its cost grows with the steps (else with the frames).
-    whole: whether it must run in one segment, as its state has more than float64 arrays.
-    proves: whether it bounds the error of each frame where that is asked for.
-    unit_steps: steps of all balls in one unit of work: a second or two, which is what a killed run loses at most.
+    name: as in the plan; title: for readers.  about: one clause on its simplifications.  columns: that it can compute.
+    kernels: the generated kernels in its loops, for each computed column.  motion: whether it computes the motion of
+    the ball to an accuracy, or else the map; high: whether for balls in more than three dimensions.  reduction: whether
+    it is simpler than the general model, only of order 2 and in float64, so that a plan gives the reason why it is not
+    used.  stepwise: whether its cost grows with the steps (else with the frames).  whole: whether it must run in one
+    segment, since its state has more than float64 arrays.  proves: whether it can bound the error of each frame.
+    unit_steps: steps of all balls in one unit of work: a second or two, the largest loss of a killed run.
     """
 
     name: ClassVar[str]
@@ -75,7 +73,7 @@ class Model(ABC):
         return cls.title or cls.name
 
     def refuses(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """Why this model does not serve these balls and columns, in a clause; None if it does."""
+        """Why this model does not apply to these balls and columns, in a clause; None if it does."""
         if isinstance(members.ball, BallN) != self.high:
             return f"it is for balls in {'more than ' if self.high else ''}three dimensions"
         if self.motion != (task.accuracy is not None):
@@ -89,11 +87,11 @@ class Model(ABC):
         return self.unable(members, task, needed) or (f"it does not follow {', '.join(missing)}" if missing else None)
 
     def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """The same, of what this model alone asks for."""
+        """The same, for the specific conditions of this model."""
         return None
 
     def unfit(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """The same, by a test of each ball that may take as long as its run: for the cheapest models only."""
+        """The same, by a test of each ball that may take as long as its run, only for the cheapest models."""
         return None
 
     def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
@@ -104,12 +102,12 @@ class Model(ABC):
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
         """The cost in nanoseconds of one core: nominal, so that a plan does not depend on the machine.
 
-        The prices are those of `chapsym bench plans`; the default is of models that tell `seconds`.
+        The prices are those of `chapsym bench plans`; the default is for models with `seconds`.
         """
         return 1.0
 
     def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float | None:
-        """The expected duration of a run, where that is more than its price."""
+        """The expected duration of a run, if that is more than its price."""
         return None
 
     @abstractmethod
@@ -118,7 +116,7 @@ class Model(ABC):
     ) -> tuple[Columns, State]:
         """The frames of a segment, (balls, frames, ...) of each column, in principal axes, and the state after it.
 
-        Frames of a ball after its `taken` are NaN.  The state that is given is left as it is.
+        Frames of a ball after its `taken` are NaN.  The given state is not changed.
         """
 
 
@@ -128,7 +126,7 @@ def _ball(members: Members) -> Ball:
     return members.ball
 
 
-# Models that take every step: a segment goes on from the last frame of the one before.
+# Models that take every step: a segment continues from the last frame of the one before.
 
 
 class Stepwise(Model):
@@ -139,7 +137,7 @@ class Stepwise(Model):
         """A trajectory of `steps` steps from a state, of all the balls; its contact point starts at the origin."""
 
     def attitude(self, members: Members) -> np.ndarray:
-        """The attitude at the start where none was given: the least rotation with R γ = e₃."""
+        """The default attitude at the start: the least rotation with R γ = e₃."""
         return attitude_with(members.gamma)
 
     def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
@@ -183,7 +181,7 @@ class Stepwise(Model):
 
 
 class Rolling(Stepwise):
-    """The map (4.12), (4.13) itself: it serves every ball in three dimensions."""
+    """The map (4.12), (4.13) itself, for every ball in three dimensions."""
 
     name = "reduced map"
     about = "𝒦 and γ step by step; attitude and contact point only if asked for"
@@ -199,7 +197,7 @@ class Rolling(Stepwise):
         return None
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
-        """Vector lanes for batches; a proof goes along a second run, in double-double."""
+        """Vector lanes for batches; a proof needs a second run, in double-double."""
         alone, in_lanes = (40.0, 14.0) if needed & {"attitude", "contact"} else (27.0, 8.0)
         step = in_lanes if len(members) >= BATCH and task.order == 2 else alone
         step = 1000.0 if task.proved else step * (4 if task.precision == "double-double" else 1)
@@ -209,7 +207,7 @@ class Rolling(Stepwise):
         """`chapsym.trajectory` of the batch."""
         attitude = state.get("attitude", False)
         if "attitude" in state and members.attitude is None and task.precision == "double-double":
-            attitude = True  # in 31 digits, as γ; such a run has one segment
+            attitude = True  # with 31 digits, like γ; such a run has one segment
         return dynamics.trajectory(
             _ball(members), state["momentum"], state["gamma"], steps, every=task.every, order=task.order,
             attitude=attitude, contact="contact" in state,
@@ -253,7 +251,7 @@ class General(Stepwise):
 
 
 class Vertical(Stepwise):
-    """Vertical momentum: the map G_h on the sphere, where γ is the whole state, and the phase u on its curve."""
+    """Vertical momentum: the map G_h on the sphere, with γ as the whole state, and the phase u on its curve."""
 
     name = "vertical momentum"
     about = "γ alone, on the sphere: 𝒦 = hγ; its phase on the curve ⟨γ,Λ⁻¹γ⟩ = l"
@@ -271,7 +269,7 @@ class Vertical(Stepwise):
         return None
 
     def unfit(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """Points that stay, and the separatrix, where a phase is asked for."""
+        """Fixed points and the separatrix, if a phase is requested."""
         if not needed & {"phase", "rotation_number"}:
             return None
         for i, name in enumerate(members.names):
@@ -290,7 +288,7 @@ class Vertical(Stepwise):
         return len(members) * (task.steps * 25.0 + task.frames * frame + turns)
 
     def begin(self, members: Members, task: Task, needed: frozenset[str]) -> State:
-        """γ and h; and the rotation number, which is computed once and is in every segment."""
+        """γ and h; and the rotation number, which is computed once and passed to every segment."""
         height = _heights(members)
         state = Model.begin(self, members, task, needed) | {"gamma": members.gamma, "height": height}
         if "rotation_number" in needed:
@@ -306,7 +304,7 @@ class Vertical(Stepwise):
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
     ) -> tuple[Columns, State]:
-        """γ of a segment, and what is made of it."""
+        """γ of a segment, and the quantities derived from it."""
         found, ends = super().advance(members, task, needed | {"gamma"}, state, segment, progress)
         gamma = found["gamma"]
         found["momentum"] = state["height"][:, np.newaxis, np.newaxis] * gamma
@@ -322,19 +320,19 @@ class Vertical(Stepwise):
 
 
 def _heights(members: Members) -> np.ndarray:
-    """h = ⟨𝒦,γ⟩/⟨γ,γ⟩ in kg m², (n,): 𝒦 = hγ where 𝒦 is vertical."""
+    """h = ⟨𝒦,γ⟩/⟨γ,γ⟩ in kg m², (n,): 𝒦 = hγ if 𝒦 is vertical."""
     return np.asarray((members.momentum * members.gamma).sum(axis=-1) / (members.gamma**2).sum(axis=-1))
 
 
 def _turns(members: Members, i: int, height: float) -> float:
-    """The rotation number, NaN for a ball whose orbit ends at a fold: it has none."""
+    """The rotation number, NaN for a ball whose orbit ends at a fold."""
     try:
         return dynamics.rotation_number(one_ball(members, i), height, members.gamma[i])
     except StepNotTaken:
         return float("nan")
 
 
-# Models that have every frame at once, by its step number: no step is taken.
+# Models in closed form: each frame follows from its step number, and no step is taken.
 
 
 class Direct(Model):
@@ -422,13 +420,13 @@ class Top(Direct):
         return None
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
-        """The increment of each ball in hundreds of bits, and the frames; γ of D = 0 needs the precession."""
+        """The increment of each ball in hundreds of bits, and the frames; γ for D = 0 needs the precession."""
         free = not _ball(members).D.any()
         fixed, frame = (2.7e6, 650.0) if _turned(members, needed) else (9e5, 110.0) if free else (1e6, 220.0)
         return len(members) * (fixed + task.frames * frame)
 
     def frames(self, members: Members, task: Task, needed: frozenset[str], index: np.ndarray) -> Found:
-        """`chapsym.top_frames` of the batch; u of each frame and the turns a step, NaN where no step can be taken."""
+        """`chapsym.top_frames` of the batch; u of each frame and the turns per step, NaN if no step can be taken."""
         found: Columns = {}
         n = len(members)
         status = np.zeros(n, dtype=np.int64)
@@ -453,7 +451,7 @@ class Top(Direct):
 
 
 def _turned(members: Members, needed: frozenset[str]) -> bool:
-    """Whether the precession is followed: of the attitude, and of γ for D = 0."""
+    """Whether the precession is computed: for the attitude, and for γ if D = 0."""
     return "attitude" in needed or ("gamma" in needed and not members.ball.D.all())
 
 
@@ -462,11 +460,11 @@ def motion_of(members: Members, i: int) -> TopMotion:
     return top.motion_of(one_ball(members, i), members.momentum[i], members.gamma[i])
 
 
-# Models of the continuous motion, to an accuracy that is verified on the run.
+# Models of the continuous motion, to an accuracy that is verified during the run.
 
 
 class Moving(Model):
-    """`chapsym.accuracy.motion.moved`: in double precision, of all balls of a unit together."""
+    """`chapsym.accuracy.motion.moved`: in double precision, all balls of a unit together."""
 
     name = "motion of the ball"
     about = "the order and the steps that meet the accuracy, chosen for alike balls and verified on the run"
@@ -481,11 +479,11 @@ class Moving(Model):
         return None
 
     def price(self, members: Members, task: Task, needed: frozenset[str]) -> float:
-        """More than a search for one ball, which has higher precisions, too."""
+        """Higher than that of a search for one ball, which also has higher precisions."""
         return 2.0
 
     def seconds(self, members: Members, task: Task, needed: frozenset[str]) -> float:
-        """Nominal, by the steps that the law says."""
+        """Nominal, by the number of steps of the law."""
         return nominal(self._problem(members, task, needed))
 
     def advance(
@@ -520,7 +518,7 @@ class Moving(Model):
 
 
 def accurate_parts(outputs: tuple[str, ...]) -> frozenset[str]:
-    """The parts of the motion that are kept, to which the accuracy applies."""
+    """The kept parts of the motion, to which the accuracy applies."""
     made = {"momentum", "gamma"} if any(name not in PARTS for name in outputs) else set()
     return PARTS & (made | set(outputs))
 
@@ -528,7 +526,7 @@ def accurate_parts(outputs: tuple[str, ...]) -> frozenset[str]:
 class Chosen(Model):
     """`chapsym.accuracy.accurate`: precision, order and step chosen for each ball.
 
-    tell: called with each answer.  progress: with what it is about to do.
+    tell: called with each answer.  progress: called before each attempt.
     """
 
     name = "chosen for the accuracy"
@@ -545,7 +543,7 @@ class Chosen(Model):
         self.tell, self.progress = tell, progress
 
     def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:
-        """Runs of given steps, and batches that are followed together."""
+        """Runs with given steps, and batches that are computed together."""
         if not task.searched:
             return "no accuracy is asked for"
         if not task.chosen:
@@ -559,7 +557,7 @@ class Chosen(Model):
     def advance(
         self, members: Members, task: Task, needed: frozenset[str], state: State, segment: slice, progress: Progress
     ) -> tuple[Columns, State]:
-        """Each ball for itself; the momentum is K = 𝒦/ε."""
+        """Each ball separately; the momentum is K = 𝒦/ε."""
         runs = [self._one(members, i, task, needed) for i in range(len(members))]
         columns = {name: np.stack([run[name] for run, _ in runs]) for name in sorted(runs[0][0])}
         progress(task.steps * len(members))
@@ -571,7 +569,7 @@ class Chosen(Model):
 
     @staticmethod
     def _request(members: Members, i: int, task: Task, needed: frozenset[str]) -> Request:
-        """What is asked for of one ball."""
+        """The request for one ball."""
         given = None if members.attitude is None else members.attitude[i]
         with_body = "attitude" in needed or (given is not None and "contact" in needed)
         body = (True if given is None else given) if with_body else False
@@ -595,7 +593,7 @@ class Chosen(Model):
 
 
 def _halves(name: str, exact: np.ndarray, place: np.ndarray | None, i: int) -> Columns:
-    """Numbers beyond float64 as their nearest floats and what these leave."""
+    """Numbers beyond float64 as their nearest floats and the rests."""
     exact = np.vectorize(Fraction, otypes=[object])(exact)
     if name == "contact" and place is not None:
         exact = exact + np.vectorize(Fraction, otypes=[object])(place[i])
@@ -604,5 +602,5 @@ def _halves(name: str, exact: np.ndarray, place: np.ndarray | None, i: int) -> C
     return {name: high, f"{name}{LOW}": rest.astype(np.float64)}
 
 
-#: Of those that do not refuse, the cheapest is taken; of two of one price the first.
+#: The cheapest model that does not refuse is taken; for equal prices the first.
 MODELS: tuple[Model, ...] = (Chosen(), Moving(), General(), Steady(), Top(), Vertical(), Rolling())

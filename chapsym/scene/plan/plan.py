@@ -1,4 +1,4 @@
-"""The least model that yields what a scene asks for, and how its run is cut into units of work."""
+"""The cheapest model with the outputs of a scene, and the division of its run into units of work."""
 
 from dataclasses import dataclass, replace
 
@@ -17,20 +17,20 @@ from .models import MODELS, Chosen, General, Model, Rolling
 
 #: Balls of one unit of work: enough for the vector lanes and threads of a batch, little enough for its memory.
 CHUNK = 4096
-#: Numbers kept by one unit, 32 MB.
+#: The largest number of values in one unit, 32 MB.
 UNIT_NUMBERS = 2**22
-#: Balls and numbers of a unit whose model, or proof, runs all frames at once: less would be lost, but more verified.
+#: Balls and values of a unit whose model, or proof, runs all frames at once: smaller ones lose less, but verify more.
 WHOLE_BALLS, WHOLE_NUMBERS = 1024, 2**24
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """What will run.
+    """The plan of a run.
 
-    model: the least that serves; needed: the columns that it follows.  refused: why each reduction does not serve.
-    chunks × segments are the units of work: balls × frames.  They are fixed by the scene, not by the machine, so that a
-    run that was interrupted has the same bits as one that was not.
-    scene: its text, or JSON of a dict; title: its own; seed: of its random ranges.  They go with the result.
+    model: the cheapest applicable one; needed: its columns.  refused: why each reduction does not apply.  chunks ×
+    segments are the units of work: balls × frames.  They depend only on the scene, not on the machine, so that an
+    interrupted run has the same bits as another.  scene: its text, or JSON of a dict; title: its own; seed: of its
+    random ranges.  They go with the result.
     """
 
     members: Members
@@ -44,12 +44,12 @@ class Plan:
 
     @property
     def frames(self) -> int:
-        """The number of states that are kept of each ball."""
+        """The number of stored states of each ball."""
         return self.task.frames
 
     @property
     def numbers(self) -> int:
-        """The count of numbers that are kept of one frame of one ball: second halves and bounds of columns, too."""
+        """The number of stored values of one frame of one ball, including low halves and bounds."""
         outputs = [OUTPUTS[name] for name in self.task.outputs]
         widths = {one: one.width(self.members.dimension) for one in outputs if not one.per_ball}
         columns = {one: width for one, width in widths.items() if one.derive is None}
@@ -57,7 +57,7 @@ class Plan:
 
     @property
     def doubled(self) -> bool:
-        """Whether what is followed has second halves; they are kept in principal axes only."""
+        """Whether the columns have low halves, which are kept only in principal axes."""
         return self.task.doubled and self.members.axes is None
 
     @property
@@ -70,7 +70,7 @@ class Plan:
 
     @property
     def segments(self) -> list[slice]:
-        """The frames of each unit; the first holds the start."""
+        """The frames of each unit; the first has the start."""
         if self.model.whole or self.task.precision != "double" or self.task.proved:
             return [slice(0, self.frames)]
         balls = min(CHUNK, len(self.members))
@@ -108,19 +108,19 @@ class Plan:
 
 
 def plan_of(scene: Scene) -> Plan:
-    """The plan of a scene, with its text and title; raises BadInput where no model yields what it asks for."""
+    """The plan of a scene, with its text and title; raises BadInput if no model has its outputs."""
     plan = planned(expand(scene), scene.task())
     drawn = scene.sweep.samples is not None
     return replace(plan, scene=scene.source, title=scene.title, seed=scene.sweep.seed if drawn else None)
 
 
 def plan_from(text: str) -> Plan:
-    """The plan of a scene from its text, `Plan.scene`: TOML, or JSON of a dict; a worker of a cluster is sent that."""
+    """The plan of a scene from its text, `Plan.scene`, TOML or JSON of a dict, as sent to a worker of a cluster."""
     return replace(plan_of(from_source(text)), scene=text)
 
 
 def planned(members: Members, task: Task) -> Plan:
-    """The plan with the least model; raises BadInput where no model yields what is asked for, with the reasons."""
+    """The plan with the cheapest model; raises BadInput, with the reasons, if no model has the outputs."""
     if not task.outputs:
         raise BadInput(f"run.outputs is empty: choose of {', '.join(OUTPUTS)}")
     top = isinstance(members.ball, Ball) and not members.ball.D.any()
@@ -176,12 +176,12 @@ def _check_outputs(members: Members, task: Task) -> None:
         raise BadInput(f"{unknown[0]} is known in three dimensions only")
 
 
-# From what a model follows to what was asked for: derived outputs, in the axes that the user gave.
+# From the columns of a model to the requested outputs: derived outputs, in the axes of the user.
 
 
 @np.errstate(over="ignore", invalid="ignore")  # the square of a momentum may be beyond float64
 def asked_for(members: Members, task: Task, columns: Columns) -> Columns:
-    """The outputs of a task from the columns of a model in principal axes; what was not asked for is left out."""
+    """The requested outputs of a task, from the columns of a model in principal axes."""
     found: Columns = {}
     for name in task.outputs:
         found[name] = columns[name] if OUTPUTS[name].derive is None else _derived(name, members, task, columns)
@@ -190,7 +190,7 @@ def asked_for(members: Members, task: Task, columns: Columns) -> Columns:
 
 
 def _derived(name: str, members: Members, task: Task, columns: Columns) -> np.ndarray:
-    """A derived output; frames that a ball did not reach are NaN, on which no kernel is run."""
+    """A derived output; frames that a ball did not reach are NaN, and not given to a kernel."""
     columns = {key: columns[key] for key in columns_for((name,), top=False) if key in columns}
     some = next(iter(columns.values()))
     missing = np.isnan(some).reshape(*some.shape[:2], -1).any(axis=-1)
@@ -204,9 +204,9 @@ def _derived(name: str, members: Members, task: Task, columns: Columns) -> np.nd
 
 
 def _value(name: str, members: Members, task: Task, columns: Columns) -> Floats:
-    """A column, K, or what is derived of these; what enters with D alone may not be there, and be anything."""
+    """A column, K, or an output derived from these; one that enters only with D may be missing, then arbitrary."""
     if name == K:
-        return columns["momentum"] / (task.scale if task.accuracy is None else 1.0)  # of the motion K itself is kept
+        return columns["momentum"] / (task.scale if task.accuracy is None else 1.0)  # for the motion, K itself is kept
     one = OUTPUTS[name]
     if one.derive is None:
         return columns[name]
@@ -224,7 +224,7 @@ def _vertical(members: Members) -> Floats:
 
 
 def in_given_axes(members: Members, columns: Columns) -> Columns:
-    """Vectors and attitudes in the axes that the user gave, from those in principal axes."""
+    """Vectors and attitudes, converted from principal axes to the axes of the user."""
     if members.axes is None:
         return columns
     axes = members.axes[:, np.newaxis]
@@ -235,7 +235,7 @@ def in_given_axes(members: Members, columns: Columns) -> Columns:
     }
 
 
-# A plan for a reader: the model and why, what it keeps, what that costs, and what following everything would cost.
+# A plan for a reader: the model and its reason, the outputs, their cost, and the cost of the full model.
 
 _UNITS = ("B", "kB", "MB", "GB", "TB")
 
@@ -260,7 +260,7 @@ def explained(plan: Plan) -> list[tuple[str, str]]:
 
 
 def full(plan: Plan) -> Plan:
-    """The plan of the same frames with the model that follows everything: every output that it can give."""
+    """The plan of the same frames with the full model and all its outputs."""
     model = Rolling() if isinstance(plan.members.ball, Ball) else General()
     n, radius = plan.members.dimension, plan.members.ball.radius
     outputs = tuple(
@@ -281,7 +281,7 @@ def predicted(plan: Plan) -> float:
 
 
 def _beside(plan: Plan) -> str:
-    """The cost of the model that follows everything, where it follows the outputs asked for."""
+    """The cost of the full model, if it has the requested outputs."""
     whole = full(plan)
     unknown = sorted(plan.needed - whole.model.columns)
     if unknown:

@@ -1,1 +1,1 @@
-"""A scene file is read: tables, ranges, units, and what is wrong with them."""
+"""Reading of scene files: tables, ranges, units, and their errors."""

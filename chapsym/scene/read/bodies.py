@@ -1,7 +1,7 @@
 """The mass tensors ∫xxᵀdm of bodies, and the principal axes of a tensor.
 
-A body is a batch: masses and lengths are arrays (...), vectors (..., 3), and its tensor is (..., 3) where it is
-diagonal in the axes that the user gave, else (..., 3, 3).  Every centre of mass is the centre of the ball.
+A body is a batch: masses and lengths are arrays (...), vectors (..., 3), and its tensor is (..., 3) if it is diagonal
+in the axes of the user, else (..., 3, 3).  Every centre of mass is the centre of the ball.
 """
 
 from collections.abc import Callable
@@ -12,9 +12,9 @@ import numpy as np
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.ball import Floats, last_digit
 
-#: How far mass may seem to be outside of the ball by rounding: that of a shell is at its radius.
+#: The tolerance for mass outside of the ball by rounding, as that of a shell is at the radius.
 ROUNDING = 1e-12
-#: The least part of the moments of a homogeneous ball that is believed: they would be of a fiftieth of the radius.
+#: The least accepted moments, relative to a homogeneous ball: smaller ones mean mass within a fiftieth of the radius.
 LEAST = 1e-3
 
 
@@ -37,7 +37,7 @@ def shell(mass: Floats, radius: Floats, thickness: Floats | int = 0) -> Floats:
 def dumbbell(
     mass: Floats, radius: Floats, point_mass: Floats, separation: Floats, thickness: Floats | int = 0
 ) -> Floats:
-    """A shell, and two equal point masses on the third axis, at ± separation/2; the shell has what is left of the mass.
+    """A shell, and two equal point masses on the third axis, at ± separation/2; the shell has the rest of the mass.
 
     The points add 2 point_mass (separation/2)² along the third axis.
     """
@@ -53,10 +53,10 @@ def dumbbell(
 def bowling(mass: Floats, radius: Floats, block_mass: Floats, block_size: Floats, block_offset: Floats) -> Floats:
     """A homogeneous ball; in it a cuboid block with its middle at block_offset, and a counterweight.
 
-    Assumed: block_mass is what the block has beyond the core that it displaces; its edges block_size are along the
-    axes.  The counterweight is a point on the surface, opposite to the block, of the mass block_mass |offset|/ρ, which
-    brings the centre of mass to the centre.  The rest of the mass is the homogeneous ball.
-    ∫xxᵀdm = m₀ρ²/5 + block_mass (diag(size²)/12 + oo ᵀ) + block_mass |o| ρ ôôᵀ for the offset o = |o| ô.
+    block_mass is the mass of the block beyond that of the displaced core; its edges block_size are along the axes.  The
+    counterweight is a point on the surface, opposite to the block, of the mass block_mass |offset|/ρ, which brings the
+    centre of mass to the centre.  The rest of the mass is the homogeneous ball.  ∫xxᵀdm = m₀ρ²/5 + block_mass
+    (diag(size²)/12 + oo ᵀ) + block_mass |o| ρ ôôᵀ for the offset o = |o| ô.
     """
     distance = np.sqrt((block_offset * block_offset).sum(axis=-1))
     core = mass - block_mass - block_mass * distance / radius
@@ -72,12 +72,12 @@ def bowling(mass: Floats, radius: Floats, block_mass: Floats, block_size: Floats
     return points + even[..., np.newaxis] * np.eye(3)
 
 
-#: The ∫xxᵀdm of bodies from their mass, their radius and other keys, of which some may be left out.
+#: The ∫xxᵀdm of bodies from mass, radius and other keys, some of them optional.
 PRESETS: dict[str, Callable[..., Floats]] = {one.__name__: one for one in (homogeneous, shell, dumbbell, bowling)}
 
 
 def keys_of(preset: str, required: bool = False) -> tuple[str, ...]:
-    """The keys of a preset other than mass and radius, all or those that it cannot do without."""
+    """The keys of a preset other than mass and radius, all or only the required ones."""
     _, _, *own = signature(PRESETS[preset]).parameters.values()
     return tuple(one.name for one in own if not required or one.default is one.empty)
 
@@ -96,13 +96,13 @@ def _check(holds: np.ndarray | np.bool_, sentence: str) -> None:
 
 
 def size_rounded_by(mass: object, radius: object) -> float:
-    """The part of mass radius² that rounding both to their digits may make: ½ δm/m + δρ/ρ; 0 for whole numbers."""
+    """The relative rounding of mass radius² by the digits of both, ½ δm/m + δρ/ρ; 0 for integers."""
     parts = [(last_digit(x) / x if isinstance(x, float) and 0 < x != round(x) else 0.0) for x in (mass, radius)]
     return min(parts[0] / 2 + parts[1], 0.01)
 
 
 def unbalanced(what: str, offset: float | None, radius: float | None) -> str:
-    """Why a centre of mass off the centre is refused: what the model would leave out, by the weight alone, m g a."""
+    """Why a centre of mass off the centre is refused: the model would omit at least the torque m g a of the weight."""
     cost = "" if not (offset and radius) else f", by up to g offset/radius = {9.81 * offset / radius:.2g} m/s²"
     size = "not 0" if offset is None else f"{1e3 * offset:.3g} mm off the centre of the ball"
     return (
@@ -112,9 +112,10 @@ def unbalanced(what: str, offset: float | None, radius: float | None) -> str:
 
 
 def check_inside(mass_tensor: Floats, mass: Floats, radius: Floats, rounded: float = 0.0) -> None:
-    """Raises BadInput if mass is outside of the ball, or all of it next to the centre: ∫r²dm = tr J and m ρ² say so.
+    """Raises BadInput if mass is outside of the ball, or all of it near the centre, by ∫r²dm = tr J and m ρ².
 
-    Of a homogeneous ball in n dimensions tr J is n/(n+2) m ρ².  rounded: what tr J may be more by the digits of all.
+    For a homogeneous ball in n dimensions tr J is n/(n+2) m ρ².  rounded: the excess of tr J that the digits of all
+    allow.
     """
     trace, most, m, rho = np.broadcast_arrays(mass_tensor.sum(axis=-1), mass * radius**2, mass, radius)
     n = mass_tensor.shape[-1]

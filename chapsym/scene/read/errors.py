@@ -1,4 +1,4 @@
-"""The errors of a scene, in sentences: the file, the line, the key, and what would be right."""
+"""The errors of a scene as sentences: the file, the line, the key, and what would be right."""
 
 import re
 import tomllib
@@ -21,27 +21,27 @@ Keys = Mapping[str, Iterable[str]]
 
 #: The tags of lists and matrices are no keys: errors leave them out.
 LIST, MATRIX = "(list)", "(matrix)"
-#: More problems of one file are not listed.
+#: The largest number of listed problems of one file.
 MOST_PROBLEMS = 5
 
-#: Longer files, and statements that could end on more lines than this, get their errors without a line.
+#: The largest length of a file, and of candidate last lines of a statement, for errors with a line.
 MOST_LINES, MOST_ENDS = 5_000, 300
-#: What the last line of a statement has; or it is blank, or a comment.
+#: A line that may end a statement; other such lines are blank, or comments.
 _END = re.compile(r"[]}=]|\"\"\"|'''|^\s*(#|$)")
 
 Path = tuple[str | int, ...]
 
 
 class SceneError(BadInput):
-    """The scene cannot be run as it is written; misfit: what does not fit, where that is one key of one ball."""
+    """The scene cannot be run as written; misfit: what does not fit, for a single key of a single ball."""
 
     misfit: "Misfit | None" = None
 
 
 class Misfit(BadInput):
-    """What does not fit, a whole sentence, and the keys to its place in the table that is checked, or the scene.
+    """An error as a whole sentence, and the keys to its place in the checked table, or in the scene.
 
-    Of a ball that cannot be these are its table, "ball" or "start", and the name of the key.
+    For an impossible ball these are its table, "ball" or "start", and the name of the key.
     """
 
     def __init__(self, sentence: str, *path: str | int) -> None:
@@ -51,7 +51,7 @@ class Misfit(BadInput):
 
 @contextmanager
 def said_by(table: str, key: str) -> Iterator[None]:
-    """Errors raised inside are those of this key."""
+    """A context that assigns its errors to this key."""
     try:
         yield
     except Misfit:
@@ -85,7 +85,7 @@ def described(errors: Sequence["ErrorDetails"], name: str, text: str | None, dat
 
 
 def _inside(whole: "ErrorDetails", errors: Sequence["ErrorDetails"]) -> bool:
-    """Whether parts of a list are wrong: pydantic leaves them out, and then finds the list too short."""
+    """Whether parts of a list are wrong: pydantic drops them, and then finds the list too short."""
     length = len(whole["loc"])
     return any(len(error["loc"]) > length and error["loc"][:length] == whole["loc"] for error in errors)
 
@@ -138,7 +138,7 @@ def _sentence(error: "ErrorDetails", keys: Keys) -> str:
 
 
 def _unknown(path: Path, keys: Keys) -> str:
-    """The hint for an unknown key: the similar key that was meant, or the table that has this key."""
+    """The hint for an unknown key: a similar key, or the table that has this key."""
     wrong, table = str(path[-1]), _key(path[:-1])
     kind = next((str(part) for part in reversed(path[:-1]) if isinstance(part, str)), "")
     near = get_close_matches(wrong, list(keys[kind]), 1, 0.6)
@@ -152,7 +152,7 @@ def _unknown(path: Path, keys: Keys) -> str:
     return f"{_key(path)} is not a key of {f'[{table}]' if table else 'a scene'}{meant}"
 
 
-# On which line a key stands: TOML's own parser says, given the first lines of a text.
+# The line of a key, found by parsing the first lines of a text.
 
 
 def line_of(text: str, path: Sequence[str | int]) -> int | None:
@@ -174,7 +174,7 @@ def line_of(text: str, path: Sequence[str | int]) -> int | None:
 
 
 def _said(lines: Sequence[str]) -> Data | None:
-    """The text as data; None if it is not TOML, such as a statement that is cut."""
+    """The text as data; None if it is not TOML, such as an incomplete statement."""
     try:
         return tomllib.loads("\n".join(lines))
     except (ValueError, RecursionError):
@@ -182,7 +182,7 @@ def _said(lines: Sequence[str]) -> Data | None:
 
 
 def _has(data: Any, path: Sequence[str | int]) -> bool:
-    """Whether the data have something at a path of keys and, in arrays, indices."""
+    """Whether the data have an entry at a path of keys and, in arrays, indices."""
     for part in path:
         in_table = isinstance(data, dict) and part in data
         in_list = isinstance(data, list) and isinstance(part, int) and part < len(data)

@@ -1,4 +1,4 @@
-"""Ranges: they replace numbers in a scene, and make a sweep."""
+"""Ranges, which replace numbers in a scene and define a sweep."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from chapsym.dynamics.ball import Floats
 
 from .units import Dimension, number
 
-#: More balls than this are refused before anything is made.
+#: The largest number of balls, checked before any is made.
 MOST_BALLS = 10_000_000
 
 
@@ -38,11 +38,11 @@ class Range:
         if self.kind == "grid":
             return np.array(self.values)
         first, last = self.values
-        with np.errstate(over="ignore", invalid="ignore"):  # what has no finite value is refused by its name
+        with np.errstate(over="ignore", invalid="ignore"):  # values that are not finite are refused by name
             return np.linspace(first, last, self.count)
 
     def draw(self, count: int, generator: np.random.Generator) -> Floats:
-        """`count` values of a range that is drawn; sums and products only, so that machines agree."""
+        """`count` random values of a range, by sums and products only, so that machines agree."""
         first, second = self.values
         if self.kind == "random":
             return first + (second - first) * generator.random(count)
@@ -53,7 +53,7 @@ Value = float | Range
 
 
 def value(given: object, dimension: Dimension) -> Value:
-    """A number, a text with a unit, or a table that is a range; raises ValueError with what would be right."""
+    """A number, a string with a unit, or a range as a table; raises ValueError with what would be right."""
     if not isinstance(given, dict):
         return number(given, dimension)
     if len(given) != 1 or (kind := next(iter(given))) not in get_args(Kind):
@@ -69,7 +69,7 @@ def value(given: object, dimension: Dimension) -> Value:
 
 
 def _range(kind: Kind, given: Sequence[object], read: Callable[[object], float]) -> Range:
-    """The range of a list of numbers; raises ValueError with what the kind takes."""
+    """The range of a list of numbers; raises ValueError with the arguments of the kind."""
     if kind == "linspace":
         if len(given) != 3 or isinstance(given[2], bool) or not isinstance(given[2], int) or given[2] < 1:
             clause = "the first value, the last, and how many (a whole number from 1 on)"
@@ -118,7 +118,7 @@ class Sweep:
     stream: str
 
     def __post_init__(self) -> None:
-        if (balls := prod(self.shape)) > MOST_BALLS:  # which may be more than len gives
+        if (balls := prod(self.shape)) > MOST_BALLS:  # may be more than `len` can return
             raise ValueError(
                 f"the ranges make {float(min(balls, 10**300)):.10g} balls; a sweep has {MOST_BALLS} at most"
             )

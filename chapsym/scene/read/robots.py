@@ -1,4 +1,4 @@
-"""The ball of a robot's file, URDF, SDF or MJCF, as the table of a scene: its numbers stay the texts that stand there.
+"""The ball of a robot file, URDF, SDF or MJCF, as the table of a scene, with its numbers as the strings of the file.
 
 In all three formats ixy, ixz, iyz are entries of the tensor of inertia: -∫xy dm, ....
 """
@@ -25,43 +25,43 @@ from .errors import Data, SceneError
 _log = logging.getLogger("chapsym")
 
 SUFFIXES = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
-#: A longer file has no ball that anybody wrote.
+#: The largest length of a file.
 MOST_BYTES = 10_000_000
-#: An offset below this part of the radius is a rounding by the file's author.
+#: The largest offset, relative to the radius, that counts as a rounding in the file.
 NO_OFFSET = Fraction(1, 10**9)
-#: The largest number that is read, whose square float64 has.
+#: The largest accepted number, whose square is within float64.
 MOST = 10**150
-#: Elements in each other at most.
+#: The largest depth of nested elements.
 DEEPEST = 100
-#: Digits of what is turned by angles.
+#: The digits of tensors and vectors that are rotated by angles.
 DIGITS = 40
-#: What <compiler> of MJCF says where it changes no number.
+#: The values of <compiler> of MJCF that change no number.
 PLAIN = {
     "settotalmass": "-1", "boundmass": "0", "boundinertia": "0", "balanceinertia": "false", "coordinate": "local",
     "inertiagrouprange": "0 5",
 }  # fmt: skip
-#: kg/m³ of a geom of MJCF that says neither mass nor density.
+#: The default density of a geom of MJCF in kg/m³.
 DENSITY = "1000"
-#: What a <body> of MJCF has that is more than a frame for those in it.
+#: The children that make a <body> of MJCF more than a frame for its bodies.
 MATTER = ("geom", "inertial", "joint", "freejoint")
-#: Where planes may be in MJCF and SDF, which turn with it.
+#: The elements of MJCF and SDF with planes, which rotate with them.
 AROUND = ("worldbody", "body", "frame", "world", "model", "link")
-#: What a joint of MJCF that leaves the ball free may do to it.
+#: The effects of a free joint of MJCF on the ball.
 OF_JOINTS = ("damping", "frictionloss", "stiffness")
-#: What else acts on the ball does not make it another.
+#: Other actions on the ball, which do not change the ball itself.
 LEFT_OUT = "which is left out: a ball of chapsym rolls on a level plane under gravity alone"
-#: A plane that is turned by less is level: a right angle to 7 digits.
+#: The largest tilt of a level plane: a right angle to 7 digits.
 LEVEL = Fraction(1, 10**6)
-#: What may have more shapes in it.
+#: The elements that may contain more shapes.
 UNREAD = ("frame", "replicate", "composite", "flexcomp", "attach")
-#: The elements that may say a key of a table, the first of them that is there.
+#: The elements that may have a key of a table; the first existing one is used.
 SAID_BY = {
     "inertia": ("inertial/inertia", "inertial"), "mass": ("inertial/mass", "inertial", "geom"),
     "radius": ("sphere", "geom"), "preset": ("geom",),
 }  # fmt: skip
 ENTRIES = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 Vector = tuple[Fraction, ...]
-#: A place, and the quaternion of a turn, of any length, scalar first.
+#: A position, and the quaternion of a rotation, of any length, scalar first.
 Pose = tuple[Vector, Vector]
 NO_TURN = tuple(map(Fraction, (1, 0, 0, 0)))
 UP = tuple(map(Fraction, (0, 0, 1)))
@@ -70,8 +70,8 @@ UP = tuple(map(Fraction, (0, 0, 1)))
 def table(path: Path) -> Data:
     """[ball] of a scene: name, inertia (rows) or a preset, mass and radius, as texts.
 
-    Raises SceneError, with the line, where the file has no ball, or several; where its centre of mass is not that of
-    the sphere; and where a number is missing.
+    Raises SceneError, with the line, if the file has no ball, or several; if its centre of mass is not the centre of
+    the sphere; and if a number is missing.
     """
     reader = _Reader(path)
     try:
@@ -82,7 +82,7 @@ def table(path: Path) -> Data:
 
 
 def place(path: Path, key: str) -> str:
-    """The file, the line and the element that says this key of `table`, where that can be made."""
+    """The file, the line and the element of this key of `table`, if the table can be made."""
     reader = _Reader(path)
     body, _ = reader.ball()
     where = next(one for tag in SAID_BY[key] if (one := body.find(f".//{tag}")) is not None)
@@ -136,7 +136,7 @@ class _Reader:
         return builder.close()
 
     def ball(self) -> tuple[Element, tuple[str, Vector]]:
-        """The one body that has a sphere, the radius and the centre of this."""
+        """The only body with a sphere, and the radius and the centre of the sphere."""
         if self.kind == "mjcf":
             self._take_defaults()
         tag = "body" if self.kind == "mjcf" else "link"
@@ -178,12 +178,12 @@ class _Reader:
         return name | {"inertia": self._tensor(inertial, turn), "mass": mass, "radius": radius}
 
     def check_filled_in(self) -> None:
-        """Raises SceneError where xacro has not yet made the file that is meant."""
+        """Raises SceneError for a xacro file that is not expanded."""
         if (macro := next((one for one in self.root.iter() if one.tag.startswith("xacro:")), None)) is not None:
             raise self._refused(macro, f"<{macro.tag}> is to be filled in: give the file that xacro makes of it")
 
     def _take_defaults(self) -> None:
-        """Writes into geoms and joints of MJCF what the <default> of their class says, or of the class around them."""
+        """Copies the <default> of their class, or of the enclosing class, to geoms and joints of MJCF."""
         if (other := next(self.root.iter("include"), None)) is not None:
             raise self._refused(other, "<include> is not read: put what that file says about the ball into this one")
         Said = dict[str, dict[str, str]]  # by the tag
@@ -213,7 +213,7 @@ class _Reader:
             fill_in(world, "main")
 
     def _check_alone(self, body: Element, radius: str, centre: Vector) -> None:
-        """Raises SceneError where the ball touches the plane with other shapes, too: not with spheres inside of it."""
+        """Raises SceneError if the ball also touches the plane with other shapes, except spheres inside of it."""
         for tag in UNREAD:
             if (hidden := body.find(tag)) is not None:
                 raise self._refused(hidden, f"<{tag}> is not read: put what it says about the ball into its <body>")
@@ -229,11 +229,11 @@ class _Reader:
             raise self._refused(shape, f"<{shape.tag}>: {clause}: take it out, if it touches nothing")
 
     def _touches(self, geom: Element) -> bool:
-        """Whether a geom of MJCF is there for contacts, or to be seen only."""
+        """Whether a geom of MJCF takes part in contacts, or is only visual."""
         return any(geom.get(name, "1") != "0" for name in ("contype", "conaffinity"))
 
     def _check_free(self, body: Element) -> None:
-        """Raises SceneError where a joint, or another body, holds the ball: a link without mass does not."""
+        """Raises SceneError if a joint, or another body, holds the ball, except a link without mass."""
         if self.kind == "mjcf":
             held = [one for one in self.root.iter("body") if body in list(one) and any(map(one.findall, MATTER))]
             held += body.findall("body")
@@ -256,9 +256,9 @@ class _Reader:
                 raise self._refused(joint, f"{what} holds the ball, and that of chapsym rolls alone")
 
     def _left_out(self, body: Element) -> Iterator[tuple[Element, str]]:
-        """What acts on the ball beyond a level plane and gravity, and where.
+        """The actions on the ball besides a level plane and gravity, with their lines.
 
-        How large gravity is does not matter to a ball whose centre of mass is its centre.
+        The size of gravity has no effect on a ball whose centre of mass is its centre.
         """
         numbers, gravity, where = (self._acts_in_mjcf if self.kind == "mjcf" else self._acts_in_sdf)(body)
         for one, name, text in numbers:
@@ -274,17 +274,17 @@ class _Reader:
             yield plane, f"this plane is tilted by {tilt:.3g} degrees"
 
     def _acts_in_mjcf(self, body: Element) -> tuple[list[tuple[Element, str, str]], str, Element]:
-        """Numbers that act on the ball unless they are 0, gravity, and where this is said."""
+        """Numbers that act on the ball unless they are 0, gravity, and its element."""
         numbers = [(one, name, one.get(name, "0")) for one, name in product(body.findall("joint"), OF_JOINTS)]
         numbers.append((body, "gravcomp", body.get("gravcomp", "0")))
-        for name in ("density", "viscosity"):  # of a fluid, without which wind does nothing
+        for name in ("density", "viscosity"):  # of a fluid, without which wind has no effect
             text, where = self._said("option", name, "0")
             numbers.append((where, name, text))
         switch, where = self._said("flag", "gravity", "enable")
         return numbers, *(("0 0 0", where) if switch == "disable" else self._said("option", "gravity", "0 0 -1"))
 
     def _acts_in_sdf(self, body: Element) -> tuple[list[tuple[Element, str, str]], str, Element]:
-        """Numbers that act on the ball unless they are 0, gravity, and where this is said; a URDF says neither."""
+        """Numbers that act on the ball unless they are 0, gravity, and its element; a URDF has neither."""
         acts = [(one, "velocity_decay") for one in body.iterfind("velocity_decay/*")]
         models = [one for one in self.root.iter("model") if body in list(one)]
         if any(one.findtext("enable_wind", "").strip() in ("true", "1") for one in (body, *models)):
@@ -296,7 +296,7 @@ class _Reader:
         return numbers, *((found[-1].text or "", found[-1]) if found else ("0 0 -1", self.root))
 
     def _planes(self, around: Element) -> Iterator[tuple[Element, Vector]]:
-        """The planes to roll on, and their normals in the axes of what is around them."""
+        """The planes to roll on, and their normals in the axes of the enclosing element."""
         for child in around:
             found = list(self._planes(child)) if child.tag in AROUND else []
             if child.tag == "geom" and child.get("type") == "plane" and self._touches(child):
@@ -310,13 +310,13 @@ class _Reader:
             elif child.tag == "collision" and (plane := child.find("geometry/plane")) is not None:
                 found = [(child, self._numbers(plane.findtext("normal", "0 0 1"), plane, 3))]
             if found and any(pose.get("relative_to") for pose in child.findall("pose")):
-                yield from found  # taken to be as it is in the axes around, which are not read
+                yield from found  # assumed in the enclosing axes, which are not read
             elif found:
                 rotation = np.array(generated.rotation(*self._pose(child, child)[1]), dtype=object).reshape(3, 3)
                 yield from ((plane, tuple(rotation @ normal)) for plane, normal in found)
 
     def _of_one_material(self, body: Element) -> Data:
-        """MJCF makes mass and inertia of a geom alone; the other formats have none without <inertial>."""
+        """The mass and inertia of a body of MJCF without <inertial>, from its geom; other formats need <inertial>."""
         geoms = [one for one in body.findall("geom") if self._number(one.get("mass", "1"), one)]
         if len(geoms) != 1:
             clause = f"has {len(geoms)} geoms and " if geoms else "has "
@@ -327,7 +327,7 @@ class _Reader:
         return {"preset": "shell" if hollow else "homogeneous", "mass": mass}
 
     def _of_density(self, geom: Element, hollow: bool) -> str:
-        """The mass of a sphere, in many digits; the density of a hollow one is that of its surface."""
+        """The mass of a sphere, to many digits; the density of a hollow sphere is per surface area."""
         import mpmath
 
         density = self._number(geom.get("density", DENSITY), geom)
@@ -337,7 +337,7 @@ class _Reader:
             return str(mpmath.nstr(mpmath.pi * size.numerator / size.denominator, DIGITS))
 
     def _sphere(self, body: Element) -> tuple[str, Vector] | None:
-        """The radius of the sphere on which it rolls, and its centre: of shapes to touch with, before those to see."""
+        """The radius and the centre of the sphere on which it rolls: collision shapes before visual ones."""
         geoms = sorted(body.findall("geom"), key=self._touches, reverse=True)
         shapes = geoms if self.kind == "mjcf" else [*body.findall("collision"), *body.findall("visual")]
         return next((found for shape in shapes if (found := self._sphere_of(shape, body)) is not None), None)
@@ -352,7 +352,7 @@ class _Reader:
         return (radius, self._pose(shape, body)[0]) if radius else None
 
     def _only(self, parent: Element, tag: str) -> Element | None:
-        """The child with a tag, if there is one: of two, readers take the first, the last, or both."""
+        """The child with a tag, if any; two are refused, since readers take the first, the last, or both."""
         found = parent.findall(tag)
         if len(found) > 1:
             clause = f"<{parent.tag}> has two <{tag}>, the first on line {self.lines[found[0]]}: take one out"
@@ -360,7 +360,7 @@ class _Reader:
         return found[0] if found else None
 
     def _value(self, parent: Element, name: str, attribute: str | None = None) -> str:
-        """A number of an element: the text of a child, an attribute, or that of a child."""
+        """A number of an element: the text of a child, or an attribute of the element or of a child."""
         child = self._only(parent, name)
         found = parent.get(name)
         if child is not None:
@@ -388,7 +388,7 @@ class _Reader:
         return tuple(self._number(part, where) for part in parts)
 
     def _pose(self, parent: Element, body: Element) -> Pose:
-        """Where an element of a body says that it is, in the body."""
+        """The pose of an element of a body, in the body."""
         if self.kind == "mjcf":
             return self._numbers(parent.get("pos", "0 0 0"), parent, 3), self._turn_of_mjcf(parent)
         where = self._only(parent, "origin" if self.kind == "urdf" else "pose")
@@ -414,13 +414,13 @@ class _Reader:
         return numbers[:3], _turned(numbers[3:], degrees=in_degrees)
 
     def _one_of(self, where: Element, name: str, known: tuple[str, ...]) -> str:
-        """An attribute that has one of some values, by default the first."""
+        """An attribute with one of several values, by default the first."""
         if (found := where.get(name, known[0])) not in known:
             raise self._refused(where, f"<{where.tag}>: {name} must be {' or '.join(known[:2])}, not {found!r}")
         return found
 
     def _turn_of_mjcf(self, where: Element) -> Vector:
-        """quat, euler or axisangle, as <compiler> says that angles are meant."""
+        """The rotation by quat, euler or axisangle, with the angles of <compiler>."""
         given = [name for name in ("quat", "euler", "axisangle", "xyaxes", "zaxis") if name in where.attrib]
         if len(given) > 1:
             raise self._refused(where, f"<{where.tag}> is turned twice: by {given[0]} and {given[1]}")
@@ -445,12 +445,12 @@ class _Reader:
         return self._said("compiler", name, default)
 
     def _said(self, tag: str, name: str, default: str) -> tuple[str, Element]:
-        """The value that the last element of a tag with an attribute gives it for the whole file, and where."""
+        """The value of an attribute in the last element with this tag and attribute, for the whole file, and where."""
         clause = [one for one in self.root.iter(tag) if name in one.attrib]
         return (clause[-1].attrib[name], clause[-1]) if clause else (default, self.root)
 
     def _check_masses(self) -> None:
-        """Raises SceneError where <compiler> makes masses of MJCF, or places, others than those that are written."""
+        """Raises SceneError if <compiler> of MJCF changes masses or positions."""
         for name, plain in PLAIN.items():
             value, where = self._compiler(name, plain)
             if value != plain:
@@ -460,7 +460,7 @@ class _Reader:
                 raise self._refused(where, f"<compiler>: {clause}")
 
     def _tensor(self, inertial: Element, turn: Vector) -> list[list[str]]:
-        """The rows in the axes of the body: R I Rᵀ of the one in the axes of <inertial>."""
+        """The rows of the tensor in the axes of the body: R I Rᵀ for I in the axes of <inertial>."""
         if self.kind == "mjcf":
             texts = self._of_mjcf(inertial)
         else:
@@ -494,12 +494,12 @@ class _Reader:
 
 
 def _along(x: Fraction, y: Fraction, z: Fraction) -> bool:
-    """Whether a vector is upright, up to the rounding of angles."""
+    """Whether a vector is vertical, up to the rounding of angles."""
     return z > 0 and max(abs(x), abs(y)) <= LEVEL * z
 
 
 def _text(x: Fraction) -> str:
-    """Exactly, where that is short; else many digits."""
+    """The exact number if that is short, else many digits."""
     import mpmath
 
     short = str(x)
@@ -510,7 +510,7 @@ def _text(x: Fraction) -> str:
 
 
 def _turned(angles: Vector, sequence: str = "XYZ", degrees: bool = False) -> Vector:
-    """Turns about axes one after the other: fixed ones X, Y, Z, or x, y, z of the body, which turn with it.
+    """Successive rotations about axes: fixed ones X, Y, Z, or x, y, z of the body, which rotate with it.
 
     Roll, pitch, yaw are about X, Y, Z: Rz(yaw) Ry(pitch) Rx(roll).
     """
@@ -522,7 +522,7 @@ def _turned(angles: Vector, sequence: str = "XYZ", degrees: bool = False) -> Vec
 
 
 def _about_axis(axis: Sequence[Fraction], angle: Fraction, degrees: bool) -> Vector:
-    """A turn about an axis of any length, in many digits."""
+    """A rotation about an axis of any length, to many digits."""
     if not angle:
         return NO_TURN
     import mpmath

@@ -1,4 +1,4 @@
-"""Scene files in TOML: the balls, how they start, how long they roll, and what is kept of it."""
+"""Scene files in TOML: the balls, their starts, the duration, and the outputs."""
 
 import json
 import re
@@ -21,11 +21,11 @@ from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Tab
 from .task import Task
 from .units import TIME, number
 
-#: A longer text is no scene that anybody wrote.
+#: The largest length of a text.
 MOST_BYTES = 10_000_000
-#: Of one key: tomllib takes time that grows with the square.
+#: The largest length of a key: the time of tomllib grows with its square.
 MOST_DOTS = 2000
-#: Of a run of a robot's file.
+#: The defaults of a run of a robot file.
 FRAMES_OF_ROBOT = 1000
 
 
@@ -40,7 +40,7 @@ Balls = Annotated[
 
 
 class Scene(Table):
-    """A whole scene, checked as it is written; `expand` makes the balls of it, `task` what is asked for."""
+    """A whole scene, checked as written; `expand` makes its balls, `task` its requested outputs."""
 
     title: Line | None = Field(None, description="One line.")
     description: str | None = Field(None, description="As long as you like.")
@@ -55,12 +55,12 @@ class Scene(Table):
 
     @property
     def name(self) -> str:
-        """The file from which it comes, or an empty text."""
+        """Its file, or an empty string."""
         return self._name
 
     @property
     def toml(self) -> str | None:
-        """The text of its file, if it comes from one as it is."""
+        """The text of its file, if it is unchanged."""
         return self._toml
 
     @property
@@ -94,7 +94,7 @@ class Scene(Table):
         return run.of_the_map() is not None or of_one_step or n > 3
 
     def with_run(self, **changed: Any) -> Self:
-        """The same scene with other values under [run], checked as if they stood there; None takes one away."""
+        """The same scene with other values under [run], checked like those of a file; None removes a value."""
         data = deepcopy(self._data)
         data["run"] = {key: value for key, value in (data["run"] | changed).items() if value is not None}
         return checked(data, self._name)  # type: ignore[return-value]
@@ -116,7 +116,7 @@ class Scene(Table):
         return self
 
     def _check_ball(self, i: int, ball: BallTable) -> bool:
-        """Raises where its keys do not fit together; returns whether any of its ranges is drawn."""
+        """Raises if its keys are inconsistent; returns whether any of its ranges is random."""
         start, run = ball.start or self.start, self.run
         assert start is not None
         path: tuple[str | int, ...] = ("ball", i, "start") if ball.start else ("start",)
@@ -142,8 +142,8 @@ class Scene(Table):
 def load(path: Path, omega: list[str] | None = None, time: str | None = None) -> Scene:
     """Reads a scene file; raises SceneError with the file, the line, the key and what would be right.
 
-    omega, time: how the ball of a robot's file starts, in rad/s and with its axes along those of space, and for how
-    many seconds it rolls, as they are written.
+    omega, time: for a robot file, the start in rad/s, with its axes along those of space, and the duration in seconds,
+    as written.
     """
     if path.suffix in robots.SUFFIXES:
         ball = robots.table(path)
@@ -161,9 +161,9 @@ def load(path: Path, omega: list[str] | None = None, time: str | None = None) ->
 
 
 def ball_table(path: Path) -> Data:
-    """[ball] of a scene file, or of a robot's (URDF, SDF, MJCF), its numbers as they are written.
+    """[ball] of a scene file, or of a robot file (URDF, SDF, MJCF), with its numbers as written.
 
-    A scene needs neither start nor run for it.
+    The scene file needs neither start nor run.
     """
     if path.suffix != ".toml":
         return robots.table(path)
@@ -176,7 +176,7 @@ def ball_table(path: Path) -> Data:
 
 
 def ball_place(path: Path, key: str) -> str:
-    """The file of a ball, the line and what is there that says this key of `ball_table`."""
+    """The file of a ball, and the line and the entry of this key of `ball_table`."""
     if path.suffix != ".toml":
         return robots.place(path, key)
     text = _text(path)
@@ -185,13 +185,13 @@ def ball_place(path: Path, key: str) -> str:
 
 
 def written(name: str, table: Data) -> str:
-    """A table in TOML, of texts, whole numbers and lists of them."""
+    """A table in TOML, of strings, integers and lists of these."""
     rows = (f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in table.items())
     return "\n".join([f"[{name}]", *rows, ""])
 
 
 def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:
-    """The scene of a file, but to an accuracy after `time` seconds; without, its own time, or its steps' time."""
+    """The scene of a file, to an accuracy after `time` seconds; by default its own time, or that of its steps."""
     data = _parsed(_text(path), path)
     run = data.get("run")
     if isinstance(run, dict):
@@ -199,7 +199,7 @@ def load_for(path: Path, accuracy: float, time: float | None = None) -> Scene:
         for name in ("every", "order", "precision"):
             run.pop(name, None)
         if time is None and own is None and isinstance(steps, int):
-            with suppress(ValueError):  # of a step that is none the scene is refused below
+            with suppress(ValueError):  # a scene with an invalid step is refused below
                 own = steps * number(step, TIME)
         data["run"] = run | {"accuracy": accuracy} | ({"time": own if time is None else time} if time or own else {})
     return checked(data, str(path))
@@ -209,7 +209,7 @@ def checked(data: Data, name: str = "", text: str | None = None) -> Scene:
     """A scene from plain data; raises SceneError with the key and what would be right.
 
     NumPy's arrays and numbers are taken as lists and numbers.
-    name: of the file from which the data are; text: its text, if they are all of it, for the lines of errors.
+    name: the file of the data; text: its text, if unchanged, for the lines of errors.
     """
     try:
         data = _plain(data)
@@ -223,7 +223,7 @@ def checked(data: Data, name: str = "", text: str | None = None) -> Scene:
 
 
 def from_source(text: str) -> Scene:
-    """The scene of a text, `Scene.source`, TOML or JSON; raises SceneError where it is none."""
+    """The scene of a text, `Scene.source`, TOML or JSON; raises SceneError for any other text."""
     try:
         data = json.loads(text) if text.lstrip().startswith("{") else tomllib.loads(text, parse_float=toml_float)
     except (ValueError, RecursionError):
@@ -232,7 +232,7 @@ def from_source(text: str) -> Scene:
 
 
 def _plain(value: Any) -> Any:
-    """Without NumPy's types."""
+    """The data without NumPy's types."""
     if isinstance(value, dict):
         return {key: _plain(part) for key, part in value.items()}
     if isinstance(value, list | tuple):
@@ -260,6 +260,6 @@ def _parsed(text: str, path: Path) -> Data:
 
 
 def toml_float(text: str) -> Any:
-    """A float, or its text where float64 has not all digits: then `number` says so, with the key."""
+    """A float, or its text if float64 loses digits, which `number` then reports with the key."""
     value = float(text)
     return text.replace("_", "") if abs(value) < sys.float_info.min else value

@@ -9,7 +9,7 @@ from .errors import Data, SceneError
 from .scene import Scene, written
 from .units import KNOWN, PURE, Dimension
 
-#: How `chapsym scene new` and the first line of its files call it.
+#: The name of the schema in `chapsym scene new` and in the first line of its files.
 FILE = "chapsym-scene.schema.json"
 
 _DIMENSIONS = {dimension.units: dimension for dimension in (*KNOWN, PURE)}
@@ -29,7 +29,7 @@ def schema() -> Data:
 
 
 def _spelled(node: Any, definitions: Data) -> Any:
-    """A part of pydantic's schema without what TOML does not have (null), and with references to quantities."""
+    """A part of pydantic's schema without null, which TOML lacks, and with references to quantities."""
     if isinstance(node, list):
         return [_spelled(part, definitions) for part in node]
     if not isinstance(node, dict):
@@ -46,14 +46,14 @@ def _spelled(node: Any, definitions: Data) -> Any:
             del left["anyOf"]
             return _spelled(left, definitions)
     items = left.get("prefixItems")
-    if items and all(part == items[0] for part in items):  # what more editors know
+    if items and all(part == items[0] for part in items):  # known to more editors
         del left["prefixItems"]
         left["items"] = items[0]
     return {key: _spelled(value, definitions) for key, value in left.items()}
 
 
 def _reference(node: Data, definitions: Data) -> dict[str, str]:
-    """A reference to a quantity, which is defined when it is first met."""
+    """A reference to a quantity, which is defined at its first use."""
     dimension = _DIMENSIONS[node["quantity"]]
     short = "number" if dimension is PURE else dimension.name.removeprefix("an ").removeprefix("a ")
     name = short if node["swept"] else f"{short} without ranges"
@@ -100,7 +100,7 @@ def _list(about: str, items: list[Data]) -> Data:
 
 # The examples, with comments.
 
-#: Taplo, and with it Even Better TOML, read the schema that the first line names.
+#: Taplo, and thus Even Better TOML, reads the schema in the first line.
 SCHEMA_LINE = f"#:schema ./{FILE}\n"
 HEADER = (
     '# Numbers are SI; a text may have a unit, such as "30 rpm", "108.5 mm" or "16 lb", or be a fraction, "2/7".\n'

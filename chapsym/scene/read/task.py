@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 Columns = dict[str, np.ndarray]
-#: An accuracy that float64 does not hold: the result has second halves, as at the precision "double-double".
+#: An accuracy beyond float64: the result has low halves, as at the precision "double-double".
 BEYOND_FLOAT64 = 1e-15
 
 
@@ -13,12 +13,11 @@ BEYOND_FLOAT64 = 1e-15
 class Task:
     """outputs: names of `outputs.OUTPUTS`.
 
-    steps, every: of the map, the latter between two frames.  time_step: ε in s, or None in the paper's units.
-    order: of the composition.  precision: "single", "double" or "double-double".
-    Or, of the continuous motion, an accuracy at these frames, in the norm `of` ("state" or "contact"), within `limit` s
-    of the processor.  Without a time_step the frames are at `steps` equal parts of `time` s.
-    searched: whether the scene asks for that accuracy itself, so that all precisions may serve.
-    proved: of the map, whether each frame shall have bounds of its error.
+    steps, every: of the map; every: steps between two frames.  time_step: ε in s, or None in the paper's units.  order:
+    of the composition.  precision: "single", "double" or "double-double".  Or, of the continuous motion, an accuracy at
+    these frames, in the norm `of` ("state" or "contact"), within `limit` s of the processor.  Without a time_step the
+    frames are at `steps` equal parts of `time` s.  searched: whether the scene itself requests this accuracy, so that
+    all precisions may be used. proved: for the map, whether each frame has bounds of its error.
     """
 
     outputs: tuple[str, ...]
@@ -36,12 +35,12 @@ class Task:
 
     @property
     def frames(self) -> int:
-        """The number of states that are kept, with the first."""
+        """The number of stored states, including the first."""
         return self.steps // self.every + 1
 
     @property
     def chosen(self) -> bool:
-        """Whether there is no ε: frames have times only."""
+        """Whether there is no ε: frames have only times."""
         return self.accuracy is not None and self.time_step is None
 
     @property
@@ -59,10 +58,10 @@ class Task:
 
     @property
     def doubled(self) -> bool:
-        """Whether what is followed has more digits than float64: second halves are kept, too."""
+        """Whether the columns have more digits than float64, with low halves."""
         return self.precision == "double-double" or (self.accuracy is not None and self.accuracy < BEYOND_FLOAT64)
 
     @property
     def scale(self) -> float:
-        """The divisor of the momentum of a start that gives K: ε, or 1 where it is K itself."""
+        """The divisor from the momentum of a start to K: ε, or 1 for K itself."""
         return 1.0 if self.time_step is None else self.time_step

@@ -1,4 +1,4 @@
-"""Numbers of a scene: SI, or a text with a unit, read by pint and checked against the dimension of the key."""
+"""Numbers of a scene: SI, or a string with a unit, read by pint and checked against the dimension of the key."""
 
 import re
 import sys
@@ -38,13 +38,13 @@ ANGLE = Dimension("an angle", "rad", "radians", "rad", ("0.5", "30 deg"))
 SPEED = Dimension("a velocity", "m s-1", "metres per second", "m/s", ("8.0", "29 km/h"))
 PURE = Dimension("a number without a unit", "1", "a number", "", ("0.5", "2/7"))
 KNOWN = (LENGTH, MASS, TIME, MOMENT, TURNING, RATE, ANGLE, SPEED)
-#: Those that must say which angle: to pint an angle is a number, and 1 Hz would be 1 rad/s.
+#: Dimensions that need an explicit unit of angle: in pint an angle is a number, and 1 Hz would be 1 rad/s.
 ANGULAR = {RATE: "'30 rpm' or '3 rad/s'", ANGLE: "'30 deg' or '0.5 rad'"}
 
 _FORM = re.compile(r"\s*([+-]?[0-9./]+(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*", re.ASCII | re.DOTALL)
-#: What people say for a unit with it, and pint reads as seconds: kilos.
+#: Prefixes used as units, which pint would read with seconds, such as kilos.
 _SHORT = re.compile(r"\b(?:kilo|mega|giga|milli|micro|nano|centi|deci|hecto)s?\b")
-#: No parentheses, and no numbers but exponents of one digit: nothing that is costly to work out.
+#: No parentheses, and no numbers but one-digit exponents, so that nothing is costly to evaluate.
 _UNIT = re.compile(r"(?:1\s*/)?(?:[^\W\d]|[\s°²³·*/^-]|[1-9](?!\d))+")
 
 
@@ -69,7 +69,7 @@ def number(value: object, dimension: Dimension = PURE) -> float:
 def exact_number(value: object, dimension: Dimension = PURE) -> tuple[Fraction, Fraction]:
     """(a, b) of the number a + bπ that a text, with or without a unit, or a whole number means in SI.
 
-    A turn, a degree and what is made of them are multiples of π.  Raises ValueError as `number` does.
+    A turn, a degree and units derived from them are multiples of π.  Raises ValueError as `number` does.
     """
     amount, factor = _amount(str(value), dimension)
     if dimension not in (*ANGULAR, TURNING) or not has_unit(value):
@@ -81,7 +81,7 @@ def exact_number(value: object, dimension: Dimension = PURE) -> tuple[Fraction, 
 
 
 def has_unit(value: object) -> bool:
-    """Whether something is a text of a number and more than that."""
+    """Whether a value is a string of a number and something else."""
     parts = _FORM.fullmatch(value) if isinstance(value, str) and len(value) <= LONGEST else None
     return parts is not None and bool(parts[2])
 
@@ -91,7 +91,7 @@ def _or(dimension: Dimension) -> str:
 
 
 def _float(exact: Fraction) -> float:
-    """The nearest float; raises ValueError where it would lose digits."""
+    """The nearest float; raises ValueError if it would lose digits."""
     try:
         found = float(exact)
     except OverflowError:
@@ -102,7 +102,7 @@ def _float(exact: Fraction) -> float:
 
 
 def _amount(text: str, dimension: Dimension) -> tuple[Fraction, Fraction]:
-    """The number in a text, and what its unit is in SI."""
+    """The number in a text, and its unit in SI."""
     parts = _FORM.fullmatch(text) if len(text) <= LONGEST else None
     unit = parts[2] if parts else ""
     try:
@@ -138,7 +138,7 @@ def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
     try:
         found = registry.parse_units(spelled)
         same = found.dimensionality == registry.parse_units(dimension.pint).dimensionality
-    except Exception:  # pint raises whatever its tokenizer meets: all of it means that this is no unit
+    except Exception:  # pint passes on any error of its tokenizer; each means that this is no unit
         raise ValueError(f"it is {dimension.name}, but {unit!r} in {shown!r} is not a known unit; {write}") from None
     if not same:
         if _SHORT.search(spelled):
@@ -153,7 +153,7 @@ def _factor(unit: str, text: str, dimension: Dimension) -> Fraction:
 
 
 def _is(dimension: Dimension, unit: "Unit") -> bool:
-    """Whether a unit measures that; an angle, or its rate, in turns, degrees or radians to the power of one."""
+    """Whether a unit has this dimension; an angle, or its rate, in turns, degrees or radians to the power of one."""
     wanted = _registry().parse_units(dimension.pint)
     if dimension in ANGULAR:
         return bool(_registry().get_base_units(unit)[1] == wanted)

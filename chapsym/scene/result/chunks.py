@@ -1,4 +1,4 @@
-"""How a result in Zarr is read: a chunk that is missing or damaged is refused by its name."""
+"""Reading of a result in Zarr: a missing or damaged chunk is refused by name."""
 
 import json
 from functools import cached_property
@@ -11,12 +11,12 @@ from zarr.storage import LocalStore
 from ..read.errors import SceneError
 from .digests import digests, metadata, read_object, sound
 
-#: Codecs of bytes: the last adds the checksum.
+#: The codecs of bytes; the last one adds the checksum.
 COMPRESSORS = (ZstdCodec(), Crc32cCodec())
 
 
 class CheckedStore(LocalStore):
-    """A folder of Zarr of which nothing damaged is read: what would be is a SceneError that names the chunk."""
+    """A folder of Zarr without access to damaged data: a SceneError names the chunk instead."""
 
     @cached_property
     def _checked(self) -> frozenset[str]:
@@ -25,7 +25,7 @@ class CheckedStore(LocalStore):
 
     @cached_property
     def _digests(self) -> dict[str, dict[str, str]]:
-        """Of a complete result, the checksums of the chunks of each array."""
+        """The checksums of the chunks of each array of a complete result."""
         return {name: digests(self.root / name) for name in self._checked} if self._complete else {}
 
     @cached_property
@@ -52,5 +52,5 @@ class CheckedStore(LocalStore):
 
 
 def mended(path: Path) -> str:
-    """How a result that is damaged is mended, as a clause."""
+    """The way to repair a damaged result, as a clause."""
     return f"chapsym run of the same scene with -o {path} computes these balls anew and keeps the others"

@@ -1,4 +1,4 @@
-"""Results as labelled arrays, or as an xarray.Dataset: with units, coordinates and where they come from."""
+"""Results as labelled arrays, or as an xarray.Dataset: with units, coordinates and provenance."""
 
 import hashlib
 import json
@@ -42,7 +42,7 @@ from ..read.task import Columns
 if TYPE_CHECKING:
     from xarray import Dataset, Variable
 
-#: What the state says of each ball.
+#: The variables of the state for each ball.
 OF_BALLS = (*OUTCOME, "error", "order", "substeps")
 
 
@@ -50,9 +50,9 @@ OF_BALLS = (*OUTCOME, "error", "order", "substeps")
 
 
 def layout(plan: Plan) -> dict[str, Labelled]:
-    """The variables of a result that come from its run, as long as nothing is computed, without memory of their own.
+    """The variables of a result that come from its run, before anything is computed, without memory of their own.
 
-    By name: what was asked for, then `taken` and `status`.
+    By name: the requested outputs, then `taken` and `status`.
     """
     found: dict[str, Labelled] = {}
     n = plan.members.dimension
@@ -85,7 +85,7 @@ def arrays(plan: Plan, columns: Columns, state: State) -> Arrays:
 
     columns: the outputs of all balls and frames, (balls, frames, ...), in the axes given.
     state: `taken` and `status` after the last frame, (balls,), and `error` of a run to an accuracy.
-    It has no other values than those, the plan's, and the version's: the same run gives the same bits.
+    The result depends only on these, the plan and the version: the same run gives the same bits.
     """
     variables = {
         name: replace(one, values=np.asarray((state if name in OF_BALLS else columns)[name]))
@@ -99,7 +99,7 @@ def arrays(plan: Plan, columns: Columns, state: State) -> Arrays:
 
 
 def _moments(plan: Plan) -> dict[str, Labelled]:
-    """When each frame is."""
+    """The clock of the frames."""
     task = plan.task
     if task.chosen and task.time is not None:
         return {"time": Labelled(("frame",), np.arange(plan.frames) * task.time / max(plan.frames - 1, 1), TIME)}
@@ -107,7 +107,7 @@ def _moments(plan: Plan) -> dict[str, Labelled]:
 
 
 def provenance(plan: Plan) -> Data:
-    """Where a result comes from: the scene, the plan, and the versions of what made it, as attributes."""
+    """The provenance of a result as attributes: the scene, the plan, and the versions."""
     balls = "1 ball" if len(plan.members) == 1 else f"{len(plan.members)} balls"
     kind = "Chaplygin ball" if isinstance(plan.model, Moving | Chosen) else "Discrete Chaplygin ball"
     found = {
@@ -124,9 +124,9 @@ def provenance(plan: Plan) -> Data:
 
 
 def _fingerprint(plan: Plan) -> str:
-    """A hash of all that the values depend on: bodies, starts and the task."""
+    """A hash of all inputs of the values: bodies, starts and the task."""
     members, ball, task = plan.members, plan.members.ball, asdict(plan.task)
-    if not task["proved"]:  # which results had not, whose values are the same
+    if not task["proved"]:  # older results, with the same values, lack it
         del task["proved"]
     found = hashlib.sha256(json.dumps([task, list(members.names)]).encode())
     starts = (members.momentum, members.gamma, members.axes, members.attitude, members.place)
@@ -137,13 +137,13 @@ def _fingerprint(plan: Plan) -> str:
 
 @cache
 def _code_hash(kernel: str) -> str:
-    """The hash of a generated kernel without its docstrings: these hold the digests of certificates."""
+    """The hash of a generated kernel without its docstrings, which have the digests of certificates."""
     text = files("chapsym.generated").joinpath(f"{kernel}.py").read_text(encoding="utf-8")
     return hashlib.sha256(re.sub(r'"""[\s\S]*?"""', "", text).encode()).hexdigest()
 
 
 def _accuracy(plan: Plan) -> Data:
-    """The attributes of a result on its error: the accuracy that was asked for, or the estimate of a pilot."""
+    """The attributes of a result on its error: the requested accuracy, or the estimate of a pilot."""
     members, task = plan.members, plan.task
     if task.accuracy is not None:
         return {"accuracy": task.accuracy, "accuracy_of": task.of}
@@ -156,19 +156,19 @@ def _accuracy(plan: Plan) -> Data:
     return {} if found is None else {"discretisation": found.write()}
 
 
-# A sweep as a grid: its balls along a dimension for each range, the draws along one more.
+# A sweep as a grid: its balls along a dimension for each range, random samples along one more.
 
-#: The dimension of the draws.
+#: The dimension of random samples.
 SAMPLE = "sample"
 
 
 def grid(data: "Dataset") -> "Dataset":
-    """The result of a whole sweep with dimensions of its own instead of `ball`.
+    """The result of a whole sweep, with the dimensions of the sweep instead of `ball`.
 
     Each range that spans a dimension, linspace or grid, is one, named by its key and with its values, such as
     "start.omega.1", in the order of the scene; `sample` is that of the draws, after them.  Of several [[ball]] with the
     same ranges `ball` stays, as the first, with their names.  The coordinate `name` is what each ball was called.
-    Raises SceneError for a result that is not the whole of a scene's sweep, or whose balls have other ranges each.
+    Raises SceneError for a part of a sweep, and for balls with different ranges.
     """
     import xarray
 
@@ -188,7 +188,7 @@ def grid(data: "Dataset") -> "Dataset":
 
 
 def _spread(one: "Variable", lengths: dict[str, int]) -> "Variable | tuple[tuple[Hashable, ...], np.ndarray, dict]":
-    """A variable with these dimensions instead of `ball`, if it has that; the others are left as they are."""
+    """A variable with these dimensions instead of `ball`, if it has that one; others are unchanged."""
     if "ball" not in one.dims:
         return one
     one = one.transpose("ball", ...)
@@ -196,7 +196,7 @@ def _spread(one: "Variable", lengths: dict[str, int]) -> "Variable | tuple[tuple
 
 
 def _tables(data: "Dataset") -> list[Body]:
-    """The tables of balls of the scene of a result; raises SceneError where they do not make one grid."""
+    """The tables of balls of the scene of a result; raises SceneError if they do not form one grid."""
     if not data.attrs.get("scene"):
         raise SceneError("the result does not say of which scene it is, so that its ranges are not known")
     tables = bodies_of(from_source(data.attrs["scene"]))

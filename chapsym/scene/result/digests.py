@@ -1,8 +1,8 @@
-"""The checksums of the chunks of a result in Zarr, by which one that is missing or damaged is found.
+"""The checksums of the chunks of a result in Zarr, which reveal missing or damaged chunks.
 
-Each chunk ends in its checksum.  One of missing values is written too, so that in a complete result each one that is
-not there is lost.  Next to the chunks of each array of a complete result, `DIGESTS` lists their checksums, so that a
-whole chunk of another place, array or run is found, too.
+Each chunk ends in its checksum.  Chunks of missing values are written too, so that in a complete result an absent chunk
+is a lost one.  Next to the chunks of each array of a complete result, `DIGESTS` lists their checksums, which also
+reveals an intact chunk of another place, array or run.
 """
 
 import json
@@ -14,16 +14,16 @@ from chapsym import files
 
 from ..read.errors import Data
 
-#: Of the checksum, at the end.
+#: The length of the checksum, at the end.
 BYTES = 4
-#: In the folder of an array: its name, and the checksum of each chunk.
+#: The file in the folder of an array with its name, and the checksum of each chunk.
 DIGESTS = "digests.json"
 
 
 def sound(content: bytes, digest: str | None = None) -> bool:
-    """Whether a chunk ends in the checksum of the rest, and, where it is known, in its own.
+    """Whether a chunk ends in the checksum of the rest, which is `digest` if that is known.
 
-    One that is cut to nothing has none, and would be 0.
+    An empty chunk has none; its checksum would be 0.
     """
     from google_crc32c import value as crc32c
 
@@ -32,7 +32,7 @@ def sound(content: bytes, digest: str | None = None) -> bool:
 
 
 def is_sound(chunk: Path, digest: str | None = None) -> bool:
-    """Whether the file of a chunk is there, can be read, and is as it was written."""
+    """Whether the file of a chunk exists, can be read, and is unchanged."""
     try:
         return chunk.is_file() and sound(chunk.read_bytes(), digest)
     except OSError:
@@ -40,22 +40,22 @@ def is_sound(chunk: Path, digest: str | None = None) -> bool:
 
 
 def digest(chunk: Path) -> str:
-    """The checksum that the file of a chunk ends in, in hexadecimal digits; raises OSError."""
-    with chunk.open("rb") as file:  # which may be shorter, where another program has put it
+    """The checksum at the end of the file of a chunk, in hexadecimal digits; raises OSError."""
+    with chunk.open("rb") as file:  # a file of another program may be shorter
         file.seek(max(file.seek(0, os.SEEK_END) - BYTES, 0))
         return file.read().hex()
 
 
 def written(array: Path) -> dict[str, Path]:
-    """The files of the chunks of an array that are there, by their keys inside its folder."""
+    """The existing files of the chunks of an array, by their keys inside its folder."""
     found = {file.relative_to(array).as_posix(): file for file in array.rglob("*") if file.is_file()}
     return {key: file for key, file in sorted(found.items()) if key.split("/")[0] == "c"}
 
 
 def digests(array: Path) -> dict[str, str]:
-    """The checksums of the chunks of an array by their keys, as `write_digests` left them; none if there is no list.
+    """The checksums of the chunks of an array by their keys, from `write_digests`; none if there is no list.
 
-    Where the list is that of another array no chunk has the right one.
+    If the list is that of another array, all are wrong.
     """
     found = read_object(array / DIGESTS)
     listed = found["crc32c"] if isinstance(found.get("crc32c"), dict) else {}
@@ -75,13 +75,13 @@ def folders(path: Path) -> list[Path]:
 
 
 def metadata(path: Path) -> Data:
-    """What the group says of its arrays, by their names; where it says nothing, what each says of itself."""
+    """The metadata of the arrays, by name: in the group, or otherwise those of each array."""
     found = said(path)
     return {file.parent.name: read_object(file) for file in path.glob("*/zarr.json")} if found is None else found
 
 
 def said(path: Path) -> Data | None:
-    """What the group says of its arrays, by their names, if it says anything."""
+    """The metadata of the arrays in the group, by name, if any."""
     with suppress(KeyError, TypeError):
         found = read_object(path / "zarr.json")["consolidated_metadata"]["metadata"]
         return found if isinstance(found, dict) else None
@@ -89,15 +89,15 @@ def said(path: Path) -> Data | None:
 
 
 def disputed(path: Path) -> list[str]:
-    """The arrays that say of themselves what the group does not say of them."""
+    """The arrays whose own metadata differ from those in the group."""
     own = [file for file in path.glob(f"*/{DIGESTS}") if read_object(file).get("array") == file.parent.name]
     listed, found = {file.parent.name for file in own}, metadata(path)
     return sorted(name for name in listed | set(found) if read_object(path / name / "zarr.json") != found.get(name))
 
 
 def read_object(path: Path) -> Data:
-    """An object of JSON; an empty one where there is none to be read."""
+    """An object of JSON; an empty one if there is none."""
     found = None
     with suppress(OSError, ValueError, RecursionError):
-        found = json.loads(path.read_bytes()) if path.is_file() else None  # a pipe would be waited for
+        found = json.loads(path.read_bytes()) if path.is_file() else None  # a pipe would block
     return found if isinstance(found, dict) else {}

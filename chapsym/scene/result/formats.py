@@ -1,6 +1,6 @@
-"""Results in files: NetCDF, and for the small CSV, Parquet and NumPy, each written whole; how all are read back.
+"""Results in files: NetCDF, and for small ones CSV, Parquet and NumPy, each written whole; and their readers.
 
-CSV and Parquet are one table, a row for each ball and frame; `structure` is what no row says.
+CSV and Parquet are one table, a row for each ball and frame; `structure` has the data that are in no row.
 """
 
 import codecs
@@ -35,31 +35,31 @@ if TYPE_CHECKING:
 
     from chapsym.dynamics.labelled import Column, Structure
 
-#: What readers raise of a file that is damaged, or made by somebody else: in their words, and by accident.
+#: The errors of readers for a file that is damaged, or made by another program.
 READERS = ValueError, KeyError, EOFError, csv.Error, zipfile.BadZipFile, zlib.error, TokenError
 DAMAGED = (*READERS, TypeError, AttributeError, ArithmeticError, IndexError, RecursionError, NotImplementedError)
-#: What a result has in numbers besides its outputs.
+#: The numeric variables of a result besides its outputs.
 NUMBERS = ("taken", "status", "error", "order", "substeps", "mass_tensor", "D", "radius", "time", "step")
-#: How a heap of HDF5 begins that has objects of all sizes: its name and version.
+#: The signature of a global heap of HDF5: its name and version.
 HEAP = b"GCOL\x01\x00\x00\x00"
-#: Bytes that are read at once of a CSV, and the most that its first row may have of what no row has.
+#: The size of a block of a CSV in bytes, and the largest size of the notes in its first row.
 BLOCK = 2**24
-#: Where a CSV goes that is to have no file.
+#: The destination of a CSV without a file.
 STDOUT = Path("-")
-#: More rows make a CSV that nothing opens.
+#: The largest number of rows of a CSV.
 MOST_ROWS = 10**7
-#: Files that the core alone writes.
+#: The files that need no extras.
 ALONE = (".csv", ".npz")
-#: The share of this machine's memory that a result may take before it goes to Zarr.
+#: The largest fraction of the memory of this machine for a result outside of Zarr.
 SHARE = 0.25
 
 
 class NotOurs(SceneError):
-    """A table that chapsym did not write: another program's, perhaps."""
+    """A table that chapsym did not write, such as that of another program."""
 
 
 def check_destination(path: Path) -> None:
-    """Raises SceneError, before anything is computed, if a result cannot be written as `path` is named."""
+    """Raises SceneError, before anything is computed, if a result cannot be written to `path`."""
     *some, last = _READERS
     if path == STDOUT:
         return
@@ -89,13 +89,13 @@ def _check_rows(path: Path, rows: int) -> None:
 
 
 def save(data: "Dataset | Arrays", path: Path) -> None:
-    """Writes a result to .nc, .csv, .parquet or .npz, whole or not at all; raises SceneError if the disk refuses.
+    """Writes a result to .nc, .csv, .parquet or .npz, whole or not at all; raises SceneError if that fails.
 
     A CSV goes to standard output, too, as `STDOUT`.
 
-    Of a CSV or Parquet file each row is a ball and a frame; what is in no row is in the column "chapsym", or in the
-    metadata.  A .npz has an array for each variable, of one ball without its axis, and the rest as JSON in "chapsym".
-    `pandas.read_csv(path)` has the same bits (older pandas with float_precision="round_trip").
+    Each row of a CSV or Parquet file is one ball at one frame; other data are in the column "chapsym", or in the
+    metadata.  A .npz has an array for each variable, for one ball without the axis of balls, and the rest as JSON in
+    "chapsym".  `pandas.read_csv(path)` has the same bits (older pandas with float_precision="round_trip").
     """
     write = _write_csv if path == STDOUT else _WRITERS.get(path.suffix)
     if write is None:
@@ -113,9 +113,9 @@ def save(data: "Dataset | Arrays", path: Path) -> None:
 
 
 def load(path: Path) -> "Dataset":
-    """A result as `chapsym run` wrote it, whatever its format, its frames found by `time`, as those of a run in memory.
+    """A result of `chapsym run` in any format, with its frames indexed by `time`, as for a run in memory.
 
-    From Zarr its values are read when they are needed.
+    Values in Zarr are read on first use.
     Raises SceneError if there is no such result.
     """
     read = _READERS.get(path.suffix)
@@ -137,7 +137,7 @@ def load(path: Path) -> "Dataset":
     except MemoryError:
         raise SceneError(f"{path} does not fit into memory, if it is not damaged") from None
     except DAMAGED as error:
-        layout = "its parts are not those of one"  # what a reader trips over says nothing to a user
+        layout = "its parts are not those of one"  # the message of a reader does not help a user
         if isinstance(error, READERS):
             layout = (str(error).splitlines() or [type(error).__name__])[0][:200]
         raise SceneError(f"{path} is damaged, or no result of chapsym: {layout}") from None
@@ -147,7 +147,7 @@ def load(path: Path) -> "Dataset":
 
 
 def _check_parts(data: "Dataset") -> None:
-    """Raises ValueError for a part that has no numbers, or other dimensions than one of its name has."""
+    """Raises ValueError for a variable without numbers, or with wrong dimensions."""
     if not isinstance(data.attrs.get("accuracy", 0.0), float | int | np.number):
         raise ValueError("its accuracy is no number")
     for name, one in data.variables.items():
@@ -161,9 +161,9 @@ def _check_parts(data: "Dataset") -> None:
 
 
 def attributes(path: Path) -> Data:
-    """The attributes of a result that is there; raises SceneError if there are none to be read."""
+    """The attributes of an existing result; raises SceneError if they cannot be read."""
     try:
-        if path.suffix == ".npz" and path.is_file():  # without xarray, which takes longer to load than a run
+        if path.suffix == ".npz" and path.is_file():  # without xarray, whose import takes longer than a run
             with np.load(path) as data:
                 return dict(json.loads(str(data[NOTES]))["attrs"])
         if path.suffix == ".csv" and path.is_file() and (about := _about_csv(path)):
@@ -178,13 +178,13 @@ def attributes(path: Path) -> Data:
 
 
 def check_ours(path: Path) -> None:
-    """Raises SceneError if `path` is anything but a result of chapsym, which nobody may overwrite."""
+    """Raises SceneError if `path` is anything but a result of chapsym, which must not be overwritten."""
     if "chapsym_version" not in attributes(path):
         raise SceneError(f"{path} is there, but it is no result of chapsym; choose another name")
 
 
 def _memory() -> float:
-    """Bytes of memory that this machine has."""
+    """The memory of this machine in bytes."""
     import os
 
     try:
@@ -220,7 +220,7 @@ def _write_parquet(stream: IO[bytes], data: "Dataset | Arrays") -> None:
 
 
 def _write_csv(stream: IO[bytes], data: "Dataset | Arrays") -> None:
-    """Numbers as Python writes them, which every reader that rounds correctly has to the bit."""
+    """Writes numbers as Python does, which every reader with correct rounding restores to the bit."""
     writer, begun = csv.writer(codecs.getwriter("utf-8")(stream), lineterminator="\n"), False
     for columns in _with_notes(data):
         if not begun:
@@ -248,7 +248,7 @@ def _with_notes(data: "Dataset | Arrays") -> Iterator[dict[str, np.ndarray]]:
 
 
 def _written(value: Any) -> Any:
-    """A number or some, as JSON has them: those that are not finite as texts, which `float` reads."""
+    """A number or several for JSON: those that are not finite as strings that `float` reads."""
     if isinstance(value, list):
         return [_written(one) for one in value]
     return value if not isinstance(value, float) or math.isfinite(value) else str(value)
@@ -262,14 +262,15 @@ def _read_zarr(path: Path) -> "Dataset":
     check_ours(path)
     if found := disputed(path):
         raise SceneError(f"{path / 'zarr.json'} and that of {found[0]!r} in it say different things: {mended(path)}")
-    with warnings.catch_warnings():  # of a group that lacks what it should have: a sentence reports it
+    with warnings.catch_warnings():  # for an incomplete group: a sentence reports it
         warnings.filterwarnings("ignore", message="Failed to open Zarr store with consolidated metadata")
         data = xarray.open_zarr(CheckedStore(path, read_only=True))
     for one in data.variables.values():
-        # Older versions of Zarr and xarray would write texts to other formats in NumPy's own type, which none takes.
+        # Older versions of Zarr and xarray would write strings to other formats in NumPy's own type, which none
+        # accepts.
         if getattr(one.encoding.get("dtype"), "kind", "") == "T":
             del one.encoding["dtype"]
-        one.encoding.pop("compressors", None)  # a copy that xarray makes leaves chunks of missing values out
+        one.encoding.pop("compressors", None)  # a copy by xarray omits chunks of missing values
     return data
 
 
@@ -281,7 +282,7 @@ def _read_netcdf(path: Path) -> "Dataset":
 
     try:
         with h5py.File(path) as file:
-            file.visititems(lambda name, item: None)  # h5netcdf prints a traceback where it cannot open all of a file
+            file.visititems(lambda name, item: None)  # h5netcdf prints a traceback if it cannot open a whole file
             return xarray.load_dataset(path, engine="h5netcdf")
     except (OSError, RuntimeError) as error:
         raise ValueError(str(error)) from None
@@ -346,14 +347,14 @@ def _read_csv(path: Path) -> "Dataset":
 
 
 def _about_csv(path: Path) -> Data:
-    """What the first row of a CSV has of all of them; nothing of one without the column `NOTES`."""
+    """The notes in the first row of a CSV; empty without the column `NOTES`."""
     limit = csv.field_size_limit(BLOCK)
     try:
         with path.open(encoding="utf-8", newline="") as stream:
             rows = csv.DictReader(iter(lambda: stream.readline(files.MOST_LINE), ""))
             return dict(json.loads(next(rows, {})[NOTES])) if NOTES in (rows.fieldnames or ()) else {}
     finally:
-        csv.field_size_limit(limit)  # which is that of the whole process
+        csv.field_size_limit(limit)  # a setting of the whole process
 
 
 def _types(variables: "Mapping[str, Column]") -> "dict[str, DataType]":
@@ -381,7 +382,7 @@ def _with_lines(path: Path) -> "Dataset":
 
 
 def _write_npz(stream: IO[bytes], data: "Dataset | Arrays") -> None:
-    """The arrays of all variables; of one ball without the axis of the balls."""
+    """Writes the arrays of all variables, for one ball without the axis of balls."""
     layout = structure(data)
     whole = data.isel(ball=0) if layout["balls"] == 1 else data
     arrays: dict[str, Any] = {name: whole[name].values for name in layout["variables"]}
@@ -431,7 +432,7 @@ def _dataset(arrays: Mapping[str, np.ndarray], layout: "Structure", attrs: Data)
     return xarray.Dataset(variables, coords, dict(attrs))
 
 
-#: What names of old files are now.
+#: The present names of those in old files.
 _OLD = {"contact_m": "contact", "time_s": "time"}
 
 
@@ -473,5 +474,5 @@ _READERS: dict[str, Callable[[Path], "Dataset"]] = {
     ".zarr": _read_zarr, ".nc": _read_netcdf, ".csv": _read_csv, ".parquet": _read_parquet,
     ".npz": _read_npz,
 }  # fmt: skip
-#: What a file with a result ends in.
+#: The suffixes of files with results.
 READABLE = tuple(_READERS)

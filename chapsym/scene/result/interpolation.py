@@ -15,36 +15,36 @@ from chapsym.dynamics.principal_axes import attitude_from_principal, attitude_to
 if TYPE_CHECKING:
     from xarray import Dataset
 
-#: What there is between the frames; energy, integrals and phase are known at the frames only.
+#: The interpolated variables; energy, integrals and phase are known only at the frames.
 FOLLOWED = ("momentum", "gamma", "omega", "attitude", "contact")
-#: Of K, which is not multiplied by the step.
+#: The variables of K, which are not multiplied by the step.
 RATE = "kg m2 s-1"
 
 
 def interpolated(run: Any, times: ArrayLike) -> Any:
-    """The states of a run at any times between its frames, as `solve_ivp`'s dense output.
+    """The states of a run at any times between its frames, as the dense output of `solve_ivp`.
 
-    𝒦, γ, ω, attitude and contact are between the frames what `Trajectory.at` says, to the order 6 in the time between
-    frames, and what is known at the frames only is left out.  The result must have γ or the attitude, and 𝒦 or ω.  A
-    contact point whose 𝒦 is vertical is left out without the attitude.
+    𝒦, γ, ω, attitude and contact are interpolated as by `Trajectory.at`, with order 6 in the time between frames;
+    variables that are known only at the frames are omitted.  The result must have γ or the attitude, and 𝒦 or ω.  The
+    contact point is omitted if 𝒦 is vertical and there is no attitude.
 
     Parameters
     ----------
     run : Result, Dataset or Trajectory
-        The result of a scene, or its Dataset; or a `Trajectory`, of which this is `at`.
+        The result of a scene, or its Dataset; or a `Trajectory`, for which this is `Trajectory.at`.
     times : array_like
-        One number or a list, in seconds, or in steps where the run has no times.
+        One number or a list, in seconds, or in steps if the run has no times.
 
     Returns
     -------
     Dataset
-        With these times as its frames; of a `Trajectory` what its `at` gives.
+        The result, with these times as its frames; for a `Trajectory` the result of its `at`.
 
     Raises
     ------
     BadInput
-        Where the result does not have what it must, for times beyond the frames, and for frames over 1.5 radians of
-        turning apart.
+        If the result lacks a needed variable, for times beyond the frames, and for frames with a rotation of more than
+        1.5 radians between them.
 
     Examples
     --------
@@ -96,7 +96,7 @@ def missing(dataset: Dataset) -> str | None:
 
 
 def turning(dataset: Dataset) -> float | None:
-    """The largest turning between next frames, of all balls, in radians; None where the result does not tell."""
+    """The largest rotation between successive frames of all balls, in radians; None if it is unknown."""
     if missing(dataset) is not None or not dataset.sizes.get("frame"):
         return None
     frames, _ = _states(dataset if "ball" in dataset.dims else dataset.expand_dims("ball"))
@@ -104,7 +104,7 @@ def turning(dataset: Dataset) -> float | None:
 
 
 def _states(dataset: Dataset) -> tuple[States, float]:
-    """The frames in principal axes, and what makes the result's momentum of K (in radians by the unit of the clock)."""
+    """The frames in principal axes, and the factor from K (in radians per unit of the clock) to the momentum."""
     timed, stepped = "time" in dataset.coords, "step" in dataset.coords
     step = np.asarray(dataset["step"].values if stepped else np.arange(dataset.sizes["frame"]), dtype=np.float64)
     clock = np.asarray(dataset["time"].values, dtype=np.float64) if timed else step
@@ -133,7 +133,7 @@ def _states(dataset: Dataset) -> tuple[States, float]:
 
 
 def _frames(dataset: Dataset, name: str) -> Floats | None:
-    """A variable as float64, (balls, frames, ...), NaN behind the last step of a ball; None if it is not there."""
+    """A variable as float64, (balls, frames, ...), NaN after the last step of a ball; None if it is missing."""
     if name not in dataset:
         return None
     found = np.array(dataset[name].transpose("ball", "frame", ...).values, dtype=np.float64)
@@ -143,7 +143,7 @@ def _frames(dataset: Dataset, name: str) -> Floats | None:
 
 
 def per_ball(dataset: Dataset, name: str) -> Floats | None:
-    """A variable with one row a ball, (balls, ...), as float64; None if the result has none."""
+    """A variable with one row per ball, (balls, ...), as float64; None if the result has none."""
     if name not in dataset.variables:
         return None
     array = dataset[name] if "ball" in dataset[name].dims else dataset[name].expand_dims("ball")

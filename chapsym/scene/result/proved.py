@@ -20,22 +20,22 @@ if TYPE_CHECKING:
 
     from chapsym.dynamics.labelled import Arrays
 
-#: What is compared, and its unit.
+#: The compared quantities, with their units.
 UNITS = {"gamma": "", "omega": " rad/s", "attitude": "", "contact": " m"}
-#: Of the map there are bounds in a result for what is followed: its units.
+#: The quantities with bounds in a result of the map, with their units.
 UNITS_OF_MAP = {"momentum": " kg m²", "gamma": "", "attitude": "", "contact": " m"}
 
 
-#: Of the differences: so that float64 is no part of them.
+#: The bits of the differences, so that they have no rounding of float64.
 BITS = 128
 
 
-#: Digits of the motion with which a result in float64 is compared, and the name of the bounds in its attributes.
+#: The digits of the motion for a comparison with a result in float64, and the name of the bounds in its attributes.
 DIGITS, PROVED = 18, "proved"
 
 
 def check_outputs(outputs: Iterable[str]) -> None:
-    """Raises SceneError where none of them can be compared."""
+    """Raises SceneError if none of them can be compared."""
     if not set(outputs) & set(UNITS):
         raise SceneError(f"the result has none of {', '.join(UNITS)}: ask for one in its outputs")
 
@@ -60,7 +60,7 @@ def check_scene(dataset: "Dataset", scene: str) -> None:
 
 
 def bounds_of(data: "Dataset | Arrays") -> dict[str, float | None]:
-    """The greatest bound at any frame of a result of the map that has bounds; None where one is not finite."""
+    """The greatest bound at any frame of a result of the map with bounds; None if one is not finite."""
     greatest = {x: float(np.nanmax(data[x + BOUND].values)) for x in UNITS_OF_MAP if x + BOUND in data.variables}
     return {name: error if math.isfinite(error) else None for name, error in greatest.items()}
 
@@ -81,7 +81,7 @@ def proved_errors(dataset: "Dataset | Arrays", found: CertifiedMotion) -> dict[s
 
 
 def _apart(given: np.ndarray, true: np.ndarray, either: bool) -> float:
-    """A bound of the greatest difference of a component, of the nearer sign where either will do."""
+    """A bound of the greatest difference of a component; either: with the nearer of both signs."""
     from flint import arb
 
     signs = (1, -1) if either else (1,)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from chapsym.dynamics.labelled import Arrays
 
-#: Of more balls, this many are asked whether they can take the first step.
+#: The largest number of balls whose first step is tried.
 TRIED = 20_000
 
 
@@ -96,7 +96,7 @@ def _vector(values: Iterable[float]) -> str:
 
 
 def refusals(scene: Scene, members: Members) -> list[str]:
-    """Which of the balls cannot take the first step, and why: a sentence for each reason."""
+    """The balls that cannot take the first step: a sentence for each reason."""
     if not scene.maps or not scene.task().steps:
         return []
     some = members.of(slice(0, TRIED))
@@ -113,7 +113,7 @@ def refusals(scene: Scene, members: Members) -> list[str]:
 def last_state(data: "Dataset | Arrays") -> Data:
     """The end of the result of one ball: its steps, its last state, and the drift of the momentum integrals.
 
-    The drift is the largest change of each, relative to the scale of the momentum, of the frames that were kept.
+    The drift is the largest change of each at the stored frames, relative to the scale of the momentum.
     """
     one = data.isel(ball=0)
     taken = int(one["taken"].values)
@@ -128,7 +128,7 @@ def last_state(data: "Dataset | Arrays") -> Data:
 
 
 def stopped(data: "Dataset | Arrays") -> str:
-    """Why balls stopped early: of each reason how many, and the first of them."""
+    """Why balls stopped early: for each reason the number of balls, and the first of them."""
     status, taken, names = data["status"].values, data["taken"].values, data["ball"].values
     reasons = []
     for reason in sorted(set(map(int, status)) - {-1, int(Status.TAKEN)}):
@@ -139,17 +139,17 @@ def stopped(data: "Dataset | Arrays") -> str:
     return "; ".join(reasons)
 
 
-# How far a result is from the motion of the ball: by its error, where that was verified, or as a map of its steps.
+# The distance of a result from the motion of the ball: by its verified error, or as a map with its steps.
 
 
 def far(data: "Dataset | Arrays") -> Data:
-    """As plain data: `motion`, with what was asked for, estimated and chosen; or `discretisation`; or nothing."""
+    """As plain data: `motion`, with the requested, estimated and chosen values; or `discretisation`; or nothing."""
     if (map_ := read(data.attrs.get("discretisation"))) is not None:
         return {"discretisation": asdict(map_)}
     if "error" not in data or "accuracy" not in data.attrs:
         return {}
     error = np.asarray(data["error"].values, dtype=float)
-    there = ~np.isnan(error)  # balls whose turn has not come, or that stopped
+    there = ~np.isnan(error)  # balls that have not started, or that stopped
     if not there.any() or data.sizes.get("frame", 1) < 2:
         return {}
     accuracy, of = float(data.attrs["accuracy"]), str(data.attrs.get("accuracy_of"))
@@ -162,12 +162,12 @@ def far(data: "Dataset | Arrays") -> Data:
 _CHOSEN = ("order", "substeps")
 
 
-#: Of which model an error is: that of the model itself nobody estimates.
+#: The model to which an error refers; the error of the model itself is not estimated.
 MODEL = "balanced, without slip"
 
 
 def sentence(data: "Dataset | Arrays") -> tuple[str, str] | None:
-    """The same for a reader: a key and a text; None if nothing is known."""
+    """The same for a reader, a key and a text; None if nothing is known."""
     map_, found = read(data.attrs.get("discretisation")), far(data).get("motion")
     if "row" in data.dims and "time" in data.coords:
         return "discretisation", "of a ball in more than three dimensions it is not estimated"
@@ -185,7 +185,7 @@ def sentence(data: "Dataset | Arrays") -> tuple[str, str] | None:
 
 
 def _how(order: tuple[int, int] = (0, 0), substeps: tuple[int, int] | None = None) -> str:
-    """The method that was chosen, where it is known."""
+    """The chosen method, if known."""
     if substeps is None:
         return ""
     if order[1] == 0:

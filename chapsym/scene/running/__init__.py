@@ -1,1 +1,1 @@
-"""A scene is run: in one piece, in units of work, on a cluster."""
+"""Runs of a scene: in one piece, in units of work, on a cluster."""

@@ -1,7 +1,7 @@
-"""A result in Zarr that is written unit by unit: created whole, resumable, never mixed with another run.
+"""A result in Zarr, written unit by unit: created whole, resumable, never mixed with another run.
 
-Next to the arrays, the folder `.chapsym` has the lock and the marks: for each chunk how many segments are written, with
-the state for the next, in one file.
+Next to the arrays, the folder `.chapsym` has the lock and the marks: one file for each chunk, with the number of
+written segments and the state for the next.
 """
 
 import errno
@@ -37,22 +37,22 @@ if TYPE_CHECKING:
     from zarr.storage import MemoryStore
 
 ELSE = "choose another name, or replace it with --fresh"
-#: In a mark: how many segments are done, and the checksums of their chunks; the rest is the state.
+#: The keys of a mark: the number of finished segments, and the checksums of their chunks; the rest is the state.
 DONE, DIGESTS = "segments_done", "digests"
-#: Seconds that Zarr may take, after an error, for what it writes at the same time.
+#: The seconds that Zarr may take, after an error, for its concurrent writes.
 LONGEST_WRITE = 10.0
 
 
 class Store:
     """A Zarr group with the Dataset of a plan, and the marks of its units in a folder inside.
 
-    `Store.of` makes it or goes on with it; `start` says where a chunk goes on, `write` writes a unit, `mark` says so,
-    `finish` that all is there.  Every error of the disk is a SceneError, and loses nothing that was written.
+    `Store.of` makes or resumes it; `start` gives the state of a chunk, `write` writes a unit, `mark` records it,
+    `finish` records completion.  Every error of the disk is a SceneError, and loses nothing that was written.
     """
 
     def __init__(self, path: Path, plan: Plan) -> None:
         self.path, self.plan = path, plan
-        #: Of each chunk of balls that is computed anew, the first Zarr chunk that was missing or damaged.
+        #: The first missing or damaged Zarr chunk of each chunk of balls that is computed again.
         self.damaged: list[str] = []
         #: The checksums of Zarr chunks, by their keys.
         self._digests: dict[str, str] = {}
@@ -60,9 +60,9 @@ class Store:
     @classmethod
     @contextmanager
     def of(cls, path: Path, plan: Plan, fresh: bool = False) -> Iterator[Self]:
-        """The store of a plan, new or as it was left, locked unless it is complete; `fresh` discards what was there.
+        """The store of a plan, new or resumed, locked unless it is complete; `fresh` discards an existing one.
 
-        Raises BadInput if there is something else, or if another process is writing it.
+        Raises BadInput if `path` is something else, or if another process is writing it.
         """
         path = Path(os.path.realpath(path))
         _check_place(path)
@@ -102,12 +102,12 @@ class Store:
         return {f"{one.name}/{key}": sum_ for one in folders(self.path) for key, sum_ in digests(one).items()}
 
     def start(self, chunk: int) -> tuple[int, State | None]:
-        """How many segments of a chunk are done, and the state after them; 0 and None if none is."""
+        """The number of finished segments of a chunk, and the state after them; 0 and None if there are none."""
         path, balls = mark_of(self.path, chunk), self.plan.chunks[chunk].stop - self.plan.chunks[chunk].start
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as data:  # NumPy leaves a damaged one open
                 state = {name: data[name] for name in data.files}
-            done, checksums = int(state.pop(DONE)), state.pop(DIGESTS, None)  # marks of before have none
+            done, checksums = int(state.pop(DONE)), state.pop(DIGESTS, None)  # older marks have none
             if not 0 < done <= len(self.plan.segments) or any(array.shape[:1] != (balls,) for array in state.values()):
                 raise ValueError
             keys = self._keys(chunk, range(done))
@@ -129,7 +129,7 @@ class Store:
         return done, state
 
     def _keys(self, chunk: int, segments: range, framed: bool = True) -> list[str]:
-        """Of some segments of a chunk of balls, the keys of its Zarr chunks, or of those without frames."""
+        """The keys of the Zarr chunks of some segments of a chunk of balls, or of those without frames."""
         return [
             "/".join([name, "c", *(str({"ball": chunk, "frame": segment}.get(dim, 0)) for dim in one.dims)])
             for segment in (segments if framed else segments[:1])
@@ -138,12 +138,12 @@ class Store:
         ]
 
     def _damage(self, chunk: int, segments: range) -> str | None:
-        """A Zarr chunk of some segments of a chunk of balls that is missing or damaged, if one is."""
+        """A missing or damaged Zarr chunk of some segments of a chunk of balls, if any."""
         keys = self._keys(chunk, segments, framed=False) + self._keys(chunk, segments)
         return next((key for key in keys if not is_sound(self.path / key, self._digests.get(key))), None)
 
     def _coordinates(self) -> dict[str, np.ndarray]:
-        """What does not come from the run."""
+        """The variables that do not come from the run."""
         whole = _unwritten(self.plan).variables
         return {str(name): one.values for name, one in whole.items() if name not in layout(self.plan)}
 
@@ -161,7 +161,7 @@ class Store:
 
     @cached_property
     def _document(self) -> Data:
-        """What the group says of itself and of its arrays when it is made."""
+        """The metadata of the group and of its arrays when it is made."""
         import zarr
 
         kept: dict[str, Buffer] = {}
@@ -170,7 +170,7 @@ class Store:
 
     @property
     def _about(self) -> Data:
-        """The attributes of the group, but for those that need not be those of this plan."""
+        """The attributes of the group, except those that may differ from this plan."""
         return {key: value for key, value in self._document["attributes"].items() if key not in ("complete", "scene")}
 
     @property
@@ -186,7 +186,7 @@ class Store:
                 raise SceneError(f"{self.path / name} is not as chapsym wrote it, but perhaps a copy; {ELSE}")
 
     def _described(self) -> bool:
-        """Whether the group and each array say of themselves what they said when they were made."""
+        """Whether the metadata of the group and of each array are unchanged."""
         found, listed = read_object(self.path / "zarr.json"), said(self.path)
         return (
             listed is not None
@@ -198,7 +198,7 @@ class Store:
         )
 
     def _describe(self) -> None:
-        """Writes anew what the group and its arrays say of themselves."""
+        """Rewrites the metadata of the group and its arrays."""
         for name, one in self._arrays.items():
             (self.path / name).mkdir(exist_ok=True)
             files.write_text(self.path / name / "zarr.json", json.dumps(one, indent=2))
@@ -206,11 +206,11 @@ class Store:
         files.write_text(self.path / "zarr.json", json.dumps(self._document | about, indent=2))
 
     def _mend(self) -> None:
-        """Writes what does not come from the run anew; a store that is not complete says so no more."""
+        """Rewrites the variables that do not come from the run; an incomplete store is no longer marked as complete."""
         import zarr
 
         with _refusals(self.path):
-            for left in self.path.rglob("*.partial"):  # chunks that a killed process has left half written
+            for left in self.path.rglob("*.partial"):  # half-written chunks of a killed process
                 if left.is_file():
                     left.unlink(missing_ok=True)
             if not self._described():
@@ -245,7 +245,7 @@ class Store:
             for name, one in variables.items():
                 region = tuple(where.get(dim, slice(None)) for dim in one.dims)
                 opened[name][region] = np.asarray(values[name], one.dtype)
-            (self.path / "zarr.json").stat()  # of a store that was deleted since, Zarr has made these folders anew
+            (self.path / "zarr.json").stat()  # Zarr makes these folders again for a store that was deleted meanwhile
 
     @cached_property
     def _opened(self) -> "dict[str, Array]":
@@ -256,7 +256,7 @@ class Store:
         return {name: group[name].with_config({"write_empty_chunks": True}) for name in layout(self.plan)}
 
     def mark(self, chunk: int, segment: int, state: State) -> None:
-        """The mark of a unit whose region is written, after how its balls fared.
+        """Writes the mark of a written unit, after the outcome of its balls.
 
         That changes from segment to segment, so only the process that holds the lock writes it: a worker may be late.
         """
@@ -272,7 +272,7 @@ class Store:
         files.write_whole(mark_of(self.path, chunk), lambda stream: np.savez(stream, **data))
 
     def finish(self) -> None:
-        """Says that all is there, and lists the checksums of it; the marks go."""
+        """Records completion, and lists the checksums; the marks are removed."""
         with _refusals(self.path):
             write_digests(self.path)
             self._say(complete=True)
@@ -285,7 +285,7 @@ class Store:
 
 
 def _read(description: Any) -> Data | None:
-    """What Zarr reads of the description of an array; None if it is none."""
+    """The description of an array as read by Zarr; None if it is invalid."""
     from zarr.core.metadata import ArrayV3Metadata
 
     try:
@@ -304,11 +304,11 @@ def mark_of(store: Path, chunk: int) -> Path:
     return folder_of(store) / f"chunk-{chunk:06d}.npz"
 
 
-# Whose result a store holds.
+# The plan of a store.
 
 
 def check_same(path: Path, plan: Plan) -> None:
-    """Raises SceneError with what differs unless the result there is of this plan, of these versions."""
+    """Raises SceneError, with the difference, unless the result is of this plan and these versions."""
     found, wanted = attributes(path), provenance(plan)
     key = _first_difference(_data(found.get("scene")), _data(wanted["scene"]))
     if key is not None:
@@ -319,7 +319,7 @@ def check_same(path: Path, plan: Plan) -> None:
 
 
 def difference(found: Data, wanted: Data) -> str | None:
-    """What differs of two runs apart from the text of the scene, as a verb and its object; None if nothing does."""
+    """The difference of two runs besides the text of the scene, as a verb and its object; None if there is none."""
     for name, clause in (
         ("chapsym_version", "is of another version of chapsym"),
         ("plan", "is of another plan"),
@@ -337,7 +337,7 @@ def _first_difference(one: object, other: object, key: str = "") -> str | None:
         return None if one == other else key or "the text"
     for name in sorted({*one, *other}):
         inside = f"{key}.{name}" if key else str(name)
-        if inside == "run.output":  # where to write is no part of what is written
+        if inside == "run.output":  # the destination is no part of the result
             continue
         if (name in one) != (name in other):
             return inside
@@ -347,14 +347,14 @@ def _first_difference(one: object, other: object, key: str = "") -> str | None:
 
 
 def _data(text: Any) -> object:
-    """The data of a scene, apart from its comments; as it is, where it is neither TOML nor JSON."""
+    """The data of a scene without its comments; the text itself if it is neither TOML nor JSON."""
     for read in (tomllib.loads, json.loads):
         with suppress(ValueError, TypeError, AttributeError, RecursionError):
             return read(text)
     return text
 
 
-# A new store is made next to its place with all its metadata, then renamed, so that it is there whole or not at all.
+# A new store is made next to its path with all its metadata, then renamed, so that it is whole or absent.
 
 
 def _check_place(path: Path) -> None:
@@ -372,7 +372,7 @@ def created(path: Path, fill: Callable[[Path], object]) -> bool:
 
     Raises SceneError if the disk refuses.
     """
-    for left in path.parent.glob(f".{path.name}.new-*"):  # of creations that were killed
+    for left in path.parent.glob(f".{path.name}.new-*"):  # of killed creations
         pid = left.name.rpartition("-")[2]
         if pid.isdigit() and not _alive(int(pid)):
             shutil.rmtree(left, ignore_errors=True)
@@ -389,12 +389,12 @@ def created(path: Path, fill: Callable[[Path], object]) -> bool:
                 return False
             return True
     finally:
-        _wait_for_zarr()  # or what it still writes would make the folder anew
+        _wait_for_zarr()  # otherwise its pending writes would make the folder again
         shutil.rmtree(beside, ignore_errors=True)
 
 
 def _discard(path: Path) -> None:
-    """Removes a store: renamed first, so that no half of it stays under its name."""
+    """Removes a store, after renaming, so that no part of it stays under its name."""
     beside = _beside(path)
     with _refusals(path):
         beside.mkdir()
@@ -423,7 +423,7 @@ def _create(path: Path, plan: Plan) -> None:
 
 
 def _fill(place: "Path | MemoryStore", plan: Plan) -> None:
-    """The group with all metadata and coordinates; of the values only that there are none yet."""
+    """The group with all metadata and coordinates, and without values."""
     write(_unwritten(plan).drop_vars(layout(plan)), place)
     _add_arrays(place, plan)
     consolidate(place)

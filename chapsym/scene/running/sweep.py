@@ -1,8 +1,8 @@
-"""Runs a plan unit by unit: into memory, or into a store that can be gone on with; on all cores or on a cluster.
+"""Runs a plan unit by unit: into memory, or into a resumable store; on all cores or on a cluster.
 
-A unit is some balls × some frames, from the state that the one before it left.  A worker of a cluster is sent the text
-of the scene and the numbers of a unit, makes the plan of it again, and computes and writes the unit; the process that
-began keeps the marks.
+A unit is some balls × some frames, from the state after the previous one.  A worker of a cluster gets the text of the
+scene and the indices of a unit, makes the plan again, and computes and writes the unit; the first process keeps the
+marks.
 """
 
 import threading
@@ -40,7 +40,7 @@ OFTEN = 0.1
 
 
 class NoAnswer(Exception):
-    """A unit whose balls cannot be run; the others can."""
+    """The balls of a unit cannot be run; others can."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ Report = Callable[[Progress], None]
 
 
 class Stopped(Exception):
-    """Raised inside a unit of work when the run is to stop."""
+    """Raised inside a unit of work to stop the run."""
 
 
 class Tally:
@@ -142,26 +142,26 @@ class Memory:
         return 0, None
 
     def write(self, chunk: int, segment: int, columns: Columns) -> None:
-        """Copies what there is of a unit to its place."""
+        """Copies the columns of a unit to their place."""
         where = {"ball": self.plan.chunks[chunk], "frame": self.plan.segments[segment]}
         for name, one in self.variables.items():
             if name in columns:
                 self.columns[name][tuple(where.get(dim, slice(None)) for dim in one.dims)] = columns[name]
 
     def mark(self, chunk: int, segment: int, state: State) -> None:
-        """Copies what the state says of each ball."""
+        """Copies the variables of the state for each ball."""
         self.write(chunk, segment, {name: state[name] for name in OF_BALLS if name in state})
 
 
 def run_in_memory(plan: Plan, report: Report = lambda progress: None) -> "Dataset":
-    """The same as `run`, as a Dataset whose frames are found by their time."""
+    """The same as `run`, as a Dataset indexed by time."""
     return run(plan, report).dataset()
 
 
 def run(plan: Plan, report: Report = lambda progress: None) -> Arrays:
     """Runs a plan on all cores; the result as plain arrays (`dataset.arrays`).
 
-    Balls that stopped early are NaN from there on, with their `status`.  Raises BadInput where a unit has no answer.
+    Balls that stopped early are NaN from there on, with their `status`.  Raises BadInput if a unit has no answer.
     """
     memory = Memory(plan)
     for why in _missing(plan, memory, Tally(plan, report)).values():
@@ -248,7 +248,7 @@ def unit(text: str, about: Data, path: str, chunk: int, segment: int, state: Sta
                 f"what a worker of the cluster would compute {clause} ({version}): give all the same chapsym"
             )
         columns, after = computed(plan, chunk, segment, state)
-        check_same(Path(path), plan)  # this worker may be late, and the store by now another's
+        check_same(Path(path), plan)  # this worker may be late, and the store may belong to another run
         Store(Path(path), plan).write(chunk, segment, columns)
         return after
     except (NoAnswer, SceneError) as error:
