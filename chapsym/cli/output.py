@@ -21,7 +21,7 @@ Row = Mapping[str, object]
 
 #: Seconds between two lines of progress where standard error is no terminal.
 PAUSE = 5.0
-#: A word too long to be read: a number of thousands of digits, an endless path.
+#: A word that is too long to read: a number of thousands of digits, a long path.
 LONG = re.compile(r"(\S{150})\S{100,}(\S{150})")
 #: The name of a result that is printed.
 PRINTED = Path("-")
@@ -33,29 +33,29 @@ def fail(sentence: str, status: int) -> NoReturn:
 
 
 def check_apart(path: Path | None, *others: Path | None) -> None:
-    """Fails where what is written would replace what is read, or another file that is written."""
+    """Fails if an output would replace an input, or another output."""
     if path is not None and os.path.realpath(path) in {os.path.realpath(other) for other in others if other}:
         fail(f"{path} is named twice: choose another name", 2)
 
 
 def check_printed(path: Path, as_json: bool) -> None:
-    """Fails where a result and JSON would both be printed."""
+    """Fails if a result and JSON would both be printed."""
     if as_json and path == PRINTED:
         fail("--json prints on standard output, where -o - writes the result: choose one", 2)
 
 
 def apart(path: Path | None) -> AbstractContextManager[object]:
-    """Where words about a result go: to standard error where the result is printed."""
+    """The stream for sentences on a result: standard error if the result is printed."""
     return redirect_stdout(sys.stderr) if path == PRINTED else nullcontext()
 
 
 def note(sentence: str) -> None:
-    """One sentence on standard error, and no failure; of a word of a page its beginning and its end."""
+    """Prints a sentence on standard error, without failure; very long words are shortened."""
     _said("chapsym: " + LONG.sub(r"\1...\2", sentence) + "\n")
 
 
 def _said(text: str) -> None:
-    """Standard error may be a full disk, a pipe that nobody reads, or a terminal that is gone: the work goes on."""
+    """Prints on standard error; a full disk, a closed pipe or a closed terminal does not end the work."""
     try:
         print(text, end="", file=sys.stderr, flush=True)
     except OSError:
@@ -68,7 +68,7 @@ def counted(n: int, noun: str) -> str:
 
 
 def now_and_then() -> Callable[[str], None]:
-    """Takes sentences, and notes one of them every few seconds."""
+    """A function of sentences that prints one of them every few seconds."""
     last = time.monotonic()
 
     def tell(sentence: str) -> None:
@@ -85,19 +85,19 @@ def print_json(value: object) -> None:
 
 
 def json_text(value: object, indent: int | None = None) -> str:
-    """JSON for standard output: with escapes where that shows no more than some letters."""
+    """JSON for standard output, with escapes for an output with a limited character set."""
     whole = (sys.stdout.encoding or "").lower().startswith("utf")
     return json.dumps(value, ensure_ascii=not whole, allow_nan=False, indent=indent)
 
 
 def say(text: str) -> None:
-    """Progress on standard error, on a terminal: a line that moves, without a thread of Rich's, which costs time."""
+    """Progress on standard error, on a terminal: a changing line, without a thread of Rich, which costs time."""
     if sys.stderr.isatty():
         _said(f"\r\033[K{text}")
 
 
 def quiet() -> None:
-    """Takes the line of progress away."""
+    """Removes the line of progress."""
     say("")
 
 
@@ -119,7 +119,7 @@ def telling() -> Iterator[Callable[[str], None]]:
 
 @contextmanager
 def progress_bar(label: str, total: int) -> Iterator[Callable[..., None]]:
-    """Yields a function of what is done, and of how many: on a terminal a line that changes, else nothing."""
+    """Yields a function of the number done and the total: a changing line on a terminal, else nothing."""
     if not sys.stderr.isatty():
         yield lambda done, of=total: None
         return
@@ -139,7 +139,7 @@ def following() -> Iterator[Callable[["Progress"], None]]:
 
 
 def _time_left() -> Callable[[float, float], str]:
-    """Takes what is done, and of how many: the end of a sentence on how long the rest will take, or nothing."""
+    """A function of the number done and the total: a clause on the remaining time, or nothing."""
     from chapsym.jobs import duration
 
     first: tuple[float, float] | None = None
@@ -147,7 +147,7 @@ def _time_left() -> Callable[[float, float], str]:
     def left(done: float, of: float) -> str:
         nonlocal first
         now = time.monotonic()
-        first = first or (now, done)  # of what goes on, some is done already
+        first = first or (now, done)  # a resumed run has some parts done
         started, before = first
         speed = (done - before) / (now - started) if now > started else 0.0
         return f", about {duration((of - done) / speed)} left" if speed > 0 and done < of else ""
@@ -160,14 +160,14 @@ def _balls(at: "Progress") -> str:
 
 
 def console_for(width: int) -> "Console":
-    """Where tables go: as wide as the terminal, or elsewhere so wide."""
+    """The console for tables: as wide as the terminal, or elsewhere `width`."""
     from rich.console import Console
 
     return Console(width=None if sys.stdout.isatty() else width, markup=False, highlight=False)
 
 
 def print_table(console: "Console", title: str, rows: Sequence[Row], shown: Callable[[Any], "str | Text"]) -> None:
-    """A table of rows with the same names, words to the left."""
+    """Prints a table of rows with the same names, words to the left."""
     from rich.table import Table
 
     table = Table(title=title, title_justify="left")

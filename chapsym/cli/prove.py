@@ -87,7 +87,7 @@ def prove(
 
 
 def _write_rocq(certificates: list[Path], folder: Path) -> None:
-    """The certificates that were made, as theorems."""
+    """Writes the new certificates as theorems."""
     from chapsym.prove.rocq import write
 
     try:
@@ -100,7 +100,7 @@ def _write_rocq(certificates: list[Path], folder: Path) -> None:
 
 
 def _carried(records: list[Data]) -> str:
-    """The total of what the certificates of all claims contain."""
+    """The totals of the certificates of all claims."""
     counts = [record["evidence"]["carried"] for record in records if record["evidence"]["carried"]]
     statements, sentences = sum(c["statements"] for c in counts), sum(sum(c["sentences"].values()) for c in counts)
     judged = f"{counted(statements, 'statement')} that the checker accepted"
@@ -108,7 +108,7 @@ def _carried(records: list[Data]) -> str:
 
 
 def _list_claims(claims: dict[str, "Claim"], as_json: bool, kept_in: Path | None, register: "Register") -> None:
-    """Every claim with the verdict on record, and whether what it was made with has changed since."""
+    """Every claim with its recorded verdict, and whether the inputs of the verdict have changed."""
     from chapsym.prove import records
 
     kept = kept_records(kept_in, register)
@@ -131,7 +131,7 @@ def _list_claims(claims: dict[str, "Claim"], as_json: bool, kept_in: Path | None
 def judge_and_keep(
     wanted: list[str], jobs: int | None, kept_in: Path | None, certificates: Path | None, register: "Register"
 ) -> list[Data]:
-    """Proves the claims, keeps their records and certificates, and says where a verdict is another than it was."""
+    """Proves the claims, stores their records and certificates, and reports changed verdicts."""
     from chapsym import files
     from chapsym.prove import prove_all, records
 
@@ -174,7 +174,7 @@ def judge_and_keep(
 def records_of(
     claims: dict[str, "Claim"], kept: dict[str, Data], kept_in: Path | None, register: "Register"
 ) -> list[Data]:
-    """The record of every claim: the one that is kept while it is fresh and no failure, otherwise judged now."""
+    """The record of every claim: the stored one if it is fresh and no failure, otherwise a new one."""
     from chapsym.prove import records, unproved
     from chapsym.prove.runner import downstream
 
@@ -190,7 +190,7 @@ def records_of(
 
 
 def kept_records(kept_in: Path | None, register: "Register") -> dict[str, Data]:
-    """The records that are kept of a register, by id."""
+    """The stored records of a register, by id."""
     from chapsym.prove import records
 
     try:
@@ -218,7 +218,7 @@ def all_claims(register: "Register", lemmas: bool = False) -> "dict[str, Claim]"
 
 @contextmanager
 def reading() -> Iterator[None]:
-    """Where a register is read: a script that cannot be loaded is a failed proof."""
+    """A context for reading a register: a script that cannot be loaded is a failed proof."""
     from chapsym.prove import BrokenScript, NoRegister
 
     try:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from chapsym.scene.plan.plan import Plan
     from chapsym.scene.running.sweep import Outcome
 
-#: Seconds that a proof may take where the scene does not say.
+#: The default time limit of a proof in seconds.
 LIMIT = 600.0
 OUT = "A .zarr, which can be resumed; or .nc, .parquet, .csv, .npz; - prints a CSV."
 
@@ -104,7 +104,7 @@ def run(
 
 
 def _exact(scene: "Scene", destination: Path) -> "tuple[Start, tuple[Fraction, ...]]":
-    """The start and the times of a scene that asks for a proof; refused before it is run."""
+    """The start and the times of a scene with a proof; refused before it is run."""
     from chapsym.scene.members.exactly import exact_motion
     from chapsym.scene.result.proved import check_outputs
 
@@ -115,7 +115,7 @@ def _exact(scene: "Scene", destination: Path) -> "tuple[Start, tuple[Fraction, .
 
 
 def _named(scene: Path, name: str | None) -> Path:
-    """Where a scene says that its result goes: below this folder or its own, as scenes come from others, too."""
+    """The destination in a scene: below this folder or its own, as scenes may come from others."""
     if name is None:
         fail(f'{scene} names no output: add -o OUT.npz, or output = "..." under [run]', 2)
     whole = Path(os.path.realpath(name))
@@ -129,7 +129,7 @@ def _named(scene: Path, name: str | None) -> Path:
 def _tell(
     plan: "Plan", destination: Path, outcome: "Outcome", data: "Dataset | Arrays", answers: list[Any], as_json: bool
 ) -> None:
-    """Prints what was run and where it is; units that were not run are an error, balls that stopped early are none."""
+    """Prints the run and its destination; units that were not run are an error, balls that stopped early are none."""
     from chapsym.scene.result.proved import PROVED, UNITS, UNITS_OF_MAP, bounds_of
     from chapsym.scene.result.summary import far, last_state, sentence, stopped
 
@@ -176,7 +176,7 @@ def _tell(
 
 
 def _print(plan: "Plan", destination: Path, outcome: "Outcome", one: Data) -> None:
-    """A line of what was run; of one ball how far the integrals drifted, too."""
+    """Prints a line on the run; for one ball also the drift of the integrals."""
     if one:
         steps = "" if plan.task.accuracy is not None else f"{one['steps']} steps, "
         about, where = f"{steps}{plan.frames} frames", f" in {destination}"
