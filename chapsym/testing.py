@@ -7,14 +7,14 @@
     def test_something(state):
         ball, momentum, gamma = state
 
-Each takes the strata to draw from, by default all:
+Each has the strata to draw from as an argument, by default all:
 
     rotations: "generic", "near identity" (angles 1e-12 to 1e-3), "near pi" (q0 from 0 to 1e-3)
     inertias, mass tensors, balls, states: "generic", "degenerate" (equal, nearly equal, flat, D = 0, D large)
 
-And `of_ring`: exact points where the relations of any quotient ring hold.
+`of_ring` draws exact points at which the relations of any quotient ring hold.
 
-Everything is drawn through Hypothesis, so failures shrink and replay.
+All values are drawn through Hypothesis, so failures shrink and replay.
 """
 
 from collections.abc import Sequence
@@ -106,10 +106,10 @@ def balls(draw: st.DrawFn, strata: Sequence[str] = BALLS) -> Ball:
 def states(
     draw: st.DrawFn, strata: Sequence[str] = BALLS, fraction: tuple[float, float] = (0.0, 0.9)
 ) -> tuple[Ball, Floats, Floats]:
-    """(ball, momentum, gamma) whose next step exists: a fraction of the momentum at which the branch folds."""
+    """(ball, momentum, gamma) with a next step: the momentum is a fraction of that at which the branch folds."""
     ball, gamma, direction = draw(balls(strata)), draw(unit_vectors()), draw(unit_vectors())
     far = direction * 100 * (ball.mass_tensor.sum() + float(ball.D))
-    # To a few digits, which is enough here and fast.
+    # A few digits are enough, and fast.
     _, reach, _ = continued(far.tolist(), gamma.tolist(), ball.mass_tensor.tolist(), float(ball.D), 1e-5)
     return ball, far * reach * draw(st.floats(*fraction)), gamma
 
@@ -143,12 +143,12 @@ def rational_balls(draw: st.DrawFn) -> tuple[tuple[Fraction, ...], Fraction]:
 
 @st.composite
 def of_ring(draw: st.DrawFn, ring: Any, *assumed: Any) -> dict[str, Fraction]:
-    """Exact values of the symbols of a ring, by their names, at which its relations hold, and what is assumed.
+    """Exact values of the symbols of a ring, by name, at which its relations and the assumptions hold.
 
     ring: a `chapsym.derive.Quotient`; assumed: relations of SymPy, such as x > 0, for which positive numbers are drawn.
-    Raises ArithmeticError where no rational point of the relations is known.
+    Raises ArithmeticError if no rational point of the relations is known.
     """
-    from chapsym.prove.points import drawn, first  # a second, with SymPy, which tests that roll balls do not need
+    from chapsym.prove.points import drawn, first  # takes a second, with SymPy; not needed to roll balls
     from chapsym.prove.search import true
 
     small = st.fractions(-3, 3, max_denominator=6)
