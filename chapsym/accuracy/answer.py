@@ -45,7 +45,8 @@ class Request:
     """The continuous ball (2.3) from K (kg m²/s) and γ for `time` seconds, to an absolute `accuracy` at every frame.
 
     of: "state", the larger of |ΔK|/|K| and |Δγ|; or "contact", the distance in metres.  A followed attitude counts,
-    too: its angle in radians, or, in metres, this angle times the radius. frames: the number of equal time intervals.
+    too: its angle in radians, or, in metres, this angle times the radius.
+    frames: the number of equal time intervals.
     attitude: True, or a unit quaternion to be followed.
     """
 
@@ -280,7 +281,6 @@ FEWEST, LESS = 7, 2
 LIKELY = 4.0
 #: The assumed unit roundoff of double-double: a few units of its last place.
 ROUNDED = 2.0**-103
-#: The largest number of steps.
 MOST_STEPS = 2**53
 
 

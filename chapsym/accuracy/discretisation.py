@@ -24,9 +24,9 @@ BALLS = 8
 class Discretisation:
     """Estimates of the largest distances of a run from the motion of the ball, at all steps up to `time`.
 
-    time, end: of the pilot and of the run, in s.  gamma: |Δγ|.  omega: |Δω| in rad/s, None beyond float64.  attitude:
-    the angle between the two in degrees; contact: in m; None if the run does not follow them. balls: the number of
-    balls in the pilot, without those that stop.
+    time, end: of the pilot and of the run, in s.  gamma: |Δγ|.  omega: |Δω| in rad/s, None beyond float64.
+    attitude: the angle between the two in degrees; contact: in m; None if the run does not follow them.
+    balls: the number of balls in the pilot, without those that stop.
     """
 
     time: float

@@ -74,7 +74,6 @@ from chapsym.dynamics.results import finished, in_given_axes, of_balls, put_at
 from chapsym.generated import contact_momentum
 from chapsym.numbers import Digits, Enclosure, Precision
 
-#: The default contact point at the start.
 HERE = (0.0, 0.0)
 #: Momenta in this range need no further checks.
 ORDINARY = 1e-290, 1e290
@@ -362,10 +361,10 @@ class Motion:
     """n balls at frames + 1 equal times.
 
     angular_momentum: K in kg m²/s, (n, frames + 1, 3).  gamma: (n, frames + 1, 3).  attitude: (n, frames + 1, 4), or
-    None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.  reached: the last frame of each ball, (n,); later
-    frames are NaN.  status: why it stopped, a `Status`, (n,). error: an estimate of the largest error of each ball at
-    any frame, (n,), in the norm of `apart`. order, total: the order and the number of steps of each ball, (n,); 0 for a
-    steady rotation, which needs none.
+    None.  contact: in m, from (0, 0), (n, frames + 1, 2), or None.
+    reached: the last frame of each ball, (n,); later frames are NaN.  status: why it stopped, a `Status`, (n,).
+    error: an estimate of the largest error of each ball at any frame, (n,), in the norm of `apart`.
+    order, total: the order and the number of steps of each ball, (n,); 0 for a steady rotation, which needs none.
     """
 
     angular_momentum: Floats
@@ -399,8 +398,8 @@ class Motion:
 class Problem:
     """A problem: n balls from K and γ, at `frames` times, `interval` seconds apart, to an accuracy.
 
-    attitude: (n, 4), or None if it is not followed.  contact: whether the contact point is followed. parts: the
-    quantities of the accuracy; metres: whether it is in metres: relative errors and angles times the radius.
+    attitude: (n, 4), or None if it is not followed.  contact: whether the contact point is followed.
+    parts: the quantities of the accuracy; metres: whether it is in metres: relative errors and angles times the radius.
     """
 
     ball: Ball

@@ -79,8 +79,8 @@ def heteroclinic(
     """Finds the certificate that Δ is not constant on the level 1/Λ2 of a top with J1 < J2 < J3, h > 0.
 
     starts: two x = e^2u; by default 1 and about e^c, c the limit of the increments.  digits: decimals of the file; by
-    default as needed for the difference.  radius: of J, D and h; by default the largest power of 10.  Returns the
-    object of the file (`document`).  Raises BadInput if there is no certificate.
+    default as needed for the difference.  radius: of J, D and h; by default the largest power of 10.
+    Returns the object of the file (`document`).  Raises BadInput if there is no certificate.
     """
     _check(top, starts, digits, radius)
     if starts is None:

@@ -65,9 +65,12 @@ def no_invariant_measure(
     """Finds the certificate that G_h of a top preserves no measure with a positive continuous density.
 
     steps: q; by default the least odd one that turns by `half_turns`.  half_turns: p; by default 1, or that of the
-    level. level: l; by default in the middle of the plateau.  digits: decimals of the file; by default as needed for
-    the displacement.  radius: of J, D, h and l; by default the largest power of 10 that is proved, and 0 if a component
-    of J is 0, as J must not be negative.  Returns the object of the file (`document`), which `chapsym.checker` accepts.
+    level.
+    level: l; by default in the middle of the plateau.  digits: decimals of the file; by default as needed for the
+    displacement.
+    radius: of J, D, h and l; by default the largest power of 10 that is proved, and 0 if a component of J is 0, as J
+    must not be negative.
+    Returns the object of the file (`document`), which `chapsym.checker` accepts.
     Raises BadInput if there is no certificate.
     """
     _check(top, steps, half_turns, digits, radius)

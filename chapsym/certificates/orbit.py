@@ -47,7 +47,8 @@ def periodic_orbit(
     J, D: the ball.  size: |𝒦|².  height: ⟨𝒦, γ⟩; the shortest decimal in the middle of the widest family by default.
     digits: decimals of the numbers in the file; by default as needed.  attracting: whether all eigenvalues must be
     inside the unit circle.  radius: of J, D and the integrals; by default the largest power of 10, and none if a
-    component of J is 0.  Returns the object of the file (`document`).  Raises BadInput if there is no certificate.
+    component of J is 0.
+    Returns the object of the file (`document`).  Raises BadInput if there is no certificate.
     """
     _check(J, D, size, steps, height, digits)
     level, near = _found(Level(J, D, size, Fraction(0)), steps, height, attracting, progress)

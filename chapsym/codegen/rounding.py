@@ -105,8 +105,8 @@ def _is_power_of_two(x: Fraction) -> bool:
 def count(kernel: Kernel, function: Callable[..., Any], point: Sequence[Fraction]) -> int | None:
     """The largest number of roundings of a result in the text of a kernel.
 
-    None if it calls functions, whose roundings are unknown, or if there are more roundings than in the lemma. point:
-    any arguments that are no powers of 2, at which nothing is divided by 0.
+    None if it calls functions, whose roundings are unknown, or if there are more roundings than in the lemma.
+    point: any arguments that are no powers of 2, at which nothing is divided by 0.
     """
     if kernel.letters:
         return None

@@ -24,7 +24,8 @@ _torque = kernels.kernel("torque")
 class Moments(Brief):
     """States of a run at given times, (..., times, ...) or (...) for one time, in float64; NaN after a stop.
 
-    time: seconds, or step numbers if the run has no time step. momentum, gamma, attitude, contact: as in the run;
+    time: seconds, or step numbers if the run has no time step.
+    momentum, gamma, attitude, contact: as in the run;
     omega: in body axes, in rad/s, or in radians per step.
     """
 

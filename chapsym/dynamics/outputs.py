@@ -19,10 +19,10 @@ LOW, BOUND = "_low", "_bound"
 class Output:
     """long_name, units (in n dimensions): for the map, as in files; motion: both for the motion.
 
-    dims: besides ball and frame; dims_n: the same in more than three dimensions, None if not available there. derive:
-    its values from J, D and its `needs`, other outputs or `K`; `with_D` are those that enter only with D. Without
-    `derive` it is a column of the models.  kernels: the generated kernels that `derive` evaluates. per_ball: one value
-    per ball, not per frame.  radius: whether the ball must have a radius.
+    dims: besides ball and frame; dims_n: the same in more than three dimensions, None if not available there.
+    derive: its values from J, D and its `needs`, other outputs or `K`; `with_D` are those that enter only with D.
+    Without `derive` it is a column of the models.  kernels: the generated kernels that `derive` evaluates.
+    per_ball: one value per ball, not per frame.  radius: whether the ball must have a radius.
     """
 
     long_name: str

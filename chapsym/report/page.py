@@ -19,7 +19,6 @@ from .records import FEDOROV, Record, Source
 
 FOLDER = Path(__file__).parent / "templates"
 
-#: The number of links that a list shows before it is folded.
 _MANY = 8
 
 #: The sections of the page: anchor, title, and template.

@@ -59,9 +59,9 @@ def save_motion(
 ) -> None:
     """Writes the motion of one ball, by default the first, to a .gif or, if ffmpeg is installed, an .mp4.
 
-    It lasts at most 10 seconds; for a motion too fast for 200 pictures it shows the first part, with a note. progress:
-    called with the number of pictures drawn so far, and the total number.  Raises BadInput for a result without the
-    attitude, and CannotWrite if the disk refuses.
+    It lasts at most 10 seconds; for a motion too fast for 200 pictures it shows the first part, with a note.
+    progress: called with the number of pictures drawn so far, and the total number.
+    Raises BadInput for a result without the attitude, and CannotWrite if the disk refuses.
     """
     form = path.suffix[1:]
     if form not in FORMATS:

@@ -77,7 +77,8 @@ def _as_table(file: Path, data: "Dataset") -> Table:
 def result_of(file: Path) -> "Dataset":
     """The trajectory of another program as a result: its contact point, attitude, γ, ω and slip, if any.
 
-    The radius is the height of the centre in the first row.  Raises BadInput if it is no trajectory.
+    The radius is the height of the centre in the first row.
+    Raises BadInput if it is no trajectory.
     """
     table = read_table(file, PLANE).from_zero()
     time, contact = table.columns["time"], table.vectors(PLANE[1:])

@@ -128,11 +128,11 @@ def departure(case: Case, found: Trajectory) -> Departure:
 
     path: from the point of contact to that below the centre, m.  attitude: the angle between the two, degrees.  With
     velocities, energy, momentum: the errors of the energy, and of the momentum about the contact point as a vector in
-    space, in per cent of their values at the start; none for a ball that begins at rest.  height: of the centre above
-    the radius, m.  slip, with velocities: the velocity of the contact point of the ball less the true one, which is 0
-    in rolling, m/s.  Without attitudes, only a ball with equal moments has energy and momentum.  A body that nothing
-    touches has neither height nor slip; its path is the distance of its centre from the fixed position, and its
-    momentum is about the centre.
+    space, in per cent of their values at the start; none for a ball that begins at rest.
+    height: of the centre above the radius, m.  slip, with velocities: the velocity of the contact point of the ball
+    less the true one, which is 0 in rolling, m/s.  Without attitudes, only a ball with equal moments has energy and
+    momentum.  A body that nothing touches has neither height nor slip; its path is the distance of its centre from the
+    fixed position, and its momentum is about the centre.
     """
     free = not case.radius
     place = np.column_stack([case.path, np.full(len(case.path), case.radius)])
@@ -201,9 +201,9 @@ def carried(case: Case, attitude: np.ndarray, velocity: np.ndarray, omega: np.nd
 class Convergence:
     """The convergence of the path, or of the attitude, over steps with a common ratio.
 
-    order: from the decrease of the differences between successive steps; None if they do not decrease. of_the_step: the
-    distance of the finest run from the limit of the runs.  floor: the distance of this limit from the truth, by soft
-    contact, friction and rounding.  Both are estimates, in m or degrees, and the greatest at the frames.
+    order: from the decrease of the differences between successive steps; None if they do not decrease.
+    of_the_step: the distance of the finest run from the limit of the runs.  floor: the distance of this limit from the
+    truth, by soft contact, friction and rounding.  Both are estimates, in m or degrees, and the greatest at the frames.
     """
 
     order: float | None

@@ -286,8 +286,8 @@ class ExactCurve:
     """A motion in Arb's numbers; 𝒦 and the mass tensor are taken as exact.
 
     moments: Λ in the order of the curve; direction: the unit vector of 𝒦, (3,); gibbs: the Gibbs vector of the first
-    step; after: the next direction.  level: l; rate: V with its sign; k2: k²; quarter: K(k).  start: u at the
-    direction; increment: the signed increment of u.
+    step; after: the next direction.  level: l; rate: V with its sign; k2: k²; quarter: K(k).
+    start: u at the direction; increment: the signed increment of u.
     """
 
     curve: Curve

@@ -120,8 +120,9 @@ STUCK, MORE_TERMS = 1, 1.25
 class Path:
     """A motion in balls of `precision` bits; call every method with that precision set.
 
-    attitude: a quaternion; K: the momentum; rotor: the momentum of a rotor, in body axes; all in balls.  time: exact,
-    since the start.  steps: taken so far.  tick: called within a step; an exception that it raises ends the step.
+    attitude: a quaternion; K: the momentum; rotor: the momentum of a rotor, in body axes; all in balls.
+    time: exact, since the start.  steps: taken so far.  tick: called within a step; an exception that it raises ends
+    the step.
     given: converts a frame from the axes of the tensor to other axes.
     """
 

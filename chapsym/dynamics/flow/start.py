@@ -159,10 +159,12 @@ def _round(rows: Sequence[Sequence[Fraction]]) -> tuple[Fraction, Fraction, Sequ
 class Start:
     """The data of a motion.
 
-    mass_tensor, D: exact.  axes: for a tensor that is not diagonal in the axes of the body, in place of mass_tensor, a
-    function that gives its principal moments and axes in balls at the precision that is set.  attitude: gives a
-    quaternion of any length, in such balls.  momentum: gives K in principal axes.  radius: exact, or None.  position:
-    exact.  rotor: the angular momentum of a rotor, in body axes; it is part of K.
+    mass_tensor, D: exact.
+    axes: for a tensor that is not diagonal in the axes of the body, in place of mass_tensor, a function that gives its
+    principal moments and axes in balls at the precision that is set.
+    attitude: gives a quaternion of any length, in such balls.  momentum: gives K in principal axes.
+    radius: exact, or None.
+    position: exact.  rotor: the angular momentum of a rotor, in body axes; it is part of K.
     """
 
     mass_tensor: Sequence[Fraction]

@@ -21,11 +21,9 @@ from ..loops import block, gibbs, loop
 from ..loops.guess import stage_weights
 from .frames import Balls, Count, Frames, cores, share
 
-#: Shorter runs use one core.
 SHORT_RUN = 2000
 #: Steps of a ball, or of all balls of a block together, between calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
-#: The largest number of blocks in one call.
 BLOCKS = 64
 
 
@@ -56,8 +54,8 @@ def run(
 ) -> None:  # fmt: skip
     """Takes `steps` steps of every ball into `frames`; `progress` gets the steps of all balls together.
 
-    order: of the composition, 2 for the map itself.  threads: the number of cores; 0 for all. of: the numbers of the
-    balls and of the frames.
+    order: of the composition, 2 for the map itself.  threads: the number of cores; 0 for all.
+    of: the numbers of the balls and of the frames.
     """
     count, n, stages = Count(progress), len(balls.D), substeps(order).astype(of.dtype)
     if steps == 0 or n == 0:

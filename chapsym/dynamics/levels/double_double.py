@@ -17,7 +17,6 @@ from ..loops import proved as loops_proved
 from . import proved
 from .frames import Balls, Count, Frames, cores, share
 
-#: Shorter runs use one core.
 SHORT_RUN = 500
 #: Fewer balls than this do not fill a block.
 FEW = 4

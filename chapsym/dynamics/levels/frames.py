@@ -25,8 +25,8 @@ OFTEN = 0.1
 class Balls:
     """The balls of a run: momentum 𝒦 and γ at the start, (n, 3); J, (n, 3); D and the radius, (n,).
 
-    Floats, or for Digits and Enclosure exact fractions of any size. rest: the low half of 𝒦, (n, 3), for the precisions
-    that can hold it; or None.
+    Floats, or for Digits and Enclosure exact fractions of any size.
+    rest: the low half of 𝒦, (n, 3), for the precisions that can hold it; or None.
     """
 
     momentum: Floats

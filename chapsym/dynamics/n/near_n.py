@@ -46,9 +46,9 @@ def least(angle: Floats, s: Floats, D: Floats) -> Floats:
 def bounds(size: Floats, J: Floats, D: Floats) -> tuple[Floats, Floats]:
     """(near, enough) for |𝒦| = size, (b, s), moments (b, n) and D (b,) of which the largest is about 1.
 
-    near: a rotation with the momentum and Σ Eᵢⱼ² ≤ near is the small one; negative if that is not known. enough: a
-    bound of the squared Newton correction over |E| that makes the next correction less than half a rounding of |E|: the
-    next is at most l/2λ times that square, with l = 2 max J + D, a bound of 𝒦(Ωξ²).
+    near: a rotation with the momentum and Σ Eᵢⱼ² ≤ near is the small one; negative if that is not known.
+    enough: a bound of the squared Newton correction over |E| that makes the next correction less than half a rounding
+    of |E|: the next is at most l/2λ times that square, with l = 2 max J + D, a bound of 𝒦(Ωξ²).
     """
     s = np.sort(J, axis=-1)[:, :2].sum(axis=-1)
     r = ANGLES[:, np.newaxis] * np.arctan2(4 * np.sqrt(s * (s + D)), D)

@@ -443,8 +443,8 @@ def continued(
 ) -> dict[str, Floats]:  # fmt: skip
     """Takes steps of some balls together, and writes the rows `at` of the frames and of (taken, status, reach).
 
-    rotations: a function that finds the rotations of a stage, as `small_rotation` in float64.  Returns the states of
-    the balls that took all steps.
+    rotations: a function that finds the rotations of a stage, as `small_rotation` in float64.
+    Returns the states of the balls that took all steps.
     """
     taken, status, reach = outcome
     for step in range(1, steps + 1):

@@ -36,9 +36,10 @@ PAIRS = tuple(itertools.combinations_with_replacement(range(4), 2))
 class Candidates:
     """The eight points of each ball.
 
-    points: (n, 8, 4), complex, of length 1, with the phase that makes the imaginary part least.  error: a bound of the
-    distance of the root, by Newton-Kantorovich with roundings, (n, 8). bend: |F'⁻¹F''|, (n, 8): no other root is nearer
-    than about 1/bend, if error·bend is small. sound: whether the matrices of the ball had full rank, (n,).
+    points: (n, 8, 4), complex, of length 1, with the phase that makes the imaginary part least.
+    error: a bound of the distance of the root, by Newton-Kantorovich with roundings, (n, 8).
+    bend: |F'⁻¹F''|, (n, 8): no other root is nearer than about 1/bend, if error·bend is small.
+    sound: whether the matrices of the ball had full rank, (n,).
     """
 
     points: np.ndarray

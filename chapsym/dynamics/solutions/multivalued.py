@@ -32,7 +32,6 @@ SAME = 1 / 3
 FAR = 0.05
 #: A q0 of a unit quaternion up to this is 0: a rotation by π.
 ROUNDING = 2.0**-51
-#: The number of balls in a block.
 CHUNK = 1024
 #: A bound of the rounding of a step, even for a large D or near a fold.
 ROUNDED = 1e-3

@@ -110,8 +110,8 @@ def ball_of(file: Path) -> tuple[Data, Members]:
 def expand(scene: Scene) -> Members:
     """The balls of a scene with their starts, the product of all ranges, checked.
 
-    A range of [start] applies to each ball without its own start, with separate random samples.  Raises SceneError,
-    with the name of the ball, for values that no body can have and for invalid starts.
+    A range of [start] applies to each ball without its own start, with separate random samples.
+    Raises SceneError, with the name of the ball, for values that no body can have and for invalid starts.
     """
     tables = bodies(scene)
     total = sum(len(body) for body in tables)

@@ -45,12 +45,15 @@ ROLLING = {"momentum": STEP, "attitude": ("compose",), "contact": ("compose", "c
 class Model(ABC):
     """A method to compute balls; its name determines the values.
 
-    name: as in the plan; title: for readers.  about: one clause on its simplifications.  columns: that it can compute.
-    kernels: the generated kernels in its loops, for each computed column.  motion: whether it computes the motion of
-    the ball to an accuracy, or else the map; high: whether for balls in more than three dimensions.  reduction: whether
-    it is simpler than the general model, only of order 2 and in float64, so that a plan gives the reason why it is not
-    used.  stepwise: whether its cost grows with the steps (else with the frames).  whole: whether it must run in one
-    segment, since its state has more than float64 arrays.  proves: whether it can bound the error of each frame.
+    name: as in the plan; title: for readers.  about: one clause on its simplifications.
+    columns: that it can compute.
+    kernels: the generated kernels in its loops, for each computed column.
+    motion: whether it computes the motion of the ball to an accuracy, or else the map; high: whether for balls in more
+    than three dimensions.  reduction: whether it is simpler than the general model, only of order 2 and in float64, so
+    that a plan gives the reason why it is not used.
+    stepwise: whether its cost grows with the steps (else with the frames).
+    whole: whether it must run in one segment, since its state has more than float64 arrays.
+    proves: whether it can bound the error of each frame.
     unit_steps: steps of all balls in one unit of work: a second or two, the largest loss of a killed run.
     """
 

@@ -29,8 +29,8 @@ class Plan:
 
     model: the cheapest applicable one; needed: its columns.  refused: why each reduction does not apply.  chunks ×
     segments are the units of work: balls × frames.  They depend only on the scene, not on the machine, so that an
-    interrupted run has the same bits as another.  scene: its text, or JSON of a dict; title: its own; seed: of its
-    random ranges.  They go with the result.
+    interrupted run has the same bits as another.
+    scene: its text, or JSON of a dict; title: its own; seed: of its random ranges.  They go with the result.
     """
 
     members: Members

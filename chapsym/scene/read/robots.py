@@ -25,15 +25,12 @@ from .errors import Data, SceneError
 _log = logging.getLogger("chapsym")
 
 SUFFIXES = (".urdf", ".xacro", ".sdf", ".world", ".xml", ".mjcf")
-#: The largest length of a file.
 MOST_BYTES = 10_000_000
 #: The largest offset, relative to the radius, that counts as a rounding in the file.
 NO_OFFSET = Fraction(1, 10**9)
 #: The largest accepted number, whose square is within float64.
 MOST = 10**150
-#: The largest depth of nested elements.
 DEEPEST = 100
-#: The digits of tensors and vectors that are rotated by angles.
 DIGITS = 40
 #: The values of <compiler> of MJCF that change no number.
 PLAIN = {

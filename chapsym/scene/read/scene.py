@@ -21,7 +21,6 @@ from .tables import KEYS, BallTable, Line, RunTable, StartTable, SweepTable, Tab
 from .task import Task
 from .units import TIME, number
 
-#: The largest length of a text.
 MOST_BYTES = 10_000_000
 #: The largest length of a key: the time of tomllib grows with its square.
 MOST_DOTS = 2000

@@ -13,11 +13,12 @@ BEYOND_FLOAT64 = 1e-15
 class Task:
     """outputs: names of `outputs.OUTPUTS`.
 
-    steps, every: of the map; every: steps between two frames.  time_step: ε in s, or None in the paper's units.  order:
-    of the composition.  precision: "single", "double" or "double-double".  Or, of the continuous motion, an accuracy at
-    these frames, in the norm `of` ("state" or "contact"), within `limit` s of the processor.  Without a time_step the
-    frames are at `steps` equal parts of `time` s.  searched: whether the scene itself requests this accuracy, so that
-    all precisions may be used. proved: for the map, whether each frame has bounds of its error.
+    steps: of the map; every: of them between two frames.  time_step: ε in s, or None in the paper's units.
+    order: of the composition.  precision: "single", "double" or "double-double".  Or, of the continuous motion, an
+    accuracy at these frames, in the norm `of` ("state" or "contact"), within `limit` s of the processor.  Without a
+    time_step the frames are at `steps` equal parts of `time` s.
+    searched: whether the scene itself requests this accuracy, so that all precisions may be used.
+    proved: for the map, whether each frame has bounds of its error.
     """
 
     outputs: tuple[str, ...]

@@ -46,7 +46,6 @@ HEAP = b"GCOL\x01\x00\x00\x00"
 BLOCK = 2**24
 #: The destination of a CSV without a file.
 STDOUT = Path("-")
-#: The largest number of rows of a CSV.
 MOST_ROWS = 10**7
 #: The files that need no extras.
 ALONE = (".csv", ".npz")
@@ -474,5 +473,4 @@ _READERS: dict[str, Callable[[Path], "Dataset"]] = {
     ".zarr": _read_zarr, ".nc": _read_netcdf, ".csv": _read_csv, ".parquet": _read_parquet,
     ".npz": _read_npz,
 }  # fmt: skip
-#: The suffixes of files with results.
 READABLE = tuple(_READERS)

@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
 #: Chunks of balls that run side by side at most, one a core: while one is written, another is computed.
 ABREAST = 8
-#: Seconds between two reports.
 OFTEN = 0.1
 
 
@@ -161,7 +160,8 @@ def run_in_memory(plan: Plan, report: Report = lambda progress: None) -> "Datase
 def run(plan: Plan, report: Report = lambda progress: None) -> Arrays:
     """Runs a plan on all cores; the result as plain arrays (`dataset.arrays`).
 
-    Balls that stopped early are NaN from there on, with their `status`.  Raises BadInput if a unit has no answer.
+    Balls that stopped early are NaN from there on, with their `status`.
+    Raises BadInput if a unit has no answer.
     """
     memory = Memory(plan)
     for why in _missing(plan, memory, Tally(plan, report)).values():

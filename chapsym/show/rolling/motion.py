@@ -12,7 +12,6 @@ from chapsym.dynamics.ball import Floats
 from ..drawing import curves, reading
 from ..drawing.invariant import unit
 
-#: The largest number of balls that are distinguished by their colours.
 MOST_BALLS = 20
 #: Frames of all balls together, and the least and the largest number for one ball.
 FRAMES, LEAST, MOST = 40_000, 2_000, 8_000
@@ -34,9 +33,9 @@ class Rolling:
     """One ball: its frames until it stopped, at the kept clock readings.
 
     attitude: unit quaternions, (frames, 4).  turn: rotation vectors in space from frame to frame, (frames - 1, 3); None
-    if they are not known.  contact: m, (frames, 2).  vectors: by name, body axes, (frames, 3).  inertia: the principal
-    moments (3,), or None.  axes: the unit quaternion from principal to body axes, or None if they are the same.  notes:
-    the notes of the page on the ball.
+    if they are not known.  contact: m, (frames, 2).  vectors: by name, body axes, (frames, 3).
+    inertia: the principal moments (3,), or None.  axes: the unit quaternion from principal to body axes, or None if
+    they are the same.  notes: the notes of the page on the ball.
     """
 
     name: str

@@ -44,7 +44,8 @@ def write_page(dataset: Dataset, path: str | Path, *, balls: Sequence[str | int]
     """Writes a result as an interactive page: the balls rolling in 3D, in one HTML file that needs no network.
 
     dataset: with attitude, radius and, for the rolling, contact.  balls: names or indices, at most 20; by default the
-    first.  Raises BadInput if the result lacks a variable, or the file cannot be written.
+    first.
+    Raises BadInput if the result lacks a variable, or the file cannot be written.
     """
     text = html(dataset, balls=balls)
     try:
