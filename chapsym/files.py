@@ -11,11 +11,11 @@ MOST_BYTES, MOST_LINE = 2**30, 2**24
 
 
 class CannotRead(Exception):
-    """A file cannot be read as it is named; the message says why."""
+    """A file cannot be read; the message has the reason."""
 
 
 class CannotWrite(Exception):
-    """A file cannot be written as it is named; the message says why."""
+    """A file cannot be written; the message has the reason."""
 
 
 def check_destination(path: Path) -> None:
@@ -50,7 +50,7 @@ def check_source(path: Path) -> None:
 
 
 def content_of(path: Path, most: int) -> bytes:
-    """A file as it is; raises CannotRead if it cannot be read, and if it has more than `most` bytes."""
+    """The bytes of a file; raises CannotRead if it cannot be read, and if it has more than `most` bytes."""
     check_source(path)
     try:
         with path.open("rb") as stream:

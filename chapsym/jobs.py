@@ -50,7 +50,7 @@ def duration(seconds: float) -> str:
 
 
 class Lost(Exception):
-    """A call that has no result: whoever made it was lost, each time."""
+    """A call without a result: its worker was lost at each attempt."""
 
 
 class Crew(Protocol):

@@ -300,7 +300,7 @@ def pivots(matrix: sp.Matrix) -> list[int]:
 
 
 def determinant(matrix: sp.Matrix) -> sp.Expr:
-    """The determinant, not expanded: the ring decides what it is."""
+    """The determinant, not expanded: the ring decides its value."""
     with dotprodsimp(False):
         return matrix.det(method="laplace")
 

@@ -124,7 +124,7 @@ def volume(system: System) -> Volume:
 
 @lru_cache(maxsize=8)
 def _decided(system: System, digest: str) -> Volume:
-    """The volume of a system, as it is now, which the verdicts on all methods share."""
+    """The volume of a system in its present state, shared by the verdicts on all methods."""
     q, v = system.coordinates, system.velocities
     if any(sp.expand(b) != 0 for b in system.offsets):
         raise BadSystem(f"{system.name}: volumes are for constraints that are linear in the velocities")

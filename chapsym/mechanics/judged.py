@@ -159,7 +159,7 @@ def decided(system: System, scheme: Scheme) -> dict[str, Decided]:
 
 @lru_cache(maxsize=8)
 def _exact(system: System, digest: str) -> Exact:
-    """A system, as it is now, whose motion all methods share."""
+    """A system in its present state, whose motion all methods share."""
     return Exact(system)
 
 

@@ -60,7 +60,7 @@ class Scheme:
     integrals: Mapping[str, sp.Expr] = field(default_factory=dict)
 
     def step(self, state: Vector, first: Vector, length: Any, rates: Callable[[Any], Vector], number: Any) -> Any:
-        """The next state in any numbers, by `after` at the state and, of an explicit method, what it is at others."""
+        """The next state in any numbers, by `after` at the state and, for an explicit method, at its stages."""
         known, at = [first], first
         for row in self.stages:
             weights = list(map(number, row))

@@ -28,7 +28,7 @@ from .system import BadSystem, System, a_system, several
 MOST_PARTS, FRACTIONS = 1500, 5
 
 
-#: Of a quantity that is kept: what it is a combination with is too much work beyond.
+#: The largest number of parts of a conserved quantity; the combination for a larger one is too much work.
 MOST_OF_A_QUANTITY = 100
 #: Why there is no volume.
 INFERRED = (

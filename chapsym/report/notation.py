@@ -266,7 +266,7 @@ def value_latex(text: str) -> str:
 
 
 def shown_latex(shown: str | Matrix) -> str:
-    """The result of `value` as a formula: a matrix in small type, a rational as it is, a break after each comma."""
+    """The result of `value` as a formula: a matrix in small type, a rational unchanged, a break after each comma."""
     if isinstance(shown, str):
         return symbol_latex(shown).replace(", ", r",\allowbreak\ ")
     rows = r"\\".join("&".join(symbol_latex(x) for x in row) for row in shown)

@@ -44,7 +44,7 @@ def _listed(algebra: Algebra, turns: list[tuple[str, str, bool]]) -> str:
 
 
 def _side(algebra: Algebra, tree: Tree) -> tuple[str, str]:
-    """The trace of a matrix as it is read, and as data."""
+    """The trace of a matrix for a reader, and as data."""
     if tree == 0:
         return "0", "None"
     shape = algebra.shape(tree)

@@ -10,7 +10,7 @@ from .quotients import Data, Tree, joined, names_in
 
 #: Rows and columns of a letter; True is n, False is 1.
 Shape = tuple[bool, bool]
-#: The left and the right sides of equations, each as it is read and as data.
+#: The left and the right sides of equations, each for a reader and as data.
 Sides = list[tuple[tuple[str, str], tuple[str, str]]]
 TYPES = {(True, True): ("'M[R]_n", "square"), (True, False): ("'cV[R]_n", "column"), (False, True): ("'rV[R]_n", "row")}
 
@@ -125,7 +125,7 @@ def shapes_of(algebra: Algebra) -> str:
 
 
 def theorem(name: str, algebra: Algebra, hypotheses: list[str], lemma: str, sides: Sides, known: str = "") -> str:
-    """The theorem that a lemma with its data proves, by what it computes of the sides, and by what is `known`."""
+    """The theorem that a lemma proves with its data, from the computed sides, and from `known` facts."""
     binders, variables = _binders(algebra)
     unit, inverse = f"{algebra.N}%:R \\is a @GRing.unit R ->", f"{algebra.N}%:R^-1"
     letters = [f"{TYPES[of][1]} {f'({text})' if '^' in text else text}" for _, of, text in algebra.letters.values()]
