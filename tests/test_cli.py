@@ -121,6 +121,7 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["bench", "long", "-o", "x.txt"], "'x.txt': a figure must end in .svg, .png, .pdf"),
         (["bench", "memory", "-o", "x.svg"], "only work-precision and long have a figure"),
         (["bench", "long", "-o", "absent/x.svg"], "the folder absent does not exist"),
+        (["run", "a\x1b]0;b\x9b\n\u202e.toml", "-o", "x.npz"], r"a\x1b]0;b\x9b\n\u202e.toml cannot be read"),
         ([*STEP, "--precision", "x" * 9000], f"--precision {'x' * 150}...{'x' * 149}: give single"),
         (
             ["branches", *STEP[1:], "--momentum", f"1/{'7' * 3900},0,0"],

@@ -18,7 +18,7 @@ from typer.exceptions import TyperException
 import chapsym
 from chapsym.rationals import NotANumber
 
-from .output import fail, quiet
+from .output import fail, note, quiet
 
 app = typer.Typer(
     pretty_exceptions_enable=False, rich_markup_mode=None, context_settings={"help_option_names": ["-h", "--help"]}
@@ -62,7 +62,8 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):  # for a terminal, or a pipe, without Greek
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="chapsym")
-    logging.basicConfig(format="chapsym: %(message)s", stream=sys.stderr)
+    logging.basicConfig(handlers=[notes := logging.Handler()])
+    notes.emit = lambda record: note(record.getMessage())  # type: ignore[method-assign]
     logging.getLogger("chapsym").setLevel(logging.INFO)
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # of a home that cannot be written it says four lines
     if len(sys.argv) == 1:

@@ -180,6 +180,7 @@ def test_an_accuracy_is_a_task_of_frames():
         ({"name": ""}, "ball.name must not be empty"),
         ({"name": "a\x00b"}, "ball.name must be one line of text, without control characters"),
         ({"name": "a\nb"}, "ball.name must be one line of text, without control characters"),
+        ({"name": "a\u202eb"}, "ball.name must be one line of text, without control characters"),
         ({"name": "x" * 81}, "ball.name must have at most 80 characters"),
         (3, "ball must be a table: [ball]"),
         ([], "ball must not be []"),

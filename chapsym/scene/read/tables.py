@@ -145,8 +145,8 @@ Quaternion = Annotated[tuple[Pure, Pure, Pure, Pure], Vector]
 Count = Annotated[int, Field(strict=True, ge=0)]
 Whole = Annotated[int, Field(strict=True, ge=1)]
 Switch = Annotated[bool, Field(strict=True)]
-#: Files and pictures have no place for control characters.
-Line = Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f-\x9f]*$")]
+#: Files and pictures have no place for control characters, those of lines and of the direction of writing among them.
+Line = Annotated[str, Field(pattern=r"^[^\x00-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]*$")]
 #: Of one ball: nobody waits for more steps, and the coordinates of more frames take gigabytes.
 MOST_STEPS, MOST_FRAMES = 2**53, 10**8
 #: A step in n dimensions solves n(n-1)/2 equations.
