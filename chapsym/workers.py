@@ -43,39 +43,57 @@ class Processes(ProcessPoolExecutor):
 
 @contextmanager
 def _deaf() -> Iterator[None]:
-    """A process that begins in it, a worker or Python's tracker, sees no interrupt of a terminal, nor its end."""
+    """A process that begins in it, a worker or Python's tracker, sees no interrupt of a terminal, nor its end.
+
+    A worker gets SIGTERM after `begin`, which unblocks it.
+    """
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP, signal.SIGQUIT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGTERM})
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+#: Seconds after which a worker that was asked to end is killed: it may be at a long call of C, or at a broken pipe.
+GRACE = 3
+
+
 def begin() -> None:
     """In a worker: an interrupt is for the parent; and when that is gone, however it was ended, the worker ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, _end)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
+    sys.unraisablehook = lambda what: None if _state["ended"] else sys.__unraisablehook__(what)
     threading.Thread(target=_outlived, daemon=True).start()
 
 
-_ended = threading.Event()
+#: Of a worker: whether it is at a call, and whether it was asked to end.
+_state = {"calls": False, "ended": False}
 
 
-def _end(*signal: object) -> None:
-    _ended.set()
-    raise SystemExit(1)
+def _end(*_: object) -> None:
+    """Ends the call; between two of them a message may be half read or half sent, and the pool ends the worker."""
+    again, _state["ended"] = _state["ended"], True
+    if not again:
+        signal.alarm(GRACE)  # of which a process dies
+        if _state["calls"]:
+            raise SystemExit(1)
 
 
 def _called(call: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
-    """The result of a call, in a worker; a worker that was ended during the call begins no other."""
+    """The result of a call, in a worker; None of a call that was ended, and of one that came after."""
     try:
-        return call(*arguments, **named)
+        _state["calls"] = True
+        return None if _state["ended"] else call(*arguments, **named)
+    except SystemExit:
+        if not _state["ended"]:
+            raise
     finally:
-        if _ended.is_set():
-            os._exit(1)
+        _state["calls"] = False
 
 
 def _outlived() -> None:

@@ -311,6 +311,20 @@ def test_the_end_of_the_processes_waits_for_no_call_and_leaves_nothing_half_writ
     assert os.listdir(tmp_path) == ["begun"]
 
 
+class Late:
+    """What is pickled when its worker is asked to end."""
+
+    def __reduce__(self):
+        os.kill(os.getpid(), signal.SIGTERM)
+        return str, ("whole",)
+
+
+def test_a_worker_that_is_asked_to_end_sends_what_it_has_begun_to_send():
+    """Half a message would hold up the pool for ever."""
+    with Processes(1) as pool:
+        assert pool.submit(Late).result() == "whole"
+
+
 #: The command, which says when the first part of its work has arrived, and waits there.
 ARRIVED = f"""{INTERRUPTIBLE}
 import time
