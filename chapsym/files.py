@@ -2,9 +2,15 @@
 
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
 
 #: Limits of a text that is read whole, and of its first line: an hour of a motion, a thousand frames each second.
 MOST_BYTES, MOST_LINE = 2**30, 2**24
@@ -89,6 +95,21 @@ def write_whole(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)
+
+
+@contextmanager
+def alone(folder: Path) -> Iterator[None]:
+    """Waits for other processes that are in this `with` for a folder, where the disk has locks."""
+    stream = None
+    try:
+        with suppress(OSError):
+            stream = os.open(folder, os.O_RDONLY)
+            if fcntl is not None:
+                fcntl.flock(stream, fcntl.LOCK_EX)
+        yield
+    finally:
+        if stream is not None:
+            os.close(stream)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -99,21 +99,22 @@ def _parsed(line: str) -> Data | None:
 def update(path: Path, records: Iterable[Data], claims: dict[str, Claim]) -> None:
     """Replaces old records by new ones, in the order of the claims; records of unknown claims go.
 
-    The file is written whole; raises CannotWrite if it cannot be.
+    The file is written whole; raises CannotWrite if it cannot be.  Of two processes both keep what they have.
     """
-    known = read(path) | {record["id"]: record for record in records}
-    lines = [json.dumps(known[id], ensure_ascii=False) + "\n" for id in claims if id in known]
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        with files.alone(path.parent):
+            known = read(path) | {record["id"]: record for record in records}
+            lines = [json.dumps(known[id], ensure_ascii=False) + "\n" for id in claims if id in known]
+            files.write_whole(path, lambda stream: stream.writelines(map(files.encoded, lines)))
     except OSError as error:
         raise files.CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None
-    files.write_whole(path, lambda stream: stream.writelines(map(files.encoded, lines)))
 
 
 def append(path: Path, record: Data) -> None:
     """Adds a whole record, or nothing, to a file of `update`; the last record of a claim counts."""
     line = files.encoded(json.dumps(record, ensure_ascii=False) + "\n")
-    with path.open("ab", buffering=0) as stream:
+    with files.alone(path.parent), path.open("ab", buffering=0) as stream:
         before = os.fstat(stream.fileno()).st_size
         if stream.write(line) != len(line):  # a full disk
             stream.truncate(before)

@@ -5,11 +5,12 @@ import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from threading import Thread
 
 import pytest
 from commands import answer, changed, chapsym, child, refused
 
-from chapsym import sources
+from chapsym import files, sources
 from chapsym.cli import prove as command
 from chapsym.prove import PROOFS, load, records
 
@@ -155,6 +156,21 @@ def test_workers_end_with_the_process_that_started_them(tmp_path):
         process.kill()
         with ThreadPoolExecutor() as pool:
             assert pool.submit(process.stdout.read).result(timeout=600) == b""
+
+
+def test_of_two_that_write_at_once_both_keep_what_they_have(path, monkeypatch):
+    whole, other = files.write_whole, Thread(target=records.update, args=(path, [made("4.3")], load()))
+
+    def write(*arguments):
+        if not other.ident:
+            other.start()
+            other.join(1.0)  # it waits for the end of the first
+        whole(*arguments)
+
+    monkeypatch.setattr(files, "write_whole", write)
+    records.update(path, [made("2.1")], load())
+    other.join()
+    assert list(records.read(path)) == ["2.1", "4.3"]
 
 
 def test_some_records_that_are_asked_for_leave_those_of_other_claims(path, monkeypatch):
