@@ -117,6 +117,11 @@ def write_text(path: Path, text: str) -> None:
     write_whole(path, lambda stream: stream.write(encoded(text)))
 
 
+def visible(text: str) -> str:
+    """Replaces what a terminal would obey, in names of others, by escapes: control signs, line ends, directions."""
+    return "".join(x if x.isprintable() else repr(x)[1:-1] for x in text)
+
+
 def encoded(text: str) -> bytes:
     """A text in UTF-8, with half a letter, which has no code there, as the escape that JSON has for it."""
     return text.encode("utf-8", "backslashreplace")

@@ -10,6 +10,8 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext, redi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from chapsym import files
+
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.text import Text
@@ -51,12 +53,7 @@ def apart(path: Path | None) -> AbstractContextManager[object]:
 
 def note(sentence: str) -> None:
     """Prints a sentence on standard error, without failure; very long words are shortened."""
-    _said("chapsym: " + _visible(LONG.sub(r"\1...\2", sentence)) + "\n")
-
-
-def _visible(text: str) -> str:
-    """Replaces what a terminal would obey, in names of others, by escapes: control signs, line ends, directions."""
-    return "".join(x if x.isprintable() else repr(x)[1:-1] for x in text)
+    _said("chapsym: " + files.visible(LONG.sub(r"\1...\2", sentence)) + "\n")
 
 
 def _said(text: str) -> None:
@@ -98,7 +95,7 @@ def json_text(value: object, indent: int | None = None) -> str:
 def say(text: str) -> None:
     """Progress on standard error, on a terminal: a changing line, without a thread of Rich, which costs time."""
     if sys.stderr.isatty():
-        _said(f"\r\033[K{_visible(text)}")
+        _said(f"\r\033[K{files.visible(text)}")
 
 
 def quiet() -> None:

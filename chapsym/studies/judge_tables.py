@@ -97,7 +97,7 @@ class Table:
         centre, velocity, omega = (part.vectors(names) for names in (NEEDED[1:4], MORE[:3], MORE[3:]))
         assert centre is not None
         attitude = None if part.vectors(NEEDED[4:]) is None else part.attitudes()
-        return Trajectory(str(self.file), centre, attitude, velocity, omega, self.step, self.digit)
+        return Trajectory(files.visible(str(self.file)), centre, attitude, velocity, omega, self.step, self.digit)
 
     def vectors(self, names: Sequence[str]) -> np.ndarray | None:
         """Several columns together, (rows, names); None if one is missing."""

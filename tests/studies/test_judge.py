@@ -331,3 +331,10 @@ def test_data_that_are_made_anew_say_the_same(name):
                 assert abs(Decimal(x) - Decimal(y)) <= Decimal(more) + Decimal(less)
     assert make.table(case) == Path(DATA, f"{name}.csv").read_text("utf-8")
     assert json.loads(make.text(case)) == case
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no such names")
+def test_the_name_of_a_file_is_shown_without_what_a_terminal_obeys(case, table, tmp_path):
+    file = tmp_path / "a\x1b]0;b\x07\u202e.csv"
+    file.write_text(text(table), encoding="utf-8")
+    assert read_trajectory(file, case.time).file.endswith(r"a\x1b]0;b\x07\u202e.csv")
