@@ -18,11 +18,7 @@ PACKAGES, MEGABYTES = 21, 250
 OWN = {"pip", "setuptools"}
 INPUT = ["--mass-tensor", "1,2,4", "--D", "3", "--momentum", "1,-1/2,3/4", "--gamma", "2/7,3/7,6/7"]
 #: The extra that a command names where it is absent.
-ABSENT = {
-    "scenes": ["run", "ball.toml", "-o", "ball.nc"],
-    "figures": ["show", "ball.toml"],
-    "report": ["report"],
-}
+ABSENT = {"scenes": ["run", "ball.toml", "-o", "ball.nc"], "figures": ["show", "ball.toml"], "report": ["report"]}
 
 
 def megabytes(*folders: Path) -> float:

@@ -400,11 +400,7 @@ def holds(
 
 
 def compared(
-    relations: Sequence[Any],
-    point: Mapping[str, Value],
-    values: Mapping[str, Any],
-    where: str,
-    traces: bool = False,
+    relations: Sequence[Any], point: Mapping[str, Value], values: Mapping[str, Any], where: str, traces: bool = False
 ) -> bool:
     """Whether all relations hold at a point; of matrices, whether they are equal or not."""
     found = []
@@ -422,10 +418,7 @@ def compared(
 
 
 def check_hypothesis(
-    one: dict[str, Any],
-    points: Sequence[Mapping[str, Value]],
-    contradicting: Sequence[Mapping[str, Value]],
-    where: str,
+    one: dict[str, Any], points: Sequence[Mapping[str, Value]], contradicting: Sequence[Mapping[str, Value]], where: str
 ) -> None:
     """Raises Rejected unless it holds at every point that has values for its names, and there is one.
 
@@ -465,12 +458,7 @@ def check_satisfiable(algebra: dict[str, Any], points: Sequence[Mapping[str, Val
     raise Rejected(f"{where} has no point at which its rules hold")
 
 
-def check_counterexample(
-    one: dict[str, Any],
-    i: int,
-    data: dict[str, Any],
-    values: Mapping[str, Any],
-) -> None:
+def check_counterexample(one: dict[str, Any], i: int, data: dict[str, Any], values: Mapping[str, Any]) -> None:
     """The hypotheses hold there, what it refutes fails, and what is correct holds."""
     where, point = f"counterexample {i}", entries(one["point"])
 

@@ -404,8 +404,7 @@ def curve(gamma: Array, following: Array, inverse: Array, lowest: Lowest) -> Cur
     l = lowest("l", gamma @ (gamma * inverse))
     k2 = lowest("k²", (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1)))
     a, b, c = squares = lowest(
-        "C1², C2², C3²",
-        [L1 * (1 - L3 * l) / (L1 - L3), L2 * (1 - L3 * l) / (L2 - L3), L3 * (L1 * l - 1) / (L1 - L3)],
+        "C1², C2², C3²", [L1 * (1 - L3 * l) / (L1 - L3), L2 * (1 - L3 * l) / (L2 - L3), L3 * (L1 * l - 1) / (L1 - L3)]
     )
     over = lowest("1/C1², 1/C2², 1/C3²", 1 / squares)
     above = lowest("1/(1 - k² sn²u sn²ũ)", 1 / (1 - k2 * (g2 * h2 * over[1]) ** 2))
@@ -463,8 +462,7 @@ def increment() -> list[Identity]:
     s, (L1, L2, L3) = gamma + following, 1 / inverse
     printed_v = lowest("V² as printed", (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3))
     rest = lowest(
-        "the coefficients of Λ⁻² in Π2 𝒟² sn² - G𝒟",
-        s**2 / 4 * parts.scale**2 * parts.y - parts.scale * coefficients,
+        "the coefficients of Λ⁻² in Π2 𝒟² sn² - G𝒟", s**2 / 4 * parts.scale**2 * parts.y - parts.scale * coefficients
     )
     return [
         *lowest.identities,

@@ -91,10 +91,7 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["step", "--inertia", "6,1,0;2,5,0;0,0,3", *STEP[3:]], "a symmetric tensor, not one with I12 = 1 and I21 = 2"),
         (["step", "--inertia", "6,1,0;1,5", *STEP[3:]], "3 principal moments, or the 9 components of a tensor; '6,1"),
         (["step", "--inertia", TENSOR, *STEP[3:], "--digits", "20"], "kept in principal axes only: give the principal"),
-        (
-            ["branches", "--inertia", TENSOR, *STEP[3:]],
-            "this command takes principal axes only: give its principal",
-        ),
+        (["branches", "--inertia", TENSOR, *STEP[3:]], "this command takes principal axes only: give its principal"),
         (["prove", "9.9"], "no proof judges the claim '9.9'"),
         (["run", "missing.toml", "-o", "x.npz"], "missing.toml cannot be read: No such file or directory"),
         (["run", FIRST], "names no output: add -o OUT.npz"),

@@ -79,10 +79,7 @@ def carried(expr: sp.Expr) -> sp.Expr:
 
 
 #: Where the attitudes are replaced by Ω.
-BOTH = WordAlgebra(
-    {**ALGEBRA.transposes, **space.ALGEBRA.transposes},
-    {**ALGEBRA.rules, **space.ALGEBRA.rules},
-)
+BOTH = WordAlgebra({**ALGEBRA.transposes, **space.ALGEBRA.transposes}, {**ALGEBRA.rules, **space.ALGEBRA.rules})
 
 
 def in_step_symbols(name: str, of: sp.Symbol, at_start: bool, algebra: WordAlgebra = BOTH) -> sp.Symbol:

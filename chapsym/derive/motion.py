@@ -18,10 +18,7 @@ eta = matrix_symbols("eta")[0]
 m, rho, D = sp.symbols("m rho D")
 
 ALGEBRA = WordAlgebra(
-    {
-        **{omega: -omega, alpha: -alpha, eta: -eta, J: J, Gamma: Gamma, K: -K},
-        **{gamma: gammaT, v: vT, a: aT, F: FT},
-    },
+    {**{omega: -omega, alpha: -alpha, eta: -eta, J: J, Gamma: Gamma, K: -K}, **{gamma: gammaT, v: vT, a: aT, F: FT}},
     {(gamma, gammaT): Gamma, (gammaT, gamma): 1, (Gamma, gamma): gamma, (gammaT, Gamma): gammaT, (Gamma, Gamma): Gamma},
 )
 

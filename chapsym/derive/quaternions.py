@@ -19,8 +19,7 @@ Q, Q_bar, W, W_bar = matrix_symbols("Q Q_bar W W_bar")
 #: What acts from the left commutes with what acts from the right.
 ALGEBRA = WordAlgebra({}, {(W, Q_bar): Q_bar * W, (W, W_bar): W_bar * W})
 TURN = Turning(
-    {Q: sp.S.One, Q_bar: sp.S.One},
-    {Q: Q * W / 2, Q_bar: -Q_bar * W_bar / 2, W: sp.S.Zero, W_bar: sp.S.Zero},
+    {Q: sp.S.One, Q_bar: sp.S.One}, {Q: Q * W / 2, Q_bar: -Q_bar * W_bar / 2, W: sp.S.Zero, W_bar: sp.S.Zero}
 )
 
 #: Also q_a = exp(½ε²a), which has q_a' = ε q_a a.

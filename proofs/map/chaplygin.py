@@ -107,9 +107,7 @@ def separation(proof: Proof) -> None:
     change = sum((sp.diff(N, x) * y for x, y in zip(p, moved, strict=True)), sp.S.Zero)
     ring = Quotient((*p, *moved, L1, L2, L3, d, mu), [])
     proof.lemma(Equation("N' along p' is 2⟨V,p'⟩", change, 2 * V.dot(moved), ring))
-    proof.say(
-        "so dμ₁/dt̃ = 2yμ₂δ/N'(μ₁), δ = det(p,V₁,V₂), δ² = |V₁|²|V₂|², and dμ₂/dt̃ = -2xμ₁δ/N'(μ₂). Squared:",
-    )
+    proof.say("so dμ₁/dt̃ = 2yμ₂δ/N'(μ₁), δ = det(p,V₁,V₂), δ² = |V₁|²|V₂|², and dμ₂/dt̃ = -2xμ₁δ/N'(μ₂). Squared:")
     phi = (m1 - 1 / c) * (1 - d * m1) * P1
     proof.printed(roots(
         "(dμ₁/dt̃)² = 4μ₂²φ(μ₁)/(g₂(μ₁ - μ₂)²), times c g₂(μ₁ - μ₂)²",

@@ -201,11 +201,7 @@ def modified_energy(p: Proof) -> None:
     )
 
 
-@claim(
-    "energy-without-rolling",
-    r"D = 0:\quad H(\Phi_\varepsilon x) = H(x)",
-    uses=["gibbs", "gibbs-rotation"],
-)
+@claim("energy-without-rolling", r"D = 0:\quad H(\Phi_\varepsilon x) = H(x)", uses=["gibbs", "gibbs-rotation"])
 def without_rolling(p: Proof) -> None:
     """For D = 0, the discrete Euler top, the energy ½⟨K, I⁻¹K⟩ is an integral of the map itself, on every branch."""
     flat = "D = 0; q₀ ≠ 0"

@@ -11,21 +11,13 @@ a, b, e, f, delta = NUMBERS = sp.symbols("a b e f delta")
 FREE = Quotient(NUMBERS, [])
 #: What an error is of its terms at most, and what one operation, sixteen and all of them take beyond the first order.
 m, one, sixteen, whole = sp.symbols("m one sixteen all")
-AT = {
-    one: sp.Rational(1, 2**19),
-    sixteen: 1 + sp.Rational(2**10 + 1, 2**25),
-    whole: MOST - 1,
-    m: DEEPEST * UNIT * MOST,
-}
+AT = {one: sp.Rational(1, 2**19), sixteen: 1 + sp.Rational(2**10 + 1, 2**25), whole: MOST - 1, m: DEEPEST * UNIT * MOST}
 ROUNDED = "each operation gives its exact result times 1 + δ, |δ| ≤ 2⁻⁵³: nothing over- or underflows"
 WIDE = "no divisor is below 2⁻²⁵ of its terms, and n ≤ 256"
 BOUND = "a number with n roundings is off by at most n 2⁻⁵³(1 + 2⁻¹⁰) of its terms"
 
 
-@claim(
-    "rounding",
-    r"\frac{a + e}{b + f}(1 + \delta) - \frac ab = \frac{eb - af + \delta b(a + e)}{b(b + f)}",
-)
+@claim("rounding", r"\frac{a + e}{b + f}(1 + \delta) - \frac ab = \frac{eb - af + \delta b(a + e)}{b(b + f)}")
 def rounding(p: Proof) -> None:
     """By induction along the text: n is 0 of an argument, max(α, β) + 1 of a sum, α + β + 1 of a product or quotient."""
     p.assume(ROUNDED)

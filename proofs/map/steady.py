@@ -193,11 +193,7 @@ def isotropic_spin(p: Proof) -> None:
                       - square * k))  # fmt: skip
 
 
-@claim(
-    "straight",
-    r"\Omega(p)\,s(p, \Omega(p)^T\gamma) = s(p,\gamma)",
-    uses=("4.9", "5.1"),
-)
+@claim("straight", r"\Omega(p)\,s(p, \Omega(p)^T\gamma) = s(p,\gamma)", uses=("4.9", "5.1"))
 def straight_line(proof: Proof) -> None:
     """The same rotation step after step moves the contact point by the same vector in space."""
     q, q0 = three.q, three.q0

@@ -75,7 +75,7 @@ def locked_circle(p: Proof) -> None:
         f"{REGULAR}; c is the axis with 1/Λ_c at the end of the 1/Λ's on the side of l, (a, b) the others; γ_c > 0"
     )
     p.assume(
-        "an invariant measure is a Borel measure ν ≥ 0 with ν(G_h⁻¹E) = ν(E), finite on the circle (on the sphere)",
+        "an invariant measure is a Borel measure ν ≥ 0 with ν(G_h⁻¹E) = ν(E), finite on the circle (on the sphere)"
     )
     p.state(STATED)
     p.say("1. The circle. By small-branch the root is unique, regular and so analytic in (γ, h): G_h is an analytic")

@@ -88,9 +88,7 @@ def melnikov(p: Proof) -> None:
     p.assume(
         "I₁ > I₂ > I₃ > 0, D > 0, Λ = I + D, h > 0; the integral is the one to first order in s, along the orbit with s = 0"
     )
-    p.say(
-        "1. Beside vertical momentum. e is a horizontal unit vector, fixed in space as K and γ are. With F = 1 - Dl:",
-    )
+    p.say("1. Beside vertical momentum. e is a horizontal unit vector, fixed in space as K and γ are. With F = 1 - Dl:")
     p.lemma(*beside())
     p.say("So ω₀ = cΛ⁻¹γ is that of K = hγ, and the first order of ⟨γ,ω'⟩ in X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩ is")
     p.show("X₃(H)", modified.energy_rate())
@@ -190,7 +188,7 @@ def energy_orbits(p: Proof) -> None:
     p.measure(
         "Λ = (6, 5, 3), D = 1, h = 13/10, s = 1e-6, e at the angle φ = 1 from W: orbits with T = 101.82, 121.47, 140.94 are closed "
         "after one return; the second, with ϑ an even multiple of π, has ∮X₃(H)dt = -1.0054e-4 s (2|Z| sin 1 = 9.81e-5), the "
-        "others 2e-12 s.",
+        "others 2e-12 s."
     )
     p.control(replace(precession(L1 * L2), text="the same with Λ₁Λ₂|b|²"))
     p.control(replace(precession(L1 * L3), text="the same with Λ₁Λ₃|b|²"))

@@ -152,8 +152,7 @@ def plateaus(p: Proof) -> None:
     above, below, ring = slow_parts()
     b, V = sp.symbols("b V")
     p.printed(
-        Equation("(2w - hG/V)/h = 2b - V", above, 2 * b - V, ring),
-        Equation("yλ/h² = b²l", below, b**2 * l, ring),
+        Equation("(2w - hG/V)/h = 2b - V", above, 2 * b - V, ring), Equation("yλ/h² = b²l", below, b**2 * l, ring)
     )
     P = (2 * b - V) / (b**2 * l)
     plain = Quotient((b, V, l))

@@ -78,11 +78,7 @@ def on_motion(expr: sp.Expr) -> sp.Expr:
     return expr.xreplace(dict(zip(K, continuous.momentum(), strict=True)))
 
 
-@claim(
-    "2.5-inverse",
-    r"\Lambda\omega = K - \frac DF\langle\gamma,\Lambda^{-1}K\rangle\gamma",
-    uses=["2.2-F"],
-)
+@claim("2.5-inverse", r"\Lambda\omega = K - \frac DF\langle\gamma,\Lambda^{-1}K\rangle\gamma", uses=["2.2-F"])
 def inverse_momentum(p: Proof) -> None:
     """The inverse of K(ω, γ): the sign is misprinted."""
     p.slips("serious")
@@ -100,8 +96,7 @@ def inverse_momentum(p: Proof) -> None:
 
     p.printed(inverse("Λω = K - (D/F)⟨γ, Λ⁻¹K⟩γ", -1))
     p.corrected(
-        r"\Lambda\omega = K + \frac DF\langle\gamma,\Lambda^{-1}K\rangle\gamma",
-        inverse("Λω = K + (D/F)⟨γ, Λ⁻¹K⟩γ", +1),
+        r"\Lambda\omega = K + \frac DF\langle\gamma,\Lambda^{-1}K\rangle\gamma", inverse("Λω = K + (D/F)⟨γ, Λ⁻¹K⟩γ", +1)
     )
     p.lemma(
         Equation(

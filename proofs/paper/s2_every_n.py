@@ -182,7 +182,7 @@ def conservation(p: Proof) -> None:
     p.printed(
         equation(
             "K̇ + [ω,K] is the principle", moving("K_here", momentum) + commutator(omega, momentum), motion.eliminated()
-        ),
+        )
     )
     p.printed(still_vertical())
     p.control(equation("K̇ - [ω,K] is the principle", rate(momentum) - commutator(omega, momentum), motion.eliminated()))

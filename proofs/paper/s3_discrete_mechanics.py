@@ -165,9 +165,7 @@ def one_step_more() -> Equation:
 
 
 @claim(
-    "3.5",
-    r"D_1\mathbb L(q_k,q_{k+1})+D_2\mathbb L(q_{k-1},q_k) = \sum_{j=1}^s\lambda_j^kA_j(q_k)",
-    ["3.4-principle"],
+    "3.5", r"D_1\mathbb L(q_k,q_{k+1})+D_2\mathbb L(q_{k-1},q_k) = \sum_{j=1}^s\lambda_j^kA_j(q_k)", ["3.4-principle"]
 )
 def discrete_equations(p: Proof) -> None:
     """The discrete equations with multipliers: what vanishes on the distribution is a combination of its forms."""

@@ -300,9 +300,7 @@ def rolling_in_space(p: Proof) -> None:
 
 
 @claim(
-    "4.6-body",
-    r"M_k = \mathrm{Ad}_{R_k} m_k \equiv \Omega_k J - J\Omega_k^T,\ \Omega_k = R_k^T R_{k+1}",
-    uses=["4.6"],
+    "4.6-body", r"M_k = \mathrm{Ad}_{R_k} m_k \equiv \Omega_k J - J\Omega_k^T,\ \Omega_k = R_k^T R_{k+1}", uses=["4.6"]
 )
 def body_momentum(p: Proof) -> None:
     """The momentum in the body: the right side is right, but it is Ad of the inverse."""

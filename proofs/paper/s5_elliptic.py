@@ -64,11 +64,7 @@ def on_ball() -> Equation:
 
 def printed_squares(sign: int = 1) -> list[sp.Expr]:
     """C1², C2², C3² of (5.8) as printed; the sign is that of C3²."""
-    return [
-        L1 * (1 - L3 * l) / (L1 - L3),
-        L2 * (1 - L3 * l) / (L2 - L3),
-        sign * L3 * (1 - L1 * l) / (L1 - L3),
-    ]
+    return [L1 * (1 - L3 * l) / (L1 - L3), L2 * (1 - L3 * l) / (L2 - L3), sign * L3 * (1 - L1 * l) / (L1 - L3)]
 
 
 #: Letters for a curve on which the amplitudes are rational, too: they have an example of their own.

@@ -497,10 +497,7 @@ def weierstrass_form(p: Proof) -> None:
         (r"\mathrm{dn}^2", 1 - k2 * square, "1 - k² sn²"),
     )
     p.lemma(equation("e1 + e2 + e3 = 0", E1 + E2 + E3, 0))
-    p.printed(
-        equation("cn² = 1 - sn²", cosine, 1 - square),
-        equation("dn² = 1 - k² sn²", delta, 1 - k2 * square),
-    )
+    p.printed(equation("cn² = 1 - sn²", cosine, 1 - square), equation("dn² = 1 - k² sn²", delta, 1 - k2 * square))
     p.assume("0 < k² < 1", *elliptic.MODULUS)
     p.say("and d/du sn² = 2 sn cn dn agrees with dp/du = q: (2 sn cn dn)² = (dsn²/dp)² q².")
     rate = sp.diff(square, P)

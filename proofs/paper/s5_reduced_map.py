@@ -227,7 +227,7 @@ def invariant_density(p: Proof) -> None:
     p.assume("Δs is constant on a curve; it may depend on l. f and μ are smooth and positive in u and in l together")
     p.assume(
         "s is a coordinate of the circle, as u is: f(s + S) = f(s) + the period of u. On the line alone there is an f for "
-        "every step without a fixed point: any increasing one from [0, Δs] to [u, u~], continued by the step",
+        "every step without a fixed point: any increasing one from [0, Δs] to [u, u~], continued by the step"
     )
     s, shift = sp.symbols("s c")
     f = sp.Function("f")

@@ -27,13 +27,7 @@ Vector = Sequence[Any]
 
 #: The ball and the vertical of the examples, and 𝒦 by the number of real solutions.
 BALL, VERTICAL = (1, 2, 4), ("6/7", "2/7", "3/7")
-WITHOUT_ROLLING: dict[int, Vector] = {
-    0: (1, 1, 4),
-    1: (0, 0, 3),
-    2: (1, 1, 1),
-    3: (0, 0, 1),
-    4: ("1/2", "1/2", "1/2"),
-}
+WITHOUT_ROLLING: dict[int, Vector] = {0: (1, 1, 4), 1: (0, 0, 3), 2: (1, 1, 1), 3: (0, 0, 1), 4: ("1/2", "1/2", "1/2")}
 ROLLING: dict[int, Vector] = {
     **{0: (2, 4, 6), 2: (1, 2, 1), 3: (2, 0, 0), 4: (1, 1, 1), 5: (0, 0, 1), 6: (0, 1, 1)},
     8: ("-1/4", "-3/2", "1/2"),

@@ -88,8 +88,7 @@ def vertical_relation(p: Proof) -> None:
 
     p.printed(relation("left side = [h + D q₀⟨γ,q⟩]γ", 1))
     p.corrected(
-        r"2(\dots)^T = [h + 2D q_0\langle\gamma,\mathbf q\rangle]\gamma",
-        relation("left side = [h + 2D q₀⟨γ,q⟩]γ", 2),
+        r"2(\dots)^T = [h + 2D q_0\langle\gamma,\mathbf q\rangle]\gamma", relation("left side = [h + 2D q₀⟨γ,q⟩]γ", 2)
     )
     values = {k: sp.Rational(v) for k, v in SMALL.items()}
     now = vertical.gamma_now().xreplace(values)

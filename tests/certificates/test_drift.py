@@ -38,10 +38,7 @@ def test_the_orbits_of_the_committed_files_are_found_anew(path):
     found = drift.energy_drift(**near(data), digits=12)
     assert checker.check(found)
     i = drift.STATE.index(data["varied"])
-    for x, y in (
-        (found["time"], data["time"]),
-        (found["start"]["momentum"][i], data["start"]["momentum"][i]),
-    ):
+    for x, y in ((found["time"], data["time"]), (found["start"]["momentum"][i], data["start"]["momentum"][i])):
         assert abs(Fraction(x) - Fraction(y)) <= Fraction(1, 10**12)
     for name in ("energy", "density"):
         (x, off), (y, less) = (map(Fraction, of[name]) for of in (found, data))

@@ -18,10 +18,7 @@ from chapsym.certificates.reduced import Top
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.start import fraction
 
-COMMITTED = {
-    "heteroclinic-light": ("1,4,8", "1/2", "22/5"),
-    "heteroclinic-real-ball": ("1,8,12", "22", "8"),
-}
+COMMITTED = {"heteroclinic-light": ("1,4,8", "1/2", "22/5"), "heteroclinic-real-ball": ("1,8,12", "22", "8")}
 
 
 def top(J="1,4,8", D="1/2", height="22/5"):

@@ -214,10 +214,7 @@ def test_no_symmetric_array_is_both_a_tensor_and_three_rows_of_moments(given_):
             lambda: Ball.from_inertia([[2, 0.1, 0], [0.2, 3, 0], [0, 0, 4]], D=1),
             r"inertia \(2, 0\.1, 0\).*if it is a tensor, it must be symmetric, but it differs .* by 0\.1",
         ),
-        (
-            lambda: Ball.from_inertia([[2, -0.1, 0], [0.1, 3, 0], [0, 0, 4]], D=1),
-            r"moment -0\.1; if it is a tens",
-        ),
+        (lambda: Ball.from_inertia([[2, -0.1, 0], [0.1, 3, 0], [0, 0, 4]], D=1), r"moment -0\.1; if it is a tens"),
         (lambda: Ball.from_inertia([TENSOR, np.triu(TENSOR)], D=1), "if it is a tensor, it must be symmetric"),
         (lambda: Ball.from_inertia(1.7e308 * (np.eye(3) + 1e-3), D=1), "inertia is beyond the range of float64"),
         (lambda: Ball.from_inertia([[1, 0, 0], [0, np.nan, 0], [0, 0, 1]], D=1), "inertia must be finite"),

@@ -639,10 +639,7 @@ HUGE = 10**6000
         (lambda: Runner(particle()).march(1, start=HUGE), "the start must be 6 numbers"),
         (lambda: measured(particle(), "dla", []), r"steps must be a whole number from 1 on, not \[\]"),
         (lambda: agree(particle(), None), "accelerations must be given as"),
-        (
-            lambda: agree(particle(), {x: "vx", y: 0, z: 0}),
-            "acceleration of x is .vx., which is no real expression",
-        ),
+        (lambda: agree(particle(), {x: "vx", y: 0, z: 0}), "acceleration of x is .vx., which is no real expression"),
         (lambda: System("one", (x,), sp.ImmutableMatrix([[vx]])), "is no real expression of SymPy"),
         (lambda: agree(None, {}), "system must be a System, not None"),
         (lambda: conserved("particle", x), "system must be a System"),

@@ -29,10 +29,7 @@ TRUE = Equation("x = x", x, x, Quotient((x,)))
 FALSE = Equation("x = 2x", x, 2 * x, Quotient((x,)))
 
 STATED = Theorem(("for all x",), ("x > 0",), (no("root"),))
-STEPS = [
-    Step("x² > 0", ("x > 0", "lemma"), 1, ()),
-    Step(no("root"), ("x² > 0", "for all x"), 2, ("a check",)),
-]
+STEPS = [Step("x² > 0", ("x > 0", "lemma"), 1, ()), Step(no("root"), ("x² > 0", "for all x"), 2, ("a check",))]
 READING = Reading("real x", "root", NO, ("first", "second"))
 LEMMAS = {
     "first": Theorem(("for all x",), ("x > 0", "x < 9"), ("x² > 0",)),

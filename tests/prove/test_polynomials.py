@@ -87,12 +87,7 @@ def test_a_ratio_is_in_lowest_terms_with_a_monic_denominator():
 
 
 SMALL = st.integers(-3, 3)
-OPERATIONS = {
-    "+": lambda a, b: a + b,
-    "-": lambda a, b: a - b,
-    "*": lambda a, b: a * b,
-    "/": lambda a, b: a / b,
-}
+OPERATIONS = {"+": lambda a, b: a + b, "-": lambda a, b: a - b, "*": lambda a, b: a * b, "/": lambda a, b: a / b}
 
 
 @given(st.lists(st.tuples(st.sampled_from("+-*/"), st.sampled_from(["x", "y", -2, 3]), st.booleans()), max_size=8),

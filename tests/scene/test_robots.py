@@ -105,10 +105,7 @@ def test_a_turned_inertial_frame_turns_the_tensor(put, name):
     ("text", "said"),
     [
         (sdf('relative_to="arm"', "0 0 0 0 0 0"), "line 2: <pose>: relative_to = 'arm' is not read"),
-        (
-            sdf('rotation_format="matrix"', "0 0 0"),
-            "line 2: <pose>: rotation_format must be euler_rpy or quat_xyzw",
-        ),
+        (sdf('rotation_format="matrix"', "0 0 0"), "line 2: <pose>: rotation_format must be euler_rpy or quat_xyzw"),
         (sdf('degrees="yes"', "0 0 0 0 0 0"), "line 2: <pose>: degrees must be false or true, not 'yes'"),
         (sdf('rotation_format="quat_xyzw"', "0 0 0 0 0 0"), "line 2: <pose> must have 7 numbers"),
         (SDF.replace("<inertial>", '<inertial auto="true">'), "line 2: <inertial>: auto is not read"),
@@ -338,17 +335,9 @@ def test_what_mujoco_would_make_another_ball_of_is_refused(put, old, new, said):
             "<link name='b'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>",
             "this file has 2 with one (b, ball)",
         ),
-        (
-            "</inertial>",
-            '\n<mass value="2"/></inertial>',
-            ", line 8: <inertial> has two <mass>, the first on line 5",
-        ),
+        ("</inertial>", '\n<mass value="2"/></inertial>', ", line 8: <inertial> has two <mass>, the first on line 5"),
         ("<inertia ", "<inertia/><inertia ", ", line 6: <inertial> has two <inertia>"),
-        (
-            "<collision>",
-            "<inertial/><collision>",
-            ", line 8: <link> has two <inertial>, the first on line 3",
-        ),
+        ("<collision>", "<inertial/><collision>", ", line 8: <link> has two <inertial>, the first on line 3"),
         ("<origin", "<origin/><origin", ", line 4: <inertial> has two <origin>"),
         ("<sphere", '<sphere radius="1"/><sphere', ", line 8: <geometry> has two <sphere>"),
         ("robot", "html", ", line 2: <html> is not <robot> (URDF), <sdf> or <mujoco> (MJCF)"),
@@ -400,10 +389,7 @@ def test_the_suffixes_of_ros_and_gazebo_are_read(put, suffix):
 
 @pytest.mark.parametrize(
     ("inertia", "said"),
-    [
-        ([0.0] * 3, "its moments of inertia are 0"),
-        ([4.6e-7, 6.1e-7, 8.3e-7], "its moments of inertia are 1/1"),
-    ],
+    [([0.0] * 3, "its moments of inertia are 0"), ([4.6e-7, 6.1e-7, 8.3e-7], "its moments of inertia are 1/1")],
 )
 def test_moments_that_are_none_or_in_other_units_are_refused(put, tmp_path, inertia, said):
     text = MJCF.replace("fullinertia=", f'diaginertia="{" ".join(map(json.dumps, inertia))}" a=')

@@ -189,10 +189,7 @@ def test_an_accuracy_is_a_task_of_frames():
         ([{"mass_tensor": [1.0] * 33, "D": 1}], "mass_tensor has 33 numbers, and 32 dimensions are the most"),
         # As other formats write a tensor:
         ({"inertia": {"ixx": 1, "iyy": 1, "izz": 1}}, "ball.inertia: write the tensor as rows: [[ixx, ixy, ixz], [ixy"),
-        (
-            {"inertia": [1, 0, 0, 1, 0, 1]},
-            "must have 3 numbers, or 3 rows of 3: six have two orders (URDF and",
-        ),
+        ({"inertia": [1, 0, 0, 1, 0, 1]}, "must have 3 numbers, or 3 rows of 3: six have two orders (URDF and"),
         ({"inertia": "0.006 0.007 0.009"}, "ball.inertia must be a list of numbers in brackets: [0.006, 0.007, 0.009]"),
         ({"inertia": {"linspace": [1, 2, 3]}}, "ball.inertia: a range replaces one number"),
     ],

@@ -26,15 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from chapsym.generated import (
-    angular_velocity,
-    centre_step,
-    compose,
-    gibbs_newton,
-    gibbs_newton_heavy,
-    rotate,
-    turn,
-)
+from chapsym.generated import angular_velocity, centre_step, compose, gibbs_newton, gibbs_newton_heavy, rotate, turn
 
 from . import loop
 from .branch import NOT_CONVERGED

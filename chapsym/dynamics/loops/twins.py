@@ -10,15 +10,7 @@ from typing import Any
 import numpy as np
 
 #: What the loops of float32 consist of; each after those that it imports from.
-MODULES = (
-    "chapsym.numbers.pairs",
-    "vectors",
-    "integrals",
-    "gibbs",
-    "path",
-    "single_loop",
-    "loop",
-)
+MODULES = ("chapsym.numbers.pairs", "vectors", "integrals", "gibbs", "path", "single_loop", "loop")
 
 
 def twin(module: ModuleType, number: Callable[[float], Any], **instead: Any) -> dict[str, Any]:

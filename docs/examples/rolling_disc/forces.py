@@ -46,11 +46,7 @@ def across(p: Proof) -> None:
     p.control(equal("the same with -m r u1² sin q2", force()[1], rest - lean))
 
 
-@claim(
-    "F-f3",
-    r"-g m + m r (u_1^2 \cos q_2 + \sin q_2\, \dot u_1) + f_3 = 0",
-    uses=["K-velocity", "K-u1"],
-)
+@claim("F-f3", r"-g m + m r (u_1^2 \cos q_2 + \sin q_2\, \dot u_1) + f_3 = 0", uses=["K-velocity", "K-u1"])
 def upwards(p: Proof) -> None:
     """The force of the plane upwards."""
     moving(p)

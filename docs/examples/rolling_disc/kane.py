@@ -32,9 +32,7 @@ def centre_velocity(p: Proof) -> None:
 
 
 @claim(
-    "K-u1",
-    r"\dot u_1 = \frac{4 g \sin q_2 + 6 r u_2 u_3 - r u_3^2 \tan q_2}{5 r}",
-    uses=["K-inertia", "K-velocity"],
+    "K-u1", r"\dot u_1 = \frac{4 g \sin q_2 + 6 r u_2 u_3 - r u_3^2 \tan q_2}{5 r}", uses=["K-inertia", "K-velocity"]
 )
 def lean_rate(p: Proof) -> None:
     """How the rate of the lean changes."""

@@ -31,8 +31,7 @@ def potential(p: Proof) -> None:
     printed, true = -m * g * r * c[1], m * g * r * c[1]
     p.printed(equal("V = -m g r cos q2: -∂V/∂q2 is the work of the weight", -by_angle(printed, 1), work))
     p.corrected(
-        r"V = m g r \cos q_2",
-        equal("V = m g r cos q2: -∂V/∂q2 is the work of the weight", -by_angle(true, 1), work),
+        r"V = m g r \cos q_2", equal("V = m g r cos q2: -∂V/∂q2 is the work of the weight", -by_angle(true, 1), work)
     )
     p.counterexample(seen_moving())
     p.control(equal("V = m g r sin q2", -by_angle(m * g * r * s[1], 1), work))
