@@ -1,5 +1,6 @@
 """Public functions with odd arguments: no exception but those documented, no warning, no NaN in silence."""
 
+import itertools
 from fractions import Fraction
 
 import numpy as np
@@ -41,6 +42,20 @@ def test_what_is_wrong_with_a_call_is_seen(monkeypatch):
         monkeypatch.setattr(chapsym, "exact_top", wrong)
         monkeypatch.setattr(odd_calls, "NAMES", ["exact_top"])
         assert any(said in (odd_calls.wrong(seed) or "") for seed in range(30)), said
+
+
+class Unheard:
+    """What raises an error of its own where it is asked for an attribute."""
+
+    def __getattr__(self, name):
+        raise RuntimeError(name)
+
+
+class Whole(int):
+    """A whole number that raises an error of its own where it is to be one of Python."""
+
+    def __int__(self):
+        raise RuntimeError("no")
 
 
 class Unwilling:
@@ -200,6 +215,17 @@ REFUSED = {
     "a result without balls has nothing to save": lambda: chapsym.Result(
         chapsym.trajectory(BALL, np.zeros((0, 3)), (0, 0, 1), 2).to_xarray()
     ).save("no-such-folder/a.csv"),
+    "no file has this result: momentum has no real numbers": lambda: chapsym.Result(
+        chapsym.trajectory(BALL, *RUN, precision=chapsym.Digits(20)).to_xarray()
+    ).save("no-such-folder/a.csv"),
+    "write is of a step in three dimensions": lambda: chapsym.step_n(BALL_N, chapsym.skew(K), UP).write(),
+    "balls must be True or False": lambda: chapsym.trajectory(BALL, *RUN).to_pandas(balls=np.ones(3)),
+    "run must be a result, its Dataset": lambda: chapsym.interpolated(chapsym.trajectory(BALL, *RUN).to_pandas(), 0),
+    "angular_momentum must be 3 numbers, not": lambda: chapsym.certified_motion(BALL, itertools.count(), UP, 1),
+    "times must be at most 10000000 numbers, not": lambda: chapsym.certified_motion(BALL, K, UP, itertools.count()),
+    "times must be a number": lambda: chapsym.certified_motion(BALL, K, UP, Unheard()),
+    "steps must be a whole number": lambda: chapsym.trajectory(BALL, K, UP, Whole(3)),
+    "the axes of the ball and the vectors do not broadcast": lambda: TURNED.to_principal(np.ones((1,) * 40 + (3,))),
 }
 
 

@@ -401,6 +401,7 @@ class Ball(Parameters):
         if axes is None:
             return array.copy()
         axes = axes[..., np.newaxis, :] if flag(frames, "frames") else axes
+        array = _as_float(array, "vectors") if array.dtype == object else array
         if array.dtype.kind not in "iuf" or array.shape[-1:] != (3,):
             raise BadInput(f"vectors must be real numbers of the shape (..., 3), not {brief(vectors)}")
         common_shape([axes.shape[:-1], array.shape[:-1]], "the axes of the ball and the vectors")
@@ -438,7 +439,7 @@ def common_shape(shapes: Sequence[tuple[int, ...]], names: str) -> tuple[int, ..
     """The broadcast shape of the leading axes; raises BadInput if they do not broadcast."""
     try:
         return np.broadcast_shapes(*shapes)
-    except ValueError:
+    except (ValueError, RuntimeError):  # that of more than 32 axes
         listed = ", ".join(map(str, shapes))
         raise BadInput(f"the leading axes of {names} do not broadcast: {listed}") from None
 

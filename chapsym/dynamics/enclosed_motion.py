@@ -37,6 +37,8 @@ GUARD, OF_TURNS = 24, 2
 MOST_DIGITS, MOST_BITS = 4_000, 2**20
 #: The largest limit in seconds; a larger one is no limit.
 LONGEST = 1e9
+#: The largest number of times; a generator may have no end.
+MOST_TIMES = 10**7
 #: The bits by which writing may enlarge a radius: radius and midpoint are rounded, which adds .15 of it.
 ROUNDED = 0.25
 #: The bits of the next attempt beyond the missing ones.
@@ -296,13 +298,10 @@ def _check_up(attitude: Sequence[Fraction], gamma: Sequence[Fraction]) -> None:
 def _ascending(times: Any) -> tuple[Fraction, ...]:
     from .flow.start import exactly, vector
 
-    if isinstance(times, str) or not hasattr(times, "__iter__") or getattr(times, "ndim", 1) == 0:
+    if isinstance(times, str) or not isinstance(times, Iterable) or getattr(times, "ndim", 1) == 0:
         found: tuple[Fraction, ...] = (exactly(times, "times"),)
-    elif isinstance(times, bytes | Mapping | Set) or not isinstance(times, Iterable):
-        raise BadInput("times must be one or more numbers of seconds from 0 on, each later than the one before")
     else:
-        listed = list(times)
-        found = vector(listed, "times", len(listed))
+        found = () if isinstance(times, bytes | Mapping | Set) else vector(times, "times", MOST_TIMES, exact=False)
     if not found or found[0] < 0 or any(x >= y for x, y in pairwise(found)):
         raise BadInput("times must be one or more numbers of seconds from 0 on, each later than the one before")
     return found

@@ -15,6 +15,7 @@ import numpy as np
 
 from chapsym.extras import need
 
+from .ball import flag
 from .errors import Status
 from .outputs import BOUND, LOW, OUTPUTS, labels, whose
 
@@ -294,6 +295,7 @@ def frame(data: "Dataset | Arrays", balls: bool = False) -> "DataFrame":
     need("scenes", "pandas")
     import pandas
 
+    balls = flag(balls, "balls")
     variables = structure(data)["variables"].items()
     kept = {name: one for name, one in variables if ("frame" not in one["dims"] if balls else in_rows(one))}
     parts, step = [*batches(data, kept)], data.sizes["frame"] if balls else 1

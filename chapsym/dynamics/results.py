@@ -203,10 +203,12 @@ class Step(Brief):
     def write(self) -> dict[str, Any]:
         """q0, q, momentum and gamma of one ball after the step, as floats or decimal strings, and what is proved.
 
-        Raises BadInput for a batch.
+        Raises BadInput for a batch, and for a step in n dimensions.
         """
         if shape := np.shape(self.status):
             raise BadInput(f"write is of the step of one ball, and this is of a batch of shape {shape}")
+        if self.rotation.ndim != 1:
+            raise BadInput("write is of a step in three dimensions, and this is one of n")
         q0, *q = self._written("rotation")
         found = {"q0": q0, "q": q, "momentum": self._written("momentum"), "gamma": self._written("gamma")}
         if self.proved is None:

@@ -115,7 +115,8 @@ def brief(value: object) -> str:
 
 def is_whole(value: object) -> bool:
     """Whether a value is a whole number of Python or NumPy."""
-    return isinstance(value, int | np.integer) and not isinstance(value, bool | np.timedelta64)
+    own = isinstance(value, int) and type(value).__int__ is not int.__int__  # which may raise anything
+    return isinstance(value, int | np.integer) and not isinstance(value, bool | np.timedelta64) and not own
 
 
 def _whole(precision: object, name: str, least: int, most: int) -> None:

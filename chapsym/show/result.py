@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from chapsym import __version__
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.ball import brief, callback
 from chapsym.dynamics.labelled import frame
@@ -133,6 +134,10 @@ class Result:
         path = _path(path, PLACE)
         if not self.dataset.sizes["ball"]:
             raise SceneError("a result without balls has nothing to save")
+        try:
+            formats.check_parts(self.dataset)
+        except ValueError as error:
+            raise SceneError(f"no file has this result: {error}") from None
         if path.suffix == ".zarr":
             _save_zarr(self.dataset, path)
         else:
@@ -287,7 +292,11 @@ def _save_zarr(dataset: "Dataset", path: Path) -> None:
     if path.exists():
         raise SceneError(f"{path} is there already; remove it, or choose another name")
     # The chunks of a part of another .zarr do not fit those of its files.
-    whole = dataset.drop_encoding().unify_chunks().assign_attrs({"complete": True} | dataset.attrs)
+    whole = (
+        dataset.drop_encoding()
+        .unify_chunks()
+        .assign_attrs({"complete": True, "chapsym_version": __version__} | dataset.attrs)
+    )
     if whole.chunks:
         whole = whole.chunk({dim: max(lengths) for dim, lengths in whole.chunks.items()})
 

@@ -68,6 +68,9 @@ def test_a_result_that_is_saved_opens_as_it_was(tmp_path, suffix):
     assert again.dataset.attrs["title"] == SCENE["title"]
     assert sorted(p.name for p in tmp_path.iterdir()) == [path.name]
     assert again.figures() == result.figures()
+    made = Result(chapsym.roll(results.UNEVEN, (3.0, -2.0, 1.0), 0.01, 9).to_xarray())
+    made.save(path.with_stem("made"))
+    assert (chapsym.open_result(path.with_stem("made")).dataset.gamma.values == made.dataset.gamma.values).all()
 
 
 def test_what_cannot_be_saved_or_opened_is_one_sentence(tmp_path):

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from itertools import islice
 from numbers import Rational
 from typing import Any, NamedTuple
 
@@ -55,26 +56,27 @@ def exactly(value: Any, name: str) -> Fraction:
         except NotANumber as error:
             raise BadInput(str(error)) from None
     try:
-        if (isinstance(value, Rational | Decimal | float) and not isinstance(value, bool | np.timedelta64)) or hasattr(
-            value, "_mpf_"
-        ):
+        real = isinstance(value, Rational | Decimal | float) and not isinstance(value, bool | np.timedelta64)
+        if real or hasattr(value, "_mpf_"):
             return exact_fraction(value)
+        plain = value.item() if getattr(value, "size", None) == 1 and not np.ma.is_masked(value) else value
     except (ValueError, OverflowError):
         raise BadInput(f"{name} must be finite, not {value}") from None
-    one = getattr(value, "size", None) == 1 and not np.ma.is_masked(value)
-    if one and type(value) is not type(plain := value.item()):
+    except Exception:  # whatever an object raises
+        plain = value
+    if type(value) is not type(plain):
         return exactly(plain, name)
     raise BadInput(f'{name} must be a number, or a text such as "0.1" or "2/7", not {brief(value)}')
 
 
-def vector(values: Any, name: str, count: int = 3) -> tuple[Fraction, ...]:
-    """A vector of exact numbers with this many components."""
+def vector(values: Any, name: str, count: int = 3, exact: bool = True) -> tuple[Fraction, ...]:
+    """A vector of exact numbers with this many components, or with at most this many."""
     try:
-        listed = [] if isinstance(values, str) else list(values)
-    except TypeError:
+        listed = [] if isinstance(values, str) else list(islice(values, count + 1))  # that of a generator may not end
+    except Exception:  # whatever an object raises
         listed = []
-    if len(listed) != count:
-        raise BadInput(f"{name} must be {count} numbers, not {brief(values)}")
+    if len(listed) > count or (exact and len(listed) < count):
+        raise BadInput(f"{name} must be {'' if exact else 'at most '}{count} numbers, not {brief(values)}")
     return tuple(exactly(x, f"{name} {i}") for i, x in enumerate(listed, start=1))
 
 

@@ -125,7 +125,7 @@ def load(path: Path) -> "Dataset":
         files.check_source(path)
         path.stat()
         data = with_clock(read(path))
-        _check_parts(data)
+        check_parts(data)
     except SceneError:
         raise
     except files.CannotRead as error:
@@ -145,7 +145,7 @@ def load(path: Path) -> "Dataset":
     return data.assign_attrs(plain(data.attrs))
 
 
-def _check_parts(data: "Dataset") -> None:
+def check_parts(data: "Dataset") -> None:
     """Raises ValueError for a variable without numbers, or with wrong dimensions."""
     if not isinstance(data.attrs.get("accuracy", 0.0), float | int | np.number):
         raise ValueError("its accuracy is no number")

@@ -54,9 +54,9 @@ def interpolated(run: Any, times: ArrayLike) -> Any:
     >>> chapsym.interpolated(result, [0.25, 0.5]).gamma.values[0].round(6).tolist()
     [[0.0, 0.247404, 0.968912], [0.0, 0.479426, 0.877583]]
     """
-    if hasattr(run, "at"):
+    if callable(getattr(type(run), "at", None)):
         return run.at(times)
-    if not hasattr(run, "dims"):
+    if not hasattr(type(run), "data_vars"):
         raise BadInput(f"run must be a result, its Dataset, or a Trajectory, not {brief(run)}")
     dataset = run if "ball" in run.dims else run.expand_dims("ball")
     reason = missing(dataset)
