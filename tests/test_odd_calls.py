@@ -211,6 +211,10 @@ REFUSED = {
     "vector must be real numbers": lambda: chapsym.skew(deep(700)),
     "gamma is not on this curve": lambda: EQUATOR.argument((0.6, 0, 0.8)),
     "dataset must be that of a result": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN)),
+    "dataset must be that of a result, with ball": lambda: chapsym.Result(Unheard()),
+    "dataset must be that of a result, with ball and": lambda: chapsym.Result(
+        chapsym.trajectory(BALL, *RUN).to_xarray().gamma
+    ),
     "path must be that of a file": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN).to_xarray()).save(None),
     "a result without balls has nothing to save": lambda: chapsym.Result(
         chapsym.trajectory(BALL, np.zeros((0, 3)), (0, 0, 1), 2).to_xarray()
@@ -224,6 +228,7 @@ REFUSED = {
     "angular_momentum must be 3 numbers, not": lambda: chapsym.certified_motion(BALL, itertools.count(), UP, 1),
     "times must be at most 10000000 numbers, not": lambda: chapsym.certified_motion(BALL, K, UP, itertools.count()),
     "times must be a number": lambda: chapsym.certified_motion(BALL, K, UP, Unheard()),
+    "ball must be a chapsym.Ball": lambda: chapsym.step(Unheard(), K, UP),
     "steps must be a whole number": lambda: chapsym.trajectory(BALL, K, UP, Whole(3)),
     "the axes of the ball and the vectors do not broadcast": lambda: TURNED.to_principal(np.ones((1,) * 40 + (3,))),
 }

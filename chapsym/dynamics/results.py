@@ -98,7 +98,7 @@ def in_given_axes(function: Callable[P, R]) -> Callable[P, R]:
     @wraps(function)
     def taken(*args: P.args, **kwargs: P.kwargs) -> R:
         ball: Any = args[0] if args else kwargs.get("ball")
-        if getattr(ball, "axes", None) is None or not isinstance(ball, Ball):
+        if not isinstance(ball, Ball) or ball.axes is None:
             return function(*args, **kwargs)
         call = signature(function).bind(*args, **kwargs)
         call.apply_defaults()

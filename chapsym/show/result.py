@@ -65,7 +65,8 @@ class Result:
     dataset: "Dataset"
 
     def __post_init__(self) -> None:
-        if not {"ball", "frame"} <= set(getattr(self.dataset, "sizes", ())):
+        sizes = self.dataset.sizes if hasattr(type(self.dataset), "data_vars") else ()
+        if not {"ball", "frame"} <= set(sizes):
             raise BadInput(f"dataset must be that of a result, with ball and frame, not {brief(self.dataset)}")
 
     def to_xarray(self) -> "Dataset":
