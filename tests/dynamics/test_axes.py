@@ -2,6 +2,7 @@
 
 import pickle
 from contextlib import suppress
+from fractions import Fraction
 from inspect import Parameter, isfunction, signature
 
 import numpy as np
@@ -61,6 +62,7 @@ def test_vectors_go_to_principal_axes_and_back():
     assert (turned[0] == BALL.to_principal(frames[0])).all()
     assert (turned[1] == frames[1]).all()
     assert several.to_principal(OMEGA).shape == (2, 3)
+    assert (BALL.to_principal([Fraction(x) for x in OMEGA]) == there).all()
     same = BALL.principal.to_principal(OMEGA)
     assert same.tolist() == OMEGA.tolist()
     assert not np.shares_memory(same, OMEGA)
