@@ -7,7 +7,7 @@
     def test_something(state):
         ball, momentum, gamma = state
 
-Each has the strata to draw from as an argument, by default all:
+Each has the strata to draw from as an argument, by default all; BadInput is raised for others:
 
     rotations: "generic", "near identity" (angles 1e-12 to 1e-3), "near pi" (q0 from 0 to 1e-3)
     inertias, mass tensors, balls, states: "generic", "degenerate" (equal, nearly equal, flat, D = 0, D large)
@@ -30,8 +30,8 @@ extras.need("test")
 from hypothesis import reject  # noqa: E402
 from hypothesis import strategies as st  # noqa: E402
 
-from chapsym.dynamics import Ball  # noqa: E402
-from chapsym.dynamics.ball import Floats  # noqa: E402
+from chapsym.dynamics import BadInput, Ball  # noqa: E402
+from chapsym.dynamics.ball import Floats, brief  # noqa: E402
 from chapsym.dynamics.loops.branch import continued  # noqa: E402
 
 ROTATIONS = ("generic", "near identity", "near pi")
@@ -46,6 +46,12 @@ def _normalised(v: Sequence[float]) -> Floats:
     return array / np.sqrt(array @ array)
 
 
+def _one(draw: st.DrawFn, strata: Sequence[str], known: Sequence[str]) -> str:
+    if not isinstance(strata, list | tuple) or not strata or not all(x in known for x in strata):
+        raise BadInput(f"strata must be some of {', '.join(known)}, not {brief(strata)}")
+    return draw(st.sampled_from(strata))
+
+
 @st.composite
 def unit_vectors(draw: st.DrawFn, size: int = 3) -> Floats:
     """Unit vectors: in general position, and along an axis."""
@@ -58,7 +64,7 @@ def unit_vectors(draw: st.DrawFn, size: int = 3) -> Floats:
 @st.composite
 def rotations(draw: st.DrawFn, strata: Sequence[str] = ROTATIONS) -> Floats:
     """Unit Euler parameters (q0, q1, q2, q3) with q0 ≥ 0."""
-    stratum = draw(st.sampled_from(list(strata)))
+    stratum = _one(draw, strata, ROTATIONS)
     axis = draw(unit_vectors())
     if stratum == "near identity":
         sine = 10 ** draw(st.floats(-12, -3))
@@ -75,7 +81,7 @@ def mass_tensors(draw: st.DrawFn, strata: Sequence[str] = BALLS) -> Floats:
     """J = (J1, J2, J3) of a body; degenerate: equal, nearly equal, two equal, flat."""
     moment = st.floats(0.05, 4.0)
     tensor = np.array(draw(st.tuples(moment, moment, moment)))
-    if draw(st.sampled_from(list(strata))) == "degenerate":
+    if _one(draw, strata, BALLS) == "degenerate":
         kind = draw(st.sampled_from(["equal", "nearly equal", "symmetric", "flat"]))
         if kind == "equal":
             tensor[:] = tensor[0]
@@ -97,7 +103,7 @@ def inertias(strata: Sequence[str] = BALLS) -> st.SearchStrategy[Floats]:
 def balls(draw: st.DrawFn, strata: Sequence[str] = BALLS) -> Ball:
     """Balls whose momentum operator is regular for every γ; degenerate: also D = 0 and D large."""
     contact = draw(st.floats(0.0, 4.0))
-    if draw(st.sampled_from(list(strata))) == "degenerate":
+    if _one(draw, strata, BALLS) == "degenerate":
         contact = draw(st.sampled_from([0.0, contact, 1e2, 1e5]))
     return Ball(draw(mass_tensors(strata)), contact)
 

@@ -315,7 +315,7 @@ class Runner:
         if self.in_floats:
             return [[x + 0 * place[:, 0] for x in of(*place.T, *velocity.T, fixed[-1])] for of in self.measures]
         rows = (self._of("measured", *pair, fixed) for pair in zip(place, velocity, strict=True))
-        columns = [np.array(column, object) for column in zip(*rows, strict=True)]
+        columns = [np.array(column, place.dtype) for column in zip(*rows, strict=True)]
         counts = 1, len(self.system.constraints), len(self.system.holonomic), len(self.integrals)
         return [[columns.pop(0) for _ in range(count)] for count in counts]
 

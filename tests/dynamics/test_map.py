@@ -5,7 +5,7 @@ import warnings
 import numpy as np
 import pytest
 from budget import examples
-from hypothesis import given
+from hypothesis import find, given
 
 import chapsym
 from chapsym import BadInput, Ball, Status, StepNotTaken, testing
@@ -234,3 +234,10 @@ def test_the_direction_of_the_branch_and_its_bend(q, ball, gamma):
 )
 def test_a_fold_that_is_near_says_how_near(reach, said):
     assert said in str(chapsym.StepNotTaken(chapsym.Status.FOLDED, reach))
+
+
+@pytest.mark.parametrize("strategy", [testing.rotations, testing.balls, testing.mass_tensors])
+@pytest.mark.parametrize("strata", [("generic", "x"), [], 3, "generic"])
+def test_a_stratum_that_there_is_not_is_refused(strategy, strata):
+    with pytest.raises(BadInput, match="strata must be some of generic, "):
+        find(strategy(strata), lambda drawn: True)

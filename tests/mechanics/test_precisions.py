@@ -157,6 +157,11 @@ def test_double_double_has_its_digits():
     assert all(abs(float(mpmath.mpf(0) + p.high - d + p.low)) < 1e-28 for p, d in zip(pairs, digits, strict=True))
 
 
+def test_what_is_measured_in_float32_is_an_array_of_it():
+    motion = moved(example("sleigh"), "dla", 2, precision="single")
+    assert {x.dtype for x in (motion.energy, motion.constraint, *motion.integrals.values())} == {np.dtype(np.float32)}
+
+
 def test_a_motion_goes_on_from_where_it_ended():
     ready = runner("particle", "gni", Digits(30))
     assert max(abs(ready.march(6, start=ready.march(6).final).final - ready.march(12).final)) < 1e-40
