@@ -81,4 +81,4 @@ def test_each_claim_is_read_or_says_what_leads_to_its_formula():
             left.add(id)
     assert left == COMPARED_BY_EYE
     page = Path(__file__).parents[2] / "docs" / "explanation" / "verdicts.md"
-    assert f"Of {inferred} claims what" in page.read_text(encoding="utf-8")
+    assert f"In {inferred} claims the decided" in page.read_text(encoding="utf-8")
