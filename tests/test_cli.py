@@ -308,6 +308,22 @@ def test_the_end_of_the_processes_waits_for_no_call_and_leaves_nothing_half_writ
     assert os.listdir(tmp_path) == ["begun"]
 
 
+def _goes_on(folder):
+    (folder / "begun").touch()
+    while True:
+        with suppress(SystemExit):
+            time.sleep(GUARD)
+
+
+def test_a_worker_that_goes_on_all_the_same_is_killed(tmp_path):
+    with Processes(1) as pool:
+        pool.submit(_goes_on, tmp_path)
+        until((tmp_path / "begun").exists)
+        (worker,) = pool._processes.values()
+    worker.join()
+    assert worker.exitcode == -signal.SIGALRM
+
+
 class Late:
     """What is pickled when its worker is asked to end."""
 
