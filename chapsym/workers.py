@@ -7,6 +7,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import Any
 
@@ -85,15 +86,19 @@ def _end(*_: object) -> None:
 
 
 def _called(call: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
-    """The result of a call, in a worker; None of a call that was ended, and of one that came after."""
+    """The result of a call, in a worker; raises BrokenProcessPool if the worker was asked to end before."""
+    found = None
     try:
         _state["calls"] = True
-        return None if _state["ended"] else call(*arguments, **named)
+        found = None if _state["ended"] else call(*arguments, **named)
     except SystemExit:
         if not _state["ended"]:
             raise
     finally:
         _state["calls"] = False
+    if _state["ended"]:
+        raise BrokenProcessPool("a worker process was asked to end")
+    return found
 
 
 def _outlived() -> None:

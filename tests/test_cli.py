@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from types import SimpleNamespace
 
@@ -322,6 +323,20 @@ def test_a_worker_that_goes_on_all_the_same_is_killed(tmp_path):
         (worker,) = pool._processes.values()
     worker.join()
     assert worker.exitcode == -signal.SIGALRM
+
+
+def _asked_to_end(caught):
+    with suppress(caught):
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(GUARD)
+    return "made after all"
+
+
+@pytest.mark.parametrize("caught", [ValueError, SystemExit])
+def test_a_call_that_is_ended_from_outside_has_no_result(caught):
+    """As one whose process was killed: also where the call, as a proof does, catches all."""
+    with Processes(1) as pool, pytest.raises(BrokenProcessPool):
+        pool.submit(_asked_to_end, caught).result()
 
 
 class Late:

@@ -52,6 +52,11 @@ def _in_ascii(letter: str) -> str:
 codecs.register_error("chapsym", in_ascii)
 
 
+class _Notes(logging.Handler):
+    def emit(self, record: logging.LogRecord) -> None:
+        note(record.getMessage())
+
+
 def main() -> NoReturn:
     """The entry point: turns every foreseen error into one sentence and an exit status."""
     for name in ("stdout", "stderr"):
@@ -62,8 +67,7 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):  # for a terminal, or a pipe, without Greek
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="chapsym")
-    logging.basicConfig(handlers=[notes := logging.Handler()])
-    notes.emit = lambda record: note(record.getMessage())  # type: ignore[method-assign]
+    logging.basicConfig(handlers=[_Notes()])
     logging.getLogger("chapsym").setLevel(logging.INFO)
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # of a home that cannot be written it says four lines
     if len(sys.argv) == 1:
