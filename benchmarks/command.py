@@ -85,9 +85,10 @@ def _goals(results: dict[str, Any]) -> list[measured.Table]:
     """The table of what was to be reached, if anything was."""
     rows = [
         {"section": name, "figure": one.what, "measured": one.value, "wanted": one.bound, "reached": one.met}
-        for name, found in results.items() if isinstance(found, Result)
+        for name, found in results.items()
+        if isinstance(found, Result)
         for one in found.reach
-    ]  # fmt: skip
+    ]
     return [measured.Table("What was set out to be reached", rows)] if rows else []
 
 

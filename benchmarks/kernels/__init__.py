@@ -75,9 +75,10 @@ VIEWS: dict[str, dict[str, View]] = {
     "invariants": {"h": _part(0, 1), "n": _part(1, 2), "unit": _part(2, 3)},
     "gibbs_newton": {"det": _part(0, 1), "N": _part(1, 4), "C": _part(4, 13)},
     "vertical_level": {
-        "f": _part(0, 1)._replace(size=lambda output, groups: abs(groups["level"][0])), "fv": _part(1, 2),
+        "f": _part(0, 1)._replace(size=lambda output, groups: abs(groups["level"][0])),
+        "fv": _part(1, 2),
     },
-}  # fmt: skip
+}
 
 
 class Worst(NamedTuple):

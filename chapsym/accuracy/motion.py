@@ -35,7 +35,7 @@ from chapsym.dynamics import (
     native,
     substeps,
     trajectory,
-)  # fmt: skip
+)
 from chapsym.dynamics.attitudes import attitude_with, initial_attitude
 from chapsym.dynamics.ball import (
     SMALLEST,
@@ -49,7 +49,7 @@ from chapsym.dynamics.ball import (
     numbers,
     over_states,
     unit_vertical,
-)  # fmt: skip
+)
 from chapsym.dynamics.enclosed_motion import of_motion
 from chapsym.dynamics.extrapolation import FEW, loop_weights
 from chapsym.dynamics.levels.frames import Count, cores, share, watched

@@ -308,7 +308,7 @@ def run_of_map(
     ball, task = one_ball(plan.members, 0), plan.task
     run = trajectory(
         ball, *start, task.steps, every=task.every, order=task.order, precision=task.precision, proved=True
-    )  # fmt: skip
+    )
     _deliver(output, as_json, search, run)
 
 

@@ -108,9 +108,9 @@ def weights(columns: int, first: int = 0) -> tuple[Fraction, ...]:
 def weights_of_pairs(columns: int) -> Floats:
     """The arguments of `march_long_pairs`: the weights and their changes by the last column, (columns, 4)."""
     whole, fewer = (weights(n, FIRST) for n in (columns, columns - 1))
-    return np.array([
-        [*Pair.of(w).halves(), *Pair.of(w - v).halves()] for w, v in zip(whole, (*fewer, Fraction(0)), strict=True)
-    ])  # fmt: skip
+    return np.array(
+        [[*Pair.of(w).halves(), *Pair.of(w - v).halves()] for w, v in zip(whole, (*fewer, Fraction(0)), strict=True)]
+    )
 
 
 def stages_of(columns: int, first: int = 0) -> int:

@@ -387,8 +387,9 @@ class Proof:
         limits = [statement for _, statement, _ in self.decided if isinstance(statement, Limit)]
         self.problems += [
             f"{of.along} cannot tend to 0 in «{of.text}»: the hypothesis {text} has it"
-            for of in limits for text in of.bound_by(self.assumed)
-        ]  # fmt: skip
+            for of in limits
+            for text in of.bound_by(self.assumed)
+        ]
         if self.answer and not any(check["holds"] for check in self.checks):
             self.problems.append("the answer has no lemma that is decided")
         if self.problems:

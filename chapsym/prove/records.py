@@ -123,6 +123,7 @@ def append(path: Path, record: Data) -> None:
 def stale(records: dict[str, Data], claims: dict[str, Claim]) -> list[str]:
     """The ids whose record was made with another derivation, or other libraries, than the present ones."""
     return [
-        id for id, record in records.items()
+        id
+        for id, record in records.items()
         if id in claims and record["evidence"]["fingerprint"] != fingerprint(claims[id])
-    ]  # fmt: skip
+    ]

@@ -86,10 +86,11 @@ def sample(
         exponents = kept["growth1"][chaotic] / steps
         volume = (kept["volume_first"][chaotic] + kept["volume_second"][chaotic]) / 2
         report["wild"] = {
-            "growth": float(growth[chaotic].min()), "exponent": [float(exponents.mean()), float(exponents.max())],
+            "growth": float(growth[chaotic].min()),
+            "exponent": [float(exponents.mean()), float(exponents.max())],
             "volume": [float(np.mean(volume)), float(np.std(volume) / np.sqrt(len(volume)))],
             "change": float(np.median(change[chaotic])),
-        }  # fmt: skip
+        }
     return report
 
 

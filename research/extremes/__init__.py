@@ -56,21 +56,21 @@ GROUPS = {
         for name, title in _TITLES.items()
     },
     "runs": Group("Ten steps of a trajectory, compared with ten of the oracle", runs.ten_steps, states.starts),
-    "batch": Group(
-        "The same in a batch of 4096", partial(runs.ten_steps, balls=runs.BATCH), states.starts, _BATCHED
-    ),
+    "batch": Group("The same in a batch of 4096", partial(runs.ten_steps, balls=runs.BATCH), states.starts, _BATCHED),
     "order": Group(
-        "One step of the composition of order 8 (of order 4 when quick)", runs.composed,
+        "One step of the composition of order 8 (of order 4 when quick)",
+        runs.composed,
         lambda: states.starts() | {"at 0.8 of the fold": [runs.near_its_fold]},
     ),
     "reverse": Group("Ten steps, and back", runs.way_back, states.starts, _DOUBLE),
     "long": Group(
-        "Drift of ⟨𝒦,γ⟩, |𝒦|² and |γ|² in a long run", runs.long_run,
+        "Drift of ⟨𝒦,γ⟩, |𝒦|² and |γ|² in a long run",
+        runs.long_run,
         lambda: {f"ε = {size:g}": [size] for size in (1e-3, 0.05, 0.4)},
     ),
     "fold search": Group("Where the branch folds", steps.fold_search, states.folds, _DOUBLE),
     "vertical": Group("One step of the reduced map G_h", steps.vertical, states.upright_states, _DOUBLE),
-}  # fmt: skip
+}
 #: Groups whose rows of one name are about the same run.
 SHARED = ("runs", "batch", "reverse")
 

@@ -32,9 +32,10 @@ def displacement(found: dict[str, Any]) -> Picture:
     n = len(top["values"])
     axes[1].plot(np.arange(n) / n, scaled(top["values"], -digits), "o", color=GREY, markersize=3.2)
     axes[1].set(
-        title=f"Top, {named(top, 'J', 'D', 'h')}: zero to {digits} digits", ylim=(-30, 30),
+        title=f"Top, {named(top, 'J', 'D', 'h')}: zero to {digits} digits",
+        ylim=(-30, 30),
         ylabel=f"displacement, $10^{{-{digits}}}$ half turns",
-    )  # fmt: skip
+    )
     for axis in axes[:3]:
         axis.axhline(0, color="0.6", linewidth=0.8, zorder=1)
         axis.set(xlabel="start u / 2K", xlim=(0, 1))

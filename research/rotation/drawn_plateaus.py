@@ -34,8 +34,9 @@ def staircase(found: dict[str, Any]) -> Picture:
     _steps(axes[1], top)
     seen = [
         (p["half_turns"], p["steps"], sum(p["edges"]) / 2, np.log10(p["edges"][1] - p["edges"][0]))
-        for p in top["plateaus"] if p["edges"][1] - p["edges"][0] > 1e-14
-    ]  # fmt: skip
+        for p in top["plateaus"]
+        if p["edges"][1] - p["edges"][0] > 1e-14
+    ]
     _stems(
         axes[2], [(p, q, float(x["level"]), w) for (p, q, w), x in zip(widths, found["farey"], strict=True)], BLUE, 10
     )
@@ -181,8 +182,8 @@ def digits(found: dict[str, Any]) -> Picture:
     rows = found["times"]
     axes[1].plot([x["digits"] for x in rows], [x["seconds"] * 1e6 for x in rows], "o-", color=RED, markersize=5)
     axes[1].set(
-        xscale="log", yscale="log", xlabel="working digits", ylabel="µs a step", title="What a step costs in Arb",
-    )  # fmt: skip
+        xscale="log", yscale="log", xlabel="working digits", ylabel="µs a step", title="What a step costs in Arb"
+    )
     axes[1].set_xticks([x["digits"] for x in rows if x["digits"] in (15, 30, 60, 120, 240, 400, 1000)])
     axes[1].xaxis.set_major_formatter(ScalarFormatter())
     axes[1].xaxis.set_minor_formatter(NullFormatter())

@@ -639,9 +639,8 @@ class ExactTop(Brief):
         attitude = None if run.attitude is None else kernels.compose(run.attitude, turned)
         gamma = kernels.transport(turned, run.gamma)
         return Trajectory(
-            self.origin, run.index, self.size * axis, gamma, attitude, None, run.taken, run.status,
-            run.time_step, 0,
-        )  # fmt: skip
+            self.origin, run.index, self.size * axis, gamma, attitude, None, run.taken, run.status, run.time_step, 0
+        )
 
 
 @np.errstate(all="ignore")  # an overflow is refused

@@ -364,8 +364,9 @@ def carried(u: Vector, inverse: arb_mat, k: Vector, g: Vector, D: arb, size: arb
     (u1, u2, u3), (g1, g2, g3) = u, g
     square, inner = dot(u, u), dot(g, u)
     norm = 1 + square
-    turned = arb_mat(3, 3, [inner + g1 * u1, g1 * u2, g1 * u3, g2 * u1, inner + g2 * u2, g2 * u3, g3 * u1, g3 * u2,
-                            inner + g3 * u3])  # fmt: skip
+    turned = arb_mat(
+        3, 3, [inner + g1 * u1, g1 * u2, g1 * u3, g2 * u1, inner + g2 * u2, g2 * u3, g3 * u1, g3 * u2, inner + g3 * u3]
+    )
     # Δ = -A⁻¹S; the factors 2 of [2γ]ₓ and [2k]ₓ come last.
     change = inverse * (turned * (cross_matrix(g) * D) + cross_matrix([norm * x for x in k])) * 2
     across = cross_matrix(u)

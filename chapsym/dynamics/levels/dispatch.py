@@ -113,9 +113,7 @@ def provable(precision: Precision) -> None:
 FINER = 200
 
 
-def step(
-    precision: Precision, shape: tuple[int, ...], balls: Balls, order: int, with_proof: bool = False
-) -> Step:  # fmt: skip
+def step(precision: Precision, shape: tuple[int, ...], balls: Balls, order: int, with_proof: bool = False) -> Step:
     """The first step of a run of each ball, with the leading axes `shape` of the result; with_proof: in float64.
 
     The rotation is the attitude of a run that starts at the identity; for floats, the map gives it directly.

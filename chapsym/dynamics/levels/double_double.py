@@ -105,9 +105,7 @@ class OneBall:
     frames, low: their first frame is written; `take` writes its steps into its own arguments.
     """
 
-    def __init__(
-        self, balls: Balls, i: int, frames: Frames, low: Frames, stages: Floats, proves: bool = False
-    ) -> None:  # fmt: skip
+    def __init__(self, balls: Balls, i: int, frames: Frames, low: Frames, stages: Floats, proves: bool = False) -> None:
         self._march = native.loop(loop.march_pairs)
         K, g, J, D = balls.momentum[i], balls.gamma[i], balls.mass_tensor[i], float(balls.D[i])
         self.state, limits, past = np.zeros(loop.ROWS), np.zeros((2, len(stages))), np.zeros((len(stages), 8, 3))

@@ -30,9 +30,7 @@ def begun(state: Floats, stages: Floats, beyond: int) -> tuple[Floats, Floats]:
     return np.array([proved.slope_of(k, I, D) for k in stage_momenta]), box
 
 
-def errors(
-    balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floats, stages: int = 1
-) -> list[Asked]:  # fmt: skip
+def errors(balls: Balls, index: Floats, run: Frames, pairs: Frames, spread: Floats, stages: int = 1) -> list[Asked]:
     """Upper bounds, (n, frames), of the errors of a run: in 𝒦, γ, the attitude and the contact point.
 
     pairs: the run in double-double from the same start; spread: bounds of its distance from the exact orbit.

@@ -540,9 +540,10 @@ class Chosen(Model):
     whole = True
 
     def __init__(
-        self, tell: Callable[[Accurate], object] = lambda answer: None,
+        self,
+        tell: Callable[[Accurate], object] = lambda answer: None,
         progress: Callable[[str], None] = lambda text: None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.tell, self.progress = tell, progress
 
     def unable(self, members: Members, task: Task, needed: frozenset[str]) -> str | None:

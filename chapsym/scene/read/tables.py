@@ -14,7 +14,7 @@ from pydantic import (
     Tag,
     field_validator,
     model_validator,
-)  # fmt: skip
+)
 from pydantic_core import core_schema
 
 from chapsym.accuracy.motion import FINEST
@@ -121,8 +121,9 @@ def _of_three(given: object) -> object:
 
 Inertia = Annotated[
     Annotated[Moments3, Tag(LIST)] | Annotated[tuple[Moments3, Moments3, Moments3], Tag(MATRIX)],
-    Discriminator(_shape), BeforeValidator(_of_three),
-]  # fmt: skip
+    Discriminator(_shape),
+    BeforeValidator(_of_three),
+]
 Momentum = Annotated[
     Annotated[Moments3, Tag(LIST)] | Annotated[tuple[MomentsN, ...], Field(min_length=4), Tag(MATRIX)],
     Discriminator(_shape),
@@ -387,8 +388,9 @@ class RunTable(Table):
                 whole = max(steps, 1)
                 raise Misfit(
                     f"run.time is {ratio:.9g} time steps, which is no whole number: take time = {whole * step:.9g} or "
-                    f"time_step = {time / whole!r}", "time",
-                )  # fmt: skip
+                    f"time_step = {time / whole!r}",
+                    "time",
+                )
         if not steps < MOST_STEPS:
             raise Misfit(f"run.steps is {float(min(steps, 10**300)):.3g}, more than anybody waits for", "steps")
         if step is not None and not steps * step < math.inf:

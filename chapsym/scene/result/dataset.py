@@ -26,7 +26,7 @@ from chapsym.dynamics.labelled import (
     coordinates,
     moments,
     with_clock,
-)  # fmt: skip
+)
 from chapsym.dynamics.outputs import BOUND, LOW, OUTPUTS, labels
 
 from ..members.members import Body

@@ -29,7 +29,7 @@ from .top import (
     turn,
     u,
     variation,
-)  # fmt: skip
+)
 
 a, b = q[0], q[1:, :]
 UNITS = ("the Euler parameters are unit", sp.Eq(UNIT, 0))
