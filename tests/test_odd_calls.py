@@ -114,7 +114,7 @@ def test_what_is_no_argument_is_refused_by_its_name(call, said):
 def test_what_is_no_scene_and_no_result_is_refused_by_its_name(odd):
     for read, said in (
         (chapsym.run_scene, "scene must be a .toml file or a dictionary, not"),
-        (chapsym.open_result, "path must be that of a result, not"),
+        (chapsym.open_result, "path must name a result, not"),
         (lambda given: chapsym.interpolated(given, 0.5), "run must be a result, its Dataset, or a Trajectory, not"),
     ):
         with pytest.raises(BadInput, match=said):
@@ -210,12 +210,12 @@ REFUSED = {
     "the certificate has no array": lambda: chapsym.certify(chapsym.trajectory(BALL, *RUN)).digits(np.zeros(3)),
     "vector must be real numbers": lambda: chapsym.skew(deep(700)),
     "gamma is not on this curve": lambda: EQUATOR.argument((0.6, 0, 0.8)),
-    "dataset must be that of a result": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN)),
-    "dataset must be that of a result, with ball": lambda: chapsym.Result(Unheard()),
-    "dataset must be that of a result, with ball and": lambda: chapsym.Result(
+    "dataset must be the dataset of a result": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN)),
+    "dataset must be the dataset of a result, with ball": lambda: chapsym.Result(Unheard()),
+    "dataset must be the dataset of a result, with ball and": lambda: chapsym.Result(
         chapsym.trajectory(BALL, *RUN).to_xarray().gamma
     ),
-    "path must be that of a file": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN).to_xarray()).save(None),
+    "path must name a file": lambda: chapsym.Result(chapsym.trajectory(BALL, *RUN).to_xarray()).save(None),
     "a result without balls has nothing to save": lambda: chapsym.Result(
         chapsym.trajectory(BALL, np.zeros((0, 3)), (0, 0, 1), 2).to_xarray()
     ).save("no-such-folder/a.csv"),

@@ -55,7 +55,7 @@ class Top:
         least, middle, most = (1 / self.moments[i] for i in near)
         if not least < level < most or level == middle:
             raise BadInput(
-                f"the levels of circles are between 1/Λ = {least} and {most}, without {middle}; {level} is none of them"
+                f"the levels of circles are between 1/Λ = {least} and {most}, except {middle}, and {level} is not"
             )
         return near if level > middle else far
 

@@ -36,7 +36,7 @@ def lab(
     files: Annotated[list[Path], argument("FILE...", "Files of systems, SYSTEM = System(...), or folders of them.")],
     method: Annotated[list[str] | None, takes("NAME", "A method; may be given more than once; all by default.")] = None,
     steps: Annotated[int, takes("N", "Steps of each run.", min=1, max=100_000_000)] = 100_000,
-    length: Annotated[float | None, takes("TIME", "Of a step; that of each system by default.", min=0)] = None,
+    length: Annotated[float | None, takes("TIME", "The time of a step; by default each system's own.", min=0)] = None,
     flags: Annotated[
         bool, typer.Option(help="Also decide exactly what can be: constraints, integrals, methods.")
     ] = True,

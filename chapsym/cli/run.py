@@ -38,9 +38,10 @@ def run(
         bool, typer.Option("--fresh", "--force", help="Replace a result that is there, of whatever scene.")
     ] = False,
     omega: Annotated[
-        str | None, takes("W1,W2,W3", "Of a robot's file: rad/s at the start, its axes along those of space.")
+        str | None,
+        takes("W1,W2,W3", "For a robot's file: ω at the start in rad/s, with the ball's axes along those of space."),
     ] = None,
-    time: Annotated[str | None, takes("S", "Of a robot's file: for how many seconds it rolls.")] = None,
+    time: Annotated[str | None, takes("S", "For a robot's file: the duration in seconds.")] = None,
     as_json: Json = False,
 ) -> None:
     """Run a scene and write the result.

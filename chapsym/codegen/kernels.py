@@ -125,9 +125,9 @@ class Kernel:
         if len(self.expressions) != len(self.outputs):
             return f"it has {len(self.outputs)} outputs and {len(self.expressions)} expressions"
         if self.rows_of_three and len(self.outputs) % 3:
-            return f"its {len(self.outputs)} outputs are no rows of three"
+            return f"its {len(self.outputs)} outputs do not fill rows of three"
         if strange := [e for e in self.expressions if not isinstance(e, sp.Expr)]:
-            return f"its expression {strange[0]!r:.40} is none of SymPy"
+            return f"its expression {strange[0]!r:.40} is no expression of SymPy"
         if found := set().union(*(e.free_symbols for e in self.expressions)) - known:
             return f"its expressions have {', '.join(sorted(map(str, found)))}, which is no argument"
         return None

@@ -231,7 +231,7 @@ def certified_motion(
         turned = lambda: balls(quaternion)  # noqa: E731
     momentum, inside = vector(angular_momentum, "angular_momentum"), vector(rotor, "rotor")
     if any(inside) and momentum == inside:
-        raise BadInput("angular_momentum must not be that of the rotor: then the ball is at rest, and stays there")
+        raise BadInput("angular_momentum must differ from the rotor's: otherwise the ball is at rest, and stays there")
     moments: Any = exact.mass_tensor
     start = Start(
         moments if exact.diagonal else (), exact.D, turned, fixed(momentum), exact.radius,

@@ -153,9 +153,11 @@ def _decided(system: System, digest: str) -> Volume:
     span = flag(system)
     may_differ = len(algebra.holonomic) > 1 or any(e.free_symbols - set(q) for e in algebra.holonomic)
     if span.functions and may_differ:  # by components, of which there may be several
-        raise BadSystem(f"{system.name}: what brackets span may differ from component to component of the places")
+        raise BadSystem(f"{system.name}: the span of the brackets may differ between components of the configurations")
     if not (point := _refuted(fields, spread, span.growth[-1], algebra)):
-        raise BadSystem(f"{system.name}: neither a volume is found that is kept, nor that there is none")
+        raise BadSystem(
+            f"{system.name}: it is not decided whether a volume is kept: none is found, and no proof that there is none"
+        )
     at_rest = dict.fromkeys(v, sp.S.Zero)
     push = [algebra.into(e.xreplace(at_rest)) for e in system.push]
     drives = any(p.xreplace(at_rest) != 0 for p in system.momenta) or any(

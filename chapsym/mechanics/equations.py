@@ -253,7 +253,7 @@ def in_symbols(expr: Any) -> Any:
         return sp.Matrix(expr.rows, expr.cols, made) if isinstance(expr, sp.MatrixBase) else type(expr)(made)
     expr = expression(expr, "what is to be in symbols")
     if any(d.derivative_count > 1 for d in expr.atoms(sp.Derivative)):
-        raise BadSystem(f"{expr!s:.60} has a second derivative, which has no symbol: put in what it is")
+        raise BadSystem(f"{expr!s:.60} has a second derivative, which has no symbol: replace it by its value")
     rates = [d for d in expr.atoms(sp.Derivative) if isinstance(d.expr, AppliedUndef)]
     expr = expr.xreplace({d: dot(sp.Symbol(d.expr.func.__name__)) for d in rates})
     return expr.xreplace({f: sp.Symbol(f.func.__name__) for f in expr.atoms(AppliedUndef)})

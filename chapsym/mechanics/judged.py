@@ -93,9 +93,9 @@ def verdicts(system: System, scheme: Scheme) -> dict[str, Verdict]:
     ('2', 'proved', 'false')
     """
     if not isinstance(scheme, Scheme):
-        raise BadSystem(f"scheme must be that of a method, METHODS[name].scheme(system), not {brief(scheme)}")
+        raise BadSystem(f"scheme must be the scheme of a method, METHODS[name].scheme(system), not {brief(scheme)}")
     if tuple(scheme.state[: len(a_system(system).coordinates)]) != tuple(system.coordinates):
-        raise BadSystem(f"scheme is of other coordinates than those of {system.name}: METHODS[name].scheme(system)")
+        raise BadSystem(f"scheme has other coordinates than {system.name}: take METHODS[name].scheme(system)")
     return {name: one.verdict for name, one in decided(a_system(system), scheme).items()}
 
 

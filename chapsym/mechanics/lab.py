@@ -123,7 +123,7 @@ def measured(
         One of METHODS.
     steps : int
     length : float, optional
-        Of a step; that of the system by default.
+        The time of a step; by default that of the system.
     halve : bool
         Whether the drift is also measured with steps of half the length.
     decide : bool

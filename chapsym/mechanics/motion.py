@@ -231,7 +231,7 @@ class Runner:
         ----------
         steps : int
         length : number, optional
-            Of a step; that of the system by default.
+            The time of a step; by default that of the system.
         every : int
             The number of steps from one record to the next.
         start : numpy.ndarray, optional
@@ -469,7 +469,7 @@ def moved(
         One of METHODS: "dla" is the discrete Lagrange-d'Alembert principle at the midpoint.
     steps : int
     length : number, optional
-        Of a step; that of the system by default.
+        The time of a step; by default that of the system.
     every : int
         The number of steps from one record to the next.
     precision : str or Precision, optional

@@ -432,7 +432,7 @@ def loaded(path: str | Path) -> System:
     chapsym.mechanics.system.BadSystem: no-such-file.py is no file of a system: a Python file with SYSTEM = System(...)
     """
     if not isinstance(path, str | os.PathLike):
-        raise BadSystem(f"path must be that of a Python file, not {brief(path)}")
+        raise BadSystem(f"path must name a Python file, not {brief(path)}")
     path = Path(path)
     spec = importlib.util.spec_from_file_location(f"system_{path.stem}", path) if path.suffix == ".py" else None
     if spec is None or spec.loader is None or not path.is_file():

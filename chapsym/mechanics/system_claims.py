@@ -275,7 +275,7 @@ def _minor(vectors: Sequence[Sequence[sp.Expr]], points: Iterable[Point]) -> tup
     matrix = sp.Matrix([list(one) for one in vectors])
     for point, _, columns in _full(matrix, points):
         return determinant(matrix.extract(list(range(matrix.rows)), columns)), point, columns
-    raise BadSystem("no rational point is found where the rank is what it is almost everywhere")
+    raise BadSystem("no rational point is found where the rank is the generic one")
 
 
 def _not_0(text: str, minor: sp.Expr, point: Point) -> Comparison:

@@ -302,7 +302,7 @@ def _taken(name: str, id: str, other: str) -> BrokenScript:
     whose = "or install this checkout first (pip install -e .) if it is a script of chapsym; "
     return BrokenScript(
         f"{_shown(name)}: two proofs judge the claim {id}; give yours an id of its own, "
-        f"{whose if 'chapsym' in other else ''}the other proof is that of {other}"
+        f"{whose if 'chapsym' in other else ''}the other proof is in {other}"
     )
 
 

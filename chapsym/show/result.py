@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from .drawing.style import Picture
 
-PLACE = "path must be that of a file"
+PLACE = "path must name a file"
 #: The largest number of values for which a table has the drift; more would take seconds.
 MOST = 10_000_000
 
@@ -67,7 +67,7 @@ class Result:
     def __post_init__(self) -> None:
         sizes = self.dataset.sizes if hasattr(type(self.dataset), "data_vars") else ()
         if not {"ball", "frame"} <= set(sizes):
-            raise BadInput(f"dataset must be that of a result, with ball and frame, not {brief(self.dataset)}")
+            raise BadInput(f"dataset must be the dataset of a result, with ball and frame, not {brief(self.dataset)}")
 
     def to_xarray(self) -> "Dataset":
         """`dataset`, in the form of `Trajectory.to_xarray`."""
@@ -271,7 +271,7 @@ def open_result(path: str | Path) -> Result:
     ...     print(chapsym.open_result(f"{folder}/ball.csv").dataset.sizes["frame"])
     11
     """
-    return Result(formats.load(_path(path, "path must be that of a result")))
+    return Result(formats.load(_path(path, "path must name a result")))
 
 
 def _path(given: Any, must: str) -> Path:

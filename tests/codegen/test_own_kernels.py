@@ -63,7 +63,7 @@ def test_the_chain_from_a_claim_to_its_kernels(register):
         ({"groups": GROUPS.replace("gravity", "g now")}, "'g now' cannot be a name"),
         ({"groups": GROUPS.replace("gravity", "place")}, "two groups of arguments have the name place"),
         ({"kernels": KERNELS.replace("({carrier},)", "{carrier}")}, "the carriers of pull must be a tuple of carriers"),
-        ({"expression": "None"}, "its expression None is none of SymPy"),
+        ({"expression": "None"}, "its expression None is no expression of SymPy"),
         ({"carrier": "right('{id}', MOVING).solved(5)"}, "the matrix of a linear system is another carrier, not 5"),
         ({"carrier": "right('{id}', MOVING).at({{'a': 1}})"}, "is given as {symbol: expression}, not {'a': 1}"),
         ({"carrier": "right('{id}', MOVING).along(a)"}, "is given as {symbol: expression}, not a"),

@@ -219,7 +219,7 @@ BAD = [
     ({"times": np.ma.masked}, "times must be a number"),
     ({"times": [[1], [2, 3]]}, "times 1 must be a number"),
     ({"rotor": (1, 2)}, "rotor must be 3 numbers"),
-    ({"rotor": (1, 2, 3)}, "angular_momentum must not be that of the rotor"),
+    ({"rotor": (1, 2, 3)}, "angular_momentum must differ from the rotor"),
     ({"digits": 0}, "digits must be a whole number from 1"),
     ({"digits": 2.5}, "digits must be a whole number from 1"),
     ({"limit": 0}, "limit must be a positive number"),

@@ -197,7 +197,7 @@ def test_what_a_reader_trips_over_is_not_repeated(parts):
     path, arrays, about = parts
     about["structure"]["variables"] = None
     np.savez(path, **(arrays | {"chapsym": np.array(json.dumps(about))}))
-    with pytest.raises(SceneError, match=r"or no result of chapsym: its parts are not those of one$"):
+    with pytest.raises(SceneError, match=r"or no result of chapsym: its parts are not those of a result$"):
         formats.load(path)
 
 

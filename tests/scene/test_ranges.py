@@ -105,7 +105,7 @@ def test_ranges_that_do_not_fit_are_refused():
     for given, sentence in (
         ({"inertia": {"grid": [[1, 1, 1], [2, 2, 2]]}}, "a range replaces one number, not a list"),
         ({"omega": (many, many, 1)}, "the ranges make 100000000 balls; a sweep has 10000000 at most"),
-        ({"omega": (1, many, 0), "sweep": {"samples": 3}}, "sweep.samples goes with a range that is drawn"),
+        ({"omega": (1, many, 0), "sweep": {"samples": 3}}, "sweep.samples needs a range that is drawn"),
     ):
         with pytest.raises(SceneError, match=re.escape(sentence)):
             expand(checked(**given))

@@ -316,7 +316,7 @@ def test_what_mujoco_would_make_another_ball_of_is_refused(put, old, new, said):
             "</robot>",
             """<link name="arm"><inertial/></link>
             <joint name="j" type="fixed"><parent link="arm"/><child link="ball"/></joint></robot>""",
-            ", line 10: <joint> j of arm and ball holds the ball, and that of chapsym rolls alone",
+            ", line 10: <joint> j of arm and ball holds the ball, but chapsym's ball rolls alone",
         ),
         (
             "</robot>",

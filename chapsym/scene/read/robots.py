@@ -213,7 +213,7 @@ class _Reader:
         """Raises SceneError if the ball also touches the plane with other shapes, except spheres inside of it."""
         for tag in UNREAD:
             if (hidden := body.find(tag)) is not None:
-                raise self._refused(hidden, f"<{tag}> is not read: put what it says about the ball into its <body>")
+                raise self._refused(hidden, f"<{tag}> is not read: move its statements about the ball into its <body>")
         shapes = [one for one in body.findall("geom") if self._touches(one)] or body.findall("collision")
         for shape in shapes:
             other = self._sphere_of(shape, body)
@@ -237,7 +237,7 @@ class _Reader:
             held += [joint for joint in body.findall("joint") if joint.get("type", "hinge") != "free"]
             if held:
                 what = f"<{held[0].tag}> {held[0].get('name', 'without a name')}"
-                raise self._refused(held[0], f"{what} holds the ball, and that of chapsym rolls alone")
+                raise self._refused(held[0], f"{what} holds the ball, but chapsym's ball rolls alone")
             for joint in body.findall("joint"):
                 if self._number(joint.get("armature", "0"), joint):
                     clause = f"armature = {joint.attrib['armature']!r} is added to the inertia of the ball"
@@ -250,7 +250,7 @@ class _Reader:
             fixed = joint.get("type") == "fixed" and not others
             if body.get("name") in ends and not fixed and joint.get("type") != "floating":
                 what = f"<joint> {joint.get('name', 'without a name')} of {' and '.join(ends)}"
-                raise self._refused(joint, f"{what} holds the ball, and that of chapsym rolls alone")
+                raise self._refused(joint, f"{what} holds the ball, but chapsym's ball rolls alone")
 
     def _left_out(self, body: Element) -> Iterator[tuple[Element, str]]:
         """The actions on the ball besides a level plane and gravity, with their lines.

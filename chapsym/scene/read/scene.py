@@ -110,7 +110,7 @@ class Scene(Table):
             drawn |= self._check_ball(i, ball)
         if self.sweep.samples is not None and not drawn:
             raise Misfit(
-                "sweep.samples goes with a range that is drawn, random or normal: there is none", "sweep", "samples"
+                "sweep.samples needs a range that is drawn, random or normal, and there is none", "sweep", "samples"
             )
         return self
 

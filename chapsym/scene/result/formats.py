@@ -136,7 +136,7 @@ def load(path: Path) -> "Dataset":
     except MemoryError:
         raise SceneError(f"{path} does not fit into memory, if it is not damaged") from None
     except DAMAGED as error:
-        layout = "its parts are not those of one"  # the message of a reader does not help a user
+        layout = "its parts are not those of a result"  # the message of a reader does not help a user
         if isinstance(error, READERS):
             layout = (str(error).splitlines() or [type(error).__name__])[0][:200]
         raise SceneError(f"{path} is damaged, or no result of chapsym: {layout}") from None
@@ -260,7 +260,7 @@ def _read_zarr(path: Path) -> "Dataset":
 
     check_ours(path)
     if found := disputed(path):
-        raise SceneError(f"{path / 'zarr.json'} and that of {found[0]!r} in it say different things: {mended(path)}")
+        raise SceneError(f"{path / 'zarr.json'} and the zarr.json of {found[0]!r} in it differ: {mended(path)}")
     with warnings.catch_warnings():  # for an incomplete group: a sentence reports it
         warnings.filterwarnings("ignore", message="Failed to open Zarr store with consolidated metadata")
         data = xarray.open_zarr(CheckedStore(path, read_only=True))

@@ -474,9 +474,7 @@ def consolidate(path: "Path | MemoryStore") -> None:
 def _locked(path: Path) -> Iterator[None]:
     """Raises SceneError if another process writes the store, or if it would be written outside of its folder."""
     if link := next((one for one in path.rglob("*") if one.is_symlink()), None):
-        raise SceneError(
-            f"{link} is a link, and what it leads to may not be chapsym's to write: put files in its place"
-        )
+        raise SceneError(f"{link} is a link, and its target may not be chapsym's to write: replace the link by files")
     with _refusals(path):
         folder_of(path).mkdir(exist_ok=True)
     with jobs.held(folder_of(path) / "lock", str(path)):
