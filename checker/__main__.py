@@ -32,9 +32,9 @@ def main(arguments: list[str] | None = None) -> int:
             data = read(options.manifest)
             listed = manifest.listed(data, Path(options.manifest).parent)
             if not options.json:
-                print(f"{options.manifest}: {len(listed)} certificates, digest {data['digest']}")
+                _say(f"{options.manifest}: {len(listed)} certificates, digest {data['digest']}")
         except (Rejected, Unreadable) as error:
-            print(f"{options.manifest}: rejected: {error}", file=sys.stderr)
+            _say(f"{options.manifest}: rejected: {error}", to=sys.stderr)
             return 1 if isinstance(error, Rejected) else 2
         expected = {str(path): name for path, name in listed.items()}
     files = [*options.files, *expected]
@@ -57,30 +57,33 @@ def main(arguments: list[str] | None = None) -> int:
         if isinstance(verdict, Exception):
             worst = max(worst, 1 if isinstance(verdict, Rejected) else 2)
             found.append({"file": file, "accepted": False, "reason": str(verdict)})
-            print(
-                f"{file}: {'rejected' if isinstance(verdict, Rejected) else 'unreadable'}: {verdict}", file=sys.stderr
-            )
+            _say(f"{file}: {'rejected' if isinstance(verdict, Rejected) else 'unreadable'}: {verdict}", to=sys.stderr)
             continue
         found.append({"file": file, "accepted": True, **vars(verdict)})
         if not options.json:
-            print(f"{file}: accepted ({verdict.kind})\n  Proved: {verdict.statement}")
-            print(*(f"  {name}: {value}" for name, value in verdict.numbers.items()), sep="\n")
+            _say(f"{file}: accepted ({verdict.kind})", f"  Proved: {verdict.statement}")
+            _say(*(f"  {name}: {value}" for name, value in verdict.numbers.items()))
             if options.show and verdict.kind == "register-claim":
-                print(*(f"  {line}" for line in shown.lines(whole[verdict.name])), sep="\n")
+                _say(*(f"  {line}" for line in shown.lines(whole[verdict.name])))
     accepted = {name: data for name, data in whole.items() if name in stand}
     bound = [one for folder in options.kernels for one in kernels.check_folder(Path(folder), accepted)]
     for one in bound:
         worst = worst if one["accepted"] else max(worst, 1)
         if not one["accepted"]:
-            print(f"{one['file']}: rejected: {one['reason']}", file=sys.stderr)
+            _say(f"{one['file']}: rejected: {one['reason']}", to=sys.stderr)
         elif not options.json:
-            print(f"{one['file']}: accepted (kernel)\n  Takes: {', '.join(one['inputs'])}")
-            print(f"  Computes: {' / '.join(one['statements'])}")
+            _say(f"{one['file']}: accepted (kernel)", f"  Takes: {', '.join(one['inputs'])}")
+            _say(f"  Computes: {' / '.join(one['statements'])}")
     if options.json:
         utf = (sys.stdout.encoding or "").lower().startswith("utf")  # otherwise with escapes
         result = {"certificates": found} | ({"kernels": bound} if options.kernels else {})
         print(json.dumps(result, ensure_ascii=not utf, indent=1))
     return worst
+
+
+def _say(*lines: str, to: Any = None) -> None:
+    """Prints lines, with escapes for unprintable characters: a file's name can neither add a line nor hide one."""
+    print(*("".join(x if x.isprintable() else repr(x)[1:-1] for x in line) for line in lines), sep="\n", file=to)
 
 
 def _judged(files: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:

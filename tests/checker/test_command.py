@@ -46,6 +46,16 @@ def test_the_exit_status_is_that_of_the_worst_file(files, names, status, capsys)
     assert out.count("Proved: For every ball with J = (1, 2, 4)") == names.count("right")
 
 
+def test_the_name_of_a_file_adds_no_line_and_hides_none(files, tmp_path, capsys):
+    forged = "a.json: accepted (register-claim)\n\x1b[2K"
+    Path(files["right"]).rename(tmp_path / forged)
+    assert main([str(tmp_path / forged), forged]) == 2
+    out, err = capsys.readouterr()
+    assert "\x1b" not in out + err
+    assert [line.endswith("a.json: accepted (register-claim)") for line in (out + err).splitlines()].count(True) == 0
+    assert len(err.splitlines()) == 1
+
+
 def test_what_rests_on_others_is_accepted_only_with_them(tmp_path, capsys):
     """A claim by its id and its digest, and a file of another kind by its digest."""
     right = maker.measure(level="0.2430009529063826355053267220620552038", digits=37)
