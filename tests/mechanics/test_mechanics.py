@@ -598,6 +598,8 @@ def test_attitudes_have_their_angular_velocities():
         ({"holonomic": [vx]}, "a holonomic constraint has x_dot"),
         ({"forces": {a: 1}}, "a force is along a, which is no coordinate"),
         ({"start": {a: 1}}, "the start has a, which is no coordinate or velocity"),
+        ({"start": {"x": 1}}, "start must be given as {symbol: value}"),
+        ({"integrals": {x: vx}}, "integrals must be given as {name: quantity}"),
     ],
 )
 def test_what_is_no_system_is_one_sentence(settings, said):
