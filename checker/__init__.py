@@ -1,13 +1,13 @@
-"""A small checker of certificates: the standard library only, and nothing of the rest of chapsym.
+"""A small checker of certificates.  It uses only the standard library, and nothing from the rest of chapsym.
 
     from chapsym.checker import check, read        or        python checker FILE...  in the folder of the repository
-    verdict = check(read("proofs/certificates/….json"))        what it rests on must be accepted, too: standing
+    verdict = check(read("proofs/certificates/….json"))        `standing`: are its premises accepted, too?
 
-To be read in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map), then
-measure.py (with circle.py, branch.py), heteroclinic.py, orbit.py, run.py (what a certificate says and why it is
-proved); taylor.py (functions of the time), rolling.py (the continuous ball), drift.py, motion.py; document.py and
-form.py (the form of a file).  For the statements of the register: trees.py, polynomial.py, words.py, algebra.py,
-matrices.py, derivation.py (how what they are about is made), roots.py, register.py; shown.py prints what was judged.
+Read the files in this order: interval.py (arithmetic), linear.py (elimination, Newton's test), step.py (the map); then
+measure.py (with circle.py, branch.py), heteroclinic.py, orbit.py, run.py (the theorem of each kind and its proof);
+taylor.py (functions of time), rolling.py (the continuous ball), drift.py, motion.py; document.py and form.py (the form
+of a file).  For the statements of the register: trees.py, polynomial.py, words.py, algebra.py, matrices.py,
+derivation.py (derived expressions), roots.py, register.py; shown.py prints the formulas of a certificate.
 """
 
 from collections import Counter
@@ -48,10 +48,10 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Verdict:
-    """An accepted certificate: its kind, the theorem that it proves in one sentence, and numbers that were proved.
+    """The verdict on an accepted certificate: its kind, the theorem in one sentence, and the proved numbers.
 
-    name: its digest, after the id if it is that of a claim.  rests: the names of those that must be accepted, too.
-    uses: the ids of claims whose certificates must be.  refuted: no other may use it.
+    name: the digest; for a claim, the id and the digest.  rests: names of certificates that must be accepted, too.
+    uses: ids of claims whose certificates must be accepted, too.  refuted: no other certificate may use this claim.
     """
 
     kind: str
@@ -64,12 +64,12 @@ class Verdict:
 
 
 def statement(data: dict[str, Any]) -> str:
-    """The sentence that a certificate with these numbers must have as its "statement"."""
+    """The sentence that must be the "statement" of a certificate with these numbers."""
     return KINDS[data["kind"]].statement(data)
 
 
 def check(data: dict[str, Any]) -> Verdict:
-    """The verdict on a certificate; raises Rejected, with one sentence, unless its statement is proved."""
+    """The verdict on a certificate; raises Rejected, with a reason in one sentence, unless its statement is proved."""
     kind = data.get("kind") if isinstance(data, dict) else None
     if not isinstance(kind, str) or data.get("format") != FORMAT:
         raise Rejected(f"not a certificate of format {FORMAT}")
@@ -93,25 +93,25 @@ def check(data: dict[str, Any]) -> Verdict:
 
 
 def id_of(name: str) -> str:
-    """The id in the name of a verdict on a claim, else the name."""
+    """The id of the claim in the name of a verdict; for other certificates, the name itself."""
     return name.partition(" ")[0]
 
 
 def claimed_twice(verdicts: Sequence[Verdict]) -> set[str]:
-    """The names of certificates of one claim that differ: the one may say less than the other."""
+    """The names of different certificates of the same claim, one of which may prove less than another."""
     names = {one.name for one in verdicts if one.kind == "register-claim"}
     claims = Counter(map(id_of, names))
     return {name for name in names if claims[id_of(name)] > 1}
 
 
 def lacks(verdict: Verdict, accepted: Collection[str], refuted: Collection[str] = ()) -> list[str]:
-    """What a verdict rests on, and claims that it uses, that are not among accepted ones, or are refuted; by name."""
+    """The premises of a verdict that are not accepted: certificates by name; used claims, also refuted ones, by id."""
     ids = set(map(id_of, accepted)) - set(map(id_of, refuted))
     return sorted({*verdict.rests} - {*accepted} | {one for one in verdict.uses if one not in ids})
 
 
 def standing(verdicts: Sequence[Verdict]) -> set[str]:
-    """The names of those, of claims that no other is of, that rest on nothing but others that stand."""
+    """The names of the verdicts that stand: only one for its claim, and all its premises stand, too."""
     found: set[str] = set()
     alone = [one for one in verdicts if one.name not in claimed_twice(verdicts)]
     refuted = {one.name for one in verdicts if one.refuted}

@@ -1,4 +1,4 @@
-"""python -m chapsym.checker FILE..., or python checker FILE... with nothing installed: exit 0, 1 (rejected) or 2."""
+"""Command line: python -m chapsym.checker FILE..., or python checker FILE... without installation; exit 0, 1 or 2."""
 
 import argparse
 import json
@@ -11,7 +11,7 @@ from typing import Any
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Judges files: 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
+    """Checks files; returns 0 if all are accepted, 1 if one is rejected, 2 if one cannot be read."""
     from . import Rejected, Unreadable, claimed_twice, id_of, kernels, lacks, manifest, read, shown, standing
 
     parser = argparse.ArgumentParser(prog="checker", description="Checks certificates, with the standard library only.")
@@ -87,16 +87,16 @@ def _say(*lines: str, to: Any = None) -> None:
 
 
 def _judged(files: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The verdict on each file, or why it has none, and the accepted certificates by name.
+    """The verdict, or the exception, for each file, and the accepted certificates by name.
 
-    The certificates of claims that are used are looked for in the folders of the files, and judged, too.
+    Certificates of used claims are looked up in the folders of the files, and checked, too.
     """
     from . import Rejected, Unreadable, check, file_name, read
 
     judged: dict[str, Any] = {}
     whole: dict[str, Any] = {}
     pending = list(files)
-    for file in pending:  # grows while it is read
+    for file in pending:  # the loop appends to the list
         if file in judged:
             continue
         try:
@@ -113,8 +113,8 @@ def _judged(files: list[str]) -> tuple[dict[str, Any], dict[str, Any]]:
 
 
 if __name__ == "__main__":
-    if not __package__:  # run as a folder: start again as a package, so that the files find each other
-        folder = Path(__file__).resolve().parent  # found by its place: what lies beside it must not hide a module
+    if not __package__:  # run as a folder: start again as a package, so that relative imports work
+        folder = Path(__file__).resolve().parent  # by its path: no file next to the folder must shadow a module
         found = spec_from_file_location("checker", folder / "__init__.py", submodule_search_locations=[str(folder)])
         sys.modules["checker"] = package = module_from_spec(found)  # type: ignore[arg-type]
         found.loader.exec_module(package)  # type: ignore[union-attr]
@@ -125,7 +125,7 @@ if __name__ == "__main__":
         try:
             status = main()
             sys.stdout.flush()
-        except BrokenPipeError:  # nobody reads the output
+        except BrokenPipeError:  # the reader of the output has gone
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             status = 141
         except KeyboardInterrupt:

@@ -1,6 +1,6 @@
-"""Algebras of words: letters with rules and transposes, parameters; and what can be done to sums of their words.
+"""Algebras of words: letters with rules and transposes, scalar parameters, and operations on sums of words.
 
-Each operation is true of all matrices for which the rules and the transposes of the algebra hold.
+Each operation is valid for all matrices that satisfy the rules and the transposes of the algebra.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from .words import Number, Term, Words
 
 
 class Algebra:
-    """Letters for matrices and parameters for numbers, rules for products of two letters, transposes of letters."""
+    """An algebra: letters for matrices, parameters for numbers, rules for products of two letters, and transposes."""
 
     def __init__(self, data: Mapping[str, Any], work: Work):
         self.data, self.work, self.letters, self.parameters = data, work, set(data["letters"]), data["parameters"]
         self.none = (0,) * len(self.parameters)
-        self.divisors: set[str] = set()  # parameters by which something is divided, though it may not be seen any more
-        self.respected: list[Algebra] = []  # those whose rules have been seen to hold here, of the names of both
+        self.divisors: set[str] = set()  # parameters that were divided by, even if they have cancelled
+        self.respected: list[Algebra] = []  # algebras whose rules for shared names hold here
         self.names = {letter: self.word(letter) for letter in data["letters"]}
         for i, name in enumerate(self.parameters):
             self.names[name] = self.scalar(tuple(int(i == j) for j in range(len(self.parameters))))
@@ -31,7 +31,7 @@ class Algebra:
         self.rules = {(a, b): self.read(image, self.names) for a, b, image in data["rules"]}
 
     def word(self, *letters: str) -> Words:
-        """One word."""
+        """The word of these letters."""
         return Words({(self.none, letters): 1}, self.work)
 
     def scalar(self, exponents: tuple[int, ...], c: Number = 1) -> Words:
@@ -39,13 +39,13 @@ class Algebra:
         return Words({(exponents, ()): c}, self.work)
 
     def read(self, tree: Any, names: Mapping[str, Words]) -> Words:
-        """The sum of words that a tree is."""
+        """The sum of words of a tree."""
         self.divisors |= self.among(names[name] for name in divisors(tree) & names.keys())
         found: Words = value(tree, names, lambda x: self.scalar(self.none, plain(x)))
         return found
 
     def is_value(self, tree: Any, words: Words) -> bool:
-        """Whether a tree in the names of the algebra is a sum of words, after the rules."""
+        """Whether a tree in the names of the algebra equals a sum of words, modulo the rules."""
         return not self.total([words - self.read(tree, self.names)]).terms
 
     def among(self, words: Iterable[Words]) -> set[str]:
@@ -54,7 +54,7 @@ class Algebra:
         return {name for pairs in found for name, e in pairs if e}
 
     def total(self, parts: Iterable[Words]) -> Words:
-        """The sum, after the rules."""
+        """The sum of the parts, rewritten by the rules."""
         terms: dict[Term, Number] = {}
         for part in parts:
             for term, c in part.terms.items():
@@ -63,20 +63,20 @@ class Algebra:
         return Words(terms, self.work).rewritten(self.rules)
 
     def transposed(self, of: Words) -> Words:
-        """Each word turned round, with the transposes of its letters."""
+        """The transpose: each word reversed, with the transposes of its letters."""
         return self.total(
             reduce(mul, map(self.transpose, word[::-1]), self.scalar(exponents, c))
             for (exponents, word), c in of.terms.items()
         )
 
     def transpose(self, letter: str) -> Words:
-        """That of a letter."""
+        """The transpose of a letter."""
         if letter not in self.transposes:
             raise Rejected(f"the transpose of {letter} is needed, and is not given")
         return self.transposes[letter]
 
     def rate(self, of: Words, rates: Mapping[str, Words]) -> Words:
-        """The derivative by Leibniz' rule."""
+        """The derivative by Leibniz' rule, from the rates of the letters."""
         parts = []
         for (exponents, word), c in of.terms.items():
             for i, letter in enumerate(word):
@@ -87,7 +87,7 @@ class Algebra:
         return self.total(parts)
 
     def around(self, of: Words, letter: str) -> Words:
-        """Z with tr of = tr(letter · Z); each word must have the letter once."""
+        """Z with tr of = tr(letter · Z); each word must contain the letter exactly once."""
         parts = []
         for (exponents, word), c in of.terms.items():
             if word.count(letter) != 1:
@@ -97,7 +97,7 @@ class Algebra:
         return self.total(parts)
 
     def gradient(self, of: Words, letter: str) -> Words:
-        """G with tr of = tr(Gᵀ · letter) + (what has neither the letter nor its transpose, which must be a letter)."""
+        """G with tr of = tr(Gᵀ · letter) + (terms without the letter and its transpose, which must be a letter)."""
         transposes = [word for _, word in self.transpose(letter).terms]
         if len(transposes) != 1 or len(transposes[0]) != 1:
             raise Rejected(f"a gradient is by {letter}, whose transpose is no letter")
@@ -107,14 +107,14 @@ class Algebra:
         return self.transposed(self.around(self.total([plain, self.transposed(turned)]), letter))
 
     def dual(self, of: Words, letter: str) -> Words:
-        """S = -Sᵀ with tr of = ½ tr(letter · S), for a letter that is skew."""
+        """S = -Sᵀ with tr of = ½ tr(letter · S), for a skew letter."""
         if self.total([self.transpose(letter), self.word(letter)]).terms:
             raise Rejected(f"a dual is by {letter}, whose transpose is not -{letter}")
         found = self.around(of, letter)
         return self.total([found - self.transposed(found)])
 
     def traced(self, of: Words) -> Words:
-        """A sum of words with the same trace, fewer where words are rotations or transposes of one another."""
+        """A sum of words with the same trace, in which cyclic rotations and transposes of one word are merged."""
         settled: list[Words] = []
         pending = of.rewritten(self.rules)
         while pending.terms:
@@ -130,7 +130,7 @@ class Algebra:
         return self.total(settled)
 
     def _least(self, word: tuple[str, ...]) -> Words:
-        """With the trace of a word: the first of its rotations and those of its transpose, 0 if it is its negative."""
+        """A word of equal trace: the least rotation of the word or its transpose; 0 if it is its own negative."""
         self.work.spend(len(word) * len(word))
         signed: list[tuple[tuple[str, ...], Number]] = [(rotation, 1) for rotation in rotations(word)]
         if self.transposes.keys() >= set(word):
@@ -145,7 +145,7 @@ class Algebra:
 
 
 def about(data: Mapping[str, Any], names: Iterable[str], where: str) -> tuple[list[Any], list[Any]]:
-    """The rules and the transposes of letters that are named; raises Rejected if one is of others, too."""
+    """The rules and transposes among the named letters; raises Rejected if one of them involves other letters, too."""
     named = {*data["letters"]}.intersection(names)
 
     def is_about(*trees: Any) -> bool:
@@ -159,11 +159,11 @@ def about(data: Mapping[str, Any], names: Iterable[str], where: str) -> tuple[li
 
 
 def rotations(word: tuple[str, ...]) -> list[tuple[str, ...]]:
-    """A word with its first letters at its end, from none of them to all but one."""
+    """All cyclic rotations of a word."""
     return [word[i:] + word[:i] for i in range(len(word))]
 
 
 def having(of: Words, letters: Collection[str], without: bool = False) -> Words:
-    """The terms that have one of some letters; or the others."""
+    """The terms with one of these letters; with `without`, the terms with none of them."""
     chosen = {term: c for term, c in of.terms.items() if (not set(term[1]).isdisjoint(letters)) is not without}
     return Words(chosen, of.work)

@@ -1,15 +1,15 @@
-"""The attitude of the continuous ball, as a quaternion a = (q₀, q) whose rotation R takes the body's axes to space.
+"""The attitude of the continuous ball: a quaternion a = (q₀, q) whose rotation R takes the body's axes to space.
 
-K and the vertical are fixed in space: with K = Rᵀk and γ = Rᵀe₃, which are then as in rolling.py, or Bω = K - r with a
-rotor, whose angular momentum r is constant in the body,
+K and the vertical are fixed in space: K = Rᵀk and γ = Rᵀe₃.  Then ω = B⁻¹K as in rolling.py; with a rotor, whose
+angular momentum r is constant in the body, Bω = K - r.  The equation of motion is
     a′ = f(a) = ½a∘ω,  a∘(s, v) = (q₀s - ⟨q, v⟩, sq + q₀v + q × v),
-for R′u = R(ω × u), and the columns v of Rᵀ have v′ = v × ω.  In K and γ there is |a|²R for R, and B⁻¹K is divided by
+as R′u = R(ω × u), and the columns v of Rᵀ have v′ = v × ω.  The code uses |a|²R for R in K and γ, and divides B⁻¹K by
 |a|²: then ω does not depend on |a|.
 
-How f changes.  Let e = a∘(s, ξ).  Along it K and γ change by 2K × ξ and 2γ × ξ, as in axes of the body that turn, and
-from Bω = K - r, as Dγγᵀ turns, too, ω changes by 2ω × ξ + 2B⁻¹Cξ, Cξ = (Iω + r) × ξ - I(ω × ξ).  As ξ∘ω + 2ω × ξ =
-ω∘ξ, this is f′e = ½(a∘ω∘a⁻¹)∘e + a∘B⁻¹Cξ, and the first is antisymmetric in e.  So ⟨e, f′e⟩ = |a|²⟨ξ, B⁻¹Cξ⟩, and as
-|e|² = |a|²(s² + |ξ|²), μ is that of B⁻¹C.  With one moment and no rotor C = 0: such motions keep their distance.
+The derivative of f.  Let e = a∘(s, ξ).  Along e, K and γ change by 2K × ξ and 2γ × ξ, as under a rotation of the body's
+axes.  From Bω = K - r, where Dγγᵀ turns, too, ω changes by 2ω × ξ + 2B⁻¹Cξ, Cξ = (Iω + r) × ξ - I(ω × ξ).  As ξ∘ω +
+2ω × ξ = ω∘ξ, f′e = ½(a∘ω∘a⁻¹)∘e + a∘B⁻¹Cξ; the first term is antisymmetric in e.  So ⟨e, f′e⟩ = |a|²⟨ξ, B⁻¹Cξ⟩, and
+|e|² = |a|²(s² + |ξ|²): max(μ, 0) is that of B⁻¹C.  For equal moments and no rotor C = 0: solutions keep their distance.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ from .taylor import Model
 
 @dataclass(frozen=True)
 class Turning(Rolling):
-    """The continuous ball by its attitude; states are quaternions.  half: ½k.  rotor: ½r, or empty."""
+    """The continuous ball with quaternions for states.  half: ½k.  rotor: ½r, or empty."""
 
     half: Sequence[Any]
     rotor: Sequence[Any] = ()
@@ -59,7 +59,7 @@ class Turning(Rolling):
         return [self.solved(column, gamma, *self.inverse(gamma)) for column in columns]
 
     def series(self, start: Sequence[int], order: int) -> list[list[int]]:
-        """As of `Rolling`, which gives those of ω; those of a follow."""
+        """The Taylor coefficients of a, computed from those of ω, which `Rolling` gives."""
         bits, a = self.D.bits, [[x] for x in start]
         half = [x.terms[0] for x in self.vectors([Model(x, 0, bits) for x in a])]
         rotor = [2 * x.terms[0] for x in self.rotor]

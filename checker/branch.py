@@ -1,20 +1,20 @@
 """A branch of the roots of (1) in step.py over a whole circle, where |h| may be beyond the bound of the small branch.
 
-The circle is that of measure.py: γ = r(cos φ, sin φ) in the plane (a, b), γ_c > 0.  For half of it, t = tan ½φ from -1
-to 1, the file says into how many arcs it is cut.  Over every arc Newton's test proves that a box holds one root u for
-each γ of the arc; at the end that two arcs share their roots are one, as it lies in both boxes.  So these roots are a
-continuous function u(γ), and Z = {(γ, u(γ))}, γ from t = -1 to 1 and, by the rotation R by π about the axis c, which
-takes roots at γ to roots at Rγ, on the rest of the circle; where the halves meet the roots are compared.  Z is a
-component of all pairs of a γ of the circle and a root: near a pair of Z there is no other, and Z is compact.
+The circle is that of measure.py: γ = r(cos φ, sin φ) in the plane (a, b), γ_c > 0.  The file gives the number of arcs
+into which half of the circle, t = tan ½φ from -1 to 1, is cut.  Over every arc Newton's test proves that a box holds
+exactly one root u for each γ of the arc.  At the common end of two arcs the two roots are equal, as one root lies in
+both boxes.  So these roots are a continuous function u(γ).  The rotation R by π about the axis c takes roots at γ to
+roots at Rγ: it extends u to the rest of the circle, and the roots are compared where the halves meet.  Then
+Z = {(γ, u(γ))} is a component of the set of all pairs (γ, root): Z is compact, and no other pair is near it.
 
-Let γ̃ = Ωᵀγ, which lies on the circle: ⟨γ̃, Λ⁻¹γ̃⟩ = ⟨γ, Λ⁻¹γ⟩ holds for every root, and γ̃_c > 0, proved at one
-point, holds at all, as the level has no points with γ_c = 0.  The map G: γ ↦ γ̃ of the circle is a homeomorphism.  For
-with S the reflection γ_b ↦ -γ_b the pair (Sγ̃, Su) is one of a root, too: of sγ = w + u × w, sγ̃ = w - u × w, w = Λu,
-the image under S is s·Sγ̃ = Sw + Su × Sw, s·Sγ = Sw - Su × Sw, and s is the same.  So ι: (γ, u) ↦ (Sγ̃, Su) takes
-pairs to pairs, ι(ι(γ, u)) = (γ, u), and ι(Z) is connected; one point of it is proved to lie in Z, so ι(Z) is Z, and SG
-is its own inverse.  G commutes with R.  It keeps the direction of the circle: the image of an arc is an arc from the
-image of one end to that of the other, of less than half a turn as it does not meet its image under R, and of one of
-them the sine is proved to be positive.  That is what measure.py uses of the map on the circle.
+Let γ̃ = Ωᵀγ.  It lies on the circle: ⟨γ̃, Λ⁻¹γ̃⟩ = ⟨γ, Λ⁻¹γ⟩ holds for every root, and γ̃_c > 0, proved at one point,
+holds at all points, as the level has no points with γ_c = 0.  The map G: γ ↦ γ̃ of the circle is a homeomorphism: Let S
+be the reflection γ_b ↦ -γ_b.  From sγ = w + u × w, sγ̃ = w - u × w, w = Λu, follow s·Sγ̃ = Sw + Su × Sw and
+s·Sγ = Sw - Su × Sw with the same s, so Su is a root at Sγ̃.  So ι: (γ, u) ↦ (Sγ̃, Su) takes pairs to pairs, ι∘ι = 1,
+and ι(Z) is connected; one point of it is proved to lie in Z, so ι(Z) = Z, and SG is its own inverse.  G commutes with
+R.  It preserves the orientation of the circle: the image of an arc is an arc between the images of its ends, of less
+than half a turn, as it does not meet its image under R; and for one arc the sine is proved to be positive.  These are
+the properties of the map on the circle that measure.py uses.
 """
 
 from dataclasses import dataclass
@@ -29,20 +29,20 @@ from .linear import Matrix, Vector, cross, image, isolated, minus, solve, times,
 from .step import Pair, gibbs_vector, jacobian, residual, source, turned
 
 MOST_ARCS = 8_192
-#: A box reaches so many times the way between the roots at its ends beyond them.
+#: The margin of a box on each side, as a multiple of the distance between the roots at the ends of its arc.
 WIDER = 3
 
 
 @dataclass(frozen=True)
 class Branch:
-    """A box about the roots over each arc, from t = -1 to 1."""
+    """The branch: for each arc, from t = -1 to 1, a box that contains its roots."""
 
     circle: Circle
     boxes: list[Vector]
 
     @classmethod
     def proved(cls, circle: Circle, data: Any, digits: int) -> "Branch":
-        """The branch of a file; raises Rejected unless it is there, once, over the whole circle."""
+        """The branch of a file; raises Rejected unless it is proved to exist, uniquely, over the whole circle."""
         half, odd = divmod(data["arcs"], 2)
         if odd:
             raise Rejected("arcs must be even, so that the branch starts at the end of two")
@@ -69,33 +69,33 @@ class Branch:
         return branch
 
     def half_turned(self, v: Vector) -> Vector:
-        """R: by π about the axis c."""
+        """Rv: the rotation by π about the axis c."""
         return [x if i == self.circle.c else -x for i, x in enumerate(v)]
 
     def reflected(self, v: Vector) -> Vector:
-        """S: the component b with the other sign."""
+        """Sv: the component b with the opposite sign."""
         return [-x if i == self.circle.b else x for i, x in enumerate(v)]
 
     def check_on(self, gamma: Vector, u: Vector, where: str) -> None:
-        """Raises Rejected unless the root u at this γ of the circle is that of the branch."""
+        """Raises Rejected unless u, a root at this γ of the circle, is proved to be on the branch."""
         circle, half = self.circle, len(self.boxes) // 2
         if gamma[circle.a].hi < 0:
             gamma, u = self.half_turned(gamma), self.half_turned(u)
         x, y = gamma[circle.a], gamma[circle.b]
         t = y / ((x * x + y * y).sqrt() + x)
         for i in range(((t.lo * half) >> t.bits) + half, ((t.hi * half) >> t.bits) + half + 1):
-            turns, arc = divmod(i, 2 * half)  # beyond t = 1 it goes on at t = -1, half a turn on
+            turns, arc = divmod(i, 2 * half)  # beyond t = 1 the arcs repeat from t = -1, rotated by half a turn
             if turns not in (-1, 0, 1) or not _inside(self.half_turned(u) if turns else u, self.boxes[arc]):
                 raise Rejected(f"{where} is not proved to be on the branch")
 
 
 def _root(circle: Circle, gamma: Vector, near: Vector) -> Vector:
-    """The root at one γ near a given one."""
+    """The root at one γ near a given vector."""
     return gibbs_vector(circle.ball, circle.state(gamma), [x.point() for x in near])
 
 
 def _check_meant(circle: Circle, state: Pair, given: list[Fraction], digits: int) -> None:
-    """Raises Rejected unless one root alone rounds to the numbers of the file."""
+    """Raises Rejected unless exactly one root rounds to the numbers of the file."""
     half = Fraction(1, 2 * 10**digits)
     cell = [Interval.about(x, circle.level.bits, half).wider(1) for x in given]
     try:
@@ -105,12 +105,12 @@ def _check_meant(circle: Circle, state: Pair, given: list[Fraction], digits: int
 
 
 def _box(circle: Circle, first: Fraction, last: Fraction, roots: tuple[Vector, Vector]) -> Vector:
-    """A box that contains the roots at the ends of an arc, and one root for each γ of the arc.
+    """A box that contains the roots at the ends of an arc, and exactly one root for each γ of the arc.
 
-    Along the arc γ moves in the direction of γ × Λ⁻¹γ: from its middle γ_m by s times a mean T of these tangents, and
-    F(u) loses s times a mean of source(γ × Λ⁻¹γ), as what is enclosed at once for all γ of the arc is convex.  Newton's
-    test is done with both sides multiplied by a matrix Y near the inverse of F′: it proves that YF has one root, and Y
-    is regular where YF′ is.
+    Along the arc γ moves in the direction of γ × Λ⁻¹γ: γ = γ_m + sT, γ_m the middle and T a mean of these tangents.
+    Then F(u) decreases by s times a mean of source(γ × Λ⁻¹γ), as the enclosure for all γ of the arc is convex.
+    Newton's test is applied to YF, Y a matrix near the inverse of F′: it proves that YF has exactly one root, and Y is
+    regular if YF′ is.
     """
     ends = [[circle.number(x) for x in direction(t)] for t in (first, last)]
     middle = circle.state(circle.start((first + last) / 2))

@@ -16,7 +16,7 @@ def direction(t: Fraction) -> tuple[Fraction, Fraction]:
 
 
 class Circle:
-    """The circle of a certificate for every parameter of its box, and the map on it; raises Rejected if it is none."""
+    """The circle of a certificate for every parameter of its box; raises Rejected unless the level is such a circle."""
 
     def __init__(self, data: dict[str, Any]):
         radius = Fraction(data["radius"])
@@ -41,7 +41,7 @@ class Circle:
             raise Rejected("the level is not proved to be a circle around its axis")
 
     def point(self, cosine: Interval, sine: Interval) -> Vector:
-        """The points of the circle in a direction (cosine, sine) of the plane (a, b)."""
+        """The point of the circle in the direction (cosine, sine) of the plane (a, b), enclosed."""
         share = [w - self.weights[self.c] for w in (self.weights[self.a], self.weights[self.b])]
         square = (self.level - self.weights[self.c]) / (share[0] * (cosine * cosine) + share[1] * (sine * sine))
         gamma = [0 * square] * 3
@@ -58,7 +58,7 @@ class Circle:
         return Interval.about(x, self.level.bits)
 
     def state(self, gamma: Vector) -> Pair:
-        """(𝒦, γ), 𝒦 = hγ."""
+        """The state (𝒦, γ), 𝒦 = hγ."""
         return times(self.height, gamma), gamma
 
     def sine(self, v: Vector, w: Vector) -> Interval:
@@ -66,7 +66,7 @@ class Circle:
         return v[self.a] * w[self.b] - v[self.b] * w[self.a]
 
     def direction(self, gammas: list[Vector]) -> int:
-        """1 or -1: the sign of the angle of all steps, each less than π."""
+        """The common sign, 1 or -1, of the angles of all steps, each less than π; raises Rejected if not proved."""
         signs = {self.sine(v, w).sign for v, w in pairwise(gammas)}
         if len(signs) > 1 or 0 in signs:
             raise Rejected("the steps do not all turn in one direction by less than half a turn")

@@ -1,20 +1,20 @@
-"""Derivations: expressions that are made, step by step, from premises; the statements of a certificate may name them.
+"""Derivations: expressions made step by step from premises, which the statements of a certificate may name.
 
-A definition has a name, a text, the number of its algebra, an operation, and what that is applied to:
+A definition has a name, a text, the number of its algebra, an operation, and the operands of the operation:
 
 written   a tree, in the letters of the algebra and in names defined before; without such names it is a premise
-rate      of a name X, by [letter, tree]...: the derivative of X by Leibniz' rule, where the letters have those rates
-replaced  of X, by [letter or parameter, tree]...: X with those in their places, in the algebra of the definition
-gradient  of X, by a letter Y: the G with tr X = tr(Gᵀ Y) + (what has neither Y nor its transpose)
+rate      of a name X, by [letter, tree]...: the derivative of X by Leibniz' rule, for these rates of the letters
+replaced  of X, by [letter or parameter, tree]...: X with these substitutions, in the algebra of the definition
+gradient  of X, by a letter Y: the G with tr X = tr(Gᵀ Y) + (terms without Y and its transpose)
 dual      of X, by a letter ξ with ξᵀ = -ξ: the S = -Sᵀ with tr X = ½ tr(ξ S), so that tr X = 0 for all ξ if S = 0
-having, lacking   of X, by letters: its terms that have one of them, or none; together they are X
+having, lacking   of X, by letters: the terms of X with one of them, or with none; their sum is X
 matrix, entry     X in coordinates (matrices.py)
 
-All but a matrix have their value, as a tree in the names of their algebra, so that a reader need not take the steps.
+Each definition but a matrix also has its value, a tree in the names of its algebra, for readers who skip the steps.
 
-All this is done here, each step in its own algebra: what was made without a rule need not obey it.  Rates and
-replacements must respect the rules and the transposes of the algebra of X; a name is used in another algebra only if
-that has the letters and, for them, the rules.  What the texts say is not judged.
+The checker repeats every step, each in its own algebra: a result made without a rule need not obey it.  Rates and
+replacements must respect the rules and the transposes of the algebra of X.  A name is used in another algebra only if
+that algebra has its letters and obeys their rules.  The texts are not checked.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ from .polynomial import Quotient
 from .trees import check_known, check_name, check_tree, names_in
 from .words import Matrix, Words
 
-#: Of a derivation.
+#: The most definitions of a derivation.
 MOST_DEFINITIONS = 100
 PAIRS, LETTER, LETTERS = ("rate", "replaced"), ("gradient", "dual"), ("having", "lacking")
 
 
 class Defined(NamedTuple):
-    """What a name stands for: Words of an Algebra, a Matrix of Quotients or an entry; its tree, but for a matrix."""
+    """The value of a name: Words of an Algebra, a Matrix of Quotients or an entry; its tree, except for a matrix."""
 
     value: Any
     algebra: Any
@@ -45,18 +45,18 @@ class Defined(NamedTuple):
 
 
 def check_pairs(data: Any, where: str) -> None:
-    """Raises Rejected unless names have trees, each once, and one at least."""
+    """Raises Rejected unless this is a non-empty list of pairs of a name and a tree, with no name twice."""
     check_shape(data, [(check_name, check_tree), ...], where)
     names([name for name, _ in data], where)
 
 
 def check_letters(data: Any, where: str) -> None:
-    """Raises Rejected unless these are names, one at least."""
+    """Raises Rejected unless this is a non-empty list of different names."""
     check_shape(data, [check_name, ...], where)
     names(data, where)
 
 
-#: What an operation is done by.
+#: The form of the second operand ("by") of each operation.
 BY = {
     "written": (),
     "rate": check_pairs,
@@ -81,7 +81,7 @@ def check_definition(data: Any, where: str) -> None:
 
 
 def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotients]) -> dict[str, Defined]:
-    """What each name of a derivation stands for; raises Rejected for a step that cannot be done."""
+    """The value of each name of a derivation; raises Rejected for an invalid step."""
     if len(data) > MOST_DEFINITIONS:
         raise Rejected(f"the derivation has more than {MOST_DEFINITIONS} definitions")
     once([*(one["name"] for one in data), *set().union(*(algebra.names for algebra in algebras))], "the derivation")
@@ -106,12 +106,12 @@ def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotient
 
 
 def valued(data: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """The trees of the names that have a value."""
+    """The value trees by name, for the names that have one."""
     return {one["name"]: one["value"] for one in data if "value" in one}
 
 
 def check_use(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> None:
-    """Raises Rejected where a definition is used neither in these trees nor by one that is."""
+    """Raises Rejected if a definition is used neither in these trees nor, indirectly, by a definition that is."""
     known = used(data, trees)
     for one in data:
         if one["name"] not in known:
@@ -119,7 +119,7 @@ def check_use(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> None:
 
 
 def used(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> set[str]:
-    """The names in trees, and in the definitions of these."""
+    """The names in trees and, recursively, in the definitions of these names."""
     found = names_in([0, *trees])
     for one in reversed(data):
         if one["name"] in found:
@@ -130,20 +130,20 @@ def used(data: Sequence[dict[str, Any]], trees: Sequence[Any]) -> set[str]:
 
 
 def named(trees: Sequence[Any], algebra: Algebra, defined: Mapping[str, Defined], where: str) -> dict[str, Words]:
-    """The names of an algebra, and what the defined names of words in some trees stand for in it."""
+    """The names of an algebra and the defined names in the trees, each with its words in that algebra."""
     used = ((name, defined[name]) for name in sorted(names_in([0, *trees]) & defined.keys()))
     brought = {name: _brought(of, algebra, where) for name, of in used if isinstance(of.value, Words)}
     return {**algebra.names, **brought}
 
 
 def entries(trees: Sequence[Any], defined: Mapping[str, Defined]) -> dict[str, Quotient]:
-    """What the defined names of entries in some trees stand for."""
+    """The values of the defined names in some trees that are entries of matrices."""
     used = ((name, defined[name].value) for name in names_in([0, *trees]) & defined.keys())
     return {name: value for name, value in used if isinstance(value, Quotient)}
 
 
 def _brought(of: Defined, algebra: Algebra, where: str) -> Words:
-    """In another algebra, which has its letters and parameters and, for its own letters, the rules."""
+    """The words in another algebra, which must have their names and obey the rules for shared letters."""
     if of.algebra is algebra:
         return of.value
     if of.algebra not in algebra.respected:
@@ -157,7 +157,7 @@ def _brought(of: Defined, algebra: Algebra, where: str) -> Words:
 
 
 def _made(one: dict[str, Any], of: Defined, algebra: Algebra, found: Mapping[str, Defined], where: str) -> Words:
-    """What a definition makes of words."""
+    """The words that a definition makes from words."""
     operation, by = one["operation"], one["by"]
     if operation == "replaced":
         images = _places(by, of.algebra.names, algebra, found, where)
@@ -183,14 +183,14 @@ def _made(one: dict[str, Any], of: Defined, algebra: Algebra, found: Mapping[str
 def _places(
     by: Sequence[tuple[str, Any]], known: Collection[str], algebra: Algebra, found: Mapping[str, Defined], where: str
 ) -> dict[str, Words]:
-    """What is put in the place of known names, or their rates."""
+    """The substitutes for known names, or their rates."""
     check_known([name for name, _ in by], known, where)
     names = named([tree for _, tree in by], algebra, found, where)
     return {name: algebra.read(tree, names) for name, tree in by}
 
 
 def _image(of: Defined, algebra: Algebra, images: Mapping[str, Words]) -> Words:
-    """With other words in the place of its letters and parameters."""
+    """The words with `images` substituted for letters and parameters."""
     algebra.divisors |= algebra.among(images[name] for name in of.algebra.divisors & images.keys())
     return algebra.total([algebra.read(of.tree, images)])
 
@@ -198,7 +198,7 @@ def _image(of: Defined, algebra: Algebra, images: Mapping[str, Words]) -> Words:
 def _respects(
     source: Algebra, names: Collection[str], algebra: Algebra, images: Mapping[str, Words], where: str
 ) -> None:
-    """Raises Rejected unless the rules and transposes among some names of an algebra hold of their images."""
+    """Raises Rejected unless the images of some names satisfy the rules and transposes among these names."""
     rules, transposes = about(source.data, names, where)
     read = partial(algebra.read, names=images)
     _check_equal(
@@ -209,7 +209,7 @@ def _respects(
 
 
 def _respects_as_rates(algebra: Algebra, rates: Mapping[str, Words], where: str) -> None:
-    """Raises Rejected unless Leibniz' rule respects the rules and transposes among the letters that have rates."""
+    """Raises Rejected unless the rates are compatible with the rules and transposes among their letters."""
     rules, transposes = about(algebra.data, rates, where)
 
     def rate(tree: Any) -> Words:
@@ -226,7 +226,7 @@ RULE, TURNED = "respect the rule for {} {}", "do to the transpose of {0} what it
 
 
 def _check_equal(pairs: Sequence[tuple[str, Words, Words]], algebra: Algebra, where: str) -> None:
-    """Raises Rejected unless what is made is what is claimed."""
+    """Raises Rejected unless the two sides of each pair are equal."""
     for what, made, claimed in pairs:
         if algebra.total([made - claimed]).terms:
             raise Rejected(f"{where} does not {what}")

@@ -1,4 +1,4 @@
-"""The file: read, its digest, and its numbers: decimals and fractions, without spaces, signs but -, or names."""
+"""The file: reading, the digest, and the forms of numbers: decimals and fractions with no spaces, no sign but -."""
 
 import hashlib
 import json
@@ -12,30 +12,30 @@ from typing import Any
 from .interval import Interval, Rejected
 
 FORMAT = "chapsym-certificate/1"
-#: Most digits and steps of a certificate: what a reader can wait for.
+#: The most digits and steps of a certificate, for an acceptable running time.
 MOST_DIGITS, MOST_STEPS = 2_000, 1_000
 DIGITS, STEPS = range(1, MOST_DIGITS + 1), range(1, MOST_STEPS + 1)
-#: The most steps · bits² of a certificate, and the bits below which a step is no cheaper: some minutes.
+#: The most steps · (bits + LEAST_BITS)² of a certificate: some minutes; LEAST_BITS models the fixed cost of a step.
 MOST_WORK, LEAST_BITS = 20_000_000_000, 1_000
-#: Of a file.
+#: The most bytes of a file.
 MOST_BYTES = 8_000_000
 _EXACT = re.compile(r"-?\d+(/\d+|(\.\d+)?(e-?\d{1,3})?)", re.ASCII)
 _DECIMAL = re.compile(r"-?(0|[1-9]\d*)\.\d+", re.ASCII)
 
 
 def file_name(claim: str) -> str:
-    """The file of a claim: a _ behind each capital, and for each _ two, so that no two names differ in case alone."""
+    """The file name of a claim: _ after each capital and each _, so that no two names differ in case alone."""
     return re.sub("([A-Z_])", r"\1_", claim) + ".json"
 
 
 class Unreadable(Exception):
-    """There is no JSON object to judge; the message says why in one sentence."""
+    """The file has no JSON object; the message gives the reason in one sentence."""
 
 
 def read(path: str | Path) -> dict[str, Any]:
-    """The object of a JSON file; raises Unreadable, or Rejected for a name that stands twice in an object."""
+    """The object of a JSON file; raises Unreadable, or Rejected if an object has a name twice."""
     try:
-        if Path(os.path.realpath(path)).is_fifo():  # a pipe with a name would be waited for; `<(...)` has none
+        if Path(os.path.realpath(path)).is_fifo():  # a read of a named pipe would block; `<(...)` has no name
             raise Unreadable(f"{path} is a pipe, not a file")
         with Path(path).open("rb") as file:
             content = file.read(MOST_BYTES + 1)
@@ -44,7 +44,7 @@ def read(path: str | Path) -> dict[str, Any]:
         data = json.loads(content.decode("utf-8"), object_pairs_hook=_once)
     except OSError as error:
         raise Unreadable(f"{path} cannot be read: {error.strerror or error}") from None
-    except (ValueError, RecursionError):  # not UTF-8, not JSON, a number of too many digits, too deep
+    except (ValueError, RecursionError):  # not UTF-8, not JSON, a number with too many digits, or too deep
         raise Unreadable(f"{path} is not a JSON file") from None
     if not isinstance(data, dict):
         raise Unreadable(f"{path} does not contain a JSON object")
@@ -59,13 +59,13 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def digest(data: dict[str, Any]) -> str:
-    """SHA-256 of everything but "digest": JSON with sorted names, without spaces, in ASCII."""
+    """The SHA-256 of the object without "digest", as JSON with sorted names, without spaces, in ASCII."""
     rest = {name: value for name, value in data.items() if name != "digest"}
     return hashlib.sha256(json.dumps(rest, sort_keys=True, separators=(",", ":")).encode("ascii")).hexdigest()
 
 
 def check_names(data: Any, names: Iterable[str], where: str) -> None:
-    """Raises Rejected unless `data` is an object with these names and no others."""
+    """Raises Rejected unless `data` is an object with exactly these names."""
     if not isinstance(data, dict):
         raise Rejected(f"{where} must be an object with the names {', '.join(names)}")
     if other := sorted(set(data) ^ set(names)):
@@ -93,7 +93,7 @@ def exact(text: Any, where: str) -> Fraction:
 
 
 def decimal(text: Any, digits: int, where: str) -> Fraction:
-    """A decimal with exactly `digits` digits after the point, in its only form: no leading 0, no -0."""
+    """A decimal with exactly `digits` digits after the point, in unique form: no leading 0, no -0."""
     fits = isinstance(text, str) and len(text) <= digits + 12 and _DECIMAL.fullmatch(text)
     if not fits or len(text.partition(".")[2]) != digits or (text[0] == "-" and not text.strip("-0.")):
         raise Rejected(f"{where} must be a decimal in quotes with {digits} digits after the point")
@@ -107,15 +107,15 @@ def sized(data: Any, size: int, where: str) -> None:
 
 
 def decimals(data: Any, digits: int, where: str) -> list[Fraction]:
-    """Three of them."""
+    """Three decimals, each with exactly `digits` digits after the point."""
     sized(data, 3, where)
     return [decimal(x, digits, where) for x in data]
 
 
 def check_rounded(true: Sequence[Interval], given: Sequence[Fraction], digits: int, where: str) -> None:
-    """Raises Rejected unless each number of the file is the true one, correctly rounded, for all parameters.
+    """Raises Rejected unless each number of the file is the true number, correctly rounded, for all parameters.
 
-    Two decimals of as many digits cannot both be that: no digit can be changed.
+    At most one decimal with this number of digits satisfies this: no digit can be changed.
     """
     for x, number in zip(true, given, strict=True):
         if not x.rounds_to(number, digits):
@@ -123,16 +123,16 @@ def check_rounded(true: Sequence[Interval], given: Sequence[Fraction], digits: i
 
 
 def check_work(steps: int, bits: int) -> None:
-    """Raises Rejected where so many steps with numbers of so many bits take longer than a reader can wait for."""
+    """Raises Rejected if this many steps with numbers of this many bits would take too long."""
     if steps * (bits + LEAST_BITS) ** 2 > MOST_WORK:
         raise Rejected("the certificate asks for more work than a reader can wait for: take fewer steps or digits")
 
 
 def scale(digits: int, steps: int, parameters: Sequence[Fraction]) -> int:
-    """The bits that the checker works with; too few could only refuse.
+    """The bits of the checker's intervals; too few bits can only lead to a rejection.
 
-    The digits; 8 for what a step widens on the way there and in what follows from the end; 4 for each power of 2 in the
-    greatest or least parameter; 128 for a matrix close to singular and to decide the rounding.
+    The sum of: the digits in bits; 8 per step, for the widening of intervals; 4 for each power of 2 in the greatest or
+    least parameter; 128 for nearly singular matrices and to decide the rounding.
     """
     size = max((abs(x.numerator.bit_length() - x.denominator.bit_length()) for x in parameters if x), default=0)
     return -(-10 * digits // 3) + 8 * steps + 4 * size + 128

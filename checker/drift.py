@@ -1,23 +1,23 @@
 """Certificates of kind energy-drift: a closed orbit of the continuous ball on which the energy of the map drifts.
 
-The continuous ball, its integrals and a proved step of it: see rolling.py.
+For the continuous ball, its integrals and a rigorous time step, see rolling.py.
 
-What drifts.  A step of the map, of the size ε, is that of the continuous ball with ω + ε²ω₃ for ω, up to ε⁴ (proved by
+The drift.  A step of the map, of size ε, is that of the continuous ball with ω + ε²ω₃ for ω, up to ε⁴ (proved by
 chapsym's claim modified-field; here it is the definition of X₃), where
     12ω₃ = 2|ω|²ω + ω″ - ω × ω′ - 3B⁻¹f,  f = D(⟨γ, ω′⟩γ′ + ⟨γ′, ω′⟩γ),  Bω′ = Iω × ω,  Bω″ = Iω′ × ω + Iω × ω′ + f.
-X₃ is the field (K × ω₃, γ × ω₃).  So X₃(H) = ⟨ω₃, ω × (K + D⟨γ, ω⟩γ)⟩ = ⟨ω₃, ω × Iω⟩.  The continuous ball keeps the
-density ⟨γ, IΛ⁻¹γ⟩^(-1/2) = (1 - D⟨γ, Λ⁻¹γ⟩)^(-1/2).  As the fields (K × e, γ × e) have the divergence 0, that of X₃
-with this density is
+X₃ is the field (K × ω₃, γ × ω₃).  So X₃(H) = ⟨ω₃, ω × (K + D⟨γ, ω⟩γ)⟩ = ⟨ω₃, ω × Iω⟩.  The continuous ball preserves
+the density ⟨γ, IΛ⁻¹γ⟩^(-1/2) = (1 - D⟨γ, Λ⁻¹γ⟩)^(-1/2).  As the fields (K × e, γ × e) have divergence 0, the divergence
+of X₃ with respect to this density is
     Σ_j the derivative of the j-th component of ω₃ along (K × e_j, γ × e_j), + D⟨Λ⁻¹γ, γ × ω₃⟩/⟨γ, IΛ⁻¹γ⟩.
 
-Why the orbit is closed.  With S = diag(symmetry), a rotation by π or 1, which takes solutions to solutions:
-1. From every start of the file, S·(solution) is back once within a window of times on the section, where one component
-   has its value at the start (Newton's test), with a speed that is not 0: so the return is continuous in the start.
-2. From the two ends of the starts the component `along` is back below and above its value at the start: for some start
-   between, both components are back.
-3. The four integrals have the same values after the return.  With the two components they tell any two states of a box
-   apart, which contains the start and the return, as the 6 × 6 matrix of their derivatives is regular there: so S·(the
-   solution at T) is this start, and the orbit is closed after T, or 2T where S is not 1.
+The orbit is closed.  Let S = diag(symmetry), a rotation by π or 1, which takes solutions to solutions.
+1. On the section, one component has its value at the start.  From every start of the file, S·(solution) returns to it
+   exactly once in a window of times (Newton's test), with non-zero speed: so the return is continuous in the start.
+2. At the return the component `along` is below its value at the start for one end of the starts, and above it for the
+   other: for some start between, both components return to their values.
+3. The four integrals have the same values after the return.  With the two components they are injective on a box that
+   contains the start and the return, as the 6 × 6 matrix of their derivatives is regular there: so S·(the solution at
+   T) is this start, and the orbit is closed after T, or after 2T if S is not 1.
 4. The integrals over [0, T] of X₃(H) and of the divergence of X₃ are enclosed for all starts.
 """
 
@@ -48,7 +48,7 @@ INTEGRALS = {"energy": "the integral of X3(H)", "density": "the integral of the 
 
 
 def statement(data: dict[str, Any]) -> str:
-    """What is proved, with the numbers of the file."""
+    """The theorem, with the numbers of the file."""
     ball, start = data["ball"], data["start"]
     return (
         f"The continuous ball with J = ({', '.join(ball['J'])}), D = {ball['D']} has a closed orbit through gamma = "
@@ -59,7 +59,7 @@ def statement(data: dict[str, Any]) -> str:
 
 
 def check_form(data: dict[str, Any]) -> None:
-    """Raises Rejected unless all numbers are there, in their form."""
+    """Raises Rejected unless the file has all its numbers, in their form."""
     check_shape(data, FORM)
     for name in ("radius", "time", "window"):
         if exact(data[name], name) <= 0:
@@ -71,7 +71,7 @@ def check_form(data: dict[str, Any]) -> None:
 
 
 class Modified(Rolling):
-    """The continuous ball, and what the map adds to it."""
+    """The continuous ball, and the leading correction X₃ of the map."""
 
     def turning(self, state: Sequence[Any]) -> list[Any]:
         """12ω₃."""
@@ -91,7 +91,7 @@ class Modified(Rolling):
         return [x * square + y - z - 3 * f for x, y, z, f in zip(w, second, aside, pull, strict=True)]
 
     def densities(self, state: Sequence[Any]) -> tuple[Any, Any]:
-        """12X₃(H), and 12 times the divergence of X₃."""
+        """12X₃(H) and 12 times the divergence of X₃."""
         K, gamma = state[:3], state[3:]
         along = [[x for v in (K, gamma) for x in _crossed(v, j)] for j in range(3)]
         w, duals = self.spin(state), derivatives(self.turning, state, along)
@@ -111,7 +111,7 @@ def _crossed(v: Sequence[Any], j: int) -> list[Any]:
 
 
 class Orbit:
-    """The starts of a certificate, and how they return."""
+    """The starts of a certificate, and their returns to the section."""
 
     def __init__(self, data: dict[str, Any]):
         J, D, self.bits = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"]), data["bits"]
@@ -133,10 +133,10 @@ class Orbit:
         self.flow = Flow(fine, boxes, weights, data["order"])
 
     def returned(self, low: int, high: int, integrals: bool) -> tuple[Vector, Vector, Vector]:
-        """The starts from low to high radii, S·(solution) back on the section, and, if wanted, the two integrals."""
+        """The starts from `low` to `high` radii, S·(solution) at the return and, if `integrals`, the two integrals."""
         ends = [[x + self.radius * at * (i == self.varied) for i, x in enumerate(self.start)] for at in (low, high)]
         start = [Interval.enclosing(x, y, self.bits) for x, y in zip(*ends, strict=True)]
-        off = [Fraction(x.width + 1, 2 ** (self.bits + 1)) for x in start]  # from the middle
+        off = [Fraction(x.width + 1, 2 ** (self.bits + 1)) for x in start]  # distance from the middle
         error = sum((x / w for x, w in zip(off, self.flow.weights, strict=True)), Fraction(0))
         totals: Vector = [Interval(0, 0, self.bits // 2)] * 2
         now, state = 0, [x.point().lo for x in start]
@@ -153,13 +153,13 @@ class Orbit:
         return start, found, [x / 12 for x in totals]
 
     def integrals(self, models: Sequence[Model], length: int, end: Interval) -> Vector:
-        """12 times the two integrals over a step, from 0 to s = `end`: with half the bits and terms."""
+        """12 times the two integrals over a step, from 0 to s = `end`, computed with half the bits and terms."""
         h, s = (x.rescaled(self.bits // 2) for x in (Interval(length, length, self.bits), end))
         rough = [x.coarser(self.flow.order // 2, self.bits // 2) for x in models]
         return [x.integral().at(s) * h for x in self.coarse.densities(rough)]
 
     def crossing(self, models: Sequence[Model], length: int, wanted: Interval) -> Interval:
-        """Where in the step the component of the section is back, once: by Newton's test, and then closer."""
+        """The s in the step of the unique return to the section, proved by Newton's test and then refined."""
         h, sign = Interval(length, length, self.bits), self.signs[self.section]
         within, proved = Interval(0, 1 << self.bits, self.bits), False
         while True:
@@ -189,7 +189,7 @@ class Orbit:
 
 
 def check(data: dict[str, Any]) -> dict[str, str]:
-    """Raises Rejected unless the orbit is closed and its integrals as stated; returns the numbers that were proved."""
+    """Raises Rejected unless the orbit is closed and its integrals are as stated; returns the proved numbers."""
     orbit, misses = Orbit(data), []
     for end, stated in zip((-1, 1), data["misses"], strict=True):
         start, found, _ = orbit.returned(end, end, integrals=False)
@@ -207,6 +207,6 @@ def check(data: dict[str, Any]) -> dict[str, str]:
 
 
 def check_stated(x: Interval, stated: Sequence[str], where: str) -> None:
-    """Raises Rejected unless all numbers here are within what is stated, a centre and a radius."""
+    """Raises Rejected unless the interval lies within the stated centre and radius."""
     if not x.within(*map(Fraction, stated)):
         raise Rejected(f"{where} is not proved to be {' up to '.join(stated)}")

@@ -1,13 +1,13 @@
-"""The form of what is in a certificate, said by shapes, which `check_shape` reads.
+"""The forms of the parts of a certificate, described by shapes, which `check_shape` reads.
 
-{"name": shape, "name?": shape}   an object with these names and no others; one with ? may be missing
-[shape], [shape, ...]             a list, not too long; one that is not empty
-(shape, ...)                      a list of as many
+{"name": shape, "name?": shape}   an object with exactly these names; names with ? are optional
+[shape], [shape, ...]             a list, not too long; a non-empty list
+(shape, ...)                      a list of this length, item by item
 ("word", ...)                     one of these words
-range(...)                        an integer in it
-a pattern                         a text that it is of
-a type                            something of it
-a function of data and a place    which raises Rejected itself
+range(...)                        an integer in the range
+a pattern                         a text that matches it
+a type                            a value of this type
+a function of data and a place    raises Rejected itself
 """
 
 import re
@@ -18,14 +18,14 @@ from .document import check_names, count, sized
 from .interval import Rejected
 from .trees import check_name
 
-#: Of each list in a file, the letters of a text, the names of an algebra, and rows and columns of a matrix.
+#: The most items of a list, letters of a text, names of an algebra, and rows or columns of a matrix.
 MOST, MOST_LETTERS, MOST_NAMES, MOST_ROWS = 2_000, 4_000, 200, 5
-#: The number of something in a list.
+#: The form of an index into a list.
 NUMBER = range(MOST)
 
 
 def check_shape(data: Any, shape: Any, where: str = "") -> None:
-    """Raises Rejected unless data have a shape."""
+    """Raises Rejected unless the data have the shape; `where` is their place, for the message."""
     if isinstance(shape, dict):
         there = data if isinstance(data, dict) else {}
         wanted = {name.rstrip("?"): of for name, of in shape.items() if name[-1:] != "?" or name[:-1] in there}
@@ -56,22 +56,22 @@ def check_shape(data: Any, shape: Any, where: str = "") -> None:
 
 
 def anything(data: Any, where: str) -> None:
-    """For what is looked at elsewhere."""
+    """The shape of data that are checked elsewhere."""
 
 
-#: What every certificate begins and ends with.
+#: The names that every certificate has.
 HEAD = dict.fromkeys(("format", "kind", "statement", "digest"), anything)
 
 
 def many(data: Any, where: str) -> list[Any]:
-    """A list, not too long."""
+    """The data; raises Rejected unless this is a list, not too long."""
     if not isinstance(data, list) or len(data) > MOST:
         raise Rejected(f"{where} must be a list of at most {MOST}")
     return data
 
 
 def text(data: Any, where: str) -> None:
-    """Raises Rejected unless this is a text of one line, not too long."""
+    """Raises Rejected unless this is a non-empty text of one line, not too long."""
     if not isinstance(data, str) or not 0 < len(data) <= MOST_LETTERS or not data.isprintable():
         raise Rejected(f"{where} must be a text of at most {MOST_LETTERS} letters, in one line")
 
@@ -83,7 +83,7 @@ def chosen(data: Any, among: Sequence[str], where: str) -> None:
 
 
 def names(data: Any, where: str) -> None:
-    """Raises Rejected unless these are names, not too many, each of which stands there once."""
+    """Raises Rejected unless this is a list of different names, not too many."""
     if len(many(data, where)) > MOST_NAMES:
         raise Rejected(f"{where} has more than {MOST_NAMES} names")
     for name in data:
@@ -92,18 +92,18 @@ def names(data: Any, where: str) -> None:
 
 
 def once(data: Collection[Any], where: str) -> None:
-    """Raises Rejected where something stands twice."""
+    """Raises Rejected if an item occurs twice."""
     if len(set(data)) < len(data):
         raise Rejected(f"{where} has a name twice")
 
 
 def within(number: int, of: Sequence[Any], where: str) -> Any:
-    """What has this number in a list."""
+    """The item of a list with this index."""
     return of[count(number, 0, len(of) - 1, where)]
 
 
 def check_rows(data: Any, of: Any, where: str) -> None:
-    """Raises Rejected unless these are rows of one length, not too many, of what has a shape."""
+    """Raises Rejected unless these are rows of equal length, not too many, of entries with a shape."""
     check_shape(data, [[of, ...], ...], where)
     if len(set(map(len, data))) > 1 or max(len(data), len(data[0])) > MOST_ROWS:
         raise Rejected(f"{where} has a matrix whose rows are not of one length, or more than {MOST_ROWS}")

@@ -1,20 +1,20 @@
-r"""Formulas in TeX, read by a glossary: so that what is printed is what was decided.
+r"""A reader of TeX formulas, by a glossary, to compare printed formulas with decided statements.
 
 A glossary is a list of [symbol, meaning, value].  A symbol is any piece of TeX, such as K, \tilde\gamma or R_{k+1}; the
-longest that fits is taken.  A value is a tree, or a list of trees (a vector), or of such lists (a matrix), in the names
-of an algebra.  A formula is parts between commas, semicolons, colons and wide spaces; a part is expressions with = or
-\equiv between them, or two with \ne, <, >, \le or \ge.  Before \to and \mapsto stands one symbol, whose value is what
-it tends to.  A part with words is not read; one with a symbol that has no value raises NotRead.  An expression has
+longest match is taken.  A value is a tree, or a list of trees (a vector), or of such lists (a matrix), in the names of
+an algebra.  Commas, semicolons, colons and wide spaces separate the parts of a formula.  A part is expressions joined
+by = or \equiv, or two joined by \ne, <, >, \le or \ge.  On the left of \to and \mapsto there is one symbol; its value
+is the limit or image.  A part with words is not read; a symbol without a value raises NotRead.  Expressions are made of
 
     a + b   a - b   \pm a   a b   \frac ab   a^n   a^T   ( )   [a, b] = ab - ba   \langle a, b \rangle
     a \times b   a \wedge b = a b^T - b a^T   \sqrt a   \mathrm{diag}(a, b, c)   (a, b, c)^T   a matrix as pmatrix
     \mathrm{tr} a and \langle a, b \rangle = \mathrm{tr} b a^T in an algebra of traces
 
-The value of 0 is what vanishes by a premise: a = b may then say that a - b is that, or its negative.  An equation
-with a root is squared: so it may be refuted, and is proved only where \pm stands before the root, or where it is all
-of one side and the other is positive by a hypothesis.  In an algebra of words a^T is made by the transposes of the
-letters; b of a \wedge b may be printed as its transpose.  In one of traces each term of both sides has one trace, and
-else numbers and parameters; a symbol may have the value {"trace": tree}.
+The value of the symbol 0 is an expression z that vanishes by a premise: then a = b may say that a - b = z or -z.  An
+equation with a root is squared: then it may be refuted; it is proved only if \pm precedes the root, or if the root is
+one whole side and the other side is positive by a hypothesis.  In an algebra of words a^T uses the transposes of the
+letters, and in a \wedge b the transpose of b may be printed for b.  In an algebra of traces each term of both sides has
+one trace; its other factors are numbers and parameters.  A symbol may have the value {"trace": tree}.
 """
 
 import re
@@ -25,20 +25,20 @@ from typing import Any
 from .trees import names_in
 
 Tree = Any
-#: A tree, a vector or a matrix of trees, and which of these it is: 0, 1 or 2.
+#: The rank, 0, 1 or 2, and a tree, a vector or a matrix of trees.
 Value = tuple[int, Any]
-#: The name of a root, that of a trace, and the token of words: no certificate can have these.
+#: The names of a root and a trace, and the token for words; no certificate can contain them.
 ROOT, TRACE, WORDS = "\x00root", " trace ", "\x00"
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[^\s\\]|\\$", re.ASCII)
-#: What may be a symbol: a letter or a command first, or brackets around what is left out.
+#: The form of a symbol: it begins with a letter or a command, or is a bracket with \dots.
 _SYMBOL = re.compile(r"\\?[A-Za-z][^=,;:]*|\([^=,;:]*\\dots[^=,;:]*\).*|0|\\dots", re.ASCII)
-#: Commands that stand with what they are applied to.
+#: Commands with an argument, which belongs to the same symbol.
 _ACCENTS = {"\\mathcal", "\\mathbf", "\\mathrm", "\\mathbb", "\\vec", "\\tilde", "\\bar", "\\dot", "\\widehat"}
-#: Of what is read for one equation: the parts of trees that are made, and brackets in brackets.
+#: The most parts of the trees of one equation, and the deepest nesting of brackets.
 MOST_PARTS, MOST_BRACKETS = 200_000, 30
-#: What says nothing: spaces, and sizes of brackets.
+#: Tokens without meaning: spaces, and sizes of brackets.
 _SILENT = {"\\,", "\\;", "\\!", "\\ ", "\\bigl", "\\bigr", "\\left", "\\right", "~"}
-#: What stands between parts, and between the sides of a part.
+#: Separators of parts; next, the relations between the sides of a part.
 _BETWEEN = {",", ";", ":", "\\quad", "\\qquad"}
 LIMITS = ("\\to", "\\mapsto")
 RELATIONS = dict.fromkeys(("=", "\\equiv", *LIMITS), "=") | {
@@ -49,17 +49,17 @@ _CLOSES = {"(": ")", "[": "]", "{": "}", "\\langle": "\\rangle"}
 
 
 class NotRead(Exception):
-    """A part of a formula that is in words, or has a symbol without a value; the message says which."""
+    """A formula, or a part of it, cannot be read; the message gives the reason."""
 
 
 def tokens(formula: str) -> list[str]:
-    """The commands, letters, digits and signs of a formula; words in one."""
+    """The commands, letters, digits and signs of a formula; \\text with words becomes one token."""
     formula = re.sub(r"\\text\{[^{}]*[^\W\d_][^{}]*\}", lambda found: f"{WORDS} ", formula)
     return [token for token in _TOKEN.findall(formula) if token not in _SILENT]
 
 
 def parts(formula: str) -> list[list[str]]:
-    """The parts between commas, semicolons, colons and wide spaces outside of brackets."""
+    """The parts of a formula, separated by commas, semicolons, colons and wide spaces outside brackets."""
     found: list[list[str]] = [[]]
     inside: list[str] = []
     for token in tokens(formula):
@@ -75,7 +75,7 @@ def parts(formula: str) -> list[list[str]]:
 
 
 def relations(part: Sequence[str], reader: "Reader") -> list[tuple[str, Value, Value]]:
-    """The relations of a part, a = b = c as two, and > and >= turned round; raises NotRead."""
+    """The relations of a part: a = b = c gives two, and > and >= become < and <=; raises NotRead."""
     between = [token for token in part if token in RELATIONS]
     kinds = [RELATIONS[token] for token in between]
     if not kinds or (len(kinds) > 1 and {*kinds} != {"="}):
@@ -89,7 +89,7 @@ def relations(part: Sequence[str], reader: "Reader") -> list[tuple[str, Value, V
 
 
 def _split(tokens: Sequence[str], between: Collection[str]) -> list[list[str]]:
-    """What stands between some tokens."""
+    """The lists of tokens between separators."""
     found: list[list[str]] = [[]]
     for token in tokens:
         if token in between:
@@ -100,7 +100,7 @@ def _split(tokens: Sequence[str], between: Collection[str]) -> list[list[str]]:
 
 
 def is_symbol(symbol: str) -> bool:
-    """Whether a glossary may have this: a letter with what is at it, without a sign that joins expressions."""
+    """Whether a glossary may have this symbol: a letter with accents or indices, without joining signs."""
     plain = re.sub(r"\{[^{}]*\}|\([^()]*\\dots[^()]*\)", "", symbol)
     level, least = 0, 0
     for c in symbol:
@@ -110,7 +110,7 @@ def is_symbol(symbol: str) -> bool:
 
 
 class Reader:
-    """Reads expressions in the values of a glossary."""
+    """A reader of expressions, whose symbols have the values of a glossary."""
 
     def __init__(
         self,
@@ -118,21 +118,21 @@ class Reader:
         transposes: Mapping[str, Tree] | None = None,
         numbers: Collection[str] | None = None,
     ):
-        self.traces: list[Tree] = []  # of what the traces are
-        self.numbers = numbers  # the parameters, where all is of traces
+        self.traces: list[Tree] = []  # the arguments of the traces
+        self.numbers = numbers  # the parameters, in an algebra of traces
         values = {tuple(tokens(symbol)): (rank_of(value), value) for symbol, _, value in glossary}
         for symbol in [symbol for symbol, (_, value) in values.items() if isinstance(value, dict)]:
             _, value = values.pop(symbol)  # a number, in an algebra of traces only
             values |= {symbol: self._trace((0, value["trace"]))} if numbers is not None else {}
-        _, self.zero = values.pop(("0",), (0, 0))  # what vanishes by a premise
+        _, self.zero = values.pop(("0",), (0, 0))  # an expression that vanishes by a premise
         self.values = dict(sorted(values.items(), key=lambda item: -len(item[0])))
         self._symbols: dict[str, list[tuple[str, ...]]] = {}
         for symbol in self.values:
             self._symbols.setdefault(symbol[0], []).append(symbol)
         self.transposes = transposes
-        self.root: Tree | None = None  # what stands under the root
+        self.root: Tree | None = None  # the radicand
         self.used: set[tuple[str, ...]] = set()
-        self.both = False  # whether it has both signs
+        self.both = False  # whether \pm precedes the root
         self._left: list[str] = []
         self._spent, self._depth = 0, 0
 
@@ -145,14 +145,14 @@ class Reader:
         return found
 
     def _trace(self, of: Value) -> Value:
-        """A name for the trace of something."""
+        """A new name for the trace of a value."""
         if TRACE in str(of) or self.numbers is None:
             raise NotRead("a trace stands where none can be")
         self.traces.append(_number(of)[1])
         return 0, f"{TRACE}{len(self.traces) - 1}"
 
     def _traced(self, tree: Tree) -> Tree:
-        """Of what a sum is the trace."""
+        """The tree whose trace is a sum of traces."""
         if tree == 0:
             return 0
         if isinstance(tree, str) and tree.startswith(TRACE):
@@ -175,7 +175,7 @@ class Reader:
         self._left.pop(0)
 
     def _whole(self) -> Value:
-        """All that is left."""
+        """The value of all remaining tokens."""
         found = self._sum()
         if self._left:
             raise NotRead(f"{self._left[0]} is not read")
@@ -201,7 +201,7 @@ class Reader:
         return self._counted(total)
 
     def _counted(self, of: Value) -> Value:
-        """The same; raises NotRead where what was read has too many parts."""
+        """The value itself; raises NotRead if the values read so far have too many parts."""
         pending = [of[1]]
         while pending:
             tree = pending.pop()
@@ -213,7 +213,7 @@ class Reader:
         return of
 
     def _product(self) -> Value:
-        """Factors side by side, and products of vectors, which bind less."""
+        """A product by juxtaposition, or of vectors, which binds less."""
         found = self._juxtaposed()
         while self._next() in ("\\times", "\\wedge"):
             sign = self._left.pop(0)
@@ -245,7 +245,7 @@ class Reader:
         return found
 
     def _argument(self) -> list[str]:
-        """The inside of braces, or one token with what it is applied to."""
+        """The inside of braces, or one token with its argument."""
         if self._next() != "{":
             if not self._left:
                 raise NotRead("something is missing at the end")
@@ -305,7 +305,7 @@ class Reader:
         raise NotRead(f"{token or 'an end'} has no value")
 
     def _matrix(self) -> Value:
-        """Rows between \\\\, and entries between &."""
+        """A matrix with rows separated by \\\\ and entries by &."""
         end = self._left.index("\\end") if "\\end" in self._left else len(self._left)
         cells, self._left = self._left[9:end], self._left[end:]
         for token in ("\\end", *"{pmatrix}"):
@@ -378,13 +378,13 @@ class Reader:
 
 
 def plus(*trees: Tree) -> Tree:
-    """A sum."""
+    """The sum of trees."""
     kept = [tree for tree in trees if tree != 0]
     return ["+", *kept] if len(kept) > 1 else kept[0] if kept else 0
 
 
 def times(*trees: Tree) -> Tree:
-    """A product."""
+    """The product of trees."""
     kept = [tree for tree in trees if tree != 1]
     if 0 in kept:
         return 0
@@ -392,7 +392,7 @@ def times(*trees: Tree) -> Tree:
 
 
 def rank_of(value: Any) -> int:
-    """0 of a tree, 1 of a vector, 2 of a matrix."""
+    """The rank of a value: 0 for a tree, 1 for a vector, 2 for a matrix."""
     if not isinstance(value, list) or value[:1] in (["+"], ["*"], ["^"]):
         return 0
     return 2 if any(isinstance(x, list) and x[:1] not in (["+"], ["*"], ["^"]) for x in value) else 1
@@ -445,7 +445,7 @@ def _power(a: Value, power: int) -> Value:
 
 
 def transposed(tree: Tree, transposes: Mapping[str, Tree]) -> Tree:
-    """Of a word: each product turned round, each name by its transpose."""
+    """The transpose of a word: each product reversed, each name replaced by its transpose."""
     if isinstance(tree, list):
         if tree[0] == "^":
             return ["^", transposed(tree[1], transposes), tree[2]]

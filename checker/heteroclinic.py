@@ -1,20 +1,20 @@
-"""Certificates of kind heteroclinic: what orbits of the reduced map between the unstable rotations miss at their ends.
+"""Certificates of kind heteroclinic: offsets at the ends of orbits of the reduced map between the unstable rotations.
 
 The map.  Let I1 > I2 > I3 > 0, D > 0, Λ = I + D, ϰ² = (Λ1 - Λ2)(Λ2 - Λ3)/(Λ1Λ3), ϰ > 0, and h > 0 below the bound of
 check_small_branch.  Claim separatrix-map of the register says that on the arcs of |γ| = 1, ⟨γ, Λ⁻¹γ⟩ = 1/Λ2 between the
 rotations about ±e2 the reduced map is u ↦ ũ, with tanh u = γ2 where C1C3 < 0, and -u for u on the other arcs,
     F(X) = D(tanh ũ - tanh u),   F(X) = hϰX² - 2I2 X + h/ϰ,   X = coth ½(ũ - u) > X₀,                              (1)
-X₀ the larger root of F.  What is proved here is about (1).  With x = e^2u, s = e^(ũ - u) = (X + 1)/(X - 1), x̃ = s²x,
-    tanh ũ - tanh u = 8xX/((x + 1)Q),   Q = x(X + 1)² + (X - 1)²,   with the derivative 8x(1 - X²)/Q² by X.         (2)
-It falls for X > 1, and F grows for X > X₀; at X₀ F is less, for great X it is more: (1) has one root X > X₀.
+X₀ the larger root of F.  The proofs here are about (1).  With x = e^2u, s = e^(ũ - u) = (X + 1)/(X - 1), x̃ = s²x,
+    tanh ũ - tanh u = 8xX/((x + 1)Q),   Q = x(X + 1)² + (X - 1)²,   with the derivative 8x(1 - X²)/Q² in X.         (2)
+It decreases for X > 1, F increases for X > X₀; F is less at X₀ and more for large X: (1) has one root X > X₀.
 
-The ends.  Let s₀ = (X₀ + 1)/(X₀ - 1), c = log s₀.  Along an orbit u₀, u₁, ... is u_n - nc = u₀ + Σ log(s_i/s₀), i < n.
+The ends.  Let s₀ = (X₀ + 1)/(X₀ - 1), c = log s₀.  Along an orbit u₀, u₁, ..., u_n - nc = u₀ + Σ log(s_i/s₀), i < n.
 As F is convex with F(X₀) = 0, F′(X₀)(X_i - X₀) ≤ F(X_i) ≤ D(1 - tanh u_i) < 2D/x_i; and log s has the derivative
--2/(X² - 1).  So 0 < log(s₀/s_i) < 4D/(F′(X₀)(X₀² - 1)x_i).  The x_i grow, each by s_i² ≥ ŝ² from i = n on, ŝ that of
-X₀ + 2D/(F′(X₀)x_n): the sum of the 1/x_i, i ≥ n, is at most 1/(x_n(1 - ŝ⁻²)), and the limit h₊(u) of u_n - nc exists.
-Δ(u) = h₊(u) + h₊(-u): e^Δ is the product of all s_i/s₀ along the orbits of x and of 1/x.  It is enclosed at two starts.
-By lemma separatrix-limit, where Δ is not constant no finite measure that the reduced map keeps has a density that is
-positive almost everywhere.
+-2/(X² - 1).  So 0 < log(s₀/s_i) < 4D/(F′(X₀)(X₀² - 1)x_i).  The x_i grow: x_(i+1) = s_i²x_i, and s_i ≥ ŝ for i ≥ n,
+where ŝ is s at X = X₀ + 2D/(F′(X₀)x_n).  So Σ 1/x_i, i ≥ n, is at most 1/(x_n(1 - ŝ⁻²)), and u_n - nc has a limit
+h₊(u).  Let Δ(u) = h₊(u) + h₊(-u): e^Δ is the product of all s_i/s₀ along the orbits of x and 1/x, enclosed at two
+starts.  By lemma separatrix-limit, if Δ is not constant, no finite invariant measure of the reduced map has a density
+that is positive almost everywhere.
 """
 
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ from .interval import Interval, Rejected
 from .linear import newton
 from .step import Ball, check_small_branch
 
-#: Steps of a half orbit; Newton's iterations to find the first.
+#: The most steps of a half orbit; Newton iterations for the first root.
 MOST_STEPS, FIRST = 10_000, 64
 ORBIT = {"start": exact, "steps": range(1, MOST_STEPS + 1), "end": exact}
 FORM = HEAD | {
@@ -37,7 +37,7 @@ FORM = HEAD | {
 
 
 def statement(data: dict[str, Any]) -> str:
-    """What is proved, with the numbers of the file."""
+    """The theorem, with the numbers of the file."""
     ball, starts = data["ball"], [one["start"] for one in data["orbits"]]
     return (
         f"For every ball with J = ({', '.join(ball['J'])}), D = {ball['D']}, h = {ball['height']}, every number within "
@@ -49,7 +49,7 @@ def statement(data: dict[str, Any]) -> str:
 
 
 def check_form(data: dict[str, Any]) -> None:
-    """Raises Rejected unless all numbers are there, in their form."""
+    """Raises Rejected unless the file has all its numbers, in their form."""
     check_shape(data, FORM)
     for one in data["orbits"]:
         if not exact(one["start"], "start") > 0:
@@ -70,7 +70,7 @@ class Separatrix:
 
     @classmethod
     def of(cls, data: dict[str, Any]) -> "Separatrix":
-        """That of a file; raises Rejected unless the hypotheses of the map hold in the whole box."""
+        """The map of a file; raises Rejected unless its hypotheses hold in the whole box."""
         radius = Fraction(data["radius"])
         if radius < 0:
             raise Rejected("the radius must not be negative")
@@ -100,7 +100,7 @@ class Separatrix:
         return plain - self.D * (8 * x * X / ((x + 1) * self.below(x, X)))
 
     def derivative(self, x: Interval, X: Interval) -> Interval:
-        """That of the residual by X."""
+        """The derivative of the residual in X."""
         Q = self.below(x, X)
         return 2 * (self.height * self.kappa * X - self.middle) - self.D * (8 * x * (1 - X * X) / (Q * Q))
 
@@ -109,7 +109,7 @@ class Separatrix:
         return x * ((X + 1) * (X + 1)) + (X - 1) * (X - 1)
 
     def half_orbit(self, start: Interval, steps: int) -> Interval:
-        """The product of all s_i/s₀ from x on: that of the first `steps`, and a bound of the others."""
+        """The product of all s_i/s₀ from x = `start` on: the first `steps` factors, and an enclosure of the others."""
         x, product, X = start, 1 + 0 * start, self.first(start)
         for _ in range(steps):
             X = self.root(x, X)
@@ -119,7 +119,7 @@ class Separatrix:
         return product * (1 - self.rest(x)).hull(1 + 0 * x)
 
     def root(self, x: Interval, near: Interval) -> Interval:
-        """The X of the step from x."""
+        """X > X₀ of the step from x."""
         (X,) = newton(lambda v: [self.residual(x, v[0])], lambda v: [[self.derivative(x, v[0])]], [near.point()])
         if not self.last < X:
             raise Rejected("the root of a step is not proved to be beyond X₀")
@@ -133,18 +133,18 @@ class Separatrix:
         return X
 
     def growth(self, X: Interval) -> Interval:
-        """s."""
+        """s at X."""
         return (X + 1) / (X - 1)
 
     def rest(self, x: Interval) -> Interval:
-        """A bound of the sum of log(s₀/s_i) from x on."""
+        """A bound for the sum of log(s₀/s_i) from x on."""
         least = self.growth(self.last + 2 * self.D / (self.slope * x))
         bound = 4 * self.D / (self.slope * (self.last * self.last - 1))
         return bound / (x * (1 - 1 / (least * least)))
 
 
 def check(data: dict[str, Any]) -> dict[str, str]:
-    """Raises Rejected unless the ends prove the statement; returns them."""
+    """Raises Rejected unless the two e^Δ prove the statement; returns them."""
     digits, found = data["digits"], []
     separatrix = Separatrix.of(data)
     for one in data["orbits"]:

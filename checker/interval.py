@@ -1,8 +1,8 @@
-"""Intervals in integers: [lo, hi]·2^-bits, every result rounded outward.
+"""Interval arithmetic with integers: [lo, hi]·2^-bits, every result rounded outward.
 
-The one property that everything rests on: if x lies in X and y in Y, then x∘y lies in X∘Y, ∘ = + - * /, and √x in √X.
+All proofs rest on one property: if x lies in X and y in Y, then x∘y lies in X∘Y for ∘ = + - * /, and √x in √X.
 Sums are exact; a product, a quotient or a root is rounded down at the lower end and up at the upper end, by integer
-arithmetic alone (`>>` and `//` round down, also for negative numbers).  No floating-point number occurs.
+arithmetic alone (`>>` and `//` round down, also for negative numbers).  There is no floating-point number.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from typing import Any
 
 
 class Rejected(Exception):
-    """The certificate proves nothing; the message says why in one sentence."""
+    """The certificate is rejected; the message gives the reason in one sentence."""
 
 
 class Arithmetic:
-    """What follows from + and * of numbers: the negative, differences, powers, integers on the left."""
+    """Operations derived from + and *: the negative, differences, powers, integers on the left."""
 
     __slots__ = ()
 
@@ -39,7 +39,7 @@ class Arithmetic:
         return self * other
 
     def __pow__(self: Any, power: int) -> Any:
-        """For a power other than 0."""
+        """The power, for an exponent other than 0."""
         return reduce(mul, [self if power > 0 else self.inverse()] * abs(power))
 
 
@@ -53,16 +53,16 @@ class Interval(Arithmetic):
 
     @classmethod
     def enclosing(cls, lo: Fraction, hi: Fraction, bits: int) -> Interval:
-        """The least interval of these bits that contains lo ≤ x ≤ hi."""
+        """The smallest interval with this many bits that contains [lo, hi]."""
         return cls((lo.numerator << bits) // lo.denominator, -((-hi.numerator << bits) // hi.denominator), bits)
 
     @classmethod
     def about(cls, x: Fraction, bits: int, radius: Fraction | int = 0) -> Interval:
-        """The numbers within a radius of x; without, one number."""
+        """The interval of numbers within a radius of x."""
         return cls.enclosing(x - radius, x + radius, bits)
 
     def rescaled(self, bits: int) -> Interval:
-        """The least interval of these bits that contains this one."""
+        """The smallest interval with this many bits that contains this one."""
         return Interval.enclosing(Fraction(self.lo, 2**self.bits), Fraction(self.hi, 2**self.bits), bits)
 
     def _of(self, other: Interval | int) -> Interval:
@@ -83,11 +83,11 @@ class Interval(Arithmetic):
         return Interval(self.lo - other.hi, self.hi - other.lo, self.bits)
 
     def __mul__(self, other: Interval | int) -> Interval:
-        if isinstance(other, int):  # exactly
+        if isinstance(other, int):  # exact
             low, high = (self.lo, self.hi) if other >= 0 else (self.hi, self.lo)
             return Interval(low * other, high * other, self.bits)
         a, b, c, d, bits = self.lo, self.hi, other.lo, other.hi, self._of(other).bits
-        if a > 0 and c > 0:  # of most
+        if a > 0 and c > 0:  # the most frequent case
             return Interval(a * c >> bits, -(-b * d >> bits), bits)
         ends = a * c, a * d, b * c, b * d
         return Interval(min(ends) >> bits, -(-max(ends) >> bits), bits)
@@ -103,7 +103,7 @@ class Interval(Arithmetic):
         return self._of(other) / self
 
     def sqrt(self) -> Interval:
-        """The root of every number of an interval of positive numbers."""
+        """The square roots of an interval of positive numbers."""
         if self.lo <= 0:
             raise Rejected("a number under a root is not proved to be positive")
         below, above = isqrt(self.lo << self.bits), self.hi << self.bits
@@ -119,7 +119,7 @@ class Interval(Arithmetic):
 
     @property
     def sign(self) -> int:
-        """1 or -1 if all numbers have this sign, else 0: not decided."""
+        """1 or -1 if all numbers have this sign, else 0 (undecided)."""
         return (self.lo > 0) - (self.hi < 0)
 
     @property
@@ -155,7 +155,7 @@ class Interval(Arithmetic):
         return (centre - radius) * 2**self.bits <= self.lo and self.hi <= (centre + radius) * 2**self.bits
 
     def hull(self, other: Interval) -> Interval:
-        """The least interval that contains both."""
+        """The smallest interval that contains both."""
         return Interval(min(self.lo, other.lo), max(self.hi, other.hi), self.bits)
 
     def rounds_to(self, number: Fraction, digits: int) -> bool:

@@ -1,23 +1,23 @@
-"""Kernels: whether the text of a function computes what statements of certificates say, in their variables.
+"""Kernels: a proof that the source text of a function computes a side of a certified statement.
 
-A function is straight-line code: names, integers and + - * /, which is evaluated in the field of rational functions of
-its arguments.  Its results, in order, must be the entries that its carriers make.  A carrier names a certificate and
-in it the text of a statement, which is proved there, is about a quotient ring and has two different sides; it takes the
-entries of one side, and goes on from them by steps:
+A function is straight-line code of names, integers and + - * /.  It is evaluated in the field of rational functions of
+its arguments.  Its results, in order, must be the entries that its carriers make.  A carrier names a certificate and a
+statement in it, by its text.  The statement must be proved there, in a quotient ring, and have two different sides.
+The carrier takes the entries of one side, and applies steps:
 
-at       [name, tree]...: trees in the place of variables
-along    [[name, tree]...]...: of each entry the derivatives in the directions in which the variables move at these
-         rates; what the relations of the ring say stays true along each
-solved   a carrier of n² entries: the x with (that matrix, row by row) x = (the n entries)
-entries  numbers: which of the entries, in which order
+at       [name, tree]...: trees are substituted for variables
+along    [[name, tree]...]...: for each entry, its derivatives in these directions, each given by the rates of the
+         variables; the relations of the ring are invariant along each direction
+solved   a carrier of n² entries: the solution x of (the matrix of these, row by row) x = (the n entries)
+entries  numbers: a selection of the entries, in this order
 
-The names of the arguments are those of the variables.  The results equal the entries as rational functions; or, where
-the carrier has cofactors for an entry, [its number, [a tree for each relation of the ring]], the numerator of the
-difference is Σ cofactor · relation: then they are equal wherever the relations hold.  The point of a carrier shows
-that they can: all relations hold there, and neither the entries nor the text divide by 0.
+The arguments have the names of the variables.  The results equal the entries as rational functions.  If the carrier has
+cofactors for an entry, [its number, [a tree for each relation of the ring]], the numerator of the difference is instead
+Σ cofactor · relation: then the two are equal wherever the relations hold.  The point of a carrier shows that this is
+not vacuous: all relations hold there, and neither the entries nor the text divide by 0.
 
 A text may have letters, [name, function, tree]: sin, cos or sqrt of a tree, or pi, which it imports.  They are
-variables of the ring, with the relations of `letters`; those of a carrier that have a letter must follow from these.
+variables of the ring, with the relations of letters.py; a carrier's relations with a letter must follow from these.
 """
 
 from __future__ import annotations
@@ -42,18 +42,18 @@ from .rational import number_at, placed, rate, solved
 from .trees import check_known, check_tree, names_in, rational, value
 
 MANIFEST = "manifest.json"
-#: Bounds of a text and of its lines.
+#: The most letters of a text, and the most statements of its function.
 MOST_LETTERS, MOST_LINES = 200_000, 5_000
 LINE = range(MOST_LINES + 1)
-#: Certificates by their names: the id of the claim, and the digest.
+#: Certificates by name: the id of the claim, and the digest.
 Certificates = Mapping[str, Mapping[str, Any]]
 
 
 def check(row: Any, written: str, certificates: Certificates, where: str) -> list[str]:
-    """The statements that carry a function, and what is made of each; raises Rejected unless it computes that.
+    """The statements that carry a function, with their steps; raises Rejected unless the function computes these.
 
-    row: "inputs", "carriers", and "text_sha256", the hash of the text; certificates: those that were accepted; where:
-    the name of the function.
+    row: "inputs", "carriers", and "text_sha256", the hash of the text.  certificates: the accepted certificates.
+    where: the name of the function.
     """
     if not isinstance(row, dict) or not {"inputs", "carriers", "text_sha256"} <= row.keys():
         raise Rejected(f"{where} has no inputs, carriers and hash of its text")
@@ -75,7 +75,7 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
     return [_said(carrier) for carrier in row["carriers"]]
 
 
-#: What the steps of a carrier make of a statement.
+#: The steps of a carrier, in words.
 SAID = {
     "at": "at values",
     "along": "its derivatives",
@@ -89,13 +89,13 @@ def _said(carrier: Mapping[str, Any]) -> str:
 
 
 def _hides(entry: Path) -> bool:
-    """Whether Python may import it under the name of a module."""
+    """Whether Python might import this entry of the folder instead of the .py file of the same name."""
     return entry.is_dir() or entry.suffix in (".so", ".pyd", ".pyc", ".pyw")
 
 
 class Carried(NamedTuple):
-    """The inputs of a function, what it computes in a ring, and for each carrier its entries, the ring with its
-    relations, and what it and the text divide by."""
+    """A function and its carriers: inputs, results in a ring; for each carrier the entries, the ring with the
+    relations, and the divisors of carrier and text; letters."""
 
     inputs: list[str]
     computed: list[Quotient]
@@ -106,7 +106,7 @@ class Carried(NamedTuple):
 
 
 class Difference(NamedTuple):
-    """What a result is beyond the entry of a carrier, in a ring with the relations that hold there."""
+    """A result minus the entry of a carrier, in the ring with the relations of the carrier."""
 
     value: Quotient
     ring: Quotients
@@ -115,7 +115,7 @@ class Difference(NamedTuple):
 
 
 def carried(row: dict[str, Any], written: str, certificates: Certificates, where: str) -> Carried:
-    """What a text computes, and what its carriers make; raises Rejected for what has no form."""
+    """The results of a text and the entries of its carriers; raises Rejected if a form is invalid."""
     function = straight_line(written, where)
     check_shape(row["carriers"], [check_carrier_form], f"a carrier of {where}")
     inputs = [argument.arg for argument in function.args.args]
@@ -141,7 +141,7 @@ def carried(row: dict[str, Any], written: str, certificates: Certificates, where
 
 
 def differences(one: Carried, where: str) -> list[Difference]:
-    """Those of all results, in order."""
+    """The differences of all results from their entries, in order."""
     places = [(i, j) for i, found in enumerate(one.entries) for j in range(len(found))]
     return [
         Difference(result - one.entries[i][j], one.rings[i], i, j)
@@ -150,9 +150,9 @@ def differences(one: Carried, where: str) -> list[Difference]:
 
 
 def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> None:
-    """Raises Rejected unless the relations of a carrier hold at a point, and nothing divides by 0 there.
+    """Raises Rejected unless the relations of a carrier hold at a point, without division by 0.
 
-    Otherwise what is equal by the relations might be so because nothing obeys them, or because all of it is 0/0.
+    Otherwise an equality by the relations might be vacuous: no point satisfies them, or all values are 0/0.
     """
     numbers = {name: rational(x, f"the point of {where}") for name, x in point.items()}
     if missing := [name for name in (*one.inputs, *(x.name for x in one.letters)) if name not in numbers]:
@@ -166,7 +166,7 @@ def check_point(one: Carried, i: int, point: Mapping[str, Any], where: str) -> N
 
 
 def _check_head(head: str, carriers: Sequence[Mapping[str, Any]], where: str) -> None:
-    """Raises Rejected if the head of a text names a certificate that does not carry it."""
+    """Raises Rejected if the docstring of a text names a certificate that does not carry it."""
     named = set(re.findall(r"[Cc]ertificate of (\S+): sha256 (\w+)", head))
     proved = re.search(r"Proved by: (.*?)\.  ", head)
     carrying = {pair for carrier in carriers for pair in _certificates(carrier)}
@@ -181,9 +181,9 @@ def _certificates(carrier: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any]]:
-    """Judges every kernel of a generated package: its file, whether it is accepted, and what it computes, or why not.
+    """The verdict on every kernel of a generated package: its file, and either its inputs and statements or the reason.
 
-    A file of the folder that is no kernel of its manifest is not looked at; a kernel whose file is missing is rejected.
+    Files that the manifest does not list as kernels are ignored; a kernel without a file is rejected.
     """
     try:
         rows = read(folder / MANIFEST)["kernels"]
@@ -211,7 +211,7 @@ def check_folder(folder: Path, certificates: Certificates) -> list[dict[str, Any
 
 
 def check_step(data: Any, where: str) -> None:
-    """Raises Rejected unless this is a step of a carrier: its name, and what it is done by."""
+    """Raises Rejected unless this is a step of a carrier: its name and its operand."""
     check_shape(data, (tuple(BY), anything), where)
     step, by = data
     check_shape(by, BY[step], where)
@@ -230,12 +230,12 @@ CARRIER = {
 
 
 def moves(step: str, by: Any) -> Sequence[Any]:
-    """The lists of names and trees of a step."""
+    """The lists of [name, tree] pairs of a step."""
     return [by] if step == "at" else by if step == "along" else []
 
 
 def _statement(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> tuple[Any, Mapping[str, Any]]:
-    """The one statement that a carrier names, if it is proved and says something, and its certificate."""
+    """The statement that a carrier names, and its certificate; it must be unique, proved and non-trivial."""
     claim, said = carrier["claim"], carrier["statement"]
     data = certificates.get(f"{claim} {carrier['certificate']}")
     if data is None:
@@ -254,9 +254,9 @@ def _statement(carrier: Mapping[str, Any], certificates: Certificates, where: st
 
 
 def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -> set[str]:
-    """The variables that a carrier needs; raises Rejected where one that is placed or moved is none there.
+    """The variables that a carrier needs; raises Rejected if a step replaces or moves a name that is no variable.
 
-    Nothing would be done to such a name.
+    Such a step would have no effect.
     """
     statement, data = _statement(carrier, certificates, where)
     variables = set(data["algebras"][statement["algebra"]]["variables"])
@@ -277,15 +277,15 @@ def _names(carrier: Mapping[str, Any], certificates: Certificates, where: str) -
 def entries(
     carrier: Mapping[str, Any], certificates: Certificates, ring: Ring, where: str, adjoined: Sequence[Letter] = ()
 ) -> tuple[list[Quotient], list[Quotient], list[Quotient]]:
-    """What a carrier makes, in the variables of the ring, the relations that hold there, and what it divides by."""
+    """The entries of a carrier in the variables of the ring, the relations that hold for them, and its divisors."""
     statement, data = _statement(carrier, certificates, where)
-    # A name of an argument or of a letter that the certificate derives, or does not know, is none of the statement's.
+    # An argument or a letter whose name the certificate derives, or does not have, is no variable of the statement.
     names = {name: ring.names()[name] for name in data["algebras"][statement["algebra"]]["variables"]}
     steps = list(carrier["steps"])
     kinds = [step for step, _ in steps]
     if adjoined and "along" in kinds and "at" in kinds[kinds.index("along") :]:
         raise Rejected(f"{where} puts in expressions after derivatives, which would rename what its letters stand for")
-    if steps and steps[0][0] == "at":  # read at once what would be put in later
+    if steps and steps[0][0] == "at":  # substituted while reading, which saves a second pass
         names |= {name: value(tree, ring.names(), ring.number) for name, tree in steps.pop(0)[1]}
     for name, tree in (*derivation.valued(data["derivation"]).items(), *statement.get("definitions", [])):
         if names_in(tree) <= names.keys():
@@ -317,22 +317,22 @@ def entries(
 
 
 def _divisors(ring: Ring) -> list[Quotient]:
-    """What was divided by in a ring since this was asked last."""
+    """The divisors used in a ring since the last call."""
     found = [Quotient(ring.factors[i], 1, {}) for i in sorted(ring.used)]
     ring.used.clear()
     return found
 
 
 def straight_line(written: str, where: str) -> ast.FunctionDef:
-    """The one function of a text, which assigns names and returns; its parts are looked at as they are evaluated."""
+    """The single function of a text; its statements are checked later, when they are evaluated."""
     if len(written) > MOST_LETTERS:
         raise Rejected(f"{where} has more than {MOST_LETTERS} letters")
     try:
         body = ast.parse(written).body
-        compile(written, where, "exec", dont_inherit=True)  # which sees more than the parser, and runs nothing
+        compile(written, where, "exec", dont_inherit=True)  # finds more errors than the parser, and runs nothing
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise Rejected(f"{where} is not Python") from None
-    # What begins with the docstring has no declaration of another encoding, which Python would read it in.
+    # A text that begins with the docstring has no encoding declaration, which Python would obey.
     imported = letters.imported(body.pop(1), where) if len(body) == 3 else set()
     if len(body) != 2 or not _is_text(body[0]) or not isinstance(body[1], ast.FunctionDef) or written[:3] != '"""':
         raise Rejected(f"{where} is not a docstring and one function")
@@ -355,10 +355,10 @@ def _is_text(node: ast.stmt) -> bool:
 
 
 def _run(function: ast.FunctionDef, ring: Ring, adjoined: Sequence[Letter], where: str) -> list[Quotient]:
-    """What a function returns, in a ring that has its arguments and its letters as variables."""
+    """The results of a function in a ring with its arguments and letters as variables."""
     inputs = {one.arg for one in function.args.args}
     known, number = {name: ring.names()[name] for name in inputs}, ring.number
-    whole: set[str] = set()  # names of whole numbers, of which Python makes others in its own way: 1 / 3 is a float
+    whole: set[str] = set()  # names of integers; Python computes with integers differently: 1 / 3 is a float
 
     def is_whole(node: ast.expr) -> bool:
         return all(one.id in whole for one in ast.walk(node) if isinstance(one, ast.Name))
@@ -386,7 +386,7 @@ def _run(function: ast.FunctionDef, ring: Ring, adjoined: Sequence[Letter], wher
     def argument(called: str, given: list[ast.expr]) -> Any:
         first = () if called == "pi" else given[:1]
         likes = [x.id for x in given[len(first) :] if isinstance(x, ast.Name) and x.id in inputs]
-        if len(likes) + len(first) == len(given):  # the arguments say in whose numbers it is
+        if len(likes) + len(first) == len(given):  # these arguments fix the number type
             match first:
                 case () if likes:
                     return number(Fraction(1))

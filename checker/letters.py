@@ -1,6 +1,6 @@
-"""Letters of a kernel: names that it has for the sine, cosine or square root of an expression, or for π.
+"""Letters of a kernel: its names for the sine, cosine or square root of an expression, or for π.
 
-Of what they are the checker knows the relations sin² + cos² = 1, where both have the same argument, and √x² = x.
+The checker uses only the relations sin² + cos² = 1, for equal arguments, and √x² = x.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from .rational import rate, with_powers
 from .trees import check_known, check_name, check_tree, value
 
 FUNCTIONS = ("sin", "cos", "sqrt", "pi")
-#: Where a text imports them from.
+#: The module from which a text imports the functions.
 MODULE = "chapsym.numbers.functions"
 LETTERS = [(check_name, FUNCTIONS, anything)]
 
 
 class Letter(NamedTuple):
-    """A letter, the function, and its argument, which is 1 for π."""
+    """A letter, its function, and the argument, which is 1 for π."""
 
     name: str
     function: str
@@ -31,7 +31,7 @@ class Letter(NamedTuple):
 
 
 def check_form(rows: Any, inputs: Sequence[str], where: str) -> list[str]:
-    """The names of letters, [name, function, tree]; raises Rejected for what has not that form."""
+    """The names of the letters; raises Rejected unless each row is [name, function, tree]."""
     check_shape(rows, LETTERS, f"a letter of {where}")
     known = list(inputs)
     for name, _, tree in rows:
@@ -46,7 +46,7 @@ def check_form(rows: Any, inputs: Sequence[str], where: str) -> list[str]:
 
 
 def read(rows: Sequence[Any], ring: Ring, where: str) -> list[Letter]:
-    """The letters, in a ring that has them as variables; raises Rejected if two are one."""
+    """The letters in a ring that has them as variables; raises Rejected if two have the same meaning."""
     found = list[Letter]()
     for name, function, tree in rows:
         one = Letter(name, function, value(tree, ring.names(), ring.number))
@@ -57,7 +57,7 @@ def read(rows: Sequence[Any], ring: Ring, where: str) -> list[Letter]:
 
 
 def relations(letters: Sequence[Letter], ring: Ring) -> list[Quotient]:
-    """What holds for the letters, as polynomials that vanish."""
+    """The relations of the letters, as polynomials that vanish."""
     found = []
     for letter in letters:
         if (square := _square(letter, letters, ring)) is not None:
@@ -66,11 +66,11 @@ def relations(letters: Sequence[Letter], ring: Ring) -> list[Quotient]:
 
 
 def follows(relation: Quotient, letters: Sequence[Letter]) -> bool:
-    """Whether a relation has no letter, or is 0 by those of the letters."""
+    """Whether a relation has no letter, or is 0 by the relations of the letters."""
     ring = relation.numerator.ring
     if not any(rate(relation, {x.name: ring.number(Fraction(1))}).numerator.terms for x in letters):
         return True
-    for letter in reversed(letters):  # whose argument has earlier ones
+    for letter in reversed(letters):  # its argument may have earlier letters
         square = _square(letter, letters, ring)
 
         def power(name: str, n: int, letter: Letter = letter, square: Quotient | None = square) -> Quotient:
@@ -88,7 +88,7 @@ def check_point(letters: Sequence[Letter], point: Mapping[str, Fraction], where:
 
 
 def check_moves(letters: Sequence[Letter], moves: Sequence[Mapping[str, Quotient]], where: str) -> None:
-    """Raises Rejected if variables move at rates with which a letter is not any more what it stands for."""
+    """Raises Rejected if the rate of a letter is not the derivative of its function, for these rates of variables."""
     for move in moves:
         for letter in letters:
             ring = letter.of.numerator.ring
@@ -116,7 +116,7 @@ def imported(node: ast.stmt, where: str) -> set[str]:
 
 
 def check_names(function: ast.FunctionDef, known: set[str], where: str) -> None:
-    """Raises Rejected if a function calls what is not imported, or has a name of these for something else."""
+    """Raises Rejected if a function calls a name that is not imported, or uses a name of FUNCTIONS otherwise."""
     if function.name in FUNCTIONS:
         raise Rejected(f"{where} has {function.name} as a name of something else")
     for node in ast.walk(function):
@@ -131,7 +131,7 @@ def check_names(function: ast.FunctionDef, known: set[str], where: str) -> None:
 
 
 def _square(letter: Letter, letters: Sequence[Letter], ring: Ring) -> Quotient | None:
-    """The square of a letter; of a cosine where its sine is a letter, too."""
+    """The square of a letter in other letters: of a root; of a cosine, if its sine is a letter, too; else None."""
     if letter.function == "sqrt":
         return letter.of
     if letter.function == "cos" and (other := _other(letter, letters)) is not None:
@@ -140,7 +140,7 @@ def _square(letter: Letter, letters: Sequence[Letter], ring: Ring) -> Quotient |
 
 
 def _other(letter: Letter, letters: Sequence[Letter]) -> Letter | None:
-    """The sine for a cosine, the cosine for a sine."""
+    """The letter for the cosine with the argument of a sine, or the reverse."""
     function = {"sin": "cos", "cos": "sin"}.get(letter.function)
     same = (x for x in letters if x.function == function and not (x.of - letter.of).numerator.terms)
     return next(same, None)

@@ -1,4 +1,4 @@
-"""Vectors and matrices of intervals, linear equations, Newton's test."""
+"""Vectors and matrices of intervals, linear equations, and Newton's test."""
 
 from collections.abc import Callable, Sequence
 from functools import reduce
@@ -9,7 +9,7 @@ from .interval import Interval, Rejected
 
 Vector = Sequence[Interval]
 Matrix = Sequence[Vector]
-#: Of Newton's iteration; and the power of 2 that the second derivative is taken for.
+#: The most Newton iterations; and log₂ of the assumed size of the second derivative.
 MOST_ITERATIONS, CURVED = 20, 4
 NO_ROOT = "Newton's test proves no root near the numbers of the file"
 
@@ -40,7 +40,7 @@ def times(s: Interval | int, v: Vector) -> Vector:
 
 
 def units(n: int, like: Interval) -> Matrix:
-    """The unit vectors, in intervals of the scale of another."""
+    """The unit vectors of Rⁿ, with the scale of `like`."""
     return [[like._of(int(i == j)) for j in range(n)] for i in range(n)]
 
 
@@ -50,20 +50,20 @@ def transposed(matrix: Matrix) -> Matrix:
 
 
 def image(matrix: Matrix, v: Vector) -> Vector:
-    """The product with a vector."""
+    """The product of a matrix and a vector."""
     return [dot(row, v) for row in matrix]
 
 
 def determinant(matrix: Matrix) -> Interval:
-    """det of a 3 × 3 matrix: ⟨first row, second × third⟩."""
+    """The determinant of a 3 × 3 matrix: ⟨first row, second × third⟩."""
     return dot(matrix[0], cross(matrix[1], matrix[2]))
 
 
 def solve(matrix: Matrix, right: Matrix) -> Matrix:
-    """X with A X = B by elimination, for every A in `matrix` (n × n) and B in `right` (n × m); n × m.
+    """X (n × m) with A X = B by elimination, for every A in `matrix` (n × n) and B in `right` (n × m).
 
     For each A and B the steps are those of the real elimination, and no pivot is 0 (else this raises Rejected): so
-    every A in `matrix` is regular, and the solution lies in what is returned.
+    every A in `matrix` is regular, and the result contains all solutions.
     """
     rows = [[*a, *b] for a, b in zip(matrix, right, strict=True)]
     for i in range(len(rows)):
@@ -80,14 +80,14 @@ def solve(matrix: Matrix, right: Matrix) -> Matrix:
 
 
 def isolated(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], box: Vector) -> Vector:
-    """A box inside the box X that contains the one root of a map f of Rⁿ in X; raises Rejected if it is not proved.
+    """A box inside the box X that contains the unique root of a map f of Rⁿ in X; raises Rejected if not proved.
 
-    `residual` and `jacobian` enclose f and f′ for all values of the parameters that they contain.  Let c be in the
-    middle of X and S = jacobian(X).  For x, y in X is f(x) - f(y) = A(x, y)(x - y), where A, the mean of f′ on the
-    segment, lies in S.  If all matrices in S are regular and N = c - S⁻¹f(c) lies inside X, then the continuous map x
-    ↦ c - A(x, c)⁻¹f(c) takes X into N, so it has a fixed point (Brouwer), a root of f, in N; and two roots x, y in X
-    would have A(x, y)(x - y) = 0, x = y.  This holds for each value of the parameters: the root is a function of them,
-    and N contains its values.
+    `residual` and `jacobian` enclose f and f′ for all values of the parameters.  Let c be the middle of X and S =
+    jacobian(X).  For x, y in X, f(x) - f(y) = A(x, y)(x - y), where A, the mean of f′ on the segment, lies in S.
+    Assume that all matrices in S are regular and N = c - S⁻¹f(c) lies inside X.  Then the continuous map
+    x ↦ c - A(x, c)⁻¹f(c) takes X into N, so it has a fixed point (Brouwer) in N, which is a root of f.  Two roots x, y
+    in X have A(x, y)(x - y) = 0, so x = y.  This holds for each value of the parameters: the root is a function of
+    them, and N contains its values.
     """
     root = _newton_step(residual, jacobian, [x.point() for x in box], box)
     if not all(x.inside(y) for x, y in zip(root, box, strict=True)):
@@ -96,9 +96,9 @@ def isolated(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], 
 
 
 def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], centre: Vector) -> Vector:
-    """A box that contains one root of f near `centre`: `isolated` in a box about where Newton's iteration ends.
+    """A box that contains one root of f near `centre`: `isolated` in a box about the limit of Newton's iteration.
 
-    An iteration by d leaves an error of about d², which is no more than what parameters and rounding widen at the end.
+    The iteration ends when d², the error left by a correction d, is below the width from parameters and rounding.
     """
     for _ in range(MOST_ITERATIONS):
         near = _newton_step(residual, jacobian, centre, centre)  # the test may start from any point
@@ -112,5 +112,5 @@ def newton(residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Ma
 def _newton_step(
     residual: Callable[[Vector], Vector], jacobian: Callable[[Vector], Matrix], at: Vector, over: Vector
 ) -> Vector:
-    """at - S⁻¹f(at), S = f′ over a box."""
+    """at - S⁻¹f(at), S = f′(over)."""
     return minus(at, [s for (s,) in solve(jacobian(over), [[x] for x in residual(at)])])

@@ -1,7 +1,7 @@
-"""A manifest: which certificates a folder must have, by their names, so that a missing one is seen.
+"""Manifests: a manifest lists the certificates that a folder must have, so that a missing one is found.
 
 {"format": ..., "kind": "manifest", "files": {"register/2.5.json": "2.5 <digest>", ...}, "digest": ...}; the paths are
-from the folder of the manifest.  It lists all JSON files there but itself.
+relative to the folder of the manifest.  It lists all JSON files there except itself.
 """
 
 from pathlib import Path
@@ -14,13 +14,13 @@ KIND = "manifest"
 
 
 def made(names: dict[str, str]) -> dict[str, Any]:
-    """The manifest of certificates with these names, by their paths."""
+    """The manifest of certificates; `names`: their names, by path."""
     data = {"format": FORMAT, "kind": KIND, "files": dict(sorted(names.items()))}
     return data | {"digest": digest(data)}
 
 
 def listed(data: Any, folder: Path) -> dict[Path, str]:
-    """The files of a manifest, each with the name of its certificate; raises Rejected where the folder has others."""
+    """The files of a manifest and their certificates' names; raises Rejected if the folder has other files."""
     check_names(data, ("format", "kind", "files", "digest"), "the manifest")
     names = data["files"]
     if data["format"] != FORMAT or data["kind"] != KIND or not isinstance(names, dict) or not names:

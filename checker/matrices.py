@@ -1,8 +1,8 @@
-"""Words at matrices of polynomials: what a derivation for every n says in coordinates.
+"""Words evaluated at matrices of polynomials: a derivation for every n, in coordinates.
 
-matrix    of a name X of words, by places and cofactors: X with matrices (lists of rows of trees) in the place of its
-          letters and trees in that of its parameters, in a quotient ring.  The rules among the letters that have places
-          hold of the matrices by the cofactors, entry by entry, and their transposes are the matrices given for these.
+matrix    of a name X of words, by places and cofactors: X in a quotient ring, with matrices (lists of rows of trees)
+          substituted for its letters and trees for its parameters.  The matrices satisfy the rules among their letters,
+          entry by entry by the cofactors, and their transposes are those that the algebra gives.
 entry     of a name of a matrix, by [row, column], counted from 0
 """
 
@@ -21,19 +21,19 @@ from .words import Matrix
 
 
 class Quotients(NamedTuple):
-    """A quotient ring: its polynomials, its variables as such, and its relations."""
+    """A quotient ring: the polynomial ring, the variables by name, and the relations."""
 
     ring: Ring
     names: Mapping[str, Quotient]
     relations: Sequence[Quotient]
 
     def read(self, tree: Any, more: Mapping[str, Quotient] | None = None) -> Quotient:
-        """The quotient that a tree is."""
+        """The quotient of a tree."""
         found: Quotient = value(tree, {**self.names, **(more or {})}, self.ring.number)
         return found
 
     def is_value(self, tree: Any, of: Quotient) -> bool:
-        """Whether a tree in the variables is a quotient, without the relations."""
+        """Whether a tree in the variables equals a quotient, without use of the relations."""
         return not (of - self.read(tree)).numerator.terms
 
     def vanishes(self, numerator: Polynomial, cofactors: Sequence[Any], where: str) -> bool:
@@ -54,13 +54,13 @@ def quotients(data: Mapping[str, Any], ring: Ring) -> Quotients:
 
 
 def check_places(data: Any, where: str) -> None:
-    """Raises Rejected unless names have places, rows of trees or a tree; and rules cofactors for each entry."""
+    """Raises Rejected unless these are [name, place]... and, for each rule, lists of cofactors for each entry."""
     check_shape(data, ([(check_name, anything)], [[[check_tree]]]), where)
     names([name for name, _ in data[0]], where)
 
 
 def placed(tree: Any, algebra: Algebra, into: Quotients, by: Sequence[Any], where: str) -> Matrix:
-    """Words of a tree at their places, which are proved to obey the rules."""
+    """The matrix of a tree of words at these places, which are proved to satisfy the rules."""
     check_known([name for name, _ in by[0]], algebra.names, where)
     point = dict[str, Any]()
     for name, place in by[0]:
@@ -80,7 +80,7 @@ def placed(tree: Any, algebra: Algebra, into: Quotients, by: Sequence[Any], wher
 
 
 def entry(of: Matrix, by: Sequence[int], where: str) -> Quotient:
-    """An entry that there is."""
+    """The entry of a matrix; raises Rejected if it does not exist."""
     row, column = by
     if row >= of.shape[0] or column >= of.shape[1]:
         raise Rejected(f"{where} is an entry that the matrix does not have")
@@ -91,7 +91,7 @@ def entry(of: Matrix, by: Sequence[int], where: str) -> Quotient:
 def _check_rules(
     algebra: Algebra, point: Mapping[str, Any], into: Quotients, cofactors: Sequence[Any], where: str
 ) -> None:
-    """Raises Rejected unless the rules and transposes among the letters that have places hold of these."""
+    """Raises Rejected unless the places satisfy the rules and transposes among their letters."""
 
     def beyond(matrix: Matrix, claimed: Any) -> list[Polynomial]:
         less = matrix - value(claimed, point, into.ring.number)

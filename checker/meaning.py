@@ -1,4 +1,4 @@
-"""Whether the formulas of a claim, read by its glossary, are what was decided."""
+"""The comparison of the formulas of a claim, read by its glossary, with what the certificate decides."""
 
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
@@ -32,12 +32,12 @@ from .matrices import Quotients
 from .polynomial import FIELD, Polynomial, Quotient
 from .trees import check_known, check_tree, names_in, value
 
-#: Symbols of a glossary, and letters of each.
+#: The most symbols of a glossary, and letters of a symbol.
 MOST_SYMBOLS, MOST_LETTERS = 100, 80
 
 
 def check_form(data: Any, names: Collection[str]) -> None:
-    """Raises Rejected unless the glossary has each symbol once, with a meaning, and a value in these names."""
+    """Raises Rejected unless the symbols of the glossary are valid and different, with values in these names."""
     seen = set()
     for one in data:
         if len(one[0]) > MOST_LETTERS or not is_symbol(one[0]):
@@ -59,19 +59,19 @@ def check_form(data: Any, names: Collection[str]) -> None:
 
 
 def read(data: Mapping[str, Any]) -> tuple[int, int]:
-    """How many parts of the formulas of a claim the glossary reads, and how many are in words."""
+    """The number of parts of the formulas of a claim without words, and the number with words."""
     formulas = [data["printed"], data["corrected"] or ""] if data["glossary"] else []
     counts = [WORDS in part for formula in formulas for part in parts(formula)]
     return counts.count(False), counts.count(True)
 
 
 def check(data: Mapping[str, Any], among: "Sequence[Comparer]") -> dict[str, int]:
-    """Raises Rejected unless the formulas of a claim, where they are read, are what is decided, and nothing else.
+    """Raises Rejected unless the formulas of a claim, where they are read, agree with what is decided.
 
-    Each part that is not in words is something decided of its role, or an identity by the glossary alone; none says
-    what another one says.  What is decided and no part says is marked as said in words; of this there is no more than
-    the formula has parts in words.  What is refuted, if anything, is among what is said.  Returns how many parts are
-    identities, and what is left to words.
+    Each part without words is a decided item of its role, or an identity by the glossary alone; no two parts are the
+    same item.  Items that no part states are marked as said in words; there are no more of them than parts in words.
+    If items are refuted, a part states one of them.  Returns the number of parts that are identities, and the number
+    of items left to words.
     """
     alone = left = read = 0
     for role in ("printed", "corrected") if data["glossary"] else ():
@@ -96,7 +96,7 @@ def check(data: Mapping[str, Any], among: "Sequence[Comparer]") -> dict[str, int
 
 
 def said(role: str, data: Mapping[str, Any], among: "Sequence[Comparer]") -> tuple[list[Any], set[int], int]:
-    """What is decided of a role, which of it its formula says, and how many of its parts are identities."""
+    """The decided items of a role, the indices of those that its formula states, and the number of identities."""
     decided = [one for name in DECIDED for one in data[name] if one["role"] == role]
     found, alone, before = set[int](), 0, list[Sequence[str]]()
     if data[role] is not None and not parts(data[role]):
@@ -115,12 +115,12 @@ def said(role: str, data: Mapping[str, Any], among: "Sequence[Comparer]") -> tup
     return decided, found, alone
 
 
-#: What may be decided of a formula.
+#: The lists of a certificate with items that a formula may state.
 DECIDED = ("statements", "comparisons", "counts", "zeros", "rests", "sentences")
 
 
 def is_false(one: Mapping[str, Any]) -> bool:
-    """Whether something that is decided, or a sentence, says that what is printed is false."""
+    """Whether an item, or a sentence, says that the printed formula is false."""
     sentence = (
         one.keys() <= {"role", "text", "words"} and one["role"] == "printed" and one["text"].startswith("false: ")
     )
@@ -130,10 +130,10 @@ def is_false(one: Mapping[str, Any]) -> bool:
 def _part(
     part: Sequence[str], role: str, decided: Sequence[Any], data: Mapping[str, Any], among: "Sequence[Comparer]"
 ) -> set[int]:
-    """Which of what is decided a part says, all in one algebra or without; raises Rejected if it is not read."""
+    """The indices of the decided items that a part states, in a single algebra or in none; else raises Rejected."""
     why = ""
     stated = {i: one for i, one in enumerate(decided) if "left" in one}
-    inferred = any(one["role"] == "inference" for one in data["sentences"])  # from a point to what is said in general
+    inferred = any(one["role"] == "inference" for one in data["sentences"])  # from a point to the general case
     compared = {i: one for i, one in enumerate(decided) if "relations" in one and (inferred or is_false(one))}
     for kind in (*(dict.fromkeys(one["algebra"] for one in stated.values()) or range(len(among))), None):
         own = {i: one for i, one in stated.items() if one["algebra"] == kind}
@@ -147,7 +147,7 @@ def _part(
 
 
 def _compared(part: Sequence[str], among: Mapping[int, Any], data: Mapping[str, Any]) -> set[int]:
-    """The comparisons, and numbers of solutions, that are the relation of a part, in the same trees."""
+    """The comparisons and counts that are the relations of a part, with the same trees."""
     said = [[kind, left, right] for kind, (_, left), (_, right) in relations(part, Reader(data["glossary"]))]
     found = {i for i, one in among.items() if one["relations"] == said}
     if not found:
@@ -158,7 +158,7 @@ def _compared(part: Sequence[str], among: Mapping[int, Any], data: Mapping[str, 
 def _read(
     part: Sequence[str], among: Mapping[int, Any], data: Mapping[str, Any], kind: int, of: "Comparer"
 ) -> set[int]:
-    """The statements that the equations of a part are, in one algebra; raises NotRead if one is none of them."""
+    """The statements that the equations of a part state, in one algebra; raises NotRead if one states none."""
     algebra = data["algebras"][kind]
     reader = Reader(
         data["glossary"], _transposes(algebra), algebra["parameters"] if algebra["kind"] == "traces" else None
@@ -176,7 +176,7 @@ def _read(
 
 
 def _transposes(algebra: Mapping[str, Any]) -> dict[str, Tree] | None:
-    """What each name of an algebra of words is, transposed; parameters are numbers."""
+    """The transpose of each name of an algebra of words; parameters are numbers."""
     if algebra["kind"] == "quotient":
         return None
     return {name: name for name in algebra["parameters"]} | dict(algebra["transposes"])
@@ -185,11 +185,11 @@ def _transposes(algebra: Mapping[str, Any]) -> dict[str, Tree] | None:
 def _statements(
     pair: tuple[Value, Value], among: Mapping[int, Any], of: "Comparer", reader: Reader, data: Mapping[str, Any]
 ) -> set[int]:
-    """Which statements an equation is, entry by entry; raises NotRead if it is none, and no identity.
+    """The statements that an equation states, entry by entry; raises NotRead if none and it is no identity.
 
-    In a quotient the numerators of the differences, each without what its own equation divides by, must be multiples of
-    each other by numbers: then both say the same where no denominator vanishes.  An identity is a statement that is one
-    and has a side of it.  Where what vanishes is used, it must be a side of the statement.
+    In a quotient ring the numerators of the differences, each without the divisors of its own equation, must be
+    multiples of each other by numbers: then both are equivalent where no denominator vanishes.  An identity states only
+    identities that share a side with it.  If the symbol 0 is used, its value must be a side of the statement.
     """
     lefts, rights = map(entries, pair)
     if pair[0][0] != pair[1][0] and (0, 0) not in pair:
@@ -208,7 +208,7 @@ def _statements(
     if reader.root is not None:
         positive = [of[2:] for one in data["hypotheses"] for of in one["relations"] if of[:2] == ["<", 0]]
         if not (reader.both or (lefts == [ROOT] and rights in positive) or (rights == [ROOT] and lefts in positive)):
-            among = {i: one for i, one in among.items() if "refuted" in one}  # a² = b² is true where a = -b is
+            among = {i: one for i, one in among.items() if "refuted" in one}  # a = -b implies a² = b², too
     among = {i: one for i, one in among.items() if len(one["left"]) == most and one["left"] != one["right"]}
     among = {i: one for i, one in among.items() if _is_nothing(zeros, one, data["counterexamples"])}
     sides = list(zip(lefts, rights, strict=True))
@@ -219,7 +219,7 @@ def _statements(
         left = of.differences([(a, 0) for a in lefts])
         if any(x.terms for x in left[0]):
             return {i for i in found if of.is_side(left, among[i])}
-        # 0 = 0 is many statements
+        # 0 = 0 would match many statements
         return {i for i in found if (lefts, rights) == (among[i]["left"], among[i]["right"])}
     for more in _vanishing(zeros, reader):
         nothing = of.differences([(z, 0) for z in more])
@@ -232,7 +232,7 @@ def _statements(
 
 
 def _saying(sides: Sequence[tuple[Tree, Tree]], among: Mapping[int, Any], of: "Comparer") -> set[int]:
-    """The statements with the same differences: where these are 0, before what derivations make is put in, too."""
+    """The statements with the same differences; if these are 0, also before the derived names are expanded."""
     said, made = of.differences(sides), of.differences(sides, folded=True)
     found = {i for i, one in among.items() if of.is_said(said, one)}
     if any(x.terms for x in said[0]):
@@ -243,7 +243,7 @@ def _saying(sides: Sequence[tuple[Tree, Tree]], among: Mapping[int, Any], of: "C
 
 
 def _vanishing(zeros: list[Tree], reader: Reader) -> list[list[Tree]]:
-    """What vanishes, and its transpose."""
+    """The values of the symbol 0: the entries, and their transposes."""
     found = [zeros] if any(zeros) else []
     with suppress(NotRead):
         found += [[transposed(z, reader.transposes) for z in one] for one in found if reader.transposes]
@@ -251,7 +251,7 @@ def _vanishing(zeros: list[Tree], reader: Reader) -> list[list[Tree]]:
 
 
 def _is_nothing(zeros: list[Tree], one: Mapping[str, Any], examples: Sequence[Mapping[str, Any]]) -> bool:
-    """Whether what vanishes does so at the counterexample of a statement, where numbers stand for all of it."""
+    """Whether the value of the symbol 0 vanishes at the counterexample of a statement, if it has only numbers."""
     if "refuted" not in one:
         return True
     point = {name: x for name, x in examples[one["refuted"]]["point"].items() if not isinstance(x, list)}
@@ -264,24 +264,24 @@ def _is_nothing(zeros: list[Tree], one: Mapping[str, Any], examples: Sequence[Ma
         return False
 
 
-#: Differences of the sides of equations, and what these divide by.
+#: Differences of the sides of equations, and their divisors.
 Differences = tuple[list[Any], list[Polynomial]]
 
 
 class Comparer:
-    """Compares differences of words, by the rules; or their traces."""
+    """A comparison of equations between words, or between their traces: their differences, reduced by the rules."""
 
-    root: Tree | None = None  # what stands under the root of the formula that is read
+    root: Tree | None = None  # the radicand in the formula that is read
 
     def __init__(self, algebra: Algebra, made: Mapping[str, Defined], traces: bool):
         self.algebra, self.made, self._settled = algebra, made, algebra.traced if traces else lambda x: x
-        self.names = {*algebra.names, *made}  # which an equation may have
+        self.names = {*algebra.names, *made}  # the names that an equation may have
         self._known: dict[str, Differences] = {}
 
     def differences(
         self, sides: Sequence[tuple[Tree, Tree]], local: Sequence[Any] = (), folded: bool = False
     ) -> Differences:
-        """Left - right; `local`: names for parts, with their trees; `folded`: what derivations make as letters."""
+        """Left - right; `local`: names for parts, with their trees; `folded`: derived names are letters."""
         if (text := repr((sides, local, folded, self.root))) not in self._known:
             self._known[text] = self._differences(sides, local, folded)
         return self._known[text]
@@ -297,29 +297,29 @@ class Comparer:
         return [self._settled(x) for x in found], []
 
     def stated(self, one: Mapping[str, Any], side: str = "", folded: bool = False) -> Differences:
-        """Those of a statement, or of a side of it and 0."""
+        """The differences of a statement, or of one of its sides and 0."""
         sides = [(x, 0) for x in one[side]] if side else list(zip(one["left"], one["right"], strict=True))
         return self.differences(sides, one.get("definitions", ()), folded)
 
     def is_said(self, said: Differences, one: Mapping[str, Any], folded: bool = False) -> bool:
-        """Whether differences are those of a statement, or say the same."""
+        """Whether differences are equivalent to those of a statement."""
         return self.alike(said, self.stated(one, folded=folded))
 
     def is_side(self, said: Differences, one: Mapping[str, Any]) -> bool:
-        """Whether this is a side of a statement, or a multiple of it."""
+        """Whether differences are equivalent to a side of a statement."""
         return any(self.alike(said, self.stated(one, side)) for side in ("left", "right"))
 
     def alike(self, said: Differences, decided: Differences) -> bool:
-        """Whether differences are equal, or negatives of each other."""
+        """Whether two lists of differences are equal, or negatives of each other."""
         pairs = list(zip(said[0], decided[0], strict=True))
         return all(x.terms == y.terms for x, y in pairs) or all(not (x + y).terms for x, y in pairs)
 
 
 class _InRing(Comparer):
-    """Compares numerators of differences; those of equations with a root after squaring.
+    """A comparison of equations in a quotient ring: the numerators of differences; with a root, after squaring.
 
-    Of each numerator what its own equation divides by may be left out, and of a statement what the formula divides by:
-    the formula is said where that is not 0.
+    Each numerator may omit the divisors of its own equation; that of a statement, also those of the formula, which is
+    meant where they are not 0.
     """
 
     def __init__(self, ring: Quotients, made: Mapping[str, Defined]):
@@ -338,7 +338,7 @@ class _InRing(Comparer):
         return numerators, [ring.factors[i] for i in sorted(ring.used)]
 
     def alike(self, said: Differences, decided: Differences) -> bool:
-        """Whether numerators are multiples of each other."""
+        """Whether the numerators are pairwise multiples of each other by numbers."""
         if all(map(proportional, said[0], decided[0])):
             return True
         pairs = zip(said[0], decided[0], strict=True)
@@ -348,7 +348,7 @@ class _InRing(Comparer):
 def comparers(
     data: Mapping[str, Any], algebras: Sequence[Algebra | Quotients], made: Mapping[str, Defined]
 ) -> list[Comparer]:
-    """What compares equations, in each algebra."""
+    """A comparer of equations for each algebra."""
     own = [{one["name"] for one in data["derivation"] if one["algebra"] == i} for i in range(len(algebras))]
     return [
         Comparer(algebra, made, data["algebras"][i]["kind"] == "traces")
@@ -359,7 +359,7 @@ def comparers(
 
 
 def _squared(of: Quotient, ring: Quotients, under: Tree | None) -> Polynomial:
-    """The numerator; where it is P + Q·root, that of P² - Q²·(what is under the root)."""
+    """The numerator; if it is P + Q·root, the numerator of P² - Q²·radicand."""
     if under is None:
         return of.numerator
     shift = FIELD * (len(ring.ring.variables) - 1)
@@ -376,7 +376,7 @@ def _squared(of: Quotient, ring: Quotients, under: Tree | None) -> Polynomial:
 
 
 def _without(of: Polynomial, divisors: Sequence[Polynomial]) -> Polynomial:
-    """Without what the equation divides by: it says the same where that is not 0."""
+    """The polynomial divided by all powers of the divisors that it has; equivalent where these are not 0."""
     for divisor in divisors:
         while of.terms and (smaller := _divided(of, divisor)) is not None:
             of = smaller
@@ -384,8 +384,8 @@ def _without(of: Polynomial, divisors: Sequence[Polynomial]) -> Polynomial:
 
 
 def _divided(a: Polynomial, b: Polynomial) -> Polynomial | None:
-    """a/b, where b has no common divisor of its coefficients; None where b does not divide a."""
-    borrows = sum(1 << FIELD * i + FIELD - 1 for i in range(len(a.ring.variables)))  # no exponent has this bit
+    """a/b, or None if b does not divide a; the coefficients of b must have no common divisor."""
+    borrows = sum(1 << FIELD * i + FIELD - 1 for i in range(len(a.ring.variables)))  # a bit that no exponent uses
     lead, rest, quotient = max(b.terms), dict(a.terms), dict[int, int]()
     order = [-monomial for monomial in rest]
     heapify(order)
@@ -409,7 +409,7 @@ def _divided(a: Polynomial, b: Polynomial) -> Polynomial | None:
 
 
 def proportional(a: Polynomial, b: Polynomial) -> bool:
-    """Whether two polynomials are multiples of each other by numbers other than 0."""
+    """Whether two polynomials are multiples of each other by non-zero numbers."""
     if a.terms.keys() != b.terms.keys():
         return False
     first = next(iter(a.terms), None)

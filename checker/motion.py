@@ -1,15 +1,15 @@
-"""Certificates of kind motion: where the continuous ball is at some times, each number up to a radius.
+"""Certificates of kind motion: the state of the continuous ball at given times, each number with an error radius.
 
-The ball has the mass tensor diag(J1, J2, J3) and D = m·radius², and perhaps a rotor, whose angular momentum is part of
-K and constant in the body; the motion is that of attitude.py.  The point of contact, under the centre, has the velocity
-radius·(Ω₂, -Ω₁), Ω = Rω: the ball rolls.
+The ball has the mass tensor diag(J1, J2, J3), D = m·radius², and optionally a rotor, whose angular momentum is part of
+K and constant in the body.  The equation of motion is that of attitude.py.  The contact point, below the centre, has
+the velocity radius·(Ω₂, -Ω₁), Ω = Rω: the ball rolls.
 
-1. The start is enclosed: the unit quaternion of every quaternion of the file, and k = RK.
-2. Steps of rolling.py enclose the solutions from there, and the integral of the velocity of the point of contact.  The
-   checker chooses the steps.  It takes units in which the ball and its rotation are about 1: powers of 2.
-3. Each number of a frame is proved to be within its radius of that of the motion.  Of the quaternions a and -a that one
-   is meant of which the first number that is not 0, up to its radius, is positive.
-4. No radius is more than 10^-digits, relative to the greatest number of K or ω, and to the radius of the ball.
+1. The start is enclosed: the unit quaternions of all quaternions of the file, and k = RK.
+2. Steps of rolling.py enclose the solutions from there, and the integral of the velocity of the contact point.  The
+   checker chooses the steps.  The units are powers of 2 in which the ball and its rotation are about 1.
+3. Each number of a frame is proved to be within its radius of the number of the motion.  The sign of the quaternion is
+   such that its first number that is not 0 up to its radius is positive.
+4. No radius is more than 10^-digits: of K and ω relative to their greatest number, of contact to the ball's radius.
 """
 
 from collections.abc import Iterator, Sequence
@@ -27,7 +27,7 @@ from .linear import Vector, dot
 from .rolling import BITS, Flow, Rolling
 from .taylor import Model
 
-#: What a frame has, and how many numbers; `contact` where the ball has a radius.
+#: The vectors of a frame, and their dimensions; `contact` only if the ball has a radius.
 PARTS = {"gamma": 3, "angular_momentum": 3, "omega": 3, "attitude": 4, "contact": 2}
 NUMBERS, PAIR = (exact,) * 3, (exact, exact)
 START = {"attitude": (PAIR,) * 4, "momentum": (PAIR,) * 3}
@@ -38,7 +38,7 @@ FORM = HEAD | {
 
 
 def statement(data: dict[str, Any]) -> str:
-    """What is proved, with the numbers of the file."""
+    """The theorem, with the numbers of the file."""
     ball, frames = data["ball"], data["frames"]
     rolls = f", radius = {ball['radius']}" if "radius" in ball else ""
     a, K = (shown(data["start"][name]) for name in ("attitude", "momentum"))
@@ -53,7 +53,7 @@ def statement(data: dict[str, Any]) -> str:
 
 
 def check_form(data: dict[str, Any]) -> None:
-    """Raises Rejected unless all numbers are there, in their form, and the radii as small as the digits say."""
+    """Raises Rejected unless the file has all its numbers, in their form, and radii as small as `digits` says."""
     rolls = isinstance(data.get("ball"), dict) and "radius" in data["ball"]
     parts = {name: (PAIR,) * n for name, n in PARTS.items() if rolls or name != "contact"}
     start = START | ({"position": PAIR} if rolls else {})
@@ -86,10 +86,10 @@ def _check_radii(name: str, pairs: Sequence[Sequence[Fraction]]) -> None:
 
 
 def _check_claim(name: str, pairs: Sequence[Sequence[Fraction]], share: Fraction, radius: Fraction) -> None:
-    """Raises Rejected unless the radii are this share, at most, and the attitude is the one of two that is meant."""
+    """Raises Rejected unless the radii are at most this share of the size, and the attitude has the right sign."""
     _check_radii(name, pairs)
     if name in ("angular_momentum", "omega"):
-        size = max(abs(x) - off for x, off in pairs)  # no number that is meant is less
+        size = max(abs(x) - off for x, off in pairs)  # a lower bound for the greatest number
     else:
         size = radius if name == "contact" else Fraction(1)
     if max(off for _, off in pairs) > share * size:
@@ -99,7 +99,7 @@ def _check_claim(name: str, pairs: Sequence[Sequence[Fraction]], share: Fraction
 
 
 class Piece(NamedTuple):
-    """A part of the motion: models of the attitude and the point of contact, when it begins, its length, the error."""
+    """A part of the motion: models of attitude and contact point, begin, length, and the error at the end."""
 
     attitude: list[Model]
     place: list[Model]
@@ -109,17 +109,17 @@ class Piece(NamedTuple):
 
     @property
     def end(self) -> int:
-        """When it ends."""
+        """The time of the end."""
         return self.begin + self.length
 
     def at(self, moment: Fraction) -> tuple[Vector, Vector]:
-        """The attitude and the place at a time within."""
+        """The attitude and the contact point at a time in this part."""
         s = Interval.about((moment - self.begin) / self.length, self.attitude[0].bits)
         return [x.at(s) for x in self.attitude], [x.at(s) for x in self.place]
 
 
 class Motion:
-    """The motion of a certificate, in units of powers of 2 in which the ball and ω are about 1, and of its radius."""
+    """The motion of a certificate, in units (powers of 2) with the ball and ω about 1; lengths in radii."""
 
     def __init__(self, data: dict[str, Any]):
         J, D, bits = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"]), data["bits"]
@@ -150,7 +150,7 @@ class Motion:
         self.place = [one(Fraction(x) / self.units["contact"]) for x in data["start"].get("position", ())]
 
     def frames(self, times: Sequence[Fraction]) -> Iterator[dict[str, Vector]]:
-        """The frames at these times, enclosed, in their units."""
+        """The frames at these times, enclosed, in the units of the motion."""
         wanted = [x / self.units["time"] * 2**self.flow.bits for x in times]
         piece = self.first()
         for moment in wanted:
@@ -159,12 +159,12 @@ class Motion:
             yield self.frame(*piece.at(moment))
 
     def first(self) -> Piece:
-        """The start, as a piece that ends there."""
+        """The start, as a piece that ends at time 0."""
         attitude, place = ([Model.enclosing(x) for x in v] for v in (self.start, self.place))
         return Piece(attitude, place, -1, 1, Fraction(sum(x.off for x in attitude), 2**self.flow.bits))
 
     def after(self, piece: Piece, end: int) -> Piece:
-        """The piece after one, which ends by then."""
+        """The next piece after `piece`, which ends at the time `end` at the latest."""
         start = [sum(x.terms) for x in piece.attitude]
         attitude, length, error = self.flow.step(start, piece.error, end - piece.end)
         place = [Model.enclosing(x) for x in piece.at(Fraction(piece.end))[1]]
@@ -175,7 +175,7 @@ class Motion:
         return Piece(attitude, place, piece.end, length, error)
 
     def frame(self, a: Vector, place: Vector) -> dict[str, Vector]:
-        """What a frame has, but for which of a and -a."""
+        """The vectors of a frame; the sign of the attitude is arbitrary."""
         vectors, half = self.ball.vectors(a), self.ball.spin(a)
         K, omega = ([2 * x for x in v] for v in (vectors[:3], half))
         found = {"gamma": vectors[3:], "angular_momentum": K, "omega": omega, "attitude": a}
@@ -183,7 +183,7 @@ class Motion:
 
 
 def check(data: dict[str, Any]) -> dict[str, str]:
-    """Raises Rejected unless every number of every frame is proved; returns those of the last."""
+    """Raises Rejected unless every number of every frame is proved; returns the last frame."""
     motion, frames = Motion(data), data["frames"]
     for frame, found in zip(frames, motion.frames([Fraction(x["time"]) for x in frames]), strict=True):
         for name, values in found.items():
@@ -197,7 +197,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
 
 
 def _agree(a: Vector, claims: Sequence[Sequence[Fraction]]) -> bool:
-    """Whether a has the sign of what is claimed, where that is greatest."""
+    """Whether a has the sign of the claimed quaternion, in the greatest component of the latter."""
     x, (centre, _) = max(zip(a, claims, strict=True), key=lambda pair: abs(pair[1][0]))
     return x.sign == (1 if centre > 0 else -1)
 
@@ -207,12 +207,12 @@ def _fractions(pairs: Sequence[Sequence[str]]) -> list[list[Fraction]]:
 
 
 def shown(pairs: Sequence[Sequence[str]]) -> str:
-    """The numbers of a vector, up to their radii."""
+    """A vector as text: its numbers with their radii."""
     return ", ".join(" up to ".join(pair) if pair[1] != "0" else pair[0] for pair in pairs)
 
 
 def rate(ball: Rolling, momentum: Sequence[Fraction], attitude: Sequence[Fraction]) -> Fraction:
-    """The greatest number of ω at the start, nearly."""
+    """The greatest |ω_i| at the start, approximately."""
     try:
         return max(map(abs, ball.spin([*momentum, *rotation(attitude)[2]])))
     except ZeroDivisionError:

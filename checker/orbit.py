@@ -1,20 +1,20 @@
-"""Certificates of kind periodic-orbit: a point that is back after q steps, and the derivative of these steps there.
+"""Certificates of kind periodic-orbit: a periodic point of q steps, and the derivative of these steps there.
 
-Existence.  The step turns 𝒦 and γ by one rotation, so |γ|², |𝒦|² and ⟨𝒦, γ⟩ are integrals; where γ and 𝒦 are not
+Existence.  The step turns 𝒦 and γ by the same rotation, so |γ|², |𝒦|² and ⟨𝒦, γ⟩ are integrals.  If γ and 𝒦 are not
 parallel, their level M is the set of all (R𝒦, Rγ), R in SO(3): of dimension 3, with tangent vectors (w × 𝒦, w × γ).
-With the numbers (𝒦₀, γ₀) of the file let P(𝒦, γ) = 𝒦₀ × 𝒦 + γ₀ × γ.  Newton's test in the six unknowns x = (𝒦, γ)
-proves a root of
+With (𝒦₀, γ₀) from the file let P(𝒦, γ) = 𝒦₀ × 𝒦 + γ₀ × γ.  Newton's test in the six unknowns x = (𝒦, γ) proves a
+root of
     |γ|² = 1,  |𝒦|² and ⟨𝒦, γ⟩ as given,  P(G^q(x) - x) = 0.
 Then x and G^q(x) have the same integrals and the same P.  The derivative of (integrals, P) is regular on a box that
-contains both, so this map is injective there (as in linear.newton): G^q(x) = x.  The step is evaluated for all 𝒦 and γ
-of a box, with other lengths too, and each time the root u is found anew: it is proved to be the only one with |u| < 1
+contains both, so this map is injective there (as in linear.isolated): G^q(x) = x.  The step is evaluated for all 𝒦 and
+γ of a box, also with |γ| ≠ 1, and each time the root u is found again.  It is proved to be the only root with |u| < 1
 for all of them (`check_branch`), so these are values of one function.  At the root |γ| = 1: it is the small branch.
-With a `radius` all this holds for every J, D, |𝒦|² and ⟨𝒦, γ⟩ within it of those of the file.
+With a `radius`, all this holds for all J, D, |𝒦|² and ⟨𝒦, γ⟩ within this distance of those of the file.
 
-The derivative W of G^q on M, in the basis V of tangent vectors at x with w = e1, e2, e3: DG^q·V = V·W, as x is the same
-before and after; so W = (PV)⁻¹ P·DG^q·V.  If det W ≠ 1, no measure with a continuous positive density near the orbit
-on M is invariant.  If det(1 - W) ≠ 0, no eigenvalue of W is 1: an integral F of class C¹ has dF·W = dF at x, so dF = 0
-there on M: F depends to first order on the momentum integrals alone.
+The derivative.  Let W be the derivative of G^q on M, in the basis V of tangent vectors at x with w = e1, e2, e3:
+DG^q·V = V·W, as G^q(x) = x; so W = (PV)⁻¹ P·DG^q·V.  If det W ≠ 1, no measure with a continuous positive density near
+the orbit on M is invariant.  If det(1 - W) ≠ 0, no eigenvalue of W is 1: an integral F of class C¹ has dF·W = dF at x,
+so dF = 0 there on M: to first order F depends on the momentum integrals alone.
 """
 
 from fractions import Fraction
@@ -27,7 +27,7 @@ from .linear import Matrix, Vector, cross, determinant, dot, minus, newton, plus
 from .step import Ball, Pair, check_small_branch, gibbs_vector, moved, tangents
 
 ATTRACTING = " All its eigenvalues are inside the unit circle: the orbit attracts what starts near it on the level."
-#: Of W; "trace" only if the orbit is said to be attracting.
+#: The invariants of W; "trace" only if the statement says that the orbit is attracting.
 MULTIPLIERS = ("determinant", "unit_eigenvalue", "trace")
 INTEGRALS = ("momentum.momentum", "momentum.gamma")
 NUMBERS = (exact,) * 3
@@ -39,7 +39,7 @@ FORM = HEAD | {
 
 
 def statement(data: dict[str, Any]) -> str:
-    """What is proved, with the numbers of the file."""
+    """The theorem, with the numbers of the file."""
     size, height = (data["integrals"][name] for name in INTEGRALS)
     the, within = ("every", f", every number within {data['radius']},") if "radius" in data else ("the", "")
     return (
@@ -52,14 +52,14 @@ def statement(data: dict[str, Any]) -> str:
 
 
 def check_form(data: dict[str, Any]) -> None:
-    """Raises Rejected unless all numbers are there, in their form."""
+    """Raises Rejected unless the file has all its numbers, in their form."""
     check_shape(data, FORM)
     if exact(data.get("radius", "0"), "radius") < 0:
         raise Rejected("the radius must not be negative")
 
 
 class Search:
-    """The equations of the periodic orbit and their derivative, in intervals."""
+    """The equations of the periodic orbit and their derivatives, in intervals."""
 
     def __init__(self, data: dict[str, Any]):
         self.digits, q = data["digits"], data["steps"]
@@ -82,7 +82,7 @@ class Search:
         self.units = units(3, self.size)
 
     def after(self, x: Vector, vectors: list[Pair]) -> tuple[Vector, list[Pair], list[Vector]]:
-        """G^q(x), the derivative applied to tangent vectors, and the Gibbs vectors of the steps."""
+        """G^q(x), its derivative applied to tangent vectors, and the Gibbs vectors of the steps."""
         self.check_branch(x)
         state, gibbs = (x[:3], x[3:]), []
         for near in self.near:
@@ -95,8 +95,8 @@ class Search:
     def check_branch(self, x: Vector) -> None:
         """Raises Rejected unless (1) of step.py has one root with |u| < 1 for all 𝒦 and γ of the box, and after steps.
 
-        The steps keep |𝒦| and |γ|.  As ⟨u, Λu - D⟨γ, u⟩γ⟩ ≥ ⟨u, Iu⟩ - D(|γ|² - 1)|u|², the proof in check_small_branch
-        holds for every |γ| with I - D(|γ|² - 1) for I.
+        The steps preserve |𝒦| and |γ|.  As ⟨u, Λu - D⟨γ, u⟩γ⟩ ≥ ⟨u, Iu⟩ - D(|γ|² - 1)|u|², the proof in
+        check_small_branch holds for every |γ| if I - D(|γ|² - 1) replaces I.
         """
         momentum, gamma = x[:3], x[3:]
         off = self.ball.D * (dot(gamma, gamma) - 1)
@@ -107,7 +107,7 @@ class Search:
         return plus(cross(self.centre[:3], x[:3]), cross(self.centre[3:], x[3:]))
 
     def residual(self, x: Vector) -> Vector:
-        """The six equations."""
+        """The residuals of the six equations."""
         momentum, gamma = x[:3], x[3:]
         integrals = [dot(gamma, gamma) - 1, dot(momentum, momentum) - self.size, dot(momentum, gamma) - self.height]
         return [*integrals, *self.projection(minus(self.after(x, [])[0], x))]
@@ -124,7 +124,7 @@ class Search:
         return [(e, zero) for e in self.units] + [(zero, e) for e in self.units]
 
     def jacobian(self, x: Vector) -> Matrix:
-        """The derivative of the six equations."""
+        """The derivative of the six residuals."""
         basis = self.basis()
         moved_basis = self.after(x, basis)[1]
         columns = [self.projection(minus(_flat(v), _flat(e))) for v, e in zip(moved_basis, basis, strict=True)]
@@ -148,7 +148,7 @@ def _flat(v: Pair) -> Vector:
 
 
 def check(data: dict[str, Any]) -> dict[str, str]:
-    """Raises Rejected unless the orbit is there and its derivative as stated; returns the numbers that were proved."""
+    """Raises Rejected unless the orbit exists and its derivative is as stated; returns the proved numbers."""
     search = Search(data)
     digits = search.digits
     x = newton(search.residual, search.jacobian, search.centre)

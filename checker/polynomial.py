@@ -1,8 +1,8 @@
 """Polynomials with integer coefficients, and quotients of them, in expanded form.
 
-A monomial is one integer, 16 bits for the exponent of each variable: monomials are multiplied by adding them.  No
-degree reaches 2¹⁶, so no exponent runs into the next.  A quotient keeps its denominator as powers of factors that its
-ring knows by their number; equal factors are found again, nothing else is cancelled.
+A monomial is one integer with 16 bits for the exponent of each variable: a product of monomials is the sum of these
+integers.  No degree reaches 2¹⁶, so no exponent overflows into the next.  The denominator of a quotient is a product of
+powers of numbered factors of the ring; equal factors get the same number, and nothing else is cancelled.
 """
 
 from __future__ import annotations
@@ -13,33 +13,33 @@ from math import gcd, lcm
 
 from .interval import Arithmetic, Rejected
 
-#: The products of two terms, and other work, for one certificate; the terms, the degree, the bits of the coefficients
-#: of a polynomial.
+#: The most work for one certificate, counted in products of two terms; the most terms, the greatest degree and the most
+#: bits of coefficients of a polynomial.
 MOST_WORK, MOST_TERMS, MOST_DEGREE, MOST_BITS = 6_000_000, 200_000, 1_000, 20_000
 FIELD = 16
 
 
 class Work:
-    """What is left of the products of two terms."""
+    """The remaining work for one certificate, in products of two terms."""
 
     def __init__(self, left: int = MOST_WORK):
         self.left = left
 
     def spend(self, products: int) -> None:
-        """Raises Rejected when too much was asked for."""
+        """Subtracts work; raises Rejected if none is left."""
         self.left -= products
         if self.left < 0:
             raise Rejected("the certificate asks for more work than a checker should do")
 
 
 class Ring:
-    """The polynomials in some variables; it knows the factors of all denominators."""
+    """The ring of polynomials in some variables, with a list of the factors of all denominators."""
 
     def __init__(self, variables: Sequence[str], work: Work):
         self.variables, self.work = tuple(variables), work
         self.factors: list[Polynomial] = []
         self._numbers: dict[frozenset[tuple[int, int]], int] = {}
-        self.used: set[int] = set()  # the numbers of those by which something was divided since this was emptied
+        self.used: set[int] = set()  # the numbers of the factors divided by since the set was cleared
 
     def constant(self, n: int) -> Polynomial:
         """The polynomial n."""
@@ -50,7 +50,7 @@ class Ring:
         return Polynomial(self, {1 << FIELD * i: 1}, 1, 1)
 
     def factor(self, polynomial: Polynomial) -> int:
-        """The number of a factor."""
+        """The number of a factor of denominators; a new factor is added to the list."""
         key = frozenset(polynomial.terms.items())
         if key not in self._numbers:
             self._numbers[key] = len(self.factors)
@@ -81,7 +81,7 @@ class Polynomial(Arithmetic):
 
     def __add__(self, other: Polynomial) -> Polynomial:
         small, large = sorted((self, other), key=lambda p: len(p.terms))
-        self.ring.work.spend(len(small.terms) + len(large.terms) * self._length() // 4)  # a term that is copied is less
+        self.ring.work.spend(len(small.terms) + len(large.terms) * self._length() // 4)  # a copied term is cheaper
         terms = dict(large.terms)
         for monomial, c in small.terms.items():
             total = terms.get(monomial, 0) + c
@@ -92,12 +92,12 @@ class Polynomial(Arithmetic):
         return Polynomial(self.ring, terms, max(self.degree, other.degree), max(self.bits, other.bits) + 1)
 
     def _length(self) -> int:
-        """The price of a number of its length."""
+        """The relative cost of an operation with its coefficients."""
         return 1 + self.bits // 512
 
     def __mul__(self, other: Polynomial) -> Polynomial:
         small, large = sorted((self.terms, other.terms), key=len)
-        # A product of long numbers is more work, as is one of monomials in many variables.
+        # Products of long numbers, and of monomials in many variables, cost more.
         price = 1 + (self.bits + other.bits) // 512 + len(self.ring.variables) // 64
         self.ring.work.spend(1 + len(small) * len(large) * price)
         terms: dict[int, int] = {}
@@ -121,13 +121,13 @@ class Polynomial(Arithmetic):
         return found
 
     def times(self, n: int) -> Polynomial:
-        """A multiple of it; n is not 0."""
+        """The polynomial times n ≠ 0."""
         self.ring.work.spend(len(self.terms) * (self._length() + n.bit_length() // 512))
         terms = self.terms if n == 1 else {monomial: n * c for monomial, c in self.terms.items()}
         return Polynomial(self.ring, terms, self.degree, self.bits + n.bit_length())
 
     def split(self) -> tuple[int, list[Polynomial]]:
-        """An integer and polynomials, of which it is the product: variables that divide it, and a primitive rest."""
+        """A factorisation: an integer, the variables that divide the polynomial, and a primitive rest."""
         self.ring.work.spend(len(self.terms) * (1 + len(self.ring.variables) // 8))
         monomials = list(self.terms)
         least = [min(m >> FIELD * i & 0xFFFF for m in monomials) for i in range(len(self.ring.variables))]
@@ -151,7 +151,7 @@ class Quotient(Arithmetic):
         self.numerator, self.scale, self.factors = numerator, scale, factors
 
     def _over(self, scale: int, factors: dict[int, int]) -> Polynomial:
-        """The numerator over another denominator, which this one divides."""
+        """The numerator over a denominator that is a multiple of its own."""
         known, result = self.numerator.ring.factors, self.numerator.times(scale // self.scale)
         for i, power in factors.items():
             for _ in range(power - self.factors.get(i, 0)):
@@ -181,7 +181,7 @@ class Quotient(Arithmetic):
         return Quotient(self.numerator**power, self.scale**power, {i: e * power for i, e in self.factors.items()})
 
     def inverse(self) -> Quotient:
-        """1 over it."""
+        """The reciprocal."""
         if not self.numerator.terms:
             raise Rejected("a statement divides by 0")
         ring, above = self.numerator.ring, self.numerator.ring.constant(self.scale)
@@ -196,7 +196,7 @@ class Quotient(Arithmetic):
 
 
 def _powers(join: Callable[[int, int], int], a: dict[int, int], b: dict[int, int]) -> dict[int, int]:
-    """The powers of the factors of two denominators, joined."""
+    """The powers of the factors of two denominators, combined by `join`."""
     if not all((a, b)):
         return a or b
     return {i: join(a.get(i, 0), b.get(i, 0)) for i in (*a, *(i for i in b if i not in a))}

@@ -1,4 +1,4 @@
-"""Rational functions of the variables of a ring: at a point, with others put in, differentiated, and linear systems."""
+"""Rational functions of the variables of a ring: values, substitution, derivatives, and linear systems."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from .linear import dot
 from .polynomial import FIELD, Polynomial, Quotient
 from .trees import bounded, rational
 
-#: Of a linear system.
+#: The most rows of a linear system.
 MOST_ROWS = 4
 
 
 def number_at(x: Quotient, point: Mapping[str, Any], where: str) -> Fraction:
-    """A rational function at a point; raises Rejected where it has no value, or the point has none for a variable."""
+    """The value of a rational function at a point; raises Rejected at a pole, or if a variable has no value."""
     ring = x.numerator.ring
 
     def number(of: Polynomial) -> Fraction:
@@ -40,7 +40,7 @@ def number_at(x: Quotient, point: Mapping[str, Any], where: str) -> Fraction:
 
 
 def placed(x: Quotient, places: Mapping[str, Quotient]) -> Quotient:
-    """A rational function with others in the place of variables."""
+    """A rational function with others substituted for variables."""
     ring, own = x.numerator.ring, x.numerator.ring.names()
 
     def image(of: Polynomial) -> Quotient:
@@ -53,7 +53,7 @@ def placed(x: Quotient, places: Mapping[str, Quotient]) -> Quotient:
 
 
 def with_powers(of: Polynomial, power: Callable[[str, int], Quotient]) -> Quotient:
-    """A polynomial with something in the place of each power of a variable."""
+    """A polynomial with `power(name, exponent)` substituted for each power of a variable."""
     ring = of.ring
     result = ring.number(Fraction(0))
     for monomial, c in of.terms.items():
@@ -66,7 +66,7 @@ def with_powers(of: Polynomial, power: Callable[[str, int], Quotient]) -> Quotie
 
 
 def rate(x: Quotient, move: Mapping[str, Quotient]) -> Quotient:
-    """The derivative of a rational function where variables move at these rates."""
+    """The derivative of a rational function for these rates of the variables."""
     ring = x.numerator.ring
 
     def derivative(of: Polynomial) -> Quotient:
@@ -104,13 +104,13 @@ def solved(matrix: Sequence[Quotient], right: Sequence[Quotient], where: str) ->
 
 
 def determinant(rows: Sequence[Sequence[Quotient]], one: Quotient) -> Quotient:
-    """Up to its sign, which depends on the size alone."""
+    """The determinant, up to a sign that depends on the size alone."""
     found: Quotient = dot(rows[-1], cofactors(rows[:-1], one)) if rows else one
     return found
 
 
 def cofactors(rows: Sequence[Sequence[Quotient]], one: Quotient) -> list[Quotient]:
-    """Those of a row below these, up to one sign for all."""
+    """The cofactors of a row added below these rows, up to a common sign."""
     left_out = [[[*row[:i], *row[i + 1 :]] for row in rows] for i in range(len(rows) + 1)]
     minors = [determinant(minor, one) for minor in left_out]
     return [-x if i % 2 else x for i, x in enumerate(minors)]

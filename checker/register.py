@@ -1,38 +1,38 @@
-"""Certificates of kind register-claim: the statements of one claim that are algebra, and exact counterexamples.
+"""Certificates of kind register-claim: the algebraic statements of one claim, and exact counterexamples.
 
 A statement is a list of equations left = right between trees (trees.py), decided in an algebra:
 
-quotient  variables and relations, polynomials that vanish by hypothesis.  The numerator of left - right is formed here;
-          it must be Σ cofactor · relation, with the cofactors of the file.  Then left = right wherever the relations
-          hold and no denominator vanishes.  A rational point where that is so is given: such points exist.
-          A statement may define names for what occurs often in it, each by those before.
+quotient  variables, and relations: polynomials that vanish by hypothesis.  The checker computes the numerator of
+          left - right; it must be Σ cofactor · relation, with the cofactors of the file.  Then left = right wherever
+          the relations hold and no denominator vanishes.  A rational point of the file shows that such points exist.
+          A statement may define names for frequent subexpressions, each from those before.
 words     letters for matrices, parameters for numbers, and rules for the products of two letters.  left - right becomes
-          0 by the rules.  Then left = right for all matrices of any size for which the rules hold.  Matrices for which
-          they do, and for which the letters are transposes of one another as it is said, are given.
-traces    the same, and a statement says that tr left = tr right.
+          0 by the rules.  Then left = right for all matrices of any size that satisfy the rules.  The file gives
+          matrices that satisfy the rules and the transposes of the algebra.
+traces    the same, for statements tr left = tr right.
 
-Trees of statements in words and traces may have names of the derivation (derivation.py), which makes what they
-stand for from premises.
+Trees of statements in words and traces may have names of the derivation (derivation.py), which derives their values
+from premises.
 
-A comparison says that numbers at a point are less than others, equal or not; a printed one may be refuted: it fails
-there.  A hypothesis is such relations, too; they must hold at every point of the certificate that has values for their
-names, and there must be one.
+A comparison states relations <, ≤, = or ≠ between numbers at a point; a printed comparison may be refuted: it fails
+there.  A hypothesis states such relations, too; they must hold at every point of the certificate that has values for
+their names, and there must be such a point.
 
-A count is such relations between the numbers of solutions that equations have (roots.py), which hold; or, for one that
-is printed and false, do not.
+A count states such relations between the numbers of solutions of equations (roots.py).  They hold, or they fail if the
+count is printed and false.
 
-A zero is a solution of equations, one and no other within a distance of a point (zeros.py).
+A zero is a solution of equations that is unique within a distance of a point (zeros.py).
 
-A counterexample is a point, or matrices, at which the relations or rules and the hypotheses hold, the printed
-statements it refutes fail, and the corrected ones with which it agrees hold; if it has a value for one name of a
-hypothesis, it has one for each.
+A counterexample is a point, or matrices.  The relations or rules and the hypotheses hold there, the printed statements
+that it refutes fail, and the corrected statements with which it agrees hold.  If it has a value for one name of a
+hypothesis, it has values for all its names.
 
-It rests on other certificates, by their digests, that of a claim after its id, and on those of the claims that it uses:
-they must be accepted, too.  By its glossary (formulas.py) what is printed and what is corrected are read: each equation
-that is not in words must be a statement of that role (meaning.py).  The verdict must be what is decided: `holds`, if no
-printed statement fails; `corrected` or `conditional`, if one does, and a corrected one holds, or one under a condition;
-else `refuted`.  It must be `open` where all that is printed, or corrected, has one expression on both sides or is a
-relation that it supposes.  The sentences are not judged: they are what else the claim says.
+A certificate rests on others, by their digests (for a claim, id and digest), and on those of the claims that it uses:
+they must be accepted, too.  The glossary (formulas.py) gives a meaning to the printed and the corrected formula: each
+equation without words must be a statement of that role (meaning.py).  The verdict must follow from what is decided:
+`holds`, if no printed statement fails; `corrected` or `conditional`, if one fails, and a corrected statement holds, or
+one under a condition; otherwise `refuted`.  It must be `open` if all printed, or all corrected, statements have one
+expression on both sides or are relations of the algebra.  The sentences, the rest of the claim, are not checked.
 """
 
 import json
@@ -58,15 +58,15 @@ VERDICTS = ("holds", "corrected", "conditional", "refuted", "settled", "definiti
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
 STATED = ("printed", "corrected", "under")
 SENTENCES = (*ROLES, "hypothesis", "said", "inference")
-#: Letters of the whole, five times those of the largest of the register.
+#: The most letters of a certificate: five times the largest of the register.
 MOST_OF_ALL = 1_000_000
 Value = Fraction | Matrix
-#: What may stand between two numbers.
+#: The relations of a comparison.
 COMPARED = ("<", "<=", "=", "!=")
 
 
 def statement(data: dict[str, Any]) -> str:
-    """What was checked, counted, and what was not."""
+    """The numbers of checked items of each kind, and of unchecked sentences."""
     proved = [one for one in data["statements"] if "refuted" not in one]
     words = sum(data["algebras"][one["algebra"]]["kind"] != "quotient" for one in proved)
     failing = sum(map(meaning.is_false, said(data)))
@@ -94,17 +94,17 @@ def statement(data: dict[str, Any]) -> str:
 
 
 class Undecided(Rejected):
-    """What is stated decides nothing, so that it gives no verdict but `open`."""
+    """The statements decide nothing: the only possible verdict is `open`."""
 
 
 def said(data: dict[str, Any], *without: str) -> list[dict[str, Any]]:
-    """All that is decided, but for some parts."""
+    """All decided items, except those of some parts."""
     parts = ("statements", "comparisons", "counts", "zeros")
     return [one for name in parts if name not in without for one in data[name]]
 
 
 def check_verdict(data: dict[str, Any]) -> None:
-    """Raises Rejected unless what is decided gives the verdict, in so far as it is no sentence."""
+    """Raises Rejected unless the verdict follows from the decided items and the roles of the sentences."""
     decided = [*said(data), *data["rests"], *data["sentences"]]
     roles = {one["role"] for one in decided}
     false = any(map(meaning.is_false, decided))
@@ -125,13 +125,13 @@ def check_verdict(data: dict[str, Any]) -> None:
 
 
 def check_corrected(data: Any, where: str) -> None:
-    """Raises Rejected unless this is a text, or nothing."""
+    """Raises Rejected unless this is a text or None."""
     if data is not None:
         text(data, where)
 
 
 def check_algebra(data: Any, where: str) -> None:
-    """Raises Rejected unless this is an algebra, which says nothing of other letters, or twice of one."""
+    """Raises Rejected unless this is an algebra, without unknown letters, double rules or double transposes."""
     kind = data.get("kind") if isinstance(data, dict) else None
     check_shape(kind, ("quotient", "words", "traces"), f"the kind of {where}")
     check_shape(data, QUOTIENT if kind == "quotient" else WORDS, where)
@@ -149,7 +149,7 @@ def names_of(algebra: Mapping[str, Any]) -> list[str]:
 
 
 def check_point(data: Any, where: str) -> None:
-    """Raises Rejected unless names have values: numbers, or lists of rows of them, of one length."""
+    """Raises Rejected unless names have values: numbers, or matrices as lists of rows of equal length."""
     if not isinstance(data, dict) or len(data) > MOST:
         raise Rejected(f"{where} must be an object of values")
     for name, entry in data.items():
@@ -169,7 +169,7 @@ WORDS = {
     "kind": anything, "letters": names, "parameters": names,
     "transposes": [(check_name, check_tree)], "rules": [(check_name, check_name, check_tree)],
 }  # fmt: skip
-#: What the numbers of a part count.
+#: The list that an index of an item refers to.
 COUNTED = {"algebra": "algebras", "point": "points", "refuted": "counterexamples"}
 STATEMENT = SAID | SIDES | {
     "algebra": NUMBER, "definitions?": DEFINITIONS, "refuted?": NUMBER, "point?": NUMBER, "cofactors?": [[check_tree]],
@@ -200,8 +200,8 @@ FORM = HEAD | {
 
 
 def check_form(data: dict[str, Any]) -> None:
-    """Raises Rejected unless every part is there, in its form, with names that are known there."""
-    with suppress(RecursionError):  # which is told of later
+    """Raises Rejected unless every part is present, in its form, with known names only."""
+    with suppress(RecursionError):  # reported later
         if len(json.dumps(data)) > MOST_OF_ALL:
             raise Rejected(f"the certificate has more than {MOST_OF_ALL} letters")
     check_shape(data, FORM)
@@ -230,7 +230,7 @@ def check_form(data: dict[str, Any]) -> None:
 
 
 def check_numbers(data: dict[str, Any]) -> None:
-    """Raises Rejected where a part has the number of what is not there, or one of what it refutes twice."""
+    """Raises Rejected if an index is out of range, or a counterexample has an index twice."""
     for part in ("derivation", "statements", "comparisons", "counts", "zeros"):
         for i, one in enumerate(data[part]):
             for name, of in COUNTED.items():
@@ -244,7 +244,7 @@ def check_numbers(data: dict[str, Any]) -> None:
 
 
 def check_statement(one: dict[str, Any], algebra: Mapping[str, Any], made: Collection[str], where: str) -> None:
-    """Raises Rejected unless a statement has what its algebra needs, and gives no name a second meaning."""
+    """Raises Rejected unless a statement has the keys that its algebra needs, and defines no name twice."""
     proved, quotient = "refuted" not in one, algebra["kind"] == "quotient"
     if ("point" in one) is not proved or ("cofactors" in one) is not (proved and quotient):
         raise Rejected(f"{where} must have a point, and cofactors in a quotient, just where it is proved")
@@ -255,14 +255,14 @@ def check_statement(one: dict[str, Any], algebra: Mapping[str, Any], made: Colle
 
 
 def check_kinds(algebra: Mapping[str, Any], point: Mapping[str, Any]) -> None:
-    """Raises Rejected where a letter of an algebra is no matrix at a point, or another name is one."""
+    """Raises Rejected if a letter of an algebra is a number at a point, or another name is a matrix."""
     for name in point.keys() & names_of(algebra):
         if isinstance(point[name], list) is not (name in algebra.get("letters", ())):
             raise Rejected(f"a point has a matrix where a number must stand, or a number for a matrix: {name}")
 
 
 def points_of(data: Mapping[str, Any]) -> list[Any]:
-    """All points, those of counterexamples among them."""
+    """All points, including those of counterexamples."""
     return [*data["points"], *(one["point"] for one in data["counterexamples"])]
 
 
@@ -272,7 +272,7 @@ def equations(data: Mapping[str, Any]) -> list[Any]:
 
 
 def check(data: dict[str, Any]) -> dict[str, str]:
-    """Raises Rejected unless every statement is proved and every counterexample is one; returns the counts."""
+    """Raises Rejected unless every statement is proved and every counterexample valid; returns the counts."""
     check_verdict(data)
     work = Work()
     work.spend(evaluations(data))
@@ -286,7 +286,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
     supposed: set[int] = set()
     for i, one in enumerate(data["statements"]):
         decided_in, (differences, _) = algebras[one["algebra"]], deciding[one["algebra"]].stated(one)
-        if "refuted" in one:  # its names have a meaning there
+        if "refuted" in one:  # `stated` has checked its names
             continue
         algebra, point, where = data["algebras"][one["algebra"]], points[one["point"]], f"statement {i}"
         if isinstance(decided_in, Quotients):
@@ -331,7 +331,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
 
 
 def read(data: Mapping[str, Any], work: Work) -> tuple[list[Algebra | Quotients], list[meaning.Comparer]]:
-    """The algebras of a certificate, and what compares their equations."""
+    """The algebras of a certificate, and a comparer of equations for each."""
     algebras = [
         quotients(one, Ring([*one["variables"], ROOT], work)) if one["kind"] == "quotient" else Algebra(one, work)
         for one in data["algebras"]
@@ -340,7 +340,7 @@ def read(data: Mapping[str, Any], work: Work) -> tuple[list[Algebra | Quotients]
 
 
 def evaluations(data: dict[str, Any]) -> int:
-    """The parts of trees that are evaluated at points, those of the names that derivations make among them."""
+    """The number of parts of trees evaluated at points, including the trees of derived names."""
     values = {name: size(tree) for name, tree in derivation.valued(data["derivation"]).items()}
 
     def parts(one: Mapping[str, Any]) -> int:
@@ -358,7 +358,7 @@ def evaluations(data: dict[str, Any]) -> int:
 
 
 def check_identity(numerators: Sequence[Polynomial], cofactors: Sequence[Any], ring: Quotients, where: str) -> bool:
-    """Each numerator of left - right is Σ cofactor · relation; returns whether each is but one of the relations."""
+    """Raises Rejected unless each numerator is Σ cofactor · relation; returns whether each is merely a relation."""
     sized(cofactors, len(numerators), f"the cofactors of {where}")
     for numerator, own in zip(numerators, cofactors, strict=True):
         if not ring.vanishes(numerator, own, where):
@@ -367,7 +367,7 @@ def check_identity(numerators: Sequence[Polynomial], cofactors: Sequence[Any], r
 
 
 def entries(data: dict[str, Any]) -> dict[str, Value]:
-    """The values of a point."""
+    """The values of a point, by name."""
     return {
         name: Matrix([[Fraction(x) for x in row] for row in entry]) if isinstance(entry, list) else Fraction(entry)
         for name, entry in data.items()
@@ -375,7 +375,7 @@ def entries(data: dict[str, Any]) -> dict[str, Value]:
 
 
 def at(tree: Any, point: Mapping[str, Value], values: Mapping[str, Any], where: str) -> Value:
-    """The value of a tree at a point; `values`: the trees of what derivations make."""
+    """The value of a tree at a point; `values`: the trees of derived names."""
     try:
         made = {name: value(values[name], point, Fraction) for name in names_in(tree) & values.keys()}
         found: Value = value(tree, {**point, **made}, Fraction)
@@ -391,7 +391,7 @@ def holds(
     values: Mapping[str, Any],
     where: str,
 ) -> bool:
-    """Whether left = right at a point, in every entry; or whether the traces are equal."""
+    """Whether left = right at a point, in every entry; in an algebra of traces, whether the traces are equal."""
     point = dict(point)
     for name, tree in one.get("definitions", []):
         point[name] = at(tree, point, values, where)
@@ -402,7 +402,7 @@ def holds(
 def compared(
     relations: Sequence[Any], point: Mapping[str, Value], values: Mapping[str, Any], where: str, traces: bool = False
 ) -> bool:
-    """Whether all relations hold at a point; of matrices, whether they are equal or not."""
+    """Whether all relations hold at a point; for matrices only = and != are allowed."""
     found = []
     for relation, left, right in relations:
         a, b = at(left, point, values, where), at(right, point, values, where)
@@ -414,15 +414,15 @@ def compared(
             raise Rejected(f"{where} says which of two matrices is less")
         else:
             found.append(a < b or (a == b and relation == "<="))
-    return all(found)  # each was looked at: none has a denominator that vanishes
+    return all(found)  # all were evaluated: no denominator vanishes
 
 
 def check_hypothesis(
     one: dict[str, Any], points: Sequence[Mapping[str, Value]], contradicting: Sequence[Mapping[str, Value]], where: str
 ) -> None:
-    """Raises Rejected unless it holds at every point that has values for its names, and there is one.
+    """Raises Rejected unless a hypothesis holds at every point with values for its names, and there is such a point.
 
-    A counterexample that has a value for one of them must have one for each.
+    A counterexample with a value for one of the names must have values for all.
     """
     names = set().union(*(names_in(tree) for relation in one["relations"] for tree in relation[1:]))
     tested = [point for point in points if names <= point.keys()]
@@ -436,7 +436,7 @@ def check_hypothesis(
 
 
 def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Any], where: str, whole: bool) -> None:
-    """What the algebra assumes is true at the point; of letters that it names, unless it must name the `whole`."""
+    """Raises Rejected unless an algebra's assumptions hold at a point; without `whole`, those among its letters."""
     if whole and not {*names_of(algebra)} <= point.keys():
         raise Rejected(f"{where} has a point without a value for every variable")
     if algebra["kind"] == "quotient":
@@ -451,7 +451,7 @@ def check_hypotheses(algebra: dict[str, Any], point: Mapping[str, Any], where: s
 
 
 def check_satisfiable(algebra: dict[str, Any], points: Sequence[Mapping[str, Value]], where: str) -> None:
-    """Raises Rejected unless what an algebra of words assumes is true at a point that is given."""
+    """Raises Rejected unless the assumptions of an algebra of words hold at one of the points."""
     for point in points:
         with suppress(Rejected):
             return check_hypotheses(algebra, point, where, whole=True)
@@ -459,7 +459,7 @@ def check_satisfiable(algebra: dict[str, Any], points: Sequence[Mapping[str, Val
 
 
 def check_counterexample(one: dict[str, Any], i: int, data: dict[str, Any], values: Mapping[str, Any]) -> None:
-    """The hypotheses hold there, what it refutes fails, and what is correct holds."""
+    """Raises Rejected unless the hypotheses hold, the refuted statements fail, and those it agrees with hold."""
     where, point = f"counterexample {i}", entries(one["point"])
 
     def true(number: int) -> bool:

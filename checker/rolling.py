@@ -1,17 +1,17 @@
-"""The continuous ball, and a proved step of it in time.
+"""The continuous ball, and a rigorous time step.
 
-With I = diag(J2 + J3, J3 + J1, J1 + J2), Λ = I + D, B = Λ - Dγγᵀ and ω = B⁻¹K, |γ| = 1, it is
+With I = diag(J2 + J3, J3 + J1, J1 + J2), Λ = I + D, B = Λ - Dγγᵀ and ω = B⁻¹K, |γ| = 1, the equations of motion are
     K′ = K × ω,  γ′ = γ × ω;  |γ|, |K|, ⟨K, γ⟩ and H = ½⟨K, ω⟩ are integrals,
-for the derivative of H is ⟨ω, K′⟩ + D⟨γ, ω⟩⟨γ′, ω⟩ = 0.  With z = Λ⁻¹v, B⁻¹v = z + D⟨γ, z⟩/⟨γ, IΛ⁻¹γ⟩·Λ⁻¹γ; so ω is
-also evaluated where |γ| is not 1: it depends on γ/|γ| alone, and the integrals are integrals there, too.
+as the derivative of H is ⟨ω, K′⟩ + D⟨γ, ω⟩⟨γ′, ω⟩ = 0.  With z = Λ⁻¹v, B⁻¹v = z + D⟨γ, z⟩/⟨γ, IΛ⁻¹γ⟩·Λ⁻¹γ.  This
+formula also defines ω for |γ| ≠ 1: ω depends on γ only by γ/|γ|, and the integrals are integrals there, too.
 
 A step.  p(s), 0 ≤ s ≤ 1, is a polynomial near the solutions x(t₀ + hs); any polynomial will do.  Errors are measured by
 |e|² = Σ(e_i/w_i)², w the weights; so let A be f′ with the entries a_ij w_j/w_i.  Let |p′ - h f(p)| ≤ d.  In a tube
-about a part of p let μ be the greatest sum in a row of ½(A + Aᵀ), with absolute values beside the diagonal, for all
-means A of such f′: f(x) - f(p) = A(x - p) for one of them, and ⟨e, Ae⟩ ≤ μ|e|² (Gershgorin).  So a solution that starts
-within e of p(0) stays within (e + d)·exp(Σ h max(μ, 0) over the parts) of p (Gronwall), if this is less than the radius
-of the tube, which the solution then cannot have left.  What is antisymmetric in f′ counts for nothing: so f′e is taken
-without (K, γ) = e in K × ω and γ × ω, the weights being the same in a vector.
+about a part of p let μ be the greatest row sum of ½(A + Aᵀ), with absolute values off the diagonal, over all means A of
+such f′: f(x) - f(p) = A(x - p) for one of them, and ⟨e, Ae⟩ ≤ μ|e|² (Gershgorin).  So a solution that starts within
+|e| ≤ e₀ of p(0) stays within (e₀ + d)·exp(Σ h max(μ, 0) over the parts) of p (Gronwall), if this is less than the
+radius of the tube: then the solution cannot have left the tube.  Antisymmetric parts of f′ do not change μ.  So f′e
+omits the terms e_K × ω and e_γ × ω, which are antisymmetric, as the weights are equal within each vector.
 """
 
 from collections.abc import Sequence
@@ -26,17 +26,17 @@ from .interval import Interval, Rejected
 from .linear import cross, dot, units
 from .taylor import Model, derivatives
 
-#: A step is this part of where the series seems to end; its parts with one μ each, with so many bits; n = 2^ROOTS.
+#: A step is the estimated convergence radius / SHARE; it has PARTS parts with one μ each, in BITS bits; n = 2^ROOTS.
 SHARE, PARTS, BITS, ROOTS = 4, 4, 64, 12
 #: The most steps · order² · bits: some minutes.
 MOST_WORK = 3_000_000_000
-#: The radius of the tube, beside the weights.
+#: The radius of the tube, in units of the weights.
 TUBE = Fraction(1, 2**14)
 
 
 @dataclass(frozen=True)
 class Rolling:
-    """The continuous ball, in intervals or models; states are K and γ in one list, of such, or of duals over them."""
+    """The continuous ball, with intervals, models, or duals of these; a state is one list of K and γ."""
 
     inertia: Sequence[Any]
     D: Any
@@ -44,7 +44,7 @@ class Rolling:
 
     @classmethod
     def of(cls, inertia: Sequence[Fraction], D: Fraction, number: Any, *rest: Any) -> Self:
-        """With the numbers that `number` makes of fractions."""
+        """The ball with its moments and D converted from fractions by `number`."""
         return cls([number(x) for x in inertia], number(D), [number(1 / (x + D)) for x in inertia], *rest)
 
     def inverse(self, gamma: Sequence[Any]) -> tuple[list[Any], Any]:
@@ -75,7 +75,7 @@ class Rolling:
         return self.turned(state, self.spin(state))
 
     def stretch(self, state: Sequence[Any]) -> list[list[Any]]:
-        """The columns of a matrix that is the derivative of the field but for an antisymmetric one."""
+        """The columns of the derivative of the field without the antisymmetric terms (e_K × ω, e_γ × ω)."""
         spins = derivatives(self.spin, state, units(len(state), state[0]))
         return [self.turned(state, w) for w in zip(*(x.slopes for x in spins), strict=True)]
 
@@ -88,13 +88,13 @@ class Rolling:
         return [x * i for x, i in zip(w, self.inertia, strict=True)]
 
     def series(self, start: Sequence[int], order: int) -> list[list[int]]:
-        """Of models: the start, and coefficients near those of the solution in the time; nothing rests on them."""
+        """The start and approximate Taylor coefficients of the solution in time; no proof depends on their accuracy."""
         return self.series_with_spin(start, order)[0]
 
     def series_with_spin(
         self, start: Sequence[int], order: int, rotor: Sequence[int] = ()
     ) -> tuple[list[list[int]], list[list[int]]]:
-        """The series, and that of ω, of a ball with a rotor where there is one."""
+        """The series of the state and of ω, optionally with a rotor."""
         state = [[x] for x in start]
         K, gamma = state[:3], state[3:]
         own = [[x[0] - y] for x, y in zip(K, rotor, strict=True)] if rotor else K
@@ -123,9 +123,9 @@ class Rolling:
 
 
 class Flow:
-    """Solutions of the continuous ball, step by step; states and times are integers, in units of 2^-bits.
+    """Enclosures of solutions of the continuous ball, step by step; states and times are integers, in units of 2^-bits.
 
-    fine, boxes: the ball in models of so many bits, and in intervals of BITS.  weights: the same in a vector.
+    fine, boxes: the ball with models of `bits` bits, and with intervals of BITS.  weights: equal within each vector.
     """
 
     def __init__(self, fine: Rolling, boxes: Rolling, weights: Sequence[Fraction], order: int):
@@ -134,7 +134,7 @@ class Flow:
         self.steps = 0
 
     def step(self, start: Sequence[int], error: Fraction, most: int) -> tuple[list[Model], int, Fraction]:
-        """A step of at most this length from all states within `error` of the start: models, its length, the error."""
+        """A step of length `most` at most from all states within `error` of the start: models, length, new error."""
         self.steps += 1
         if self.steps > MOST_STEPS:
             raise Rejected(f"the motion takes more than {MOST_STEPS} steps")
@@ -159,7 +159,7 @@ class Flow:
         return [x.wider(error * w * 2**self.bits) for x, w in zip(middle, self.weights, strict=True)], length, error
 
     def length(self, terms: Sequence[Sequence[int]]) -> int:
-        """A length of at most 1, at which the k-th terms are SHARE^-k, about; nothing rests on it."""
+        """A length, at most 1, for which the k-th terms are about SHARE^-k; no proof depends on it."""
         parts, unit = 1 << 12, 12
         for k in (self.order - 2, self.order - 1):
             for x, w in zip(terms, self.weights, strict=True):
@@ -168,7 +168,7 @@ class Flow:
         return parts << self.bits - unit
 
     def defect(self, middle: Sequence[Model], length: int) -> Fraction:
-        """A bound of |p′ - h f(p)|."""
+        """A bound for |p′ - h f(p)|."""
         h, bound = Model([length], 0, self.bits), Fraction(0)
         for p, rate, w in zip(middle, self.fine.field(middle), self.weights, strict=True):
             off = rate * h - Model([k * x for k, x in enumerate(p.terms)][1:], 0, self.bits)
@@ -176,7 +176,7 @@ class Flow:
         return bound / 2**self.bits
 
     def growth(self, middle: Sequence[Model], length: int) -> Fraction:
-        """A bound of exp(Σ h max(μ, 0)): by exp(x) ≤ (1 - x/n)⁻ⁿ, 0 ≤ x < n."""
+        """A bound for exp(Σ h max(μ, 0)), by exp(x) ≤ (1 - x/n)⁻ⁿ, 0 ≤ x < n."""
         total = Fraction(0)
         rough = [x.coarser(self.order, BITS) for x in middle]
         for part in range(PARTS):
@@ -200,5 +200,5 @@ class Flow:
 
 
 def newest(x: Sequence[int], y: Sequence[int]) -> int:
-    """The last coefficient of the product of two series of as many terms."""
+    """The last coefficient of the product of two series of equal length."""
     return sum(map(mul, x, reversed(y)))

@@ -1,23 +1,23 @@
-"""Counts: how many solutions equations have that are homogeneous in their unknowns, as points of projective space.
+"""Counts: the number of solutions, in projective space, of equations that are homogeneous in their unknowns.
 
-A count has unknowns, equations, and in `nonzero` what must vanish at no solution; a point has a number for every other
-name.  Its proof has
+A count has unknowns, equations, and `nonzero`: expressions that must not vanish at any solution; a point has a number
+for every other name.  Its proof has
 
 chart         a regular matrix A: the unknowns are A y, y = (y0, ..., yn); t is yn where y0 is 1
-combinations  lists of polynomials in y, as many as equations; they stand for Σ polynomial · equation, which is 0 at
+combinations  lists of polynomials in y, one for each equation; a list denotes Σ polynomial · equation, which is 0 at
               every solution
 
-1. For i = n, ..., 1 one of the combinations is a multiple of a power of yi, and not 0, where y0 and the y after yi are
-   0.  So a solution with y0 = 0 would have yn = 0, ..., y1 = 0: there is none, and y0 can be 1.
+1. For i = n, ..., 1 one of the combinations is a non-zero multiple of a power of yi where y0 = 0 and all y after yi are
+   0.  So a solution with y0 = 0 would have yn = 0, ..., y1 = 0: there is none, and y0 can be set to 1.
 2. The first n combinations are linear in y1, ..., y(n-1): they are M(t)(1, y1, ..., y(n-1)), where M is a matrix of
-   polynomials.  So e(t) = det M(t), which is not the polynomial 0, is 0 at every solution.
-3. Let Y be the cofactors of the last row of M.  Y0 and e have no common root: at each root of e the rows before the
-   last vanish on one vector only, up to a factor, so that it has one solution at most, y = (Y, t Y0).
-4. It has one: the equations at that y, polynomials in t, are divisible by e.
+   polynomials.  So e(t) = det M(t), which is not the zero polynomial, vanishes at every solution.
+3. Let Y be the cofactors of the last row of M.  Y0 and e have no common root: at each root of e the common kernel of
+   the other rows has dimension 1, so that the root has at most one solution, y = (Y, t Y0).
+4. The root has a solution: the equations at that y, polynomials in t, are divisible by e.
 
-So there are as many solutions as e has different roots, and as many real ones as it has real roots, which Sturm's
-theorem counts.  By 3 and 4 the local ring of a solution is Q[t]/(e) at its root: their multiplicities are equal.  What
-must not vanish has, at that y, no common root with e.
+So the number of solutions is the number of different roots of e, and the number of real solutions that of real roots,
+which Sturm's theorem counts.  By 3 and 4 the local ring of a solution is Q[t]/(e) at its root: their multiplicities are
+equal.  The expressions of `nonzero` have, at that y, no common root with e.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -36,17 +36,17 @@ from .polynomial import FIELD, Polynomial, Quotient, Ring, Work
 from .rational import cofactors, determinant
 from .trees import names_in, rational, value
 
-#: What is found: different solutions, and each as often as its multiplicity.
+#: The results of a count: different solutions, and solutions with multiplicity.
 NUMBERS = ("real", "complex", "real_with_multiplicity", "complex_with_multiplicity")
 MOST_UNKNOWNS = 5
-#: The integer coefficients of a polynomial in t: that of 1 first, the last not 0.
+#: The integer coefficients of a polynomial in t, from the constant to the leading one, which is not 0.
 Dense = list[int]
 
 
 def check_form(
     one: dict[str, Any], algebra: Mapping[str, Any], point: Mapping[str, Any], made: Collection[str], where: str
 ) -> None:
-    """Raises Rejected unless a count is of what there is; its relations are looked at elsewhere."""
+    """Raises Rejected unless the names and sizes of a count are valid; its relations are checked elsewhere."""
     size = len(one["unknowns"])
     count(size, 2, MOST_UNKNOWNS, f"the number of unknowns of {where}")
     numbers = [name for name, entry in point.items() if not isinstance(entry, list)]
@@ -78,7 +78,7 @@ def solutions(
         raise Rejected(f"{where} has a chart that is not regular")
 
     def forms(y: Sequence[Quotient]) -> list[Quotient]:
-        """The equations, and what must not vanish, where the unknowns are A y."""
+        """The equations and the expressions of `nonzero`, for the unknowns A y."""
         names = known | {x: dot(row, y) for x, row in zip(one["unknowns"], chart, strict=True)}
         made = names_in([0, *trees]) & values.keys()
         names |= {name: value(values[name], names, ring.number) for name in made}
@@ -86,7 +86,7 @@ def solutions(
 
     y, last = ring.names(), len(one["equations"])
     found = forms([*y.values()])
-    if ring.factors:  # 1/(1/x) would come out as x, which has a root where 1/x has no value
+    if ring.factors:  # 1/(1/x) would become x, which has a root where 1/x has no value
         raise Rejected(f"{where} divides by something that is no number")
     for combination in one["combinations"]:
         factors = [value(tree, y, ring.number) for tree in combination]
@@ -94,7 +94,7 @@ def solutions(
     if any(f.factors or len({sum(_exponents(m, size)) for m in f.numerator.terms}) > 1 for f in found):
         raise Rejected(f"{where} has what is no homogeneous polynomial")
     combinations = [f.numerator for f in found[len(trees) :]]
-    for i in range(1, size):  # another one for each, so that there are n at least
+    for i in range(1, size):  # each i needs a different one, so there are at least n
         if not any(_is_power_at_infinity(combination, i, size) for combination in combinations):
             raise Rejected(f"{where} may have solutions with y0 = 0: no combination is a power of y{i} there")
     rows = [_row(combination, ring, where) for combination in combinations[: size - 1]]
@@ -121,13 +121,13 @@ def _exponents(monomial: int, size: int) -> list[int]:
 
 
 def _is_power_at_infinity(form: Polynomial, i: int, size: int) -> bool:
-    """Whether it is a multiple of a power of yi, and not 0, where y0 and all y after yi are 0."""
+    """Whether a form is a non-zero multiple of a power of yi where y0 and all y after yi are 0."""
     left = [e for e in (_exponents(m, size) for m in form.terms) if not e[0] and not any(e[i + 1 :])]
     return len(left) == 1 and sum(left[0]) == left[0][i]
 
 
 def _row(form: Polynomial, ring: Ring, where: str) -> list[Quotient]:
-    """The coefficients of 1, y1, ..., y(n-1), polynomials in t, where y0 is 1."""
+    """The coefficients of 1, y1, ..., y(n-1) for y0 = 1, polynomials in t."""
     size = len(ring.variables)
     row: list[dict[int, int]] = [{} for _ in range(size - 1)]
     for monomial, c in form.terms.items():
@@ -139,7 +139,7 @@ def _row(form: Polynomial, ring: Ring, where: str) -> list[Quotient]:
 
 
 def _dense(of: Quotient) -> Dense:
-    """A polynomial in t, the last variable, with its denominator left out."""
+    """The coefficients of a polynomial in t, the last variable, without its denominator."""
     powers = {_exponents(m, len(of.numerator.ring.variables))[-1]: c for m, c in of.numerator.terms.items()}
     return [powers.get(k, 0) for k in range(max(powers, default=-1) + 1)]
 
@@ -148,7 +148,7 @@ def _remainder(a: Dense, b: Dense, work: Work) -> Dense:
     """A positive multiple of the remainder of a by b, without a common factor."""
     while len(a) >= len(b):
         bits = max(map(int.bit_length, a + b))
-        work.spend(len(a) * (1 + bits // 512) ** 2)  # both factors of a product are long
+        work.spend(len(a) * (1 + bits // 512) ** 2)  # both factors are long numbers
         common = gcd(a[-1], b[-1]) * (1 if b[-1] > 0 else -1)
         shifted = [0] * (len(a) - len(b)) + b
         a = [x * (b[-1] // common) - y * (a[-1] // common) for x, y in zip(a, shifted, strict=True)]
@@ -159,7 +159,7 @@ def _remainder(a: Dense, b: Dense, work: Work) -> Dense:
 
 
 def _chain(a: Dense, b: Dense, work: Work) -> list[Dense]:
-    """Euclid's algorithm with the signs of Sturm's: the last is the greatest common divisor."""
+    """The Sturm chain of a and b: Euclid's algorithm with Sturm's signs; the last is the greatest common divisor."""
     found = [a]
     while b:
         found.append(b)
@@ -168,11 +168,11 @@ def _chain(a: Dense, b: Dense, work: Work) -> list[Dense]:
 
 
 def _roots(e: Dense, work: Work) -> tuple[int, int, int, int]:
-    """The NUMBERS of the roots: one of a multiplicity m > 1 is a root of gcd(e, e') of the multiplicity m - 1."""
+    """The NUMBERS of the roots of e; a root of multiplicity m > 1 is a root of gcd(e, e') of multiplicity m - 1."""
     real, different = [], []
     while len(e) > 1:
         chain = _chain(e, [k * c for k, c in enumerate(e)][1:], work)
-        # Changes of sign below all roots less those above them: degrees that differ by an even number change neither.
+        # Sign changes at -∞ minus those at +∞; pairs whose degrees differ by an even number contribute equally to both.
         odd = [p[-1] * q[-1] for p, q in pairwise(chain) if len(p) % 2 != len(q) % 2]
         real.append(sum(1 if product > 0 else -1 for product in odd))
         different.append(len(e) - len(chain[-1]))

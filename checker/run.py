@@ -1,10 +1,10 @@
-"""Certificates of kind map-run: how far the numbers of a run of the map, in float64 or any other, are from its orbit.
+"""Certificates of kind map-run: bounds for the distance of a computed run of the map, in any precision, to its orbit.
 
-The file has the ball, the numbers of the start, and frames: the step, 𝒦, γ, and a bound for the distance of each; and
-the bits that the checker shall work with, of which it loses some two in a step, more of a heavy ball.  The orbit is
-that of step.py from 𝒦 and γ/|γ|, on the small branch.  It is enclosed step by step, each root by Newton's test near
-that of the step before, and the distances of the frames from it are compared with their bounds.  The steps keep |𝒦| and
-|γ|, so that the small branch is proved for all of them at the start; a root with |u| < 1 for all of a box is that of
+The file has the ball, the start, frames (the step, 𝒦, γ, and bounds for the distances of 𝒦 and γ), and the number of
+bits for the checker, of which it loses about two per step, more for a heavy ball.  The orbit is that of step.py from 𝒦
+and γ/|γ|, on the small branch.  It is enclosed step by step, each root by Newton's test near the root of the step
+before, and the distances of the frames from it are compared with their bounds.  The steps preserve |𝒦| and |γ|: so the
+small branch is proved for all of them at the start.  A root with |u| < 1 for all states of a box is also the root for
 the true state, which is in the box.
 """
 
@@ -27,7 +27,7 @@ FORM = HEAD | {
 
 
 def statement(data: dict[str, Any]) -> str:
-    """What is proved, with the numbers of the file."""
+    """The theorem, with the numbers of the file."""
     ball, start, last = data["ball"], data["start"], data["frames"][-1]
     return (
         f"The ball with J = ({', '.join(ball['J'])}), D = {ball['D']}, that starts with 𝒦 = "
@@ -38,7 +38,7 @@ def statement(data: dict[str, Any]) -> str:
 
 
 def check_form(data: dict[str, Any]) -> None:
-    """Raises Rejected unless all numbers are there, in their form, and the frames one after the other."""
+    """Raises Rejected unless the file has all its numbers, in their form, and the frames are in order."""
     check_shape(data, FORM)
     steps = [0, *(frame["step"] for frame in data["frames"])]
     if len(steps) == 1 or any(x >= y for x, y in pairwise(steps)):
@@ -48,7 +48,7 @@ def check_form(data: dict[str, Any]) -> None:
 
 
 def check(data: dict[str, Any]) -> dict[str, str]:
-    """Raises Rejected unless each frame is as near to the orbit as it says; returns the bounds of the last."""
+    """Raises Rejected unless each frame is proved to be within its bounds; returns the bounds of the last frame."""
     J, D = [Fraction(x) for x in data["ball"]["J"]], Fraction(data["ball"]["D"])
     K, g = ([Fraction(x) for x in data["start"][name]] for name in STATE)
     frames, steps = data["frames"], data["frames"][-1]["step"]

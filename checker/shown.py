@@ -1,4 +1,4 @@
-"""What a certificate of kind register-claim says, to be read: each tree as a formula, in plain text."""
+"""The contents of a certificate of kind register-claim as plain text, with each tree as a formula."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -7,7 +7,7 @@ from .derivation import LETTER, LETTERS
 
 
 def formula(tree: Any, inside: str = "+") -> str:
-    """A tree as text; in brackets where it stands in a product or under a power and needs them."""
+    """A tree as text; `inside`: the operation around it, which may need brackets."""
     if not isinstance(tree, list):
         text = str(tree)
         return f"({text})" if inside != "+" and (text.startswith("-") or ("/" in text and inside == "^")) else text
@@ -25,7 +25,7 @@ def formula(tree: Any, inside: str = "+") -> str:
 
 
 def definition(one: dict[str, Any]) -> str:
-    """A step of a derivation."""
+    """A step of a derivation, as text."""
     operation, of, by = one["operation"], one["of"], one["by"]
     if operation == "written":
         return f"{one['name']} = {formula(of)}"
@@ -50,7 +50,7 @@ def _place(place: Any) -> str:
 
 
 def assumed(algebra: dict[str, Any]) -> str:
-    """What an algebra takes for granted."""
+    """The assumptions of an algebra, as text: its relations, or its rules and transposes."""
     if algebra["kind"] == "quotient":
         return ", ".join(f"{formula(relation)} = 0" for relation in algebra["relations"])
     transposes = [f"{letter} transposed = {formula(image)}" for letter, image in algebra["transposes"]]
@@ -58,7 +58,7 @@ def assumed(algebra: dict[str, Any]) -> str:
 
 
 def lines(data: dict[str, Any], parts: bool = True) -> Iterator[str]:
-    """Every premise, step, statement and counterexample of an accepted certificate; and the `parts` of statements."""
+    """Every premise, step, statement and counterexample of an accepted certificate; `parts`: definitions, too."""
     for i, algebra in enumerate(data["algebras"]):
         yield f"algebra {i} ({algebra['kind']}): {assumed(algebra) or 'nothing is assumed'}"
     for one in data["derivation"]:

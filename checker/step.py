@@ -1,7 +1,7 @@
 """The step of the discrete Chaplygin ball, from its definition (Fedorov 2007, equations (5.1)-(5.3)).
 
 Definition.  J = diag(J1, J2, J3) is the mass tensor, D = m·radius².  A state is (𝒦, γ), |γ| = 1.  The rotation Ω of a
-step turns about q by the angle θ, (q₀, q) = (cos ½θ, sin ½θ·axis), and solves
+step, about q by the angle θ, (q₀, q) = (cos ½θ, sin ½θ·axis), solves
     𝒦 = M + 2D q₀(q - ⟨γ, q⟩γ),   M₁ = 2((J2 + J3) q₀q₁ + (J2 - J3) q₂q₃) and so on in cyclic order;
 the state after the step is (Ωᵀ𝒦, Ωᵀγ).
 
@@ -32,9 +32,9 @@ class Ball:
 
     @classmethod
     def within(cls, J: Sequence[Fraction], D: Fraction, radius: Fraction, bits: int, top: bool = False) -> "Ball":
-        """Every J and D within `radius` of these; raises Rejected unless J ≥ 0, I > 0 and D > 0 for all of them.
+        """All balls with J and D within `radius` of these; raises Rejected unless J ≥ 0, I > 0 and D > 0 for all.
 
-        top: whether D may be 0, too.
+        top: whether D = 0 is allowed.
         """
         if min(J) < radius:
             raise Rejected("the mass tensor J must not be negative anywhere within the radius")
@@ -51,7 +51,7 @@ class Ball:
 
 
 def check_small_branch(ball: Ball, size: Interval) -> None:
-    """Raises Rejected unless (1) has one root with |u| < 1 for |𝒦| = `size` and every |γ| = 1, and no other near it.
+    """Raises Rejected unless (1) has exactly one root with |u| < 1 for |𝒦| = `size` and every |γ| = 1.
 
     A root has ⟨u, F(u)⟩ = 0, and ⟨u, Λu - D⟨γ, u⟩γ⟩ ≥ ⟨u, Iu⟩ as |γ| = 1, D ≥ 0: so I_min|u| ≤ ½|𝒦|(1 + |u|²).  For
     x = |𝒦|/I_min < 1 this says |u| ≤ ϱ or |u| ≥ 1/ϱ, ϱ = tan(½ arcsin x) = x/(1 + √(1 - x²)) < 1.  On the ball |u| ≤ ϱ
@@ -65,13 +65,13 @@ def check_small_branch(ball: Ball, size: Interval) -> None:
             raise Rejected("|𝒦| is not less than the least moment of inertia: the small branch is not proved")
         x = size / least
         bound = x / (1 + (1 - x * x).sqrt())
-        for other in ball.inertia:  # for every pair: then also for the greatest and the least
+        for other in ball.inertia:  # for every pair, hence for the greatest and the least
             if not bound * ((other - least) / 2 + size) < least:
                 raise Rejected("|𝒦| is beyond the bound within which the small branch is proved")
 
 
 def gibbs_vector(ball: Ball, state: Pair, near: Vector) -> Vector:
-    """The root u of (1) near given numbers, enclosed; raises Rejected unless it is there and |u| < 1."""
+    """The root u of (1) near a given vector, enclosed; raises Rejected unless it is proved and |u| < 1."""
     u = newton(lambda u: residual(ball, state, u), lambda u: jacobian(ball, state, u), near)
     if not dot(u, u) < 1:
         raise Rejected("a step does not have |u| < 1")
@@ -116,7 +116,7 @@ def moved(u: Vector, state: Pair) -> Pair:
 
 
 def source(ball: Ball, state: Pair, u: Vector, vector: Pair) -> Vector:
-    """D(⟨dγ, u⟩γ + ⟨γ, u⟩dγ) + ½(1 + |u|²)d𝒦: what F(u) of (1) loses where the state changes by (d𝒦, dγ)."""
+    """D(⟨dγ, u⟩γ + ⟨γ, u⟩dγ) + ½(1 + |u|²)d𝒦: minus the derivative of F(u) in the direction (d𝒦, dγ)."""
     gamma, (dk, dg) = state[1], vector
     force = plus(times(dot(dg, u), gamma), times(dot(gamma, u), dg))
     return plus(times(ball.D, force), times((1 + dot(u, u)) / 2, dk))

@@ -1,7 +1,7 @@
-"""Functions on 0 ≤ s ≤ 1 in integers, a polynomial each and how far the function may be from it; and derivatives.
+"""Taylor models in integers: functions on 0 ≤ s ≤ 1, each a polynomial with an error bound; and automatic derivatives.
 
-The one property that everything rests on: if the functions x, y are in X, Y, then x∘y is in X∘Y, ∘ = + - *, and 1/x in
-1/X.  As |s| ≤ 1, a polynomial is at most the sum of its |coefficients|: what is cut off or rounded is added to `off`.
+All proofs rest on one property: if the functions x, y are in X, Y, then x∘y is in X∘Y for ∘ = + - *, and 1/x in 1/X.
+As |s| ≤ 1, |polynomial| is at most the sum of its |coefficients|: truncation and rounding errors are added to `off`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .interval import Arithmetic, Interval, Rejected
 
 
 class Model(Arithmetic):
-    """The functions with |x(s) - Σ c_k s^k·2^-bits| ≤ off·2^-bits for 0 ≤ s ≤ 1; a sum of n of them has n terms."""
+    """The functions with |x(s) - Σ c_k s^k·2^-bits| ≤ off·2^-bits for 0 ≤ s ≤ 1; `terms`: the integers c_k."""
 
     __slots__ = ("bits", "off", "size", "terms")
 
@@ -27,17 +27,17 @@ class Model(Arithmetic):
 
     @classmethod
     def constant(cls, x: Fraction, bits: int) -> Model:
-        """A number, as a polynomial of one term."""
+        """A constant function, as a polynomial of one term."""
         return cls.enclosing(Interval.about(x, bits))
 
     @classmethod
     def enclosing(cls, x: Interval) -> Model:
-        """The numbers of an interval."""
+        """The model of one term that contains the numbers of an interval."""
         return cls([x.point().lo], (x.width + 1) >> 1, x.bits)
 
     @property
     def most(self) -> int:
-        """A bound of |x(s)|·2^bits."""
+        """A bound for |x(s)|·2^bits."""
         return self.size + self.off
 
     def _of(self, other: Model | int) -> Model:
@@ -60,13 +60,13 @@ class Model(Arithmetic):
         else:
             a, back = self._padded(n), other._padded(n)[::-1]
             products = [sum(map(mul, a[: k + 1], back[n - 1 - k :])) for k in range(n)]
-            # The terms beyond: |a_i| by the last i of the other's.
+            # The truncated terms: |a_i| times the last i coefficients of the other.
             cut = sum(map(mul, map(abs, a[1:]), accumulate(map(abs, back))))
         cut += self.off * other.most + self.size * other.off
         return Model([x >> self.bits for x in products], n - (-cut >> self.bits), self.bits)
 
     def __rtruediv__(self, other: int) -> Model:
-        """other/x = other·r/(1 - e) with any polynomial r and e = 1 - x·r: off from other·r by |r||e|/(1 - |e|)."""
+        """other/x = other·r/(1 - e) for any polynomial r and e = 1 - x·r; 1/x is within |r||e|/(1 - |e|) of r."""
         if not self.terms[0]:
             raise Rejected("a function that is divided by is not proved to differ from 0")
         inverse = [(1 << 2 * self.bits) // self.terms[0]]
@@ -79,7 +79,7 @@ class Model(Arithmetic):
         return Model(inverse, -(-near.size * e // (one - e)), self.bits) * other
 
     def at(self, s: Interval) -> Interval:
-        """The values there, 0 ≤ s ≤ 1."""
+        """An interval of the values at s, 0 ≤ s ≤ 1."""
         found = s._of(0)
         for x in reversed(self.terms):
             found = found * s + Interval(x, x, self.bits)
@@ -91,18 +91,18 @@ class Model(Arithmetic):
         return Model([0, *(x // (k + 1) for k, x in enumerate(self.terms))], self.off + n, self.bits)
 
     def coarser(self, terms: int, bits: int) -> Model:
-        """The same functions, with fewer terms and bits."""
+        """A model that contains the same functions, with fewer terms and bits."""
         less = self.bits - bits
         cut = self.off + sum(map(abs, self.terms[terms:]))
         return Model([x >> less for x in self.terms[:terms]], terms - (-cut >> less), bits)
 
     def wider(self, units: Fraction) -> Model:
-        """All functions that are off from these by at most so many units of 2^-bits."""
+        """All functions within units·2^-bits of these."""
         return Model(self.terms, self.off + ceil(units), self.bits)
 
 
 class Dual(Arithmetic):
-    """A number, or a model, with its derivatives along some directions; a constant has no slopes."""
+    """A number or a model, with its derivatives along some directions; a constant has no slopes."""
 
     __slots__ = ("slopes", "value")
 
@@ -110,7 +110,7 @@ class Dual(Arithmetic):
         self.value, self.slopes = value, slopes
 
     def _times(self, factor: Any) -> list[Any]:
-        """The slopes, each multiplied."""
+        """The slopes times a factor."""
         return [x * factor for x in self.slopes]
 
     def __add__(self, other: Any) -> Dual:
@@ -124,7 +124,7 @@ class Dual(Arithmetic):
         return Dual(self.value * other.value, _added(other._times(self.value), self._times(other.value)))
 
     def inverse(self) -> Dual:
-        """1 over it."""
+        """The reciprocal."""
         return 1 / self
 
     def __rtruediv__(self, other: int) -> Dual:
@@ -133,13 +133,13 @@ class Dual(Arithmetic):
 
 
 def _added(a: Sequence[Any], b: Sequence[Any]) -> Sequence[Any]:
-    """Slopes, where one of the two may be those of a constant."""
+    """The sum of two lists of slopes, either of which may be empty, for a constant."""
     return [x + y for x, y in zip(a, b, strict=True)] if a and b else a or b
 
 
 def derivatives(
     of: Callable[[Sequence[Any]], Sequence[Any]], at: Sequence[Any], along: Sequence[Sequence[Any]]
 ) -> list[Dual]:
-    """What a function of several numbers gives, with its derivatives along some directions."""
+    """The values of a function of several numbers, with their derivatives along some directions."""
     found = of([Dual(x, slopes) for x, slopes in zip(at, zip(*along, strict=True), strict=True)])
     return [x if x.slopes else Dual(x.value, [0 * x.value] * len(along)) for x in found]

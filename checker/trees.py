@@ -2,8 +2,8 @@
 
     "q0"    -3    "2/5"    ["+", a, b, ...]    ["*", a, b, ...]    ["^", a, k]
 
-A number is an integer, or a quotient in quotes in lowest terms; k is an integer other than 0.  Factors stand in their
-order: they need not commute.
+A number is an integer, or a quotient in lowest terms, in quotes; k is an integer other than 0.  The order of factors
+matters: they need not commute.
 """
 
 import re
@@ -15,22 +15,22 @@ from typing import Any
 from .interval import Rejected
 from .taylor import Dual
 
-#: What a certificate may ask for, so that none takes memory or time without limit.
+#: Limits for the trees and values of a certificate, which bound time and memory.
 MOST_DEPTH, MOST_OPERANDS, MOST_POWER, MOST_BITS, MOST_BITS_OF_VALUES = 60, 20_000, 60, 1_000, 2_000
-#: Such as q0, R_+ and Omega^T; none looks like a power.
+#: The form of a name, such as q0, R_+ and Omega^T; none has the form of a power.
 _NAME = re.compile(r"[A-Za-z_]\w*(_[+-])?(\^[A-Za-z])?", re.ASCII)
 MOST_LETTERS_OF_A_NAME = 40
 _QUOTIENT = re.compile(r"-?[1-9]\d*/[1-9]\d*", re.ASCII)
 
 
 def check_name(name: Any, where: str) -> None:
-    """Raises Rejected unless this can be the name of a variable: at most 40 letters and digits, such as R_+ and R^T."""
+    """Raises Rejected unless this is a valid name of a variable: at most 40 letters and digits, such as R_+ and R^T."""
     if not isinstance(name, str) or not _is_name(name):
         raise Rejected(f"{where} has a name that is none: {name!a:.40}")
 
 
 def rational(x: Any, where: str) -> Fraction:
-    """A number of a tree, which can be written in one way only."""
+    """The number at a leaf of a tree, which must have its unique form."""
     if type(x) is int and x.bit_length() <= MOST_BITS:
         return Fraction(x)
     if isinstance(x, str) and len(x) <= MOST_BITS and _QUOTIENT.fullmatch(x):
@@ -41,17 +41,17 @@ def rational(x: Any, where: str) -> Fraction:
 
 
 def bits(x: Fraction | int) -> int:
-    """The bits of its numerator or of its denominator."""
+    """The bits of the numerator or of the denominator, whichever has more."""
     return max(x.numerator.bit_length(), x.denominator.bit_length())
 
 
 def plain(x: Fraction) -> Fraction | int:
-    """The same, as an integer where it is one, which is faster; nothing is divided by it."""
+    """The number, as an int if it is an integer, which is faster; only for numbers that are not divisors."""
     return x.numerator if x.denominator == 1 else x
 
 
 def bounded(x: Any) -> Any:
-    """The same; raises Rejected for a rational number, or an interval, that grew without measure."""
+    """The value itself; raises Rejected for a rational number, or a dual of an interval, that is too large."""
     if isinstance(x, Fraction | int):
         size = bits(x)
     else:
@@ -80,15 +80,15 @@ def check_tree(tree: Any, where: str, depth: int = 0) -> None:
 
 
 def check_known(trees: Sequence[Any], names: Collection[str], where: str) -> None:
-    """Raises Rejected where expressions have other names than these."""
+    """Raises Rejected if expressions have other names than these."""
     if other := sorted(name for name in names_in([0, *trees]) if name not in names):
         raise Rejected(f"{where} has the name {other[0]!a:.40}, which is not among its variables")
 
 
 def value(tree: Any, names: Mapping[str, Any], number: Callable[[Fraction], Any]) -> Any:
-    """The value of a tree in any arithmetic with + * **: of its names, and of its rational numbers.
+    """The value of a tree in any arithmetic with + * **; `names`: values of names; `number`: converts rational numbers.
 
-    Raises Rejected for a name that has no value: so each tree has no names but those that are known where it stands.
+    Raises Rejected for a name without a value: so a tree can only have names that are known in its place.
     """
     if isinstance(tree, str) and tree in names:
         return names[tree]
@@ -102,7 +102,7 @@ def value(tree: Any, names: Mapping[str, Any], number: Callable[[Fraction], Any]
 
 
 def _joined(operation: Callable[[Any, Any], Any], values: list[Any]) -> Any:
-    """A long sum or product, in halves: so that no part of it is copied often."""
+    """A long sum or product, computed by halves, so that no part of it is copied often."""
     if len(values) < 3:
         return bounded(operation(*values)) if len(values) > 1 else values[0]
     half = len(values) // 2
@@ -110,7 +110,7 @@ def _joined(operation: Callable[[Any, Any], Any], values: list[Any]) -> Any:
 
 
 def names_in(tree: Any) -> set[str]:
-    """The names that occur in a tree that was checked."""
+    """The names that occur in a checked tree."""
     found, pending = set[str](), [tree]
     while pending:
         part = pending.pop()
@@ -122,7 +122,7 @@ def names_in(tree: Any) -> set[str]:
 
 
 def divisors(tree: Any) -> set[str]:
-    """The names that occur in what a tree divides by."""
+    """The names that occur in divisors of a tree."""
     if not isinstance(tree, list):
         return set()
     if tree[0] == "^":
@@ -131,7 +131,7 @@ def divisors(tree: Any) -> set[str]:
 
 
 def size(tree: Any) -> int:
-    """The parts of trees and of lists of them, a power as often as it multiplies."""
+    """The number of parts of trees and of lists of trees; a power also counts its multiplications."""
     if not isinstance(tree, list):
         return 1
     times = abs(tree[2]) if tree and tree[0] == "^" else 1

@@ -1,7 +1,7 @@
-"""Sums of words in letters that do not commute, rewritten by rules; and matrices, which the letters stand for.
+"""Sums of words in non-commuting letters, rewritten by rules; and matrices, the values of letters.
 
-A rule says what the product of two letters is.  If a sum of words becomes 0 by the rules, it is 0 for all matrices for
-which they hold, of whatever size.  It does not matter whether another order of the rules would lead there.
+A rule gives the product of two letters.  If a sum of words becomes 0 by the rules, it is 0 for all matrices of any size
+that satisfy the rules.  Another order of the rules may fail to give 0; this does not matter.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from .interval import Arithmetic, Rejected
 from .polynomial import Work
 from .trees import bounded
 
-#: The letters of a word, the terms of a sum, the exponent of a parameter.
+#: The most letters of a word and terms of a sum, and the greatest exponent of a parameter.
 MOST_LETTERS, MOST_WORDS, MOST_EXPONENT = 60, 20_000, 1_000
-#: The exponents of the parameters, and the letters.
+#: A term: the exponents of the parameters, and the letters.
 Term = tuple[tuple[int, ...], tuple[str, ...]]
 Number = Fraction | int
 
@@ -56,18 +56,18 @@ class Words(Arithmetic):
         return Words(terms, self.work)
 
     def inverse(self) -> Words:
-        """1 over it."""
+        """The reciprocal; raises Rejected unless this is one term without letters."""
         if len(self.terms) != 1 or any(word for _, word in self.terms):
             raise Rejected("a statement about words divides by what is no product of parameters")
         [((exponents, word), c)] = self.terms.items()
         return Words({(tuple(-e for e in exponents), word): Fraction(1) / c}, self.work)
 
     def letters(self) -> set[str]:
-        """Those that occur."""
+        """The letters that occur."""
         return {letter for _, word in self.terms for letter in word}
 
     def rewritten(self, rules: Mapping[tuple[str, str], Words]) -> Words:
-        """What is left of the sum when no rule applies any more."""
+        """The sum, rewritten until no rule applies."""
         settled: dict[Term, Number] = {}
         pending = self.terms
         while pending:
@@ -87,7 +87,7 @@ class Words(Arithmetic):
 
 
 class Matrix(Arithmetic):
-    """A matrix of numbers, or of quotients; a number added to it is that multiple of the unit matrix."""
+    """A matrix of numbers, or of quotients; an added number denotes a multiple of the unit matrix."""
 
     __slots__ = ("rows",)
 
@@ -96,12 +96,12 @@ class Matrix(Arithmetic):
 
     @property
     def shape(self) -> tuple[int, int]:
-        """How many rows and columns."""
+        """The numbers of rows and columns."""
         return len(self.rows), len(self.rows[0])
 
     @property
     def transposed(self) -> Matrix:
-        """Its transpose."""
+        """The transpose."""
         return Matrix([list(column) for column in zip(*self.rows, strict=True)])
 
     def is_zero(self) -> bool:
@@ -109,7 +109,7 @@ class Matrix(Arithmetic):
         return not any(map(any, self.rows))
 
     def _as_matrix(self, other: Any) -> Matrix:
-        """A number as a matrix of the same size."""
+        """A number as a multiple of the unit matrix of the same size."""
         if isinstance(other, Matrix):
             return other
         n, columns = self.shape
@@ -137,18 +137,18 @@ class Matrix(Arithmetic):
         return Matrix([[reduce(add, map(mul, row, column)) for column in columns] for row in self.rows])
 
     def inverse(self) -> Matrix:
-        """Not made."""
+        """Raises Rejected: inverses of matrices are not computed."""
         raise Rejected("a matrix has a negative power")
 
 
 def same(a: Matrix | Fraction, b: Matrix | Fraction) -> bool:
-    """Whether two values agree; the number 0 is every matrix of zeros."""
+    """Whether two values are equal; the number 0 equals every matrix of zeros."""
     difference = a + b * Fraction(-1)
     return difference.is_zero() if isinstance(difference, Matrix) else difference == 0
 
 
 def trace(of: Matrix | Fraction) -> Fraction:
-    """That of a matrix; the number 0 is every matrix of zeros."""
+    """The trace of a matrix; the number 0 may denote any matrix of zeros, other numbers raise Rejected."""
     if isinstance(of, Matrix):
         if of.shape[0] != of.shape[1]:
             raise Rejected("the trace of a matrix that is not square is asked for")

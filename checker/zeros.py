@@ -1,7 +1,7 @@
-"""Solutions of systems that have one, and no other, within a distance of a point: by Newton's test in intervals.
+"""Zeros: systems with exactly one solution within a distance of a point, by Newton's test in intervals.
 
-A zero has unknowns, as many equations as these (trees that vanish), a point with values for the unknowns and for all
-other names, and a radius.  Names may be defined for what occurs often.  What is in `nonzero` does not vanish there.
+A zero has unknowns, equally many equations (trees that vanish), a point with values for the unknowns and for all other
+names, and a radius.  Names may be defined for frequent subexpressions.  Trees in `nonzero` do not vanish there.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from .polynomial import Work
 from .taylor import Dual, derivatives
 from .trees import size, value
 
-#: Unknowns.
+#: The most unknowns.
 MOST_UNKNOWNS = 20
-#: Bits before the point that a value may have.
+#: The assumed number of bits before the point of a value, for the estimate of the work.
 LARGE = 2000
 
 
 def check_form(one: dict[str, Any], point: Mapping[str, Any], made: Collection[str], where: str) -> None:
-    """Raises Rejected unless each name of a zero has a value, and there are as many equations as unknowns."""
+    """Raises Rejected unless each name of a zero has one value, and there are as many equations as unknowns."""
     if not set(one["unknowns"]) <= point.keys() or not 1 <= len(one["unknowns"]) <= MOST_UNKNOWNS:
         raise Rejected(f"{where} must have from 1 to {MOST_UNKNOWNS} unknowns, with values at its point")
     if any(isinstance(entry, list) for entry in point.values()):
@@ -37,7 +37,7 @@ def check_form(one: dict[str, Any], point: Mapping[str, Any], made: Collection[s
 
 
 def check(one: Mapping[str, Any], point: Mapping[str, Any], work: Work, where: str) -> None:
-    """Raises Rejected unless there is one solution, and no other, within the radius in each unknown (linear.py)."""
+    """Raises Rejected unless there is exactly one solution within the radius in each unknown (linear.py)."""
     radius = Fraction(one["radius"])
     bits = 64 + 2 * max(radius.denominator.bit_length(), *(x.denominator.bit_length() for x in point.values()))
     unknowns, parts = one["unknowns"], size([one["definitions"], one["equations"], one["nonzero"]])
