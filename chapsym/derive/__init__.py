@@ -1,9 +1,9 @@
-"""The derivation in SymPy, each object from the one before it: the principle, the ball for every n, three dimensions.
+"""The derivation in SymPy, step by step: the variational principle, the ball for every n, and three dimensions.
 
     >>> from chapsym import derive
     >>> derive.momentum()  # 𝒦(q, γ) of (5.2), in the symbols q0, q1, ..., g1, ..., J1, ..., D
 
-The objects with a number in the paper are exported; the rest of each step is in the module of its section.
+Exported are the objects with an equation number in the paper; the other steps are in the modules of the sections.
 """
 
 import sympy as sp

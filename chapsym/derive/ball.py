@@ -1,7 +1,7 @@
 """The ball on E(n) in the body frame, for every n (Section 4): from the momentum balance to 𝒦.
 
-The momentum is not typed in: it is the part of the balance, carried to the body frame with the
-forces eliminated, that depends on R_{k+1}.
+The momentum is derived, not entered: it is the part that depends on R_{k+1} of the balance in the body frame, with the
+forces eliminated.
 """
 
 from functools import cache
@@ -25,7 +25,7 @@ ALGEBRA = WordAlgebra(
 
 
 def centre_momentum() -> sp.Symbol:
-    """M_k = Ω_k J - J Ω_kᵀ: the spatial momentum carried to the body frame at the time k."""
+    """M_k = Ω_k J - J Ω_kᵀ: the spatial momentum, transformed to the body frame at time k."""
     spatial = written(
         "m_k", "R_{k+1} J R_kᵀ - R_k J R_{k+1}ᵀ", space.spatial_momentum(space.R, space.R1), space.ALGEBRA
     )
@@ -42,12 +42,12 @@ def body_balance() -> sp.Symbol:
 
 @cache
 def split_balance() -> tuple[sp.Symbol, sp.Symbol]:
-    """The parts of the body balance that belong to the step k and to the step k-1: (𝒦_k, -Ωᵀ𝒦_{k-1}Ω)."""
+    """The parts of the body balance from step k and from step k-1: (𝒦_k, -Ωᵀ𝒦_{k-1}Ω)."""
     return split(body_balance(), "part", "", BOTH)
 
 
 def split(balance: sp.Symbol, name: str, suffix: str, algebra: WordAlgebra) -> tuple[sp.Symbol, sp.Symbol]:
-    """These parts of a balance in the body, as words in their own Ω and in the γ of their own start."""
+    """The parts of a body balance from step k and step k-1, each as words in the Ω and the initial γ of its step."""
     later = (space.R1, space.R1T)
     now = terms(f"{name}_now", "its terms with R_{k+1}", balance, later)
     before = terms(f"{name}_before", "its terms without R_{k+1}", balance, later, having=False)
@@ -56,7 +56,7 @@ def split(balance: sp.Symbol, name: str, suffix: str, algebra: WordAlgebra) -> t
 
 
 def momentum_in_space(now: bool) -> sp.Symbol:
-    """𝒦_k or 𝒦_{k-1}: `momentum()` in attitudes."""
+    """𝒦_k or 𝒦_{k-1}: `momentum()` expressed by attitudes."""
     text = f"by Ω = R_{{{'k' if now else 'k-1'}}}ᵀR_{{{'k+1' if now else 'k'}}} and γ = Rᵀγ⃗"
     return replaced(f"momentum_{'k' if now else 'before'}", text, momentum(), in_attitudes(now), BOTH)
 
@@ -74,16 +74,16 @@ def momentum() -> sp.Symbol:
 
 
 def carried(expr: sp.Expr) -> sp.Expr:
-    """Ωᵀ expr Ω: what a tensor that is fixed in space looks like in the body, one step later."""
+    """Ωᵀ expr Ω: a tensor that is fixed in space, in the body frame one step later."""
     return OmegaT * expr * Omega
 
 
-#: Where the attitudes are replaced by Ω.
+#: The algebra in which attitudes are replaced by Ω, and the reverse.
 BOTH = WordAlgebra({**ALGEBRA.transposes, **space.ALGEBRA.transposes}, {**ALGEBRA.rules, **space.ALGEBRA.rules})
 
 
 def in_step_symbols(name: str, of: sp.Symbol, at_start: bool, algebra: WordAlgebra = BOTH) -> sp.Symbol:
-    """Rewrites words in R_{k-1}, R_k, R_{k+1} and the spatial γ with the symbols of one step.
+    """Words in R_{k-1}, R_k, R_{k+1} and the spatial γ, rewritten in the symbols of one step.
 
     `at_start`: the step begins at k, so R_{k+1} = R_k Ω.  Otherwise it ends there: R_k = R_{k-1} Ω.
     """

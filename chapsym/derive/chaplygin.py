@@ -1,4 +1,4 @@
-"""Chaplygin's variables of the continuous ball: what the roots of N(μ) = Σ pᵢ²(Λᵢ - d)(1 - μΛⱼ)(1 - μΛₖ) rest on."""
+"""Chaplygin's variables of the continuous ball, the roots of N(μ) = Σ pᵢ²(Λᵢ - d)(1 - μΛⱼ)(1 - μΛₖ): their algebra."""
 
 import sympy as sp
 
@@ -9,7 +9,7 @@ p = gamma
 q = sp.Matrix(sp.symbols("q1:4"))
 c, d, mu, nu = sp.symbols("c d mu nu")
 LAMBDA = sp.diag(L1, L2, L3)
-#: What d leaves of Λ: the moments of the reduced ball.
+#: Λ - d: the moments of the reduced ball.
 LIGHTER = LAMBDA - d * sp.eye(3)
 
 
@@ -19,7 +19,7 @@ def product(root: sp.Expr = mu) -> sp.Expr:
 
 
 def direction(root: sp.Expr = mu) -> sp.Matrix:
-    """V(μ) = P(μ)(1 - μΛ)⁻¹(Λ - d)p, polynomials."""
+    """V(μ) = P(μ)(1 - μΛ)⁻¹(Λ - d)p, a vector of polynomials."""
     rest = ((L2, L3), (L1, L3), (L1, L2))
     weighted = LIGHTER * p
     return sp.Matrix([x * (1 - root * a) * (1 - root * b) for x, (a, b) in zip(weighted, rest, strict=True)])

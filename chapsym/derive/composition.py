@@ -1,11 +1,11 @@
 """The order conditions of compositions of a self-adjoint step, in a free algebra (lemma `composition-order`).
 
 A self-adjoint step of order 2 is Φ_ε = exp(εX₁ + ε³X₃ + ε⁵X₅ + ...) with operators Xᵢ that depend on the equation,
-and the flow is exp(εX₁).  So Φ_{c₁ε} ... Φ_{cₛε} has the order p for every equation exactly when the two
-series agree, word by word in free letters X₁, X₃, X₅, ..., through the weight p (a letter weighs its index).
-No tree and no bracket is needed: 54 words through the weight 8.
+and the flow is exp(εX₁).  So Φ_{c₁ε} ... Φ_{cₛε} has order p for every equation exactly when the two series agree, word
+by word in free letters X₁, X₃, X₅, ..., up to weight p (the weight of a letter is its index).  Trees and brackets are
+not needed: there are 54 words up to weight 8.
 
-Whether the first coefficient is that of the first stage or of the last does not matter for palindromes.
+For palindromic coefficients the order of the stages does not matter.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,7 +18,7 @@ Series = dict[Word, Any]
 
 
 def words(weight: int) -> Iterator[Word]:
-    """Every word in the letters 1, 3, 5, ... that weighs `weight`."""
+    """Every word in the letters 1, 3, 5, ... with this weight."""
     if weight == 0:
         yield ()
     for letter in range(1, weight + 1, 2):
@@ -27,7 +27,7 @@ def words(weight: int) -> Iterator[Word]:
 
 
 def lyndon(order: int) -> list[Word]:
-    """The words of odd weight below `order` that are smaller than all their proper ends."""
+    """The Lyndon words of odd weight below `order`: those smaller than all their proper suffixes."""
     odd = (word for weight in range(1, order, 2) for word in words(weight))
     return [word for word in odd if all(word < word[i:] for i in range(1, len(word)))]
 
@@ -55,14 +55,14 @@ def step_series(c: Any, order: int) -> Series:
 
 
 def product(left: Series, right: Series) -> Series:
-    """The product of two series in noncommuting letters, through the weight of `left`."""
+    """The product of two series in noncommuting letters, for the words of `left`."""
     return {word: sum(left[word[:i]] * right[word[i:]] for i in range(len(word) + 1)) for word in left}
 
 
 def defects(coefficients: Sequence[Any], order: int) -> Series:
-    """The difference of the composition from the flow, for each word of weight 1 to `order`.
+    """The coefficients of the composition minus those of the flow, for each word of weight 1 to `order`.
 
-    coefficients: c₁, ..., cₛ as any numbers that divide: Fraction (then this is exact), mpf or arb.
+    coefficients: c₁, ..., cₛ in any type of numbers with division: Fraction (for an exact result), mpf or arb.
     """
     composed = reduce(product, (step_series(c, order) for c in coefficients))
     flow = {word: coefficients[0] ** 0 / factorial(len(word)) * int(sum(word) == len(word)) for word in composed}

@@ -22,25 +22,25 @@ def momentum() -> sp.ImmutableMatrix:
 
 
 def momentum_steps() -> tuple[three.Steps, sp.Matrix]:
-    """The same as Iω + γ × D(ω × γ), in which no rounding of ω × γ reaches the vertical part."""
+    """K in steps, as Iω + γ × D(ω × γ): rounding errors of ω × γ do not affect ⟨K,γ⟩."""
     return three.carried_steps(omega)
 
 
 @cache
 def inverse_inertia() -> sp.ImmutableMatrix:
-    """Λ⁻¹, with Λ read off the discrete momentum."""
+    """Λ⁻¹, with Λ from the discrete momentum."""
     return sp.ImmutableMatrix(three.lam().inv())
 
 
 def rolling_factor() -> sp.Expr:
-    """F = ⟨Iγ, Λ⁻¹γ⟩ with I = Λ - D, the form of 1 - D⟨γ, Λ⁻¹γ⟩ in which nothing cancels."""
+    """F = ⟨Iγ, Λ⁻¹γ⟩ with I = Λ - D: 1 - D⟨γ, Λ⁻¹γ⟩ without cancellation."""
     central = three.lam() - three.D * sp.eye(3)
     return (central * three.gamma).dot(inverse_inertia() * three.gamma)
 
 
 @cache
 def vertical_rate() -> sp.Expr:
-    """⟨ω, γ⟩ as a function of K, γ: solved from Λω = K + D⟨ω,γ⟩γ, its denominator written as F."""
+    """⟨ω, γ⟩ as a function of K, γ, from Λω = K + D⟨ω,γ⟩γ; the denominator is F."""
     rate = sp.Symbol("rate")
     body = inverse_inertia() * (three.K + three.D * rate * three.gamma)
     slope = sp.diff(three.gamma.dot(body) - rate, rate)
@@ -66,7 +66,7 @@ def energy() -> sp.Expr:
 
 
 def lagrangian_energy() -> sp.Expr:
-    """½ m|v|² + ½⟨Iω, ω⟩ on the rolling ball: |v|² = ρ²|ω × γ|² whatever the sign of (2.1)."""
+    """½ m|v|² + ½⟨Iω, ω⟩ of the rolling ball; |v|² = ρ²|ω × γ|² for both signs in (2.1)."""
     central = three.lam() - three.D * sp.eye(3)
     slip = omega.cross(three.gamma)
     return three.D * slip.dot(slip) / 2 + omega.dot(central * omega) / 2

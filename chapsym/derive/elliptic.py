@@ -1,8 +1,8 @@
-"""The invariant curve of the reduced map in Jacobi's functions (Section 5, 5.6 to 5.13).
+"""The invariant curve of the reduced map in Jacobi's elliptic functions (Section 5, 5.6 to 5.13).
 
 sn, cn, dn of one or two arguments are symbols modulo their relations; their derivatives and their values at 0 are
-the only transcendental input (5.13 has the addition formulas from these).  Λ1 > Λ2 > Λ3 and 1/Λ2 < l < 1/Λ3, as the
-paper assumes.
+the only transcendental input (claim 5.13 derives the addition formulas from these).  Λ1 > Λ2 > Λ3 and
+1/Λ2 < l < 1/Λ3, as the paper assumes.
 """
 
 from functools import cache
@@ -15,7 +15,7 @@ from .quotient import Quotient
 L1, L2, L3, l, k2 = sp.symbols("L1 L2 L3 l k2")
 LAMBDA = (L1, L2, L3)
 
-#: What the paper assumes of them: 1/Λ1 < 1/Λ2 < l < 1/Λ3.
+#: The assumptions of the paper: 1/Λ1 < 1/Λ2 < l < 1/Λ3.
 ORDER = (L1 > L2, L2 > L3, L3 > 0, L2 * l > 1, L3 * l < 1)
 MODULUS = (k2 > 0, k2 < 1)
 
@@ -32,7 +32,7 @@ class Jacobi(NamedTuple):
         return [self.cn**2 + self.sn**2 - 1, self.dn**2 + k2 * self.sn**2 - 1]
 
 
-#: The argument u; the mean ū and the half increment δu of two consecutive ones.
+#: The argument u; the mean ū and the half increment δu of two consecutive arguments.
 U = Jacobi(*sp.symbols("s c d"))
 MEAN = Jacobi(*sp.symbols("sm cm dm"))
 HALF = Jacobi(*sp.symbols("sh ch dh"))
@@ -42,7 +42,7 @@ HALF = Jacobi(*sp.symbols("sh ch dh"))
 def squared_amplitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """C1², C2², C3² solved from |γ|² = 1, ⟨γ,Λ⁻¹γ⟩ = l with γ = (C1 cn, C2 sn, C3 dn), for every u.
 
-    Two equations, each at two values of sn² (0 and 1), for the three squares and k².
+    The two equations, each at sn² = 0 and 1, determine the three squares and k².
     """
     a, b, c, m = sp.symbols("a b c m")
     equations = []
@@ -58,7 +58,7 @@ def squared_amplitudes() -> tuple[sp.Expr, sp.Expr, sp.Expr]:
 
 @cache
 def squared_modulus() -> sp.Expr:
-    """k² of the curve: what makes the coefficient of sn² in |γ|² vanish."""
+    """k² of the curve: the value for which the coefficient of sn² in |γ|² vanishes."""
     first, second, third = squared_amplitudes()
     return sp.factor((second - first) / third)
 
@@ -75,7 +75,7 @@ def added(x: Jacobi, y: Jacobi, sign: int) -> Jacobi:
 
 
 def derivative(expr: sp.Expr, x: Jacobi) -> sp.Expr:
-    """d/dx by sn' = cn dn, cn' = -sn dn, dn' = -k² sn cn of the argument x."""
+    """The derivative d/dx, from sn' = cn dn, cn' = -sn dn, dn' = -k² sn cn."""
     rates = (x.cn * x.dn, -x.sn * x.dn, -k2 * x.sn * x.cn)
     return sum(sp.diff(expr, f) * rate for f, rate in zip(x, rates, strict=True))
 
@@ -89,7 +89,7 @@ def ring(*arguments: Jacobi, amplitudes: tuple[sp.Symbol, ...] = ()) -> Quotient
 
 @cache
 def level() -> sp.Expr:
-    """l as a function of k²: the modulus solved for it.  With it k² is free and nothing else is tied."""
+    """l as a function of k², from `squared_modulus`: with this l, k² and Λ are independent variables."""
     return sp.factor(sp.solve(sp.numer(sp.together(squared_modulus() - k2)), l)[0])
 
 
@@ -108,7 +108,7 @@ def quarter_form(power: int) -> sp.Expr:
 
 
 def increment_parts() -> list[sp.Expr]:
-    """k², the coefficients G₀ = V², G₁, G₂ of G = Π₂𝒟 + ... (5.14-G as corrected) in sn²δu, and μ, by Λ and l.
+    """k², the coefficients G₀ = V², G₁, G₂ of G = Π₂𝒟 + ... (5.14-G as corrected) in sn²δu, and μ, in terms of Λ, l.
 
     With them (5.15) as corrected reads hG𝒟 = 2Vw(𝒟 - D(l - μ sn²δu)), w = sn cn dn of δu.
     """
@@ -123,7 +123,7 @@ def increment_parts() -> list[sp.Expr]:
 
 
 def precession_parts() -> list[sp.Expr]:
-    """P₀, P₁, N₀, N₁ with |b|² = P₀ + P₁ sn²u and ⟨b,Λ⁻¹b⟩ = N₀ + N₁ sn²u on the curve, b = γ × Λ⁻¹γ, by Λ and l.
+    """P₀, P₁, N₀, N₁ in |b|² = P₀ + P₁ sn²u and ⟨b,Λ⁻¹b⟩ = N₀ + N₁ sn²u on the curve, b = γ × Λ⁻¹γ, in terms of Λ, l.
 
     Lemma `top-precession`: |b|² = ⟨γ,Λ⁻²γ⟩ - l² and det(Λ)⟨b,Λ⁻¹b⟩ = ⟨γ,Λγ⟩l - 1.
     """

@@ -28,8 +28,8 @@ INERTIA = sp.diag(I1, I2, I3)
 #: The mass tensor by the moments of inertia I₁ = J₂ + J₃, ...
 BY_INERTIA = {J1: (I2 + I3 - I1) / 2, J2: (I1 + I3 - I2) / 2, J3: (I1 + I2 - I3) / 2}
 
-#: Names of what is computed on the way: ∂G/∂u, Dγ, Dγγᵀ, the part of ∂G/∂u
-#: without D, the cofactors, a right side, p × v or u × γ, Iu, the factor 2/|p|² or 1 + |u|².
+#: Symbols for intermediate results: ∂G/∂u, Dγ, Dγγᵀ, the part of ∂G/∂u without D, the cofactors, a right side, Mᵀγ,
+#: Cᵀγ, p × v or u × γ, Iu, the factor 2/|p|² or 1 + |u|².
 A = sp.Matrix(3, 3, sp.symbols("a1:4(1:4)"))
 W = sp.Matrix(sp.symbols("w1:4"))
 E = sp.Matrix(3, 3, lambda i, j: sp.Symbol(f"e{min(i, j) + 1}{max(i, j) + 1}"))
@@ -42,7 +42,7 @@ ONCE = sp.Matrix(sp.symbols("x1:4"))
 SPIN = sp.Matrix(sp.symbols("y1:4"))
 SCALE = sp.Symbol("s")
 
-#: A quaternion that need not be unit: (det A, N) for the rotation with the Gibbs vector N/det A.
+#: A quaternion of any length: (det A, N) for the rotation with the Gibbs vector N/det A.
 p0, p1, p2, p3 = sp.symbols("p0:4")
 p = sp.Matrix([p1, p2, p3])
 
@@ -51,7 +51,7 @@ Steps = list[tuple[sp.Matrix, sp.Matrix]]
 
 @cache
 def residual() -> sp.ImmutableMatrix:
-    """G(u) = (𝒦(q, γ) - 𝒦)/(2q₀²) for q = q₀u, q₀² = 1/(1 + |u|²): no root is left."""
+    """G(u) = (𝒦(q, γ) - 𝒦)/(2q₀²) for q = q₀u, q₀² = 1/(1 + |u|²): a polynomial without square roots."""
     values = {q0: 1, **dict(zip(q, u, strict=True))}
     momentum = sp.Matrix(three.momentum()).xreplace(values)
     whole = momentum - 2 * k * (1 + u.dot(u))
@@ -59,26 +59,26 @@ def residual() -> sp.ImmutableMatrix:
 
 
 def residual_steps() -> tuple[Steps, sp.Matrix]:
-    """The same by u × γ: B(γ)u = Iu + Dγ × (u × γ)."""
+    """G(u) in steps by u × γ: B(γ)u = Iu + Dγ × (u × γ)."""
     steps = [(ONCE, u.cross(gamma)), (SPIN, INERTIA * u), (sp.Matrix([SCALE]), sp.Matrix([1 + u.dot(u)]))]
     return steps, SPIN + D * gamma.cross(ONCE) + u.cross(SPIN) - SCALE * k
 
 
 @cache
 def contact_inertia() -> sp.ImmutableMatrix:
-    """B(γ) with the moments of inertia: I₁ + D(γ₂² + γ₃²), ... and -Dγ₁γ₂, ..."""
+    """B(γ) in terms of the moments of inertia: I₁ + D(γ₂² + γ₃²), ... and -Dγ₁γ₂, ..."""
     return sp.ImmutableMatrix(sp.Matrix(three.contact_inertia()).xreplace(BY_INERTIA).applyfunc(three.by_parameters))
 
 
 def bilinear(x: sp.Matrix) -> sp.Matrix:
-    """x × Ix - |x|²k: what is quadratic in G, at x; so what a Newton correction x leaves of G."""
+    """x × Ix - |x|²k: the quadratic part of G at x, which is G after a Newton correction x."""
     return x.cross(INERTIA * x) - x.dot(x) * k
 
 
 def polar(x: sp.Matrix) -> sp.Matrix:
     """The derivative of `bilinear` at x.
 
-    Expanded: the differences I₃ - I₂, ... are never rounded once and for all, which would drift the energy.
+    Expanded, so that I₃ - I₂, ... are not rounded to constants: their fixed errors would let the energy drift.
     """
     return bilinear(x).jacobian(x).applyfunc(sp.expand)
 
@@ -89,7 +89,7 @@ def jacobian() -> sp.Matrix:
 
 
 def symmetric_part() -> sp.Matrix:
-    """½(∂G/∂u + its transpose): the least stretch of the Jacobian is at least its smallest eigenvalue."""
+    """½(∂G/∂u + its transpose), whose least eigenvalue is a lower bound for the singular values of ∂G/∂u."""
     a = jacobian()
     return ((a + a.T) / 2).applyfunc(sp.expand)
 
@@ -102,7 +102,7 @@ def symmetric() -> list[sp.Expr]:
 
 
 def symmetric_steps() -> tuple[Steps, list[sp.Expr]]:
-    """The same by the six entries."""
+    """`symmetric` in steps, by the six entries of `symmetric_part`."""
     s = symmetric_part()
     upper = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
     minors = [E.extract(pair, pair).det() for pair in ((0, 1), (0, 2), (1, 2))]
@@ -112,7 +112,7 @@ def symmetric_steps() -> tuple[Steps, list[sp.Expr]]:
 
 
 def newton_target() -> sp.Matrix:
-    """(∂G/∂u)u - G(u), which is the Jacobian times the next Newton iterate: u × Iu + (1 - |u|²)k."""
+    """(∂G/∂u)u - G(u) = u × Iu + (1 - |u|²)k, the Jacobian times the next Newton iterate."""
     return u.cross(INERTIA * u) + (1 - u.dot(u)) * k
 
 
@@ -124,7 +124,7 @@ def newton() -> list[sp.Expr]:
 
 
 def newton_steps() -> tuple[Steps, list[sp.Expr]]:
-    """The same by Dγγᵀ and the rest of ∂G/∂u: what waits for γ is added last."""
+    """`newton` in steps, by Dγγᵀ and the rest of ∂G/∂u: terms that depend on γ are added last."""
     rolling = sp.eye(3) * E.trace() - E
     rolling = rolling.applyfunc(sp.expand)  # E₂₂ + E₃₃, ..., -E₁₂, ...: a sum of non-negative terms on the diagonal
     steps = [
@@ -140,9 +140,9 @@ def newton_steps() -> tuple[Steps, list[sp.Expr]]:
 
 
 def newton_heavy_steps() -> tuple[Steps, list[sp.Expr]]:
-    """The same for D ≫ I: A = M + D(|γ|² - γγᵀ) has γᵀA = γᵀM, so that |γ|² det A = ⟨Mᵀγ, adj(A)γ⟩ has no D³.
+    """`newton_steps` for D ≫ I: A = M + D(|γ|² - γγᵀ) has γᵀA = γᵀM, so |γ|² det A = ⟨Mᵀγ, adj(A)γ⟩ has no D³.
 
-    In the sum over a row of A terms of D³ cancel, and leave det A ∝ D² their roundings.
+    In the expansion of det A ∝ D² by a row, terms of order D³ cancel, and only their rounding errors remain.
     """
     steps, (_, *rest) = newton_steps()
     more: Steps = [(Y, M.T * gamma), (Z, C.T * gamma)]
@@ -150,32 +150,32 @@ def newton_heavy_steps() -> tuple[Steps, list[sp.Expr]]:
 
 
 def second() -> sp.Matrix:
-    """The term that the second correction subtracts from N, after a Newton correction d: Cᵀ(d × Id - |d|²k)."""
+    """Cᵀ(d × Id - |d|²k): the term that the second correction, after a Newton correction d, subtracts from N."""
     return C.T * bilinear(d)
 
 
 def second_steps() -> tuple[Steps, sp.Matrix]:
-    """The same by the G that is left after the Newton correction."""
+    """`second` in steps, by G after the Newton correction."""
     return [(R, bilinear(d))], C.T * R
 
 
 def mixed() -> sp.Matrix:
-    """The term subtracted from N for a correction e after d, with cofactors from before: Cᵀ · `polar` at d · e."""
+    """Cᵀ · `polar`(d) · e: the term subtracted from N for a correction e after d, with the cofactors before d."""
     return C.T * (polar(d) * e)
 
 
 def mixed_steps() -> tuple[Steps, sp.Matrix]:
-    """The same by its product with the cofactors."""
+    """`mixed` in steps, by the factor of Cᵀ."""
     return [(R, d.cross(INERTIA * e) + e.cross(INERTIA * d) - 2 * d.dot(e) * k)], C.T * R
 
 
 def turn() -> sp.Matrix:
-    """Ωᵀv - v = 2/(p₀² + |p|²)·(p × (p × v) - p₀ p × v) of any quaternion (p₀, p)."""
+    """Ωᵀv - v = 2/(p₀² + |p|²)·(p × (p × v) - p₀ p × v), for a quaternion (p₀, p) of any length."""
     once = p.cross(v)
     return (2 / (p0**2 + p.dot(p))) * (p.cross(once) - p0 * once)
 
 
 def turn_steps() -> tuple[Steps, sp.Matrix]:
-    """The same by p × v."""
+    """`turn` in steps, by p × v."""
     steps = [(sp.Matrix([SCALE]), sp.Matrix([2 / (p0**2 + p.dot(p))])), (ONCE, p.cross(v))]
     return steps, SCALE * (p.cross(ONCE) - p0 * ONCE)

@@ -1,8 +1,8 @@
 """A gyrostat: the ball with a balanced rotor inside, for every n, from the same two principles.
 
 The rotor adds ½ tr(AᵀRᵀṘ) to the Lagrangian, A skew and constant in the body, and ½ tr(AᵀR_kᵀR_{k+1}) to the discrete
-one: for n = 3 these are ⟨a,ω⟩, and ⟨a,·⟩ of the vector of ½(Ω - Ωᵀ), the least function that is linear in Ω and odd.
-`motion` and `principle` have the rest.
+Lagrangian.  For n = 3 these are ⟨a,ω⟩ and ⟨a,x⟩, x the vector of ½(Ω - Ωᵀ), the simplest function that is linear in Ω
+and odd.  The other terms are in `motion` and `principle`.
 """
 
 from functools import cache
@@ -16,7 +16,7 @@ from .motion import eta, omega
 from .quotient import Quotient
 from .words import WordAlgebra, matrix_symbols
 
-# The rotor's angular momentum (skew), that of a step, and in the continuous principle the rate of η.
+# The rotor's angular momentum (skew), its momentum per step, and the rate of η in the continuous principle.
 A, step_A, xi = matrix_symbols("A A_step xi")
 SKEW = {A: -A, step_A: -step_A, xi: -xi}
 
@@ -29,7 +29,7 @@ BOTH = WordAlgebra({**ball.BOTH.transposes, **SKEW}, ball.BOTH.rules)
 #: d/dt of the letters: the rotor is constant in the body.
 RATES: dict[sp.Symbol, sp.Expr] = {**motion.RATES, A: sp.S.Zero, eta: xi}
 
-#: n = 3: the rotor's angular momentum, in the axes of the body.
+#: The rotor's angular momentum in the axes of the body, for n = 3.
 a1, a2, a3 = sp.symbols("a1:4")
 rotor = sp.Matrix([a1, a2, a3])
 RING = Quotient((*three.RING.symbols, *rotor), three.RING.relations)
@@ -38,7 +38,7 @@ RING = Quotient((*three.RING.symbols, *rotor), three.RING.relations)
 def added_torque() -> sp.Symbol:
     """The term that the rotor adds to the principle of `motion.dalembert`.
 
-    δ(½ tr(Aᵀω)) for δR = Rη, where δω = η̇ + [ω,η], less the derivative of ½ tr(Aᵀη), which the ends of the path take.
+    It is δ(½ tr(Aᵀω)) for δR = Rη, δω = η̇ + [ω,η], minus d/dt ½ tr(Aᵀη), whose integral is a boundary term.
     """
     term = written("rotor_term", "tr of it is ½ tr(Aᵀω), ⟨a,ω⟩ for n = 3", -A * omega / 2, ALGEBRA)
     varied = rate(
@@ -54,7 +54,7 @@ def added_torque() -> sp.Symbol:
 
 
 def eliminated() -> sp.Symbol:
-    """The principle with the rotor, the velocity and the reaction eliminated; it vanishes in a motion."""
+    """The principle of the ball with the rotor; velocity and reaction are eliminated.  It vanishes on motions."""
     return written(
         "gyrostat_principle",
         "the ball's principle, and the rotor's part",
@@ -64,7 +64,7 @@ def eliminated() -> sp.Symbol:
 
 
 def contact_momentum() -> sp.Symbol:
-    """K about the point of contact: that of the ball, and ∂/∂Ṙ of the rotor's term along Rη, which is -½ tr(η it)."""
+    """K about the contact point: K of the ball plus A′ with -½ tr(η A′) = ∂L/∂Ṙ · Rη for the rotor's term of L."""
     slope = written("rotor_impulse", "tr of it is ½ tr(Aᵀη), the rotor's ∂L/∂Ṙ · Rη", -A * eta / 2, ALGEBRA)
     own = written(
         "rotor_momentum", "∂L/∂Ṙ · Rη = -½ tr(η it)", -dual("rotor_impulse_dual", "½ tr(η it)", slope, eta), ALGEBRA
@@ -78,7 +78,7 @@ def discrete_term(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 
 
 def rotor_balance() -> sp.Symbol:
-    """The term that the rotor adds to `principle.momentum_balance`: it belongs to dR = ξR, whatever the centre does."""
+    """The term that the rotor adds to `principle.momentum_balance`: the dual of its variation for dR = ξR."""
     path = discrete_term(space.R0, space.R) + discrete_term(space.R, space.R1)
     action = written("rotor_action", "tr of it is the rotor's part of 𝕃(k-1,k) + 𝕃(k,k+1)", path, FREE)
     still = dict.fromkeys((step_A, space.R0, space.R1), sp.S.Zero)
@@ -91,7 +91,7 @@ def rotor_balance() -> sp.Symbol:
 
 @cache
 def split_balance() -> tuple[sp.Symbol, sp.Symbol]:
-    """(𝒦_k, -Ωᵀ𝒦_{k-1}Ω) of the gyrostat, as `ball.split_balance` has them of the ball."""
+    """(𝒦_k, -Ωᵀ𝒦_{k-1}Ω) of the gyrostat, as `ball.split_balance` for the ball."""
     seen = space.RT * rotor_balance() * space.R
     balance = written(
         "gyrostat_balance", "the ball's balance, and the rotor's, in the body", ball.body_balance() + seen, SPACE
@@ -100,22 +100,22 @@ def split_balance() -> tuple[sp.Symbol, sp.Symbol]:
 
 
 def momentum() -> sp.Symbol:
-    """𝒦(Ω, Γ) of the gyrostat, as words in Ω, Ωᵀ, J, Γ, the rotor's A of a step, and D."""
+    """𝒦(Ω, Γ) of the gyrostat, as words in Ω, Ωᵀ, J, Γ, the rotor's A per step, and D."""
     return split_balance()[0]
 
 
-#: Ω = exp(ε ω), and A of a step is εA.
+#: Ω = exp(ε ω), and the rotor's momentum per step is εA.
 TURNING = limits.Turning({**limits.STEP.start, step_A: sp.S.Zero}, {**limits.STEP.rates, step_A: A, A: sp.S.Zero})
 
 
 def limit() -> limits.Remainder:
-    """𝒦/ε for every n."""
+    """𝒦/ε of the gyrostat for every n."""
     return limits.expand_words(momentum(), TURNING)
 
 
 @cache
 def vector_momentum() -> sp.ImmutableMatrix:
-    """𝒦(q, γ) for n = 3, a letter for each entry, with the rotor's angular momentum of a step."""
+    """𝒦(q, γ) for n = 3, a letter for each entry, with the rotor's angular momentum per step."""
     turn = sp.Matrix(three.rotation())
     places = three.BALL | {ball.Omega: turn, ball.OmegaT: turn.T, step_A: rotor.hat()}
     matrix = coordinates("gyrostat_matrix", "n = 3: Ω in Euler parameters, A = a×", momentum(), places, RING)
@@ -128,10 +128,10 @@ def added_momentum() -> sp.Matrix:
 
 
 def relative(momentum: sp.Matrix = three.K) -> dict[sp.Symbol, sp.Expr]:
-    """K - a, which replaces K: B(γ)ω = K - a, in the formulas of `continuous`."""
+    """The substitution K ↦ K - a for the formulas of `continuous`, as B(γ)ω = K - a."""
     return three.placed((three.K, momentum - rotor))
 
 
 def energy() -> sp.Expr:
-    """½⟨K - a, ω⟩, the kinetic energy less that of the rotor, as a function of K, γ."""
+    """½⟨K - a, ω⟩, the kinetic energy without that of the rotor, as a function of K, γ."""
     return continuous.energy().xreplace(relative())

@@ -1,7 +1,7 @@
-"""Continuum limits: what the discrete objects tend to, to which order, with which leading remainder.
+"""Continuum limits of the discrete objects: the limit, the order and the leading remainder.
 
 The body rotation of one step is Ω = exp(ε ω) with ω skew, so Ωᵀ = exp(-ε ω) and dΩ/dε = Ωω.  In words (every n)
-and in vectors (n = 3) the expansions are exact up to the order that is carried.
+and in vectors (n = 3) the expansions are exact up to the order CARRIED.
 """
 
 from typing import NamedTuple
@@ -16,10 +16,10 @@ from .words import unfolded
 w1, w2, w3 = sp.symbols("w1:4")
 omega = sp.Matrix([w1, w2, w3])
 
-#: Where the vector forms live: |γ| = 1, everything else free.
+#: The ring of the vector forms: |γ| = 1, all other variables free.
 RING = Quotient((*omega, *three.gamma, *three.K, three.J1, three.J2, three.J3, three.D), [three.UNIT_VERTICAL])
 
-#: Powers of ε carried; a remainder of a higher order than this is reported as not found.
+#: The highest order of a remainder that is computed; beyond it, an error is raised.
 CARRIED = 3
 
 # The angular velocity in space: Ω̄ = R_{k+1} R_kᵀ = exp(ε ω̄).
@@ -32,12 +32,12 @@ class Remainder(NamedTuple):
     limit: sp.Expr
     order: int
     leading: sp.Expr
-    #: What is divided by ε, and vanishes: there is a limit.
+    #: The coefficient of ε⁻¹; it vanishes, so that the limit exists.
     constant: sp.Expr
 
 
 class Turning(NamedTuple):
-    """Where the letters of a rotation exp(ε ω) begin, and their derivatives by ε."""
+    """The values at ε = 0 of the letters of a rotation exp(ε ω), and their derivatives in ε."""
 
     start: dict[sp.Symbol, sp.Expr]
     rates: dict[sp.Symbol, sp.Expr]
@@ -57,7 +57,7 @@ SPACE_STEP = Turning(
 
 
 def coefficients(of: sp.Symbol, turning: Turning) -> list[sp.Symbol]:
-    """Letters for the coefficients of 1, ε, ε², ... in the expansion of a defined letter: Taylor's formula."""
+    """Letters for the Taylor coefficients of 1, ε, ε², ... of a defined letter."""
     found, name = [], of
     for k in range(CARRIED + 2):
         at = replaced(f"{name}_{k}_at", "at ε = 0", of, turning.start, STEPS[of].algebra)
@@ -67,7 +67,7 @@ def coefficients(of: sp.Symbol, turning: Turning) -> list[sp.Symbol]:
 
 
 def expand_words(of: sp.Symbol, turning: Turning) -> Remainder:
-    """The limit, order and leading term of a defined letter over ε, as letters."""
+    """The limit, order and leading term of (a defined letter)/ε, as letters."""
     return remainder(coefficients(of, turning), lambda c: unfolded(c) == 0)
 
 
@@ -82,7 +82,7 @@ def remainder(coefficients: list, vanishes) -> Remainder:
 
 
 def centre_momentum() -> Remainder:
-    """M/ε for every n."""
+    """The limit and remainder of M/ε for every n."""
     return expand_words(ball.centre_momentum(), STEP)
 
 
@@ -103,7 +103,7 @@ def constraint() -> Remainder:
 
 
 def in_vectors(name: str, of: Remainder) -> Remainder:
-    """The same for n = 3: its skew matrices as vectors of letters for their entries."""
+    """A remainder for n = 3: its skew matrices as vectors of letters for their entries."""
     places = three.BALL | {ball.omega: omega.hat(), ball.K: three.K.hat()}
 
     def vector(name: str, letter: sp.Expr) -> sp.Matrix:

@@ -1,7 +1,7 @@
-"""The modified equations of the map: what the step of size ε is the flow of, up to ε⁴; K = 𝒦/ε.
+"""The modified equations of the map: the equations whose flow over ε is the step of size ε, up to ε⁴; K = 𝒦/ε.
 
-γ̇ = γ × Ω̃ and K̇ = K × Ω̃ with Ω̃ = ω + ε²ω₃ + O(ε⁴): |γ|, |K| and ⟨K,γ⟩ are kept exactly, and there is no term in ε as
-the map is self-adjoint.  All in ω, its rate ω' along the continuous ball, and γ; K = B(γ)ω and B(γ)ω' = Iω × ω.
+γ̇ = γ × Ω̃ and K̇ = K × Ω̃ with Ω̃ = ω + ε²ω₃ + O(ε⁴): |γ|, |K|, ⟨K,γ⟩ are conserved, and there is no term in ε as the
+map is self-adjoint.  In terms of ω, its rate ω' along the continuous ball, and γ: K = B(γ)ω and B(γ)ω' = Iω × ω.
 """
 
 import sympy as sp
@@ -41,7 +41,7 @@ def correction() -> sp.Matrix:
 
 
 def gibbs_jet() -> list[sp.Matrix]:
-    """The coefficients of ε, ε², ε³ of the Gibbs vector of the step, with ω'' as `second`."""
+    """The coefficients of ε, ε², ε³ of the Gibbs vector of the step, in which `second` is ω''."""
     third = correction() / 12 + second / 6 + omega.cross(rate) / 12 + omega.dot(omega) * omega / 12
     return [omega / 2, rate / 4, third / 2]
 
@@ -63,7 +63,7 @@ def step_jet(x: sp.Matrix) -> list[sp.Matrix]:
 
 
 def ball_jet(x: sp.Matrix) -> list[sp.Matrix]:
-    """The same of the flow of ẋ = x × ω along the continuous ball, over the time ε."""
+    """The coefficients of 1, ε, ε², ε³ of the flow of ẋ = x × ω along the continuous ball over the time ε."""
     first = x.cross(omega)
     twice = first.cross(omega) + x.cross(rate)
     thrice = twice.cross(omega) + 2 * first.cross(rate) + x.cross(second)
@@ -71,13 +71,13 @@ def ball_jet(x: sp.Matrix) -> list[sp.Matrix]:
 
 
 def flow_jet(x: sp.Matrix) -> list[sp.Matrix]:
-    """The same of the flow of ẋ = x × Ω̃."""
+    """The coefficients of 1, ε, ε², ε³ of the flow of ẋ = x × Ω̃ over the time ε."""
     *lower, third = ball_jet(x)
     return [*lower, third + x.cross(correction()) / 12]
 
 
 def equation_jet() -> list[sp.Matrix]:
-    """The coefficients of ε, ε², ε³ of B(γ)u + u × Iu - (1 + |u|²)εK/2 at K = B(γ)ω: what the step makes 0."""
+    """The coefficients of ε, ε², ε³ of B(γ)u + u × Iu - (1 + |u|²)εK/2, which is 0 for the step, at K = B(γ)ω."""
     u1, u2, u3 = gibbs_jet()
     half = carried(omega) / 2
     return [

@@ -1,7 +1,7 @@
 """The continuous ball on E(n), for every n (Section 2): d'Alembert's principle and time derivatives of words.
 
-In the frame of the body: ω = R⁻¹Ṙ (skew), v = R⁻¹ṙ, γ = R⁻¹γ⃗, and γ is directed from the centre to the
-plane, for which the rolling condition reads v + ρωγ = 0 (claims 2.1 and 2.9).
+In the body frame: ω = R⁻¹Ṙ (skew), v = R⁻¹ṙ, γ = R⁻¹γ⃗.  γ is directed from the centre to the plane; then the rolling
+condition is v + ρωγ = 0 (claims 2.1 and 2.9).
 """
 
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ RATES: dict[sp.Symbol, sp.Expr] = {
 
 
 def rate(expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr] = RATES) -> sp.Expr:
-    """d/dt of a sum of words; every letter must have a rate."""
+    """The time derivative of a sum of words; every letter must have a rate."""
     return ALGEBRA.rate(expr, rates)
 
 
@@ -46,7 +46,7 @@ def centre_momentum() -> sp.Symbol:
 
 
 def contact_momentum() -> sp.Symbol:
-    """K about the point of contact P: M + mv ∧ (C - P), with C - P = -ργ, v = -ρωγ and m = D/ρ²."""
+    """K about the contact point P: M + mv ∧ (C - P), with C - P = -ργ, v = -ρωγ and m = D/ρ²."""
     lever = ALGEBRA.wedge(D / rho**2 * rolling_velocity(), -rho * gamma)
     return written("K_contact", "M + mv ∧ (-ργ), v = -ρωγ and m = D/ρ²", centre_momentum() + lever, ALGEBRA)
 
@@ -57,12 +57,12 @@ def rolling_velocity() -> sp.Expr:
 
 
 def inertial_force() -> sp.Symbol:
-    """F = m(v̇ + ωv): the force that the plane must exert, (2.11)."""
+    """F = m(v̇ + ωv): the reaction of the plane, (2.11)."""
     return written("force", "m r̈ in the body", m * (a + omega * v), ALGEBRA)
 
 
 def on_rolling(name: str, of: sp.Symbol, more: Mapping[sp.Symbol, sp.Expr] | None = None) -> sp.Symbol:
-    """Replaces v and v̇ by their values under the rolling condition; and `more`."""
+    """A letter with v and v̇ replaced by their values under the rolling condition, and the replacements `more`."""
     velocity = written("velocity", "v of the rolling condition, v + ρωγ = 0", rolling_velocity(), ALGEBRA)
     acceleration = derivation.rate("acceleration", "its derivative: γ̇ = -ωγ, ω̇ = α", velocity, RATES)
     places = ALGEBRA.with_transposes({v: velocity, a: acceleration})
@@ -83,5 +83,5 @@ def dalembert() -> sp.Symbol:
 
 
 def eliminated() -> sp.Symbol:
-    """The principle with the velocity and the reaction eliminated, and D = mρ²."""
+    """The principle with D = mρ², in which the velocity and the reaction are eliminated."""
     return on_rolling("principle_rolling", dalembert(), {m: D / rho**2})

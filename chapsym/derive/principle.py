@@ -1,9 +1,8 @@
 """The discrete Lagrange-d'Alembert principle on E(n), for every n (Sections 3 and 4).
 
-Everything starts here from three ingredients: the discrete Lagrangian, the continuous rolling
-constraint (which the virtual displacements satisfy) and the discrete rolling constraint (which
-the path satisfies).  The results are expressions in the noncommuting symbols below, in the space
-frame at the time k.  `ball.py` carries them to the body frame.
+The derivation starts from three assumptions: the discrete Lagrangian, the continuous rolling constraint (for virtual
+displacements) and the discrete rolling constraint (for the path).  The results are expressions in the noncommuting
+symbols below, in the space frame at time k.  `ball.py` transforms them to the body frame.
 """
 
 from collections.abc import Mapping
@@ -29,7 +28,7 @@ TRANSPOSES = {
     **{J: J, Lam: Lam, xi: -xi, omega_space: -omega_space},
 }
 ALGEBRA = WordAlgebra(TRANSPOSES, {pair: 1 for a, b in [(R0, R0T), (R, RT), (R1, R1T)] for pair in [(a, b), (b, a)]})
-#: Where the path is varied: R_k need not be a rotation.
+#: The algebra of the variation of the path, in which R_k need not be a rotation.
 FREE = WordAlgebra(TRANSPOSES)
 
 
@@ -48,7 +47,7 @@ def kinetic_factor() -> sp.Expr:
     """The factor that makes 𝕃/ε² tend to the kinetic energy, up to a constant.
 
     With U = R_{k+1} - R_k the rotational energy is ½ Tr(U J Uᵀ)/ε², and
-    ½ Tr(U J Uᵀ) = Tr J - Tr(R_k J R_{k+1}ᵀ): the coefficient is read off.
+    ½ Tr(U J Uᵀ) = Tr J - Tr(R_k J R_{k+1}ᵀ): the factor is the coefficient of the last trace.
     """
     step = R1 - R
     energy = ALGEBRA.trace(step * J * ALGEBRA.transpose(step) / 2)
@@ -68,7 +67,7 @@ def discrete_constraint(a: sp.Expr, b: sp.Expr, x: sp.Expr, y: sp.Expr) -> sp.Ex
 
 
 def turning_step() -> sp.Symbol:
-    """(4.9) less Δr."""
+    """(4.9) without the term Δr."""
     rotational = discrete_constraint(R, R1, sp.S.Zero, sp.S.Zero)
     return written("turning_step", "(4.9) without Δr", rotational, ALGEBRA)
 
@@ -88,8 +87,8 @@ def variation() -> sp.Symbol:
 def multiplier_equations(factor: sp.Expr) -> list[sp.Symbol]:
     """D₁𝕃 + D₂𝕃 - (multiplier terms), in R_k and in r_k; both vanish on solutions.
 
-    The multipliers are a symmetric Λ for R Rᵀ = 1 and a column for the rolling constraint.  That
-    column is called -f, so that the equation in r_k reads m Δr_k - m Δr_{k-1} = f, as (4.4).
+    The multipliers are a symmetric Λ for R Rᵀ = 1 and a column -f for the rolling constraint, so that the
+    equation in r_k is m Δr_k - m Δr_{k-1} = f, as (4.4).
     """
     holding = written(
         "holding",
@@ -103,8 +102,8 @@ def multiplier_equations(factor: sp.Expr) -> list[sp.Symbol]:
 def momentum_balance(factor: sp.Expr) -> sp.Symbol:
     """The skew matrix that vanishes exactly when the principle holds, the multipliers eliminated.
 
-    Virtual displacements: dR = ξR with ξ skew, and dr the one that the continuous constraint
-    gives, -ρ ξ γ.  The principle says that the variation vanishes for every skew ξ.
+    Virtual displacements are dR = ξR with ξ skew, and dr = -ρ ξ γ by the continuous constraint.  The principle
+    is that the variation vanishes for every skew ξ.
     """
     rolling = written(
         "rolling", "(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes", rolling_constraint(dr, dR), FREE
@@ -129,7 +128,7 @@ def reaction() -> sp.Expr:
 
 
 def rolling_reaction() -> sp.Symbol:
-    """The same on the discrete constraint."""
+    """The reaction m Δr_k - m Δr_{k-1} under the discrete constraint."""
     force = written("reaction", "m Δr_k - m Δr_{k-1}", reaction(), ALGEBRA)
     return on_constraint("reaction_rolling", "on the discrete constraint", force)
 
@@ -141,7 +140,7 @@ def spatial_momentum(a: sp.Expr, b: sp.Expr) -> sp.Expr:
 
 
 def on_constraint(name: str, text: str, of: sp.Symbol, more: Mapping[sp.Symbol, sp.Expr] | None = None) -> sp.Symbol:
-    """Replaces r_{k+1} and r_{k-1} by their values under the discrete constraint (4.9); and `more`."""
+    """A letter with r_{k+1} and r_{k-1} replaced by (4.9), and the replacements `more`."""
     steps = (("k", "k+1", "after", (R, R1, r, r1), r1, -1), ("k-1", "k", "before", (R0, R, r0, r), r0, 1))
     centres = dict[sp.Symbol, sp.Expr]()
     for start, end, when, path, centre, sign in steps:

@@ -1,7 +1,7 @@
 """Euler parameters as words: a quaternion acts from the left, its conjugate from the right, by 4 × 4 matrices.
 
-The rotation of q is x ↦ q x q̄.  Where q' = ½ q ω it turns with the angular velocity ω in the body, so that
-q(ε) with q(0) = 1 has the rotation exp(ε ω): its expansion is that of the words.
+The rotation of q is x ↦ q x q̄.  If q' = ½ q ω, it has the angular velocity ω in the body.  So q(ε) with q(0) = 1 has
+the rotation exp(ε ω), and the same expansion as the words.
 """
 
 from functools import cache
@@ -14,15 +14,15 @@ from .limits import Remainder, Turning, coefficients, omega, remainder
 from .quotient import Quotient
 from .words import WordAlgebra, matrix_symbols, unfolded
 
-#: x ↦ qx and x ↦ xq̄; x ↦ ωx and x ↦ xω.
+#: The maps x ↦ qx, x ↦ xq̄, x ↦ ωx and x ↦ xω.
 Q, Q_bar, W, W_bar = matrix_symbols("Q Q_bar W W_bar")
-#: What acts from the left commutes with what acts from the right.
+#: Multiplications from the left commute with multiplications from the right.
 ALGEBRA = WordAlgebra({}, {(W, Q_bar): Q_bar * W, (W, W_bar): W_bar * W})
 TURN = Turning(
     {Q: sp.S.One, Q_bar: sp.S.One}, {Q: Q * W / 2, Q_bar: -Q_bar * W_bar / 2, W: sp.S.Zero, W_bar: sp.S.Zero}
 )
 
-#: Also q_a = exp(½ε²a), which has q_a' = ε q_a a.
+#: A second quaternion q_a = exp(½ε²a), with q_a' = ε q_a a.
 Q_a, A, eps = matrix_symbols("Q_a A eps")
 FREE = WordAlgebra({})
 BOTH_TURN = Turning(
@@ -58,7 +58,7 @@ def turned() -> tuple[sp.Symbol, sp.Symbol, sp.Symbol, sp.Symbol]:
 
 
 def on_vectors(of: sp.Symbol) -> list[list[sp.Symbol]]:
-    """Letters for the columns of what makes quaternions of vectors: each a scalar and a vector."""
+    """Letters for the columns of a map from vectors to quaternions; a column is a scalar and a vector."""
     q0, q = three.q0, three.q
     values = {Q: left(q0, q), Q_bar: right(q0, -q), W: left(sp.S.Zero, omega), W_bar: right(sp.S.Zero, omega)}
     matrix = coordinates(f"{of}_matrix", "by the matrices of the products", of, values, RING)
@@ -94,6 +94,6 @@ def other_expansion() -> list[sp.Matrix]:
 
 
 def _column(of: sp.Symbol, values: dict[sp.Symbol, sp.Matrix]) -> sp.Matrix:
-    """Letters for what is made of the quaternion 1."""
+    """Letters for the image of the quaternion 1."""
     matrix = coordinates(f"{of}_matrix", "by the matrices of the products", of, values, RING)
     return sp.Matrix([entry(f"{of}_{i}", "by its first column", matrix, i, 0) for i in range(4)])

@@ -1,8 +1,8 @@
 """Exact zero tests for n = 3: rational functions over Q modulo polynomial constraints.
 
-A statement about Euler parameters and a unit vertical is one about a quotient ring: it holds when
-its numerator is in the ideal of |q|² + q₀² = 1, |γ|² = 1 and what else is assumed.  Membership
-is decided by division by a Gröbner basis, in exact arithmetic (python-flint behind SymPy's QQ).
+An identity between functions of Euler parameters and a unit vertical holds if its numerator is in the ideal of
+|q|² + q₀² = 1, |γ|² = 1 and the other assumptions.  Membership is decided by division by a Gröbner basis, in exact
+arithmetic (python-flint).
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from sympy.polys.rings import PolyRing
 class Quotient:
     """Q[symbols] modulo the ideal of `relations` (polynomials that vanish by hypothesis).
 
-    Raises ValueError for a symbol whose name is not in ASCII: certificates have no other.
+    Raises ValueError for a symbol whose name is not ASCII: certificates have only ASCII names.
     """
 
     def __init__(self, symbols: Sequence[sp.Symbol], relations: Sequence[sp.Expr] = ()) -> None:
@@ -41,7 +41,7 @@ class Quotient:
         return list(map(self._read, sp.groebner(self.relations, *self.symbols, order="grevlex", domain="QQ").exprs))
 
     def _read(self, expr: sp.Expr) -> fmpq_mpoly:
-        """A polynomial."""
+        """A SymPy polynomial as one of python-flint."""
         terms = self._ring.from_expr(expr).to_dict()
         return self._context.from_dict({m: fmpq(int(c.numerator), int(c.denominator)) for m, c in terms.items()})
 
@@ -50,19 +50,19 @@ class Quotient:
         return self._shown(self._read(sp.sympify(expr, strict=True)))
 
     def reduced(self, expr: sp.Expr) -> sp.Expr:
-        """A rational function as a quotient of normal forms, the one below with integers that have no common factor."""
+        """A rational function as a quotient of normal forms; the denominator has coprime integer coefficients."""
         above, below = map(self._shown, self._fraction(sp.sympify(expr, strict=True))[0])
         content, below = below.as_content_primitive()
         return sp.expand(above / content) / below
 
     def is_zero(self, expr: sp.Expr | int) -> bool:
-        """True exactly when the rational function vanishes wherever the relations hold and it is defined.
+        """Whether the numerator of a rational function is in the ideal of the relations.
 
-        Exact in one direction for any ideal (a zero remainder proves the identity); a non-zero
-        remainder says that the numerator is not in the ideal.
-        Raises ZeroDivisionError if the denominator vanishes under the relations.
+        If so, the function vanishes wherever the relations hold and it is defined.  If not, the numerator is not in the
+        ideal; it may still vanish there if the ideal is not radical.
+        Raises ZeroDivisionError if a denominator vanishes under the relations.
         """
-        (numerator, _), divisors = self._fraction(sp.sympify(expr, strict=True))  # a text is not evaluated
+        (numerator, _), divisors = self._fraction(sp.sympify(expr, strict=True))  # a string is not evaluated
         for written, divisor in divisors:
             if self._rest(divisor) == 0:
                 raise ZeroDivisionError(f"the denominator {written} is zero under the hypotheses")
@@ -70,13 +70,13 @@ class Quotient:
 
     @cached_property
     def _known(self) -> dict[sp.Expr, tuple[fmpq_mpoly, fmpq_mpoly]]:
-        """1 and the symbols as fractions."""
+        """The fractions of 1 and the symbols."""
         one = self._context.constant(1)
         known = {x: (gen, one) for x, gen in zip(self.symbols, self._context.gens(), strict=True)}
         return {sp.S.One: (one, one), **known}
 
     def _fraction(self, expr: sp.Expr) -> tuple[tuple[fmpq_mpoly, fmpq_mpoly], list[tuple[sp.Expr, fmpq_mpoly]]]:
-        """Numerator and denominator of a rational function; what it divides by, with the numerators of that."""
+        """The numerator and denominator of a rational function; its divisors, each with its numerator."""
         known, divisors = dict(self._known), []
         one = known[sp.S.One][0]
 
@@ -111,13 +111,13 @@ class Quotient:
         return of(expr), divisors
 
     def _shown(self, polynomial: fmpq_mpoly) -> sp.Expr:
-        """The normal form of a polynomial."""
+        """The normal form of a polynomial, in SymPy."""
         rest = self._rest(polynomial).to_dict()
-        terms = {tuple(map(int, m)): sp.QQ(int(c.p), int(c.q)) for m, c in rest.items()}  # SymPy need not know flint's
+        terms = {tuple(map(int, m)): sp.QQ(int(c.p), int(c.q)) for m, c in rest.items()}  # SymPy may not know flint's
         return self._ring.from_dict(terms).as_expr()
 
     def _rest(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
-        """The same: what is left by division; by a Gröbner basis it does not depend on the order of its elements."""
+        """The remainder of the division by the Gröbner basis, which does not depend on the order of its elements."""
         before = None
         while before != polynomial:
             before = polynomial

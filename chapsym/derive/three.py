@@ -23,19 +23,19 @@ J = sp.diag(J1, J2, J3)
 
 MASSES = (J1, J2, J3)
 
-#: What the letters of the words for every n stand for.
+#: The values for n = 3 of the letters of the words.
 BALL = {ball.J: J, ball.D: D, ball.gamma: gamma, ball.gammaT: gamma.T, ball.Gamma: gamma * gamma.T}
 
-#: No moment of inertia is 0: then Λ is regular and F > 0, for D ≥ 0 (2.13).
+#: The moments of inertia are positive: then Λ is regular and F > 0, for D ≥ 0 (2.13).
 MOMENTS = (J2 + J3 > 0, J1 + J3 > 0, J1 + J2 > 0, D >= 0)
 
 UNIT_QUATERNION = q0**2 + q.dot(q) - 1
 UNIT_VERTICAL = gamma.dot(gamma) - 1
 
-#: That the Euler parameters and the vertical are unit.
+#: The conditions that the Euler parameters and the vertical are unit.
 UNITS = (sp.Eq(UNIT_QUATERNION, 0), sp.Eq(UNIT_VERTICAL, 0))
 
-#: Where 𝒦(q, γ) lives: Euler parameters and the vertical are unit; the ball is any ball.
+#: The ring of 𝒦(q, γ): the Euler parameters and the vertical are unit; J and D are free.
 RING = Quotient((q0, q1, q2, q3, g1, g2, g3, J1, J2, J3, D), [UNIT_QUATERNION, UNIT_VERTICAL])
 
 
@@ -45,12 +45,12 @@ def axial(a: sp.Matrix) -> sp.Matrix:
 
 
 def determinant(m: sp.Matrix) -> sp.Expr:
-    """The determinant of a 3 × 3 matrix as a product of its rows, so that nothing is simplified on the way."""
+    """The determinant of a 3 × 3 matrix as the triple product of its rows, without simplification."""
     return m[0, :].dot(m[1, :].cross(m[2, :]))
 
 
 def quaternion_product(a: sp.Matrix, b: sp.Matrix) -> sp.Matrix:
-    """Hamilton's product of (scalar, vector) columns."""
+    """The quaternion product of (scalar, vector) columns."""
     a0, av, b0, bv = a[0], a[1:, :], b[0], b[1:, :]
     vector = a0 * bv + b0 * av + av.cross(bv)
     return sp.Matrix([a0 * b0 - av.dot(bv), *vector])
@@ -58,7 +58,7 @@ def quaternion_product(a: sp.Matrix, b: sp.Matrix) -> sp.Matrix:
 
 @cache
 def rotation() -> sp.ImmutableMatrix:
-    """Ω as the map x ↦ q x q̄ of Euler parameters, entry by entry (homogeneous of degree 2)."""
+    """The matrix Ω of x ↦ q x q̄ in Euler parameters, homogeneous of degree 2."""
     quaternion, conjugate = sp.Matrix([q0, *q]), sp.Matrix([q0, *(-q)])
     columns = [
         quaternion_product(quaternion_product(quaternion, sp.Matrix([0, *e])), conjugate)[1:, :]
@@ -69,13 +69,13 @@ def rotation() -> sp.ImmutableMatrix:
 
 @cache
 def momentum_matrix() -> sp.ImmutableMatrix:
-    """(4.13) with the rotation of the Euler parameters instead of Ω, as a skew 3×3 matrix."""
+    """(4.13) for the rotation Ω of the Euler parameters, as a skew 3×3 matrix."""
     return DEFINED[_turned(ball.momentum())]
 
 
 @cache
 def turned_entries(name: str, of: sp.Symbol) -> sp.ImmutableMatrix:
-    """Letters for the vector of skew words at the rotation of the Euler parameters, as in Section 5."""
+    """Letters for the axial vector of skew words at the rotation of the Euler parameters."""
     return axial_entries(name, _turned(of))
 
 
@@ -85,7 +85,7 @@ def _turned(of: sp.Symbol) -> sp.Symbol:
 
 
 def axial_entries(name: str, skew: sp.Symbol) -> sp.ImmutableMatrix:
-    """Letters for the vector of a named skew matrix, as in Section 5."""
+    """Letters for the axial vector (A₃₂, A₁₃, A₂₁) of a named skew matrix."""
     places = ((2, 1), (0, 2), (1, 0))
     return sp.ImmutableMatrix([entry(f"{name}_{i}", "by (A₃₂, A₁₃, A₂₁)", skew, *at) for i, at in enumerate(places, 1)])
 
@@ -94,8 +94,8 @@ def axial_entries(name: str, skew: sp.Symbol) -> sp.ImmutableMatrix:
 def contact_inertia() -> sp.ImmutableMatrix:
     """B(γ) = ½ ∂²𝒦/∂q₀∂q, which is Λ - Dγγᵀ on |γ| = 1: the inertia about the contact point.
 
-    Read off (4.13) without |γ| = 1, so the diagonal is a sum of non-negative terms,
-    J₂ + J₃ + D(γ₂² + γ₃²): nothing cancels when D is large.
+    From (4.13) without |γ| = 1: so the diagonal is a sum of non-negative terms,
+    J₂ + J₃ + D(γ₂² + γ₃²), without cancellation for large D.
     """
     mixed = sp.Matrix(axial(momentum_matrix())).jacobian(q).diff(q0) / 2
     return sp.ImmutableMatrix(mixed.applyfunc(by_parameters))
@@ -111,20 +111,20 @@ def momentum() -> sp.ImmutableMatrix:
 
 
 def by_parameters(expr: sp.Expr) -> sp.Expr:
-    """Writes a polynomial as (a combination of the Jᵢ)·monomial + D·(...), factored."""
+    """A polynomial in the form (a combination of the Jᵢ)·monomial + D·(...), factored."""
     inertial, contact = sp.expand(expr.subs(D, 0)), sp.expand(expr).coeff(D, 1)
     return sp.factor(inertial) + D * sp.factor(contact)
 
 
 def lam() -> sp.Matrix:
-    """Λ = diag(J₂ + J₃ + D, ...): what B(γ) + Dγγᵀ is on the unit sphere."""
+    """Λ = diag(J₂ + J₃ + D, ...) = B(γ) + Dγγᵀ on the unit sphere."""
     whole = (sp.Matrix(contact_inertia()) + D * gamma * gamma.T).applyfunc(RING.normal)
     if not whole.is_diagonal():
         raise ArithmeticError("the inertia about the contact point is not a diagonal matrix less D gamma gamma^T")
     return whole
 
 
-#: Names of what is computed on the way to 𝒦: x × γ, and D times it.
+#: Symbols for intermediate results of 𝒦: x × γ, and D(x × γ).
 SLIP = sp.Matrix(sp.symbols("c1:4"))
 DRAG = sp.Matrix(sp.symbols("f1:4"))
 
@@ -137,7 +137,7 @@ def placed(*pairs: tuple[Iterable[sp.Symbol], Iterable[Any]]) -> dict[sp.Symbol,
 
 
 def unrolled(steps: Steps, value: sp.Matrix) -> sp.Matrix:
-    """The results of steps, in their inputs alone."""
+    """The result of steps, expressed by their inputs alone."""
     for names, expressions in reversed(steps):
         value = value.xreplace(placed((names, expressions)))
     return value
@@ -146,22 +146,22 @@ def unrolled(steps: Steps, value: sp.Matrix) -> sp.Matrix:
 def carried_steps(x: sp.Matrix) -> tuple[Steps, sp.Matrix]:
     """B(γ)x = Ix + γ × D(x × γ) in steps.
 
-    A rounding of x × γ moves this at a right angle to γ, where B is large, so that it is no more than a rounding of x:
-    for D ≫ J the sum over the entries of B loses ⟨γ, B x⟩ = ⟨γ, Ix⟩ to roundings of D.
+    A rounding error of x × γ changes the result orthogonally to γ, where B is large: it is equivalent to one of x.
+    For D ≫ J, the product by the entries of B has rounding errors ∝ D in ⟨γ, B x⟩ = ⟨γ, Ix⟩.
     """
     central = sp.diag(J2 + J3, J1 + J3, J1 + J2)
     return [(SLIP, x.cross(gamma)), (DRAG, D * SLIP)], central * x + gamma.cross(DRAG)
 
 
 def momentum_steps() -> tuple[Steps, sp.Matrix]:
-    """𝒦(q, γ) by B(γ)q in the steps that keep its vertical part."""
+    """𝒦(q, γ) in steps, by B(γ)q of `carried_steps`, which is accurate in the vertical component."""
     steps, carried = carried_steps(q)
     gyroscopic = sp.Matrix(momentum()).subs(q0, 0)
     return steps, 2 * (q0 * carried + gyroscopic / 2)
 
 
 def residual_steps() -> tuple[Steps, sp.Matrix]:
-    """𝒦(q, γ) - 𝒦 in the same steps."""
+    """𝒦(q, γ) - 𝒦 in the steps of `momentum_steps`."""
     steps, value = momentum_steps()
     return steps, value - K
 
@@ -202,13 +202,13 @@ def body_directions() -> list[sp.Matrix]:
 
 
 def rotation_offset() -> sp.Matrix:
-    """Ω - 1 on unit Euler parameters, with 1 written as q₀² + |q|²: small when the rotation is."""
+    """Ω - 1 for unit Euler parameters, with 1 written as q₀² + |q|²: small for a small rotation."""
     whole = sp.Matrix(rotation()) - (q0**2 + q.dot(q)) * sp.eye(3)
     return whole.applyfunc(lambda e: sp.factor(sp.expand(e)))
 
 
 def rotated(x: sp.Matrix) -> sp.Matrix:
-    """Ωx = x + (Ω - 1)x: a vector of the body at k+1, seen in the body at k."""
+    """Ωx = x + (Ω - 1)x: a vector of the body frame at k+1, in the body frame at k."""
     return x + rotation_offset() * x
 
 
@@ -218,9 +218,9 @@ def transported(x: sp.Matrix) -> sp.Matrix:
 
 
 def centre_step() -> sp.Matrix:
-    """Δr/ρ in the body frame at the time k, from the discrete constraint (4.9), for γ upwards.
+    """Δr/ρ in the body frame at time k, from the discrete constraint (4.9), for γ upwards.
 
-    (4.9) with γ from the centre to the plane reads Δr = -(ρ/2)(Ω - Ωᵀ)γ in the body; see claim 2.1.
+    (4.9) with γ from the centre to the plane is Δr = -(ρ/2)(Ω - Ωᵀ)γ in the body frame; see claim 2.1.
     """
     om = sp.Matrix(rotation())
     upwards = -gamma

@@ -11,14 +11,14 @@ from .three import J1, J2, J3, D, gamma, q, q0
 
 h, sigma = sp.symbols("h sigma")
 
-#: Named intermediate expressions in order, and the outputs by those names.
+#: Named intermediate expressions in order, and the outputs in terms of these names.
 Steps = list[tuple[Sequence[sp.Symbol], Sequence[sp.Expr]]]
 Stepwise = tuple[Steps, Sequence[sp.Expr]]
 
 
 @cache
 def left_side() -> sp.ImmutableMatrix:
-    """The left side of (5.4): the momentum of a ball with Ĵ = J + D/2 that does not roll."""
+    """The left side of (5.4): the momentum for D = 0 and the mass tensor Ĵ = J + D/2."""
     shifted = {J1: J1 + D / 2, J2: J2 + D / 2, J3: J3 + D / 2}
     vector = sp.Matrix(three.momentum()).subs(D, 0).xreplace(shifted)
     return sp.ImmutableMatrix(vector.applyfunc(lambda e: sp.factor(sp.expand(e))))
@@ -26,7 +26,7 @@ def left_side() -> sp.ImmutableMatrix:
 
 @cache
 def excess() -> sp.Expr:
-    """The scalar x with (left side of 5.4) - 𝒦(q, γ) = x γ: then 𝒦 = hγ reads left = (h + x)γ."""
+    """The scalar x with (left side of 5.4) - 𝒦(q, γ) = x γ: then 𝒦 = hγ is equivalent to left side = (h + x)γ."""
     difference = sp.Matrix(left_side()) - sp.Matrix(three.momentum())
     along = three.RING.normal(gamma.dot(difference))
     if not all(three.RING.is_zero(e) for e in difference - along * gamma):
@@ -36,14 +36,14 @@ def excess() -> sp.Expr:
 
 @cache
 def next_left_side() -> sp.ImmutableMatrix:
-    """Ωᵀ (left side), with |q|² + q₀² = 1: the left side with -q replaced by q, but for q₀q."""
+    """Ωᵀ (left side), for |q|² + q₀² = 1: the left side with opposite signs of the terms without q₀."""
     vector = sp.Matrix(three.rotation()).T * sp.Matrix(left_side())
     unit = Quotient((q0, *q, J1, J2, J3, D), [three.UNIT_QUATERNION])
     return sp.ImmutableMatrix(vector.applyfunc(unit.normal))
 
 
-# On 𝒦 = hγ the state is (q, σ): γ = left/σ, γ~ = Ωᵀγ, h = σ - (excess).  That |γ| = 1 ties σ to q
-# is part of a state, but none of the identities needs it.
+# For 𝒦 = hγ the state is (q, σ): γ = (left side)/σ, γ~ = Ωᵀγ, h = σ - excess.  |γ| = 1 is a relation between σ and q;
+# the identities do not need it.
 
 #: Q[q₀, q, J, D, σ] modulo |q|² + q₀² = 1.
 RING = Quotient((sigma, q0, *q, J1, J2, J3, D), [three.UNIT_QUATERNION])
@@ -70,8 +70,8 @@ def total() -> sp.ImmutableMatrix:
     return sp.ImmutableMatrix((gamma_now() + gamma_next()).applyfunc(sp.factor))
 
 
-# The rotation in closed form.  With σ = 2t and ⟨γ, q⟩/q₀ = e/t the equation 𝒦 = hγ is linear in q/q₀; what is
-# left are two scalar equations for t and e, of which the first knows γ through ⟨γ, Λ⁻¹γ⟩ only.
+# The rotation in closed form.  With σ = 2t and ⟨γ, q⟩/q₀ = e/t the equation 𝒦 = hγ is linear in q/q₀.  There remain
+# two scalar equations for t and e; the first depends on γ only by ⟨γ, Λ⁻¹γ⟩.
 
 t, e, v, level = sp.symbols("t e v level")
 INERTIA = sp.symbols("L1:4")
@@ -89,7 +89,7 @@ def closed_matrix() -> sp.ImmutableMatrix:
 
 @cache
 def closed_rotation() -> sp.ImmutableMatrix:
-    """(q₀, q) up to a factor: det M and t adj(M)γ, with |γ| = 1 used where it shortens them."""
+    """(q₀, q) up to a factor: det M and t adj(M)γ, shortened by |γ| = 1."""
     p1, p2, p3 = (x - e for x in INERTIA)
     products, swapped = (p2 * p3, p3 * p1, p1 * p2), (gamma[1] * gamma[2], gamma[2] * gamma[0], gamma[0] * gamma[1])
     gaps = [INERTIA[(i + 1) % 3] - INERTIA[(i + 2) % 3] for i in range(3)]
@@ -130,7 +130,7 @@ def level_newton() -> list[sp.Expr]:
 
 
 def level_steps() -> Stepwise:
-    """The same in steps: s = t², m = e = v t², det(Λ - e) = c p₃, b the sum of its minors, a = tr Λ - 2e."""
+    """`level_newton` in steps: s = t², m = e = v t², det(Λ - e) = c p₃, a = tr Λ - 2e, b the sum of minors plus 2s."""
     s, m, a, b, c = sp.symbols("s m a b c")
     p = sp.symbols("p1:4")
     steps: Steps = [

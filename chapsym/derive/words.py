@@ -1,12 +1,11 @@
 """Identities for every n: words in noncommuting matrix symbols, with rewriting rules.
 
-A matrix identity that holds for all sizes n is proved by writing both sides as sums of words in
-noncommuting symbols, replacing R Rᵀ and the like by their normal forms, and seeing every
-coefficient vanish.  Nothing is assumed about n, nor about the entries of the matrices.  Columns
-and rows (γ, γᵀ) are symbols like any other.
+A matrix identity for all sizes n is proved as follows: the difference of its sides is a sum of words in noncommuting
+symbols; products such as R Rᵀ are replaced by their normal forms; all coefficients vanish.  Nothing is assumed about n
+or the entries of the matrices.  Columns and rows (γ, γᵀ) are ordinary symbols.
 
-The rules must be confluent, otherwise the normal form would depend on the order of rewriting and
-"not zero" would mean nothing.  The constructor checks all critical pairs.
+The rules must be confluent: otherwise the normal form would depend on the order of rewriting, and a non-zero normal
+form would prove nothing.  The constructor checks all critical pairs.
 """
 
 from collections.abc import Mapping, Sequence
@@ -20,11 +19,11 @@ import sympy as sp
 Word = tuple[sp.Symbol, ...]
 
 
-#: What a letter stands for that derivation.py has defined.
+#: The expressions of the letters that derivation.py has defined.
 DEFINED: dict[sp.Symbol, sp.Expr] = {}
 
 
-#: Of one rewriting; the longest of chapsym's own takes some thousands.
+#: The most steps of one rewriting; the longest of chapsym takes some thousands.
 MOST_STEPS = 200_000
 
 
@@ -41,14 +40,14 @@ def unfolded(expr: sp.Expr) -> sp.Expr:
 class WordAlgebra:
     """Sums of words over Q(commuting parameters), modulo rewriting rules on adjacent pairs.
 
-    `transposes` maps symbols to their transposes (expressions: `{J: J, xi: -xi, R: RT}`, and so that of RT is R).
+    `transposes` maps symbols to their transposes: `{J: J, xi: -xi, R: RT}`; the transpose of RT is then R.
     `rules` maps an adjacent pair to the expression that replaces it: `{(R, RT): 1}`.
 
-    `example` maps letters to matrices, and parameters to numbers, for which the rules hold: that there are some is part
-    of a proof.  Without it one is searched, or taken from the examples of a register (prove/witness.py).
+    `example` maps letters to matrices, and parameters to numbers, that satisfy the rules: their existence is part of a
+    proof.  By default an example is searched for, or taken from the examples of a register (prove/witness.py).
 
-    Raises ValueError if the rules are not confluent or do not end, if transposing twice does not give a symbol back, or
-    if the example is not rational or breaks a rule or a transpose.
+    Raises ValueError if the rules are not confluent or do not terminate, if the transpose is not an involution, or if
+    the example is not rational or violates a rule or a transpose.
     """
 
     def __init__(
@@ -76,7 +75,7 @@ class WordAlgebra:
         self._check_example()
 
     def _check_example(self) -> None:
-        """Where the example has values for all letters of a rule or transpose, these hold."""
+        """Raises ValueError unless the example satisfies the rules and transposes of which it has all letters."""
         given = self.example
         said = [(a * b, image, f"the rule for {a} {b}") for (a, b), image in self.rules.items()]
         for left, image, what in said:
@@ -90,7 +89,7 @@ class WordAlgebra:
                 raise ValueError(f"the example breaks the transpose of {x}")
 
     def normal(self, expr: sp.Expr | int) -> sp.Expr:
-        """The normal form: expanded, with every rule applied until none matches."""
+        """The normal form: expanded, with rules applied until none matches."""
         total: dict[Word, sp.Expr] = {}
         pending, steps = list(_terms(expr)), 0
         while pending:
@@ -112,13 +111,13 @@ class WordAlgebra:
         return bool(self.normal(expr) == 0)
 
     def transpose(self, expr: sp.Expr | int) -> sp.Expr:
-        """Transposition: reverses each word and transposes its letters."""
+        """The transpose: each word reversed, with its letters transposed."""
         return sp.Add(
             *(c * sp.Mul(*(self.transposes[letter] for letter in reversed(word))) for c, word in _terms(expr))
         )
 
     def with_transposes(self, places: Mapping[sp.Symbol, Any]) -> dict[sp.Symbol, Any]:
-        """What is put for letters, words or matrices, each followed by what is put for the transpose of the letter."""
+        """Substitutes for letters (words or matrices), each followed by the substitute for the letter's transpose."""
         whole: dict[sp.Symbol, Any] = {}
         for letter, image in places.items():
             whole[letter] = image
@@ -128,12 +127,12 @@ class WordAlgebra:
             if isinstance(image, sp.MatrixBase):
                 whole[other] = image.T
             else:
-                number, word = image.as_coeff_Mul()  # the number stays in front: certificates have it so
+                number, word = image.as_coeff_Mul()  # the number stays in front, as in certificates
                 whole[other] = number * self.transpose(word)
         return whole
 
     def rate(self, expr: sp.Expr, rates: Mapping[sp.Symbol, sp.Expr]) -> sp.Expr:
-        """The derivative of a sum of words by Leibniz' rule, from those of the letters."""
+        """The derivative of a sum of words by Leibniz' rule, from the rates of the letters."""
         total = sp.S.Zero
         for c, word in _terms(self.normal(expr)):
             for i, letter in enumerate(word):
@@ -163,7 +162,7 @@ class WordAlgebra:
         return sp.expand(total)
 
     def _cyclically_reduced(self, word: Word) -> Word:
-        """Removes pairs that a rule with value 1 joins across the end of the trace."""
+        """A word without pairs across the ends of the trace that a rule replaces by 1."""
         while len(word) >= 2 and self.rules.get((word[-1], word[0])) == 1:
             word = word[1:-1]
         return word
@@ -181,7 +180,7 @@ class WordAlgebra:
         return self.normal(total)
 
     def dual_of_skew(self, expr: sp.Expr, xi: sp.Symbol) -> sp.Expr:
-        """The matrix S with expr = ½ tr(ξ S), S skew, for a trace expression linear in the skew ξ.
+        """The skew matrix S with expr = ½ tr(ξ S), for a trace expression linear in the skew ξ.
 
         expr vanishes for *every* skew ξ exactly when S does.
         """
@@ -195,7 +194,7 @@ class WordAlgebra:
 
 
 def _rational(letter: sp.Symbol, value: Any) -> Any:
-    """A matrix of rational numbers, or one number, of an example."""
+    """A matrix of rational numbers, or a rational number, of an example."""
     if isinstance(value, sp.MatrixBase) and all(x.is_Rational for x in value):
         return value
     if isinstance(value, int | Fraction | sp.Rational):
@@ -205,7 +204,7 @@ def _rational(letter: sp.Symbol, value: Any) -> Any:
 
 @dataclass(frozen=True)
 class Traces:
-    """The traces of sums of words of an algebra."""
+    """Traces of sums of words of an algebra."""
 
     algebra: WordAlgebra
 
@@ -250,7 +249,7 @@ def _key(word: Word) -> tuple[str, ...]:
 def evaluate(expr: sp.Expr | int, values: Mapping[sp.Symbol, sp.Matrix | sp.Expr]) -> Any:
     """A sum of words at explicit matrices (columns and rows included) and values of the parameters.
 
-    The empty word is the identity of the size n (columns and rows have n entries); a sum without words is the number 0.
+    The empty word is the n × n identity (columns and rows have n entries); a sum without words is the number 0.
     """
     matrices = {symbol: value for symbol, value in values.items() if isinstance(value, sp.MatrixBase)}
     scalars = {symbol: value for symbol, value in values.items() if symbol not in matrices}
