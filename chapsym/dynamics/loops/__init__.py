@@ -1,1 +1,1 @@
-"""The loops: one text, which runs as Python and is printed as C (`text`)."""
+"""The loops: one source, which runs as Python and is translated to C (`text`)."""

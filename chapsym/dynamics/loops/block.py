@@ -1,6 +1,6 @@
-"""Many balls at once: blocks of `LANES` balls, each number in a row of its own, so that the loops become vector code.
+"""Many balls at once: blocks of up to `LANES` balls, with one row for each variable, so that the loops vectorise.
 
-It does to each ball what `loop.march` does, with the same roundings.
+The computation for each ball is that of `loop.march`, with the same rounding errors.
 """
 
 import numpy as np
@@ -13,36 +13,36 @@ from .path import improved, proved
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
 from .vectors import four_in, plus, put_four_in, put_in, scaled, square, three, three_in
 
-#: Balls in a block, at most: its rows stay in the first-level cache.
+#: The most balls in a block: its rows stay in the first-level cache.
 LANES = 40
-#: Balls in a block are made a multiple of what the widest register holds.
+#: The number of lanes of a block is a multiple of the length of the widest register.
 REGISTER = 8
-#: A float32 is half as long.
+#: The values for float32, which is half as long.
 SINGLE = {"LANES": 80, "REGISTER": 16}
-#: After a step that needed the second correction, this many are taken with it at once.
+#: After a step that needed the second correction, the number of steps that compute it without a test.
 PATIENCE = 64
-#: In place of a radius²: the ball has stopped.
+#: The value of radius² for a ball that has stopped.
 STOPPED = -3.0
-#: Rows of the rotations: the quaternion p and its Gibbs vector, from W on; whether a lane is on its way along the path,
-#: and what is left there; and the guess of the Gibbs vector.
+#: Rows of the rotations: the quaternion p and its Gibbs vector, from W on; whether a lane is still open in the search
+#: on the path, and its residual there; and the guess of the Gibbs vector, from A on.
 P_ROWS, W, A = 12, 4, 9
-#: Rounds that all lanes take together where more than a few did not settle; those few are mended one by one.
+#: The most rounds for all lanes together if more than FEW did not converge; up to FEW are treated one by one.
 ROUNDS = 4
 FEW = 2
 
 
 def whole(ok):
-    """The lanes in use, a multiple of REGISTER: said so, for a loop without a rest that would be narrower."""
+    """The lanes in use, rounded to a multiple of REGISTER, so that compilers need no scalar remainder loop."""
     return len(ok) // REGISTER * REGISTER
 
 
 def body_in(S, i):
-    """k, γ, I and D of a lane."""
+    """The k, γ, I and D of a lane."""
     return three_in(S, K, i), three_in(S, G, i), three_in(S, I, i), S[D, i]
 
 
 def predicted(S, P, ok):
-    """Every lane's rotation, by a Newton iterate from the extrapolation; returns how many did not settle."""
+    """Every lane's rotation, by one Newton iterate from the extrapolation; returns the number not converged."""
     for i in lanes(whole(ok)):
         u = three_in(P, A, i)
         r = newton_round(u, *body_in(S, i))
@@ -53,9 +53,9 @@ def predicted(S, P, ok):
 
 
 def corrected(S, P, ok, again):
-    """The same with the second correction where it is needed; `again`, from there for the lanes that did not settle.
+    """`predicted` with the second correction where needed; `again`: a further round for the lanes not converged.
 
-    A lane that is not near, outside the ball of the lemma, stays, and begins again from no rotation: `gibbs.search`.
+    A lane outside the ball of the lemma is left as it is, and starts again from the identity: `gibbs.search`.
     """
     for i in lanes(whole(ok)):
         radius, enough = S[RADIUS, i], S[ENOUGH, i]
@@ -81,7 +81,7 @@ def corrected(S, P, ok, again):
 
 
 def approached(S, P, ok):
-    """The lanes beyond the bound by a Newton iterate from the extrapolation, as `path.search_on_path` begins."""
+    """A Newton iterate from the extrapolation for the lanes beyond the bound: the start of `path.search_on_path`."""
     for i in lanes(whole(ok)):
         beyond = S[RADIUS, i] == BEYOND
         r = newton_round(three_in(P, A, i), *body_in(S, i))
@@ -91,7 +91,7 @@ def approached(S, P, ok):
 
 
 def nearer(S, P, ok):
-    """A round of corrections for the lanes on the path that are not near; returns how many are left for another."""
+    """A round of corrections for the open lanes on the path; returns the number that need another round."""
     for i in lanes(whole(ok)):
         going = P[7, i] == 1.0
         p, w, left, near, found = improved(three_in(P, W, i), *body_in(S, i))
@@ -105,9 +105,9 @@ def nearer(S, P, ok):
 
 
 def on_path(S, P, ok):
-    """Settles the lanes that came near where the root is proved to be that of the branch; returns how many are left.
+    """Accepts the lanes whose root is proved to be on the branch; returns the number not converged.
 
-    The others go the way of one ball, `mend`, from the beginning.
+    The other lanes are computed again as single balls by `mend`.
     """
     for i in lanes(whole(ok)):
         settled = proved(three_in(P, W, i), P[8, i], *body_in(S, i))
@@ -116,7 +116,7 @@ def on_path(S, P, ok):
 
 
 def unsettled(ok):
-    """Counts the lanes that did not settle: apart, as a wide counter would narrow the registers of the others."""
+    """The number of lanes not converged; a separate loop, as a wide counter would halve the vector length."""
     bad = 0
     for i in lanes(whole(ok)):
         bad += 1 - ok[i]
@@ -124,7 +124,7 @@ def unsettled(ok):
 
 
 def uncertified(radius, ok):
-    """The number of lanes that no round by the lemma can settle, and the number of them beyond its bound."""
+    """The number of lanes to which the lemma does not apply, and the number of those beyond its bound."""
     count, beyond = 0, 0
     for i in range(len(ok)):
         count += 0 if radius[i] >= 0.0 else 1
@@ -133,7 +133,7 @@ def uncertified(radius, ok):
 
 
 def solved(S, P, ok, hopeless, beyond, patience):
-    """Every lane's rotation: the patience left, and how many lanes to mend; hopeless, beyond: of `uncertified`."""
+    """Every lane's rotation; returns the patience left, and how many lanes to mend; hopeless, beyond: `uncertified`."""
     bad = hopeless + 1 if beyond < len(ok) else hopeless
     if patience == 0 and beyond < len(ok):
         bad = predicted(S, P, ok)
@@ -153,7 +153,7 @@ def solved(S, P, ok, hopeless, beyond, patience):
 
 @out_of_line
 def mend(S, P, ok, step, taken, status, reach, balls):
-    """The step of `loop.march` for the lanes that did not settle; a ball that cannot go on rests from then on."""
+    """The step of `loop.march` for the lanes not converged; a ball without a rotation rests from then on."""
     for i in range(len(ok)):
         if ok[i] == 1:
             continue
@@ -181,7 +181,7 @@ def rolled(S, P, B, ok):
 
 
 def guessed(P, past, at, places, weights, ok):
-    """`loop.guessed` of every lane, from the rows of past (3 places, lanes); four vectors are read at once."""
+    """`loop.guessed` for every lane, from the rows of past (3 places, lanes); four vectors are read at once."""
     for i in lanes(whole(ok)):
         put_in(P, A, i, (0.0, 0.0, 0.0))
     for j in range(0, len(weights), 4):
@@ -196,7 +196,7 @@ def guessed(P, past, at, places, weights, ok):
 
 
 def begin_stage(S, T, s, radius, enough, ok):
-    """The ball of a stage with the coefficient s: 𝒦 is s times that of the step."""
+    """Writes the ball of a stage with the coefficient s into T: 𝒦 is s times that of the step."""
     for i in lanes(whole(ok)):
         put_in(T, K, i, scaled(s, three_in(S, K, i)))
         put_in(T, G, i, three_in(S, G, i))
@@ -204,7 +204,7 @@ def begin_stage(S, T, s, radius, enough, ok):
 
 
 def end_stage(S, P, past, row, ok):
-    """Turns 𝒦 and γ of every lane, with compensation, and keeps the Gibbs vectors in the rows of past from `row` on."""
+    """Turns 𝒦 and γ of every lane, with compensation; stores the Gibbs vectors in past from `row` on."""
     for i in lanes(whole(ok)):
         p = four_in(P, 0, i)
         turn_in(p, S, K, X, i)
@@ -213,7 +213,7 @@ def end_stage(S, P, past, row, ok):
 
 
 def stop(S, T, radius, status, ok):
-    """Rests the lanes that `mend` left with no rotation; a ball that stops keeps the momentum of its stage."""
+    """Stops the lanes for which `mend` found no rotation; a stopped ball keeps the momentum of its stage."""
     for i in range(len(ok)):
         if (i >= len(status) or status[i] != 0) and ok[i] == 0 and radius[0, i] != STOPPED:
             for stage in range(len(radius)):
@@ -223,21 +223,21 @@ def stop(S, T, radius, status, ok):
 
 
 def turn_in(p, S, at, rest, i):
-    """Turns the vector in the rows from `at` on, with the rests of its sums in those from `rest` on, in a lane."""
+    """Turns the vector of a lane in the rows from `at` on, with its compensations in those from `rest` on."""
     v, x = turned(p, three_in(S, at, i), three_in(S, rest, i))
     put_in(S, at, i, v)
     put_in(S, rest, i, x)
 
 
 def carry(numbers, to, width):
-    """Copies columns."""
+    """Copies `width` columns of an array into another."""
     for row in range(to.shape[0]):
         for i in range(width):
             to[row, i] = numbers[row, i]
 
 
 def prepare_block(momentum, g, tensor, contact, c, state, radius, enough, past, scale):
-    """`loop.prepare` of each ball of a block; one that is not full repeats its last ball."""
+    """`loop.prepare` for each ball of a block; spare lanes repeat the last ball."""
     one, last = np.empty(ROWS, state.dtype), len(contact) - 1
     bounds = np.empty((2, len(c)), state.dtype)
     for lane in range(state.shape[1]):
@@ -254,7 +254,7 @@ def prepare_block(momentum, g, tensor, contact, c, state, radius, enough, past, 
 
 @out_of_line
 def restored(S, status):
-    """`integrals.restore` of each ball that has not stopped."""
+    """`integrals.restore` for each ball that has not stopped."""
     for i in range(len(status)):
         if status[i] == 0:
             one = S[:, i].copy()
@@ -279,11 +279,11 @@ def march_block(
     state, c, weights, radius, enough, past, first, count, every, scale, momenta, verticals, taken, status, reach,
     with_body, body, attitudes, traces,
 ):  # fmt: skip
-    """`loop.march` of the balls of a block: state (ROWS, lanes), radius² and enough (s, lanes), past (3 places, lanes).
+    """`loop.march` for a block of balls: state (ROWS, lanes), radius² and enough (s, lanes), past (3 places, lanes).
 
     lanes: a multiple of REGISTER, LANES at most.
-    body: (7, lanes), the attitude, the contact point and the radius, which are touched only when `with_body`.
-    scale, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
+    body: (7, lanes), the attitude, the contact point and the radius, used only if `with_body`.
+    scale, taken, status and reach have one entry for each ball; lanes beyond these are idle copies.
     """
     S, other = np.empty((ROWS, LANES), state.dtype), np.empty((ROWS, LANES), state.dtype)
     P, B = np.empty((P_ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
@@ -333,10 +333,10 @@ def march_blocks(
     ended: Matrix, momenta: Cube, verticals: Cube, taken: Integers, status: Integers, reach: Doubles, with_body: bool,
     body: Matrix, attitudes: Cube, traces: Cube,
 ):  # fmt: skip
-    """`count` steps of balls from the step `first` on, block by block; before the step 0 it prepares each.
+    """Takes `count` steps of balls from step `first` on, block by block; before step 0 it prepares each block.
 
-    state, radius, enough, past, body: of one block, which one call after the other carries on; more balls than those
-    of a block take all their steps in one call.  momentum, gamma, tensor, contact, rho: of each ball at the start,
+    state, radius, enough, past, body: of a single block, which successive calls continue; more balls than fit in a
+    block take all their steps in one call.  momentum, gamma, tensor, contact, rho: of each ball at the start,
     (n, 3), (n, 3), (n, 3), (n,), (n,).  ended: receives 𝒦 and γ of balls that stopped, (n, 6).
     """
     width, n = state.shape[1], len(contact)

@@ -1,14 +1,13 @@
 """The small-rotation branch: the rotation with a given momentum, continued from the identity.
 
-For fixed γ the branch is the curve q(t) with 𝒦(q(t), γ) = t𝒦 that starts at q(0) = 1 and is followed
-up to t = 1 while its Jacobian is regular.  Around a point p of the curve write q ∝ p ∘ (1, w):
-F(w) = 𝒦(p ∘ (1, w), γ) - t𝒦(1 + |w|²) is *quadratic* in w.  So the Newton-Kantorovich test needs no
-estimate: with T = F'(0) it asks that |T⁻¹F(0)| · |T⁻¹F''| ≤ 1/2, and F'' is constant.  Each
-continuation step is as long as the test allows, hence it stays on the branch; where the steps shrink
-to nothing is the fold.
+For fixed γ the branch is the curve q(t) with 𝒦(q(t), γ) = t𝒦 that starts at q(0) = 1 and is followed to t = 1 while its
+Jacobian is regular.  Near a point p of the curve write q ∝ p ∘ (1, w): F(w) = 𝒦(p ∘ (1, w), γ) - t𝒦(1 + |w|²) is
+*quadratic* in w, and F'' is constant.  So the Newton-Kantorovich test, |T⁻¹F(0)| · |T⁻¹F''| ≤ 1/2 with T = F'(0), needs
+no estimate of F''.  Each continuation step is as long as the test allows, so it stays on the branch; at a fold the
+steps shrink to 0.
 
-The equation does not know units: J, D and 𝒦 are first scaled by a power of two, exactly, so that the
-largest moment of inertia is about 1.  No rotation has |𝒦| > 2Λmax, so the path need not go further.
+The equation is homogeneous: J, D and 𝒦 are first scaled by a power of two, exactly, so that the largest moment of
+inertia is about 1.  No rotation has |𝒦| > 2Λmax, so the path need not go further.
 """
 
 from math import frexp, ldexp, sqrt
@@ -20,44 +19,44 @@ from .vectors import dot, largest, scaled, shifted
 
 TAKEN, FOLDED, NOT_CONVERGED, NO_INERTIA = 0, 1, 2, 4
 
-#: The Kantorovich number that a continuation step may have; the theorem asks for at most 1/2.
+#: The largest Kantorovich number of a continuation step; the theorem requires at most 1/2.
 CONTRACTION = 0.25
-#: A correction below this, relative to the rotation, is the last one: Newton squares it.
+#: A correction below this, relative to the rotation, is the last one, as Newton's method squares the error.
 SETTLED = 1e-9
-#: So is one that is below this many roundings of the residual, and shrinks no more.
+#: A correction below this many rounding errors of the residual is the last one if it no longer decreases.
 ROUNDINGS = 16.0
 UNIT_ROUNDOFF = 2.0**-53
-#: Nor can a correction get below a few of the smallest numbers that float64 has.
+#: The least correction that is significant: a few of the smallest numbers of float64.
 SMALLEST = 2.0**-1070
-#: A continuation step below this fraction of what is behind it is a fold.
+#: A continuation step below this fraction of the path so far means a fold.
 SHORTEST = 4e-16
-#: So is one below this fraction of what is behind it and of what is before it, for numbers with more digits.
+#: The same fraction for numbers with more digits, of the path so far and of the path left.
 FAR = 1e-19
-#: A smaller momentum than 2^LEAST, where Λmax is below 1, is taken so large, and the rotation made as much smaller:
-#: what is not linear is below 2^(2 LEAST), and no product underflows.
+#: A momentum below 2^LEAST, for Λmax below 1, is scaled up to it, and the rotation is scaled back: nonlinear terms are
+#: below 2^(2 LEAST), and no product underflows.
 LEAST = -200
-#: The path is followed as far as a momentum of 2^FARTHEST, where Λmax is below 1.
+#: The path is followed up to a momentum of 2^FARTHEST, for Λmax below 1.
 FARTHEST = 3
-#: A determinant of the tangent Jacobian below this, for Λmax about 1, is rounding.
+#: A determinant of the tangent Jacobian below this, for Λmax about 1, is a rounding error.
 SINGULAR = 2.0**-50
 MOST_STEPS = 20000
 MOST_CORRECTIONS = 20
 
 
 def small_rotation(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
-    """Solves 𝒦(q, γ) = 𝒦 on the small-rotation branch: (status, reach, q0, q1, q2, q3), as `continued`."""
+    """The solution of 𝒦(q, γ) = 𝒦 on the small-rotation branch: (status, reach, q0, q1, q2, q3), as `continued`."""
     status, reach, q = continued((K1, K2, K3), (g1, g2, g3), (J1, J2, J3), D, SHORTEST)
     return status, reach, *q
 
 
 def continued(K, g, J, D, shortest):
-    """The small-rotation branch up to the momentum 𝒦; a step below `shortest` is taken for a fold.
+    """The small-rotation branch up to the momentum 𝒦; a step below `shortest` means a fold.
 
-    Returns (status, reach, q): the unit Euler parameters with q0 ≥ 0, and the fraction t that was attained, 1 when the
-    status is TAKEN.
+    Returns (status, reach, q): q are unit Euler parameters with q0 ≥ 0; reach is the attained fraction t, 1 for the
+    status TAKEN.
     """
     q = 1.0, 0.0, 0.0, 0.0
-    if K[0] != K[0] or K[1] != K[1] or K[2] != K[2]:  # a product of the caller overflowed
+    if K[0] != K[0] or K[1] != K[1] or K[2] != K[2]:  # the caller overflowed
         return NOT_CONVERGED, 0.0, q
     _, exponent = frexp(max(*moments(J)) + D)
     J, D = shifted(J, -exponent), ldexp(D, -exponent)
@@ -85,7 +84,7 @@ def continued(K, g, J, D, shortest):
         if not settled:
             return NOT_CONVERGED, t * end, q
         t, q = ahead, p
-        if t == 1.0 and end < 1.0:  # past what any rotation has: the fold was missed
+        if t == 1.0 and end < 1.0:  # beyond the momentum of any rotation: the fold was missed
             return NOT_CONVERGED, end, q
         if t == 1.0:
             if q[0] < 0.0:
@@ -100,7 +99,7 @@ def moments(J):
 
 
 def tangent(q, K, g, J, D):
-    """(det T, |d|, |T⁻¹𝒦''|, d): the direction of the curve, d = T⁻¹𝒦, and what bounds the step along it."""
+    """(det T, |d|, |T⁻¹𝒦''|, d): the direction d = T⁻¹𝒦 of the curve, and the numbers that bound the step."""
     det, n = inverse(q, g, J, D)
     h = tangent_hessian(*q, *g, *J, D)
     bend = 0.0
@@ -129,7 +128,7 @@ def corrected(q, K, g, J, D):
         noise = ROUNDINGS * UNIT_ROUNDOFF * most * (size + 2.0 * top * extent)
         if change <= max(SETTLED * extent, SMALLEST):
             return True, q
-        # Corrections that are rounding no longer shrink as Newton's do.
+        # Corrections at the level of rounding no longer decrease as those of Newton's method.
         if change <= noise and change >= 0.25 * before:
             return True, q
         before = change
@@ -137,16 +136,16 @@ def corrected(q, K, g, J, D):
 
 
 def product(n, v):
-    """A matrix, row by row, times a vector."""
+    """The product of a matrix, given row by row, and a vector."""
     return dot(n[0:3], v), dot(n[3:6], v), dot(n[6:9], v)
 
 
 def inverse(q, g, J, D):
-    """det T and T⁻¹, row by row, of the tangent Jacobian T; zeros if T is singular."""
+    """The determinant and the inverse, row by row, of the tangent Jacobian T; zeros if T is singular."""
     det, n = inverse_of(tangent_jacobian(*q, *g, *J, D))
     if det == 0.0 or not is_heavy(moments(J), D):
         return det, n
-    # Lemma `stable-determinant`: γᵀT does not know D, and γᵀT T⁻¹γ = |γ|² would hold if `det` had no rounding of D³.
+    # Lemma `stable-determinant`: γᵀT is independent of D, and γᵀT T⁻¹γ = |γ|² fails only by errors ∝ D³ of det.
     a = tangent_jacobian(*q, *g, *J, 0.0 * D)
     y = dot(g, (a[0], a[3], a[6])), dot(g, (a[1], a[4], a[7])), dot(g, (a[2], a[5], a[8]))
     true = dot(y, product(n, g)) / dot(g, g)
@@ -157,7 +156,7 @@ def inverse(q, g, J, D):
 
 
 def inverse_of(a):
-    """The determinant and the inverse of a 3×3 matrix of any numbers, row by row; zeros if it is singular."""
+    """The determinant and the inverse, row by row, of a 3×3 matrix of any numbers; zeros if it is singular."""
     a11, a12, a13, a21, a22, a23, a31, a32, a33 = a
     c11, c12, c13 = a22 * a33 - a23 * a32, a23 * a31 - a21 * a33, a21 * a32 - a22 * a31
     c21, c22, c23 = a13 * a32 - a12 * a33, a11 * a33 - a13 * a31, a12 * a31 - a11 * a32

@@ -1,17 +1,17 @@
-"""Errors carried by the flow: those of the long steps of a ball, and those of their roundings, side by side.
+"""Propagation of errors by the flow: truncation errors of the long steps of a ball, and their rounding errors.
 
-An error of a step turns the body by a small φ, in its axes, and leaves K and γ where they are in space.  With
-Bω = Λω - D⟨γ,ω⟩γ = K and the rate δω that follows from φ, B δω = Λω × φ + D⟨ω × γ, φ⟩γ, it goes on as φ' = δω + φ × ω,
-and the contact point is off by the integral of R(φ' × γ) radii.  From both ends of a step of length h
+An error of a step turns the body by a small φ, in body axes, and does not change K and γ in space.  Let
+Bω = Λω - D⟨γ,ω⟩γ = K.  The change δω of the rate is given by B δω = Λω × φ + D⟨ω × γ, φ⟩γ.  Then φ' = δω + φ × ω, and
+the error of the contact point is the integral of R(φ' × γ) radii.  For a step of length h, from both ends,
 
     (1 - (h/2)A + (h²/12)P) φ₁ = (1 + (h/2)A₀ + (h²/12)P₀) φ₀    with φ' = Aφ, φ'' = Pφ,
 
-up to the fifth power of h, and for steady A without growth where there is none (Padé).
+up to the fifth power of h; for constant A without growth there is no growth (Padé).
 
-Two things are carried on by φ₁ = Φφ₀.  What the steps leave is of a size that the last columns tell, but of an unknown
-direction, which may change little from step to step: three errors of this size go on as Φφ + e, one along each of the
-changes that the last three columns have made, so that what the steps do and undo is seen as such.  Roundings have no
-direction: the matrix S of their mean squares goes on as ΦSΦᵀ + r².
+φ₁ = Φφ₀ propagates two kinds of errors.  The size of a truncation error is estimated from the last columns; its
+direction is unknown, and may change little from step to step.  So three errors of this size go on as Φφ + e, one along
+each of the changes by the last three columns: then cancellation between steps is taken into account.  Rounding errors
+have random directions: the matrix S of their mean squares goes on as ΦSΦᵀ + r².
 """
 
 from math import sqrt
@@ -22,37 +22,37 @@ from .lanes import ATTITUDE, BALL, CHANGE, CHANGES, DONE, LANES, MOVED, RADIUS, 
 from .text import lanes
 from .vectors import cross, dot, four_in, minus, mixed, plus, put_four_in, put_in, scaled, square_of_four, three_in
 
-#: Rows of an end.  Of the unit error φ of a lane: δω, φ', φ'', how fast the contact point leaves, and its rate.  Of the
-#: ball, in its first lane: ω, along which the flow goes, and the gradient of the energy.
+#: Rows of an end.  Of the unit error φ of a lane: δω, φ', φ'', the rate of the error of the contact point, and its
+#: derivative.  Of the ball, in its first lane: ω, the direction of the flow, and the gradient of the energy.
 SPUN, RATE, SECOND, WAY, BEND, FLOW, GRADIENT = 0, 3, 6, 9, 11, 13, 16
 END = 19
-#: Rows beyond the two ends: the unit error; K, γ, the attitude and J, in all lanes; and what becomes of a unit error
-#: by the end of the step, and of the contact point.
+#: Rows beyond the two ends: the unit error; K, γ, the attitude and J, in all lanes; the image of a unit error at the
+#: end of the step, and its contribution to the contact point.
 UNIT, INPUT, SHAPE, FLOWN, CARRIED = 2 * END, 2 * END + 3, 2 * END + 13, 2 * END + 16, 2 * END + 19
-#: φ and the contact point as the steps leave them, three errors in three lanes.  Rows of the ball: S of φ (6), of the
-#: contact point with φ (6), of the contact point (2).  What a step that stays brings: its length in the unit of time of
-#: S, which part its error is of each vector of `TWIST`, and the square of its rounding.
+#: The accumulated truncation errors of φ and the contact point, three errors in three lanes.  Rows of the ball: S of φ
+#: (6), of the contact point with φ (6), of the contact point (2).  Of an accepted step: its length in the unit of time
+#: of S, its error as a fraction of each vector of `TWIST`, and the square of its rounding error.
 LEFT, ROLLED, INNER, MIXED, OUTER = CARRIED + 2, CARRIED + 5, CARRIED + 7, CARRIED + 13, CARRIED + 19
 WHOLE, PART, ROUNDED = CARRIED + 21, CARRIED + 22, CARRIED + 25
-#: And what comes of it: the lengths of φ, of δω and of the way of the contact point, and the roots of the mean squares
-#: of the same that are rounding.
+#: The results: the lengths of φ, of δω and of the error of the contact point, and the root mean squares of the rounding
+#: errors of the same.
 FOUND = CARRIED + 26
-#: The inverse of the matrix of the last end, by rows, and the length of the step over 2, and its square over 12.
+#: The inverse, by rows, of the matrix of the last end, and h/2 and h²/12 of the step.
 INVERSE, HALF, TWELFTH = FOUND + 6, FOUND + 15, FOUND + 16
-#: At the end that was looked at last: ω of the component of K of a lane alone; and how many times as far as K a
-#: rounding of each component moves ω.
+#: At the last end: ω from the component of K of a lane alone; and the relative change of ω for a relative rounding
+#: error 1 of each component of K.
 SHARE, SWAY = FOUND + 17, FOUND + 20
-#: The changes of the quaternion that the last three columns have made, and of the way of the centre by the last.
+#: The changes of the quaternion by the last three columns, and of the path of the centre by the last.
 CHANGED = FOUND + 21
 ROWS = CHANGED + 4 * CHANGES + 3
-#: A rounding.
+#: The unit roundoff.
 UNIT_ROUNDING = 2.0**-53
-#: Below this part of |Λω| |ω| the gradient of the energy is too much of a rounding to be used.
+#: Below this fraction of |Λω| |ω| the gradient of the energy is not used, as rounding dominates.
 STEADY = 1e-7
 
 
 def begun(E, B, b, J, start):
-    """Puts a ball without errors, but for the rounding of its start, into its lanes."""
+    """Puts a ball into its lanes, with no error except the rounding error of its start."""
     for lane in range(LANES):
         i = lane * B + b
         for c in range(3):
@@ -64,7 +64,7 @@ def begun(E, B, b, J, start):
 
 
 def tangent(S, E, B, at, traced):
-    """The rates of the unit errors of every ball, in the unit of time of S, into the rows of E from `at` on."""
+    """Writes the rates of the unit errors of every ball, in the unit of time of S, into E from the row `at` on."""
     for row in range(10):
         for b in lanes(B):
             one = S[MOVED + row, b]
@@ -116,12 +116,12 @@ def by(a, b):
 
 
 def ended(E, i, half, twelfth):
-    """1 - (h/2)A + (h²/12)P on the unit error of a lane, at the last end, but for the 1."""
+    """((h²/12)P - (h/2)A)φ for the unit error φ of a lane, at the last end."""
     return minus(scaled(twelfth, three_in(E, END + SECOND, i)), scaled(half, three_in(E, END + RATE, i)))
 
 
 def flown(E, B, traced):
-    """The matrix Φ of the step `WHOLE` of every ball, column by column in its lanes, and of the contact point."""
+    """Writes Φ of the step `WHOLE` of every ball, column by column in its lanes, and the rows of the contact point."""
     for b in lanes(B):
         half, twelfth = 0.5 * E[WHOLE, b], E[WHOLE, b] * E[WHOLE, b] * (1.0 / 12.0)
         i, j, k = b, B + b, 2 * B + b
@@ -158,10 +158,10 @@ def flown(E, B, traced):
 
 
 def kept(E, B):
-    """Corrects Φ so that it takes ω to ω, and keeps what an error does to the energy.
+    """Corrects Φ so that it takes ω to ω, and preserves the change of energy by an error.
 
-    The flow takes a shift in time along, φ = ω, and the energy is an integral: ⟨n, φ⟩ with n = ω × Λω.  An error of Φ
-    there would grow with each passage of an unstable rotation, where all else only grows with their number.
+    The flow transports a shift in time, φ = ω; and the energy is an integral, with the derivative ⟨n, φ⟩, n = ω × Λω.
+    Errors of Φ in these would grow exponentially with passages of an unstable rotation, all others linearly.
     """
     for b in lanes(B):
         i, j, k = b, B + b, 2 * B + b
@@ -183,12 +183,12 @@ def kept(E, B):
 
 
 def applied(columns, v):
-    """A matrix, of which the columns are given, times a vector."""
+    """The product of a matrix, given by its columns, and a vector."""
     return plus(plus(scaled(v[0], columns[0]), scaled(v[1], columns[1])), scaled(v[2], columns[2]))
 
 
 def changes(S, E, B):
-    """Writes the changes by the last columns in the step of every ball that is not lost into `TWIST` and `SLIP`."""
+    """Writes the changes by the last columns into `TWIST` and `SLIP`, for every ball that is not lost."""
     for i in lanes(LANES * B):
         a, b = four_in(S, DONE, i), four_in(S, Q, i)
         one, two = 1.0 / sqrt(square_of_four(a)), 1.0 / sqrt(square_of_four(b))
@@ -210,7 +210,7 @@ def changes(S, E, B):
 
 
 def leave(S, E, B, traced):
-    """Carries what the steps leave, and finds the root of the sum of the squares of the three."""
+    """Propagates the truncation errors, and finds the root of the sum of the squares of the three."""
     for b in lanes(B):
         E[FOUND, b], E[FOUND + 1, b], E[FOUND + 2, b] = 0.0, 0.0, 0.0
     for c in range(CHANGES):
@@ -237,7 +237,7 @@ def leave(S, E, B, traced):
 
 
 def carry(S, E, B, traced):
-    """Carries errors on by the step of `WHOLE`, `PART`, `ROUNDED`, 0 if none stays; its last end becomes the first."""
+    """Propagates errors by the step `WHOLE`, `PART`, `ROUNDED` (0 if not accepted); its last end becomes the first."""
     flown(E, B, traced)
     leave(S, E, B, traced)
     for b in lanes(B):
@@ -263,10 +263,10 @@ def carry(S, E, B, traced):
         if traced:
             east, north = row_of(E, CARRIED, i, j, k), row_of(E, CARRIED + 1, i, j, k)
             m, n = three_in(E, MIXED, b), three_in(E, MIXED + 3, b)
-            # u = C S + X for each of the two, with which both what is mixed and what is outer go on.
+            # u = C S + X for each of the two coordinates, used for the mixed and the outer mean squares.
             u = plus((dot(east, s1), dot(east, s2), dot(east, s3)), m)
             v = plus((dot(north, s1), dot(north, s2), dot(north, s3)), n)
-            # The contact point, far away, is rounded by itself.
+            # Far from the origin the contact point has rounding errors of its own.
             x, y, one = S[MOVED + SPOT, b], S[MOVED + SPOT + 1, b], UNIT_ROUNDING / S[RADIUS, b]
             error += one * one * (x * x + y * y) if error > 0.0 else 0.0
             x = E[OUTER, b] + (dot(u, east) + dot(m, east) + error)
@@ -280,5 +280,5 @@ def carry(S, E, B, traced):
 
 
 def row_of(E, at, i, j, k):
-    """One number of three lanes."""
+    """The numbers of a row in three lanes."""
     return E[at, i], E[at, j], E[at, k]

@@ -1,20 +1,20 @@
 """Double-double: a step, many steps of one ball or of a block of balls, and long steps of the continuous ball.
 
-A step is the float64 root, corrected once by a residual in pairs.  Let w be a float64 Gibbs vector near the root of
-G(u) = B(γ)u + u × Iu - (1 + |u|²)k, found by a Newton correction d, and A the Jacobian before d, in float64.  G(w) in
-pairs is as exact as its terms allow, so e = -A⁻¹G(w) is the error of w to a few parts in 2⁵³, up to what A misses: by
-`gibbs-newton` that is exactly 2b(d, e) + b(e, e), b the quadratic part of G, and a second solution takes it back.
-There is left at most the square of c|d|, below 2⁻⁵³ where d settled (`dynamics.gibbs`), and the rounding of A⁻¹, each
-times |e|.  So where |e| is a few roundings of w, (w, e) has the error of a pair times the condition of A; where it
-is more, the rotation of w + e is corrected afresh, in Euler parameters (`polished`).
+A step is the float64 root, corrected once by a residual in double-double (pairs).  Let w be a float64 Gibbs vector near
+the root of G(u) = B(γ)u + u × Iu - (1 + |u|²)k, found by a Newton correction d, and A the float64 Jacobian before d.
+G(w) in pairs is accurate to rounding of its terms, so e = -A⁻¹G(w) is the error of w to a few parts in 2⁵³, except for
+the change of the Jacobian: by `gibbs-newton` its effect is exactly 2b(d, e) + b(e, e), b the quadratic part of G, and a
+second solution subtracts it.  There remain (c|d|)², below 2⁻⁵³ if d converged (`loops.gibbs`), and the rounding error
+of A⁻¹, each times |e|.  So if |e| is a few rounding errors of w, (w, e) has the error of a pair times the condition of
+A; otherwise the rotation of w + e is corrected again, in Euler parameters (`polished`).
 
-𝒦, γ, the attitude and the contact point are pairs, and need no compensation; the integrals are restored now and then.
-A composition takes its stages one after the other.  A block has `LANES` balls, as in `block`, and each lane has the
-bits of that ball alone.
+𝒦, γ, the attitude and the contact point are pairs, and need no compensation; the integrals are restored periodically.
+A composition takes its stages one after the other.  A block has `LANES` balls, as in `block`; the bits of each lane are
+those of its ball alone.
 
-Of a long step it is the attitude that is extrapolated from n steps of the map, and goes on, with the contact point: K
-and γ are fixed in space, and before each long step it turns the two back into the body.  So their integrals are kept to
-rounding, however many steps there are.
+Long steps extrapolate the attitude and the contact point from n steps of the map.  K and γ are fixed in space: before
+each long step the attitude rotates both into the body.  So their integrals are conserved to rounding, for any number of
+steps.
 """
 
 from math import frexp, ldexp, sqrt
@@ -51,26 +51,26 @@ from .vectors import (
     three_in,
 )
 
-#: |e|² relative to |w|² from which the sum is corrected once more: 8 roundings of float64.
+#: |e|²/|w|² above which the sum is corrected again: 8 rounding errors of float64.
 SMALL = 2.0**-100
-#: Corrections in pairs: at a fold each may gain but little.
+#: The most corrections in pairs: at a fold convergence is slow.
 MOST_CORRECTIONS = 60
-#: A correction of q, relative to |q|, that is a rounding of a pair; and one below which it may stop to shrink.
+#: Corrections of q, relative to |q|: the rounding error of a pair; and the size below which they may stop decreasing.
 ROUNDING, FLOOR = 2.0**-104, 2.0**-60
-#: The largest correction: a fold that is one of rounding is so near to the root; a root of float64 has digits.
+#: The largest correction at an apparent fold, which rounding may cause near the root; and elsewhere.
 BESIDE_FOLD, ANYWHERE = 1e-6, 0.1
-#: Instead of q₀ = 0, a rotation by π, which has no Gibbs vector: it is off by less than a rounding.
+#: The substitute for q₀ = 0, a rotation by π, which has no Gibbs vector; its error is less than rounding.
 LEAST_COSINE = 2.0**-110
-#: Above this part of 𝒦 a fold of the float64 continuation may be one of rounding.
+#: Above this fraction of 𝒦 a fold of the float64 continuation may be an effect of rounding.
 NEARLY = 1.0 - 2.0**-45
-#: Scaled momenta are at least so large.  Then no product underflows, and what is not linear in 𝒦 is below 2^-200.
+#: Scaled momenta are at least 2^LEAST: no product underflows, and terms nonlinear in 𝒦 are relatively below 2^-200.
 LEAST = -200
-#: A moment of inertia below this, for Λmax about 1, has a determinant beyond float64: every step takes the safe way.
+#: For a moment of inertia below this, at Λmax about 1, the determinant underflows: every step uses `small_rotation`.
 SMALLEST = 2.0**-120
 
 
 def pair(array, at):
-    """A pair of an array, its high half first."""
+    """The pair at `at` of an array, its high half first."""
     return Loose(array[at], array[at + 1])
 
 
@@ -80,7 +80,7 @@ def put_pair(array, at, x):
 
 
 def three_pairs(array, at):
-    """Three pairs of an array."""
+    """Three pairs of an array, from `at` on."""
     return pair(array, at), pair(array, at + 2), pair(array, at + 4)
 
 
@@ -92,18 +92,18 @@ def put_pairs(array, at, v):
 
 
 def pairs_in(S, at, i):
-    """Three pairs of a lane."""
+    """Three pairs of a lane, from the row `at` on."""
     return Loose(S[at, i], S[at + 1, i]), Loose(S[at + 2, i], S[at + 3, i]), Loose(S[at + 4, i], S[at + 5, i])
 
 
 def put_pairs_in(S, at, i, v):
-    """Writes three pairs into a lane."""
+    """Writes three pairs into a lane, from the row `at` on."""
     put_in(S, at, i, (v[0].high, v[0].low, v[1].high))
     put_in(S, at + 3, i, (v[1].low, v[2].high, v[2].low))
 
 
 def summed(v, w):
-    """v + w of floats, as pairs."""
+    """v + w for vectors of floats, as pairs."""
     return Loose(*two_sum(v[0], w[0])), Loose(*two_sum(v[1], w[1])), Loose(*two_sum(v[2], w[2]))
 
 
@@ -118,23 +118,23 @@ def lows(v):
 
 
 def normalised(v):
-    """A vector of pairs of which the low halves are small."""
+    """A vector of pairs, normalised: the low halves are rounding errors of the high halves."""
     return v[0].normalised(), v[1].normalised(), v[2].normalised()
 
 
 def normalised_four(q):
-    """Four pairs of which the low halves are small."""
+    """Four pairs, normalised."""
     return q[0].normalised(), q[1].normalised(), q[2].normalised(), q[3].normalised()
 
 
 def of_length_one(q):
-    """A quaternion of nearly the length 1, divided by it: a Newton step."""
+    """A quaternion of length near 1, divided by its length: one Newton step."""
     t = (3 - square_of_four(q)) / 2
     return t * q[0], t * q[1], t * q[2], t * q[3]
 
 
 def scales(momentum, tensor, contact):
-    """Exponents (shift, beyond): k = 2^shift 𝒦, exactly, for Λmax about 1; tiny momenta are 2^beyond times as large."""
+    """Exponents (shift, beyond): k = 2^shift 𝒦, exactly, for Λmax about 1; tiny momenta are scaled up by 2^beyond."""
     _, exponent = frexp(max(*moments(three(tensor, 0))) + contact)
     most = largest(three(momentum, 0))
     _, size = frexp(most)
@@ -144,14 +144,14 @@ def scales(momentum, tensor, contact):
 
 
 def bounds(k, I, D):
-    """(radius², enough) by the certificate of |𝒦|; radius² = -1 where every step takes the safe way."""
+    """(radius², enough) by `gibbs.certificate`; radius² = -1 if every step must use `small_rotation`."""
     if min(*I) < SMALLEST:
         return -1.0, 0.0
     return certificate(k, I, D)
 
 
 def approach(u, k, g, I, D, radius, enough):
-    """Newton's iteration in float64: the last round."""
+    """The last round of Newton's iteration in float64."""
     r = newton_round(u, k, g, I, D)
     for _ in range(MOST_ROUNDS - 1):
         if r.first <= enough or radius < 0.0:
@@ -161,16 +161,16 @@ def approach(u, k, g, I, D, radius, enough):
 
 
 def small(w, e):
-    """Whether e is a few roundings of w."""
+    """Whether e is at most 8 rounding errors of w."""
     return square(e) <= SMALL * square(w)
 
 
 def polished(p, k, g, J, D, near):
     """Newton's iteration in pairs from a float64 rotation near the root: (settled, u as pairs).
 
-    In Euler parameters, so that it is regular at every rotation, and with their residual again at each pair: so it
-    keeps its digits for heavy balls, too, where one correction by a float64 Jacobian leaves those of D/I.  Up to its
-    fold the branch has det > 0, and its mirror behind the fold det < 0: det ≤ 0 or a correction above `near` means
+    Euler parameters are regular at every rotation.  The residual is computed in pairs after each correction: so heavy
+    balls keep their digits, too, where a single correction by a float64 Jacobian loses a factor D/I.  The branch has
+    det > 0 up to its fold, and its continuation beyond the fold det < 0: det ≤ 0 or a correction above `near` means
     another branch.
     """
     K, v, floats = sums_normal(plus(k, k)), sums_normal(g), highs(g)
@@ -185,7 +185,7 @@ def polished(p, k, g, J, D, near):
         change, extent = largest(w), largest(highs(q[1:4]))
         if change > near:
             break
-        # The last correction is a rounding of pairs, or one that the condition leaves: it shrinks no more.
+        # The last correction is at the rounding level of pairs, or, for bad condition, no longer decreases.
         settled = change <= ROUNDING * extent or (change <= FLOOR * extent and change >= 0.25 * before)
         if settled:
             break
@@ -197,12 +197,12 @@ def polished(p, k, g, J, D, near):
 
 
 def sums_normal(v):
-    """A vector of pairs of which sums are normalised."""
+    """A vector of pairs whose sums are normalised."""
     return Normal(v[0].high, v[0].low), Normal(v[1].high, v[1].low), Normal(v[2].high, v[2].low)
 
 
 def solved(u, k, g, I, J, D, radius, enough):
-    """The Gibbs vector of a step from a guess u, with k, γ and I in pairs: (status, reach, u as pairs)."""
+    """The Gibbs vector of a step, from a guess u, with k, γ and I in pairs: (status, reach, u as pairs)."""
     floats, vertical, inertia, zero = highs(k), highs(g), highs(I), Loose(0.0, 0.0)
     r = approach(u if square(u) <= radius else (0.0, 0.0, 0.0), floats, vertical, inertia, D, radius, enough)
     settled, w, status, reach = radius >= 0.0 and r.first <= enough, r.w, TAKEN, 1.0
@@ -221,7 +221,7 @@ def solved(u, k, g, I, J, D, radius, enough):
         else:
             status, reach, p0, p1, p2, p3 = small_rotation(*scaled(2.0, floats), *vertical, *J, D)
             p = p0, p1, p2, p3
-        # So near to 1 float64 does not see on which side of the fold 𝒦 is; pairs do.
+        # So near to 1 only pairs can decide on which side of the fold 𝒦 is.
         if status != TAKEN and not (status == FOLDED and reach > NEARLY):
             return status, reach, (zero, zero, zero)
     settled, found = polished(p, k, g, J, D, BESIDE_FOLD if status == FOLDED else ANYWHERE)
@@ -236,8 +236,8 @@ def rotation_of(w):
     return p0, p0 * w[0], p0 * w[1], p0 * w[2]
 
 
-#: The rows of the numbers that describe a ball under way: k = 𝒦/2, γ and I as pairs (high, low, high, ...), J,
-#: D, and the three integrals as pairs.
+#: The rows of the state of a ball: k = 𝒦/2, γ and I as pairs (high, low, high, ...), J, D, and the three integrals as
+#: pairs.
 K, G, I, J, D, INTEGRALS = 0, 6, 12, 18, 21, 22
 ROWS = 28
 
@@ -247,7 +247,7 @@ def prepare_pairs(
     momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Matrix, state: Vector, radius: Vector,
     enough: Vector,
 ):  # fmt: skip
-    """Writes the state of a ball at the start and the bounds of its stages; returns the exponents of `scales`."""
+    """Writes the initial state of a ball and the bounds of its stages; returns the exponents of `scales`."""
     shift, beyond = scales(momentum, tensor, contact)
     size = beyond - shift - 1
     for i in range(3):
@@ -273,9 +273,9 @@ def remember_pairs(state):
 
 @out_of_line
 def restore_pairs(state):
-    """Gives k and γ the three integrals again, up to the rounding of these: else they walk by u² at each step.
+    """Corrects k and γ to the three integrals, up to rounding; otherwise these drift by u² at each step.
 
-    Returns by what part of their lengths γ and k moved.
+    Returns the relative changes of γ and k.
     """
     k, g = three_pairs(state, K), three_pairs(state, G)
     h, now = three_pairs(state, INTEGRALS), normalised((dot(g, g), dot(k, g), dot(k, k)))
@@ -291,7 +291,7 @@ def restore_pairs(state):
 
 
 def extrapolated(past, w):
-    """Takes the newest Gibbs vector of a stage into its filter (8, 3), the first row of which is the next guess."""
+    """Adds the newest Gibbs vector of a stage to its filter (8, 3), whose first row is the next guess."""
     for c, x in ((0, w[0]), (1, w[1]), (2, w[2])):
         (
             past[0, c], past[1, c], past[2, c], past[3, c], past[4, c], past[5, c], past[6, c], past[7, c]
@@ -299,7 +299,7 @@ def extrapolated(past, w):
 
 
 def stage(state, c, radius, enough, past):
-    """The Gibbs vector of a stage with the coefficient c, a pair, and its filter carried on; returns as `solved`."""
+    """The Gibbs vector of a stage with the coefficient c, a pair, as `solved` returns it; updates the filter."""
     k, g, inertia = normalised(scaled(c, three_pairs(state, K))), three_pairs(state, G), three_pairs(state, I)
     status, reach, u = solved(three(past[0], 0), k, g, inertia, three(state, J), state[D], radius, enough)
     if status == TAKEN:
@@ -332,7 +332,7 @@ def turned(u, v):
 
 
 def write(frame, frame_, pairs, at, exponent):
-    """2^exponent times the pairs from `at` on into the two halves of a frame."""
+    """Writes 2^exponent times the pairs from `at` on into the high and low halves of a frame."""
     for i in range(frame.shape[0]):
         frame[i], frame_[i] = ldexp(pairs[at + 2 * i], exponent), ldexp(pairs[at + 2 * i + 1], exponent)
 
@@ -343,12 +343,12 @@ def march_pairs(
     attitude: Vector, contact: Vector, rho: float, attitudes: Matrix, attitudes_: Matrix, traces: Matrix,
     traces_: Matrix, slopes: Matrix, box: Vector, spread: Matrix,
 ):  # fmt: skip
-    """Takes `count` steps from the step `first` on, each with the stages c (s, 2); keeps every `every`-th state.
+    """Takes `count` steps from step `first` on, each with the stages c (s, 2); stores every `every`-th state.
 
-    state (ROWS), past (s, 8, 3), attitude (8) and contact (4) hold the present and move; shift and beyond are those of
-    `scales`.  A name with _ is the low halves of its frames.  Returns (taken, status, reach).
-    spread (frames, 4), of no frame where nothing is proved: how far the exact orbit may be, as `write_spread`
-    has it; slopes (s, 2): m and radius² of each stage, box (`proved.ROWS`): the set that moves.
+    state (ROWS), past (s, 8, 3), attitude (8) and contact (4) hold the present state and are updated; shift and beyond
+    are those of `scales`.  Names with _ are the low halves of frames.  Returns (taken, status, reach).
+    spread (frames, 4), or (0, 4) without proof: bounds for the distance of the exact orbit, from `write_spread`;
+    slopes (s, 2): m and radius² of each stage; box (`proved.ROWS`): the present set of ξ.
     """
     proves = spread.shape[0] > 0
     period = max(1, PERIOD // c.shape[0])
@@ -381,20 +381,20 @@ def march_pairs(
     return count, TAKEN, 1.0
 
 
-#: Balls in a block: its rows stay in the first-level cache.
+#: The balls in a block: its rows stay in the first-level cache.
 LANES = 16
-#: Iterates in float64 that all lanes take together, where one of them wants another.
+#: The most float64 iterates that all lanes take together while one of them needs another.
 ROUNDS = 4
-#: The filter of the Gibbs vector, radius² and enough follow the rows of the single ball.
+#: The rows after those of the single ball: the filter of the Gibbs vector, radius² and enough.
 A, RADIUS, ENOUGH = ROWS, ROWS + 24, ROWS + 25
 ALL_ROWS = ROWS + 26
-#: Rows of the work space: w, the last correction d, det and cofactors before it, the residual, the correction e.
+#: Rows of the workspace: w, the last correction d, det and cofactors before it, the residual, the correction e.
 W, DELTA, DET, C, R, E = 0, 3, 6, 7, 16, 19
 WORK_ROWS = 22
 
 
 def approached(S, P, ok, again):
-    """A Newton iterate in float64 for every lane, from the guess or `again` from itself; how many want another."""
+    """A Newton iterate in float64 for every lane, from the guess or, if `again`, from w; returns how many need more."""
     bad = 0
     for i in lanes(LANES):
         radius = S[RADIUS, i]
@@ -415,7 +415,7 @@ def approached(S, P, ok, again):
 
 
 def residuals(S, P):
-    """G at every lane's w, in pairs."""
+    """Writes the residual G at every lane's w, computed in pairs."""
     for i in lanes(LANES):
         w, contact = exact(three_in(P, W, i)), Loose(S[D, i])
         k, g, inertia = pairs_in(S, K, i), pairs_in(S, G, i), pairs_in(S, I, i)
@@ -423,7 +423,7 @@ def residuals(S, P):
 
 
 def corrected(S, P, ok):
-    """The correction e of every lane; returns how many did not settle."""
+    """Writes the correction e of every lane; returns the number not converged."""
     bad = 0
     for i in lanes(LANES):
         c = *three_in(P, C, i), *three_in(P, C + 3, i), *three_in(P, C + 6, i)
@@ -437,7 +437,7 @@ def corrected(S, P, ok):
 
 @out_of_line
 def mend(S, P, ok, step, taken, status, reach):
-    """`stage` for the lanes that did not settle; a ball that cannot go on rests."""
+    """`stage` for the lanes not converged; a ball without a rotation rests from then on."""
     for i in range(LANES):
         if ok[i] == 1:
             continue
@@ -455,7 +455,7 @@ def mend(S, P, ok, step, taken, status, reach):
 
 
 def extrapolated_in(S, row, i, w):
-    """The filter of one component in a lane."""
+    """Updates the filter of one component in a lane."""
     (
         S[row, i], S[row + 3, i], S[row + 6, i], S[row + 9, i],
         S[row + 12, i], S[row + 15, i], S[row + 18, i], S[row + 21, i],
@@ -465,7 +465,7 @@ def extrapolated_in(S, row, i, w):
 
 
 def all_turned(S, P):
-    """Turns k and γ of every lane, and carries the extrapolation on."""
+    """Turns k and γ of every lane, and updates the extrapolation."""
     for i in lanes(LANES):
         w, e = three_in(P, W, i), three_in(P, E, i)
         u = summed(w, e)
@@ -480,7 +480,7 @@ def prepare_pairs_block(
     momentum: Matrix, g: Matrix, tensor: Matrix, contact: Vector, c: Matrix, state: Matrix, shift: Integers,
     beyond: Integers,
 ):  # fmt: skip
-    """`prepare_pairs` of each ball of a block; one that is not full repeats its last ball."""
+    """`prepare_pairs` for each ball of a block; spare lanes repeat the last ball."""
     one, radius, enough, last = np.empty(ROWS), np.empty(1), np.empty(1), len(contact) - 1
     for lane in range(state.shape[1]):
         i = min(lane, last)
@@ -494,9 +494,9 @@ def march_pairs_block(
     state: Matrix, first: int, count: int, every: int, shift: Integers, momenta: Cube, momenta_: Cube, verticals: Cube,
     verticals_: Cube, taken: Integers, status: Integers, reach: Doubles,
 ):  # fmt: skip
-    """`count` steps of a block from the step `first` on, as of `march_pairs`: state (ALL_ROWS, LANES).
+    """Takes `count` steps of a block from step `first` on, as `march_pairs`: state (ALL_ROWS, LANES).
 
-    shift, taken, status and reach have one entry for each ball; lanes beyond them are idle copies.
+    shift, taken, status and reach have one entry for each ball; lanes beyond these are idle copies.
     """
     S, P, ok = np.empty((ALL_ROWS, LANES)), np.empty((WORK_ROWS, LANES)), np.empty(LANES, dtype=np.int64)
     carry(state, S, LANES)
@@ -527,19 +527,19 @@ def march_pairs_block(
     carry(S, state, LANES)
 
 
-#: The n of the first column; more columns are of n one by one larger.
+#: The n of the first column; the next columns have n + 1, n + 2, ...
 FIRST = 3
-#: Longer steps, in units where the momentum and the ball are about 1, have no rotation anyway.
+#: log₂ of the longest step, in units where the momentum and the ball are about 1; longer steps have no rotation.
 LONGEST = 100
 
 
 def rotated(a, v):
-    """The vector v of pairs by the attitude a."""
+    """The vector v of pairs, rotated by the attitude a."""
     return normalised(rotate(*a, *v))
 
 
 def column(k, g, a, x, y, n, state, radius, enough, rho):
-    """n steps of the map from k and γ: (status, reach, a, x, y), a the attitude; state: with I, J and D."""
+    """n steps of the map from k, γ, the attitude a and (x, y): (status, reach, a, x, y); state: has I, J and D."""
     inertia, tensor, contact = three_pairs(state, I), three(state, J), state[D]
     u = angular_velocity(*highs(k), *highs(g), *tensor, contact)
     v, status, reach = u, TAKEN, 1.0  # v: the Gibbs vector of the step before
@@ -554,12 +554,12 @@ def column(k, g, a, x, y, n, state, radius, enough, rho):
 
 
 def with_share(total, weight, x):
-    """The pair `total` with a weight times another."""
+    """The pair total + weight · x."""
     return (total + (weight * x).normalised()).normalised()
 
 
 def with_shares(total, weight, q):
-    """The same of four pairs."""
+    """total + weight · q for four pairs."""
     return (
         with_share(total[0], weight, q[0]), with_share(total[1], weight, q[1]),
         with_share(total[2], weight, q[2]), with_share(total[3], weight, q[3]),
@@ -572,17 +572,17 @@ def march_long_pairs(
     momenta_: Matrix, verticals: Matrix, verticals_: Matrix, attitudes: Matrix, attitudes_: Matrix, traces: Matrix,
     traces_: Matrix,
 ):  # fmt: skip
-    """Takes `count` long steps h, a pair, of a ball from the step `first` on; keeps every `every`-th state.
+    """Takes `count` long steps h, a pair, of a ball from step `first` on; stores every `every`-th state.
 
-    momentum, g, attitude: K, γ and pairs (8), at the step 0.  body: pairs, the present attitude and contact point (12),
-    which move.  A name with _ is the low halves of its frames; `follows`: whether there are those of the body.
-    weights: of the columns n = FIRST, ..., as pairs, and of the differences that the last one makes, (columns, 4).
-    Returns (taken, status, reach, doubt).
+    momentum, g, attitude: K, γ and the attitude in pairs (8) at step 0.  body: pairs, the present attitude and contact
+    point (12), updated.  Names with _ are the low halves of frames; `follows`: whether the body has frames.
+    weights: pairs, for the columns n = FIRST, ..., and for the change by the last column, (columns, 4).
+    Returns (taken, status, reach, doubt); doubt is the accumulated size of these changes.
     """
     columns, doubt, zero = weights.shape[0], 0.0, Loose(0.0, 0.0)
     state, one, limits = np.zeros(ROWS), np.zeros((1, 2)), np.zeros((2, columns))
     one[0, 0] = 1.0
-    # K is scaled to about 1, and h apart from its exponent, so that neither leaves the range.
+    # K is scaled to about 1, and the exponent of h is kept separately, to avoid overflow and underflow.
     _, size = frexp(largest(three(momentum, 0)))
     mantissa, exponent = frexp(h)
     k, part = shifted(three(momentum, 0), -size), np.zeros(3)

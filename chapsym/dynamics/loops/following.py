@@ -1,14 +1,14 @@
-"""Balls followed to a rate of error: long steps of a length that each ball chooses for itself, frames in between.
+"""Adaptive long steps: each ball chooses its steps for a given rate of error; frames are interpolated.
 
-Each lane has a ball with its own step and time; one that has come to its end gives its lane to the next.  What a lane
-does depends on its own ball alone, so a ball has the same bits alone and among others.  Plain scalar Python, so that
-the same functions run on floats and are compiled.
+Each lane has a ball with its own step and time; when a ball is finished, the next one gets its lane.  The computation
+in a lane depends on its ball alone, so a ball has the same bits alone and among others.  Plain scalar Python: the same
+functions run on floats and are compiled.
 
-Within a step the ball is on Hermite's polynomials of degree 11 through its two ends, of order 12 in the step.  The
-attitude and the contact point have at each end the value and five derivatives that (2.3) gives.  K and γ stay in space,
-so the attitude alone turns them: |K|², ⟨K,γ⟩ and |γ|² are kept to rounding.  At the part s of the step a polynomial is
-off by the twelfth derivative over 12! times (s(1 - s))⁶ ≤ 2⁻¹².  The last two coefficients are the eleventh over 11!
-and the tenth over 10!: the twelfth is taken to follow as they do, and eight times that is stated as what may be wrong.
+Within a step the ball is on Hermite polynomials of degree 11 through its two ends, of order 12 in the step.  At each
+end the attitude and the contact point have their values and five derivatives from (2.3).  K and γ are fixed in space,
+and turned by the attitude alone: |K|², ⟨K,γ⟩ and |γ|² are conserved to rounding.  At the fraction s of the step a
+polynomial has the error f⁽¹²⁾/12! · (s(1 - s))⁶, where (s(1 - s))⁶ ≤ 2⁻¹².  The last coefficients approximate f⁽¹⁰⁾/10!
+and f⁽¹¹⁾/11!; the next is extrapolated from these, and eight times its value is reported as the error estimate.
 """
 
 from math import sqrt
@@ -45,19 +45,19 @@ from .vectors import (
     three_in,
 )
 
-#: Values and derivatives at an end, and of what: the attitude (4), the contact point (2).
+#: The number of values and derivatives at an end, and of components: the attitude (4), the contact point (2).
 TERMS, PARTS = 6, 6
-#: Rows of the series of vectors that a run of `series` needs: ω, K, γ, and the horizontals x and y seen from the body.
+#: Rows of the series of vectors in `series`: ω, K, γ, the horizontal axes x and y in body axes, and ⟨γ,ω⟩.
 SPIN, SPACE, UP, EAST, NORTH, ALONG = 0, 3, 6, 9, 12, 15
 SERIES = 16
-#: (s(1 - s))⁶ at the middle.
+#: (s(1 - s))⁶ at s = ½.
 MIDDLE = 2.0**-12
-#: How many times as large as the one before a coefficient is taken to be.
+#: The largest ratio of successive coefficients that the extrapolation assumes.
 MOST_GROWN = 8.0
 
 
 def crossed(V, at, n, i):
-    """The coefficient n of the cross product of the series of a vector, in the rows from `at` on, with ω; i: which."""
+    """The coefficient n of the component i of v × ω; the series of v is in the rows from `at` on."""
     j = i + 1 if i < 2 else 0
     k = j + 1 if j < 2 else 0
     found = 0.0
@@ -67,10 +67,10 @@ def crossed(V, at, n, i):
 
 
 def series(body, J, contact, radius, whole, traced, V, end):
-    """Taylor's coefficients of the attitude and the contact point at `body`, in parts of a step, into `end` (6, 6).
+    """Writes the Taylor coefficients of attitude and contact point at `body`, in units of a step, into `end` (6, 6).
 
-    body: `lanes.MOVING`.  whole: the step, in the unit of time of K and J.  V (SERIES, TERMS) is used.
-    traced: whether the contact point is wanted.
+    body: `lanes.MOVING`.  whole: the step, in the unit of time of K and J.  V (SERIES, TERMS): workspace.
+    traced: whether the contact point is needed.
     """
     g, a = three(body, 3), four(body, at.ATTITUDE)
     put_in(V, SPACE, 0, three(body, 0))
@@ -81,7 +81,7 @@ def series(body, J, contact, radius, whole, traced, V, end):
     put_four(end[0], 0, a)
     end[0, 4], end[0, 5] = body[at.SPOT], body[at.SPOT + 1]
     for n in range(TERMS - 1):
-        # Λω - D⟨γ,ω⟩γ = K, of which all but the terms of ω itself is known.
+        # Λω - D⟨γ,ω⟩γ = K, solved for the new coefficient of ω.
         x, along = scaled(whole, three_in(V, SPACE, n)), 0.0
         for m in range(1, n + 1):
             along += dot(three_in(V, UP, m), three_in(V, SPIN, n - m))
@@ -108,7 +108,7 @@ def series(body, J, contact, radius, whole, traced, V, end):
 
 
 def shortened(end, ratio):
-    """The same coefficients for a step this many times as long."""
+    """Rescales Taylor coefficients in place, for a step multiplied by `ratio`."""
     factor = 1.0
     for n in range(1, TERMS):
         factor *= ratio
@@ -117,15 +117,15 @@ def shortened(end, ratio):
 
 
 def joined(first, end, radius, traced, curve):
-    """The polynomial through two ends, into `curve` (12, 6): powers of s, and s⁶ times powers of s - 1.
+    """Writes the polynomial through two ends into `curve` (12, 6): powers of s, and s⁶ times powers of s - 1.
 
-    Returns what may be wrong in between, in radians, and of the contact point in radii.
+    Returns the estimated interpolation errors of the attitude in radians and of the contact point in radii.
     """
     for i in range(PARTS if traced else 4):
         for n in range(TERMS):
             curve[n, i] = first[n, i]
         a0, a1, a2, a3, a4, a5 = first[0, i], first[1, i], first[2, i], first[3, i], first[4, i], first[5, i]
-        # What the first polynomial lacks at s = 1, over s⁶ = (1 + (s - 1))⁶.
+        # The defect of the first polynomial at s = 1, divided by s⁶ = (1 + (s - 1))⁶.
         d0 = end[0, i] - (((a5 + a4) + a3) + (a2 + a1) + a0)
         d1 = end[1, i] - ((5.0 * a5 + 4.0 * a4) + (3.0 * a3 + 2.0 * a2) + a1)
         d2 = end[2, i] - ((10.0 * a5 + 6.0 * a4) + (3.0 * a3 + a2))
@@ -151,9 +151,9 @@ def joined(first, end, radius, traced, curve):
 
 
 def followed(a, b, c):
-    """Eight times the coefficient that comes next, by the squares of the last three.
+    """Eight times the next coefficient, extrapolated from the squares a, b, c of the last three.
 
-    Where the last is less than half of what the two before let expect, that half is taken.
+    The last one is taken to be at least half of its extrapolation from the two before.
     """
     if not (a > 0.0 and b > 0.0):
         return 8.0 * sqrt(c)
@@ -162,7 +162,7 @@ def followed(a, b, c):
 
 
 def at_part(curve, i, s):
-    """One of the numbers at the part s of the step."""
+    """The component i at the fraction s of the step."""
     r, power = s - 1.0, s * s
     low = ((curve[5, i] * s + curve[4, i]) * s + curve[3, i]) * s + curve[2, i]
     high = ((curve[11, i] * r + curve[10, i]) * r + curve[9, i]) * r + curve[8, i]
@@ -171,10 +171,10 @@ def at_part(curve, i, s):
 
 
 def ball_at(curve, s, body, traced, found):
-    """The ball at the part s of the step that began at `body`, into `found`; both `lanes.MOVING`."""
+    """Writes the ball at the fraction s of the step from `body` into `found`; both are `lanes.MOVING`."""
     q = at_part(curve, 0, s), at_part(curve, 1, s), at_part(curve, 2, s), at_part(curve, 3, s)
     q = scaled_four(1.0 / sqrt(square_of_four(q)), q)
-    p = compose(*conjugate(q), *four(body, at.ATTITUDE))  # from the axes at the beginning to those of now
+    p = compose(*conjugate(q), *four(body, at.ATTITUDE))  # from the axes at the start of the step to the present axes
     put(found, 0, rotate(*p, *three(body, 0)))
     put(found, 3, rotate(*p, *three(body, 3)))
     put_four(found, at.ATTITUDE, q)
@@ -182,75 +182,75 @@ def ball_at(curve, s, body, traced, found):
         found[at.SPOT], found[at.SPOT + 1] = at_part(curve, 4, s), at_part(curve, 5, s)
 
 
-#: The largest |ω|h of a step, in radians: longer ones have errors beyond 10⁻⁴, or do not settle.
+#: The largest |ω|h of a step, in radians: longer steps have errors above 10⁻⁴, or do not converge.
 FARTHEST = 1.7
-#: A step is taken again if its error is this many times what is allowed, the first if it is less; and how often.
+#: A step is repeated if its error exceeds the permitted one by TOO_MUCH, the first step already by TOO_MUCH_FIRST; at
+#: most MOST_TRIES times.
 TOO_MUCH, TOO_MUCH_FIRST, MOST_TRIES = 15.0, 3.0, 40
-#: What is no bound of a step; and by what part the bound grows with each step.
+#: The value for no bound of a step; and the factor by which a bound grows with each step.
 ANYTHING, HOPE = 1e300, 1.05
-#: By how much a step that is not settled is shortened, and the next step at least and at most.
+#: The factor by which a step that does not converge is shortened; the least and the largest factor of the next step.
 UNSETTLED, LEAST, MOST = 0.6, 0.3, 2.0
-#: A next step that would be longer or shorter by less than this is as long as the last.
+#: A step is kept unless it would change by more than this factor.
 ALIKE = 1.15
-#: A next step is to have this part of what is allowed.
+#: The next step aims at this fraction of the permitted error.
 WANTED = 0.4
-#: No step is shortened below this |ω|h for its error: one of order 12 has nothing but rounding left there, but for a
-#: rod.
+#: No step is shortened below this |ω|h for its error: there, at order 12, only rounding errors remain, except for rods.
 NEAREST = 0.02
-#: How the last column gains on the one before as that on the one before it, in the middle of balls of all shapes; and
-#: at most, where the changes fall so slowly that their sum is many times the last.
+#: The ratio between the gain of the last column over the one before and the previous such gain: the median for balls of
+#: all shapes; and the largest, for changes that decrease so slowly that their sum is many times the last.
 GAIN, MOST_GAIN = 2.0, 8.0
-#: Of the changes that a column makes this is rounding: a part that all have, and this many times that of a start.
+#: The rounding error in the changes by a column: a constant, and a multiple of that of the start.
 ROUNDED, ROUNDED_START = 2e-15, 10.0
-#: How many times as large as they leave it the error of steps is held to be, of many and of few.
+#: Safety factors for the error of steps: for many steps, and the addition for few.
 CAUTIOUS, CAUTIOUS_FEW = 20.0, 32.0
-#: What part of an accuracy the error may have after t of T seconds is EARLY + (1 - EARLY) t / T; a step may make so
-#: many times less, or more, than was allowed at first, where there is more, or less.
+#: The error after t of T seconds may be EARLY + (1 - EARLY) t / T of the accuracy; the permitted error of a step
+#: changes with the error so far, between TIGHTER and LOOSER times its first value.
 EARLY, TIGHTER, LOOSER = 0.1, 0.02, 2.0
-#: How many times the root of their mean square roundings are held to be.
+#: The factor between the stated rounding error and the root mean square.
 SIGMAS = 2.0
-#: The rounding of a step, in roundings of a start: the sum of its |weights|, 54.2, over 2.
+#: The rounding error of a step, in units of that of a start: half the sum of its |weights|, 54.2.
 ROUNDINGS = 27.1
-#: What part of how far a rounding of K moves ω a long step is held to be rounded by, if that is more than the root of
-#: the condition: of 2000 starts of heavy balls the largest error was then .51 of its estimate.
+#: The rounding error of a long step as a fraction of the effect on ω of rounding K, if that exceeds the root of the
+#: condition: the largest error for 2000 starts of heavy balls was then 0.51 of its estimate.
 ACROSS = 0.25
-#: The rounding of a step, over `SIGMAS`, in a rotation that is steady to `carried.STEADY`: its steps are alike, and so
-#: are their roundings, which add up.  The largest of 300 steps of |ω|h = 1.7 was 293 times 2⁻⁵³.
+#: The rounding error of a step, over `SIGMAS`, in a rotation that is steady to `carried.STEADY`: equal steps have equal
+#: rounding errors, which add up.  The largest of 300 steps of |ω|h = 1.7 was 293 times 2⁻⁵³.
 ROUNDED_ALIKE = 150.0 * 2.0**-53
-#: What part of an accuracy the interpolation of the frames may take.
+#: The fraction of an accuracy that the interpolation of frames may use.
 BEARABLE = 0.4
-#: Steps end at a frame if they are at least this part of what they could be: a frame in between costs as much.
+#: Steps end at a frame if this leaves them at least this fraction of their length: interpolation costs as much.
 TO_A_FRAME = 0.7
-#: Frames at the ends of steps, up to this part of a step, are not interpolated.
+#: Frames at the ends of steps, up to this fraction of a step, are not interpolated.
 AT_END = 1e-9
-#: What is reported of a ball: the error of the attitude, in radians, of ω, relative to its largest, and of the contact
-#: point, in radii; what roundings of its steps may have made of them; how many steps it took; and at which part
-#: of the time it was given up, 1 if it was not.
+#: The report of a ball: the error of the attitude in radians, of ω relative to its largest, and of the contact point in
+#: radii; the part due to rounding of steps; the number of steps; and the fraction of the time at which the ball was
+#: abandoned, 1 if it was not.
 TURNED, SPUN, ROLLED, WALKED, STEPS, UNTIL = 0, 1, 2, 3, 4, 5
 REPORTED = 6
-#: Numbers of a lane: the time now, its step in seconds, the unit of time of S, the steps that are left, its ball, the
-#: next frame, tries of this step, the largest |ω| and error of ω so far, and the step of the series at its end, 0
-#: without; the longest step that settles, as far as it is known; and |ω| now, in rad/s.
+#: The numbers of a lane: the present time, its step in seconds, the unit of time of S, the steps left, its ball, the
+#: next frame, the tries of this step, the largest |ω| and error of ω so far; the step for which `last` has the series,
+#: or 0; the longest step known to converge; and the present |ω| in rad/s.
 NOW, STEP, UNIT, COMING, WHICH, NEXT, TRIES, FASTEST, SPINNING, KNOWN, SETTLED, SPEED = (
     0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11,
 )  # fmt: skip
-#: The error that a step may make in a second as it turns out; the frame at which the steps that are left end; and the
-#: longest step that frames in between allow, as far as it is known.
+#: The present permitted error per second; the frame at which the remaining steps end; and the longest step known to
+#: permit interpolation.
 ALLOWED, GOAL, SMOOTH = 18, 19, 20
-#: And of its last step: what becomes of it, the step to be taken next, the errors of its frames in between, and the
-#: status and reach of a ball that stops.
+#: For the last step: its fate, the proposed next step, the interpolation errors, and the status and reach of a ball
+#: that stops.
 FATE, WISH, OFF, OUT, STATUS, REACH = 12, 13, 14, 15, 16, 17
-#: How many steps in a row were alike.
+#: The number of consecutive equal steps.
 ALIKE_STEPS = 21
 LANE = 22
-#: A lane rests; its step is taken again, stops the ball, or stays.
+#: The fates of a step: the lane rests; the step is repeated, stops the ball, or is accepted.
 RESTING, AGAIN, STOPS, STAYS = 0.0, 1.0, 2.0, 3.0
 
 
 class Asked(NamedTuple):
-    """The request of each ball, (balls,): the length of its first step, in seconds, and its permitted error a second.
+    """The request for each ball, (balls,): the length of its first step in seconds, and its permitted error per second.
 
-    most: what all of them may have made at the end.  start: how far its start may be off by a rounding.
+    most: the permitted error at the end.  start: the rounding error of the start.
     """
 
     first: Vector
@@ -260,13 +260,13 @@ class Asked(NamedTuple):
 
 
 def steps_in(time, step):
-    """The fewest steps of at most about this length that a time is."""
+    """The least number of equal steps of about this length, at most, that fill a time."""
     count = int(time / step)
     return max(count if count * step >= time * (1.0 - 1e-9) else count + 1, 1)
 
 
 def aimed(lane, frames, interval):
-    """Divides the time left, or until the next frame if steps are long enough for it; whether the step changes."""
+    """Divides the time left, or to the next frame if that is long enough, into steps; whether the step changes."""
     goal, step = frames - 1, min(lane[WISH], lane[SMOOTH])
     time = lane[NEXT] * interval - lane[NOW]
     count = steps_in(time, lane[WISH])
@@ -284,16 +284,16 @@ def aimed(lane, frames, interval):
 
 
 def lengthened(ratio):
-    """The power -3/32 of how large an error is: by which a step of order eleven or twelve is to be longer."""
+    """ratio^(-3/32), ratio the relative size of an error: the factor for the next step at order eleven or twelve."""
     root = sqrt(sqrt(sqrt(sqrt(min(max(ratio, 1e-12), 1e12)))))
     return 1.0 / (root * sqrt(root))
 
 
 def left(S, b, start):
-    """The size of the error of a step, and those of its last three changes: (size, x, y, z).
+    """The estimated error of a step, and the sizes of its last three changes: (size, x, y, z).
 
-    The last column gains on the one before as that on its own, times `GAIN`.  Where the last change is rounding, or
-    smaller than the two before let expect, these say how large it would be.
+    The ratio of the error to the last change is assumed to be `GAIN` times the ratio of the last two changes.  A last
+    change that is rounding, or smaller than extrapolated from the two before, is replaced by that extrapolation.
     """
     row = at.MOVED + at.TWIST
     x, y, z = length(three_in(S, row, b)), length(three_in(S, row + 3, b)), length(three_in(S, row + 6, b))
@@ -307,7 +307,7 @@ def left(S, b, start):
 
 
 def taken_in(S, E, B, b, i, frames, balls, interval, weights, asked, body, state, lane, reported):
-    """Puts the ball i into the lane b; returns K's exponent."""
+    """Puts the ball i into the lane b; returns the exponent of K."""
     placed(body, i, frames)
     lane[:] = 0.0
     lane[WHICH], lane[NEXT], lane[ALLOWED], lane[WISH] = i, 1.0, asked.allowed[i], asked.first[i]
@@ -322,12 +322,12 @@ def taken_in(S, E, B, b, i, frames, balls, interval, weights, asked, body, state
 
 
 def judged(S, E, b, lost, start, sums, state, lane):
-    """Decides the fate of a long step, and the length of the next."""
+    """Decides the fate of a long step, and proposes the next length."""
     step, tries = lane[STEP], lane[TRIES]
     size = lane[UNIT] * sqrt(square(three_in(S, at.OMEGA, b)))
     lane[SPEED], lane[FATE], lane[OFF], lane[OUT] = size, STAYS, 0.0, 0.0
     if lost and S[at.LOST, b] != 0.0:
-        always = S[at.FIRSTS + 3, b] < 0.0  # products of its numbers would underflow
+        always = S[at.FIRSTS + 3, b] < 0.0  # its products would underflow
         stopped = 0
         if always or tries >= MOST_TRIES:
             stopped, reached = safely(S, b, sums, state)
@@ -350,14 +350,14 @@ def judged(S, E, b, lost, start, sums, state, lane):
 
 
 def part_of(lane, frame, interval):
-    """Where a frame is, in parts of this step from its beginning."""
+    """The position of a frame, as a fraction of this step."""
     if frame == lane[GOAL] and lane[COMING] <= 1.0:
         return 1.0
     return (frame * interval - lane[NOW]) / lane[STEP]
 
 
 def through(S, b, body, now, traced, lane, V, first, last, curve):
-    """The polynomials of a step from `body` to `now`; returns what may be wrong of them (`between.joined`)."""
+    """Writes the polynomials of a step from `body` to `now`; returns their estimated errors (`joined`)."""
     whole = lane[STEP] * lane[UNIT]
     J, contact, radius = three_in(S, at.TENSOR, b), S[at.CONTACT, b], S[at.RADIUS, b]
     if lane[KNOWN] > 0.0:
@@ -373,7 +373,7 @@ def through(S, b, body, now, traced, lane, V, first, last, curve):
 
 
 def spinning(E, B, b):
-    """A bound of the change of ω by an error of the attitude: the root of the sum of the squares of its derivative."""
+    """A bound for the change of ω by an error of the attitude: the Frobenius norm of the derivative."""
     found = 0.0
     for lane in range(3):
         for c in range(3):
@@ -382,11 +382,11 @@ def spinning(E, B, b):
 
 
 def recorded(E, B, b, i, end, allowed, most, patient, lane, reported):
-    """Reports the errors of a ball after a step that stays, and says what the next ones may make.
+    """Reports the errors of a ball after an accepted step, and sets the permitted error of the next steps.
 
-    The errors are what its steps have left, and their roundings.  A ball is given up, so that it is followed again from
-    its start with shorter steps, where it has more than its share of an accuracy; not where that is rounding, or where
-    one is `patient`.
+    The errors are the propagated truncation errors and rounding errors.  A ball whose error exceeds its share of the
+    accuracy is abandoned, to be followed again from its start with shorter steps, unless rounding dominates or
+    `patient`.
     """
     reported[i, STEPS] += 1.0
     cautious = CAUTIOUS + CAUTIOUS_FEW / reported[i, STEPS]
@@ -410,7 +410,7 @@ def looked_at(
     S, E, B, b, lost, interval, start, bearable, traced, sums, body, state, lane, V, first, last,
     curve, now,
 ):  # fmt: skip
-    """Decides the fate of the step of a lane, and makes the polynomials of one that has frames in between."""
+    """Decides the fate of the step of a lane, and computes its polynomials if it has frames inside."""
     E[WHOLE, b], E[ROUNDING, b] = 0.0, 0.0
     if S[at.RESTS, b] != 0.0:
         lane[FATE] = RESTING
@@ -430,10 +430,10 @@ def looked_at(
         lane[KNOWN] = lane[STEP] * lane[UNIT] if inside else 0.0
     if lane[FATE] == STAYS:
         lane[SMOOTH], lane[SETTLED] = min(HOPE * lane[SMOOTH], ANYTHING), min(HOPE * lane[SETTLED], ANYTHING)
-        # A rounding of K moves ω by more or less as the body turns.
+        # The effect on ω of rounding K changes as the body turns.
         rounding = ROUNDINGS * max(start, 2.0 * UNIT_ROUNDING * ACROSS * E[SWAY, b])
         if E[GRADIENT, b] == 0.0 and E[GRADIENT + 1, b] == 0.0 and E[GRADIENT + 2, b] == 0.0:
-            # The mean squares of n roundings that are one and the same are n² times its square: here the n-th is added.
+            # The square of a sum of n equal rounding errors is n² times the square of one: the n-th adds 2n - 1 times.
             lane[ALIKE_STEPS] += 1.0
             rounding = max(rounding, ROUNDED_ALIKE) * sqrt(2.0 * lane[ALIKE_STEPS] - 1.0)
         else:
@@ -447,10 +447,9 @@ def looked_at(
 
 
 def follow_lanes(B, frames, balls, interval, asked, patient, weights, reported, reached, status, reach):
-    """Balls from their frames 0 to all other frames, `interval` seconds apart.
+    """Follows balls from their frames 0 to all other frames, `interval` seconds apart.
 
-    patient: whether no ball is given up.  reported (balls, REPORTED), the last frame that was reached, status, reach:
-    of each ball.
+    patient: no ball is abandoned.  For each ball: reported (balls, REPORTED), the last frame reached, status, reach.
     """
     S, E, columns = np.zeros((at.ROWS, at.LANES * B)), np.zeros((ERRORS, at.LANES * B)), weights.sums.shape[1]
     states, exponents = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64)
@@ -532,7 +531,7 @@ def follow(
     traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers,
     status: Integers, reach: Doubles,
 ):  # fmt: skip
-    """`follow_lanes` in eight lanes."""
+    """`follow_lanes` with eight balls at a time."""
     frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
     asked, weights = Asked(first, allowed, most, start), Weights(sums, following, beginning)
     follow_lanes(at.EIGHT, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)
@@ -544,7 +543,7 @@ def follow_alone(
     traced: bool, sums: Matrix, following: Cube, beginning: Matrix, reported: Matrix, reached: Integers,
     status: Integers, reach: Doubles,
 ):  # fmt: skip
-    """`follow_lanes` in one lane, of one ball."""
+    """`follow_lanes` with one ball at a time."""
     frames, balls = Frames(momenta, verticals, attitudes, traces, follows, traced), Balls(J0, D0, radius)
     asked, weights = Asked(first, allowed, most, start), Weights(sums, following, beginning)
     follow_lanes(1, frames, balls, interval, asked, patient, weights, reported, reached, status, reach)

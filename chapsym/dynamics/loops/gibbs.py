@@ -1,14 +1,14 @@
-"""The root of a step in the Gibbs vector u = q/q₀: one Newton iterate from a good guess, checked.
+"""The root of a step in the Gibbs vector u = q/q₀: one Newton iterate from a good guess, with an error bound.
 
-With k = 𝒦/2 the step solves G(u) = B(γ)u + u × Iu - (1 + |u|²)k = 0.  Lemma `small-branch`: where |𝒦| is
-below a bound, a root with |u| < 1 is that of the small-rotation branch, for every γ, and in the ball
-|u| ≤ `radius` the Jacobian A satisfies ⟨d, Ad⟩ ≥ m|d|².  As |𝒦| is an integral of the map, the bound is looked
-at once for a trajectory.  A Newton correction d leaves an error of at most c|d|², c = (½(I_max - I_min) + |k|)/m,
-a second one e with the same cofactors at most 3c|d||e|.  That is compared with |u| ≥ |k|/(Λmax + ½(I_max - I_min)).
+With k = 𝒦/2 the step solves G(u) = B(γ)u + u × Iu - (1 + |u|²)k = 0.  Lemma `small-branch`: if |𝒦| is below a bound, a
+root with |u| < 1 is on the small-rotation branch, for every γ, and in the ball |u| ≤ `radius` the Jacobian A satisfies
+⟨d, Ad⟩ ≥ m|d|².  As |𝒦| is an integral of the map, the bound is tested once for a trajectory.  A Newton correction d
+leaves an error of at most c|d|², c = (½(I_max - I_min) + |k|)/m; a second correction e with the same cofactors, at most
+3c|d||e|.  These are compared with |u| ≥ |k|/(Λmax + ½(I_max - I_min)).
 
-For D ≫ I the sum over a row of A leaves det A, and with it u, roundings of D/I: such a ball is `heavy`, and needs the
-determinant of lemma `stable-determinant`.  Long steps have it side by side (`lanes.iterate`); a step of the map has no
-certificate for such a ball, and takes the safe way.
+For D ≫ I the expansion by a row gives det A, and so u, rounding errors ∝ D/I.  Such a ball is called heavy, and needs
+the determinant of lemma `stable-determinant`.  Long steps compute it in all lanes (`lanes.iterate`); steps of the map
+have no certificate for such a ball, and use `search_safely` or the continuation.
 """
 
 from math import frexp, ldexp, sqrt
@@ -19,41 +19,41 @@ from chapsym.generated import gibbs_mixed, gibbs_newton, gibbs_newton_heavy, gib
 from .text import Four, Nine, Three
 from .vectors import adjoint, largest, length, minus, plus, scaled, shifted, square
 
-#: The error that the last correction may leave, relative to the least that |u| can be: the unit roundoff.
+#: The permitted error after the last correction, relative to the lower bound of |u|: the unit roundoff.
 LEFT = 2.0**-53
-#: An `enough` below this cannot be compared with squares: only float32 has so few exponents.
+#: An `enough` below this cannot be compared with squares; this occurs only in float32, by its small exponent range.
 LEAST_ENOUGH = 0.0
-#: How much of the bound may be used: at the bound the Jacobian is singular.
+#: The usable fraction of the bound, at which the Jacobian is singular.
 INSIDE = 0.95
 MOST_ROUNDS = 12
 #: Below this, for Λmax about 1, the squares of |𝒦| or of a determinant leave the range of float64.
 SMALLEST = 2.0**-120
-#: The same for a heavy ball, whose det is I D², and of which no power above the second is taken.
+#: The same for a heavy ball, whose det is I D², and for which only squares are computed.
 LIGHTEST = 2.0**-300
-#: From this D/I_min on a ball is heavy: by a row u loses up to half of D/I_min in ulps, a twelfth in the median.
+#: The D/I_min above which a ball is heavy: by a row u loses up to D/(2 I_min) ulps, D/(12 I_min) in the median.
 HEAVY = 32.0
-#: In place of a radius²: |𝒦| is beyond the bound, and each root has to be proved (`path`).
+#: The value of radius² if |𝒦| is beyond the bound, where each root must be proved to be on the branch (`path`).
 BEYOND = -2.0
-#: float32: a momentum below 2^-48, for Λmax = 1, turns the ball by less than the compensated sums of 𝒦 and γ can hold.
+#: The values for float32: a momentum below 2^-48, for Λmax = 1, turns 𝒦 and γ by less than compensated sums resolve.
 SINGLE = {"LEFT": 2.0**-24, "SMALLEST": 2.0**-48, "LIGHTEST": 2.0**-48, "LEAST_ENOUGH": 2.0**-62}
 
 
 def is_heavy(I, D):
-    """Whether the determinant by a row of the Jacobian loses too much."""
+    """Whether a ball is heavy: the expansion of the determinant by a row is too inaccurate."""
     return HEAVY * min(*I) < D
 
 
 def certificate(k, I, D):
-    """`bound` for a ball that is not heavy, else (-1, 0)."""
+    """`bound` for a ball that is not heavy, otherwise (-1, 0)."""
     if is_heavy(I, D):
         return -1.0, 0.0
     return bound(k, I, D)
 
 
 def bound(k, I, D):
-    """(radius², enough) by lemma `small-branch`; (BEYOND, 0) where |𝒦| is beyond its bound.
+    """(radius², enough) by lemma `small-branch`; (BEYOND, 0) if |𝒦| is beyond its bound.
 
-    A Newton correction d with |d|² ≤ enough is the last: it leaves a relative error of `LEFT` at most.
+    A Newton correction d with |d|² ≤ enough is the last: it leaves a relative error of at most `LEFT`.
     """
     half = length(k)
     size = 2.0 * half
@@ -66,7 +66,7 @@ def bound(k, I, D):
     if not inner * slope < INSIDE * least:
         return BEYOND, 0.0
     limit = min(1.0, least / slope) if slope > 0.0 else 1.0
-    # A little more than the ball that contains the root, inside the one on which G is monotone.
+    # A little more than the ball that contains the root, within the ball on which G is monotone.
     radius = min(1.25 * inner, 0.5 * (inner + limit))
     if half == 0.0:  # its square may be below the range of float32
         moving = k[0] != 0.0 or k[1] != 0.0 or k[2] != 0.0
@@ -94,7 +94,7 @@ def newton_round(u, k, g, I, D, heavy=False):
 
 
 def round_from(u, found):
-    """The iterate from u of which a kernel has `found` the quaternion and the cofactors."""
+    """The iterate from u, from the quaternion and the cofactors of a kernel."""
     w = scaled(1.0 / found[0], found[1:4])
     d = minus(w, u)
     return Round(found[0:4], w, square(d), d, found[4:13])
@@ -109,14 +109,14 @@ def second_round(r, k, I):
 
 
 def correction(det, d, cofactors, r, k, I):
-    """e with G(w + e) = 0 for G(w) = r, by the Jacobian of the round that led to w by d."""
+    """e with G(w + e) ≈ 0 for G(w) = r, by the Jacobian of the round that led to w by d."""
     s = -1.0 / det
     e = scaled(s, adjoint(cofactors, r))
     return plus(e, scaled(s, gibbs_mixed(*plus(d, scaled(0.5, e)), *e, *k, *cofactors, *I)))
 
 
 def settle(u, k, g, I, D, radius, enough, heavy=False):
-    """A round from a guess u, with a second correction where it is needed: (settled, p, u), p of any length."""
+    """A round from a guess u, with a second correction if needed: (settled, p, u), p of any length."""
     if not square(u) <= radius:
         return False, (1.0, 0.0, 0.0, 0.0), u
     r = newton_round(u, k, g, I, D, heavy)
@@ -127,7 +127,7 @@ def settle(u, k, g, I, D, radius, enough, heavy=False):
 
 
 def search(u, k, g, I, D, radius, enough, heavy=False):
-    """Rounds of `settle` from a poor guess, and from no rotation where that leads nowhere; returns as it does."""
+    """Rounds of `settle` from a poor guess, then from the identity if these fail; returns as `settle`."""
     for guess in range(2):
         if guess == 1:
             u = 0.0, 0.0, 0.0
@@ -139,9 +139,9 @@ def search(u, k, g, I, D, radius, enough, heavy=False):
 
 
 def search_safely(u, k, g, I, D, radius, enough):
-    """`search` by the certificate, and for a heavy ball by `bound`; nothing where it does not reach, or underflows.
+    """`search` by the certificate, or for a heavy ball by `bound`; not settled beyond it, or on underflow.
 
-    A heavy ball is scaled anew, as that with a tiny momentum is not, and products of its D would overflow.
+    A heavy ball is rescaled: with a tiny momentum it is not yet scaled, and products of its D would overflow.
     """
     heavy = is_heavy(I, D)
     if heavy and largest(k) < min(*I):

@@ -1,4 +1,4 @@
-"""Weights that put together the rates 2u/h, or the Gibbs vectors u, of earlier steps of the map to guess the next."""
+"""Weights for guesses: linear combinations of the rates 2u/h, or the Gibbs vectors u, of earlier steps of the map."""
 
 from functools import cache
 from math import factorial
@@ -8,16 +8,16 @@ import numpy as np
 from ..ball import Floats
 from .lanes import DERIVATIVES, FIRST_TERMS, LANES, LAST, TERMS
 
-#: The Taylor coefficients of a rate, in the time of a long step and its square, are taken to fall like this.
+#: The assumed ratio of successive Taylor coefficients of a rate, in the time of a long step and its square.
 DECAY = 0.5
 DEGREE = 9
 POWERS = [(i, j) for i in range(DEGREE + 1) for j in range(DEGREE // 2 + 1) if i + 2 * j <= DEGREE]
-#: What a guess may be amplified: the least squares weigh it against the moments.
+#: The weight, in the least squares, of the size of the weights against the moments.
 SMALL = 1e-6
 
 
 def middles(columns: int) -> Floats:
-    """(middle, length) of each lane's step in each slot, in units of the long step, (slots, LANES, 2)."""
+    """The (middle, length) of each lane's step in each slot, in units of the long step, (slots, LANES, 2)."""
     first = LAST + 1 - columns
     out = np.empty((LAST, LANES, 2))
     for lane in range(LANES):
@@ -31,7 +31,7 @@ def middles(columns: int) -> Floats:
 
 
 def _powers(x: Floats, most: int) -> list[Floats]:
-    """x⁰, x, x², ... by products, which every processor rounds alike; NumPy's power does not."""
+    """x⁰, x, x², ... by products, which are rounded equally on all processors, unlike NumPy's power."""
     return list(np.cumprod([np.ones_like(x), *[x] * most], axis=0))
 
 
@@ -41,9 +41,9 @@ def _moments(t: Floats, e: Floats) -> Floats:
 
 
 def _moderate(matrix: Floats, wanted: Floats) -> Floats:
-    """Weights of the columns for the wanted one, as nearly as SMALL times the weights allow, in least squares.
+    """The weights w that minimise |matrix·w - wanted|² + |SMALL·w|².
 
-    By Gram and Schmidt, column by column: LAPACK's order depends on the processor, and a run would with it.
+    By Gram-Schmidt, column by column: the results of LAPACK, and of a run, would depend on the processor.
     """
     n = matrix.shape[1]
     a = np.column_stack([np.vstack([matrix, SMALL * np.eye(n)]), np.concatenate([wanted, np.zeros(n)])])
@@ -60,10 +60,10 @@ def _moderate(matrix: Floats, wanted: Floats) -> Floats:
 
 
 def _weights(known: Floats, wanted: Floats) -> Floats:
-    """Weights of ω, of its derivatives and of the known rates (middle, length), (terms, 2), for the wanted one.
+    """The weights of ω, its derivatives and the known rates (middle, length), (terms, 2), for the wanted rate.
 
-    A rate is a series in its middle t and, as the map is self-adjoint, the square of its length e.  The weights
-    take Σ w tⁱe²ʲ over the known rates to that of the new one as nearly as they can while they stay moderate.
+    A rate is a series in its middle t and, as the map is self-adjoint, the square of its length e.  The weights, of
+    moderate size, approximate tⁱe²ʲ of the wanted rate by Σ w tⁱe²ʲ over the known rates.
     """
     start = [[factorial(k) * DECAY**k if power == (k, 0) else 0.0 for power in POWERS] for k in range(DERIVATIVES)]
     matrix = np.hstack([np.transpose(start), _moments(*known.T)])
@@ -72,13 +72,13 @@ def _weights(known: Floats, wanted: Floats) -> Floats:
 
 @cache
 def guess_weights(columns: int) -> tuple[Floats, Floats]:
-    """The weights of every slot's guesses, (slots, TERMS, LANES), and those of every column's first, (n, terms)."""
+    """The weights of the guesses in every slot, (slots, TERMS, LANES), and of each column's first step, (n, terms)."""
     stages = middles(columns)
     following = np.zeros((LAST, TERMS, LANES))
     for slot in range(1, LAST):
         for lane in range(LANES):
             middle, length = stages[slot, lane]
-            steps = min(3, round(middle / length - 0.5))  # of this column, before
+            steps = min(3, round(middle / length - 0.5))  # earlier steps of this column
             before = np.array([(middle - j * length, length) for j in range(1, steps + 1)]).reshape(-1, 2)
             weights = _weights(before, stages[slot, lane])
             following[slot - 1, : len(weights), lane] = weights
@@ -91,18 +91,18 @@ def guess_weights(columns: int) -> tuple[Floats, Floats]:
     return following, beginning
 
 
-#: A block adds this many Gibbs vectors at once.
+#: The number of Gibbs vectors that a block adds in one pass.
 GROUP = 4
-#: Of how many moments the weights up to 0, 1, 2, 3 and 4 are.
+#: The numbers of moments up to the orders 0, 1, 2, 3 and 4.
 COUNTS = (1, 2, 4, 7, 12)
 
 
 def _stage_moments(c: Floats) -> Floats:
-    """The terms in which the rates of the stages c, one after the other, differ up to the fourth order, (stages, 12).
+    """The moments of the rates of successive stages c, up to the fourth order, (stages, 12).
 
-    A stage is exp(cX₁ + c³X₃ + ...), and its rate an even series in c at its middle.  So they are the coefficients of
-    words in X₁ and X₃ up to the middle, times powers of c².  That of X₁ is t, that of X₃ is the sum of the c³, and
-    that of X₁X₃ has each c³ times the t of its middle; by shuffles the others are products of these.
+    A stage is exp(cX₁ + c³X₃ + ...), and its rate is an even series in c at its middle.  So the moments are the
+    coefficients of words in X₁ and X₃ up to the middle, times powers of c².  The coefficient of X₁ is t, of X₃ the sum
+    of c³, of X₁X₃ the sum of c³ times t at its middle; the others are products of these, by shuffles.
     """
     start, cube = np.cumsum(c) - c, c * c * c
     t = start + c / 2
@@ -115,7 +115,7 @@ def _stage_moments(c: Floats) -> Floats:
 
 
 def _stage_guess(c: Floats) -> Floats:
-    """The weights of the Gibbs vectors of all stages but the last for that of the last, (stages - 1,)."""
+    """The weights of the Gibbs vectors of the other stages for that of the last stage, (stages - 1,)."""
     known = len(c) - 1
     moments = _stage_moments(c)[:, : max((n for n in COUNTS if n <= known), default=0)]
     if not known:
@@ -123,18 +123,18 @@ def _stage_guess(c: Floats) -> Floats:
     return _moderate(moments[:-1].T, moments[-1]) * c[-1] / c[:-1]
 
 
-#: The polynomial through the last 8 values, at the next: the oldest first.
+#: The weights of the last 8 values, the oldest first, in the extrapolation by a polynomial.
 NEXT = (-1.0, 8.0, -28.0, 56.0, -70.0, 56.0, -28.0, 8.0)
 
 
 @cache
 def stage_weights(stages: tuple[float, ...]) -> Floats:
-    """The weights of the last Gibbs vectors, the oldest first, for that of each stage, (2, places, vectors).
+    """The weights of the last Gibbs vectors, the oldest first, for the guess of each stage, (2, places, vectors).
 
-    The vectors lie in places that are used one after the other, and again: as many as whole steps need to fit the
-    twelve moments; the weights are filled up with zeros to whole groups.  The first weights are for the first round,
-    in which only the places before are filled, the others for all later ones.  Steps of one stage are guessed by a
-    polynomial, which begins at 0.
+    The vectors are in a ring buffer of places: the least number for whole steps that fits the twelve moments; the
+    weights are padded with zeros to whole groups.  The first weights are for the first round, in which only the places
+    before are filled; the second are for all later rounds.  Steps of one stage are guessed by a polynomial; its values
+    before the first step are 0.
     """
     s = len(stages)
     if s == 1:

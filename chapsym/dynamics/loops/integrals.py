@@ -1,11 +1,11 @@
 """The common state of all loops: compensated sums, the filter that guesses the next Gibbs vector, and the integrals.
 
-Sums and filter are written for one number, so that loops of one ball and of lanes do the same to each, with the same
-roundings.  ⟨γ,γ⟩, ⟨𝒦,γ⟩ and ⟨𝒦,𝒦⟩ are known to twice the working precision, and restored without a bias.
+Sums and filter are functions of single numbers, so that loops of one ball and of lanes compute the same, with the same
+rounding errors.  ⟨γ,γ⟩, ⟨𝒦,γ⟩ and ⟨𝒦,𝒦⟩ are known to twice the working precision, and restored without bias.
 
-The map turns 𝒦 and γ by one rotation.  Each turn is added with a compensation (Kahan), so that the sums carry
-twice the digits; what the rounding of the rotation itself still adds up is taken back every `PERIOD` steps.
-The correction goes into the compensation, not into 𝒦 and γ: renormalised and rounded vectors would lean to one side.
+The map turns 𝒦 and γ by the same rotation.  Each increment is added with compensation (Kahan), so that the sums have
+twice the digits; the drift by rounding errors of the rotation itself is corrected every `PERIOD` steps.  The correction
+is applied to the compensations, not to 𝒦 and γ: renormalised and rounded vectors would have a bias.
 """
 
 from chapsym.generated import turn
@@ -15,14 +15,14 @@ from .text import out_of_line
 
 #: Steps between two restorations.
 PERIOD = 1024
-#: Where sin² of the angle of 𝒦 and γ is below this, ⟨𝒦,γ⟩ follows from |𝒦| and |γ|.
+#: If sin² of the angle of 𝒦 and γ is below this, ⟨𝒦,γ⟩ is not restored: it follows from |𝒦| and |γ|.
 VERTICAL = 1e-6
-#: The square of an angle that float32 can tell from 0.
+#: The value for float32, whose rounding errors are larger.
 SINGLE = {"VERTICAL": 1e-4}
 
 
 def inner(a1, a2, a3, b1, b2, b3, high, low):
-    """⟨a, b⟩ + high + low as (sum, rest), to about twice the working precision."""
+    """⟨a, b⟩ + high + low as (sum, error), to about twice the working precision."""
     x, x_low = split_product(a1, b1)
     y, y_low = split_product(a2, b2)
     z, z_low = split_product(a3, b3)
@@ -42,9 +42,9 @@ def remember(state):
 
 
 def shares(unit, height, squared, one, h, n):
-    """The changes that raise the integrals (one, h, n) by (unit, height, squared): (stretch, along_k, along_gamma).
+    """The changes that increase the integrals (one, h, n) by (unit, height, squared): (stretch, along_k, along_gamma).
 
-    γ is to become (1 + stretch)γ, and k to become k + along_k k + along_gamma γ.
+    γ becomes (1 + stretch)γ, and k becomes k + along_k k + along_gamma γ.
     """
     if not n > 0.0:
         return 0.0, 0.0, 0.0
@@ -58,7 +58,7 @@ def shares(unit, height, squared, one, h, n):
 
 
 def missing(state):
-    """The integrals in state[12:18] less those of k and γ with their compensations state[6:12]."""
+    """The integrals in state[12:18] minus those of k and γ with their compensations state[6:12]."""
     k1, k2, k3, g1, g2, g3 = state[0], state[1], state[2], state[3], state[4], state[5]
     x1, x2, x3, y1, y2, y3 = state[6], state[7], state[8], state[9], state[10], state[11]
     unit, _ = inner(g1, g2, g3, -g1, -g2, -g3, state[12], state[13])
@@ -72,7 +72,7 @@ def missing(state):
 
 
 def give(state, stretch, along_k, along_gamma):
-    """Takes the `shares` out of the compensations."""
+    """Subtracts the changes of `shares` from the compensations."""
     for i in range(3):
         k, g = state[i], state[3 + i]
         state[6 + i] = state[6 + i] - (along_k * k + along_gamma * g)
@@ -81,9 +81,9 @@ def give(state, stretch, along_k, along_gamma):
 
 @out_of_line
 def restore(state):
-    """Corrects the compensations state[6:12] so that k and γ, with them, have the integrals in state[12:18] again.
+    """Corrects the compensations state[6:12] so that the compensated k and γ have the integrals in state[12:18].
 
-    γ is stretched; k gets the least multiples of k and γ, or of k alone where the two are nearly parallel.
+    γ is scaled; small multiples of k and γ are added to k, or of k alone if the two are nearly parallel.
     """
     unit, height, squared = missing(state)
     stretch, along_k, along_gamma = shares(unit, height, squared, state[12], state[14], state[16])
@@ -91,14 +91,14 @@ def restore(state):
 
 
 def added(total, rest, more):
-    """total + more, where `rest` is what the roundings have added too much (Kahan): the sum, and its rest."""
+    """total + more - rest (Kahan): the sum and its new compensation; rest: the excess of total by rounding errors."""
     more = more - rest
     there = total + more
     return there, (there - total) - more
 
 
 def turned(p, v, x):
-    """The vector v, with the rests x of its sums, turned by the quaternion p, of any length: (v, x)."""
+    """The vector v with the compensations x, turned by the quaternion p of any length: (v, x)."""
     z = turn(*p, *v)
     v1, x1 = added(v[0], x[0], z[0])
     v2, x2 = added(v[1], x[1], z[1])
@@ -107,11 +107,11 @@ def turned(p, v, x):
 
 
 def filtered(b, c, d, e, f, h, o, w):
-    """The polynomial through the last 8 values as a filter: takes the newest, w; first is the guess of the next."""
+    """The extrapolation by a polynomial through the last 8 values as a filter, updated by w; the guess comes first."""
     return (
         b + 8.0 * w, c - 28.0 * w, d + 56.0 * w, e - 70.0 * w, f + 56.0 * w, h - 28.0 * w, o + 8.0 * w, -w
     )  # fmt: skip
 
 
-#: What each of the last 8 values adds to the next, the newest first.
+#: The weights of the last 8 values in the guess of the next, the newest first.
 WEIGHTS = filtered(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)

@@ -1,24 +1,23 @@
-"""Long steps of the continuous ball, columns side by side, of one ball or of eight: vector code, and its frames.
+"""Long steps of the continuous ball by extrapolation, with parallel columns, for one or eight balls, as vector code.
 
-Lane i first takes the column n = 7 - i, and then the column i where there is one; so the columns 2 to 7 are 7, 6,
-5 + 2 and 4 + 3 steps of the map, 7 slots of four.  A lane without a column repeats one, with no weight.  Each number
-has a row of its own, in which the lane i of the ball b of B is the i B + b th.  What a lane does depends on its own
-ball alone: a settled lane waits for the others unchanged.  So a ball has the same bits alone, in a block, and in plain
-Python.
+Lane i first computes the column n = 7 - i, and then the column i, if it exists: so the columns 2 to 7 are 7, 6, 5 + 2
+and 4 + 3 steps of the map, in 7 slots of four.  A lane without a column repeats one, with weight 0.  Each variable has
+a row, in which lane i of ball b of B is at i B + b.  The computation in a lane depends on its ball alone; a converged
+lane waits for the others unchanged.  So a ball has the same bits alone, in a block, and in plain Python.
 
-The steps are as long as the error allows, mostly longer than lemma `small-branch` proves; so each is checked on the
-spot.  With d the Newton correction of u, e the second one, A⁻¹ = C/det the inverse of the Jacobian at u and
-c = ½(I_max - I_min) + |k|, which bounds the quadratic part of G: if |A⁻¹| c |d| ≤ 1/8 the theorem of Newton and
-Kantorovich has a root within 1.2|d| of u, |A⁻¹| grows by less than 1.42 on the way to it, and u + d + e is at most
-1.42 · 3 |A⁻¹| c max(|d|,|e|)|e| from the root.  Where the lemma holds, the root is that of the small-rotation branch;
-beyond, it is the one that Newton's method finds from the rates of the other steps.
+The steps are as long as the error permits, mostly longer than the bound of lemma `small-branch`; so each is verified.
+Let d be the Newton correction of u, e the second one, A⁻¹ = C/det the inverse of the Jacobian at u, and
+c = ½(I_max - I_min) + |k|, which bounds the quadratic part of G.  If |A⁻¹| c |d| ≤ 1/8, then by the Newton-Kantorovich
+theorem there is a root within 1.2|d| of u, |A⁻¹| grows by less than 1.42 on the way to it, and u + d + e is at most
+1.42 · 3 |A⁻¹| c max(|d|,|e|)|e| from the root.  Where the lemma holds, the root is on the small-rotation branch; beyond
+it, the root is the one that Newton's method finds from the rates of the other steps.
 
-The safe way (`long_step`) takes the rotations of the small-rotation branch, proved or continued from no rotation.
+The safe way (`long_step`) uses rotations of the small-rotation branch, proved or continued from the identity.
 
-Steps of the map are fitted: they turn a ball in steady rotation as far as the continuous ball turns.  By lemmas
+Steps of the map are fitted: in steady rotation the ball turns by the same angle as the continuous ball.  By lemmas
 `steady` and `steady-branch` a step of length s turns it by θ with sin θ = s|ω|.  So the step for the time h has the
-length s = sin(h|ω|)/|ω|.  That is h times an even function of h, so the rotation of n steps stays an even series.  In
-lemma `modified-field` 12ω₃ loses its part 2|ω|²ω so, up to what |ω| changes in the long step.
+length s = sin(h|ω|)/|ω|, which is h times an even function of h: the rotation of n steps is still an even series.  In
+lemma `modified-field` this removes the term 2|ω|²ω of 12ω₃, up to the change of |ω| in the long step.
 """
 
 from math import frexp, ldexp, nan, sqrt
@@ -57,61 +56,62 @@ from .vectors import (
     three_in,
 )  # fmt: skip
 
-#: The last column; the first is LAST + 1 - columns: longer steps of the map gain less than more columns do.
+#: The last column; the first is LAST + 1 - columns: more columns are better than longer steps of the map.
 LAST = 7
-#: Longer steps than 2^LONGEST, in units where the momentum and the ball are about 1, have no rotation anyway.
+#: log₂ of the longest step, in units where the momentum and the ball are about 1; longer steps have no rotation.
 LONGEST = 100
-#: The rows of the weights: of the columns, and from 1 on of the differences that the last three columns make.
+#: The number of changes: the weights have a row for the columns, and then three for the changes by the last columns.
 CHANGES = 3
-#: A ball under way, and where its numbers begin: K, γ, the attitude, the contact point, and the doubt so far.  Of the
-#: last step: by which vectors, in the axes at its end, the last three columns have turned it otherwise; and how far the
-#: last one has moved the contact point, in radii.
+#: The layout of the state of a ball: K, γ, the attitude, the contact point, and the accumulated doubt.  Of the last
+#: step: the changes of the rotation by the last three columns, as vectors in the axes at its end; and the change of the
+#: contact point by the last one, in radii.
 MOMENTUM, GAMMA, ATTITUDE, SPOT, DOUBT, TWIST, SLIP = 0, 3, 6, 10, 12, 13, 22
 MOVING = 24
-#: 1.5²: steps that would turn the ball by nearly a right angle, where the branch folds, are not fitted.
+#: 1.5²: steps that would turn the ball by nearly a right angle, where the branch has a fold, are not fitted.
 MOST_TURN = 2.25
-#: Columns side by side, and balls in a block.
+#: The parallel columns, and the balls in a block.
 LANES, EIGHT = 4, 8
-#: The most columns that fit: 2, ..., 7.
+#: The most columns: 2, ..., 7.
 MOST_COLUMNS = 6
-#: A guess has weights for ω and two derivatives, and for the last three Gibbs vectors of its column ...
+#: A guess has weights for ω and two derivatives, and for the last three Gibbs vectors of its column.
 DERIVATIVES = 3
 TERMS = DERIVATIVES + 3
-#: ... and that of the first step of a lane's second column for ω, its derivatives, and the first steps of the others.
+#: The guess for the first step of a second column has weights for ω, its derivatives, and the first steps of the
+#: others.
 FIRST_TERMS = DERIVATIVES + LANES + 1
-#: All numbers are in one array, so that the loops see that nothing overlaps.  Rows of the lanes: k, γ, u, the two
-#: before it, the quaternion and the way of the centre so far, half the step, its inverse, c², the lemma's radius²,
-#: (what may be left of u / 4.26)², I and D, K and γ, ω and its derivatives at the beginning, (h|ω|)²,
-#: the weights of the guess, a quaternion of the step, whether it is open, and whether its ball is lost: the safe way
-#: takes it.
+#: All numbers are in one array, so that compilers see no aliasing.  Rows of the lanes: k, γ, u, the two Gibbs vectors
+#: before it, the quaternion and the path of the centre so far, half the step, its inverse, c², the lemma's radius²,
+#: (the permitted error of u / 4.26)², I and D, K and γ, ω and its derivatives at the start, (h|ω|)², the weights of the
+#: guess, a quaternion of the step, whether it is open (not converged), and whether its ball is lost (left to the safe
+#: way).
 K, G, U, V, X, Q, Y, HALF, INVERSE, SLOPE, WITHIN, LEAST = 0, 3, 6, 9, 12, 15, 19, 22, 23, 24, 25, 26
 BALL, START, VERTICAL, OMEGA, RATE, CURVE, TURNED, WEIGHT, P, OPEN, LOST = 27, 31, 34, 37, 40, 43, 46, 47, 53, 57, 58
-#: Rows of the lanes that a run does not change: half a step of the first column that is not fitted, its inverse, its
-#: |k|, the lemma's radius², LEAST and 1/n²; the same of the second; the weights of both in the sum and in the
-#: differences that the last three columns make, and those of the first guess; and ½(I_max - I_min).
+#: Constant rows of the lanes: half an unfitted step of the first column, its inverse, its |k|, the lemma's radius²,
+#: LEAST and 1/n²; the same of the second column; the weights of both in the sum and in the changes by the last three
+#: columns, and those of the first guess; and ½(I_max - I_min).
 FIRSTS, SECONDS, FULL, CHANGE, GUESS, SPREAD, TANGENT = 59, 65, 71, 73, 79, 82, 83
-#: The rate of each lane's first step, the quaternion and the way of the column that it has finished first, and sums.
+#: The rate of each lane's first step, the quaternion and the path of its first finished column, and sums.
 KEPT, DONE, SUMS = 84, 87, 94
-#: Rows of the balls, one number each: `lanes.MOVING`, half a long step, the radius, J and D, whether it rests, and
-#: the rate of the first step of the largest second column.
+#: Rows of the balls, one number for each ball: `lanes.MOVING`, half a long step, the radius, J and D, whether it rests,
+#: and the rate of the first step of the largest second column.
 MOVED = SUMS + 11
 LENGTH, RADIUS, TENSOR = MOVED + MOVING, MOVED + MOVING + 1, MOVED + MOVING + 2
 CONTACT, RESTS, LATER = MOVED + MOVING + 5, MOVED + MOVING + 6, MOVED + MOVING + 7
-#: Of every lane, whether its ball is heavy (`gibbs.is_heavy`).
+#: The row that marks the lanes of heavy balls (`gibbs.is_heavy`).
 HEAVY = MOVED + MOVING + 10
 ROWS = HEAVY + 1
-#: (|A⁻¹| c |d|)² may be this: Kantorovich's number, 2|A⁻¹|c|d|, is then at most 1/4.
+#: The largest (|A⁻¹| c |d|)²: the Kantorovich number 2|A⁻¹|c|d| is then at most 1/4.
 KANTOROVICH = 1.0 / 64.0
-#: Rounds of a slot that are tried before the long step is left to the safe way.
+#: The most rounds of a slot before the long step is left to the safe way.
 MOST_ROUNDS = 6
-#: Where the lemma has no radius, none is asked for.
+#: The value of radius² where the lemma has none: no condition.
 ANYWHERE = 2.0**1000
 #: (1.42 · 3)².
 BEHIND = 18.2
 
 
 class Weights(NamedTuple):
-    """The weights of the columns and of the changes by the last three, (1 + CHANGES, columns); of guesses (`guess`)."""
+    """Weights: of the columns and of the changes by the last three, (1 + CHANGES, columns); of guesses (`guess`)."""
 
     sums: Matrix
     following: Cube
@@ -119,7 +119,7 @@ class Weights(NamedTuple):
 
 
 class Balls(NamedTuple):
-    """J (balls, 3), D and the radius, (balls,)."""
+    """The balls: J (balls, 3), D and the radius, (balls,)."""
 
     tensor: Matrix
     contact: Vector
@@ -127,7 +127,7 @@ class Balls(NamedTuple):
 
 
 class Frames(NamedTuple):
-    """Frames of balls, (balls, frames, ...), with K for 𝒦; whether there are attitudes, and traces are wanted."""
+    """Frames of balls, (balls, frames, ...), with K for 𝒦; follows, traced: whether there are attitudes and traces."""
 
     momenta: Cube
     verticals: Cube
@@ -138,7 +138,7 @@ class Frames(NamedTuple):
 
 
 def iterate(u, k, g, I, D, heavy, one_is_heavy):
-    """A Newton iterate from u, with the determinant of a ball that may be `heavy`."""
+    """A Newton iterate from u, with the stable determinant if the ball is heavy."""
     found = gibbs_newton(*u, *k, *g, *I, D)
     det = found[0]
     if one_is_heavy:
@@ -148,7 +148,7 @@ def iterate(u, k, g, I, D, heavy, one_is_heavy):
 
 
 def checked(S, B, again, one_is_heavy):
-    """Two Newton iterates, or one `again`, and a second correction in every open lane; returns how many stay open."""
+    """Two Newton iterates (one if `again`) and a second correction in every open lane; returns how many stay open."""
     for i in lanes(LANES * B):
         u, k, g = three_in(S, U, i), three_in(S, K, i), three_in(S, G, i)
         inertia, contact, heavy = three_in(S, BALL, i), S[BALL + 3, i], S[HEAVY, i] != 0.0
@@ -175,14 +175,14 @@ def checked(S, B, again, one_is_heavy):
 
 
 def looked_for(S, B, again, one_is_heavy):
-    """`checked`, in a loop of its own where no ball is heavy, which has less to compute."""
+    """`checked`, with a cheaper loop if no ball is heavy."""
     if one_is_heavy:
         return checked(S, B, again, True)
     return checked(S, B, again, False)
 
 
 def moved(S, B, traced):
-    """Turns k and γ of every lane, carries on its quaternion, and its centre if `traced`, and guesses the next u."""
+    """Turns k and γ of every lane, updates its quaternion, and its centre if `traced`, and guesses the next u."""
     for i in lanes(LANES * B):
         p, q, w, k, g = four_in(S, P, i), four_in(S, Q, i), three_in(S, U, i), three_in(S, K, i), three_in(S, G, i)
         if traced:
@@ -201,28 +201,28 @@ def moved(S, B, traced):
 
 
 def expanded(S, i, a, b, c):
-    """ω and its derivatives at the beginning with these weights."""
+    """The combination of ω and its derivatives at the start with these weights."""
     return plus(
         plus(scaled(a, three_in(S, OMEGA, i)), scaled(b, three_in(S, RATE, i))), scaled(c, three_in(S, CURVE, i))
     )
 
 
 def begin(S, B):
-    """Puts its first column into every lane, with the first guess."""
+    """Starts the first column of every lane, with the first guess."""
     for i in lanes(LANES * B):
         start(S, i, FIRSTS)
         put_in(S, U, i, scaled(S[TANGENT, i], expanded(S, i, *three_in(S, GUESS, i))))
 
 
 def begin_second(S, B, lane, weights):
-    """Puts its second column into a lane of every ball."""
+    """Starts the second column of a lane of every ball."""
     for b in lanes(B):
         start(S, lane * B + b, SECONDS)
     w0, w1, w2, w3, w4, w5, w6, w7 = (
         weights[lane, 0], weights[lane, 1], weights[lane, 2], weights[lane, 3],
         weights[lane, 4], weights[lane, 5], weights[lane, 6], weights[lane, 7],
     )  # fmt: skip
-    for b in lanes(B):  # not a loop of the components: eight balls would be unrolled, and not become vector code
+    for b in lanes(B):  # no loop over components: compilers would unroll the eight balls, and not vectorise
         omega, rate, curve = three_in(S, OMEGA, b), three_in(S, RATE, b), three_in(S, CURVE, b)
         first, second, later = three_in(S, KEPT, b), three_in(S, KEPT, B + b), three_in(S, LATER, b)
         third, fourth = three_in(S, KEPT, 2 * B + b), three_in(S, KEPT, 3 * B + b)
@@ -232,7 +232,7 @@ def begin_second(S, B, lane, weights):
 
 
 def start(S, i, at):
-    """Puts a lane to the start of a column, of which the rows from `at` have the numbers, and fits its step."""
+    """Sets a lane to the start of the column in the rows from `at` on, and fits its step."""
     scale = fitted(S[TURNED, i] * S[at + 5, i])
     half, slope = S[at, i] * scale, S[SPREAD, i] + S[at + 2, i] * scale
     bend = half_angle(S[TURNED, i] * S[at + 5, i])
@@ -248,13 +248,13 @@ def start(S, i, at):
 
 
 def finish(S, i):
-    """Keeps the quaternion and the way of the first column of a lane."""
+    """Stores the quaternion and the path of the first column of a lane."""
     put_four_in(S, DONE, i, four_in(S, Q, i))
     put_in(S, DONE + 4, i, three_in(S, Y, i))
 
 
 def gather(S, B):
-    """Turns every ball by the weighted sum of the columns, but those that are lost."""
+    """Turns every ball that is not lost by the weighted sum of its columns."""
     for i in lanes(LANES * B):
         a, b = four_in(S, DONE, i), four_in(S, Q, i)
         one, two = 1.0 / sqrt(square_of_four(a)), 1.0 / sqrt(square_of_four(b))
@@ -279,11 +279,11 @@ def gather(S, B):
 
 
 def rates(S, B, first):
-    """K, γ, ω and two derivatives in units of the long step, (2.12) and (2.13), of every ball in all its lanes."""
+    """Writes K, γ, ω and two derivatives in units of the long step, (2.12) and (2.13), into all lanes of each ball."""
     for b in lanes(B):
         K, g, J, contact = three_in(S, MOVED, b), three_in(S, MOVED + 3, b), three_in(S, TENSOR, b), S[CONTACT, b]
         w = angular_velocity(*K, *g, *J, contact)
-        # K = Λω - D⟨γ,ω⟩γ turns, and so does γ: B(γ)ω̇ = (K + D⟨γ,ω⟩γ) × ω.
+        # From K = Λω - D⟨γ,ω⟩γ, K̇ = K × ω, γ̇ = γ × ω: B(γ)ω̇ = (K + D⟨γ,ω⟩γ) × ω.
         m = plus(K, scaled(contact * dot(g, w), g))
         a = angular_velocity(*cross(m, w), *g, *J, contact)
         # B(γ)ω̈ = Λω̇ × ω + Λω × ω̇ + D(⟨γ̇,ω̇⟩γ + ⟨γ,ω̇⟩γ̇).
@@ -310,7 +310,7 @@ def rates(S, B, first):
 
 
 def side_by_side(S, B, traced, weights):
-    """One long step of every ball in place but of those that get lost; returns whether one is."""
+    """One long step of every ball, in place, except those that are lost; returns whether one is lost."""
     columns = weights.sums.shape[1]
     first, second = LAST + 1 - columns, LAST - LANES  # the largest of the second columns
     rates(S, B, first)
@@ -320,7 +320,7 @@ def side_by_side(S, B, traced, weights):
         one_is_heavy = one_is_heavy or S[HEAVY, b] != 0.0
     for slot in range(LAST):
         lane = LAST - slot
-        if lane < LANES:  # it has finished its first column, n = slot
+        if lane < LANES:  # the lane has finished its first column, n = slot
             for b in lanes(B):
                 finish(S, lane * B + b)
         if lane == 3 and first <= 3:
@@ -340,7 +340,7 @@ def side_by_side(S, B, traced, weights):
             lose(S, B)
             if B == 1:
                 return True
-        if traced:  # two loops: one would compute the centre in any case
+        if traced:  # two loops, as a single one would always compute the centre
             moved(S, B, True)
         else:
             moved(S, B, False)
@@ -358,7 +358,7 @@ def side_by_side(S, B, traced, weights):
 
 
 def lose(S, B):
-    """Marks all lanes of every ball of which one is open, and closes them."""
+    """Marks all lanes of every ball with an open lane as lost."""
     for b in lanes(B):
         is_open = (S[OPEN, b] + S[OPEN, B + b]) + (S[OPEN, 2 * B + b] + S[OPEN, 3 * B + b]) != 0.0
         for lane in range(LANES):
@@ -366,13 +366,13 @@ def lose(S, B):
 
 
 def turn_square(h, first, w):
-    """(h|ω|)² for a long step h, or 0 where its steps, the longest h/`first`, are not fitted."""
+    """(h|ω|)² for a long step h, or 0 if its steps, the longest of which is h/`first`, are not fitted."""
     turned = h * h * square(w)
     return turned if turned <= MOST_TURN * (first * first) else 0.0
 
 
 def fitted(square):
-    """(sin x)/x by its Taylor polynomial up to x¹²: off by 3e-10 at x = 1.5, and by roundings up to x = 0.5."""
+    """(sin x)/x by its Taylor polynomial up to x¹²: the error is 3e-10 at x = 1.5, and rounding for x ≤ 0.5."""
     fourth = square * square
     last = (1.0 / 362880.0 - square * (1.0 / 39916800.0)) + fourth * (1.0 / 6227020800.0)
     return ((1.0 - square * (1.0 / 6.0)) + fourth * (1.0 / 120.0 - square * (1.0 / 5040.0))) + fourth * fourth * last
@@ -385,7 +385,7 @@ def half_angle(square):
 
 
 def begun(body, J0, D0, h, state):
-    """Scales K of `body` to about 1, and puts the ball into `state`: (half a long step there, K's exponent)."""
+    """Scales K of `body` to about 1, and writes the ball into `state`: (half a long step there, K's exponent)."""
     none = np.zeros(3)
     _, size = frexp(loop.entered(none, none, J0, D0, state))
     _, exponent = frexp(largest(three(body, 0)))
@@ -395,11 +395,11 @@ def begun(body, J0, D0, h, state):
 
 
 def column(body, half, n, square, state):
-    """The unit quaternion that n fitted steps of the map make together from K and γ of `body`.
+    """The unit quaternion of n fitted steps of the map from K and γ of `body`.
 
-    Each has 𝒦 = 2 half K/n times `fitted`, of `turn_square` over n².
-    state (`loop.ROWS`) has J, I and D; the rest of it is used.  Returns (status, reach, q, y) with the way y of the
-    centre in radii, in the axes of the body at the start.
+    Each step has 𝒦 = (2 half K/n) · `fitted`(`turn_square`/n²).
+    state (`loop.ROWS`) has J, I and D; the rest is workspace.  Returns (status, reach, q, y), y the path of the centre
+    in radii, in the axes of the body at the start.
     """
     k = scaled(half / n * fitted(square * (1.0 / (n * n))), three(body, MOMENTUM))
     g, inertia, contact = three(body, GAMMA), three(state, loop.I), state[loop.D]
@@ -457,12 +457,12 @@ def long_step(body, half, radius, sums, state):
 
 
 def twist(q, d):
-    """The small rotation vector, in the axes at the end, by which a change d of a unit quaternion q changes it."""
+    """The small rotation vector, in the axes at the end, of a change d of a unit quaternion q."""
     return scaled(2.0, compose(*conjugate(q), *d)[1:4])
 
 
 def moved_body(k, g, a, x, y, q, s, radius):
-    """K and γ turned by one quaternion q of any length, the attitude a with them, and the contact point moved by s."""
+    """K and γ turned by the quaternion q of any length, the attitude a ∘ q, and the contact point moved by s."""
     d1, d2, _ = rotate(*a, *s)
     b = compose(*a, *q)
     b = scaled_four(1.0 / sqrt(square_of_four(b)), b)
@@ -470,7 +470,7 @@ def moved_body(k, g, a, x, y, q, s, radius):
 
 
 def placed(body, i, frames):
-    """The ball i as it is at frame 0."""
+    """Writes the state of the ball i at frame 0 into `body`."""
     body[:] = 0.0
     put(body, 0, three(frames.momenta[i, 0], 0))
     put(body, 3, three(frames.verticals[i, 0], 0))
@@ -482,7 +482,7 @@ def placed(body, i, frames):
 
 
 def shown(body, exponent, i, frame, frames):
-    """Writes a ball, of K's exponent, into one of its frames."""
+    """Writes the state of a ball, with K scaled by 2^exponent, into a frame."""
     put(frames.momenta[i, frame], 0, shifted(three(body, 0), int(exponent)))
     put(frames.verticals[i, frame], 0, three(body, 3))
     if frames.follows:
@@ -492,7 +492,7 @@ def shown(body, exponent, i, frame, frames):
 
 
 def stopped_at(i, frame, frames):
-    """Writes NaN into the frames of a ball from one on."""
+    """Writes NaN into the frames of a ball from `frame` on."""
     frames.momenta[i, frame:] = nan
     frames.verticals[i, frame:] = nan
     if frames.follows:
@@ -502,20 +502,20 @@ def stopped_at(i, frame, frames):
 
 
 def taken_out(S, b, body):
-    """The present state of a ball, out of its column of S."""
+    """Copies the present state of a ball from its column of S."""
     for c in range(MOVING):
         body[c] = S[MOVED + c, b]
 
 
 def put_back(S, b, body):
-    """The same into it."""
+    """Copies the state of a ball into its column of S."""
     for c in range(MOVING):
         S[MOVED + c, b] = body[c]
 
 
 @out_of_line
 def enter(S, B, b, i, balls, h, weights, body, state):
-    """Puts the ball i, of which `body` has all but the scale, into the column b of S; returns K's exponent."""
+    """Puts the ball i, unscaled in `body`, into the column b of S; returns the exponent of K."""
     half, exponent = begun(body, balls.tensor[i], balls.contact[i], h, state)
     put_back(S, b, body)
     S[LENGTH, b], S[RADIUS, b], S[CONTACT, b], S[RESTS, b] = half, balls.radius[i], state[loop.D], 0.0
@@ -538,7 +538,7 @@ def enter(S, B, b, i, balls, h, weights, body, state):
 
 
 def resized(S, B, b, columns, half, body, state):
-    """Gives a ball a long step of another length, of which `half` is the half in the unit of S."""
+    """Changes the long step of a ball; half: half its length in the unit of S."""
     S[LENGTH, b], least = half, LAST + 1 - columns
     for lane in range(LANES):
         entered(S, FIRSTS, lane * B + b, body, half, max(LAST - lane, least), state)
@@ -546,10 +546,10 @@ def resized(S, B, b, columns, half, body, state):
 
 
 def entered(S, at, i, body, half, n, state):
-    """Half a step of a lane and what goes with it (`FIRSTS`).
+    """Writes half a step of a lane and its constants (`FIRSTS`).
 
-    The lemma's radius for the step that is not fitted serves the fitted one, too, as that is shorter: its root is
-    nearer to 0, and what is monotone stays so.
+    The lemma's radius for the unfitted step is also valid for the fitted one, which is shorter: its root is nearer to
+    0, and G is monotone on the same ball.
     """
     part = half / n
     inertia, contact = three(state, loop.I), state[loop.D]
@@ -558,7 +558,7 @@ def entered(S, at, i, body, half, n, state):
     size = length(k)
     within, _ = bound(k, inertia, contact)
     least = LEFT * size / (max(*inertia) + contact + spread)
-    # A heavy ball takes the safe way where products of its numbers would underflow.
+    # A heavy ball uses the safe way if products would underflow.
     light = is_heavy(inertia, contact) and not (min(*inertia) >= LIGHTEST and size >= LIGHTEST)
     S[at, i], S[at + 1, i], S[at + 2, i], S[SPREAD, i] = part, 1.0 / part if part != 0.0 else 0.0, size, spread
     S[at + 3, i], S[at + 4, i] = -1.0 if light else within if within >= 0.0 else ANYWHERE, least * least / BEHIND
@@ -567,7 +567,7 @@ def entered(S, at, i, body, half, n, state):
 
 @out_of_line
 def safely(S, b, sums, state):
-    """The safe way of a long step for one ball; returns (status, reach)."""
+    """A long step of one ball by the safe way; returns (status, reach)."""
     body = np.empty(MOVING)
     taken_out(S, b, body)
     status, reach = long_step(body, S[LENGTH, b], S[RADIUS, b], sums, state)
@@ -576,9 +576,9 @@ def safely(S, b, sums, state):
 
 
 def march_lanes(B, frames, balls, h, first, steps, every, weights, kept, doubt, taken, status, reach):
-    """The long steps from `first` to `steps` of at most B balls from their frames 0; keeps every `every`-th state.
+    """The long steps from `first` to `steps` of at most B balls from their frames 0; stores every `every`-th state.
 
-    kept: all that the steps before left, and that the next ones need.
+    kept: the complete state between calls.
     """
     S, count = np.zeros((ROWS, LANES * B)), len(status)
     states, exponents, body = np.zeros((B, loop.ROWS)), np.zeros(B, dtype=np.int64), np.zeros(MOVING)

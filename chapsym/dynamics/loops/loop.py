@@ -1,8 +1,8 @@
-"""The inner loop: many steps of one ball, each a composition of the map with any stages; the map itself has one.
+"""The inner loop: many steps of one ball, each a composition of the map with any stages; the map itself has one stage.
 
-A composition takes the stages Φ_{cᵢε} one after the other.  In the paper's variables 𝒦 = εK, so a stage finds its
-rotation from cᵢ𝒦 and then carries 𝒦 itself: 𝒦 and γ turn rigidly, whatever the coefficients are.  The stages go back
-and forth, so those of the last step or two lie all around the next: its Gibbs vector is guessed from theirs.
+A composition takes the stages Φ_{cᵢε} one after the other.  In the paper's variables 𝒦 = εK, so a stage computes its
+rotation from cᵢ𝒦 and turns 𝒦 itself: 𝒦 and γ turn rigidly, for any coefficients.  Stages go forward and backward in
+time, so the stages of the last steps surround the next one: its Gibbs vector is guessed from theirs.
 """
 
 from math import frexp, ldexp, sqrt
@@ -19,13 +19,13 @@ from .path import search_on_path
 from .text import Cube, Doubles, Integers, Matrix, Vector, out_of_line
 from .vectors import largest, plus, put, scaled, scaled_four, square_of_four, three
 
-#: The largest exponent by which a ball is scaled.
+#: The largest binary exponent for the scaling of a ball.
 HIGHEST = 1021
-#: The numbers that describe a ball under way, and where each begins: k = 𝒦/2, γ, their compensations, the three
-#: integrals as pairs, J, I, D, radius² and enough (lemma small-branch).
+#: The layout of the state of a ball: k = 𝒦/2, γ, their compensations, the three integrals as pairs, J, I, D, radius²
+#: and enough (lemma small-branch).
 K, G, X, INTEGRALS, J, I, D, RADIUS, ENOUGH = 0, 3, 6, 12, 18, 21, 24, 25, 26
 ROWS = 27
-#: What float32 takes in their place.
+#: The substitutes for float32.
 SINGLE = {"small_rotation": single_loop.widened, "follow_body": single_loop.follow_body}
 
 
@@ -34,7 +34,7 @@ def prepare(
     momentum: Vector, g: Vector, tensor: Vector, contact: float, c: Vector, state: Vector, radius: Vector,
     enough: Vector,
 ):  # fmt: skip
-    """Writes the state of a ball, and radius² and enough of each stage c, (s,); returns `scale`, with 𝒦 = scale·k."""
+    """Writes the state of a ball, and radius² and enough for each stage c, (s,); returns `scale`, with 𝒦 = scale·k."""
     part = np.empty(3, momentum.dtype)
     for i in range(c.shape[0]):
         if c[i] != 1.0:
@@ -51,25 +51,25 @@ def prepare(
 
 
 def power_of_two(exponent):
-    """2^exponent, or 0 where that is no normal number of float32."""
+    """2^exponent, or 0 if that is no normal number of float32."""
     return ldexp(1.0, exponent) if -126 <= exponent <= 127 else 0.0
 
 
 def times(x, power, exponent):
-    """x times a power of two, once rounded: `ldexp`, by a product where that is the same."""
+    """x times a power of two, rounded once: a product if `power` is not 0, otherwise `ldexp`."""
     return x * power if power != 0.0 else ldexp(x, exponent)
 
 
 @out_of_line
 def entered(momentum, g, tensor, contact, state):
-    """Writes the state but for the integrals, scaled by a power of two so that Λmax is about 1; returns `scale`."""
+    """Writes the state, except the integrals, scaled by a power of two to Λmax about 1; returns `scale`."""
     _, exponent = frexp(max(*moments(three(tensor, 0))) + contact)
     most = largest(three(momentum, 0))
     _, size = frexp(most)
     exponent = max(min(exponent, HIGHEST), size - HIGHEST)  # neither `scale` nor k overflows
     tiny = 0.0 < most < ldexp(SMALLEST, exponent)
     if tiny:
-        exponent = max(-1, exponent - HIGHEST + 1)  # k = 𝒦, where J allows: nothing of a subnormal momentum is lost
+        exponent = max(-1, exponent - HIGHEST + 1)  # k = 𝒦, if J permits: no digits of a subnormal momentum are lost
     state[:] = 0.0
     power, half = power_of_two(-exponent), power_of_two(-exponent - 1)
     for c in range(3):
@@ -81,13 +81,13 @@ def entered(momentum, g, tensor, contact, state):
     inertia = three(state, I)
     state[RADIUS], state[ENOUGH] = certificate(three(state, K), inertia, state[D])
     if tiny or min(*inertia) < SMALLEST:
-        state[RADIUS] = -1.0  # products of three or four such numbers would underflow: every step takes the safe way
+        state[RADIUS] = -1.0  # products of three or four such numbers would underflow: every step uses `safe_rotation`
     return ldexp(1.0, exponent + 1)
 
 
 @out_of_line
 def safe_rotation(u, state):
-    """(status, reach, p, u) of a step that the first round did not settle: from its guess, or by the continuation."""
+    """(status, reach, p, u) of a step whose first round did not converge: from its guess, or by continuation."""
     k, g, inertia, contact = three(state, K), three(state, G), three(state, I), state[D]
     if state[RADIUS] == BEYOND:
         settled, p, w = search_on_path(u, k, g, inertia, contact)
@@ -102,7 +102,7 @@ def safe_rotation(u, state):
 
 
 def follow_body(p, g, attitude, contact, radius):
-    """Moves the attitude and the contact point by the step with the quaternion p that begins at the vertical g."""
+    """Moves the attitude and the contact point by the step with the quaternion p from the vertical g."""
     a = attitude[0], attitude[1], attitude[2], attitude[3]
     a, contact[0], contact[1] = followed(p, g, a, contact[0], contact[1], radius)
     attitude[0], attitude[1], attitude[2], attitude[3] = a
@@ -114,13 +114,13 @@ def followed(p, g, a, x, y, radius):
     q = p[0] / length, p[1] / length, p[2] / length, p[3] / length
     d1, d2, _ = rotate(*a, *centre_step(*q, *g))
     b = compose(*a, *q)
-    # One Newton step to length 1: the product of unit quaternions is off by a rounding only.
+    # One Newton step to length 1 suffices: the product of unit quaternions has only a rounding error.
     scale = 1.5 - 0.5 * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2] + b[3] * b[3])
     return scaled_four(scale, b), x + radius * d1, y + radius * d2
 
 
 def guessed(past, at, weights):
-    """The next Gibbs vector from the last ones, of which the oldest is in the row `at` of past, by their weights."""
+    """The guess of the next Gibbs vector: a weighted sum of the rows of past from the oldest, `at`, on."""
     u = 0.0, 0.0, 0.0
     for j in range(len(weights)):
         u = plus(u, scaled(weights[j], three(past[at + j], 0)))
@@ -132,14 +132,14 @@ def march(
     count: int, every: int, scale: float, momenta: Matrix, verticals: Matrix, with_body: bool, attitude: Vector,
     contact: Vector, rho: float, attitudes: Matrix, traces: Matrix,
 ):  # fmt: skip
-    """Takes `count` steps from the step `first` on; keeps every `every`-th state in the frame arrays.
+    """Takes `count` steps from step `first` on; stores every `every`-th state in the frame arrays.
 
-    c, radius², enough: of the stages, (s,); weights: of the guesses (`guess.stage_weights`), and past what they are
-    for, (2 places, 3): each vector twice, so that those of a guess follow each other.
-    begun: the steps that were taken before the step 0 of the frames.
-    state (ROWS), attitude (4) and contact (2) hold the present state and move; `scale` makes 𝒦 of k.  The attitude
-    and the trace are touched only when `with_body`.  Returns (taken, status, reach); where a stage is not taken, the
-    state is left with its momentum and its vertical.
+    c, radius², enough: of the stages, (s,); weights: for the guesses (`guess.stage_weights`); past (2 places, 3): the
+    last Gibbs vectors, each stored twice, so that those of a guess are contiguous.
+    begun: the number of steps taken before step 0 of the frames.
+    state (ROWS), attitude (4) and contact (2) hold the present state and are updated; 𝒦 = scale·k.  The attitude
+    and the trace are used only if `with_body`.  Returns (taken, status, reach); if a stage fails, the state is left
+    with the momentum and the vertical of that stage.
     """
     k, g, x, y, inertia = three(state, K), three(state, G), three(state, X), three(state, X + 3), three(state, I)
     stages, places = c.shape[0], weights.shape[1]
@@ -192,7 +192,7 @@ def march(
 
 
 def advance(momentum, g, tensor, contact, state, q):
-    """The first step of `loop.march`, in place: writes the rotation into q and moves momentum and g.
+    """The first step of `loop.march`, in place: writes the rotation into q and updates momentum and g.
 
     state (ROWS) is overwritten.  Returns (status, reach); nothing else is written unless the status is 0.
     """

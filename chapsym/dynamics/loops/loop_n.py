@@ -1,23 +1,22 @@
-"""Many steps of one ball in n dimensions, one text for every n.
+"""Many steps of one ball in n dimensions, one source for every n.
 
-Ω is kept as E = Ω - 1, as in `n.so_n`.  The coordinate p of a skew matrix is its entry (i, j), i > j, row by row.
+Ω is stored as E = Ω - 1, as in `n.so_n`.  The coordinate p of a skew matrix is its entry (i, j), i > j, row by row.
 
-`march` serves balls below the bound of `n.near_n` only, where any rotation with the momentum and a small E is the right
-one.
+`march` is only for balls below the bound of `n.near_n`, where a rotation with the momentum and a small E is unique.
 """
 
 from numpy import empty
 
 from .text import Cube, Matrix, Tensor, Vector
 
-#: Corrections of Newton in a step, at most.
+#: The most Newton corrections in a step.
 MOST_ROUNDS = 12
-#: The last this many rotations guess the next one.
+#: The number of last rotations for the guess of the next one.
 ORDER = 8
 
 
 def guess(past, use, E):
-    """Writes the polynomial through the last rotations, at the next step, into E; no rotation where there are none."""
+    """Writes the extrapolation of the last rotations to the next step into E; the identity if there are none."""
     n = E.shape[0]
     for i in range(n):
         for j in range(n):
@@ -28,7 +27,7 @@ def guess(past, use, E):
 
 
 def remember(E, past, use):
-    """Takes E into the backward differences `past` (ORDER, n, n), of which use (ORDER) is 1 where there is one."""
+    """Adds E to the backward differences `past` (ORDER, n, n); use (ORDER) is 1 for those that exist."""
     n = E.shape[0]
     for i in range(n):
         for j in range(n):
@@ -43,7 +42,7 @@ def remember(E, past, use):
 
 
 def polish(E, W, v):
-    """A step of Newton and Schulz to the rotation nearest to 1 + E, in place; returns how far it was, squared."""
+    """A Newton-Schulz step to the rotation nearest to 1 + E, in place; returns the square of the distance."""
     n = E.shape[0]
     far = 0.0
     for i in range(n):
@@ -81,7 +80,7 @@ def gap(E, k, g, J, D, c, r):
 
 
 def slope(E, g, J, D, O, h, c, T):
-    """Writes the derivative of 𝒦 along Ω(1 + ξ), that is 𝒦(Ωξ), into T: in its row p that along the coordinate p of ξ.
+    """Writes the derivative of 𝒦 along Ω(1 + ξ), that is 𝒦(Ωξ), into T: row p for the coordinate p of ξ.
 
     For the coordinate (p, q), Ωξ has the column p of Ω as its column q, and minus the column q as its column p.
     """
@@ -120,9 +119,9 @@ def slope(E, g, J, D, O, h, c, T):
 
 
 def solve(T, r):
-    """Makes the solution ξ of ξT = r of r, by elimination without exchanges; T is overwritten.
+    """Replaces r by the solution ξ of ξT = r, by elimination without pivoting; T is overwritten.
 
-    The symmetric part of T is positive definite where the step is accepted, so that no pivot vanishes there.
+    The symmetric part of T is positive definite if the step is accepted, so that no pivot vanishes then.
     """
     size = r.shape[0]
     for k in range(size):
@@ -142,7 +141,7 @@ def solve(T, r):
 
 
 def turn(E, r, O, W, v):
-    """E of Ω(1 + ξ + ξ²/2), a rotation up to ξ⁴/8, from the coordinates r of ξ, in place; the squares of ξ and E."""
+    """Replaces E by that of Ω(1 + ξ + ξ²/2), a rotation up to ξ⁴/8; r: coordinates of ξ; returns |ξ|² and |E|²."""
     n = E.shape[0]
     p, change, size = 0, 0.0, 0.0
     for i in range(n):
@@ -191,7 +190,7 @@ def roll(E, g, R, spot, rho, c, W):
             c[j] = z
         for j in range(n):
             R[i, j] = c[j]
-    for i in range(n):  # the rotation nearest to it
+    for i in range(n):  # the nearest rotation
         for j in range(i + 1):
             z = R[0, i] * R[0, j]
             for m in range(1, n):
@@ -209,7 +208,7 @@ def roll(E, g, R, spot, rho, c, W):
 
 
 def move(E, k, g, W, c):
-    """Goes to ΩᵀkΩ and Ωᵀγ (4.11, 4.12), as increments; k stays exactly skew."""
+    """Replaces k and γ by ΩᵀkΩ and Ωᵀγ (4.11, 4.12), by increments; k stays exactly skew."""
     n = E.shape[0]
     for i in range(n):
         z = E[0, i] * g[0]
@@ -236,9 +235,9 @@ def move(E, k, g, W, c):
 
 
 def settle(k, g, J, D, near, enough, E, O, W, T, r, h, c):
-    """Newton's iteration from E on, in place; whether it came to the rotation with the momentum k.
+    """Newton's iteration from E, in place; whether it converged to the rotation with the momentum k.
 
-    near: what Σ Eᵢⱼ² may be.  enough: the last correction and the polish before it, squared, are below this times |E|.
+    near: the bound for Σ Eᵢⱼ².  enough · |E|: the bound for the squares of the last corrections.
     """
     for _ in range(MOST_ROUNDS):
         far = polish(E, W, c)
@@ -257,13 +256,13 @@ def march(
     first: int, count: int, every: int, scale: float, momenta: Cube, verticals: Matrix, with_body: bool, R: Matrix,
     spot: Vector, rho: float, attitudes: Cube, traces: Matrix, T: Matrix,
 ):  # fmt: skip
-    """Takes `count` stages from the stage `first` on, until one does not settle; returns how many.
+    """Takes `count` stages from the stage `first` on, until one does not converge; returns how many were taken.
 
-    A step is its stages, with the coefficients c (s,), one after the other: each turns k by the rotation of cᵢk.
-    k (n, n), g (n), R (n, n) and spot (n - 1) hold the present state and move.  Each stage has its own bounds near (s,)
-    and enough (s,), and its last rotations in past (s, ORDER, n, n) and use (s, ORDER).
-    𝒦 = scale·k.  T: room for a matrix, n(n - 1)/2 by as many.  The state after every `every`-th step goes to the
-    frame arrays.  The attitude and the trace are touched only when `with_body`.
+    A step consists of stages with the coefficients c (s,): each turns k by the rotation of cᵢk.
+    k (n, n), g (n), R (n, n) and spot (n - 1) hold the present state and are updated.  Each stage has its own bounds
+    near (s,) and enough (s,), and its last rotations in past (s, ORDER, n, n) and use (s, ORDER).
+    𝒦 = scale·k.  T: workspace, a square matrix of size n(n - 1)/2.  The state after every `every`-th step is written
+    into the frame arrays.  The attitude and the trace are used only if `with_body`.
     """
     n, stages = k.shape[0], c.shape[0]
     E, O, W = empty((n, n)), empty((n, n)), empty((n, n))

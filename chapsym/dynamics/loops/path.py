@@ -1,9 +1,9 @@
 """Beyond the bound of lemma `small-branch`: each step's root is proved to be that of the small-rotation branch.
 
-Lemma `straight-path` joins the root u at hand to no rotation by the path su, t(s) = s + cs(1 - s), 0 ≤ s ≤ 1.  There
-G = s(1 - s)R(s), and the Jacobian stretches by m(s) at least; with σ = ½(I_max - I_min) + |𝒦| the root is that of the
-branch if 4σs(1 - s)|R(s)| < m(s)² for all s.  That is tested on a few intervals.  m(1) also bounds what a
-correction leaves.  Near a fold m(1) goes to 0, and the check fails: such a step is left to the continuation.
+Lemma `straight-path` connects the root u to the identity by the path su, t(s) = s + cs(1 - s), 0 ≤ s ≤ 1.  On it
+G = s(1 - s)R(s), and the Jacobian A has ⟨d, Ad⟩ ≥ m(s)|d|².  With σ = ½(I_max - I_min) + |𝒦|, the root is on the branch
+if 4σs(1 - s)|R(s)| < m(s)² for all s.  This is tested on a few intervals.  m(1) also bounds the error after a
+correction.  Near a fold m(1) tends to 0, and the test fails: such a step is left to the continuation.
 """
 
 from math import sqrt
@@ -13,20 +13,20 @@ from chapsym.generated import gibbs_symmetric
 from .gibbs import LEFT, newton_round, second_round
 from .vectors import square
 
-#: How much of the inequality may be used: its roundings are far below the rest.
+#: The usable fraction of the inequality: its rounding errors are far below the margin.
 INSIDE = 0.98
-#: c makes R(s) as small as it can be at this s.
+#: c minimises R(s) at this s.
 LEVEL = 0.75
-#: Rounds that are tried before the continuation: the guess comes from the steps before.
+#: The most rounds before the continuation, from the guess by earlier steps.
 MOST_ROUNDS = 6
-#: Before the least stretch is known it is taken to be this times I_max + D, which no stretch exceeds.
+#: The preliminary value of m(1), as a fraction of I_max + D, which is an upper bound for it.
 NEAR = 0.0625
-#: A correction whose square is below this, relative to |u|², has found a root: another round would not prove more.
+#: A correction whose square is below this, relative to |u|², has found a root: another round would not improve it.
 FOUND = 1e-26
 
 
 def search_on_path(u, k, g, I, D):
-    """(settled, p, u): a Newton iterate, and corrections until the root is proved to be that of the branch."""
+    """(settled, p, u): a Newton iterate, and corrections until the root is proved to be on the branch."""
     r = newton_round(u, k, g, I, D)
     u = r.w
     for _ in range(MOST_ROUNDS):
@@ -41,8 +41,8 @@ def search_on_path(u, k, g, I, D):
 def improved(u, k, g, I, D):
     """Two corrections, d and e, of a guess of the Gibbs vector: (p, u, left, near, found).
 
-    They leave a residual of at most 3κ max(|d|,|e|)|e|, κ = ½(I_max - I_min) + |k| (`gibbs-newton`); left: the square
-    of twice that.  near: `proved` may well allow so much; found: another round would not leave less.
+    Their residual is at most 3κ max(|d|,|e|)|e|, κ = ½(I_max - I_min) + |k| (`gibbs-newton`); left: the square
+    of twice that.  near: `proved` probably accepts this; found: another round would not reduce it.
     """
     r = newton_round(u, k, g, I, D)
     p, w, second = second_round(r, k, I)
@@ -54,7 +54,7 @@ def improved(u, k, g, I, D):
 
 
 def proved(u, left, k, g, I, D):
-    """Whether u is proved to be the branch's root up to a rounding: half the least stretch divides what is left."""
+    """Whether u is proved to be the root of the branch up to rounding: the error is at most √left/m(1)."""
     half, spread, size = sqrt(square(k)), 0.5 * (max(*I) - min(*I)), square(u)
     reached, least = joined(u, size, k, half, g, I, D, spread)
     allowed = LEFT * least
@@ -62,7 +62,7 @@ def proved(u, left, k, g, I, D):
 
 
 def joined(u, size, k, half, g, I, D, spread):
-    """1 if the straight path joins a root u of G to no rotation, else 0, and the least stretch m(1) at u.
+    """1 if a root u of G is proved to be connected to the identity by the straight path, else 0; and m(1).
 
     size: |u|²; half: |k|; spread: ½(I_max - I_min).
     """
@@ -77,7 +77,7 @@ def joined(u, size, k, half, g, I, D, spread):
     c = max(0.0, min(1.0, (size * (1.0 + LEVEL) - along) / (1.0 + LEVEL * LEVEL * size)))
     sag = half * sqrt(size) - (k[0] * u1 + (k[1] * u2 + k[2] * u3))
     slope = spread + 2.0 * half
-    # Numbers, each of one comparison, as compilers make no vectors of truths that are joined.
+    # Numbers from single comparisons, as compilers do not vectorise combined conditions.
     proved = 1.0 if first > 0.0 else 0.0
     proved = proved if last > 0.0 else 0.0
     proved = proved * small_between(0.0, 0.4, 0.24, size, c, along, across, half, slope, sag, first, last)
@@ -103,10 +103,10 @@ def small_between(a, b, most, size, c, along, across, half, slope, sag, first, l
 
 
 def lowest(trace, minors, det):
-    """A little less than the smallest eigenvalue of a symmetric 3×3 matrix with these invariants; -1 unless it is > 0.
+    """A lower bound, nearly equal, for the least eigenvalue of a symmetric 3×3 matrix with these invariants; else -1.
 
-    Newton's iteration on the characteristic polynomial from 0: left of its roots it is concave and grows, so no
-    iterate passes the first.
+    -1 is returned unless the eigenvalue is positive.  By Newton's iteration on the characteristic polynomial from 0:
+    below its roots the polynomial is concave and increasing, so no iterate passes the first root.
     """
     x = det / minors if minors > 0.0 else -1.0
     for _ in range(2):

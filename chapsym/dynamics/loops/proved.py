@@ -1,20 +1,20 @@
-"""Bounds of the distance of the exact orbit of the map from a march in double-double: proved in float64, step by step.
+"""Rigorous bounds, computed in float64, for the distance of a double-double run from the exact orbit of the map.
 
-The march takes Gibbs vectors ũ in pairs, and any vector turns by an exact rotation: they make an orbit R̃ of rotations,
-from which k̃ and γ̃ in pairs are off by the roundings of their turns, summed.  The exact orbit is R̃ times a small
-rotation, with the Gibbs vector ξ (lemma `state-error`, whose letters these are): k = Ω(ξ)ᵀk̃, γ = Ω(ξ)ᵀγ̃.
-The root u at k, γ is that of the branch; where G is monotone with m (`small-branch`, beyond its bound `straight-path`)
-|u - ũ| ≤ |G(ũ; k, γ)|/m, whatever found ũ.  G in pairs is as exact as its terms, and so w = u - ũ is
+The run has Gibbs vectors ũ in pairs.  Any vector ũ defines an exact rotation, so they define an orbit R̃ of rotations,
+from which k̃ and γ̃ in pairs differ by the sum of the rounding errors of their turns.  The exact orbit is R̃ times a
+small rotation with the Gibbs vector ξ (notation of lemma `state-error`): k = Ω(ξ)ᵀk̃, γ = Ω(ξ)ᵀγ̃.
+The root u at k, γ is on the branch.  If G is monotone with m (`small-branch`; beyond its bound `straight-path`), then
+|u - ũ| ≤ |G(ũ; k, γ)|/m for any ũ.  G in pairs is accurate to rounding of its terms, so w = u - ũ is
 
-    w = 2A⁻¹S(ξ) + (G(ũ; k̃, γ̃) + what is quadratic in ξ and w)/m,  S(ξ) = D(⟨γ̃,ũ⟩γ̃×ξ + ⟨ũ,γ̃×ξ⟩γ̃) + (1 + |ũ|²)k̃×ξ,
+    w = 2A⁻¹S(ξ) + (G(ũ; k̃, γ̃) + terms quadratic in ξ and w)/m,  S(ξ) = D(⟨γ̃,ũ⟩γ̃×ξ + ⟨ũ,γ̃×ξ⟩γ̃) + (1 + |ũ|²)k̃×ξ,
 
-and ξ after the step is Ω(ũ)ᵀξ + (w - ũ × w)/(1 + |ũ|²) up to 8|w|(|ξ| + |w|).  The set of ξ is a parallelepiped with a
-ball round it (Lohner): Σ zⱼcⱼ + e, |zⱼ| ≤ bⱼ, |e| ≤ r.  Its edges move by the derivative, in float64: what that rounds,
-and what the solution of the linear system leaves, goes into r.  Now and then the edges are made orthogonal again.
+and ξ after the step is Ω(ũ)ᵀξ + (w - ũ × w)/(1 + |ũ|²) up to 8|w|(|ξ| + |w|).  The set of ξ is a parallelepiped plus a
+ball (Lohner): Σ zⱼcⱼ + e, |zⱼ| ≤ bⱼ, |e| ≤ r.  Its edges are moved by the derivative in float64; rounding errors and
+the residual of the linear system are added to r.  The edges are made orthogonal again periodically.
 
-Each bound is a sum of products of positive floats, of less than 2⁸ operations: `WIDER` covers their roundings.  What a
-kernel in pairs errs by is counted on its text (`tests/dynamics/test_proved.py`): 160·2⁻¹⁰⁶ of its terms at most, taken
-absolutely, and these are at most 8 times the numbers below: `EVALUATED` covers both.
+Each bound is a sum of products of positive floats with fewer than 2⁸ operations: `WIDER` covers their rounding errors.
+The error of a kernel in pairs is counted on its text (`tests/dynamics/test_proved.py`): at most 160·2⁻¹⁰⁶ times the sum
+of its terms in absolute value, which is at most 8 times the numbers below: `EVALUATED` covers both.
 """
 
 from math import frexp, inf, ldexp, sqrt
@@ -46,27 +46,27 @@ from .vectors import (
     three,
 )
 
-#: The rows of a set of ξ: three edges c, their bounds b, r; what k̃ is off by, in parts of |k|, what γ̃, the attitude and
-#: the contact point, in radii, are off by; and the rotations that were proved.
+#: The rows of a set of ξ: three edges c, their bounds b, r; the rounding errors of k̃ relative to |k|, of γ̃, of the
+#: attitude and of the contact point in radii; and the number of proved rotations.
 EDGES, BOUNDS, BALL, K_OFF, G_OFF, A_OFF, X_OFF, PROVED = 0, 9, 12, 13, 14, 15, 16, 17
 ROWS = 18
-#: What covers the roundings of a bound, of a sum of products in float64, of a kernel in pairs, and of a pair.
+#: Factors that cover the rounding errors of a bound, of a sum of products in float64, of a kernel in pairs, of a pair.
 WIDER, ROUNDED, EVALUATED, PAIR = 1.0 + 2.0**-40, 2.0**-46, 2.0**-95, 2.0**-98
-#: More than what underflows in them.
+#: More than the underflow in these.
 TINY = 2.0**-1000
-#: |ξ| and |w| above this are not followed.
+#: The largest |ξ| and |w| that are followed.
 LARGEST = 2.0**-20
 #: Beyond the bound of `small-branch` each m(s) of `straight-path` is at least this part of Λmax, and |ξ| and |w| are
-#: below `NEAR`: what they and the roundings change in its inequality is then far below the 2 % that `path` keeps free.
+#: below `NEAR`: these and rounding then change its inequality far less than the margin of 2 % in `path`.
 STEEP, NEAR = 2.0**-8, 2.0**-36
-#: Rotations between two looks at the edges; where the derivative may stretch by more than 1 + `QUICK`, at each.
+#: The number of rotations between two tests of the edges; every rotation if the derivative may stretch by 1 + `QUICK`.
 WINDOW, QUICK = 8, 0.5
-#: Below this part of Λmax for m, as of heavy balls, the linear system is solved for the bound of a step.
+#: If m is below this fraction of Λmax, as for heavy balls, the bound of a step uses the solution of the linear system.
 FLAT = 0.125
 
 
 def extent(box):
-    """A bound of |ξ|."""
+    """A bound for |ξ|."""
     total = box[BALL]
     for j in range(3):
         total += box[BOUNDS + j] * length(three(box, EDGES + 3 * j))
@@ -74,7 +74,7 @@ def extent(box):
 
 
 def exact(v):
-    """A vector of floats that count as exact."""
+    """A vector of floats as exact numbers."""
     return Loose(v[0]), Loose(v[1]), Loose(v[2])
 
 
@@ -86,7 +86,7 @@ def unit_pairs(v):
 
 
 def long(v):
-    """A bound of |v|, of vectors whose squares underflow, too."""
+    """A bound for |v|, valid also if the squares underflow."""
     most = largest(v)
     return length(v) if most > 2.0**-500 else 2.0 * most
 
@@ -97,9 +97,9 @@ def floats(v):
 
 
 def slope_of(k, I, D):
-    """(m, radius²) by `small-branch`: G is monotone with m where |u|² ≤ radius², and has the branch's root there.
+    """(m, radius²) by `small-branch`: for |u|² ≤ radius², G is monotone with m, and has the root of the branch.
 
-    (0, BEYOND) where |𝒦| is beyond its bound.
+    (0, BEYOND) if |𝒦| is beyond its bound.
     """
     radius, _ = bound(k, I, D)
     least, most = min(*I), max(*I)
@@ -108,7 +108,7 @@ def slope_of(k, I, D):
 
 
 def slope_at(u, k, g, I, D):
-    """m where the bound of `small-branch` is passed: half the least stretch at u, if the straight path reaches it."""
+    """m beyond the bound of `small-branch`: 0.49 m(1) at u if the straight path proves the root, else 0."""
     half = sqrt(square(k))
     reached, least = joined(u, square(u), k, half, g, I, D, 0.5 * (max(*I) - min(*I)))
     flattest = min(least, min(*I)) - 0.25 * (half * length(u) - dot(k, u))
@@ -125,7 +125,7 @@ def left(d, r, u, k, g, I, D):
 
 
 class Root(NamedTuple):
-    """The root is within w of ũ; m is the slope, |G(ũ; k̃, γ̃)| ≤ rest, |2S(ξ)| ≤ shift |ξ|, and what is curved in ξ."""
+    """The root is within w of ũ; m is the slope; |G(ũ; k̃, γ̃)| ≤ rest, |2S(ξ)| ≤ shift |ξ|; curved: terms in ξ²."""
 
     w: float
     m: float
@@ -135,10 +135,10 @@ class Root(NamedTuple):
 
 
 def root_near(u, k, g, I, D, slope, radius, xi, k_off, g_off):
-    """A bound of the distance of the root from u, for all k and γ within |ξ| ≤ xi of pairs off by k_off and g_off.
+    """A bound for the distance of the root from u, for k and γ within |ξ| ≤ xi of pairs with errors k_off and g_off.
 
-    slope: m by `small-branch` in |u|² ≤ radius; `BEYOND` for the radius where its bound is passed.  w is infinite where
-    nothing is proved.
+    slope: m by `small-branch` in |u|² ≤ radius; radius is `BEYOND` beyond its bound.  w is infinite if nothing is
+    proved.
     """
     v, kf, gf, If = floats(u), floats(k), floats(g), floats(I)
     spread, half, size, most = 0.5 * (max(*If) - min(*If)), long(kf) * WIDER, long(v), max(*If) + D
@@ -151,7 +151,7 @@ def root_near(u, k, g, I, D, slope, radius, xi, k_off, g_off):
     curved = (11.0 * D * size + 3.0 * whole * half) * xi * xi
     w = WIDER * ((rest + shift * xi + curved) / m) if m > 0.0 else inf
     inside = w <= LARGEST and xi <= LARGEST
-    if radius == BEYOND:  # the root is in the ball round ũ in which half the stretch is left
+    if radius == BEYOND:  # the root is in the ball around ũ in which half of m(1) remains
         inside = w <= NEAR and xi <= NEAR and 2.0 * (spread + 2.0 * half) * w <= m
     else:
         inside = inside and size * size <= radius
@@ -159,7 +159,7 @@ def root_near(u, k, g, I, D, slope, radius, xi, k_off, g_off):
 
 
 def carried(box, u, k, g, I, D, slope, radius):
-    """The set after the step with the Gibbs vector u, from k, γ and I, in pairs; all ξ if that is not proved."""
+    """Updates the set of ξ by the step with the Gibbs vector u, from k, γ and I in pairs; all ξ if it is not proved."""
     v, kf, gf, If = floats(u), floats(k), floats(g), floats(I)
     xi = extent(box)
     root = root_near(u, k, g, I, D, slope, radius, xi, box[K_OFF] + PAIR, box[G_OFF])
@@ -192,14 +192,14 @@ def carried(box, u, k, g, I, D, slope, radius):
 
 
 def bound_step(momentum, vertical, tensor, contact, q, momentum_after, vertical_after, row):
-    """Writes how far 𝒦, γ and the rotation q of a step may be from those of the map, for `bound_steps`."""
+    """Writes bounds for the errors of 𝒦, γ and the rotation q of a step, for `bound_steps`."""
     _, size = frexp(max(*moments(three(tensor, 0))) + contact)
     k, g = shifted(three(momentum, 0), -size - 1), three(vertical, 0)
     J, D = shifted(three(tensor, 0), -size), ldexp(contact, -size)
     u = q[1] / q[0], q[2] / q[0], q[3] / q[0]
     I = Loose(*two_sum(J[1], J[2])), Loose(*two_sum(J[0], J[2])), Loose(*two_sum(J[0], J[1]))
     slope, radius = slope_of(k, floats(I), D)
-    off = 0.51 * abs(dot(g, g) - 1.0) + 2.0**-52  # of γ from γ/|γ|
+    off = 0.51 * abs(dot(g, g) - 1.0) + 2.0**-52  # the distance of γ from γ/|γ|
     root = root_near(exact(u), exact(k), exact(g), I, D, slope, radius, 0.0, 0.0, off)
     near, heaviest = root.w, max(*floats(I)) + D
     if near < inf and root.m < FLAT * heaviest:
@@ -216,7 +216,7 @@ def bound_step(momentum, vertical, tensor, contact, q, momentum_after, vertical_
 
 @out_of_line
 def nearer(u, k, g, I, D, slope, radius):
-    """The bound of `root_near` for γ/|γ|, by the solution of the linear system: 1/m is too much for most residuals."""
+    """The bound of `root_near` for γ/|γ|, by solving the linear system: the factor 1/m is mostly too pessimistic."""
     v = unit_pairs(g)
     root = root_near(exact(u), exact(k), v, I, D, slope, radius, 0.0, 0.0, PAIR)
     if root.w == inf:
@@ -232,7 +232,7 @@ def nearer(u, k, g, I, D, slope, radius):
 
 
 def turned_off(u, v, after):
-    """The vector v turned by the step with the Gibbs vector u, less `after`, in pairs."""
+    """The vector v, turned by the step with the Gibbs vector u, minus `after`, in pairs."""
     y = turn(1, *exact(u), *exact(v))
     return floats(
         plus(y, (Loose(v[0]) - Loose(after[0]), Loose(v[1]) - Loose(after[1]), Loose(v[2]) - Loose(after[2])))
@@ -243,9 +243,9 @@ def bound_steps(
     momenta: Matrix, verticals: Matrix, tensors: Matrix, contacts: Vector, q: Matrix, momenta_after: Matrix,
     verticals_after: Matrix, errors: Matrix,
 ):  # fmt: skip
-    """Writes upper bounds of the errors of a step of each ball in 𝒦, γ and the rotation, (n, 3); inf for none.
+    """Writes bounds for the errors of a step of each ball in 𝒦, γ and the rotation, (n, 3); inf if not proved.
 
-    momenta, verticals: before the step, (n, 3), as the tensors; q: the rotations of the step, (n, 4).
+    momenta, verticals: before the step, (n, 3); tensors: (n, 3); q: the rotations of the step, (n, 4).
     """
     for i in range(momenta.shape[0]):
         bound_step(
@@ -255,7 +255,7 @@ def bound_steps(
 
 @out_of_line
 def squared(box):
-    """Makes the edges orthogonal again, the longest first; the ball goes into their bounds."""
+    """Makes the edges orthogonal, the longest first; the ball is absorbed into their bounds."""
     for j in range(3):
         put(box, EDGES + 3 * j, scaled(box[BOUNDS + j], three(box, EDGES + 3 * j)))
     for i, j in ((0, 1), (0, 2), (1, 2)):
@@ -281,7 +281,7 @@ def squared(box):
 
 
 def write_spread(row, box):
-    """Writes bounds of the distances to the march: of 𝒦 in parts of |𝒦|, γ, the attitude, the contact in radii."""
+    """Writes bounds for the distances to the run: of 𝒦 relative to |𝒦|, γ, the attitude, the contact point in radii."""
     xi = extent(box)
     row[0] = WIDER * (2.0 * xi + 3.0 * xi * xi + box[K_OFF])
     row[1] = WIDER * (2.0 * xi + 3.0 * xi * xi + box[G_OFF])
@@ -289,7 +289,7 @@ def write_spread(row, box):
 
 
 def unit(v, instead):
-    """v divided by its length, or a unit vector in its place where that is 0."""
+    """v divided by its length, or another unit vector if v = 0."""
     size = length(v)
     whole = size > 0.0
     scale = 1.0 / size if whole else 1.0
@@ -298,7 +298,7 @@ def unit(v, instead):
 
 
 def across(v, x):
-    """The direction of v across a unit vector x, or one of those across where v has none."""
+    """The direction of the part of v orthogonal to a unit vector x, or any orthogonal direction if that part is 0."""
     y = minus(v, scaled(dot(v, x), x))
     far = square(y) > 2.0**-60 * square(v)
     flat = abs(x[0]) < 0.7

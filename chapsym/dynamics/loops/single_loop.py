@@ -1,4 +1,4 @@
-"""The parts of the loops that differ in float32.  Plain scalar Python, read in float32 with the loops (`single`)."""
+"""The parts of the loops that differ in float32.  Plain scalar Python, converted with the loops (`single`)."""
 
 from math import sqrt
 
@@ -12,9 +12,9 @@ from .vectors import square, square_of_four
 
 
 def widened(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
-    """`branch.small_rotation` in float64, γ divided by its length, rounded.
+    """`branch.small_rotation` in float64 with unit γ, rounded to float32.
 
-    Near a fold float32 could not tell a branch from the next, nor the length of γ how far the fold is.
+    Near a fold float32 could not separate the branches, and the rounding error of |γ| would move the fold.
     """
     x, y, z = float64(g1), float64(g2), float64(g3)
     length = sqrt(x * x + (y * y + z * z))
@@ -26,14 +26,14 @@ def widened(K1, K2, K3, g1, g2, g3, J1, J2, J3, D):
 
 
 def add(array, at, rest, z):
-    """Adds z to array[at], and keeps the rest of its sum in array[rest]."""
+    """Adds z to array[at], with the compensation of the sum in array[rest]."""
     array[at], array[rest] = added(array[at], array[rest], z)
 
 
 def follow_body(p, g, attitude, contact, radius):
-    """`loop.follow_body` with compensation: attitude (4, then 4 rests) and contact (2, then 2 rests).
+    """`loop.follow_body` with compensation: attitude (4 and 4 compensations) and contact (2 and 2 compensations).
 
-    A slow ball turns and rolls less in a step than float32 can hold.
+    A slow ball turns and rolls less in a step than float32 can resolve.
     """
     squared = square(p[1:4])
     length = sqrt(p[0] * p[0] + squared)

@@ -1,8 +1,8 @@
-"""The derivative of the map along an orbit: Lyapunov exponents, phase volume, averages that tell order from chaos.
+"""The derivative of the map along an orbit: Lyapunov exponents, phase volume, averages that detect chaos.
 
-The map turns 𝒦 and γ by one rotation, so that on M = {|𝒦|, ⟨𝒦,γ⟩, |γ| fixed} ≅ SO(3) a tangent vector is ξ ∈ ℝ³:
-δ𝒦 = 𝒦 × ξ, δγ = γ × ξ.  The derivative of the step is the 3×3 matrix T: ξ ↦ Ωᵀξ + w, with the Gibbs vector u,
-w = 2(δu - u × δu)/(1 + |u|²) and G_u δu = -(δB)u + (1 + |u|²)δ𝒦/2.  det T is the change of the volume of SO(3).
+The map turns 𝒦 and γ by the same rotation, so that on M = {|𝒦|, ⟨𝒦,γ⟩, |γ| fixed} ≅ SO(3) a tangent vector is ξ ∈ ℝ³:
+δ𝒦 = 𝒦 × ξ, δγ = γ × ξ.  The derivative of the step with the Gibbs vector u is the 3×3 matrix T: ξ ↦ Ωᵀξ + w,
+w = 2(δu - u × δu)/(1 + |u|²) and G_u δu = -(δB)u + (1 + |u|²)δ𝒦/2.  det T is the change of volume on SO(3).
 """
 
 from math import exp, log, sqrt
@@ -42,7 +42,7 @@ def determinant(T):
 
 
 def moved(T, frame, growth):
-    """T times the three orthonormal rows of `frame`, made orthonormal again; adds the logarithms of the lengths."""
+    """T times the three orthonormal rows of `frame`, orthonormalised; adds the logarithms of the lengths."""
     for j in range(3):
         a, b, c = frame[j, 0], frame[j, 1], frame[j, 2]
         for i in range(3):
@@ -66,7 +66,7 @@ def weight(n, count):
 
 
 def follow(momentum, gamma, tensor, contact, steps, row):
-    """`steps` steps of one orbit; writes into `row` what `follow_all` says."""
+    """`steps` steps of one orbit; writes the results into `row`, as described in `follow_all`."""
     state, frame, growth = np.empty(ROWS), np.eye(3), np.zeros(3)
     T = np.empty((3, 3))
     scale = entered(momentum, gamma, tensor, contact, state)
@@ -99,11 +99,11 @@ def follow(momentum, gamma, tensor, contact, steps, row):
 
 
 def follow_all(momenta: Matrix, gammas: Matrix, tensor: Vector, contact: float, steps: int, rows: Matrix):
-    """`steps` steps of each orbit, (n, 3), (n, 3); rows (n, 10).
+    """`steps` steps of each orbit, (n, 3), (n, 3); writes the results into rows (n, 10).
 
-    A row has the steps that were taken; the logarithms of the three stretchings (the exponents times the steps); the
-    weighted averages of log|det T| over the first and the second half, which for a quasiperiodic orbit converge faster
-    than any power; the same of the energy (2.5 as corrected) of 𝒦 = εK; and its range.
+    A row has the number of steps taken; the logarithms of the three stretching factors (Lyapunov exponents times
+    steps); the weighted averages of log|det T| over the first and the second half, which for a quasiperiodic orbit
+    converge faster than any power; the same of the energy (2.5 as corrected) evaluated at 𝒦 = εK; and its range.
     """
     for i in range(momenta.shape[0]):
         follow(momenta[i], gammas[i], tensor, contact, steps, rows[i])

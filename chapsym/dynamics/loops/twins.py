@@ -1,4 +1,4 @@
-"""A module of the loops in other numbers: the same code, with its constants made of them."""
+"""A module of the loops for another number type: the same code, with converted constants."""
 
 from collections.abc import Callable
 from functools import cache
@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-#: What the loops of float32 consist of; each after those that it imports from.
+#: The modules of the float32 loops, each after those that it imports from.
 MODULES = ("chapsym.numbers.pairs", "vectors", "integrals", "gibbs", "path", "single_loop", "loop")
 
 
 def twin(module: ModuleType, number: Callable[[float], Any], **instead: Any) -> dict[str, Any]:
-    """The names of a module, with each float, also in its functions, made by `number`; `instead` replaces some."""
+    """The names of a module, with each float, also in its functions, converted by `number`; `instead`: substitutes."""
     names: dict[str, Any] = {}
     for name, value in vars(module).items():
         if isinstance(value, FunctionType) and value.__module__ == module.__name__:
@@ -37,7 +37,7 @@ def single(function: Callable[..., Any]) -> Callable[..., Any]:
 
 @cache
 def _single() -> dict[str, dict[str, Any]]:
-    """The names of the modules in float32, by module."""
+    """The names of each module in float32, by module name."""
     made: dict[str, dict[str, Any]] = {}
     numbers: dict[str, Any] = {}
     for path in MODULES:
@@ -48,7 +48,7 @@ def _single() -> dict[str, dict[str, Any]]:
         functions = {name: x for name, x in known.items() if isinstance(x, FunctionType) and x.__module__ in made}
         here = {name: made[x.__module__][x.__name__] for name, x in functions.items()}
         here |= {name: numbers[name] for name in numbers.keys() & vars(module).keys()}
-        if path != "single_loop":  # that takes float64 where it says so
+        if path != "single_loop":  # single_loop uses float64 explicitly
             here |= {name: x for name, x in (("sqrt", _root), ("ldexp", _scaled)) if name in vars(module)}
         made[module.__name__] = twin(module, np.float32, **here)
     return made

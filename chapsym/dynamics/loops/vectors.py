@@ -1,4 +1,4 @@
-"""Vectors as tuples: what the loops do with them, and how they lie in arrays, in a row or in the column of a lane."""
+"""Vectors as tuples: their operations in the loops, and their storage in arrays: in a row, or in a lane's column."""
 
 from math import ldexp, sqrt
 
@@ -14,12 +14,12 @@ def put(array, at, v):
 
 
 def four(array, at):
-    """Four numbers of an array."""
+    """Four numbers of an array, from `at` on."""
     return array[at], array[at + 1], array[at + 2], array[at + 3]
 
 
 def put_four(array, at, q):
-    """Writes four numbers into an array."""
+    """Writes four numbers into an array, from `at` on."""
     array[at], array[at + 1], array[at + 2], array[at + 3] = q[0], q[1], q[2], q[3]
 
 
@@ -34,12 +34,12 @@ def put_in(S, at, i, v):
 
 
 def four_in(S, at, i):
-    """Four numbers of a lane."""
+    """Four numbers of a lane, from the row `at` on."""
     return S[at, i], S[at + 1, i], S[at + 2, i], S[at + 3, i]
 
 
 def put_four_in(S, at, i, q):
-    """Writes four numbers into a lane."""
+    """Writes four numbers into a lane, from the row `at` on."""
     S[at, i], S[at + 1, i], S[at + 2, i], S[at + 3, i] = q[0], q[1], q[2], q[3]
 
 
@@ -49,7 +49,7 @@ def plus(a, b):
 
 
 def plus_four(a, b):
-    """The sum of four numbers and four others."""
+    """a + b, of four numbers each."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
 
 
@@ -94,7 +94,7 @@ def dot_four(a, b):
 
 
 def square(v):
-    """|v|², with another order of the sum than `dot`."""
+    """|v|², summed in another order than in `dot`."""
     return v[0] * v[0] + (v[1] * v[1] + v[2] * v[2])
 
 
@@ -109,7 +109,7 @@ def cross(a, b):
 
 
 def adjoint(c, r):
-    """The vector r times the adjugate of a matrix with the cofactors c, row by row: det times the solution."""
+    """adj(A) r for a matrix A with the cofactors c, row by row: det A times the solution of A x = r."""
     return (
         c[0] * r[0] + c[3] * r[1] + c[6] * r[2], c[1] * r[0] + c[4] * r[1] + c[7] * r[2],
         c[2] * r[0] + c[5] * r[1] + c[8] * r[2],

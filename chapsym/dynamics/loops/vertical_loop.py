@@ -1,8 +1,8 @@
 """The inner loop of the reduced map G_h of a free top: D = 0, 𝒦 = hγ.
 
 Lemmas `vertical-rotation` and `vertical-level` give the step in closed form: with t = h/2 the rotation is rational in
-γ and in one number v, the root of an equation that knows γ through ⟨γ,Λ⁻¹γ⟩ only.  As that is an integral, v serves a
-whole orbit, and one Newton correction a step keeps it true to the rounding of γ.
+γ and in one number v, the root of an equation that depends on γ only by ⟨γ,Λ⁻¹γ⟩.  As this is an integral, v is
+constant on an orbit, and one Newton correction per step adapts it to the rounding errors of γ.
 """
 
 from chapsym.generated import vertical_level, vertical_rotation, vertical_square
@@ -11,13 +11,13 @@ from .integrals import turned
 from .text import Matrix, Vector
 from .vectors import dot, put, put_four, three
 
-#: Newton corrections of v below this, relative to v, are rounding.
+#: Newton corrections of v below this, relative to v, are rounding errors.
 ROUNDING = 2.0**-49
 MOST_CORRECTIONS = 30
 
 
 def level_root(level, t, v, inertia):
-    """v by Newton's iteration; returns (settled, v)."""
+    """The root v by Newton's iteration: (settled, v)."""
     for _ in range(MOST_CORRECTIONS):
         f, slope = vertical_level(t, v, level, *inertia)
         correction = f / slope
@@ -28,9 +28,9 @@ def level_root(level, t, v, inertia):
 
 
 def march(state: Vector, I: Vector, k: float, first: int, count: int, every: int, verticals: Matrix, q: Vector):
-    """`count` steps from the step `first` on, k = h/2; keeps every `every`-th γ, and the last rotation in q.
+    """Takes `count` steps from step `first` on, k = h/2; stores every `every`-th γ, and the last rotation in q.
 
-    state (7): γ, what its sums left, and v, which is found before the step 0.  Returns whether all settled.
+    state (7): γ, its compensations, and v, which is computed before step 0.  Returns whether all steps converged.
     """
     inertia, v, y, root = three(I, 0), three(state, 0), three(state, 3), state[6]
     if first == 0:
@@ -41,7 +41,7 @@ def march(state: Vector, I: Vector, k: float, first: int, count: int, every: int
     p = 1.0, 0.0, 0.0, 0.0
     for step in range(first + 1, first + count + 1):
         p = vertical_rotation(k, root * k * k, *v, *inertia)
-        # The next root from the γ of now, so that nothing waits for it: the level is an integral.
+        # The next root from the present γ, to shorten the chain of dependent operations: the level is an integral.
         f, slope = vertical_level(k, root, vertical_square(*v, *inertia), *inertia)
         correction = f / slope
         if not (dot(p[1:4], p[1:4]) < p[0] * p[0] and abs(correction) <= ROUNDING * root):
