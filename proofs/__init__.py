@@ -1,6 +1,6 @@
 """One script per group of claims, named by section and subject; each runs alone."""
 
-#: In the order of the paper.
+#: The scripts, in the order of the paper.
 SCRIPTS = (
     "paper.s2_continuous", "paper.s2_every_n", "paper.s2_classical", "paper.s2_inertia",
     "paper.s3_discrete_mechanics", "paper.s3_regularity",
@@ -14,7 +14,7 @@ SCRIPTS = (
     "open.orbits", "open.volume", "open.separatrix", "open.splitting", "open.melnikov",
 )  # fmt: skip
 
-#: The claims of the paper that need a verdict, in its order: each has a proof in one of the scripts.
+#: The claims of the paper that need a verdict, in the order of the paper; each has a proof in one of the scripts.
 CLAIMS = (
     "2.1", "2.2", "2.2-F", "2.3", "2.4", "2.4-kinetic", "2.5-inverse", "2.5", "2.6", "2.7-vertical", "2.7",
     "2.7-integrals", "2.9", "2.10", "2.11", "2.11-force", "2.11-eliminated", "2.12", "2.13", "2.14", "2.15",
@@ -29,7 +29,7 @@ CLAIMS = (
     "5.16-integral", "6-vertical-energy", "6-LR", "6-open",
 )  # fmt: skip
 
-#: What the paper does not say and the map of chapsym rests on: judged like its claims, by name, outside its register.
+#: Lemmas that the paper does not state and chapsym needs: judged like the claims, by name, outside the register.
 LEMMAS = (
     "gibbs", "gibbs-newton", "gibbs-rotation", "small-branch", "straight-path", "state-error", "step-bound", "rounding",
     "self-adjoint", "reversible",

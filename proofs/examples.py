@@ -1,4 +1,4 @@
-"""Values of the symbols of these claims, so chosen that the relations between them hold: see `chapsym.prove.witness`."""
+"""Values of the symbols of these claims that satisfy the relations between them: see `chapsym.prove.witness`."""
 
 from functools import cache
 
@@ -8,8 +8,8 @@ from chapsym.derive.quaternions import left, right
 from chapsym.derive.words import matrix_symbols
 from chapsym.prove import Examples
 
-#: The commuting symbols: a turn, a unit vertical, a ball of matter (J ≥ 0, tr J ≤ D = mρ²; for Λ and h = 1 there is
-#: one, too, with D from 21/5 to 5), the elliptic functions of a curve of it, and free ones.
+#: The commuting symbols: a rotation, a unit vertical, a physical ball (J ≥ 0, tr J ≤ D = mρ²; for Λ and h = 1 there is
+#: one, too, with D from 21/5 to 5), the elliptic functions of one of its curves, and free symbols.
 SCALARS = {
     **{"q0": "4/5", "q1": "2/5", "q2": "1/5", "q3": "2/5", "g1": "2/7", "g2": "3/7", "g3": "6/7"},
     **{"J1": "1", "J2": "5", "J3": "2", "D": "14", "m": "7/2", "rho": "2", "sigma": "484/25", "h": "5/2"},
@@ -23,17 +23,17 @@ SCALARS = {
     **{"moment": "6", "stretch": "2", "n1": "1/3", "n2": "-2/3", "n3": "2/3", "speed": "3", "across": "5"},
     **{"sh": "4/5", "ch": "3/5", "dh": "4/5", "root": "15/16", "epsilon": "1/3", "e": "9/16"},
     **{"z": "2", "P0": "1/2", "P1": "1/3", "A1": "1/5", "A2": "-2", "M1": "3", "M2": "-5"},
-    # A curve with rational amplitudes, and an argument of it.
+    # A curve with rational amplitudes, and an argument on it.
     **{"l1": "50/37", "l2": "98/85", "l3": "1", "lv": "25/26", "kk": "1/6", "size1": "5/13", "size2": "7/13"},
     **{"size3": "12/13", "sn1": "24/25", "cn1": "7/25", "dn1": "23/25"},
     **{"b": "1/3", "alpha": "1/2", "beta": "2/3", "mu": "3/5", "x": "1/7"},
     **{"y": "4/9", "w": "1/2", "Dscr": "5/6", "G": "2", "lam": "1/3", "C1": "1/2", "C2": "2/3", "C3": "3/4"},
 }
 
-#: In their place, for relations that those do not obey.
+#: Substitutes, for relations that the values above do not satisfy.
 OTHERS = {"r": "3/5", "w1": "1/2", "w2": "0", "w3": "0"}
 
-#: What makes a case degenerate.  A case is looked at where it contradicts none of the relations.
+#: The values of degenerate cases.  A case is tested if it contradicts none of the relations.
 CASES: dict[str, dict[str, str]] = {
     "equal I": {"I1": "4", "I2": "4", "I3": "4"},
     "equal J": {"J1": "2", "J2": "2", "J3": "2"},
@@ -46,7 +46,7 @@ CASES: dict[str, dict[str, str]] = {
 
 @cache
 def scalars() -> dict[str, sp.Rational]:
-    """The numbers of the table, with those that follow from others."""
+    """The numbers of the table, and those that follow from them."""
     table = {name: sp.Rational(value) for name, value in SCALARS.items()}
     k2, sn, cn, dn = (table[name] for name in ("k2", "sh", "ch", "dh"))
     twice = _elliptic_sum(k2, (sn, cn, dn), (sn, cn, dn))
@@ -54,12 +54,12 @@ def scalars() -> dict[str, sp.Rational]:
     table |= dict(zip(("s", "c", "d"), _elliptic_sum(k2, twice, (sn, cn, dn)), strict=True))
     other = tuple(table[name] for name in ("sn1", "cn1", "dn1"))
     table |= dict(zip(("sn2", "cn2", "dn2"), _elliptic_sum(table["kk"], other, other), strict=True))
-    table["p"], table["q"] = 1 / sn**2 - (1 + k2) / 3, -2 * cn * dn / sn**3  # Weierstrass' function and derivative
+    table["p"], table["q"] = 1 / sn**2 - (1 + k2) / 3, -2 * cn * dn / sn**3  # Weierstrass ℘ and its derivative
     return table
 
 
 def _elliptic_sum(k2: sp.Rational, x: tuple, y: tuple) -> tuple[sp.Rational, ...]:
-    """sn, cn, dn of a sum, from those of its terms."""
+    """sn, cn, dn of a sum, from those of its terms, by the addition formulas."""
     (s1, c1, d1), (s2, c2, d2) = x, y
     sums = (s1 * c2 * d2 + s2 * c1 * d1, c1 * c2 - s1 * s2 * d1 * d2, d1 * d2 - k2 * s1 * s2 * c1 * c2)
     return tuple(value / (1 - k2 * s1**2 * s2**2) for value in sums)
@@ -67,7 +67,7 @@ def _elliptic_sum(k2: sp.Rational, x: tuple, y: tuple) -> tuple[sp.Rational, ...
 
 @cache
 def _letters() -> dict[str, sp.Matrix]:
-    """Matrices of size 4 for the letters of the words: turns are Cayley transforms of skew matrices."""
+    """4 × 4 matrices for the letters of the words; rotations are Cayley transforms of skew matrices."""
     skew = {
         "omega": _skew(1, -2, 1, 3, 0, 2),
         "alpha": _skew(0, 1, 2, -1, 1, 1),
@@ -93,7 +93,7 @@ def _letters() -> dict[str, sp.Matrix]:
     table |= {f"{name}^T": table[name].T for name in (*turns, *columns, "dR")}
     table["gamma_k"] = table["gamma"]
     table["J"], table["Gamma"] = sp.diag(1, 2, 4, 5), table["gamma"] * table["gamma"].T
-    table["X"] = table["X^T"] = sp.eye(4) - 2 * table["Gamma"]  # any matrix, a symmetric one, a rotation
+    table["X"] = table["X^T"] = sp.eye(4) - 2 * table["Gamma"]  # for any matrix X: symmetric, and a rotation
     table["Y"] = table["Y^T"] = sp.diag(2, 1, 0, 3) + table["Gamma"]
     turn, spin, extra = ([scalars()[f"{x}{i}"] for i in (1, 2, 3)] for x in "qwa")
     table |= {"Q": left(scalars()["q0"], turn), "Q_bar": right(scalars()["q0"], [-x for x in turn])}
@@ -117,7 +117,7 @@ def _cayley(*above: int) -> sp.Matrix:
 
 
 def _cases() -> dict[str, dict[sp.Symbol, object]]:
-    """What each degenerate case changes."""
+    """The changed values of each degenerate case, by symbol."""
     one, zero = sp.eye(4), sp.zeros(4, 4)
     letters = {
         "equal J": {"J": 2 * one},

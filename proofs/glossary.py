@@ -1,7 +1,7 @@
-r"""What the symbols of the paper's formulas stand for: with it the checker reads what is printed.
+r"""The values of the symbols of the paper's formulas, by which the checker reads the printed formulas.
 
-Each table gives symbols their values, in the letters of the statements, and their meanings, with their place in the
-paper.  A claim reads with a table and with what it defines itself.
+Each table gives the values of symbols, in the letters of the statements, and their meanings, with their place in the
+paper.  A claim uses a table and its own definitions.
 """
 
 from typing import Any
@@ -15,7 +15,7 @@ Symbols = dict[str, tuple[Any, str]]
 
 
 def ball() -> Symbols:
-    """n = 3 (Sections 2 and 5): the ball and its state."""
+    """The ball and its state for n = 3 (Sections 2 and 5)."""
     return {
         r"\Lambda": (three.lam(), "diag(J2 + J3 + D, J1 + J3 + D, J1 + J2 + D), J the mass tensor (2.2, 5.2)"),
         "D": (three.D, "mρ² (2.2)"),

@@ -1,4 +1,4 @@
-"""The kernels of the ball: each with its inputs, its expressions, and the decided statements that carry it."""
+"""The kernels of the ball: inputs, expressions, and the decided statements that carry each kernel."""
 
 import sympy as sp
 
@@ -40,9 +40,9 @@ def _vector(prefix: str) -> tuple[str, ...]:
     return tuple(f"{prefix}{row}" for row in (1, 2, 3))
 
 
-#: The moments of inertia by the mass tensor.
+#: The moments of inertia in terms of the mass tensor.
 BY_MASS = {gibbs.I1: J2 + J3, gibbs.I2: J1 + J3, gibbs.I3: J1 + J2}
-#: The directions in which the vector part grows by a unit vector, in the chart of q; and those of turns of the body.
+#: The directions of unit changes of the vector part, in the chart of q; and those of rotations of the body.
 CHART = tuple({x: 1, q0: -x / q0} for x in q)
 TURNS = tuple(three.placed(((q0, *q), direction)) for direction in three.body_directions())
 COLLECTED = "the collected form, which the kernels use"

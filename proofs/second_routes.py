@@ -1,9 +1,9 @@
-"""Second routes for the claims that carry the others, each from the paper's definitions afresh.
+"""Second, independent proofs of the claims on which the others depend, each from the definitions of the paper.
 
-Every constraint is solved by rational functions of free parameters, so that no ideal is needed and an
-identity is one between rational functions: a turn is the Cayley transform of a free skew matrix (all turns but
-those by π), a unit vector a point of the stereographic plane, and for a vertical momentum the ball is
-solved for.  Nothing here comes from chapsym.derive.
+Every constraint is solved by rational functions of free parameters: so no ideal is needed, and every identity is one
+between rational functions.  A rotation is the Cayley transform of a free skew matrix (all rotations but those by π), a
+unit vector a point of the stereographic plane, and for a vertical momentum the equations are solved for the ball.
+Nothing is imported from chapsym.derive.
 """
 
 from collections.abc import Sequence
@@ -17,16 +17,16 @@ import numpy as np
 from chapsym.prove import Identity
 from chapsym.prove.polynomials import Ratio, parameters
 
-Array = np.ndarray  # of Ratio: a vector or a matrix
+Array = np.ndarray  # a vector or a matrix of Ratio
 
 
 def identity(text: str, left: Any, right: Any) -> Identity:
-    """Equality of numbers, vectors or matrices, entry by entry."""
+    """The equality of numbers, vectors or matrices, entry by entry."""
     return Identity(text, list(np.ravel(left)), list(np.ravel(right)))
 
 
 def mutated(text: str, statement: Identity) -> Identity:
-    """A control under a name of its own."""
+    """A statement with another text, for a control."""
     return replace(statement, text=f"in free parameters, {text}")
 
 
@@ -53,36 +53,36 @@ def hat(v: Any) -> Array:
 
 
 def axial(matrix: Array) -> Array:
-    """(A₃₂, A₁₃, A₂₁), as in Section 5."""
+    """The vector (A₃₂, A₁₃, A₂₁) of a matrix A, as in Section 5."""
     return array([matrix[2, 1], matrix[0, 2], matrix[1, 0]])
 
 
 def determinant(matrix: Array) -> Any:
-    """By cofactors of the first row."""
+    """The determinant, by expansion along the first row."""
     if len(matrix) == 1:
         return matrix[0, 0]
     return sum((-1) ** j * matrix[0, j] * determinant(minor(matrix, 0, j)) for j in range(len(matrix)))
 
 
 def minor(matrix: Array, i: int, j: int) -> Array:
-    """Without the row i and the column j."""
+    """The matrix without row i and column j."""
     return np.delete(np.delete(matrix, i, 0), j, 1)
 
 
 def inverse(matrix: Array) -> Array:
-    """By Cramer's rule."""
+    """The inverse matrix, by Cramer's rule."""
     n, whole = len(matrix), determinant(matrix)
     return array([[(-1) ** (i + j) * determinant(minor(matrix, j, i)) / whole for j in range(n)] for i in range(n)])
 
 
 def cayley(generator: Array) -> Array:
-    """(1 - A)⁻¹(1 + A): a rotation when A is skew."""
+    """(1 - A)⁻¹(1 + A), a rotation if A is skew."""
     one = unit(len(generator))
     return inverse(one - generator) @ (one + generator)
 
 
 def sphere(a: Ratio, b: Ratio) -> Array:
-    """A unit vector: every one but (0, 0, -1)."""
+    """A unit vector in stereographic coordinates: any but (0, 0, -1)."""
     below = 1 + a**2 + b**2
     return array([2 * a / below, 2 * b / below, (1 - a**2 - b**2) / below])
 
@@ -105,7 +105,7 @@ def momentum_by_centre(turn: Array, J: Array, vertical: Array, D: Any) -> Array:
 
 
 def centre_step(before: Array, after: Array, vertical: Array, rho: Any, naive: bool = False) -> Array:
-    """Δr by the discrete constraint (4.9), or by the naive one before it."""
+    """Δr by the discrete constraint (4.9), or by the naive constraint that the paper rejects."""
     turn = after @ before.T
     return -rho * (turn @ vertical - vertical) if naive else -rho / 2 * (turn - turn.T) @ vertical
 
@@ -130,7 +130,7 @@ def action(R: list[Array], r: list[Array], J: Array, mass: Any) -> Array:
 
 
 def principle(n: int) -> Identity:
-    """The principle of Section 3 along every virtual turn; the attitudes are any matrices, rotations or not."""
+    """The principle of Section 3 for every virtual rotation; the attitudes are any matrices, rotations or not."""
     names = [f"{kind}{i}{j}" for kind in "pqr" for i in range(n) for j in range(n)]
     names += [f"x{i}" for i in range(n * (n - 1) // 2)] + [f"{kind}{i}" for kind in "gJ" for i in range(n)]
     free = parameters(" ".join([*names, "mass", "rho", "e"]))
@@ -145,7 +145,7 @@ def principle(n: int) -> Identity:
     r = [0 * steps[0], steps[0], steps[0] + steps[1]]
 
     def displaced(size: Any) -> Array:
-        """The action when R_k turns by ξ and r_k follows by the constraint (4.2): δr = -ρξγ."""
+        """The action after a rotation ξ of R_k, with δr = -ρξγ by the constraint (4.2)."""
         there = [R[0], R[1] + size * virtual @ R[1], R[2]]
         return action(there, [r[0], r[1] - size * rho * virtual @ vertical, r[2]], J, mass)
 
@@ -156,7 +156,7 @@ def principle(n: int) -> Identity:
 
 
 def conservation(n: int, any_axes: bool, last: int = 1, naive: bool = False) -> list[Identity]:
-    """Proposition 1 from the principle of Section 3; the axes of space are any, or those of the body at the time k."""
+    """Proposition 1 from the principle of Section 3; the space axes are arbitrary, or the body axes at time k."""
     count = n * (n - 1) // 2
     names = [f"{kind}{i}" for kind in "ap" for i in range(count)] + [f"{kind}{i}" for kind in "gJ" for i in range(n)]
     free = parameters(" ".join([*names, "mass", "rho"]))
@@ -180,7 +180,7 @@ def conservation(n: int, any_axes: bool, last: int = 1, naive: bool = False) -> 
 
 
 def free_step(n: int) -> tuple[Array, Array, Array, Ratio]:
-    """A turn, a vertical of any length, a diagonal J, and D, all free."""
+    """A rotation, a vertical of any length, a diagonal J, and D, all free."""
     count = n * (n - 1) // 2
     names = [f"a{i}" for i in range(count)] + [f"{kind}{i}" for kind in ("g", "J") for i in range(n)]
     *free, D = parameters(" ".join([*names, "D"]))
@@ -208,7 +208,7 @@ def vector_momentum(sign: int = 1, factor: int = 2, centre: int = 1) -> list[Ide
     """(5.2) from (4.13), with q₀² = 1/(1 + |u|²), q = q₀u and |γ| = 1; the arguments mutate what is printed."""
     u1, u2, u3, a, b, J1, J2, J3, D = parameters("u1 u2 u3 a b J1 J2 J3 D")
     turn, gamma, J, u = cayley(hat((u1, u2, u3))), sphere(a, b), np.diag([J1, J2, J3]), array((u1, u2, u3))
-    square = 1 / (1 + u @ u)  # q₀²; what is of degree 2 in (q₀, q) is q₀² times its value at (1, u)
+    square = 1 / (1 + u @ u)  # q₀²; forms of degree 2 in (q₀, q) are q₀² times their values at (1, u)
     printed_centre = 2 * array([
         (J2 + J3) * u1 + centre * (J2 - J3) * u2 * u3,
         (J1 + J3) * u2 + centre * (J3 - J1) * u1 * u3,
@@ -226,7 +226,7 @@ def vector_momentum(sign: int = 1, factor: int = 2, centre: int = 1) -> list[Ide
 
 @dataclass(frozen=True)
 class VerticalStep:
-    """A turn with u = q/q₀, γ, D, h, and the ball for which u = (ϰ/4)Λ⁻¹s, s = γ + γ~, γ~ = Ωᵀγ."""
+    """A rotation with u = q/q₀, γ, D, h, and the ball with u = (ϰ/4)Λ⁻¹s, s = γ + γ~, γ~ = Ωᵀγ."""
 
     u: Array
     gamma: Array
@@ -261,12 +261,12 @@ class VerticalStep:
 
     @property
     def J(self) -> Array:
-        """That Λ = diag(J₂ + J₃ + D, ...) says."""
+        """J, from Λ = diag(J₂ + J₃ + D, ...)."""
         return (sum(self.lam) - self.D) / 2 - self.lam
 
     @property
     def cosine(self) -> Any:
-        """cos θ of the turn."""
+        """cos θ of the rotation."""
         return (np.trace(self.turn) - 1) / 2
 
     def sigma(self, part: int = 4) -> Any:
@@ -291,9 +291,9 @@ class VerticalStep:
 
 
 def vertical_step(unit_height: bool = False) -> VerticalStep:
-    """Ω, |γ| = 1, D and h are free, and the ball is the one with 𝒦 = hγ (`of_no_other_ball`).
+    """A step with free Ω, |γ| = 1, D and h, and the unique ball with 𝒦 = hγ (`of_no_other_ball`).
 
-    The states with q₀q₁q₂q₃ ≠ 0 are reached, which are dense among those with σ ≠ 0.
+    This reaches all states with q₀q₁q₂q₃ ≠ 0, which are dense among those with σ ≠ 0.
     """
     *u, a, b, D, height = parameters("u1 u2 u3 a b D h")
     h: Any = 1 if unit_height else height
@@ -358,13 +358,13 @@ def steps_of_the_symmetric_form(part: int = 4) -> list[Identity]:
 
 
 class Lowest:
-    """Makes numbers and vectors that are in lowest terms; that they are the same is an identity each."""
+    """A reducer of numbers and vectors to lowest terms; it records each equality with the original as an identity."""
 
     def __init__(self) -> None:
         self.identities: list[Identity] = []
 
     def __call__(self, text: str, value: Any) -> Any:
-        """A number or a vector in lowest terms."""
+        """A number or a vector, reduced to lowest terms."""
         lowest = np.vectorize(lambda x: x.lowest() if isinstance(x, Ratio) else x, otypes=[object])(array(value))
         self.identities.append(identity(f"{text} in lowest terms", value, lowest))
         return lowest if lowest.shape else lowest.item()
@@ -372,7 +372,7 @@ class Lowest:
 
 @dataclass(frozen=True)
 class Parts:
-    """sn²δu, 𝒟, V w(δu), G and l - μ sn²δu."""
+    """The parts of (5.15): sn²δu, 𝒟, V w(δu), G and l - μ sn²δu."""
 
     y: Any
     scale: Any
@@ -386,7 +386,7 @@ class Parts:
 
 
 class Curve(NamedTuple):
-    """l, C1², C2², C3² of (5.8) as corrected, k², the coefficients of 1/Λ1², 1/Λ2², 1/Λ3² in G, and what (5.15) has."""
+    """l, C1², C2², C3² of (5.8) as corrected, k², the coefficients of 1/Λ1², 1/Λ2², 1/Λ3² in G, and the parts."""
 
     level: Any
     squares: Array
@@ -396,9 +396,9 @@ class Curve(NamedTuple):
 
 
 def curve(gamma: Array, following: Array, inverse: Array, lowest: Lowest) -> Curve:
-    """What (5.15) is made of, for two points γ(u), γ(ũ) of one curve and 1/Λ; all of it is rational in them.
+    """The parts of (5.15) for two points γ(u), γ(ũ) of a curve and 1/Λ, in which they are rational.
 
-    By the addition theorem for ũ ± u.  Each part goes on in lowest terms.
+    By the addition theorem for ũ ± u.  Each part is reduced to lowest terms.
     """
     (L1, L2, L3), (g1, g2, g3), (h1, h2, h3) = 1 / inverse, gamma, following
     l = lowest("l", gamma @ (gamma * inverse))
@@ -429,9 +429,9 @@ def half_square(sign: int, products: Array, k2: Any, over: Array, above: Any, lo
 
 
 def pair_on_a_curve() -> tuple[Array, Array, Array, Lowest]:
-    """Two unit vectors γ, γ~ and 1/Λ of a Λ with ⟨γ, Λ⁻¹γ⟩ = ⟨γ~, Λ⁻¹γ~⟩, which is solved for Λ1; Λ2, Λ3, D are free.
+    """Unit vectors γ, γ~ and 1/Λ with ⟨γ, Λ⁻¹γ⟩ = ⟨γ~, Λ⁻¹γ~⟩, solved for Λ1; γ, γ~, Λ2, Λ3 are free.
 
-    Every such triple with Λ finite and γ~₁² ≠ γ₁² is reached, but for a vector (0, 0, -1).
+    Every such triple with finite Λ and γ~₁² ≠ γ₁² is reached, except those with a vector (0, 0, -1).
     """
     a, b, c, d, m2, m3, _ = parameters("a b c d m2 m3 D")  # m2 and m3 are 1/Λ2 and 1/Λ3
     gamma, following, lowest = sphere(a, b), sphere(c, d), Lowest()
@@ -441,7 +441,7 @@ def pair_on_a_curve() -> tuple[Array, Array, Array, Lowest]:
 
 
 def has_kappa(gamma: Array, following: Array, inverse: Array) -> tuple[Identity, Any]:
-    """(5.10) for two points of a curve, and its ϰ."""
+    """The identity (5.10) for two points of a curve, and its ϰ."""
     s, d = gamma + following, following - gamma
     product = np.cross(s, s * inverse)
     kappa = 4 * d[0] / product[0]
@@ -478,7 +478,7 @@ def increment() -> list[Identity]:
 
 
 def relation_for_the_increment(contact: int = 1, sign: int = 1) -> Identity:
-    """With σ = 1/(1 - DΠ1), ϰ, Π1 and Π2 by these parts; the arguments mutate D and V in it."""
+    """The identity between T and σ = 1/(1 - DΠ1), ϰ, Π1, Π2 by these parts; the arguments mutate D and V in T."""
     y, scale, vw, G, level, D = parameters("y Dscr Vw G lam D")
     parts = Parts(y, scale, vw, G, level)
     sigma, kappa, second = 1 / (1 - D * level / scale), 2 * scale * y / vw, (G * scale - vw**2 / y) / (scale**2 * y)
@@ -490,7 +490,7 @@ def relation_for_the_increment(contact: int = 1, sign: int = 1) -> Identity:
 
 
 def increment_of_the_map(part: int = 4) -> list[Identity]:
-    """So T = 0 at every step of the map with vertical momentum and h = 1, from (4.13); `part` mutates σ."""
+    """T = 0 at every step of the map with vertical momentum and h = 1, from (4.13); `part` mutates σ."""
     step = vertical_step(unit_height=True)
     sigma = step.sigma(part)
     square = (2 * sigma / step.kappa - 1) ** 2

@@ -14,7 +14,7 @@ s1, s2, k1, k2, D, H2 = sp.symbols("s1 s2 k1 k2 D H2")
 PLANE = Quotient((*p, *q, s1, s2, k1, k2, D, H2), [D * H2 * s1 * s2 + k1 * k2])
 FREE = Quotient((*p, *q, L1, L2, L3, d), [])
 ON = Quotient((*p, L1, L2, L3, d, mu, nu), [UNIT_VERTICAL])
-#: q = xV₁ + yV₂, by the squares X = x²|V₁|², Y = y²|V₂|², and the roots.
+#: q = xV₁ + yV₂, in terms of the squares X = x²|V₁|², Y = y²|V₂|², and the roots.
 m1, m2, lead, P1, X, Y = sp.symbols("mu1 mu2 g2 P1 X Y")
 ROOTS = Quotient((m1, m2, c, d, lead, P1, X, Y), [X + Y - 1, c * (m1 * X + m2 * Y) - 1])
 INVERSE = LAMBDA.inv()
@@ -62,7 +62,7 @@ def reduction(proof: Proof) -> None:
 
 
 def momentum_of(x: sp.Matrix) -> sp.Matrix:
-    """(Λ - dppᵀ)x without denominators."""
+    """(Λ - dppᵀ)x, multiplied out."""
     return chaplygin.momentum(x).applyfunc(sp.cancel)
 
 

@@ -8,17 +8,17 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import D, gamma, placed, q, q0
 from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, equations, main
 
-#: Free symbols: nothing is tied, |γ| = 1 is not used.
+#: The ring of free symbols: no relations; |γ| = 1 is not used.
 FREE = Quotient((*u, *k, *d, *v, *gamma, I1, I2, I3, D), [])
-#: A quaternion of any length, and a vector.
+#: The ring of a quaternion of any length and a vector.
 ANY = Quotient((gibbs.p0, *gibbs.p, *v), [])
 NORM = 1 + u.dot(u)
-#: Any matrix of cofactors.
+#: A matrix of symbols for the cofactors.
 C_ = gibbs.C
 
 
 def momentum_of(point: dict[sp.Symbol, sp.Expr]) -> sp.Matrix:
-    """𝒦(q, γ) with the moments of inertia, at (q₀, q)."""
+    """𝒦(q, γ) in terms of the moments of inertia, at (q₀, q) of `point`."""
     return sp.Matrix(three.momentum()).xreplace(BY_INERTIA).xreplace(point)
 
 
@@ -31,7 +31,7 @@ def columns(a: sp.Matrix) -> list[sp.Matrix]:
 
 
 def staged(names: sp.Matrix) -> sp.Matrix:
-    """What the steps of the kernel compute under these names, in the inputs alone."""
+    """The expressions that the steps of the kernel give these names, in terms of the inputs alone."""
     return three.unrolled(gibbs.newton_steps()[0], names).applyfunc(sp.expand)
 
 

@@ -17,14 +17,14 @@ RING = Quotient((*omega, *gamma, *rotor, J1, J2, J3, three.D), [three.UNIT_VERTI
 
 words, vectors = equations(ALGEBRA), equations(RING)
 
-#: A rotor: its axis, its moments about it and across it, and its angular velocity relative to the ball.
+#: A rotor: its axis, its axial and transverse moments, and its angular velocity relative to the ball.
 axis = sp.Matrix(sp.symbols("n1:4"))
 moment, across, speed = sp.symbols("moment across speed")
 ROTOR = Quotient((*axis, moment, across, speed, *omega, J1, J2, J3), [axis.dot(axis) - 1])
 
 
 def kinetic(tensor: sp.Matrix, spin: sp.Matrix) -> sp.Expr:
-    """½⟨ω, tensor ω⟩."""
+    """The kinetic energy ½⟨ω, tensor ω⟩."""
     return spin.dot(tensor * spin) / 2
 
 

@@ -18,7 +18,7 @@ from chapsym.prove import Comparison, Proof, claim, equations, main
 words, vectors = equations(STEP), equations(RING)
 
 QUATERNION = sp.Matrix([q0, *q])
-#: A turn, a unit vertical and a ball of matter for exact steps.
+#: A rotation, a unit vertical and a physical ball, for exact steps.
 TURN = placed((QUATERNION, ("4/5", "2/5", "1/5", "2/5")))
 UNIT = placed((three.gamma, ("2/7", "3/7", "6/7")))
 THREE, EQUAL, ROLLING = placed((three.MASSES, (1, 2, 4))), placed((three.MASSES, (2, 2, 2))), {three.D: 8}
@@ -121,7 +121,7 @@ def integrals(p: Proof) -> None:
 
 
 def momentum_back(sign: int) -> sp.Symbol:
-    """𝒦 of the step that goes back, with sign·A, as a step of the certificate."""
+    """𝒦 of the reversed step, with sign·A, as a step of the certificate."""
     name = "gyrostat_back" if sign < 0 else "gyrostat_back_same"
     text = "Ωᵀ for Ω, γ_+ = Ωᵀγ for γ" + (", -A for A" if sign < 0 else "")
     return replaced(name, text, gyrostat.momentum(), RETURN | {step_A: sign * step_A}, gyrostat.BOTH)
@@ -172,7 +172,7 @@ def energies() -> tuple[sp.Expr, sp.Expr]:
 
 
 def changes(name: str, at: dict) -> Comparison:
-    """That H is not the same before and after an exact step."""
+    """The statement that H differs before and after an exact step."""
     units = [sp.Eq(three.UNIT_QUATERNION, 0), sp.Eq(three.UNIT_VERTICAL, 0)]
     return Comparison(name, [*units, sp.Ne(*energies())], at)
 
@@ -219,7 +219,7 @@ def energy(p: Proof) -> None:
 
 @cache
 def volumes() -> tuple[sp.Expr, sp.Expr]:
-    """The determinants of the derivatives of (𝒦, γ) before and after a step, by a turn of q and by γ."""
+    """The determinants of the derivatives of (𝒦, γ) before and after a step, in a rotation of q and in γ."""
     turn, body = sp.Matrix(three.rotation()), sp.Matrix.hstack(*three.body_directions())
     by_turn, by_vertical = (
         [(x.jacobian(y) * z) for x in (momentum(), turn.T * momentum(), turn.T * three.gamma)]

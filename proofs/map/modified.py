@@ -16,13 +16,13 @@ from chapsym.prove import Equation, Fact, Proof, Theorem, claim, equations, main
 
 X = sp.Matrix(sp.symbols("v1:4"))
 MOVING = gamma.cross(omega)
-#: Free symbols: nothing is tied, |γ| is any constant.
+#: The ring of free symbols: no relations; |γ| is any constant.
 FREE = Quotient((*omega, *rate, *second, *share, *X, *gamma, J1, J2, J3, D), [])
 
 
 @cache
 def on_rate() -> Quotient:
-    """The ring in which ω' is that of the continuous ball; made when it is needed, as its Gröbner basis takes time."""
+    """The ring in which ω' is that of the continuous ball; built on demand, as its Gröbner basis takes time."""
     relations = [sp.expand(x) for x in carried(rate) - modified.torque()]
     return Quotient((*rate, *gamma, *omega, J1, J2, J3, D), relations)
 
@@ -31,12 +31,12 @@ equal = equations(FREE)
 
 
 def inertia_along(direction: sp.Matrix, x: sp.Matrix) -> sp.Matrix:
-    """The derivative of B(γ)x when γ moves along `direction`."""
+    """The derivative of B(γ)x in γ along `direction`."""
     return sp.Matrix(modified.along(carried(x), direction))
 
 
 def second_torque() -> sp.Matrix:
-    """B(γ)ω'' along the continuous ball, polynomial in ω, ω', γ."""
+    """B(γ)ω'' along the continuous ball, a polynomial in ω, ω', γ."""
     return (INERTIA * rate).cross(omega) + (INERTIA * omega).cross(rate) - inertia_along(MOVING, rate)
 
 
@@ -116,9 +116,9 @@ def _controls(p: Proof, two: sp.Matrix, third: sp.Matrix) -> None:
 
 
 def in_free_parameters(numerator: int = 1) -> list[Identity]:
-    """H after the step, in powers of ε, by solving for u and ω afresh: the ball, ω and γ, of any length, are free.
+    """H after the step, in powers of ε, by a new solution for u and ω: the ball, ω and γ, of any length, are free.
 
-    `numerator`: that of the factor of D⟨γ,ω'⟩⟨γ̇,ω'⟩/4.
+    `numerator`: the numerator of the factor of D⟨γ,ω'⟩⟨γ̇,ω'⟩/4.
     """
     w1, w2, w3, g1, g2, g3, *moments, contact = parameters("w1 w2 w3 g1 g2 g3 I1 I2 I3 D")
     spin, vertical, inertia = array([w1, w2, w3]), array([g1, g2, g3]), array(moments)
@@ -135,13 +135,13 @@ def in_free_parameters(numerator: int = 1) -> list[Identity]:
     u.append(solve @ ((u[1] @ u[1]) * momentum / 2 - cross(u[1], inertia * u[2]) - cross(u[2], inertia * u[1])))
 
     def stepped(x: Array) -> list[Array]:
-        """Ωᵀx, the coefficients up to ε³."""
+        """The coefficients of Ωᵀx up to ε³."""
         once = [-cross(v, x) + sum(cross(u[j], cross(u[i - j], x)) for j in range(i + 1)) for i, v in enumerate(u)]
         return [x, 2 * once[1], 2 * once[2], 2 * (once[3] - (u[1] @ u[1]) * once[1])]
 
     K, g = stepped(momentum), stepped(vertical)
     y = [spin]
-    for n in (1, 2, 3):  # B(γ)y = K; |γ| is kept
+    for n in (1, 2, 3):  # B(γ)y = K; |γ| is conserved
         known = sum(
             (rolled(g[i], g[j], y[n - i - j]) for i in range(n + 1) for j in range(n + 1 - i) if i + j), 0 * spin
         )
@@ -153,7 +153,7 @@ def in_free_parameters(numerator: int = 1) -> list[Identity]:
 
 
 def _witness() -> tuple[dict[sp.Symbol, sp.Rational], dict[str, str]]:
-    """A ball with D = 3 under way, ω', ω'' and `share` solved for: exact rational numbers."""
+    """A state of a ball with D = 3, with ω', ω'' and `share` solved for, in exact rational numbers."""
     names = placed((omega, (1, -1, 2)), (gamma, (2, 3, 6)), ((J1, J2, J3, D), (1, 2, 4, 3)))
     point = {k: sp.Rational(v, 7 if k in list(gamma) else 1) for k, v in names.items()}
     B = sp.Matrix(three.contact_inertia()).xreplace(point)
@@ -232,7 +232,7 @@ def without_rolling(p: Proof) -> None:
     uses=["modified-field"],
 )
 def modified_measure(p: Proof) -> None:
-    """The divergence of the field of w against the density of the continuous ball; 0 for w = ω."""
+    """The divergence of the field of w with respect to the density of the continuous ball; 0 for w = ω."""
     p.assume("|γ| = 1; L_j is the field K̇ = K × e_j, γ̇ = γ × e_j, so that the field of w is Σ w_j L_j")
     p.state(Theorem((), (), (KEPT,)))
     fields = [(K.cross(e), gamma.cross(e)) for e in sp.eye(3).columnspace()]

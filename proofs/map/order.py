@@ -17,26 +17,26 @@ from chapsym.prove import Comparison, Equation, Fact, Proof, Zero, claim, in_fie
 t = sp.Symbol("t")
 CUBE = t**3 - 4
 SUZUKI = (16 + 4 * t + t**2) / 60
-#: How far the decimals may be from the solution: they have 40 digits.
+#: The permitted distance of the decimals from the solution: they have 40 digits.
 OFF = Fraction(1, 10**40)
 BITS = 400
 METHOD = "Arb balls, interval Newton"
 
 
 def palindrome(half: Sequence[Any]) -> list[Any]:
-    """c₁, ..., cₛ from c₁ up to the middle one."""
+    """The palindrome c₁, ..., cₛ with this first half, up to the middle coefficient."""
     return [*half, *half[-2::-1]]
 
 
 def ball(x: Fraction) -> arb:
-    """A rational number enclosed."""
+    """A rational number as an Arb ball."""
     return arb(fmpq(x.numerator, x.denominator))
 
 
 def isolated(half: Sequence[Fraction], order: int) -> list[arb] | None:
-    """The one palindrome of this order with the c₁ of `half` whose other coefficients are within `OFF` of those there.
+    """The unique palindrome of this order with the c₁ of `half` and other coefficients within `OFF` of those of `half`.
 
-    By the interval Newton operator; None where it does not prove that there is one, and one only.
+    By the interval Newton operator; None if this does not prove existence and uniqueness.
     """
     first, rest = ball(half[0]), [ball(x) for x in half[1:]]
     conditions = composition.lyndon(order)
@@ -57,7 +57,7 @@ def isolated(half: Sequence[Fraction], order: int) -> list[arb] | None:
 
 
 def told_by(words: Sequence[Word], weight: int) -> Equation:
-    """That each coefficient of a Lie element of a weight is a combination of those at some words: it is 0 when they are."""
+    """The statement that the coefficients at some words determine a Lie element of a weight: it is 0 if they are."""
     brackets, every = composition.brackets(weight), list(composition.words(weight))
     known, whole = (fmpq_mat([[x.get(word, 0) for word in of] for x in brackets]) for of in (words, every))
     combinations = (known.transpose() * known).solve(known.transpose() * whole).transpose().tolist()
@@ -69,7 +69,7 @@ def told_by(words: Sequence[Word], weight: int) -> Equation:
 
 
 def _combination(row: Sequence[Any], of: Sequence[sp.Expr]) -> sp.Expr:
-    """A sum of multiples, which is left as it is."""
+    """A linear combination, unevaluated."""
     terms = [sp.Mul(sp.Rational(str(c)), x, evaluate=False) for c, x in zip(row, of, strict=True) if c != 0]
     return sp.Add(*terms, evaluate=False)
 
@@ -137,7 +137,7 @@ def order(p: Proof) -> None:
 
 
 def kahan_and_li(p: Proof, order: int) -> None:
-    """One solution near the decimals, and what it misses."""
+    """The proof of one solution near the decimals, of no higher order."""
     half = COMPOSITIONS[order].exact[: len(COMPOSITIONS[order].half)]
     p.say(f"Order {order}: c₁ = {float(half[0])!r}..., one equation for each other coefficient (Kahan and Li):")
     text = f"order {order}, not {order + 1}: one solution with this c₁ within 10⁻⁴⁰ of the decimals, and there Σc^{order + 1} ≠ 0"
@@ -147,7 +147,7 @@ def kahan_and_li(p: Proof, order: int) -> None:
 
 
 def near(text: str, half: Sequence[Fraction], order: int) -> Zero:
-    """That there is one solution near some decimals, which has no higher order: as data, and decided in balls."""
+    """The statement that there is one solution near some decimals, of no higher order: as data, decided in balls."""
     found = isolated(half, order)
     names = sp.symbols(f"c1:{len(half) + 1}")
     definitions, equations = conditions(palindrome(names), order)
@@ -159,9 +159,9 @@ def near(text: str, half: Sequence[Fraction], order: int) -> Zero:
 
 
 def conditions(coefficients: Sequence[sp.Symbol], order: int) -> tuple[list[tuple[sp.Symbol, sp.Expr]], list[sp.Expr]]:
-    """What vanishes for a composition of this order, with names for the coefficients of its first factors' series.
+    """The order conditions of a composition, and definitions of names for the coefficients of its partial products.
 
-    The coefficient of a word in a product is the sum over the ways to part it (composition.product).
+    The coefficient of a word in a product is the sum over all splittings of the word (composition.product).
     """
     wanted = composition.lyndon(order)
     prefixes = sorted({word[:i] for word in wanted for i in range(1, len(word) + 1)})

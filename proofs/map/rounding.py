@@ -6,10 +6,10 @@ from chapsym.codegen.rounding import DEEPEST, DIVISOR, MOST, UNIT
 from chapsym.derive.quotient import Quotient
 from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, main
 
-#: Exact numbers, what the computed ones are more by, and the rounding of the operation.
+#: Exact numbers, the errors of the computed numbers, and the rounding error of the operation.
 a, b, e, f, delta = NUMBERS = sp.symbols("a b e f delta")
 FREE = Quotient(NUMBERS, [])
-#: What an error is of its terms at most, and what one operation, sixteen and all of them take beyond the first order.
+#: A bound for an error relative to its terms, and bounds for the terms of higher order of one operation, 16 and all.
 m, one, sixteen, whole = sp.symbols("m one sixteen all")
 AT = {one: sp.Rational(1, 2**19), sixteen: 1 + sp.Rational(2**10 + 1, 2**25), whole: MOST - 1, m: DEEPEST * UNIT * MOST}
 ROUNDED = "each operation gives its exact result times 1 + δ, |δ| ≤ 2⁻⁵³: nothing over- or underflows"

@@ -1,7 +1,7 @@
 """What compositions of the map and its reversal rest on: swap the ends of a step, reverse ε, and it is undone.
 
-The paper does not say it.  It comes from the discrete Lagrangian and the discrete constraint, neither of which
-knows which end of a step is first.
+The paper does not state this.  It follows from the symmetry of the discrete Lagrangian and the discrete constraint
+under exchange of the ends of a step.
 """
 
 import sympy as sp
@@ -17,17 +17,17 @@ from chapsym.prove import Equation, Identity, Proof, Theorem, claim, equations, 
 equation = equations(ALGEBRA)
 
 
-#: The step that goes back: Ωᵀ in the place of Ω, and the vertical where the step has ended.
+#: The reversed step: Ωᵀ replaces Ω, and the vertical is that at the end of the step.
 RETURN = ALGEBRA.with_transposes({Omega: OmegaT, Gamma: OmegaT * Gamma * Omega, gamma: OmegaT * gamma})
 
 
 def with_ends_swapped(expr: sp.Expr, vertical: sp.Expr = RETURN[Gamma]) -> sp.Expr:
-    """The same function of the step that goes back."""
+    """The same function of the reversed step."""
     return ALGEBRA.normal(unfolded(expr).xreplace({Omega: OmegaT, OmegaT: Omega, Gamma: vertical}))
 
 
 def momentum_back() -> sp.Symbol:
-    """𝒦 of that step, as a step of the certificate."""
+    """𝒦 of the reversed step, as a step of the certificate."""
     return replaced("momentum_back", "Ωᵀ for Ω and γ_+ = Ωᵀγ for γ", ball.momentum(), RETURN, ball.BOTH)
 
 
@@ -94,7 +94,7 @@ def self_adjoint(p: Proof) -> None:
     p.control(
         equation("the same with Γ in the place of Γ_+", with_ends_swapped(momentum, Gamma), -ball.carried(momentum))
     )
-    # (4.13) mutated: the contact term with Γ at the start alone, in the place of the mean of both ends.
+    # (4.13) mutated: the contact term with Γ at the start, instead of the mean over both ends.
     lopsided = ball.centre_momentum() + D * (Omega * Gamma - Gamma * OmegaT)
     p.control(equation("the same for ΩJ - JΩᵀ + D(ΩΓ - ΓΩᵀ)", with_ends_swapped(lopsided), -ball.carried(lopsided)))
     p.control(Equation("n = 3, with +Ωᵀ𝒦⃗", vector_with_ends_swapped(), carried, three.RING))
@@ -145,7 +145,7 @@ def composed_integrals(p: Proof) -> None:
     equation, trace = equations(algebra), algebra.trace
 
     def carried(expr: sp.Expr) -> sp.Expr:
-        """By two stages, with the rotations Ω and S."""
+        """An expression carried by two stages, with the rotations Ω and S."""
         return ST * OmegaT * expr * Omega * S
 
     p.say("The stage with c finds Ω from 𝒦(Ω, γ) = cεK and carries K itself: K ↦ ΩᵀKΩ, Γ ↦ ΩᵀΓΩ. Two stages, Ω and S:")

@@ -11,10 +11,10 @@ from chapsym.derive.quotient import Quotient
 from chapsym.derive.three import D, K, gamma, placed, q, q0, unrolled
 from chapsym.prove import Comparison, Equation, Fact, Proof, claim, equations, main
 
-#: Any 3×3 matrix.
+#: A 3×3 matrix of symbols.
 M = sp.Matrix(3, 3, sp.symbols("m1:4(1:4)"))
 NORM = gamma.dot(gamma)
-#: Free symbols: nothing is tied, |γ| = 1 is not used.
+#: The ring of free symbols: no relations; |γ| = 1 is not used.
 FREE = Quotient((q0, *q, *omega, *x, *e, *u, *k, *K, *gamma, *M, I1, I2, I3, D), [])
 UNTIED = Quotient((*K, *gamma, I1, I2, I3, D), [])
 UNIT = Quotient((*K, *gamma, I1, I2, I3, D), [three.UNIT_VERTICAL])
@@ -24,7 +24,7 @@ equal = equations(FREE)
 
 
 def inertial(value: sp.Matrix) -> sp.Matrix:
-    """The same with the moments of inertia."""
+    """The expression in terms of the moments of inertia."""
     return sp.Matrix(value).xreplace(BY_INERTIA)
 
 
@@ -141,7 +141,7 @@ def stable_inverse(p: Proof) -> None:
 
 
 def without_minus(polynomial: sp.Expr) -> sp.Expr:
-    """The polynomial term by term; raises ArithmeticError if one has a minus sign."""
+    """The expanded polynomial; raises ArithmeticError if a term has a minus sign."""
     if not _positive(polynomial):
         raise ArithmeticError(f"a term of {polynomial} has a minus sign")
     return sp.expand(polynomial)
@@ -152,7 +152,7 @@ def _positive(polynomial: sp.Expr) -> bool:
 
 
 def _quotient(text: str, value: sp.Matrix, above: sp.Matrix, below: sp.Expr) -> Equation:
-    """value = above/below."""
+    """The equation value = above/below."""
     return Equation(text, inertial(value), above / below, UNTIED)
 
 

@@ -9,12 +9,12 @@ from chapsym.derive.steady import moment
 from chapsym.derive.three import placed
 from chapsym.prove import Equation, Proof, claim, equations, main
 
-#: The axis, the factor of it that is the Gibbs vector, and p₀ of the rotation about it with the quaternion (p₀, c w).
+#: The axis w, the factor for the Gibbs vector, and p₀, c of the rotation about w with the quaternion (p₀, c w).
 w = sp.Matrix(sp.symbols("w1:4"))
 J = (three.J1, three.J2, three.J3)
 MOMENTS = (J[1] + J[2], J[0] + J[2], J[0] + J[1])
 n, p0, c = sp.symbols("stretch p0 c")
-#: An eigenvector of I is what w × Iw = 0 makes of w: here it is w itself, with the moment `moment`.
+#: w × Iw = 0 makes w an eigenvector of I, here with the moment `moment`.
 FREE = Quotient((n, p0, c, *w, *k, *gamma, moment, D), [])
 SIZE = p0**2 + c**2 * w.dot(w)
 
@@ -25,7 +25,7 @@ def carried(x: sp.Matrix) -> sp.Matrix:
 
 
 def turned(x: sp.Matrix) -> sp.Matrix:
-    """(p₀² + |p|²)Ωᵀx for the quaternion p = (p₀, c w), without its denominator."""
+    """(p₀² + |p|²)Ωᵀx, without denominator, for the quaternion p = (p₀, c w)."""
     change = sp.Matrix(gibbs.turn())
     values = placed(((gibbs.p0, *gibbs.p), (p0, *(c * w))), (gibbs.v, x))
     return (SIZE * (x + change.xreplace(values))).applyfunc(sp.cancel)
@@ -99,7 +99,7 @@ def steady_branch(p: Proof) -> None:
 
 
 def determinant_along_first(*across: sp.Symbol) -> sp.Expr:
-    """det ∂G/∂u at u = nw for w along e₁ and a γ without the components `across`, with the moments of the body of J."""
+    """det ∂G/∂u at u = nw for w along e₁ and a γ without the components `across`; moments of inertia from J."""
     mass, first = placed(((gibbs.I1, gibbs.I2, gibbs.I3), MOMENTS)), dict.fromkeys((w[1], w[2], *across), 0)
     values = placed((gibbs.u, n * w), (k, carried(w)))
     jacobian = gibbs.jacobian().xreplace(values).xreplace(mass)

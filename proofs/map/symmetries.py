@@ -19,12 +19,12 @@ def turned(x: sp.Matrix, axis: sp.Matrix = u) -> sp.Matrix:
 
 
 def residual(to_u: sp.Matrix, to_gamma: sp.Matrix, to_k: sp.Matrix) -> sp.Matrix:
-    """G at other places: (u, γ, k) each replaced."""
+    """G with (u, γ, k) replaced."""
     return sp.Matrix(gibbs.residual()).xreplace(placed((u, to_u), (gamma, to_gamma), (k, to_k)))
 
 
 def carried(name: str, on_u: sp.Matrix, on_gamma: sp.Matrix, on_k: sp.Matrix) -> list[Equation]:
-    """(u, γ, k) ↦ (on_u u, on_gamma γ, on_k k) takes solutions to solutions, and so the step's image to the image's step."""
+    """The statements that (u, γ, k) ↦ (on_u u, on_gamma γ, on_k k) maps solutions to solutions, images to images."""
     here, there = sp.Matrix(gibbs.residual()), residual(on_u * u, on_gamma * gamma, on_k * k)
     return [
         equal(f"{name}: the equation of u goes into itself", there, on_k * here),
@@ -33,12 +33,12 @@ def carried(name: str, on_u: sp.Matrix, on_gamma: sp.Matrix, on_k: sp.Matrix) ->
     ]
 
 
-#: The axes of the body named anew: in a circle, and 1 and 3 exchanged.
+#: Permutations of the body axes: cyclic, and the exchange of 1 and 3.
 CIRCLE, SWAP = sp.Matrix([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), sp.Matrix([[0, 0, 1], [0, 1, 0], [1, 0, 0]])
 
 
 def renamed(names: sp.Matrix, axial: int = 1) -> list[Equation]:
-    """The step of the ball with its moments named anew; axial vectors, u and 𝒦, change sign with a reflection."""
+    """The step with permuted body axes; the axial vectors u and 𝒦 change sign under a reflection."""
     moments = names * sp.Matrix([I1, I2, I3])
     other = dict(zip((I1, I2, I3), moments, strict=True))
     text = "1 → 2 → 3 → 1" if names == CIRCLE else "1 and 3 exchanged"

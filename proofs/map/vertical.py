@@ -8,26 +8,26 @@ from chapsym.derive.three import J1, J2, J3, D, gamma, q, q0
 from chapsym.derive.vertical import CLOSED, INERTIA, LAMBDA, e, h, level, t, v
 from chapsym.prove import Equation, Proof, claim, main
 
-#: Λ - D = (J2 + J3, ...) solved for J: the ball whose Λ is free.
+#: Λ - D = (J2 + J3, ...) solved for J, so that Λ is free.
 BALL = dict(zip((J1, J2, J3), ((sum(INERTIA) - 2 * x - D) / 2 for x in INERTIA), strict=True))
 RING = Quotient((h, D, *CLOSED.symbols), CLOSED.relations)
 
 
 def rotation() -> tuple[sp.Expr, sp.Matrix]:
-    """(q₀, q) of the closed rotation, as functions of t, e, γ, Λ."""
+    """(q₀, q) of the closed rotation as functions of t, e, γ, Λ."""
     scalar, *vector = vertical.closed_rotation()
     return scalar, sp.Matrix(vector)
 
 
 def momentum_of_it() -> sp.Matrix:
-    """𝒦(q, γ) of the closed rotation, homogeneous of degree 2 in it."""
+    """𝒦(q, γ) of the closed rotation, homogeneous of degree 2 in (q₀, q)."""
     scalar, vector = rotation()
     values = {**BALL, q0: scalar, **dict(zip(q, vector, strict=True))}
     return sp.Matrix(three.momentum()).xreplace(values)
 
 
 def closed_momentum(text: str, sign: int = 1) -> Equation:
-    """𝒦 = (2t(q₀² + |q|²) - 2Dq₀⟨γ,q⟩)γ + 2(q₀e - t⟨γ,q⟩)q."""
+    """The equation 𝒦 = (2t(q₀² + |q|²) - 2Dq₀⟨γ,q⟩)γ + 2(q₀e - t⟨γ,q⟩)q."""
     scalar, vector = rotation()
     along = gamma.dot(vector)
     right = (2 * t * (scalar**2 + vector.dot(vector)) - 2 * D * scalar * along) * gamma

@@ -1,6 +1,6 @@
-"""The certificates beside the proofs: what the independent checker says of a file, and of copies with one number changed.
+"""The certificates of the proofs: verdicts of the independent checker on files, and on copies with one number changed.
 
-A copy is sealed anew, with the statement that its numbers make: it must be rejected by arithmetic, not by its digest.
+A copy gets a new digest and the statement for its numbers: it must be rejected by arithmetic, not by its digest.
 """
 
 import copy
@@ -15,7 +15,7 @@ FOLDER = Path(__file__).parents[1].joinpath("certificates")
 
 
 def files(kind: str) -> tuple[Path, ...]:
-    """The certificates of a kind, by name; with them what cannot be read, so that it is missed."""
+    """The certificates of a kind, by name, and the unreadable files, so that these are reported."""
     return tuple(file for file in sorted(FOLDER.glob("*.json")) if _kind(file) in (kind, None))
 
 
@@ -37,7 +37,7 @@ def has_branch(file: Path) -> bool:
 
 
 def present(p: Proof, found: Sequence[Path], kind: str) -> list[dict[str, Any]]:
-    """Puts files before the checker, as evidence; returns those that it accepts, the one with the fewest steps first."""
+    """Adds the checker's verdicts on files to the evidence; returns the accepted data, with the fewest steps first."""
     if not found:
         p.problems.append(f"there is no certificate of kind {kind}")
     accepted = []
@@ -54,7 +54,7 @@ def present(p: Proof, found: Sequence[Path], kind: str) -> list[dict[str, Any]]:
 
 
 def changed(text: str, data: dict[str, Any], place: Sequence[str | int], value: Any) -> Fact:
-    """That the checker accepts a copy in which the number at `place` is another, sealed anew."""
+    """The statement that the checker accepts a copy with another number at `place` and a new digest."""
     whole = copy.deepcopy(data)
     inside: Any = whole
     for name in place[:-1]:

@@ -9,13 +9,13 @@ from chapsym.proofs.paper.s5_increment import RATIO, SCALE, SMALL_W, TWO, D, G, 
 from chapsym.prove import Equation, Proof, Theorem, claim, main
 
 PAIR = elliptic.ring(U, HALF)
-#: Z(u~) - Z(u) = z, the values P₀, P₁, A₁, A₂ of Ψ, Ψ', A', A'' at D = 0, all to the second order in D.
+#: z = Z(u~) - Z(u), and the values P₀, P₁, A₁, A₂ of Ψ, Ψ', A', A'' at D = 0; all to second order in D.
 z, P0, P1, A1, A2 = sp.symbols("z P0 P1 A1 A2")
 SECOND_ORDER = Quotient((D, z, P0, P1, A1, A2), [D**3])
 
 
 def addition(sign: int = 1) -> Equation:
-    """Z(u + v) = Z(u) + Z(v) - k² sn u sn v sn(u + v), differentiated by u; v is the argument of HALF."""
+    """Z(u + v) = Z(u) + Z(v) - k² sn u sn v sn(u + v), differentiated in u; v is the argument of HALF."""
     whole = elliptic.added(U, HALF, 1)
     right = elliptic.derivative(-sign * k2 * U.sn * HALF.sn * whole.sn, U)
     mark = "-" if sign > 0 else "+"
@@ -28,7 +28,7 @@ def chord_of_zeta() -> sp.Expr:
 
 
 def half_increment(second: sp.Expr = A2 / 2) -> sp.Expr:
-    """a - a₀ to the second order in D; the argument mutates what comes from A''."""
+    """a - a₀ to second order in D; the argument mutates the coefficient from A''."""
     first = A1 * (P0 - z)
     return D * first + D**2 * (A1 * P1 * first + second * (P0 - z) ** 2)
 

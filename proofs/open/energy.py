@@ -13,7 +13,7 @@ from chapsym.prove import Equation, Fact, Proof, Theorem, claim, judged, main, n
 
 FILES = certified.files("energy-drift")
 ORBITS = certified.files("periodic-orbit")
-#: What the argument rests on, beside the paper's claims: proved anew with it.
+#: The lemmas that the argument uses, besides claims of the paper; they are proved again with it.
 LEMMAS = {
     "small-branch": gibbs, "reversible": self_adjoint, "modified-field": map_modified,
     "modified-energy": map_modified, "energy-without-rolling": map_modified, "modified-measure": map_modified,
@@ -103,7 +103,7 @@ def no_density(p: Proof) -> None:
 
 
 def certificates(p: Proof) -> None:
-    """Closed orbits with integrals that are not 0, as the separate checker judges them."""
+    """The certificates of closed orbits with non-zero integrals, judged by the separate checker."""
     p.state(Theorem((BALLS,), (), (terms.DRIFT, terms.DRIFT_OF_DENSITY)), readings.DRIFTS)
     p.say(
         "The certificates: an orbit from the start, one component of K varied, back on a section up to S, a rotation by π;",
@@ -128,7 +128,7 @@ def certificates(p: Proof) -> None:
 
 
 def fixed_step(p: Proof) -> None:
-    """What holds for one 𝒦, without ε: measures and integrals near periodic orbits."""
+    """The results for a fixed 𝒦, without ε: measures and integrals near periodic orbits."""
     p.state(Theorem((ORBITS_OF,), (terms.SMALL_BRANCH,), (no(terms.THIRD),)), readings.CLOSED_ORBITS)
     p.say(
         "For a fixed 𝒦, by periodic-orbits, where an orbit is back and its derivative on the level of |γ|, |𝒦|, ⟨𝒦,γ⟩ has"

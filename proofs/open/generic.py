@@ -12,7 +12,7 @@ from chapsym.proofs.open.resonance import at_a_level
 from chapsym.prove import Equation, Fact, Proof, Theorem, claim, main
 
 h, b, V, D, x, alpha, beta, mu = sp.symbols("h b V D x alpha beta mu")
-#: To first order in h; x = sn²ū.
+#: The ring to first order in h; x = sn²ū.
 SLOW = Quotient((h, b, V, D, x, l, k2, alpha, beta, mu), [h**2])
 
 

@@ -15,7 +15,7 @@ from chapsym.prove import no as no_such
 
 KIND, HETEROCLINIC = "no-invariant-measure", "heteroclinic"
 FILES, ENDS = certified.files(KIND), certified.files(HETEROCLINIC)
-#: What the argument rests on, beside the paper's claims: proved anew with it.
+#: The lemmas that the argument uses, besides claims of the paper; they are proved again with it.
 LEMMAS = {
     "small-branch": gibbs, "self-adjoint": self_adjoint, "symmetries": symmetries, "chord": chord,
     "resonance": resonance, "plateaus": resonance, "almost-every": generic,
@@ -30,7 +30,7 @@ FLAT, ROUND = "D = 0", "two of I1, I2, I3 are equal"
 
 
 def about_the_axis(swap: bool = False) -> list[Equation]:
-    """For I1 = I2 every rotation about e₃ goes along with the step; the argument leaves I2 free."""
+    """For I1 = I2 every rotation about e₃ commutes with the step; the argument leaves I2 free."""
     c, s = sp.symbols("c s")
     turn = sp.Matrix([[c, -s, 0], [s, c, 0], [0, 0, 1]])
     ring = Quotient((c, s, *FREE.symbols), [c**2 + s**2 - 1])
@@ -67,7 +67,7 @@ def yes(p: Proof) -> None:
 
 
 def no(p: Proof) -> None:
-    """The theorems."""
+    """The theorems on cases without an invariant measure."""
     p.say("No, for three different moments and the h and D of (1) to (5). What is used is proved anew:")
     for id in LEMMAS:
         p.lemma(judged(id))
@@ -91,7 +91,7 @@ def no(p: Proof) -> None:
 
 
 def beyond(p: Proof) -> None:
-    """The certificates that prove the branch, too."""
+    """The certificates that also prove the branch."""
     p.state(Theorem((WITHIN_BEYOND,), (terms.ON_BRANCH,), (no_such(terms.NEAR_A_CIRCLE),)), readings.BEYOND)
     p.say(
         "(6) Beyond the bound of small-branch a certificate also says into how many arcs a half circle is cut, and the",
@@ -105,7 +105,7 @@ def beyond(p: Proof) -> None:
 
 
 def ends(p: Proof) -> None:
-    """The certificates of what orbits on the level l = 1/Λ2 miss at their ends."""
+    """The certificates of offsets at the ends of orbits on the level l = 1/Λ2."""
     p.state(Theorem((WITHIN_ENDS,), (terms.SMALL_BRANCH,), (terms.NOT_CONSTANT,)), readings.ENDS)
     p.say(
         "(5) For numbers at hand two orbits of the map of separatrix-map have different Δ(u), in interval arithmetic: Δ is",
@@ -125,7 +125,7 @@ def ends(p: Proof) -> None:
 
 
 def tampered(p: Proof, data: dict[str, Any]) -> None:
-    """Controls: the certificate with one number changed, and sealed anew."""
+    """Controls: the certificate with one number changed and a new digest."""
     first = data["orbits"][0]
     middle = data["steps"] // 2
     sign = first["displacement"].removeprefix("-") if first["displacement"][0] == "-" else "-" + first["displacement"]

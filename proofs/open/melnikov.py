@@ -15,7 +15,7 @@ from chapsym.prove import Equation, Proof, Theorem, claim, main
 
 LAMBDA, INVERSE = sp.diag(L1, L2, L3), sp.diag(1 / L1, 1 / L2, 1 / L3)
 INERTIA = LAMBDA - D * sp.eye(3)
-#: e ⊥ γ is horizontal; K = h(γ + se) to first order in s; ω₀ = cΛ⁻¹γ, h = cF.
+#: e ⊥ γ is horizontal; K = h(γ + se), to first order in s; ω₀ = cΛ⁻¹γ, h = cF.
 e, (s, c) = gibbs.e, sp.symbols("s c")
 BESIDE = Quotient((*gamma, *e, *v, L1, L2, L3, D, s, c), [UNIT_VERTICAL, gamma.dot(e), s**2])
 SPIN = c * INVERSE * gamma
@@ -68,7 +68,7 @@ def derivative(of: sp.Expr) -> sp.Expr:
 
 
 def by_parts(part: int = 3) -> list[Equation]:
-    """σ² d(σE)/dτ by σ³E, and σ³ by σ; the argument mutates the first."""
+    """Integration by parts: σ² d(σE)/dτ in terms of σ³E, and σ³ of σ; the argument mutates the first."""
     ring = Quotient((T, sigma, E, N), [T**2 + sigma**2 - 1])
     left, right = sigma**2 * derivative(sigma * E), (derivative(sigma**3 * E) + 2 * N * sigma**3 * E) / part
     return [

@@ -11,14 +11,14 @@ from chapsym.derive.three import determinant, gamma, placed
 from chapsym.proofs.map.gibbs import FREE, equal
 from chapsym.prove import Comparison, Equation, Proof, claim, equations, in_field, main
 
-#: Of a steady rotation about e₃ by the angle θ: u = (0, 0, t), t = tan(θ/2), γ = (x, y, c).
+#: A steady rotation about e₃ by the angle θ: u = (0, 0, t), t = tan(θ/2), γ = (x, y, c).
 t = sp.Symbol("t")
 x, y, c = gamma
 STEADY = Quotient((t, x, y, c, I1, I2, I3, D), [x**2 + y**2 + c**2 - 1])
 equation = equations(STEADY)
 #: 𝒜, 𝒜~, Y = 𝒜⁻¹𝒢 and the derivative S of a step.
 A, A_back, Y, S = (sp.Matrix(3, 3, sp.symbols(f"{name}1:4(1:4)")) for name in "abys")
-#: The example: a turn by 45° a step, in Q(√2).
+#: The example: a rotation by 45° per step, in Q(√2).
 ROOT = sp.Symbol("r")
 SQUARE = ROOT**2 - 2
 EXAMPLE = {I1: sp.Integer(6), I2: sp.Integer(5), I3: sp.Integer(3), D: sp.Integer(1), t: ROOT - 1}
@@ -32,7 +32,7 @@ def turn(v: sp.Matrix) -> sp.Matrix:
 
 
 def at(expr: sp.Matrix, u_: sp.Matrix, gamma_: sp.Matrix, k_: sp.Matrix) -> sp.Matrix:
-    """An expression of u, γ and k at other places."""
+    """An expression with u, γ and k replaced."""
     return sp.Matrix(expr).xreplace(placed((u, u_), (gamma, gamma_), (k, k_)))
 
 
@@ -47,7 +47,7 @@ def slope(u_: sp.Matrix, gamma_: sp.Matrix) -> sp.Matrix:
 
 
 def by_turns(u_: sp.Matrix, gamma_: sp.Matrix) -> sp.Matrix:
-    """𝒢: how G changes as γ and k turn by w, γ ↦ w × γ, k ↦ w × k."""
+    """𝒢: the derivative of G in w for δγ = w × γ, δk = w × k."""
     residual = sp.Matrix(gibbs.residual())
     change = residual.jacobian(gamma) * -gamma.hat() + residual.jacobian(k) * -k.hat()
     return at(change, u_, gamma_, half_momentum(u_, gamma_))
@@ -117,7 +117,7 @@ def stepdeterminant(p: Proof) -> None:
 
 
 def exchanged(sign: int = 1) -> Equation:
-    """det(1 - FY) of any two matrices is det(1 - YF); the argument mutates it."""
+    """det(1 - FY) = det(1 - YF) for any two matrices; the argument mutates it."""
     one = sp.eye(3)
     text = "det(1 - FY) = det(1 - YF)" if sign > 0 else "det(1 - FY) = det(1 + YF)"
     return Equation(text, [determinant(one - S * Y)], [determinant(one - sign * Y * S)], Quotient((*S, *Y), []))
@@ -130,7 +130,7 @@ def steady_level(t_: sp.Expr) -> sp.Expr:
     return outer + I3 * (D**2 * c**4 + D * (I1 + I2) * c**2 + m)
 
 
-#: Q, the size of the part that is not.
+#: Q, the amplitude of the part that is not constant.
 SWING = D * (D + I3) * (I1 - I2) / 2
 
 
@@ -228,12 +228,12 @@ def _example(p: Proof) -> None:
 
 
 def at_root(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr | int]) -> Equation:
-    """left = right for r² = 2."""
+    """The equation left = right for r² = 2."""
     return in_field(text, [*left], [*right], SQUARE)
 
 
 def not_one(text: str, value: sp.Expr) -> Equation:
-    """That a number of Q(√2) is not 1."""
+    """The statement that a number of Q(√2) is not 1."""
     return at_root(f"{text} is not 1: the difference has an inverse", [(value - 1) * _inverse(value - 1)], [1])
 
 
@@ -243,7 +243,7 @@ def _inverse(of: sp.Expr) -> sp.Expr:
 
 
 def normal(of: sp.Matrix) -> sp.Matrix:
-    """As a + br, for r² = 2."""
+    """The matrix with entries in the form a + br, r² = 2."""
 
     def reduced(entry: sp.Expr) -> sp.Expr:
         above, below = sp.fraction(sp.together(entry))
@@ -253,7 +253,7 @@ def normal(of: sp.Matrix) -> sp.Matrix:
 
 
 def _all(matrices: Iterable[sp.Matrix]) -> list[sp.Expr]:
-    """Their entries."""
+    """The entries of matrices."""
     return [entry for matrix in matrices for entry in matrix]
 
 
@@ -290,7 +290,7 @@ def periodic_orbits(p: Proof) -> None:
     )
     entries = sp.symbols("W1:4(1:4)")
     map_of_three = sp.Matrix(3, 3, entries)
-    whole, inverse = map_of_three.det(), map_of_three.adjugate().trace()  # W⁻¹ is adj W where det W = 1
+    whole, inverse = map_of_three.det(), map_of_three.adjugate().trace()  # W⁻¹ = adj W for det W = 1
 
     def unit(text: str, *relations: sp.Expr) -> Equation:
         return Equation(text, (sp.eye(3) - map_of_three).det(), 0, Quotient(entries, [whole - 1, *relations]))

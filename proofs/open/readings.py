@@ -1,13 +1,13 @@
-"""The paper's two questions, word for word, and the ways to read them: which are answered, by which lemmas, and which are open.
+"""The paper's two questions, literally, and their readings: which are answered, by which lemmas, and which are open.
 
-The table of the documentation, that of the page and the answers of `prove` are made from these rows.
+The table in the documentation, the table on the page and the answers of `prove` are made from these rows.
 """
 
 from chapsym.proofs.open import terms
 from chapsym.prove import Reading
 from chapsym.prove.argument import NO, OPEN, TRIVIALLY, YES
 
-#: id: the words of the paper, and where they stand.
+#: The questions by id: the words of the paper, and their place.
 QUESTIONS = {
     "5.9-open": (
         "“In this connection the following natural problem of the complete integrability of the map G_h arises: is there "
@@ -90,5 +90,5 @@ def table(id: str) -> str:
 
 
 def _name(by: str) -> str:
-    """A lemma's id, or a part of a question's own proof."""
+    """The id of a lemma, or the name of a part of a question's own proof."""
     return f"`{by}`"

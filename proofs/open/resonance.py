@@ -17,7 +17,7 @@ POLE = HALF.cn * HALF.dn / HALF.sn
 
 
 def square(pole: sp.Expr = POLE, sign: int = -1) -> Equation:
-    """(Z(u+v) - Z(u) - Z(v) - cn dn/sn)² by dn² at both ends; the arguments mutate it."""
+    """(Z(u+v) - Z(u) - Z(v) - cn dn/sn)² in terms of dn² at both ends; the arguments mutate it."""
     ends = U.dn**2 + elliptic.added(U, HALF, 1).dn ** 2
     marks = "-" if pole == POLE else "+", "-" if sign < 0 else "+"
     left, right = "(-k² sn u sn v sn(u+v) {} cn dn/sn(v))²", "cn² dn²/sn²(v) + 1 + dn²v {} (dn²u + dn²(u+v))"
@@ -26,7 +26,7 @@ def square(pole: sp.Expr = POLE, sign: int = -1) -> Equation:
 
 
 def product_of_poles(sign: int = 1) -> Identity:
-    """1/(sinh x sinh y) = (coth x + coth y)/sinh(x + y), by X = e^x and Y = e^y."""
+    """The equation 1/(sinh x sinh y) = (coth x + coth y)/sinh(x + y), with X = e^x and Y = e^y."""
 
     def sinh(e: Ratio) -> Ratio:
         return (e - 1 / e) / 2
@@ -40,7 +40,7 @@ def product_of_poles(sign: int = 1) -> Identity:
 
 
 def chords_of_a_polygon(most: int, weight: int = 2) -> Equation:
-    """Σ over r mod q of 2 - 2cos(2πpr/q) = 2q for all q ≤ most, times w - 1, by w = e^{2πip/q}: w^q = 1 and w ≠ 1."""
+    """Σ over r mod q of 2 - 2cos(2πpr/q) = 2q for all q ≤ most, times w - 1, for w = e^{2πip/q}: w^q = 1 and w ≠ 1."""
     w = sp.Symbol("w")
     sums = [(w - 1) * sum(weight - w**r - w ** (q - r) for r in range(q)) for q in range(2, most + 1)]
     wanted = [2 * q * (w - 1) - (1 + w) * (w**q - 1) for q in range(2, most + 1)]
@@ -49,7 +49,7 @@ def chords_of_a_polygon(most: int, weight: int = 2) -> Equation:
 
 
 def in_fourier_series(p: Proof) -> None:
-    """Σz² once more, from the Fourier series of Z: the same coefficients, by telescoping."""
+    """Σz² a second time, from the Fourier series of Z: the same coefficients, by telescoping."""
     p.say("Z = (π/K) Σ sin(nθ)/sinh(nη), θ = πu/K, η = πK'/K; over the orbit the harmonics N = mq of z² remain,")
     p.say("q-fold, and the coefficient of e^{iNθ} in z² is -(π/2K)² Σ_n (2 - 2cos(2πpn/q))/(sinh nη sinh(N-n)η), n ≠")
     p.say("0, N. The product is (coth nη - coth(n-N)η)/sinh Nη: within a class of n mod N the sum telescopes to 2/sinh")
@@ -116,7 +116,7 @@ def resonance(p: Proof) -> None:
 
 
 def slow_parts() -> tuple[sp.Expr, sp.Expr, Quotient]:
-    """(2w - hG/V)/h and yλ/h² at a = hb to first order in h, with the ring in which h² = 0."""
+    """(2w - hG/V)/h and yλ/h² at a = hb to first order in h, and the ring in which h² = 0."""
     h, b, V, alpha, beta, mu = sp.symbols("h b V alpha beta mu")
     a = h * b
     s, c, d = a - (1 + k2) * a**3 / 6, 1 - a**2 / 2, 1 - k2 * a**2 / 2

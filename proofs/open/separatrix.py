@@ -17,7 +17,7 @@ from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, main
 #: X = coth a, T = tanh ū, E² = (1 - T²)(X² - 1); γ = (C1 E, TX ∓ 1, C3 E)/(X ∓ T) at u = ū ∓ a, with C1² + C3² = 1.
 X, T, E, r, h, S, Y, kappa = sp.symbols("X T E r h S Y kappa")
 C1, C3 = (1 - r**2) / (1 + r**2), 2 * r / (1 + r**2)
-#: 1/Λ₂ = C1²/Λ₁ + C3²/Λ₃ is l.
+#: Λ₂, from l = 1/Λ₂ = C1²/Λ₁ + C3²/Λ₃.
 MIDDLE = L1 * L3 * (1 + r**2) ** 2 / (L3 * (1 - r**2) ** 2 + 4 * L1 * r**2)
 ON_ARC = Quotient((X, T, E, r, L1, L3, D), [E**2 - (1 - T**2) * (X**2 - 1)])
 LAMBDA, INVERSE = sp.diag(L1, MIDDLE, L3), sp.diag(1 / L1, 1 / MIDDLE, 1 / L3)
@@ -40,19 +40,19 @@ def gibbs_vector(factor: int = 1) -> sp.Matrix:
 
 
 def cayley() -> Equation:
-    """Ωᵀ of any Gibbs vector u by a vector product; at γ that is γ~."""
+    """The equation for Ωᵀv by a vector product, for any Gibbs vector u; at v = γ it gives γ~."""
     u, v = gibbs.u, gibbs.v
     return Equation("Ωᵀv - v = (Ωᵀv + v) × u", turn(u) * v - v, (turn(u) * v + v).cross(u), FREE)
 
 
 def rotated(factor: int = 1) -> Equation:
-    """That this u turns γ to γ~."""
+    """The statement that this u turns γ to γ~."""
     before, after = place(-1), place(1)
     return Equation("γ~ - γ = (γ~ + γ) × u", after - before, (after + before).cross(gibbs_vector(factor)), ON_ARC)
 
 
 def momentum(contact: sp.Expr = D) -> Equation:
-    """𝒦 of this step times ϰX² + 1/ϰ; the argument mutates D."""
+    """The equation for 𝒦 of this step times ϰX² + 1/ϰ; the argument mutates D."""
     inertia = placed(((I1, I2, I3), (LAMBDA - D * sp.eye(3)).diagonal()))
     step = 2 * half_momentum(gibbs_vector(), place(-1)).subs(inertia)
     right = (2 * (MIDDLE - D) * X + contact * RISE) * place(-1)
@@ -81,7 +81,7 @@ def root(sign: int = 1) -> Equation:
 
 
 def curve(sign: int = 1) -> Equation:
-    """The relation without a quotient; the argument mutates it."""
+    """The relation without denominator; the argument mutates it."""
     F = sp.Symbol("F")
     left = (F - D * RISE) * (X**2 - T**2)
     right = X * (X * F - 2 * D) - T**2 * (F - 2 * sign * D * X)
@@ -90,7 +90,7 @@ def curve(sign: int = 1) -> Equation:
 
 
 def hyperbolic() -> Equation:
-    """I₂/I₃ - 1 - ϰ² by positive terms."""
+    """I₂/I₃ - 1 - ϰ² in terms of positive factors."""
     square = (I1 - I2) * (I2 - I3) / ((I1 + D) * (I3 + D))
     right = (I2 - I3) * (D * (I1 + I3 + D) + I2 * I3) / (I3 * (I1 + D) * (I3 + D))
     text = "I₂/I₃ - 1 - ϰ² = (I₂ - I₃)(D(I₁ + I₃ + D) + I₂I₃)/(I₃Λ₁Λ₃)"
@@ -172,7 +172,7 @@ PASSAGE = "q steps displace to the side of Δ(u) - β + o(1), uniformly for u in
 
 
 def bound_of_dn(sign: int = 1) -> Equation:
-    """dn² where sn is at least tanh: k² = 1 - k'²."""
+    """The bound of dn² from sn ≥ tanh, with k² = 1 - k'²."""
     t, k = sp.symbols("t k")
     return Equation(
         "1 - k²tanh² = sech² + k'²tanh²", 1 - (1 - k**2) * t**2, 1 - t**2 + sign * k**2 * t**2, Quotient((t, k))
@@ -180,7 +180,7 @@ def bound_of_dn(sign: int = 1) -> Equation:
 
 
 def without_the_mean(sign: int = -1) -> Equation:
-    """Z(u) = ε(u) - eu, e = E/K, leaves the relation of chord as it is with ε, ε' = dn²."""
+    """With Z(u) = ε(u) - eu, e = E/K, the relation of chord is unchanged for ε, ε' = dn², in place of Z."""
     e, u, a, at_a, first, last, rest = sp.symbols("e u a epsilon_a epsilon_1 epsilon_2 w")
     psi, z = 2 * (at_a - e * a) + rest, last - e * (u + 2 * a) - (first - e * u)
     right = 2 * at_a + rest - (last - first)

@@ -17,7 +17,7 @@ SMALL_D = "Δ(0) - Δ(c/2) is not 0 for small D > 0"
 
 
 def square_of_a_chord(sign: int = 1) -> Equation:
-    """(tanh(v + c) - tanh v)², with what is telescoped and what is summed."""
+    """(tanh(v + c) - tanh v)² as a telescoping part and a summed part."""
     later = (t + s) / (1 + t * s)
     right = sign * 2 * (later - t) / s - (1 - t**2) - (1 - later**2)
     text = "z² = 2 coth(c) z - sech²v - sech²(v + c), z = tanh(v + c) - tanh v"
@@ -25,7 +25,7 @@ def square_of_a_chord(sign: int = 1) -> Equation:
 
 
 def second_derivative(sign: int = 1) -> Equation:
-    """A'' for coth A(Y) = X, F(X) = Y: d/dY is 1/F' d/dX, and F'' of X stands beside it."""
+    """A'' for coth A(Y) = X, F(X) = Y: d/dY = (1/F') d/dX; F'' is a separate symbol."""
     first = -1 / ((X**2 - 1) * F1)
     found = (sp.diff(first, X) + sp.diff(first, F1) * F2) / F1
     right = 2 * X / ((X**2 - 1) ** 2 * F1**2) + sign * F2 / ((X**2 - 1) * F1**3)

@@ -1,6 +1,6 @@
-"""The words in which the lemmas on the open questions are stated: hypotheses and conclusions, each named once.
+"""The texts of hypotheses and conclusions of the lemmas on the open questions, each defined once.
 
-A text is a name: two lemmas join where one concludes what the other assumes, letter for letter.
+A text acts as a name: a lemma applies where another concludes its hypothesis, letter for letter.
 """
 
 # Hypotheses.
@@ -11,7 +11,7 @@ FOR_SMALL = "for each three moments there is h₀ > 0, and for every h with 0 < 
 BUT_DISCRETE = "for each three moments and every h ≠ 0 there is a set without limit points in [0, ∞), and for every D > 0 that is not in it"
 FOR_ALMOST_ALL = "for each three moments and every D̂ > 0 there is h₀ > 0, so that for almost every (D, h) with 0 < D < D̂ and 0 < |h| < h₀"
 
-#: What joins the lemmas of 5.9-open.
+#: Links between the lemmas of 5.9-open.
 BOTH_SIGNS = (
     "for some q and p ≥ 1 there is an interval of levels on which q steps turn by more than p half turns at one point of "
     "each circle, and by less at another"
@@ -22,7 +22,7 @@ NOT_CONSTANT = (
     "its increments"
 )
 
-# What question 5.9-open asks for, in its readings.
+# The statements that question 5.9-open asks for, in its readings.
 MEASURE = "finite measure on the sphere, invariant under G_h, with a density that is positive almost everywhere"
 PARAMETER = "real u = f(s, l), for each l a homeomorphism from a circle of s to that of u, with a constant increment"
 INFINITE = (
@@ -39,7 +39,7 @@ NEAR_A_CIRCLE = (
     "finite measure on these circles, invariant under this map, with a density that is positive almost everywhere"
 )
 
-# What question 6-open asks for.
+# The statements that question 6-open asks for.
 IN_C1 = (
     "family of C¹ integrals of the steps that tends in C¹ to H, or to a C² f(H, |K|², ⟨K,γ⟩) with ∂f/∂H ≠ 0, as ε → 0"
 )
@@ -53,7 +53,7 @@ WHOLE = "number r > 0 with a measure on |𝒦| < r that the whole map preserves 
 ALL_EQUAL = "I1 = I2 = I3"
 THIRD = "C¹ integral of the map with a differential independent of those of |γ|, |𝒦|², ⟨𝒦,γ⟩ on these orbits"
 
-#: What joins the parts of 6-open.
+#: Links between the parts of 6-open.
 DRIFT = "the continuous ball has a closed orbit with ∮X₃(H)dt ≠ 0, X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩"
 DRIFT_OF_DENSITY = "the continuous ball has a closed orbit with ∮div_μ X₃ dt ≠ 0"
 NEAR_IT, NEAR_THE_OTHER = (

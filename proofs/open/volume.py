@@ -16,9 +16,9 @@ from chapsym.prove import Comparison, Equation, Proof, Theorem, claim, main, no,
 
 MOMENTS = (I1, I2, I3)
 UNIT = Quotient((*u, t, *gamma, *MOMENTS, moment, D), [UNIT_VERTICAL])
-#: The axes (a, b, c) in the places of (1, 2, 3): a rotation of the body's axes each.
+#: Cyclic permutations (a, b, c) of the body axes (1, 2, 3), each a rotation.
 CYCLES = ((1, 2, 0), (2, 0, 1), (0, 1, 2))
-#: Two equal moments; an example with θ = 45° in Q(√2), about e₃, where I₁ ≠ I₂.
+#: Two equal moments; and an example about e₃ with I₁ ≠ I₂, θ = 45°, in Q(√2).
 EXAMPLE = orbits.EXAMPLE | {I1: sp.Integer(4), I2: sp.Integer(3)}
 
 

@@ -29,19 +29,19 @@ def momentum() -> sp.Matrix:
 
 
 def along(expr: sp.Matrix, faster: sp.Matrix = alpha) -> sp.Matrix:
-    """The derivative of functions of ω, γ along γ̇ = γ×ω, for any ω̇."""
+    """The derivative of functions of ω, γ along γ̇ = γ×ω and any ω̇."""
     return expr.jacobian(omega) * faster + expr.jacobian(gamma) * VERTICAL_RATE
 
 
 def solved_acceleration(rotor: sp.Matrix | None = None) -> sp.Matrix:
-    """ω̇ of (2.2); with the momentum of a rotor, of K = Λω - D⟨ω,γ⟩γ + a, too (lemma `gyrostat-motion`)."""
+    """ω̇ of (2.2); optionally with the momentum a of a rotor, K = Λω - D⟨ω,γ⟩γ + a (lemma `gyrostat-motion`)."""
     gyration = (three.lam() * omega + (sp.zeros(3, 1) if rotor is None else rotor)).cross(omega)
     lift = D / rolling_factor() * (inverse_inertia() * gamma).dot(gyration) * gamma
     return inverse_inertia() * (gyration + lift)
 
 
 def carried_rates() -> tuple[sp.Matrix, sp.Matrix]:
-    """The vector of -[ω, K], and -ωγ, of the words at matrices: letters of a derivation."""
+    """Letters of a derivation for the vectors of -[ω, K] and -ωγ, from words at matrices."""
     words = motion.ALGEBRA
     turning = written("K_rate_words", "-[ω, K] (2.12)", -motion.commutator(motion.omega, motion.K), words)
     falling = written("gamma_rate_words", "-ωγ", -motion.omega * motion.gamma, words)
@@ -216,24 +216,24 @@ def factor_and_divergence(acceleration: sp.Matrix) -> tuple[sp.Expr, sp.Expr, sp
 
 
 def at_vertical(expr: sp.Expr | sp.Matrix):
-    """On K = hγ: ω = Λ⁻¹(h + D⟨ω,γ⟩)γ = sΛ⁻¹γ; the claims are judged in s and γ."""
+    """ω for K = hγ: ω = Λ⁻¹(h + D⟨ω,γ⟩)γ = sΛ⁻¹γ; the claims are judged in s and γ."""
     return expr.xreplace(dict(zip(omega, s * inverse_inertia() * gamma, strict=True)))
 
 
-#: K = hγ is Λω = sγ, and s = h + D⟨ω,γ⟩.
+#: K = hγ is equivalent to Λω = sγ with s = h + D⟨ω,γ⟩.
 s = sp.Symbol("s")
 VERTICAL = Quotient((s, *gamma, J1, J2, J3, D), [three.UNIT_VERTICAL])
 
 
 def vertical_values() -> tuple[sp.Expr, sp.Expr]:
-    """h and l = h⟨ω,γ⟩ on Λω = sγ."""
+    """h and l = h⟨ω,γ⟩ for Λω = sγ."""
     level = gamma.dot(inverse_inertia() * gamma)
     height = s * (1 - D * level)
     return height, height * s * level
 
 
 def vertical_symbols() -> Symbols:
-    """The ball where K = hγ."""
+    """The symbols of the ball for K = hγ."""
     height, power = vertical_values()
     return glossary.classical() | {
         r"\omega": (at_vertical(omega), "sΛ⁻¹γ, s = h + D⟨ω,γ⟩, as K = hγ is Λω = sγ"),

@@ -12,7 +12,7 @@ from chapsym.prove import Equation, Proof, claim, equations, main, rational_poin
 
 equation = equations(RING)
 
-#: A ball, a unit vertical and an angular velocity for the counterexamples.
+#: A ball, a unit vertical and an angular velocity, for counterexamples.
 BALL = {J1: 1, J2: 2, J3: 4, D: 8}
 UNIT = dict(zip(gamma, map(sp.Rational, ("2/7", "3/7", "6/7")), strict=True))
 SPIN = dict(zip(omega, (1, -1, 2), strict=True))
@@ -23,7 +23,7 @@ def unit_vertical() -> Equation:
     return equation("|γ|² = 1", gamma.dot(gamma), 1)
 
 
-#: The velocity of the centre, the radius, and the velocity of the point of the ball at P = C - ργ.
+#: The velocity of the centre, the radius, and the velocity of the ball's point at P = C - ργ.
 VELOCITY, RADIUS = sp.Matrix(sp.symbols("v1:4")), sp.Symbol("rho")
 SLIP = VELOCITY + omega.cross(-RADIUS * gamma)
 
@@ -74,7 +74,7 @@ def rolling_factor(p: Proof) -> None:
 
 
 def on_motion(expr: sp.Expr) -> sp.Expr:
-    """K replaced by K(ω, γ)."""
+    """An expression with K replaced by K(ω, γ)."""
     return expr.xreplace(dict(zip(K, continuous.momentum(), strict=True)))
 
 

@@ -19,7 +19,7 @@ TRACES = Traces(ALGEBRA)
 
 
 def motion_symbols() -> Symbols:
-    """The continuous ball, for every n (Section 2)."""
+    """The symbols of the continuous ball for every n (Section 2)."""
     return {
         "J": (motion.J, "the mass tensor, symmetric (2.10)"),
         "D": (motion.D, "mρ² (2.11)"),
@@ -46,13 +46,13 @@ def moving(
 
 
 def still_vertical() -> Equation:
-    """Γ = γγᵀ is fixed in space, by the rate of γ."""
+    """The statement that Γ = γγᵀ is fixed in space, from the rate of γ."""
     rate_of_vertical = moving("vertical", motion.gamma * motion.gammaT)
     return equation("Γ̇ + [ω,Γ] = 0", rate_of_vertical + commutator(omega, Gamma), 0)
 
 
 def motion_point() -> Point:
-    """n = 3, γ = e₃, ω = (1, 1, 1), and the ω̇ that the principle gives; m = 10, ρ = 1."""
+    """A point for n = 3: γ = e₃, ω = (1, 1, 1), ω̇ from the principle, m = 10, ρ = 1."""
     spin, gain = sp.Matrix([1, 1, 1]).hat(), sp.Matrix(["1/8", "-1/5", "1/3"]).hat()
     down = sp.Matrix([0, 0, 1])
     values = {alpha: gain, omega: spin, J: sp.diag(1, 2, 4), gamma: down, motion.gammaT: down.T}
@@ -62,12 +62,12 @@ def motion_point() -> Point:
 
 
 def touching(name: str, where: sp.Expr) -> sp.Symbol:
-    """The velocity of the point of the ball at C + `where`, v + ω(P - C): a step of the certificate."""
+    """The velocity v + ω(P - C) of the ball's point P = C + `where`: a step of the certificate."""
     of = derivation.written("point_velocity", "v + ω(P - C), P - C as r", motion.v + omega * LEVER, FREE)
     return derivation.replaced(name, "at the point of contact", of, {LEVER: where}, FREE)
 
 
-#: A point of the ball, seen from its centre.
+#: A point of the ball, relative to its centre.
 LEVER = sp.Symbol("lever", commutative=False)
 FREE = WordAlgebra({omega: -omega})
 

@@ -27,12 +27,12 @@ TRACES = Traces(ALGEBRA)
 
 
 def applied(x: sp.Expr) -> sp.Expr:
-    """𝒜x = Jx + xJ + D(Γx + xΓ), as (2.13) has it."""
+    """𝒜x = Jx + xJ + D(Γx + xΓ), as in (2.13)."""
     return J * x + x * J + D * (Gamma * x + x * Gamma)
 
 
 def pairing(x: sp.Expr, y: sp.Expr) -> sp.Expr:
-    """⟨x, y⟩ = -½ tr(xy): the trace of this."""
+    """The matrix whose trace is ⟨x, y⟩ = -½ tr(xy)."""
     return -x * y / 2
 
 
@@ -134,12 +134,12 @@ def invariant_measure(p: Proof) -> None:
 
 
 def gained(moved: sp.Expr) -> sp.Expr:
-    """D{moved, ω}: what 𝒜ω gains when Γ gains `moved`."""
+    """D{moved, ω}: the change of 𝒜ω if Γ changes by `moved`."""
     return D * (moved * omega + omega * moved)
 
 
 def traces_of_maps() -> list[Equation]:
-    """Of linear maps between spaces of any dimensions, as matrices in orthonormal bases."""
+    """Traces of linear maps between spaces of any dimensions, as matrices in orthonormal bases."""
     S, T, TT, U, UT = matrix_symbols("S T T^T U U^T")
     square, other = sp.Matrix(2, 2, [1, 2, 0, 3]), sp.Matrix(2, 2, [0, 1, 5, 1])
     example = {S: sp.Matrix(2, 2, [1, 1, 1, 4]), T: square, TT: square.T, U: other, UT: other.T}
@@ -149,9 +149,9 @@ def traces_of_maps() -> list[Equation]:
 
 
 def exact_divergence(n: int, rates: int = 1) -> list[Identity]:
-    """That div + rates·½ tr(𝒜⁻¹𝒜̇) = 0 for the equations in (ω, γ), in coordinates.
+    """The statement that div + rates·½ tr(𝒜⁻¹𝒜̇) = 0 for the equations in (ω, γ), in coordinates.
 
-    𝒜ω̇ = [K,ω] - 𝒜̇ω, where 𝒜̇ depends on ω through Γ̇ = [Γ,ω]: its derivative is x ↦ [𝒜x,ω] + Sx, less rates·½𝒜̇.
+    𝒜ω̇ = [K,ω] - 𝒜̇ω, where 𝒜̇ depends on ω by Γ̇ = [Γ,ω]: its derivative is x ↦ [𝒜x,ω] + Sx - rates·½𝒜̇x.
     """
     places = [*itertools.combinations(range(n), 2)]
     names = [f"w{i}" for i in range(len(places))] + [f"{kind}{i}" for kind in "gJ" for i in range(n)]
@@ -198,7 +198,7 @@ def isomorphism(p: Proof) -> None:
     vertical = three.gamma * three.gamma.T
 
     def carried(sign: int) -> list[Equation]:
-        """(2.12) under A = sign·(v×), as vector equations."""
+        """(2.12) under A = sign·(v×), as vector equations for n = 3."""
         turn, tensor = sign * spin.hat(), sign * three.K.hat()
         swept = -(turn * tensor - tensor * turn)
         name = f"ω_ij = {'-' * (sign > 0)}ε_ijk ω_k"

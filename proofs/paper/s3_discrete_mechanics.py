@@ -26,7 +26,7 @@ def energy(p: Proof) -> None:
     lagrangian = sp.Function("L")(*position, *velocity)
 
     def rate(expr: sp.Expr) -> sp.Expr:
-        """d/dt along (q̇, v̇) = (v, a)."""
+        """The time derivative along (q̇, v̇) = (v, a)."""
         moved = sum(sp.diff(expr, x) * v for x, v in zip(position, velocity, strict=True))
         return moved + sum(sp.diff(expr, v) * a for v, a in zip(velocity, acceleration, strict=True))
 
@@ -56,7 +56,7 @@ def energy(p: Proof) -> None:
 
 
 def power_for_every_size() -> list[Equation]:
-    """The same for every number of coordinates and of forms: L̇ = ⟨∂L/∂q, q̇⟩ + ⟨∂L/∂q̇, v̇⟩, and Aq̇ = 0."""
+    """The rate of energy for all numbers of coordinates and forms: L̇ = ⟨∂L/∂q, q̇⟩ + ⟨∂L/∂q̇, v̇⟩, and Aq̇ = 0."""
     v, a, A, L = matrix_symbols("v a A_forms L_value")  # columns; the forms are the rows of A; L, of 3 systems
     impulse, force, slope, multiplier = matrix_symbols("p^T f^T g^T lambda^T")  # rows: ∂L/∂q̇, its rate, ∂L/∂q, λ
     rows = {impulse: [[1, 2, 3], [0, 1, 1], [1, 0, 0]], force: [[1, 0, 2], [2, 2, 0], [0, 1, 0]]}
@@ -75,14 +75,14 @@ def power_for_every_size() -> list[Equation]:
     ]
 
 
-# Section 3 for one degree of freedom is enough to see which terms a sum has: 𝕃 = a x² + b x y + c y².
-PATH = sp.symbols("x_ x0:4")  # q_{-1}, q_0, ..., q_3: N = 3 steps from q_0 to q_3
+# One degree of freedom suffices to determine the terms of a sum in Section 3: 𝕃 = a x² + b x y + c y².
+PATH = sp.symbols("x_ x0:4")  # q_{-1}, q_0, ..., q_3: N = 3 steps, from q_0 to q_3
 CHANGE = sp.symbols("d0:4")
 QUADRATIC = sp.symbols("a b c")
 
 
 def step_action(x: sp.Expr, y: sp.Expr) -> sp.Expr:
-    """𝕃(x, y), any quadratic form."""
+    """𝕃(x, y), a general quadratic form."""
     a, b, c = QUADRATIC
     return a * x**2 + b * x * y + c * y**2
 
@@ -150,14 +150,14 @@ def discrete_principle(p: Proof) -> None:
 
 
 def one_step_more() -> Equation:
-    """The step of the induction: P + D2(q_{N-1}, q_N)δq_N, where P is the sum from 1 to N - 1, grows by δ𝕃(q_N, q_{N+1})."""
+    """The induction step: P + D2(q_{N-1}, q_N)δq_N, P the sum from 1 to N - 1, increases by δ𝕃(q_N, q_{N+1})."""
     P, before, slope_1, slope_2 = matrix_symbols("P_N D_2_before D_1 D_2")  # P: the sum
     now, after = matrix_symbols("dq_N dq_next")
     slopes = {
         before: sp.Matrix([[1, 2], [0, 1]]),
         slope_1: sp.Matrix([[3, -1], [1, 1]]),
         slope_2: sp.eye(2),
-    }  # of two 𝕃
+    }  # for two 𝕃
     example = {P: sp.Matrix([7, 5]), now: sp.Matrix([1, 4]), after: sp.Matrix([2, -1]), **slopes}
     grown = P + (slope_1 + before) * now + slope_2 * after - (P + before * now)
     text = "from N to N + 1 the sum and the term of its end grow by D1 δq_N + D2 δq_{N+1}"
@@ -205,7 +205,7 @@ def discrete_equations(p: Proof) -> None:
 
 
 def blocks() -> list[Equation]:
-    """(3.5) in blocks, for every number of coordinates and of forms."""
+    """(3.5) in blocks, for all numbers of coordinates and forms."""
     B, t, upper, lower = matrix_symbols("B_forms t_free e_upper e_lower")  # e' and e'' as rows
     example = {
         B: sp.Matrix([[1, 2], [0, 3]]),

@@ -10,17 +10,17 @@ from chapsym.prove import REAL, Comparison, Count, Equation, Fact, Proof, claim,
 m, rho = sp.symbols("m rho")
 BALL_RING = Quotient((m, rho, *RING.symbols), [*RING.relations, D - m * rho**2])
 equation = equations(BALL_RING)
-TURN = sp.eye(3)  # R_k = 1: the principle does not see the attitude
+TURN = sp.eye(3)  # R_k = 1: the principle is invariant under rotations
 AXES = [e.hat() for e in sp.eye(3).columnspace()]
 
 
 def det(matrix: sp.Matrix) -> sp.Expr:
-    """The determinant without divisions."""
+    """The determinant, by an algorithm without divisions."""
     return matrix.det(method="berkowitz")
 
 
 def mixed_derivative(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:
-    """D1 D2 of factor·Tr(R_k J R_{k+1}ᵀ) + (m/2)|Δr|² for δR_k = R_kξ, δR_{k+1} = R_{k+1}η, in (ξ, δr)."""
+    """D1 D2 of factor·Tr(R_k J R_{k+1}ᵀ) + (m/2)|Δr|² in (ξ, δr), for δR_k = R_kξ, δR_{k+1} = R_{k+1}η."""
     turning = sp.Matrix(3, 3, lambda i, j: factor * (AXES[i] * three.J * AXES[j].T * rotation.T).trace())
     return sp.diag(turning, -m * sp.eye(3))
 
@@ -44,7 +44,7 @@ def regularity_matrix(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:
 
 
 def eliminated(factor: sp.Expr, rotation: sp.Matrix) -> sp.Matrix:
-    """What is left of the matrix in (ξ, η): the blocks of r and of the multipliers, ±1 and -m, are eliminated."""
+    """The matrix in (ξ, η) after elimination of the blocks ±1 and -m of r and of the multipliers."""
     matrix = regularity_matrix(factor, rotation)
     corner, side = matrix[3:, 3:], matrix[:3, 3:]
     return (matrix[:3, :3] - side * corner.inv() * matrix[3:, :3]).applyfunc(sp.expand)
@@ -142,7 +142,7 @@ def regularity(p: Proof) -> None:
 
 
 def _at_turn(matrix: sp.Matrix, ball: dict, turn: tuple[int, ...]) -> sp.Matrix:
-    """A matrix of forms of degree 2 in the Euler parameters, at a turn given up to length."""
+    """A matrix of forms of degree 2 in the Euler parameters, at a rotation given by parameters of any length."""
     values = ball | placed(((q0, *q), turn))
     return matrix.xreplace({x: sp.sympify(value) for x, value in values.items()}) / sum(c**2 for c in turn)
 

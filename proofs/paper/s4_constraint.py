@@ -17,7 +17,7 @@ GAMMA = RT * gamma * gammaT * R
 
 
 def spatial_rotation(a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """Ω̄ - Ω̄ᵀ for the step from the attitude a to b."""
+    """Ω̄ - Ω̄ᵀ for the step from the attitude a to the attitude b."""
     rotation = b * ALGEBRA.transpose(a)
     return rotation - ALGEBRA.transpose(rotation)
 
@@ -111,7 +111,7 @@ def rotation_limit(p: Proof) -> None:
     zeroth, first, *_ = limits.coefficients(turn, limits.SPACE_STEP)
     p.show("Ω̄", f"{unfolded(zeroth)} + ({unfolded(first)})·ε + ...")
     p.say("As a statement about the limit: Ω̄ = 1 + (first order) + O(ε²), where the first order is εω, not ω.")
-    e = sp.Symbol("e")  # the value of ε, a parameter of the words
+    e = sp.Symbol("e")  # a value for ε, a parameter of the words
     p.reads(
         (r"\bar\Omega_k", zeroth + e * first, "its terms up to the order ε, by the derivation"),
         (r"\mathbf I", sp.S.One, "the unit matrix"),

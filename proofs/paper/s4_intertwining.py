@@ -13,7 +13,7 @@ equation = equations(ALGEBRA)
 
 
 def one_step_symbols() -> Symbols:
-    """One step of it, in its rotation and its vertical (Remark 3)."""
+    """The symbols of one step: its rotation and its vertical (Remark 3)."""
     return {
         "J": (ball.J, "the mass tensor, diagonal (4.1)"),
         "D": (ball.D, "mρ² (4.13)"),
@@ -24,13 +24,13 @@ def one_step_symbols() -> Symbols:
 
 
 def printed_relations(sign: int = 1) -> tuple[sp.Expr, sp.Expr]:
-    """The right sides of the relations for 𝒦_{k-1} and 𝒦_k; `sign` mutates the place of Γ_k."""
+    """The right sides of the relations for 𝒦_{k-1} and 𝒦_k; `sign` mutates the term of Γ_k."""
     mean = J + D / 2 * (Gamma + sign * ball.carried(Gamma))
     return Omega * mean - mean * OmegaT, mean * Omega - OmegaT * mean
 
 
 def entries(expr: sp.Expr) -> list[sp.Expr]:
-    """The nine entries for n = 3, in Euler parameters."""
+    """The nine entries of the relation for n = 3, in Euler parameters."""
     rotation = sp.Matrix(three.rotation())
     values = {Omega: rotation, OmegaT: rotation.T, J: three.J, Gamma: three.gamma * three.gamma.T, D: three.D}
     return list(evaluate(expr, values))

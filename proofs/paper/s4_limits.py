@@ -14,7 +14,7 @@ equation = equations(ALGEBRA)
 
 
 def symbols() -> Symbols:
-    """The continuous ball, in the letters of one step."""
+    """The symbols of the continuous ball, in the letters of one step."""
     return {
         "J": (J, "the mass tensor, diagonal (4.1)"),
         "D": (D, "mρ² (4.13)"),
@@ -24,13 +24,13 @@ def symbols() -> Symbols:
 
 
 def show(p: Proof, name: str, remainder: limits.Remainder) -> None:
-    """Prints limit, order and leading term."""
+    """Shows the limit, the order and the leading term in the evidence."""
     limit, leading = unfolded(remainder.limit), unfolded(remainder.leading)
     p.show(name, f"({limit}) + ε^{remainder.order}·({leading}) + ...")
 
 
 def exact_order(name: str, remainder: limits.Remainder, order: int = 1, less: int = 0) -> Comparison:
-    """That a remainder, here divided by ε^less, has this order: its leading term is not 0 at a point."""
+    """The statement that a remainder, divided by ε^less, has this order: its leading term is not 0 at a point."""
     found, term = sp.Integer(remainder.order + less), remainder.leading
     vector = isinstance(term, sp.MatrixBase)
     term = term.applyfunc(unfolded) if vector else unfolded(term)

@@ -23,9 +23,9 @@ def printed_forms() -> tuple[sp.Expr, sp.Expr]:
     return first, second
 
 
-#: Words of a step in the attitudes at its ends; and of the step before.
+#: Words of a step in the attitudes at its ends; and those of the step before.
 NOW, BEFORE = ball.in_attitudes(True), ball.in_attitudes(False)
-#: What vanishes along every path.
+#: The expression that vanishes along every path.
 BALANCE = {"0": (ball.body_balance(), "the principle in the body, on the discrete constraint, by the derivation")}
 
 

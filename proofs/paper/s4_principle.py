@@ -17,12 +17,12 @@ equation = equations(ALGEBRA)
 
 
 def _rotation(a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """The rotation from an attitude to the next, in the body."""
+    """The rotation from an attitude to the next, in the body frame."""
     return principle.ALGEBRA.transpose(a) * b
 
 
 def _in_body(a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """The momentum about the centre, in the body."""
+    """The momentum about the centre, in the body frame."""
     return principle.ALGEBRA.transpose(a) * principle.spatial_momentum(a, b) * a
 
 
@@ -32,7 +32,7 @@ def carried_momenta() -> tuple[sp.Expr, sp.Expr]:
 
 
 def step_symbols() -> Symbols:
-    """The discrete ball, for every n, in its attitudes and centres (Section 4)."""
+    """The symbols of the discrete ball for every n: attitudes and centres (Section 4)."""
     return {
         "J": (principle.J, "the mass tensor, diagonal (4.1)"),
         "m": (principle.m, "the mass (4.1)"),
@@ -64,14 +64,14 @@ def step_symbols() -> Symbols:
     }
 
 
-#: Turns by the angle with the cosine 3/5 about the axes.
+#: Rotations about the axes by the angle with cosine 3/5.
 TURN_1 = sp.Matrix([[1, 0, 0], [0, "3/5", "-4/5"], [0, "4/5", "3/5"]])
 TURN_2 = sp.Matrix([["3/5", 0, "4/5"], [0, 1, 0], ["-4/5", 0, "3/5"]])
 TURN_3 = sp.Matrix([["3/5", "-4/5", 0], ["4/5", "3/5", 0], [0, 0, 1]])
 
 
 def path_point(values: dict, *hypotheses: Equation) -> Point:
-    """Explicit rational attitudes, centres and parameters; the transposes are filled in."""
+    """Explicit rational attitudes, centres and parameters, with the transposes."""
     for attitude in (R0, R, R1):
         if attitude in values and values[attitude].det() != 1:
             raise ValueError(f"{attitude} is no rotation: its determinant is {values[attitude].det()}")
@@ -270,7 +270,7 @@ def euler_poincare(p: Proof) -> None:
 
 @claim("4.8", r"\vec F^k = R_k^T\vec f^k,\ \gamma_k = R_k^T\vec\gamma", uses=["4.7"])
 def body_vectors(p: Proof) -> None:
-    """The names of the reaction and the vertical in the frame of the body."""
+    """The names of the reaction and the vertical in the body frame."""
     p.reads(step_symbols() | {r"\vec f^k": (f, "the reaction (4.3)"), r"\vec F^k": (RT * f, "R_kᵀf^k, a name")})
     p.define("F^k and γ_k are names for f^k and γ⃗ seen from the body; that (4.7) uses them so is part of its proof")
     carried = RT * ALGEBRA.wedge(f, gamma) * R

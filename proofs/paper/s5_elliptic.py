@@ -16,14 +16,14 @@ ON_CURVE = elliptic.ring(U)
 equation = equations(ON_CURVE)
 TWO = elliptic.ring(MEAN, HALF, amplitudes=(C1, C2, C3, V))
 
-#: A curve of a ball of matter (J ≥ 0, tr J ≤ D) whose k is rational, and an argument with rational sn, cn, dn.
+#: A curve of a physical ball (J ≥ 0, tr J ≤ D) with rational k, and an argument with rational sn, cn, dn.
 BALL = {L1: 8, L2: 7, L3: 6, l: "25/168"}
 SQUARE = {k2: "9/16"}
 ARGUMENT = ("4/5", "3/5", "4/5")
 
 
 def functions(values: Jacobi, argument: str) -> Symbols:
-    """Jacobi's functions of an argument, and their powers as they are printed."""
+    """Jacobi's functions of an argument, and their printed powers."""
     found: Symbols = {}
     for name, value in values._asdict().items():
         for power in (1, 2, 4):
@@ -33,7 +33,7 @@ def functions(values: Jacobi, argument: str) -> Symbols:
 
 
 def curve_symbols() -> Symbols:
-    """The curve (Section 5): Λ, its modulus and level, and Jacobi's functions of u, ū and δu."""
+    """The symbols of the curve (Section 5): Λ, the modulus, and Jacobi's functions of u, ū and δu."""
     return {
         r"\Lambda_1": (L1, "the first entry of Λ (5.2)"),
         r"\Lambda_2": (L2, "the second entry of Λ (5.2)"),
@@ -49,7 +49,7 @@ def curve_symbols() -> Symbols:
 
 
 def level_symbols() -> Symbols:
-    """The same with the level l as what k² and Λ make of it."""
+    """The symbols of the curve, with the level l and the squares of C_i in terms of k² and Λ."""
     return curve_symbols() | {
         "l": (elliptic.level(), "the level ⟨γ, Λ⁻¹γ⟩, by k² and Λ (5.8)"),
         **{f"C_{i + 1}^2": (c.subs(elliptic.l, elliptic.level()), f"the square of C_{i + 1} (5.8 as corrected)")
@@ -58,7 +58,7 @@ def level_symbols() -> Symbols:
 
 
 def on_ball() -> Equation:
-    """k² is that of the curve (5.8-modulus)."""
+    """The statement that k² is that of the curve (5.8-modulus)."""
     return equation("k² of (5.8-modulus)", k2, elliptic.squared_modulus())
 
 
@@ -67,24 +67,24 @@ def printed_squares(sign: int = 1) -> list[sp.Expr]:
     return [L1 * (1 - L3 * l) / (L1 - L3), L2 * (1 - L3 * l) / (L2 - L3), sign * L3 * (1 - L1 * l) / (L1 - L3)]
 
 
-#: Letters for a curve on which the amplitudes are rational, too: they have an example of their own.
+#: Letters for a curve with rational amplitudes, with an example of their own.
 ROOTED = dict(zip((L1, L2, L3, l, k2, C1, C2, C3), sp.symbols("l1:4 lv kk size1:4"), strict=True)) | dict(
     zip((*HALF, *MEAN), sp.symbols("sn1 cn1 dn1 sn2 cn2 dn2"), strict=True)
 )
-#: The amplitudes of γ = (C1 cn, C2 sn, C3 dn): |γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l at sn = 0, the second by the first at
-#: sn² = 1, where C3² dn² = 1 - C2², and k² by the first.
+#: Relations of the amplitudes of γ = (C1 cn, C2 sn, C3 dn): |γ|² = 1 and ⟨γ,Λ⁻¹γ⟩ = l at sn = 0; the second relation
+#: at sn² = 1, where C3² dn² = 1 - C2² by the first; and k² from the first.
 AMPLITUDES = [
     C1**2 + C3**2 - 1,
     L3 * C1**2 + L1 * C3**2 - l * L1 * L3,
     L3 * C2**2 + L2 * (1 - C2**2) - l * L2 * L3,
     C2**2 - C1**2 - k2 * C3**2,
 ]
-#: And what the paper assumes.
+#: The assumptions of the paper.
 POSITIVE = [relation.xreplace(ROOTED) for relation in (*elliptic.ORDER, C1 > 0, C2 > 0, C3 > 0)]
 
 
 def rooted(text: str, left: list[sp.Expr], right: list[sp.Expr], last: int = 3, *arguments: Jacobi) -> Equation:
-    """An equation where the first of these relations hold, in those letters."""
+    """An equation in the letters `ROOTED`, modulo the first `last` relations of the amplitudes."""
     relations = [*AMPLITUDES[:last], *chain(*(x.relations() for x in arguments))]
 
     def letters(of: list[sp.Expr]) -> list[sp.Expr]:
@@ -94,7 +94,7 @@ def rooted(text: str, left: list[sp.Expr], right: list[sp.Expr], last: int = 3, 
 
 
 def amplitude_symbols() -> Symbols:
-    """Λ, the level and the amplitudes, which are positive."""
+    """The symbols Λ, the level, and the positive amplitudes."""
     return {
         **{rf"\Lambda_{i + 1}": (ROOTED[x], "an entry of Λ (5.2)") for i, x in enumerate(LAMBDA)},
         "l": (ROOTED[l], "the level ⟨γ, Λ⁻¹γ⟩ (5.5)"),
@@ -249,7 +249,7 @@ def sums_and_differences(p: Proof) -> None:
 
 
 def _addition(p: Proof) -> None:
-    """The addition formulas, from the derivatives of sn, cn, dn and their values at 0."""
+    """The proof of the addition formulas, from the derivatives of sn, cn, dn and their values at 0."""
     p.say("The addition formulas, for x = ū and y = δu: their right sides have equal derivatives by x and by y,")
     for name, whole, own in zip(Jacobi._fields, elliptic.added(MEAN, HALF, 1), MEAN, strict=True):
         by_x, by_y = (elliptic.derivative(whole, argument) for argument in (MEAN, HALF))

@@ -24,7 +24,7 @@ from chapsym.prove import Comparison, Equation, Point, Proof, claim, equations, 
 
 
 def on_curve(expr: sp.Expr) -> sp.Expr:
-    """l replaced by what the modulus makes of it, so that k² is free."""
+    """An expression with l in terms of the modulus, so that k² is free."""
     return sp.sympify(expr).subs(l, elliptic.level())
 
 
@@ -33,16 +33,16 @@ def curve_equation(text: str, left: sp.Expr, right: sp.Expr) -> Equation:
     return Equation(text, on_curve(left), on_curve(right), TWO)
 
 
-#: What the paper assumes of the curve; l is what k² and Λ make it, between 1/Λ2 and 1/Λ3.
+#: The assumptions of the paper on the curve; l is given by k² and Λ, between 1/Λ2 and 1/Λ3.
 ON_CURVES = (*elliptic.MODULUS, *elliptic.ORDER[:3])
 
-#: Everything below has h = 1 (5.12-scaling), and y = sn²δu, w = sn cn dn of δu.
+#: In all that follows h = 1 (5.12-scaling), y = sn²δu, and w = sn cn dn of δu.
 D, Y = sp.Symbol("D"), HALF.sn**2
 SMALL_W = HALF.sn * HALF.cn * HALF.dn
 MU = (1 - L3 * l) / (L2 - L3)
 V_SQUARED = (L2 - L3) * (L1 * l - 1) / (L1 * L2 * L3)
 RATIO = HALF.cn * HALF.dn / HALF.sn
-#: sn²δu as a free number, and what is said by Λ and l alone.
+#: sn²δu as a free symbol; and the ring of Λ and l alone.
 ANY = sp.Symbol("y")
 BY_LEVEL = Quotient((*LAMBDA, l, ANY), [])
 
@@ -53,20 +53,20 @@ def quotients() -> list[sp.Expr]:
 
 
 def g_at(y: sp.Expr | int) -> sp.Expr:
-    """G at sn²δu = y with the squares of (5.8) as corrected, and k² of (5.8), all by Λ and l."""
+    """G at sn²δu = y with the squares of (5.8) as corrected and k² of (5.8), in terms of Λ and l."""
     (a, b, c), modulus = printed_squares(-1), (L1 - L2) * (1 - L3 * l) / ((L2 - L3) * (L1 * l - 1))
     first, second, third = a / L1**2 / modulus, b / L2**2 / modulus, c / L3**2
     return (1 - y) * (first - second * (1 - modulus * y)) + third * (1 - modulus * y)
 
 
 def true_g() -> sp.Expr:
-    """G as it must be: with k² under the second term, too."""
+    """The correct G: with k² under the second term, too."""
     a, b, c = quotients()
     return a / k2 * HALF.cn**2 - b / k2 * HALF.cn**2 * HALF.dn**2 + c * HALF.dn**2
 
 
 def written_out() -> sp.Expr:
-    """What the paper prints of Π2𝒟² and leaves out here."""
+    """The terms of Π2𝒟² that the paper prints there and omits here."""
     a, b, c = quotients()
     return a * MEAN.cn**2 * HALF.cn**2 + b * MEAN.sn**2 * HALF.cn**2 * HALF.dn**2 + c * MEAN.dn**2 * HALF.dn**2
 
@@ -125,7 +125,7 @@ def second_form(p: Proof) -> None:
 
 
 def derived_g() -> sp.Expr:
-    """What Π2 makes of G."""
+    """G as it follows from Π2."""
     return (elliptic.quarter_form(2) * elliptic.denominator() ** 2 + V_SQUARED * RATIO**2) * Y / elliptic.denominator()
 
 
@@ -170,7 +170,7 @@ def curve_point() -> Point:
 
 
 def coefficient(expr: sp.Expr, power: int) -> sp.Expr:
-    """The coefficient of sn^(2·power) δu in G/V², with cn² and dn² in terms of sn²."""
+    """The coefficient of sn^(2·power) δu in G/V², where cn² and dn² are expressed by sn²."""
     y = sp.Symbol("y")
     in_y = sp.expand(expr).subs({HALF.cn**2: 1 - y, HALF.dn**2: 1 - k2 * y})
     return sp.together(sp.expand(in_y).coeff(y, power) / V_SQUARED)
@@ -228,8 +228,8 @@ def beta(p: Proof) -> None:
     p.control(curve_equation("β with the other sign", printed, coefficient(true_g(), 2)))
 
 
-# The relation for the increment, in what it is made of: 𝒟, G, V, D and, for δu, y = sn², e = cn² dn²,
-# w = sn cn dn, λ = l - μ sn².  Between these only w² = y e is needed: 5.14-Pi1 and 5.14-Pi2 do the rest.
+# The relation for the increment in terms of its parts: 𝒟, G, V, D and, for δu, y = sn², e = cn² dn², w = sn cn dn,
+# λ = l - μ sn².  Of the relations between these only w² = y e is needed, besides 5.14-Pi1 and 5.14-Pi2.
 SCALE, G, y, e, w, level = sp.symbols("Dscr G y e w lam")
 PARTS = Quotient((SCALE, G, V, D, y, e, w, level), [w**2 - y * e])
 
@@ -246,12 +246,12 @@ def true_relation(contact: sp.Expr = D, root: sp.Expr = V) -> sp.Expr:
 INVERSE, W, SECOND = 1 - D * level / SCALE, V * w / y, G * SCALE / y - V**2 * e / y
 
 
-#: What the printed V² leaves open.
+#: The sign that the printed V² does not determine.
 SIGN = "the sign of V is that of -C1 C2 C3 (5.13-V)"
 
 
 def part_symbols() -> Symbols:
-    """What the relation is made of."""
+    """The symbols of the parts of the relation."""
     return {
         r"\mathcal D": (SCALE, "1 - k² sn²ū sn²δu (5.13)"),
         "G": (G, "of (5.14-G) as corrected"),
@@ -263,7 +263,7 @@ def part_symbols() -> Symbols:
 
 
 def step_point(mean: str = "12/13") -> Point:
-    """The curve of `curve_point`, sn δu = 4/5, sn ū, and the D that makes T = 0: 4.78 at 12/13, that of a ball of matter."""
+    """The curve of `curve_point`, sn δu = 4/5, sn ū, and the D with T = 0: 4.78 at 12/13, for a physical ball."""
     point = {**BALL, **SQUARE, **dict(zip(HALF, ARGUMENT, strict=True)), MEAN.sn: mean}
     point = {symbol: sp.Rational(value) for symbol, value in point.items()}
     values = {
@@ -283,18 +283,18 @@ def step_point(mean: str = "12/13") -> Point:
     return replace(found, values={**made_of, **found.values})
 
 
-#: What ϰ = 2σ/(1 + root), root² = 1 - σ²Π2 and 1/σ = 1 - DΠ1 say (prop-4), for any Π1 and Π2.
+#: The ring of ϰ = 2σ/(1 + root), root² = 1 - σ²Π2 and 1/σ = 1 - DΠ1 (prop-4), for any Π1 and Π2.
 ROOT, FIRST, OTHER = sp.symbols("root P1 P2")
 BY_PROP_4 = Quotient((ROOT, SCALE, D, FIRST, OTHER, *HALF), [(ROOT**2 - 1) * (1 - D * FIRST) ** 2 + OTHER])
 by_prop_4 = equations(BY_PROP_4)
 
 
-#: The constant of (5.14) and (5.15), which the paper does not say.
+#: The constant of (5.14) and (5.15), which the paper does not define.
 CONSTANT = sp.Symbol("d")
 
 
 def no_constant(relation: sp.Expr) -> list[Comparison]:
-    """That a relation of degree 2 in d has no root d, and none d = cD, at two steps at once: the resultant is not 0."""
+    """The statements that a relation of degree 2 in d has no common root d, or d = cD, at two steps: resultant ≠ 0."""
     renamed = {x: sp.Symbol(f"{x.name}2") for x in PARTS.symbols}
     places = dict(step_point().exact) | {renamed[x]: v for x, v in step_point("3/5").exact.items()}
     steps = [sp.Eq(true_relation().xreplace(names), 0) for names in ({}, renamed)]

@@ -102,7 +102,7 @@ def invariant_curve(p: Proof) -> None:
     p.control(Fact("no two of γ₁², γ₂² vanish at one z when Λ1 = Λ2", not together))
 
 
-# Two verticals on one curve with the same increment: T is linear in x = sn²ū, as 𝒟 = 1 - k² x y.
+# Two verticals on a curve with the same increment: T is linear in x = sn²ū, as 𝒟 = 1 - k² x y.
 x1, x2 = sp.symbols("x1 x2")
 SPREAD = Quotient((k2, x1, x2, *PARTS.symbols), PARTS.relations)
 
@@ -197,7 +197,7 @@ def structure(p: Proof) -> None:
             state,
         )
     )
-    # 2Dq₀⟨γ,q⟩ = (σ - h)(q₀² + |q|²): the solution for this γ has that σ.
+    # 2Dq₀⟨γ,q⟩ = (σ - h)(q₀² + |q|²): the solution for this γ has the given σ.
     keeps = 2 * D * q0 * gamma.dot(q) - (sigma - h) * solutions.NORM
 
     def steps(text: str, start: sp.Matrix, *relations: Relational) -> Count:

@@ -126,7 +126,7 @@ def axis_and_angle(p: Proof) -> None:
 
 
 def half_momentum(h1: sp.Expr, h2: sp.Expr, h3: sp.Expr, sign: int = 1) -> sp.Matrix:
-    """½M⃗ of (5.2) as printed, of the mass tensor diag(h1, h2, h3); the sign is that of its second terms."""
+    """½M⃗ of (5.2) as printed, for the mass tensor diag(h1, h2, h3); `sign` is that of the second terms."""
     return sp.Matrix(
         [
             (h2 + h3) * q0 * q1 + sign * (h2 - h3) * q2 * q3,
@@ -142,7 +142,7 @@ def printed_momentum(sign: int = 1, factor: int = 2) -> sp.Matrix:
 
 
 def second_derivatives() -> list[sp.Expr]:
-    """Those of 𝒦⃗(q(1, w)) in w, as 𝒦⃗ is a quadratic form of (q₀, q): for 11, 22, 33, 23, 13, 12."""
+    """The second derivatives of 𝒦⃗(q(1, w)) in w, for 11, 22, 33, 23, 13, 12; 𝒦⃗ is a quadratic form of (q₀, q)."""
 
     def at(w: sp.Matrix) -> sp.Matrix:
         turned = three.quaternion_product(sp.Matrix([q0, *q]), sp.Matrix([0, *w]))
@@ -371,12 +371,12 @@ def energy_changes(p: Proof) -> None:
     quadratic, lifted = K.dot(inverse * K), D * gamma.dot(inverse * K) ** 2 / factor
 
     def ends(energy: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-        """The energy before and after the step of the Euler parameters."""
+        """The energy before and after the step with these Euler parameters."""
         before = energy.xreplace(three.placed((K, momentum)))
         return before, energy.xreplace(three.placed((K, turn * momentum), (gamma, turn * gamma)))
 
     def changes(name: str, energy: sp.Expr, at: dict) -> Comparison:
-        """That the energy is not the same before and after the step."""
+        """The statement that the energy differs before and after the step."""
         return Comparison(name, [sp.Ne(*ends(energy))], at)
 
     ball = {J1: 1, J2: 2, J3: 4, D: 8}

@@ -25,7 +25,7 @@ from chapsym.prove import (
 
 Vector = Sequence[Any]
 
-#: The ball and the vertical of the examples, and 𝒦 by the number of real solutions.
+#: The ball and the vertical of the examples, and 𝒦 for each number of real solutions.
 BALL, VERTICAL = (1, 2, 4), ("6/7", "2/7", "3/7")
 WITHOUT_ROLLING: dict[int, Vector] = {0: (1, 1, 4), 1: (0, 0, 3), 2: (1, 1, 1), 3: (0, 0, 1), 4: ("1/2", "1/2", "1/2")}
 ROLLING: dict[int, Vector] = {
@@ -50,13 +50,13 @@ def count(
     vertical: Vector = VERTICAL,
     nonzero: Sequence[sp.Expr] = (),
 ) -> Count:
-    """What is said of the number of solutions of (5.2), with 𝒦(q, γ) as it is derived, for a ball, γ and 𝒦."""
+    """A statement on the number of solutions of (5.2), with the derived 𝒦(q, γ), for a ball, γ and 𝒦."""
     point = placed((three.MASSES, ball), ([D], [contact]), (gamma, vertical), (K, momentum))
     return Count(text, solutions.equations(), solutions.POINT, point, relations, RING, nonzero)
 
 
 def example(contact: int, number: int) -> Count:
-    """An example: so many real solutions, of 8 with multiplicity; where they are even, none has q₀ = 0."""
+    """An example with this number of real solutions, of 8 with multiplicity; for even numbers none has q₀ = 0."""
     momentum = (ROLLING if contact else WITHOUT_ROLLING)[number]
     text = f"D = {contact}, 𝒦 = ({', '.join(map(str, momentum))}): {number}"
     odd = number % 2  # a fold: one solution is double
@@ -65,7 +65,7 @@ def example(contact: int, number: int) -> Count:
 
 
 def homogeneous(text: str) -> Equation:
-    """That the equations are homogeneous of degree 2, with real coefficients."""
+    """The statement that the equations are homogeneous of degree 2, with real coefficients."""
     scale = sp.Symbol("s")
     grown = [e.xreplace({x: scale * x for x in solutions.POINT}) for e in solutions.quadrics()]
     ring = Quotient((scale, *three.K, *RING.symbols))

@@ -30,22 +30,22 @@ def second_form() -> sp.Expr:
 
 
 def square_of_root(text: str, factor: sp.Expr) -> Equation:
-    """(2q₀² - 1)² = 1 - factor·⟨γ+γ~, Λ⁻²(γ+γ~)⟩: what a formula for the root says."""
+    """The equation (2q₀² - 1)² = 1 - factor·⟨γ+γ~, Λ⁻²(γ+γ~)⟩, which a formula for the root implies."""
     return equation(text, (2 * q0**2 - 1) ** 2, 1 - factor * second_form())
 
 
 def closed_sigma(text: str, factor: sp.Expr) -> Equation:
-    """σ = h/(1 - factor·⟨γ+γ~, Λ⁻¹(γ+γ~)⟩), multiplied out."""
+    """The equation σ = h/(1 - factor·⟨γ+γ~, Λ⁻¹(γ+γ~)⟩), multiplied out."""
     return equation(text, sigma * (1 - factor * first_form()), vertical.height())
 
 
 def solved_sigma(text: str, factor: sp.Expr) -> Equation:
-    """The same as it is printed, solved for σ."""
+    """The equation of `closed_sigma` as printed, solved for σ."""
     return equation(text, sigma, vertical.height() / (1 - factor * first_form()))
 
 
 def symmetric(text: str, factor: sp.Expr) -> Equation:
-    """γ~ - γ = factor·(γ+γ~) × Λ⁻¹(γ+γ~)."""
+    """The equation γ~ - γ = factor·(γ+γ~) × Λ⁻¹(γ+γ~)."""
     return equation(text, difference(), factor * vertical.total().cross(inverse_inertia() * vertical.total()))
 
 
@@ -250,7 +250,7 @@ def rescaling(p: Proof) -> None:
 
 
 def _converse(p: Proof) -> None:
-    """Every solution of the corrected form is a step of the map: q = (σ/4q₀)Λ⁻¹s solves (5.4)."""
+    """The proof that every solution of the corrected form is a step of the map: q = (σ/4q₀)Λ⁻¹s solves (5.4)."""
     p.say("The converse: let s and d = (ϰ/4)s×Λ⁻¹s satisfy the corrected form, ϰ = σ/q₀², and put")
     p.say("q = (σ/4q₀)Λ⁻¹s, γ = (s-d)/2, γ~ = (s+d)/2. Then |q|² + q₀² = 1 is the formula for ϰ, and")
     s = sp.Matrix(sp.symbols("s1:4"))

@@ -15,8 +15,8 @@ from chapsym.prove import Equation, Point, Proof, claim, equations, main, ration
 
 equation = equations(RING)
 
-#: 𝒦 = hγ at two rational states of balls of matter (J ≥ 0, tr J ≤ D), found by search: the rotation angle is below
-#: and above 90°.
+#: Two rational states with 𝒦 = hγ of physical balls (J ≥ 0, tr J ≤ D), found by search, with rotation angles below and
+#: above 90°.
 SMALL = {q0: "4/5", q1: "2/5", q2: "1/5", q3: "2/5", J1: 1, J2: 5, J3: 2, D: 14, sigma: "484/25"}
 LARGE = {q0: "1/5", q1: "2/5", q2: "2/5", q3: "4/5", J1: 1, J2: 2, J3: 4, D: 10, sigma: "148/25"}
 
@@ -26,7 +26,7 @@ NOT_ZERO = "σ ≠ 0, which h ≠ 0 implies for a real q: σ = 0 makes the left 
 
 
 def vertical_state() -> list[Equation]:
-    """What makes (q, σ) a state with 𝒦 = hγ: unit Euler parameters, and |γ| = 1 for γ = left/σ."""
+    """The conditions for (q, σ) to be a state with 𝒦 = hγ: unit Euler parameters, and |γ| = 1 for γ = left/σ."""
     return [
         equation("|q|² + q₀² = 1", q0**2 + q.dot(q), 1),
         equation("|γ| = 1", vertical.gamma_now().dot(vertical.gamma_now()), 1),
@@ -34,7 +34,7 @@ def vertical_state() -> list[Equation]:
 
 
 def vertical_symbols() -> Symbols:
-    """Vertical momentum (Section 5): γ and γ~ in q and σ."""
+    """The symbols for vertical momentum (Section 5): γ and γ~ in terms of q and σ."""
     return {
         **{name: glossary.ball()[name] for name in (r"\Lambda", "D", r"\mathbf q", "q_0")},
         r"\sigma": (sigma, "h + 2D⟨γ, q₀q⟩ (5.6 as corrected)"),
@@ -45,7 +45,7 @@ def vertical_symbols() -> Symbols:
 
 
 def vertical_point(state: dict) -> Point:
-    """The state as a point that also shows what follows from it: γ, γ~ and h."""
+    """The state as a point, with the values γ, γ~ and h that follow from it."""
     point = rational_point(state, vertical_state())
     here, there = (point.evaluate(x) for x in (vertical.gamma_now(), vertical.gamma_next()))
     seen = {"γ": f"({', '.join(map(str, here))})", "γ~": f"({', '.join(map(str, there))})"}
@@ -53,7 +53,7 @@ def vertical_point(state: dict) -> Point:
 
 
 def printed_vector(sign: int) -> sp.Matrix:
-    """The vector of (5.6) as printed, without 2/σ; the sign is that of its second terms."""
+    """The vector of (5.6) as printed, without 2/σ; `sign` is that of the second terms."""
     return half_momentum(J1 + D / 2, J2 + D / 2, J3 + D / 2, sign)
 
 

@@ -63,7 +63,7 @@ def left_right(p: Proof) -> None:
     moved = algebra.with_transposes({r: r + a, r1: r1 + a})
 
     def lagrangian(places: dict, factor: sp.Expr) -> sp.Expr:
-        """𝕃 after the action: the trace of this."""
+        """The matrix whose trace is 𝕃 after the action."""
         return principle.lagrangian(factor, R, R1, r, r1).xreplace({**places, **moved})
 
     def constraint(places: dict) -> sp.Expr:
