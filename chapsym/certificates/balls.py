@@ -18,7 +18,7 @@ class NotProved(ArithmeticError):
 
 
 def near_root(k: Sequence[arb], g: Sequence[arb], I: Vector, D: arb, near: Vector | None = None) -> Vector:
-    """The Gibbs vector with k = 𝒦/2 and γ by Newton's iteration from 0 or near, at the midpoints of balls; no proof."""
+    """The Gibbs vector with k = 𝒦/2 and γ, unproved: Newton's iteration from 0 or `near`, at the midpoints of balls."""
     given = *_middles(k), *_middles(g), *_middles(I), D.mid()
     u: Vector = (arb(0), arb(0), arb(0)) if near is None else _middles(near)
     enough = arb(2) ** -(ctx.prec // 2 + 4)

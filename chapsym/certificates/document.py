@@ -25,15 +25,15 @@ def stated(kind: str, **fields: Any) -> Document:
 
 
 def accepted(document: Document) -> Document:
-    """The same object; raises checker.Rejected if the checker does not accept it."""
+    """The object itself; raises checker.Rejected if the checker does not accept it."""
     checker.check(document)
     return document
 
 
 def widest(radii: list[Fraction], found: Callable[[Fraction], Document], progress: Callable[[str], None]) -> Document:
-    """The certificate with the largest possible radius, by bisection among radii; smaller ones are easier.
+    """The certificate with the largest possible radius, by bisection among radii; smaller radii are easier.
 
-    Raises what `found` raises for the smallest, NotProved or checker.Rejected.
+    Raises NotProved or checker.Rejected, as `found` for the smallest radius.
     """
     first, last, best = 0, len(radii) - 1, found(radii[-1])
     while first < last:
@@ -52,5 +52,5 @@ def text(document: Document) -> str:
 
 
 def write(path: Path, document: Document) -> None:
-    """Writes the file whole; raises `chapsym.files.CannotWrite`."""
+    """Writes the file atomically; raises `chapsym.files.CannotWrite`."""
     write_text(path, text(document))

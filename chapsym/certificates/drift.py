@@ -28,12 +28,12 @@ ROUNDS, WINDOW = 12, "1/100"
 
 
 class Return(Orbit):
-    """The starts of a certificate, and how they return; `time`: the approximate time of return."""
+    """The starts of a certificate, and their returns; `time`: the approximate time of return."""
 
     time: Fraction
 
     def crossing(self, models: Sequence[Model], length: int, wanted: Interval) -> Interval:
-        """As for `Orbit`: in the last step, which begins at `early`."""
+        """The return as in `Orbit`, in the last step, which begins at `early`; sets `time`."""
         back = super().crossing(models, length, wanted)
         self.time = (self.early + middle(back) * length) / 2**self.bits
         return back
@@ -43,7 +43,7 @@ def energy_drift(
     J: Sequence[Fraction], D: Fraction, momentum: Sequence[Fraction], gamma: Sequence[Fraction], signs: Sequence[int],
     time: Fraction, varied: int, *, digits: int = 20, progress: Callable[[str], None] = lambda sentence: None,
 ) -> Document:  # fmt: skip
-    """Finds the closed orbit near a start, one component of its momentum adjusted, and encloses it.
+    """Finds a closed orbit near a start, by adjusting one component of its momentum, and encloses it.
 
     Raises BadInput if there is none, or if the checker does not prove it.
     """
@@ -84,7 +84,7 @@ def _check(J: Sequence[Fraction], D: Fraction, gamma: Sequence[Fraction], signs:
 
 
 def listed(values: Sequence[object]) -> str:
-    """(a, b, c)."""
+    """Components as the text (a, b, c)."""
     return f"({', '.join(map(str, values))})"
 
 
@@ -121,7 +121,7 @@ def refined(fields: Mapping[str, Any], digits: int, progress: Callable[[str], No
 
 
 def missed(orbit: Orbit, start: Vector, found: Vector) -> Interval:
-    """The difference of the component `along` from its start on the section."""
+    """The component `along` at the return to the section, minus that at the start."""
     return found[orbit.along] - start[orbit.along]
 
 
@@ -131,7 +131,7 @@ def middle(x: Interval) -> Fraction:
 
 
 def outward(x: Interval) -> list[str]:
-    """An interval as decimal [centre, radius] that contain it."""
+    """Decimals [centre, radius] of an interval that contains a given one."""
     radius = Fraction(x.width, 2 << x.bits)
     digits = max(2 - decade(radius), 0)
     centre = round(middle(x), digits)

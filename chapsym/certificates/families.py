@@ -1,11 +1,11 @@
 """Families of periodic orbits of the whole map, found from the symmetric orbits.
 
-A reversor (𝒦, γ) ↦ -R(𝒦, γ), R the rotation by π about an axis a, keeps the level M and fixes the states with
+A reversor (𝒦, γ) ↦ -R(𝒦, γ), R the rotation by π about an axis a, preserves the level M and fixes the states with
 𝒦_a = γ_a = 0.  If the reversor of a fixes x, and after n steps the reversor of b fixes the state or maps it to the next
 one, then x returns after 2n or 2n + 1 steps, up to R_aR_b.  On M such points are exceptional: two conditions for one
-unknown.  But ⟨𝒦, γ⟩ may vary: through each such point leads a family of periodic orbits.  The reversor mirrors the
-family, which thus has a fold of ⟨𝒦, γ⟩ in the middle; elsewhere the orbits are not symmetric.  As the map is near an
-integrable one, ⟨𝒦, γ⟩ hardly changes along it.
+unknown.  But ⟨𝒦, γ⟩ may vary: a family of periodic orbits passes through each such point.  The reversor mirrors the
+family, which therefore has a fold of ⟨𝒦, γ⟩ in the middle; elsewhere the orbits are not symmetric.  As the map is
+nearly integrable, ⟨𝒦, γ⟩ hardly changes along the family.
 """
 
 from collections.abc import Callable, Iterator
@@ -24,12 +24,12 @@ from chapsym.dynamics.map import step
 
 from .passage import Level, Map, Vector, columns
 
-#: Starts along each of the two angles of 𝒦 and γ, Newton iterations, their largest correction, and the tolerance.
+#: Starts along each of the angles of 𝒦 and γ, the most Newton iterations, their largest correction, and the tolerance.
 GRID, ROUNDS, LONGEST, SETTLED = (8, 16), 24, 0.2, 1e-11
 DIFFERENCE = 1e-6
-#: Members of a family that are computed, their distance, Newton iterations for each, and halvings of the distance.
+#: The computed members of a family, their distance, Newton iterations for each, and halvings of the distance.
 MEMBERS, APART, CORRECTIONS, HALVINGS = 16, 0.02, 6, 6
-#: Families whose ⟨𝒦, γ⟩ agree to this are the same; a motion whose γ_i vary by less than this is a steady rotation.
+#: The tolerance for equal ⟨𝒦, γ⟩ of equal families; and the variation of γ_i below which a motion is a steady rotation.
 SAME = 1e-7
 
 
@@ -48,7 +48,7 @@ class Member:
 
 
 def families(level: Level, steps: int, progress: Callable[[str], None]) -> Iterator[list[Member]]:
-    """The families of orbits of this many steps at this |𝒦|², a stretch of each; `level.height` is not used."""
+    """The families of orbits with this many steps at this |𝒦|², a stretch of each; `level.height` is not used."""
     found: list[float] = []
     for state in _symmetric(level, steps):
         height = abs(float(state[:3] @ state[3:]))

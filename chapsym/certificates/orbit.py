@@ -1,4 +1,4 @@
-"""Certificate `periodic-orbit`: a point that is back after q steps, where det DG^q ≠ 1 and det(1 - DG^q) ≠ 0 on the
+"""Certificate `periodic-orbit`: a periodic point of q steps, where det DG^q ≠ 1 and det(1 - DG^q) ≠ 0 on the
 level M.
 
 Newton's method finds it, with as many bits as the checker needs for its proof.
@@ -130,7 +130,7 @@ def _found(
 
 
 def multipliers(W: arb_mat) -> tuple[Any, Any, Any]:
-    """det W, det(1 - W) and the trace."""
+    """det W, det(1 - W) and tr W."""
     return W.det(), (identity() - W).det(), W[0, 0] + W[1, 1] + W[2, 2]
 
 

@@ -1,7 +1,7 @@
 """q steps of the whole map in Arb's balls: their rotation of the body, and its derivative.
 
-A step turns 𝒦 and γ by one rotation.  So, if 𝒦 and γ are not parallel, the level M of |γ|, |𝒦| and ⟨𝒦, γ⟩ is the set of
-all (R𝒦, Rγ), R in SO(3); a tangent vector is (w × 𝒦, w × γ); and a point returns after q steps if and only if the
+A step turns 𝒦 and γ by the same rotation.  If 𝒦 and γ are not parallel, the level M of |γ|, |𝒦| and ⟨𝒦, γ⟩ is the set
+of all (R𝒦, Rγ), R in SO(3); a tangent vector is (w × 𝒦, w × γ); and a point returns after q steps if and only if the
 product T of their rotations is 1.
 """
 
@@ -60,7 +60,7 @@ class Passage:
 
 
 class Map:
-    """The steps of one ball at one |𝒦|², for all parameters in Arb balls; use it at a single precision."""
+    """The steps of a ball at fixed |𝒦|², for all parameters in Arb balls; for use at a single precision."""
 
     def __init__(self, J: Vector, D: arb, size: arb) -> None:
         self.inertia, self.D = (J[1] + J[2], J[0] + J[2], J[0] + J[1]), D

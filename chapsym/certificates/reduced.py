@@ -61,7 +61,7 @@ class Top:
 
 
 class Reduced:
-    """G_h of a top at points, unproved: the checker proves that these are roots, and which ones.
+    """G_h of a top at points, unproved: the checker proves that these are roots, and on which branch.
 
     If |h| is beyond the bound of lemma `small-branch`, `is_small` is False: each root is near those of the small
     branch, which is continued from h = 0.

@@ -64,7 +64,7 @@ def _circle(
 
 
 def _why(sides: list[plateau.Staircase], steps: int | None, half_turns: int) -> str:
-    """Why no circle was found."""
+    """The reason why no circle was found, in one sentence."""
     if not any(side.levels for side in sides):
         return "no step is found on any circle, beyond the bound of lemma small-branch; take a smaller height"
     wanted = f"{turns(half_turns)} in {steps or f'an odd number up to {plateau.LOOK_STEPS}'} steps"
@@ -80,7 +80,7 @@ def turns(half_turns: int) -> str:
 
 
 def on_level(top: Top, level: Fraction, steps: int | None, half_turns: int | None) -> Resonance:
-    """A given level, with its half turns; raises BadInput if it has others."""
+    """The resonance on a given level; raises BadInput if the half turns are not the requested or a whole number."""
     axes = top.axes_of(level)
     if steps is None:
         raise BadInput("a level needs the number of steps after which its points return, --steps")

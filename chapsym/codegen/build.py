@@ -36,7 +36,7 @@ Computed = tuple[list[str], Callable[[str], list[str]]]
 
 
 class NoKernels(NoRegister):
-    """A register without a list of kernels; the message says what would be right."""
+    """A register without a list of kernels; the message gives the remedy."""
 
 
 class Package:
@@ -76,12 +76,12 @@ class Package:
 
     @property
     def name(self) -> str:
-        """The prefix of its functions in C: the name of the register's folder."""
+        """The prefix of the package's functions in C: the name of the register's folder."""
         return "chapsym" if self.is_ours else re.sub(r"\W", "_", self.register.folder.name, flags=re.ASCII)
 
     @property
     def mend(self) -> str:
-        """The command that writes it."""
+        """The command that writes the package."""
         return "chapsym codegen" + ("" if self.is_ours else f" --register {self.register.place}")
 
     @cached_property
@@ -93,7 +93,7 @@ class Package:
             return {id: judgement_of(known[id]) for id in sorted(wanted & known.keys())}
 
     def unproved(self) -> list[str]:
-        """Why kernels cannot be made: their errors, and the carrying claims that are not proved."""
+        """The reasons why kernels cannot be made: their errors, and the carrying claims that are not proved."""
         named = {id: kernel.name for kernel in self.kernels for id in kernel.claims}
         problems = []
         for id, kernel in named.items():
@@ -261,7 +261,7 @@ def code(kernel: Kernel, chosen: tuple[str, ...] = passes.PASSES) -> str:
     body = ["# letters"] if kernel.letters else []
     for letter, function, of in passes.letters(kernel):
         given = [printer.text(of, chosen)] if function != "pi" else []
-        given += [x.name for x in kernel.inputs if x.name not in given]  # of whose numbers it is
+        given += [x.name for x in kernel.inputs if x.name not in given]  # these fix the number type
         body.append(f"{letter} = {function}({', '.join(given)})")
     body += ["# intermediate terms"] if terms else []
     body += [f"{symbol} = {printer.text(expr, chosen)}" for symbol, expr in terms]
@@ -355,7 +355,7 @@ def fingerprint(kernel: Kernel) -> list[str]:
 
 
 def text_fingerprint(kernel: Kernel, text: str) -> list[str]:
-    """The same values from the generated text, run on fractions."""
+    """The values of `fingerprint` from the generated text, run on fractions."""
     found = list[str]()
 
     def letter(function: str, name: str, *of: Fraction) -> Fraction:

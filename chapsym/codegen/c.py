@@ -131,7 +131,7 @@ class Printer:
 
     def __init__(self, printers: "Printers", function: Function) -> None:
         self.printers, self.function, self.module = printers, function, function.module
-        #: The tuples and the records that its text names, and names of tuples of which a variable asks for an element.
+        #: The tuples and records named in its text, and the names of tuples that are indexed by a variable.
         self.tuples = set[Any]()
         self.listed = {
             n.value.id
@@ -141,7 +141,7 @@ class Printer:
         self.names: dict[str, Any] = {
             a.arg: ANNOTATIONS[ast.unparse(a.annotation)] for a in function.node.args.args if a.annotation
         }
-        #: The returned type; the parameters to whose elements it writes.
+        #: The returned type; the parameters whose elements it writes.
         self.returned: Any = None
         self.written: set[str] = set()
         #: The parts of the records that have a name.
@@ -283,7 +283,7 @@ class Printer:
         raise TypeError(f"{ast.unparse(node)} has no form that is known")
 
     def one(self, node: ast.expr) -> Text:
-        """An operand of a comparison or a condition: neither a tuple nor a number of double-double."""
+        """An operand of a comparison or a condition; tuples and double-double numbers are refused."""
         of = self.expression(node)
         if isinstance(of.kind, tuple | Record) or is_loose(of.kind):
             raise TypeError(f"{ast.unparse(node)} has no order and no truth")
@@ -297,18 +297,18 @@ class Printer:
         return any(of.written and f.node in nodes for f, of in self.printers.items())
 
     def together(self, parts: Sequence[Text]) -> Text:
-        """A tuple."""
+        """A tuple expression."""
         kind = tuple(part.kind for part in parts)
         self.tuples.add(kind)
         return Text(f"({c_type(kind)}){{{', '.join(part.text for part in parts)}}}", kind)
 
     def chosen(self, given: Text, yes: Text, no: Text) -> Text:
-        """One of two values."""
+        """A conditional expression."""
         text = f"{given.at(LESS)} ? {yes.at(LESS)} : {no.at(LESS)}"
         return Text(text, joined(yes.kind, no.kind), TERNARY)
 
     def unhurried(self, node: ast.expr) -> Text:
-        """An expression that may be evaluated never or twice, so that none of its statements may come before it."""
+        """An expression that may be evaluated never or twice; raises TypeError if it needs statements before it."""
         before = self.temporaries
         text = self.expression(node)
         if self.temporaries > before:
@@ -366,7 +366,7 @@ class Printer:
         return [Text(f"{value.text}.{x}", "r") for x in ("a0", "a1")]
 
     def halves(self, value: Text, form: str) -> Text:
-        """The same operation on both halves."""
+        """An operation on both halves of pairs."""
         if value.kind not in ("p", "q"):
             return Text(form.format(value.at(UNARY)), value.kind, OPERATORS[ast.Mult][1])
         return Text(f"(t_r2){{{', '.join(form.format(x.text) for x in self.of(self.named(value)))}}}", value.kind)
@@ -411,7 +411,7 @@ class Printer:
         return known if known is not None else func.id if isinstance(func, ast.Name) else func.attr  # type: ignore[attr-defined]
 
     def call(self, func: ast.expr, arguments: Sequence[ast.expr]) -> Text:
-        """A call."""
+        """A call expression."""
         callee = self.callee(func)
         if callee == "normalised":
             return self.normalised(self.expression(func.value))  # type: ignore[attr-defined]
@@ -515,11 +515,11 @@ class Printer:
     # -- statements
 
     def note(self, name: str, kind: Any) -> None:
-        """Notes that a name has this kind, too."""
+        """Records that a name may have this kind, too."""
         self.names[name] = joined(self.names.get(name, kind), kind)
 
     def writes(self, node: ast.expr) -> None:
-        """Notes that the function writes to the array of an expression, or to the arrays of a record."""
+        """Records that the function writes to the array of an expression, or to the arrays of a record."""
         name = base_name(node)
         for part in self.made.get(name, ()):
             self.writes(part)

@@ -129,7 +129,7 @@ def completed(row: dict[str, Any], text: str, certificates: binding.Certificates
 
 
 def _given(carrier: Mapping[str, Any], certificates: binding.Certificates) -> Exact:
-    """The numbers at the points of its certificate."""
+    """The numbers at the points of a carrier's certificate."""
     points = certificates.get(f"{carrier['claim']} {carrier['certificate']}", {}).get("points", [])
     return {sp.Symbol(x): sp.Rational(v) for point in points for x, v in point.items() if isinstance(v, int | str)}
 

@@ -76,7 +76,7 @@ class Kernel:
 
     @property
     def claims(self) -> tuple[str, ...]:
-        """The claims whose statements carry it."""
+        """The claims whose statements carry the kernel."""
         return tuple(dict.fromkeys(id for carrier in self.carriers for id in carrier.claims))
 
     @property
@@ -87,7 +87,7 @@ class Kernel:
         return (len(self.outputs),) if len(self.outputs) > 1 else ()
 
     def problem(self) -> str | None:
-        """The reason why it cannot be written, in one sentence, or None."""
+        """The reason why the kernel cannot be written, in one sentence, or None."""
         names, groups = [symbol.name for symbol in self.inputs], [group for group, _ in self.groups]
         for name in (self.name, *names, *self.outputs, *groups, *map(str, self.letters)):
             is_name = name.isidentifier() and name.isascii() and not name.startswith(("__", "M_"))
@@ -139,7 +139,7 @@ class Kernel:
 
     @cached_property
     def steps(self) -> tuple[Steps, Sequence[sp.Expr]]:
-        """The same values in the steps of the derivation, if it has any; derived once."""
+        """The expressions in the steps of the derivation, if it has steps; derived once."""
         return self.factored() if self.factored else ([], self.expressions)
 
     @property

@@ -28,7 +28,7 @@ DEEPEST = 256
 class Rounded:
     """An exact number of a kernel, with its terms and its number of successive roundings.
 
-    steep: the least ratio of a divisor on the way to its terms; 0 if something may over- or underflow.
+    steep: the least ratio of a divisor to its terms so far; 0 if something may over- or underflow.
     """
 
     value: Fraction
@@ -97,7 +97,7 @@ def _number(x: Number) -> Rounded:
 
 
 def _is_power_of_two(x: Fraction) -> bool:
-    """Whether it is 2^k, k ≥ 0 or < 0: for integers of a text and their quotients, as arguments are not known."""
+    """Whether x = ±2^k, k of any sign: for constants of a text, as arguments are unknown."""
     n = abs(x.numerator) * x.denominator
     return n > 0 and n & (n - 1) == 0
 

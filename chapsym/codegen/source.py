@@ -56,7 +56,7 @@ class Function:
 
     @property
     def parameters(self) -> list[str]:
-        """The names of its parameters."""
+        """The names of the parameters."""
         return [argument.arg for argument in self.node.args.args]
 
     @property

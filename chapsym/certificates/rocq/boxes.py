@@ -24,7 +24,7 @@ class Box:
     radius: Fraction
 
     def end(self, sign: int) -> list[Fraction]:
-        """The least or the greatest entries."""
+        """The vector of the least or the greatest entries."""
         return [x + sign * self.radius for x in self.centre]
 
 

@@ -133,7 +133,7 @@ Print Assumptions {self.name}.
         )
 
     def _rounded(self, steps: Sequence[Document], found: Sequence[Step]) -> list[tuple[str, str]]:
-        """That the numbers of the file are right, with its proof; raises Rejected if the boxes are too wide."""
+        """Statements that the numbers of the file are correctly rounded, with proofs; else raises Rejected."""
         facts = []
         for k, (given, step) in enumerate(zip(steps, found, strict=True), 1):
             for key, of, box in (("u", f"(u {k}%nat)", step.u), ("gamma", f"(g {k}%nat)", step.after)):
@@ -144,7 +144,7 @@ Print Assumptions {self.name}.
         return facts
 
     def _turns(self, gammas: Sequence[Vector], displacement: str) -> list[tuple[str, str]]:
-        """The direction of the steps, the side of the start on which each ends, and the distance of the last one."""
+        """Statements with proofs: the direction of the steps, the side on which each ends, the last displacement."""
         circle, (a, b, _), q = self.walk.circle, self.axes, self.data["steps"]
 
         def sine(v: int, w: int) -> str:
