@@ -37,7 +37,7 @@ class Theorem:
 
     @property
     def given(self) -> tuple[str, ...]:
-        """The statements that its proof may use."""
+        """The statements that the proof may use."""
         return (*self.quantifiers, *self.hypotheses)
 
 
@@ -94,7 +94,7 @@ class Reading:
 
 
 class Gap(Exception):
-    """Something does not follow; the message names it."""
+    """A statement does not follow; the message names it."""
 
 
 def there_is(thing: str) -> str:
@@ -146,7 +146,7 @@ def sentences(texts: Iterable[str]) -> int:
 
 
 def gaps(theorem: Theorem, steps: Sequence[Step], known: Collection[str]) -> list[str]:
-    """Why the steps do not prove a theorem from known statements; empty if they do and nothing is unused."""
+    """The reasons why steps do not prove a theorem from known statements; empty if they do and none is unused."""
     found, have, used = [], {*known, *theorem.given}, set(theorem.conclusions)
     for step in steps:
         found += [f"«{step.gives}» needs «{need}», which nothing gives" for need in step.needs if need not in have]

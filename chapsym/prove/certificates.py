@@ -83,7 +83,7 @@ def _sealed(data: Data) -> Data:
 
 
 def _glossary(printed: str, proof: Proof) -> list[list[Any]]:
-    """The symbols of the formulas, and the vanishing expressions, as data."""
+    """The glossary as data: the symbols of the formulas, and the vanishing expressions."""
     whole = []
     for symbol, (value, what) in proof.glossary.items():
         try:
@@ -432,12 +432,12 @@ def _sides(equation: Equation) -> Data:
 
 
 def _letters_of(algebra: object) -> Any:
-    """The algebra, or that of its traces."""
+    """The algebra of letters: the algebra itself, or the algebra of its traces."""
     return algebra.algebra if isinstance(algebra, Traces) else algebra
 
 
 def _alike(one: object, other: WordAlgebra) -> bool:
-    """Whether an algebra is another one, or that of its traces."""
+    """Whether two algebras are equal, or one is that of the traces of the other."""
     one = _letters_of(one)
     return isinstance(one, WordAlgebra) and bool((one.transposes, one.rules) == (other.transposes, other.rules))
 
@@ -456,7 +456,7 @@ _OPERATIONS = {"<": "<", "<=": "<=", "==": "=", "!=": "!="}
 
 
 def _entry(x: Value) -> Tree:
-    """A number or a matrix of a point."""
+    """A number or a matrix of a point, as data."""
     return [[number(entry) for entry in row] for row in x.tolist()] if isinstance(x, sp.MatrixBase) else number(x)
 
 

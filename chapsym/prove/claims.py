@@ -20,7 +20,7 @@ from .statements import Rest
 from .trees import Data
 from .witness import Examples
 
-#: The fields of a record besides the verdict, in order: those of a `Proof`, and those of its claim.
+#: The fields of a record besides the verdict, in order: the fields of a `Proof`, and those of its claim.
 EVIDENCE = (
     "title", "slip", "hypotheses", "inferences", "condition", "reason", "open_in_paper", "tried", "question", "answer",
     "readings", "settled", "theorems", "certificates", "measured", "conjectures", "derivation", "checks", "controls",
@@ -54,7 +54,7 @@ class Claim:
 
     @property
     def title(self) -> str:
-        """The first line of the docstring of the proof; an optimizing interpreter drops it, then from the source."""
+        """The first line of the docstring of the proof; from the source if the interpreter drops docstrings."""
         return str(self.prove.__doc__ or _docstring(self.prove)).strip().partition("\n")[0]
 
     @property
@@ -171,7 +171,7 @@ class Judgement:
 
 
 class TwoProofs(ValueError):
-    """An id that another proof already has; the message has its place."""
+    """Another proof already has the id; the message has its place."""
 
     def __init__(self, id: str, other: str) -> None:
         super().__init__(f"two proofs judge the claim {id}")
@@ -251,7 +251,7 @@ def once() -> Iterator[None]:
 
 
 def judgement_of(claim: Claim) -> Judgement:
-    """The judgement of a claim, with its certificate; within `once` that of before."""
+    """The judgement of a claim, with its certificate; within `once`, the earlier judgement, if any."""
     if _KNOWN is None:
         return claim.judge().certified()
     if claim not in _KNOWN:

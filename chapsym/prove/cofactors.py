@@ -31,7 +31,7 @@ class Element:
         return tuple(int(e) for e in self.polynomial.monoms()[0])
 
     def less(self, factor: fmpq_mpoly, other: "Element") -> "Element":
-        """self - factor · other."""
+        """The element self - factor · other."""
         cofactors = tuple(a - factor * b for a, b in zip(self.cofactors, other.cofactors, strict=True))
         return Element(self.polynomial - factor * other.polynomial, cofactors)
 
@@ -64,7 +64,7 @@ class Ideal:
                 return None
 
     def _extend(self, new: Element) -> None:
-        """Adds an element and its pairs, but for leading monomials without a common variable (S-polynomials 0)."""
+        """Adds an element and its pairs, except if the leading monomials have no common variable (S-polynomial 0)."""
         self._pairs += [(old, new) for old in self._basis if any(map(min, old.lead, new.lead))]
         self._basis.append(new)
 
@@ -109,7 +109,7 @@ def ideal(of: Quotients) -> Ideal:
 
 
 def terms(of: Quotient) -> dict[Monomial, int]:
-    """The terms of the numerator that the checker forms."""
+    """The terms of the numerator that the checker computes."""
     size = len(of.numerator.ring.variables)
     return {tuple(m >> FIELD * i & 0xFFFF for i in range(size)): c for m, c in of.numerator.terms.items()}
 

@@ -34,7 +34,7 @@ class Elimination(NamedTuple):
     eliminant: fmpq_poly
 
     def vanishes_at_none(self, form: Form) -> bool:
-        """Whether no solution, real or complex, is a zero of the form."""
+        """Whether the form vanishes at no solution, real or complex."""
         return bool(self.eliminant.gcd(self.on_curve(form)).degree() == 0)
 
     def on_curve(self, form: Form) -> fmpq_poly:
@@ -167,7 +167,7 @@ def _linear(combination: Sequence[Mapping[Monomial, int]], forms: Sequence[fmpq_
 
 
 def _cofactors(rows: Sequence[Sequence[fmpq_poly]]) -> list[fmpq_poly]:
-    """The cofactors of a row below these, up to one sign."""
+    """The cofactors of a row added below these rows, up to a common sign."""
     if not rows:
         return [fmpq_poly([1])]
     found = []

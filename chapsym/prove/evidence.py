@@ -1,4 +1,4 @@
-"""The evidence for a verdict, and the rule that turns evidence into one.
+"""The evidence for a verdict, and the rule that computes the verdict from it.
 
 A proof is a function that receives a `Proof`, states the printed formulas, lemmas, controls and, if the printed form
 fails, its correction and an exact counterexample.  The verdict is computed from the results of these checks; no proof
@@ -300,7 +300,7 @@ class Proof:
         )
 
     def define(self, reason: str) -> None:
-        """States that there is nothing to decide: a definition, with the reason why it is one."""
+        """States that the claim is a definition, with the reason: there is nothing to decide."""
         self.reason = str(reason)
 
     def leave_open(self, *tried: str) -> None:
@@ -338,7 +338,7 @@ class Proof:
         self._since = len(self.said), len(self.decided)
 
     def ask(self, words: str, where: str) -> None:
-        """Adds a question of the paper, word for word, and its place."""
+        """Adds a question of the paper, literally, and its place."""
         self.question = {"words": words, "where": where}
 
     def settle(self, readings: Sequence[Reading]) -> None:
@@ -356,7 +356,7 @@ class Proof:
             self.readings.append(argument.row(one, made))
 
     def gaps(self, part: str) -> list[str]:
-        """Why the steps do not prove the theorem of a part; empty if they do."""
+        """The reasons why the steps do not prove the theorem of a part; empty if they do."""
         decided = {statement.text for _, statement, holds in self.decided if holds}
         files = {one["file"] for one in self.certificates if one["accepted"]}
         return argument.gaps(self.stated[part], self.steps[part], {*self.uses, *decided, *files})
@@ -411,7 +411,7 @@ class Proof:
         return Verdict.CONDITIONAL if self.condition else Verdict.CORRECTED
 
     def _look_at_witnesses(self) -> None:
-        """Every true statement must be true at an exact point of its algebra; a false one must be refuted at one."""
+        """Tests that every true statement is true at an exact point of its algebra, and every false one is refuted."""
         true = _equations([pair for pair in [*self._printed, *self._corrected] if pair[1]])
         found, wrong = witness.look(true, self.assumed, self.examples)
         if not found and not self.witnesses:

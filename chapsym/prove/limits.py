@@ -17,7 +17,7 @@ class Limit(Equation):
     along: sp.Symbol = sp.S.Zero
 
     def bound_by(self, assumed: Sequence[Comparison]) -> list[str]:
-        """The hypotheses that keep the variable from tending to 0: all that contain it, except for its sign."""
+        """The hypotheses that may prevent the variable from tending to 0: all that contain it, except for its sign."""
         return [
             h.text
             for h in assumed
@@ -91,9 +91,9 @@ def tends(text: str, expression: sp.Expr, along: sp.Symbol, order: int, to: Side
 
 
 def _rest(expression: sp.Expr, along: sp.Symbol, order: int) -> tuple[sp.Expr, sp.Poly]:
-    """The numerator of the rest after the first terms, over along^(order + 1), and the denominator.
+    """The numerator of the remainder after the first Taylor terms, divided by along^(order + 1), and the denominator.
 
-    The first terms are those of Taylor's series; the last of them is part of the statement.
+    The last of these terms is part of the statement.
     """
     try:
         above, below = (sp.Poly(part, along) for part in sp.fraction(sp.cancel(expression)))

@@ -20,7 +20,7 @@ LIMIT = 10_000_000
 
 
 class TooLarge(ArithmeticError):
-    """An expression grows too large, as with a wrong definition, after which nothing cancels."""
+    """An expression becomes too large, for example by a wrong definition, after which nothing cancels."""
 
 
 #: The origin of a rational function: a parameter, an integer, an operation with its operands (the last one of ^ is a
@@ -87,7 +87,7 @@ class Ratio(Arithmetic):
         return Ratio._lowest(result.numerator, result.denominator, ("^", self, power) if power else 1)
 
     def lowest(self) -> "Ratio":
-        """The same without its origin: it is written in lowest terms."""
+        """The function without its origin: it is exported in lowest terms."""
         return Ratio._lowest(self.numerator, self.denominator, None)
 
     @classmethod
@@ -103,7 +103,7 @@ class Ratio(Arithmetic):
         return Ratio._lowest(flipped.numerator, flipped.denominator, ("^", self, -1))
 
     def _coerced(self, other: object) -> "Ratio | None":
-        """The other operand as a rational function of the same parameters; None if it is not an integer or one."""
+        """The other operand as a rational function of the same parameters; None if this is impossible."""
         if isinstance(other, Ratio):
             return other
         return self._one(other) if isinstance(other, int) else None

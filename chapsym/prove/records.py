@@ -32,13 +32,13 @@ _BESIDES = {"chapsym.prove.runner", "chapsym.prove.records", "chapsym.prove.regi
 
 
 class BrokenRecords(ValueError):
-    """The file is no readable file of records."""
+    """The file is not a readable file of records."""
 
 
 def default_path(register: Register = PROOFS) -> Path:
-    """Where the records are kept unless a file is named: CHAPSYM_RECORDS, or else the user's cache.
+    """The default file of records: CHAPSYM_RECORDS, or else a file in the user's cache.
 
-    Those of another register than chapsym's are next to it, in a file of their own.
+    Records of other registers than chapsym's are in separate files next to it.
     """
     named = os.environ.get("CHAPSYM_RECORDS")
     path = Path(named) if named else platformdirs.user_cache_path("chapsym") / "verdicts.jsonl"
@@ -65,7 +65,7 @@ def _of_module(module: str) -> str:
 def read(path: Path) -> dict[str, Data]:
     """The records of a file, by id; none if there is no file.  An unfinished last line is ignored.
 
-    Raises BrokenRecords, with the line that is no record, if it is not such a file.
+    Raises BrokenRecords, with the first invalid line, if it is not such a file.
     """
     records = {}
     if path.exists() and not path.is_dir() and not path.is_file():
@@ -97,9 +97,9 @@ def _parsed(line: str) -> Data | None:
 
 
 def update(path: Path, records: Iterable[Data], claims: dict[str, Claim]) -> None:
-    """Replaces old records by new ones, in the order of the claims; records of unknown claims go.
+    """Replaces old records by new ones, in the order of the claims; records of unknown claims are removed.
 
-    The file is written whole; raises CannotWrite if it cannot be.  Of two processes both keep what they have.
+    The file is written atomically; raises CannotWrite if this fails.  Simultaneous updates keep the records of both.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -112,7 +112,7 @@ def update(path: Path, records: Iterable[Data], claims: dict[str, Claim]) -> Non
 
 
 def append(path: Path, record: Data) -> None:
-    """Adds a whole record, or nothing, to a file of `update`; the last record of a claim counts."""
+    """Adds a complete record, or nothing, to a file of `update`; the last record of a claim counts."""
     line = files.encoded(json.dumps(record, ensure_ascii=False) + "\n")
     with files.alone(path.parent), path.open("ab", buffering=0) as stream:
         before = os.fstat(stream.fileno()).st_size

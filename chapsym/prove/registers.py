@@ -36,7 +36,7 @@ class BrokenScript(ImportError):
 
 
 class NoRegister(ValueError):
-    """A place without claims; the message says what would be right."""
+    """A place without claims; the message gives the remedy."""
 
 
 def _reading(
@@ -159,7 +159,7 @@ class Register:
 
     @property
     def key(self) -> str:
-        """A short name in letters that distinguishes this place from others."""
+        """A short name that distinguishes this place from others."""
         path = self._path()
         digest = hashlib.sha256(str(path or self.place).encode()).hexdigest()[:8]
         return re.sub(r"\W", "_", path.stem if path else self.place) + f"_{digest}"
@@ -307,7 +307,7 @@ def _taken(name: str, id: str, other: str) -> BrokenScript:
 
 
 def raised(error: BaseException) -> str:
-    """An error of code that is not ours, as one line."""
+    """An error of foreign code, as one line."""
     try:
         words = " ".join(str(error).split())
     except Exception:  # which the error of an error may be

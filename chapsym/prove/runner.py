@@ -46,11 +46,11 @@ def _record(judgement: Judgement, register: Register) -> Data:
 def judge(claim: Claim) -> Judgement:
     """Judges a claim; an exception leaves it open, with its place, in the file of the proof if possible."""
     try:
-        with contextlib.redirect_stdout(sys.stderr):  # the output of a proof is no result
+        with contextlib.redirect_stdout(sys.stderr):  # the output of a proof is not a result
             return judgement_of(claim)
     except KeyboardInterrupt:
         raise
-    except BaseException as error:  # a proof that exits is no proof
+    except BaseException as error:  # a proof that exits has failed
         frames = traceback.extract_tb(error.__traceback__)
         place = ([frame for frame in frames if frame.filename == sources.file(claim.prove.__module__)] or frames)[-1]
         reason = f"the proof raised {raised(error)} ({Path(place.filename).name}:{place.lineno})"

@@ -34,7 +34,7 @@ def counterexample(statement: Equation, *assumed: Relational, seed: int = 0, tri
     Raises
     ------
     ArithmeticError
-        If none is found, which does not prove that there is none.
+        If no point is found, which does not prove that none exists.
 
     Examples
     --------

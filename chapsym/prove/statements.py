@@ -124,9 +124,9 @@ def equations(usual: Algebra) -> Callable[..., Equation]:
 
 
 def in_field(text: str, left: Sequence[sp.Expr], right: Sequence[sp.Expr], relation: sp.Expr) -> Equation:
-    """left = right at a root of a polynomial in one symbol, which may have no rational one.
+    """left = right at a root of a polynomial in one symbol, which may have no rational root.
 
-    An identity for every number in its place: left = right + (a multiple of the polynomial).
+    It is decided as an identity for all values of the symbol: left = right + (a multiple of the polynomial).
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def _entries(side: Side) -> list[sp.Expr]:
 
 @dataclass(frozen=True)
 class Fact:
-    """A decided statement that is no equation: a count, an order, a strict inequality of rational numbers.
+    """A decided statement other than an equation: a count, an order, a strict inequality of rational numbers.
 
     Parameters
     ----------
@@ -196,7 +196,7 @@ class Fact:
 
 @dataclass(frozen=True)
 class Rest:
-    """The statement that another certificate is accepted, by its digest, after the id for that of a claim."""
+    """The statement that another certificate is accepted, named by its digest; for a claim, by id and digest."""
 
     text: str
     certificate: str

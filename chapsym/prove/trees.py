@@ -43,7 +43,7 @@ def number(x: int | fmpq | sp.Rational) -> int | str:
 
 
 def shared(wholes: Sequence[Ratio | int]) -> tuple[list[list[Tree]], list[Tree]]:
-    """The trees of what was made of parameters: definitions of what occurs more than once, and the wholes by these.
+    """The trees of functions of parameters, with definitions for subexpressions that occur more than once.
 
     Zeros and ones, of unit matrices, are left out.
     """
@@ -75,7 +75,7 @@ def shared(wholes: Sequence[Ratio | int]) -> tuple[list[list[Tree]], list[Tree]]
 
 
 def _count(of: Ratio | int, uses: "Counter[int]") -> None:
-    """The number of occurrences of each part; the parts of a named part are counted once."""
+    """The number of occurrences of each part; parts of a repeated part are counted once."""
     if isinstance(of, Ratio) and not isinstance(of.made, str | int):
         uses[id(of)] += 1
         if uses[id(of)] == 1 and of.made:

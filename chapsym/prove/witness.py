@@ -65,9 +65,9 @@ Looked = tuple[list[Data], list[str]]
 
 
 def look(equations: Sequence[Equation], assumed: Sequence[Comparison], examples: Examples) -> Looked:
-    """Evaluates the equations at every case; returns the witnesses found and the statements that fail there.
+    """Evaluates the equations in every case; returns the witnesses found and the statements that fail there.
 
-    A statement with a zero denominator in a case, or off a hypothesis, is not made there, and does not count.
+    A statement is skipped in cases with a zero denominator or a violated hypothesis.
     """
     found: dict[str, Data] = {}
     wrong = []
@@ -85,7 +85,7 @@ def look(equations: Sequence[Equation], assumed: Sequence[Comparison], examples:
 
 
 def allowed(point: Values, assumed: Sequence[Comparison]) -> bool:
-    """Whether the hypotheses hold whose symbols all have values."""
+    """Whether all hypotheses hold whose symbols have values."""
     return all(h.true_at(point) for h in assumed if h.symbols <= point.keys())
 
 

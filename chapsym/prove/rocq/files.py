@@ -1,4 +1,4 @@
-"""The files of a folder for Rocq: the libraries, those of each claim, and a Makefile."""
+"""The files of a folder for Rocq: the libraries, the files of each claim, and a Makefile."""
 
 from collections import Counter
 from collections.abc import Iterable
@@ -71,7 +71,7 @@ def write(certificates: Iterable[Data], folder: Path) -> Written:
 
 
 def _axioms(files: dict[str, list[str]]) -> str:
-    """A file by which Rocq prints the axioms of the theorems of some files, once for all, which is faster."""
+    """A file with which Rocq prints the axioms of all theorems of some files together, which is faster."""
     used = "".join(f"  let _ := {name}.{theorem} in\n" for name, theorems in files.items() for theorem in theorems)
     required = f"Require {' '.join(files)}.\n" if files else ""
     return f"{required}Definition theorems :=\n{used}  tt.\nPrint Assumptions theorems.\n"

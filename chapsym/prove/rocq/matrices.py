@@ -65,7 +65,7 @@ class Point:
 
 
 def quotient(x: str | int) -> str:
-    """A rational number."""
+    """A rational number, for Rocq."""
     number = Fraction(x)
     return f"({number.numerator} # {number.denominator})"
 

@@ -52,7 +52,7 @@ def data(tree: Tree, names: Variables) -> str:
 
 
 def equation(left: Tree, right: Tree, names: Variables) -> str:
-    """left = right."""
+    """The equation left = right, for Rocq."""
     return f"{written(left, names)} = {written(right, names)} :> Field"
 
 
@@ -93,7 +93,7 @@ def conjunction(parts: list[str]) -> str:
 
 
 def listed(parts: Iterable[str]) -> str:
-    """A list, a line for each."""
+    """A list, with a line for each item."""
     return "[" + ";\n    ".join(parts) + "]"
 
 
