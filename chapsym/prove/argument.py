@@ -161,7 +161,7 @@ def gaps(theorem: Theorem, steps: Sequence[Step], known: Collection[str]) -> lis
 
 
 def assembled(reading: Reading, theorems: Mapping[str, Theorem]) -> Theorem:
-    """The answer to a reading, with the hypotheses that no earlier lemma gives; raises Gap if there is none."""
+    """The theorem that answers a reading, with the hypotheses that no lemma gives; raises Gap if there is none."""
     quantifiers: dict[str, None] = {}
     hypotheses: dict[str, None] = {}
     given: dict[str, str] = {}

@@ -411,7 +411,7 @@ class Proof:
         return Verdict.CONDITIONAL if self.condition else Verdict.CORRECTED
 
     def _look_at_witnesses(self) -> None:
-        """Tests that every true statement is true at an exact point of its algebra, and every false one is refuted."""
+        """Records a problem if a true statement fails at an exact point, or a witness or counterexample is missing."""
         true = _equations([pair for pair in [*self._printed, *self._corrected] if pair[1]])
         found, wrong = witness.look(true, self.assumed, self.examples)
         if not found and not self.witnesses:

@@ -15,7 +15,7 @@ from .vectors import square
 
 #: The usable fraction of the inequality: its rounding errors are far below the margin.
 INSIDE = 0.98
-#: c minimises R(s) at this s.
+#: c minimises |R(s)| at this s.
 LEVEL = 0.75
 #: The most rounds before the continuation, from the guess by earlier steps.
 MOST_ROUNDS = 6
