@@ -232,7 +232,7 @@ def without_rolling(p: Proof) -> None:
     uses=["modified-field"],
 )
 def modified_measure(p: Proof) -> None:
-    """The divergence of the field of w with respect to the density of the continuous ball; 0 for w = ω."""
+    """The divergence of the field of w against the density of the continuous ball; 0 for w = ω."""
     p.assume("|γ| = 1; L_j is the field K̇ = K × e_j, γ̇ = γ × e_j, so that the field of w is Σ w_j L_j")
     p.state(Theorem((), (), (KEPT,)))
     fields = [(K.cross(e), gamma.cross(e)) for e in sp.eye(3).columnspace()]

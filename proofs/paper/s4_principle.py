@@ -270,7 +270,7 @@ def euler_poincare(p: Proof) -> None:
 
 @claim("4.8", r"\vec F^k = R_k^T\vec f^k,\ \gamma_k = R_k^T\vec\gamma", uses=["4.7"])
 def body_vectors(p: Proof) -> None:
-    """The names of the reaction and the vertical in the body frame."""
+    """The names of the reaction and the vertical in the frame of the body."""
     p.reads(step_symbols() | {r"\vec f^k": (f, "the reaction (4.3)"), r"\vec F^k": (RT * f, "R_kᵀf^k, a name")})
     p.define("F^k and γ_k are names for f^k and γ⃗ seen from the body; that (4.7) uses them so is part of its proof")
     carried = RT * ALGEBRA.wedge(f, gamma) * R
