@@ -185,7 +185,7 @@ def changes(name: str, at: dict) -> Comparison:
     uses=["gyrostat-map", "gyrostat-integrals", "energy-without-rolling"],
 )
 def energy(p: Proof) -> None:
-    """Where the ball's map keeps the energy, the gyrostat's does not, but for D = 0 and a symmetric body."""
+    """The gyrostat's map does not keep the energy where the ball's does, except for D = 0 and a symmetric body."""
     p.assume("H of gyrostat-integrals, in 𝒦 and a of a step; J_i + J_j > 0, D ≥ 0", *three.MOMENTS)
     start, end = (x.subs(three.D, 0) for x in energies())
     ring = Quotient((q0, *q, *three.gamma, *rotor, J1, J2, J3), [three.UNIT_QUATERNION, three.UNIT_VERTICAL])
@@ -236,7 +236,7 @@ def volumes() -> tuple[sp.Expr, sp.Expr]:
     uses=["gyrostat-map", "gyrostat-measure"],
 )
 def measure(p: Proof) -> None:
-    """With D = 0 the gyrostat's map keeps the volume; with equal moments and rolling the rotor breaks it."""
+    """With D = 0 the gyrostat's map keeps the volume; with equal moments, D > 0 and a rotor it does not."""
     p.assume("∂𝒦/∂q is regular: the step is a branch near (𝒦, γ)")
     p.say("In w, which turns q to q∘(1, w), and γ: (𝒦, γ) has the derivative X = (𝒦_w, 𝒦_γ; 0, 1), and (Ωᵀ𝒦, Ωᵀγ) has")
     p.say("Y = ((Ωᵀ𝒦)_w, Ωᵀ𝒦_γ; (Ωᵀγ)_w, Ωᵀ); the step has det Y/det X, det X = det 𝒦_w and, as det Ω = 1,")

@@ -1,4 +1,4 @@
-"""What a straight line of float64 is off by: the lemma by which the roundings of a kernel are counted."""
+"""The rounding error of straight-line code in float64: the lemma by which the roundings of a kernel are counted."""
 
 import sympy as sp
 

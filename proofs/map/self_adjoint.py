@@ -1,4 +1,4 @@
-"""What compositions of the map and its reversal rest on: swap the ends of a step, reverse ε, and it is undone.
+"""Self-adjointness, on which compositions and reversal rest: with its ends swapped and ε reversed a step is undone.
 
 The paper does not state this.  It follows from the symmetry of the discrete Lagrangian and the discrete constraint
 under exchange of the ends of a step.

@@ -34,7 +34,7 @@ def inertial(value: sp.Matrix) -> sp.Matrix:
     uses=("5.2", "gibbs"),
 )
 def stable_momentum(p: Proof) -> None:
-    """𝒦 = B(γ)q + ... by two vector products: what rounds x × γ does not reach the vertical part, which has no D."""
+    """𝒦 = B(γ)q + ... by two vector products: the rounding of x × γ does not reach the vertical part, which has no D."""
     B = inertial(three.contact_inertia())
     p.printed(equal("B(γ)x = Ix + γ × D(x × γ)", B * x, INERTIA * x + gamma.cross(D * x.cross(gamma))))
     p.say("Let e be what rounding makes of x × γ: then D e moves the result across γ only,")
@@ -63,7 +63,7 @@ def stable_momentum(p: Proof) -> None:
     uses=("gibbs-newton",),
 )
 def stable_determinant(p: Proof) -> None:
-    """The determinants of the step without D³, for ∂G/∂u and for the tangent Jacobian: the vertical sees no D."""
+    """The determinants of the step without D³, for ∂G/∂u and for the tangent Jacobian: the vertical direction has no D."""
     rolling = NORM * sp.eye(3) - gamma * gamma.T
     A = M + D * rolling
     adjugate = A.adjugate()

@@ -1,4 +1,4 @@
-"""What the step commutes with, and what turns it back: the symmetries of the principal axes, which the paper does not state."""
+"""The symmetries and reversors of the step, from the principal axes; the paper does not state them."""
 
 import sympy as sp
 

@@ -1,4 +1,4 @@
-"""What chapsym's own reduced map rests on: the closed rotation, its scalar equations, and the exact top."""
+"""The basis of chapsym's reduced map: the closed rotation, its scalar equations, and the exact top."""
 
 import sympy as sp
 

@@ -1,4 +1,4 @@
-"""What X₃ does to the energy along the separatrix beside vertical momentum, in closed form: not 0, for every ball."""
+"""The change of the energy by X₃ along the separatrix near vertical momentum, in closed form: not 0, for every ball."""
 
 from dataclasses import replace
 

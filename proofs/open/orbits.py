@@ -64,7 +64,7 @@ def turning(v: sp.Matrix) -> sp.Matrix:
     uses=("gibbs", "gibbs-rotation", "self-adjoint"),
 )
 def stepdeterminant(p: Proof) -> None:
-    """How a step changes volumes: the quotient of two Jacobians, that of the step back and that of the step."""
+    """How a step changes volumes: the quotient of the Jacobians of the step back and of the step."""
     p.assume("𝒦 and γ not parallel, ∂G/∂u regular (below the bound of small-branch it is)")
     p.say(
         "M: |γ| = 1, |𝒦| and ⟨𝒦, γ⟩ fixed. It is the set of all (R𝒦, Rγ), R in SO(3), with the tangent vectors",
@@ -276,7 +276,7 @@ def by_formula(ball: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
     uses=("step-determinant", "reversible", "small-branch"),
 )
 def periodic_orbits(p: Proof) -> None:
-    """What one periodic orbit excludes, on its level and on all levels and for all balls near by."""
+    """The measures and integrals that one periodic orbit excludes, on its level, on all levels and for all balls near by."""
     p.say(
         "ϱ(Φ^q x) det DΦ^q = ϱ(x) at Φ^q(x) = x, ϱ(x) > 0, gives det W = 1; so it is for M and for the phase space.",
         "F∘Φ^q = F, F of class C¹ near the orbit: dF W = dF on T_xM, so dF = 0 there if 1 is no eigenvalue of W.  As then",

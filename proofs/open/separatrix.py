@@ -195,7 +195,7 @@ def without_the_mean(sign: int = -1) -> Equation:
     uses=("separatrix-map", "chord", "locked-circle", "small-branch", "reversible", "symmetries"),
 )
 def separatrix_limit(p: Proof) -> None:
-    """Beside the separatrix q steps displace to the side that Δ less a constant says: what orbits on it miss between their ends."""
+    """Near the separatrix the displacement by q steps has the sign of Δ less a constant; Δ compares the ends of an orbit on it."""
     p.assume("I₁ > I₂ > I₃ > 0, D > 0, 0 < h below the bound of small-branch; h < 0 is the inverse map")
     p.state(Theorem((), (terms.THREE, terms.SMALL_BRANCH, terms.NOT_CONSTANT), (terms.BOTH_SIGNS,)))
     p.say(

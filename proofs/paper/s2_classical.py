@@ -248,7 +248,7 @@ def vertical_symbols() -> Symbols:
     ["2.4"],
 )
 def vertical_momentum(p: Proof) -> None:
-    """What K = hγ makes of ω."""
+    """ω for K = hγ."""
     height, _ = vertical_values()
     vector = at_vertical(momentum())
     power = vector.dot(at_vertical(omega))
