@@ -121,7 +121,7 @@ class Algebra:
             following = []
             for (exponents, word), c in pending.terms.items():
                 if not word:
-                    raise Rejected("the trace of a number depends on what it stands for")
+                    raise Rejected("the trace of a number depends on the size of the matrices")
                 if len(word) > 1 and (word[-1], word[0]) in self.rules:
                     following.append(self.scalar(exponents, c) * self.word(word[-1], *word[:-1]))
                 else:

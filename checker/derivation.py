@@ -98,7 +98,7 @@ def values(data: Sequence[dict[str, Any]], algebras: Sequence[Algebra | Quotient
             case _, Defined(value=Words()) as of, Algebra() if operation not in ("matrix", "entry"):
                 made = _made(one, of, algebra, found, where)
             case _:
-                raise Rejected(f"{where} is made from what is not there, or in an algebra of another kind")
+                raise Rejected(f"{where} is made from an undefined name, or in an algebra of another kind")
         if "value" in one and not algebra.is_value(one["value"], made):
             raise Rejected(f"{where} has another value than it says")
         found[one["name"]] = Defined(made, algebra, one.get("value"))
@@ -162,7 +162,7 @@ def _made(one: dict[str, Any], of: Defined, algebra: Algebra, found: Mapping[str
     if operation == "replaced":
         images = _places(by, of.algebra.names, algebra, found, where)
         if nothing := sorted(name for name in images.keys() & of.algebra.divisors if not images[name].terms):
-            raise Rejected(f"{where} puts 0 in the place of {nothing[0]}, by which something is divided")
+            raise Rejected(f"{where} replaces {nothing[0]}, by which something is divided, by 0")
         images = {name: word for name, word in algebra.names.items() if name in of.algebra.names} | images
         if any(images[name].letters() for name in of.algebra.parameters if name in images):
             raise Rejected(f"{where} has a matrix in the place of a number")

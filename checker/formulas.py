@@ -83,7 +83,7 @@ def relations(part: Sequence[str], reader: "Reader") -> list[tuple[str, Value, V
     sides = _split(part, RELATIONS)
     values = [reader.read(side) for side in sides]
     if any(token in LIMITS and tuple(side) not in reader.values for token, side in zip(between, sides, strict=False)):
-        raise NotRead("what tends to something is no symbol")
+        raise NotRead("a limit is taken of something that is no symbol")
     pairs = zip(kinds, pairwise(values), strict=True)
     return [(kind.replace(">", "<"), *(pair[::-1] if ">" in kind else pair)) for kind, pair in pairs]
 

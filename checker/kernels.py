@@ -58,7 +58,7 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
     if not isinstance(row, dict) or not {"inputs", "carriers", "text_sha256"} <= row.keys():
         raise Rejected(f"{where} has no inputs, carriers and hash of its text")
     if hashlib.sha256(written.encode()).hexdigest() != row["text_sha256"]:
-        raise Rejected(f"{where} has another text than the hash is of")
+        raise Rejected(f"{where} has a text with another hash")
     one = carried(row, written, certificates, where)
     for i, each in enumerate(differences(one, where)):
         carrier = row["carriers"][each.carrier]
@@ -284,7 +284,7 @@ def entries(
     steps = list(carrier["steps"])
     kinds = [step for step, _ in steps]
     if adjoined and "along" in kinds and "at" in kinds[kinds.index("along") :]:
-        raise Rejected(f"{where} puts in expressions after derivatives, which would rename what its letters stand for")
+        raise Rejected(f"{where} puts in expressions after derivatives, which would change the meaning of its letters")
     if steps and steps[0][0] == "at":  # substituted while reading, which saves a second pass
         names |= {name: value(tree, ring.names(), ring.number) for name, tree in steps.pop(0)[1]}
     for name, tree in (*derivation.valued(data["derivation"]).items(), *statement.get("definitions", [])):
@@ -309,7 +309,7 @@ def entries(
             found, relations, divisors = ([placed(x, images[0]) for x in group] for group in whole)
         else:
             if any(rate(relation, image).numerator.terms for relation in relations for image in images):
-                raise Rejected(f"{where} is differentiated along what leaves a relation of «{statement['text']}»")
+                raise Rejected(f"{where} is differentiated along rates that break a relation of «{statement['text']}»")
             letters.check_moves(adjoined, images, where)
             found = [rate(x, image) for x in found for image in images]
         divisors += _divisors(ring)

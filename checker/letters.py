@@ -39,7 +39,7 @@ def check_form(rows: Any, inputs: Sequence[str], where: str) -> list[str]:
             check_tree(tree, where)
             check_known([tree], known, where)
         except Rejected:
-            raise Rejected(f"{where} has a letter {name!a:.40} of what is not made of names known there") from None
+            raise Rejected(f"{where} has a letter {name!a:.40} for an expression with unknown names") from None
         known.append(name)
     names(known, where)
     return known[len(inputs) :]
@@ -104,7 +104,7 @@ def check_moves(letters: Sequence[Letter], moves: Sequence[Mapping[str, Quotient
                 slope = ring.names()[other.name] * inner
                 wrong = found - slope if letter.function == "sin" else found + slope
             if wrong.numerator.terms:
-                raise Rejected(f"{where} moves the letter {letter.name} otherwise than what it stands for")
+                raise Rejected(f"{where} moves the letter {letter.name} at another rate than its expression")
 
 
 def imported(node: ast.stmt, where: str) -> set[str]:

@@ -71,11 +71,11 @@ def placed(tree: Any, algebra: Algebra, into: Quotients, by: Sequence[Any], wher
             check_tree(place, where)
             point[name] = into.read(place)
     if nothing := [name for name in sorted(point.keys() & algebra.divisors) if not point[name].numerator.terms]:
-        raise Rejected(f"{where} puts 0 in the place of {nothing[0]}, by which something is divided")
+        raise Rejected(f"{where} replaces {nothing[0]}, by which something is divided, by 0")
     _check_rules(algebra, point, into, by[1], where)
     made = value(tree, point, into.ring.number)
     if not isinstance(made, Matrix):
-        raise Rejected(f"{where} is of no word, and has no size")
+        raise Rejected(f"{where} has no letter, and therefore no size")
     return made
 
 

@@ -88,7 +88,7 @@ def check(data: Mapping[str, Any], among: "Sequence[Comparer]") -> dict[str, int
         if plain and decided and not (found & false if false else found):
             raise Rejected(f"no part of the {role} formula is what is {'refuted' if false else 'decided'}")
         if plain and len(unsaid) > len(all_parts) - len(plain):
-            raise Rejected(f"the {role} formula has fewer parts in words than what they say")
+            raise Rejected(f"the {role} formula has fewer parts in words than statements left to them")
         alone, left, read = alone + identities, left + len(unsaid), read + len(found)
     if data["glossary"] and not read and data["verdict"] != "definition":
         raise Rejected("no part of a formula is what is decided")

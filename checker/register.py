@@ -113,7 +113,7 @@ def check_verdict(data: dict[str, Any]) -> None:
     if data["verdict"] not in ("open", given) and (false or data["verdict"] not in ("settled", "definition")):
         raise Rejected(f"the verdict is {data['verdict']!r}, and what is decided gives {given!r}")
     if data["verdict"] == "settled" and not (data["uses"] or data["rests"]):
-        raise Rejected("a question is settled by nothing that it uses")
+        raise Rejected("the claims that a question uses do not settle it")
     if data["verdict"] == "open":
         return
     for role in STATED:
@@ -303,7 +303,7 @@ def check(data: dict[str, Any]) -> dict[str, str]:
             raise Undecided(f"all that is {role} is among the relations that it supposes")
     for i, one in enumerate(data["comparisons"]):
         if compared(one["relations"], points[one["point"]], {}, f"comparison {i}") is ("refuted" in one):
-            raise Rejected(f"comparison {i} says something else than the numbers at its point")
+            raise Rejected(f"comparison {i} does not agree with the numbers at its point")
     for i, one in enumerate(data["counts"]):
         algebra, point, where = data["algebras"][one["algebra"]], points[one["point"]], f"count {i}"
         own = derivation.valued([step for step in data["derivation"] if step["algebra"] == one["algebra"]])

@@ -92,7 +92,7 @@ def solutions(
         factors = [value(tree, y, ring.number) for tree in combination]
         found.append(reduce(add, map(mul, factors, found), ring.number(Fraction(0))))
     if any(f.factors or len({sum(_exponents(m, size)) for m in f.numerator.terms}) > 1 for f in found):
-        raise Rejected(f"{where} has what is no homogeneous polynomial")
+        raise Rejected(f"{where} has an expression that is no homogeneous polynomial")
     combinations = [f.numerator for f in found[len(trees) :]]
     for i in range(1, size):  # each i needs a different one, so there are at least n
         if not any(_is_power_at_infinity(combination, i, size) for combination in combinations):

@@ -26,7 +26,7 @@ _QUOTIENT = re.compile(r"-?[1-9]\d*/[1-9]\d*", re.ASCII)
 def check_name(name: Any, where: str) -> None:
     """Raises Rejected unless this is a valid name of a variable: at most 40 letters and digits, such as R_+ and R^T."""
     if not isinstance(name, str) or not _is_name(name):
-        raise Rejected(f"{where} has a name that is none: {name!a:.40}")
+        raise Rejected(f"{where} has an invalid name: {name!a:.40}")
 
 
 def rational(x: Any, where: str) -> Fraction:

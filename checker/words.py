@@ -154,5 +154,5 @@ def trace(of: Matrix | Fraction) -> Fraction:
             raise Rejected("the trace of a matrix that is not square is asked for")
         return sum((row[i] for i, row in enumerate(of.rows)), Fraction(0))
     if of:
-        raise Rejected("the trace of a number depends on what it stands for")
+        raise Rejected("the trace of a number depends on the size of the matrices")
     return of

@@ -212,7 +212,7 @@ class Traces:
         """True exactly when tr expr has the normal form 0; raises ValueError for the trace of a number."""
         traced = self.algebra.trace(expr)
         if any(not word for _, word in _terms(traced)):
-            raise ValueError("the trace of a number depends on what it stands for")
+            raise ValueError("the trace of a number depends on the size of the matrices")
         return bool(traced == 0)
 
 

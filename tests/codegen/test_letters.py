@@ -168,10 +168,10 @@ def test_a_function_is_not_called_as_what_it_calls():
         ([["s", "sin", "q"], ["c", "cos", ["*", 2, "q"]]], "has no letter c|does not follow"),
         ([["s", "sin", "q"]], "has no letter c"),
         ([["s", "tan", "q"], ["c", "cos", "q"]], "a letter of turned"),
-        ([["s", "sin", "c"], ["c", "cos", "q"]], "a letter 's' of what is not made of names known there"),
+        ([["s", "sin", "c"], ["c", "cos", "q"]], "a letter 's' for an expression with unknown names"),
         ([["x", "sin", "q"], ["c", "cos", "q"]], "turned has a name twice"),
         ([["s", "sin", "q"], ["c", "cos", "q"], ["d", "cos", "q"]], "has the letters c and d for one thing"),
-        ([["s", "sin", DEEP], ["c", "cos", "q"]], "of what is not made of names known there"),
+        ([["s", "sin", DEEP], ["c", "cos", "q"]], "for an expression with unknown names"),
         ([["s", "sin"], ["c", "cos", "q"]], "a letter of turned"),
         ("s", "turned"),
     ],
@@ -236,14 +236,14 @@ ONE = ["s", "sqrt", ["+", 1, ["*", -1, "q", "q"]]]
         (LETTERS, {"q": 1, "s": "c", "c": ["*", -1, "s"]}, None),
         (LETTERS, {"q": "x", "s": ["*", "c", "x"], "c": ["*", -1, "s", "x"]}, None),
         (LETTERS, {"x": 1}, None),
-        (LETTERS, {"q": 1}, "letter s otherwise"),
-        (LETTERS, {"s": "c", "c": ["*", -1, "s"]}, "letter s otherwise"),
-        (LETTERS, {"q": 2, "s": "c", "c": ["*", -1, "s"]}, "letter s otherwise"),
-        (LETTERS, {"q": 1, "s": "c", "c": "s"}, "letter c otherwise"),
+        (LETTERS, {"q": 1}, "letter s at another rate"),
+        (LETTERS, {"s": "c", "c": ["*", -1, "s"]}, "letter s at another rate"),
+        (LETTERS, {"q": 2, "s": "c", "c": ["*", -1, "s"]}, "letter s at another rate"),
+        (LETTERS, {"q": 1, "s": "c", "c": "s"}, "letter c at another rate"),
         ([["c", "cos", "q"]], {"q": 1, "c": "s"}, "letter c, whose derivative is no letter"),
         ([ONE], {"q": "s", "s": ["*", -1, "q"]}, None),
-        ([ONE], {"q": "s", "s": "q"}, "letter s otherwise"),
-        ([["c", "pi", 1]], {"c": 1}, "letter c otherwise"),
+        ([ONE], {"q": "s", "s": "q"}, "letter s at another rate"),
+        ([["c", "pi", 1]], {"c": 1}, "letter c at another rate"),
         ([["c", "pi", 1]], {"q": 1}, None),
     ],
 )
@@ -262,5 +262,5 @@ def test_a_carrier_is_differentiated_with_its_letters():
     angle, sine, cosine = sp.symbols("q s c")
     text = TEXT.replace("s * x, c * x", "c * x, -s * x")
     assert judged(text, carrier=left("x", "x").along({angle: 1, sine: cosine, cosine: -sine})) == ["x: its derivatives"]
-    with pytest.raises(Rejected, match="moves the letter s otherwise"):
+    with pytest.raises(Rejected, match="moves the letter s at another rate"):
         judged(text, carrier=left("x", "x").along({angle: 1}))
