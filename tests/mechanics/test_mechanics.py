@@ -363,6 +363,9 @@ def test_without_a_compiler_python_takes_the_steps_and_says_so(monkeypatch, capl
     assert np.abs(moved(particle(), steps=5).final[1] - 0.3 - 0.25) < 1e-12
     assert "plain Python takes the steps" in caplog.text
     motion._has_compiler.cache_clear()
+    monkeypatch.setattr("shutil.which", lambda name: "cc")
+    assert [Runner(particle(), compiled=given).compiled for given in (None, True, False)] == [True, True, False]
+    motion._has_compiler.cache_clear()
 
 
 def test_where_the_compiler_fails_python_takes_the_steps_and_says_so(monkeypatch, caplog, tmp_path):
@@ -410,6 +413,8 @@ def test_quantities_are_kept_or_not_at_an_exact_state():
     turning = System("turntable", (x, y), (vx**2 + vy**2) / 2, [vx + y])  # x' = -y: y is free
     assert conserved(turning, vy).kept
     assert not conserved(turning, (vx**2 + vy**2) / 2).kept
+    carried = System("carried", (x,), vx**2 / 2, [vx - 3])
+    assert str(conserved(carried, x)) == "not kept: its rate is 3 at x_dot = 3"
     assert conserved(System("free", (x, y), (vx**2 + vy**2) / 2), x * vy - y * vx).kept
     with pytest.raises(BadSystem, match="the mass matrix is singular, so that the motion is not determined"):
         conserved(System("light", (x, y), vx**2 / 2), vx)
