@@ -436,11 +436,11 @@ def _missing(frame: Frame, digits: int, radius: Fraction | None) -> float:
     """The number of bits that the radii still lack; at most 0 if they are small enough."""
     worst = -math.inf
     for name, vector in frame.items():
-        widest = max(fraction(x.rad()) for x in vector)
+        widest = fraction(max(x.rad() for x in vector))
         if not widest:
             continue
         if name in ("angular_momentum", "omega"):
-            size = max(abs(fraction(x)) for x in vector)
+            size = fraction(max(abs(x.mid()) for x in vector))
         else:
             size = radius if name == "contact" and radius is not None else Fraction(1)
         if not size:
@@ -471,8 +471,12 @@ def written(x: "arb", digits: int) -> tuple[str, str]:
     if not radius:
         radius = abs(middle) / 10 ** (digits + 2)
     place = math.floor(_log2(radius) * math.log10(2)) - 1
-    unit = Fraction(10) ** place
-    rounded = round(middle / unit)
-    off = math.ceil((radius + abs(middle - rounded * unit)) / unit)
+    # In whole numbers, of which fractions would find the common divisors: both and the unit of the last place.
+    ten, below = 10 ** abs(place), math.lcm(middle.denominator, radius.denominator)
+    unit, times = (below * ten, below) if place > 0 else (below, below * ten)
+    whole, more = (x.numerator * (times // x.denominator) for x in (middle, radius))
+    rounded, left = divmod(whole, unit)
+    rounded += 2 * left + rounded % 2 > unit  # a half to the even one
+    off = -(-(more + abs(whole - rounded * unit)) // unit)
     shown, error = (Decimal(f"{x}e{place}") for x in (rounded, off))
     return f"{shown:f}" if len(str(abs(rounded))) + 12 > -place else f"{shown:e}", f"{error:e}"

@@ -69,8 +69,8 @@ def magnitude(J: Exact, D: Fraction) -> tuple[int, int]:
 def fraction(x: Any) -> Fraction:
     """A number of any precision as an exact fraction; the midpoint of a ball."""
     if hasattr(x, "mid"):
-        man, exp = x.mid().man_exp()
-        return Fraction(int(man)) * Fraction(2) ** int(exp)
+        man, exp = map(int, x.mid().man_exp())
+        return Fraction(man << max(exp, 0), 1 << max(-exp, 0))
     return exact_fraction(x)
 
 
