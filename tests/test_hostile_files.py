@@ -90,7 +90,7 @@ TEXTS = {
     ),
     "orbit.json": ((ROOT / "proofs/certificates/periodic-orbit-simplest.json").read_bytes(), judged,
                    (checker.Rejected, checker.Unreadable)),
-    "claim.json": ((ROOT / "proofs/certificates/register/prop-1.json").read_bytes(), judged,
+    "claim.json": ((ROOT / "proofs/certificates/register/prop-4.json").read_bytes(), judged,
                    (checker.Rejected, checker.Unreadable)),
 }  # fmt: skip
 

@@ -193,7 +193,7 @@ def test_a_path_may_end_at_rest_and_go_through_it():
 
 
 def test_a_ball_has_the_same_bits_in_a_batch_and_alone():
-    random, count = np.random.default_rng(1), 50
+    random, count = np.random.default_rng(1), 15
     balls = Ball(np.exp(random.uniform(-2, 2, (count, 3))), np.exp(random.uniform(-2, 2, count)))
     momentum, gamma = 0.1 * random.standard_normal((count, 3)), random.standard_normal((count, 3))
     gamma /= np.linalg.norm(gamma, axis=1, keepdims=True)

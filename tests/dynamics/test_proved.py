@@ -5,6 +5,7 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
+from budget import slow
 from crowds import NAMES, balls, beyond, floats_of, long_steps
 from orbits import context, orbit
 
@@ -95,7 +96,7 @@ def test_a_wrong_rotation_has_a_bound_that_contains_it():
 # -- runs
 
 
-@pytest.mark.parametrize(("order", "size"), [(2, 0.03), (2, 0.4), (2, 0.55), (4, 0.2), (8, 0.1)])
+@pytest.mark.parametrize(("order", "size"), [(2, 0.03), (2, 0.55), (4, 0.2), *slow((2, 0.4), (8, 0.1))])
 def test_the_bounds_of_a_run_are_the_errors_that_the_oracle_sees(order, size):
     """With attitude and contact, within the bound of `small-branch` and beyond it; the bound is the error itself."""
     steps = 40 if order == 2 else 4

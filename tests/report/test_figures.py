@@ -387,11 +387,15 @@ def test_a_ball_at_rest_is_drawn(tmp_path):
 
 def test_the_same_result_gives_the_same_bytes_whatever_the_user_has_set(tmp_path):
     dataset = results.vertical(60)
-    first = figures.save_all(dataset, tmp_path / "a", ("svg", "png"))
+    saved = lambda name: [  # noqa: E731
+        *figures.save_all(dataset, tmp_path / name),
+        *figures.save_all(dataset, tmp_path / name, ("png",), names=["spheres"]),
+    ]
+    first = saved("a")
     with matplotlib.rc_context(
         {"font.size": 30, "axes.linewidth": 5.0, "axes.facecolor": "red", "svg.hashsalt": "other"}
     ):
-        second = figures.save_all(dataset, tmp_path / "b", ("svg", "png"))
+        second = saved("b")
         assert matplotlib.rcParams["font.size"] == 30
     assert [path.name for path in first] == [path.name for path in second]
     for one, other in zip(first, second, strict=True):

@@ -120,7 +120,7 @@ def test_the_command_draws_a_result_with_its_page(tmp_path, show):
 
 def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, show):
     """Balls that have not begun are not counted as stopped; what is saved of it stays half a run."""
-    small_units.interrupted(tmp_path / "half.zarr", 9, small_units.plan(small_units.OUTPUTS))
+    small_units.interrupted(tmp_path / "half.zarr", 9, small_units.plan((*small_units.SOME, "attitude", "contact")))
     done = show(tmp_path / "half.zarr", "-o", tmp_path / "p", "--figures", "contact", "--page")
     assert done.returncode == 0, done.stderr
     words = re.search(r"half\.zarr is unfinished: (\d+ % of the run, \d+ of 20 balls to their ends)\n", done.stdout)[1]

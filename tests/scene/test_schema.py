@@ -119,7 +119,7 @@ def holds(make):
     assert scene.task().outputs
 
 
-@examples(150, 400)
+@examples(75, 400)
 @given(st.data(), st.sampled_from(sorted(DATA)))
 def test_any_change_of_the_data_gives_a_scene_or_a_sentence(data, name):
     changed = DATA[name]

@@ -1,6 +1,7 @@
 """The cases of benchmarks/rolling that do more than roll: the closed form, and integrations by another method."""
 
 import json
+import runpy
 import subprocess
 import sys
 from dataclasses import replace
@@ -97,6 +98,12 @@ def rolls_from(name):
     return float(json.loads((make.DATA / f"{name}.json").read_text("utf-8")).get("rolls_from", [0])[0])
 
 
+def early(case):
+    """Its first third, in which another motion is seen, too."""
+    n = len(case.time) // 3
+    return replace(case, **{name: getattr(case, name)[:n] for name in ("time", "path", "attitude", "omega")})
+
+
 def apart(case, found):
     """The greatest differences of attitudes and paths."""
     q = found[0] * np.sign((found[0] * case.attitude).sum(axis=1))[:, None]
@@ -110,7 +117,7 @@ def test_another_integration_finds_the_same(name):
     other = case.rotor * 1.01
     if name == "free-top":
         case = replace(case, inertia=case.inertia * [1.001, 1, 1])
-    assert max(apart(case, rolled(case, other))) > 1e-3
+    assert max(apart(early(case), rolled(early(case), other))) > 1e-3
 
 
 def test_another_integration_slides_and_rolls_alike():
@@ -217,7 +224,7 @@ def weighed(case):
 def test_another_integration_rolls_alike_off_the_centre():
     case = read_case(make.DATA / "off-centre.json")
     assert max(apart(case, weighed(case))) < 1e-9
-    assert max(apart(case, weighed(replace(case, offset=1.01 * case.offset)))) > 1e-3
+    assert max(apart(early(case), weighed(replace(early(case), offset=1.01 * case.offset)))) > 1e-3
 
 
 def test_the_enclosed_energy_off_the_centre_stays():
@@ -314,14 +321,26 @@ def test_the_file_of_a_ball_has_exactly_its_numbers(form):
         assert tensor == np.diag([Decimal(x) for x in wanted["inertia"]]).tolist(), file
 
 
-def test_one_command_takes_a_ball_from_its_file_to_the_verdict(tmp_path):
+@pytest.fixture
+def refused_by_engine(tmp_path, monkeypatch, capsys):
+    """What the program says with which an engine rolls a ball, of what it does not take."""
+
+    def said(*args):
+        words = ["engines", *map(str, args), "-o", str(tmp_path / "never.csv")]
+        monkeypatch.setattr(sys, "argv", words)
+        with pytest.raises(SystemExit) as ended:
+            runpy.run_module("benchmarks.rolling.engines", run_name="__main__")
+        assert not (tmp_path / "never.csv").exists()
+        return capsys.readouterr().err if ended.value.code == 2 else ended.value.code
+
+    return said
+
+
+def test_one_command_takes_a_ball_from_its_file_to_the_verdict(tmp_path, refused_by_engine):
     """The engine is the control, a contact by penalty: it slips, and keeps the momentum."""
-
-    def rolled(*args):
-        command = [sys.executable, "-m", "benchmarks.rolling.engines", "penalty", *map(str, args)]
-        return subprocess.run(command, cwd=DATA.parents[2], capture_output=True, encoding="utf-8", check=False)
-
-    done = rolled(DATA / "robot.urdf", "--time", 0.4, "-o", tmp_path / "robot.csv")
+    words = "penalty", str(DATA / "robot.urdf"), "--time", "0.4", "-o", str(tmp_path / "robot.csv")
+    command = [sys.executable, "-m", "benchmarks.rolling.engines", *words]
+    done = subprocess.run(command, cwd=DATA.parents[2], capture_output=True, encoding="utf-8", check=False)
     assert done.returncode == 0, done.stderr
     found = {line.split()[0]: line for line in done.stdout.splitlines()[1:]}
     assert "within 1 %" in found["momentum"]
@@ -334,11 +353,7 @@ def test_one_command_takes_a_ball_from_its_file_to_the_verdict(tmp_path):
         ("rotor", "no ball that rolls by itself"),
         (moved, "the origin of the body must be the centre of its sphere, and that is at (0, 0.1, 0) m"),
     ):
-        done = rolled(wrong, "-o", tmp_path / "never.csv")
-        assert done.returncode == 1
-        assert said in done.stderr
-        assert "Traceback" not in done.stderr
-        assert not (tmp_path / "never.csv").exists()
+        assert said in refused_by_engine("penalty", wrong)
 
 
 @pytest.mark.parametrize(("engine", "package"), [(x, x) for x in ("mujoco", "pybullet")] + [("drake", "pydrake")])
@@ -361,10 +376,5 @@ def test_an_engine_rolls_the_ball_off_its_centre_as_the_case_does(engine, packag
         (["penalty", EXAMPLES / "turned.urdf"], "must have an inertia in its principal axes"),
     ],
 )
-def test_what_no_engine_can_take_is_refused_in_one_sentence(args, said, tmp_path):
-    command = [sys.executable, "-m", "benchmarks.rolling.engines", *map(str, args), "-o", str(tmp_path / "never.csv")]
-    done = subprocess.run(command, cwd=DATA.parents[2], capture_output=True, encoding="utf-8", check=False)
-    assert done.returncode in (1, 2)
-    assert said in done.stderr
-    assert "Traceback" not in done.stderr
-    assert not (tmp_path / "never.csv").exists()
+def test_what_no_engine_can_take_is_refused_in_one_sentence(args, said, refused_by_engine):
+    assert said in refused_by_engine(*args)
