@@ -9,9 +9,13 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 from unittest import mock
 
 from chapsym.cli import main, output
+
+#: The register of two claims.
+TWO = "--register", str(Path(__file__).with_name("two_claims.py"))
 
 
 def chapsym(*arguments, cwd="."):

@@ -9,15 +9,14 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import suppress
 from types import SimpleNamespace
 
+import at_work
 import numpy as np
 import pytest
 from budget import slow
-from commands import answer, changed, chapsym, child, refused
+from commands import TWO, answer, changed, chapsym, child, refused
 from committed import committed
 from first import FIRST
 from waiting import GUARD, INTERRUPTIBLE, until
@@ -25,7 +24,6 @@ from waiting import GUARD, INTERRUPTIBLE, until
 from chapsym import dynamics
 from chapsym.cli import app, output
 from chapsym.codegen import build
-from chapsym.files import write_whole
 from chapsym.prove import Register, Verdict, records
 from chapsym.workers import Processes
 
@@ -290,67 +288,36 @@ def test_a_worker_that_begins_sees_no_interrupt():
         assert signal.SIGINT in pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, ()).result()
 
 
-def _written(path):
-    def write(stream):
-        (path.parent / "begun").touch()
-        time.sleep(GUARD)
-
-    with suppress(SystemExit):
-        write_whole(path, write)
-
-
 def test_the_end_of_the_processes_waits_for_no_call_and_leaves_nothing_half_written(tmp_path):
     with Processes(1) as pool:
         for _ in range(3):
-            pool.submit(_written, tmp_path / "file")
+            pool.submit(at_work.written, tmp_path / "file")
         until((tmp_path / "begun").exists)
         (worker,) = pool._processes.values()
     worker.join()
     assert os.listdir(tmp_path) == ["begun"]
 
 
-def _goes_on(folder):
-    while True:
-        with suppress(SystemExit):
-            (folder / "begun").touch()
-            time.sleep(GUARD)
-
-
 def test_a_worker_that_goes_on_all_the_same_is_killed(tmp_path):
     with Processes(1) as pool:
-        pool.submit(_goes_on, tmp_path)
+        pool.submit(at_work.goes_on, tmp_path)
         until((tmp_path / "begun").exists)
         (worker,) = pool._processes.values()
     until(lambda: worker.exitcode is not None)  # not `join`: a thread of the pool may be the one that learns it
     assert worker.exitcode == -signal.SIGALRM
 
 
-def _asked_to_end(caught):
-    with suppress(caught):
-        os.kill(os.getpid(), signal.SIGTERM)
-        time.sleep(GUARD)
-    return "made after all"
-
-
 @pytest.mark.parametrize("caught", [ValueError, SystemExit])
 def test_a_call_that_is_ended_from_outside_has_no_result(caught):
     """As one whose process was killed: also where the call, as a proof does, catches all."""
     with Processes(1) as pool, pytest.raises(BrokenProcessPool):
-        pool.submit(_asked_to_end, caught).result()
-
-
-class Late:
-    """What is pickled when its worker is asked to end."""
-
-    def __reduce__(self):
-        os.kill(os.getpid(), signal.SIGTERM)
-        return str, ("whole",)
+        pool.submit(at_work.asked_to_end, caught).result()
 
 
 def test_a_worker_that_is_asked_to_end_sends_what_it_has_begun_to_send():
     """Half a message would hold up the pool for ever."""
     with Processes(1) as pool:
-        assert pool.submit(Late).result() == "whole"
+        assert pool.submit(at_work.Late).result() == "whole"
 
 
 #: The command, which says when the first part of its work has arrived, and waits there.
@@ -368,7 +335,7 @@ main()
 """
 
 
-CHECK, PROVE = ["check", "--states", "1"], ["prove", "4.3", "2.1", "2.7"]
+CHECK, PROVE = ["check", "--states", "1"], ["prove", *TWO]
 
 
 @pytest.mark.parametrize(("command", "name"), [(CHECK, "INT"), (CHECK, "TERM"), (PROVE, "HUP"), *slow((PROVE, "INT"))])

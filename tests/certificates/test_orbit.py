@@ -37,11 +37,17 @@ def member_of(data, shift=0):
 
 
 @pytest.fixture(scope="module")
-def symmetric():
-    """The symmetric orbit through which a family of 20 steps leads, to all bits."""
+def family():
+    """A family of 20 steps to all bits, of few members: the arc on which <momentum, gamma> grows by 1e-10."""
     with ctx.workprec(256), pytest.MonkeyPatch.context() as patch:
-        patch.setattr(families, "MEMBERS", 1)
-        return next(families.families(NEAR, 20, lambda what: None))[0]
+        patch.setattr(families, "MEMBERS", 4)
+        return next(families.families(NEAR, 20, lambda what: None))
+
+
+@pytest.fixture(scope="module")
+def symmetric(family):
+    """The symmetric orbit through which it leads."""
+    return family[0]
 
 
 @pytest.mark.parametrize("name", COMMITTED)
@@ -129,17 +135,8 @@ def test_a_determinant_of_1_and_an_eigenvalue_1_prove_nothing(eigenvalues, prove
         orbit.determinants(passage)
 
 
-def test_an_orbit_is_found(monkeypatch):
-    """With fewer members: the arc from the symmetric orbit on which <momentum, gamma> grows by 1e-10."""
-    monkeypatch.setattr(families, "MEMBERS", 4)
-    first = []
-
-    def remembered(*given, real=families.families):
-        """The first family, looked for once in this test."""
-        first.extend(first or [next(real(*given))])
-        yield first[0]
-
-    monkeypatch.setattr(families, "families", remembered)
+def test_an_orbit_is_found(monkeypatch, family):
+    monkeypatch.setattr(families, "families", lambda *_: iter([family]))
     data = orbit.periodic_orbit(NEAR.J, NEAR.D, NEAR.size, 20, digits=45, radius=Fraction(1, 10**95))
     assert data["radius"] == "1e-95"
     assert checker.check(data).numbers["determinant"] == data["determinant"] < "1"

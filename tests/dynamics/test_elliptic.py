@@ -189,7 +189,7 @@ def taylor(moments, K, attitude, time, steps, order=28):
 
 @pytest.mark.parametrize(
     ("D", "side", "epsilon"),
-    [(0.0, 1, 0.5), (3.0, 1, 2.0), (3.0, -1, 0.5), *slow((0.0, 1, 2.0), (3.0, 1, 0.5), (3.0, -1, 2.0))],
+    [(0.0, 1, 2.0), (3.0, -1, 2.0), *slow((0.0, 1, 0.5), (3.0, 1, 2.0), (3.0, 1, 0.5), (3.0, -1, 0.5))],
 )
 def test_the_exact_top_has_no_error_of_the_step(D, side, epsilon):
     """Up to t = 100: 𝒦, attitude and γ within n^(3/2) ulps of the continuous ball; the map itself is off by 1e-2."""

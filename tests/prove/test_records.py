@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from threading import Thread
 
 import pytest
-from commands import answer, changed, chapsym, child, refused
+from commands import TWO, answer, changed, chapsym, child, refused
 
 from chapsym import files, sources
 from chapsym.cli import prove as command
@@ -127,11 +127,11 @@ def test_an_interrupt_keeps_what_was_finished(tmp_path, path):
     assert list(records.read(path)) == ["prop-2"]
 
 
-def lost(how):
-    """A process that ends so, when it is to judge 4.3."""
+def lost(how, id="4.3"):
+    """A process that ends so, when it is to judge a claim."""
     return (
         "import os, chapsym.prove.runner as runner\nhonest = runner.judge\n"
-        f"runner.judge = lambda claim: {how} if claim.id == '4.3' else honest(claim)"
+        f"runner.judge = lambda claim: {how} if claim.id == '{id}' else honest(claim)"
     )
 
 
@@ -150,7 +150,7 @@ def test_workers_end_with_the_process_that_started_them(tmp_path):
         tmp_path, "import os, time, chapsym.prove.runner as runner",
         "runner.judge = lambda claim: os.write(1, b'.') and time.sleep(3600)",
     )  # fmt: skip
-    command = [sys.executable, "-m", "chapsym", "prove", "prop-2", "4.3", "--jobs", "2"]
+    command = [sys.executable, "-m", "chapsym", "prove", *TWO, "--jobs", "2"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, env=env) as process:
         assert process.stdout.read(2) == b".."
         process.kill()
@@ -202,8 +202,8 @@ def test_an_interpreter_that_drops_docstrings_keeps_the_titles(monkeypatch):
 
 
 def test_a_lost_process_leaves_its_claims_open(tmp_path):
-    env = changed(tmp_path, lost("os._exit(9)"))
-    done = child("prove", "prop-2", "4.3", "--jobs", "2", env=env)
+    env = changed(tmp_path, lost("os._exit(9)", "s-2"))
+    done = child("prove", *TWO, "--jobs", "2", env=env)
     assert done.returncode == 1
     assert "not judged: a process that ran proofs ended" in done.stdout
     assert "Traceback" not in done.stderr
