@@ -97,10 +97,10 @@ TURNING: tuple[Way, ...] = (PLAIN, (_DEGREES, np.radians))
 
 
 def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
-    """A trajectory unchanged and in all other conventions, with their differences, the fewest first."""
-    found = []
+    """A trajectory unchanged and in all other conventions, with their differences, the fewest first, one by one."""
     none = run.attitude is None
-    for (frame, upturn), order, sense, unit, speed, rate, body in product(
+    found = []
+    for ways in product(
         AXES,
         *((PLAIN,), (PLAIN,)) if none else (ORDERS, SENSES),
         UNITS,
@@ -108,8 +108,11 @@ def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
         TURNING,
         ("",) if none else ("", _OF_BODY, _TWIST),
     ):
-        if speed and unit is PLAIN:
-            continue
+        (frame, upturn), order, sense, unit, speed, rate, body = ways
+        differences = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], body]
+        if not speed or unit is not PLAIN:
+            found.append(([name for name in differences if name], ways))
+    for names, ((frame, upturn), order, sense, unit, speed, rate, body) in sorted(found, key=lambda one: len(one[0])):
         attitude = None if run.attitude is None else upturn[1](sense[1](order[1](run.attitude)))
         velocity, omega = run.velocity, run.omega
         if velocity is not None:
@@ -118,10 +121,8 @@ def _readings(run: Trajectory) -> Iterator[tuple[list[str], Trajectory]]:
         if omega is not None:
             omega = rate[1](in_space(attitude, omega) if attitude is not None and body else frame[1](omega))
             omega = -omega if frame[0] == _UNITY and not body else omega
-        read = replace(run, centre=frame[1](unit[1](run.centre)), attitude=attitude, velocity=velocity, omega=omega)
-        differences = [frame[0] + upturn[0], order[0], sense[0], unit[0], rate[0], body]
-        found.append(([name for name in differences if name], read))
-    return iter(sorted(found, key=lambda one: len(one[0])))
+        centre = frame[1](unit[1](run.centre))
+        yield names, replace(run, centre=centre, attitude=attitude, velocity=velocity, omega=omega)
 
 
 #: The values of a start, by the names of the parts of a trajectory.
@@ -164,9 +165,10 @@ def _check(
 
     start, second: what the first row and the attitude of the second should be, of a reading of both.
     """
-    fits = [(differences, read) for differences, read in _readings(run) if not _apart(read, start(read), soft)]
     plain, best, slips = np.inf, np.inf, list[str]()
-    for names, read in fits:
+    for names, read in _readings(run):
+        if _apart(read, start(read), soft):
+            continue
         off = 0.0 if read.attitude is None else float(angle(second(read), read.attitude[1]))
         if not names:
             plain = off
