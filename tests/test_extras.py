@@ -243,7 +243,7 @@ def test_a_source_tree_without_its_links_is_not_built(tmp_path):
     (tmp_path / "setup.py").write_text((ROOT / "setup.py").read_text("utf-8"), encoding="utf-8")
     for link in links:
         (tmp_path / link).mkdir(parents=True)
-    for link in links:
+    for link in (links[0], links[-1]):
         (tmp_path / link).rmdir()
         (tmp_path / link).write_text("../generated", encoding="utf-8")  # as a checkout without links has it
         done = subprocess.run(

@@ -9,12 +9,6 @@ from chapsym.dynamics.loops import gibbs
 from chapsym.studies import check
 
 
-@pytest.mark.parametrize("name", check.STRATA)
-def test_every_stratum_keeps_the_budget(name):
-    row = check.check_stratum(name, 2, seed=3)
-    assert row.kept, row
-
-
 def test_a_step_that_is_a_little_wrong_is_seen(monkeypatch):
     honest = check.step
 
