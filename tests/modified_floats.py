@@ -1,6 +1,7 @@
 """The modified equations in floats, by linear algebra and differences: nothing of chapsym."""
 
 import numpy as np
+from vectors import cross
 
 
 class Modified:
@@ -16,23 +17,23 @@ class Modified:
     def correction(self, K, g):
         """ω₃."""
         I, w = self.inertia, self.solved(K, g)
-        a, turning = self.solved(np.cross(I * w, w), g), np.cross(g, w)
+        a, turning = self.solved(cross(I * w, w), g), cross(g, w)
         pull = self.contact * (turning * (g @ a) + g * (turning @ a))
-        second = self.solved(np.cross(I * a, w) + np.cross(I * w, a) + pull, g)
-        return w @ w * w / 6 + second / 12 - np.cross(w, a) / 12 - self.solved(pull, g) / 4
+        second = self.solved(cross(I * a, w) + cross(I * w, a) + pull, g)
+        return w @ w * w / 6 + second / 12 - cross(w, a) / 12 - self.solved(pull, g) / 4
 
     def densities(self, K, g, step=1e-4):
         w, w3 = self.solved(K, g), self.correction(K, g)
         divergence = 0.0
         for j, e in enumerate(np.eye(3)):
-            ends = [self.correction(K + s * step * np.cross(K, e), g + s * step * np.cross(g, e))[j] for s in (-1, 1)]
+            ends = [self.correction(K + s * step * cross(K, e), g + s * step * cross(g, e))[j] for s in (-1, 1)]
             divergence += (ends[1] - ends[0]) / (2 * step)
         z = g / (self.inertia + self.contact)
-        lift = self.contact * z @ np.cross(g, w3) / (1 - self.contact * g @ z)
-        return w3 @ np.cross(w, self.inertia * w), divergence + lift
+        lift = self.contact * z @ cross(g, w3) / (1 - self.contact * g @ z)
+        return w3 @ cross(w, self.inertia * w), divergence + lift
 
     def rates(self, _, y):
         """Of K, γ and of the integrals of the densities."""
         K, g = y[:3], y[3:6]
         w = self.solved(K, g)
-        return [*np.cross(K, w), *np.cross(g, w), *self.densities(K, g)]
+        return [*cross(K, w), *cross(g, w), *self.densities(K, g)]

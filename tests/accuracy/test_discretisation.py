@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from commands import chapsym as command
 from scipy.integrate import solve_ivp
+from vectors import cross
 
 import chapsym
 from chapsym.accuracy.discretisation import MOST, Discretisation, discretisation, read
@@ -36,10 +37,10 @@ def motion(i, times):
     def rate(_, y):
         momentum, g, q = y[:3], y[3:6], y[6:10]
         w = kernels.angular_velocity(momentum, g, J, D)
-        centre = radius * np.cross(w, g)
-        turned = centre + 2 * np.cross(q[1:], np.cross(q[1:], centre) + q[0] * centre)
-        spin = np.array([-(q[1:] @ w), *(q[0] * w + np.cross(q[1:], w))]) / 2
-        return np.concatenate([np.cross(momentum, w), np.cross(g, w), spin, turned[:2]])
+        centre = radius * cross(w, g)
+        turned = centre + 2 * cross(q[1:], cross(q[1:], centre) + q[0] * centre)
+        spin = np.array([-(q[1:] @ w), *(q[0] * w + cross(q[1:], w))]) / 2
+        return np.concatenate([cross(momentum, w), cross(g, w), spin, turned[:2]])
 
     run = chapsym.roll(one(i), OMEGA[[i]], STEP, STEPS, gamma=GAMMA[[i]], attitude=True, contact=True, map=True)
     start = np.concatenate([K[i], GAMMA[i], run.attitude[0, 0], [0.0, 0.0]])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from budget import slow
+from vectors import cross
 
 
 class Ball:
@@ -29,8 +30,8 @@ class Ball:
         """X₃(H) = (D/4)⟨γ,ω'⟩⟨γ',ω'⟩, B(γ)ω = K, B(γ)ω' = Iω × ω."""
         contact = np.diag(self.whole) - self.D * np.outer(gamma, gamma)
         omega = np.linalg.solve(contact, K)
-        turn = np.linalg.solve(contact, np.cross(self.inertia * omega, omega))
-        return self.D / 4 * gamma @ turn * (np.cross(gamma, omega) @ turn)
+        turn = np.linalg.solve(contact, cross(self.inertia * omega, omega))
+        return self.D / 4 * gamma @ turn * (cross(gamma, omega) @ turn)
 
     def slope(self, gamma, e, size=1e-5):
         """d/ds X₃(H) at K = h(γ + se), s = 0."""
@@ -48,10 +49,10 @@ class Ball:
         for i in range(steps + 1):
             start, middle, end = (self.spin(dt * (i + part)) for part in (0, 0.5, 1))
             found.append(self.slope(self.vertical(dt * i), e))
-            first = np.cross(e, start)
-            second = np.cross(e + dt / 2 * first, middle)
-            third = np.cross(e + dt / 2 * second, middle)
-            e = e + dt / 6 * (first + 2 * second + 2 * third + np.cross(e + dt * third, end))
+            first = cross(e, start)
+            second = cross(e + dt / 2 * first, middle)
+            third = cross(e + dt / 2 * second, middle)
+            e = e + dt / 6 * (first + 2 * second + 2 * third + cross(e + dt * third, end))
         return np.array(found)
 
 
@@ -64,4 +65,4 @@ def test_the_energy_gains_what_the_closed_form_says(whole, contact, height):
     last = 14 / (ball.kappa * ball.rate)
     amplitude = np.pi / 12 * contact * ball.rate**4 * (1 + ball.kappa**2) / np.cosh(np.pi / (2 * ball.kappa))
     assert abs(ball.integral(along, last)) < 1e-5 * amplitude
-    assert abs(ball.integral(np.cross(gamma, along), last) + amplitude) < 1e-5 * amplitude
+    assert abs(ball.integral(cross(gamma, along), last) + amplitude) < 1e-5 * amplitude
