@@ -51,8 +51,16 @@ class Oracle:
 
     def momentum(self, X: matrix) -> matrix:
         """(4.13), first form; linear in X."""
-        turned, rest = X * self.shifted, self.Gamma * X  # transposes, as both factors are symmetric
-        return turned - turned.T + self.D / 2 * (rest - rest.T)
+        return self.skew(self._of(X.tolist()))
+
+    def _of(self, X: list[list[mpf]]) -> list[mpf]:
+        """The components of 𝒦 of the rows of X: of XS - (XS)ᵀ + D/2 (ΓX - (ΓX)ᵀ), S = J + D/2 Γ."""
+        dot, (S, G, columns) = self.mp.fdot, (self.shifted.tolist(), self.Gamma.tolist(), list(zip(*X, strict=True)))
+        found = []
+        for i, j in self.places:  # S and Γ are symmetric
+            rest = dot(G[i], columns[j]) - dot(G[j], columns[i])
+            found.append(dot(X[i], S[j]) - dot(X[j], S[i]) + self.D / 2 * rest)
+        return found
 
     def skew(self, v: Sequence[mpf]) -> matrix:
         """The skew matrix with the components v."""
@@ -67,8 +75,12 @@ class Oracle:
 
     def tangent(self, rotation: matrix) -> matrix:
         """The derivative of 𝒦 by ξ at Ω·exp(ξ), (m, m)."""
-        unit = self.mp.eye(len(self.places))
-        moved = [self.components(self.momentum(rotation * self.skew(unit[i, :]))) for i in range(unit.rows)]
+        rows, moved = rotation.tolist(), []
+        for i, j in self.places:  # Ω times the skew matrix with 1 at (i, j)
+            turned = [[self.mp.zero] * self.n for _ in rows]
+            for to, row in zip(turned, rows, strict=True):
+                to[j], to[i] = row[i], -row[j]
+            moved.append(self._of(turned))
         return self.mp.matrix(moved).T
 
     def step(self, momentum: Sequence[mpf | float]) -> OracleStep:
