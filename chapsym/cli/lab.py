@@ -54,7 +54,7 @@ def lab(
 
     A file of a system is Python, and is run. Example: chapsym lab docs/examples/systems -o systems.html
     """
-    from chapsym.files import write_text
+    from chapsym.files import alone, write_text
     from chapsym.mechanics import METHODS, BadSystem, loaded
     from chapsym.mechanics.cases import name_of
     from chapsym.show.lab import COLUMNS
@@ -115,12 +115,12 @@ def lab(
                     continue
                 if not isinstance(cell, dict):
                     cell = {"key": key, **cell.data()}
-                    done[:] = [c for c in done if any(c[part] != cell[part] for part in ("key", "method", "steps"))]
-                    done.append(cell)
+                    done = _joined(done, cell)
+                    if output is not None and output.suffix == ".json":
+                        with alone(output.parent):  # of two commands both keep what they have
+                            write_text(output, json.dumps({"cells": _joined(_there(output), cell)}, allow_nan=False))
                 if not as_json:
                     print(_row(cell))
-                if output is not None and output.suffix == ".json":
-                    write_text(output, json.dumps({"cells": done}, allow_nan=False))
             if written:
                 try:
                     certified[system.name] = found = written()
@@ -142,6 +142,11 @@ def lab(
         note(sentence)
     if wrong:
         fail(wrong[-1], 2)
+
+
+def _joined(cells: list[Data], new: Data) -> list[Data]:
+    """The cells with a new one, which replaces its older."""
+    return [c for c in cells if any(c[part] != new[part] for part in ("key", "method", "steps"))] + [new]
 
 
 def _row(cell: Data) -> str:

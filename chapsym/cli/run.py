@@ -81,6 +81,8 @@ def run(
                 data = formats.load(destination)
             else:
                 data = rolled = sweep.run(plan, report)
+                if destination.is_file() and not fresh:  # another process may have written it meanwhile
+                    check_same(destination, plan)
                 if exact is None or destination != formats.STDOUT:
                     formats.save(data, destination)
                 outcome = sweep.Outcome(int((data["status"].values != 0).sum()))

@@ -112,6 +112,8 @@ def _answer(
                     raise BadInput(why)
             else:
                 data = sweep.run(plan)
+                if output is not None and output.exists() and not fresh:  # of another process, meanwhile
+                    check_same(output, plan)
                 if output is not None:
                     formats.save(data, output)
         answer = answers[0]

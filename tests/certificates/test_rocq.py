@@ -60,6 +60,10 @@ def test_what_is_no_such_certificate_is_said_in_a_sentence(tmp_path, kept, sente
     assert sentence in said
     assert said.count("\n") == 1
     assert not (tmp_path / "made").exists()
+    assert command(tmp_path).stderr == "CERTIFICATE... DIR: name a certificate, and the folder for its theorem\n"
+    (tmp_path / "file").touch()
+    said = command(FOLDER / "measure-large.json", tmp_path / "file" / "made").stderr
+    assert said == f"{tmp_path / 'file' / 'made'} cannot be written: Not a directory\n"
 
 
 def test_a_real_number_is_written_as_it_is():

@@ -10,6 +10,8 @@ import pytest
 from commands import answer, chapsym, refused
 from systems import SYSTEMS
 
+from chapsym import mechanics
+
 FILE = SYSTEMS / "particle.py"
 
 
@@ -51,6 +53,20 @@ def test_json_is_gone_on_with(tmp_path):
     out.unlink()
     os.mkfifo(out)  # which would be waited for
     assert "is not what chapsym lab has written" in refused("lab", "--method", "dla", *options)
+
+
+def test_two_commands_at_once_both_keep_their_cells(tmp_path, monkeypatch):
+    out, real = tmp_path / "lab.json", mechanics.measured
+    words = "lab", FILE, "--steps", 20, "--no-flags", "-o", out, "--method"
+
+    def measured(*how):
+        monkeypatch.undo()
+        answer(*words, "gni")
+        return real(*how)
+
+    monkeypatch.setattr(mechanics, "measured", measured)
+    assert [cell["method"] for cell in answer(*words, "dla")["cells"]] == ["dla"]
+    assert [cell["method"] for cell in json.loads(out.read_text(encoding="utf-8"))["cells"]] == ["gni", "dla"]
 
 
 def test_the_error_falls_with_work_by_the_order():

@@ -1,5 +1,6 @@
 """The claims as theorems of Rocq: all that is proved is written, and where Rocq is, it accepts what is true only."""
 
+import errno
 import json
 import re
 import shutil
@@ -12,6 +13,7 @@ from commands import chapsym
 
 from chapsym import proofs
 from chapsym.checker import file_name
+from chapsym.files import CannotWrite
 from chapsym.prove.rocq import quotients, words, write
 from chapsym.prove.rocq.claims import COUNT, SAME
 from chapsym.prove.rocq.names import comment, identifier
@@ -47,6 +49,24 @@ def test_every_statement_that_says_something_is_a_theorem(tmp_path):
     assert sum(text.count("Left out, because") for text in texts) == written.left_out.total()
     core = {"prop-1", "prop-2", "prop-3", "prop-4", "remark-3", *(f"5.{i}" for i in (1, 2, 3, 4, 6, 15))}
     assert all(any(f"claim_{identifier(id)}_statement" in name for name in names) for id in core)
+
+
+@pytest.mark.parametrize("room", range(1, 10))
+def test_what_a_full_disk_leaves_is_whole(tmp_path, monkeypatch, room):
+    whole, cut, left = tmp_path / "whole", tmp_path / "cut", room
+
+    def fsync(stream):
+        nonlocal left
+        left -= 1
+        if left < 0:
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    write([certificate("prop-2")], whole)
+    monkeypatch.setattr("os.fsync", fsync)
+    with pytest.raises(CannotWrite, match="No space left on device"):
+        write([certificate("prop-2")], cut)
+    assert len(list(cut.iterdir())) == room
+    assert all(path.read_bytes() == (whole / path.name).read_bytes() for path in cut.iterdir())
 
 
 def test_names_of_parts_are_what_they_stand_for(tmp_path):

@@ -9,6 +9,7 @@ from commands import answer, chapsym, refused
 from first import FIRST
 
 from chapsym.scene.read.schema import names
+from chapsym.scene.running import sweep
 from chapsym.scene.running.store import ELSE
 
 
@@ -186,7 +187,7 @@ def test_an_accuracy_that_cannot_be_had_or_needs_the_radius_is_one_sentence_befo
     assert not (tmp_path / "out.zarr").exists()
 
 
-def test_a_result_of_another_scene_and_what_is_no_result_are_replaced_only_where_that_is_asked_for(tmp_path):
+def test_a_result_of_another_scene_and_what_is_no_result_are_replaced_only_where_asked_for(tmp_path, monkeypatch):
     scene, other = tmp_path / "scene.toml", tmp_path / "other.toml"
     text = re.sub(r"steps = \d+", "steps = 20", FIRST.read_text(encoding="utf-8"))
     scene.write_text(text, encoding="utf-8")
@@ -205,6 +206,17 @@ def test_a_result_of_another_scene_and_what_is_no_result_are_replaced_only_where
         assert refused("run", other, "-o", output).endswith(f"is there, but it is no result of chapsym; {ELSE}")
         assert output.read_text(encoding="utf-8") == "a,b\n1,2\n"
         assert chapsym("run", other, "-o", output, "--force").returncode == 0
+    real, output = sweep.run, tmp_path / "two.npz"
+
+    def run(*how):
+        monkeypatch.undo()
+        assert chapsym("run", scene, "-o", output).returncode == 0
+        return real(*how)
+
+    for other_command in (["run", other], ["trade", "--accuracy", "1e-6", "--time", "1"]):  # at the same time
+        monkeypatch.setattr(sweep, "run", run)
+        assert refused(*other_command, "-o", output).endswith(f" differs); {ELSE}")
+        output.unlink()
 
 
 def test_a_csv_goes_to_standard_output_and_nothing_else_does(tmp_path):

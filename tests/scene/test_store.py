@@ -436,10 +436,21 @@ def test_every_moment_of_the_creation_may_be_the_last(whole, tmp_path, monkeypat
         ({"outputs": ("momentum",)}, "another plan"),
     ],
 )
-def test_a_store_of_another_run_is_not_touched(path, changed, words):
-    scene = 'a = 1\nb = {c = "y"}'
-    interrupted(path, 3, plan(scene=scene))
-    before = {p: p.read_bytes() for p in path.rglob("*") if p.is_file()}
+@pytest.mark.parametrize("meanwhile", [False, True])
+def test_a_store_of_another_run_is_not_touched(path, changed, words, meanwhile, monkeypatch):
+    """Nor that which another process makes while this one begins."""
+    scene, before, real = 'a = 1\nb = {c = "y"}', {}, stores.created
+
+    def made(*how):
+        monkeypatch.undo()
+        interrupted(path, 3, plan(scene=scene))
+        before.update({p: p.read_bytes() for p in path.rglob("*") if p.is_file()})
+        return how and real(*how)
+
+    if meanwhile:
+        monkeypatch.setattr(stores, "created", made)
+    else:
+        made()
     with pytest.raises(SceneError, match="choose another name, or replace it with --fresh") as caught:
         sweep.run_to_store(plan(**({"scene": scene} | changed)), path)
     assert words in str(caught.value)

@@ -8,6 +8,7 @@ from pathlib import Path
 from chapsym.checker import Rejected
 from chapsym.checker.linear import Vector
 from chapsym.checker.measure import ZEROS
+from chapsym.files import write_text
 
 from .boxes import KAPPA, Box, Document, Step, Walk
 
@@ -193,15 +194,15 @@ Qed.
 
 
 def write(texts: Mapping[str, str], folder: Path) -> None:
-    """Writes theorems, by name, with the files that Rocq needs; raises OSError if this fails."""
+    """Writes theorems, by name, with the files that Rocq needs; raises OSError or CannotWrite if this fails."""
     folder.mkdir(parents=True, exist_ok=True)
     library = folder / "Steps.v"
-    content = (HERE / library.name).read_bytes()
-    if not library.exists() or library.read_bytes() != content:  # unchanged files need not be judged again
-        library.write_bytes(content)
+    content = (HERE / library.name).read_text(encoding="utf-8")
+    if not library.exists() or library.read_bytes() != content.encode():  # unchanged files need not be judged again
+        write_text(library, content)
     for name, text in texts.items():
-        (folder / f"{name}.v").write_text(text, encoding="utf-8")
-    (folder / "Makefile").write_text(MAKEFILE.format(names=" ".join(texts)), encoding="utf-8")
+        write_text(folder / f"{name}.v", text)
+    write_text(folder / "Makefile", MAKEFILE.format(names=" ".join(texts)))
 
 
 MAKEFILE = """# make: Rocq judges the certificates, and the axioms of each theorem are counted; X.out lists those of X.

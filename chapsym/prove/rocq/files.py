@@ -5,6 +5,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from chapsym.files import write_text
+
 from .claims import Claim
 from .names import comment
 from .quotients import Data
@@ -43,7 +45,7 @@ class Written:
 
 
 def write(certificates: Iterable[Data], folder: Path) -> Written:
-    """Writes the files of accepted certificates to a folder; raises OSError if this fails."""
+    """Writes the files of accepted certificates to a folder; raises OSError or CannotWrite if this fails."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in (*folder.glob("claim_*"), *folder.glob("axioms_*")):
         old.unlink()
@@ -56,17 +58,17 @@ def write(certificates: Iterable[Data], folder: Path) -> Written:
         for library, parts in claim.parts.items():
             name = claim.name + ENDINGS[library]
             begins = [comment(f"Claim {data['claim']}, from its certificate."), HEADS[library]]
-            (folder / f"{name}.v").write_text("\n\n".join([*begins, *parts]) + "\n", encoding="utf-8")
+            write_text(folder / f"{name}.v", "\n\n".join([*begins, *parts]) + "\n")
             if theorems := claim.names.get(library):
                 written.files[library][name] = theorems
     for library in LIBRARIES:
-        text, path = (HERE / f"{library}.v").read_bytes(), folder / f"{library}.v"
-        if not path.exists() or path.read_bytes() != text:  # unchanged files need not be judged again
-            path.write_bytes(text)
+        text, path = (HERE / f"{library}.v").read_text(encoding="utf-8"), folder / f"{library}.v"
+        if not path.exists() or path.read_bytes() != text.encode():  # unchanged files need not be judged again
+            write_text(path, text)
     for library, files in written.files.items():
-        (folder / f"axioms_{library}.v").write_text(_axioms(files), encoding="utf-8")
-    (folder / "summary.txt").write_text(f"{written}\n", encoding="utf-8")
-    (folder / "Makefile").write_text(_makefile(written), encoding="utf-8")
+        write_text(folder / f"axioms_{library}.v", _axioms(files))
+    write_text(folder / "summary.txt", f"{written}\n")
+    write_text(folder / "Makefile", _makefile(written))
     return written
 
 

@@ -78,6 +78,7 @@ class Store:
                 _discard(path)
         is_new = not path.exists() and created(path, lambda place: _create(place, plan))
         with _locked(path):
+            check_same(path, plan)  # another process may have made it, since it was not there
             if not is_new or store._says_complete:
                 store._mend()
             yield store
