@@ -7,7 +7,7 @@ from typing import Any
 
 from chapsym import files
 
-from . import notation
+from . import formulas, notation
 from .records import FEDOROV, Record, Source, errors, kinds, label, section, slip_of, slips, truth
 
 FORMAT = "chapsym errata 1"
@@ -19,15 +19,21 @@ State = dict[str, Any]
 
 def markdown(records: Sequence[Record], version: str, source: Source = FEDOROV) -> str:
     """The errata as Markdown, with formulas in dollars."""
-    lines = ["# Errata", "", *_introduction(records, version, source, str)]
+    write = {"words": notation.markdown, "formula": "${}$".format, "typed": notation.code}
+    lines = ["# Errata", "", *_introduction(records, version, source, notation.markdown)]
     for record in errors(records):
-        lines += [f"## {label(record['id'])}", "", record["evidence"]["title"], ""]
-        lines += [f"- {name}: {f'${text}$' if typed else text}" for name, text, typed in _said(record)]
+        lines += [
+            f"## {notation.markdown(label(record['id']))}",
+            "",
+            notation.markdown(record["evidence"]["title"]),
+            "",
+        ]
+        lines += [f"- {name}: {write[sort](text)}" for name, text, sort in _said(record)]
         for named, statement, sign, left, right in _examples(record, source):
             point = ", ".join(f"{symbol} = {notation.plain(value)}" for symbol, value in named)
             both = f"{sign} ".join(", ".join(map(notation.in_line, side)) for side in (left, right))
-            lines.append(f"- At `{point}`: `{statement}`; but `{both}`")
-        lines += [f"- Proof: `{source.reproduce(record['id'])}`", ""]
+            lines.append("- At {}: {}; but {}".format(*map(notation.code, (point, statement, both))))
+        lines += [f"- Proof: {notation.code(source.reproduce(record['id']))}", ""]
     return "\n".join(lines)
 
 
@@ -51,13 +57,15 @@ def kind(record: Record) -> str:
     return f"{name}{', follows from ' if follows else ''}{' and '.join(map(label, follows))}"
 
 
-def _said(record: Record) -> Iterator[tuple[str, str, bool]]:
-    """The parts of an entry, each with its name, and whether it is a formula."""
+def _said(record: Record) -> Iterator[tuple[str, str, str]]:
+    """The parts of an entry, each with its name, and its sort: a formula, what is typed and can be none, or words."""
     formula, words = truth(record)
+    printed, true = ("formula" if formulas.is_whole(text) else "typed" for text in (record["printed"], formula))
     condition = "Condition" if record["verdict"] == "conditional" else "True"
     said = [
-        ("Kind", kind(record), False), ("Printed", record["printed"], True), ("True", formula, True),
-        (condition, words, False), *(("Hypothesis", text, False) for text in record["evidence"].get("hypotheses", [])),
+        ("Kind", kind(record), "words"), ("Printed", record["printed"], printed), ("True", formula, true),
+        (condition, words, "words"),
+        *(("Hypothesis", text, "words") for text in record["evidence"].get("hypotheses", [])),
     ]  # fmt: skip
     return filter(lambda one: one[1], said)
 
@@ -82,13 +90,13 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 
 def latex(records: Sequence[Record], version: str, source: Source = FEDOROV) -> str:
     """The errata as one LaTeX document in ASCII, for any engine, with amsmath and amssymb."""
+    write = {"words": notation.latex, "formula": notation.formula_latex, "typed": notation.typed_latex}
     lines = [r"\section*{Errata}", *_introduction(records, version, source, notation.latex)]
     for record in errors(records):
         name = notation.typed_latex(record["id"]) if source.register else notation.latex(label(record["id"]))
         lines += [r"\medskip", rf"\textbf{{{name}}}. {notation.latex(record['evidence']['title'])}", ""]
-        for name, text, typed in _said(record):
-            written = rf"$\displaystyle {text}$" if typed else notation.latex(text)
-            lines += [rf"\textit{{{name}:}} {written}", ""]
+        for name, text, sort in _said(record):
+            lines += [rf"\textit{{{name}:}} {write[sort](text)}", ""]
         for named, statement, sign, left, right in _examples(record, source):
             point = ", ".join(f"${notation.symbol_latex(x)} = {notation.value_latex(value)}$" for x, value in named)
             shown, other = (r",\allowbreak ".join(map(notation.shown_latex, side)) for side in (left, right))

@@ -64,6 +64,15 @@ def pieces(latex: str) -> list[Piece]:
     return [piece for piece in found if piece.text.strip(" ~") not in ("", "\\ ", "\\quad")]
 
 
+def is_whole(latex: str) -> bool:
+    """Whether a formula can be read, so that LaTeX ends it where it ends, and obeys nothing else in it."""
+    odd = r"[%$#]|\\(?:\w*def|let|\w*command|input)(?![a-zA-Z])|\\text\{[^{}]*[_^&~\\]"
+    try:
+        return bool(mathml(latex)) and latex.isprintable() and not re.search(odd, re.sub(r"\\[^a-zA-Z]", "", latex))
+    except NotConverted:
+        return False
+
+
 @cache
 def mathml(latex: str) -> str:
     """One formula as inline MathML; raises NotConverted if a part of it is not understood."""

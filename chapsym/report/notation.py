@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from itertools import takewhile
 from typing import Any
 
+from chapsym import files
+
 #: The notation of the paper for symbols in the points of the proofs.
 _SYMBOLS = {
     "w": "ω", "g": "γ", "L": "Λ", "rho": "ρ", "gamma": "γ", "omega": "ω", "sigma": "σ", "epsilon": "ε", "k2": "k²",
@@ -117,6 +119,23 @@ def differing(example: dict[str, Any]) -> bool:
     return len(example["left"]) > 3 and any(a == b for a, b in zip(example["left"], example["right"], strict=True))
 
 
+# To Markdown.
+
+
+def markdown(text: str) -> str:
+    """Plain text in one line, in which nothing is a sign of Markdown."""
+    signs = r"[\\`*\[$]|<(?=[A-Za-z/!?])|&(?=#?\w+;)|(?<![^\W_])_|~(?=~)|(?<=~)~|^[#>+=-]|#$|^\d+(?=[.)])"
+    text = files.visible(" ".join(text.split()))
+    return re.sub(signs, lambda sign: f"{sign[0]}\\" if sign[0].isdigit() else f"\\{sign[0]}", text)
+
+
+def code(text: str) -> str:
+    """Text as it is, in one line, between more of the signs that end it than it has."""
+    text = files.visible(" ".join(text.split()))
+    fence, apart = "`" * (1 + max(map(len, re.findall("`+", text)), default=0)), " " * ("`" in (text[:1], text[-1:]))
+    return f"{fence}{apart}{text}{apart}{fence}"
+
+
 # To LaTeX.  A word is prose if it has two letters or more and nothing specific to formulas.
 
 _FUNCTIONS = ("sn", "cn", "dn", "tr", "Tr", "diag", "sign", "cos", "sin", "exp", "ln", "det", "div", "Ad")
@@ -133,7 +152,8 @@ _COMMANDS = {
     "ϑ": r"\vartheta", "⅔": r"\tfrac23",
     "′": "'", "⅓": r"\tfrac13", "⅛": r"\tfrac18", "¾": r"\tfrac34", "∘": r"\circ", "∖": r"\setminus", "|": "|",
     "{": r"\{", "}": r"\}", "%": r"\%", "&": r"\&", "#": r"\#", "$": r"\$", "~": r"\sim", "\\": r"\backslash",
-    "*": r"\ast", "«": r"\text{``}", "»": r"\text{''}", "✓": r"\checkmark", "✗": r"\times",
+    "*": r"\ast", "^": r"\text{\textasciicircum}", "_": r"\_", "«": r"\text{``}", "»": r"\text{''}", "✓": r"\checkmark",
+    "✗": r"\times",
 }  # fmt: skip
 _ACCENTS = {
     "\u0307": "dot", "\u0308": "ddot", "\u0304": "bar", "\u0303": "tilde", "\u0302": "widehat", "\u20d7": "vec",
@@ -191,16 +211,21 @@ def _is_formula(word: str) -> bool:
 
 
 def _prose(word: str) -> str:
-    return "".join(_PROSE.get(x, x if x.isascii() else _unknown(x)) for x in word)
+    return "".join(_PROSE.get(x, x if x.isascii() and x.isprintable() else _unknown(x)) for x in word)
 
 
 def symbol_latex(text: str) -> str:
     """A symbol or a formula, without dollars; accents, super- and subscripts and fractions become commands."""
     text = "".join(unicodedata.normalize("NFD", x) if x.isalpha() else x for x in text).replace("...", "…")
-    out, index = "", 0
+    out, index, raised = "", 0, ""
     while index < len(text):
         taken, piece = _token(text, index)
         glue = " " if re.search(r"\\[a-zA-Z]+$", out) and piece[:1].isalpha() else ""
+        if (mark := piece[0]) in "^_'":  # TeX takes one subscript, and one superscript, also a prime
+            clash = "_" in raised if mark == "_" else "^" in raised or ("'" in raised and raised[-1] != "'")
+            glue, raised = ("{}", mark) if clash else ("", raised + mark)
+        else:
+            raised = f"{raised} " if piece == " " else "_" if re.search(r"_\{\d+\}$", piece) else ""
         out += glue + piece
         index += taken
     return out
@@ -235,7 +260,7 @@ def _token(text: str, start: int) -> tuple[int, str]:
 def _character(x: str) -> str:
     if x in _COMMANDS:
         return _COMMANDS[x]
-    if x.isascii():
+    if x.isascii() and x.isprintable():
         return x
     name = unicodedata.name(x, "")
     greek = re.fullmatch(r"GREEK (SMALL|CAPITAL) LETTER ([A-Z]+)", name.replace("LAMDA", "LAMBDA"))
@@ -253,6 +278,11 @@ def _character(x: str) -> str:
 
 def _unknown(x: str) -> str:
     return f"\\text{{[U+{ord(x):04X}]}}"
+
+
+def formula_latex(text: str) -> str:
+    """A formula that is LaTeX already, in dollars and in ASCII."""
+    return rf"$\displaystyle {''.join(x if x.isascii() else f'{{{_character(x)}}}' for x in text)}$"
 
 
 def typed_latex(text: str) -> str:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import chapsym
-from chapsym.report import WRITERS, errata, records
+from chapsym.report import WRITERS, errata, notation, records
 
 ROOT = Path(__file__).parents[2]
 
@@ -40,6 +40,30 @@ def test_every_kind_of_error_says_what_is_true(handmade):
     text = errata.latex(handmade, "1")
     assert r"\textit{Condition:} $q$ is real" in text
     assert r"\textit{True:} a is at most $b$" in text
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        "x % y",
+        "x $ y",
+        r"\input{x}",
+        r"\text{\input x}",
+        r"\def\x{1}",
+        r"\text{a_b}",
+        r"x \end{document}",
+        "x\n\ny",
+        "{x",
+    ],
+)
+def test_what_is_no_formula_is_shown_as_it_is_typed(handmade, formula):
+    wrong = next(record for record in handmade if record["verdict"] == "corrected")
+    wrong["printed"] = formula
+    assert f"- Printed: `{' '.join(formula.split())}`\n" in errata.markdown(handmade, "1")
+    typed = notation.typed_latex(formula)
+    assert rf"\textit{{Printed:}} {typed}" in errata.latex(handmade, "1")
+    wrong["printed"] = "𝒦x = 1"
+    assert r"$\displaystyle {\mathcal{K}}x = 1$" in errata.latex(handmade, "1")
 
 
 def test_each_error_of_the_paper_has_a_kind_and_follows_from_errors(register):

@@ -1,7 +1,10 @@
 """Points and statements: grouped for a reader, and as ASCII LaTeX."""
 
+from xml.etree import ElementTree
+
 import pytest
 
+from chapsym import files
 from chapsym.report import notation
 
 
@@ -74,6 +77,8 @@ def test_compact_sides_keep_what_differs():
         ("In Section 2 and (4.3), as 2.5-inverse says", "In Section 2 and (4.3), as 2.5-inverse says"),
         ("100% of «a_b» & «more»", r"$100\%$ of $\text{``}a_{b}\text{''} \&$ ``more''"),
         ("日", r"$\text{[U+65E5]}$"),
+        ("r1_k²' ᵀ", "$r_{1}{}_{k}^{2}{}' {}^{T}$"),
+        ("x^ and a bell\x07", r"$x\text{\textasciicircum}$ and a bell\text{[U+0007]}"),
     ],
 )  # fmt: skip
 def test_plain_text_becomes_latex(text, latex):
@@ -95,3 +100,31 @@ def test_everything_that_the_register_says_has_ascii_latex(register):
                 for latex in (notation.symbol_latex(symbol), notation.value_latex(value)):
                     assert latex.isascii(), (record["id"], symbol, latex)
                     assert "U+" not in latex
+
+
+MARKED = (
+    "<b>",
+    "&lt;",
+    "`x` ``",
+    "[l](j)",
+    "a_b _c_",
+    "*d*",
+    "$e$",
+    "~~f~~",
+    "1. g",
+    "# h #",
+    "\\\\",
+    "> i\n\n- j",
+    "\x07",
+)
+
+
+@pytest.mark.parametrize("words", [*MARKED, " ".join(MARKED)])
+def test_nothing_in_words_is_markdown(words):
+    reader = pytest.importorskip("markdown_it").MarkdownIt("commonmark").enable("strikethrough")
+    shown = files.visible(" ".join(words.split()))
+    for written, tags in (("{}", "p"), ("## {}", "h2"), ("- {}", "ul li"), ("- {}", "ul li code")):
+        text = notation.code(words) if "code" in tags else notation.markdown(words)
+        page = ElementTree.fromstring(f"<page>{reader.render(written.format(text))}</page>")
+        assert [one.tag for one in page.iter()] == ["page", *tags.split()]
+        assert "".join(page.itertext()).strip() == shown
