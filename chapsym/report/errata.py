@@ -90,7 +90,7 @@ _PREAMBLE = r"""\documentclass[11pt]{article}
 
 def latex(records: Sequence[Record], version: str, source: Source = FEDOROV) -> str:
     """The errata as one LaTeX document in ASCII, for any engine, with amsmath and amssymb."""
-    write = {"words": notation.latex, "formula": notation.formula_latex, "typed": notation.typed_latex}
+    write = {"words": notation.latex, "formula": notation.formula_latex, "typed": notation.code_latex}
     lines = [r"\section*{Errata}", *_introduction(records, version, source, notation.latex)]
     for record in errors(records):
         name = notation.typed_latex(record["id"]) if source.register else notation.latex(label(record["id"]))
@@ -103,7 +103,7 @@ def latex(records: Sequence[Record], version: str, source: Source = FEDOROV) -> 
             words = notation.latex(", ".join(map(notation.in_line, right)))
             both = rf"${shown}\neq {other}$" if sign == " ≠" else f"${shown}${sign} {words}"
             lines += [rf"\textit{{At}} {point}: {notation.latex(statement)}; but {both}", ""]
-        lines += [rf"\textit{{Proof:}} \texttt{{{notation.typed_latex(source.reproduce(record['id']))}}}", ""]
+        lines += [rf"\textit{{Proof:}} {notation.code_latex(source.reproduce(record['id']))}", ""]
     return _PREAMBLE + "\n".join([*lines, r"\end{document}", ""])
 
 

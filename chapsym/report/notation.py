@@ -290,6 +290,11 @@ def typed_latex(text: str) -> str:
     return _prose(text).replace("--", "-{}-")
 
 
+def code_latex(text: str) -> str:
+    """The same, in the letters of a typewriter."""
+    return rf"\texttt{{{typed_latex(text)}}}"
+
+
 def value_latex(text: str) -> str:
     """A value of a point as a formula, without dollars."""
     return shown_latex(value(text))

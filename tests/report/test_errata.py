@@ -60,8 +60,7 @@ def test_what_is_no_formula_is_shown_as_it_is_typed(handmade, formula):
     wrong = next(record for record in handmade if record["verdict"] == "corrected")
     wrong["printed"] = formula
     assert f"- Printed: `{' '.join(formula.split())}`\n" in errata.markdown(handmade, "1")
-    typed = notation.typed_latex(formula)
-    assert rf"\textit{{Printed:}} {typed}" in errata.latex(handmade, "1")
+    assert rf"\textit{{Printed:}} {notation.code_latex(formula)}" in errata.latex(handmade, "1")
     wrong["printed"] = "𝒦x = 1"
     assert r"$\displaystyle {\mathcal{K}}x = 1$" in errata.latex(handmade, "1")
 
