@@ -42,6 +42,10 @@ def judge(
 
     if (against is None) == (body is None):
         fail("give either --against, a case or a scene, or --body, a ball that starts as the first row does", 2)
+    if output is not None:
+        from chapsym.studies.judge_drawing import check_output, save
+
+        check_output(output)
     tables = [table_of(file) for file in results]  # before a motion is certified, which may take a minute
     with telling() as progress:
         if body is not None:
@@ -62,8 +66,6 @@ def judge(
     elif len(runs) == 2:
         fail("give one result, or three or more with steps in one ratio: two do not tell an order", 2)
     if output is not None:
-        from chapsym.studies.judge_drawing import save
-
         save(output, case, runs, found, known)
     if as_json:
         rows = [

@@ -54,13 +54,15 @@ def lab(
 
     A file of a system is Python, and is run. Example: chapsym lab docs/examples/systems -o systems.html
     """
-    from chapsym.files import alone, write_text
+    from chapsym.files import alone, check_destination, write_text
     from chapsym.mechanics import METHODS, BadSystem, loaded
     from chapsym.mechanics.cases import name_of
     from chapsym.show.lab import COLUMNS
 
     if output is not None and output.suffix not in (".json", ".html"):
         fail(f"{output} must end in .json or .html", 2)
+    if output is not None:
+        check_destination(output)
     methods = method or list(METHODS)
     if strange := [name for name in methods if name not in METHODS]:
         fail(f"{strange[0]!r} is no method; those are {', '.join(METHODS)}", 2)

@@ -18,13 +18,17 @@ from .judge_tables import Trajectory
 FORMS = (".svg", ".png", ".pdf", ".html")
 
 
-def save(
-    output: Path, case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Mapping[str, Convergence]
-) -> None:
-    """Writes the curves, or the page; raises BadInput for another suffix, CannotWrite if the file cannot be written."""
+def check_output(output: Path) -> None:
+    """Raises BadInput for another suffix, and CannotWrite if the file cannot be written."""
     if output.suffix not in FORMS:
         raise BadInput(f"{str(output)!r} must end in {', '.join(FORMS)}")
     files.check_destination(output)
+
+
+def save(
+    output: Path, case: Case, runs: Sequence[Trajectory], found: Sequence[Departure], known: Mapping[str, Convergence]
+) -> None:
+    """Writes the curves, or the page, to what `check_output` takes; raises CannotWrite if the disk refuses."""
     data = {"case": case, "runs": runs, "found": found}
     with styled():
         picture = draw(data)

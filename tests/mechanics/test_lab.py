@@ -140,6 +140,7 @@ def test_a_page_with_a_curve_for_each_method(tmp_path):
         ("from chapsym.mechanics import System\nSYSTEM = System('s', (), 0)", [], "s: coordinates must be symbols"),
         ("x = 1", ["--method", "euler"], "'euler' is no method; those are dla, own, dla-left, gni, leapfrog"),
         ("x = 1", ["-o", "lab.txt"], "lab.txt must end in .json or .html"),
+        ("x = 1", ["-o", "none/lab.html"], "the folder none does not exist"),  # before anything is measured
     ],
 )
 def test_what_is_no_system_is_one_sentence(tmp_path, text, options, said):

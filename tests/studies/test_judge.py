@@ -245,7 +245,7 @@ def test_files_that_are_none_are_refused_in_one_sentence(table, tmp_path):
     assert "cannot be read" in refused("judge", tmp_path, "--against", FILE)
     (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe\x00")
     assert "is not UTF-8 text" in refused("judge", tmp_path / "bytes.csv", "--against", FILE)
-    assert "must end in .svg" in refused("judge", own, "--against", FILE, "-o", tmp_path / "x.txt")
+    assert "must end in .svg" in refused("judge", tmp_path / "none.csv", "--against", FILE, "-o", tmp_path / "x.txt")
 
 
 @pytest.fixture(scope="module")
