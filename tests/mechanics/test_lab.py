@@ -52,7 +52,7 @@ def test_json_is_gone_on_with(tmp_path):
         assert "is not what chapsym lab has written" in refused("lab", "--method", "dla", *options)
     out.unlink()
     os.mkfifo(out)  # which would be waited for
-    assert "is not what chapsym lab has written" in refused("lab", "--method", "dla", *options)
+    assert "it is a device or a pipe, not a file" in refused("lab", "--method", "dla", *options)
 
 
 def test_two_commands_at_once_both_keep_their_cells(tmp_path, monkeypatch):
