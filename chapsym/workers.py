@@ -8,7 +8,7 @@ import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 #: Ignores the warning of Python's tracker, which removes the semaphores of a killed process; an option -W.
@@ -33,7 +33,12 @@ class Processes(ProcessPoolExecutor):
     def submit(self, *call: Any, **named: Any) -> Future[Any]:
         """A call; the first one starts the processes."""
         with _deaf():
-            return super().submit(_called, *call, **named)
+            try:
+                return super().submit(_called, *call, **named)
+            except (RuntimeError, OSError):  # too few threads or processes: those that begin would find nothing
+                for process in (self._processes or {}).values():
+                    process.kill()
+                raise
 
     def __exit__(self, *error: object) -> None:
         children = list((self._processes or {}).values())  # the pool forgets them at its shutdown
@@ -69,7 +74,8 @@ def begin() -> None:
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     sys.unraisablehook = lambda what: None if _state["ended"] else sys.__unraisablehook__(what)
-    threading.Thread(target=_outlived, daemon=True).start()
+    with suppress(RuntimeError):  # there may be no more threads: it is then ended with its `with` only
+        threading.Thread(target=_outlived, daemon=True).start()
 
 
 #: Of a worker: whether it is at a call, and whether it was asked to end.

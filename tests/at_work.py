@@ -2,12 +2,25 @@
 
 import os
 import signal
+import threading
 import time
 from contextlib import suppress
+from unittest import mock
 
 from waiting import GUARD
 
 from chapsym.files import write_whole
+from chapsym.workers import begin
+
+
+def no_thread():
+    """No thread begins in this `with`, as if the system refused it."""
+    return mock.patch.object(threading.Thread, "start", side_effect=RuntimeError("can't start new thread"))
+
+
+def crowded():
+    with no_thread():
+        begin()
 
 
 def written(path):

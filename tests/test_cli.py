@@ -1,5 +1,6 @@
 """The command's contract, from outside: output, exit status, one sentence for an error."""
 
+import errno
 import io
 import json
 import logging
@@ -264,6 +265,8 @@ def test_a_command_whose_errors_nobody_wants_does_its_work(where):
     [
         ("chapsym.cli.lab", "KeyboardInterrupt", 130, "interrupted"),
         ("chapsym.dynamics", "MemoryError", 2, "there is not enough memory for this"),
+        ("chapsym.dynamics", 'RuntimeError("can\'t start new thread")', 2, app.CROWDED),
+        ("chapsym.dynamics", f"OSError({errno.EAGAIN}, {os.strerror(errno.EAGAIN)!r})", 2, app.CROWDED),
     ],
 )
 def test_an_interrupt_while_the_command_starts_and_too_little_memory_are_one_sentence(
@@ -286,6 +289,20 @@ def test_an_interrupt_that_python_only_writes_down_is_not_lost(monkeypatch, caps
 def test_a_worker_that_begins_sees_no_interrupt():
     with Processes(1) as pool:
         assert signal.SIGINT in pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, ()).result()
+
+
+def test_a_worker_works_where_no_more_threads_are_started():
+    with Processes(1, at_work.crowded) as pool:
+        assert pool.submit(os.getpid).result() != os.getpid()
+
+
+def test_too_few_threads_leave_no_process():
+    with Processes(1) as pool:
+        with at_work.no_thread(), pytest.raises(RuntimeError):
+            pool.submit(os.getpid)
+        (worker,) = pool._processes.values()
+        until(lambda: worker.exitcode is not None)
+    assert worker.exitcode == -signal.SIGKILL
 
 
 def test_the_end_of_the_processes_waits_for_no_call_and_leaves_nothing_half_written(tmp_path):

@@ -2,6 +2,7 @@
 
 import _thread
 import codecs
+import errno
 import io
 import logging
 import os
@@ -26,6 +27,7 @@ app = typer.Typer(
 
 
 INTERRUPTED = 130
+CROWDED = "the system starts no more threads or processes: end others, or raise the limit (ulimit -u)"
 #: Signs of mathematics in ASCII.
 SIGNS = str.maketrans(
     {"⟨": "<", "⟩": ">", "⁻": "-", "−": "-", "–": "-", "±": "+/-", "×": "x", "·": "*", "⁄": "/", "→": "->", "≤": "<="}
@@ -69,6 +71,7 @@ def main() -> NoReturn:
             stream.reconfigure(errors="chapsym")
     logging.basicConfig(handlers=[_Notes()])
     logging.getLogger("chapsym").setLevel(logging.INFO)
+    logging.getLogger("asyncio").setLevel(logging.CRITICAL)  # of the first error of Zarr there is a sentence
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # of a home that cannot be written it says four lines
     if len(sys.argv) == 1:
         sys.argv.append("--help")
@@ -100,8 +103,15 @@ def main() -> NoReturn:
         if error.filename is not None:
             quiet()
             fail(f"{error.filename}: {error.strerror}", 2)
+        if error.errno == errno.EAGAIN and error.strerror == os.strerror(errno.EAGAIN):  # of a fork, not of a pipe
+            fail(CROWDED, 2)
         _silence_output()
         fail(f"the output cannot be written: {error.strerror or error}", 2)
+    except RuntimeError as error:
+        if "can't start new thread" not in str(error):
+            raise
+        sys.unraisablehook = lambda what: None  # Zarr would wait in the end for a thread that it has not started
+        fail(CROWDED, 2)
     except _foreseen() as error:
         quiet()
         fail(str(error), 2)
