@@ -266,7 +266,10 @@ def test_a_command_whose_errors_nobody_wants_does_its_work(where):
         ("chapsym.cli.lab", "KeyboardInterrupt", 130, "interrupted"),
         ("chapsym.dynamics", "MemoryError", 2, "there is not enough memory for this"),
         ("chapsym.dynamics", 'RuntimeError("can\'t start new thread")', 2, app.CROWDED),
-        ("chapsym.dynamics", f"OSError({errno.EAGAIN}, {os.strerror(errno.EAGAIN)!r})", 2, app.CROWDED),
+        *(
+            ("chapsym.dynamics", f"OSError({one}, {os.strerror(one)!r})", 2, app.CROWDED)
+            for one in (errno.EAGAIN, errno.EMFILE)
+        ),
     ],
 )
 def test_an_interrupt_while_the_command_starts_and_too_little_memory_are_one_sentence(

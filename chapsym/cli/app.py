@@ -27,7 +27,7 @@ app = typer.Typer(
 
 
 INTERRUPTED = 130
-CROWDED = "the system starts no more threads or processes: end others, or raise the limit (ulimit -u)"
+CROWDED = "the system refuses more files, threads or processes: end others, or raise its limits (ulimit -n, ulimit -u)"
 #: Signs of mathematics in ASCII.
 SIGNS = str.maketrans(
     {"⟨": "<", "⟩": ">", "⁻": "-", "−": "-", "–": "-", "±": "+/-", "×": "x", "·": "*", "⁄": "/", "→": "->", "≤": "<="}
@@ -103,7 +103,8 @@ def main() -> NoReturn:
         if error.filename is not None:
             quiet()
             fail(f"{error.filename}: {error.strerror}", 2)
-        if error.errno == errno.EAGAIN and error.strerror == os.strerror(errno.EAGAIN):  # of a fork, not of a pipe
+        none = errno.EAGAIN, errno.EMFILE, errno.ENFILE
+        if error.errno in none and error.strerror == os.strerror(error.errno):  # of a fork, and not of a pipe
             fail(CROWDED, 2)
         _silence_output()
         fail(f"the output cannot be written: {error.strerror or error}", 2)
