@@ -27,7 +27,11 @@ app = typer.Typer(
 
 
 INTERRUPTED = 130
+#: Of errors that name no file, and are not of the output: where a process begins, or its folder is asked for.
 CROWDED = "the system refuses more files, threads or processes: end others, or raise its limits (ulimit -n, ulimit -u)"
+NOT_OF_OUTPUT = dict.fromkeys((errno.EAGAIN, errno.EMFILE, errno.ENFILE), CROWDED) | {
+    errno.ENOENT: "the folder in which this runs was deleted: change to another"
+}
 #: Signs of mathematics in ASCII.
 SIGNS = str.maketrans(
     {"⟨": "<", "⟩": ">", "⁻": "-", "−": "-", "–": "-", "±": "+/-", "×": "x", "·": "*", "⁄": "/", "→": "->", "≤": "<="}
@@ -103,9 +107,8 @@ def main() -> NoReturn:
         if error.filename is not None:
             quiet()
             fail(f"{error.filename}: {error.strerror}", 2)
-        none = errno.EAGAIN, errno.EMFILE, errno.ENFILE
-        if error.errno in none and error.strerror == os.strerror(error.errno):  # of a fork, and not of a pipe
-            fail(CROWDED, 2)
+        if error.errno in NOT_OF_OUTPUT and error.strerror == os.strerror(error.errno):  # that of a pipe is another
+            fail(NOT_OF_OUTPUT[error.errno], 2)
         _silence_output()
         fail(f"the output cannot be written: {error.strerror or error}", 2)
     except RuntimeError as error:
