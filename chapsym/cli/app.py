@@ -28,7 +28,7 @@ app = typer.Typer(
 
 INTERRUPTED = 130
 #: Of errors that name no file, and are not of the output: where a process begins, or its folder is asked for.
-CROWDED = "the system refuses more files, threads or processes: end others, or raise its limits (ulimit -n, ulimit -u)"
+CROWDED = "the system refuses more files, threads or processes: end others, or raise its limits (ulimit -n, -u, -v)"
 NOT_OF_OUTPUT = dict.fromkeys((errno.EAGAIN, errno.EMFILE, errno.ENFILE), CROWDED) | {
     errno.ENOENT: "the folder in which this runs was deleted: change to another"
 }
