@@ -5,8 +5,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from chapsym.files import write_text
-
 from .claims import Claim
 from .names import comment
 from .quotients import Data
@@ -44,8 +42,15 @@ class Written:
         )
 
 
+def _put(path: Path, text: str) -> None:
+    """Writes a file whole, without the rest of chapsym: `python -m rocq` has Python alone."""
+    part = path.with_name(f"{path.name}.part")
+    part.write_text(text, encoding="utf-8")
+    part.replace(path)
+
+
 def write(certificates: Iterable[Data], folder: Path) -> Written:
-    """Writes the files of accepted certificates to a folder; raises OSError or CannotWrite if this fails."""
+    """Writes the files of accepted certificates to a folder; raises OSError if this fails."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in (*folder.glob("claim_*"), *folder.glob("axioms_*")):
         old.unlink()
@@ -58,17 +63,17 @@ def write(certificates: Iterable[Data], folder: Path) -> Written:
         for library, parts in claim.parts.items():
             name = claim.name + ENDINGS[library]
             begins = [comment(f"Claim {data['claim']}, from its certificate."), HEADS[library]]
-            write_text(folder / f"{name}.v", "\n\n".join([*begins, *parts]) + "\n")
+            _put(folder / f"{name}.v", "\n\n".join([*begins, *parts]) + "\n")
             if theorems := claim.names.get(library):
                 written.files[library][name] = theorems
     for library in LIBRARIES:
         text, path = (HERE / f"{library}.v").read_text(encoding="utf-8"), folder / f"{library}.v"
         if not path.exists() or path.read_bytes() != text.encode():  # unchanged files need not be judged again
-            write_text(path, text)
+            _put(path, text)
     for library, files in written.files.items():
-        write_text(folder / f"axioms_{library}.v", _axioms(files))
-    write_text(folder / "summary.txt", f"{written}\n")
-    write_text(folder / "Makefile", _makefile(written))
+        _put(folder / f"axioms_{library}.v", _axioms(files))
+    _put(folder / "summary.txt", f"{written}\n")
+    _put(folder / "Makefile", _makefile(written))
     return written
 
 
