@@ -84,7 +84,7 @@ def _seconds(contender: Contender) -> float:
 @contextmanager
 def cores(count: int) -> Iterator[None]:
     """Keeps every thread of this process to `count` cores, where the system can do that."""
-    before = _affinity()
+    before = os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else None
     if before:
         _pin(sorted(before)[:count])
     try:
@@ -92,10 +92,6 @@ def cores(count: int) -> Iterator[None]:
     finally:
         if before:
             _pin(before)
-
-
-def _affinity() -> set[int]:
-    return os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else set()
 
 
 def _pin(wanted: Sequence[int] | set[int]) -> None:

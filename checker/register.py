@@ -208,7 +208,8 @@ def check_form(data: dict[str, Any]) -> None:
     if data["claim"] in data["uses"]:
         raise Rejected("uses must be ids of other claims")
     once(data["uses"], "uses")
-    made, points = {one["name"] for one in data["derivation"]}, points_of(data)
+    made = {one["name"] for one in data["derivation"]}
+    points = [*data["points"], *(one["point"] for one in data["counterexamples"])]
     known = made.union(roots.NUMBERS if data["counts"] else (), *points, *map(names_of, data["algebras"]))
     meaning.check_form(data["glossary"], known)
     if twice := made & set().union(*points):
@@ -259,11 +260,6 @@ def check_kinds(algebra: Mapping[str, Any], point: Mapping[str, Any]) -> None:
     for name in point.keys() & names_of(algebra):
         if isinstance(point[name], list) is not (name in algebra.get("letters", ())):
             raise Rejected(f"a point has a matrix where a number must stand, or a number for a matrix: {name}")
-
-
-def points_of(data: Mapping[str, Any]) -> list[Any]:
-    """All points, including those of counterexamples."""
-    return [*data["points"], *(one["point"] for one in data["counterexamples"])]
 
 
 def equations(data: Mapping[str, Any]) -> list[Any]:

@@ -149,15 +149,11 @@ def searched(symbols: set[sp.Symbol], algebra: WordAlgebra) -> Iterator[Exact]:
 def _by_kind(letters: Sequence[sp.Symbol], algebra: WordAlgebra, n: int) -> Exact:
     """Seeded random n × n matrices for letters without an example: by their transposes, then by the rules."""
     seed, found = random.Random(n), dict(algebra.example)
-
-    def any_matrix() -> sp.Matrix:
-        return sp.Matrix(n, n, lambda i, j: seed.randint(-3, 3) + 2 * int(i == j))
-
     for x in letters:
         if x in found:
             continue
         image = algebra.transposes.get(x)
-        a = any_matrix()
+        a = sp.Matrix(n, n, lambda i, j: seed.randint(-3, 3) + 2 * int(i == j))
         if image == x:
             found[x] = a + a.T
         elif image == -x:

@@ -228,15 +228,19 @@ def convergence(case: Case, runs: Sequence[Trajectory], of: str = "path") -> Con
             f"the steps must be divided by the same number each time, but they are {', '.join(f'{x:g}' for x in steps)}"
         )
     if of == "path":
-        points, truth, apart = [run.centre[:, :2] for run in runs], case.path, _distance
+        points, truth = [run.centre[:, :2] for run in runs], case.path
     else:
-        points, truth, apart = [_turned(case, run.attitude) for run in runs], case.attitude, angle
-    away = [float(apart(a, b).max()) for a, b in pairwise(points)]
+        points, truth = [_turned(case, run.attitude) for run in runs], case.attitude
+
+    def apart(a: np.ndarray, b: np.ndarray) -> float:
+        return float((np.linalg.norm(a - b, axis=-1) if of == "path" else angle(a, b)).max())
+
+    away = [apart(a, b) for a, b in pairwise(points)]
     if not 0 < away[-1] < away[-2]:
         return Convergence(None, None, None)
     power = float(np.log(away[-2] / away[-1]) / np.log(ratios[-1]))
     limit = points[-1] + (points[-1] - points[-2]) / (ratios[-1] ** power - 1)
-    return Convergence(power, float(apart(points[-1], limit).max()), float(apart(limit, truth).max()))
+    return Convergence(power, apart(points[-1], limit), apart(limit, truth))
 
 
 def _turned(case: Case, attitude: np.ndarray | None) -> np.ndarray:
@@ -244,10 +248,6 @@ def _turned(case: Case, attitude: np.ndarray | None) -> np.ndarray:
     assert attitude is not None
     along = (attitude * case.attitude).sum(axis=-1, keepdims=True)
     return np.where(along < 0, -attitude, attitude)
-
-
-def _distance(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.asarray(np.linalg.norm(a - b, axis=-1))
 
 
 def sentence(found: Convergence, unit: str) -> str:
