@@ -265,6 +265,7 @@ def test_a_command_whose_errors_nobody_wants_does_its_work(where):
     [
         ("chapsym.cli.lab", "KeyboardInterrupt", 130, "interrupted"),
         ("chapsym.dynamics", "MemoryError", 2, "there is not enough memory for this"),
+        ("chapsym.dynamics", "ImportError('x.so: failed to map segment')", 2, "there is not enough memory for this"),
         ("chapsym.dynamics", 'RuntimeError("can\'t start new thread")', 2, app.CROWDED),
         *(
             ("chapsym.dynamics", f"OSError({one}, {os.strerror(one)!r})", 2, app.NOT_OF_OUTPUT[one])

@@ -17,6 +17,7 @@ import typer
 from typer.exceptions import TyperException
 
 import chapsym
+from chapsym.extras import MissingExtra
 from chapsym.rationals import NotANumber
 
 from .output import fail, note, quiet
@@ -32,6 +33,7 @@ CROWDED = "the system refuses more files, threads or processes: end others, or r
 NOT_OF_OUTPUT = dict.fromkeys((errno.EAGAIN, errno.EMFILE, errno.ENFILE), CROWDED) | {
     errno.ENOENT: "the folder in which this runs was deleted: change to another"
 }
+NO_MEMORY = "there is not enough memory for this"
 #: Signs of mathematics in ASCII.
 SIGNS = str.maketrans(
     {"⟨": "<", "⟩": ">", "⁻": "-", "−": "-", "–": "-", "±": "+/-", "×": "x", "·": "*", "⁄": "/", "→": "->", "≤": "<="}
@@ -102,7 +104,7 @@ def main() -> NoReturn:
         _abandon_output()
     except MemoryError:
         quiet()
-        fail("there is not enough memory for this", 2)
+        fail(NO_MEMORY, 2)
     except OSError as error:
         if error.filename is not None:
             quiet()
@@ -116,6 +118,12 @@ def main() -> NoReturn:
             raise
         sys.unraisablehook = lambda what: None  # Zarr would wait in the end for a thread that it has not started
         fail(CROWDED, 2)
+    except ImportError as error:
+        no_room = "failed to map segment" in str(error)  # for a library
+        if not no_room and not isinstance(error, MissingExtra):
+            raise
+        quiet()
+        fail(NO_MEMORY if no_room else str(error), 2)
     except _foreseen() as error:
         quiet()
         fail(str(error), 2)
@@ -147,10 +155,9 @@ def _unraisable(what: "sys.UnraisableHookArgs") -> None:
 def _foreseen() -> tuple[type[Exception], ...]:
     """The errors whose sentence is for the user; imported only where there is an error, so that --help is fast."""
     from chapsym.dynamics import BadInput, StepNotTaken
-    from chapsym.extras import MissingExtra
     from chapsym.files import CannotWrite
 
-    return NotANumber, BadInput, StepNotTaken, CannotWrite, MissingExtra
+    return NotANumber, BadInput, StepNotTaken, CannotWrite
 
 
 def plain(command: Any) -> Any:

@@ -1,5 +1,6 @@
 """Each script prints its derivations and verdicts, and exits non-zero when a proof fails."""
 
+import subprocess
 import sys
 from pathlib import Path
 
@@ -43,6 +44,14 @@ def test_a_script_prints_its_verdicts(name, records, lemmas, monkeypatch, capsys
     assert "verdict: " in said
     assert "control: " in said
     assert "PROBLEM" not in said
+
+
+def test_a_script_runs_alone():
+    script = path_of("paper.s4_limits")
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "verdict: HOLDS" in done.stdout
+    assert "control: " in done.stdout
 
 
 def test_a_script_whose_proof_fails_exits_1(monkeypatch, capsys):
