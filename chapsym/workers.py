@@ -74,7 +74,7 @@ def begin() -> None:
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTERM})
     sys.unraisablehook = lambda what: None if _state["ended"] else sys.__unraisablehook__(what)
-    with suppress(RuntimeError):  # there may be no more threads: it is then ended with its `with` only
+    with suppress(RuntimeError):  # without a thread the worker ends only with the `with` of its parent
         threading.Thread(target=_outlived, daemon=True).start()
 
 

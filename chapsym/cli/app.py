@@ -77,7 +77,7 @@ def main() -> NoReturn:
             stream.reconfigure(errors="chapsym")
     logging.basicConfig(handlers=[_Notes()])
     logging.getLogger("chapsym").setLevel(logging.INFO)
-    logging.getLogger("asyncio").setLevel(logging.CRITICAL)  # of the first error of Zarr there is a sentence
+    logging.getLogger("asyncio").setLevel(logging.CRITICAL)  # the first error of Zarr has a sentence of its own
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # of a home that cannot be written it says four lines
     if len(sys.argv) == 1:
         sys.argv.append("--help")

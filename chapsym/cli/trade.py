@@ -112,7 +112,7 @@ def _answer(
                     raise BadInput(why)
             else:
                 data = sweep.run(plan)
-                if output is not None and output.exists() and not fresh:  # of another process, meanwhile
+                if output is not None and output.exists() and not fresh:  # another process may have written it
                     check_same(output, plan)
                 if output is not None:
                     formats.save(data, output)

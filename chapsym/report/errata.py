@@ -58,7 +58,7 @@ def kind(record: Record) -> str:
 
 
 def _said(record: Record) -> Iterator[tuple[str, str, str]]:
-    """The parts of an entry, each with its name, and its sort: a formula, what is typed and can be none, or words."""
+    """The parts of an entry, each with its name and sort: a formula, typed text that is not read as one, or words."""
     formula, words = truth(record)
     printed, true = ("formula" if formulas.is_whole(text) else "typed" for text in (record["printed"], formula))
     condition = "Condition" if record["verdict"] == "conditional" else "True"

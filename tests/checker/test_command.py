@@ -52,7 +52,7 @@ def test_the_name_of_a_file_adds_no_line_and_hides_none(files, tmp_path, capsys)
     assert main([str(tmp_path / forged), forged]) == 2
     out, err = capsys.readouterr()
     assert "\x1b" not in out + err
-    assert [line.endswith("a.json: accepted (register-claim)") for line in (out + err).splitlines()].count(True) == 0
+    assert not any(line.endswith("a.json: accepted (register-claim)") for line in (out + err).splitlines())
     assert len(err.splitlines()) == 1
 
 

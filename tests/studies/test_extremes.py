@@ -23,7 +23,7 @@ from research.extremes.truth import State, fold_at, truth
 PINS = json.loads((Path(__file__).parent / "extremes.json").read_text(encoding="utf-8"))
 #: How verdicts are pinned, a letter for each precision.
 LETTERS = {"within": "w", "refused": "r", "failed": "f"}
-#: Of each group one row in so many, in two of others, but for thorough runs: the rows by their numbers.
+#: The interval between the rows of a group that are run, 2 for other groups; thorough runs take all rows.
 ONE_IN = dict.fromkeys(("inertia", "fold", "order", "rotation", "D", "momentum", "vertical", "directions"), 3)
 ONE_IN |= dict.fromkeys(("fold search", *study.SHARED), 6)
 TOGETHER = [group for group in study.GROUPS if group not in study.SHARED]
