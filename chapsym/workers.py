@@ -27,6 +27,8 @@ class Processes(ProcessPoolExecutor):
         try:
             with _deaf():
                 super().__init__(count, multiprocessing.get_context("spawn"), initializer=first or begin)
+            # The pool starts this thread later, and would wait for ever for its calls if the system refuses it.
+            self._call_queue._start_thread()  # type: ignore[attr-defined]
         finally:
             sys.warnoptions.remove(TRACKER)
 

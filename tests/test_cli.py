@@ -301,6 +301,8 @@ def test_a_worker_works_where_no_more_threads_are_started():
 
 
 def test_too_few_threads_leave_no_process():
+    with at_work.no_thread(), pytest.raises(RuntimeError):
+        Processes(1)  # the thread of its calls: one that is refused later would be waited for
     with Processes(1) as pool:
         with at_work.no_thread(), pytest.raises(RuntimeError):
             pool.submit(os.getpid)
