@@ -1,6 +1,7 @@
 """Files that are read whole, up to a limit, and written whole: into a temporary file, which is then renamed."""
 
 import os
+import shlex
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -38,6 +39,18 @@ def check_destination(path: Path) -> None:
         raise CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None
     except ValueError as error:  # a null byte in the name
         raise CannotWrite(f"{str(path)!r} cannot be written: {error}") from None
+
+
+def made(folder: Path) -> Path:
+    """A folder for results, made if it is not there; raises CannotWrite, before anything is computed, if it cannot."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if os.access(folder, os.W_OK):
+            return folder
+        raise CannotWrite(f"{folder} cannot be written: choose a folder that is writable")
+    except OSError as error:
+        clause = "it is a file" if isinstance(error, FileExistsError) else error.strerror or error
+        raise CannotWrite(f"{folder} cannot be a folder of results: {clause}") from None
 
 
 def check_source(path: Path) -> None:
@@ -120,6 +133,13 @@ def write_text(path: Path, text: str) -> None:
 def visible(text: str) -> str:
     """Replaces what a terminal would obey, in names of others, by escapes: control signs, line ends, directions."""
     return "".join(x if x.isprintable() else repr(x)[1:-1] for x in text)
+
+
+def pasted(word: str | Path) -> str:
+    """A word of a command that a sentence suggests, as a shell takes it; a file is never an option."""
+    text = f"./{word}" if isinstance(word, Path) and str(word).startswith("-") else str(word)
+    quoted = visible(text.replace("\\", r"\\").replace("'", r"\'"))
+    return shlex.quote(text) if text.isprintable() else f"$'{quoted}'"
 
 
 def encoded(text: str) -> bytes:

@@ -34,8 +34,7 @@ def main(arguments: list[str] | None = None) -> int:
             if not options.json:
                 _say(f"{options.manifest}: {len(listed)} certificates, digest {data['digest']}")
         except (Rejected, Unreadable) as error:
-            _say(f"{options.manifest}: rejected: {error}", to=sys.stderr)
-            return 1 if isinstance(error, Rejected) else 2
+            return _refused(options.manifest, error)
         expected = {str(path): name for path, name in listed.items()}
     files = [*options.files, *expected]
     if not files:
@@ -55,9 +54,8 @@ def main(arguments: list[str] | None = None) -> int:
         if not isinstance(verdict, Exception) and (missing := lacks(verdict, stand, refuted)):
             verdict = Rejected(f"it rests on {missing[0]}, which is not accepted among these files")
         if isinstance(verdict, Exception):
-            worst = max(worst, 1 if isinstance(verdict, Rejected) else 2)
+            worst = max(worst, _refused(file, verdict))
             found.append({"file": file, "accepted": False, "reason": str(verdict)})
-            _say(f"{file}: {'rejected' if isinstance(verdict, Rejected) else 'unreadable'}: {verdict}", to=sys.stderr)
             continue
         found.append({"file": file, "accepted": True, **vars(verdict)})
         if not options.json:
@@ -79,6 +77,15 @@ def main(arguments: list[str] | None = None) -> int:
         result = {"certificates": found} | ({"kernels": bound} if options.kernels else {})
         print(json.dumps(result, ensure_ascii=not utf, indent=1))
     return worst
+
+
+def _refused(file: str, why: Exception) -> int:
+    """Says why a file is not accepted; the exit status."""
+    from . import Rejected
+
+    rejected = isinstance(why, Rejected)
+    _say(f"{file}: {'rejected' if rejected else 'unreadable'}: {why}", to=sys.stderr)
+    return 1 if rejected else 2
 
 
 def _say(*lines: str, to: Any = None) -> None:

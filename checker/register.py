@@ -52,7 +52,8 @@ from .polynomial import Polynomial, Ring, Work
 from .trees import check_known, check_name, check_tree, names_in, rational, size, value
 from .words import Matrix, same, trace
 
-_CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
+#: The id of a claim.
+CLAIM = re.compile(r"[\w.-]{1,40}", re.ASCII)
 _CERTIFICATE = re.compile(r"([\w.-]{1,40} )?[0-9a-f]{64}", re.ASCII)
 VERDICTS = ("holds", "corrected", "conditional", "refuted", "settled", "definition", "open")
 ROLES = ("printed", "corrected", "under", "lemma", "second route")
@@ -177,12 +178,12 @@ STATEMENT = SAID | SIDES | {
 EQUATIONS = SAID | {"point": NUMBER, "unknowns": names, "equations": [check_tree], "nonzero": [check_tree]}
 COUNT = EQUATIONS | {"algebra": NUMBER, "chart": [[rational]], "combinations": [[check_tree]], "relations": RELATIONS}
 FORM = HEAD | {
-    "claim": _CLAIM,
+    "claim": CLAIM,
     "verdict": VERDICTS,
     "printed": text,
     "corrected": check_corrected,
     "glossary": [(text, text, anything)],
-    "uses": [_CLAIM],
+    "uses": [CLAIM],
     "hypotheses": [{"text": text, "relations": RELATIONS}],
     "algebras": [check_algebra],
     "derivation": [derivation.check_definition],

@@ -69,7 +69,7 @@ def study(name: str, quick: bool, output: Path | None, scheduler: str | None, as
     if output is not None:
         extras.need("figures")
     module = import_module(f".{name}", __package__)
-    folder = None if output is None else units.folder(output)
+    folder = None if output is None else files.made(output)
     kept = None if folder is None else folder / f"{name}.jsonl"
     with progress_bar(name, 0) as shown:
         run = partial(units.run_units, path=kept, scheduler=scheduler, report=shown)

@@ -6,7 +6,6 @@ of a JSON Lines file, so that a killed study loses only the units that were in f
 
 import hashlib
 import json
-import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -146,13 +145,3 @@ def _written(write: Callable[[], Any]) -> Any:
 def _name(unit: Unit) -> str:
     arguments_shown = ", ".join(f"{name} = {value}" for name, value in unit.arguments.items())
     return f"{unit.function.rpartition(':')[2]}({arguments_shown})"
-
-
-def folder(path: Path) -> Path:
-    """A folder for the results, made if it is not there; raises BadInput if it cannot be written to."""
-    if path.exists() and not path.is_dir():
-        raise BadInput(f"{path} is a file; name a folder for the results of the study")
-    _written(lambda: path.mkdir(parents=True, exist_ok=True))
-    if not os.access(path, os.W_OK):
-        raise BadInput(f"{path} cannot be written to; name another folder")
-    return path

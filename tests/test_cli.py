@@ -11,6 +11,7 @@ import subprocess
 import sys
 import threading
 from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
 from types import SimpleNamespace
 
 import at_work
@@ -119,6 +120,11 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["bench", "memory", "-o", "x.svg"], "only work-precision and long have a figure"),
         (["bench", "long", "-o", "absent/x.svg"], "the folder absent does not exist"),
         (["run", "a\x1b]0;b\x9b\n\u202e.toml", "-o", "x.npz"], r"a\x1b]0;b\x9b\n\u202e.toml cannot be read"),
+        (["run", "missing.toml", "--omega", "1,2,3"], "missing.toml cannot be read: No such file"),
+        (["certify", "energy-drift", "--symmetry", "-3/2,-1,1"], "the signs must be one of (1, 1, 1), (1, -1, -1)"),
+        (["certify", "manifest", "nowhere"], "there is no folder nowhere"),
+        (["lab", FIRST, "--jobs", "9" * 20], "'--jobs'"),
+        (["prove", "4.3", "--rocq", FIRST], "first.toml cannot be a folder of results: it is a file"),
         ([*STEP, "--precision", "x" * 9000], f"--precision {'x' * 150}...{'x' * 149}: give single"),
         (
             ["branches", *STEP[1:], "--momentum", f"1/{'7' * 3900},0,0"],
@@ -209,6 +215,17 @@ def test_the_kernels_of_a_checkout_are_written_from_inside_it_only(tmp_path, mon
 def test_a_claim_that_is_named_leads_to_its_parts():
     assert "4.6 has parts that are judged apart: 4.6-body, 4.6-frame, 4.6-limit" in chapsym("prove", "4.6").stderr
     assert "parts" not in chapsym("prove", "4.6-body").stderr
+
+
+def test_a_title_of_a_register_can_neither_erase_a_line_nor_add_one(tmp_path, forgotten):
+    hostile = r"A \x1b[2Kdifference\r\nof\x9b2K squares."
+    text = Path(TWO[1]).read_text(encoding="utf-8").replace("A difference of squares.", hostile)
+    (tmp_path / "mine.py").write_text(text, encoding="utf-8")
+    mine = "prove", "--register", tmp_path / "mine.py", "--records", tmp_path / "mine.jsonl", "--jobs", 1
+    for options in ((), ("--list",), ("--explain",), ("--json",)):
+        shown = chapsym(*mine, *options).stdout
+        assert all(line.isprintable() for line in shown.split("\n"))
+        assert "difference" in shown
 
 
 def test_output_that_cannot_be_written_is_one_sentence():

@@ -2,10 +2,12 @@
 
 import os
 import stat
+import subprocess
+from pathlib import Path
 
 import pytest
 
-from chapsym.files import CannotWrite, check_destination, write_whole
+from chapsym.files import CannotWrite, check_destination, made, pasted, write_whole
 
 
 def test_a_file_is_replaced_and_nothing_is_left_beside_it(tmp_path):
@@ -55,6 +57,25 @@ def test_a_pipe_or_a_device_is_not_replaced_by_a_file(tmp_path):
     with pytest.raises(CannotWrite):
         check_destination(type(pipe)("/dev/null"))
     assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
+
+
+def test_a_folder_is_made_or_there_or_refused(tmp_path, monkeypatch):
+    assert made(made(tmp_path / "new" / "deep")).is_dir()
+    (tmp_path / "file").write_text("")
+    monkeypatch.setattr(os, "access", lambda place, how: place.name != "deep")
+    refused = {"file": "it is a file$", "file/x": "Not a directory", "x" * 300: "too long", "new/deep": "is writable"}
+    for name, clause in refused.items():
+        with pytest.raises(CannotWrite, match=f"cannot be .*{clause}"):
+            made(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["plain.json", "a b", "it's", "-dash", "line\nend's \\n", "\x1b[2K", "$HOME `x`", "é"])
+def test_a_name_is_pasted_into_a_shell_as_it_is(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    path = Path(name)
+    path.write_text("here")
+    assert pasted(path).isprintable()
+    assert subprocess.check_output(["bash", "-c", f"cat {pasted(path)}"], text=True) == "here"
 
 
 def test_a_link_stays_a_link(tmp_path):

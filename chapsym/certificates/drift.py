@@ -48,6 +48,7 @@ def energy_drift(
     Raises BadInput if there is none, or if the checker does not prove it.
     """
     _check(J, D, gamma, signs, time)
+    signs = list(map(int, signs))
     try:
         section, along = components(np.array(J, float), float(D), np.array(momentum, float), np.array(gamma, float))
     except (OverflowError, np.linalg.LinAlgError):
@@ -55,7 +56,7 @@ def energy_drift(
     fields = {
         "ball": {"J": [str(x) for x in J], "D": str(D)},
         "start": {"momentum": [shortest(x) for x in momentum], "gamma": [str(x) for x in gamma]},
-        "varied": STATE[varied], "radius": "0", "symmetry": list(signs), "periods": 1 + (list(signs) != SYMMETRIES[0]),
+        "varied": STATE[varied], "radius": "0", "symmetry": signs, "periods": 1 + (signs != SYMMETRIES[0]),
         "time": shortest(time), "window": WINDOW, "section": STATE[section], "along": STATE[along],
         "bits": 96 + 8 * digits, "order": 24 + 2 * digits,
     }  # fmt: skip

@@ -1,6 +1,7 @@
 """chapsym certify: certificates of what the paper left open, found, written and checked."""
 
 import json
+import os
 import sys
 from collections.abc import Callable, Mapping
 from decimal import ROUND_CEILING, Context
@@ -15,7 +16,7 @@ from chapsym.rationals import rational, rationals
 
 from .app import app
 from .options import BALL, Json, argument, ball_from, takes, with_options, writes
-from .output import Data, check_apart, counted, fail, print_json, telling
+from .output import Data, check_apart, counted, fail, print_json, put, telling
 
 certify = typer.Typer(
     help="""Find and check certificates of what the paper left open.
@@ -165,7 +166,7 @@ def energy_drift(
     signs, end = rationals(symmetry, "--symmetry", 3), rational(time, "--time")
     from chapsym.certificates.drift import energy_drift as search
 
-    _deliver(output, as_json, search, J, D, K, g, tuple(map(int, signs)), end, vary - 1, digits=digits)
+    _deliver(output, as_json, search, J, D, K, g, signs, end, vary - 1, digits=digits)
 
 
 @certify.command()
@@ -180,8 +181,8 @@ def check(
     import subprocess
 
     # A process of its own, so that nothing loaded here has a part in it.
-    command = [sys.executable, "-m", "chapsym.checker", *map(str, files or [])]
-    command += ["--manifest", str(manifest)] if manifest else []
+    command = [sys.executable, "-m", "chapsym.checker", *([f"--manifest={manifest}"] if manifest else []), "--"]
+    command += map(str, files or [])
     raise typer.Exit(subprocess.run(command, check=False).returncode)
 
 
@@ -194,19 +195,23 @@ def manifest_of(folder: Annotated[Path, argument("DIR", "Certificates, in this f
     from chapsym import checker, files
     from chapsym.checker import manifest
 
-    path, names = folder / "manifest.json", {}
-    try:
-        for file in sorted(folder.rglob("*.json")):
-            if file != path:
-                data = checker.read(file)
-                names[file.relative_to(folder).as_posix()] = checker.check(data).name
-    except (checker.Rejected, checker.Unreadable) as error:
-        fail(f"{file}: {error}", 1)
+    path, names = folder / "manifest.json", dict[str, str]()
+    if not folder.is_dir():
+        fail(f"there is no folder {folder}", 2)
+    with telling() as progress:
+        for place, below, there in os.walk(folder):
+            progress(f"{counted(len(names), 'certificate')}; in {place}")
+            for file in sorted(Path(place, name) for name in below + there if name.endswith(".json")):
+                try:
+                    if file != path:
+                        names[file.relative_to(folder).as_posix()] = checker.check(checker.read(file)).name
+                except (checker.Rejected, checker.Unreadable) as error:
+                    fail(f"{file}: {error}", 1)
     if not names:
         fail(f"{folder} has no certificates", 2)
     text = json.dumps(manifest.made(names), indent=1) + "\n"
     files.write_text(path, text)
-    print(f"wrote {path}: {len(names)} certificates")
+    put(f"wrote {path}: {len(names)} certificates")
 
 
 @certify.command()
@@ -264,9 +269,9 @@ def motion(
         print_json(written)
     elif found.times:
         if output is not None:
-            print(f"wrote {output}")
+            put(f"wrote {output}")
         if certificate is not None and found.stopped is None:
-            print(f"wrote {certificate}; check it by chapsym certify check {certificate}")
+            put(f"wrote {certificate}; check it by chapsym certify check {files.pasted(certificate)}")
         about = f"{digits} digits, {counted(found.steps, 'step')}, {found.bits} bits"
         print(f"{counted(len(found.times), 'frame')} proved: {about}; the last of them")
         last = written["frames"][-1]
@@ -275,7 +280,7 @@ def motion(
             for middle, radius in vector if name != "time" else ():
                 print(f"  {name:16} {middle} +/- {radius}")
         for name, error in errors.items():
-            print(f"  {name:16} of {against} {within(error, UNITS[name])}")
+            put(f"  {name:16} of {against} {within(error, UNITS[name])}")
     if found.stopped is not None:
         fail(found.stopped, 1)
 
@@ -335,7 +340,7 @@ def _deliver(output: Path | None, as_json: bool, search: Callable[..., Data], *g
         print_json(found)
         return
     if output is not None:
-        print(f"wrote {output}; check it by chapsym certify check {output}")
+        put(f"wrote {output}; check it by chapsym certify check {files.pasted(output)}")
     verdict = checker.check(found)
-    print(f"Proved: {verdict.statement}")
-    print(*(f"  {name}: {value}" for name, value in verdict.numbers.items()), sep="\n")
+    put(f"Proved: {verdict.statement}")
+    put(*(f"  {name}: {value}" for name, value in verdict.numbers.items()))

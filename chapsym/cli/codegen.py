@@ -7,7 +7,7 @@ import typer
 
 from .app import app
 from .options import Json, Own, takes
-from .output import fail, print_json
+from .output import fail, print_json, put
 from .prove import reading, register_from
 
 
@@ -68,4 +68,4 @@ def codegen(
         print_json({"folder": str(place), "written": written})
     else:
         seen = place.relative_to(Path.cwd()) if place.is_relative_to(Path.cwd()) else place
-        print(f"wrote {len(written)} files into {seen}/")
+        put(f"wrote {len(written)} files into {seen}/")

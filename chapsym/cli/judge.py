@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from .app import app
 from .options import Json, argument, takes, writes
-from .output import Data, fail, print_json, telling
+from .output import Data, fail, print_json, put, telling
 
 if TYPE_CHECKING:
     from chapsym.studies.judge import Convergence
@@ -76,13 +76,13 @@ def judge(
         return
     for run, one in zip(runs, found, strict=True):
         step = "" if run.step is None else f", step {run.step:g} s"
-        print(f"{run.file}{step}, against {case.name}{NONE if case.own else ''}:")
+        put(f"{run.file}{step}, against {case.name}{NONE if case.own else ''}:")
         for line in lines(summary(one, case.time)):
             print(f"  {line}")
     for name, several in known.items():
-        print(f"{name}: {sentence(several, 'm' if name == 'path' else 'degrees')}")
+        put(f"{name}: {sentence(several, 'm' if name == 'path' else 'degrees')}")
     if output is not None:
-        print(f"wrote {output}")
+        put(f"wrote {output}")
 
 
 def lines(summary: Data) -> list[str]:

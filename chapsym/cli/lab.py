@@ -12,7 +12,7 @@ import typer
 
 from .app import app
 from .options import Json, argument, takes
-from .output import Data, fail, note, print_json
+from .output import Data, fail, note, print_json, put
 
 if TYPE_CHECKING:
     from chapsym.mechanics import Cell, System
@@ -41,7 +41,7 @@ def lab(
         bool, typer.Option(help="Also decide exactly what can be: constraints, integrals, methods.")
     ] = True,
     halve: Annotated[bool, typer.Option(help="Also run with half the step: is a drift of the method?")] = False,
-    jobs: Annotated[int, takes("N", "Processes.", min=1)] = 1,
+    jobs: Annotated[int, takes("N", "Processes.", min=1, max=1000)] = 1,
     output: Annotated[
         Path | None, takes("FILE", "A .json, which is gone on with if it is there; or an .html.", "--output", "-o")
     ] = None,
@@ -54,7 +54,7 @@ def lab(
 
     A file of a system is Python, and is run. Example: chapsym lab docs/examples/systems -o systems.html
     """
-    from chapsym.files import alone, check_destination, write_text
+    from chapsym.files import alone, check_destination, made, write_text
     from chapsym.mechanics import METHODS, BadSystem, loaded
     from chapsym.mechanics.cases import name_of
     from chapsym.show.lab import COLUMNS
@@ -83,10 +83,7 @@ def lab(
         except BadSystem as error:
             wrong.append(str(error))
     if certificates and systems:
-        try:
-            certificates.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            fail(f"{certificates} cannot be written: {error.strerror or error}", 2)
+        made(certificates)
 
     def started(path: Path, system: "System", later: Later) -> Begun:
         key, cells = system.digest(length, halve), list[Callable[[], "Cell | Data"]]()
@@ -107,11 +104,11 @@ def lab(
             constraints[system.name] = said()
             keys.add(key)
             if not as_json:
-                print(f"{system.name}: {constraints[system.name]}")
+                put(f"{system.name}: {constraints[system.name]}")
                 print("".join(f"  {name:>{width}}" for name, width in COLUMNS.items()))
-            for made in cells:
+            for measured in cells:
                 try:
-                    cell = made()
+                    cell = measured()
                 except BadSystem as error:
                     wrong.append(str(error))
                     continue
@@ -122,7 +119,7 @@ def lab(
                         with alone(output.parent):  # of two commands both keep what they have
                             write_text(output, json.dumps({"cells": _joined(_there(output), cell)}, allow_nan=False))
                 if not as_json:
-                    print(_row(cell))
+                    put(_row(cell))
             if written:
                 try:
                     certified[system.name] = found = written()
@@ -130,7 +127,7 @@ def lab(
                     wrong.append(str(error))
                     continue
                 if not as_json:
-                    print(_of_certificates(found, certificates))
+                    put(_of_certificates(found, certificates))
     shown = [cell for cell in done if cell["key"] in keys and cell["method"] in methods and cell["steps"] == steps]
     if output is not None and output.suffix == ".html" and shown:
         from chapsym.show.lab import page

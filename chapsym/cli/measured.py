@@ -34,13 +34,15 @@ def is_page(output: Path | None) -> bool:
 def write(output: Path, title: str, about: str, tables: Sequence[Table], shown: Callable[[object], str] = str) -> None:
     """Writes the page, whole; `about` says in a sentence or two what was measured."""
     from chapsym import __version__, files
+    from chapsym.report.notation import code
     from chapsym.studies.checkout import machine
 
     here = machine()
+    command = code(" ".join(["chapsym", *map(files.pasted, sys.argv[1:])]))
     versions = ", ".join(f"{name} {version}" for name, version in here["versions"].items())
     lines = [
         f"# {title}", "", about, "",
-        f"Written by `chapsym {' '.join(sys.argv[1:])}`, of chapsym {__version__}, on {datetime.date.today()}. "
+        f"Written by {command}, of chapsym {__version__}, on {datetime.date.today()}. "
         f"Machine: {here['cpu']}; {here['cores']} cores; {here['system']}; {here['python']}; {versions}.",
     ]  # fmt: skip
     for table in tables:

@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-def takes(metavar: str, help: str, *names: str, min: float | None = None, max: float | None = None) -> Any:
+def takes(metavar: str, help: str, *names: str, **more: Any) -> Any:
     """An option with a value: what stands for that in the help, and its line there."""
-    return typer.Option(*names, metavar=metavar, help=help, min=min, max=max)
+    return typer.Option(*names, metavar=metavar, help=help, **more)
 
 
 def writes(metavar: str, help: str) -> Any:
     """The option of where the output goes."""
-    return takes(metavar, help, "-o", "--output")
+    return takes(metavar, help, "-o", "--output", readable=False)
 
 
 def argument(metavar: str, help: str) -> Any:

@@ -56,6 +56,12 @@ def note(sentence: str) -> None:
     _said("chapsym: " + files.visible(LONG.sub(r"\1...\2", sentence)) + "\n")
 
 
+def put(*lines: object) -> None:
+    """Prints lines, each one line: what names and titles of others have, a terminal would obey otherwise."""
+    for line in lines:
+        print(files.visible(str(line)))
+
+
 def _said(text: str) -> None:
     """Prints on standard error; a full disk, a closed pipe or a closed terminal does not end the work."""
     try:
@@ -87,9 +93,14 @@ def print_json(value: object) -> None:
 
 
 def json_text(value: object, indent: int | None = None) -> str:
-    """JSON for standard output, with escapes for an output with a limited character set."""
+    """JSON for standard output, with escapes for what a terminal would obey, or has no letter for."""
     whole = (sys.stdout.encoding or "").lower().startswith("utf")
-    return json.dumps(value, ensure_ascii=not whole, allow_nan=False, indent=indent)
+    text = json.dumps(value, ensure_ascii=not whole, allow_nan=False, indent=indent)
+    return (
+        text
+        if text.isprintable()
+        else re.sub(r"[^\n -~]", lambda x: x[0] if x[0].isprintable() else json.dumps(x[0])[1:-1], text)
+    )
 
 
 def say(text: str) -> None:

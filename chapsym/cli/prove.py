@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from chapsym import files
+
 from .app import app
 from .options import Json, Own, Records, argument, takes
-from .output import Data, counted, fail, note, print_json, progress_bar
+from .output import Data, counted, fail, note, print_json, progress_bar, put
 
 if TYPE_CHECKING:
     from chapsym.prove import Claim, Register
@@ -47,13 +49,15 @@ def prove(
     claims = all_claims(register, lemmas=True)
     unknown = [id for id in ids or [] if id not in claims]
     if unknown:
-        named = f" --register {own}" if own else ""
+        named = f" --register {files.pasted(own)}" if own else ""
         others = "" if own else ", and --register FOLDER judges claims of your own"
         known = f"chapsym prove --list{named} names those that are judged{others}"
         fail(f"no proof judges the claim {unknown[0]!r}; {known}", 2)
     if listing:
         _list_claims(claims, as_json, kept_in, register)
         return
+    for place in filter(None, (certificates, rocq)):
+        files.made(place)
     everything = claims if certificates or rocq else all_claims(register)
     with TemporaryDirectory() as spare:
         folder = certificates or (Path(spare) if rocq else None)
@@ -65,17 +69,17 @@ def prove(
     if as_json:
         print_json({"claims": records})
     elif explain:
-        print("\n\n".join(argument(record) for record in records))
+        put(*"\n\n".join(map(argument, records)).split("\n"))
     else:
         for record in records:
             title = f"{record['evidence']['title']}  ({record['seconds']:.2f} s)"
-            print(f"{record['id']:18} {record['verdict']:12} {title}")
+            put(f"{record['id']:18} {record['verdict']:12} {title}")
             if record["evidence"]["settled"]:
-                print(f"{'':18} settled {record['evidence']['settled']['text']}")
+                put(f"{'':18} settled {record['evidence']['settled']['text']}")
             for problem in record["evidence"]["problems"]:
-                print(f"{'':18} problem: {problem}")
+                put(f"{'':18} problem: {problem}")
             if record["evidence"]["problems"]:
-                print(f"{'':18} its proof: {claims[record['id']].place}")
+                put(f"{'':18} its proof: {claims[record['id']].place}")
         print(tally(records))
         for id in ids or []:
             if parts := sorted(other for other in claims.keys() - set(ids or []) if other.startswith(f"{id}-")):
@@ -96,7 +100,7 @@ def _write_rocq(certificates: list[Path], folder: Path) -> None:
     except OSError as error:
         fail(f"{folder} cannot be written: {error.strerror or error}", 2)
     counts = f"claims: {written.claims}, theorems: {written.theorems.total()}"
-    note(f"for Rocq in {folder}: {counts}; make -C {folder} -j2 has them judged")
+    note(f"for Rocq in {folder}: {counts}; make -C {files.pasted(folder)} -j2 has them judged")
 
 
 def _carried(records: list[Data]) -> str:
@@ -122,7 +126,7 @@ def _list_claims(claims: dict[str, "Claim"], as_json: bool, kept_in: Path | None
         return
     for row in rows:
         state = "stale" if row["stale"] else row["verdict"] or "not judged"
-        print(f"{row['id']:18} {state:12} {row['title']}")
+        put(f"{row['id']:18} {state:12} {row['title']}")
     if old:
         are = "is" if len(old) == 1 else "are"
         print(f"{counted(len(old), 'record')} {are} stale: the derivation has changed; chapsym prove judges anew")
@@ -132,7 +136,6 @@ def judge_and_keep(
     wanted: list[str], jobs: int | None, kept_in: Path | None, certificates: Path | None, register: "Register"
 ) -> list[Data]:
     """Proves the claims, stores their records and certificates, and reports changed verdicts."""
-    from chapsym import files
     from chapsym.prove import prove_all, records
 
     claims, path = all_claims(register, lemmas=True), kept_in or records.default_path(register)
@@ -147,11 +150,6 @@ def judge_and_keep(
         with suppress(OSError):  # which is said at the end
             records.append(path, record)
 
-    if certificates:
-        try:
-            certificates.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            fail(f"{certificates} cannot be written: {error.strerror or error}", 2)
     with suppress(files.CannotWrite):
         records.update(path, [], claims)  # with a last line that is whole
     try:

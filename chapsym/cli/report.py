@@ -11,7 +11,7 @@ import chapsym
 
 from .app import app
 from .options import Json, Own, Records, takes, writes
-from .output import Data, check_apart, fail, print_json
+from .output import Data, check_apart, fail, print_json, put
 from .prove import all_claims, kept_records, reading, records_of, register_from, tally
 from .study import STUDIES
 
@@ -68,7 +68,7 @@ def report(
     if as_json:
         print_json({"file": str(output), "counts": reports.counts(found), "claims": len(found)})
     else:
-        print(f"wrote {output}: {tally(found)}")
+        put(f"wrote {output}: {tally(found)}")
     failed = reports.unproved(found)
     if failed:
         fail(f"not proved: {', '.join(failed)}", 1)
@@ -93,7 +93,7 @@ def _open_questions(output: Path, folder: Path, kept: dict[str, Data], kept_in: 
     if output.suffix != ".html":
         fail(f"{str(output)!r}: the page of the open questions must end in .html", 2)
     if not folder.is_dir():
-        fail(f"there is no folder {folder}; chapsym study NAME -o {folder} makes it", 2)
+        fail(f"there is no folder {folder}; chapsym study NAME -o {files.pasted(folder)} makes it", 2)
     register = register_from(None)
     everything = all_claims(register, lemmas=True)
     wanted = {id: everything[id] for id in _behind(list(questions.QUESTIONS), everything)}
@@ -107,7 +107,7 @@ def _open_questions(output: Path, folder: Path, kept: dict[str, Data], kept_in: 
         print_json({"file": str(output), "verdicts": verdicts, "studies": [one.name for one in evidence]})
     else:
         clause = ", ".join(f"{id} {verdict}" for id, verdict in verdicts.items())
-        print(f"wrote {output}: {clause}; studies: {', '.join(one.name for one in evidence) or 'none'}")
+        put(f"wrote {output}: {clause}; studies: {', '.join(one.name for one in evidence) or 'none'}")
 
 
 def _behind(questions: list[str], claims: dict[str, "Claim"]) -> list[str]:

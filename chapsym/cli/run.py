@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from chapsym import files
+
 from .app import INTERRUPTED, app
 from .options import Json, argument, takes, writes
-from .output import Data, apart, check_printed, counted, fail, note, print_json
+from .output import Data, apart, check_printed, counted, fail, note, print_json, put
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -123,9 +125,8 @@ def _named(scene: Path, name: str | None) -> Path:
         fail(f'{scene} names no output: add -o OUT.npz, or output = "..." under [run]', 2)
     whole = Path(os.path.realpath(name))
     if not any(whole.is_relative_to(os.path.realpath(folder)) for folder in (Path.cwd(), scene.parent)):
-        fail(
-            f"{scene}: run.output = {name!r} leaves this folder and that of the scene; if you mean it, say -o {name}", 2
-        )
+        clause = f"if you mean it, say -o {files.pasted(Path(name))}"
+        fail(f"{scene}: run.output = {name!r} leaves this folder and that of the scene; {clause}", 2)
     return Path(name)
 
 
@@ -156,10 +157,10 @@ def _tell(
         if answer is not None:
             print_answer(answer, plan.members)
         elif (away := sentence(data)) is not None:
-            print(": ".join(away))
+            put(": ".join(away))
         for name, error in bounds.items():
             of_map = "" if PROVED in data.attrs else ", of the map"
-            print(f"{name} {within(error, (UNITS | UNITS_OF_MAP)[name])}{of_map}")
+            put(f"{name} {within(error, (UNITS | UNITS_OF_MAP)[name])}{of_map}")
     if failed == balls == 1:
         fail(f"{stopped(data)}; the {one['steps']} steps before it are in {destination}", 2)
     if failed == balls:
@@ -187,6 +188,6 @@ def _print(plan: "Plan", destination: Path, outcome: "Outcome", one: Data) -> No
         about = f"{counted(len(plan.members), 'ball')}, {plan.frames} frames, {plan.model.in_words()}"
         where = f", in {destination}"
     about += f"; {outcome.failed} stopped early" if outcome.failed else ""
-    print(about + (f"; {destination} was complete already" if outcome.nothing_to_do else where))
+    put(about + (f"; {destination} was complete already" if outcome.nothing_to_do else where))
     if "drift" in one and plan.task.accuracy is None:
         print("relative drift of <K,gamma>, <K,K>, <gamma,gamma>: " + ", ".join(f"{x:.1e}" for x in one["drift"]))

@@ -7,7 +7,7 @@ import typer
 
 from .app import app
 from .options import Json, argument, takes, writes
-from .output import fail, json_text, print_json
+from .output import fail, json_text, print_json, put
 
 scenes = typer.Typer()
 app.add_typer(scenes, name="scene")
@@ -50,7 +50,7 @@ def new(
     write_text(file, (examples.SCHEMA_LINE if schema else "") + text)
     if schema:
         write_text(beside, _schema_text())
-    print(f"wrote {file}" + (f", and {beside} for editors" if schema else ""))
+    put(f"wrote {file}" + (f", and {beside} for editors" if schema else ""))
 
 
 @scenes.command()
@@ -66,7 +66,7 @@ def schema(output: Annotated[Path | None, writes("FILE", "Write it there.")] = N
         print(json_text(described(), indent=1))
         return
     write_text(output, _schema_text())
-    print(f"wrote {output}")
+    put(f"wrote {output}")
 
 
 @scenes.command()
@@ -96,7 +96,7 @@ def check(file: Annotated[Path, argument("SCENE.toml", "What to read.")], as_jso
     rows += [("warning", reason) for reason in warnings]
     width = min(max(len(key) for key, _ in rows), 24)
     for key, text in rows:
-        print(f"{key:{width}}  {text}")
+        put(f"{key:{width}}  {text}")
 
 
 def _schema_text() -> str:

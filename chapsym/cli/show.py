@@ -7,7 +7,7 @@ import typer
 
 from .app import app
 from .options import Json, argument, takes, writes
-from .output import check_apart, fail, following, print_json, progress_bar
+from .output import check_apart, fail, following, print_json, progress_bar, put
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -49,11 +49,11 @@ def show(
         print_json({"folder": str(folder), "files": files, "missing": missing, "unfinished": so_far})
     else:
         if so_far is not None:
-            print(f"{result} is unfinished: {so_far}")
+            put(f"{result} is unfinished: {so_far}")
         for path in written:
-            print(path)
+            put(path)
         for name, reason in missing.items():
-            print(f"not drawn: {name} ({reason})")
+            put(f"not drawn: {name} ({reason})")
     if open_it and written:
         import webbrowser
 
@@ -65,8 +65,11 @@ def _pictures(
     result: Path, folder: Path, form: str, ball: str | None, names: str | None, page: bool | None
 ) -> tuple[list[Path], dict[str, str], str | None]:
     """Writes what was asked for; the files, why each figure that is missing is, and how much of the run there is."""
+    from chapsym import files
+    from chapsym.dynamics import BadInput
     from chapsym.show import figures
     from chapsym.show.drawing import reading
+    from chapsym.show.rolling.page import html
     from chapsym.studies.foreign import FOREIGN
 
     if form == "mp4":
@@ -77,20 +80,25 @@ def _pictures(
     reading.begun(dataset)
     reasons = figures.available(dataset) if FORMATS[form] else {}
     wanted = _named(names, list(reasons)) if names else [name for name, reason in reasons.items() if reason is None]
-    written = figures.save_all(dataset, folder, FORMATS[form], names=wanted)
     missing = {} if names else {name: reason for name, reason in reasons.items() if reason is not None}
+    rolling = None
+    try:
+        if page is not False and (page or not names):
+            rolling = html(dataset)
+    except BadInput as error:
+        if page:
+            raise
+        missing["page"] = str(error)
+    written = figures.save_all(dataset, folder, FORMATS[form], names=wanted)
     if not FORMATS[form]:
         from chapsym.show.moving import save_motion
 
         written.append(folder / f"motion.{form}")
         with progress_bar("drawing", 1000) as shown:
             save_motion(dataset, written[-1], progress=lambda drawn, of: shown(1000 * drawn // of))
-    if page is not False and (page or not names):
-        reason = _page(dataset, folder / "page.html", must=page is True)
-        if reason is None:
-            written.append(folder / "page.html")
-        else:
-            missing["page"] = reason
+    if rolling is not None:
+        written.append(folder / "page.html")
+        files.write_text(written[-1], rolling)
     if dataset.attrs.get("model") == FOREIGN:
         missing = {name: "the table has no columns for it" for name in missing if name in OF_TABLES}
     return written, missing, reading.unfinished(dataset)
@@ -123,17 +131,3 @@ def _opened(result: Path, folder: Path) -> "Dataset":
         files.check_destination(folder / "page.html")
     with following() as report:
         return run_scene(scene, report).dataset
-
-
-def _page(dataset: "Dataset", path: Path, must: bool) -> str | None:
-    """Writes the interactive page; why it cannot be made, unless it must be."""
-    from chapsym.dynamics import BadInput
-    from chapsym.show.rolling import write_page
-
-    try:
-        write_page(dataset, path)
-    except BadInput as error:
-        if must:
-            raise
-        return str(error)
-    return None

@@ -20,7 +20,7 @@ import sympy as sp
 
 from chapsym.checker import Rejected
 from chapsym.checker import kernels as binding
-from chapsym.files import write_text
+from chapsym.files import pasted, write_text
 from chapsym.prove import PROOFS, NoRegister, Register, Verdict
 from chapsym.prove.claims import Judgement, judgement_of, once
 from chapsym.prove.trees import tree
@@ -82,7 +82,7 @@ class Package:
     @property
     def mend(self) -> str:
         """The command that writes the package."""
-        return "chapsym codegen" + ("" if self.is_ours else f" --register {self.register.place}")
+        return "chapsym codegen" + ("" if self.is_ours else f" --register {pasted(self.register.place)}")
 
     @cached_property
     def judged(self) -> dict[str, Judgement]:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from chapsym import sources
 from chapsym.checker import Rejected
+from chapsym.checker.register import CLAIM
 
 from . import argument, certificates
 from .argument import Grounds
@@ -206,6 +207,8 @@ def claim(
     ------
     TypeError
         For arguments of other types.
+    ValueError
+        For an id that no file of a certificate could have.
     TwoProofs
         On the proof, if another one has the id.
 
@@ -223,6 +226,8 @@ def claim(
     """
     if not isinstance(id, str) or not isinstance(printed, str) or isinstance(uses, str):
         raise TypeError("@claim takes an id and a formula, as text, and in uses a list of ids")
+    if not CLAIM.fullmatch(id):
+        raise ValueError(f"the id of a claim has 1 to 40 of the signs a to z, A to Z, 0 to 9, _ . and -, not {id!r}")
 
     def register(prove: Callable[[Proof], None]) -> Callable[[Proof], None]:
         if prove.__module__ != "__main__":  # a script that runs alone is run through its package name

@@ -9,6 +9,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from chapsym import files
+
 Record = dict[str, Any]
 
 #: All verdicts, in the order in which they are counted, with their meanings.
@@ -196,7 +198,7 @@ class Source:
     @property
     def option(self) -> str:
         """The option of a command that finds the claims."""
-        return f" --register {self.register}" if self.register else ""
+        return f" --register {files.pasted(self.register)}" if self.register else ""
 
     def cite(self, version: str) -> str:
         """The citation of the list of errata."""
@@ -204,7 +206,7 @@ class Source:
 
     def reproduce(self, id: str) -> str:
         """The command that proves a claim again."""
-        return f"chapsym prove {id} --explain{self.option}"
+        return f"chapsym prove {files.pasted(id)} --explain{self.option}"
 
 
 FEDOROV = Source(

@@ -188,6 +188,10 @@ def test_the_command_has_the_checker_judge(tmp_path):
     assert done.returncode == 1
     assert "rejected" in done.stderr
     assert chapsym("certify", "check", str(tmp_path / "nowhere.json")).returncode == 2
+    for given in (["./-dash"], ["--manifest", "./-dash"]):
+        assert child("certify", "check", *given).stderr.startswith(
+            "-dash: unreadable: -dash cannot be read: No such file"
+        )
 
 
 def test_a_certificate_needs_opposite_signs(monkeypatch):

@@ -146,6 +146,7 @@ WRONG = {
     "one beside": ("ring", "equal =", "1 / 0\nequal =", BROKEN + r"ZeroDivisionError: .* \(ring\.py, line 6\)"),
     "an end": ("cubes", 'if __name__ == "__main__"', "if True", BROKEN + r"it leaves Python; .* main\(__file__\)"),
     "an id twice": ("cubes", "c-1", "s-1", r"squares\.py: two proofs judge the claim s-1; .*cubes\.py, line 5"),
+    "an id that is no name of a file": ("cubes", "c-1", "c/1", BROKEN + r"ValueError: the id of a claim .*, not 'c/1'"),
     "an id of chapsym": (
         "cubes",
         "c-1",

@@ -413,7 +413,7 @@ def test_large_results_and_long_runs_make_small_files(tmp_path, thorough):
 
 def test_a_folder_that_cannot_be_is_one_sentence(tmp_path):
     (tmp_path / "file").write_text("kept")
-    with pytest.raises(files.CannotWrite, match="file cannot be made"):
+    with pytest.raises(files.CannotWrite, match="cannot be a folder of results: it is a file"):
         figures.save_all(results.sweep(4), tmp_path / "file")
     assert (tmp_path / "file").read_text() == "kept"
     with pytest.raises(BadInput, match=r"ends in \.svg, \.png or \.pdf"):

@@ -184,3 +184,4 @@ def test_mistakes_are_one_sentence(tmp_path, arguments, sentence):
     dataset.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
     paths = [str(tmp_path / a) if a.endswith((".nc", ".txt", ".toml")) else a for a in arguments]
     assert sentence in refused("show", *paths, *([] if "-o" in paths else ["-o", tmp_path / "p"]))
+    assert not (tmp_path / "p").exists()

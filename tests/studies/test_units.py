@@ -12,7 +12,7 @@ from waiting import GUARD, INTERRUPTIBLE, until
 from chapsym import sources
 from chapsym.dynamics import BadInput
 from research import units as units_module
-from research.units import Unit, folder, run_units
+from research.units import Unit, run_units
 
 
 def units(count=4):
@@ -141,10 +141,3 @@ def test_what_is_no_address_is_said_before_a_client_is_made(monkeypatch):
     monkeypatch.setattr(distributed, "Client", lambda *arguments, **options: pytest.fail("a client was made"))
     with pytest.raises(BadInput, match="'nonsense' is no address of a Dask scheduler"):
         run_units(units(), None, scheduler="nonsense")
-
-
-def test_a_file_is_no_folder(tmp_path):
-    (tmp_path / "file").write_text("")
-    with pytest.raises(BadInput, match="is a file"):
-        folder(tmp_path / "file")
-    assert folder(tmp_path / "new" / "deep").is_dir()

@@ -149,13 +149,13 @@ def load(path: Path, omega: list[str] | None = None, time: str | None = None) ->
         if omega is None or time is None:
             raise SceneError(
                 f"{path} has a ball and no start: give --omega W1,W2,W3 and --time S, or chapsym scene new ball.toml "
-                f"--from {path} makes a scene of it"
+                f"--from {files.pasted(path)} makes a scene of it"
             )
         run = {"time": time, "frames": FRAMES_OF_ROBOT, "outputs": ["contact", "attitude", "omega"]}
         return checked({"ball": ball, "start": {"omega": omega, "rpy": [0, 0, 0]}, "run": run}, str(path))
+    text = _text(path)
     if omega is not None or time is not None:
         raise SceneError(f"{path} has a start and a time of its own: --omega and --time are for a robot's file")
-    text = _text(path)
     return checked(_parsed(text, path), str(path), text)
 
 

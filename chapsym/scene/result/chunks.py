@@ -8,6 +8,8 @@ from typing import Any
 from zarr.codecs import Crc32cCodec, ZstdCodec
 from zarr.storage import LocalStore
 
+from chapsym import files
+
 from ..read.errors import SceneError
 from .digests import digests, metadata, read_object, sound
 
@@ -53,4 +55,4 @@ class CheckedStore(LocalStore):
 
 def mended(path: Path) -> str:
     """The way to repair a damaged result, as a clause."""
-    return f"chapsym run of the same scene with -o {path} computes these balls anew and keeps the others"
+    return f"chapsym run of the same scene with -o {files.pasted(path)} computes these balls anew and keeps the others"

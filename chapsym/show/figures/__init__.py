@@ -143,10 +143,7 @@ def save_all(
         if reasons.get(name) is not None:  # before a folder is made
             raise BadInput(f"{name}: {reasons[name]}")
     drawn = {name: draw(dataset, name) for name in wanted}  # before a folder is made
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise files.CannotWrite(f"{folder} cannot be made: {error.strerror or error}") from None
+    files.made(folder)
     written = []
     for name, figure in drawn.items():
         for form in formats:
