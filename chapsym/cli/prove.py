@@ -140,18 +140,19 @@ def judge_and_keep(
 
     claims, path = all_claims(register, lemmas=True), kept_in or records.default_path(register)
     kept = kept_records(kept_in, register)
-    if kept and not kept.keys() & claims.keys():  # which would be lost
-        fail(f"{path} holds verdicts on other claims, such as {next(iter(kept))}; give --records another file", 2)
     arrived: list[Data] = []
 
     def keep(record: Data) -> None:
         arrived.append(record)
         shown(len(arrived))
         with suppress(OSError):  # which is said at the end
-            records.append(path, record)
+            records.append(path, record, claims)
 
-    with suppress(files.CannotWrite):
-        records.update(path, [], claims)  # with a last line that is whole
+    try:
+        with suppress(files.CannotWrite):
+            records.update(path, [], claims)  # with a last line that is whole
+    except records.BrokenRecords as error:
+        fail(str(error), 2)
     try:
         with progress_bar("proving", len(wanted)) as shown:
             judged = prove_all(wanted, jobs, keep, folder=certificates, register=register)

@@ -20,7 +20,7 @@ import sympy as sp
 
 from chapsym.checker import Rejected
 from chapsym.checker import kernels as binding
-from chapsym.files import pasted, write_text
+from chapsym.files import alone, pasted, write_text
 from chapsym.prove import PROOFS, NoRegister, Register, Verdict
 from chapsym.prove.claims import Judgement, judgement_of, once
 from chapsym.prove.trees import tree
@@ -227,10 +227,11 @@ class Package:
         if strange := sorted(set(there) - self.files.keys() - {FINGERPRINTS, "__pycache__"}):
             raise ValueError(f"{place} has what chapsym codegen has not written, such as {strange[0]}: move it")
         files = {**self.files, FINGERPRINTS: _one_a_line(dict(sorted(self.fingerprints.items()))) + "\n"}
-        write(place, files)
-        for path in place.iterdir():
-            if path.is_file() and path.name not in files:
-                path.unlink()
+        with alone(place.parent):  # else another command takes its files in the making for former ones
+            write(place, files)
+            for path in place.iterdir():
+                if path.is_file() and path.name not in files:
+                    path.unlink()
         return sorted(files)
 
 

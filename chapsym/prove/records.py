@@ -99,22 +99,33 @@ def _parsed(line: str) -> Data | None:
 def update(path: Path, records: Iterable[Data], claims: dict[str, Claim]) -> None:
     """Replaces old records by new ones, in the order of the claims; records of unknown claims are removed.
 
-    The file is written atomically; raises CannotWrite if this fails.  Simultaneous updates keep the records of both.
+    The file is written atomically; raises CannotWrite if this fails, and BrokenRecords if it has records of other
+    claims only, which would be lost.  Simultaneous updates keep the records of both.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with files.alone(path.parent):
-            known = read(path) | {record["id"]: record for record in records}
+            there = read(path)
+            if there and not there.keys() & claims.keys():
+                clause = f"holds verdicts on other claims, such as {next(iter(there))}"
+                raise BrokenRecords(f"{path} {clause}; give --records another file")
+            known = there | {record["id"]: record for record in records}
             lines = [json.dumps(known[id], ensure_ascii=False) + "\n" for id in claims if id in known]
             files.write_whole(path, lambda stream: stream.writelines(map(files.encoded, lines)))
     except OSError as error:
         raise files.CannotWrite(f"{path} cannot be written: {error.strerror or error}") from None
 
 
-def append(path: Path, record: Data) -> None:
-    """Adds a complete record, or nothing, to a file of `update`; the last record of a claim counts."""
+def append(path: Path, record: Data, claims: dict[str, Claim]) -> None:
+    """Adds a complete record, or nothing, to a file of `update`; the last record of a claim counts.
+
+    Nothing to a file that another command, of other claims, has begun meanwhile.
+    """
     line = files.encoded(json.dumps(record, ensure_ascii=False) + "\n")
-    with files.alone(path.parent), path.open("ab", buffering=0) as stream:
+    with files.alone(path.parent), path.open("ab", buffering=0) as stream, path.open("rb") as there:
+        first = _parsed(there.readline().decode("utf-8", "replace"))
+        if first and first["id"] not in claims:
+            return
         before = os.fstat(stream.fileno()).st_size
         if stream.write(line) != len(line):  # a full disk
             stream.truncate(before)

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from fractions import Fraction
 from pathlib import Path
+from threading import Thread
 
 import flint
 import mpmath
@@ -88,6 +89,22 @@ def test_missing_and_extra_files_are_named(copy):
     assert build.ours().check(copy) == ["rotate.py is missing", "stray.py is extra"]
     build.ours().generate(copy)
     assert build.ours().check(copy) == []
+
+
+def test_of_two_that_generate_at_once_none_takes_the_files_of_the_other_away(copy, monkeypatch):
+    write, other = build.write, Thread(target=build.ours().generate, args=(copy,))
+
+    def first(place, texts):
+        if not other.ident:
+            (place / ".in the making").touch()
+            other.start()
+            other.join(1.0)  # it waits for the end of the first
+            assert (place / ".in the making").exists()
+        write(place, texts)
+
+    monkeypatch.setattr(build, "write", first)
+    build.ours().generate(copy)
+    other.join()
 
 
 def test_a_missing_fingerprint_fails_and_is_not_created(copy):

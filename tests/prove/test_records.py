@@ -186,7 +186,7 @@ def test_some_records_that_are_asked_for_leave_those_of_other_claims(path, monke
 
 def test_of_two_records_of_a_claim_the_last_one_counts(path):
     records.update(path, [made("2.1"), made("prop-4")], load())
-    records.append(path, made("2.1", verdict="refuted"))
+    records.append(path, made("2.1", verdict="refuted"), load())
     assert records.read(path)["2.1"]["verdict"] == "refuted"
     records.update(path, [], load())
     assert [kept["verdict"] for kept in written(path)] == ["refuted", "holds"]
@@ -229,14 +229,23 @@ def test_the_list_shows_what_is_on_record(path):
     assert "1 records are stale" in text or "1 record is stale" in text
 
 
+def test_what_another_register_has_begun_meanwhile_is_kept_and_not_mixed(path):
+    records.append(path, made("4.1"), load())
+    before, mine = path.read_bytes(), {"2.1": load()["2.1"]}
+    records.append(path, made("2.1"), mine)
+    with pytest.raises(records.BrokenRecords, match=r"holds verdicts on other claims, such as 4\.1; give --records"):
+        records.update(path, [made("2.1")], mine)
+    assert path.read_bytes() == before
+
+
 def test_of_a_record_for_which_there_is_no_room_nothing_is_kept(path):
     """A limit of the size of files, as a full disk: what is written is less than what is given."""
     resource = pytest.importorskip("resource")
-    records.append(path, made("4.1"))
+    records.append(path, made("4.1"), load())
     before, limits = path.read_bytes(), resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 100, limits[1]))
     try:
-        records.append(path, made("4.2", printed="x" * 200))
+        records.append(path, made("4.2", printed="x" * 200), load())
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert path.read_bytes() == before
