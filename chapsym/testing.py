@@ -55,6 +55,8 @@ def _one(draw: st.DrawFn, strata: Sequence[str], known: Sequence[str]) -> str:
 @st.composite
 def unit_vectors(draw: st.DrawFn, size: int = 3) -> Floats:
     """Unit vectors: in general position, and along an axis."""
+    if not isinstance(size, int) or size < 1:
+        raise BadInput(f"size must be a whole number from 1 on, not {brief(size)}")
     axis = draw(st.none() | st.integers(0, size - 1))
     if axis is not None:
         return np.eye(size)[axis] * draw(st.sampled_from([1.0, -1.0]))

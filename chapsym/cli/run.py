@@ -2,6 +2,8 @@
 
 import json
 import os
+from contextlib import nullcontext
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -83,10 +85,8 @@ def run(
                 data = formats.load(destination)
             else:
                 data = rolled = sweep.run(plan, report)
-                if destination.is_file() and not fresh:  # another process may have written it meanwhile
-                    check_same(destination, plan)
                 if exact is None or destination != formats.STDOUT:
-                    formats.save(data, destination)
+                    keep(data, destination, plan, fresh)
                 outcome = sweep.Outcome(int((data["status"].values != 0).sum()))
         quiet()
         stopped = None
@@ -106,6 +106,23 @@ def run(
         _tell(plan, shown, outcome, data, answers, as_json)
     if stopped is not None:
         fail(f"the frames after {len(motion.times)} are not proved: {stopped}", 1)
+
+
+def keep(data: "Dataset | Arrays", path: Path, plan: "Plan", fresh: bool) -> None:
+    """Writes a result; where another process has put one of another scene meanwhile, beside it, and says so."""
+    from chapsym.scene.read.errors import SceneError
+    from chapsym.scene.result import formats
+    from chapsym.scene.running.store import check_same
+
+    with nullcontext() if path == formats.STDOUT else files.alone(path.parent):
+        try:
+            if path.is_file() and not fresh:
+                check_same(path, plan)
+        except SceneError as error:
+            free = next(one for n in count(2) if not (one := path.with_stem(f"{path.stem}-{n}")).exists())
+            formats.save(data, free)
+            fail(f"{error}; it was written while this one ran, whose result is in {free}", 2)
+        formats.save(data, path)
 
 
 def _exact(scene: "Scene", destination: Path) -> "tuple[Start, tuple[Fraction, ...]]":

@@ -86,6 +86,8 @@ def _answer(
     from chapsym.scene.running import sweep
     from chapsym.scene.running.store import check_same
 
+    from .run import keep
+
     for name, value in (("--accuracy", accuracy), ("--time", time), ("--limit", limit)):
         if value is not None and not 0 < value < math.inf:
             fail(f"{name} must be a positive number, not {value:g}", 2)
@@ -112,10 +114,8 @@ def _answer(
                     raise BadInput(why)
             else:
                 data = sweep.run(plan)
-                if output is not None and output.exists() and not fresh:  # another process may have written it
-                    check_same(output, plan)
                 if output is not None:
-                    formats.save(data, output)
+                    keep(data, output, plan, fresh)
         answer = answers[0]
     except BadInput as error:
         quiet()

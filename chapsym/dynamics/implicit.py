@@ -62,7 +62,7 @@ def implicit_step(residual: Row, jacobian: Row, then: Row | None = None) -> Call
     ------
     BadInput
         If the kernels do not fit together, and, in a call, if the arrays do not fit, if the iteration does not
-        converge, or if a root is not proved.
+        converge, or if a root is not proved.  An error that a kernel raises itself is not changed.
 
     Examples
     --------

@@ -236,6 +236,12 @@ def test_a_fold_that_is_near_says_how_near(reach, said):
     assert said in str(chapsym.StepNotTaken(chapsym.Status.FOLDED, reach))
 
 
+@pytest.mark.parametrize("size", ["x", 0, -1, 2.5, None])
+def test_a_size_of_unit_vectors_that_there_is_not_is_refused(size):
+    with pytest.raises(BadInput, match="size must be a whole number from 1 on, not "):
+        find(testing.unit_vectors(size), lambda drawn: True)
+
+
 @pytest.mark.parametrize("strategy", [testing.rotations, testing.balls, testing.mass_tensors])
 @pytest.mark.parametrize("strata", [("generic", "x"), [], 3, "generic"])
 def test_a_stratum_that_there_is_not_is_refused(strategy, strata):

@@ -9,6 +9,7 @@ from commands import answer, chapsym, refused
 from first import FIRST
 
 from chapsym.scene.read.schema import names
+from chapsym.scene.result import formats
 from chapsym.scene.running import sweep
 from chapsym.scene.running.store import ELSE
 
@@ -215,7 +216,10 @@ def test_a_result_of_another_scene_and_what_is_no_result_are_replaced_only_where
 
     for other_command in (["run", other], ["trade", "--accuracy", "1e-6", "--time", "1"]):  # at the same time
         monkeypatch.setattr(sweep, "run", run)
-        assert refused(*other_command, "-o", output).endswith(f" differs); {ELSE}")
+        free = output.with_stem(f"two-{2 + output.with_stem('two-2').exists()}")
+        said = refused(*other_command, "-o", output)
+        assert said.endswith(f" differs); {ELSE}; it was written while this one ran, whose result is in {free}")
+        assert formats.load(free).attrs["scene"] != formats.load(output).attrs["scene"]
         output.unlink()
 
 
