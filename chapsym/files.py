@@ -45,12 +45,12 @@ def made(folder: Path) -> Path:
     """A folder for results, made if it is not there; raises CannotWrite, before anything is computed, if it cannot."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        if os.access(folder, os.W_OK):
-            return folder
-        raise CannotWrite(f"{folder} cannot be written: choose a folder that is writable")
     except OSError as error:
         clause = "it is a file" if isinstance(error, FileExistsError) else error.strerror or error
         raise CannotWrite(f"{folder} cannot be a folder of results: {clause}") from None
+    if not os.access(folder, os.W_OK):
+        raise CannotWrite(f"{folder} cannot be written: choose a folder that is writable")
+    return folder
 
 
 def check_source(path: Path) -> None:

@@ -81,11 +81,11 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _refused(file: str, why: Exception) -> int:
     """Says why a file is not accepted; the exit status."""
-    from . import Rejected
+    from . import Unreadable
 
-    rejected = isinstance(why, Rejected)
-    _say(f"{file}: {'rejected' if rejected else 'unreadable'}: {why}", to=sys.stderr)
-    return 1 if rejected else 2
+    status, word = (2, "unreadable") if isinstance(why, Unreadable) else (1, "rejected")
+    _say(f"{file}: {word}: {why}", to=sys.stderr)
+    return status
 
 
 def _say(*lines: str, to: Any = None) -> None:

@@ -72,7 +72,7 @@ def check(row: Any, written: str, certificates: Certificates, where: str) -> lis
             raise Rejected(f"{where} computes in its result {i} something else than «{said}» says")
     for i, carrier in enumerate(row["carriers"]):
         check_point(one, i, carrier.get("point", {}), where)
-    return [_said(carrier) for carrier in row["carriers"]]
+    return [": ".join([one["statement"], *(SAID[step] for step, _ in one["steps"])]) for one in row["carriers"]]
 
 
 #: The steps of a carrier, in words.
@@ -82,10 +82,6 @@ SAID = {
     "solved": "the solution of a linear system",
     "entries": "entries",
 }
-
-
-def _said(carrier: Mapping[str, Any]) -> str:
-    return ": ".join([carrier["statement"], *(SAID[step] for step, _ in carrier["steps"])])
 
 
 def _hides(entry: Path) -> bool:

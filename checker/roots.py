@@ -68,7 +68,7 @@ def solutions(
 ) -> dict[str, Fraction]:
     """The NUMBERS of a count whose form was checked; raises Rejected unless they are proved."""
     size, trees = len(one["unknowns"]), [*one["equations"], *one["nonzero"]]
-    ring = Ring(_coordinates(size), work)
+    ring = Ring([f"y{i}" for i in range(size)], work)
     known = {name: ring.number(x) for name, x in point.items() if isinstance(x, Fraction)}
     for relation in algebra["relations"]:
         if names_in(relation) <= known.keys() and value(relation, known, ring.number).numerator.terms:
@@ -110,10 +110,6 @@ def solutions(
     if any(len(_chain(e, form, work)[-1]) > 1 for form in on_curve[last:]):
         raise Rejected(f"{where} has a solution at which something vanishes that should not")
     return dict(zip(NUMBERS, map(Fraction, _roots(e, work)), strict=True))
-
-
-def _coordinates(size: int) -> list[str]:
-    return [f"y{i}" for i in range(size)]
 
 
 def _exponents(monomial: int, size: int) -> list[int]:

@@ -122,6 +122,7 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["run", "a\x1b]0;b\x9b\n\u202e.toml", "-o", "x.npz"], r"a\x1b]0;b\x9b\n\u202e.toml cannot be read"),
         (["run", "missing.toml", "--omega", "1,2,3"], "missing.toml cannot be read: No such file"),
         (["certify", "energy-drift", "--symmetry", "-3/2,-1,1"], "the signs must be one of (1, 1, 1), (1, -1, -1)"),
+        (["report", "--open", "no where", "-o", "x.html"], "chapsym study NAME -o 'no where' makes it"),
         (["certify", "manifest", "nowhere"], "there is no folder nowhere"),
         (["lab", FIRST, "--jobs", "9" * 20], "'--jobs'"),
         (["prove", "4.3", "--rocq", FIRST], "first.toml cannot be a folder of results: it is a file"),

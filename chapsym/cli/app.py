@@ -83,7 +83,9 @@ def main() -> NoReturn:
         sys.argv.append("--help")
     try:
         _hear()
-        _check_date(os.environ.get("SOURCE_DATE_EPOCH", "0"))
+        date = os.environ.get("SOURCE_DATE_EPOCH", "0")  # for figures: matplotlib and SymPy have errors of theirs
+        if not re.fullmatch(r"\d{1,11}", date, re.ASCII):
+            fail(f"SOURCE_DATE_EPOCH must be a number of seconds, such as 1700000000, not {date[:40]!r}", 2)
         status = plain(typer.main.get_command(app)).main(prog_name="chapsym", standalone_mode=False)
         sys.stdout.flush()
         if status == INTERRUPTED:
@@ -127,12 +129,6 @@ def main() -> NoReturn:
     except _foreseen() as error:
         quiet()
         fail(str(error), 2)
-
-
-def _check_date(seconds: str) -> None:
-    """The date that figures are to have: matplotlib and SymPy would end in an error of theirs."""
-    if not re.fullmatch(r"\d{1,11}", seconds, re.ASCII):
-        fail(f"SOURCE_DATE_EPOCH must be a number of seconds, such as 1700000000, not {seconds[:40]!r}", 2)
 
 
 def _hear() -> None:

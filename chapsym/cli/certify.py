@@ -202,6 +202,7 @@ def manifest_of(folder: Annotated[Path, argument("DIR", "Certificates, in this f
         for place, below, there in os.walk(folder):
             progress(f"{counted(len(names), 'certificate')}; in {place}")
             for file in sorted(Path(place, name) for name in below + there if name.endswith(".json")):
+                progress(f"{counted(len(names), 'certificate')}; {file}")
                 try:
                     if file != path:
                         names[file.relative_to(folder).as_posix()] = checker.check(checker.read(file)).name
@@ -220,9 +221,7 @@ def motion(
     digits: Annotated[int, takes("N", "How many digits of every number are proved.")] = 20,
     limit: Annotated[float, takes("S", "Seconds after which what is proved is given.")] = 600.0,
     against: Annotated[Path | None, takes("RESULT", "A result of the scene: a bound of its error is proved.")] = None,
-    certificate: Annotated[
-        Path | None, takes("FILE", "Write there what the separate checker judges on its own.")
-    ] = None,
+    certificate: Annotated[Path | None, takes("FILE", "Write there what the separate checker judges.")] = None,
     output: Output = None,
     as_json: Json = False,
 ) -> None:
@@ -295,7 +294,7 @@ def run_of_map(
 
     The checker repeats the run in integers, from the numbers as float64 has them.
 
-    Example: chapsym certify run map.toml -o run.json
+    Example: chapsym certify run docs/examples/map.toml -o run.json
     """
     from chapsym.certificates.run import map_run as search
     from chapsym.dynamics import trajectory

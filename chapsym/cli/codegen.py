@@ -62,8 +62,6 @@ def codegen(
         written = package.generate(place, trust or [])
     except (ValueError, ArithmeticError) as error:
         fail(str(error), 1)
-    except OSError as error:
-        fail(f"{place} cannot be written: {error.strerror or error}", 2)
     if as_json:
         print_json({"folder": str(place), "written": written})
     else:

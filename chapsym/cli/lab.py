@@ -37,24 +37,20 @@ def lab(
     method: Annotated[list[str] | None, takes("NAME", "A method; may be given more than once; all by default.")] = None,
     steps: Annotated[int, takes("N", "Steps of each run.", min=1, max=100_000_000)] = 100_000,
     length: Annotated[float | None, takes("TIME", "The time of a step; by default each system's own.", min=0)] = None,
-    flags: Annotated[
-        bool, typer.Option(help="Also decide exactly what can be: constraints, integrals, methods.")
-    ] = True,
+    flags: Annotated[bool, typer.Option(help="Also decide exactly constraints, integrals, methods.")] = True,
     halve: Annotated[bool, typer.Option(help="Also run with half the step: is a drift of the method?")] = False,
     jobs: Annotated[int, takes("N", "Processes.", min=1, max=1000)] = 1,
     output: Annotated[
         Path | None, takes("FILE", "A .json, which is gone on with if it is there; or an .html.", "--output", "-o")
     ] = None,
-    certificates: Annotated[
-        Path | None, takes("FOLDER", "Write each exact verdict as a certificate, for the checker.")
-    ] = None,
+    certificates: Annotated[Path | None, takes("FOLDER", "Write each exact verdict as a certificate.")] = None,
     as_json: Json = False,
 ) -> None:
     """Measure methods on mechanical systems: energy, constraints, order, cost.
 
     A file of a system is Python, and is run. Example: chapsym lab docs/examples/systems -o systems.html
     """
-    from chapsym.files import alone, check_destination, made, write_text
+    from chapsym.files import CannotWrite, alone, check_destination, made, write_text
     from chapsym.mechanics import METHODS, BadSystem, loaded
     from chapsym.mechanics.cases import name_of
     from chapsym.show.lab import COLUMNS
@@ -123,7 +119,7 @@ def lab(
             if written:
                 try:
                     certified[system.name] = found = written()
-                except BadSystem as error:
+                except (BadSystem, CannotWrite) as error:
                     wrong.append(str(error))
                     continue
                 if not as_json:
@@ -210,8 +206,7 @@ def _said(given: "Path | System", decide: bool) -> str:
 
 def _certify(of: "Path | System", methods: list[str], folder: Path) -> Data:
     """Writes the certificates of a system, or of the file of one: their claims, and why other verdicts have none."""
-    from chapsym.files import CannotWrite
-    from chapsym.mechanics import BadSystem, certified, loaded
+    from chapsym.mechanics import certified, loaded
     from chapsym.prove.certificates import write
 
     claims, none = list[str](), dict[str, list[str]]()
@@ -219,10 +214,7 @@ def _certify(of: "Path | System", methods: list[str], folder: Path) -> Data:
         if one.certificate is None:
             none.setdefault(one.why, []).append(one.verdict)
             continue
-        try:
-            write(dict(one.certificate), folder)
-        except CannotWrite as error:
-            raise BadSystem(str(error)) from None
+        write(dict(one.certificate), folder)
         claims.append(one.certificate["claim"])
     return {"claims": claims, "none": none}
 

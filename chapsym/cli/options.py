@@ -40,14 +40,8 @@ Records = Annotated[
     Path | None, takes("FILE", "The JSON Lines file of verdicts; in the user's cache by default.", "--records")
 ]
 
-Own = Annotated[
-    str | None,
-    takes(
-        "FOLDER",
-        "Claims of your own: a folder of Python scripts, one script, or a package. It is code, and it is run.",
-        "--register",
-    ),
-]
+OWN = "Claims of your own: a folder of Python scripts, one script, or a package. It is code, and it is run."
+Own = Annotated[str | None, takes("FOLDER", OWN, "--register")]
 
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output.")]
 

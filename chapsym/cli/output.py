@@ -147,8 +147,13 @@ def progress_bar(label: str, total: int) -> Iterator[Callable[..., None]]:
 def following() -> Iterator[Callable[["Progress"], None]]:
     """Yields a function of the `Progress` of a run, as `telling` does of a sentence."""
     left = _time_left()
+
+    def said(at: "Progress") -> str:
+        balls = f"{at.balls} balls done" + (f", {at.failed} stopped early" if at.failed else "")
+        return f"rolling: {at.steps / max(at.of, 1):.0%}, {balls}{left(at.steps, at.of)}"
+
     with telling() as tell:
-        yield lambda at: tell(f"rolling: {at.steps / max(at.of, 1):.0%}, {_balls(at)}{left(at.steps, at.of)}")
+        yield lambda at: tell(said(at))
 
 
 def _time_left() -> Callable[[float, float], str]:
@@ -166,10 +171,6 @@ def _time_left() -> Callable[[float, float], str]:
         return f", about {duration((of - done) / speed)} left" if speed > 0 and done < of else ""
 
     return left
-
-
-def _balls(at: "Progress") -> str:
-    return f"{at.balls} balls done" + (f", {at.failed} stopped early" if at.failed else "")
 
 
 def console_for(width: int) -> "Console":

@@ -63,7 +63,12 @@ def prove(
         folder = certificates or (Path(spare) if rocq else None)
         records = judge_and_keep(list(dict.fromkeys(ids or everything)), jobs, kept_in, folder, register)
         if rocq and folder:
-            _write_rocq([folder / file_name(record["id"]) for record in records], rocq)
+            from chapsym.prove.rocq import write
+
+            kept = [file for record in records if (file := folder / file_name(record["id"])).exists()]
+            written = write((json.loads(file.read_text(encoding="utf-8")) for file in kept), rocq)
+            counts = f"claims: {written.claims}, theorems: {written.theorems.total()}"
+            note(f"for Rocq in {rocq}: {counts}; make -C {files.pasted(rocq)} -j2 has them judged")
     # The whole register is as it should be with the paper's open questions open; a claim that is named must be proved.
     failed = [record["id"] for record in records if record["verdict"] == "open"] if ids else unproved(records)
     if as_json:
@@ -85,30 +90,12 @@ def prove(
             if parts := sorted(other for other in claims.keys() - set(ids or []) if other.startswith(f"{id}-")):
                 note(f"{id} has parts that are judged apart: {', '.join(parts)}")
     if certificates:
-        note(f"certificates in {certificates}: {_carried(records)}")
+        carried = [record["evidence"]["carried"] for record in records if record["evidence"]["carried"]]
+        judged = counted(sum(c["statements"] for c in carried), "statement")
+        others = counted(sum(sum(c["sentences"].values()) for c in carried), "sentence")
+        note(f"certificates in {certificates}: {judged} that the checker accepted, {others} that it did not judge")
     if failed:
         fail(f"not proved: {', '.join(failed)}", 1)
-
-
-def _write_rocq(certificates: list[Path], folder: Path) -> None:
-    """Writes the new certificates as theorems."""
-    from chapsym.prove.rocq import write
-
-    try:
-        whole = (json.loads(file.read_text(encoding="utf-8")) for file in certificates if file.exists())
-        written = write(whole, folder)
-    except OSError as error:
-        fail(f"{folder} cannot be written: {error.strerror or error}", 2)
-    counts = f"claims: {written.claims}, theorems: {written.theorems.total()}"
-    note(f"for Rocq in {folder}: {counts}; make -C {files.pasted(folder)} -j2 has them judged")
-
-
-def _carried(records: list[Data]) -> str:
-    """The totals of the certificates of all claims."""
-    counts = [record["evidence"]["carried"] for record in records if record["evidence"]["carried"]]
-    statements, sentences = sum(c["statements"] for c in counts), sum(sum(c["sentences"].values()) for c in counts)
-    judged = f"{counted(statements, 'statement')} that the checker accepted"
-    return f"{judged}, {counted(sentences, 'sentence')} that it did not judge"
 
 
 def _list_claims(claims: dict[str, "Claim"], as_json: bool, kept_in: Path | None, register: "Register") -> None:
@@ -156,8 +143,6 @@ def judge_and_keep(
     try:
         with progress_bar("proving", len(wanted)) as shown:
             judged = prove_all(wanted, jobs, keep, folder=certificates, register=register)
-    except files.CannotWrite as error:
-        fail(str(error), 2)
     finally:  # an interrupt keeps what was finished, and puts it in order
         try:
             records.update(path, arrived, claims)

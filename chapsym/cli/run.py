@@ -38,9 +38,7 @@ def run(
     scheduler: Annotated[
         str | None, takes("ADDRESS", "A Dask scheduler, such as tcp://host:8786, for a .zarr.")
     ] = None,
-    fresh: Annotated[
-        bool, typer.Option("--fresh", "--force", help="Replace a result that is there, of whatever scene.")
-    ] = False,
+    fresh: Annotated[bool, typer.Option("--fresh", "--force", help="Replace any result that is there.")] = False,
     omega: Annotated[
         str | None,
         takes("W1,W2,W3", "For a robot's file: ω at the start in rad/s, with the ball's axes along those of space."),

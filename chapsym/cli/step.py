@@ -30,8 +30,7 @@ def step(
     gamma: Gamma,
     digits: Annotated[int | None, takes("N", "Significant digits, by mpmath.", min=1, max=100_000)] = None,
     precision: Annotated[
-        str | None,
-        takes("NAME", "single, double (the default) or double-double: 7, 16, 31 digits.", "--precision", "--rung"),
+        str | None, takes("NAME", "single, double (default), double-double: 7, 16, 31 digits.", "--precision", "--rung")
     ] = None,
     ball: Bits = None,
     proved: Annotated[

@@ -17,9 +17,7 @@ STUDIES = ("rotation", "energy", "chaos")
 def study(
     name: Annotated[str, argument("NAME", f"{', '.join(STUDIES)}.")],
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and coarser.")] = False,
-    output: Annotated[
-        Path | None, writes("DIR", "A folder for the data and figures; an unfinished one is resumed.")
-    ] = None,
+    output: Annotated[Path | None, writes("DIR", "For data and figures; an unfinished one is resumed.")] = None,
     scheduler: Annotated[str | None, takes("ADDRESS", "A Dask scheduler, such as tcp://host:8786.")] = None,
     as_json: Json = False,
 ) -> None:

@@ -42,9 +42,7 @@ def trade(
     of: Annotated[str | None, takes("WHAT", "contact (metres; the default with a radius) or state (relative).")] = None,
     limit: Annotated[float, takes("S", "Seconds of the processor that a run may take.")] = 600.0,
     quick: Annotated[bool, typer.Option("--quick", help="Fewer and shorter runs.")] = False,
-    fresh: Annotated[
-        bool, typer.Option("--fresh", "--force", help="Replace a result that is there, of whatever run.")
-    ] = False,
+    fresh: Annotated[bool, typer.Option("--fresh", "--force", help="Replace any result that is there.")] = False,
     output: Annotated[Path | None, writes("FILE", "A figure or a page (.md); with --accuracy the run.")] = None,
     as_json: Json = False,
     **clause: str | None,

@@ -107,8 +107,10 @@ def update(path: Path, records: Iterable[Data], claims: dict[str, Claim]) -> Non
         with files.alone(path.parent):
             there = read(path)
             if there and not there.keys() & claims.keys():
-                clause = f"holds verdicts on other claims, such as {next(iter(there))}"
-                raise BrokenRecords(f"{path} {clause}; give --records another file")
+                one = next(iter(there))
+                raise BrokenRecords(
+                    f"{path} holds verdicts on other claims, such as {one}; give --records another file"
+                )
             known = there | {record["id"]: record for record in records}
             lines = [json.dumps(known[id], ensure_ascii=False) + "\n" for id in claims if id in known]
             files.write_whole(path, lambda stream: stream.writelines(map(files.encoded, lines)))

@@ -155,7 +155,8 @@ class Register:
 
     def script(self, path: Path) -> str | None:
         """The module of a file, if it is one of the scripts."""
-        return next((name for name in self._scripts(self._head()) if _is(sources.file(name), path)), None)
+        names = self._scripts(self._head()) if path.exists() else []
+        return next((name for name in names if (file := sources.file(name)) and path.samefile(file)), None)
 
     @property
     def key(self) -> str:
@@ -331,10 +332,6 @@ def _shown(name: str) -> str:
         return name.removeprefix(f"{PROOFS.place}.")
     file = Path(sources.file(name) or name)
     return str(file.relative_to(Path.cwd()) if file.is_relative_to(Path.cwd()) else file)
-
-
-def _is(file: str | None, path: Path) -> bool:
-    return file is not None and path.exists() and path.samefile(file)
 
 
 def _listed(head: ModuleType, name: str) -> list[str] | None:

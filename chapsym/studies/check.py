@@ -141,16 +141,12 @@ def compare(state: State, digits: int = 34) -> tuple[Floats, Floats, float, floa
     errors = [ulps(q, truth.q, extent), ulps(found.momentum, truth.momentum, size), ulps(found.gamma, truth.gamma, 1.0)]
     promised = [BUDGET * kappa, BUDGET * (1 + extent * kappa), BUDGET * (1 + extent * kappa)]
     exact = [truth.q0, *truth.q], truth.momentum, truth.gamma
-    off = [_apart(*pair) for pair in zip((found.rotation, found.momentum, found.gamma), exact, strict=True)]
+    pairs = zip((found.rotation, found.momentum, found.gamma), exact, strict=True)
+    off = [float(mpmath.norm([e - float(v) for v, e in zip(*pair, strict=True)])) for pair in pairs]  # the errors
     assert found.proved is not None
     bounds = np.array([found.proved.rotation, found.proved.momentum, found.proved.gamma])
     share = float(np.max(off / bounds)) if np.isfinite(bounds).all() else np.nan
     return np.array(errors), np.array(promised), kappa, share
-
-
-def _apart(values: Floats, exact: list[Any]) -> float:
-    """The length of the error."""
-    return float(mpmath.norm([e - float(v) for v, e in zip(values, exact, strict=True)]))
 
 
 def check_stratum(name: str, states: int, seed: int) -> Row:

@@ -12,7 +12,6 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from chapsym import files
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.levels.frames import cores
 
@@ -34,21 +33,18 @@ def in_checkout(package: str, module: str) -> Any:
 
 
 def save_figures(package: str, drawn: Mapping[str, str], found: dict[str, Any], folder: Path) -> list[Path]:
-    """The figures of a study by the names of their files; raises BadInput if the folder cannot be written to.
+    """The figures of a study by the names of their files; raises CannotWrite if the folder cannot be written to.
 
     drawn: the function of each figure, "module:function", in a module of the package of the study.
     """
     from chapsym.show import figures
     from chapsym.show.drawing.style import styled
 
-    try:
-        for name, where in drawn.items():
-            module, _, function = where.partition(":")
-            with styled():
-                figure = getattr(import_module(f"{package}.{module}"), function)(found)
-            figures.save(figure, folder / name)
-    except files.CannotWrite as error:
-        raise BadInput(str(error)) from None
+    for name, where in drawn.items():
+        module, _, function = where.partition(":")
+        with styled():
+            figure = getattr(import_module(f"{package}.{module}"), function)(found)
+        figures.save(figure, folder / name)
     return [folder / name for name in drawn]
 
 

@@ -48,10 +48,14 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
     balls = [[[0, 1, 3], 4.0, 0.5], [[1, 2, 4], 1.0, 0.617126]] if quick else balls
     search = {"most": 1 if quick else 2, "time": 60.0, "grid": 64}
     levels = run([Unit(HERE + "resonances", {"ball": b, **search}) for b in balls])
-    resonant = _widest([r for level in levels for r in level])
+    every = [r for level in levels for r in level]
+    met = dict.fromkeys(str(r["ball"][:2]) for r in every)
+    resonant = [max((r for r in every if str(r["ball"][:2]) == ball), key=lambda r: r["width"]) for ball in met]
     units = _units(resonant, quick)
     results = run([unit for _, unit in units])
-    found: dict[str, Any] = {"seed": SEED, "shown": SHOWN, "resonances": _table(levels), "widest": resonant}
+    names = ("ball", "returns", "period", "energy", "beta", "width", "libration")
+    table = [{**{n: r[n] for n in names}, "loop": max(r["loop"], key=abs)} for r in every]
+    found: dict[str, Any] = {"seed": SEED, "shown": SHOWN, "resonances": table, "widest": resonant}
     for (group, unit), result in zip(units, results, strict=True):
         lines = {"ball": unit.arguments["ball"], "start": unit.arguments["start"]}
         if group == "islands":
@@ -63,18 +67,6 @@ def study(quick: bool = False, run: Run = run_units) -> dict[str, Any]:
     found["longer"] = run([Unit(HERE + "amplitude", longer)])
     found["powers"] = {name: _exponent(found[name]) for name in ("generic", "resonant")}
     return found
-
-
-def _widest(resonances: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The widest resonance of each ball."""
-    names = dict.fromkeys(str(r["ball"][:2]) for r in resonances)
-    return [max((r for r in resonances if str(r["ball"][:2]) == name), key=lambda r: r["width"]) for name in names]
-
-
-def _table(levels: list[list[dict[str, Any]]]) -> list[dict[str, Any]]:
-    """The sentences on every resonance."""
-    names = ("ball", "returns", "period", "energy", "beta", "width", "libration")
-    return [{**{n: r[n] for n in names}, "loop": max(r["loop"], key=abs)} for level in levels for r in level]
 
 
 def _units(resonant: list[dict[str, Any]], quick: bool) -> list[tuple[str, Unit]]:

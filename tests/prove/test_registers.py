@@ -258,8 +258,8 @@ def elsewhere(p):
 
 @claim("half", "x")
 def half(p):
-    "Half a letter: \\ud800"
-    raise GeneratorExit
+    "Half a letter, which Python 3.13 takes in no docstring."
+    raise GeneratorExit("\\ud800")
 """
 
 

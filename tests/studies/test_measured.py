@@ -21,11 +21,11 @@ def table(page):
 
 def test_a_page_of_the_check_has_the_table_that_is_printed(tmp_path, monkeypatch):
     monkeypatch.setattr(check, "STRATA", dict(list(check.STRATA.items())[:2]))
-    page = tmp_path / "check.md"
+    page = tmp_path / "the check.md"
     done = chapsym("check", "--states", 1, "--steps", 1000, "-o", page)
     assert done.returncode == 0, done.stderr
     text = page.read_text(encoding="utf-8")
-    assert f"`chapsym check --states 1 --steps 1000 -o {page}`" in text
+    assert f"`chapsym check --states 1 --steps 1000 -o '{page}'`" in text
     assert re.search(r"on \d{4}-\d\d-\d\d\. Machine: .*\d cores", text)
     header, _, *rows = table(text)
     assert header[0] == "stratum"

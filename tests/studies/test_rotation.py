@@ -12,6 +12,7 @@ import chapsym
 from chapsym.dynamics import BadInput
 from chapsym.dynamics.closed.elliptic import Curve, increment
 from chapsym.dynamics.closed.vertical import step_vertical
+from chapsym.files import CannotWrite
 from chapsym.studies import checkout
 from research import rotation
 from research.rotation import average, digits, displacement, plateau, staircase
@@ -282,7 +283,7 @@ def test_the_figures_are_drawn_the_same_twice(small, tmp_path):
     first = [x.read_bytes() for x in written]
     again = checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path)
     assert [x.read_bytes() for x in again] == first
-    with pytest.raises(BadInput, match="does not exist"):
+    with pytest.raises(CannotWrite, match="does not exist"):
         checkout.save_figures("research.rotation", rotation.DRAWN, small, tmp_path / "nowhere")
 
 
