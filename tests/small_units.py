@@ -21,15 +21,16 @@ from chapsym.scene.plan.plan import planned
 from chapsym.scene.read.task import Task
 from chapsym.scene.running import sweep
 
-BALLS, STEPS, EVERY = 20, 330, 10
-UNITS = 20
+BALLS, STEPS, EVERY = 10, 210, 10
+#: Units of work, and so many that balls are done, begun and not begun.
+UNITS, PART = 9, 5
 #: All outputs, and some: a store takes the time of its arrays.
 OUTPUTS = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals")
 SOME = ("momentum", "gamma")
 
 
 class SmallUnits(plans.Plan):
-    """Five chunks of balls, four segments of frames; the last ones are shorter."""
+    """Three chunks of balls, three segments of frames; the last ones are shorter."""
 
     @property
     def chunks(self):
@@ -44,7 +45,7 @@ def members(n=BALLS):
     """Balls of which some meet a fold: the faster ones in the middle."""
     spread = np.arange(n)[:, np.newaxis] / n
     ball = chapsym.Ball(np.array([4.0, 3.0, 5.0]) * 1e-3 + 1e-3 * spread, np.full(n, 0.02), np.full(n, 0.1))
-    omega = np.array([3.0, -2.0, 1.0]) * np.where((np.arange(n) % 7 == 3)[:, np.newaxis], 60.0, 1.0 + spread)
+    omega = np.array([3.0, -2.0, 1.0]) * np.where((np.arange(n) % 5 == 3)[:, np.newaxis], 60.0, 1.0 + spread)
     gamma = np.broadcast_to(np.array([2.0, 3.0, 6.0]) / 7, (n, 3)).copy()
     momentum = 0.01 * kernels.contact_momentum(omega, gamma, ball.mass_tensor, ball.D)
     half = np.array([0.5, 0.5, 0.5, 0.5])
@@ -55,7 +56,7 @@ def members(n=BALLS):
 
 
 def plan(outputs=SOME, scene="", steps=STEPS, seed=7, n=BALLS):
-    """Five times four units of 4 balls and 9 frames."""
+    """Three times three units of 4 balls and 9 frames."""
     whole = planned(members(n), Task(outputs, steps, EVERY, 0.01))
     return replace(
         SmallUnits(whole.members, whole.task, whole.model, whole.needed, whole.refused), scene=scene, seed=seed

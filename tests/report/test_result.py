@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import results
 import small_units
+from budget import slow
 from commands import refused
 from first import BALL, FIRST
 
@@ -58,7 +59,7 @@ def test_the_drift_is_what_the_integrals_say():
     assert re.match(r"[1-9]\.\de-16", dict(Result(from_state).rows())["drift"])
 
 
-@pytest.mark.parametrize("suffix", [".zarr", ".nc"])
+@pytest.mark.parametrize("suffix", [".zarr", *slow(".nc")])
 def test_a_result_that_is_saved_opens_as_it_was(tmp_path, suffix):
     result, path = chapsym.run_scene(SCENE), tmp_path / f"a{suffix}"
     result.save(path)
@@ -120,10 +121,12 @@ def test_the_command_draws_a_result_with_its_page(tmp_path, show):
 
 def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, show):
     """Balls that have not begun are not counted as stopped; what is saved of it stays half a run."""
-    small_units.interrupted(tmp_path / "half.zarr", 9, small_units.plan((*small_units.SOME, "attitude", "contact")))
+    small_units.interrupted(
+        tmp_path / "half.zarr", small_units.PART, small_units.plan((*small_units.SOME, "attitude", "contact"))
+    )
     done = show(tmp_path / "half.zarr", "-o", tmp_path / "p", "--figures", "contact", "--page")
     assert done.returncode == 0, done.stderr
-    words = re.search(r"half\.zarr is unfinished: (\d+ % of the run, \d+ of 20 balls to their ends)\n", done.stdout)[1]
+    words = re.search(r"half\.zarr is unfinished: (\d+ % of the run, \d+ of 10 balls to their ends)\n", done.stdout)[1]
     assert f"the run is not finished: {words} can be shown" in (tmp_path / "p" / "page.html").read_text(
         encoding="utf-8"
     )
@@ -135,8 +138,8 @@ def test_half_a_run_is_drawn_and_says_how_much_there_is(tmp_path, show):
     assert np.isfinite(half.dataset.gamma.values[counted]).all()
     assert int(words.split()[0]) == int(100 * (counted | (half.dataset.status.values > 0)[:, np.newaxis]).mean()) > 0
     stopped = int((half.dataset.status.values > 0).sum())
-    assert dict(half.rows())["balls"] == "20" + (f", {stopped} of them stopped early" if stopped else "")
-    for suffix in (".zarr", ".nc", ".npz"):
+    assert dict(half.rows())["balls"] == "10" + (f", {stopped} of them stopped early" if stopped else "")
+    for suffix in (".zarr", ".npz"):
         half.save(tmp_path / f"saved{suffix}")
         assert dict(chapsym.open_result(tmp_path / f"saved{suffix}").rows())["unfinished"] == words
 
@@ -158,9 +161,16 @@ def test_each_result_has_a_folder_of_its_own_and_the_first_scene_its_page(tmp_pa
     assert all((folder / "page.html").exists() for folder in folders)
 
 
-def test_the_command_draws_what_is_named(tmp_path, show):
-    results.folded().assign_attrs(chapsym_version="0").to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
-    done = show(tmp_path / "a.nc", "-o", tmp_path / "p", "--figures", "integrals,contact", "--ball", "fast")
+@pytest.fixture(scope="module")
+def stored(tmp_path_factory):
+    """The folder of a result."""
+    folder = tmp_path_factory.mktemp("stored")
+    results.folded().assign_attrs(chapsym_version="0").to_netcdf(folder / "a.nc", engine="h5netcdf")
+    return folder
+
+
+def test_the_command_draws_what_is_named(stored, tmp_path, show):
+    done = show(stored / "a.nc", "-o", tmp_path / "p", "--figures", "integrals,contact", "--ball", "fast")
     assert done.returncode == 0, done.stderr
     assert sorted(path.name for path in (tmp_path / "p").iterdir()) == ["contact.svg", "integrals.svg"]
 
@@ -179,9 +189,7 @@ def test_the_command_draws_what_is_named(tmp_path, show):
         (["no.toml"], "no.toml cannot be read"),
     ],
 )
-def test_mistakes_are_one_sentence(tmp_path, arguments, sentence):
-    dataset = results.folded().assign_attrs(chapsym_version="0")
-    dataset.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
-    paths = [str(tmp_path / a) if a.endswith((".nc", ".txt", ".toml")) else a for a in arguments]
+def test_mistakes_are_one_sentence(stored, tmp_path, arguments, sentence):
+    paths = [str(stored / a) if a.endswith((".nc", ".txt", ".toml")) else a for a in arguments]
     assert sentence in refused("show", *paths, *([] if "-o" in paths else ["-o", tmp_path / "p"]))
     assert not (tmp_path / "p").exists()

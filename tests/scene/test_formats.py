@@ -12,8 +12,9 @@ import numpy as np
 import pandas
 import pytest
 import xarray
+from budget import slow
 from first import BALL, FIRST
-from small_units import OUTPUTS, equal_to_the_bit, plan
+from small_units import BALLS, OUTPUTS, equal_to_the_bit, plan
 
 from chapsym.dynamics import BadInput
 from chapsym.scene import SceneError, load
@@ -34,7 +35,7 @@ def result():
     names[:6] = ["nan", 'a,"b"', " blank ", "# hash", "two\nlines", "1e5"]
     data["momentum"][0, 1] = [-0.0, 5e-324, 1.7976931348623157e308]
     data["energy"][1] = 3.0  # a column that looks like integers
-    data["D"].values = np.where(np.arange(20) < 3, np.inf, np.nan)  # what JSON has no numbers for
+    data["D"].values = np.where(np.arange(BALLS) < 3, np.inf, np.nan)  # what JSON has no numbers for
     return data.assign_coords(ball=names)
 
 
@@ -60,9 +61,9 @@ def test_a_result_comes_back_to_the_bit(result, tmp_path, suffix):
     assert path.read_bytes() == first
 
 
-@pytest.mark.parametrize("balls", [1, 20])
+@pytest.mark.parametrize("balls", [1, BALLS])
 def test_a_run_is_written_alike_with_and_without_xarray(tmp_path, balls):
-    """And its summary is the same; the balls are in other axes than the principal ones, and some of 20 stop."""
+    """And its summary is the same; the balls are in other axes than the principal ones, and some stop."""
     wanted = plan(OUTPUTS, n=balls)
     alone, labelled = sweep.run(wanted), sweep.run_in_memory(wanted)
     for suffix in FILES:
@@ -85,21 +86,21 @@ def test_plain_readers_have_the_same_numbers(result, tmp_path):
     assert list(table.columns[:4]) == ["ball", "step", "time", "start.omega.1"]
     wanted = result.isel(ball=slice(6, None))
     for frame in (table, pandas.read_parquet(tmp_path / "run.parquet")):
-        np.testing.assert_array_equal(frame["momentum_2"].to_numpy().reshape(14, 34), wanted.momentum.sel(axis="2"))
-        np.testing.assert_array_equal(frame["attitude_w"].to_numpy().reshape(14, 34), wanted.attitude[..., 0])
-        assert frame["ball"].iloc[-1] == "ball 19"
-    notes = json.loads(table["chapsym"][34 * 3])
+        np.testing.assert_array_equal(frame["momentum_2"].to_numpy().reshape(4, 22), wanted.momentum.sel(axis="2"))
+        np.testing.assert_array_equal(frame["attitude_w"].to_numpy().reshape(4, 22), wanted.attitude[..., 0])
+        assert frame["ball"].iloc[-1] == "ball 9"
+    notes = json.loads(table["chapsym"][22 * 3])
     assert notes["taken"] == wanted.taken[3]
     assert notes["mass_tensor"] == wanted.mass_tensor[3].values.tolist()
-    assert set(table["chapsym"][34 * 3 + 1 : 34 * 4]) == {"-"}
+    assert set(table["chapsym"][22 * 3 + 1 : 22 * 4]) == {"-"}
     with xarray.open_dataset(tmp_path / "run.nc", engine="h5netcdf") as found:
         xarray.testing.assert_equal(found.load(), wanted)
 
 
 def test_what_is_too_large_is_told_before_it_is_run(tmp_path, monkeypatch):
     wanted = plan(("momentum",))
-    monkeypatch.setattr(formats, "MOST_ROWS", 20 * 34 - 1)
-    with pytest.raises(SceneError, match=r"680 rows.*write to \.parquet or \.zarr"):
+    monkeypatch.setattr(formats, "MOST_ROWS", BALLS * 22 - 1)
+    with pytest.raises(SceneError, match=r"220 rows.*\.parquet or \.zarr"):
         formats.check_size(wanted, tmp_path / "run.csv")
     formats.check_size(wanted, tmp_path / "run.parquet")
     monkeypatch.setattr(formats, "_memory", lambda: 4.0 * wanted.bytes - 1)
@@ -108,19 +109,20 @@ def test_what_is_too_large_is_told_before_it_is_run(tmp_path, monkeypatch):
             formats.check_size(wanted, tmp_path / f"run{suffix}")
     formats.check_size(wanted, tmp_path / "run.zarr")
     monkeypatch.setattr(formats, "MOST_ROWS", 100)
-    with pytest.raises(SceneError, match="680 rows, and a CSV of more than 100 is of no use"):
+    with pytest.raises(SceneError, match="220 rows, and a CSV of more than 100"):
         formats.save(sweep.run_in_memory(wanted), tmp_path / "run.csv")
 
 
 @pytest.mark.parametrize("suffix", FILES)
-@pytest.mark.parametrize("damage", [lambda b: b[: len(b) // 2], lambda b: b"", lambda b: b"\x00\xff" * 500])
-def test_a_damaged_file_is_one_sentence(result, tmp_path, suffix, damage):
+def test_a_damaged_file_is_one_sentence(result, tmp_path, suffix):
     path = tmp_path / f"run{suffix}"
     formats.save(result, path)
-    path.write_bytes(damage(path.read_bytes()))
-    with pytest.raises(SceneError, match=rf"run\{suffix} (is damaged|cannot be read)") as caught:
-        formats.load(path)
-    assert "\n" not in str(caught.value)
+    content = path.read_bytes()
+    for damaged in (content[: len(content) // 2], b"", b"\x00\xff" * 500):
+        path.write_bytes(damaged)
+        with pytest.raises(SceneError, match=rf"run\{suffix} (is damaged|cannot be read)") as caught:
+            formats.load(path)
+        assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -182,23 +184,18 @@ def parts(result, tmp_path):
     return path, arrays, json.loads(str(arrays["chapsym"]))
 
 
-def test_an_attribute_and_axes_that_are_not_those_of_a_result_are_refused(parts):
+def test_what_a_file_says_of_its_arrays_must_fit_and_what_a_reader_trips_over_is_not_repeated(parts):
     path, arrays, about = parts
-    about["attrs"]["accuracy"] = [1e-6]
-    np.savez(path, **(arrays | {"chapsym": np.array(json.dumps(about))}))
-    with pytest.raises(SceneError, match="its accuracy is no number"):
-        formats.load(path)
-    np.savez(path, **(arrays | {"taken": arrays["taken"][..., np.newaxis]}))
-    with pytest.raises(SceneError, match="taken has 2 axes, not ball"):
-        formats.load(path)
-
-
-def test_what_a_reader_trips_over_is_not_repeated(parts):
-    path, arrays, about = parts
-    about["structure"]["variables"] = None
-    np.savez(path, **(arrays | {"chapsym": np.array(json.dumps(about))}))
-    with pytest.raises(SceneError, match=r"or no result of chapsym: its parts are not those of a result$"):
-        formats.load(path)
+    rank, accuracy, structure = (json.loads(json.dumps(about)) for _ in range(3))
+    accuracy["attrs"]["accuracy"], structure["structure"]["variables"] = [1e-6], None
+    for said, words, changed in (
+        (accuracy, "its accuracy is no number", {}),
+        (rank, "taken has 2 axes, not ball", {"taken": arrays["taken"][..., np.newaxis]}),
+        (structure, r"or no result of chapsym: its parts are not those of a result$", {}),
+    ):
+        np.savez(path, **(arrays | changed | {"chapsym": np.array(json.dumps(said))}))
+        with pytest.raises(SceneError, match=words):
+            formats.load(path)
 
 
 def test_what_is_no_result_is_not_read(tmp_path, result):
@@ -229,12 +226,12 @@ OLD = Path(__file__).parent / "old"
 
 def test_pandas_reads_a_long_table_as_numbers_without_a_warning(tmp_path):
     """What a ball has once is not repeated, and no column changes its kind on the way."""
-    scene = load(OLD / "scene.toml").with_run(steps=20_000, every=1, outputs=["momentum", "gamma"])
+    scene = load(OLD / "scene.toml").with_run(steps=9_000, every=1, outputs=["momentum", "gamma"])
     formats.save(sweep.run_in_memory(plan_of(scene)), tmp_path / "run.csv")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         table = pandas.read_csv(tmp_path / "run.csv")
-    assert len(table) == 20_001
+    assert len(table) == 9_001
     assert {name for name in table if table[name].dtype.kind not in "fi"} == {"ball", "chapsym"}
     assert not {"D", "mass_tensor_1", "radius", "taken"} & set(table)
 
@@ -259,7 +256,7 @@ def test_the_old_files_of_one_ball_are_still_read(name):
         assert found.attrs["scene"] == whole.attrs["scene"]
 
 
-@pytest.mark.parametrize("suffix", FILES)
+@pytest.mark.parametrize("suffix", [".csv", ".npz", *slow(".nc", ".parquet")])
 def test_a_component_has_one_number_whatever_else_is_kept(tmp_path, suffix):
     """momentum_1 is 𝒦₁, with energy and without."""
     first = load(OLD / "scene.toml")
@@ -282,7 +279,7 @@ def test_a_npz_of_one_ball_is_plain_arrays_of_frames(tmp_path):
         assert found["radius"] == 0.5
 
 
-@pytest.mark.parametrize("suffix", [*FILES, ".zarr", None])
+@pytest.mark.parametrize("suffix", [".csv", ".zarr", *slow(None, ".nc", ".parquet", ".npz")])
 def test_a_frame_is_found_by_its_time_in_memory_and_from_every_format(tmp_path, suffix):
     """And what was chosen by time can be saved."""
     wanted = plan(("momentum",), n=4)
@@ -320,7 +317,7 @@ KINDS = {
 }
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ["double-double", "single", "accuracy", "four", *slow("start", "every", "vertical")])
 def test_every_kind_of_run_comes_back_from_every_format(tmp_path, kind):
     wanted = plan_from(KINDS[kind] if "[ball]" in KINDS[kind] else BALL + KINDS[kind])
     data = sweep.run_in_memory(wanted)
@@ -346,7 +343,7 @@ def test_every_kind_of_run_comes_back_from_every_format(tmp_path, kind):
 
 def test_numbers_that_look_like_others_keep_their_type_in_batches_too(result, tmp_path, monkeypatch):
     """Names that are numbers, floats that are whole, and a column of -0.0, which as integers would lose its sign."""
-    data = result.copy(deep=True).assign_coords(ball=np.array([f"0{i}" for i in range(20)], dtype=object))
+    data = result.copy(deep=True).assign_coords(ball=np.array([f"0{i}" for i in range(BALLS)], dtype=object))
     data["energy"][:] = -0.0
     data["omega"][:] = 7.0
     check_formats(data, tmp_path)
@@ -359,7 +356,7 @@ def test_numbers_that_look_like_others_keep_their_type_in_batches_too(result, tm
     [
         "RAI,RAI,RAI,0,1\n1,2,3,4,5\n",
         "mass_A\nt;x;y\n0;1;2\n",
-        "0.0 0.0 -0.0 0.0 -0.1 -0.99 0.06 0.03\n",
+        "0.0 0.0 -0.0 0.06\n",
         "# time_step = 0.001\ntime,x,y\n0,0,0\n",
         "# made by: an engine\nstep,x\n0,0\n",
     ],
@@ -367,9 +364,7 @@ def test_numbers_that_look_like_others_keep_their_type_in_batches_too(result, tm
 def test_a_table_of_another_program_is_answered_by_the_command_that_reads_it(tmp_path, text):
     path = tmp_path / "other.csv"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(
-        SceneError, match="was not written by chapsym: it has no column chapsym; chapsym show and chapsym judge"
-    ):
+    with pytest.raises(SceneError, match="it has no column chapsym; chapsym show and chapsym judge"):
         formats.load(path)
 
 
