@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from chapsym import BadInput
 from chapsym.dynamics import kernels
-from chapsym.dynamics.principal_axes import from_inertia_tensor, principal
+from chapsym.dynamics.principal_axes import principal
 from chapsym.scene import checked
 from chapsym.scene.members.members import expand
 from chapsym.scene.read.bodies import PRESETS, check_inside
@@ -98,11 +98,7 @@ def test_a_batch_of_bowling_balls_may_have_one_whose_block_is_at_the_centre():
         ("dumbbell", {"point_mass": 3.6, "separation": 0.1}, "the two point masses are more than the mass"),
         ("dumbbell", {"point_mass": -1, "separation": 0.1}, "point_mass must not be negative"),
         ("dumbbell", {"point_mass": 1, "separation": 0.22}, "separation must be from 0 to the inside"),
-        (
-            "dumbbell",
-            {"point_mass": 1, "separation": 0.2, "thickness": 0.01},
-            "separation must be from 0 to the inside",
-        ),
+        ("dumbbell", {"point_mass": 1, "separation": 0.2, "thickness": 0.01}, "separation must be from 0 to the"),
         ("bowling", {"block_mass": 6.9, "block_size": SIZE, "block_offset": OFFSET}, "are more than the mass"),
         ("bowling", {"block_mass": -1, "block_size": SIZE, "block_offset": OFFSET}, "block_mass must not be negative"),
         ("bowling", {"block_mass": 1, "block_size": (0.05, -0.1, 0), "block_offset": OFFSET}, "block_size must not"),
@@ -157,15 +153,6 @@ def test_a_small_turn_of_the_body_is_a_small_turn_of_the_axes_and_a_diagonal_ten
     assert found[0].tolist() == [3.0, 1.0, 2.0]
     assert axes[0].tolist() == [1.0, 0.0, 0.0, 0.0]
     assert axes[1, 3] != 0
-
-
-def test_an_inertia_tensor_must_be_symmetric():
-    I = np.array([[[2.0, 0.1, 0], [0.1, 1.5, 0], [0, 0, 2.5]]])
-    tensor = from_inertia_tensor(I)
-    np.testing.assert_allclose(np.trace(tensor[0]) * np.eye(3) - tensor[0], I[0], atol=4 * EPS)
-    I[0, 0, 1] = 0.2
-    with pytest.raises(BadInput, match=r"inertia must be symmetric, but it differs from its transpose by 0\.1 kg m²"):
-        from_inertia_tensor(I)
 
 
 @pytest.mark.parametrize(

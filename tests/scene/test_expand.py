@@ -213,18 +213,12 @@ def test_unit_vectors_typed_with_few_digits_are_divided_and_those_that_vary_too(
     assert vary.parameters["start.gamma.1"].tolist() == [0, 0.5, 1]
 
 
-def test_an_accuracy_has_the_momentum_of_continuous_time():
-    found = members({"omega": [1, 2, 3]}, run={"accuracy": 1e-6, "time": 1})
-    K = kernels.contact_momentum((1.0, 2.0, 3.0), (0.0, 0.0, 1.0), found.ball.mass_tensor[0], found.ball.D[0])
-    assert found.momentum[0].tolist() == K.tolist()
-
-
 @pytest.mark.parametrize(
     ("ball", "start", "sentence"),
     [
         ({"inertia": [1, 2, 4]}, {}, "ball: no body has the inertia (1, 2, 4)"),
         ({"inertia": [[1, 0, 0.1], [0, 1, 0], [0.1, 0, 4]]}, {}, "ball: no body has the inertia ("),
-        ({"inertia": [[1, 0.2, 0], [0.1, 1, 0], [0, 0, 1]]}, {}, "ball: inertia must be symmetric"),
+        ({"inertia": [[1, 0.2, 0], [0.1, 1, 0], [0, 0, 1]]}, {}, "ball: inertia must be symmetric, but"),
         ({"inertia": [60, 70, 90]}, {}, "ball: some of its mass is outside of the ball: J1 + J2 + J3 = 110 kg m²"),
         ({"mass": -1}, {}, "ball: mass and radius must be positive"),
         ({"radius": 0}, {}, "ball: mass and radius must be positive"),
@@ -233,11 +227,7 @@ def test_an_accuracy_has_the_momentum_of_continuous_time():
         ({}, {"gamma": [0, 0, 2]}, "ball: gamma must be a unit vector, but its length is 2"),
         ({}, {"gamma": [0, 0, 0, 1]}, "ball: gamma must have 3 components"),
         ({}, {"gamma": [0, 0, {"grid": [1, 0]}]}, "ball 2 (start.gamma.3 = 0): start.gamma must not be 0"),
-        (
-            {},
-            {"attitude": [1, 1, 0, 0]},
-            "ball: attitude must be a unit quaternion (scalar first), but its length is 1.4",
-        ),
+        ({}, {"attitude": [1, 1, 0, 0]}, "ball: attitude must be a unit quaternion (scalar first), but its length is"),
         ({}, {"position": [0, 0, 0]}, "ball: start.position must have 2 numbers"),
         ({}, {"omega": [1e-310, 0, 0.0]}, "ball: 𝒦 = εK is below the range of float64"),
         ({"mass_tensor": [1e5] * 3}, {"omega": [0, 1e308, 0]}, "ball: K = Λω - D⟨ω,γ⟩γ is beyond the range of float64"),

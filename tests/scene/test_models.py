@@ -67,18 +67,19 @@ def test_a_steady_ball_beyond_its_fold_stops_at_once(homogeneous):
 
 
 @pytest.mark.parametrize("changed", [{"order": 4}, {"precision": "single"}])
-def test_a_reduction_is_of_the_map_of_order_2_in_float64(homogeneous, changed):
+def test_a_reduction_is_of_the_map_of_order_2_in_float64_and_says_what_it_is_not_of(homogeneous, vertical, changed):
     task = Task(("gamma",), 10**6, 10**5)
     assert planned(homogeneous, task).model.name == Steady.name
-    plan = planned(homogeneous, replace(task, **changed))
-    assert plan.model.name == Rolling.name
-    assert plan.refused[Steady.name] == "it has order 2 and float64 only"
-
-
-def test_what_a_reduction_does_not_follow_is_told(vertical):
-    plan = planned(vertical, Task(("gamma", "attitude"), 10))
-    assert plan.model.name == Rolling.name
-    assert plan.refused[Vertical.name] == "it does not follow attitude"
+    tensor = homogeneous.ball.mass_tensor.copy()
+    tensor[3, 0] = np.nextafter(tensor[3, 0], 9)
+    some = replace(homogeneous, ball=chapsym.Ball(tensor, homogeneous.ball.D, homogeneous.ball.radius))
+    for plan, model, said in (
+        (planned(homogeneous, replace(task, **changed)), Steady, "it has order 2 and float64 only"),
+        (planned(vertical, Task(("gamma", "attitude"), 10)), Vertical, "it does not follow attitude"),
+        (planned(some, Task(COLUMNS, 10)), Steady, "d has unequal moments"),
+    ):
+        assert plan.model.name == Rolling.name
+        assert said in plan.refused[model.name]
 
 
 @pytest.mark.parametrize(("every", "last"), [(10, 40), (9, 41)])
@@ -86,15 +87,6 @@ def test_frames_at_once_count_their_steps(homogeneous, every, last):
     task, counted = Task(("gamma",), last, every), []
     Steady().advance(homogeneous, task, frozenset({"gamma"}), {}, slice(0, task.frames), counted.append)
     assert counted == [len(homogeneous) * last]
-
-
-def test_unequal_moments_are_not_steady(homogeneous):
-    tensor = homogeneous.ball.mass_tensor.copy()
-    tensor[3, 0] = np.nextafter(tensor[3, 0], 9)
-    some = replace(homogeneous, ball=chapsym.Ball(tensor, homogeneous.ball.D, homogeneous.ball.radius))
-    plan = planned(some, Task(COLUMNS, 10))
-    assert plan.model.name == Rolling.name
-    assert "d has unequal moments" in plan.refused[Steady.name]
 
 
 def test_vertical_momentum_is_the_map(vertical):
@@ -130,12 +122,12 @@ def tops():
 
 def test_the_discrete_top_is_the_map(tops):
     """Against 31 digits: in float64 the roundings walk across the levels, and what they make of the phase adds up."""
-    steps = 300_000
-    plan = planned(tops, Task(("momentum", "gamma", "attitude"), steps, 29_999))
+    steps = 100_000
+    plan = planned(tops, Task(("momentum", "gamma", "attitude"), steps, 9_999))
     assert plan.model.name == Top.name
     direct, end = rolled(plan, [slice(0, 3), slice(3, plan.frames)])
     exact = chapsym.trajectory(
-        tops.ball, tops.momentum, tops.gamma, steps, every=29_999, attitude=True, precision="double-double"
+        tops.ball, tops.momentum, tops.gamma, steps, every=9_999, attitude=True, precision="double-double"
     )
     assert (end["taken"] == exact.taken).all()
     sign = np.sign((direct["attitude"] * exact.attitude).sum(axis=-1, keepdims=True))  # both are the same attitude
@@ -158,6 +150,8 @@ def test_the_cheaper_of_two_models_is_taken_and_the_balls_of_a_dearer_one_are_no
     assert few.model.name == Rolling.name
     assert few.refused[Top.name].startswith("it would cost ")
     assert planned(tops, Task(("momentum",), 10**7, 10**5)).model.name == Top.name
+    for outputs in (("rotation_number",), ("rotation_number", "gamma")):  # which is not found step by step
+        assert planned(tops, Task(outputs, 3000, 100)).model.name == Top.name
     monkeypatch.setattr("chapsym.scene.plan.models.motion_of", None)
     plan = planned(tops, Task(("momentum",), 10))
     assert plan.model.name == Rolling.name
@@ -234,12 +228,6 @@ def test_next_to_the_separatrix_a_phase_is_as_good_as_the_roundings_leave_it(apa
     curve = chapsym.Curve.through(chapsym.Ball((1, 2, 4), 3), gamma[0])
     assert np.abs(curve.point(columns["phase"][0]) - columns["gamma"][0]).max() < 1e-13 / curve.complement
     assert np.isfinite(columns["rotation_number"])
-
-
-def test_a_rotation_number_of_a_top_is_not_found_step_by_step(vertical):
-    top = replace(vertical, ball=chapsym.Ball(vertical.ball.mass_tensor, np.zeros(3)))
-    for outputs in (("rotation_number",), ("rotation_number", "gamma")):
-        assert planned(top, Task(outputs, 3000, 100)).model.name == Top.name
 
 
 def test_a_given_attitude_is_that_of_the_first_frame(homogeneous, tops):

@@ -131,22 +131,21 @@ def test_mujoco_makes_the_inertia_of_the_geom_where_its_compiler_says_so(put):
 GEOM = '<mujoco><worldbody><body><geom type="sphere" size="0.1"/></body></worldbody></mujoco>'
 
 
-@pytest.mark.parametrize(("said", "mass"), [('mass="0.5"', 0.5), ("", 4 / 3 * np.pi), ('density="250"', np.pi / 3)])
-def test_a_geom_alone_is_homogeneous_as_mujoco_makes_it(put, said, mass):
-    """Without a mass by its density, 1000 kg/m³ unless it says another; here the mass of a ball of .1 m."""
+@pytest.mark.parametrize(
+    ("said", "mass", "preset"),
+    [
+        ('mass="0.5"', 0.5, "homogeneous"),
+        ("", 4 / 3 * np.pi, "homogeneous"),  # by its density, 1000 kg/m³ unless it says another
+        ('density="250"', np.pi / 3, "homogeneous"),
+        ('mass="0.5" shellinertia="true"', 0.5, "shell"),
+        ('density="25" shellinertia="true"', np.pi, "shell"),  # of the surface
+    ],
+)
+def test_a_geom_alone_is_homogeneous_or_hollow_as_mujoco_makes_it(put, said, mass, preset):
+    """A hollow one was read as a homogeneous ball, with 3/5 of its inertia; here the balls have a radius of .1 m."""
     found = table(put(GEOM.replace('"0.1"', f'"0.1" {said}'), ".xml"))
     assert abs(float(found.pop("mass")) - mass) < 1e-15
-    assert found == {"preset": "homogeneous", "radius": "0.1"}
-
-
-@pytest.mark.parametrize(("said", "mass"), [('mass="0.5"', 0.5), ('density="25"', np.pi)])
-def test_a_hollow_geom_is_a_shell_with_the_density_of_its_surface(put, said, mass):
-    """It was read as a homogeneous ball, with 3/5 of its inertia."""
-    found = table(put(GEOM.replace('"0.1"', f'"0.1" shellinertia="true" {said}'), ".xml"))
-    assert abs(float(found.pop("mass")) - mass) < 1e-15
-    assert found == {"preset": "shell", "radius": "0.1"}
-    with pytest.raises(SceneError, match="<geom>: shellinertia must be false or true, not 'yes'"):
-        table(put(GEOM.replace('"0.1"', '"0.1" shellinertia="yes"'), ".xml"))
+    assert found == {"preset": preset, "radius": "0.1"}
 
 
 @pytest.mark.parametrize(
@@ -284,15 +283,12 @@ def test_a_link_without_mass_does_not_hold_a_ball(put, joint):
     [
         ("<geom", '<geom class="ball"', "<geom>: its class 'ball' has no <default>"),
         ("</body>", '<frame><geom type="box" size="1 1 1"/></frame></body>', "<frame> is not read"),
-        (
-            "</body>",
-            '<geom type="box" size="1 1 1"/></body>',
-            "<geom>: a ball that rolls touches with its sphere alone",
-        ),
+        ("</body>", '<geom type="box" size="1 1 1"/></body>', "<geom>: a ball that rolls touches with its sphere"),
         ("</body>", '<geom type="mesh" contype="0" conaffinity="0"/></body>', "the ball has 2 geoms and no <inertial>"),
         ("<body>", '<body name="arm"><freejoint/></body><body><joint/>', "<joint> without a name holds the ball"),
         ("<worldbody>", '<include file="a.xml"/><worldbody>', "<include> is not read"),
         ("<body>", '<body><joint name="h"/>', "<joint> h holds the ball"),
+        ('"0.1"', '"0.1" shellinertia="yes"', "<geom>: shellinertia must be false or true, not 'yes'"),
         ("</body>", '<body name="rotor"/></body>', "<body> rotor holds the ball"),
     ],
 )
@@ -304,11 +300,7 @@ def test_what_mujoco_would_make_another_ball_of_is_refused(put, old, new, said):
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        (
-            'xyz="0 0 0"',
-            'xyz="0 0.001 0"',
-            ", line 3: the centre of mass of <inertial> is 1 mm off the centre of the ball",
-        ),
+        ('xyz="0 0 0"', 'xyz="0 0.001 0"', ", line 3: the centre of mass of <inertial> is 1 mm off the centre of the"),
         ('<mass value="1.9"/>', "", ", line 3: <inertial> has no mass"),
         ('ixz="-2e-4"', "", ", line 6: <inertia> has no ixz"),
         ('"0.0046"', '"${ixx}"', ", line 6: <inertia>: '${ixx}' is to be filled in: give the file that xacro"),
@@ -325,16 +317,8 @@ def test_what_mujoco_would_make_another_ball_of_is_refused(put, old, new, said):
         ),
         ("<robot ", "<!DOCTYPE r [<!ENTITY a 'b'>]><robot ", ", line 2: a DOCTYPE is not read"),
         ("</robot>", "", ", line 9: this is not XML: no element found"),
-        (
-            '<sphere radius="0.105"/>',
-            "<box/>",
-            ": the ball is the <link> with a sphere to roll on, and this file has none",
-        ),
-        (
-            '<link name="floor"/>',
-            "<link name='b'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>",
-            "this file has 2 with one (b, ball)",
-        ),
+        ('<sphere radius="0.105"/>', "<box/>", ": the ball is the <link> with a sphere to roll on, and this file has"),
+        ("</robot>", f"<link name='b'>{INSIDE.format(0.1)}</robot>", "this file has 2 with one (ball, b)"),
         ("</inertial>", '\n<mass value="2"/></inertial>', ", line 8: <inertial> has two <mass>, the first on line 5"),
         ("<inertia ", "<inertia/><inertia ", ", line 6: <inertial> has two <inertia>"),
         ("<collision>", "<inertial/><collision>", ", line 8: <link> has two <inertial>, the first on line 3"),
@@ -367,7 +351,7 @@ def test_a_hollow_ball_whose_numbers_are_rounded_is_a_ball(put, tmp_path, mass, 
 def test_a_flat_body_is_one_whose_entries_are_rounded_each_to_its_digits(put, form):
     """Entries of six digits each, as engines write them, have several places."""
     random = np.random.default_rng(1)
-    for _ in range(30):
+    for _ in range(10):
         axes, _ = np.linalg.qr(random.normal(size=(3, 3)))
         flat = axes @ np.diag([*random.uniform(0.0005, 0.005, 2), 0.0]) @ axes.T
         tensor = np.trace(flat) * np.eye(3) - flat
