@@ -258,7 +258,7 @@ def test_a_quick_look_runs_and_is_plain_data(section, monkeypatch):
 
 @pytest.mark.parametrize("contact", [False, *slow(True)])
 def test_every_way_of_the_goals_is_as_exact_as_it_is_asked_to_be(contact):
-    problem = problems.drawn(1, 3)[0]
+    problem = problems.drawn(1, 8)[0]
     truth = K, g, spots = problems.truth_of(problem)
     ends = problems.own_methods(problem, truth if contact else (K, g, None), 1e-7, contact)
     assert "extrapolate" in ends
@@ -272,7 +272,7 @@ def test_every_way_of_the_goals_is_as_exact_as_it_is_asked_to_be(contact):
 def test_heyoka_follows_the_balls_of_the_goals(monkeypatch):
     """One and eight at once, to the truth by `extrapolate`, which is taken where heyoka.py is missing."""
     pytest.importorskip("heyoka")
-    many = problems.drawn(2, 3, 10.0)
+    many = problems.drawn(2, 3, 5.0)
     ends = problems.taylor_batch(many, 1e-12)()
     exact = [problems.truth_of(problem) for problem in many]
     without(monkeypatch, "heyoka")

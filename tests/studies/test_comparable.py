@@ -5,6 +5,7 @@ from contextlib import nullcontext
 
 import numpy as np
 import pytest
+from budget import slow
 from commands import answer, refused
 
 from benchmarks.rolling.make import CASES, DATA
@@ -109,7 +110,7 @@ def test_another_convention_is_named_and_there_is_no_verdict(rows, body, tmp_pat
     assert ";" not in words, "one thing only is otherwise"
 
 
-@pytest.mark.parametrize("name", ["of the body", "twist"])
+@pytest.mark.parametrize("name", ["twist", *slow("of the body")])
 def test_velocities_of_the_body_show_later_where_the_first_attitude_is_no_turn(tmp_path, name):
     """MuJoCo's qvel, of a free joint that begins with the quaternion 1 0 0 0."""
     change, said = OTHERWISE[name]

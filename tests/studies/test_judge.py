@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from budget import slow
 from commands import answer, chapsym, refused
 
 from benchmarks.rolling import make
@@ -318,7 +319,7 @@ def test_the_data_are_those_that_their_hashes_name():
         assert hashlib.sha256((DATA / name).read_bytes()).hexdigest() == digest, name
 
 
-@pytest.mark.parametrize("name", ["homogeneous", "robot-slow"])
+@pytest.mark.parametrize("name", ["homogeneous", *slow("robot-slow")])
 def test_data_that_are_made_anew_say_the_same(name):
     """The balls have a point in common; the table has the same bytes; the steps may differ with the machine."""
     pytest.importorskip("pydantic")

@@ -261,7 +261,7 @@ def widest(found):
     return max(float(x.rad()) for v in found.values() for x in v)
 
 
-@pytest.mark.parametrize("wrong", [*range(0, 15, 2), None])
+@pytest.mark.parametrize("wrong", [0, 6, None, *slow(2, 4, 8, 10, 12, 14)])
 def test_the_lemma_holds_for_polynomials_that_are_wrong(wrong, monkeypatch):
     """Those of an axis, of K or of ω are off by 1e-12, or ω of K is: the balls have that size, and the truth."""
     series, omega = off_centre.Path._series, off_centre.Body.omega

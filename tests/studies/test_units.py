@@ -7,6 +7,7 @@ import sys
 
 import distributed
 import pytest
+from budget import slow
 from waiting import GUARD, INTERRUPTIBLE, until
 
 from chapsym import sources
@@ -106,7 +107,7 @@ def test_a_unit_that_fails_is_named_and_the_others_are_kept(tmp_path):
     assert run_units(units(1), path) == [{"n": 0}]
 
 
-@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize("sent", [signal.SIGINT, *slow(signal.SIGKILL)])
 def test_a_study_that_was_ended_goes_on_and_leaves_no_process(tmp_path, sent):
     """An interrupt does not wait for the units in flight, and of a parent that is killed no child lives on."""
     path, script = tmp_path / "u.jsonl", tmp_path / "run.py"
