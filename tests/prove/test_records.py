@@ -10,7 +10,7 @@ from threading import Thread
 import pytest
 from commands import TWO, answer, changed, chapsym, child, refused
 
-from chapsym import files, sources
+from chapsym import files, prove, sources
 from chapsym.cli import prove as command
 from chapsym.prove import PROOFS, load, records
 
@@ -118,12 +118,13 @@ def test_an_import_counts_wherever_it_stands(monkeypatch):
     assert set(sources.imports.__wrapped__("chapsym.prove")) == {f"chapsym.{name}" for name in words}
 
 
-def test_an_interrupt_keeps_what_was_finished(tmp_path, path):
-    env = changed(
-        tmp_path, "import chapsym.prove as prove", "honest = prove.prove_all", "def stopped(ids, jobs, arrived, **_):",
-        "    honest(ids[:1], jobs, arrived)", "    raise KeyboardInterrupt", "prove.prove_all = stopped",
-    )  # fmt: skip
-    assert child("prove", "prop-2", "4.3", "--records", path, env=env).returncode == 130
+def test_an_interrupt_keeps_what_was_finished(path, monkeypatch):
+    def stopped(ids, jobs, arrived, honest=prove.prove_all, **_):
+        honest(ids[:1], 1, arrived)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(prove, "prove_all", stopped)
+    assert chapsym("prove", "prop-2", "4.3", "--records", path).returncode == 130
     assert list(records.read(path)) == ["prop-2"]
 
 

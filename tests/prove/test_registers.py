@@ -8,6 +8,7 @@ from pathlib import Path
 
 import jsonschema
 import pytest
+from budget import slow
 from commands import answer, chapsym, child, refused
 
 import chapsym as package
@@ -82,6 +83,7 @@ def test_a_folder_is_judged_and_its_verdicts_are_kept_beside_those_of_chapsym(fo
     assert own.parent == tmp_path
     assert set(records.read(own)) == {"s-1", "s-2", "c-1"}
     assert not (tmp_path / "verdicts.jsonl").exists()
+    assert chapsym("prove", "c-1", "--register", "claims").stdout.splitlines()[-1] == "1 claim: 1 holds"
 
 
 def test_worker_processes_find_the_folder(folder):
@@ -95,15 +97,11 @@ def test_worker_processes_find_the_folder(folder):
 @pytest.mark.parametrize(("changed", "stale"), [("ring", {"s-1", "s-2", "c-1"}), ("squares", {"s-1", "s-2"})])
 def test_a_verdict_is_stale_when_what_its_script_imports_has_changed(folder, changed, stale):
     """A helper counts however it is imported: as `.ring`, or as what lies beside the script."""
-    assert child("prove", "--register", "claims", "--jobs", "1").returncode == 0
+    assert chapsym("prove", "--register", "claims", "--jobs", "1").returncode == 0
     path = folder / f"{changed}.py"
     path.write_text(path.read_text("utf-8") + "\n# changed\n", encoding="utf-8")
     rows = answer("prove", "--list", "--register", "claims")["claims"]
     assert {row["id"] for row in rows if row["stale"]} == stale
-
-
-def test_one_claim_is_one_claim(folder):
-    assert chapsym("prove", "c-1", "--register", "claims").stdout.splitlines()[-1] == "1 claim: 1 holds"
 
 
 def test_a_script_or_a_package_is_a_register_too(folder, monkeypatch):
@@ -147,22 +145,12 @@ WRONG = {
     "an end": ("cubes", 'if __name__ == "__main__"', "if True", BROKEN + r"it leaves Python; .* main\(__file__\)"),
     "an id twice": ("cubes", "c-1", "s-1", r"squares\.py: two proofs judge the claim s-1; .*cubes\.py, line 5"),
     "an id that is no name of a file": ("cubes", "c-1", "c/1", BROKEN + r"ValueError: the id of a claim .*, not 'c/1'"),
-    "an id of chapsym": (
-        "cubes",
-        "c-1",
-        "4.1",
-        r"cubes\.py: two proofs judge the claim 4\.1; give yours an id .*chapsym",
-    ),
+    "an id of chapsym": ("cubes", "c-1", "4.1", r"cubes\.py: two proofs judge the claim 4\.1; give yours an id"),
     "a use in a circle": ("cubes", "5.2", "c-1", "claims: c-1 uses itself, directly or through others"),
     "a use of nothing": ("cubes", "5.2", "5.2000", r"cubes\.py: c-1 uses '5\.2000', which no proof judges"),
     "no proof": ("__init__", "", "CLAIMS = ('s-1', 's-2', 'c-1', 'c-2')", r"claims: the proofs and .* differ: c-2"),
     "no script": ("__init__", "", "SCRIPTS = ('cube',)", "claims has no script 'cube'; SCRIPTS names files without"),
-    "scripts that are no list": (
-        "__init__",
-        "",
-        "SCRIPTS = 5",
-        r"claims/__init__\.py: SCRIPTS must be a list of texts",
-    ),
+    "scripts that are no list": ("__init__", "", "SCRIPTS = 5", r"claims/__init__\.py: SCRIPTS must be a list of"),
     "claims that are no list": ("__init__", "", "CLAIMS = 's-1'", r"CLAIMS must be a list of texts"),
     "lemmas that are no texts": ("__init__", "", "LEMMAS = (3,)", r"LEMMAS must be a list of texts"),
     "a broken head": ("__init__", "", "1 / 0", r"claims/__init__\.py cannot be loaded: ZeroDivisionError"),
@@ -185,10 +173,7 @@ def test_a_script_that_is_wrong_is_one_sentence_with_its_file(folder, wrong):
 @pytest.mark.parametrize(
     ("place", "said"),
     [
-        (
-            "nowhere",
-            "there is no folder nowhere, and no package of that name; a register is a folder of Python scripts",
-        ),
+        ("nowhere", "there is no folder nowhere, and no package of that name; a register is a folder of Python"),
         ("empty", "empty has no claim: write @claim(id, formula) before a function of a Proof"),
         ("claims/ring.py", "claims/ring.py has no claim: write @claim(id, formula)"),
         ("empty/notes.txt", "empty/notes.txt is no Python script; a register is a folder of scripts, or one"),
@@ -353,13 +338,15 @@ def test_the_worked_example_finds_what_is_false_in_the_documentation_of_sympy(di
     ("script", "old", "new", "claim"),
     [
         ("rolling_disc/disc.py", "cross(-r * UP)", "cross(r * UP)", "K-u1"),
-        ("rolling_disc/disc.py", "lagrangian(m * g", "lagrangian(-m * g", "K-u1"),
         ("rolling_disc/disc.py", "own + carried", "own - carried", "K-u1"),
         ("suslov/top.py", "sp.Matrix([1, *-x / 2, 0])", "sp.Matrix([1, *x / 2, 0])", "S-principle"),
         ("suslov/top.py", "2 * v * v.T + 2 * a * cross", "2 * v * v.T - 2 * a * cross", "S-outward"),
-        ("suslov/top.py", "return -momentum(a, -b)", "return momentum(a, b)", "S-limit"),
-        ("suslov/top.py", "[0, J2, J23]", "[0, J2 + J1, J23]", "S-energy"),
-        ("suslov/top.py", "J13 * b[0] + J23 * b[1]", "J13 * b[0] - J23 * b[1]", "S-steady"),
+        *slow(
+            ("rolling_disc/disc.py", "lagrangian(m * g", "lagrangian(-m * g", "K-u1"),
+            ("suslov/top.py", "return -momentum(a, -b)", "return momentum(a, b)", "S-limit"),
+            ("suslov/top.py", "[0, J2, J23]", "[0, J2 + J1, J23]", "S-energy"),
+            ("suslov/top.py", "J13 * b[0] + J23 * b[1]", "J13 * b[0] - J23 * b[1]", "S-steady"),
+        ),
     ],
 )
 def test_a_worked_example_sees_another_derivation(folder, script, old, new, claim):
