@@ -174,7 +174,7 @@ def test_what_the_series_leaves_out_is_enclosed(right, monkeypatch):
     assert not all(x.lo <= y.hi and y.lo <= x.hi for x, y in zip(ends(coarse), true, strict=True))
 
 
-@pytest.mark.parametrize(("name", "time"), [("attitude", "1/1000"), ("attitude", "1"), ("momentum", "1")])
+@pytest.mark.parametrize(("name", "time"), [("attitude", "1/1000"), ("momentum", "1"), *slow(("attitude", "1"))])
 def test_all_starts_within_the_radii_are_enclosed(right, name, time):
     """Each number of the start as far off as it may be; soon after, when little else is."""
     off, right = Fraction(1, 10**9), right | {"bits": 128, "order": 60}
@@ -251,13 +251,13 @@ def test_less_is_still_true(right):
 def test_a_digit_of_a_frame_is_refused_or_true(right, truth):
     rng, places = random.Random(3), [x for x in leaves(right) if x[0] == "frames" and x[-1] == 0]
     accepted = 0
-    for path in rng.sample(places, 30):
+    for path in rng.sample(places, 15):
         one = resealed(replaced(right, path, changed(at(right, path), rng)))
         with suppress(Rejected):
             check(one)
             accepted += 1
             assert holds(one, truth)
-    assert accepted < 10
+    assert accepted < 5
 
 
 @pytest.mark.parametrize("bad", [None, -3, "x", [], {}, [[]], "-1", True, "1e-8 "])

@@ -47,7 +47,7 @@ def test_a_sign_turned_in_a_text_is_refused(name, thorough):
     text = text_of(name)
     start = text.index("# intermediate" if "# intermediate" in text else "# outputs")
     signs = [start + found.start() for found in re.finditer(r"(?<= )[+-](?= )", text[start:])]
-    for at in signs if thorough else signs[:: 1 + len(signs) // 12]:
+    for at in signs if thorough else signs[:: 1 + len(signs) // 6]:
         with pytest.raises(Rejected, match="computes in its result"):
             judge(name, text[:at] + {"+": "-", "-": "+"}[text[at]] + text[at + 1 :])
 
@@ -65,12 +65,16 @@ def test_a_sign_turned_in_what_a_claim_decided_is_refused(name):
             judge(name, text_of(name), certificates={**CERTIFICATES, name_of: data})
 
 
-#: Of which one takes as long as all others: the others are refused by the same comparison.
+#: Of which one takes as long as all others: the others, of which every other one is taken, are refused alike.
 LONG = ("gibbs_newton", "gibbs_newton_heavy", "gibbs_symmetric")
 
 
 @pytest.mark.parametrize(
-    "kernel", [pytest.param(k, marks=pytest.mark.thorough if k.name in LONG else (), id=k.name) for k in KERNELS]
+    "kernel",
+    [
+        pytest.param(kernel, marks=pytest.mark.thorough if i % 2 or kernel.name in LONG else (), id=kernel.name)
+        for i, kernel in enumerate(KERNELS)
+    ],
 )
 def test_a_sign_turned_in_a_derivation_is_refused(kernel):
     package = build.ours()
@@ -163,11 +167,7 @@ def test_a_linear_system_is_solved():
         ("return o_", "return 0, o_", "has 5 results"),
         ("a1, a2", "a1, a1", "not Python"),
         ("o_c0 = ", "__debug__ = ", "not Python"),
-        (
-            "return o_c0",
-            "return o_c0 * ((10**25 + 1) / 3 - 10**25 / 3) * 3",
-            "neither a known name|whole numbers alone",
-        ),
+        ("return o_c0", "return o_c0 * ((10**25 + 1) / 3 - 10**25 / 3) * 3", "neither a known name|whole numbers"),
         ("return o_c0", "return o_c0 * (7 / 3) * (3 / 7)", "whole numbers alone"),
         ("    o_c0 = ", "    t9 = 3\n    t8 = t9 / 3\n    o_c0 = t8 * ", "whole numbers alone"),
         ('"""Written', '# coding: utf-7\n"""Written', "not a docstring and one function"),
