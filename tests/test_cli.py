@@ -83,10 +83,7 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         ([*STEP, "--mass", "1"], "either --D, or --mass and --radius"),
         ([*STEP, "--digits", "20", "--ball", "64"], "choose one of --digits, --precision and --ball"),
         ([*STEP, "--digits", "0"], "--digits"),
-        (
-            [*STEP, "--precision", "half"],
-            "--precision half: give single, double or double-double, or for any number of digits",
-        ),
+        ([*STEP, "--precision", "half"], "--precision half: give single, double or double-double, or for any number"),
         (["step", "--inertia", "1,1,3", *STEP[3:]], "no body has the inertia 1,1,3"),
         (["step", "--inertia", "1,.1,0;.1,1,0;0,0,3", *STEP[3:]], "no body has the inertia (1.1, 0.9, 3)"),
         (["step", "--inertia", "6,1,0;2,5,0;0,0,3", *STEP[3:]], "a symmetric tensor, not one with I12 = 1 and I21 = 2"),
@@ -127,10 +124,7 @@ def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
         (["lab", FIRST, "--jobs", "9" * 20], "'--jobs'"),
         (["prove", "4.3", "--rocq", FIRST], "first.toml cannot be a folder of results: it is a file"),
         ([*STEP, "--precision", "x" * 9000], f"--precision {'x' * 150}...{'x' * 149}: give single"),
-        (
-            ["branches", *STEP[1:], "--momentum", f"1/{'7' * 3900},0,0"],
-            "the numbers are too long to count their rotations",
-        ),
+        (["branches", *STEP[1:], "--momentum", f"1/{'7' * 3900},0,0"], "the numbers are too long to count their"),
     ],
 )
 def test_wrong_input_is_one_sentence_and_status_2(arguments, sentence):
@@ -271,7 +265,7 @@ def test_a_date_that_is_none_is_one_sentence(monkeypatch, seconds):
     assert "SOURCE_DATE_EPOCH must be a number of seconds, such as 1700000000, not '" in refused(*STEP)
 
 
-@pytest.mark.parametrize("where", ["2>&-", "2>/dev/full"])
+@pytest.mark.parametrize("where", ["2>&-", *slow("2>/dev/full")])
 def test_a_command_whose_errors_nobody_wants_does_its_work(where):
     command = ["sh", "-c", f'"$@" {where}', "sh", sys.executable, "-m", "chapsym", *STEP]
     assert subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout
@@ -287,7 +281,7 @@ def test_a_command_whose_errors_nobody_wants_does_its_work(where):
         ("chapsym.dynamics", 'RuntimeError("can\'t start new thread")', 2, app.CROWDED),
         *(
             ("chapsym.dynamics", f"OSError({one}, {os.strerror(one)!r})", 2, app.NOT_OF_OUTPUT[one])
-            for one in (errno.EAGAIN, errno.EMFILE, errno.ENOENT)
+            for one in (errno.EMFILE, errno.ENOENT)
         ),
     ],
 )
@@ -308,14 +302,10 @@ def test_an_interrupt_that_python_only_writes_down_is_not_lost(monkeypatch, caps
     assert capsys.readouterr().err == ""
 
 
-def test_a_worker_that_begins_sees_no_interrupt():
-    with Processes(1) as pool:
-        assert signal.SIGINT in pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, ()).result()
-
-
-def test_a_worker_works_where_no_more_threads_are_started():
+def test_a_worker_that_begins_sees_no_interrupt_and_works_where_no_more_threads_are_started():
     with Processes(1, at_work.crowded) as pool:
         assert pool.submit(os.getpid).result() != os.getpid()
+        assert signal.SIGINT in pool.submit(signal.pthread_sigmask, signal.SIG_BLOCK, ()).result()
 
 
 def test_too_few_threads_leave_no_process():
@@ -379,7 +369,7 @@ main()
 CHECK, PROVE = ["check", "--states", "1"], ["prove", *TWO]
 
 
-@pytest.mark.parametrize(("command", "name"), [(CHECK, "INT"), (CHECK, "TERM"), (PROVE, "HUP"), *slow((PROVE, "INT"))])
+@pytest.mark.parametrize(("command", "name"), [(CHECK, "INT"), (PROVE, "HUP"), *slow((CHECK, "TERM"), (PROVE, "INT"))])
 def test_an_interrupt_is_told_and_ends_the_command(command, name):
     """Sent to all processes of the command, as a terminal does, or a scheduler."""
     with subprocess.Popen(

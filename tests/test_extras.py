@@ -205,18 +205,6 @@ def test_a_scene_runs_and_is_stored_with_no_extra_but_its_own(tmp_path):
     assert "was complete already" in found[" ".join(runs[0])][1]
 
 
-def test_what_fails_to_load_for_another_reason_is_not_told_as_absent(tmp_path):
-    (tmp_path / "pint.py").write_text("raise ImportError('a library of pint is damaged')")
-    program = (
-        f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n"
-        "import chapsym.scene.read.units as units\n"
-        "try:\n    units.number('3 cm', units.LENGTH)\n"
-        "except ValueError as error:\n    print(error)"
-    )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert done.stdout.strip().endswith("cannot be loaded: a library of pint is damaged")
-
-
 def test_what_a_cluster_cannot_import_is_not_told_as_a_wrong_address(monkeypatch):
     def refuses(*arguments, **options):
         raise ImportError("no library of this kind of network")
@@ -241,15 +229,11 @@ def test_the_lowest_versions_that_ci_runs_are_those_that_are_allowed():
 def test_a_source_tree_without_its_links_is_not_built(tmp_path):
     links = sorted(str(path.relative_to(ROOT)) for path in (ROOT / "chapsym").rglob("*") if path.is_symlink())
     (tmp_path / "setup.py").write_text((ROOT / "setup.py").read_text("utf-8"), encoding="utf-8")
-    for link in links:
+    for link in links[1:]:
         (tmp_path / link).mkdir(parents=True)
-    for link in (links[0], links[-1]):
-        (tmp_path / link).rmdir()
-        (tmp_path / link).write_text("../generated", encoding="utf-8")  # as a checkout without links has it
-        done = subprocess.run(
-            [sys.executable, "setup.py", "--version"], cwd=tmp_path, capture_output=True, text=True, check=False
-        )
-        assert done.returncode == 1
-        assert f"{link} is not what it should lead to: this source tree was" in done.stderr
-        (tmp_path / link).unlink()
-        (tmp_path / link).mkdir()
+    (tmp_path / links[0]).parent.mkdir(exist_ok=True)
+    (tmp_path / links[0]).write_text("../generated", encoding="utf-8")  # as a checkout without links has it
+    command = [sys.executable, "setup.py", "--version"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert f"{links[0]} is not what it should lead to: this source tree was" in done.stderr

@@ -12,11 +12,6 @@ ENTRIES = re.findall(r"^@(\w+)\{(\w+),\n(.*?)^\}$", (ROOT / "docs" / "references
 KEYS = [key for _, key, _ in ENTRIES]
 
 
-def fields(key):
-    body = next(body for _, name, body in ENTRIES if name == key)
-    return dict(re.findall(r"^  (\w+) *= \{(.*)\},?$", body, re.M))
-
-
 def test_every_reference_is_annotated_and_every_citation_is_a_reference():
     assert len(set(KEYS)) == len(KEYS) >= 30
     cited = re.findall(r"\{cite:[tp]\}`(\w+)`", BIBLIOGRAPHY)
@@ -29,7 +24,8 @@ def test_the_paper_and_the_citation_file_speak_of_the_same_reference_and_version
     assert citation["version"] == project["version"]
     assert citation["license"] == project["license"]
     assert citation["authors"] == project["authors"] == [{"name": "The chapsym developers"}]
-    (paper,), found = citation["references"], fields("fedorov2007")
+    (paper,), body = citation["references"], next(body for _, key, body in ENTRIES if key == "fedorov2007")
+    found = dict(re.findall(r"^  (\w+) *= \{(.*)\},?$", body, re.M))
     assert paper["title"] == found["title"].replace("{", "").replace("}", "")
     assert (str(paper["year"]), str(paper["volume"]), paper["number"]) == (
         found["year"],

@@ -31,25 +31,18 @@ def branch(circle, right):
     return branch_of(circle, right)
 
 
-def midpoint(x):
-    return mp.mpf(x.lo + x.hi) / 2 / 2**x.bits
-
-
-def contains(box, point):
-    return all(x.lo <= y * 2**x.bits <= x.hi for x, y in zip(box, point, strict=True))
-
-
 def test_the_boxes_hold_the_roots_continued_from_height_0(right, circle, branch):
     """Roots by another Newton's iteration, in 40 steps of h, at random points of both halves of the circle."""
     rng, half = random.Random(5), len(branch.boxes) // 2
     J, D, h = [mp.mpf(x) for x in right["ball"]["J"]], mp.mpf(1), mp.mpf(10)
     for _ in range(3):
         t = Fraction(rng.randrange(-999, 1000), 1000)
-        gamma = mp.matrix([midpoint(x) for x in circle.start(t)])
+        gamma = mp.matrix([mp.mpf(x.lo + x.hi) / 2 / 2**x.bits for x in circle.start(t)])
         u = mp.zeros(3, 1)
         for part in range(1, 41):
             u = maker.gibbs(J, D, h * part / 40 * gamma, gamma, u)
-        assert contains(branch.boxes[int((t + 1) * half)], u), t
+        box = branch.boxes[int((t + 1) * half)]
+        assert all(x.lo <= y * 2**x.bits <= x.hi for x, y in zip(box, u, strict=True)), t
         turn = rng.choice([1, -1])  # the other half of the circle has the roots turned by R
         state = [Interval.enclosing(x, x, circle.level.bits) for x in map(Fraction, map(str, map(mp.nstr, u)))]
         there = circle.start(t) if turn == 1 else branch.half_turned(circle.start(t))

@@ -155,14 +155,10 @@ def test_the_printer_refuses_what_would_round(expr):
         printer.text(expr)
 
 
-def exact_arguments(kernel):
-    return [build.at(symbol.name) for symbol in kernel.inputs]
-
-
 @pytest.mark.parametrize("kernel", KERNELS, ids=lambda k: k.name)
 def test_one_source_runs_on_every_number(kernel):
     function = getattr(generated, kernel.name)
-    arguments = exact_arguments(kernel)
+    arguments = [build.at(symbol.name) for symbol in kernel.inputs]
 
     def values(result):
         return result if isinstance(result, tuple) else (result,)

@@ -34,10 +34,6 @@ def written(register, letters, place="q", carrier="left('{id}', 'a at which that
     return register(carrier=carrier, expression="pull()", groups=MOVED.format(place), kernels=kernels)
 
 
-def _fraction(x):
-    return Fraction(*mpmath.libmp.to_rational(x._mpf_))
-
-
 def loaded(folder):
     spec = importlib.util.spec_from_file_location("pull", folder / "generated/pull.py")
     module = importlib.util.module_from_spec(spec)
@@ -65,9 +61,9 @@ def test_a_letter_is_a_function_of_what_is_given(register, letters, place, at, y
     found = pull(np.array([at, at]), np.array([1.0, 2.0]), 2.0, 10.0)
     assert np.abs(found - [5 - 10 * y, 8 - 10 * y]).max() < 1e-14
     digits, balls = Digits(30), Enclosure(100)
-    exact = pull(digits.context.mpf(at), 1, 2, 10)
+    exact = Fraction(*mpmath.libmp.to_rational(pull(digits.context.mpf(at), 1, 2, 10)._mpf_))
     with balls.working():
-        difference = pull(balls.number(Fraction(at)), 1, 2, 10) - balls.number(_fraction(exact))
+        difference = pull(balls.number(Fraction(at)), 1, 2, 10) - balls.number(exact)
         assert abs(float(difference.mid())) < 1e-29
 
 

@@ -61,17 +61,18 @@ def naive(honest):
     return lambda before, after, vertical, rho, naive=False: honest(before, after, vertical, rho, not naive)
 
 
-def wrong_last(honest):
-    return lambda turn, J, vertical, D, last=1: honest(turn, J, vertical, D, -last)
-
-
 def doubled(honest):
     return lambda *arguments, **options: 2 * honest(*arguments, **options)
 
 
 #: A slip, and claims whose second route takes that function; those after the first are judged by `--thorough`.
 SECOND_ROUTE = {
-    "the last sign of (4.13)": (second_routes, "momentum", wrong_last, ("prop-3", "remark-3", "5.15")),
+    "the last sign of (4.13)": (
+        second_routes,
+        "momentum",
+        lambda honest: lambda turn, J, vertical, D, last=1: honest(turn, J, vertical, D, -last),
+        ("prop-3", "remark-3", "5.15"),
+    ),
     "a factor in (4.13)": (second_routes, "momentum_by_centre", doubled, ("5.2", "prop-1")),
     "the constraint": (second_routes, "centre_step", naive, ("prop-1",)),
     "no rotation": (second_routes, "cayley", doubled, ("remark-3", "prop-4")),

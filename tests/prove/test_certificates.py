@@ -66,6 +66,7 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
             assert found, (id, text)
             kept.remove(min(found, key=len))
         assert kept == [], id
+        roles = [one["role"] for one in data["sentences"]]
         assert record["evidence"]["carried"] == {
             "statements": len(data["statements"]),
             "identical": sum(one["left"] == one["right"] for one in data["statements"]),
@@ -76,7 +77,7 @@ def test_the_certificates_state_what_the_verdicts_rest_on(verdicts):
             "zeros": len(data["zeros"]),
             "counterexamples": len(data["counterexamples"]),
             "rests": len(data["rests"]),
-            "sentences": {role: n for role in checker.register.SENTENCES if (n := count(data, role))},
+            "sentences": {role: n for role in checker.register.SENTENCES if (n := roles.count(role))},
             "text": record["evidence"]["carried"]["text"],
             "judged": record["evidence"]["carried"]["judged"],
         }
@@ -88,10 +89,6 @@ def test_the_argument_of_a_claim_says_what_carries_it(verdicts):
     )
     assert carried in explain(verdicts["5.11"]).splitlines()
     assert "accepted: 5 (1 of one expression on both sides)" in explain(verdicts["4.9"])
-
-
-def count(data, role):
-    return sum(one["role"] == role for one in data["sentences"])
 
 
 def test_the_share_of_the_register_that_is_checked():

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 import shown
+from budget import slow
 from contrast import contrast, low
 from matplotlib import image
 
@@ -21,7 +22,7 @@ def written(register, tmp_path_factory):
     return path
 
 
-@pytest.fixture(params=["desk", pytest.param("phone", marks=pytest.mark.thorough)])
+@pytest.fixture(params=["desk", *slow("phone")])
 def tab(request, written, opened):
     """The page, loaded afresh."""
     return opened(written, SIZES[request.param], has_touch=request.param == "phone").tab
@@ -31,7 +32,7 @@ def claims(tab):
     return tab.eval_on_selector_all("#claims .claim:not([hidden])", "found => found.map(x => x.dataset.id)")
 
 
-def test_the_verdicts_are_those_of_the_records(tab, register):
+def test_the_verdicts_are_those_of_the_records_and_formulas_and_letters_can_be_read(tab, register):
     assert claims(tab) == [r["id"] for r in records.in_paper_order(register)]
     counts = tab.eval_on_selector_all(
         ".segment", "found => found.map(x => [x.dataset.verdict, Number(x.querySelector('b').innerText)])"
@@ -39,17 +40,20 @@ def test_the_verdicts_are_those_of_the_records(tab, register):
     assert dict(counts) == records.counts(register)
     assert tab.locator(".errata tbody tr").count() == len(records.errors(register))
     assert tab.locator(".failure, .unconverted").count() == 0
-
-
-def test_formulas_are_drawn(tab):
     sizes = tab.eval_on_selector_all(
         ".errata math", "found => found.map(x => x.getBoundingClientRect()).map(r => [r.width, r.height])"
     )
     assert len(sizes) >= 58
     assert [size for size in sizes if min(size) < 2] == []
+    letters = tab.evaluate(
+        "document.querySelector('.graph').getBoundingClientRect().width"
+        " / document.querySelector('.graph').viewBox.baseVal.width"
+        " * parseFloat(getComputedStyle(document.querySelector('.node text')).fontSize)"
+    )
+    assert letters >= 11
 
 
-@pytest.mark.parametrize("tab", SIZES, indirect=True)
+@pytest.mark.parametrize("tab", ["phone", *slow("desk")], indirect=True)
 def test_the_page_is_not_wider_than_the_window_even_unfolded(tab):
     tab.evaluate("document.querySelectorAll('details').forEach(x => { x.open = true; })")
     assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
@@ -62,7 +66,7 @@ def test_the_page_is_not_wider_than_the_window_even_unfolded(tab):
     assert outside == []
 
 
-@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("scheme", ["light", *slow("dark")])
 def test_a_wide_formula_on_a_phone_shows_at_which_end_there_is_more(written, opened, scheme):
     tab = opened(written, shown.PHONE, has_touch=True, color_scheme=scheme).tab
     wide = tab.locator(".errata .scroll, .claim .scroll").filter(visible=True)
@@ -77,7 +81,7 @@ def test_a_wide_formula_on_a_phone_shows_at_which_end_there_is_more(written, ope
             assert [bool(end > 0.1) for end in ends] == [more and not start, more and start]
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", ["light", *slow("dark")])
 def test_controls_and_letters_can_be_told_from_what_they_stand_on(written, opened, scheme):
     tab = opened(written, color_scheme=scheme).tab
     tab.evaluate("document.querySelectorAll('details').forEach(x => { x.open = true; })")
@@ -95,7 +99,7 @@ def test_controls_and_letters_can_be_told_from_what_they_stand_on(written, opene
     assert contrast(faint, paper) >= 4.5
 
 
-def test_the_filter_shows_one_verdict(tab, register):
+def test_the_filter_the_search_and_a_folded_derivation_show_what_is_asked_for(tab, register):
     corrected = [r["id"] for r in records.in_paper_order(register) if r["verdict"] == "corrected"]
     tab.locator(".segment.corrected").click()
     assert claims(tab) == corrected
@@ -103,9 +107,6 @@ def test_the_filter_shows_one_verdict(tab, register):
     assert tab.locator(".chips [aria-pressed=true]").get_attribute("data-verdict") == "corrected"
     tab.locator(".chips button").first.click()
     assert len(claims(tab)) == len(register)
-
-
-def test_the_search_finds_ids_and_text(tab, register):
     field = tab.locator(".tools input")
     field.fill("5.12-kappa")
     assert "5.12-kappa" in claims(tab)
@@ -118,9 +119,13 @@ def test_the_search_finds_ids_and_text(tab, register):
     tab.evaluate("location.hash = '#claim-5.4'")
     tab.wait_for_function("!document.getElementById('claim-5.4').hidden")
     assert len(claims(tab)) == len(register)
+    derivation = tab.locator('[id="claim-5.4"] details:has(> summary:text-is("Derivation")) pre')
+    assert not derivation.is_visible()
+    tab.locator('[id="claim-5.4"] summary', has_text="Derivation").click()
+    assert derivation.is_visible()
 
 
-def test_a_claim_of_the_graph_is_highlighted_and_its_neighbours_are_named(tab, register):
+def test_a_claim_of_the_graph_is_highlighted_and_its_neighbours_are_named_from_the_keyboard_too(tab, register):
     node = tab.locator('.node[data-id="5.12"]')
     node.scroll_into_view_if_needed()
     node.click()
@@ -133,26 +138,7 @@ def test_a_claim_of_the_graph_is_highlighted_and_its_neighbours_are_named(tab, r
     record = next(r for r in register if r["id"] == "5.12")
     assert sorted(named) == sorted(record["evidence"]["downstream"])
     assert tab.locator(".picked").is_visible()
-
-
-def test_the_graph_can_be_used_from_the_keyboard(tab):
     tab.locator('.node[data-id="5.4"]').focus()
     assert tab.locator(".picked h3").inner_text() == "5.4"
     tab.keyboard.press("Tab")
     assert tab.locator(".picked h3").inner_text() != "5.4"
-
-
-def test_letters_of_the_graph_can_be_read(tab):
-    size = tab.evaluate(
-        "document.querySelector('.graph').getBoundingClientRect().width"
-        " / document.querySelector('.graph').viewBox.baseVal.width"
-        " * parseFloat(getComputedStyle(document.querySelector('.node text')).fontSize)"
-    )
-    assert size >= 11
-
-
-def test_a_derivation_is_folded_until_it_is_asked_for(tab):
-    derivation = tab.locator('[id="claim-5.4"] details:has(> summary:text-is("Derivation")) pre')
-    assert not derivation.is_visible()
-    tab.locator('[id="claim-5.4"] summary', has_text="Derivation").click()
-    assert derivation.is_visible()

@@ -76,25 +76,17 @@ def test_a_list_of_errata_that_is_written_again_keeps_the_states_of_earlier_rele
     assert all(state["since"].startswith("0.0.") for entry in again["errata"] for state in entry["states"])
 
 
-def test_another_file_in_the_place_of_the_list_of_errata_is_not_overwritten(report, tmp_path):
+def test_neither_another_file_nor_a_folder_nor_the_records_are_overwritten(report, tmp_path):
+    assert "x.json is named twice" in report("-o", "x.json", "--records", "x.json").stderr
+    assert not list(tmp_path.iterdir())
     (tmp_path / "x.json").write_text('{"mine": 1}', encoding="utf-8")
     done = report("-o", "x.json")
     assert done.returncode == 2
-    assert done.stderr == (
-        "chapsym: x.json is there and cannot be gone on with: it is no list of errata; "
-        "name another file, or delete it to start anew\n"
-    )
+    assert done.stderr.startswith("chapsym: x.json is there and cannot be gone on with: it is no list of errata; ")
+    assert done.stderr.count("\n") == 1
     assert (tmp_path / "x.json").read_text(encoding="utf-8") == '{"mine": 1}'
-
-
-def test_the_records_are_not_overwritten_by_the_list_of_errata(report, tmp_path):
-    assert "x.json is named twice" in report("-o", "x.json", "--records", "x.json").stderr
-    assert not list(tmp_path.iterdir())
-
-
-def test_a_folder_in_the_place_of_the_file_loses_nothing(report, tmp_path):
     (tmp_path / "x.html").mkdir()
     done = report("-o", "x.html")
     assert done.returncode == 2
     assert "cannot be written" in done.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["x.html"]
+    assert {path.name for path in tmp_path.iterdir()} == {"x.html", "x.json"}

@@ -374,6 +374,10 @@ def test_a_result_of_one_frame_is_drawn(dataset):
     data = dataset()
     drawn = {name for name, reason in figures.available(data).items() if reason is None and figures.draw(data, name)}
     assert drawn >= {"contact", "spheres", "omega", "energy", "integrals", "attitude"}
+    for name in ("omega", "energy") if data.sizes["ball"] == 1 else ():
+        seen = [line for line in figures.draw(data, name).axes[0].lines if line.get_zorder() >= 2]
+        assert seen
+        assert all(line.get_marker() == "o" for line in seen)
 
 
 def test_a_ball_at_rest_is_drawn():
@@ -445,15 +449,6 @@ def test_a_name_that_the_font_has_not_is_drawn_without_warnings(tmp_path):
     scene = {"ball": [ball, ball | {"name": "b"}], "start": {"omega": [1, 2, 3]}, "run": {"time_step": 0.1, "steps": 3}}
     run = chapsym.run_scene(scene)
     assert len(figures.save_all(run.dataset, tmp_path, ("png",), names=["spheres"])) == 1
-
-
-def test_the_only_frame_of_a_ball_is_seen():
-    run = chapsym.roll(results.UNEVEN, (3.0, -2.0, 1.0), time_step=0.01, steps=1)
-    one = results.of(run, ["omega", "energy"]).isel(frame=[0])
-    for name in ("omega", "energy"):
-        drawn = [line for line in figures.draw(one, name).axes[0].lines if line.get_zorder() >= 2]
-        assert drawn
-        assert all(line.get_marker() == "o" for line in drawn)
 
 
 @pytest.mark.filterwarnings("error", "ignore::DeprecationWarning")

@@ -2,9 +2,11 @@
 
 import io
 import re
+from itertools import product
 
 import numpy as np
 import pytest
+from budget import slow
 from contrast import contrast, low
 from matplotlib import image
 from rolling_results import BALL, EVEN, rolled
@@ -90,7 +92,7 @@ def test_it_plays_at_once_unless_motion_is_unwelcome_and_stops_at_the_end(rollin
     assert page.ask("chapsym.playing && chapsym.frame < 300") is True
 
 
-def test_what_is_drawn_is_what_was_computed(rolling, results):
+def test_what_is_drawn_is_what_was_computed_between_the_frames_too_and_in_body_axes(rolling, results):
     page, ball = rolling(), motion(results["one"][1]).balls[0]
     positions = page.ask("Array.from({length: 601}, (_, i) => chapsym.position(i))")
     np.testing.assert_array_equal(positions, ball.contact)
@@ -118,10 +120,7 @@ def test_what_is_drawn_is_what_was_computed(rolling, results):
     np.testing.assert_allclose(np.linalg.norm(omega[[0, 2]], axis=1), lengths[[0, -1]], rtol=8 * SINGLE)
     assert np.ptp(ball.vectors["momentum"], axis=0).max() > 0.1 * size
 
-
-def test_the_ball_rolls_between_the_frames_and_does_not_slip(rolling):
-    """ẋ = ρ ω × e₃ sin φ/φ: the discrete ball goes ρ sin φ where it turns by φ (4.9)."""
-    page = rolling()
+    # Between the frames ẋ = ρ ω × e₃ sin φ/φ: the discrete ball goes ρ sin φ where it turns by φ (4.9).
     at = [i + s for i in (0, 100, 377, 599) for s in (0.05, 0.5)]
     h = 0.4
     found = page.ask(f"{at}.map(i => [i, i + {h}].map(j => [chapsym.position(j), chapsym.quaternion(j)]))")
@@ -136,10 +135,7 @@ def test_the_ball_rolls_between_the_frames_and_does_not_slip(rolling):
         np.testing.assert_allclose(np.subtract(r1, r0), way, rtol=0, atol=0.11 * 8 * SINGLE)
         assert np.hypot(*way) > 1000 * 0.11 * 8 * SINGLE
 
-
-def test_body_axes_are_where_the_pattern_has_them(rolling):
-    """On the sphere, in body axes: octants by the sign of xyz, and marks that are dark at the positive ends."""
-    page = rolling()
+    # On the sphere, in body axes: octants by the sign of xyz, and marks that are dark at the positive ends.
     shades = page.ask(
         """(() => {
           const mesh = chapsym.stage.balls[0].body.children[0], { position, uv } = mesh.geometry.attributes;
@@ -199,21 +195,6 @@ def test_scrub_and_keys(rolling):
     press("Home")
     press("Space")
     assert page.ask("chapsym.playing") is True
-
-
-def test_every_control_has_a_name_and_can_be_focused(rolling):
-    page = rolling("three")
-    names = page.ask(
-        """[...document.querySelectorAll('button, input, summary')].filter(x => x.checkVisibility())
-           .map(x => x.getAttribute('aria-label') || x.textContent.trim() || '')"""
-    )
-    assert len(names) > 15
-    assert all(names)
-    reached = set()
-    for _ in range(40):
-        page.tab.keyboard.press("Tab")
-        reached.add(page.ask("(document.activeElement.ariaLabel || document.activeElement.textContent.trim())"))
-    assert {"Play", "Time", "Slower", "Faster", "Orbit", "Top", "Whole trace", "Help", "Show ball 2"} <= reached
 
 
 def test_the_camera_follows_the_ball_or_stays(rolling):
@@ -294,32 +275,26 @@ def test_a_turn_of_the_view_comes_to_rest_softly_unless_motion_is_unwelcome(roll
     assert rolling().ask("chapsym.stage.eye.share") == 1
 
 
-def test_arrows_are_shown_when_asked_for(rolling):
-    page = rolling()
-    page.ask("chapsym.seek(200)")
-    before = page.picture()
-    for name in ("γ, the vertical", "ω, the angular velocity", "K, the momentum"):
-        button = page.tab.get_by_role("button", name=f"Arrow of {name}")
-        button.click()
-        assert button.get_attribute("aria-pressed") == "true"
-        assert page.picture() != before
-        button.click()
-        page.tab.mouse.move(640, 5)
-        assert page.picture() == before
-
-
-def test_many_balls_are_followed_hidden_and_stop(rolling):
+def test_many_balls_are_followed_hidden_and_stop_and_every_control_has_a_name_and_can_be_focused(rolling):
     page = rolling("three")
     assert page.tab.locator("h1").inner_text() == "Three starts"
     assert page.tab.locator(".plan").inner_text() == "model: full · 400 steps of 0.005 s · 3 balls"
     assert "ball 3: it stops after step 200: the small-rotation branch folds" in page.tab.locator(".notes").inner_text()
     page.ask("chapsym.seek(80)")
     assert page.ask("chapsym.position(80, 2)") == page.ask("chapsym.position(50, 2)")
-    assert page.tab.locator(".balls em").evaluate_all("found => found.map(x => x.checkVisibility())") == [
-        False,
-        False,
-        True,
-    ]
+    seen = page.tab.locator(".balls em").evaluate_all("found => found.map(x => x.checkVisibility())")
+    assert seen == [False, False, True]
+    names = page.ask(
+        """[...document.querySelectorAll('button, input, summary')].filter(x => x.checkVisibility())
+           .map(x => x.getAttribute('aria-label') || x.textContent.trim() || '')"""
+    )
+    assert len(names) > 15
+    assert all(names)
+    reached = set()
+    for _ in range(40):
+        page.tab.keyboard.press("Tab")
+        reached.add(page.ask("(document.activeElement.ariaLabel || document.activeElement.textContent.trim())"))
+    assert {"Play", "Time", "Slower", "Faster", "Orbit", "Top", "Whole trace", "Help", "Show ball 2"} <= reached
     before = page.tab.locator("[data-read=position]").inner_text()
     page.tab.get_by_role("radio", name="Follow ball 2").check()
     assert page.tab.locator("[data-read=position]").inner_text() != before
@@ -327,10 +302,6 @@ def test_many_balls_are_followed_hidden_and_stop(rolling):
     page.tab.get_by_role("checkbox", name="Show ball 1").uncheck()
     page.tab.get_by_role("checkbox", name="Show ball 2").uncheck()
     assert page.picture() != shown
-
-
-def test_a_ball_that_stops_stands_where_it_stopped_and_says_so(rolling, tmp_path):
-    page = rolling("three")
     page.tab.get_by_role("radio", name="Follow ball 3").check()
     page.ask("chapsym.seek(50)")
     assert "rad/s" in page.tab.locator("[data-read=speed]").inner_text()
@@ -339,6 +310,9 @@ def test_a_ball_that_stops_stands_where_it_stopped_and_says_so(rolling, tmp_path
     assert page.tab.locator("[data-read=position]").inner_text() != ""
     assert page.ask("chapsym.quaternion(80, 2)") == page.ask("chapsym.quaternion(50, 2)")
     assert page.ask("chapsym.stage.balls[2].group.visible")
+
+
+def test_a_ball_that_stops_is_the_end_of_its_page(rolling, tmp_path):
     alone = rolled(400, every=4)
     for name in ("momentum", "gamma", "omega", "attitude", "contact"):
         alone[name][0, 51:] = np.nan
@@ -406,7 +380,7 @@ def boxes_apart(page):
     return buttons
 
 
-@pytest.mark.parametrize("name", [pytest.param("one", marks=pytest.mark.thorough), "three"])
+@pytest.mark.parametrize("name", ["three", *slow("one")])
 def test_a_phone(rolling, name):
     """At 390 px nothing overlaps; a finger presses play, and one that drags turns the view."""
     page = rolling(name, PHONE, has_touch=True, is_mobile=True)
@@ -437,12 +411,12 @@ def test_a_phone(rolling, name):
     assert page.ask(distance) < 0.7 * near
 
 
-@pytest.mark.parametrize("size", [pytest.param(DESK, marks=pytest.mark.thorough), {"width": 900, "height": 700}])
+@pytest.mark.parametrize("size", [{"width": 900, "height": 700}, *slow(DESK)])
 def test_nothing_overlaps_on_a_desk(rolling, size):
     boxes_apart(rolling("three", size))
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", ["light", *slow("dark")])
 def test_controls_and_letters_can_be_told_from_what_they_stand_on(rolling, scheme):
     """4.5 of every control in both states, of its border, and of the slider, whose parts no script can ask for."""
     page = rolling(color_scheme=scheme)
@@ -455,18 +429,17 @@ def test_controls_and_letters_can_be_told_from_what_they_stand_on(rolling, schem
     page.tab.keyboard.press("?")
     assert low(page.tab, "dialog *")[0] == []
     style = (FOLDER / "page.css").read_text(encoding="utf-8")
-    root = re.findall(r":root \{(.*?)\}", style, re.DOTALL)[scheme == "dark"]
-    colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", root))
     track = re.findall(
         r"slider-runnable-track \{.*?to right, var\(--([a-z]+)\).*?var\(--([a-z]+)\) 0", style, re.DOTALL
     )[0]
     thumb = re.search(r"-webkit-slider-thumb \{.*?background: var\(--([a-z]+)\)", style, re.DOTALL)[1]
-    for name in (*track, thumb, "link", "muted", "gamma", "omega", "momentum"):
-        for ground in ("paper", "raised", "on", "plane"):
-            assert contrast(colours[name], colours[ground]) >= 4.5, (name, ground)
+    named = product((*track, thumb, "link", "muted", "gamma", "omega", "momentum"), ("paper", "raised", "on", "plane"))
+    for root, (name, ground) in product(re.findall(r":root \{(.*?)\}", style, re.DOTALL)[:2], list(named)):
+        colours = dict(re.findall(r"--([a-z]+): (#[0-9a-f]{6});", root))
+        assert contrast(colours[name], colours[ground]) >= 4.5, (name, ground)
 
 
-def test_dark_and_light(rolling):
+def test_dark_and_light_and_arrows_that_are_shown_when_asked_for(rolling):
     page = rolling(color_scheme="dark")
     dark = page.picture()
     background = "getComputedStyle(document.body).backgroundColor"
@@ -476,6 +449,16 @@ def test_dark_and_light(rolling):
     assert page.ask(background) == "rgb(252, 252, 250)"
     corner = (slice(4, 40), slice(4, 40))
     assert pixels(dark)[corner].mean() < 0.4 < 0.8 < pixels(page.picture())[corner].mean()
+    page.ask("chapsym.seek(200)")
+    before = page.picture()
+    for name in ("γ, the vertical", "ω, the angular velocity", "K, the momentum"):
+        button = page.tab.get_by_role("button", name=f"Arrow of {name}")
+        button.click()
+        assert button.get_attribute("aria-pressed") == "true"
+        assert page.picture() != before
+        button.click()
+        page.tab.mouse.move(640, 5)
+        assert page.picture() == before
 
 
 def test_far_away_nothing_jitters(rolling, tmp_path):

@@ -22,10 +22,6 @@ STATE = ("momentum", "gamma", "attitude", "contact", "omega", "energy", "integra
 TURN = np.full((3, 4), 0.5)
 
 
-def quiet(steps):
-    pass
-
-
 def test_a_cut_run_is_the_whole_one_up_to_roundings(members):
     plan = planned(members(), Task(STATE, 1000, 10, 0.01))
     whole, end = rolled(plan, [slice(0, 101)])
@@ -203,7 +199,7 @@ def test_an_accuracy_is_met_by_what_is_chosen_for_each_ball(members):
         fine = Rolling().run(
             replace(one, momentum=one.momentum * 2e-4), Task(("contact",), 10_000, 2500, 2e-4, order=8),
             {"momentum": one.momentum * 2e-4, "gamma": one.gamma, "attitude": attitude, "contact": place},
-            10_000, quiet,
+            10_000, lambda steps: None,
         )  # fmt: skip
         assert np.abs(columns["contact"] - [1, 0] - fine.contact).max() < 1e-7
         assert np.abs(columns["momentum"] - fine.momentum / 2e-4).max() < 1e-7

@@ -82,11 +82,17 @@ def test_what_is_no_such_quantity_is_refused(text, dimension, sentence):
     assert "\n" not in str(caught.value)
 
 
-def test_without_pint_a_unit_is_told_to_need_it(monkeypatch):
+@pytest.mark.parametrize("damaged", [False, True])
+def test_a_unit_is_told_to_need_pint_and_why_pint_cannot_be_loaded(tmp_path, monkeypatch, damaged):
+    (tmp_path / "pint.py").write_text("raise ImportError('a library of pint is damaged')")
     units._registry.cache_clear()
+    monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setitem(sys.modules, "pint", None)
+    if damaged:
+        monkeypatch.delitem(sys.modules, "pint")
+    said = "cannot be loaded: a library of pint is damaged" if damaged else "cannot be loaded"
     try:
-        with pytest.raises(ValueError, match="it has a unit, and pint, which reads units, cannot be loaded"):
+        with pytest.raises(ValueError, match=f"it has a unit, and pint, which reads units, {said}"):
             number("3 cm", LENGTH)
     finally:
         units._registry.cache_clear()

@@ -31,10 +31,6 @@ def matrix(K, g, ball=BALL):
     return found
 
 
-def determinant(found):
-    return tangent.determinant(found)
-
-
 @pytest.mark.parametrize("D", [0.0, 1.0, 7.0])
 def test_derivative_against_differences(D):
     """Central differences: h² of truncation and 1e-16/h of rounding, with h = 1e-5."""
@@ -51,10 +47,10 @@ def test_derivative_against_differences(D):
 
 def test_volume_is_kept_without_contact_and_not_with_it_and_given_back_by_the_reversed_step():
     K, g = (v[0] for v in starts(1, False, 5))
-    assert determinant(matrix(K, g, chapsym.Ball((1, 2, 4), 0.0))) == pytest.approx(1, abs=1e-14)
-    assert abs(determinant(matrix(K, g)) - 1) > 1e-4
+    assert tangent.determinant(matrix(K, g, chapsym.Ball((1, 2, 4), 0.0))) == pytest.approx(1, abs=1e-14)
+    assert abs(tangent.determinant(matrix(K, g)) - 1) > 1e-4
     after = chapsym.step(BALL, K, g)
-    product = determinant(matrix(K, g)) * determinant(matrix(-after.momentum, after.gamma))
+    product = tangent.determinant(matrix(K, g)) * tangent.determinant(matrix(-after.momentum, after.gamma))
     assert product == pytest.approx(1, abs=1e-14)
 
 
@@ -65,7 +61,7 @@ def test_growths_add_up_to_the_volume():
     volume = []
     for k, v in zip(2.0 * K, g, strict=True):
         run = chapsym.trajectory(BALL, k, v, 99)
-        volume.append(sum(np.log(determinant(matrix(*s))) for s in zip(run.momentum, run.gamma, strict=True)))
+        volume.append(sum(np.log(tangent.determinant(matrix(*s))) for s in zip(run.momentum, run.gamma, strict=True)))
     assert total == pytest.approx(np.array(volume), abs=1e-10)
 
 
