@@ -67,12 +67,8 @@ def test_what_is_no_formula_is_shown_as_it_is_typed(handmade, formula):
 
 def test_each_error_of_the_paper_has_a_kind_and_follows_from_errors(register):
     wrong = {record["id"] for record in records.errors(register)}
-    assert {
-        id: kind
-        for record in records.errors(register)
-        if not (kind := records.slip_of(record)[0])
-        for id in [record["id"]]
-    } == {}
+    kinds = {record["id"]: records.slip_of(record)[0] for record in records.errors(register)}
+    assert all(kinds.values()), kinds
     assert {id for record in records.errors(register) for id in records.slip_of(record)[1]} <= wrong
     assert records.slips(register) == {"serious": (16, 8), "typo": (12, 12), "convention": (5, 4), "reading": (6, 6)}
     said = records.kinds(register)

@@ -478,7 +478,7 @@ def shown_texts(figure):
     return "\n".join([*words, figure.get_supxlabel()])
 
 
-@pytest.mark.parametrize("name", ["contact", "spheres", "omega", *slow("attitude")])
+@pytest.mark.parametrize("name", ["contact", "omega", *slow("attitude", "spheres")])
 def test_sparse_frames_are_drawn_as_the_curve_between_them(name):
     sparse, dense = timed(20, 400)
     drawn, true = (
@@ -512,7 +512,7 @@ def test_a_map_without_time_is_an_orbit_of_points_and_is_not_made_a_curve():
     assert note(dataset) == ""
 
 
-@pytest.mark.parametrize("name", ["contact", "spheres", "omega", "attitude", "energy"])
+@pytest.mark.parametrize("name", ["contact", "omega", "energy", *slow("spheres", "attitude")])
 def test_frames_too_far_apart_are_points_and_the_figure_says_so(name):
     dataset = timed(100)[0]
     figure = figures.draw(dataset, name)

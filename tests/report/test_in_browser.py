@@ -19,14 +19,7 @@ import chapsym
 
 PYODIDE = pages.ROOT / "docs" / "_build" / "pyodide"
 MISSING = "no Pyodide in docs/_build/pyodide: docs/in-browser.md says how to put it there"
-GIVEN = {
-    "inertia": "0.006, 0.007, 0.009",
-    "mass": "2",
-    "radius": "0.1",
-    "omega": "3, -2, 1",
-    "time": "2",
-    "step": ".05",
-}
+GIVEN = {"inertia": ".006, .007, .009", "mass": "2", "radius": ".1", "omega": "3, -2, 1", "time": "2", "step": ".05"}
 
 
 @pytest.fixture(scope="module")

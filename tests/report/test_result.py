@@ -25,7 +25,7 @@ SCENE = {
 TOML = f'title = "From a file"\n{BALL}time_step = 0.01\nsteps = 60\noutputs = ["contact", "energy"]\n'
 
 
-def test_a_scene_runs_from_a_dictionary_and_shows_itself():
+def test_a_scene_runs_from_a_dictionary_shows_itself_and_what_cannot_be_saved_is_one_sentence(tmp_path):
     result = chapsym.run_scene(SCENE)
     run = chapsym.roll(results.UNEVEN, (3.0, -2.0, 1.0), 0.01, 60, gamma=(2 / 7, 3 / 7, 6 / 7), contact=True)
     assert result.dataset["contact"].values[0] == pytest.approx(run.contact, abs=1e-15)
@@ -35,6 +35,15 @@ def test_a_scene_runs_from_a_dictionary_and_shows_itself():
     assert re.search(r"frames +61, 60 steps, 0.6 s", text)
     assert re.search(r"stored +attitude, contact, energy, integrals|stored +contact, attitude, energy, integrals", text)
     assert re.search(r"drift +\d\.\de-1[56] at most", text)
+    result.save(tmp_path / "a.zarr")
+    with pytest.raises(SceneError, match="is there already"):
+        result.save(tmp_path / "a.zarr")
+    with pytest.raises(SceneError, match="cannot be written"):
+        result.save(tmp_path / "no" / "a.zarr")
+    with pytest.raises(SceneError, match=r"nothing\.nc cannot be read"):
+        chapsym.open_result(tmp_path / "nothing.nc")
+    with pytest.raises(SceneError, match="inertia"):
+        chapsym.run_scene(SCENE | {"ball": {"inertia": [1, 1, 9], "mass": 1, "radius": 1}})
 
 
 def test_figures_and_the_table_tell_what_there_is_sweeps_and_balls_that_stopped():
@@ -72,19 +81,6 @@ def test_a_result_that_is_saved_opens_as_it_was(tmp_path, suffix):
     made = Result(chapsym.roll(results.UNEVEN, (3.0, -2.0, 1.0), 0.01, 9).to_xarray())
     made.save(path.with_stem("made"))
     assert (chapsym.open_result(path.with_stem("made")).dataset.gamma.values == made.dataset.gamma.values).all()
-
-
-def test_what_cannot_be_saved_or_opened_is_one_sentence(tmp_path):
-    result = chapsym.run_scene(SCENE)
-    result.save(tmp_path / "a.zarr")
-    with pytest.raises(SceneError, match="is there already"):
-        result.save(tmp_path / "a.zarr")
-    with pytest.raises(SceneError, match="cannot be written"):
-        result.save(tmp_path / "no" / "a.zarr")
-    with pytest.raises(SceneError, match=r"nothing\.nc cannot be read"):
-        chapsym.open_result(tmp_path / "nothing.nc")
-    with pytest.raises(SceneError, match="inertia"):
-        chapsym.run_scene(SCENE | {"ball": {"inertia": [1, 1, 9], "mass": 1, "radius": 1}})
 
 
 def test_show_without_a_notebook_opens_a_folder_and_the_page_is_written(monkeypatch, capsys, tmp_path):

@@ -66,7 +66,7 @@ def rolling(opened, results):
 
 def test_play_moves_the_ball(rolling):
     page = rolling()
-    assert page.ask("[chapsym.playing, chapsym.frame]") == [False, 0]
+    assert page.ask("[chapsym.playing, chapsym.frame, chapsym.stage.eye.share]") == [False, 0, 1]
     before, place = page.picture(), page.ask("chapsym.position(chapsym.frame)")
     page.tab.get_by_role("button", name="Play").click()
     page.until("chapsym.frame > 60")
@@ -80,16 +80,6 @@ def test_play_moves_the_ball(rolling):
     assert page.ask("chapsym.frame") == stopped
     clock = page.tab.locator("#now").inner_text()
     assert clock == f"{page.ask('chapsym.motion.timeAt(chapsym.frame).toFixed(3)')} / 3.000 s"
-
-
-def test_it_plays_at_once_unless_motion_is_unwelcome_and_stops_at_the_end(rolling):
-    page = rolling(reduced_motion="no-preference")
-    assert page.ask("chapsym.playing") is True
-    page.ask("chapsym.seek(597)")
-    page.until("!chapsym.playing")
-    assert page.ask("chapsym.frame") == 600
-    page.tab.keyboard.press("Space")
-    assert page.ask("chapsym.playing && chapsym.frame < 300") is True
 
 
 def test_what_is_drawn_is_what_was_computed_between_the_frames_too_and_in_body_axes(rolling, results):
@@ -257,8 +247,9 @@ def test_a_mouse_turns_the_view_moves_it_along_the_plane_and_a_wheel_brings_it_n
     assert page.ask("chapsym.stage.eye.distance") == pytest.approx(near * 0.95**3)
 
 
-def test_a_turn_of_the_view_comes_to_rest_softly_unless_motion_is_unwelcome(rolling):
+def test_unless_motion_is_unwelcome_it_plays_at_once_to_its_end_and_a_turn_of_the_view_comes_to_rest_softly(rolling):
     page = rolling(reduced_motion="no-preference")
+    assert page.ask("chapsym.playing") is True
     look = "(({ azimuth, turn, share }) => [azimuth, turn.x, share])(chapsym.stage.eye)"
     start, _, _ = page.ask(look)
     page.tab.mouse.move(300, 250)
@@ -272,7 +263,11 @@ def test_a_turn_of_the_view_comes_to_rest_softly_unless_motion_is_unwelcome(roll
     assert 0 < less < left
     whole = 200 * np.pi / page.ask("document.querySelector('canvas').clientHeight")
     assert start - later + less == pytest.approx(whole)
-    assert rolling().ask("chapsym.stage.eye.share") == 1
+    page.ask("chapsym.seek(597)")
+    page.until("!chapsym.playing")
+    assert page.ask("chapsym.frame") == 600
+    page.tab.keyboard.press("Space")
+    assert page.ask("chapsym.playing && chapsym.frame < 300") is True
 
 
 def test_many_balls_are_followed_hidden_and_stop_and_every_control_has_a_name_and_can_be_focused(rolling):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import results
+from budget import slow
 
 from chapsym.dynamics import Ball, kernels
 from chapsym.show import figures
@@ -96,7 +97,7 @@ def test_the_range_of_the_energy_is_that_of_all_states_with_these_integrals(of_g
 
 
 @pytest.mark.parametrize(
-    "make", [lambda: results.uneven(1000), lambda: results.bowling(500), lambda: results.folded().isel(ball=[0])]
+    "make", [lambda: results.uneven(1000), *slow(lambda: results.bowling(500), lambda: results.folded().isel(ball=[0]))]
 )
 def test_no_state_of_the_run_is_where_it_is_grey(make):
     dataset = make()
