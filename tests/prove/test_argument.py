@@ -48,10 +48,6 @@ def test_sentences_are_counted_by_their_ends(texts, number):
     assert sentences(texts) == number
 
 
-def test_steps_that_join_have_no_gap():
-    assert gaps(STATED, STEPS, {"lemma"}) == []
-
-
 @pytest.mark.parametrize(
     ("theorem", "steps", "known", "said"),
     {
@@ -72,7 +68,8 @@ def test_what_does_not_join_is_a_gap(theorem, steps, known, said):
     assert said in "\n".join(gaps(theorem, steps, known))
 
 
-def test_the_hypotheses_of_an_answer_are_those_of_its_lemmas_that_none_before_gives():
+def test_steps_that_join_have_no_gap_and_an_answer_has_the_hypotheses_that_no_lemma_before_gives():
+    assert gaps(STATED, STEPS, {"lemma"}) == []
     found = assembled(READING, LEMMAS)
     assert found == Theorem(("for all x",), ("x > 0", "x < 9", "y = 0"), (no("root"),))
 

@@ -201,11 +201,8 @@ def test_a_counterexample_off_the_relations_is_not_accepted():
 def test_what_has_no_rational_point_or_is_no_algebra_is_a_sentence_that_says_so():
     cubic = Quotient((x,), [x**3 - 4])
     (a,) = matrix_symbols("zz")
-    data = certificate(
-        "0",
-        "x",
-        proof(Equation("cube", x**4, 4 * x, cubic), Equation("unknown", a, a, WordAlgebra({a: a}, {(a, a): -1}))),
-    )
+    unknown = Equation("unknown", a, a, WordAlgebra({a: a}, {(a, a): -1}))
+    data = certificate("0", "x", proof(Equation("cube", x**4, 4 * x, cubic), unknown))
     assert [one["text"] for one in data["sentences"]] == [
         "cube (not exported: no rational point was found where its relations hold)",
         "unknown (not exported: no matrices are known for which its rules hold)",
@@ -215,11 +212,8 @@ def test_what_has_no_rational_point_or_is_no_algebra_is_a_sentence_that_says_so(
 
 def test_letters_of_ones_own_have_the_matrices_that_their_algebra_gives():
     turn, turned, other = matrix_symbols("own own^T other")
-    matrices = {
-        turn: sp.Matrix([[0, -1], [1, 0]]),
-        turned: sp.Matrix([[0, 1], [-1, 0]]),
-        other: sp.Matrix([[1, 2], [3, 4]]),
-    }
+    values = [[0, -1], [1, 0]], [[0, 1], [-1, 0]], [[1, 2], [3, 4]]
+    matrices = dict(zip((turn, turned, other), map(sp.Matrix, values), strict=True))
     cancels = [other * turn * turned, other]
     for example, rows in ((matrices, 2), ({}, 3)):
         algebra = WordAlgebra({turn: turned, turned: turn}, {(turn, turned): 1, (turned, turn): 1}, example)
@@ -257,7 +251,7 @@ def test_a_polynomial_is_short_in_factors_and_means_the_same():
         assert len(json.dumps(found)) < 80
 
 
-def test_what_was_made_of_parameters_is_a_tree_with_names_for_what_occurs_often():
+def test_what_was_made_of_parameters_is_a_tree_with_names_for_what_occurs_often_or_of_factors_in_lowest_terms():
     a, b = parameters("a b")
     whole = a + b
     both = 2 / whole + 0 * a
@@ -265,10 +259,10 @@ def test_what_was_made_of_parameters_is_a_tree_with_names_for_what_occurs_often(
         [["_1", ["+", "a", "b"]], ["_2", ["*", ["^", "_1", -1], 2]]],
         [["*", "_2", "_2"], ["+", ["^", "_2", -1], ["*", "b", -1]], ["+", "_1", "a"], 0, 3],
     )
-
-
-def test_what_is_in_lowest_terms_is_a_tree_of_factors_and_goes_on_from_there():
-    a, b = parameters("a b")
+    data = certificate("0", "x", proof(Identity("square", [whole * whole], [a**2 + 2 * a * b + b**2])))
+    assert [(s["text"], s["cofactors"]) for s in data["statements"]] == [("square", [[]])]
+    assert data["statements"][0]["definitions"] == [["_1", ["+", "a", "b"]]]
+    assert data["sentences"] == []
     made = (a**2 - b**2) / (2 * a * (a + b) ** 3)
     assert (made.made[0], made.lowest().made, made.lowest() == made) == ("*", None, True)
     lowest = ["*", "1/2", ["+", ["*", -1, "b"], "a"], ["^", ["+", "b", "a"], -2], ["^", "a", -1]]
@@ -276,15 +270,6 @@ def test_what_is_in_lowest_terms_is_a_tree_of_factors_and_goes_on_from_there():
     one = made.lowest()
     assert [name for name, _ in shared([one * one])[0]] == ["_1"]
     assert shared([(a - a + 1).lowest(), (a - a).lowest()])[1] == [1, 0]
-
-
-def test_an_identity_is_a_statement():
-    a, b = parameters("a b")
-    whole = a + b
-    data = certificate("0", "x", proof(Identity("square", [whole * whole], [a**2 + 2 * a * b + b**2])))
-    assert [(s["text"], s["cofactors"]) for s in data["statements"]] == [("square", [[]])]
-    assert data["statements"][0]["definitions"] == [["_1", ["+", "a", "b"]]]
-    assert data["sentences"] == []
 
 
 def test_cofactors_make_a_polynomial_of_the_ideal_and_there_are_none_for_another():
