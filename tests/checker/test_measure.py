@@ -125,25 +125,21 @@ def points(*degrees):
     return [[Interval.enclosing(x, x, 60) for x in (*turn, Fraction(0))] for turn in turns]
 
 
-def test_steps_in_both_directions_or_of_half_a_turn_and_opposite_orbits_are_refused(right, monkeypatch):
+def test_half_turns_are_counted_and_steps_in_both_directions_or_opposite_orbits_are_refused(right, monkeypatch):
     circle = Circle(right)
     assert circle.direction(points(0, 100, 200, 370)) == 1
     assert circle.direction(points(0, -100, -200, -370)) == -1
     for degrees in ((0, 100, 50), (0, 180), (0, 0), (0, 100, 300)):
         with pytest.raises(Rejected, match="one direction"):
             circle.direction(points(*degrees))
-    directions = iter((1, -1))
-    monkeypatch.setattr(Circle, "direction", lambda self, gammas: next(directions))
-    assert refused(right)
-
-
-def test_half_turns_are_counted_by_the_changes_of_the_sine(right):
-    circle = Circle(right)
     for count, degrees in ((0, (10, 100, 179)), (1, (100, 181)), (2, (100, 200, 350, 400)), (3, (170, 340, 500, 600))):
         start, *others = points(0, *degrees)
         assert half_turns([circle.sine(start, v) for v in others]) == count
     with pytest.raises(Rejected, match="line of the start"):
         half_turns([Interval(1, 2, 60), Interval(-1, 1, 60)])
+    directions = iter((1, -1))
+    monkeypatch.setattr(Circle, "direction", lambda self, gammas: next(directions))
+    assert refused(right)
 
 
 def test_another_sentence_and_an_orbit_or_a_step_more_or_less_are_refused(right):

@@ -67,7 +67,7 @@ def test_any_shape_is_refused_with_a_sentence(right, bad):
         assert refused(resealed(right | {name: bad})), name
 
 
-def test_the_derivative_of_the_equations_is_that_of_the_equations(right):
+def test_the_derivative_is_that_of_the_equations_and_the_root_of_a_step_is_the_only_one(right):
     """Central differences of h = 2^-100: an error of h² times third derivatives, below 2^20 here."""
     search = Search(right)
     h = 1 << (search.size.bits - 100)
@@ -81,11 +81,7 @@ def test_the_derivative_of_the_equations_is_that_of_the_equations(right):
         for row, a, b in zip(exact, there, back, strict=True):
             difference = mp.mpf(a.lo - b.lo) / (2 * h)
             assert abs(difference - mp.mpf(row[j].lo) / mp.mpf(2) ** row[j].bits) < mp.mpf(2) ** -150
-
-
-def test_the_root_of_a_step_is_proved_to_be_the_only_one_for_every_gamma_of_a_box(right):
-    """It is for |γ| = 1, |𝒦| = 2.76; for |γ| = 1.05 or |𝒦| = 2.9 Newton finds a root, but it may not be alone."""
-    search = Search(right)
+    # The root of a step is proved to be alone for |γ| = 1, |𝒦| = 2.76; for |γ| = 1.05 or |𝒦| = 2.9 it may not be.
     search.after(search.centre, [])
     momentum, gamma = search.centre[:3], search.centre[3:]
     for longer in ([*momentum, *(x * 21 / 20 for x in gamma)], [*(x * 9 / 8 for x in momentum), *gamma]):

@@ -137,11 +137,8 @@ def test_what_was_judged_is_shown_and_one_change_is_seen(samples):
 
 
 def test_the_derivation_of_a_claim_is_shown():
-    run = subprocess.run(
-        [sys.executable, "-I", "-S", str(CHECKER), "--show", str(FOLDER / "prop-1.json")],
-        capture_output=True,
-        text=True,
-    )
+    command = [sys.executable, "-I", "-S", str(CHECKER), "--show", str(FOLDER / "prop-1.json")]
+    run = subprocess.run(command, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     lines = run.stdout.splitlines()
     rolling = "[(4.2) for virtual displacements, dr + ρ dR Rᵀ γ: it vanishes; in algebra 0]"
