@@ -148,11 +148,8 @@ def test_a_text_with_other_letters_is_refused(old, new, said):
 
 def test_a_function_is_not_called_as_what_it_calls():
     text = TEXT.replace("def turned", "def sin")
-    row = {
-        "inputs": ["q", "x"],
-        "letters": LETTERS,
-        "carriers": [left("x", "x").data(lambda _: "0") | {"point": POINT}],
-    }
+    carrier = left("x", "x").data(lambda _: "0") | {"point": POINT}
+    row = {"inputs": ["q", "x"], "letters": LETTERS, "carriers": [carrier]}
     row["text_sha256"] = hashlib.sha256(text.encode()).hexdigest()
     with pytest.raises(Rejected, match="has sin as a name of something else"):
         binding.check(row, text, CERTIFICATES, "sin")
