@@ -1,13 +1,10 @@
 """The derivative of the step, exponents, the verdict chaotic, and the pictures."""
 
-import json
-
 import numpy as np
 import pytest
 
 import chapsym
 from chapsym.dynamics.loops import loop, tangent
-from chapsym.studies import checkout
 from research import chaos
 from research.chaos.orbits import LIMIT, follow_orbits, sample, slab, starts
 from research.energy.continuous import Level
@@ -113,20 +110,3 @@ def test_share_has_wilson_s_interval():
     assert (p, low) == (0, 0)
     assert high == pytest.approx(1.96**2 / (10 + 1.96**2))
     assert chaos.share(0, 0)[1:] == (0.0, 1.0)
-
-
-@pytest.mark.thorough
-def test_sentences_and_figures(tmp_path, monkeypatch):
-    monkeypatch.setattr("research.units.cores", lambda: 1)
-    monkeypatch.setattr(chaos, "_units", small_units)
-    found = chaos.study(quick=True)
-    json.dumps(found, allow_nan=False)
-    assert "integrable: 0 of" in chaos.sentences(found)[0]
-    assert checkout.save_figures("research.chaos", chaos.DRAWN, found, tmp_path)
-
-
-def small_units(quick, all_units=chaos._units):
-    """The units of the quick study, each with few orbits and steps."""
-    from research.units import Unit
-
-    return [(group, Unit(u.function, {**u.arguments, "orbits": 16, "steps": 2000})) for group, u in all_units(quick)]

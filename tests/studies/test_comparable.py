@@ -115,12 +115,8 @@ def test_velocities_of_the_body_show_later_where_the_first_attitude_is_no_turn(t
     """MuJoCo's qvel, of a free joint that begins with the quaternion 1 0 0 0."""
     change, said = OTHERWISE[name]
     scene = tmp_path / "mine.toml"
-    text = (
-        (CASES / "robot.toml")
-        .read_text("utf-8")
-        .replace("time = 10.0", "time = 1")
-        .replace("frames = 40", "frames = 4")
-    )
+    text = (CASES / "robot.toml").read_text("utf-8").replace("time = 10.0", "time = 1")
+    text = text.replace("frames = 40", "frames = 4")
     scene.write_text(text.replace("[0.8, 0.0, 0.6, 0.0]", "[1.0, 0.0, 0.0, 0.0]"), encoding="utf-8")
     case = case_of_scene(scene)
     centre = np.column_stack([case.path, np.full(len(case.time), case.radius)])
@@ -192,10 +188,8 @@ def test_a_path_that_begins_elsewhere_and_a_start_that_is_another_are_said(rows,
     words = refused("judge", write(tmp_path, rows | {"wx": rows["wx"] * 1.01}), "--against", case)
     assert "its first row is not the start of robot (omega 0.209 rad/s): no verdict on the engine" in words
     rounded = {name: np.round(column, 3) for name, column in rows.items()}
-    assert (
-        answer("judge", write(tmp_path, rounded), "--against", case)["results"][0]["departure"]["path"]["greatest"]
-        < 1e-3
-    )
+    found = answer("judge", write(tmp_path, rounded), "--against", case)["results"][0]["departure"]
+    assert found["path"]["greatest"] < 1e-3
 
 
 def test_a_ball_of_ones_own_has_the_motion_that_the_case_has(rows, body, tmp_path, said):

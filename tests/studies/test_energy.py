@@ -1,12 +1,9 @@
 """The energy of the map: X₃(H), the section, resonances, ranges and drift."""
 
-import json
-
 import numpy as np
 import pytest
 
 import chapsym
-from chapsym.studies import checkout
 from research import energy
 from research.energy.amplitude import amplitude, drift, loop_change
 from research.energy.continuous import Level
@@ -117,28 +114,3 @@ def test_drift_finds_a_slope_and_its_error():
     slope, error = drift(0.01 * noise + np.linspace(0, 1, 64_000))
     assert slope == pytest.approx(1, abs=4 * error)
     assert error < 1e-3
-
-
-@pytest.mark.thorough
-def test_sentences_and_figures(tmp_path, monkeypatch):
-    monkeypatch.setattr("research.units.cores", lambda: 1)
-    monkeypatch.setattr(energy, "_units", lambda resonant, quick: small_units(resonant, quick))
-    found = energy.study(quick=True)
-    json.dumps(found, allow_nan=False)
-    text = " ".join(energy.sentences(found))
-    assert "T = 24.64334" in text
-    first = [path.read_bytes() for path in checkout.save_figures("research.energy", energy.DRAWN, found, tmp_path)]
-    assert all(b"<svg" in one for one in first)
-
-
-def small_units(resonant, quick, all_units=energy._units):
-    """The units of the quick study, each with few steps."""
-    from research.units import Unit
-
-    def shorter(unit):
-        arguments = {**unit.arguments}
-        if "steps" in arguments:
-            arguments["steps"] = 3000
-        return Unit(unit.function, arguments)
-
-    return [(group, shorter(unit)) for group, unit in all_units(resonant, quick)]

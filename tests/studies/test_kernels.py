@@ -108,11 +108,8 @@ def test_measured_rows():
     seen = []
     found = kernels.Kernels(True, seen.append, ["energy", "momentum"])
     assert seen == ["kernels: energy", "kernels: momentum"]
-    assert [(r["kernel"], r["output"]) for r in found.rows] == [
-        ("energy", ""),
-        ("momentum", "𝒦"),
-        ("momentum", "⟨𝒦,γ⟩"),
-    ]
+    outputs = [("energy", ""), ("momentum", "𝒦"), ("momentum", "⟨𝒦,γ⟩")]
+    assert [(r["kernel"], r["output"]) for r in found.rows] == outputs
     for row in found.rows:
         kernel, worst = row["kernel"], row["worst"]
         assert set(row["strata"]) == set(states.CHANGES)

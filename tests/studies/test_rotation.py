@@ -36,21 +36,16 @@ def sixty():
 
 
 @pytest.mark.parametrize("case", LEVELS)
-def test_the_sphere_and_the_relation_are_displaced_alike(case, sixty):
+def test_the_sphere_and_the_relation_are_displaced_alike_and_the_chord_form_holds(case, sixty):
     level = Level(*case)
     for phase in ("0", "2/3", "-7/5", "5"):
         moved = level.displacement(phase, 5, 0)
         assert moved > 0
         assert abs(moved - Relation(level).displacement(phase, 5, 0)) < sixty
-
-
-@pytest.mark.parametrize("case", LEVELS)
-def test_the_chord_form_holds_on_the_sphere(case, sixty):
-    level, phase = Level(*case), number("3/7")
-    relation = Relation(level)
+    relation, phase = Relation(level), number("3/7")
     u, after = level.argument(phase), level.argument(level.lift(phase, 1))
     assert abs(relation.chord(u, after)) < sixty * abs(relation.momentum((after - u) / 3))
-    assert abs(relation.chord(u, after + arb("1e-20"))) > arb("1e-25")  # and for another step it does not
+    assert abs(relation.chord(u, after + arb("1e-20"))) > arb("1e-25")  # and for another step it does not hold
 
 
 @pytest.mark.parametrize("case", LEVELS)

@@ -47,14 +47,17 @@ def test_the_frontier_and_what_is_dominated_and_equal_points_are_not():
     assert [digits_of(x, 30) for x in (1e-5, 0.0, 2.0)] == pytest.approx([5, 30, 0])
 
 
-def test_the_reference_agrees_with_a_run_in_double_double():
+def test_the_reference_agrees_with_a_run_in_double_double_and_says_where_it_has_not_its_digits(monkeypatch):
     """A Taylor series, and a composition of the map, which has nothing of it."""
     request = sample("contact", 2.0)
     run = take(request, Method(NAMED["double-double"], 8), 1600, 16)
     assert true_error(request, run, truth(request, 25)) < 1e-21
+    monkeypatch.setattr(reference, "LONGEST", 1e-9)
+    with pytest.raises(trade.NotComparable, match="not enough for 34 digits"):
+        truth(request, 34)
 
 
-def test_random_requests_are_met():
+def test_random_requests_are_met_and_one_that_is_not_is_told():
     found = measure(quick=True, say=lambda text: None)
     assert found.hits == len(found.outcomes) == 5
     for one in found.outcomes:
@@ -63,11 +66,6 @@ def test_random_requests_are_met():
     assert plain["hits"] == 5
     json.dumps(plain, allow_nan=False)
     assert trade.missed({"requests": found}) is None
-
-
-def test_a_request_that_is_not_met_is_told():
-    one = measure(quick=True, count=1).outcomes[0]
-    assert one.error <= one.request.accuracy
     found = Outcomes([one, replace(one, error=2 * one.request.accuracy)])
     assert trade.missed({"requests": found}) == "1 of 2 requests were not met"
 
@@ -81,13 +79,6 @@ def test_a_section_is_measured():
         digits = [p.digits for p in sorted(found.points, key=lambda p: -p.step) if p.name == name]
         most = 6 if name.startswith("single") else 12.5
         assert all(b > a or min(a, b) > most for a, b in pairwise(digits)), name
-
-
-def test_a_reference_without_its_digits_is_told(monkeypatch):
-    request = sample("contact", 2.0)
-    monkeypatch.setattr(reference, "LONGEST", 1e-9)
-    with pytest.raises(trade.NotComparable, match="not enough for 34 digits"):
-        truth(request, 34)
 
 
 def test_a_figure_is_drawn(tmp_path):

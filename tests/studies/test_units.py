@@ -12,6 +12,8 @@ from waiting import GUARD, INTERRUPTIBLE, until
 
 from chapsym import sources
 from chapsym.dynamics import BadInput
+from chapsym.studies import checkout
+from research import chaos, energy
 from research import units as units_module
 from research.units import Unit, run_units
 
@@ -27,9 +29,13 @@ def test_results_are_in_the_order_of_the_units(tmp_path):
     assert seen == [(i, 4) for i in range(5)]
 
 
-def test_what_is_kept_is_not_computed_again(tmp_path):
+def test_what_is_kept_is_not_computed_again_and_a_line_that_was_cut_off_is(tmp_path):
     path = tmp_path / "u.jsonl"
     run_units(units(), path)
+    text = path.read_text()
+    path.write_text(text[:-9])
+    assert run_units(units(), path) == [{"n": i} for i in range(4)]
+    assert sorted(path.read_text().splitlines()) == sorted(text.splitlines())
     lines = path.read_text().splitlines()
     lines[1] = json.dumps(units_module._record(json.loads(lines[1])["key"], "kept"))
     path.write_text("\n".join(lines) + "\n")
@@ -76,15 +82,6 @@ def test_two_studies_do_not_write_one_file(tmp_path):
             run_units(units(1), path)
     assert run_units(units(1), path) == [{"n": 0}]
     assert len(path.read_text().splitlines()) == 2
-
-
-def test_a_line_that_was_cut_off_is_computed_again(tmp_path):
-    path = tmp_path / "u.jsonl"
-    run_units(units(), path)
-    text = path.read_text()
-    path.write_text(text[:-9])
-    assert run_units(units(), path) == [{"n": i} for i in range(4)]
-    assert sorted(path.read_text().splitlines()) == sorted(text.splitlines())
 
 
 @pytest.mark.parametrize("line", ["first", "[" * 10**5, '{"key": "a", "result": 1}', "damaged"])
@@ -142,3 +139,24 @@ def test_what_is_no_address_is_said_before_a_client_is_made(monkeypatch):
     monkeypatch.setattr(distributed, "Client", lambda *arguments, **options: pytest.fail("a client was made"))
     with pytest.raises(BadInput, match="'nonsense' is no address of a Dask scheduler"):
         run_units(units(), None, scheduler="nonsense")
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize(
+    ("study", "less", "said"),
+    [(chaos, {"orbits": 16, "steps": 2000}, "integrable: 0 of"), (energy, {"steps": 3000}, "T = 24.64334")],
+)
+def test_a_study_of_few_steps_has_its_sentences_and_figures(study, less, said, tmp_path, monkeypatch):
+    def small(*how, all_units=study._units):
+        """The units of the quick study, each with fewer orbits and steps."""
+        for group, one in all_units(*how):
+            yield group, Unit(one.function, one.arguments | {k: v for k, v in less.items() if k in one.arguments})
+
+    monkeypatch.setattr(units_module, "cores", lambda: 1)
+    monkeypatch.setattr(study, "_units", lambda *how: list(small(*how)))
+    found = study.study(quick=True)
+    json.dumps(found, allow_nan=False)
+    assert said in " ".join(study.sentences(found))
+    drawn = checkout.save_figures(study.__name__, study.DRAWN, found, tmp_path)
+    assert drawn
+    assert all(b"<svg" in one.read_bytes() for one in drawn)
