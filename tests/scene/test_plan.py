@@ -33,13 +33,17 @@ def test_a_cut_run_is_the_whole_one_up_to_roundings(members):
         assert np.abs(whole[name] - parts[name]).max() <= 100 * 2**-53 * max(np.abs(whole[name]).max(), 1)
 
 
-def test_the_map_is_that_of_trajectory_to_the_bit(members):
+def test_the_map_is_that_of_trajectory_to_the_bit_and_omega_and_the_energy_are_those_of_K(members):
     some = members()
     columns, _ = rolled(planned(some, Task(STATE, 100, 3, 0.01)))
     run = chapsym.trajectory(some.ball, some.momentum, some.gamma, 100, every=3, contact=True, time_step=0.01)
     for name in ("momentum", "gamma", "attitude", "contact"):
         assert (columns[name] == getattr(run, name)).all()
     assert (columns["energy"] == run.kinetic_energy()).all()
+    omega, gamma, D = columns["omega"], columns["gamma"], some.ball.D[:, np.newaxis, np.newaxis]
+    K = some.ball.inertia[:, np.newaxis] * omega + D * np.cross(gamma, np.cross(omega, gamma))
+    assert np.abs(0.01 * K / columns["momentum"] - 1).max() < 1e-12
+    assert np.abs((K * omega).sum(-1) / 2 / columns["energy"] - 1).max() < 1e-13
 
 
 def test_only_what_is_asked_for_is_followed_and_kept(members):
@@ -218,15 +222,6 @@ def test_a_cost_is_nominal_and_grows_with_steps_digits_and_dimensions(members):
         ball = chapsym.BallN(np.arange(1.0, n + 1)[np.newaxis], np.array([3.0]))
         high = Members(("1",), ball, np.zeros((1, n, n)), np.eye(n)[-1:])
         assert seconds(high, 10) / 10 == pytest.approx(step, rel=0.5)
-
-
-def test_the_angular_velocity_and_the_energy_are_those_of_the_momentum(members):
-    some = members()
-    columns, _ = rolled(planned(some, Task(("momentum", "gamma", "omega", "energy"), 40, 3, 0.01)))
-    omega, gamma, D = columns["omega"], columns["gamma"], some.ball.D[:, np.newaxis, np.newaxis]
-    K = some.ball.inertia[:, np.newaxis] * omega + D * np.cross(gamma, np.cross(omega, gamma))
-    assert np.abs(0.01 * K / columns["momentum"] - 1).max() < 1e-12
-    assert np.abs((K * omega).sum(-1) / 2 / columns["energy"] - 1).max() < 1e-13
 
 
 def test_31_digits_are_refused_in_other_axes(members):
