@@ -53,9 +53,8 @@ TENSOR = "6,1/2,-0.3;1/2,5,0.2;-0.3,0.2,7/2"
 
 
 def test_an_inertia_tensor_has_nine_numbers_and_the_step_is_in_its_axes():
-    assert answer("step", "--inertia", "6,0,0;0,5,0;0,0,3", *STEP[3:], "--digits", "40") == answer(
-        *STEP, "--digits", "40"
-    )
+    digits = "--digits", "40"
+    assert answer("step", "--inertia", "6,0,0;0,5,0;0,0,3", *STEP[3:], *digits) == answer(*STEP, *digits)
     ball = dynamics.Ball.from_inertia([[6, 0.5, -0.3], [0.5, 5, 0.2], [-0.3, 0.2, 3.5]], D=3)
     step = dynamics.step(ball, (1, -0.5, 0.75), (2 / 7, 3 / 7, 6 / 7))
     for text in (TENSOR, TENSOR.replace(";", ",")):
@@ -141,16 +140,7 @@ def test_help_shows_an_example_of_each_command():
         assert f"Example: chapsym {command}" in text, command
         assert not re.search("<[a-z]", text), f"chapsym {command} -h shows a type of Python's"
     kinds = re.findall(r"^  ([\w-]+)  ", chapsym("certify", "-h").stdout, re.MULTILINE)
-    assert kinds == [
-        "no-invariant-measure",
-        "heteroclinic",
-        "periodic-orbit",
-        "energy-drift",
-        "check",
-        "manifest",
-        "motion",
-        "run",
-    ]
+    assert " ".join(kinds) == "no-invariant-measure heteroclinic periodic-orbit energy-drift check manifest motion run"
     assert not [kind for kind in kinds if re.search("<[a-z]", chapsym("certify", kind, "-h").stdout)]
 
 
@@ -223,21 +213,15 @@ def test_a_title_of_a_register_can_neither_erase_a_line_nor_add_one(tmp_path, fo
         assert "difference" in shown
 
 
-def test_output_that_cannot_be_written_is_one_sentence():
+def test_output_that_cannot_be_written_is_one_sentence_and_that_nobody_reads_ends_with_141():
+    """The pipe is closed before anything is written, so that no buffer takes it."""
     command = [sys.executable, "-m", "chapsym", *STEP]
     with open("/dev/full", "w") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr == "chapsym: the output cannot be written: No space left on device\n"
-
-
-def test_output_that_nobody_reads_ends_with_141():
-    """The pipe is closed before anything is written, so that no buffer takes it."""
+    assert (done.returncode, done.stderr) == (2, "chapsym: the output cannot be written: No space left on device\n")
     reader, writer = os.pipe()
     os.close(reader)
-    done = subprocess.run(
-        [sys.executable, "-m", "chapsym", *STEP], stdout=writer, stderr=subprocess.PIPE, text=True, check=False
-    )
+    done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, check=False)
     os.close(writer)
     assert (done.returncode, done.stderr) == (141, "")
 

@@ -10,11 +10,8 @@ import chapsym
 
 SECTION = re.compile(r"^(\w+)\n-{3,}\n", re.MULTILINE)
 FUNCTIONS = [name for name in chapsym.__all__ if inspect.isfunction(getattr(chapsym, name))]
-CLASSES = [
-    name
-    for name in chapsym.__all__
-    if inspect.isclass(one := getattr(chapsym, name)) and not issubclass(one, Exception | int)
-]
+PUBLIC = {name: getattr(chapsym, name) for name in chapsym.__all__}
+CLASSES = [name for name, one in PUBLIC.items() if inspect.isclass(one) and not issubclass(one, Exception | int)]
 
 
 def sections(name):
@@ -29,25 +26,16 @@ def entries(section):
     return [name.lstrip("*") for head in heads for name in head.split(", ")]
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_a_function_has_its_parameters_what_it_returns_and_an_example(name):
-    found = sections(name)
-    assert entries(found["Parameters"]) == list(inspect.signature(getattr(chapsym, name)).parameters)
-    assert {"Returns", "Examples"} <= found.keys()
-    assert ">>>" in found["Examples"]
-
-
-@pytest.mark.parametrize("name", CLASSES)
-def test_a_class_has_its_parameters_or_attributes(name):
-    found = sections(name)
-    assert found.keys() & {"Parameters", "Attributes"}
-
-
 @pytest.mark.parametrize("name", [*FUNCTIONS, *CLASSES])
-def test_examples_run(name):
-    one = getattr(chapsym, name)
-    tests = doctest.DocTestFinder(exclude_empty=True).find(one, name, globs={})
+def test_a_name_has_its_sections_and_examples_that_run(name):
+    found, one = sections(name), getattr(chapsym, name)
+    if name in FUNCTIONS:
+        assert entries(found["Parameters"]) == list(inspect.signature(one).parameters)
+        assert {"Returns", "Examples"} <= found.keys()
+        assert ">>>" in found["Examples"]
+    else:
+        assert found.keys() & {"Parameters", "Attributes"}
     runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
-    for test in tests:
+    for test in doctest.DocTestFinder(exclude_empty=True).find(one, name, globs={}):
         runner.run(test)
     assert runner.summarize(verbose=False).failed == 0

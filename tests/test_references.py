@@ -27,11 +27,8 @@ def test_the_paper_and_the_citation_file_speak_of_the_same_reference_and_version
     (paper,), body = citation["references"], next(body for _, key, body in ENTRIES if key == "fedorov2007")
     found = dict(re.findall(r"^  (\w+) *= \{(.*)\},?$", body, re.M))
     assert paper["title"] == found["title"].replace("{", "").replace("}", "")
-    assert (str(paper["year"]), str(paper["volume"]), paper["number"]) == (
-        found["year"],
-        found["volume"],
-        found["pages"],
-    )
+    numbers = (str(paper["year"]), str(paper["volume"]), paper["number"])
+    assert numbers == (found["year"], found["volume"], found["pages"])
     assert paper["journal"] == found["journal"]
 
 
