@@ -6,6 +6,7 @@ from fractions import Fraction
 import certificate_maker as maker
 import mpmath as mp
 import pytest
+from budget import slow
 from certificate_changes import at, committed, replaced, resealed
 
 from chapsym.checker import Rejected, check
@@ -110,7 +111,8 @@ def test_without_the_branch_the_file_is_beyond_the_bound(right):
 
 
 @pytest.mark.parametrize(
-    ("method", "sentence"), [("half_turned", "close after half a turn"), ("reflected", "the step back is not proved")]
+    ("method", "sentence"),
+    [("half_turned", "close after half a turn"), *slow(("reflected", "the step back is not proved"))],
 )
 def test_the_symmetries_are_those_of_the_step(right, monkeypatch, method, sentence):
     """With another reflection or rotation the branch does not close, or is not its own inverse."""

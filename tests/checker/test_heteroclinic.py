@@ -45,12 +45,12 @@ def by_steps_of_the_ball(x, n):
     return ups
 
 
-def test_the_ends_are_those_of_the_steps_of_the_ball(separatrix):
+def test_the_ends_are_those_of_the_steps_of_the_ball(separatrix, thorough):
     """The relation is that of the three-dimensional map: both half orbits from two points, after 45 steps."""
     with mp.workdps(120):
         c = by_steps_of_the_ball(mp.mpf(10) ** 30, 1)
         c = c[1] - c[0]
-        for x in (mp.mpf(1), mp.mpf(3) / 2):
+        for x in (mp.mpf(1), mp.mpf(3) / 2) if thorough else (mp.mpf(3) / 2,):
             ends = [by_steps_of_the_ball(v, 45) for v in (x, 1 / x)]
             found = mp.exp(sum(ups[-1] - ups[0] - 45 * c for ups in ends))
             product = 1 + 0 * separatrix.D
