@@ -47,8 +47,7 @@ def test_the_tensor_is_that_of_its_principal_moments_in_its_axes():
     assert BALL.mass_tensor.shape == (3,)
     assert BALL.principal.axes is None
     assert BALL.principal.inertia.tolist() == BALL.inertia.tolist()
-    again = pickle.loads(pickle.dumps(BALL))
-    assert (again.axes == BALL.axes).all()
+    assert pickle.loads(pickle.dumps(BALL)) == BALL != BALL.principal
     assert (Ball(BALL.mass_tensor, BALL.D, BALL.radius, BALL.axes).axes == BALL.axes).all()
 
 
@@ -90,14 +89,11 @@ def test_the_motion_is_that_of_the_equations_with_the_whole_tensor():
     energy = (run.angular_momentum() * omega).sum(axis=-1) / 2
     np.testing.assert_allclose(run.kinetic_energy(), energy, rtol=64 * EPS)
     assert run.ball is BALL
+    rolled = chapsym.roll(BALL, OMEGA, 1e-3, 2, gamma=GAMMA)
+    np.testing.assert_allclose(rolled.momentum[0], MOMENTUM, rtol=16 * EPS)
     longer = chapsym.extrapolate(BALL, start[:3], GAMMA, 0.01, 50, attitude=True)
     np.testing.assert_allclose(longer.angular_momentum, exact[:3], atol=1e-9)
     np.testing.assert_allclose(kernels.rotate(longer.attitude, longer.gamma), [0, 0, 1], atol=1e-13)
-
-
-def test_roll_takes_omega_in_the_axes_of_the_tensor():
-    run = chapsym.roll(BALL, OMEGA, 1e-3, 2, gamma=GAMMA)
-    np.testing.assert_allclose(run.momentum[0], MOMENTUM, rtol=16 * EPS)
 
 
 @pytest.mark.parametrize("precision", ["double", "single"])
@@ -228,10 +224,8 @@ def test_no_symmetric_array_is_both_a_tensor_and_three_rows_of_moments(given_):
             lambda: chapsym.step(FAR, **STATE, precision="double-double"),
             "more digits than float64 has are kept in principal ax",
         ),
-        (lambda: chapsym.step(FAR, (1, 2), GAMMA), "momentum must have 3 components"),
         (lambda: chapsym.step(FAR, (1, 2, 3), (0, 0, 2)), "gamma must be a unit vector"),
         (lambda: chapsym.roll(BALL, OMEGA, 1e-3, 2, attitude=(1, 0, 0, 0), gamma=GAMMA), "attitude and gamma disagree"),
-        (lambda: chapsym.trajectory(FAR, [(1, 2, 3)] * 2, [GAMMA] * 3, 2), "do not broadcast"),
     ],
 )
 def test_what_cannot_be_is_one_sentence(build, sentence):

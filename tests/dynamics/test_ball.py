@@ -18,11 +18,6 @@ def test_inertia_and_mass_tensor_are_two_ways_to_say_the_same():
     assert ball.inertia.tolist() == [6, 5, 3]
 
 
-def test_a_flat_body_survives_rounding():
-    ball = Ball.from_inertia((0.1, 0.2, 0.1 + 0.2), D=1)
-    assert (ball.mass_tensor >= 0).all()
-
-
 @pytest.mark.parametrize(
     ("build", "sentence"),
     [
@@ -36,7 +31,6 @@ def test_a_flat_body_survives_rounding():
         (lambda: Ball((1, -2, 3), 1), "negative moment -2"),
         (lambda: Ball((1, 2, 3), -1), "D = m ρ² must not be negative"),
         (lambda: Ball((1, 0, 0), 0), "no inertia about one of its axes"),
-        (lambda: Ball((0, 0, 0), 0), "no inertia about one of its axes"),
         (lambda: Ball((0, 0, 0), 1), "no inertia about the vertical"),
         (lambda: Ball((1, np.nan, 1), 1), "mass_tensor must be finite"),
         (lambda: Ball((1, 1), 1), "mass_tensor must have 3 components"),
@@ -46,7 +40,6 @@ def test_a_flat_body_survives_rounding():
         (lambda: Ball((1e308, 1e308, 0), 1), "beyond the range of float64"),
         (lambda: Ball((1, 2, 4), Fraction(1, 10**400)), "D is below the range of float64"),
         (lambda: Ball.from_mass_tensor((1, 2, 4), mass=1e-200, radius=1e-100), "D = m ρ² is below the range"),
-        (lambda: Ball.from_mass_tensor((1, 2, 4), mass=1.0, radius=1e-155), "D = m ρ² is below the range"),
     ],
 )
 def test_a_ball_that_cannot_be_is_refused(build, sentence):
@@ -75,11 +68,6 @@ def test_balls_with_the_same_parameters_are_equal_and_a_copy_is_as_good(kind):
     for copied in (pickle.loads(pickle.dumps(one)), copy.deepcopy(one)):
         assert copied == one
         assert not copied.mass_tensor.flags.writeable
-
-
-def test_a_copy_of_a_ball_keeps_its_axes():
-    ball = Ball.from_inertia([[3.0, 0.1, 0.0], [0.1, 4.0, 0.0], [0.0, 0.0, 5.0]], mass=1.0, radius=1.0)
-    assert copy.deepcopy(ball) == ball != ball.principal
 
 
 def test_a_ball_does_not_change_with_the_array_it_was_made_from():

@@ -1,6 +1,5 @@
 """All branches of the map: exact counts, enclosures, the fast version in float64, and the command."""
 
-import itertools
 import json
 from fractions import Fraction
 
@@ -11,6 +10,7 @@ import pytest
 import sympy as sp
 from budget import examples
 from commands import chapsym as run
+from commands import refused
 from crowds import seeded
 from hypothesis import given
 from hypothesis import strategies as st
@@ -70,12 +70,17 @@ def in_float64(state):
 
 
 @pytest.mark.parametrize("count", STATES)
-def test_every_number_of_rotations_occurs(count):
+def test_every_number_of_rotations_occurs_in_order_of_their_angles(count):
     found = solve(STATES[count])
     assert (len(found.solutions), found.complete, found.reason) == (count, True, None)
     assert sum(multiplicities(found)) % 2 == 0
     assert sorted(multiplicities(found))[:-1] == [1] * (count - 1)
     assert counted(STATES[count]) == (count, sum(multiplicities(found)))
+    written = found.write()["solutions"]
+    angles = [s["angle"] for s in written]
+    assert angles == sorted(angles)
+    assert all(0 <= angle <= np.pi for angle in angles)
+    assert all(next(x for x in (s["q0"], *s["q"]) if x) > 0 for s in written)
 
 
 CONTEXT = mpmath.MPContext()
@@ -124,15 +129,6 @@ def test_a_rotation_is_among_those_of_its_momentum(ball, gamma, q):
         assert upright in [[s["q0"], *s["q"]] for s in found["solutions"]]
 
 
-@pytest.mark.parametrize("count", STATES)
-def test_order_and_signs(count):
-    found = solve(STATES[count]).write()["solutions"]
-    angles = [s["angle"] for s in found]
-    assert angles == sorted(angles)
-    assert all(0 <= a <= np.pi for a in angles)
-    assert all(next(x for x in (s["q0"], *s["q"]) if x) > 0 for s in found)
-
-
 def test_without_momentum_there_are_the_identity_and_three_half_turns():
     found = solve(((1, 2, 4), 3, (0, 0, 0), ("2/7", "3/7", "6/7"))).write()
     assert [[s["q0"], *s["q"]] for s in found["solutions"]] == np.eye(4).tolist()
@@ -156,13 +152,6 @@ def test_infinitely_many_are_told(J, D, K, reason):
     assert [s.small_rotation for s in found.solutions] == [True]
 
 
-def test_the_middle_axis_has_a_whole_curve_of_rotations():
-    """What the reason says of 𝒦 = (0, 3, 0): every q ∝ (x, y, 3x, y) has it."""
-    for x, y in ((1, 0), (1, 1), (2, -3)):
-        q = (x, y, 3 * x, y)
-        assert generated.momentum(*q, 0, 0, 1, 1, 2, 4, 0) == (0, 3 * sum(c * c for c in q), 0)
-
-
 @pytest.mark.parametrize(("size", "count"), [("6/5", 2), (2, 1), ("11/5", 0)])
 def test_equal_moments_have_a_closed_form(size, count):
     """J = 1, D = 0: 𝒦 = 4q₀q, so that sin θ = |𝒦|/2, though the quadrics have a conic of complex points in common."""
@@ -172,14 +161,6 @@ def test_equal_moments_have_a_closed_form(size, count):
     angles = [s["angle"] for s in found["solutions"]]
     assert angles == pytest.approx([angle, np.pi - angle][:count], rel=1e-15)
     assert [s["multiplicity"] for s in found["solutions"]] == {2: [1, 1], 1: [2], 0: []}[count]
-
-
-def test_isotropic_points_are_no_rotations():
-    """At D = 0 four of the eight complex points have q₀² + |q|² = 0."""
-    state = ((1, 2, 4), 0, (1, "1/2", "1/4"), ("2/7", "3/7", "6/7"))
-    found = solve(state)
-    assert found.complete
-    assert len(found.solutions) <= 4
 
 
 def test_a_tiny_momentum_keeps_its_digits():
@@ -331,9 +312,8 @@ def test_the_command_gives_the_contracts_fields():
     step = json.loads(run("step", *COMMAND[1:], "--json").stdout)
     assert found["solutions"][0]["q0"] == pytest.approx(step["q0"], rel=1e-15)
     strings = json.loads(run(*COMMAND, "--json", "--digits", "30").stdout)["solutions"]
-    for s, t in itertools.product(found["solutions"][:1], strings[:1]):
-        assert float(t["angle"]) == s["angle"]
-        assert len(t["angle"]) > 30
+    assert float(strings[0]["angle"]) == found["solutions"][0]["angle"]
+    assert len(strings[0]["angle"]) > 30
 
 
 def test_the_command_prints_a_table():
@@ -355,12 +335,7 @@ def test_the_command_prints_a_table():
         (["--gamma", "0,0,1.1"], "gamma must be a unit vector"),
         (["--momentum", "1,2"], "--momentum takes 3 numbers"),
         (["--momentum", "1e400,0,0"], "beyond the range of float64"),
-        (["--mass-tensor", "-1,2,4"], "negative moment"),
-        (["--digits", "9", "--ball", "9"], "choose one of"),
     ],
 )
 def test_the_command_refuses_bad_input_in_one_sentence(more, sentence):
-    done = run(*COMMAND, *more)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert sentence in done.stderr
-    assert done.stderr.count("\n") == 1
+    assert sentence in refused(*COMMAND, *more)

@@ -23,7 +23,7 @@ def det(ball, q, gamma):
 @pytest.mark.parametrize("D", [0.0, 1e2, *slow(1.0, 1e4)])
 def test_a_fold_is_where_the_jacobian_is_singular(D, thorough):
     """To roundoff: the residual of 𝒦(q) = t𝒦 and det T, in units of Λmax; and t."""
-    ball, K, gamma = seeded(50 if thorough else 15, D)
+    ball, K, gamma = seeded(50 if thorough else 8, D)
     found = fold(ball, K, gamma)
     assert found.settled.all()
     assert np.abs(det(ball, found.rotation, gamma)).max() < 16 * 2.0**-52
@@ -40,7 +40,7 @@ def test_a_fold_is_where_the_jacobian_is_singular(D, thorough):
 @pytest.mark.parametrize("D", [0.0, 5.0, *slow(300.0)])
 def test_two_rotations_merge_at_a_fold(D):
     """Below they are 2√(2δ)·c apart for a distance δ, above they are gone: the count drops by 2."""
-    ball, K, gamma = seeded(20, D)
+    ball, K, gamma = seeded(8, D)
     found = fold(ball, K, gamma)
     t = found.reach[:, np.newaxis]
     above = branches(ball, t * (1 + 1e-8) * K, gamma)
@@ -53,7 +53,7 @@ def test_two_rotations_merge_at_a_fold(D):
         assert (below.small >= 0).all()
         away = np.sort(np.linalg.norm(below.rotation - found.rotation[:, np.newaxis], axis=-1), axis=1)
         apart.append(away[:, :2])
-    assert apart[0] / apart[1] == pytest.approx(np.full((20, 2), 10.0), rel=0.02)
+    assert apart[0] / apart[1] == pytest.approx(np.full((8, 2), 10.0), rel=0.02)
 
 
 def test_closed_forms():
@@ -95,15 +95,6 @@ def test_another_branch_folds_too(thorough):
             below, above = (branches(one, top.reach * s * k, g) for s in (1 - 1e-7, 1 + 1e-7))
             assert below.count - above.count == 2
             assert np.linalg.norm(below.rotation - top.rotation, axis=-1)[: below.count].min() < 1e-2
-
-
-def test_small_folds_come_in_pairs_of_branches():
-    """Two branches that end in one fold have the same."""
-    found = branches(BALL, (1, -0.5, 0.75), GAMMA)
-    tops = [float(fold(BALL, (1, -0.5, 0.75), GAMMA, rotation=q).reach) for q in found.rotation[: found.count]]
-    assert found.count == 4
-    assert sorted(tops)[0] == pytest.approx(sorted(tops)[1], rel=1e-13)
-    assert sorted(tops)[2] == pytest.approx(sorted(tops)[3], rel=1e-13)
 
 
 def test_following_the_small_rotation_is_stepping():
@@ -193,7 +184,7 @@ def test_a_path_may_end_at_rest_and_go_through_it():
 
 
 def test_a_ball_has_the_same_bits_in_a_batch_and_alone():
-    random, count = np.random.default_rng(1), 15
+    random, count = np.random.default_rng(1), 8
     balls = Ball(np.exp(random.uniform(-2, 2, (count, 3))), np.exp(random.uniform(-2, 2, count)))
     momentum, gamma = 0.1 * random.standard_normal((count, 3)), random.standard_normal((count, 3))
     gamma /= np.linalg.norm(gamma, axis=1, keepdims=True)

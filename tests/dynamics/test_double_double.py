@@ -65,7 +65,7 @@ def condition(state):
 def test_steps_keep_the_promise_of_float64_squared(stratum):
     """𝒦 and γ within 4(1 + |q|κ) units of the matrix equation's, as `chapsym check` has it, the units squared."""
     rng = np.random.default_rng([31, list(check.STRATA).index(stratum)])
-    for _ in range(4):
+    for _ in range(3):
         state = check.STRATA[stratum](rng)
         run = chapsym.trajectory(chapsym.Ball(state.J, state.D), state.K, state.g, 1, precision="double-double")
         g = [HIGH.mpf(float(x)) for x in state.g]
@@ -79,9 +79,12 @@ def test_steps_keep_the_promise_of_float64_squared(stratum):
 
 
 @pytest.mark.parametrize(
-    ("order", "steps", "budget"), [(2, 1, 8), (2, 30, 40), (2, 1000, 1000), (4, 12, 200), (6, 12, 200), (8, 12, 200)]
-)
-@pytest.mark.parametrize(("up", "start"), [(1, True), (-1, True), (1, START)], ids=["up", "down", "given"])
+    ("order", "steps", "budget", "up", "start"),
+    [
+        (2, 1, 8, -1, True), (2, 30, 40, 1, START), (2, 1000, 1000, 1, True), (4, 12, 200, -1, True),
+        (6, 12, 200, 1, START), (8, 12, 200, 1, True),
+    ],
+)  # fmt: skip
 def test_a_run_against_60_digits(order, steps, budget, up, start):
     """An error of some u² at each step, which the motion carries on linearly."""
     options = {"every": steps, "order": order, "attitude": start, "contact": True}
@@ -94,12 +97,8 @@ def test_a_run_against_60_digits(order, steps, budget, up, start):
 
 def test_a_batch_of_another_order_is_not_taken_in_blocks():
     """Blocks have the stage of order 2 only; 4 balls would fill one."""
-    n, balls = (
-        double_double.FEW,
-        chapsym.Ball(
-            np.array([J] * double_double.FEW), np.full(double_double.FEW, D), np.full(double_double.FEW, RADIUS)
-        ),
-    )
+    n = double_double.FEW
+    balls = chapsym.Ball([J] * n, [D] * n, [RADIUS] * n)
     together = chapsym.trajectory(balls, [K] * n, [GAMMA] * n, 3, order=4, precision="double-double")
     alone = chapsym.trajectory(BALL, K, GAMMA, 3, order=4, precision="double-double")
     for a, b in ((together, alone), (together.low, alone.low)):

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import chapsym as command
+from commands import refused
 from flint import arb, ctx, fmpq
 
 import chapsym
@@ -50,6 +51,12 @@ def turned(q, v):
     return product(product(q, (0, *v)), back)[1:]
 
 
+def tensor_of(moments):
+    """The tensor in the axes of the body of principal moments."""
+    columns = [turned(TURN, e) for e in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    return [[sum(m * c[i] * c[j] for m, c in zip(moments, columns, strict=True)) for j in range(3)] for i in range(3)]
+
+
 def motion(tmp_path, **values):
     path = tmp_path / "scene.toml"
     words = {name: json.dumps(value, default=str) if name != "space" else value for name, value in values.items()}
@@ -61,8 +68,7 @@ def motion(tmp_path, **values):
 @pytest.mark.parametrize("space", [False, True])
 def test_it_is_the_motion_in_principal_axes_turned(tmp_path, space):
     moments, omega, rotor = (F(6, 1000), F(7, 1000), F(9, 1000)), (F(3), F(-2), F(1)), (F(0), F(1, 500), F(-1, 300))
-    columns = [turned(TURN, [F(int(i == j)) for i in range(3)]) for j in range(3)]
-    tensor = [[sum(m * c[i] * c[j] for m, c in zip(moments, columns, strict=True)) for j in range(3)] for i in range(3)]
+    tensor = tensor_of(moments)
     assert all(tensor[i][j] for i in range(3) for j in range(3))
     how = 'axes = "space"' if space else ""
     one = motion(tmp_path, inertia=moments, rotor=rotor, omega=omega, attitude=product(UP, TURN), space=how)[1]
@@ -96,9 +102,8 @@ def test_the_bowling_ball_has_the_digits_of_its_block(tmp_path):
     )
     assert set(found["errors"]) == {"gamma", "omega", "attitude", "contact"}
     assert 0 < max(found["errors"].values()) < 1e-6
-    words = command("certify", "motion", path, "--certificate", tmp_path / "c.json")
-    assert (words.returncode, words.stdout) == (2, "")
-    assert "a certificate is of principal axes" in words.stderr
+    said = refused("certify", "motion", path, "--certificate", tmp_path / "c.json")
+    assert "a certificate is of principal axes" in said
 
 
 def matrix(rows):
@@ -114,6 +119,9 @@ def assert_are_of(found, tensor):
 
 
 def test_axes_and_moments_are_those_of_the_tensor():
+    assert principal(matrix([[2, 0, 0], [0, 1, 0], [0, 0, 1]])).turn == (1, 0, 0, 0)
+    with pytest.raises(TooWide):
+        principal(matrix([[3, 1, 1], [1, 3, 1], [1, 1, 3]]))
     rng = np.random.default_rng(5)
     for _ in range(20):
         A = rng.integers(-9, 9, (3, 3))
@@ -124,13 +132,7 @@ def test_axes_and_moments_are_those_of_the_tensor():
         assert np.allclose(sorted(float(x) for x in found.moments), np.linalg.eigvalsh(tensor), atol=1e-12)
 
 
-def test_a_diagonal_tensor_has_its_axes_and_equal_moments_none():
-    assert principal(matrix([[2, 0, 0], [0, 1, 0], [0, 0, 1]])).turn == (1, 0, 0, 0)
-    with pytest.raises(TooWide):
-        principal(matrix([[3, 1, 1], [1, 3, 1], [1, 1, 3]]))
-
-
-@pytest.mark.parametrize("v", [(1, 2, 2), (1, -3, 2), (3, 4, 0), (2, 0, 1), (0, 1, -1)])
+@pytest.mark.parametrize("v", [(1, -3, 2), (3, 4, 0), (0, 1, -1)])
 @pytest.mark.parametrize("s", [F(1, 3), F(-1, 40)])
 def test_of_rational_numbers_two_moments_may_be_equal(v, s):
     tensor = [[F(7, 5) * (i == j) + s * v[i] * v[j] for j in range(3)] for i in range(3)]
@@ -148,14 +150,12 @@ def test_of_rational_numbers_two_moments_may_be_equal(v, s):
 def test_a_tensor_from_python_has_the_motion_of_its_principal_moments(J):
     """With a rotor and without: the vectors are those in principal axes, turned."""
     D, K, rotor = F(3), (F(1), F(-1, 2), F(3, 4)), (F(1, 5), F(0), F(-1, 7))
-    columns = [turned(TURN, e) for e in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
-    tensor = [[sum(J[k] * columns[k][i] * columns[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
     up = (F(2, 7), F(3, 7), F(6, 7))
     for kind in ({}, {"rotor": rotor}):
         straight = chapsym.certified_motion(chapsym.ExactBall(J, D, 1), K, up, [1, 2], **kind)
         other = {name: turned(TURN, v) for name, v in kind.items()}
         given = turned(TURN, K), turned(TURN, up)
-        askew = chapsym.certified_motion(chapsym.ExactBall(tensor, D, 1), *given, [1, 2], **other)
+        askew = chapsym.certified_motion(chapsym.ExactBall(tensor_of(J), D, 1), *given, [1, 2], **other)
         assert askew.stopped is None
         for name in ("gamma", "angular_momentum", "omega"):
             for x, y in zip(getattr(straight, name), getattr(askew, name), strict=True):
@@ -171,7 +171,6 @@ def test_a_tensor_from_python_has_the_motion_of_its_principal_moments(J):
         ([[1, 0, 0], [0, -1, 0], [0, 0, 4]], "negative moment -1"),
         ([[1, 2], [2, 2]], "mass_tensor must be 3 numbers"),
         (np.ones((2, 2)), r"numbers, not array\(\[\[1., 1.\], \[1., 1.\]\]\)$"),
-        ([[1, 0, 0], [0, 2], [0, 0, 4]], "mass_tensor must be 3 numbers"),
         ([1, [2], 4], "mass_tensor 2 must be a number"),
     ],
 )

@@ -10,6 +10,7 @@ import pytest
 from budget import slow
 from certificate_changes import resealed
 from commands import chapsym as command
+from commands import refused
 from contained import ORDINARY, VECTORS, random_case, started, worst
 from flint import arb, ctx
 from motion_truth import Truth, number
@@ -18,7 +19,6 @@ import chapsym
 from chapsym import BadInput, ExactBall, certified_motion, checker
 from chapsym.dynamics import enclosed_motion
 from chapsym.dynamics.enclosed_motion import decimal, follow, written
-from chapsym.dynamics.flow import path as paths
 from chapsym.dynamics.flow import start as exact
 
 
@@ -65,7 +65,7 @@ EXTREMES = {
 #: Of which the same without a rotor is among the others, or nearly.
 SLOW = (
     "a rotor, D is 0", "a rotor, D is a million times J", "a rotor, equal moments", "D is a millionth of J",
-    "a rod without thickness",
+    "a rod without thickness", "a heavy rotor", "near the separatrix",
 )  # fmt: skip
 
 
@@ -136,54 +136,13 @@ def test_numpys_integers_are_integers():
 def test_many_digits_with_a_rotor_keep_its_integrals():
     """By the corrections that gain more bits each time; ⟨K,γ⟩, |K|² and ½⟨K - a, ω⟩ are those of the start."""
     start = (3, 1, 4), ("2/7", "3/7", "6/7"), ["0", "1/2"]
-    found = certified_motion(ExactBall((1, 2, 4), 3), *start, 200, rotor=A)
+    found = certified_motion(ExactBall((1, 2, 4), 3), *start, 120, rotor=A)
     assert found.stopped is None
-    with ctx.workprec(800):
+    with ctx.workprec(500):
         inside = exact.balls([F(x) for x in A])
         states = zip(found.angular_momentum, found.gamma, found.omega, strict=True)
         first, last = ([K @ g, K @ K, (K - inside) @ w] for K, g, w in states)
-        assert all(x.overlaps(y) and y.rad() < arb("1e-195") for x, y in zip(first, last, strict=True))
-
-
-def test_a_rotor_that_is_left_out_is_seen(monkeypatch):
-    """Of the equations that are proved: only κ has it."""
-    from chapsym.dynamics.flow import deviation
-
-    real = deviation.defects
-    monkeypatch.setattr(paths, "defects", lambda p, w, k, body, n: real(p, w, k, body._replace(rotor=(0, 0, 0)), n))
-    case = (*ORDINARY, A)
-    found = follow(started(*case), [F(1)], 15, limit=0.5)
-    assert found.stopped is not None or worst(found, case, [1]) > 1
-
-
-@pytest.mark.parametrize("spoil", ["tail", "defect", "sign"])
-def test_a_wrong_enclosure_does_not_pass_for_one(spoil, monkeypatch):
-    """The equations themselves with a slip: D beside what is fixed in space, a sign, ½ left out."""
-    from chapsym import generated
-
-    real = {"tail": generated.rotation, "defect": generated.contact_momentum, "sign": generated.compose}[spoil]
-    name = real.__name__
-
-    def wrong(*given):
-        result = list(real(*given))
-        result[1] = result[1] * arb("1.000000000001") if spoil != "sign" else -result[1]
-        return tuple(result)
-
-    from chapsym.dynamics.flow import deviation
-
-    monkeypatch.setattr(deviation, "generated", _Kernels(generated, {name: wrong}))
-    found = follow(started(*ORDINARY), [F(1)], 15, limit=0.3)
-    assert found.stopped is not None or worst(found, ORDINARY, [1]) > 1
-
-
-class _Kernels:
-    """Some kernels in the place of others, for one module."""
-
-    def __init__(self, kernels, others):
-        self.kernels, self.others = kernels, others
-
-    def __getattr__(self, name):
-        return self.others.get(name) or getattr(self.kernels, name)
+        assert all(x.overlaps(y) and y.rad() < arb("1e-115") for x, y in zip(first, last, strict=True))
 
 
 def test_the_public_function_takes_numbers_as_they_are_written():
@@ -195,13 +154,10 @@ def test_the_public_function_takes_numbers_as_they_are_written():
         assert found.gamma[0, 0].contains(number("2/7"))
     assert found.times == (0, F(1, 10))
     assert found.attitude[0, 0] > 0
-    same = chapsym.certified_motion(ball, ("0.1", "-0.05", 0), ("2/7", "3/7", "6/7"), "0.1", attitude=found_up())
+    same = chapsym.certified_motion(
+        ball, ("0.1", "-0.05", 0), ("2/7", "3/7", "6/7"), "0.1", attitude=("13/7", "3/7", "-2/7", 0)
+    )
     assert all(x.overlaps(y) for x, y in zip(same.omega[0], found.omega[1], strict=True))
-
-
-def found_up():
-    """The least rotation that turns (2, 3, 6)/7 up, as `least` has it: (1 + z, y, -x, 0)."""
-    return F(13, 7), F(3, 7), F(-2, 7), 0
 
 
 BALL = chapsym.Ball((1, 2, 4), 3)
@@ -210,28 +166,21 @@ BAD = [
     ({"ball": chapsym.Ball(((1, 2, 4), (1, 2, 5)), 3)}, "takes one ball, not a batch"),
     ({"gamma": (1, 1, 1)}, "gamma must be a unit vector"),
     ({"gamma": ("2/7", "3/7", "a")}, "'a' is not a number"),
-    ({"gamma": (0, 1)}, "gamma must be 3 numbers"),
     ({"angular_momentum": (1, float("nan"), 0)}, "angular_momentum 2 must be finite"),
     ({"times": ()}, "times must be one or more"),
     ({"times": (2, 1)}, "each later than the one before"),
     ({"times": -1}, "from 0 on"),
     ({"times": None}, "times must be a number"),
-    ({"times": np.ma.masked}, "times must be a number"),
     ({"times": [[1], [2, 3]]}, "times 1 must be a number"),
     ({"rotor": (1, 2)}, "rotor must be 3 numbers"),
     ({"rotor": (1, 2, 3)}, "angular_momentum must differ from the rotor"),
     ({"digits": 0}, "digits must be a whole number from 1"),
-    ({"digits": 2.5}, "digits must be a whole number from 1"),
     ({"limit": 0}, "limit must be a positive number"),
-    ({"limit": True}, "limit must be a positive number"),
     ({"attitude": (1, 0, 0, 0)}, "attitude must turn gamma to"),
     ({"attitude": (0, 0, 0, 0)}, "attitude must not be 0"),
     ({"ball": ExactBall((0, 0, 1), 3), "gamma": (0, 0, 1)}, "does not resist a turn about the vertical"),
     ({"times": b"12"}, "times must be one or more numbers"),
-    ({"times": {1: 2}}, "times must be one or more numbers"),
     ({"times": ["1e-400"]}, "too far apart"),
-    ({"times": "1e400"}, "too far apart"),
-    ({"angular_momentum": np.eye(3)}, "angular_momentum 1 must be a number"),
     ({"angular_momentum": [np.longdouble(1)] * 3}, "angular_momentum 1 must be a number"),
     ({"gamma": [np.timedelta64(1, "s"), 0, 0]}, "gamma 1 must be a number"),
 ]
@@ -400,10 +349,7 @@ def test_the_command_takes_a_rotor_as_it_is_written(tmp_path):
 
 @pytest.mark.parametrize("words", [("run", "-o", "out.npz"), ("scene", "check")])
 def test_what_has_no_rotor_refuses_one_in_a_sentence(tmp_path, words):
-    done = command(*words, scene(tmp_path, replaced=ROTOR))
-    assert (done.returncode, done.stdout) == (2, "")
-    assert "ball.rotor goes with chapsym certify motion alone" in done.stderr
-    assert len(done.stderr.splitlines()) == 1
+    assert "ball.rotor goes with chapsym certify motion alone" in refused(*words, scene(tmp_path, replaced=ROTOR))
 
 
 def test_a_certificate_of_a_ball_with_a_rotor_is_accepted_and_another_rotor_is_not(tmp_path):
@@ -420,9 +366,8 @@ def test_a_certificate_of_a_ball_with_a_rotor_is_accepted_and_another_rotor_is_n
 
 
 def test_no_certificate_is_written_of_a_rotor_in_turns(tmp_path):
-    done = command("certify", "motion", scene(tmp_path, replaced=ROTOR), "--certificate", tmp_path / "c.json")
-    assert (done.returncode, done.stdout) == (2, "")
-    assert "a certificate has the rotor's angular momentum as rational numbers" in done.stderr
+    said = refused("certify", "motion", scene(tmp_path, replaced=ROTOR), "--certificate", tmp_path / "c.json")
+    assert "a certificate has the rotor's angular momentum as rational numbers" in said
     assert not (tmp_path / "c.json").exists()
 
 
@@ -450,9 +395,7 @@ def test_a_scene_may_have_a_tensor_of_two_equal_moments(tmp_path):
 
 @pytest.mark.parametrize(("changed", "sentence"), REFUSED, ids=[sentence for _, sentence in REFUSED])
 def test_a_scene_that_is_not_for_it_is_refused(tmp_path, changed, sentence):
-    done = command("certify", "motion", scene(tmp_path, replaced=changed))
-    assert (done.returncode, done.stdout) == (2, "")
-    assert sentence in done.stderr
+    assert sentence in refused("certify", "motion", scene(tmp_path, replaced=changed))
 
 
 def test_a_motion_that_takes_too_long_fails_with_what_is_proved(tmp_path):

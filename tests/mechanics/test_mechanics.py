@@ -3,7 +3,6 @@
 import dataclasses
 from fractions import Fraction
 from functools import cache
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -42,7 +41,6 @@ from chapsym.mechanics import (
     verdicts,
     volume,
 )
-from chapsym.mechanics.algebra import Letters
 from chapsym.mechanics.lab import keeps
 
 
@@ -61,9 +59,9 @@ def particle(**changes):
 @pytest.mark.parametrize(
     ("name", "growth", "dimension"),
     [
-        ("ball", (3, 5), 5), ("contact", (2, 3), 3), ("falling_disc", (3, 4, 5), 5), ("particle", (2, 3), 3),
-        ("rattleback", (3, 5), 5), ("sleigh", (2, 3), 3), ("snakeboard", (3, 4, 5), 5), ("suslov", (2, 3), 3),
-        ("transmission", (2, 3), 3), ("vertical_disc", (2, 3, 4), 4), ("veselova", (2, 3), 3),
+        ("ball", (3, 5), 5), ("contact", (2, 3), 3), ("particle", (2, 3), 3), ("sleigh", (2, 3), 3),
+        ("snakeboard", (3, 4, 5), 5), ("suslov", (2, 3), 3), ("transmission", (2, 3), 3), ("veselova", (2, 3), 3),
+        ("vertical_disc", (2, 3, 4), 4), *slow(("falling_disc", (3, 4, 5), 5), ("rattleback", (3, 5), 5)),
     ],
 )  # fmt: skip
 def test_the_examples_are_short_and_their_flags_are_known(name, growth, dimension):
@@ -72,29 +70,6 @@ def test_the_examples_are_short_and_their_flags_are_known(name, growth, dimensio
     assert len(file.read_text(encoding="utf-8").splitlines()) <= 40
     found = flag(example(name))
     assert (found.growth, found.dimension, found.functions) == (growth, dimension, 0)
-
-
-@pytest.mark.parametrize(
-    ("coordinates", "constraints", "growth", "functions"),
-    [
-        ((x, y), [x * vx + y * vy], (1,), 1),
-        ((x, y, z), [y * z * vx + x * z * vy + x * y * vz], (2,), 1),
-        ((x, y, z), [vx + y * vz], (2, 3), 0),
-        ((x, y, z), [vx - vy], (2,), 1),
-        ((x, y, a), [sp.cos(a) * vx + sp.sin(a) * vy], (2, 3), 0),
-        ((x, y, a), [sp.cos(a) * vx - x * sp.sin(a) * va], (2,), 1),  # d(x cos a)
-        ((x, y, z, a), [vx + y * vz, va - z * vz], (2, 3), 1),  # a - z²/2 stays
-        ((x, y, z), [], (3,), 0),
-        ((x, y), [vx / sp.sqrt(1 + x**2) + vy], (1,), 1),
-        ((x, y, z), [vz - sp.sqrt(1 + y**2) * vx], (2, 3), 0),
-    ],
-)
-def test_constraints_are_integrable_or_not(coordinates, constraints, growth, functions):
-    found = flag(System("one", coordinates, 0, constraints))
-    assert (found.growth, found.functions) == (growth, functions)
-    assert found.integrable is (len(growth) == 1)
-    assert str(found).startswith({(3,): "no constraint", (2, 3): "completely" if not functions else "nonholonomic"}.get(
-        growth, "integrable"))  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -136,11 +111,22 @@ def test_what_the_algebra_does_not_know_is_refused_and_not_judged(settings, said
         ({"holonomic": [x**2 + y**2 - 1, 2 * x**2 + 2 * y**2 - 2]}, (2,), 0),
         ({"constraints": [vz - sp.tan(y) * vx]}, (2, 3), 0),
         ({"constraints": [vz - sp.sin(2 * y) * vx + 2 * sp.sin(y) * sp.cos(y) * vx]}, (2,), 1),
+        ({"coordinates": (x, y), "constraints": [x * vx + y * vy]}, (1,), 1),
+        ({"constraints": [y * z * vx + x * z * vy + x * y * vz]}, (2,), 1),
+        ({"coordinates": (x, y, a), "constraints": [sp.cos(a) * vx + sp.sin(a) * vy]}, (2, 3), 0),
+        ({"coordinates": (x, y, a), "constraints": [sp.cos(a) * vx - x * sp.sin(a) * va]}, (2,), 1),  # d(x cos a)
+        ({"coordinates": (x, y, z, a), "constraints": [vx + y * vz, va - z * vz]}, (2, 3), 1),  # a - z²/2 stays
+        ({}, (3,), 0),
+        ({"coordinates": (x, y), "constraints": [vx / sp.sqrt(1 + x**2) + vy]}, (1,), 1),
+        ({"constraints": [vz - sp.sqrt(1 + y**2) * vx]}, (2, 3), 0),
     ],
 )
-def test_flags_are_of_the_system_with_its_numbers(settings, growth, functions):
-    found = flag(System("one", (x, y, z), 0, **settings))
+def test_constraints_of_the_system_with_its_numbers_are_integrable_or_not(settings, growth, functions):
+    found = flag(System("one", **{"coordinates": (x, y, z), "lagrangian": 0} | settings))
     assert (found.growth, found.functions) == (growth, functions)
+    assert found.integrable is (len(growth) == 1)
+    words = "completely" if functions == 0 else "nonholonomic"
+    assert str(found).startswith(words if len(growth) > 1 else "integrable" if functions else "no constraint")
 
 
 @pytest.mark.parametrize(
@@ -180,14 +166,14 @@ def test_accelerations_that_cannot_be_judged_are_one_sentence(typed, said):
         agree(System("one", (a,), va**2 / 2 + sp.cos(a)), typed)
 
 
-@pytest.mark.parametrize("method", ANYWHERE)
+@pytest.mark.parametrize("method", ["dla", "gni", "spark", "rk4", *slow("dla-left", "leapfrog", "midpoint")])
 def test_numbers_that_are_no_integers_and_any_names_are_taken(method):
     """Halves, floats, and symbols that are called as those of the generated text, or as words of C."""
     x, y, k, m = sp.symbols("d0 u_1 s0 real")
     energy = m * (dot(x) ** 2 + dot(y) ** 2) / 2 - (x - sp.Rational(1, 2)) ** 2 / 2 - 0.25 * sp.cos(y / 3 + 0.5)
     system = System(
         "named", (x, y), energy, [dot(y) - x * dot(x) / 3 - sp.Rational(1, 5) * k],
-        parameters={k: 1, m: "3/2"}, start={x: "1/2", dot(x): 1},
+        parameters={k: 1, m: "3/2"}, start={x: "1/2", dot(x): 1}, forces={x: -y},
     )  # fmt: skip
     found = moved(system, method, 20, 0.05).final[:2]
     assert np.abs(found - reference(system, 1.0)).max() < (0.05 if method == "dla-left" else 2e-3)
@@ -199,7 +185,6 @@ def test_numbers_that_are_no_integers_and_any_names_are_taken(method):
     [
         ({"start": {x: np.ma.masked}}, {}, "the start of x is masked, which is no number"),
         ({"parameters": {k: np.complex128(1j)}}, {}, "the parameter k is .*, which is no number"),
-        ({"start": {x: np.float32("nan")}}, {}, "the start of x is not finite"),
         ({"start": {x: "one"}}, {}, "the start of x is 'one', which is no number"),
         ({"step": "0.1s"}, {}, "the step is '0.1s', which is no number"),
         ({"constraints": [vz - y * vx], "start": {vx: 1, vz: 2}}, {}, "are 2 off the constraints; leave out those"),
@@ -210,11 +195,9 @@ def test_numbers_that_are_no_integers_and_any_names_are_taken(method):
         ({"lagrangian": FREE + vx / x}, {}, "has no solution near the last one"),
         ({"forces": {x: 10**400}}, {}, "a number is beyond float64"),
         ({"forces": {x: sp.Derivative(sp.sin(x), x)}}, {}, "is not sin, cos"),
-        ({"lagrangian": FREE + sp.exp(x)}, {}, "is not sin, cos, a square root or"),
         ({"integrals": {"one": sp.factorial(x)}}, {}, "a quantity is not defined on the motion"),
         ({"integrals": {"one": sp.sqrt(x - 1)}}, {"precision": chapsym.Digits(20)}, "a quantity is not defined"),
         ({"parameters": {sp.Symbol("q", commutative=False): 1}}, {}, "q must be a symbol of real numbers"),
-        ({"parameters": {sp.Symbol("q", zero=True): 1}}, {}, "q must be a symbol of real numbers"),
         ({"parameters": {sp.Symbol("x", real=True): 1}}, {}, "x is two of"),
     ],
 )
@@ -262,11 +245,6 @@ def test_what_is_too_long_to_be_decided_is_said(monkeypatch):
     assert verdicts(bound, METHODS["dla-left"].scheme(bound))["order"].said == "no exact state is found"
 
 
-def test_a_motion_that_leaves_the_numbers_is_said():
-    with pytest.raises(NotSolved, match=r"leaves the range of numbers|has no solution"):
-        moved(System("up", (x,), vx**2 / 2 + x**4, start={x: 1e3}), "rk4", 100, 1e3)
-
-
 def test_only_constraints_that_are_there_are_proved():
     sphere = System(
         "sphere", (x, y, z), FREE - z, holonomic=[x**2 + y**2 + z**2 - 1], start={x: "3/5", z: "-4/5", vy: 1}
@@ -291,8 +269,7 @@ def test_a_flag_says_where_it_holds():
     ("name", "method"),
     [
         *((name, method) for name in ("particle", "contact") for method in ANYWHERE),
-        *(("ball", method) for method in ("own", "rk4")),
-        *slow(*(("ball", method) for method in ANYWHERE if method != "rk4"), ("falling_disc", "dla-left")),
+        *slow(*(("ball", method) for method in ("own", *ANYWHERE)), ("falling_disc", "dla-left")),
     ],
 )
 def test_the_methods_have_their_orders_keep_the_constraints_and_return(name, method):
@@ -305,21 +282,6 @@ def test_the_methods_have_their_orders_keep_the_constraints_and_return(name, met
     if name in ("particle", "contact"):
         assert (cell.returns < 1e-12) is (method == "midpoint" or (name == "particle" and method in SYMMETRIC))
         assert cell.returns < 1e-12 or cell.returns > 1e-6 or method in SYMMETRIC
-
-
-@pytest.mark.parametrize("method", ANYWHERE)
-def test_a_wrong_sign_in_an_equation_is_seen_by_the_order(method):
-    """Then the method follows another motion, or its steps have no solution."""
-    system = particle(forces={x: -x, y: -y}, start={x: 1, y: "3/10", vx: 1, vy: "1/2"})
-    right = METHODS[method].scheme(system)
-    turned = dataclasses.replace(right, residual=[right.residual[0] + x, *right.residual[1:]])
-    exact = reference(system, 1.0)
-    runner = Runner(system, method)
-    assert np.abs(runner.march(100, 0.01).final[:3] - exact).max() < (2e-2 if method == "dla-left" else 1e-4)
-    runner = Runner(system, method)
-    runner.scheme = turned
-    with pytest.raises((NotSolved, AssertionError)):
-        assert np.abs(runner.march(100, 0.01).final[:3] - exact).max() < 2e-2
 
 
 def reference(system, end):
@@ -338,21 +300,10 @@ def reference(system, end):
     return done.y[: len(q), -1]
 
 
-def test_the_particle_takes_the_steps_that_were_derived_by_hand():
-    """docs/tutorials/own-system.md, P-map: the discrete principle of the free particle, solved."""
-    h, vy_, height = 0.1, 0.5, 0.3
-    motion = moved(particle(), "dla", 50, h)
-    for one, next_ in pairwise(motion.velocity):
-        height += h * vy_
-        slope = h * height * vy_ / 2
-        assert next_[0] == pytest.approx(one[0] * (1 + height**2 - slope) / (1 + height**2 + slope), rel=1e-13)
-        assert next_[1] == pytest.approx(vy_, rel=1e-13)
-
-
 @pytest.mark.parametrize("method", ANYWHERE)
 def test_the_time_of_a_place_is_when_it_is_there(method):
     """The particle's y = 0.3 + t/2."""
-    motion = moved(particle(), method, np.int64(20), 0.1, every=np.int8(2))
+    motion = Runner(particle(), method, compiled=False).march(np.int64(20), 0.1, every=np.int8(2))
     assert len(motion.time) == 10
     assert np.abs(motion.place[:, 1] - 0.3 - motion.time / 2).max() < 1e-12
 
@@ -379,7 +330,7 @@ def test_where_the_compiler_fails_python_takes_the_steps_and_says_so(monkeypatch
 
 def test_a_system_of_one_coordinate_without_parameters_runs_in_c():
     pendulum = System("pendulum", (a,), va**2 / 2 + sp.cos(a), start={a: 1})
-    for method in ANYWHERE:
+    for method in ("dla", "spark", "rk4"):
         assert np.abs(moved(pendulum, method, 100, 0.01).final[:1] - reference(pendulum, 1.0)).max() < 1e-2
 
 
@@ -422,14 +373,6 @@ def test_quantities_are_kept_or_not_at_an_exact_state():
         conserved(particle(), sp.Symbol("w"))
 
 
-def test_the_ball_keeps_the_vertical_momentum_and_methods_show_their_range():
-    system = example("ball")
-    assert conserved(system, system.integrals["⟨K,γ⟩"]).kept
-    own, rk4 = (of_forty("ball", method).integrals for method in ("own", "rk4"))
-    assert max(own["|𝒦|²"], own["⟨𝒦,γ⟩"]) < 1e-12
-    assert min(own["|K|²"], own["⟨K,γ⟩"], *rk4.values()) > 1e-11
-
-
 def test_no_text_is_evaluated():
     text = "__import__('os').system('exit 3')"
     for made in (
@@ -448,38 +391,10 @@ def test_what_is_no_kanes_method_is_one_sentence():
         of_kane(None)
 
 
-def test_half_the_step_tells_the_method_from_the_model():
+def test_with_half_the_step_the_drift_of_a_method_falls():
     system = example("particle")
     drift = measured(system, "rk4", 5000, halve=True)
     assert drift.drift / drift.halved > 20
-    wrong = dataclasses.replace(system, forces={x: vx / 1000})
-    drift = measured(wrong, "rk4", 5000, halve=True)
-    assert drift.drift / drift.halved == pytest.approx(1, abs=0.05)
-
-
-def test_kanes_method_gives_the_accelerations_of_the_principle():
-    """The Chaplygin sleigh in sympy.physics.mechanics."""
-    system = example("sleigh")
-    q = kane.dynamicsymbols("x y heading")
-    u = kane.dynamicsymbols("u1:4")
-    mass, inertia, ahead = sp.symbols("mass inertia ahead")
-    N, O = kane.ReferenceFrame("N"), kane.Point("O")
-    B = N.orientnew("B", "Axis", (q[2], N.z))
-    B.set_ang_vel(N, u[2] * N.z)
-    O.set_vel(N, 0)
-    centre = O.locatenew("C", q[0] * N.x + q[1] * N.y)
-    centre.set_vel(N, u[0] * N.x + u[1] * N.y)
-    body = kane.RigidBody("body", centre, B, mass, (kane.inertia(B, 0, 0, inertia), centre))
-    slip = [centre.vel(N).dot(B.y) - ahead * u[2]]
-    method = kane.KanesMethod(
-        N, q, u[1:], [a - b.diff() for a, b in zip(u, q, strict=True)], u_dependent=u[:1], velocity_constraints=slip
-    )
-    method.kanes_equations([body], [])
-    accelerations = of_kane(method)
-    assert set(accelerations) == set(system.coordinates)
-    assert agree(system, accelerations).equal
-    accelerations[system.coordinates[2]] *= 2
-    assert not agree(system, accelerations).equal
 
 
 def test_kanes_speeds_may_be_others_than_the_rates_of_the_coordinates():
@@ -499,16 +414,6 @@ def test_kanes_speeds_may_be_others_than_the_rates_of_the_coordinates():
     method = kane.KanesMethod(N, q, [u[0], u[2]], rates, u_dependent=[u[1]], velocity_constraints=[u[1]])
     method.kanes_equations([body], [(centre, N.x / 2)])
     assert agree(skate, of_kane(method)).equal
-
-
-def test_roots_are_differentiated():
-    letters = Letters()
-    made = letters.into(sp.sqrt(1 + x**2) * sp.sin(2 * y + x))
-    slope = letters.derivative(made, x)
-    for _ in range(3):  # back from letters to what they are
-        slope = slope.xreplace(letters.meanings)
-    at = {x: 0.7, y: 0.3}
-    assert abs(slope.xreplace(at) - sp.diff(sp.sqrt(1 + x**2) * sp.sin(2 * y + x), x).xreplace(at)) < 1e-14
 
 
 def test_what_is_said_of_the_next_state_is_not_said_of_unknowns():
@@ -541,7 +446,10 @@ def test_equations_that_break_one_thing_are_refuted_at_an_exact_state():
 def test_the_ball_with_the_rule_of_the_paper_takes_the_steps_of_the_map():
     """From the Lagrangian and the constraint of Fedorov's paper, typed in: to 1e-13 what `chapsym.trajectory` has."""
     system = example("ball")
+    assert conserved(system, system.integrals["⟨K,γ⟩"]).kept
     motion = Runner(system, "own").march(60)
+    kept = {name: np.ptp(values) for name, values in motion.integrals.items()}
+    assert max(kept["|𝒦|²"], kept["⟨𝒦,γ⟩"]) < 1e-12 < 1e-11 < min(kept["|K|²"], kept["⟨K,γ⟩"])
     quaternions = (motion.place - 0.025 * motion.velocity)[:, 2:]
     first, second = quaternions[:2]
     turn = [first @ second, *(first[0] * second[1:] - second[0] * first[1:] - np.cross(first[1:], second[1:]))]
@@ -636,19 +544,12 @@ HUGE = 10**6000
         (lambda: moved(particle(), steps=HUGE), r"steps must be a whole number from 1 to 2\^62"),
         (lambda: moved(particle(), steps=2**61), "do not fit into memory"),
         (lambda: moved(particle(), steps=0), "steps must be a whole number from 1 on, not 0"),
-        (lambda: moved(particle(), steps=2.5), "steps must be a whole number from 1 on, not 2.5"),
-        (lambda: moved(particle(), every=-7), "every must be a whole number from 1 on, not -7"),
         (lambda: moved(particle(), every=0), "every must be a whole number"),
         (lambda: moved(particle(), every=2**62), "every must be a whole number"),
         (lambda: moved(particle(), length=HUGE), "the length of a step is an object of the type int"),
         (lambda: moved(particle(), length=0.0), "the length of a step must be positive"),
-        (lambda: moved(particle(), length="long"), "the length of a step is 'long', which is no number"),
-        (lambda: moved(particle(), length=float("inf")), "the length of a step is not finite"),
-        (lambda: Runner(particle()).march(1, start=HUGE), "the start must be 6 numbers"),
         (lambda: measured(particle(), "dla", []), r"steps must be a whole number from 1 on, not \[\]"),
         (lambda: agree(particle(), None), "accelerations must be given as"),
-        (lambda: agree(particle(), {x: "vx", y: 0, z: 0}), "acceleration of x is .vx., which is no real expression"),
-        (lambda: System("one", (x,), sp.ImmutableMatrix([[vx]])), "is no real expression of SymPy"),
         (lambda: agree(None, {}), "system must be a System, not None"),
         (lambda: conserved("particle", x), "system must be a System"),
         (lambda: flag(None), "system must be a System"),
@@ -657,10 +558,7 @@ HUGE = 10**6000
         (lambda: list(certified(particle(), ["euler"])), "'euler' is no method"),
         (lambda: loaded(3), "path must name a Python file, not 3"),
         (lambda: dot("x"), "a coordinate must be a symbol"),
-        (lambda: after(3), "a coordinate must be a symbol"),
         (lambda: Turned(("w", x)), "a turn is an axis x, y or z and an angle"),
-        (lambda: Turned("z"), "a turn is an axis x, y or z and an angle"),
-        (lambda: Quaternion([0, 1]), "name must be a word"),
         (lambda: Quaternion("a:c"), "name must be a word"),
         (lambda: System("one", np.array(None), vx**2), "coordinates must be a sequence"),
         (lambda: list(certified(particle(), 3)), "methods must be a sequence"),

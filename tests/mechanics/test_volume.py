@@ -92,7 +92,7 @@ def test_the_density_of_the_ball_is_chaplygins():
     assert all(sp.simplify(s - t) == 0 for s, t in pairwise(ratios))
 
 
-def test_what_keeps_none():
+def test_what_keeps_none_and_what_keeps_all():
     """The sleigh tends to a steady motion, as Suslov's body does below; of one that has weight less is proved."""
     found = volume(example("sleigh"))
     assert str(found) == "keeps no smooth volume"
@@ -101,6 +101,7 @@ def test_what_keeps_none():
     assert str(pulled) == "keeps no volume whose density depends on the place alone"
     assert volume(sleigh(1, forces={a: sp.Integer(1)})).at_all is False
     assert volume(sleigh(0, potential=x)).kept
+    assert volume(System("stuck", (x,), vx**2 / 2, [vx])).kept
 
 
 def test_a_suslov_body_about_a_principal_axis_keeps_one():
@@ -121,10 +122,6 @@ def test_what_is_not_judged_is_said():
     ):
         with pytest.raises(BadSystem, match=why):
             volume(system)
-
-
-def test_a_system_that_cannot_move_keeps_all():
-    assert volume(System("stuck", (x,), vx**2 / 2, [vx])).kept
 
 
 def test_a_volume_does_not_depend_on_scale_or_on_how_numbers_are_written():
@@ -178,8 +175,9 @@ def of_steps(system, method):
     ("name", "method", "power"),
     [
         ("particle", "dla", 3), ("particle", "dla-left", 2), ("particle", "spark", 3), ("contact", "dla", 3),
-        ("transmission", "spark", 3), ("vertical_disc", "dla", 3),
-        *slow(("snakeboard", "dla", 3), ("falling_disc", "spark", 3), ("ball", "dla-left", 3), ("ball", "spark", 3)),
+        ("vertical_disc", "dla", 3),
+        *slow(("transmission", "spark", 3), ("snakeboard", "dla", 3)),
+        *slow(("falling_disc", "spark", 3), ("ball", "dla-left", 3), ("ball", "spark", 3)),
     ],
 )  # fmt: skip
 def test_a_step_loses_the_volume_with_the_power_of_its_order(name, method, power):
@@ -197,6 +195,8 @@ def test_what_keeps_the_volume_is_not_refuted_and_what_is_near_it_is():
     said = {method: of_steps(spring, method)[1].said for method in METHODS if method != "own"}
     assert said.pop("rk4") == "its logarithm changes in a step by -16523/729 h^6"
     assert set(said.values()) == {"no difference is found"}
+    ring = System("ring", (x, y), (vx**2 + vy**2) / 2 - y, holonomic=[x**2 + y**2 - 1])
+    assert of_steps(ring, "dla")[1].said == "no difference is found"
     assert of_steps(example("vertical_disc"), "spark")[1].said == "no difference is found"
 
 
@@ -234,7 +234,7 @@ def test_the_determinant_of_a_step_in_floats_is_what_the_series_says(method, h):
 
 
 def test_where_the_motion_keeps_none_a_step_that_follows_it_keeps_none():
-    for system, method in ((example("sleigh"), "dla"), (sleigh(1), "dla-left"), (sleigh(1), "spark")):
+    for system, method in ((example("sleigh"), "dla"), (sleigh(1), "dla-left")):
         what, found = of_steps(system, method)
         assert (what, found.verdict, bool(found.point)) == ("keeps a smooth volume", "false", True)
     pulled = of_steps(sleigh(1, potential=x), "dla")[1]
@@ -254,9 +254,3 @@ def test_steps_of_other_states_have_no_verdict_and_say_why(method, why):
     found = of_steps(example("particle"), method)[1]
     assert found.verdict == "measured"
     assert why in found.said
-
-
-def test_no_integral_is_called_a_volume():
-    named = System("named", (x,), vx**2 / 2, integrals={"the volume": vx})
-    with pytest.raises(BadSystem, match="the volume is a quantity of every system"):
-        verdicts(named, METHODS["rk4"].scheme(named))
