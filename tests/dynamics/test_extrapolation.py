@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from budget import slow
 from plain import in_plain_python
 
 import chapsym
@@ -16,7 +17,6 @@ from chapsym.dynamics import extrapolation, kernels
 from chapsym.dynamics.attitudes import initial_attitude
 from chapsym.dynamics.loops import lanes
 from chapsym.dynamics.loops.lanes import fitted, half_angle, turn_square
-from chapsym.numbers import Digits
 
 BALL = chapsym.Ball((0.1, 0.5, 1.6), 0.7)
 #: D is 100 times the least moment of inertia.
@@ -101,19 +101,20 @@ def test_the_extremes_are_against_a_taylor_series_too(J, D, gamma):
     np.testing.assert_allclose([*end.angular_momentum, *end.gamma], exact, rtol=0, atol=4 * 54 * UNIT_ROUNDOFF)
 
 
-def test_the_integrals_are_kept_at_a_low_order_too():
-    end = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, columns=2)
+def test_the_integrals_and_the_momentum_in_space_are_kept_at_a_low_order_too():
+    start = initial_attitude(True, GAMMA)
+    end = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, columns=2, attitude=start)
+    assert (end.attitude == chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, columns=2, attitude=True).attitude).all()
     # A turn rounds each of 6 components by a few units; in 400 steps, all of one sign, by 400 times that.
     budget = 400 * 8 * UNIT_ROUNDOFF
-    before = np.array([K @ GAMMA, K @ K, GAMMA @ GAMMA])
-    after = np.array(
-        [end.angular_momentum @ end.gamma, end.angular_momentum @ end.angular_momentum, end.gamma @ end.gamma]
-    )
-    assert np.abs(after - before).max() < budget
-    trajectory_error = np.abs(
-        end.angular_momentum - chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400).angular_momentum
-    ).max()
-    assert trajectory_error > 1e6 * budget  # kept although the state is off
+    k, g, a = end.angular_momentum, end.gamma, end.attitude
+    assert np.abs(np.array([k @ g - K @ GAMMA, k @ k - K @ K, g @ g - GAMMA @ GAMMA])).max() < budget
+    assert np.abs(kernels.rotate(a, g) - [0, 0, 1]).max() < budget
+    assert np.abs(kernels.rotate(a, k) - kernels.rotate(start, K)).max() < budget
+    assert abs(a @ a - 1) < 1e-15
+    right = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400)
+    assert np.abs(k - right.angular_momentum).max() > 1e6 * budget  # kept although the state is off
+    assert right.attitude is None
 
 
 @pytest.mark.parametrize(
@@ -136,7 +137,7 @@ def at_random(n, seed=5):
     return chapsym.Ball(rng.uniform(0.1, 2.0, (n, 3)), rng.uniform(0.0, 2.0, n)), K, g
 
 
-@pytest.mark.parametrize("columns", range(2, 7))
+@pytest.mark.parametrize("columns", [2, 4, 6, *slow(3, 5)])
 @pytest.mark.parametrize("time_step", [0.05, 0.5])
 @pytest.mark.parametrize("heavy", [1.0, 100.0])
 def test_lanes_take_the_rotations_of_the_branch(monkeypatch, columns, time_step, heavy):
@@ -145,13 +146,13 @@ def test_lanes_take_the_rotations_of_the_branch(monkeypatch, columns, time_step,
     The roots agree to roundings; 27 steps of the map, weights with Σ|w| < 60, and 4 long steps: 1e-12 is ample.
     A rounding of K counts D/I times in ω, of heavy balls as many times more.
     """
-    ball, K, g = at_random(20)
+    ball, K, g = at_random(10)
     ball = chapsym.Ball(ball.mass_tensor, heavy * ball.D, 0.7)
     fast = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, contact=True)
     monkeypatch.setattr(lanes, "side_by_side", lambda S, *args: S[lanes.LOST].fill(1.0) or True)
     with in_plain_python():
         safe = chapsym.extrapolate(ball, K, g, time_step, 4, columns=columns, contact=True)
-    assert (safe.status == 0).sum() >= 15
+    assert (safe.status == 0).sum() >= 8
     assert (safe.status == fast.status).all()
     for name in ("angular_momentum", "gamma", "attitude", "contact", "doubt"):
         np.testing.assert_allclose(getattr(fast, name), getattr(safe, name), rtol=0, atol=1e-12 * heavy)
@@ -265,7 +266,7 @@ def test_lanes_do_not_need_the_safe_way(monkeypatch, ball, time_step, rounds):
 
 
 @pytest.mark.usefixtures("way")
-@pytest.mark.parametrize("thin", [1.0, 1e-6, 1e-12])
+@pytest.mark.parametrize("thin", [1.0, 1e-12])
 def test_a_top_that_turns_about_its_axis(thin):
     """D = 0 and K along the axis: γ turns about it with ω = K3/I3, as thin as the body may be.
 
@@ -289,12 +290,12 @@ def test_a_body_too_thin_for_float64_is_refused():
 
 @pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("precision", PRECISIONS)
-@pytest.mark.parametrize(("mass", "time"), [(1.0, 1.0), (2.0**-200, 1.0), (2.0**300, 2.0**200), (1.0, 2.0**-400)])
+@pytest.mark.parametrize(("mass", "time"), [(2.0**-200, 1.0), (2.0**300, 2.0**200), (1.0, 2.0**-400)])
 def test_units_do_not_matter(precision, mass, time):
     options = {"contact": True, "precision": precision}
-    known = chapsym.extrapolate(chapsym.Ball(BALL.mass_tensor, BALL.D, 0.5), K, GAMMA, 0.5, 5, **options)
+    known = chapsym.extrapolate(chapsym.Ball(BALL.mass_tensor, BALL.D, 0.5), K, GAMMA, 0.5, 2, **options)
     ball = chapsym.Ball(BALL.mass_tensor * mass, BALL.D * mass, 0.5)
-    end = chapsym.extrapolate(ball, K * (mass / time), GAMMA, 0.5 * time, 5, **options)
+    end = chapsym.extrapolate(ball, K * (mass / time), GAMMA, 0.5 * time, 2, **options)
     for found, one in [(end, known), (end.low, known.low)][: 1 + (precision != "double")]:
         assert (found.angular_momentum * (time / mass) == one.angular_momentum).all()
         assert (found.gamma == one.gamma).all()
@@ -311,30 +312,17 @@ def test_where_nothing_moves():
         assert 0 <= end.doubt <= steps * 2 * (54 + 25) * 2 * UNIT_ROUNDOFF
 
 
-def test_the_attitude_turns_with_gamma_and_the_momentum_stays_in_space():
-    end = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, attitude=True)
-    start = initial_attitude(True, GAMMA)
-    budget = 400 * 8 * UNIT_ROUNDOFF  # as for the integrals
-    assert np.abs(kernels.rotate(end.attitude, end.gamma) - [0, 0, 1]).max() < budget
-    space = kernels.rotate(start, K)
-    assert np.abs(kernels.rotate(end.attitude, end.angular_momentum) - space).max() < budget
-    assert abs(end.attitude @ end.attitude - 1) < 1e-15
-    again = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 400, attitude=start)
-    assert (again.attitude == end.attitude).all()
-    assert chapsym.extrapolate(BALL, K, GAMMA, 0.5, 1).attitude is None
-
-
 @pytest.mark.usefixtures("way")
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch(precision):
     with pytest.raises(chapsym.StepNotTaken) as caught:
-        chapsym.extrapolate(BALL, 100 * K, GAMMA, 1.0, 3, precision=precision)
+        chapsym.extrapolate(BALL, 100 * K, GAMMA, 1.0, 2, precision=precision)
     assert caught.value.index == 0
     assert caught.value.status is chapsym.Status.FOLDED
-    batch = chapsym.extrapolate(BALL, [100 * K, K, 1e300 * K], GAMMA, 0.5, 3, precision=precision)
+    batch = chapsym.extrapolate(BALL, [100 * K, K, 1e300 * K], GAMMA, 0.5, 2, precision=precision)
     assert batch.status.tolist() == [chapsym.Status.FOLDED, chapsym.Status.TAKEN, chapsym.Status.FOLDED]
-    assert batch.taken.tolist() == [0, 3, 0]
-    alone = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 3, precision=precision)
+    assert batch.taken.tolist() == [0, 2, 0]
+    alone = chapsym.extrapolate(BALL, K, GAMMA, 0.5, 2, precision=precision)
     for a, b in zip(everything(batch), everything(alone), strict=True):
         assert np.isnan(a[[0, 2]]).all()
         assert (a[1] == b).all()
@@ -345,13 +333,9 @@ def test_a_step_beyond_the_fold_raises_for_one_and_is_told_for_a_batch(precision
     [
         ((0.5, 1), {"contact": True}, "radius"),
         ((0.1, -1), {}, "steps must be a whole number from 0 on"),
-        ((0.1, 1.0), {}, "steps must be a whole number"),
-        ((0.1, True), {}, "steps must be a whole number"),
-        ((0.1, 1), {"columns": 1}, "columns must be a whole number from 2 to 6"),
         ((0.1, 1), {"columns": 7}, "columns must be a whole number from 2 to 6"),
         ((0.1, 1), {"columns": 13, "precision": "double-double"}, "columns must be a whole number from 2 to 12"),
         ((0.1, 1), {"precision": "single"}, 'long steps have the precisions "double" and "double-double"'),
-        ((0.1, 1), {"precision": Digits(30)}, 'long steps have the precisions "double" and "double-double"'),
         ((0.1, 1), {"precision": "half"}, "precision must be"),
         ((Fraction(10) ** 400, 1), {"precision": "double-double"}, "time_step is beyond the range of float64"),
         ((0.1, 10**13), {"precision": "double-double", "every": 1}, "do not fit into memory"),
@@ -380,7 +364,7 @@ def test_the_bits_of_a_motion_do_not_depend_on_what_blas_the_processor_gets():
             [sys.executable, "-c", BITS], env=os.environ | {"OPENBLAS_CORETYPE": name}, capture_output=True, text=True,
             check=True,
         ).stdout
-        for name in ("Haswell", "Prescott", "SkylakeX", "Nehalem")
+        for name in ("Haswell", "Prescott")
     }  # fmt: skip
     assert len(found) == 1
 

@@ -114,13 +114,9 @@ def test_what_is_singular_or_too_wide_is_not_proved():
             root([0.0], [0.0], precision=precision)
         with pytest.raises(BadInput, match="does not settle"):
             root([1.0], [-1.0], precision=precision)
-
-
-def test_a_wrong_jacobian_gives_no_proof():
-    """Newton's iteration may settle with another slope; the test with it does not pass where it is 0."""
-    root = implicit_step((square, GROUPS, ()), (lambda x, a: x - x, GROUPS, ()))
+    still = implicit_step((square, GROUPS, ()), (lambda x, a: x - x, GROUPS, ()))  # another slope
     with pytest.raises(BadInput, match="does not settle"):
-        root([1.0], [4.0], precision=Enclosure(60))
+        still([1.0], [4.0], precision=Enclosure(60))
 
 
 @pytest.mark.parametrize(
@@ -169,8 +165,7 @@ def test_each_unknown_is_found_by_its_own_size(large, precision, within):
 
 
 def test_a_double_root_is_refused_where_digits_would_be_missing():
-    groups = (("x", 1), ("a", 1))
-    twice = implicit_step((lambda x, a: (x - 1) * (x - 1) + a, groups, ()), (lambda x, a: 2 * (x - 1), groups, ()))
+    twice = implicit_step((lambda x, a: (x - 1) * (x - 1) + a, GROUPS, ()), (lambda x, a: 2 * (x - 1), GROUPS, ()))
     assert abs(twice([1.3], [0.0])[0] - 1) < 1e-15
     for precision in ("double-double", Digits(30), Enclosure(60)):
         with pytest.raises(BadInput, match="nearly singular"):
@@ -180,8 +175,7 @@ def test_a_double_root_is_refused_where_digits_would_be_missing():
 
 
 def test_numbers_are_taken_exactly_and_others_are_refused():
-    groups = (("x", 1), ("a", 1))
-    same = implicit_step((lambda x, a: x - a, groups, ()), (lambda x, a: 1 + 0 * x, groups, ()))
+    same = implicit_step((lambda x, a: x - a, GROUPS, ()), (lambda x, a: 1 + 0 * x, GROUPS, ()))
     level = Enclosure(200)
     for exact in (10**17 + 1, Fraction(1, 3), Decimal("0.1")):
         (found,) = same([1.0], [exact], precision=level)
@@ -198,8 +192,7 @@ def test_numbers_are_taken_exactly_and_others_are_refused():
 
 @pytest.mark.parametrize("precision", ["single", "double", "double-double", Digits(30), Enclosure(60)])
 def test_what_follows_is_defined_at_the_root(precision):
-    groups = (("x", 1), ("a", 1))
-    step = implicit_step((square, groups, ()), (slope, groups, ()), (lambda x, a: 1 / (x - a), groups, ()))
+    step = implicit_step((square, GROUPS, ()), (slope, GROUPS, ()), (lambda x, a: 1 / (x - a), GROUPS, ()))
     root, after = step([2.1], [4.0], precision=precision)
     assert (root.shape, after.shape) == ((1,), ())
     assert float(after) == -0.5
@@ -212,10 +205,8 @@ def test_what_follows_is_defined_at_the_root(precision):
 @pytest.mark.parametrize("precision", ["single", "double", "double-double"])
 def test_a_far_guess_gives_no_root_where_there_is_none(precision):
     """x² + 1: a large correction at the start must not make a later one small."""
-    groups = (("x", 1), ("a", 1))
-    none = implicit_step((lambda x, a: x * x + a, groups, ()), (lambda x, a: 2 * x, groups, ()))
-    guesses = np.concatenate([[1e-12, 1e12, 38457702956.94342, 71766687001.56982], 10.0 ** np.arange(-15, 16) * 1.37])
-    for guess in guesses:
+    none = implicit_step((lambda x, a: x * x + a, GROUPS, ()), (lambda x, a: 2 * x, GROUPS, ()))
+    for guess in (1e-12, 1e12, 38457702956.94342, 71766687001.56982, *1.37 * 10.0 ** np.arange(-15, 16, 5)):
         with pytest.raises(BadInput, match="does not settle"):
             none([guess], [1.0], precision=precision)
     assert abs(none([1e12], [-4.0])[0] - 2) < 1e-15

@@ -116,22 +116,15 @@ def test_the_branch_is_continuous_from_the_identity(state):
     ("kwargs", "sentence"),
     [
         ({"momentum": (1, 2)}, "momentum must have 3 components"),
-        ({"momentum": 1.0}, "momentum must have 3 components"),
         ({"momentum": (1, np.nan, 0)}, r"momentum must be finite, but it is nan at index \(1,\)"),
-        ({"momentum": (1, np.inf, 0)}, "momentum must be finite"),
-        ({"momentum": ("a", 1, 2)}, "momentum must be real numbers"),
         ({"momentum": ("1", "2", "3")}, "momentum must be real numbers"),
         ({"momentum": np.ma.masked_invalid([1, np.nan, 2])}, "momentum must be real numbers"),
-        ({"momentum": [np.ma.masked_invalid([1, np.nan, 2])]}, "momentum must be real numbers"),
         ({"momentum": (np.ma.masked, 1, 2)}, "momentum must be real numbers"),
         ({"momentum": np.array([1, 2, 3], dtype="M8[s]")}, "momentum must be real numbers"),
-        ({"momentum": [[1, 2, 3], [1, 2]]}, "momentum must be real numbers"),
         ({"momentum": (True, False, None)}, "momentum must be real numbers"),
         ({"momentum": (10**400, 0, 0)}, "momentum is beyond the range of float64"),
         ({"ball": (1, 2, 4)}, "ball must be a chapsym.Ball, not tuple"),
-        ({"momentum": (1j, 1, 2)}, "momentum must be real numbers"),
         ({"gamma": (1e300, 1e300, 0)}, "gamma must be a unit vector"),
-        ({"gamma": (0, 0, 1.001)}, "gamma must be a unit vector, but its length is 1.00"),
         ({"gamma": (0, 0, 0)}, "gamma must be a unit vector, but its length is 0; it is the vertical"),
         ({"momentum": np.zeros((2, 3)), "gamma": np.tile(GAMMA, (3, 1))}, "do not broadcast"),
     ],
@@ -242,8 +235,10 @@ def test_a_size_of_unit_vectors_that_there_is_not_is_refused(size):
         find(testing.unit_vectors(size), lambda drawn: True)
 
 
-@pytest.mark.parametrize("strategy", [testing.rotations, testing.balls, testing.mass_tensors])
-@pytest.mark.parametrize("strata", [("generic", "x"), [], 3, "generic"])
+@pytest.mark.parametrize(
+    ("strategy", "strata"),
+    [(testing.rotations, ("generic", "x")), (testing.balls, []), (testing.mass_tensors, 3), (testing.balls, "generic")],
+)
 def test_a_stratum_that_there_is_not_is_refused(strategy, strata):
     with pytest.raises(BadInput, match="strata must be some of generic, "):
         find(strategy(strata), lambda drawn: True)

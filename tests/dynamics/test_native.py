@@ -111,13 +111,13 @@ ALONE = {"loop_prepare", "loop_march"}
 PAIRS = {"double_double_prepare_pairs", "double_double_march_pairs"}
 PAIRS_BLOCK = {"double_double_prepare_pairs_block", "double_double_march_pairs_block"}
 CASES = [
-    *((lambda m=m, o=o: each(m, 60, **o), ALONE) for m in (balls, long_steps, beyond)
+    *((lambda m=m, o=o: each(m, 24, **o), ALONE) for m in (balls, long_steps, beyond)
       for o in ({}, BODY, {"precision": "single"}, BODY | {"precision": "single"})),
     *((lambda p=p, o=o: each(balls, 4, order=o, precision=p, **BODY), ALONE)
       for p in ("double", "single") for o in (4, 6, 8)),
     (lambda: each(balls, 4, precision="double-double"), PAIRS),
     (lambda: each(balls, 1, precision="double-double", order=4, **BODY), PAIRS),
-    *((lambda m=m, o=o: together(m, 12, 42, **o), {"block_march_blocks"}) for m in (balls, long_steps, beyond)
+    *((lambda m=m, o=o: together(m, 12, 21, **o), {"block_march_blocks"}) for m in (balls, long_steps, beyond)
       for o in ({}, BODY)),
     *((lambda o=o: together(balls, 12, 7, order=o), {"block_march_blocks"}) for o in (4, 6, 8)),
     *((lambda m=m, o=o: each(m, 9, proved=True, **o), PAIRS | ALONE)

@@ -61,7 +61,7 @@ def agree(ball, K, g, precision):
 def test_a_step_is_the_first_of_a_trajectory_to_the_bit(precision):
     rng = np.random.default_rng(12)
     ends = set()
-    for _ in range(60 if isinstance(precision, str) else 3):
+    for _ in range(60 if isinstance(precision, str) else 2):
         J, D, g = rng.uniform(0.05, 3, 3), rng.uniform(0, 4), rng.normal(size=3)
         K = rng.normal(size=3) * rng.choice([1e-9, 0.1, 0.5, 2, 5, 25])
         ends.add(agree(Ball(J, D), K, g / np.linalg.norm(g), precision))
@@ -81,7 +81,7 @@ def extreme(rng):
 @pytest.mark.parametrize("precision", LEVELS, ids=str)
 def test_the_same_is_refused_at_any_magnitude(precision):
     rng = np.random.default_rng(4)
-    ends = {agree(*extreme(rng), GAMMA, precision) for _ in range(150 if isinstance(precision, str) else 2)}
+    ends = {agree(*extreme(rng), GAMMA, precision) for _ in range(60 if isinstance(precision, str) else 1)}
     assert not isinstance(precision, str) or "taken" in ends
 
 
@@ -111,12 +111,7 @@ def test_magnitudes_that_overflow_are_refused_with_a_status(J, D, K, order):
 def test_a_batch_steps_as_its_trajectories_do():
     """One by one, and in blocks; those that are refused, too; at every order."""
     rng = np.random.default_rng(8)
-    J, D, K, g = (
-        rng.uniform(0.05, 3, (40, 3)),
-        rng.uniform(0, 9, 40),
-        rng.normal(size=(40, 3)),
-        rng.normal(size=(40, 3)),
-    )
+    J, D, K, g = rng.uniform(0.05, 3, (40, 3)), rng.uniform(0, 9, 40), *rng.normal(size=(2, 40, 3))
     J[0], D[0], K[0] = (1, 2, 4), 1e90, 1e-3
     J[1], D[1], K[1] = (1e300, 1e307, 1e308), 1e-9, 1e-290
     g /= np.linalg.norm(g, axis=1)[:, np.newaxis]
@@ -173,7 +168,7 @@ def test_a_small_rotation_is_enclosed_beside_itself(size):
     assert max(x.rad() for x in q) <= max(abs(x.mid()) for x in q) * 2.0**-56
 
 
-@pytest.mark.parametrize("precision", [Digits(1), Digits(20), Enclosure(60)], ids=str)
+@pytest.mark.parametrize("precision", [Digits(1), Enclosure(60)], ids=str)
 def test_a_fold_far_from_the_momentum_is_found_in_few_steps(precision, monkeypatch):
     """On a thousand digits it was sought to the last of them, for 5 to 17 seconds."""
     monkeypatch.setattr(branch, "MOST_STEPS", 400)

