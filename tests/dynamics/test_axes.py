@@ -118,21 +118,18 @@ def test_a_body_that_is_turned_in_its_axes_rolls_the_same_way(precision, attitud
     assert {x.dtype for x in (run.momentum, run.gamma, run.attitude)} == {np.dtype(f"f{8 if tolerance < 1e-6 else 4}")}
 
 
-def test_a_step_is_the_first_of_a_trajectory_and_its_rotation_turns_gamma():
+def test_a_step_is_the_first_of_a_trajectory_its_rotation_turns_gamma_and_there_is_a_way_back():
     step, run = chapsym.step(FAR, **STATE), chapsym.trajectory(FAR, **STATE, steps=1)
     assert step.momentum.tolist() == run.momentum[1].tolist()
     assert step.gamma.tolist() == run.gamma[1].tolist()
     np.testing.assert_allclose(kernels.transport(step.rotation, GAMMA), step.gamma, atol=8 * EPS)
     np.testing.assert_allclose(kernels.transport(step.rotation, np.array(STATE["momentum"])), step.momentum, atol=1e-15)
+    there = chapsym.trajectory(FAR, **STATE, steps=50, attitude=True)
+    back = chapsym.reverse(there)
+    assert back.ball is FAR
+    assert chapsym.retrace_error(there, back).max() < 1e-12
     finer = chapsym.compose_step(FAR, **STATE, order=4)
     np.testing.assert_allclose(finer.gamma, chapsym.trajectory(FAR, **STATE, steps=1, order=4).gamma[1], atol=8 * EPS)
-
-
-def test_the_way_back_is_in_the_same_axes():
-    run = chapsym.trajectory(FAR, **STATE, steps=50, attitude=True)
-    back = chapsym.reverse(run)
-    assert back.ball is FAR
-    assert chapsym.retrace_error(run, back).max() < 1e-12
 
 
 def test_frames_before_a_fold_are_in_the_given_axes_and_later_ones_are_not_numbers():
@@ -170,15 +167,10 @@ def test_a_batch_of_tensors_is_each_of_them():
     assert chapsym.step(turns, **STATE).gamma.shape == (2, 3)
 
 
-def test_a_diagonal_tensor_is_its_moments():
+def test_a_diagonal_tensor_is_its_moments_and_rows_are_a_batch_where_they_are_no_tensor_or_are_said_to_be_one():
     ball = Ball.from_inertia(np.diag([6.0, 5.0, 3.0]), D=3)
-    assert ball.axes is None
-    assert ball.mass_tensor.tolist() == [1, 2, 4]
-    flat = Ball.from_inertia(np.diag([0.1, 0.2, 0.1 + 0.2]), D=1)
-    assert flat.mass_tensor.min() == 0
-
-
-def test_rows_of_moments_are_a_batch_where_they_are_no_tensor_or_are_said_to_be_one():
+    assert (ball.axes, ball.mass_tensor.tolist()) == (None, [1, 2, 4])
+    assert Ball.from_inertia(np.diag([0.1, 0.2, 0.1 + 0.2]), D=1).mass_tensor.min() == 0
     rows = [[6.0, 5.0, 3.0], [4.0, 4.0, 2.0], [3.0, 3.0, 3.0]]
     assert Ball.from_inertia(rows, D=1).inertia.tolist() == rows
     assert Ball.from_inertia([[2, 2, 2]] * 3, D=1, batch=True).inertia.tolist() == [[2, 2, 2]] * 3

@@ -138,18 +138,6 @@ def test_further_rounds_are_those_of_the_search():
         assert found == (True, tuple(P[:4, i]), tuple(P[4:7, i]))
 
 
-def test_a_lane_that_has_settled_stays():
-    """Whatever a round from there would say, as where the root of one correction is a little outside."""
-    S, P, ok = guesses_of(block.LANES)
-    for again in (False, True, True, True):
-        block.corrected(S, P, ok, again)
-    assert ok.all()
-    kept = P.copy()
-    S[loop.RADIUS] = -1.0
-    assert block.corrected(S, P, ok, True) == 0
-    assert (kept == P).all()
-
-
 def test_a_block_of_long_steps_mends_no_lane(monkeypatch):
     """The rounds that all lanes take together settle them; were they wrong, mending would still find the rotation."""
     (of, rest), few = block_of(block.LANES), []
@@ -211,12 +199,3 @@ def test_the_integrals_stay_to_the_last_digit():
     )
     values = run.invariants()
     assert (np.abs(values / values[0] - 1).max(axis=0) <= 8 * 2.0**-53).all()
-
-
-def test_the_energy_of_the_top_stays():
-    """At D = 0 the map keeps the energy; its rounding errors add up like √n: 2e-14 in 10⁸ steps, so 2e-15 in 10⁶."""
-    run = chapsym.trajectory(
-        Ball((0.1, 0.5, 1.6), 0.0), (0.03, -0.02, 0.035), np.array([2, 3, 6]) / 7, 10**6, every=1000
-    )
-    u = (run.momentum**2 / run.ball.inertia).sum(axis=-1)  # the form of prop-3 for 𝒦 along its own vertical
-    assert np.abs(u / u[0] - 1).max() <= 4e-15

@@ -97,19 +97,6 @@ def test_another_branch_folds_too(thorough):
             assert np.linalg.norm(below.rotation - top.rotation, axis=-1)[: below.count].min() < 1e-2
 
 
-def test_following_the_small_rotation_is_stepping():
-    ball, K, gamma = seeded(20, 1.0)
-    top = fold(ball, K, gamma).reach
-    path = np.linspace(0, 0.9, 5)[:, np.newaxis] * (top[:, np.newaxis] * K)[:, np.newaxis]
-    found = follow(ball, path, gamma)
-    assert found.rotation.shape == (20, 5, 4)
-    assert (found.status == Status.TAKEN).all()
-    assert (found.reach == 4).all()
-    assert np.isnan(found.fold.reach).all()
-    for k in range(1, 5):
-        assert np.abs(found.rotation[:, k] - step(ball, path[:, k], gamma).rotation).max() < 1e-13
-
-
 def test_a_path_that_leaves_the_branch_ends_at_the_fold():
     K = np.array([1, -0.5, 0.75])
     top = fold(BALL, K, GAMMA).reach

@@ -12,9 +12,7 @@ from chapsym.dynamics import kernels
 from chapsym.dynamics.attitudes import attitude_with
 from chapsym.dynamics.errors import StepNotTaken
 from chapsym.dynamics.levels import double_double
-from chapsym.dynamics.loops import double_double as loops
-from chapsym.dynamics.loops.branch import small_rotation
-from chapsym.dynamics.map import exact_step, step
+from chapsym.dynamics.map import step
 from chapsym.dynamics.oracle import Oracle
 from chapsym.numbers import Digits, DoubleDouble, Pair
 from chapsym.studies import check
@@ -134,22 +132,6 @@ def test_integrals_do_not_walk():
         assert all(abs(a / b - 1) <= 120 * U2 for a, b in zip(values(i), start, strict=True))
 
 
-def test_restoring_takes_back_what_is_added():
-    """Off by 1e-26 in γ and k: then it is below a few u²."""
-    state = np.zeros(loops.ROWS)
-    one = np.ones((1, 1))
-    loops.prepare_pairs(np.array(K), np.array(GAMMA), np.array(J), D, np.array([[1.0, 0.0]]), state, one[0], one[0])
-    before = state.copy()
-    state[1] += 3e-28
-    state[9] -= 1e-26
-    loops.restore_pairs(state)
-    for pair in ((6, 6), (0, 6), (0, 0)):
-        a, b = (whole(state[i : i + 6 : 2], state[i + 1 : i + 6 : 2]) for i in pair)
-        c, d = (whole(before[i : i + 6 : 2], before[i + 1 : i + 6 : 2]) for i in pair)
-        then, now = (sum(x * y for x, y in zip(v, w, strict=True)) for v, w in ((c, d), (a, b)))
-        assert abs(now - then) <= 8 * U2 * max(abs(float(then)), 1e-3)
-
-
 @pytest.mark.parametrize("D", [1e3, 1e6, 1e10, 1e14])
 def test_a_heavy_ball_keeps_its_digits(D):
     """One correction by a float64 Jacobian would leave 31 - log₁₀(D/I) digits, sums that are not normalised as well."""
@@ -177,20 +159,6 @@ def test_the_least_rotation(x, sign):
     if sign < 0 and x < 1e-150:  # float64's squares vanish, and it takes the half turn about e₁
         return
     np.testing.assert_allclose([float(v) for v in a], attitude_with(np.array(gamma, dtype=float)), atol=3e-16)
-
-
-@pytest.mark.parametrize("fraction", [0.5, 0.99, 1 - 1e-8])
-def test_steps_from_exact_input(fraction):
-    """`exact_step` in pairs against 45 digits, by the condition of the state; near the fold one correction is few."""
-    gamma = (F(2, 7), F(3, 7), F(6, 7))
-    for direction in ((1, -0.5, 0.75), (0.1, 2, -1), (-3, 1, 1)):
-        K = np.array(direction) * 100.0
-        K *= float(small_rotation(*K, *GAMMA, *J, D)[1]) * fraction
-        given = [F(x) for x in J], F(D), [F(float(x)) for x in K], gamma
-        truth, found = exact_step(*given, Digits(45)), exact_step(*given, DoubleDouble())
-        extent, kappa = condition(check.State(np.array(J), D, K, np.array(GAMMA)))
-        promise = check.BUDGET * kappa * ULP / U2
-        assert off(whole(found.rotation, found.low.rotation), map(HIGH.mpf, truth.rotation), extent) <= promise
 
 
 def takes(ball, momentum, gamma, precision):

@@ -113,11 +113,6 @@ def test_frames_within_a_step_agree_with_those_at_its_end():
             assert all(x.overlaps(y) for x, y in zip(getattr(dense, name)[i], getattr(alone, name)[0], strict=True))
 
 
-def test_no_rotor_is_what_there_was_before():
-    given = ExactBall((1, 2, 4), 3, 1), (1, 2, 3), ("2/7", "3/7", "6/7"), ["1/2", 2]
-    assert certified_motion(*given, rotor=(0, 0, "0")).write() == certified_motion(*given).write()
-
-
 def test_numbers_that_python_does_not_write_are_shown_by_their_type():
     """It refuses whole numbers of more than 4300 digits."""
     assert repr(ExactBall((1, 2, 4), F(1, 10**5000))) == (
@@ -315,13 +310,6 @@ def test_the_command_takes_the_numbers_of_a_scene_as_they_are_written(tmp_path):
     half = Decimal(3).sqrt() / 2  # to the 28 digits of decimals
     for (x, r), right in zip(balls["attitude"], (half, half, Decimal("-0.5"), Decimal("-0.5")), strict=True):
         assert abs(x - right * Decimal("0.5").sqrt()) <= r + Decimal("1e-27")
-
-
-def test_the_command_says_what_it_has_proved(tmp_path):
-    done = command("certify", "motion", scene(tmp_path), "--digits", "8")
-    assert done.returncode == 0
-    assert done.stdout.startswith("4 frames proved: 8 digits, ")
-    assert "angular_momentum" in done.stdout
 
 
 OF_THE_MAP = {"omega = [0.1,": "momentum = [0.1,", "30 deg/s": "1", "time = 0.3": "steps = 3", "frames = 3": ""}

@@ -109,16 +109,6 @@ def test_no_balls_and_no_steps_have_their_shapes(precision):
     assert {number(x) for x in run(precision, (0, 0, 0)).momentum.flat} == {0}
 
 
-@precisions
-def test_a_ball_of_a_huge_batch_has_the_numbers_that_it_has_alone(precision):
-    count = 20 if isinstance(precision, Digits | Enclosure) else 100_000 if precision != "double-double" else 5000
-    momentum = np.random.default_rng(7).uniform(-0.3, 0.3, (count, 3))
-    batch = run(precision, momentum, every=STEPS)
-    for i in range(0, count, max(1, count // 9)):
-        alone = run(precision, momentum[i], every=STEPS)
-        assert [number(x) for x in batch.momentum[i, -1]] == [number(x) for x in alone.momentum[-1]]
-
-
 def anywhere(value):
     """A value in the place of a component of everything that is given."""
     bad = (value, -0.5, 0.75)

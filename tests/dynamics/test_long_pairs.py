@@ -117,16 +117,6 @@ def test_what_is_beyond_the_range_is_a_fold_or_stays(size, step):
         assert after(step, 1, size * K, columns=2).status == chapsym.Status.TAKEN
 
 
-@pytest.mark.filterwarnings("error")
-def test_where_nothing_moves():
-    for momentum, time_step, steps in ((0 * K, 0.5, 9), (K, 0.0, 9), (K, 0.5, 0), (1e-310 * K, 0.5, 9)):
-        end = after(time_step, steps, momentum)
-        np.testing.assert_allclose(end.angular_momentum, momentum, rtol=0, atol=1e-27)
-        np.testing.assert_allclose(end.gamma, GAMMA, rtol=0, atol=2.0**-53)
-        # The roundings of four numbers in each column, times the weights.
-        assert 0 <= end.doubt <= steps * ROUNDOFF * 8 * float(sum(map(abs, weights(12, 3))))
-
-
 def test_a_step_may_be_longer_than_one_of_the_map():
     """Columns from n = 1 on would have no rotation where those from 3 on have."""
     assert after(2.0, 1).status == chapsym.Status.TAKEN

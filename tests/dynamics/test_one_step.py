@@ -127,17 +127,6 @@ def test_a_batch_steps_as_its_trajectories_do():
             assert np.array_equal(getattr(step, name), getattr(run, name)[:, 1], equal_nan=True)
 
 
-@pytest.mark.parametrize("precision", ["double-double", Digits(30), Enclosure(120)], ids=str)
-def test_what_fractions_have_beyond_float64_counts_in_a_step_too(precision):
-    K = [F(1, 3), F(-1, 7), F(1, 5)]
-    ball = Ball((1, 2, 4), 3)
-    assert first(lambda: chapsym.step(ball, K, GAMMA, precision=precision)) == first(
-        lambda: chapsym.trajectory(ball, K, GAMMA, 1, precision=precision)
-    )
-    rounded = first(lambda: chapsym.step(ball, [float(x) for x in K], GAMMA, precision=precision))
-    assert first(lambda: chapsym.step(ball, K, GAMMA, precision=precision)) != rounded
-
-
 @pytest.mark.parametrize("precision", LEVELS, ids=str)
 def test_exact_numbers_that_are_floats_are_stepped_as_floats(precision):
     precision = NAMED[precision] if isinstance(precision, str) else precision

@@ -90,34 +90,6 @@ def test_how_far_the_straight_path_reaches(thorough):
         assert proved[fraction] >= least
 
 
-def test_where_the_path_joins_its_inequality_holds():
-    """4σ|G_t(su)| < m² all along, with G and the least eigenvalue m of its Jacobian's symmetric part by NumPy."""
-    draw, closest = np.random.default_rng(8), []
-    s = np.linspace(0, 1, 101)[:, np.newaxis]
-    for _ in range(300):
-        inertia, D = draw.uniform(1, 4) + np.array([*draw.uniform(0, 1, 2), 0.0]), draw.choice([0.0, 3.0])
-        axis, g = (v / np.linalg.norm(v) for v in draw.normal(size=(2, 3)))
-        B, spread = np.diag(inertia) + D * (np.eye(3) - np.outer(g, g)), np.ptp(inertia) / 2
-        for length in np.arange(1.2, 0, -0.02):  # the largest that is joined
-            u = length * axis
-            square, x = u @ u, np.cross(u, inertia * u)
-            k = (B @ u + x) / (1 + square)  # so that u is a root
-            half = np.linalg.norm(k)
-            if path.joined(u, square, k, half, g, inertia, D, spread)[0]:
-                break
-        c = (square * (1 + path.LEVEL) - x @ k / half**2) / (1 + path.LEVEL**2 * square)
-        t = s + np.clip(c, 0, 1) * s * (1 - s)
-        residual = s * (B @ u) + s**2 * x - (1 + s**2 * square) * t * k
-        twist = np.array([np.cross(u, inertia * e) + np.cross(e, inertia * u) for e in np.eye(3)]).T
-        jacobian = B + s[..., np.newaxis] * (twist - 2 * t[..., np.newaxis] * np.outer(k, u))
-        m = np.linalg.eigvalsh((jacobian + jacobian.mT) / 2)[:, 0]
-        used = 4 * (spread + 2 * half) * np.linalg.norm(residual, axis=1) / m**2
-        assert m.min() > 0
-        assert used.max() < 1
-        closest.append(used.max())
-    assert max(closest) > 0.4  # the bounds on intervals cost about a half
-
-
 def test_the_intervals_cover_the_path(monkeypatch):
     """What the check of the intervals is given, by formulas in vectors: with room for roundings only."""
     calls = []

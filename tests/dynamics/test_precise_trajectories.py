@@ -87,7 +87,7 @@ def test_orders_are_compositions_with_the_exact_coefficients(order):
         assert not contains(balls.gamma[steps], list(other[steps][1]), 48)
 
 
-@pytest.mark.parametrize("size", [0.05, 0.4])
+@pytest.mark.parametrize("size", [0.4, *slow(0.05)])
 def test_balls_contain_the_oracle_step_by_step_and_are_small(size):
     steps, bits = 12, 200
     run = chapsym.trajectory(BALL, size * DIRECTION, GAMMA, steps, contact=True, precision=Enclosure(bits))

@@ -2,7 +2,6 @@
 
 import copy
 import pickle
-import threading
 
 import numpy as np
 import pytest
@@ -163,32 +162,6 @@ def test_what_is_returned_is_not_the_state():
         getattr(stepper, name)[:] = 5.0
         getattr(run, name)[:] = 5.0
     assert same(stepper, other)
-
-
-def test_two_threads_with_an_object_each():
-    """Each gets what it gets alone, though they run at once."""
-    starts = [(K, GAMMA), (-0.5 * K, -GAMMA)]
-    together, ends = threading.Barrier(2), [None, None]
-
-    def work(i):
-        stepper = Stepper(BALL, *starts[i], **TRACED)
-        together.wait(60)
-        for _ in range(400):
-            stepper.step()
-            stepper.step(3)
-            stepper.momentum *= 1.0001
-        ends[i] = stepper
-
-    threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    found = list(ends)
-    for i in range(2):
-        together = threading.Barrier(1)
-        work(i)
-        assert same(found[i], ends[i])
 
 
 @pytest.mark.parametrize(

@@ -73,29 +73,6 @@ def test_a_step_that_is_not_taken_leaves_the_state_before_it():
     assert caught.value.trajectory.momentum.tolist() == [whole.momentum[2].tolist()]
 
 
-@pytest.mark.parametrize("order", [2, 4])
-def test_nor_does_one_that_the_safe_way_refuses_below_the_bound(order, monkeypatch):
-    """What is refused here is not known to be met: the corrections are never small enough, the third call fails."""
-    from chapsym.dynamics.n import run_n
-
-    start, honest, calls, taken = alone(), run_n.limits, [], run_n.small_rotation
-    monkeypatch.setattr(run_n, "limits", lambda *at: (honest(*at)[0], 0 * honest(*at)[1]))
-    stepper, steps = StepperN(*start, order=order), StepperN(*start, order=order)
-    fails = 3 if order == 2 else 3 * 5 - 2
-
-    def refusing(*ball):
-        calls.append(1)
-        E, status, reach = taken(*ball)
-        return (E, np.array([Status.FOLDED]), np.array([0.5])) if len(calls) == fails else (E, status, reach)
-
-    steps.step(2)
-    monkeypatch.setattr(run_n, "small_rotation", refusing)
-    with pytest.raises(StepNotTaken) as caught:
-        stepper.step(9)
-    assert (caught.value.index, caught.value.reach, stepper.taken) == (2, 0.5, 2)
-    assert same(stepper, steps)
-
-
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [

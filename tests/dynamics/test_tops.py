@@ -10,7 +10,6 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from chapsym import BadInput, Ball, Status, StepNotTaken, TopMotion, is_top, testing, top_frames, trajectory
-from chapsym.dynamics import kernels
 
 ULP = 2.0**-52
 GAMMA = np.array([2 / 7, 3 / 7, 6 / 7])
@@ -178,14 +177,6 @@ def test_which_states_are_tops():
 def test_bad_input_is_told(call, sentence):
     with pytest.raises(BadInput, match=sentence):
         call()
-
-
-def test_a_body_turns_as_its_vectors():
-    """R_k γ_k = e₃, and R_k 𝒦_k is what it was."""
-    found = top_frames(TOP, (1, -0.5, 0.75), GAMMA, [0, 1, 10**9], attitude=True)
-    assert np.abs(kernels.rotate(found.attitude, found.gamma) - [0, 0, 1]).max() <= 8 * ULP
-    fixed = kernels.rotate(found.attitude, found.momentum)
-    assert np.abs(fixed - fixed[0]).max() <= 16 * ULP
 
 
 @pytest.mark.parametrize("apart", [1e-15, 1e-13, -1e-11, 1e-8])

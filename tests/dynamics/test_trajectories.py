@@ -33,22 +33,6 @@ def test_a_trajectory_is_its_steps():
             assert np.abs(found[frame + 1] - other).max() <= 4 * 2.0**-52
 
 
-def test_every_kth_state_is_kept():
-    whole, thin = (chapsym.trajectory(BALL, K, GAMMA, 103, every=n, contact=True) for n in (1, 10))
-    assert thin.index.tolist() == list(range(0, 101, 10))
-    assert (thin.momentum == whole.momentum[::10]).all()
-    assert (thin.contact == whole.contact[::10]).all()
-    assert thin.taken == 103
-
-
-def test_attitude_keeps_the_vertical_up_and_the_momentum_fixed_in_space():
-    run = chapsym.trajectory(BALL, K, GAMMA, 1500, attitude=True)
-    assert np.abs(kernels.rotate(run.attitude, run.gamma) - [0, 0, 1]).max() < 5e-14
-    space = kernels.rotate(run.attitude, run.momentum)
-    assert np.abs(space - space[0]).max() < 5e-14
-    assert np.abs((run.attitude**2).sum(axis=-1) - 1).max() < 1e-15
-
-
 def test_si_front_is_the_map_of_epsilon_times_k():
     run = chapsym.roll(BALL, (0.3, -0.2, 0.1), 0.01, 50, gamma=GAMMA, map=True)
     paper = chapsym.trajectory(BALL, run.momentum[0], GAMMA, 50)
@@ -58,20 +42,6 @@ def test_si_front_is_the_map_of_epsilon_times_k():
     slip = np.cross(omega, GAMMA)
     kinetic = 0.5 * 3 * slip @ slip + 0.5 * omega @ (BALL.inertia * omega)
     assert run.kinetic_energy()[0] == pytest.approx(kinetic, rel=1e-14)
-
-
-def test_a_fold_stops_one_ball_with_the_step_and_the_trajectory_before_it():
-    with pytest.raises(StepNotTaken) as caught:
-        chapsym.trajectory(BALL, FOLDING, GAMMA, 100, contact=True)
-    error = caught.value
-    assert error.status is Status.FOLDED
-    assert error.index == 3
-    assert str(error).startswith("step 3: the small-rotation branch folds")
-    assert error.trajectory.momentum.shape == (4, 3)
-    assert error.trajectory.contact.shape == (4, 2)
-    assert np.isfinite(error.trajectory.momentum).all()
-    again = chapsym.trajectory(BALL, FOLDING, GAMMA, 3)
-    assert (again.momentum == error.trajectory.momentum).all()
 
 
 @pytest.mark.parametrize("extra", [1, 2000])

@@ -7,15 +7,12 @@ from balls_n import SIZES, UNIT_ROUNDOFF, batch, invariant_scales
 from chapsym import (
     BadInput,
     BallN,
-    Status,
-    StepNotTaken,
     axial,
     certify,
     invariants_n,
     retrace_error,
     reverse_n,
     skew,
-    step_n,
     substeps,
     trajectory_n,
 )  # fmt: skip
@@ -78,55 +75,6 @@ def test_the_way_back_leads_to_the_start(n, order):
     assert back.index.tolist() == run.index.tolist()
     assert retrace_error(run, back).shape == (5, 6)
     assert retrace_error(run, back).max() <= budget
-
-
-def test_only_the_frames_that_are_kept_are_allocated():
-    ball, K, gamma = batch(4, 2, 0.1)
-    whole, some = (trajectory_n(ball, K, gamma, 50, every=k) for k in (1, 7))
-    assert some.index.tolist() == [0, 7, 14, 21, 28, 35, 42, 49]
-    assert (some.momentum == whole.momentum[:, ::7]).all()
-    assert some.momentum.base is None or some.momentum.base.shape[1] == 8
-    assert some.attitude is None
-    assert some.contact is None
-    assert trajectory_n(ball, K, gamma, 0).momentum.tolist() == K[:, np.newaxis].tolist()
-
-
-def leaving():
-    """A ball that folds on the way: its momentum is close to what its fold allows at this γ."""
-    ball, K, gamma = batch(4, 1, 1.0, seed=3)
-    one = BallN(ball.mass_tensor[0], ball.D[0])
-    with pytest.raises(StepNotTaken) as caught:
-        step_n(one, 100 * K[0], gamma[0])
-    return one, 100 * caught.value.reach * 0.999 * K[0], gamma[0]
-
-
-def test_one_ball_that_folds_tells_where():
-    ball, K, gamma = leaving()
-    with pytest.raises(StepNotTaken) as caught:
-        trajectory_n(ball, K, gamma, 100, every=2)
-    error = caught.value
-    assert error.status is Status.FOLDED
-    assert error.index >= 1
-    assert len(error.trajectory.index) == error.index // 2 + 1
-    assert np.isfinite(error.trajectory.momentum).all()
-    last = error.index // 2 * 2
-    again = trajectory_n(ball, K, gamma, last, every=2)
-    assert (again.momentum == error.trajectory.momentum).all()
-
-
-def test_a_batch_goes_on_for_the_others():
-    ball, K, gamma = leaving()
-    run = trajectory_n(ball, np.stack([0.1 * K, K, 0.2 * K]), gamma, 100)
-    assert run.status.tolist() == [Status.TAKEN, Status.FOLDED, Status.TAKEN]
-    assert run.taken[[0, 2]].tolist() == [100, 100]
-    stop = run.taken[1]
-    assert 1 <= stop < 100
-    assert np.isfinite(run.momentum[1, : stop + 1]).all()
-    assert np.isnan(run.momentum[1, stop + 1 :]).all()
-    assert np.isfinite(run.momentum[[0, 2]]).all()
-    for refused in (run.invariants, lambda: reverse_n(run)):
-        with pytest.raises(BadInput, match="a ball of the batch stopped early"):
-            refused()
 
 
 def test_an_empty_batch_has_empty_frames():
