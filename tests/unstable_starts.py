@@ -1,11 +1,10 @@
 """Runs of `roll` near unstable rotations, seeded: the stated error is compared with the true one.
 
-`python tests/unstable_starts.py FIRST COUNT [heavy]` prints each start; one in `CERTIFIED`, and each whose true error
-is more than a tenth of the stated one, is judged by the certified motion as well.
+One in `CERTIFIED`, and each whose true error is more than a tenth of the stated one, is judged by the certified motion
+as well.
 """
 
 import random
-import sys
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -109,30 +108,12 @@ def distance(asked, run, true):
     )
 
 
-def judged(seed, heavy=False, certify=True):
-    """(accuracy, stated error, true error, that by the certified motion or None); None of a refused accuracy."""
-    asked = start(seed, heavy)
-    if (run := rolled(asked)) is None:
-        return None
-    certified, error = None, distance(asked, run, by_extrapolation(asked, run))
-    if certify and (seed % CERTIFIED == 0 or error > TENTH * run.error):
-        certified = distance(asked, run, by_certified_motion(asked, run))
-    return asked.accuracy, float(run.error), error, certified
-
-
 def part(seed, heavy=False, certify=True):
     """Which part of the stated error the true one is, by both; 0 of a refused accuracy."""
-    if (found := judged(seed, heavy, certify)) is None:
+    asked = start(seed, heavy)
+    if (run := rolled(asked)) is None:
         return 0.0
-    _, stated, *errors = found
-    return max(error for error in errors if error is not None) / stated
-
-
-if __name__ == "__main__":
-    first, count, *heavy = sys.argv[1:]
-    for seed in range(int(first), int(first) + int(count)):
-        if found := judged(seed, bool(heavy)):
-            accuracy, stated, *errors = found
-            parts = [error / stated for error in errors if error is not None]
-            true, below = ", ".join(f"{part:.2g}" for part in parts), " BELOW" if max(parts) >= 1 else ""
-            print(f"{seed}: accuracy {accuracy:.2g}, stated {stated:.3g}, true {true} of it{below}", flush=True)
+    error = distance(asked, run, by_extrapolation(asked, run))
+    if certify and (seed % CERTIFIED == 0 or error > TENTH * run.error):
+        error = max(error, distance(asked, run, by_certified_motion(asked, run)))
+    return error / float(run.error)

@@ -1,7 +1,7 @@
 """A ball with an inertia tensor: what is given and returned is in its axes, as by hand with the whole tensor."""
 
 import pickle
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from fractions import Fraction
 from inspect import Parameter, isfunction, signature
 
@@ -200,10 +200,7 @@ def test_no_symmetric_array_is_both_a_tensor_and_three_rows_of_moments(given_):
             r"the inertia \((0, 0, 6|0, 6, 0|6, 0, 0)\).*; if each row is the",
         ),
         (lambda: Ball.from_inertia(np.diag([1.0, 1, 3]), D=1), r"no body has the inertia \(1, 1, 3\)[^;]*$"),
-        (
-            lambda: Ball.from_inertia([[2, 0.1, 0], [0.2, 3, 0], [0, 0, 4]], D=1),
-            r"inertia \(2, 0\.1, 0\).*if it is a tensor, it must be symmetric, but it differs .* by 0\.1",
-        ),
+        (lambda: Ball.from_inertia([[2, 0.1, 0], [0.2, 3, 0], [0, 0, 4]], D=1), r"\(2, 0\.1, 0\).*symmetric.* by 0\.1"),
         (lambda: Ball.from_inertia([[2, -0.1, 0], [0.1, 3, 0], [0, 0, 4]], D=1), r"moment -0\.1; if it is a tens"),
         (lambda: Ball.from_inertia([TENSOR, np.triu(TENSOR)], D=1), "if it is a tensor, it must be symmetric"),
         (lambda: Ball.from_inertia(1.7e308 * (np.eye(3) + 1e-3), D=1), "inertia is beyond the range of float64"),
@@ -212,10 +209,7 @@ def test_no_symmetric_array_is_both_a_tensor_and_three_rows_of_moments(given_):
         (lambda: Ball((1, 2, 4), 3, axes=(1, 1, 0, 0)), "axes must be unit quaternions"),
         (lambda: Ball([(1, 2, 4)] * 3, 3, axes=[TURN, TURN]), "leading axes of mass_tensor and axes do not broadcast"),
         (lambda: Ball((1, 2, 4), [3] * 3, axes=[TURN, TURN]), "mass_tensor, D, radius and axes do not broadcast"),
-        (
-            lambda: chapsym.step(FAR, **STATE, precision="double-double"),
-            "more digits than float64 has are kept in principal ax",
-        ),
+        (lambda: chapsym.step(FAR, **STATE, precision="double-double"), "are kept in principal axes"),
         (lambda: chapsym.step(FAR, (1, 2, 3), (0, 0, 2)), "gamma must be a unit vector"),
         (lambda: chapsym.roll(BALL, OMEGA, 1e-3, 2, attitude=(1, 0, 0, 0), gamma=GAMMA), "attitude and gamma disagree"),
     ],
@@ -250,10 +244,7 @@ def test_every_function_of_a_ball_answers_in_its_axes_or_refuses(name):
     function = getattr(chapsym, name)
     needed = [p.name for p in signature(function).parameters.values() if p.default is Parameter.empty]
     given_ = {part: ARGUMENTS[part] for part in needed if part != "ball"}
-    if name in ANSWER:
-        function(FAR, **given_)
-        return
-    with pytest.raises(BadInput, match=r"takes principal axes only: give it ball\.principal"):
+    with nullcontext() if name in ANSWER else pytest.raises(BadInput, match=r"principal axes only.*ball\.principal"):
         function(FAR, **given_)
 
 

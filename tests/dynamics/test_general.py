@@ -74,13 +74,6 @@ def test_a_tiny_momentum_keeps_its_digits(size, scale):
     assert np.abs(back - K).max() <= max(64 * UNIT_ROUNDOFF, 10 * size) * np.abs(K).max()
 
 
-def test_a_ball_at_rest_stays_at_rest():
-    step = step_n(BallN(J4, 3), np.zeros((4, 4)), G4)
-    assert (step.rotation == np.eye(4)).all()
-    assert (step.gamma == G4).all()
-    assert not step.momentum.any()
-
-
 @pytest.mark.parametrize("size", [5e-324, 1e-315, 1e-308])
 def test_a_momentum_that_is_no_normal_number_is_one(size):
     """Newton's corrections there vanish on the grid of the smallest numbers."""
@@ -122,13 +115,12 @@ def test_a_batch_goes_on_for_the_others():
             assert step.reach[i, j] == 1
         assert np.isnan(step.momentum[i, 1]).all()
         assert 0 < step.reach[i, 1] < 1
-
-
-def test_a_batch_longer_than_a_block_is_the_balls_one_by_one():
-    K = K4 * np.linspace(0.01, 0.3, 2000)[:, None, None]
+    K = K4 * np.linspace(0.0, 0.3, 2000)[:, None, None]  # longer than a block, and the first is at rest
     step = step_n(BallN(J4, 3), K, G4)
     for i in (0, 777, 1999):
         assert np.abs(step.momentum[i] - step_n(BallN(J4, 3), K[i], G4).momentum).max() <= 4 * UNIT_ROUNDOFF
+    assert (step.rotation[0] == np.eye(4)).all()
+    assert (step.gamma[0] == G4).all()
 
 
 def test_layout_and_emptiness_do_not_matter():

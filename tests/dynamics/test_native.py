@@ -196,14 +196,11 @@ def read_only(array):
     [
         (0, lambda x: x[:, ::2], "an array of float64 is wanted, of 2 axes, the last contiguous"),
         (2, np.asfortranarray, "the last contiguous"),
-        (0, lambda x: x.astype(np.float32), "float64 is wanted"),
         (3, lambda x: x.astype(np.int64), "float64 is wanted, of 1 axes"),
         (5, lambda x: x.astype(np.int32), "int64 is wanted, of 1 axes"),
         (0, lambda x: x[0], "of 2 axes"),
-        (0, lambda x: x.astype(complex), "float64 is wanted"),
         (2, lambda x: x.astype(">f8"), "float64 is wanted"),
         (3, lambda x: 1.0, "a bytes-like object is required"),
-        (2, lambda x: None, "a bytes-like object is required"),
     ],
 )
 def test_an_array_of_another_form_is_refused_with_a_sentence(at, change, sentence):
@@ -227,16 +224,12 @@ def test_an_array_that_is_written_may_not_be_read_only():
 
 
 @needs_compiled
-def test_another_number_of_arguments_is_refused():
+def test_another_number_of_arguments_and_a_number_of_another_type_are_refused():
     for given in ([], arguments()[:-1], [*arguments(), 1.0], [1.0] * 40):
         with pytest.raises(TypeError, match=r"takes another number of arguments than|bytes-like object is required"):
             native.loop(loop.advance_all)(*given)
     with pytest.raises(TypeError, match="takes no keyword arguments"):
         native.loop(loop.prepare)(momentum=np.ones(3))
-
-
-@needs_compiled
-def test_a_number_of_another_type_is_refused():
     given = [np.ones(3), np.ones(3), np.ones(3), "1", np.ones(1), np.zeros(loop.ROWS), np.ones(1), np.ones(1)]
     with pytest.raises(TypeError, match="must be real number, not str"):
         native.loop(loop.prepare)(*given)

@@ -58,17 +58,7 @@ def test_a_slow_step_has_all_its_digits(size):
     _, k, g = rounded(BALL, np.array(K) * size, G)
     found, exact = (chapsym.step(BALL, k, g, precision=p).rotation[1:] for p in ("single", "double"))
     assert np.abs(found / exact - 1).max() <= 4 * ULP
-
-
-def test_a_vector_is_divided_by_its_length_and_rounded():
-    assert (double.unit(np.array([[0.0, 3.0, 4.0]])) == np.array([0, 0.6, 0.8], np.float32)).all()
-
-
-def test_all_arrays_are_float32():
-    run = chapsym.trajectory(BALL, K, G, 10, contact=True, precision="single")
-    assert {x.dtype for x in (run.momentum, run.gamma, run.attitude, run.contact)} == {np.dtype(np.float32)}
-    step = chapsym.step(BALL, K, G, precision="single")
-    assert {x.dtype for x in (step.rotation, step.momentum, step.gamma)} == {np.dtype(np.float32)}
+    assert found.dtype == np.float32
 
 
 @pytest.mark.parametrize("moments", [(1.0, 1.0, 1.0), (1.0, 0.9, 0.2), (1.0, 1.0, 1e-3), (1.0, 1.0, 1e-9)])
@@ -91,6 +81,7 @@ def test_a_run_is_that_of_float64_from_the_rounded_state(order):
     exact = chapsym.trajectory(ball, k, g, 100, order=order, contact=True)
     for name, size in (("momentum", 0.035), ("gamma", 1.0), ("attitude", 1.0), ("contact", 0.5)):
         assert np.abs(getattr(run, name) - getattr(exact, name)).max() < 50 * ULP * size
+        assert getattr(run, name).dtype == np.float32
 
 
 @pytest.mark.parametrize("order", [2, 8])

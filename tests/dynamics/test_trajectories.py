@@ -93,7 +93,7 @@ def test_a_step_that_was_not_taken_can_be_pickled():
     assert (str(again), again.status, again.reach, again.index) == (str(error), error.status, 0.5, 3)
 
 
-def test_more_steps_than_can_be_counted_or_timed_are_refused():
+def test_more_steps_than_can_be_counted_or_timed_are_refused_and_others_are_only_large():
     asked = Ball((1, 2, 4), 3), (0.1, 0.2, 0.3), (0, 0, 1)
     many = "steps must be a whole number from 0 to 4611686018427387904, not 10000000000000000000000000"
     for takes in (
@@ -105,6 +105,11 @@ def test_more_steps_than_can_be_counted_or_timed_are_refused():
             takes(steps=10**25, every=10**24)
     with pytest.raises(BadInput, match="steps times time_step is beyond the range of float64"):
         chapsym.trajectory(*asked, 5, time_step=1e308)
+    with pytest.raises(StepNotTaken):
+        chapsym.trajectory(BALL, 9 * K / abs(K).max(), GAMMA, 2**62, every=10**30)
+    assert chapsym.trajectory(BALL, K, GAMMA, 3, order=np.int64(4), every=10**30).taken == 3
+    with pytest.raises(StepNotTaken, match="D is too large"):  # which is no missing inertia
+        chapsym.step(Ball((1, 2, 4), 1e100), K, GAMMA)
 
 
 def test_progress_is_told():
@@ -120,17 +125,6 @@ def test_progress_of_a_proved_run_begins_before_the_proof_does():
 
     with pytest.raises(KeyboardInterrupt):
         chapsym.trajectory(BALL, K, GAMMA, 10, proved=True, progress=progress)
-
-
-def test_counts_beyond_all_bounds_are_only_large():
-    with pytest.raises(StepNotTaken):
-        chapsym.trajectory(BALL, 9 * K / abs(K).max(), GAMMA, 2**62, every=10**30)
-    assert chapsym.trajectory(BALL, K, GAMMA, 3, order=np.int64(4), every=10**30).taken == 3
-
-
-def test_a_huge_d_is_no_missing_inertia():
-    with pytest.raises(StepNotTaken, match="D is too large"):
-        chapsym.step(Ball((1, 2, 4), 1e100), K, GAMMA)
 
 
 @pytest.mark.usefixtures("plain")

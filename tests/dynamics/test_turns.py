@@ -16,8 +16,10 @@ def exactly(pair):
     return MP.mpf(float(pair[0])) + MP.mpf(float(pair[1]))
 
 
-def test_a_full_turn_is_two_pi():
+def test_a_full_turn_is_two_pi_and_an_eighth_is_the_turn_of_the_largest_tangent():
+    """Where the series is longest; 2⁻¹⁰² is what its operations leave there."""
     assert abs(exactly(turns.FULL_TURN) / (2 * MP.pi) - 1) < 2.0**-105
+    assert abs(exactly(turns.turns_of_tangent(1.0, 0.0)) * 8 - 1) <= 2.0**-102
 
 
 @given(st.floats(0.0, 1.0), st.floats(-1, 1))
@@ -28,11 +30,6 @@ def test_turns_of_a_tangent(t, part):
     true = MP.atan(MP.mpf(t) + MP.mpf(t_)) / (2 * MP.pi)
     assert abs(exactly(found) - true) <= 2.0**-99 * true + 2.0**-1000
     assert [half.tolist() for half in turns.turns_of_tangent(np.array([t]), np.array([t_]))] == [[x] for x in found]
-
-
-def test_turns_of_the_largest_tangent():
-    """Where the series is longest; 2⁻¹⁰² is what its operations leave there."""
-    assert abs(exactly(turns.turns_of_tangent(1.0, 0.0)) * 8 - 1) <= 2.0**-102
 
 
 @given(st.floats(-0.5, 0.5), st.floats(-0.5, 0.5), st.integers(0, 2**62))

@@ -58,16 +58,6 @@ def test_digits_are_correct_to_the_last_one(digits, scale):
     assert scale < 1 or all(len(text.lstrip("-0.").replace(".", "")) == digits for text in flat(written))
 
 
-def test_gamma_must_be_unit_to_the_digits_asked_for():
-    nearly = (F(3, 5), F(4, 5) + F(1, 10**20), F(0))
-    exact_step(J, D, K, nearly, Double())
-    exact_step(J, D, K, nearly, Digits(15))
-    with pytest.raises(BadInput, match="give it exactly"):
-        exact_step(J, D, K, nearly, Digits(30))
-    with pytest.raises(BadInput, match="give it exactly"):
-        exact_step(J, D, K, nearly, Enclosure(100))
-
-
 @pytest.mark.parametrize("exponent", [3, 11, 12, 25])
 @pytest.mark.parametrize(("precision", "digits"), [(Digits(20), 20), (Enclosure(66), 19)])
 @pytest.mark.parametrize("K", [(F(3, 20), F(-1, 10), F(0)), (F(0), F(3, 2), F(-1, 2))], ids=["across", "any"])
@@ -164,14 +154,22 @@ def test_the_continuation_is_the_same_on_other_numbers():
             assert all(abs(a - b) < 1e-12 for a, b in zip(found[2], q, strict=True))
 
 
-def test_a_body_is_checked_at_any_size():
-    tiny = F(1, 10**400)
-    with pytest.raises(BadInput, match="negative moment"):
-        exact_step((tiny, tiny, -tiny), tiny, (F(0),) * 3, GAMMA, Digits(20))
-    with pytest.raises(BadInput, match="must not be negative"):
-        exact_step(J, -tiny, K, GAMMA, Digits(20))
-    with pytest.raises(BadInput, match="no inertia about one of its axes"):
-        exact_step((F(0), F(0), tiny), F(0), (F(0),) * 3, GAMMA, Digits(20))
+def test_a_body_and_a_state_are_checked_at_any_size():
+    tiny, unit, rest = F(1, 10**400), F(10) ** 310, (F(0),) * 3
+    nearly = (F(3, 5), F(4, 5) + F(1, 10**20), F(0))  # unit to 20 digits
+    for state, precision, said in (
+        (((tiny, tiny, -tiny), tiny, rest, GAMMA), Digits(20), "negative moment"),
+        ((J, -tiny, K, GAMMA), Digits(20), "must not be negative"),
+        (((F(0), F(0), tiny), F(0), rest, GAMMA), Digits(20), "no inertia about one of its axes"),
+        (([x * unit for x in J], D * unit, [unit / 10] * 3, GAMMA), DoubleDouble(), "beyond the range of float64"),
+        ((J, D, (F(1), F(0), 1 / unit**2), GAMMA), DoubleDouble(), "below the range of float64"),
+        ((J, D, K, nearly), Digits(30), "give it exactly"),
+        ((J, D, K, nearly), Enclosure(100), "give it exactly"),
+    ):
+        with pytest.raises(BadInput, match=said):
+            exact_step(*state, precision)
+    for precision in (Double(), Digits(15)):
+        exact_step(J, D, K, nearly, precision)
 
 
 @pytest.mark.parametrize(("make", "least"), [(Digits, 1), (Enclosure, 2)])
@@ -183,14 +181,6 @@ def test_a_precision_takes_a_whole_number_of_digits_that_memory_holds(make, leas
         with pytest.raises(ValueError, match=f"guard of {make.__name__} must be a whole number from 0"):
             make(30, guard=value)
     assert make(np.int64(30), np.int8(5)) == make(30, 5)
-
-
-def test_a_quad_step_beyond_float64_is_refused():
-    unit = F(10) ** 310
-    with pytest.raises(BadInput, match="beyond the range of float64"):
-        exact_step([x * unit for x in J], D * unit, [unit / 10] * 3, GAMMA, DoubleDouble())
-    with pytest.raises(BadInput, match="below the range of float64"):
-        exact_step(J, D, (F(1), F(0), 1 / unit**2), GAMMA, DoubleDouble())
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there are no forks here")
