@@ -117,6 +117,7 @@ def test_the_count_is_the_one_by_elimination(ball, gamma, K):
     assert other == (len(found.solutions), sum(multiplicities(found)))
 
 
+@examples(12, 40)
 @given(testing.rational_balls(), testing.rational_unit_vectors(), testing.rational_rotations())
 def test_a_rotation_is_among_those_of_its_momentum(ball, gamma, q):
     J, D = ball

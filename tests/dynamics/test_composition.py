@@ -9,7 +9,7 @@ import pytest
 import chapsym
 from benchmarks.trade.reference import continuous
 from chapsym import BadInput, Ball, Status, StepNotTaken
-from chapsym.derive.composition import defects, product, step_series, words
+from chapsym.derive.composition import defects, words
 from chapsym.dynamics import kernels
 from chapsym.dynamics.coefficients import COMPOSITIONS
 from chapsym.dynamics.levels import double
@@ -171,38 +171,6 @@ def test_the_guess_continues_polynomials_of_degree_7():
         for n in range(-8, 0):
             double_double.extrapolated(past, (float(n**degree), float((n + 2) ** degree), 1.0))
         assert (past[0] == [0.0, 2.0**degree, 1.0]).all() == exact
-
-
-def rates(c, weight):
-    """The coefficients of words of up to a weight at the middle of each stage, times even powers of c, by series."""
-    series = {word: float(word == ()) for w in range(weight + 1) for word in words(w)}
-    found = []
-    for s in c:
-        half = {word: math.prod(s**letter / 2 for letter in word) / math.factorial(len(word)) for word in series}
-        middle = product(series, half)
-        powers = [(word, e) for word in series for e in range(0, weight + 1, 2) if sum(word) + e <= weight]
-        found.append([middle[word] * s**e for word, e in powers])
-        series = product(series, step_series(s, weight))
-    return np.array(found)
-
-
-@pytest.mark.parametrize(("order", "places"), [(4, 15), (6, 18), (8, 17)])
-def test_the_guess_of_a_stage_is_right_for_every_word_up_to_weight_4(order, places):
-    """In each place, from a whole round before; and not for those of weight 5."""
-    stages = chapsym.substeps(order)
-    first, later = stage_weights(tuple(map(float, stages)))
-    assert len(later) == places
-    c = np.tile(stages, 2 * places // len(stages))
-    four, five = rates(c, 4), rates(c, 5)
-    for i in range(places):
-        window = slice(i, i + places)
-        weights = later[i, :places]
-        missed = [np.abs(weights @ (c[window, None] * r[window]) - c[i + places] * r[i + places]) for r in (four, five)]
-        assert missed[0].max() < 1e-7
-        assert missed[1].max() > 1e-4
-        assert (later[i, places:] == 0).all()
-        assert (first[i, : places - i] == 0).all()
-        assert (first[i, places:] == 0).all()
 
 
 @pytest.mark.usefixtures("plain")

@@ -93,16 +93,6 @@ def test_a_run_against_60_digits(order, steps, budget, up, start):
     assert type(run.precision) is DoubleDouble
 
 
-def test_a_batch_of_another_order_is_not_taken_in_blocks():
-    """Blocks have the stage of order 2 only; 4 balls would fill one."""
-    n = double_double.FEW
-    balls = chapsym.Ball([J] * n, [D] * n, [RADIUS] * n)
-    together = chapsym.trajectory(balls, [K] * n, [GAMMA] * n, 3, order=4, precision="double-double")
-    alone = chapsym.trajectory(BALL, K, GAMMA, 3, order=4, precision="double-double")
-    for a, b in ((together, alone), (together.low, alone.low)):
-        np.testing.assert_array_equal(a.momentum, [b.momentum] * n)
-
-
 @pytest.mark.parametrize("size", [1e-5, 1e-40, 1e-150, 1e-300, 5e-324])
 def test_tiny_momenta(size):
     """To the last bits that the halves can hold: the low ones are subnormal where 𝒦 is below 1e-290."""

@@ -97,15 +97,6 @@ def test_a_ball_has_the_same_bits_alone_in_a_batch_in_parts_and_in_plain_python(
     assert plain.doubt == after(0.4, 2).doubt
 
 
-def test_frames_are_those_of_shorter_runs_and_an_attitude_turns_with_them():
-    kept = after(0.4, 6, every=2, attitude=(0.6, 0.48, 0.64, 0.0), gamma=(-0.768, 0.576, -0.28))
-    assert kept.index.tolist() == [0, 2, 4, 6]
-    for frame, steps in enumerate((0, 2, 4, 6)):
-        one = after(0.4, steps, attitude=(0.6, 0.48, 0.64, 0.0), gamma=(-0.768, 0.576, -0.28))
-        assert (exactly(kept, "attitude")[frame] == exactly(one, "attitude")).all()
-        assert (exactly(kept, "gamma")[frame] == exactly(one, "gamma")).all()
-
-
 @pytest.mark.usefixtures("way")
 @pytest.mark.parametrize(("size", "step"), [(1e200, 1e300), (1e300, 1e-200), (1e-300, 1e-5)])
 def test_what_is_beyond_the_range_is_a_fold_or_stays(size, step):

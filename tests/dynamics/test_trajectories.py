@@ -15,8 +15,6 @@ from chapsym.dynamics.oracle import Oracle
 BALL = Ball((1, 2, 4), 3, radius=0.5)
 GAMMA = np.array([2, 3, 6]) / 7
 K = np.array([0.2, -0.1, 0.15])
-#: A start whose branch folds at the fourth step.
-FOLDING = np.array([4.32, -2.16, 3.24])
 
 
 def test_a_trajectory_is_its_steps():
@@ -42,19 +40,6 @@ def test_si_front_is_the_map_of_epsilon_times_k():
     slip = np.cross(omega, GAMMA)
     kinetic = 0.5 * 3 * slip @ slip + 0.5 * omega @ (BALL.inertia * omega)
     assert run.kinetic_energy()[0] == pytest.approx(kinetic, rel=1e-14)
-
-
-@pytest.mark.parametrize("extra", [1, 2000])
-def test_a_batch_reports_which_ball_stopped_where(extra):
-    run = chapsym.trajectory(BALL, np.stack([K, FOLDING]), GAMMA, extra + 10, contact=True)
-    assert run.status.tolist() == [Status.TAKEN, Status.FOLDED]
-    assert run.taken.tolist() == [extra + 10, 3]
-    assert np.isfinite(run.momentum[0]).all()
-    assert np.isfinite(run.momentum[1, :4]).all()
-    assert np.isnan(run.momentum[1, 4:]).all()
-    assert np.isnan(run.contact[1, 4:]).all()
-    with pytest.raises(BadInput, match="stopped early"):
-        run.invariants()
 
 
 @pytest.mark.parametrize(
