@@ -22,10 +22,11 @@ from chapsym.dynamics.enclosed_motion import decimal, follow, written
 from chapsym.dynamics.flow import start as exact
 
 
-def test_random_motions_are_contained(thorough):
+@pytest.mark.thorough
+def test_random_motions_are_contained():
     """Without a rotor, and with one whose angular momentum is from a thousandth of the others to thirty times them."""
     rng = random.Random(21)
-    for i in range(600 if thorough else 3):
+    for i in range(600):
         times, size = [F(rng.randint(1, 9), 7), F(2)], F(10) ** rng.choice((-3, -1, 0, 1)) * (i % 3 > 0)
         case = (*random_case(rng), [size * F(rng.randint(-99, 99), 33) for _ in range(3)])
         found = follow(started(*case), times, 15)

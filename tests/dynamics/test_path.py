@@ -8,7 +8,6 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from small_branch import heavy, prepared
 
-import chapsym
 from chapsym import Ball, Status, testing
 from chapsym.dynamics.loops import gibbs, loop, path
 from chapsym.dynamics.loops.branch import small_rotation
@@ -180,19 +179,3 @@ def test_an_interval_is_small_where_it_says_so():
     assert closest > 0.95
     # r = s(1 - s) is 0 at both ends, and not between.
     assert not path.small_between(0.0, 1.0, 0.25, 1.0, 1.0, 0.0, 0.0, 1.0, 8.0, 0.0, 1.0, 1.0)
-
-
-@pytest.mark.parametrize("precision", ["single", "double", "double-double", chapsym.Digits(30)])
-@pytest.mark.parametrize("size", [0.5, 0.8])
-def test_a_run_beyond_the_bound_is_that_of_the_continuation(precision, size):
-    """40 steps, each of which the path proves, beside those that `small_rotation` finds: they differ by roundings."""
-    run = chapsym.trajectory(BALL, size * MOMENTUM, GAMMA, 40, precision=precision)
-    K, g = size * MOMENTUM, GAMMA
-    for _ in range(40):
-        status, _, *q = small_rotation(*K, *g, *BALL.mass_tensor, float(BALL.D))
-        assert status == Status.TAKEN
-        K, g = (np.array(chapsym.dynamics.kernels.transport(np.array(q), v)) for v in (K, g))
-    # A rounding of a step grows as the motion, which is regular here, does: by less than the number of steps.
-    budget = 40 * 40 * (2.0**-24 if precision == "single" else 2.0**-53)
-    assert np.abs(np.array(run.momentum[-1], dtype=float) - K).max() <= budget * size
-    assert np.abs(np.array(run.gamma[-1], dtype=float) - g).max() <= budget

@@ -109,8 +109,8 @@ def test_rolling_starts_from_the_spin_that_was_asked_for():
 
 @pytest.mark.parametrize("D", [0.0, 1.0, 1e6, 1e12])
 def test_the_curve_has_its_modulus_at_every_D(D):
-    """k, k', V by mpmath from the same floats: 8 ulps; with Λ_b - Λ_c from rounded moments they were lost."""
-    rng, lost = np.random.default_rng(4), 0.0
+    """k, k', V by mpmath from the same floats: 8 ulps."""
+    rng = np.random.default_rng(4)
     for kind in range(24):
         J, g = np.sort(rng.uniform(0.1, 2.0, 3)), rng.normal(size=3)
         if kind % 2:
@@ -121,11 +121,6 @@ def test_the_curve_has_its_modulus_at_every_D(D):
         true = invariants_of(curve, exact(J), MP.mpf(D), exact(g))
         for found, value in zip((curve.modulus, curve.complement, abs(curve.rate), curve.slack), true, strict=True):
             assert abs(float(MP.mpf(found) / value - 1)) <= 8 * ULP
-        moments = J.sum() - J + D
-        gap = moments[curve.axes[1]] - moments[curve.axes[2]]
-        exactly = MP.mpf(float(J[curve.axes[2]])) - MP.mpf(float(J[curve.axes[1]]))
-        lost = max(lost, abs(float(MP.mpf(float(gap)) / exactly - 1)) / ULP)
-    assert lost > max(0.1 * D, 1)
 
 
 def invariants_of(curve, J, D, g):
@@ -247,17 +242,11 @@ def test_jacobis_functions_do_not_overflow_near_the_separatrix(complement):
 @pytest.mark.parametrize("D", HEAVY)
 def test_the_angular_velocity_and_the_energy_are_as_good_as_k(D):
     """By F = Σ γᵢ²Iᵢ/Λᵢ; with 1 - D⟨γ,Λ⁻¹γ⟩ both had roundings of D/I.  K along γ: nothing else is ill conditioned."""
-    lost = 0.0
     for J, _, g in states(D):
         K, inertia = 0.7 * g, J.sum() - J
         unit = MP.matrix(exact(g)) / MP.norm(MP.matrix(exact(g)))
         B = MP.diag(exact(inertia)) + MP.mpf(D) * (MP.eye(3) - unit * unit.T)
         true = MP.lu_solve(B, MP.matrix(exact(K)))
-        moments = inertia + D
         assert off(kernels.angular_velocity(K, g, J, D), true) <= 8
         energy = sum(a * b for a, b in zip(true, exact(K), strict=True)) / 2
         assert abs(float(MP.mpf(float(kernels.energy(K, g, J, D))) / energy - 1)) <= 8 * ULP
-        naive = 1 - D * (g * g / moments).sum()
-        old = (K + g * D * (g @ (K / moments)) / naive) / moments
-        lost = max(lost, off(old, true) if np.isfinite(old).all() else np.inf)
-    assert lost > 0.02 * D
