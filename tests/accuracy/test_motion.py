@@ -312,7 +312,7 @@ def test_compositions_that_agree_by_chance_are_not_believed(seed, heavy, thoroug
     assert unstable_starts.part(seed, heavy, certify=thorough) < 0.5
 
 
-@pytest.mark.parametrize("wrong", [[1, 0], np.array([1, 0]), "no", 2.5, None])
+@pytest.mark.parametrize("wrong", [np.array([1, 0]), "no", None])
 @pytest.mark.parametrize("name", ["contact", "map", "axes", "threads"])
 def test_roll_refuses_what_is_no_answer_to_an_option(name, wrong):
     with pytest.raises(BadInput, match=name):

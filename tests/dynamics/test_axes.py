@@ -189,8 +189,6 @@ def test_a_diagonal_tensor_is_its_moments_and_rows_are_a_batch_where_they_are_no
         (lambda: Ball.from_inertia([[2, -0.1, 0], [0.1, 3, 0], [0, 0, 4]], D=1), r"moment -0\.1; if it is a tens"),
         (lambda: Ball.from_inertia([TENSOR, np.triu(TENSOR)], D=1), "if it is a tensor, it must be symmetric"),
         (lambda: Ball.from_inertia(1.7e308 * (np.eye(3) + 1e-3), D=1), "inertia is beyond the range of float64"),
-        (lambda: Ball.from_inertia([[1, 0, 0], [0, np.nan, 0], [0, 0, 1]], D=1), "inertia must be finite"),
-        (lambda: Ball.from_inertia(2.0, D=1), "inertia must have 3 components along its last axis"),
         (lambda: Ball((1, 2, 4), 3, axes=(1, 1, 0, 0)), "axes must be unit quaternions"),
         (lambda: Ball([(1, 2, 4)] * 3, 3, axes=[TURN, TURN]), "leading axes of mass_tensor and axes do not broadcast"),
         (lambda: Ball((1, 2, 4), [3] * 3, axes=[TURN, TURN]), "mass_tensor, D, radius and axes do not broadcast"),

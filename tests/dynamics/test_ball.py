@@ -32,8 +32,6 @@ def test_inertia_and_mass_tensor_are_two_ways_to_say_the_same():
         (lambda: Ball((1, 2, 3), -1), "D = m ρ² must not be negative"),
         (lambda: Ball((1, 0, 0), 0), "no inertia about one of its axes"),
         (lambda: Ball((0, 0, 0), 1), "no inertia about the vertical"),
-        (lambda: Ball((1, np.nan, 1), 1), "mass_tensor must be finite"),
-        (lambda: Ball((1, 1), 1), "mass_tensor must have 3 components"),
         (lambda: Ball((1, 1, 1), 1, radius=0), "radius must be positive"),
         (lambda: Ball([[1, 2, 4], [1, 1, 1]], [3, 0, 1]), "do not broadcast"),
         (lambda: Ball([[1, 2, 4], [1, 1, 1]], [3, 1], radius=[1, 1, 1]), "do not broadcast"),

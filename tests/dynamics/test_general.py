@@ -147,7 +147,6 @@ def test_a_momentum_that_is_skew_up_to_rounding_is_made_so():
         ({"mass_tensor": 1.0}, r"mass_tensor must have n >= 3 moments along its last axis, not the shape \(\)"),
         ({"mass_tensor": (1, 2)}, "mass_tensor must have n >= 3 moments"),
         ({"mass_tensor": (1, 2, -1, 1)}, "mass_tensor must not be negative, but it is -1"),
-        ({"mass_tensor": (1, 2, np.nan, 1)}, "mass_tensor must be finite"),
         ({"mass_tensor": (1e308, 1e308, 1, 1)}, "beyond the range of float64"),
         ({"mass_tensor": (0, 0, 1, 2), "D": 0}, "no inertia about some plane"),
         ({"D": -1}, "D must not be negative, but it is -1"),
@@ -165,8 +164,6 @@ def test_a_body_that_cannot_be_is_refused(kwargs, sentence):
     [
         ({"momentum": 1.0}, r"momentum must be skew matrices of the shape \(..., 4, 4\), not \(\)"),
         ({"momentum": np.eye(4)}, "momentum must be skew, but it differs from minus its transpose by 2"),
-        ({"momentum": K4 * np.nan}, "momentum must be finite"),
-        ({"momentum": [["a"] * 4] * 4}, "momentum must be real numbers"),
         ({"gamma": G4[:3]}, "gamma must have 4 components"),
         ({"gamma": 1.01 * G4}, "gamma must be a unit vector, but its length is 1.01"),
         ({"gamma": np.tile(G4, (3, 1)), "momentum": np.zeros((2, 4, 4))}, "momentum and gamma do not broadcast"),

@@ -124,10 +124,8 @@ def test_what_is_singular_or_too_wide_is_not_proved():
     [
         (([0, 0], START), "takes 3 arrays, gibbs \\(2\\), momentum \\(2\\), mass_tensor \\(5\\), not 2"),
         (([0, 0], [1, 0, 0], MASS), "momentum must have 2 components"),
-        (([0, np.nan], START, MASS), "gibbs must be finite"),
         ((np.zeros((3, 2)), np.zeros((4, 2)), MASS), "do not broadcast"),
         (([0, 0], [1e3, 0], MASS), "does not settle for number 0"),
-        (([0, 0], [1j, 0], MASS), "momentum"),
     ],
 )
 def test_bad_input_is_one_sentence(step, given, said):

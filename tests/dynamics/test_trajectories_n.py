@@ -89,8 +89,6 @@ def test_an_empty_batch_has_empty_frames():
     ("kwargs", "sentence"),
     [
         ({"steps": -1}, "steps must be a whole number from 0 on, not -1"),
-        ({"steps": 2.0}, "steps must be a whole number from 0 on, not 2.0"),
-        ({"every": 0}, "every must be a whole number from 1 on, not 0"),
         ({"contact": True}, "the contact point needs the radius"),
         ({"attitude": np.eye(3)}, r"attitude must be rotations of the shape \(..., 4, 4\), not \(3, 3\)"),
         ({"attitude": np.zeros((2, 4, 4))}, r"attitude has the leading axes \(2,\), the states have \(\)"),
@@ -98,7 +96,6 @@ def test_an_empty_batch_has_empty_frames():
         ({"attitude": np.diag([-1, 1, 1, 1])}, "attitude must be rotations"),
         ({"attitude": np.diag([1, 1, -1, -1])}, "attitude and gamma disagree"),
         ({"steps": 10**15}, "do not fit into memory"),
-        ({"order": 3}, "order must be one of 2, 4, 6, 8"),
     ],
 )
 def test_input_without_an_answer_is_refused(kwargs, sentence):
@@ -118,10 +115,8 @@ def test_what_does_not_fit_or_is_of_three_dimensions_only_is_refused():
         (lambda: run.omega, "has no time step"),
         (lambda: certify(run), "must be a chapsym.Ball, not BallN"),
         (lambda: invariants_n(1e300 * skew((0, 0, 1)), (0, 0, 1)), "beyond the range of float64"),
-        (lambda: skew((1, 2)), "vector must have 3 components"),
         (lambda: axial(np.zeros((4, 4))), r"matrix must be skew matrices of the shape \(..., 3, 3\)"),
         (lambda: invariants_n(np.zeros((4, 4)), (0, 0, 1)), "gamma must have 4 components"),
-        (lambda: invariants_n(1.0, (0, 0, 1)), "momentum must be skew matrices"),
     ):
         with pytest.raises(BadInput, match=sentence):
             call()

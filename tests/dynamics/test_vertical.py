@@ -94,7 +94,6 @@ def test_one_ball_that_cannot_step_says_so():
     ("height", "gamma", "sentence"),
     [
         (float("nan"), GAMMA, "height must be finite"),
-        (1j, GAMMA, "height must be real"),
         (0.1, (1, 1, 0), "unit vector"),
         ([0.1, 0.2, 0.3], [GAMMA, GAMMA], "do not broadcast"),
     ],
