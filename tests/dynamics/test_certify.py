@@ -127,11 +127,11 @@ BEYOND = 0.6 * np.array([6, -2, 3]) / 7
 @pytest.mark.parametrize("order", [2, 4])
 def test_beyond_the_bound_of_small_branch_every_step_is_proved(order, monkeypatch):
     monkeypatch.setattr(balls.ArbBall, "_rotation", lambda *_: pytest.fail("the continuation was asked"))
-    run = chapsym.trajectory(BALL, BEYOND / (1 if order == 2 else 2), GAMMA, 12, order=order)
+    run = chapsym.trajectory(BALL, BEYOND / (1 if order == 2 else 2), GAMMA, 5, order=order)
     proof = chapsym.certify(run, bits=100)
     assert proof.selected.shape == ()
     assert proof.selected == 0
-    exact = orbit(BALL, run.momentum[0], GAMMA, 12, COMPOSITIONS[order].exact, digits=50)
+    exact = orbit(BALL, run.momentum[0], GAMMA, 5, COMPOSITIONS[order].exact, digits=50)
     for k, (K, g, _, _) in enumerate(exact):
         assert all(right(text, x) for text, x in zip(proof.digits("momentum")[k], K, strict=True))
         assert all(right(text, x) for text, x in zip(proof.digits("gamma")[k], g, strict=True))

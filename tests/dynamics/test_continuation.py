@@ -37,25 +37,6 @@ def test_a_fold_is_where_the_jacobian_is_singular(D, thorough):
     assert (below.count - above.count == 2).all()
 
 
-@pytest.mark.parametrize("D", [0.0, 5.0, *slow(300.0)])
-def test_two_rotations_merge_at_a_fold(D):
-    """Below they are 2√(2δ)·c apart for a distance δ, above they are gone: the count drops by 2."""
-    ball, K, gamma = seeded(8, D)
-    found = fold(ball, K, gamma)
-    t = found.reach[:, np.newaxis]
-    above = branches(ball, t * (1 + 1e-8) * K, gamma)
-    apart = []
-    for near in (1e-6, 1e-8):
-        below = branches(ball, t * (1 - near) * K, gamma)
-        assert below.complete.all()
-        assert above.complete.all()
-        assert (below.count - above.count == 2).all()
-        assert (below.small >= 0).all()
-        away = np.sort(np.linalg.norm(below.rotation - found.rotation[:, np.newaxis], axis=-1), axis=1)
-        apart.append(away[:, :2])
-    assert apart[0] / apart[1] == pytest.approx(np.full((8, 2), 10.0), rel=0.02)
-
-
 def test_closed_forms():
     """D = 0: about the axis i, 𝒦 = 2(Jj + Jk) q₀q, largest at a right angle; and for equal moments about any axis."""
     for i, most in enumerate((6, 5, 3)):

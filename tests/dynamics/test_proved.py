@@ -99,7 +99,7 @@ def test_a_wrong_rotation_has_a_bound_that_contains_it():
 @pytest.mark.parametrize(("order", "size"), [(2, 0.03), (2, 0.55), (4, 0.2), *slow((2, 0.4), (8, 0.1))])
 def test_the_bounds_of_a_run_are_the_errors_that_the_oracle_sees(order, size):
     """With attitude and contact, within the bound of `small-branch` and beyond it; the bound is the error itself."""
-    steps = 40 if order == 2 else 4
+    steps = 15 if order == 2 else 4
     g, start = (0.0, 1.0, 0.0), (0.5, 0.5, 0.5, 0.5)  # R γ = e₃ exactly, as the oracle's contact point has it
     run = chapsym.trajectory(BALL, momentum(size), g, steps, order=order, attitude=start, contact=True, proved=True)
     exact = orbit(BALL, momentum(size), g, steps, COMPOSITIONS[order].exact, digits=40, attitude=start)

@@ -105,16 +105,3 @@ def test_near_a_fold_the_selected_root_is_followed_in_the_same_way(monkeypatch):
         assert ball.selected == 1
         monkeypatch.setattr(balls, "LEAST_SCALAR", 2)  # no rotation has a Gibbs vector that is short enough
         assert contained(state, steps=1)[0]
-
-
-def test_the_error_grows_by_the_number_of_steps_not_by_a_factor_each():
-    """100 and 400 steps: four times as many cost 2 bits where it grows linearly, 4 where it grows by the square."""
-    for size in (0.05, 0.6):
-        with flint.ctx.workprec(BITS):
-            ball, left = under_way((*STATES["large"][:2], size * DIRECTION, GAMMA), attitude=None), []
-            for _ in range(4):
-                for _ in range(100):
-                    ball.step()
-                left.append(ball.bits())
-        assert left[0] > BITS - 25
-        assert left[0] - left[-1] <= 5

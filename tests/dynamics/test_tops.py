@@ -204,12 +204,3 @@ def test_units_may_be_as_small_and_as_large_as_those_of_the_map(unit, third):
     run = trajectory(ball, momentum, (0, 0, 1), 100, every=10, attitude=True, precision="double-double")
     found = top_frames(ball, momentum, (0, 0, 1), run.index, attitude=True)
     assert (far_from(run, found) <= budget(TopMotion.free(ball, momentum))).all()
-
-
-@pytest.mark.parametrize("sign", [1, *slow(-1)])
-def test_the_increment_is_the_same_from_every_state_of_an_orbit(sign):
-    """Across the end of the interval in which u is counted, too."""
-    momenta = TopMotion.free(TOP, sign * np.array([0.9, 0.7, 0.4])).momenta(range(150))
-    every = [TopMotion.free(TOP, momentum) for momentum in momenta]
-    assert np.ptp([motion.start for motion in every]) > 0.9 * every[0].curve.period
-    assert np.ptp([motion.rotation_number for motion in every]) < 1e-13
