@@ -94,6 +94,7 @@ typedef struct { r2 sums; r3 following; r2 beginning; } Weights;
 typedef struct { real a0, a1; } t_r2;
 typedef struct { t_r2 a0, a1, a2, a3; } t_p4;
 typedef struct { t_p4 a0; t_r2 a1, a2; } t__p4_p2;
+typedef struct { t_r2 a0, a1, a2; } t__r2_3;
 typedef struct { t_r3 a0, a1; } t__r3_2;
 typedef struct { t_r3 a0, a1; t_r4 a2; real a3, a4; } t__r3_2_r4_r2;
 typedef struct { t_r3 a0, a1, a2; } t__r3_3;
@@ -110,6 +111,7 @@ typedef struct { real a0, a1, a2; } t_e3;
 typedef struct { int64_t a0, a1; } t_i2;
 typedef struct { int64_t a0, a1; real a2; } t_i2r;
 typedef struct { int64_t a0, a1; real a2, a3; } t_i2r2;
+typedef struct { int64_t a0; int a1; } t_ib;
 typedef struct { int64_t a0; double a1, a2, a3, a4, a5; } t_id5;
 typedef struct { int64_t a0; real a1; } t_ir;
 typedef struct { int64_t a0; real a1, a2, a3, a4, a5; } t_ir5;
@@ -153,12 +155,23 @@ t_id5 branch_small_rotation_double(double, double, double, double, double, doubl
 INLINE t_r3 vectors_three(r1 array, int64_t at) { return (t_r3){array.p[at], array.p[at + 1], array.p[at + 2]}; }
 INLINE t_r3 branch_moments(t_r3 J) { return (t_r3){J.a1 + J.a2, J.a0 + J.a2, J.a0 + J.a1}; }
 INLINE real vectors_largest(t_r3 v) { return max_r(max_r(R(fabs(v.a0)), R(fabs(v.a1))), R(fabs(v.a2))); }
-INLINE real loop_power_of_two(int64_t exponent) {
-    return (-126 <= exponent && exponent <= 127) ? R(ldexp(R(1.0), (int)exponent)) : R(0.0);
+INLINE t_ib loop_scaling(t_r3 momentum, t_r3 tensor, real contact) {
+    t_r3 t_1 = branch_moments(tensor); t_ri t_2 = real_frexp(max_r(max_r(t_1.a0, t_1.a1), t_1.a2) + contact);
+    int64_t exponent = t_2.a1; real most = vectors_largest(momentum); t_ri size = real_frexp(most);
+    exponent = max_i(min_i(exponent, 1021), size.a1 - 1021);
+    int tiny = R(0.0) < most && most < R(ldexp(gibbs_SMALLEST, (int)exponent));
+    if (tiny) { exponent = max_i(-1, exponent - 1021 + 1); }
+    return (t_ib){exponent, tiny};
 }
 
-INLINE real loop_times(real x, real power, int64_t exponent) {
-    return power != R(0.0) ? x * power : R(ldexp(x, (int)exponent));
+INLINE t_r3 vectors_scaled(real s, t_r3 v) { return (t_r3){s * v.a0, s * v.a1, s * v.a2}; }
+INLINE t_r3 vectors_shifted(t_r3 v, int64_t exponent) {
+    return (t_r3){R(ldexp(v.a0, (int)exponent)), R(ldexp(v.a1, (int)exponent)), R(ldexp(v.a2, (int)exponent))};
+}
+
+INLINE t_r3 loop_times(t_r3 v, int64_t exponent) {
+    if (-126 <= exponent && exponent <= 127) { return vectors_scaled(R(ldexp(R(1.0), (int)exponent)), v); }
+    return vectors_shifted(v, exponent);
 }
 
 INLINE void vectors_put(r1 array, int64_t at, t_r3 v) {
@@ -169,47 +182,38 @@ INLINE int gibbs_is_heavy(t_r3 I, real D) { return R(32.0) * min_r(min_r(I.a0, I
 INLINE real vectors_dot(t_r3 a, t_r3 b) { return a.a0 * b.a0 + a.a1 * b.a1 + a.a2 * b.a2; }
 INLINE real vectors_length(t_r3 v) { return R(sqrt(vectors_dot(v, v))); }
 INLINE t_r2 gibbs_bound(t_r3 k, t_r3 I, real D) {
-    int moving; real half = vectors_length(k), size = R(2.0) * half, least = min_r(min_r(I.a0, I.a1), I.a2);
+    real half = vectors_length(k), size = R(2.0) * half, least = min_r(min_r(I.a0, I.a1), I.a2);
     real most = max_r(max_r(I.a0, I.a1), I.a2), spread = R(0.5) * (most - least);
-    if (!(size < least)) { return (t_r2){R(-2.0), R(0.0)}; }
-    real inner = size / (least + R(sqrt((least - size) * (least + size)))), slope = spread + size;
-    if (!(inner * slope < R(0.95) * least)) { return (t_r2){R(-2.0), R(0.0)}; }
+    real inner = size < least ? size / (least + R(sqrt((least - size) * (least + size)))) : R(1.0);
+    real slope = spread + size; int inside = inner * slope < R(0.95) * least;
     real limit = slope > R(0.0) ? min_r(R(1.0), least / slope) : R(1.0);
     real radius = min_r(R(1.25) * inner, R(0.5) * (inner + limit));
-    if (half == R(0.0)) {
-        moving = k.a0 != R(0.0) || k.a1 != R(0.0) || k.a2 != R(0.0);
-        if (moving && gibbs_LEAST_ENOUGH > R(0.0)) { return (t_r2){R(-1.0), R(0.0)}; }
-        else { return (t_r2){R(0.0), R(0.0)}; }
-    }
-    real contraction = (spread + half) / (least - radius * slope);
-    real enough = gibbs_LEFT * half / ((most + D + spread) * contraction);
-    if (enough < gibbs_LEAST_ENOUGH) { return (t_r2){R(-1.0), R(0.0)}; }
-    else { return (t_r2){radius * radius, enough}; }
+    real contraction = inside ? (spread + half) / (least - radius * slope) : R(1.0);
+    real enough = half > R(0.0) ? gibbs_LEFT * half / ((most + D + spread) * contraction) : R(0.0);
+    int slow = enough < (vectors_largest(k) > R(0.0) ? gibbs_LEAST_ENOUGH : R(0.0));
+    return (t_r2){inside ? (slow ? R(-1.0) : radius * radius) : R(-2.0), inside ? (slow ? R(0.0) : enough) : R(0.0)};
 }
 
 INLINE t_r2 gibbs_certificate(t_r3 k, t_r3 I, real D) {
-    if (gibbs_is_heavy(I, D)) { return (t_r2){R(-1.0), R(0.0)}; }
-    return gibbs_bound(k, I, D);
+    int heavy = gibbs_is_heavy(I, D); t_r2 radius = gibbs_bound(k, I, D);
+    return (t_r2){heavy ? R(-1.0) : radius.a0, heavy ? R(0.0) : radius.a1};
+}
+
+INLINE t_r2 loop_limits(t_r3 k, t_r3 inertia, real contact, int tiny) {
+    t_r2 radius = gibbs_certificate(k, inertia, contact);
+    return (t_r2){tiny ? R(-1.0) : (min_r(min_r(inertia.a0, inertia.a1), inertia.a2) < gibbs_SMALLEST ? R(-1.0) :
+        radius.a0), radius.a1};
 }
 
 OUT_OF_LINE real loop_entered(r1 momentum, r1 g, r1 tensor, real contact, r1 state) {
-    t_r3 t_1 = branch_moments(vectors_three(tensor, 0));
-    t_ri t_2 = real_frexp(max_r(max_r(t_1.a0, t_1.a1), t_1.a2) + contact); int64_t exponent = t_2.a1;
-    real most = vectors_largest(vectors_three(momentum, 0)); t_ri size = real_frexp(most);
-    exponent = max_i(min_i(exponent, 1021), size.a1 - 1021);
-    int tiny = R(0.0) < most && most < R(ldexp(gibbs_SMALLEST, (int)exponent));
-    if (tiny) { exponent = max_i(-1, exponent - 1021 + 1); }
-    r1_fill(state, R(0.0)); real power = loop_power_of_two(-exponent), half = loop_power_of_two(-exponent - 1);
-    for (int64_t c = 0; c < 3; c++) {
-        state.p[0 + c] = loop_times(momentum.p[c], half, -exponent - 1); state.p[3 + c] = g.p[c];
-        state.p[18 + c] = loop_times(tensor.p[c], power, -exponent);
-    }
+    t_ib exponent = loop_scaling(vectors_three(momentum, 0), vectors_three(tensor, 0), contact);
+    r1_fill(state, R(0.0)); vectors_put(state, 0, loop_times(vectors_three(momentum, 0), -exponent.a0 - 1));
+    vectors_put(state, 3, vectors_three(g, 0));
+    vectors_put(state, 18, loop_times(vectors_three(tensor, 0), -exponent.a0));
     vectors_put(state, 21, branch_moments(vectors_three(state, 18)));
-    state.p[24] = loop_times(contact, power, -exponent); t_r3 inertia = vectors_three(state, 21);
-    t_r2 t_3 = gibbs_certificate(vectors_three(state, 0), inertia, state.p[24]); state.p[25] = t_3.a0;
-    state.p[26] = t_3.a1;
-    if (tiny || min_r(min_r(inertia.a0, inertia.a1), inertia.a2) < gibbs_SMALLEST) { state.p[25] = R(-1.0); }
-    return R(ldexp(R(1.0), (int)(exponent + 1)));
+    t_r3 t_1 = loop_times((t_r3){contact, R(0.0), R(0.0)}, -exponent.a0); state.p[24] = t_1.a0;
+    t_r2 t_2 = loop_limits(vectors_three(state, 0), vectors_three(state, 21), state.p[24], exponent.a1);
+    state.p[25] = t_2.a0; state.p[26] = t_2.a1; return R(ldexp(R(1.0), (int)(exponent.a0 + 1)));
 }
 
 INLINE t_r2 pairs_split_product(real a, real b) {
@@ -229,11 +233,15 @@ INLINE t_r2 integrals_inner(real a1, real a2, real a3, real b1, real b2, real b3
     return pairs_two_sum(total, e + f + (g + low) + (x.a1 + y.a1 + z.a1));
 }
 
+INLINE t__r2_3 integrals_integrals(t_r3 k, t_r3 g) {
+    return (t__r2_3){integrals_inner(g.a0, g.a1, g.a2, g.a0, g.a1, g.a2, R(0.0), R(0.0)), integrals_inner(k.a0, k.a1,
+        k.a2, g.a0, g.a1, g.a2, R(0.0), R(0.0)), integrals_inner(k.a0, k.a1, k.a2, k.a0, k.a1, k.a2, R(0.0), R(0.0))};
+}
+
 OUT_OF_LINE void integrals_remember(r1 state) {
-    real k1 = state.p[0], k2 = state.p[1], k3 = state.p[2], g1 = state.p[3], g2 = state.p[4], g3 = state.p[5];
-    t_r2 t_1 = integrals_inner(g1, g2, g3, g1, g2, g3, R(0.0), R(0.0)); state.p[12] = t_1.a0; state.p[13] = t_1.a1;
-    t_r2 t_2 = integrals_inner(k1, k2, k3, g1, g2, g3, R(0.0), R(0.0)); state.p[14] = t_2.a0; state.p[15] = t_2.a1;
-    t_r2 t_3 = integrals_inner(k1, k2, k3, k1, k2, k3, R(0.0), R(0.0)); state.p[16] = t_3.a0; state.p[17] = t_3.a1;
+    t__r2_3 one = integrals_integrals(vectors_three(state, 0), vectors_three(state, 3)); t_r2 t_1 = one.a0;
+    state.p[12] = t_1.a0; state.p[13] = t_1.a1; t_r2 t_2 = one.a1; state.p[14] = t_2.a0; state.p[15] = t_2.a1;
+    t_r2 t_3 = one.a2; state.p[16] = t_3.a0; state.p[17] = t_3.a1;
 }
 
 OUT_OF_LINE real loop_prepare(r1 momentum, r1 g, r1 tensor, real contact, r1 c, r1 state, r1 radius, r1 enough) {
@@ -251,7 +259,6 @@ OUT_OF_LINE real loop_prepare(r1 momentum, r1 g, r1 tensor, real contact, r1 c, 
     return scale;
 }
 
-INLINE t_r3 vectors_scaled(real s, t_r3 v) { return (t_r3){s * v.a0, s * v.a1, s * v.a2}; }
 INLINE t_r3 vectors_plus(t_r3 a, t_r3 b) { return (t_r3){a.a0 + b.a0, a.a1 + b.a1, a.a2 + b.a2}; }
 INLINE t_r3 loop_guessed(r2 past, int64_t at, r1 weights) {
     t_r3 u = (t_r3){R(0.0), R(0.0), R(0.0)};
@@ -429,10 +436,6 @@ INLINE t_b_r4__r3_ path_search_on_path(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D) {
         if (found) { break; }
     }
     return (t_b_r4__r3_){0, (t_r4){R(1.0), R(0.0), R(0.0), R(0.0)}, u};
-}
-
-INLINE t_r3 vectors_shifted(t_r3 v, int64_t exponent) {
-    return (t_r3){R(ldexp(v.a0, (int)exponent)), R(ldexp(v.a1, (int)exponent)), R(ldexp(v.a2, (int)exponent))};
 }
 
 INLINE t_b_r4__r3_ gibbs_search(t_r3 u, t_r3 k, t_r3 g, t_r3 I, real D, real radius, real enough, int heavy) {
@@ -694,6 +697,10 @@ OUT_OF_LINE t_ir_r4__r3_ loop_safe_rotation(t_r3 u, r1 state) {
 }
 
 INLINE real vectors_square_of_four(t_r4 q) { return q.a0 * q.a0 + q.a1 * q.a1 + (q.a2 * q.a2 + q.a3 * q.a3); }
+INLINE t_r4 vectors_unit(t_r4 q) {
+    real size = R(sqrt(vectors_square_of_four(q))); return (t_r4){q.a0 / size, q.a1 / size, q.a2 / size, q.a3 / size};
+}
+
 INLINE t_r3 kernel_centre_step(real q0, real q1, real q2, real q3, real g1, real g2, real g3) {
     real t0 = 2 * q0, o_s1 = t0 * (g3 * q2 - g2 * q3), o_s2 = -t0 * (g3 * q1 - g1 * q3);
     real o_s3 = t0 * (g2 * q1 - g1 * q2); return (t_r3){o_s1, o_s2, o_s3};
@@ -709,9 +716,7 @@ INLINE t_r3 kernel_rotate(real q0, real q1, real q2, real q3, real v1, real v2, 
 
 INLINE t_r4 vectors_scaled_four(real s, t_r4 q) { return (t_r4){s * q.a0, s * q.a1, s * q.a2, s * q.a3}; }
 INLINE t__r4_r2 loop_followed(t_r4 p, t_r3 g, t_r4 a, real x, real y, real radius) {
-    real length = R(sqrt(vectors_square_of_four(p)));
-    t_r4 q = (t_r4){p.a0 / length, p.a1 / length, p.a2 / length, p.a3 / length};
-    t_r3 t_1 = kernel_centre_step(q.a0, q.a1, q.a2, q.a3, g.a0, g.a1, g.a2);
+    t_r4 q = vectors_unit(p); t_r3 t_1 = kernel_centre_step(q.a0, q.a1, q.a2, q.a3, g.a0, g.a1, g.a2);
     t_r3 d1 = kernel_rotate(a.a0, a.a1, a.a2, a.a3, t_1.a0, t_1.a1, t_1.a2);
     t_r4 b = kernel_compose(a.a0, a.a1, a.a2, a.a3, q.a0, q.a1, q.a2, q.a3);
     real scale = R(1.5) - R(0.5) * (b.a0 * b.a0 + b.a1 * b.a1 + b.a2 * b.a2 + b.a3 * b.a3);
@@ -847,6 +852,10 @@ INLINE t_i2r loop_march(r1 state, r1 c, r3 weights, r1 radius, r1 enough, r2 pas
     return (t_i2r){step - first, status, reach};
 }
 
+INLINE void vectors_put_four(r1 array, int64_t at, t_r4 q) {
+    array.p[at] = q.a0; array.p[at + 1] = q.a1; array.p[at + 2] = q.a2; array.p[at + 3] = q.a3;
+}
+
 INLINE t_ir loop_advance(r1 momentum, r1 g, r1 tensor, real contact, r1 state, r1 q) {
     int64_t status; real scale = loop_entered(momentum, g, tensor, contact, state);
     t_r3 k = vectors_three(state, 0), v = vectors_three(state, 3); real reach = R(1.0);
@@ -857,8 +866,7 @@ INLINE t_ir loop_advance(r1 momentum, r1 g, r1 tensor, real contact, r1 state, r
         t_ir_r4__r3_ t_2 = loop_safe_rotation(u, state); status = t_2.a0; reach = t_2.a1; p = t_2.a2; u = t_2.a3;
         if (status != 0) { return (t_ir){status, reach}; }
     }
-    real length = R(sqrt(vectors_square_of_four(p))); q.p[0] = p.a0 / length; q.p[1] = p.a1 / length;
-    q.p[2] = p.a2 / length; q.p[3] = p.a3 / length;
+    vectors_put_four(q, 0, vectors_unit(p));
     vectors_put(momentum, 0, vectors_scaled(scale, vectors_plus(k, kernel_turn(p.a0, p.a1, p.a2, p.a3, k.a0, k.a1,
         k.a2))));
     vectors_put(g, 0, vectors_plus(v, kernel_turn(p.a0, p.a1, p.a2, p.a3, v.a0, v.a1, v.a2)));
@@ -874,21 +882,70 @@ INLINE void loop_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 contacts, 
     }
 }
 
-INLINE void block_prepare_block(r2 momentum, r2 g, r2 tensor, r1 contact, r1 c, r2 state, r2 radius, r2 enough, r2
-    past, r1 scale) {
-    int64_t i; ALIGNED real one_[27]; r1 one = {one_, 27}; int64_t last = contact.n0 - 1;
-    ALIGNED real bounds_[2 * c.n0]; r2 bounds = {bounds_, 2, c.n0, c.n0};
-    for (int64_t lane = 0, end_lane = state.n1; lane < end_lane; lane++) {
-        i = min_i(lane, last);
-        scale.p[i] = loop_prepare(r2_row(momentum, i), r2_row(g, i), r2_row(tensor, i), contact.p[i], c, one,
-            r2_row(bounds, 0), r2_row(bounds, 1));
-        for (int64_t row = 0; row < 27; row++) { AT2(state, row, lane) = one.p[row]; }
-        for (int64_t stage = 0, end_stage = c.n0; stage < end_stage; stage++) {
-            AT2(radius, stage, lane) = AT2(bounds, 0, stage); AT2(enough, stage, lane) = AT2(bounds, 1, stage);
+INLINE void vectors_put_in(r2 S, int64_t at, int64_t i, t_r3 v) {
+    AT2(S, at, i) = v.a0; AT2(S, at + 1, i) = v.a1; AT2(S, at + 2, i) = v.a2;
+}
+
+OUT_OF_LINE void block_enter(r2 momentum, r2 g, r2 tensor, r1 contact, real factor, r2 S, r1 scale, w1 ok) {
+    int64_t i; t_r3 m, tensor_i; t_ib exponent;
+    for (int64_t lane = 0, end_lane = ok.n0; lane < end_lane; lane++) {
+        i = min_i(lane, contact.n0 - 1); m = vectors_scaled(factor, vectors_three(r2_row(momentum, i), 0));
+        tensor_i = vectors_three(r2_row(tensor, i), 0); exponent = loop_scaling(m, tensor_i, contact.p[i]);
+        vectors_put_in(S, 0, lane, loop_times(m, -exponent.a0 - 1));
+        vectors_put_in(S, 3, lane, vectors_three(r2_row(g, i), 0));
+        vectors_put_in(S, 18, lane, loop_times(tensor_i, -exponent.a0));
+        t_r3 t_1 = loop_times((t_r3){contact.p[i], R(0.0), R(0.0)}, -exponent.a0); AT2(S, 24, lane) = t_1.a0;
+        AT2(S, 25, lane) = exponent.a1 ? R(1.0) : R(0.0); scale.p[i] = R(ldexp(R(1.0), (int)(exponent.a0 + 1)));
+    }
+}
+
+INLINE int64_t block_whole(w1 ok) { return div_i(ok.n0, block_REGISTER) * block_REGISTER; }
+INLINE t_r3 vectors_three_in(r2 S, int64_t at, int64_t i) {
+    return (t_r3){AT2(S, at, i), AT2(S, at + 1, i), AT2(S, at + 2, i)};
+}
+
+INLINE void block_limited(r2 S, r1 radius, r1 enough, w1 ok) {
+    t_r3 inertia;
+    INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
+        inertia = branch_moments(vectors_three_in(S, 18, i)); vectors_put_in(S, 21, i, inertia);
+        t_r2 t_1 = loop_limits(vectors_three_in(S, 0, i), inertia, AT2(S, 24, i), AT2(S, 25, i) != R(0.0));
+        radius.p[i] = t_1.a0; enough.p[i] = t_1.a1;
+    }
+}
+
+INLINE void vectors_put_four_in(r2 S, int64_t at, int64_t i, t_r4 q) {
+    AT2(S, at, i) = q.a0; AT2(S, at + 1, i) = q.a1; AT2(S, at + 2, i) = q.a2; AT2(S, at + 3, i) = q.a3;
+}
+
+INLINE void block_remembered(r2 S, w1 ok) {
+    t__r2_3 one;
+    INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
+        vectors_put_in(S, 6, i, (t_r3){R(0.0), R(0.0), R(0.0)});
+        vectors_put_in(S, 9, i, (t_r3){R(0.0), R(0.0), R(0.0)});
+        one = integrals_integrals(vectors_three_in(S, 0, i), vectors_three_in(S, 3, i));
+        vectors_put_four_in(S, 12, i, (t_r4){one.a0.a0, one.a0.a1, one.a1.a0, one.a1.a1}); t_r2 t_1 = one.a2;
+        AT2(S, 16, i) = t_1.a0; AT2(S, 17, i) = t_1.a1;
+    }
+}
+
+INLINE void block_prepare_block(r2 momentum, r2 g, r2 tensor, r1 contact, r1 c, r2 S, r2 radius, r2 enough, r2 past,
+    r1 scale, w1 ok) {
+    for (int64_t s = 0, end_s = c.n0; s < end_s; s++) {
+        if (c.p[s] != R(1.0)) {
+            block_enter(momentum, g, tensor, contact, c.p[s], S, scale, ok);
+            block_limited(S, r2_row(radius, s), r2_row(enough, s), ok);
+        }
+    }
+    block_enter(momentum, g, tensor, contact, R(1.0), S, scale, ok);
+    block_limited(S, r2_row(S, 25), r2_row(S, 26), ok); block_remembered(S, ok);
+    for (int64_t s = 0, end_s = c.n0; s < end_s; s++) {
+        INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
+            AT2(radius, s, i) = c.p[s] == R(1.0) ? AT2(S, 25, i) : AT2(radius, s, i);
+            AT2(enough, s, i) = c.p[s] == R(1.0) ? AT2(S, 26, i) : AT2(enough, s, i);
         }
     }
     for (int64_t row = 0, end_row = past.n0; row < end_row; row++) {
-        for (int64_t lane = 0, end_lane = state.n1; lane < end_lane; lane++) { AT2(past, row, lane) = R(0.0); }
+        INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) { AT2(past, row, i) = R(0.0); }
     }
 }
 
@@ -904,15 +961,6 @@ INLINE t_i2 block_uncertified(r1 radius, w1 ok) {
         count = count + (radius.p[i] >= R(0.0) ? 0 : 1); beyond = beyond + (radius.p[i] == R(-2.0) ? 1 : 0);
     }
     return (t_i2){count, beyond};
-}
-
-INLINE int64_t block_whole(w1 ok) { return div_i(ok.n0, block_REGISTER) * block_REGISTER; }
-INLINE t_r3 vectors_three_in(r2 S, int64_t at, int64_t i) {
-    return (t_r3){AT2(S, at, i), AT2(S, at + 1, i), AT2(S, at + 2, i)};
-}
-
-INLINE void vectors_put_in(r2 S, int64_t at, int64_t i, t_r3 v) {
-    AT2(S, at, i) = v.a0; AT2(S, at + 1, i) = v.a1; AT2(S, at + 2, i) = v.a2;
 }
 
 INLINE void block_begin_stage(r2 S, r2 T, real s, r1 radius, r1 enough, w1 ok) {
@@ -943,10 +991,6 @@ INLINE void block_guessed(r2 P, r2 past, int64_t at, int64_t places, r1 weights,
 INLINE t__r3_3r block_body_in(r2 S, int64_t i) {
     return (t__r3_3r){vectors_three_in(S, 0, i), vectors_three_in(S, 3, i), vectors_three_in(S, 21, i), AT2(S, 24,
         i)};
-}
-
-INLINE void vectors_put_four_in(r2 S, int64_t at, int64_t i, t_r4 q) {
-    AT2(S, at, i) = q.a0; AT2(S, at + 1, i) = q.a1; AT2(S, at + 2, i) = q.a2; AT2(S, at + 3, i) = q.a3;
 }
 
 INLINE int64_t block_unsettled(w1 ok) {
@@ -1130,19 +1174,16 @@ INLINE void block_keep(r2 S, r2 B, int64_t frame, r1 scale, r3 momenta, r3 verti
     }
 }
 
-INLINE void block_march_block(r2 state, r1 c, r3 weights, r2 radius, r2 enough, r2 past, int64_t first, int64_t count,
-    int64_t every, r1 scale, r3 momenta, r3 verticals, i1 taken, i1 status, d1 reach, int with_body, r2 body, r3
-    attitudes, r3 traces) {
-    int64_t at, later, bad; ALIGNED real S_[27 * block_LANES]; r2 S = {S_, 27, block_LANES, block_LANES};
-    ALIGNED real other_[27 * block_LANES]; r2 other = {other_, 27, block_LANES, block_LANES};
-    ALIGNED real P_[12 * block_LANES]; r2 P = {P_, 12, block_LANES, block_LANES}; ALIGNED real B_[7 * block_LANES];
-    r2 B = {B_, 7, block_LANES, block_LANES}; ALIGNED real H_[past.n0 * block_LANES];
-    r2 H = {H_, past.n0, block_LANES, block_LANES};
-    int64_t width = state.n1, stages = c.n0, places = weights.n1, balls = status.n0; ALIGNED int32_t ok_[width];
-    w1 ok = {ok_, width}; int64_t period = max_i(1, div_i(1024, stages)); ALIGNED int64_t hopeless_[stages];
-    i1 hopeless = {hopeless_, stages}; ALIGNED int64_t beyond_[stages]; i1 beyond = {beyond_, stages};
-    block_carry(state, S, width); block_carry(state, other, width); block_carry(body, B, width);
-    block_carry(past, H, width); r2 T = stages == 1 ? S : other; int64_t last = first + count, patience = 0;
+INLINE void block_march_block(r2 S, r1 c, r3 weights, r2 radius, r2 enough, r2 H, int64_t first, int64_t count,
+    int64_t every, r1 scale, r3 momenta, r3 verticals, i1 taken, i1 status, d1 reach, int with_body, r2 B, r3
+    attitudes, r3 traces, w1 ok) {
+    int64_t at, later, bad; ALIGNED real other_[27 * block_LANES]; r2 other = {other_, 27, block_LANES, block_LANES};
+    ALIGNED real P_[12 * block_LANES]; r2 P = {P_, 12, block_LANES, block_LANES};
+    int64_t stages = c.n0, places = weights.n1, balls = status.n0, period = max_i(1, div_i(1024, stages));
+    ALIGNED int64_t hopeless_[stages]; i1 hopeless = {hopeless_, stages}; ALIGNED int64_t beyond_[stages];
+    i1 beyond = {beyond_, stages};
+    if (stages > 1) { block_carry(S, other, ok.n0); }
+    r2 T = stages == 1 ? S : other; int64_t last = first + count, patience = 0;
     for (int64_t s = 0, end_s = stages; s < end_s; s++) {
         t_i2 t_1 = block_uncertified(r2_row(radius, s), ok); hopeless.p[s] = t_1.a0; beyond.p[s] = t_1.a1;
     }
@@ -1169,36 +1210,78 @@ INLINE void block_march_block(r2 state, r1 c, r3 weights, r2 radius, r2 enough, 
     for (int64_t i = 0, end_i = balls; i < end_i; i++) {
         if (status.p[i] == 0) { taken.p[i] = last; }
     }
-    block_carry(S, state, width); block_carry(B, body, width); block_carry(H, past, width);
 }
 
 INLINE void block_march_blocks(r2 state, r1 c, r3 weights, r2 radius, r2 enough, r2 past, int64_t first, int64_t
     count, int64_t every, r2 momentum, r2 gamma, r2 tensor, r1 contact, r1 rho, r1 scale, r2 ended, r3 momenta, r3
     verticals, i1 taken, i1 status, d1 reach, int with_body, r2 body, r3 attitudes, r3 traces) {
-    int64_t high, i; int64_t width = state.n1, n = contact.n0;
+    int64_t high, i; ALIGNED real S_[27 * block_LANES]; r2 S = {S_, 27, block_LANES, block_LANES};
+    ALIGNED real B_[7 * block_LANES]; r2 B = {B_, 7, block_LANES, block_LANES};
+    ALIGNED real H_[past.n0 * block_LANES]; r2 H = {H_, past.n0, block_LANES, block_LANES};
+    int64_t width = state.n1, n = contact.n0; ALIGNED int32_t ok_[width]; w1 ok = {ok_, width};
     for (int64_t low = 0, end_low = n; low < end_low; low += width) {
         high = min_i(low + width, n);
         if (first == 0) {
             block_prepare_block(r2_part(momentum, low, high), r2_part(gamma, low, high), r2_part(tensor, low, high),
-                r1_part(contact, low, high), c, state, radius, enough, past, r1_part(scale, low, high));
+                r1_part(contact, low, high), c, S, radius, enough, H, r1_part(scale, low, high), ok);
             if (with_body) {
                 for (int64_t lane = 0, end_lane = width; lane < end_lane; lane++) {
                     i = min_i(low + lane, n - 1);
-                    for (int64_t row = 0; row < 4; row++) { AT2(body, row, lane) = AT3(attitudes, i, 0, row); }
-                    AT2(body, 4, lane) = R(0.0); AT2(body, 5, lane) = R(0.0); AT2(body, 6, lane) = rho.p[i];
+                    for (int64_t row = 0; row < 4; row++) { AT2(B, row, lane) = AT3(attitudes, i, 0, row); }
+                    AT2(B, 4, lane) = R(0.0); AT2(B, 5, lane) = R(0.0); AT2(B, 6, lane) = rho.p[i];
                 }
             }
         }
-        block_march_block(state, c, weights, radius, enough, past, first, count, every, r1_part(scale, low, high),
+        else { block_carry(state, S, width); block_carry(body, B, width); block_carry(past, H, width); }
+        block_march_block(S, c, weights, radius, enough, H, first, count, every, r1_part(scale, low, high),
             r3_part(momenta, low, high), r3_part(verticals, low, high), i1_part(taken, low, high), i1_part(status,
-            low, high), d1_part(reach, low, high), with_body, body, r3_part(attitudes, low, high), r3_part(traces,
-            low, high));
+            low, high), d1_part(reach, low, high), with_body, B, r3_part(attitudes, low, high), r3_part(traces, low,
+            high), ok);
         for (int64_t i = low, end_i = high; i < end_i; i++) {
             if (status.p[i] != 0) {
                 for (int64_t row = 0; row < 3; row++) {
-                    AT2(ended, i, row) = scale.p[i] * AT2(state, 0 + row, i - low);
-                    AT2(ended, i, 3 + row) = AT2(state, 3 + row, i - low);
+                    AT2(ended, i, row) = scale.p[i] * AT2(S, 0 + row, i - low);
+                    AT2(ended, i, 3 + row) = AT2(S, 3 + row, i - low);
                 }
+            }
+        }
+    }
+    if (n <= width) {
+        block_carry(S, state, width); block_carry(H, past, width);
+        if (with_body) { block_carry(B, body, width); }
+    }
+}
+
+INLINE void block_advance_blocks(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, i1 status, d1 reach, int64_t
+    width) {
+    int64_t high; t_i2 hopeless, bad; t_r4 p; t_r3 k, g; ALIGNED real S_[27 * block_LANES];
+    r2 S = {S_, 27, block_LANES, block_LANES}; ALIGNED real P_[12 * block_LANES];
+    r2 P = {P_, 12, block_LANES, block_LANES}; ALIGNED real scale_[width]; r1 scale = {scale_, width};
+    ALIGNED int32_t ok_[width]; w1 ok = {ok_, width}; ALIGNED int64_t taken_[width]; memset(taken_, 0, sizeof taken_);
+    i1 taken = {taken_, width}; int64_t n = contacts.n0;
+    for (int64_t low = 0, end_low = n; low < end_low; low += width) {
+        high = min_i(low + width, n);
+        block_enter(r2_part(momenta, low, high), r2_part(verticals, low, high), r2_part(tensors, low, high),
+            r1_part(contacts, low, high), R(1.0), S, scale, ok);
+        block_limited(S, r2_row(S, 25), r2_row(S, 26), ok);
+        INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
+            vectors_put_in(P, 9, i, (t_r3){R(0.0), R(0.0), R(0.0)});
+        }
+        hopeless = block_uncertified(r2_row(S, 25), ok); bad = block_solved(S, P, ok, hopeless.a0, hopeless.a1, 64);
+        if (bad.a1 != 0) {
+            block_mend(S, P, ok, 0, taken, i1_part(status, low, high), d1_part(reach, low, high), high - low);
+        }
+        INDEPENDENT for (int64_t i = 0, end_i = block_whole(ok); i < end_i; i++) {
+            p = vectors_four_in(P, 0, i); k = vectors_three_in(S, 0, i); g = vectors_three_in(S, 3, i);
+            vectors_put_in(S, 0, i, vectors_plus(k, kernel_turn(p.a0, p.a1, p.a2, p.a3, k.a0, k.a1, k.a2)));
+            vectors_put_in(S, 3, i, vectors_plus(g, kernel_turn(p.a0, p.a1, p.a2, p.a3, g.a0, g.a1, g.a2)));
+            vectors_put_four_in(P, 0, i, vectors_unit(p));
+        }
+        for (int64_t i = low, end_i = high; i < end_i; i++) {
+            if (status.p[i] == 0) {
+                vectors_put(r2_row(momenta, i), 0, vectors_scaled(scale.p[i - low], vectors_three_in(S, 0, i - low)));
+                vectors_put(r2_row(verticals, i), 0, vectors_three_in(S, 3, i - low));
+                vectors_put_four(r2_row(q, i), 0, vectors_four_in(P, 0, i - low));
             }
         }
     }
@@ -1207,10 +1290,6 @@ INLINE void block_march_blocks(r2 state, r1 c, r3 weights, r2 radius, r2 enough,
 #ifndef SINGLE
 INLINE t_r4 vectors_four(r1 array, int64_t at) {
     return (t_r4){array.p[at], array.p[at + 1], array.p[at + 2], array.p[at + 3]};
-}
-
-INLINE void vectors_put_four(r1 array, int64_t at, t_r4 q) {
-    array.p[at] = q.a0; array.p[at + 1] = q.a1; array.p[at + 2] = q.a2; array.p[at + 3] = q.a3;
 }
 
 INLINE void lanes_placed(r1 body, int64_t i, Frames frames) {
@@ -4021,6 +4100,10 @@ WIDEST static void in_block_march_blocks(const argument *a, argument *got) {
     (void)got;
 }
 
+WIDEST static void in_block_advance_blocks(const argument *a, argument *got) {
+    block_advance_blocks(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), i1_(5), d1_(6), i_(7)); (void)got;
+}
+
 #ifndef SINGLE
 static void in_loop_n_march(const argument *a, argument *got) {
     int64_t out = loop_n_march(r2_(0), r1_(1), r1_(2), r_(3), r1_(4), r1_(5), r1_(6), r4_(7), r2_(8), i_(9), i_(10),
@@ -4093,6 +4176,7 @@ const loop_export LOOPS()[] = {
     {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
     {"loop_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_loop_advance_all},
     {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
+    {"block_advance_blocks", "r2* r2* r2 r1 r2* i1* d1* i", "", in_block_advance_blocks},
 #ifndef SINGLE
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1* r1 r i i i r2* r1*", "b", in_vertical_loop_march},
@@ -4110,6 +4194,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "97cb71a7777feb7a236f649f221031b4b737317eaadddbf9f1a31982c873b665";
+const char loops_text[] = "37ea237ad0c6d9b694f2b1b954a3ba96c4c45a131eb503fb1370583b7231a934";
 #endif
 #endif

@@ -17,7 +17,9 @@ LOOPS = *SINGLE, "lanes", "loop_n", "vertical_loop", "double_double", "proved", 
 LONG = "lanes", "following"
 
 #: Loops that gain from 512-bit registers (lanes of balls), and from 256-bit registers; others gain from neither.
-WIDEST = "block_march_blocks", "lanes_march", "double_double_march_pairs_block", "following_follow"
+WIDEST = (
+    "block_march_blocks", "block_advance_blocks", "lanes_march", "double_double_march_pairs_block", "following_follow",
+)  # fmt: skip
 WIDER = (
     "lanes_march_alone", "following_follow_alone", "double_double_march_pairs", "double_double_march_long_pairs",
     "proved_bound_steps", "tangent_follow_all",

@@ -32,7 +32,8 @@ def called(monkeypatch):
 
     def both(function, dtype=np.float64):
         fast = compiled(function, dtype)
-        if function is block.march_blocks and dtype == np.float32:  # it has no twin: `test_batches` compares its balls
+        # Blocks of float32 have no twin: `test_batches` and `any_magnitudes` compare their balls.
+        if function in (block.march_blocks, block.advance_blocks) and dtype == np.float32:
             return fast
         slow = np.errstate(all="ignore")(function if dtype is np.float64 else twins.single(function))
 
@@ -73,14 +74,23 @@ def restored(steps, balls_=1, **options):
 
 
 def any_magnitudes(precision, **options):
-    """Steps of balls and momenta that are as large or as small as numbers are."""
+    """Steps of balls and momenta that are as large or as small as numbers are, together and alone to the same bits."""
     rng, n = np.random.default_rng(16), 300
     low, high = (-30, 30) if precision == "single" else (-300, 300)
     scale = 10.0 ** rng.uniform(low, high, (n, 1))
     J, D = scale * 10.0 ** rng.uniform(-3, 3, (n, 3)), scale[:, 0] * 10.0 ** rng.uniform(-5, 5, n)
     K, g = scale * rng.normal(size=(n, 3)) * 10.0 ** rng.uniform(-6, 2, (n, 1)), rng.normal(size=(n, 3))
-    step = chapsym.step(Ball(J, D), K, g / np.linalg.norm(g, axis=1, keepdims=True), precision=precision, **options)
+    g /= np.linalg.norm(g, axis=1, keepdims=True)
+    step = chapsym.step(Ball(J, D), K, g, precision=precision, **options)
     assert len(set(step.status.tolist())) > 1
+    for i in range(n):
+        try:
+            one = chapsym.step(Ball(J[i], D[i]), K[i], g[i], precision=precision)
+        except chapsym.StepNotTaken as error:
+            assert (error.status, error.reach) == (step.status[i], step.reach[i])
+            continue
+        for name in ("rotation", "momentum", "gamma"):
+            assert same(getattr(step, name)[i], getattr(one, name)), (name, i)
 
 
 def long(n, **options):
@@ -127,7 +137,7 @@ CASES = [
     (lambda: restored(1100, precision="single", **BODY), ALONE),
     (lambda: restored(63, order=8), ALONE),
     (lambda: restored(63, 2, order=8), {"block_march_blocks"}),
-    (lambda: any_magnitudes("double"), {"loop_advance_all"}),
+    (lambda: any_magnitudes("double"), {"loop_advance_all", "block_advance_blocks"}),
     (lambda: any_magnitudes("double", proved=True), {"proved_bound_steps"}),
     (lambda: any_magnitudes("single"), {"loop_advance_all"}),
     *((lambda n=n, o=o: long(n, **o), loops) for o in ({"time_step": 0.3, "contact": True}, {"time_step": 1.0},
@@ -163,7 +173,7 @@ def test_a_loop_has_the_same_bits_in_c_and_in_python(case, called):
 def test_every_loop_is_among_the_cases():
     exported = set().union(*(loops for _, loops in CASES))
     assert exported == set(native._tables()["float64"])
-    assert set(native._tables()["float32"]) == {*ALONE, "block_march_blocks", "loop_advance_all"}
+    assert set(native._tables()["float32"]) == {*ALONE, "block_march_blocks", "block_advance_blocks", "loop_advance_all"}
 
 
 @needs_compiled

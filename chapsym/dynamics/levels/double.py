@@ -79,11 +79,13 @@ def step_all(balls: Balls, of: Numbers = DOUBLE) -> tuple[np.ndarray, ...]:
     n = len(balls.D)
     q, status, reach = np.full((n, 4), np.nan, of.dtype), np.zeros(n, np.int64), np.ones(n)
     K, g, J, D = balls.momentum.copy(), balls.gamma.copy(), balls.mass_tensor, balls.D
-    advance = of.loop(loop.advance_all)
+    in_blocks = n > 1 and native.is_compiled()
+    advance = of.loop(block.advance_blocks if in_blocks else loop.advance_all)
+    width = [min(of.lanes, -(-n // of.register) * of.register)] * in_blocks
 
     def some(start: int) -> None:
         which = slice(start, start + CHUNK // 16)
-        advance(K[which], g[which], J[which], D[which], q[which], status[which], reach[which])
+        advance(K[which], g[which], J[which], D[which], q[which], status[which], reach[which], *width)
 
     starts = range(0, n, CHUNK // 16)
     if len(starts) > 1:

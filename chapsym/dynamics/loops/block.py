@@ -3,15 +3,20 @@
 The computation for each ball is that of `loop.march`, with the same rounding errors.
 """
 
+from math import ldexp
+
 import numpy as np
 
+from chapsym.generated import turn
+
+from .branch import moments
 from .gibbs import BEYOND, newton_round, second_round, settle
-from .integrals import PERIOD, restore, turned
-from .loop import ENOUGH, RADIUS, ROWS, D, G, I, K, X, followed, prepare, safe_rotation
+from .integrals import PERIOD, integrals, restore, turned
+from .loop import ENOUGH, INTEGRALS, RADIUS, ROWS, D, G, I, J, K, X, followed, limits, safe_rotation, scaling, times
 from .path import MOST_ROUNDS as PATH_ROUNDS
 from .path import improved, proved
 from .text import Cube, Doubles, Integers, Matrix, Vector, lanes, out_of_line
-from .vectors import four_in, plus, put_four_in, put_in, scaled, square, three, three_in
+from .vectors import four_in, plus, put, put_four, put_four_in, put_in, scaled, square, three, three_in, unit
 
 #: The most balls in a block: its rows stay in the first-level cache.
 LANES = 40
@@ -236,20 +241,58 @@ def carry(numbers, to, width):
             to[row, i] = numbers[row, i]
 
 
-def prepare_block(momentum, g, tensor, contact, c, state, radius, enough, past, scale):
-    """`loop.prepare` for each ball of a block; spare lanes repeat the last ball."""
-    one, last = np.empty(ROWS, state.dtype), len(contact) - 1
-    bounds = np.empty((2, len(c)), state.dtype)
-    for lane in range(state.shape[1]):
-        i = min(lane, last)
-        scale[i] = prepare(momentum[i], g[i], tensor[i], contact[i], c, one, bounds[0], bounds[1])
-        for row in range(ROWS):
-            state[row, lane] = one[row]
-        for stage in range(len(c)):
-            radius[stage, lane], enough[stage, lane] = bounds[0, stage], bounds[1, stage]
+@out_of_line
+def enter(momentum, g, tensor, contact, factor, S, scale, ok):
+    """`loop.entered` without `loop.limits`, with `factor` times 𝒦, for every lane; spare lanes repeat the last ball.
+
+    Until `limited` the row of radius² has 1 for a ball whose momentum is tiny, and 0 for others.
+    """
+    for lane in range(len(ok)):
+        i = min(lane, len(contact) - 1)
+        m, tensor_i = scaled(factor, three(momentum[i], 0)), three(tensor[i], 0)
+        exponent, tiny = scaling(m, tensor_i, contact[i])
+        put_in(S, K, lane, times(m, -exponent - 1))
+        put_in(S, G, lane, three(g[i], 0))
+        put_in(S, J, lane, times(tensor_i, -exponent))
+        S[D, lane], _, _ = times((contact[i], 0.0, 0.0), -exponent)
+        S[RADIUS, lane] = 1.0 if tiny else 0.0
+        scale[i] = ldexp(1.0, exponent + 1)
+
+
+def limited(S, radius, enough, ok):
+    """`loop.limits` of every lane."""
+    for i in lanes(whole(ok)):
+        inertia = moments(three_in(S, J, i))
+        put_in(S, I, i, inertia)
+        radius[i], enough[i] = limits(three_in(S, K, i), inertia, S[D, i], S[RADIUS, i] != 0.0)
+
+
+def remembered(S, ok):
+    """`integrals.remember` of every lane, without compensations."""
+    for i in lanes(whole(ok)):
+        put_in(S, X, i, (0.0, 0.0, 0.0))
+        put_in(S, X + 3, i, (0.0, 0.0, 0.0))
+        one, height, squared = integrals(three_in(S, K, i), three_in(S, G, i))
+        put_four_in(S, INTEGRALS, i, (one[0], one[1], height[0], height[1]))
+        S[INTEGRALS + 4, i], S[INTEGRALS + 5, i] = squared
+
+
+def prepare_block(momentum, g, tensor, contact, c, S, radius, enough, past, scale, ok):
+    """`loop.prepare` for each ball of a block."""
+    for s in range(len(c)):
+        if c[s] != 1.0:
+            enter(momentum, g, tensor, contact, c[s], S, scale, ok)
+            limited(S, radius[s], enough[s], ok)
+    enter(momentum, g, tensor, contact, 1.0, S, scale, ok)
+    limited(S, S[RADIUS], S[ENOUGH], ok)
+    remembered(S, ok)
+    for s in range(len(c)):
+        for i in lanes(whole(ok)):
+            radius[s, i] = S[RADIUS, i] if c[s] == 1.0 else radius[s, i]
+            enough[s, i] = S[ENOUGH, i] if c[s] == 1.0 else enough[s, i]
     for row in range(len(past)):
-        for lane in range(state.shape[1]):
-            past[row, lane] = 0.0
+        for i in lanes(whole(ok)):
+            past[row, i] = 0.0
 
 
 @out_of_line
@@ -276,25 +319,21 @@ def keep(S, B, frame, scale, momenta, verticals, status, with_body, attitudes, t
 
 
 def march_block(
-    state, c, weights, radius, enough, past, first, count, every, scale, momenta, verticals, taken, status, reach,
-    with_body, body, attitudes, traces,
+    S, c, weights, radius, enough, H, first, count, every, scale, momenta, verticals, taken, status, reach, with_body,
+    B, attitudes, traces, ok,
 ):  # fmt: skip
-    """`loop.march` for a block of balls: state (ROWS, lanes), radius² and enough (s, lanes), past (3 places, lanes).
+    """`loop.march` for a block of balls: S (ROWS, LANES), radius² and enough (s, lanes), H (3 places, LANES).
 
-    lanes: a multiple of REGISTER, LANES at most.
-    body: (7, lanes), the attitude, the contact point and the radius, used only if `with_body`.
+    ok: one entry for each lane in use, a multiple of REGISTER, LANES at most.
+    B: (7, LANES), the attitude, the contact point and the radius, used only if `with_body`.
     scale, taken, status and reach have one entry for each ball; lanes beyond these are idle copies.
     """
-    S, other = np.empty((ROWS, LANES), state.dtype), np.empty((ROWS, LANES), state.dtype)
-    P, B = np.empty((P_ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
-    H = np.empty((len(past), LANES), state.dtype)
-    width, stages, places, balls = state.shape[1], len(c), weights.shape[1], len(status)
-    ok, period = np.empty(width, dtype=np.int32), max(1, PERIOD // stages)
+    other, P = np.empty((ROWS, LANES), S.dtype), np.empty((P_ROWS, LANES), S.dtype)
+    stages, places, balls = len(c), weights.shape[1], len(status)
+    period = max(1, PERIOD // stages)
     hopeless, beyond = np.empty(stages, dtype=np.int64), np.empty(stages, dtype=np.int64)
-    carry(state, S, width)
-    carry(state, other, width)
-    carry(body, B, width)
-    carry(past, H, width)
+    if stages > 1:
+        carry(S, other, len(ok))
     T = S if stages == 1 else other  # the ball of a stage
     last, patience = first + count, 0
     for s in range(stages):
@@ -322,9 +361,6 @@ def march_block(
     for i in range(balls):
         if status[i] == 0:
             taken[i] = last
-    carry(S, state, width)
-    carry(B, body, width)
-    carry(H, past, width)
 
 
 def march_blocks(
@@ -339,26 +375,68 @@ def march_blocks(
     block take all their steps in one call.  momentum, gamma, tensor, contact, rho: of each ball at the start,
     (n, 3), (n, 3), (n, 3), (n,), (n,).  ended: receives 𝒦 and γ of balls that stopped, (n, 6).
     """
+    S, B = np.empty((ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
+    H = np.empty((len(past), LANES), state.dtype)
     width, n = state.shape[1], len(contact)
+    ok = np.empty(width, dtype=np.int32)
     for low in range(0, n, width):
         high = min(low + width, n)
         if first == 0:
             prepare_block(
-                momentum[low:high], gamma[low:high], tensor[low:high], contact[low:high], c, state, radius, enough,
-                past, scale[low:high],
+                momentum[low:high], gamma[low:high], tensor[low:high], contact[low:high], c, S, radius, enough, H,
+                scale[low:high], ok,
             )  # fmt: skip
             if with_body:
                 for lane in range(width):
                     i = min(low + lane, n - 1)
                     for row in range(4):
-                        body[row, lane] = attitudes[i, 0, row]
-                    body[4, lane], body[5, lane], body[6, lane] = 0.0, 0.0, rho[i]
+                        B[row, lane] = attitudes[i, 0, row]
+                    B[4, lane], B[5, lane], B[6, lane] = 0.0, 0.0, rho[i]
+        else:
+            carry(state, S, width)
+            carry(body, B, width)
+            carry(past, H, width)
         march_block(
-            state, c, weights, radius, enough, past, first, count, every, scale[low:high],
-            momenta[low:high], verticals[low:high], taken[low:high], status[low:high], reach[low:high],
-            with_body, body, attitudes[low:high], traces[low:high],
+            S, c, weights, radius, enough, H, first, count, every, scale[low:high], momenta[low:high],
+            verticals[low:high], taken[low:high], status[low:high], reach[low:high], with_body, B, attitudes[low:high],
+            traces[low:high], ok,
         )  # fmt: skip
         for i in range(low, high):
             if status[i] != 0:
                 for row in range(3):
-                    ended[i, row], ended[i, 3 + row] = scale[i] * state[K + row, i - low], state[G + row, i - low]
+                    ended[i, row], ended[i, 3 + row] = scale[i] * S[K + row, i - low], S[G + row, i - low]
+    if n <= width:
+        carry(S, state, width)
+        carry(H, past, width)
+        if with_body:
+            carry(B, body, width)
+
+
+def advance_blocks(
+    momenta: Matrix, verticals: Matrix, tensors: Matrix, contacts: Vector, q: Matrix, status: Integers, reach: Doubles,
+    width: int,
+):  # fmt: skip
+    """`loop.advance_all` in blocks of `width` lanes, a multiple of REGISTER, LANES at most."""
+    S, P = np.empty((ROWS, LANES), momenta.dtype), np.empty((P_ROWS, LANES), momenta.dtype)
+    scale, ok = np.empty(width, momenta.dtype), np.empty(width, dtype=np.int32)
+    taken, n = np.zeros(width, dtype=np.int64), len(contacts)
+    for low in range(0, n, width):
+        high = min(low + width, n)
+        enter(momenta[low:high], verticals[low:high], tensors[low:high], contacts[low:high], 1.0, S, scale, ok)
+        limited(S, S[RADIUS], S[ENOUGH], ok)
+        for i in lanes(whole(ok)):
+            put_in(P, A, i, (0.0, 0.0, 0.0))
+        hopeless, beyond = uncertified(S[RADIUS], ok)
+        _, bad = solved(S, P, ok, hopeless, beyond, PATIENCE)
+        if bad != 0:
+            mend(S, P, ok, 0, taken, status[low:high], reach[low:high], high - low)
+        for i in lanes(whole(ok)):
+            p, k, g = four_in(P, 0, i), three_in(S, K, i), three_in(S, G, i)
+            put_in(S, K, i, plus(k, turn(*p, *k)))
+            put_in(S, G, i, plus(g, turn(*p, *g)))
+            put_four_in(P, 0, i, unit(p))
+        for i in range(low, high):
+            if status[i] == 0:
+                put(momenta[i], 0, scaled(scale[i - low], three_in(S, K, i - low)))
+                put(verticals[i], 0, three_in(S, G, i - low))
+                put_four(q[i], 0, four_in(P, 0, i - low))

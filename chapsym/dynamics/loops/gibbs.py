@@ -45,9 +45,9 @@ def is_heavy(I, D):
 
 def certificate(k, I, D):
     """`bound` for a ball that is not heavy, otherwise (-1, 0)."""
-    if is_heavy(I, D):
-        return -1.0, 0.0
-    return bound(k, I, D)
+    heavy = is_heavy(I, D)
+    radius, enough = bound(k, I, D)
+    return -1.0 if heavy else radius, 0.0 if heavy else enough
 
 
 def bound(k, I, D):
@@ -59,21 +59,17 @@ def bound(k, I, D):
     size = 2.0 * half
     least, most = min(*I), max(*I)
     spread = 0.5 * (most - least)
-    if not size < least:
-        return BEYOND, 0.0
-    inner = size / (least + sqrt((least - size) * (least + size)))  # tan(½ arcsin(|𝒦|/I_min)): the root is within
+    # tan(½ arcsin(|𝒦|/I_min)): the root is within.  Beyond I_min the 1 is outside, too, as the slope is above I_min.
+    inner = size / (least + sqrt((least - size) * (least + size))) if size < least else 1.0
     slope = spread + size
-    if not inner * slope < INSIDE * least:
-        return BEYOND, 0.0
+    inside = inner * slope < INSIDE * least
     limit = min(1.0, least / slope) if slope > 0.0 else 1.0
     # A little more than the ball that contains the root, within the ball on which G is monotone.
     radius = min(1.25 * inner, 0.5 * (inner + limit))
-    if half == 0.0:  # its square may be below the range of float32
-        moving = k[0] != 0.0 or k[1] != 0.0 or k[2] != 0.0
-        return (-1.0, 0.0) if moving and LEAST_ENOUGH > 0.0 else (0.0, 0.0)
-    contraction = (spread + half) / (least - radius * slope)
-    enough = LEFT * half / ((most + D + spread) * contraction)
-    return (-1.0, 0.0) if enough < LEAST_ENOUGH else (radius * radius, enough)
+    contraction = (spread + half) / (least - radius * slope) if inside else 1.0
+    enough = LEFT * half / ((most + D + spread) * contraction) if half > 0.0 else 0.0
+    slow = enough < (LEAST_ENOUGH if largest(k) > 0.0 else 0.0)
+    return ((-1.0 if slow else radius * radius) if inside else BEYOND), (0.0 if slow else enough) if inside else 0.0
 
 
 class Round(NamedTuple):

@@ -12,6 +12,7 @@ from chapsym.generated import turn
 from chapsym.numbers.pairs import split_product, two_sum
 
 from .text import out_of_line
+from .vectors import three
 
 #: Steps between two restorations.
 PERIOD = 1024
@@ -32,13 +33,18 @@ def inner(a1, a2, a3, b1, b2, b3, high, low):
     return two_sum(total, (e + f) + (g + low) + ((x_low + y_low) + z_low))
 
 
+def integrals(k, g):
+    """⟨γ,γ⟩, ⟨k,γ⟩ and ⟨k,k⟩ as pairs."""
+    return inner(*g, *g, 0.0, 0.0), inner(*k, *g, 0.0, 0.0), inner(*k, *k, 0.0, 0.0)
+
+
 @out_of_line
 def remember(state):
     """Writes the three integrals of k = state[0:3] and γ = state[3:6], as pairs, into state[12:18]."""
-    k1, k2, k3, g1, g2, g3 = state[0], state[1], state[2], state[3], state[4], state[5]
-    state[12], state[13] = inner(g1, g2, g3, g1, g2, g3, 0.0, 0.0)
-    state[14], state[15] = inner(k1, k2, k3, g1, g2, g3, 0.0, 0.0)
-    state[16], state[17] = inner(k1, k2, k3, k1, k2, k3, 0.0, 0.0)
+    one, height, squared = integrals(three(state, 0), three(state, 3))
+    state[12], state[13] = one
+    state[14], state[15] = height
+    state[16], state[17] = squared
 
 
 def shares(unit, height, squared, one, h, n):

@@ -5,7 +5,7 @@ rotation from cᵢ𝒦 and turns 𝒦 itself: 𝒦 and γ turn rigidly, for any 
 time, so the stages of the last steps surround the next one: its Gibbs vector is guessed from theirs.
 """
 
-from math import frexp, ldexp, sqrt
+from math import frexp, ldexp
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from .gibbs import BEYOND, SMALLEST, certificate, search_safely, settle
 from .integrals import PERIOD, remember, restore, turned
 from .path import search_on_path
 from .text import Cube, Doubles, Integers, Matrix, Vector, out_of_line
-from .vectors import largest, plus, put, scaled, scaled_four, square_of_four, three
+from .vectors import largest, plus, put, put_four, scaled, scaled_four, shifted, three, unit
 
 #: The largest binary exponent for the scaling of a ball.
 HIGHEST = 1021
@@ -50,38 +50,43 @@ def prepare(
     return scale
 
 
-def power_of_two(exponent):
-    """2^exponent, or 0 if that is no normal number of float32."""
-    return ldexp(1.0, exponent) if -126 <= exponent <= 127 else 0.0
-
-
-def times(x, power, exponent):
-    """x times a power of two, rounded once: a product if `power` is not 0, otherwise `ldexp`."""
-    return x * power if power != 0.0 else ldexp(x, exponent)
-
-
-@out_of_line
-def entered(momentum, g, tensor, contact, state):
-    """Writes the state, except the integrals, scaled by a power of two to Λmax about 1; returns `scale`."""
-    _, exponent = frexp(max(*moments(three(tensor, 0))) + contact)
-    most = largest(three(momentum, 0))
+def scaling(momentum, tensor, contact):
+    """The exponent of the power of two that scales a ball to Λmax about 1, and whether its momentum is tiny."""
+    _, exponent = frexp(max(*moments(tensor)) + contact)
+    most = largest(momentum)
     _, size = frexp(most)
     exponent = max(min(exponent, HIGHEST), size - HIGHEST)  # neither `scale` nor k overflows
     tiny = 0.0 < most < ldexp(SMALLEST, exponent)
     if tiny:
         exponent = max(-1, exponent - HIGHEST + 1)  # k = 𝒦, if J permits: no digits of a subnormal momentum are lost
+    return exponent, tiny
+
+
+def times(v, exponent):
+    """The vector v times a power of two, rounded once: a product if the power is normal in float32."""
+    if -126 <= exponent <= 127:
+        return scaled(ldexp(1.0, exponent), v)
+    return shifted(v, exponent)
+
+
+def limits(k, inertia, contact, tiny):
+    """radius² and enough of the steps of a ball, by its certificate."""
+    radius, enough = certificate(k, inertia, contact)
+    # Products of three or four tiny numbers would underflow: every step uses `safe_rotation`.
+    return -1.0 if tiny else -1.0 if min(*inertia) < SMALLEST else radius, enough
+
+
+@out_of_line
+def entered(momentum, g, tensor, contact, state):
+    """Writes the state, except the integrals, scaled by a power of two to Λmax about 1; returns `scale`."""
+    exponent, tiny = scaling(three(momentum, 0), three(tensor, 0), contact)
     state[:] = 0.0
-    power, half = power_of_two(-exponent), power_of_two(-exponent - 1)
-    for c in range(3):
-        state[K + c] = times(momentum[c], half, -exponent - 1)
-        state[G + c] = g[c]
-        state[J + c] = times(tensor[c], power, -exponent)
+    put(state, K, times(three(momentum, 0), -exponent - 1))
+    put(state, G, three(g, 0))
+    put(state, J, times(three(tensor, 0), -exponent))
     put(state, I, moments(three(state, J)))
-    state[D] = times(contact, power, -exponent)
-    inertia = three(state, I)
-    state[RADIUS], state[ENOUGH] = certificate(three(state, K), inertia, state[D])
-    if tiny or min(*inertia) < SMALLEST:
-        state[RADIUS] = -1.0  # products of three or four such numbers would underflow: every step uses `safe_rotation`
+    state[D], _, _ = times((contact, 0.0, 0.0), -exponent)
+    state[RADIUS], state[ENOUGH] = limits(three(state, K), three(state, I), state[D], tiny)
     return ldexp(1.0, exponent + 1)
 
 
@@ -110,8 +115,7 @@ def follow_body(p, g, attitude, contact, radius):
 
 def followed(p, g, a, x, y, radius):
     """The attitude a and the contact point (x, y) after the step with the quaternion p from the vertical g."""
-    length = sqrt(square_of_four(p))
-    q = p[0] / length, p[1] / length, p[2] / length, p[3] / length
+    q = unit(p)
     d1, d2, _ = rotate(*a, *centre_step(*q, *g))
     b = compose(*a, *q)
     # One Newton step to length 1 suffices: the product of unit quaternions has only a rounding error.
@@ -203,8 +207,7 @@ def advance(momentum, g, tensor, contact, state, q):
         status, reach, p, u = safe_rotation(u, state)
         if status != 0:
             return status, reach
-    length = sqrt(square_of_four(p))
-    q[0], q[1], q[2], q[3] = p[0] / length, p[1] / length, p[2] / length, p[3] / length
+    put_four(q, 0, unit(p))
     put(momentum, 0, scaled(scale, plus(k, turn(*p, *k))))
     put(g, 0, plus(v, turn(*p, *v)))
     return 0, reach

@@ -103,6 +103,12 @@ def square_of_four(q):
     return (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3])
 
 
+def unit(q):
+    """Four numbers divided by their length."""
+    size = sqrt(square_of_four(q))
+    return q[0] / size, q[1] / size, q[2] / size, q[3] / size
+
+
 def cross(a, b):
     """a × b."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
