@@ -24,7 +24,6 @@ from .frames import Balls, Count, Frames, cores, share
 SHORT_RUN = 2000
 #: Steps of a ball, or of all balls of a block together, between calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
-BLOCKS = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +62,7 @@ def run(
     task, width = _run_one, 1
     if n > 1 and not (frames.with_body and of.rests) and native.is_compiled():
         # Several blocks in one call if they take all their steps in it; each core gets its share.
-        at_once = max(1, min(CHUNK // (of.lanes * len(stages) * steps), BLOCKS, -(-n // (of.lanes * cores() * 4))))
+        at_once = max(1, min(CHUNK // (of.lanes * len(stages) * steps), -(-n // (of.lanes * cores() * 4))))
         task, width = _run_blocks, of.lanes * at_once
 
     def some(start: int) -> None:
