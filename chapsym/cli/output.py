@@ -96,11 +96,7 @@ def json_text(value: object, indent: int | None = None) -> str:
     """JSON for standard output, with escapes for what a terminal would obey, or has no letter for."""
     whole = (sys.stdout.encoding or "").lower().startswith("utf")
     text = json.dumps(value, ensure_ascii=not whole, allow_nan=False, indent=indent)
-    return (
-        text
-        if text.isprintable()
-        else re.sub(r"[^\n -~]", lambda x: x[0] if x[0].isprintable() else json.dumps(x[0])[1:-1], text)
-    )
+    return re.sub(r"[^\n -~]", lambda x: x[0] if x[0].isprintable() else json.dumps(x[0])[1:-1], text)
 
 
 def say(text: str) -> None:
