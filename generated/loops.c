@@ -59,6 +59,7 @@ INLINE r1 r2_row(r2 a, int64_t i) { return (r1){a.p + i * a.s0, a.n1}; }
 INLINE r2 r3_row(r3 a, int64_t i) { return (r2){a.p + i * a.s0, a.n1, a.n2, a.s1}; }
 INLINE r3 r4_row(r4 a, int64_t i) { return (r3){a.p + i * a.s0, a.n1, a.n2, a.n3, a.s1, a.s2}; }
 INLINE d1 d1_part(d1 a, int64_t low, int64_t high) { return (d1){a.p + low, high - low}; }
+INLINE w1 w1_part(w1 a, int64_t low, int64_t high) { return (w1){a.p + low, high - low}; }
 INLINE i1 i1_part(i1 a, int64_t low, int64_t high) { return (i1){a.p + low, high - low}; }
 INLINE r1 r1_part(r1 a, int64_t low, int64_t high) { return (r1){a.p + low, high - low}; }
 INLINE r2 r2_part(r2 a, int64_t low, int64_t high) { return (r2){a.p + low * a.s0, high - low, a.n1, a.s0}; }
@@ -882,6 +883,10 @@ INLINE void loop_advance_all(r2 momenta, r2 verticals, r2 tensors, r1 contacts, 
     }
 }
 
+INLINE int64_t block_registers(int64_t balls) {
+    return div_i(balls + block_REGISTER - 1, block_REGISTER) * block_REGISTER;
+}
+
 INLINE void vectors_put_in(r2 S, int64_t at, int64_t i, t_r3 v) {
     AT2(S, at, i) = v.a0; AT2(S, at + 1, i) = v.a1; AT2(S, at + 2, i) = v.a2;
 }
@@ -1215,17 +1220,17 @@ INLINE void block_march_block(r2 S, r1 c, r3 weights, r2 radius, r2 enough, r2 H
 INLINE void block_march_blocks(r2 state, r1 c, r3 weights, r2 radius, r2 enough, r2 past, int64_t first, int64_t
     count, int64_t every, r2 momentum, r2 gamma, r2 tensor, r1 contact, r1 rho, r1 scale, r2 ended, r3 momenta, r3
     verticals, i1 taken, i1 status, d1 reach, int with_body, r2 body, r3 attitudes, r3 traces) {
-    int64_t high, i; ALIGNED real S_[27 * block_LANES]; r2 S = {S_, 27, block_LANES, block_LANES};
+    int64_t high, i; w1 ok; ALIGNED real S_[27 * block_LANES]; r2 S = {S_, 27, block_LANES, block_LANES};
     ALIGNED real B_[7 * block_LANES]; r2 B = {B_, 7, block_LANES, block_LANES};
     ALIGNED real H_[past.n0 * block_LANES]; r2 H = {H_, past.n0, block_LANES, block_LANES};
-    int64_t width = state.n1, n = contact.n0; ALIGNED int32_t ok_[width]; w1 ok = {ok_, width};
+    int64_t width = state.n1, n = contact.n0; ALIGNED int32_t all_lanes_[width]; w1 all_lanes = {all_lanes_, width};
     for (int64_t low = 0, end_low = n; low < end_low; low += width) {
-        high = min_i(low + width, n);
+        high = min_i(low + width, n); ok = w1_part(all_lanes, 0, block_registers(high - low));
         if (first == 0) {
             block_prepare_block(r2_part(momentum, low, high), r2_part(gamma, low, high), r2_part(tensor, low, high),
                 r1_part(contact, low, high), c, S, radius, enough, H, r1_part(scale, low, high), ok);
             if (with_body) {
-                for (int64_t lane = 0, end_lane = width; lane < end_lane; lane++) {
+                for (int64_t lane = 0, end_lane = ok.n0; lane < end_lane; lane++) {
                     i = min_i(low + lane, n - 1);
                     for (int64_t row = 0; row < 4; row++) { AT2(B, row, lane) = AT3(attitudes, i, 0, row); }
                     AT2(B, 4, lane) = R(0.0); AT2(B, 5, lane) = R(0.0); AT2(B, 6, lane) = rho.p[i];
@@ -1252,15 +1257,15 @@ INLINE void block_march_blocks(r2 state, r1 c, r3 weights, r2 radius, r2 enough,
     }
 }
 
-INLINE void block_advance_blocks(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, i1 status, d1 reach, int64_t
-    width) {
-    int64_t high; t_i2 hopeless, bad; t_r4 p; t_r3 k, g; ALIGNED real S_[27 * block_LANES];
+INLINE void block_advance_blocks(r2 momenta, r2 verticals, r2 tensors, r1 contacts, r2 q, i1 status, d1 reach) {
+    int64_t high; w1 ok; t_i2 hopeless, bad; t_r4 p; t_r3 k, g; ALIGNED real S_[27 * block_LANES];
     r2 S = {S_, 27, block_LANES, block_LANES}; ALIGNED real P_[12 * block_LANES];
-    r2 P = {P_, 12, block_LANES, block_LANES}; ALIGNED real scale_[width]; r1 scale = {scale_, width};
-    ALIGNED int32_t ok_[width]; w1 ok = {ok_, width}; ALIGNED int64_t taken_[width]; memset(taken_, 0, sizeof taken_);
-    i1 taken = {taken_, width}; int64_t n = contacts.n0;
-    for (int64_t low = 0, end_low = n; low < end_low; low += width) {
-        high = min_i(low + width, n);
+    r2 P = {P_, 12, block_LANES, block_LANES}; ALIGNED real scale_[block_LANES]; r1 scale = {scale_, block_LANES};
+    ALIGNED int32_t all_lanes_[block_LANES]; w1 all_lanes = {all_lanes_, block_LANES};
+    ALIGNED int64_t taken_[block_LANES]; memset(taken_, 0, sizeof taken_); i1 taken = {taken_, block_LANES};
+    int64_t n = contacts.n0;
+    for (int64_t low = 0, end_low = n; low < end_low; low += block_LANES) {
+        high = min_i(low + block_LANES, n); ok = w1_part(all_lanes, 0, block_registers(high - low));
         block_enter(r2_part(momenta, low, high), r2_part(verticals, low, high), r2_part(tensors, low, high),
             r1_part(contacts, low, high), R(1.0), S, scale, ok);
         block_limited(S, r2_row(S, 25), r2_row(S, 26), ok);
@@ -4101,7 +4106,7 @@ WIDEST static void in_block_march_blocks(const argument *a, argument *got) {
 }
 
 WIDEST static void in_block_advance_blocks(const argument *a, argument *got) {
-    block_advance_blocks(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), i1_(5), d1_(6), i_(7)); (void)got;
+    block_advance_blocks(r2_(0), r2_(1), r2_(2), r1_(3), r2_(4), i1_(5), d1_(6)); (void)got;
 }
 
 #ifndef SINGLE
@@ -4176,7 +4181,7 @@ const loop_export LOOPS()[] = {
     {"loop_march", "r1* r1 r3 r1 r1 r2* i i i i r r2* r2* b r1* r1* r r2* r2*", "iir", in_loop_march},
     {"loop_advance_all", "r2* r2* r2 r1 r2* i1* d1*", "", in_loop_advance_all},
     {"block_march_blocks", "r2* r1 r3 r2* r2* r2* i i i r2 r2 r2 r1 r1 r1* r2* r3* r3* i1* i1* d1* b r2* r3* r3*", "", in_block_march_blocks},
-    {"block_advance_blocks", "r2* r2* r2 r1 r2* i1* d1* i", "", in_block_advance_blocks},
+    {"block_advance_blocks", "r2* r2* r2 r1 r2* i1* d1*", "", in_block_advance_blocks},
 #ifndef SINGLE
     {"loop_n_march", "r2* r1* r1 r r1 r1 r1 r4* r2* i i i r r3* r2* b r2* r1* r r3* r2* r2*", "i", in_loop_n_march},
     {"vertical_loop_march", "r1* r1 r i i i r2* r1*", "b", in_vertical_loop_march},
@@ -4194,6 +4199,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "37ea237ad0c6d9b694f2b1b954a3ba96c4c45a131eb503fb1370583b7231a934";
+const char loops_text[] = "2051b4feebdb2e0e8e196284a9ad8f881424efa7041c7fb63ad0403468a4d403";
 #endif
 #endif

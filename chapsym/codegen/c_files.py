@@ -86,6 +86,7 @@ INLINE r1 r2_row(r2 a, int64_t i) { return (r1){a.p + i * a.s0, a.n1}; }
 INLINE r2 r3_row(r3 a, int64_t i) { return (r2){a.p + i * a.s0, a.n1, a.n2, a.s1}; }
 INLINE r3 r4_row(r4 a, int64_t i) { return (r3){a.p + i * a.s0, a.n1, a.n2, a.n3, a.s1, a.s2}; }
 INLINE d1 d1_part(d1 a, int64_t low, int64_t high) { return (d1){a.p + low, high - low}; }
+INLINE w1 w1_part(w1 a, int64_t low, int64_t high) { return (w1){a.p + low, high - low}; }
 INLINE i1 i1_part(i1 a, int64_t low, int64_t high) { return (i1){a.p + low, high - low}; }
 INLINE r1 r1_part(r1 a, int64_t low, int64_t high) { return (r1){a.p + low, high - low}; }
 INLINE r2 r2_part(r2 a, int64_t low, int64_t high) { return (r2){a.p + low * a.s0, high - low, a.n1, a.s0}; }

@@ -52,18 +52,17 @@ def test_a_batch_is_its_balls_to_the_bit(precision, made, n, order, rolls):
 
 @pytest.mark.parametrize(("n", "widths"), [(2, [8]), (9, [16]), (41, [40, 8]), (63, [40, 24])])
 def test_a_block_is_as_wide_as_its_balls_need(n, widths, monkeypatch):
-    if not native.is_compiled():
-        pytest.skip("the loops are not compiled")
-    used, march = [], native.loop(block.march_blocks)
     ball, K, g = long_steps(n)
-    with monkeypatch.context() as patch:
-        spied = lambda state, *rest: used.append(state.shape[1]) or march(state, *rest)  # noqa: E731
-        patch.setattr(native, "loop", lambda *of: spied)
-        run = chapsym.trajectory(ball, K, g, 1100, every=100, threads=1)
+    run, one_step, used = chapsym.trajectory(ball, K, g, 12), chapsym.step(ball, K, g), []
+    limited = block.limited  # it prepares every block
+    monkeypatch.setattr(block, "limited", lambda *of: used.append(len(of[-1])) or limited(*of))
+    monkeypatch.setattr(native, "loop", lambda function, dtype=None: function)
+    plain = chapsym.trajectory(ball, K, g, 12)
     assert used == widths
-    for i in {0, 1, n - 1}:
-        one = chapsym.trajectory(ball, K[i], g[i], 1100, every=100)
-        assert all(np.array_equal(all_[i], few) for all_, few in zip(floats_of(run), floats_of(one), strict=True))
+    assert chapsym.step(ball, K, g).gamma.tolist() == one_step.gamma.tolist()
+    assert used == 2 * widths
+    for i, (all_, few) in enumerate(zip(floats_of(run), floats_of(plain), strict=True)):
+        assert np.array_equal(all_, few), i
 
 
 def test_steps_beyond_the_bound_are_proved_in_their_lanes(monkeypatch):

@@ -21,7 +21,8 @@ from ..loops import block, gibbs, loop
 from ..loops.guess import stage_weights
 from .frames import Balls, Count, Frames, cores, share
 
-SHORT_RUN = 2000
+#: The fewest steps that are worth threads: a few milliseconds.
+SHORT_RUN = 50_000
 #: Steps of a ball, or of all balls of a block together, between calls of `progress`: about ten milliseconds.
 CHUNK = 200_000
 
@@ -59,18 +60,19 @@ def run(
     count, n, stages = Count(progress), len(balls.D), substeps(order).astype(of.dtype)
     if steps == 0 or n == 0:
         return
+    workers = threads or cores() if steps * n * len(stages) >= SHORT_RUN else 1
     task, width = _run_one, 1
     if n > 1 and not (frames.with_body and of.rests) and native.is_compiled():
-        # Several blocks in one call if they take all their steps in it; each core gets its share.
-        at_once = max(1, min(CHUNK // (of.lanes * len(stages) * steps), -(-n // (of.lanes * cores() * 4))))
+        # Several blocks in one call if they take all their steps in it; each core gets four calls or more.
+        calls = 4 * workers if workers > 1 else 1
+        at_once = max(1, min(CHUNK // (of.lanes * len(stages) * steps), -(-n // (of.lanes * calls))))
         task, width = _run_blocks, of.lanes * at_once
 
     def some(start: int) -> None:
         task(balls, slice(start, min(n, start + width)), steps, every, frames, of, stages, count)
 
-    many = steps * n * len(stages) >= SHORT_RUN
     starts = range(0, n, width)
-    share(some, starts, min(threads or cores(), len(starts)) if many else 1, count)
+    share(some, starts, min(workers, len(starts)), count)
 
 
 def step_all(balls: Balls, of: Numbers = DOUBLE) -> tuple[np.ndarray, ...]:
@@ -78,13 +80,11 @@ def step_all(balls: Balls, of: Numbers = DOUBLE) -> tuple[np.ndarray, ...]:
     n = len(balls.D)
     q, status, reach = np.full((n, 4), np.nan, of.dtype), np.zeros(n, np.int64), np.ones(n)
     K, g, J, D = balls.momentum.copy(), balls.gamma.copy(), balls.mass_tensor, balls.D
-    in_blocks = n > 1 and native.is_compiled()
-    advance = of.loop(block.advance_blocks if in_blocks else loop.advance_all)
-    width = [min(of.lanes, -(-n // of.register) * of.register)] * in_blocks
+    advance = of.loop(block.advance_blocks if n > 1 and native.is_compiled() else loop.advance_all)
 
     def some(start: int) -> None:
         which = slice(start, start + CHUNK // 16)
-        advance(K[which], g[which], J[which], D[which], q[which], status[which], reach[which], *width)
+        advance(K[which], g[which], J[which], D[which], q[which], status[which], reach[which])
 
     starts = range(0, n, CHUNK // 16)
     if len(starts) > 1:

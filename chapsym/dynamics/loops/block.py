@@ -37,8 +37,13 @@ FEW = 2
 
 
 def whole(ok):
-    """The lanes in use, rounded to a multiple of REGISTER, so that compilers need no scalar remainder loop."""
+    """The lanes in use, which are a multiple of REGISTER: so compilers need no scalar remainder loop."""
     return len(ok) // REGISTER * REGISTER
+
+
+def registers(balls):
+    """The lanes of whole registers for some balls."""
+    return (balls + REGISTER - 1) // REGISTER * REGISTER
 
 
 def body_in(S, i):
@@ -378,16 +383,17 @@ def march_blocks(
     S, B = np.empty((ROWS, LANES), state.dtype), np.empty((7, LANES), state.dtype)
     H = np.empty((len(past), LANES), state.dtype)
     width, n = state.shape[1], len(contact)
-    ok = np.empty(width, dtype=np.int32)
+    all_lanes = np.empty(width, dtype=np.int32)
     for low in range(0, n, width):
         high = min(low + width, n)
+        ok = all_lanes[: registers(high - low)]
         if first == 0:
             prepare_block(
                 momentum[low:high], gamma[low:high], tensor[low:high], contact[low:high], c, S, radius, enough, H,
                 scale[low:high], ok,
             )  # fmt: skip
             if with_body:
-                for lane in range(width):
+                for lane in range(len(ok)):
                     i = min(low + lane, n - 1)
                     for row in range(4):
                         B[row, lane] = attitudes[i, 0, row]
@@ -413,15 +419,15 @@ def march_blocks(
 
 
 def advance_blocks(
-    momenta: Matrix, verticals: Matrix, tensors: Matrix, contacts: Vector, q: Matrix, status: Integers, reach: Doubles,
-    width: int,
+    momenta: Matrix, verticals: Matrix, tensors: Matrix, contacts: Vector, q: Matrix, status: Integers, reach: Doubles
 ):  # fmt: skip
-    """`loop.advance_all` in blocks of `width` lanes, a multiple of REGISTER, LANES at most."""
+    """`loop.advance_all` in blocks."""
     S, P = np.empty((ROWS, LANES), momenta.dtype), np.empty((P_ROWS, LANES), momenta.dtype)
-    scale, ok = np.empty(width, momenta.dtype), np.empty(width, dtype=np.int32)
-    taken, n = np.zeros(width, dtype=np.int64), len(contacts)
-    for low in range(0, n, width):
-        high = min(low + width, n)
+    scale, all_lanes = np.empty(LANES, momenta.dtype), np.empty(LANES, dtype=np.int32)
+    taken, n = np.zeros(LANES, dtype=np.int64), len(contacts)
+    for low in range(0, n, LANES):
+        high = min(low + LANES, n)
+        ok = all_lanes[: registers(high - low)]
         enter(momenta[low:high], verticals[low:high], tensors[low:high], contacts[low:high], 1.0, S, scale, ok)
         limited(S, S[RADIUS], S[ENOUGH], ok)
         for i in lanes(whole(ok)):
