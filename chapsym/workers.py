@@ -28,7 +28,7 @@ class Processes(ProcessPoolExecutor):
             with _deaf():
                 super().__init__(count, multiprocessing.get_context("spawn"), initializer=first or begin)
             # The pool starts this thread later, and would wait for ever for its calls if the system refuses it.
-            if start := getattr(self._call_queue, "_start_thread", None):
+            if start := getattr(self._call_queue, "_start_thread", None):  # type: ignore[attr-defined]
                 start()
         finally:
             sys.warnoptions.remove(TRACKER)

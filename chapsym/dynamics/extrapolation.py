@@ -27,7 +27,7 @@ from chapsym.numbers import Double, DoubleDouble, Pair, Precision
 from .attitudes import first_attitudes
 from .ball import Asked, Ball, Floats, batch, callback, in_shape, is_followed, numbers, unit_vertical
 from .errors import BadInput, Status, StepNotTaken
-from .levels import double, double_double
+from .levels import double_double
 from .levels.dispatch import begun, precision_of
 from .levels.frames import Balls, Count, Frames, cores, share
 from .loops import loop
@@ -41,6 +41,8 @@ from .shown import Brief
 
 #: Steps of the map between two points at which the run can be interrupted.
 CHUNK = 200_000
+#: The fewest steps of the map, most of them in lanes, that are worth threads: a few milliseconds.
+SHORT_RUN = 150_000
 #: From this many balls on, a block of eight is faster than single balls.
 FEW = 6
 #: The largest and the default number of columns in double-double: more columns amplify roundings more than they gain.
@@ -274,7 +276,7 @@ def _march(
                 break
 
     parts, work = range(blocks + max(0, n - EIGHT * blocks)), steps * n * stages_of(columns)
-    workers, count = min(threads or cores(), len(parts)) if work >= double.SHORT_RUN else 1, Count(progress)
+    workers, count = min(threads or cores(), len(parts)) if work >= SHORT_RUN else 1, Count(progress)
     share(task, parts, workers, count)
     return doubt
 

@@ -9,7 +9,7 @@ import chapsym
 from chapsym import BadInput, Ball, Status
 from chapsym.dynamics import kernels, native
 from chapsym.dynamics.attitudes import attitude_with
-from chapsym.dynamics.levels import double
+from chapsym.dynamics.levels import double, double_double
 from chapsym.dynamics.loops import block, gibbs, loop
 from chapsym.dynamics.loops.guess import stage_weights
 
@@ -157,6 +157,8 @@ def test_threads_and_chunks_change_nothing(precision, options, monkeypatch):
     options = options | {"every": every, "precision": precision}
     whole = chapsym.trajectory(ball, K, g, steps, threads=1, **options)
     monkeypatch.setattr(double, "CHUNK", 97 * block.LANES)
+    monkeypatch.setattr(double, "SHORT_RUN", 1)
+    monkeypatch.setattr(double_double, "SHORT_RUN", 1)
     parts = chapsym.trajectory(ball, K, g, steps, threads=2, **options)
     for a, b in zip([*floats_of(whole), whole.taken, whole.status], [*floats_of(parts), parts.taken, parts.status],
                     strict=True):  # fmt: skip
@@ -183,7 +185,8 @@ def test_a_batch_in_which_no_ball_goes_on_ends(precision):
 
 
 @pytest.mark.parametrize("threads", [1, 2])
-def test_an_interrupt_ends_the_run(threads):
+def test_an_interrupt_ends_the_run(threads, monkeypatch):
+    monkeypatch.setattr(double, "SHORT_RUN", 1)
     ball, K, g = balls(200)
 
     def interrupt(done):

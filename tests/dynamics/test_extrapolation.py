@@ -188,7 +188,8 @@ def test_a_ball_has_the_same_bits_alone_in_a_batch_and_in_plain_python(time_step
     assert time_step != 4.0 or 0 < np.isnan(whole.doubt).sum() < 11
 
 
-def test_a_batch_of_many_has_the_same_bits_on_any_number_of_cores():
+def test_a_batch_of_many_has_the_same_bits_on_any_number_of_cores(monkeypatch):
+    monkeypatch.setattr(extrapolation, "SHORT_RUN", 1)
     ball, K, g = at_random(45)
     one = chapsym.extrapolate(ball, K, g, 0.4, 60, attitude=True, threads=1)
     two = chapsym.extrapolate(ball, K, g, 0.4, 60, attitude=True, threads=2)

@@ -173,7 +173,12 @@ def test_a_loop_has_the_same_bits_in_c_and_in_python(case, called):
 def test_every_loop_is_among_the_cases():
     exported = set().union(*(loops for _, loops in CASES))
     assert exported == set(native._tables()["float64"])
-    assert set(native._tables()["float32"]) == {*ALONE, "block_march_blocks", "block_advance_blocks", "loop_advance_all"}
+    assert set(native._tables()["float32"]) == {
+        *ALONE,
+        "block_march_blocks",
+        "block_advance_blocks",
+        "loop_advance_all",
+    }
 
 
 @needs_compiled

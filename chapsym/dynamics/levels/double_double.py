@@ -17,7 +17,8 @@ from ..loops import proved as loops_proved
 from . import proved
 from .frames import Balls, Count, Frames, cores, share
 
-SHORT_RUN = 500
+#: The fewest steps that are worth threads: a few milliseconds.
+SHORT_RUN = 20_000
 #: Fewer balls than this do not fill a block.
 FEW = 4
 #: Steps between two calls of `progress`: about ten milliseconds.
@@ -224,6 +225,6 @@ def run_long(
             if count.stopped or frames.status[i] != Status.TAKEN:
                 return
 
-    work = steps * len(balls.D) * len(weights)
+    work = steps * len(balls.D) * sum(range(loop.FIRST, loop.FIRST + len(weights)))
     share(task, range(len(balls.D)), threads or cores() if work >= SHORT_RUN else 1, count)
     return doubt
