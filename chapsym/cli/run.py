@@ -2,8 +2,6 @@
 
 import json
 import os
-from contextlib import nullcontext
-from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -58,7 +56,7 @@ def run(
     from chapsym.scene.result import formats
     from chapsym.scene.result.proved import with_proof
     from chapsym.scene.running import sweep
-    from chapsym.scene.running.store import check_same
+    from chapsym.scene.running.store import check_same, save
 
     from .output import following, quiet, telling
 
@@ -84,7 +82,7 @@ def run(
             else:
                 data = rolled = sweep.run(plan, report)
                 if exact is None or destination != formats.STDOUT:
-                    keep(data, destination, plan, fresh)
+                    save(data, destination, plan, fresh)
                 outcome = sweep.Outcome(int((data["status"].values != 0).sum()))
         quiet()
         stopped = None
@@ -104,23 +102,6 @@ def run(
         _tell(plan, shown, outcome, data, answers, as_json)
     if stopped is not None:
         fail(f"the frames after {len(motion.times)} are not proved: {stopped}", 1)
-
-
-def keep(data: "Dataset | Arrays", path: Path, plan: "Plan", fresh: bool) -> None:
-    """Writes a result; where another process has put one of another scene meanwhile, beside it, and says so."""
-    from chapsym.scene.read.errors import SceneError
-    from chapsym.scene.result import formats
-    from chapsym.scene.running.store import check_same
-
-    with nullcontext() if path == formats.STDOUT else files.alone(path.parent):
-        try:
-            if path.is_file() and not fresh:
-                check_same(path, plan)
-        except SceneError as error:
-            free = next(one for n in count(2) if not (one := path.with_stem(f"{path.stem}-{n}")).exists())
-            formats.save(data, free)
-            fail(f"{error}; it was written while this one ran, whose result is in {free}", 2)
-        formats.save(data, path)
 
 
 def _exact(scene: "Scene", destination: Path) -> "tuple[Start, tuple[Fraction, ...]]":

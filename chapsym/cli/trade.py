@@ -82,9 +82,7 @@ def _answer(
     from chapsym.scene.plan.plan import plan_of
     from chapsym.scene.result import formats
     from chapsym.scene.running import sweep
-    from chapsym.scene.running.store import check_same
-
-    from .run import keep
+    from chapsym.scene.running.store import check_same, save
 
     for name, value in (("--accuracy", accuracy), ("--time", time), ("--limit", limit)):
         if value is not None and not 0 < value < math.inf:
@@ -113,7 +111,7 @@ def _answer(
             else:
                 data = sweep.run(plan)
                 if output is not None:
-                    keep(data, output, plan, fresh)
+                    save(data, output, plan, fresh)
         answer = answers[0]
     except BadInput as error:
         quiet()

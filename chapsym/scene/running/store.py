@@ -13,8 +13,9 @@ import tomllib
 import warnings
 import zipfile
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from functools import cached_property
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -26,6 +27,7 @@ from ..plan.models import State
 from ..plan.plan import Plan
 from ..read.errors import Data, SceneError
 from ..read.task import Columns
+from ..result import formats
 from ..result.dataset import OF_BALLS, arrays, layout, provenance
 from ..result.digests import digest, digests, folders, is_sound, read_object, said, write_digests
 from ..result.formats import DAMAGED, attributes, check_ours, plain
@@ -35,6 +37,8 @@ if TYPE_CHECKING:
     from zarr import Array
     from zarr.core.buffer import Buffer
     from zarr.storage import MemoryStore
+
+    from chapsym.dynamics.labelled import Arrays
 
 ELSE = "choose another name, or replace it with --fresh"
 #: The keys of a mark: the number of finished segments, and the checksums of their chunks; the rest is the state.
@@ -317,6 +321,22 @@ def check_same(path: Path, plan: Plan) -> None:
     clause = difference(found, wanted)
     if clause is not None:
         raise SceneError(f"{path} {clause}; {ELSE}")
+
+
+def save(data: "Dataset | Arrays", path: Path, plan: Plan, fresh: bool) -> None:
+    """Writes a result; if another process has put one of another scene there meanwhile, under a free name.
+
+    Raises SceneError with that name.
+    """
+    with nullcontext() if path == formats.STDOUT else files.alone(path.parent):
+        try:
+            if path.is_file() and not fresh:
+                check_same(path, plan)
+        except SceneError as error:
+            free = next(one for n in count(2) if not (one := path.with_stem(f"{path.stem}-{n}")).exists())
+            formats.save(data, free)
+            raise SceneError(f"{error}; it was written while this one ran, whose result is in {free}") from None
+        formats.save(data, path)
 
 
 def difference(found: Data, wanted: Data) -> str | None:
