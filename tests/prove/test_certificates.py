@@ -292,7 +292,7 @@ def test_points_are_on_the_relations_and_keep_what_is_known():
 def test_a_folder_that_cannot_be_is_refused_in_one_sentence(tmp_path):
     (tmp_path / "file").write_text("")
     said = refused("prove", "5.11", "--certificates", tmp_path / "file", "--records", tmp_path / "v.jsonl")
-    assert "file cannot be written" in said
+    assert "file cannot be a folder of results: it is a file" in said
 
 
 def test_the_manifest_lists_the_certificates():
