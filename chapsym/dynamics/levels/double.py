@@ -87,10 +87,7 @@ def step_all(balls: Balls, of: Numbers = DOUBLE) -> tuple[np.ndarray, ...]:
         advance(K[which], g[which], J[which], D[which], q[which], status[which], reach[which])
 
     starts = range(0, n, CHUNK // 16)
-    if len(starts) > 1:
-        share(some, starts, min(cores(), len(starts)), Count(lambda done: None))
-    else:
-        some(0)
+    share(some, starts, min(cores(), len(starts)) if n >= SHORT_RUN else 1, Count(lambda done: None))
     for i in np.flatnonzero(status):
         status[i] = explained(status[i], K[i], g[i], J[i], D[i])
     K[status != 0], g[status != 0] = np.nan, np.nan
