@@ -192,7 +192,8 @@ INLINE t_r2 gibbs_bound(t_r3 k, t_r3 I, real D) {
     real contraction = inside ? (spread + half) / (least - radius * slope) : R(1.0);
     real enough = half > R(0.0) ? gibbs_LEFT * half / ((most + D + spread) * contraction) : R(0.0);
     int slow = enough < (vectors_largest(k) > R(0.0) ? gibbs_LEAST_ENOUGH : R(0.0));
-    return (t_r2){inside ? (slow ? R(-1.0) : radius * radius) : R(-2.0), inside ? (slow ? R(0.0) : enough) : R(0.0)};
+    radius = slow ? R(-1.0) : radius * radius; enough = slow ? R(0.0) : enough;
+    return (t_r2){inside ? radius : R(-2.0), inside ? enough : R(0.0)};
 }
 
 INLINE t_r2 gibbs_certificate(t_r3 k, t_r3 I, real D) {
@@ -4199,6 +4200,6 @@ const loop_export LOOPS()[] = {
 };
 const int LOOPS(_count) = sizeof LOOPS() / sizeof *LOOPS();
 #if !defined(SINGLE) && !defined(LONG)
-const char loops_text[] = "2051b4feebdb2e0e8e196284a9ad8f881424efa7041c7fb63ad0403468a4d403";
+const char loops_text[] = "094236c60ced566569490ff2b7784830909876d6829a066d4f7b71d38d8ed934";
 #endif
 #endif

@@ -22,7 +22,7 @@ from chapsym.scene.read.task import Task
 from chapsym.scene.running import sweep
 
 BALLS, STEPS, EVERY = 10, 210, 10
-#: Units of work, and so many that balls are done, begun and not begun.
+#: Units of work: enough that some balls are done, some begun and some not begun.
 UNITS, PART = 9, 5
 #: All outputs, and some: a store takes the time of its arrays.
 OUTPUTS = ("momentum", "gamma", "omega", "attitude", "contact", "energy", "integrals")

@@ -53,7 +53,8 @@ def certificate(k, I, D):
 def bound(k, I, D):
     """(radius², enough) by lemma `small-branch`; (BEYOND, 0) if |𝒦| is beyond its bound.
 
-    A Newton correction d with |d|² ≤ enough is the last: it leaves a relative error of at most `LEFT`.
+    A Newton correction d with |d|² ≤ enough is the last: it leaves a relative error of at most `LEFT`.  Without
+    branches, so that loops of lanes vectorise it; (-1, 0) if `enough` cannot be compared.
     """
     half = length(k)
     size = 2.0 * half
@@ -69,7 +70,8 @@ def bound(k, I, D):
     contraction = (spread + half) / (least - radius * slope) if inside else 1.0
     enough = LEFT * half / ((most + D + spread) * contraction) if half > 0.0 else 0.0
     slow = enough < (LEAST_ENOUGH if largest(k) > 0.0 else 0.0)
-    return ((-1.0 if slow else radius * radius) if inside else BEYOND), (0.0 if slow else enough) if inside else 0.0
+    radius, enough = -1.0 if slow else radius * radius, 0.0 if slow else enough
+    return radius if inside else BEYOND, enough if inside else 0.0
 
 
 class Round(NamedTuple):
