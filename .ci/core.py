@@ -43,7 +43,8 @@ assert len(packages - OWN) <= PACKAGES, packages
 assert size <= MEGABYTES, size
 
 for work in (
-    ["step", *INPUT, "--digits", "50", "--json"], ["branches", *INPUT], ["prove", "prop-4"], ["codegen", "--check"],
+    ["step", *INPUT, "--digits", "50", "--json"], ["branches", *INPUT], ["prove", "prop-4"],
+    ["codegen", "--check", "--register", sys.argv[1]],  # of five kernels; the tests check all
     ["scene", "new", "ball.toml"], ["run", "ball.toml", "-o", "ball.csv"], ["run", "ball.toml", "-o", "ball.npz"],
 ):  # fmt: skip
     done = run(*work)

@@ -5,6 +5,7 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
+from budget import slow
 
 import chapsym
 from chapsym import BadInput, Ball, StepNotTaken
@@ -41,11 +42,15 @@ FOUND = [
 ]
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_no_warning_and_no_other_error(name):
+#: What `branches` counts exactly takes seconds.
+SOME = [*((name, FOUND) for name in CALLS if name != "branches"), ("branches", [FOUND[3], FOUND[7]])]
+
+
+@pytest.mark.parametrize(("name", "states"), [*SOME, *slow(("branches", FOUND[4:7]))])
+def test_no_warning_and_no_other_error(name, states):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        for ball, K, g in FOUND if name != "branches" else FOUND[3:]:  # what `branches` counts exactly takes seconds
+        for ball, K, g in states:
             state = ball, np.array(K), np.array(g) / np.linalg.norm(g)
             with suppress(BadInput, StepNotTaken):
                 CALLS[name](*state)
